@@ -1,0 +1,29 @@
+// Simulated time.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace s7200 {
+
+/// Nanoseconds since the simulated power-up. 64 bits hold 292 years.
+using Time = std::int64_t;
+
+inline constexpr Time kMicrosecond = 1'000;
+inline constexpr Time kMillisecond = 1'000'000;
+inline constexpr Time kSecond = 1'000'000'000;
+
+/// Later than anything that happens.
+inline constexpr Time kNever = std::numeric_limits<Time>::max();
+
+/// Reads a duration as the command line writes it: `250ms`, `2s`, `1h`, `1.5ms`, `40us`, `100ns`, `3min`.
+/// Nothing for a missing unit, a negative or unreadable figure, or one beyond 292 years.
+std::optional<Time> parse_duration(std::string_view text);
+
+/// Shortest of the same forms with up to `digits` decimals: 690.123 ms, 40 us, 2 s.
+std::string format_duration(Time duration, int digits = 3);
+
+}  // namespace s7200

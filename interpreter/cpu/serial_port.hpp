@@ -1,0 +1,39 @@
+// What the CPU needs of whatever hangs on its port. serial_sim implements it; the CPU knows nothing of wires.
+#pragma once
+
+#include <cstdint>
+
+#include "interpreter/base/serial_format.hpp"
+#include "interpreter/base/time.hpp"
+
+namespace s7200 {
+
+/// A character as the receiver saw it.
+struct ReceivedCharacter {
+  std::uint8_t byte = 0;
+  bool parity_error = false;
+  bool framing_error = false;  ///< the stop bit was found at space level
+  Time start = 0;              ///< falling edge of the start bit
+  Time end = 0;                ///< middle of the stop bit, when the receiver reports it
+
+  bool operator==(const ReceivedCharacter&) const = default;
+};
+
+class SerialPort {
+ public:
+  virtual ~SerialPort() = default;
+
+  /// Takes effect for the next character in either direction.
+  virtual void configure(const SerialFormat& format) = 0;
+
+  /// Half duplex: the receiver is off while the port sends. A character under way is lost.
+  virtual void enable_receiver(bool enabled, Time at) = 0;
+
+  /// Begins the start bit at `at`. The port reports back when the last stop bit has ended.
+  virtual void send(std::uint8_t byte, Time at) = 0;
+
+  /// Holds the line at space for `bit_times` bits, then reports back as for a character.
+  virtual void send_break(int bit_times, Time at) = 0;
+};
+
+}  // namespace s7200

@@ -1,0 +1,33 @@
+// What is wrong with a source text, where, and what to do about it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "interpreter/stl/ast.hpp"
+
+namespace s7200::stl {
+
+enum class Severity : std::uint8_t { Error, Warning };
+
+struct Diagnostic {
+  Severity severity = Severity::Error;
+  Position position{};
+  std::string message;  ///< one line, no full stop
+  std::string hint;     ///< what to do; may be empty
+
+  bool operator==(const Diagnostic&) const = default;
+};
+
+using Diagnostics = std::vector<Diagnostic>;
+
+bool has_errors(const Diagnostics& diagnostics);
+
+/// Orders by line and column; of equal places the first stays first.
+void sort(Diagnostics& diagnostics);
+
+/// `file:line:column: error: message`, the source line, a caret line, and `hint: …`. Tabs of the source line stand in the
+/// caret line too, so that the caret is right at any tab width; very long lines are shown around the place only.
+std::string render(const Diagnostic& diagnostic, const Source& source, bool colour);
+
+}  // namespace s7200::stl

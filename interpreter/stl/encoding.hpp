@@ -1,0 +1,19 @@
+// Bytes to UTF-8. STL itself is ASCII; encodings matter for comments and for the drawings of documents.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace s7200::stl {
+
+struct DecodedText {
+  std::string text;      ///< valid UTF-8, without a byte order mark
+  std::string encoding;  ///< "UTF-8", "UTF-16", "Windows-1252", "CP437" or "GBK": what it was taken for
+};
+
+/// Guesses the encoding of a source file and converts it. Nothing for a file that is not text (NUL bytes, a picture, an
+/// archive): `why` then says what it looks like.
+std::optional<DecodedText> decode(std::string_view bytes, std::string& why);
+
+}  // namespace s7200::stl
