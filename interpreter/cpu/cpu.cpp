@@ -1,0 +1,195 @@
+#include "interpreter/cpu/cpu.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace s7200 {
+
+Cpu::Cpu(std::shared_ptr<const Program> program, EventQueue& queue, SerialPort& port)
+    : program_(std::move(program)), queue_(queue), port_(port) {
+  s.attached.fill(kNotAttached);
+}
+
+void Cpu::power_up(bool run) {
+  s = State{};
+  s.attached.fill(kNotAttached);
+  std::copy(program_->constants.begin(), program_->constants.end(), s.image.begin() + image::kConstants);
+  s.image[image::kSM] = 0x01;
+  s.image[image::kSM4] = 0x60;  // both transmitters idle
+  s.image[image::kSM + 6] = program_->model->identification;
+  s.image[image::kSM] |= 0x08;  // SM0.3: RUN was entered from power-up
+  if (run) enter_run();
+  begin_scan();
+}
+
+void Cpu::run(Time limit) {
+  paused_ = false;
+  while (s.time < limit && !paused_) {
+    const Time event = queue_.next();
+    if (event <= s.time) return;
+    if (s.watchdog <= s.time) {
+      fatal_error(FatalError::Watchdog);
+      continue;
+    }
+    until_ = std::min({limit, event, s.watchdog});
+    if (interrupt_due()) take_interrupt();
+    if (!s.in_interrupt && s.phase != Phase::Program) system_phases();
+    else if (sink_ && sink_->wants_instructions()) execute_observed();
+    else execute_plain();
+  }
+}
+
+void Cpu::execute_plain() {
+  const Op* const ops = program_->ops.data();
+  while (s.time < until_) {
+    op_ = s.pc;
+    const Op& op = ops[op_];
+    ++s.instructions;
+    if (op.power_mask & ~s.stack.bits()) {
+      s.time += program_->no_power_flow;
+      s.pc = op.skip_to;
+    } else {
+      s.time += op.cost;
+      s.pc = op_ + 1;
+      op.body(*this, op);
+    }
+  }
+}
+
+void Cpu::execute_observed() {
+  while (s.time < until_) {
+    if (!sink_->before(s.pc)) {
+      paused_ = true;
+      return;
+    }
+    op_ = s.pc;
+    const Op& op = program_->ops[op_];
+    InstructionRecord record{.at = s.time, .op = op_};
+    for (std::size_t i = 0; i < op.instruction->operands; ++i)
+      if (op.instruction->operand[i].role == Role::In) record.value[i] = peek(op, i);
+    ++s.instructions;
+    record.powered = !(op.power_mask & ~s.stack.bits());
+    if (record.powered) {
+      s.time += op.cost;
+      s.pc = op_ + 1;
+      op.body(*this, op);
+    } else {
+      s.time += program_->no_power_flow;
+      s.pc = op.skip_to;
+    }
+    record.end = s.time;
+    record.top = s.stack.top();
+    for (std::size_t i = 0; i < op.instruction->operands; ++i)
+      if (op.instruction->operand[i].role != Role::In) record.value[i] = peek(op, i);
+    sink_->instruction(record);
+  }
+}
+
+std::optional<std::uint32_t> Cpu::resolve(std::uint32_t pointer, std::uint32_t width) const {
+  const std::uint32_t code = pointer >> 24, offset = pointer & 0xFF'FFFF;
+  if (code >= program_->reach.size() || offset + width > program_->reach[code].size) return {};
+  return program_->reach[code].base + offset;
+}
+
+bool Cpu::in_area(std::uint32_t at, std::uint32_t count) const {
+  for (const AreaInfo& area : all_areas()) {
+    const std::uint32_t size = program_->model->size_of(area.area) * std::max(1u, area.element);
+    if (at >= area.base && at < area.base + size) return at + count <= area.base + size;
+  }
+  return false;
+}
+
+bool Cpu::bits_in_area(const Operand& first, std::uint32_t count) const {
+  for (const AreaInfo& area : all_areas()) {
+    const std::uint32_t bits = program_->model->size_of(area.area) * (area.element ? 1 : 8);
+    if (area.bits == kNoBits) continue;
+    if (first.at < area.bits || first.at >= area.bits + (bits + 7) / 8) continue;
+    return (first.at - area.bits) * 8 + first.bit + count <= bits;
+  }
+  return false;
+}
+
+void Cpu::clear_current_values(const Operand& first, std::uint32_t count) {
+  for (const AreaInfo& area : {info(Area::T), info(Area::C)}) {
+    if (first.at < area.bits || first.at >= area.bits + 32) continue;
+    const std::uint32_t number = (first.at - area.bits) * 8 + first.bit;
+    std::fill_n(s.image.begin() + area.base + number * 2, count * 2, std::uint8_t{0});
+  }
+}
+
+std::optional<std::uint32_t> Cpu::peek(const Op& op, std::size_t i) const {
+  Operand operand = op[i];
+  const OperandRule& rule = op.instruction->operand[i];
+  if (rule.kind != OperandKind::Memory) return operand.at;
+  if (operand.pointer) {
+    const auto place = resolve(load32(&s.image[operand.at]), operand.width);
+    if (!place) return {};
+    operand.at = *place;
+  }
+  switch (rule.width) {
+    case Width::Bit: return bit(operand);
+    case Width::Byte: return get<std::uint8_t>(operand);
+    case Width::Word: return get<std::uint16_t>(operand);
+    case Width::Double: return get<std::uint32_t>(operand);
+  }
+  return {};
+}
+
+void run_with_pointers(Cpu& cpu, const Op& op) {
+  Op direct = op;
+  for (Operand& operand : direct.operand) {
+    if (!operand.pointer) continue;
+    const auto place = cpu.resolve(load32(&cpu.s.image[operand.at]), operand.width);
+    if (!place) {
+      cpu.run_error(RunError::IndirectAddress);
+      // A compare contact raises both errors and stops the CPU (facts 5.1).
+      if (op.instruction->structure == Structure::Compare) cpu.fatal_error(FatalError::CompareIndirect);
+      return;
+    }
+    operand.at = *place;
+    operand.pointer = false;
+  }
+  op.instruction->body(cpu, direct);
+}
+
+void Cpu::run_error(RunError code) {
+  s.image[image::kSM4] |= 0x08;
+  ++s.error_count;
+  trace({.at = s.time, .kind = TraceKind::RuntimeError, .code = static_cast<std::uint16_t>(code), .op = current_op()});
+  for (RuntimeError& error : s.errors) {
+    if (error.count != 0 && (error.code != static_cast<std::uint16_t>(code) || error.op != current_op())) continue;
+    if (error.count == 0) error = {static_cast<std::uint16_t>(code), current_op(), 0, s.time};
+    ++error.count;
+    return;
+  }
+}
+
+void Cpu::fatal_error(FatalError code) {
+  s.fatal_code = static_cast<std::uint16_t>(code);
+  s.fatal_op = s.in_interrupt || s.phase == Phase::Program ? current_op() : kNoRoutine;
+  trace({.at = s.time, .kind = TraceKind::FatalError, .code = s.fatal_code, .op = s.fatal_op});
+  enter_stop();
+}
+
+std::string_view meaning_of(RunError code) {
+  switch (code) {
+    case RunError::NotInInterrupt: return "instruction not allowed in an interrupt routine";
+    case RunError::IndirectAddress: return "indirect addressing error: the pointer leads outside the memory it may reach";
+    case RunError::CallDepth: return "subroutines nested too deep";
+    case RunError::PortBusy: return "XMT while port 0 is transmitting, or not in Freeport mode";
+    case RunError::OperandRange: return "range error: the operand leaves its memory area";
+    case RunError::Count: return "error in the count field of an instruction";
+    case RunError::FreeportInInterrupt: return "attempt to switch to Freeport inside an interrupt routine";
+  }
+  return "unknown";
+}
+
+std::string_view meaning_of(FatalError code) {
+  switch (code) {
+    case FatalError::Watchdog: return "scan watchdog: the scan took longer than 300 ms without WDR";
+    case FatalError::CompareIndirect: return "indirect addressing error in a compare contact";
+  }
+  return "unknown";
+}
+
+}  // namespace s7200

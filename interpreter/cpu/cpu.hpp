@@ -1,0 +1,198 @@
+// The CPU: executes a Program in simulated time.
+//
+// Time. An instruction sees the world as of its start; what it does to the outside carries its end. run() goes on until
+// the next event of the queue is due, so that nothing the outside does comes too late. Interrupts are taken in one place,
+// between two instructions (take_interrupt), or at any instant of the system's own part of the scan.
+//
+// Not documented, modelled so:
+// - The four parts of the scan that are not the program take a quarter of the scan overhead each.
+// - SM4.3 stays 1 until the next change to RUN.
+// - An interrupt routine starts with the top of the logic stack at 1, as a subroutine does.
+// - DTCH drops what its event has queued. ATCH keeps it, and the routine attached when it is served is the one that runs.
+// - A timed interrupt below the CPU's shortest interval, and 0, takes the shortest interval.
+// - Timed interrupts count whole milliseconds from the end of ATCH, not ticks of a clock of their own.
+// - In STOP all output points are off.
+// Not modelled: expansion module errors (SM5, SMB8–21), forced values, memory cartridge, PPI on the port.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "interpreter/base/bytes.hpp"
+#include "interpreter/base/event_queue.hpp"
+#include "interpreter/cpu/serial_port.hpp"
+#include "interpreter/cpu/state.hpp"
+#include "interpreter/program/program.hpp"
+#include "interpreter/trace/trace.hpp"
+
+namespace s7200 {
+
+/// Codes of run-time errors (facts 5.2) and fatal errors (5.1) that the simulated CPU can report.
+enum class RunError : std::uint16_t {
+  NotInInterrupt = 0x04,
+  IndirectAddress = 0x06,
+  CallDepth = 0x08,
+  PortBusy = 0x09,
+  OperandRange = 0x91,
+  Count = 0x92,
+  FreeportInInterrupt = 0x9A,
+};
+enum class FatalError : std::uint16_t { Watchdog = 0x03, CompareIndirect = 0x11 };
+
+/// One line of meaning for a code, for people.
+std::string_view meaning_of(RunError code);
+std::string_view meaning_of(FatalError code);
+
+class Cpu {
+ public:
+  /// Nothing is owned but the program. The CPU is in STOP until power_up().
+  Cpu(std::shared_ptr<const Program> program, EventQueue& queue, SerialPort& port);
+
+  // --- from outside ---
+
+  /// Clears all memory and goes to RUN (mode switch in RUN) or stays in STOP (TERM).
+  void power_up(bool run = true);
+
+  /// Runs until its clock has reached `limit`, an event of the queue is due, the sink stops it, or (when asked) a scan has
+  /// ended. Whoever calls then handles the events that are due at or before time().
+  void run(Time limit);
+
+  /// Stops run() at the end of each scan, or not.
+  void pause_at_scan_end(bool on) { pause_at_scan_end_ = on; }
+  /// Why run() came back early, reset by the next run().
+  bool paused() const { return paused_; }
+
+  /// A timed interrupt is due.
+  void handle(const Event& event);
+
+  /// Reports of the serial port.
+  void character_received(const ReceivedCharacter& character);
+  void character_sent(Time at);
+
+  /// Sets an input byte; edges of I0.0–I0.3 are events 0–7.
+  void set_input(std::uint32_t byte, std::uint8_t value, Time at);
+
+  const State& state() const { return s; }
+  void restore(const State& state) { s = state; }
+  const Program& program() const { return *program_; }
+  Time time() const { return s.time; }
+
+  /// Writes memory as a programming device would. `at` is a place in the image.
+  void poke(std::uint32_t at, std::span<const std::uint8_t> bytes);
+
+  void set_sink(TraceSink* sink) { sink_ = sink; }
+
+  /// Value of operand `i` as the instruction would find it now; nothing for a bad pointer or a plain number.
+  std::optional<std::uint32_t> peek(const Op& op, std::size_t i) const;
+
+  /// Place in the image that a pointer value leads to, for an operand of `width` bytes.
+  std::optional<std::uint32_t> resolve(std::uint32_t pointer, std::uint32_t width) const;
+
+  // --- for the bodies of instructions ---
+
+  State s;
+
+  /// A direct operand as a value: std::uint8_t, std::uint16_t, std::int16_t, std::uint32_t, std::int32_t, float.
+  template <class Value> Value get(const Operand& operand) const;
+  template <class Value> void put(const Operand& operand, Value value);
+
+  bool bit(const Operand& operand) const { return (s.image[operand.at] >> operand.bit) & 1; }
+  void put_bit(std::uint32_t at, std::uint8_t bit_number, bool value) {
+    const auto mask = static_cast<std::uint8_t>(1u << bit_number);
+    s.image[at] = static_cast<std::uint8_t>(value ? s.image[at] | mask : s.image[at] & ~mask);
+  }
+
+  /// Sets and resets SM1 bits: those of `mask` become `flags`.
+  void set_flags(std::uint8_t mask, std::uint8_t flags) {
+    s.image[image::kSM1] = static_cast<std::uint8_t>((s.image[image::kSM1] & ~mask) | flags);
+  }
+
+  void spend(const Op& op, std::int64_t units) { s.time += op.unit_cost * units; }
+  void jump(std::uint32_t op) { s.pc = op; }
+
+  /// Whether `count` bytes from `at` on lie in one area of this CPU.
+  bool in_area(std::uint32_t at, std::uint32_t count) const;
+
+  /// The same for `count` bits from a bit on.
+  bool bits_in_area(const Operand& first, std::uint32_t count) const;
+  /// R on timers or counters clears their current values too.
+  void clear_current_values(const Operand& first, std::uint32_t count);
+
+  void run_error(RunError code);
+  void fatal_error(FatalError code);
+
+  void call(std::uint32_t target);
+  void return_from_subroutine();
+  void return_from_interrupt();
+  void end_main_program();
+  void stop();
+  void reset_watchdog() { s.watchdog = s.time + program_->model->watchdog; attend(); }
+  void enable_interrupts(bool enabled);
+  void attach(std::uint8_t event, std::uint8_t routine);
+  void detach(std::uint8_t event);
+  void transmit(std::uint32_t table);
+
+  /// The program may have written SMB30, which was `before`.
+  void port_control_written(std::uint8_t before);
+
+ private:
+  void execute_plain();
+  void execute_observed();
+  void system_phases();
+  void finish_phase();
+  void begin_scan();
+  void end_scan();
+  void update_clocks();
+
+  void enter_run();
+  void enter_stop();
+
+  bool interrupt_due() const { return s.waiting != 0 && s.interrupts_enabled && !s.in_interrupt; }
+  void take_interrupt();
+  void occurred(std::uint8_t event, Time at, std::uint8_t byte = 0, bool parity_error = false);
+  QueuedInterrupt next_queued();
+  void leave_interrupt();
+
+  void follow_port_control(Time at);
+  void take_port_control(Time at);
+  void send_next_character(Time at);
+  void close_port();
+
+  /// The loop is to look around again before the next instruction.
+  void attend() { until_ = 0; }
+
+  void trace(const TraceRecord& record) const {
+    if (sink_) sink_->record(record);
+  }
+  std::uint32_t current_op() const { return op_; }
+
+  std::shared_ptr<const Program> program_;
+  EventQueue& queue_;
+  SerialPort& port_;
+  TraceSink* sink_ = nullptr;
+  Time until_ = 0;            ///< the loop looks around when the clock has come to here
+  std::uint32_t op_ = 0;      ///< being executed
+  bool pause_at_scan_end_ = false;
+  bool paused_ = false;
+};
+
+template <class Value>
+inline Value Cpu::get(const Operand& operand) const {
+  const std::uint8_t* from = &s.image[operand.at];
+  if constexpr (sizeof(Value) == 1) return static_cast<Value>(*from);
+  else if constexpr (sizeof(Value) == 2) return static_cast<Value>(load16(from));
+  else return std::bit_cast<Value>(load32(from));
+}
+
+template <class Value>
+inline void Cpu::put(const Operand& operand, Value value) {
+  std::uint8_t* to = &s.image[operand.at];
+  if constexpr (sizeof(Value) == 1) *to = static_cast<std::uint8_t>(value);
+  else if constexpr (sizeof(Value) == 2) store16(to, static_cast<std::uint16_t>(value));
+  else store32(to, std::bit_cast<std::uint32_t>(value));
+}
+
+}  // namespace s7200

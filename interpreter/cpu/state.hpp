@@ -1,0 +1,130 @@
+// All that a CPU remembers. Plain and copyable: a snapshot is a copy.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "interpreter/base/serial_format.hpp"
+#include "interpreter/base/time.hpp"
+#include "interpreter/model/area.hpp"
+#include "interpreter/model/cpu_model.hpp"
+
+namespace s7200 {
+
+/// Nine levels of one bit, S0 on top.
+/// Not documented, modelled so: what comes up at the bottom after a pop is 0.
+class LogicStack {
+ public:
+  static constexpr int kLevels = 9;
+
+  bool top() const { return bits_ & 1; }
+  bool level(int n) const { return (bits_ >> n) & 1; }
+  std::uint16_t bits() const { return bits_; }
+  void push(bool value) { bits_ = static_cast<std::uint16_t>(((bits_ << 1) | (value ? 1 : 0)) & ((1 << kLevels) - 1)); }
+  void pop() { bits_ >>= 1; }
+  void set_top(bool value) { bits_ = static_cast<std::uint16_t>((bits_ & ~1) | (value ? 1 : 0)); }
+  /// As a subroutine or interrupt routine finds it: S0 = 1, all others 0.
+  static LogicStack on_entry() { LogicStack s; s.push(true); return s; }
+
+  bool operator==(const LogicStack&) const = default;
+
+ private:
+  std::uint16_t bits_ = 0;
+};
+
+enum class Mode : std::uint8_t { Stop, Run };
+
+/// Parts of a scan, in order (S7-200 manual C230-02, 6-10).
+enum class Phase : std::uint8_t { ReadInputs, Program, Communication, SelfTest, WriteOutputs };
+
+/// Where a subroutine returns to, and its caller's logic stack.
+struct CallFrame {
+  std::uint32_t return_to = 0;
+  LogicStack stack{};
+  bool operator==(const CallFrame&) const = default;
+};
+
+struct QueuedInterrupt {
+  Time at = 0;               ///< when it occurred
+  std::uint8_t event = 0;
+  std::uint8_t byte = 0;     ///< the character of event 8, for SMB2
+  bool parity_error = false; ///< for SM3.0
+  bool operator==(const QueuedInterrupt&) const = default;
+};
+
+struct InterruptQueue {
+  std::array<QueuedInterrupt, 16> entry{};
+  std::uint8_t count = 0;
+  bool operator==(const InterruptQueue&) const = default;
+};
+
+/// What is saved around an interrupt routine: logic stack, accumulators, SMB1 (facts 3.2).
+struct SavedContext {
+  std::uint32_t return_to = 0;
+  LogicStack stack{};
+  std::array<std::uint8_t, 16> accumulators{};
+  std::uint8_t smb1 = 0;
+  bool operator==(const SavedContext&) const = default;
+};
+
+inline constexpr std::uint8_t kNotAttached = 0xFF;
+
+struct Freeport {
+  std::uint8_t control = 0;   ///< SMB30 as last taken over
+  bool active = false;        ///< Freeport mode, in RUN
+  bool transmitting = false;
+  bool sending_break = false;
+  std::uint8_t on_line = 0;   ///< character being sent
+  std::uint32_t buffer = 0;   ///< place of the next character in the image
+  std::uint16_t left = 0;     ///< characters not yet handed to the line
+  SerialFormat format{};
+  bool operator==(const Freeport&) const = default;
+};
+
+/// A run-time error: code, the instruction, how often, when first.
+struct RuntimeError {
+  std::uint16_t code = 0;
+  std::uint32_t op = 0;
+  std::uint64_t count = 0;
+  Time first = 0;
+  bool operator==(const RuntimeError&) const = default;
+};
+
+struct State {
+  Time time = 0;             ///< the CPU's clock: start of the next instruction
+  std::uint32_t pc = 0;      ///< op to execute next
+  LogicStack stack{};
+  Mode mode = Mode::Stop;
+  Phase phase = Phase::ReadInputs;
+  Time phase_left = 0;       ///< of the phases other than Program
+  bool in_interrupt = false;
+  bool interrupts_enabled = false;
+  bool stop_after_scan = false;  ///< STOP was executed in an interrupt routine
+  std::uint8_t call_depth = 0;
+  std::uint64_t instructions = 0, scans = 0;
+
+  Time scan_begin = 0, watchdog = kNever, next_clock = 0;
+  Time shortest_scan = kNever, longest_scan = 0;
+
+  std::array<CallFrame, 8> calls{};
+  SavedContext saved{};
+  std::uint8_t serving_event = 0, serving_routine = 0;
+  Time serving_since = 0;
+  std::array<std::uint8_t, kEvents> attached{};
+  std::array<InterruptQueue, kQueues> queue{};
+  std::uint8_t waiting = 0;             ///< queued interrupts over all queues
+  std::array<Time, 2> timed_interval{}; ///< of events 10 and 11, captured by ATCH
+
+  Freeport port{};
+
+  std::uint16_t fatal_code = 0;
+  std::uint32_t fatal_op = 0;
+  std::array<RuntimeError, 16> errors{};   ///< the first sixteen different ones
+  std::uint64_t error_count = 0;
+
+  std::array<std::uint8_t, image::kSize> image{};
+
+  bool operator==(const State&) const = default;
+};
+
+}  // namespace s7200

@@ -1,0 +1,47 @@
+// Bodies: program control, interrupts, transmit (facts 6.12, 3.3, 2.2).
+#pragma once
+
+#include "interpreter/cpu/cpu.hpp"
+
+namespace s7200::bodies {
+
+inline void jump(Cpu& cpu, const Op& op) {
+  cpu.jump(op.target);
+  cpu.s.stack.set_top(true);
+}
+
+/// FOR INDX, INIT, FINAL: an initial value above the final one skips the loop.
+inline void begin_loop(Cpu& cpu, const Op& op) {
+  const auto initial = cpu.get<std::int16_t>(op[1]);
+  cpu.put(op[0], initial);
+  if (initial > cpu.get<std::int16_t>(op[2])) cpu.jump(op.target);
+}
+
+/// NEXT has the operands of its FOR. The index is left at the final value + 1, and the top of the stack at 1.
+inline void next_pass(Cpu& cpu, const Op& op) {
+  const auto index = cpu.get<std::int16_t>(op[0]);
+  cpu.put(op[0], static_cast<std::uint16_t>(index + 1));
+  cpu.s.stack.set_top(true);
+  if (index < cpu.get<std::int16_t>(op[2])) cpu.jump(op.target);
+}
+
+inline void call(Cpu& cpu, const Op& op) { cpu.call(op.target); }
+inline void return_from_subroutine(Cpu& cpu, const Op&) { cpu.return_from_subroutine(); }
+inline void return_from_interrupt(Cpu& cpu, const Op&) { cpu.return_from_interrupt(); }
+inline void end_main_program(Cpu& cpu, const Op&) { cpu.end_main_program(); }
+inline void stop(Cpu& cpu, const Op&) { cpu.stop(); }
+inline void reset_watchdog(Cpu& cpu, const Op&) { cpu.reset_watchdog(); }
+
+template <bool enabled>
+void enable_interrupts(Cpu& cpu, const Op&) {
+  cpu.enable_interrupts(enabled);
+}
+
+inline void attach(Cpu& cpu, const Op& op) {
+  cpu.attach(static_cast<std::uint8_t>(op[1].at), static_cast<std::uint8_t>(op[0].at));
+}
+inline void detach(Cpu& cpu, const Op& op) { cpu.detach(static_cast<std::uint8_t>(op[0].at)); }
+
+inline void transmit(Cpu& cpu, const Op& op) { cpu.transmit(op[0].at); }
+
+}  // namespace s7200::bodies

@@ -1,0 +1,105 @@
+// What is true of an instruction. One row of the table (table.cpp) is one Instruction; checker, CPU, printer, `s7200
+// instructions` and the tests of the table read it. The grammar does not.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "interpreter/model/area.hpp"
+#include "interpreter/model/cpu_model.hpp"
+
+namespace s7200 {
+
+class Cpu;
+struct Op;
+
+/// Executes one decoded instruction that has power flow, or needs none. The clock already stands at the end of the
+/// instruction's basic time; a body adds what depends on counts.
+using Body = void (*)(Cpu& cpu, const Op& op);
+
+enum class OperandKind : std::uint8_t {
+  Memory,      ///< a value: direct, through a pointer, or a constant, as the rule allows
+  Label,       ///< a number that is part of the instruction: LBL, JMP
+  Subroutine,  ///< SBR, CALL
+  Interrupt,   ///< INT, ATCH
+  Event,       ///< ATCH, DTCH
+  Port,        ///< XMT, RCV
+  Number,      ///< any other number that is part of the instruction: NOP
+};
+
+enum class Role : std::uint8_t { In, Out, InOut };
+
+struct OperandRule {
+  std::string_view name;  ///< as the manual calls it: IN, OUT, N, TBL
+  OperandKind kind = OperandKind::Memory;
+  Width width = Width::Byte;
+  Role role = Role::In;
+  Areas areas = 0;          ///< that may be named directly
+  bool constant = false;
+  bool pointer = false;     ///< *VD100, *AC1
+  bool address_of = false;  ///< &VB100
+  bool real = false;        ///< the value is a real number
+  std::int64_t min = std::numeric_limits<std::int64_t>::min();  ///< of a constant, within its width
+  std::int64_t max = std::numeric_limits<std::int64_t>::max();
+};
+
+/// Where an instruction may stand.
+enum Part : std::uint8_t { kMain = 1, kSubroutine = 2, kInterrupt = 4, kAnywhere = 7 };
+
+/// What an instruction means for the structure of the program.
+enum class Structure : std::uint8_t {
+  None,
+  Label, Jump, For, Next, Call, SubroutineHead, InterruptHead, MainEnd, SubroutineEnd, InterruptEnd, Attach,
+  Compare  ///< its errors stop the CPU
+};
+
+/// Instructions that reach the points themselves, past the image registers.
+enum class Immediate : std::uint8_t { No, Input, Output };
+
+/// What an instruction finds on the logic stack and how many levels more it leaves there.
+struct StackUse {
+  std::int8_t needs = 0;
+  std::int8_t change = 0;
+};
+
+/// Bits of SM1 that an instruction sets and resets (S7-200 manual C230-02, D-2).
+enum Flag : std::uint8_t {
+  kZero = 1, kOverflow = 2, kNegative = 4, kDivisionByZero = 8, kTableFull = 16, kTableEmpty = 32, kNotBcd = 64, kNotHex = 128
+};
+
+struct Instruction {
+  std::string_view mnemonic;
+  std::string_view group;   ///< heading in the documentation
+  std::array<OperandRule, 3> operand{};
+  std::uint8_t operands = 0;
+  bool needs_power_flow = false;  ///< skipped while the top of the logic stack is 0
+  StackUse stack{};
+  bool writes_output = false;     ///< a coil or box: an LD behind it begins a new rung
+  std::uint8_t flags = 0;         ///< SM1 bits concerned
+  std::uint8_t allowed = kAnywhere;        ///< Parts, on 21x CPUs
+  CpuSet cpus = kEveryCpu;
+  Structure structure = Structure::None;
+  Immediate immediate = Immediate::No;
+  Body body = nullptr;      ///< nullptr: not modelled, refused by name
+  std::string_view meaning; ///< one line
+
+  std::span<const OperandRule> rules() const { return {operand.data(), operands}; }
+};
+
+/// The table, ordered as the manual groups it.
+std::span<const Instruction> all_instructions();
+
+/// Nothing for an unknown mnemonic (upper case).
+const Instruction* find_instruction(std::string_view mnemonic);
+
+/// The mnemonic that was probably meant; empty when nothing is near.
+std::string_view nearest_mnemonic(std::string_view mnemonic);
+
+/// `MOVW IN, OUT`
+std::string syntax(const Instruction& instruction);
+
+}  // namespace s7200

@@ -1,0 +1,46 @@
+// Bodies: shifts and rotates (facts 6.8). A count of 0 changes nothing, flags included.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+
+#include "interpreter/cpu/cpu.hpp"
+
+namespace s7200::bodies {
+
+/// SM1.0: result zero. SM1.1: last bit shifted or rotated out.
+inline void set_shift_flags(Cpu& cpu, bool zero, bool last_out) {
+  cpu.set_flags(kZero | kOverflow, static_cast<std::uint8_t>((zero ? kZero : 0) | (last_out ? kOverflow : 0)));
+}
+
+/// SLW, SRW, SLD, SRD: the count stops at the width.
+template <class Value, bool left>
+void shift(Cpu& cpu, const Op& op) {
+  constexpr std::uint32_t kBits = 8 * sizeof(Value);
+  const std::uint32_t count = std::min<std::uint32_t>(cpu.get<std::uint8_t>(op[1]), kBits);
+  if (count == 0) return;
+  cpu.spend(op, count);
+  const std::uint64_t value = cpu.get<Value>(op[0]);
+  const auto result = static_cast<Value>(left ? value << count : value >> count);
+  const bool last_out = left ? (value >> (kBits - count)) & 1 : (value >> (count - 1)) & 1;
+  cpu.put(op[0], result);
+  set_shift_flags(cpu, result == 0, last_out);
+}
+
+/// RLW, RRW, RLD, RRD: the count is taken modulo the width.
+/// Not documented, modelled so: a multiple of the width other than 0 rotates nothing; SM1.0 is set from the value and SM1.1
+/// from the bit that a full turn brings out last.
+template <class Value, bool left>
+void rotate(Cpu& cpu, const Op& op) {
+  constexpr std::uint32_t kBits = 8 * sizeof(Value);
+  const std::uint32_t asked = cpu.get<std::uint8_t>(op[1]);
+  if (asked == 0) return;
+  const int count = static_cast<int>(asked % kBits);
+  cpu.spend(op, count);
+  const auto value = cpu.get<Value>(op[0]);
+  const Value result = left ? std::rotl(value, count) : std::rotr(value, count);
+  cpu.put(op[0], result);
+  set_shift_flags(cpu, result == 0, left ? result & 1 : (result >> (kBits - 1)) & 1);
+}
+
+}  // namespace s7200::bodies

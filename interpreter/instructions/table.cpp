@@ -1,0 +1,427 @@
+// THE table: all that is true of each instruction, once. See instruction.hpp for the columns and README.md for how to add one.
+//
+// Sources: facts 6 (operand areas there are inferred from the manuals' operand lists), 3.5 (what may stand in interrupt
+// routines), 6.13 (which CPU has what).
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "interpreter/instructions/bit_logic.hpp"
+#include "interpreter/instructions/compare.hpp"
+#include "interpreter/instructions/control.hpp"
+#include "interpreter/instructions/instruction.hpp"
+#include "interpreter/instructions/math.hpp"
+#include "interpreter/instructions/move.hpp"
+#include "interpreter/instructions/shift.hpp"
+
+namespace s7200 {
+namespace {
+
+using namespace bodies;
+
+// --- operands ---
+
+template <class... Area_>
+constexpr Areas areas(Area_... area) {
+  return static_cast<Areas>((set_of(area) | ...));
+}
+
+constexpr Areas kBits = areas(Area::I, Area::Q, Area::M, Area::SM, Area::T, Area::C, Area::V, Area::S);
+constexpr Areas kBytes = areas(Area::V, Area::I, Area::Q, Area::M, Area::SM, Area::S);
+constexpr Areas kWords = kBytes | areas(Area::T, Area::C);
+
+constexpr OperandRule bit_in(Areas from = kBits) { return {.name = "BIT", .width = Width::Bit, .areas = from}; }
+constexpr OperandRule bit_out(Areas to = kBits) {
+  return {.name = "BIT", .width = Width::Bit, .role = Role::Out, .areas = to};
+}
+
+constexpr Areas readable(Width width) {
+  switch (width) {
+    case Width::Word: return kWords | areas(Area::AC, Area::AI);
+    case Width::Double: return kBytes | areas(Area::AC, Area::HC);
+    default: return kBytes | areas(Area::AC);
+  }
+}
+constexpr Areas writable(Width width) {
+  return static_cast<Areas>((width == Width::Word ? kWords : kBytes) | areas(Area::AC));
+}
+
+constexpr OperandRule in(Width width, std::string_view name = "IN") {
+  return {.name = name, .width = width, .areas = readable(width), .constant = true, .pointer = true};
+}
+constexpr OperandRule out(Width width, std::string_view name = "OUT") {
+  return {.name = name, .width = width, .role = Role::Out, .areas = writable(width), .pointer = true};
+}
+/// The second operand of two-operand arithmetic: source and destination.
+constexpr OperandRule in_out(Width width, std::string_view name = "OUT") {
+  OperandRule rule = out(width, name);
+  rule.role = Role::InOut;
+  return rule;
+}
+constexpr OperandRule real(OperandRule rule) {
+  rule.real = true;
+  rule.areas &= static_cast<Areas>(~areas(Area::HC));
+  return rule;
+}
+constexpr OperandRule with_analog_output(OperandRule rule) {
+  rule.areas |= areas(Area::AQ);
+  return rule;
+}
+constexpr OperandRule block(Role role, Width width, std::string_view name) {
+  const Areas analog = role == Role::In ? areas(Area::AI) : areas(Area::AQ);
+  return {.name = name,
+          .width = width,
+          .role = role,
+          .areas = static_cast<Areas>(width == Width::Word ? kWords | analog : kBytes),
+          .pointer = true};
+}
+constexpr OperandRule count(std::int64_t max = 255, std::int64_t min = 1) {
+  OperandRule rule = in(Width::Byte, "N");
+  rule.min = min;
+  rule.max = max;
+  return rule;
+}
+constexpr OperandRule number(OperandKind kind, std::string_view name, std::int64_t max = 255) {
+  return {.name = name, .kind = kind, .constant = true, .min = 0, .max = max};
+}
+
+constexpr OperandRule kLabel = number(OperandKind::Label, "n");
+constexpr OperandRule kSubroutineNumber = number(OperandKind::Subroutine, "n");
+constexpr OperandRule kRoutine = number(OperandKind::Interrupt, "INT");
+constexpr OperandRule kEvent = number(OperandKind::Event, "EVNT");
+constexpr OperandRule kPort = number(OperandKind::Port, "PORT");
+
+// --- rows ---
+
+/// A row under construction; `|` joins what differs from the plain form.
+struct Row : Instruction {};
+
+Row row(std::string_view mnemonic, std::initializer_list<OperandRule> rules, Body body, std::string_view meaning) {
+  Row r;
+  r.mnemonic = mnemonic;
+  std::copy(rules.begin(), rules.end(), r.operand.begin());
+  r.operands = static_cast<std::uint8_t>(rules.size());
+  r.body = body;
+  r.meaning = meaning;
+  return r;
+}
+
+/// Runs with power flow only and leaves the logic stack as it is.
+Row box(std::string_view mnemonic, std::initializer_list<OperandRule> rules, Body body, std::string_view meaning,
+        std::uint8_t flags = 0) {
+  Row r = row(mnemonic, rules, body, meaning);
+  r.needs_power_flow = true;
+  r.stack = {1, 0};
+  r.writes_output = true;
+  r.flags = flags;
+  return r;
+}
+
+/// Runs on every pass and uses the top of the stack.
+Row uses_stack(std::string_view mnemonic, std::initializer_list<OperandRule> rules, Body body, StackUse stack,
+               std::string_view meaning) {
+  Row r = row(mnemonic, rules, body, meaning);
+  r.stack = stack;
+  return r;
+}
+
+Row on(CpuSet cpus, Row r) {
+  r.cpus = cpus;
+  return r;
+}
+Row only_in(std::uint8_t parts, Row r) {
+  r.allowed = parts;
+  return r;
+}
+Row marks(Structure structure, Row r) {
+  r.structure = structure;
+  r.writes_output = true;
+  return r;
+}
+Row immediate(Immediate kind, Row r) {
+  r.immediate = kind;
+  return r;
+}
+Row writes(Row r) {
+  r.writes_output = true;
+  return r;
+}
+Row not_modelled(std::string_view mnemonic, CpuSet cpus, std::string_view meaning) {
+  return on(cpus, row(mnemonic, {}, nullptr, meaning));
+}
+
+class Table {
+ public:
+  Table() {
+    bit_logic();
+    compares();
+    moves();
+    integer_math();
+    logic();
+    shifts();
+    program_control();
+    interrupts();
+    communication();
+    later();
+  }
+
+  const std::vector<Instruction>& rows() const { return rows_; }
+
+ private:
+  void group(std::string_view name) { group_ = name; }
+  void add(Row r) {
+    r.group = group_;
+    rows_.push_back(r);
+  }
+
+  template <Join join>
+  void contacts(std::string_view plain, std::string_view negated, std::string_view point,
+                std::string_view negated_point, StackUse stack, std::string_view verb) {
+    const auto text = [&](std::string_view what) -> std::string_view { return texts_.emplace(std::string(verb) + std::string(what)).first->c_str(); };
+    add(uses_stack(plain, {bit_in()}, contact<join, false>, stack, text(" BIT")));
+    add(uses_stack(negated, {bit_in()}, contact<join, true>, stack, text(" NOT BIT")));
+    add(immediate(Immediate::Input, uses_stack(point, {bit_in(areas(Area::I))}, contact<join, false>, stack, text(" the input point BIT"))));
+    add(immediate(Immediate::Input, uses_stack(negated_point, {bit_in(areas(Area::I))}, contact<join, true>, stack, text(" NOT the input point BIT"))));
+  }
+
+  void bit_logic() {
+    group("Bit logic");
+    contacts<Join::Load>("LD", "LDN", "LDI", "LDNI", {0, 1}, "push");
+    contacts<Join::And>("A", "AN", "AI", "ANI", {1, 0}, "top of stack AND");
+    contacts<Join::Or>("O", "ON", "OI", "ONI", {1, 0}, "top of stack OR");
+    add(uses_stack("NOT", {}, invert_top, {1, 0}, "invert the top of the stack"));
+    add(uses_stack("EU", {}, edge<true>, {1, 0}, "1 for one execution when the top of the stack went from 0 to 1"));
+    add(uses_stack("ED", {}, edge<false>, {1, 0}, "1 for one execution when the top of the stack went from 1 to 0"));
+    add(uses_stack("ALD", {}, combine_loads<Join::And>, {2, -1}, "AND the two upper levels into one"));
+    add(uses_stack("OLD", {}, combine_loads<Join::Or>, {2, -1}, "OR the two upper levels into one"));
+    add(uses_stack("LPS", {}, push_copy, {1, 1}, "push a copy of the top of the stack"));
+    add(uses_stack("LRD", {}, read_second, {2, 0}, "copy the second level to the top"));
+    add(uses_stack("LPP", {}, pop_stack, {2, -1}, "pop the stack"));
+    add(writes(uses_stack("=", {bit_out()}, coil, {1, 0}, "write the top of the stack to BIT")));
+    add(immediate(Immediate::Output, writes(uses_stack("=I", {bit_out(areas(Area::Q))}, immediate_coil, {1, 0},
+                                                       "write the top of the stack to the output point and its image"))));
+    add(box("S", {bit_out(), count()}, set_bits<true, false>, "set N bits from BIT on"));
+    add(box("R", {bit_out(), count()}, set_bits<false, false>,
+            "reset N bits from BIT on; of timers and counters the current values too"));
+    add(immediate(Immediate::Output, box("SI", {bit_out(areas(Area::Q)), count()}, set_bits<true, true>, "set N output points and their image")));
+    add(immediate(Immediate::Output, box("RI", {bit_out(areas(Area::Q)), count()}, set_bits<false, true>, "reset N output points and their image")));
+    add(row("NOP", {number(OperandKind::Number, "n")}, no_operation, "nothing"));
+  }
+
+  template <Relation relation>
+  void compares_of(std::string_view sign, CpuSet cpus) {
+    compare_row<relation, std::uint8_t>(sign, "B", in(Width::Byte, "IN1"), in(Width::Byte, "IN2"), cpus, "unsigned bytes");
+    compare_row<relation, std::int16_t>(sign, "W", in(Width::Word, "IN1"), in(Width::Word, "IN2"), cpus, "signed words");
+    compare_row<relation, std::int32_t>(sign, "D", in(Width::Double, "IN1"), in(Width::Double, "IN2"), cpus,
+                                        "signed double words");
+    compare_row<relation, float>(sign, "R", real(in(Width::Double, "IN1")), real(in(Width::Double, "IN2")), cpus & kFrom214,
+                                 "real numbers");
+  }
+
+  template <Relation relation, class Value>
+  void compare_row(std::string_view sign, std::string_view type, const OperandRule& a, const OperandRule& b, CpuSet cpus,
+                   std::string_view what) {
+    const auto one = [&](std::string_view prefix, Body body, StackUse stack, std::string_view verb) {
+      const auto keep = [&](std::string text) -> std::string_view { return *texts_.insert(std::move(text)).first; };
+      const std::string_view mnemonic = keep(std::string(prefix).append(type).append(sign));
+      Row r = uses_stack(mnemonic, {a, b}, body, stack,
+                         keep(std::string(verb).append(" IN1 ").append(sign).append(" IN2, ").append(what)));
+      r.structure = Structure::Compare;
+      add(on(cpus, r));
+    };
+    one("LD", compare<Join::Load, relation, Value>, {0, 1}, "push");
+    one("A", compare<Join::And, relation, Value>, {1, 0}, "top of stack AND");
+    one("O", compare<Join::Or, relation, Value>, {1, 0}, "top of stack OR");
+  }
+
+  void compares() {
+    group("Compare contacts");
+    compares_of<Relation::Equal>("=", kEveryCpu);
+    compares_of<Relation::GreaterEqual>(">=", kEveryCpu);
+    compares_of<Relation::LessEqual>("<=", kEveryCpu);
+    compares_of<Relation::NotEqual>("<>", kCpu22x);
+    compares_of<Relation::Greater>(">", kCpu22x);
+    compares_of<Relation::Less>("<", kCpu22x);
+  }
+
+  void moves() {
+    group("Move");
+    OperandRule any_double = in(Width::Double);
+    any_double.address_of = true;
+    add(box("MOVB", {in(Width::Byte), out(Width::Byte)}, move<std::uint8_t>, "copy byte IN to OUT"));
+    add(box("MOVW", {in(Width::Word), with_analog_output(out(Width::Word))}, move<std::uint16_t>, "copy word IN to OUT"));
+    add(box("MOVD", {any_double, out(Width::Double)}, move<std::uint32_t>, "copy double word IN to OUT"));
+    add(on(kFrom214, box("MOVR", {real(in(Width::Double)), out(Width::Double)}, move<std::uint32_t>, "copy real IN to OUT")));
+    add(box("BMB", {block(Role::In, Width::Byte, "IN"), block(Role::Out, Width::Byte, "OUT"), count()},
+            move_block<std::uint8_t>, "copy N bytes from IN on to OUT on"));
+    add(box("BMW", {block(Role::In, Width::Word, "IN"), block(Role::Out, Width::Word, "OUT"), count()},
+            move_block<std::uint16_t>, "copy N words from IN on to OUT on"));
+    add(on(kFrom215, box("BMD", {block(Role::In, Width::Double, "IN"), block(Role::Out, Width::Double, "OUT"), count()},
+                         move_block<std::uint32_t>, "copy N double words from IN on to OUT on")));
+    add(box("FILL", {in(Width::Word), block(Role::Out, Width::Word, "OUT"), count()}, fill, "write word IN to N words from OUT on"));
+    add(box("SWAP", {in_out(Width::Word, "IN")}, swap_bytes, "exchange the two bytes of a word"));
+  }
+
+  void integer_math() {
+    group("Integer arithmetic");
+    add(box("+I", {in(Width::Word, "IN1"), in_out(Width::Word)}, add_body<std::int16_t>(), "OUT + IN1 to OUT, 16 bits", kArithmetic));
+    add(box("-I", {in(Width::Word, "IN1"), in_out(Width::Word)}, subtract<std::int16_t>, "OUT - IN1 to OUT, 16 bits", kArithmetic));
+    add(box("+D", {in(Width::Double, "IN1"), in_out(Width::Double)}, add_body<std::int32_t>(), "OUT + IN1 to OUT, 32 bits", kArithmetic));
+    add(box("-D", {in(Width::Double, "IN1"), in_out(Width::Double)}, subtract<std::int32_t>, "OUT - IN1 to OUT, 32 bits", kArithmetic));
+    add(box("MUL", {in(Width::Word, "IN1"), in_out(Width::Double)}, multiply,
+            "IN1 × low word of OUT to OUT, 32 bits", kArithmetic | kDivisionByZero));
+    add(box("DIV", {in(Width::Word, "IN1"), in_out(Width::Double)}, divide,
+            "low word of OUT / IN1: quotient to its low word, remainder to its high word", kArithmetic | kDivisionByZero));
+    add(box("INCW", {in_out(Width::Word)}, increment<std::int16_t, 1>, "OUT + 1 to OUT, 16 bits", kArithmetic));
+    add(box("DECW", {in_out(Width::Word)}, increment<std::int16_t, -1>, "OUT - 1 to OUT, 16 bits", kArithmetic));
+    add(box("INCD", {in_out(Width::Double)}, increment<std::int32_t, 1>, "OUT + 1 to OUT, 32 bits", kArithmetic));
+    add(box("DECD", {in_out(Width::Double)}, increment<std::int32_t, -1>, "OUT - 1 to OUT, 32 bits", kArithmetic));
+  }
+  template <class Signed> static Body add_body() { return bodies::add<Signed>; }
+
+  void logic() {
+    group("Logic operations");
+    add(box("ANDW", {in(Width::Word, "IN1"), in_out(Width::Word)}, combine_words<Logic::And, std::uint16_t>, "OUT AND IN1 to OUT", kZero));
+    add(box("ORW", {in(Width::Word, "IN1"), in_out(Width::Word)}, combine_words<Logic::Or, std::uint16_t>, "OUT OR IN1 to OUT", kZero));
+    add(box("XORW", {in(Width::Word, "IN1"), in_out(Width::Word)}, combine_words<Logic::Xor, std::uint16_t>, "OUT XOR IN1 to OUT", kZero));
+    add(box("INVW", {in_out(Width::Word)}, invert<std::uint16_t>, "NOT OUT to OUT", kZero));
+    add(box("ANDD", {in(Width::Double, "IN1"), in_out(Width::Double)}, combine_words<Logic::And, std::uint32_t>, "OUT AND IN1 to OUT", kZero));
+    add(box("ORD", {in(Width::Double, "IN1"), in_out(Width::Double)}, combine_words<Logic::Or, std::uint32_t>, "OUT OR IN1 to OUT", kZero));
+    add(box("XORD", {in(Width::Double, "IN1"), in_out(Width::Double)}, combine_words<Logic::Xor, std::uint32_t>, "OUT XOR IN1 to OUT", kZero));
+    add(box("INVD", {in_out(Width::Double)}, invert<std::uint32_t>, "NOT OUT to OUT", kZero));
+  }
+
+  void shifts() {
+    group("Shift and rotate");
+    const OperandRule n = count(255, 0);
+    add(box("SLW", {in_out(Width::Word), n}, shift<std::uint16_t, true>, "shift OUT left by N, at most 16", kZero | kOverflow));
+    add(box("SRW", {in_out(Width::Word), n}, shift<std::uint16_t, false>, "shift OUT right by N, at most 16", kZero | kOverflow));
+    add(box("SLD", {in_out(Width::Double), n}, shift<std::uint32_t, true>, "shift OUT left by N, at most 32", kZero | kOverflow));
+    add(box("SRD", {in_out(Width::Double), n}, shift<std::uint32_t, false>, "shift OUT right by N, at most 32", kZero | kOverflow));
+    add(box("RLW", {in_out(Width::Word), n}, rotate<std::uint16_t, true>, "rotate OUT left by N modulo 16", kZero | kOverflow));
+    add(box("RRW", {in_out(Width::Word), n}, rotate<std::uint16_t, false>, "rotate OUT right by N modulo 16", kZero | kOverflow));
+    add(box("RLD", {in_out(Width::Double), n}, rotate<std::uint32_t, true>, "rotate OUT left by N modulo 32", kZero | kOverflow));
+    add(box("RRD", {in_out(Width::Double), n}, rotate<std::uint32_t, false>, "rotate OUT right by N modulo 32", kZero | kOverflow));
+  }
+
+  void program_control() {
+    group("Program control");
+    constexpr std::uint8_t not_in_interrupt = kMain | kSubroutine;
+    add(marks(Structure::Jump, box("JMP", {kLabel}, jump, "go on at LBL n of the same routine")));
+    add(marks(Structure::Label, row("LBL", {kLabel}, no_operation, "place that JMP n goes to")));
+    add(on(kFrom214, only_in(not_in_interrupt, marks(Structure::For,
+        box("FOR", {out(Width::Word, "INDX"), in(Width::Word, "INIT"), in(Width::Word, "FINAL")}, begin_loop,
+            "repeat up to NEXT with INDX from INIT to FINAL")))));
+    add(on(kFrom214, only_in(not_in_interrupt, marks(Structure::Next, row("NEXT", {}, next_pass, "end of a FOR loop; leaves the top of the stack at 1")))));
+    add(only_in(not_in_interrupt, marks(Structure::Call, box("CALL", {kSubroutineNumber}, bodies::call, "call subroutine n"))));
+    add(marks(Structure::SubroutineHead, row("SBR", {kSubroutineNumber}, no_operation, "head of subroutine n")));
+    add(only_in(kSubroutine, marks(Structure::SubroutineEnd, row("RET", {}, return_from_subroutine, "end of a subroutine"))));
+    add(only_in(kSubroutine, box("CRET", {}, return_from_subroutine, "return from a subroutine")));
+    add(only_in(kMain, box("END", {}, end_main_program, "end the main program of this scan")));
+    add(only_in(kMain, marks(Structure::MainEnd, row("MEND", {}, end_main_program, "end of the main program"))));
+    add(box("STOP", {}, stop, "go to STOP"));
+    add(box("WDR", {}, reset_watchdog, "restart the scan watchdog"));
+  }
+
+  void interrupts() {
+    group("Interrupts");
+    constexpr std::uint8_t not_in_interrupt = kMain | kSubroutine;
+    add(marks(Structure::InterruptHead, row("INT", {number(OperandKind::Interrupt, "n")}, no_operation, "head of interrupt routine n")));
+    add(only_in(kInterrupt, marks(Structure::InterruptEnd, row("RETI", {}, return_from_interrupt, "end of an interrupt routine"))));
+    add(only_in(kInterrupt, box("CRETI", {}, return_from_interrupt, "return from an interrupt routine")));
+    add(only_in(not_in_interrupt, box("ENI", {}, enable_interrupts<true>, "enable interrupts")));
+    add(only_in(not_in_interrupt, box("DISI", {}, enable_interrupts<false>, "disable interrupts: events wait in their queues")));
+    add(marks(Structure::Attach, box("ATCH", {kRoutine, kEvent}, attach, "attach interrupt routine INT to event EVNT")));
+    add(box("DTCH", {kEvent}, detach, "detach event EVNT: it is ignored"));
+  }
+
+  void communication() {
+    group("Communication");
+    OperandRule buffer{.name = "TBL", .areas = kBytes, .pointer = true};
+    add(box("XMT", {buffer, kPort}, transmit, "Freeport: send the characters of TBL, their number in its first byte"));
+    add(not_modelled("RCV", kFrom215, "Freeport: receive a message"));
+    add(not_modelled("NETR", kFrom214, "PPI master: read from another station"));
+    add(not_modelled("NETW", kFrom214, "PPI master: write to another station"));
+  }
+
+  /// Known by name, so that a program that uses them is told so.
+  void later() {
+    group("Not modelled yet");
+    for (const char* mnemonic : {"TON", "TONR", "CTU", "CTUD", "SHRB", "BCDI", "IBCD", "DECO", "ENCO", "SEG", "ATH", "HTA",
+                                 "LSCR", "SCRT", "SCRE", "HDEF", "HSC"})
+      add(not_modelled(mnemonic, kEveryCpu, ""));
+    for (const char* mnemonic : {"+R", "-R", "*R", "/R", "SQRT", "DTR", "TRUNC", "ATT", "FIFO", "LIFO", "FND=", "FND<>", "FND<",
+                                 "FND>", "TODR", "TODW", "PLS"})
+      add(not_modelled(mnemonic, kFrom214, ""));
+    for (const char* mnemonic : {"INCB", "DECB", "ANDB", "ORB", "XORB", "INVB", "SLB", "SRB", "RLB", "RRB", "PID"})
+      add(not_modelled(mnemonic, kFrom215, ""));
+    for (const char* mnemonic : {"TOF", "CTD", "*I", "/I", "*D", "/D", "BTI", "ITB", "ITD", "DTI", "ROUND", "ITA", "DTA", "RTA",
+                                 "BIR", "BIW", "LDS", "AENO", "SIN", "COS", "TAN", "LN", "EXP", "GPA", "SPA"})
+      add(not_modelled(mnemonic, kCpu22x, ""));
+  }
+
+  std::vector<Instruction> rows_;
+  std::set<std::string> texts_;  // mnemonics and meanings put together here; the rows refer to them
+  std::string_view group_;
+};
+
+const Table& table() {
+  static const Table kTable;
+  return kTable;
+}
+
+/// Edit distance, for the nearest mnemonic.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::span<const Instruction> all_instructions() { return table().rows(); }
+
+const Instruction* find_instruction(std::string_view mnemonic) {
+  static const std::map<std::string_view, const Instruction*> kIndex = [] {
+    std::map<std::string_view, const Instruction*> index;
+    for (const Instruction& instruction : all_instructions()) index.emplace(instruction.mnemonic, &instruction);
+    return index;
+  }();
+  const auto found = kIndex.find(mnemonic);
+  return found == kIndex.end() ? nullptr : found->second;
+}
+
+std::string_view nearest_mnemonic(std::string_view mnemonic) {
+  if (mnemonic.size() < 2 || mnemonic.size() > 12) return {};
+  std::string_view nearest;
+  std::size_t best = mnemonic.size() < 4 ? 2 : 3;  // so many changes are too many
+  for (const Instruction& instruction : all_instructions())
+    if (const std::size_t d = distance(mnemonic, instruction.mnemonic); d < best) {
+      best = d;
+      nearest = instruction.mnemonic;
+    }
+  return nearest;
+}
+
+std::string syntax(const Instruction& instruction) {
+  std::string text(instruction.mnemonic);
+  const char* separator = " ";
+  for (const OperandRule& rule : instruction.rules()) {
+    text.append(separator).append(rule.name);
+    separator = ", ";
+  }
+  return text;
+}
+
+}  // namespace s7200

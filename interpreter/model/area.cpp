@@ -1,0 +1,34 @@
+#include "interpreter/model/area.hpp"
+
+#include <algorithm>
+
+namespace s7200 {
+
+// Pointer codes of I, Q, M and V: facts section 9, read off real programs.
+// Not documented, modelled so: the codes of S, T and C. No program seen so far writes them as numbers.
+static constexpr std::array<AreaInfo, kAreas> kAreaTable{{
+    {Area::I, "I", image::kI, image::kI, 0, 0x00, "inputs (image register)"},
+    {Area::Q, "Q", image::kQ, image::kQ, 0, 0x01, "outputs (image register)"},
+    {Area::M, "M", image::kM, image::kM, 0, 0x02, "memory bits"},
+    {Area::SM, "SM", image::kSM, image::kSM, 0, {}, "special memory"},
+    {Area::S, "S", image::kS, image::kS, 0, 0x04, "sequence control relays"},
+    {Area::AI, "AI", image::kAI, kNoBits, 0, {}, "analog inputs"},
+    {Area::AQ, "AQ", image::kAQ, kNoBits, 0, {}, "analog outputs"},
+    {Area::T, "T", image::kT, image::kTBits, 2, 0x05, "timers"},
+    {Area::C, "C", image::kC, image::kCBits, 2, 0x06, "counters"},
+    {Area::HC, "HC", image::kHC, kNoBits, 4, {}, "high-speed counters"},
+    {Area::AC, "AC", image::kAC, kNoBits, 4, {}, "accumulators"},
+    {Area::V, "V", image::kV, image::kV, 0, 0x08, "variable memory"},
+}};
+
+const std::array<AreaInfo, kAreas>& all_areas() { return kAreaTable; }
+
+const AreaInfo& info(Area area) { return kAreaTable[static_cast<std::size_t>(area)]; }
+
+std::optional<Area> area_named(std::string_view name) {
+  const auto found = std::find_if(kAreaTable.begin(), kAreaTable.end(), [&](const AreaInfo& a) { return a.name == name; });
+  if (found == kAreaTable.end()) return {};
+  return found->area;
+}
+
+}  // namespace s7200

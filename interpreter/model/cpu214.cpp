@@ -1,0 +1,31 @@
+// CPU 214. Ranges: facts 1.1. Queues: S7-200 manual C230-02, 10-120. Baud rates: facts 2.1. Watchdog: A5E00066097-02, 9-146.
+// Not documented, modelled so: the CPU has its full set of expansion modules, so that all 64 input and 64 output points of
+// the image registers exist.
+#include "interpreter/model/cpu_model.hpp"
+#include "interpreter/model/embedded_times.hpp"
+
+namespace s7200 {
+
+const CpuModel& cpu214() {
+  static const CpuModel kModel{
+      .name = "214",
+      .self = kCpu214,
+      .size = {/*I*/ 8, /*Q*/ 8, /*M*/ 32, /*SM*/ 86, /*S*/ 16, /*AI*/ 32, /*AQ*/ 32, /*T*/ 128, /*C*/ 128, /*HC*/ 3,
+               /*AC*/ 4, /*V*/ 4096},
+      .labels = 256,
+      .subroutines = 64,
+      .interrupts = 128,
+      .program_words = 2048,
+      .queue_depth = {4, 16, 4},
+      .baud = {38'400, 19'200, 9'600, 4'800, 2'400, 1'200, 600, 300},
+      .identification = 0x20,
+      .shortest_timed_interval = 5 * kMillisecond,
+      .call_depth = 8,
+      .for_depth = 8,
+      .watchdog = 300 * kMillisecond,
+      .times_csv = embedded::kCpu214Times,
+  };
+  return kModel;
+}
+
+}  // namespace s7200

@@ -1,0 +1,77 @@
+// What differs between the CPUs of the S7-200 family.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/base/time.hpp"
+#include "interpreter/model/area.hpp"
+
+namespace s7200 {
+
+/// A set of CPU types. Instructions carry the set of those that have them, so that a message can say which CPU it needs.
+using CpuSet = std::uint8_t;
+inline constexpr CpuSet kCpu212 = 1, kCpu214 = 2, kCpu215 = 4, kCpu216 = 8;
+inline constexpr CpuSet kCpu21x = 15, kCpu22x = 16, kEveryCpu = 31;
+inline constexpr CpuSet kFrom214 = kEveryCpu & ~kCpu212, kFrom215 = kCpu215 | kCpu216 | kCpu22x;
+
+/// "CPU 214, 215, 216 or 22x"
+std::string to_text(CpuSet cpus);
+
+/// The three interrupt queues, in order of priority (S7-200 manual C230-02, 10-120).
+enum class Queue : std::uint8_t { Communication, Io, Timed };
+inline constexpr std::size_t kQueues = 3;
+
+struct InterruptEvent {
+  std::uint8_t number;
+  Queue queue;
+  std::uint8_t order;  ///< inside its queue, when several occur at the same instant
+  CpuSet cpus;
+  std::string_view cause;
+  bool modelled = true;
+};
+
+/// All events of the family. Nothing for a number that no CPU has.
+const std::vector<InterruptEvent>& all_events();
+const InterruptEvent* find_event(std::int64_t number);
+
+inline constexpr std::size_t kEvents = 34;
+
+struct CpuModel {
+  std::string_view name;                      ///< "214"
+  CpuSet self;
+  std::array<std::uint32_t, kAreas> size;     ///< bytes, or elements of T, C, HC and AC; by Area
+  std::uint32_t labels, subroutines, interrupts;  ///< how many numbers there are, from 0
+  std::uint32_t program_words;
+  std::array<std::uint8_t, kQueues> queue_depth;
+  std::array<std::uint32_t, 8> baud;          ///< by the three bits bbb of SMB30
+  std::uint8_t identification;                ///< SMB6
+  Time shortest_timed_interval;               ///< of SMB34 and SMB35
+  std::uint32_t call_depth, for_depth;        ///< nesting of subroutines and of FOR loops
+  Time watchdog;                              ///< longest scan
+  std::string_view times_csv;                 ///< execution times, in the format of model/times.hpp
+
+  std::uint32_t size_of(Area area) const { return size[static_cast<std::size_t>(area)]; }
+};
+
+/// The special-memory bytes the programmer may read and write, and whether the simulator does what they say.
+struct SpecialMemory {
+  std::uint8_t first, last;  ///< SMB numbers
+  bool modelled;
+  std::string_view meaning;
+};
+const std::vector<SpecialMemory>& special_memory();
+
+/// SM0.0–SM29.7 are read-only for the program (facts 1.1).
+inline constexpr std::uint32_t kReadOnlySpecialMemory = 30;
+
+const CpuModel& cpu214();
+
+/// Nothing for a name the simulator has no model of.
+const CpuModel* find_cpu(std::string_view name);
+const std::vector<const CpuModel*>& all_cpus();
+
+}  // namespace s7200

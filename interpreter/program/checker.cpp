@@ -1,0 +1,237 @@
+#include "interpreter/program/checker.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "interpreter/program/operands.hpp"
+#include "interpreter/program/structure.hpp"
+#include "interpreter/stl/printer.hpp"
+
+namespace s7200 {
+namespace {
+
+class Checker {
+ public:
+  Checker(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times)
+      : source_(std::move(parsed.source)), diagnostics_(std::move(parsed.diagnostics)), model_(model), times_(times) {}
+
+  CheckResult run() {
+    read_statements();
+    if (statements_.empty() && !has_errors(diagnostics_))
+      error({1, 1, 1}, "no STL statement in the file", "a program ends at least with MEND");
+    const bool all_known = !has_errors(diagnostics_);
+    ProgramStructure structure = check_structure(statements_, model_, diagnostics_);
+    if (all_known || !unknown_mnemonics_) check_logic_stack(statements_, diagnostics_);
+    check_size();
+    std::shared_ptr<const Program> program;
+    if (!has_errors(diagnostics_)) program = decode(structure);
+    stl::sort(diagnostics_);
+    return {std::move(program), std::move(source_), std::move(diagnostics_)};
+  }
+
+ private:
+  void error(const stl::Position& at, std::string message, std::string hint = {}) {
+    diagnostics_.push_back({stl::Severity::Error, at, std::move(message), std::move(hint)});
+  }
+
+  void read_statements() {
+    bool begins_network = false;
+    for (const stl::Line& line : source_.lines) {
+      if (std::holds_alternative<stl::NetworkHead>(line)) begins_network = true;
+      const auto* statement = std::get_if<stl::Statement>(&line);
+      if (!statement) continue;
+      if (const Instruction* instruction = known_instruction(*statement)) {
+        placed_.emplace_back();
+        const bool good = place_operands(*instruction, *statement);
+        statements_.push_back({statement, instruction, good, begins_network});
+      } else {
+        unknown_mnemonics_ = true;
+      }
+      begins_network = false;
+    }
+  }
+
+  const Instruction* known_instruction(const stl::Statement& statement) {
+    const Instruction* instruction = find_instruction(statement.mnemonic);
+    if (!instruction) {
+      const std::string_view nearest = nearest_mnemonic(statement.mnemonic);
+      error(statement.position, fmt::format("unknown instruction '{}'", statement.mnemonic),
+            nearest.empty() ? "" : fmt::format("is {} meant?", nearest));
+      return nullptr;
+    }
+    if (!(instruction->cpus & model_.self)) {
+      error(statement.position, fmt::format("CPU {} has no {}", model_.name, statement.mnemonic),
+            fmt::format("{} needs {}", statement.mnemonic, to_text(instruction->cpus)));
+      return nullptr;
+    }
+    if (!instruction->body) {
+      error(statement.position, fmt::format("{} is not modelled yet", statement.mnemonic));
+      return nullptr;
+    }
+    return instruction;
+  }
+
+  bool place_operands(const Instruction& instruction, const stl::Statement& statement) {
+    const std::size_t given = statement.operands.size();
+    if (given != instruction.operands) {
+      const stl::Position at = given > instruction.operands ? statement.operands[instruction.operands].position : statement.position;
+      error(at, fmt::format("{} takes {}, not {}", instruction.mnemonic, counted(instruction.operands), given),
+            fmt::format("write {}", syntax(instruction)));
+      return false;
+    }
+    bool good = true;
+    auto& placed = placed_.back();
+    for (std::size_t i = 0; i < given; ++i) {
+      const auto operand = place_operand(instruction, instruction.operand[i], statement.operands[i], model_, constants_, diagnostics_);
+      if (operand) placed[i] = *operand;
+      good = good && operand;
+    }
+    return good && blocks_fit(instruction, statement);
+  }
+
+  static std::string counted(std::size_t operands) {
+    return operands == 0 ? "no operand" : operands == 1 ? "1 operand" : fmt::format("{} operands", operands);
+  }
+
+  /// A constant count shows at load whether a block of bytes, words or bits leaves its area.
+  bool blocks_fit(const Instruction& instruction, const stl::Statement& statement) {
+    const std::size_t last = instruction.operands - std::size_t{1};
+    if (instruction.operands < 2 || instruction.operand[last].name != "N" || !placed_.back()[last].constant) return true;
+    if (!is_block(instruction)) return true;
+    const std::int64_t count = *placed_.back()[last].constant;
+    bool good = true;
+    for (std::size_t i = 0; i < last; ++i) {
+      const PlacedOperand& placed = placed_.back()[i];
+      if (!placed.area || fits(instruction.operand[i], placed, count)) continue;
+      error(statement.operands[i].position,
+            fmt::format("{} {} from {} on leave {} memory (range error 0091)", count, unit(instruction.operand[i].width),
+                        stl::to_text(statement.operands[i]), info(*placed.area).name));
+      good = false;
+    }
+    return good;
+  }
+
+  static std::string_view unit(Width width) {
+    return width == Width::Bit ? "bits" : width == Width::Byte ? "bytes" : width == Width::Word ? "words" : "double words";
+  }
+
+  /// Shifts have a count too, but no block: their first operand is one value.
+  static bool is_block(const Instruction& instruction) {
+    return instruction.operand[0].width == Width::Bit || instruction.operands == 3;
+  }
+
+  bool fits(const OperandRule& rule, const PlacedOperand& placed, std::int64_t count) const {
+    const AreaInfo& area = info(*placed.area);
+    const std::int64_t size = model_.size_of(*placed.area);
+    if (rule.width == Width::Bit) {
+      const std::int64_t first = std::int64_t{placed.operand.at - area.bits} * 8 + placed.operand.bit;
+      return first + count <= size * (area.element ? 1 : 8);
+    }
+    if (rule.areas & set_of(Area::AC)) return true;  // FILL's IN: one value
+    return placed.operand.at - area.base + count * placed.operand.width <= size * std::max(1u, area.element);
+  }
+
+  void check_size() {
+    if (statements_.size() > model_.program_words)
+      error(statements_[model_.program_words].statement->position,
+            fmt::format("the program is too large: {} instructions of at least one word each, CPU {} has {} words (compile rule 0080)",
+                        statements_.size(), model_.name, model_.program_words));
+    if (constants_.bytes().size() > image::kSize - image::kConstants)
+      error({1, 1, 1}, "the program has too many different constants (compile rule 0080)");
+  }
+
+  // --- decoding ---
+
+  std::shared_ptr<const Program> decode(const ProgramStructure& structure) {
+    auto program = std::make_shared<Program>();
+    program->model = &model_;
+    program->times = times_;
+    program->source = source_;
+    program->subroutine = structure.subroutine;
+    program->interrupt = structure.interrupt;
+    for (std::uint32_t i = 0; i < statements_.size(); ++i) {
+      program->statements.push_back(*statements_[i].statement);
+      program->ops.push_back(decode(i, structure));
+    }
+    program->constants = constants_.bytes();
+    for (const AreaInfo& area : all_areas())
+      if (area.pointer_code)
+        program->reach[*area.pointer_code] = {area.base, model_.size_of(area.area) * std::max(1u, area.element)};
+    program->no_power_flow = times_[SystemTime::NoPowerFlow];
+    program->interrupt_entry = times_[SystemTime::InterruptEntry];
+    const Time overhead = times_[SystemTime::ScanOverhead];
+    program->scan_phase = {overhead / 4, overhead / 4, overhead / 4, overhead - 3 * (overhead / 4)};
+    return program;
+  }
+
+  Op decode(std::uint32_t i, const ProgramStructure& structure) {
+    const Instruction& instruction = *statements_[i].instruction;
+    const bool is_next = instruction.structure == Structure::Next;
+    const auto& placed = placed_[is_next ? structure.loop_head[i] : i];  // NEXT works on the operands of its FOR
+    Op op;
+    op.instruction = &instruction;
+    op.statement = i;
+    op.power_mask = instruction.needs_power_flow;
+    op.target = structure.target[i];
+    op.skip_to = instruction.structure == Structure::For ? op.target : i + 1;
+    bool writes_special_memory = false;
+    for (std::size_t k = 0; k < op.operand.size(); ++k) {
+      op.operand[k] = placed[k].operand;
+      op.has_pointer |= placed[k].operand.pointer;
+      writes_special_memory |= placed[k].area == Area::SM && k < instruction.operands && instruction.operand[k].role != Role::In;
+    }
+    add_hidden_operands(op);
+    op.body = writes_special_memory ? run_with_port_control : op.has_pointer ? run_with_pointers : instruction.body;
+    set_cost(op, placed);
+    return op;
+  }
+
+  /// Operands that are not written: EU and ED have a memory bit of their own, immediate instructions the point itself.
+  void add_hidden_operands(Op& op) {
+    const std::string_view mnemonic = op.instruction->mnemonic;
+    if (mnemonic == "EU" || mnemonic == "ED") {
+      op.operand[0] = {.at = image::kEdges + edges_ / 8, .bit = static_cast<std::uint8_t>(edges_ % 8)};
+      ++edges_;
+    }
+    if (op.instruction->immediate == Immediate::Input) op.operand[0].at += image::kInputs - image::kI;
+    if (op.instruction->immediate == Immediate::Output) {
+      op.operand[2] = op.operand[0];
+      op.operand[2].at += image::kOutputs - image::kQ;
+    }
+  }
+
+  void set_cost(Op& op, const std::array<PlacedOperand, 3>& placed) const {
+    const auto cost = times_.cost(op.instruction->mnemonic, placed[0].area);
+    assert(cost && "the table of times has a line for every instruction");
+    const auto pointers = std::count_if(op.operand.begin(), op.operand.end(), [](const Operand& o) { return o.pointer; });
+    op.cost = static_cast<std::int32_t>(cost->base + pointers * times_[SystemTime::IndirectOperand]);
+    op.unit_cost = static_cast<std::int32_t>(cost->per_unit);
+  }
+
+  stl::Source source_;
+  stl::Diagnostics diagnostics_;
+  const CpuModel& model_;
+  const TimeTable& times_;
+  ConstantPool constants_;
+  std::vector<CheckedStatement> statements_;
+  std::vector<std::array<PlacedOperand, 3>> placed_;  // of each of statements_
+  std::uint32_t edges_ = 0;
+  bool unknown_mnemonics_ = false;
+};
+
+}  // namespace
+
+CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times) {
+  return Checker(std::move(parsed), model, times).run();
+}
+
+TimeTable default_times(const CpuModel& model) {
+  TimeTable times;
+  [[maybe_unused]] const auto errors = times.add(model.times_csv, std::string("times of CPU ").append(model.name));
+  assert(errors.empty());
+  return times;
+}
+
+}  // namespace s7200

@@ -1,0 +1,331 @@
+#include "interpreter/program/operands.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+
+#include "interpreter/base/bytes.hpp"
+#include "interpreter/stl/printer.hpp"
+
+namespace s7200 {
+namespace {
+
+template <class... Visitors>
+struct Overloaded : Visitors... {
+  using Visitors::operator()...;
+};
+
+std::string_view name_of(Width width) {
+  switch (width) {
+    case Width::Bit: return "bit";
+    case Width::Byte: return "byte";
+    case Width::Word: return "word";
+    case Width::Double: return "double word";
+  }
+  return {};
+}
+
+std::string_view letter_of(Width width) {
+  switch (width) {
+    case Width::Bit: return "";
+    case Width::Byte: return "B";
+    case Width::Word: return "W";
+    case Width::Double: return "D";
+  }
+  return {};
+}
+
+bool is_numbered(Area area) { return info(area).element != 0; }
+
+/// Width that an address names; nothing for an accumulator without a letter, which takes any.
+std::optional<Width> width_of(const stl::Address& address, Area area) {
+  switch (address.size) {
+    case stl::Size::Bit: return Width::Bit;
+    case stl::Size::Byte: return Width::Byte;
+    case stl::Size::Word: return Width::Word;
+    case stl::Size::Double: return Width::Double;
+    case stl::Size::None: break;
+  }
+  switch (area) {
+    case Area::AC: return {};
+    case Area::HC: return Width::Double;
+    default: return Width::Word;  // T, C current values; AI, AQ
+  }
+}
+
+std::string range_text(const CpuModel& model, Area area, Width width) {
+  const std::uint32_t size = model.size_of(area);
+  if (is_numbered(area)) return fmt::format("{0}0 to {0}{1}", info(area).name, size - 1);
+  if (width == Width::Bit) return fmt::format("{0}0.0 to {0}{1}.7", info(area).name, size - 1);
+  const std::uint32_t last = area == Area::AI || area == Area::AQ ? size - 2 : size - bytes_of(width);
+  return fmt::format("{} to {}", address_text(area, width, 0, 0), address_text(area, width, last, 0));
+}
+
+std::string areas_text(const OperandRule& rule) {
+  std::string text;
+  const auto add = [&](std::string_view what) { text.append(text.empty() ? "" : ", ").append(what); };
+  for (const AreaInfo& area : all_areas())
+    if (contains(rule.areas, area.area))
+      add(is_numbered(area.area) || area.area == Area::AI || area.area == Area::AQ
+              ? std::string(area.name) + (area.element ? "" : "W")
+              : std::string(area.name).append(letter_of(rule.width)));
+  if (rule.constant) add("a constant");
+  if (rule.pointer) add("*VD, *AC");
+  if (rule.address_of) add("&…");
+  return text;
+}
+
+/// Checks one operand; every way out that is not a PlacedOperand has added a diagnostic.
+class Placing {
+ public:
+  Placing(const Instruction& instruction, const OperandRule& rule, const stl::Operand& written, const CpuModel& model,
+          ConstantPool& constants, stl::Diagnostics& diagnostics)
+      : instruction_(instruction), rule_(rule), written_(written), model_(model), constants_(constants),
+        diagnostics_(diagnostics) {}
+
+  std::optional<PlacedOperand> result() {
+    if (rule_.kind != OperandKind::Memory) return plain_number();
+    return std::visit(Overloaded{[&](const stl::Integer& v) { return integer(v); },
+                                 [&](const stl::Real& v) { return real(v); },
+                                 [&](const stl::Address& v) { return address(v); },
+                                 [&](const stl::AddressOf& v) { return address_of(v); },
+                                 [&](const stl::Indirect& v) { return indirect(v); },
+                                 [&](const stl::Name& v) { return name(v); }},
+                      written_.value);
+  }
+
+ private:
+  using Result = std::optional<PlacedOperand>;
+
+  Result error(std::string message, std::string hint = {}) {
+    diagnostics_.push_back({stl::Severity::Error, written_.position, std::move(message), std::move(hint)});
+    return {};
+  }
+
+  std::string text() const { return stl::to_text(written_); }
+  std::string of_instruction() const { return fmt::format("{} of {}", rule_.name, instruction_.mnemonic); }
+  std::uint16_t width() const { return static_cast<std::uint16_t>(bytes_of(rule_.width)); }
+
+  Result wrong_kind() {
+    return error(fmt::format("{} cannot be {}", of_instruction(), text()),
+                 fmt::format("{} takes {}", of_instruction(), areas_text(rule_)));
+  }
+
+  // --- numbers that are part of the instruction ---
+
+  Result plain_number() {
+    const auto* value = std::get_if<stl::Integer>(&written_.value);
+    if (!value) return error(fmt::format("{} takes a number here, not {}", instruction_.mnemonic, text()));
+    const auto [what, last] = number_range();
+    if (value->value < 0 || value->value > last)
+      return error(fmt::format("{} {} does not exist on CPU {}", what, value->value, model_.name),
+                   fmt::format("{}s are numbered 0 to {}", what, last));
+    if (rule_.kind == OperandKind::Event && !event_exists(value->value)) return {};
+    return PlacedOperand{{.at = static_cast<std::uint32_t>(value->value)}, {}, value->value};
+  }
+
+  std::pair<std::string_view, std::int64_t> number_range() const {
+    switch (rule_.kind) {
+      case OperandKind::Label: return {"label", model_.labels - 1};
+      case OperandKind::Subroutine: return {"subroutine", model_.subroutines - 1};
+      case OperandKind::Interrupt: return {"interrupt routine", model_.interrupts - 1};
+      case OperandKind::Event: return {"event", static_cast<std::int64_t>(kEvents) - 1};
+      case OperandKind::Port: return {"port", 0};
+      default: return {"number", rule_.max};
+    }
+  }
+
+  bool event_exists(std::int64_t number) {
+    const InterruptEvent* event = find_event(number);
+    if ((event->cpus & model_.self) == 0)
+      error(fmt::format("CPU {} has no event {} ({})", model_.name, number, event->cause),
+            fmt::format("it needs {}", to_text(event->cpus)));
+    else if (!event->modelled)
+      error(fmt::format("event {} ({}) is not modelled yet: it would never occur", number, event->cause));
+    else
+      return true;
+    return false;
+  }
+
+  // --- constants ---
+
+  Result integer(const stl::Integer& constant) {
+    if (!rule_.constant) return constant_refused();
+    if (rule_.real)
+      return error(fmt::format("{} is a real number, {} is an integer", of_instruction(), text()),
+                   constant.form == stl::Integer::Form::Decimal ? fmt::format("write {}.0", constant.value) : "");
+    const int bits = 8 * width();
+    const std::int64_t lowest = -(std::int64_t{1} << (bits - 1)), highest = (std::int64_t{1} << bits) - 1;
+    if (constant.form == stl::Integer::Form::Ascii && constant.characters != width())
+      return error(fmt::format("{} has {} characters, {} is a {}", text(), constant.characters, of_instruction(),
+                               name_of(rule_.width)));
+    if (constant.value < lowest || constant.value > highest)
+      return error(fmt::format("{} does not fit {}, a {}", text(), of_instruction(), name_of(rule_.width)),
+                   fmt::format("a {} is {} to {} signed, 0 to {} unsigned", name_of(rule_.width), lowest, -lowest - 1, highest));
+    if (constant.value < rule_.min || constant.value > rule_.max)
+      return error(fmt::format("{} is {} to {}, not {}", of_instruction(), rule_.min, rule_.max, text()));
+    PlacedOperand placed = pooled(static_cast<std::uint32_t>(constant.value));
+    placed.constant = constant.value;
+    return placed;
+  }
+
+  Result real(const stl::Real& constant) {
+    if (!rule_.constant) return constant_refused();
+    if (!rule_.real)
+      return error(fmt::format("{} is an integer {}, {} is a real number", of_instruction(), name_of(rule_.width), text()));
+    return pooled(std::bit_cast<std::uint32_t>(constant.value));
+  }
+
+  Result constant_refused() {
+    return error(fmt::format("{} cannot be the constant {}", of_instruction(), text()),
+                 fmt::format("{} takes {}", of_instruction(), areas_text(rule_)));
+  }
+
+  PlacedOperand pooled(std::uint32_t value) {
+    return {{.at = constants_.place(value, width()), .width = width()}, {}, {}};
+  }
+
+  // --- addresses ---
+
+  Result address(const stl::Address& address) {
+    const auto area = known_area(address);
+    if (!area || !width_fits(address, *area)) return {};
+    if (!contains(rule_.areas, *area)) return area_refused(*area);
+    if (!in_range(address, *area, rule_.width) || !may_use_special_memory(address, *area)) return {};
+    return PlacedOperand{place(address, *area), *area, {}};
+  }
+
+  std::optional<Area> known_area(const stl::Address& address) {
+    const auto area = area_named(address.area);
+    if (!area) {
+      error(fmt::format("CPU {} has no {} memory", model_.name, address.area),
+            address.area == "L" ? "local memory needs CPU 22x" : "");
+    }
+    return area;
+  }
+
+  bool width_fits(const stl::Address& address, Area area) {
+    if (rule_.width == Width::Bit && is_numbered(area) && info(area).bits != kNoBits && address.size == stl::Size::None)
+      return true;  // T33, C4: the timer or counter bit
+    const auto width = width_of(address, area);
+    if (!width || *width == rule_.width) return true;
+    std::string meant;
+    if (!is_numbered(area) && area != Area::AI && area != Area::AQ)
+      meant = fmt::format("is {} meant?", address_text(area, rule_.width, address.number, 0));
+    error(fmt::format("{} is a {}, {} is a {}", of_instruction(), name_of(rule_.width), text(), name_of(*width)), meant);
+    return false;
+  }
+
+  Result area_refused(Area area) {
+    if (rule_.role != Role::In && (area == Area::AI || area == Area::HC))
+      return error(fmt::format("{} is read-only", text()), fmt::format("{} takes {}", of_instruction(), areas_text(rule_)));
+    if (rule_.role != Role::Out && area == Area::AQ)
+      return error(fmt::format("{} is write-only", text()), fmt::format("{} takes {}", of_instruction(), areas_text(rule_)));
+    return wrong_kind();
+  }
+
+  bool in_range(const stl::Address& address, Area area, Width width) {
+    const std::uint32_t size = model_.size_of(area);
+    const std::uint64_t end = std::uint64_t{address.number} + (is_numbered(area) ? 1 : bytes_of(width));
+    const bool odd = (area == Area::AI || area == Area::AQ) && address.number % 2 != 0;
+    if (end <= size && address.bit < 8 && !odd) return true;
+    error(odd ? fmt::format("{} is an odd address; analog values lie at even ones", text())
+              : fmt::format("{} does not exist on CPU {}", text(), model_.name),
+          fmt::format("{} memory is {}", info(area).name, range_text(model_, area, width)));
+    return false;
+  }
+
+  bool may_use_special_memory(const stl::Address& address, Area area) {
+    if (area != Area::SM) return true;
+    if (rule_.role != Role::In && address.number < kReadOnlySpecialMemory) {
+      error(fmt::format("{} is read-only", text()), fmt::format("SM0.0 to SM{}.7 are written by the CPU only",
+                                                                kReadOnlySpecialMemory - 1));
+      return false;
+    }
+    for (const SpecialMemory& entry : special_memory()) {
+      if (entry.modelled || address.number + width() <= entry.first || address.number > entry.last) continue;
+      error(fmt::format("SMB{} to SMB{} ({}) are not modelled yet", entry.first, entry.last, entry.meaning));
+      return false;
+    }
+    return true;
+  }
+
+  Operand place(const stl::Address& address, Area area) const {
+    const AreaInfo& a = info(area);
+    if (rule_.width == Width::Bit && is_numbered(area))
+      return {.at = a.bits + address.number / 8, .bit = static_cast<std::uint8_t>(address.number % 8)};
+    if (rule_.width == Width::Bit) return {.at = a.bits + address.number, .bit = address.bit};
+    if (area == Area::AC) return {.at = a.base + 4 * address.number + 4u - width(), .width = width()};
+    return {.at = a.base + std::max(1u, a.element) * address.number, .width = width()};
+  }
+
+  // --- pointers ---
+
+  Result address_of(const stl::AddressOf& operand) {
+    if (!rule_.address_of) return wrong_kind();
+    const auto area = known_area(operand.target);
+    if (!area) return {};
+    const auto code = info(*area).pointer_code;
+    if (!code || operand.target.size == stl::Size::Bit)
+      return error(fmt::format("{} cannot be pointed at", stl::to_text({operand.target, {}})),
+                   "a pointer leads to bytes of I, Q, M, V or S, or to the current value of a T or C");
+    const auto width = width_of(operand.target, *area);
+    if (!in_range(operand.target, *area, *width)) return {};
+    return pooled(std::uint32_t{*code} << 24 | std::max(1u, info(*area).element) * operand.target.number);
+  }
+
+  Result indirect(const stl::Indirect& operand) {
+    if (!rule_.pointer) return wrong_kind();
+    const auto area = known_area(operand.pointer);
+    if (!area) return {};
+    const bool in_accumulator = *area == Area::AC && operand.pointer.size != stl::Size::Byte &&
+                                operand.pointer.size != stl::Size::Word && operand.pointer.size != stl::Size::Bit;
+    const bool in_memory = *area == Area::V && operand.pointer.size == stl::Size::Double;
+    if (!in_accumulator && !in_memory)
+      return error(fmt::format("{} cannot hold a pointer", stl::to_text({operand.pointer, {}})),
+                   "a pointer is a double word of V memory (*VD100) or an accumulator (*AC1 to *AC3)");
+    if (in_accumulator && operand.pointer.number == 0)
+      return error("AC0 cannot hold a pointer", "use AC1, AC2 or AC3");
+    if (!in_range(operand.pointer, *area, Width::Double)) return {};
+    const AreaInfo& a = info(*area);
+    return PlacedOperand{{.at = a.base + std::max(1u, a.element) * operand.pointer.number, .pointer = true, .width = width()},
+                         {}, {}};
+  }
+
+  Result name(const stl::Name& name) {
+    return error(fmt::format("'{}' is no address", name.text),
+                 "symbols and local variables are not read yet: write the address itself");
+  }
+
+  const Instruction& instruction_;
+  const OperandRule& rule_;
+  const stl::Operand& written_;
+  const CpuModel& model_;
+  ConstantPool& constants_;
+  stl::Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+std::uint32_t ConstantPool::place(std::uint32_t value, std::uint32_t width) {
+  if (width < 4) value &= (1u << (8 * width)) - 1;
+  const auto [found, added] = places_.try_emplace({value, width}, image::kConstants + static_cast<std::uint32_t>(bytes_.size()));
+  if (added)
+    for (std::uint32_t shift = 8 * width; shift > 0; shift -= 8) bytes_.push_back(static_cast<std::uint8_t>(value >> (shift - 8)));
+  return found->second;
+}
+
+std::string address_text(Area area, Width width, std::uint32_t number, std::uint8_t bit) {
+  const std::string_view name = info(area).name;
+  if (is_numbered(area)) return fmt::format("{}{}", name, number);
+  if (width == Width::Bit) return fmt::format("{}{}.{}", name, number, bit);
+  return fmt::format("{}{}{}", name, letter_of(width), number);
+}
+
+std::optional<PlacedOperand> place_operand(const Instruction& instruction, const OperandRule& rule,
+                                           const stl::Operand& written, const CpuModel& model, ConstantPool& constants,
+                                           stl::Diagnostics& diagnostics) {
+  return Placing(instruction, rule, written, model, constants, diagnostics).result();
+}
+
+}  // namespace s7200

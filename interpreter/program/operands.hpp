@@ -1,0 +1,42 @@
+// One operand: what the rule of its instruction says about it, and its place in the image.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "interpreter/program/program.hpp"
+#include "interpreter/stl/diagnostic.hpp"
+
+namespace s7200 {
+
+/// The program's constants, each once, as they will lie in the image.
+class ConstantPool {
+ public:
+  /// Place in the image of a constant of `width` bytes.
+  std::uint32_t place(std::uint32_t value, std::uint32_t width);
+  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+
+ private:
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> places_;
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// What a checked operand turned out to be.
+struct PlacedOperand {
+  Operand operand;
+  std::optional<Area> area;               ///< of a direct address
+  std::optional<std::int64_t> constant;   ///< of a constant or a plain number
+};
+
+/// Checks `written` against `rule` on `model`; adds a diagnostic and returns nothing when it does not fit.
+std::optional<PlacedOperand> place_operand(const Instruction& instruction, const OperandRule& rule,
+                                           const stl::Operand& written, const CpuModel& model, ConstantPool& constants,
+                                           stl::Diagnostics& diagnostics);
+
+/// `VB100`, `T33`, `M31.7`: a place in words, of a memory area.
+std::string address_text(Area area, Width width, std::uint32_t number, std::uint8_t bit);
+
+}  // namespace s7200

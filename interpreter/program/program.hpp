@@ -1,0 +1,75 @@
+// A checked program: decoded, immutable, ready to execute. Nothing is looked up by name from here on.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "interpreter/instructions/instruction.hpp"
+#include "interpreter/model/cpu_model.hpp"
+#include "interpreter/model/times.hpp"
+#include "interpreter/stl/ast.hpp"
+
+namespace s7200 {
+
+/// Where an operand lies in the image.
+struct Operand {
+  std::uint32_t at = 0;     ///< of a number that is part of the instruction (label, event …): the number itself
+  std::uint8_t bit = 0;     ///< number of the bit in its byte
+  bool pointer = false;     ///< `at` holds the pointer (a double word), not the value
+  std::uint16_t width = 1;  ///< bytes
+
+  bool operator==(const Operand&) const = default;
+};
+
+/// A decoded instruction: one cache line.
+struct Op {
+  Body body = nullptr;             ///< what the loop calls: instruction->body, or a step around it
+  std::int32_t cost = 0;           ///< ns, with power flow and for operands as they are
+  std::int32_t unit_cost = 0;      ///< ns more for each bit, byte, word … (see the table of times)
+  std::uint32_t skip_to = 0;       ///< op to go on with when power flow is needed and missing
+  std::uint32_t target = 0;        ///< op to go on with: JMP, CALL, NEXT (loop body), FOR (behind its NEXT)
+  std::array<Operand, 3> operand{};
+  std::uint8_t power_mask = 0;     ///< 1: needs power flow
+  bool has_pointer = false;        ///< some operand is a pointer
+  std::uint32_t statement = 0;     ///< in Program::statements
+  const Instruction* instruction = nullptr;
+
+  const Operand& operator[](std::size_t i) const { return operand[i]; }
+};
+
+// Steps around a body, chosen at load for the operands that need one; the CPU defines them.
+
+/// Resolves pointer operands first: the body then finds direct ones only.
+void run_with_pointers(Cpu& cpu, const Op& op);
+/// For an instruction that writes special memory: the port follows SMB30.
+void run_with_port_control(Cpu& cpu, const Op& op);
+
+inline constexpr std::uint32_t kNoRoutine = 0xFFFF'FFFF;
+
+/// What a pointer with a certain top byte reaches on the program's CPU.
+struct Reach {
+  std::uint32_t base = 0;  ///< in the image
+  std::uint32_t size = 0;  ///< bytes; 0: nothing
+};
+
+struct Program {
+  const CpuModel* model = nullptr;
+  TimeTable times;
+  stl::Source source;
+  std::vector<stl::Statement> statements;   ///< one for each op
+  std::vector<Op> ops;
+  std::vector<std::uint8_t> constants;      ///< content of the image from image::kConstants on
+  std::array<std::uint32_t, 64> subroutine{};  ///< op of each SBR; kNoRoutine where there is none
+  std::array<std::uint32_t, 128> interrupt{};  ///< op of each INT
+
+  std::array<Reach, 16> reach{};                ///< by the top byte of a pointer
+
+  // Times that the CPU needs while running, taken from `times`.
+  Time no_power_flow = 0, interrupt_entry = 0;
+  std::array<Time, 4> scan_phase{};  ///< input read, communication, self-test, output write
+
+  const stl::Statement& statement(std::uint32_t op) const { return statements[ops[op].statement]; }
+};
+
+}  // namespace s7200

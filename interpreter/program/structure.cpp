@@ -1,0 +1,346 @@
+#include "interpreter/program/structure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace s7200 {
+namespace {
+
+std::string routine_text(Part part, std::uint32_t number) {
+  if (part == kMain) return "the main program";
+  return fmt::format("{} {}", part == kSubroutine ? "SBR" : "INT", number);
+}
+
+std::string_view end_of(Part part) { return part == kMain ? "MEND" : part == kSubroutine ? "RET" : "RETI"; }
+
+/// The number behind a mnemonic such as LBL, JMP, SBR, CALL, INT; checked to be there.
+std::uint32_t number_of(const CheckedStatement& s, std::size_t i = 0) {
+  return static_cast<std::uint32_t>(std::get<stl::Integer>(s.statement->operands[i].value).value);
+}
+
+class StructureCheck {
+ public:
+  StructureCheck(const std::vector<CheckedStatement>& statements, const CpuModel& model, stl::Diagnostics& diagnostics)
+      : statements_(statements), model_(model), diagnostics_(diagnostics) {
+    result_.target.assign(statements.size(), 0);
+    result_.loop_head.assign(statements.size(), 0);
+    result_.subroutine.fill(kNoRoutine);
+    result_.interrupt.fill(kNoRoutine);
+  }
+
+  ProgramStructure run() {
+    for (std::uint32_t i = 0; i < statements_.size(); ++i) visit(i);
+    end_routine();
+    if (!ended_ && !statements_.empty()) missing_end(statements_.back().statement->position);
+    check_jumps();
+    check_calls();
+    check_attachments();
+    warn_of_unused();
+    warn_of_recursion();
+    return std::move(result_);
+  }
+
+ private:
+  /// The main program, a subroutine or an interrupt routine, and how it is called in messages.
+  struct Routine {
+    Part part = kMain;
+    std::uint32_t number = 0;
+    bool operator==(const Routine&) const = default;
+    auto operator<=>(const Routine&) const = default;
+  };
+
+  struct Place {
+    std::uint32_t statement;
+    Routine routine;
+  };
+
+  void error(const stl::Position& at, std::string message, std::string hint = {}) {
+    diagnostics_.push_back({stl::Severity::Error, at, std::move(message), std::move(hint)});
+  }
+  void warning(const stl::Position& at, std::string message, std::string hint = {}) {
+    diagnostics_.push_back({stl::Severity::Warning, at, std::move(message), std::move(hint)});
+  }
+  const stl::Position& position(std::uint32_t i) const { return statements_[i].statement->position; }
+
+  void visit(std::uint32_t i) {
+    const CheckedStatement& s = statements_[i];
+    switch (s.instruction->structure) {
+      case Structure::SubroutineHead: return begin_routine(i, kSubroutine, subroutines_);
+      case Structure::InterruptHead: return begin_routine(i, kInterrupt, interrupts_);
+      default: break;
+    }
+    if (ended_) return stray(i);
+    if (!(s.instruction->allowed & routine_.part)) return not_allowed(i);
+    switch (s.instruction->structure) {
+      case Structure::Label: return label(i);
+      case Structure::Jump: if (s.operands_good) jumps_.push_back({i, routine_}); return;
+      case Structure::Call: if (s.operands_good) calls_.push_back({i, routine_}); return;
+      case Structure::Attach: if (s.operands_good) attachments_.push_back({i, routine_}); return;
+      case Structure::For: return begin_loop(i);
+      case Structure::Next: return end_loop(i);
+      case Structure::MainEnd:
+      case Structure::SubroutineEnd:
+      case Structure::InterruptEnd: end_routine(); ended_ = true; return;
+      default: return;
+    }
+  }
+
+  // --- routines ---
+
+  void begin_routine(std::uint32_t i, Part part, std::map<std::uint32_t, std::uint32_t>& defined) {
+    if (!ended_) missing_end(position(i));
+    end_routine();
+    ended_ = false;
+    stray_reported_ = false;
+    if (!statements_[i].operands_good) {
+      routine_ = {part, kNoRoutine};
+      return;
+    }
+    routine_ = {part, number_of(statements_[i])};
+    const auto [first, added] = defined.emplace(routine_.number, i);
+    if (!added)
+      error(position(i), fmt::format("{} is defined twice", routine_text(part, routine_.number)),
+            fmt::format("it stands first in line {}", position(first->second).line));
+    auto& entry = part == kSubroutine ? result_.subroutine[routine_.number] : result_.interrupt[routine_.number];
+    entry = i;
+  }
+
+  void missing_end(const stl::Position& at) {
+    static constexpr std::string_view kRule[] = {"0083", "0088", "0089"};
+    const std::size_t rule = routine_.part == kMain ? 0 : routine_.part == kSubroutine ? 1 : 2;
+    error(at, fmt::format("{} has no {} (compile rule {})", routine_text(routine_.part, routine_.number), end_of(routine_.part),
+                          kRule[rule]),
+          fmt::format("end it with {}", end_of(routine_.part)));
+  }
+
+  void end_routine() {
+    for (const std::uint32_t loop : loops_)
+      error(position(loop), "FOR without NEXT (compile rule 0086)", "close the loop with NEXT in the same routine");
+    loops_.clear();
+  }
+
+  void stray(std::uint32_t i) {
+    if (!stray_reported_)
+      error(position(i), fmt::format("behind {} only SBR or INT may follow", end_of(routine_.part)),
+            routine_.part == kSubroutine ? "a conditional return is CRET"
+            : routine_.part == kInterrupt ? "a conditional return is CRETI"
+                                          : "a conditional end is END");
+    stray_reported_ = true;
+  }
+
+  void not_allowed(std::uint32_t i) {
+    const Instruction& instruction = *statements_[i].instruction;
+    const std::string where = routine_.part == kMain         ? "the main program"
+                              : routine_.part == kSubroutine ? "a subroutine"
+                                                             : "an interrupt routine";
+    std::string hint;
+    if (instruction.allowed == kMain) hint = "it belongs to the main program";
+    if (instruction.allowed == kSubroutine) hint = "it belongs to a subroutine";
+    if (instruction.allowed == kInterrupt) hint = "it belongs to an interrupt routine";
+    if (instruction.structure == Structure::MainEnd && routine_.part != kMain)
+      hint = fmt::format("{} ends with {}", routine_text(routine_.part, routine_.number), end_of(routine_.part));
+    error(position(i), fmt::format("{} is not allowed in {}", instruction.mnemonic, where), hint);
+  }
+
+  // --- labels and loops ---
+
+  void label(std::uint32_t i) {
+    if (!statements_[i].operands_good) return;
+    const auto [first, added] = labels_.emplace(number_of(statements_[i]), Place{i, routine_});
+    if (!added)
+      error(position(i), fmt::format("label {} is defined twice (compile rule 008C)", number_of(statements_[i])),
+            fmt::format("it stands first in line {}", position(first->second.statement).line));
+  }
+
+  void check_jumps() {
+    std::set<std::uint32_t> used;
+    for (const Place& jump : jumps_) {
+      const std::uint32_t number = number_of(statements_[jump.statement]);
+      const auto found = labels_.find(number);
+      if (found == labels_.end()) {
+        error(position(jump.statement), fmt::format("label {} is missing (compile rule 0087)", number),
+              fmt::format("write LBL {} where JMP is to go, in {}", number, routine_text(jump.routine.part, jump.routine.number)));
+        continue;
+      }
+      used.insert(number);
+      if (!(found->second.routine == jump.routine))
+        error(position(jump.statement),
+              fmt::format("LBL {} is in {}; a jump cannot leave {}", number,
+                          routine_text(found->second.routine.part, found->second.routine.number),
+                          routine_text(jump.routine.part, jump.routine.number)));
+      result_.target[jump.statement] = found->second.statement;
+    }
+    for (const auto& [number, place] : labels_)
+      if (!used.contains(number)) warning(position(place.statement), fmt::format("label {} is never used", number));
+  }
+
+  void begin_loop(std::uint32_t i) {
+    loops_.push_back(i);
+    if (loops_.size() == model_.for_depth + 1)
+      error(position(i), fmt::format("FOR loops nested deeper than {} (compile rule 0093)", model_.for_depth));
+  }
+
+  void end_loop(std::uint32_t i) {
+    if (loops_.empty()) {
+      error(position(i), "NEXT without FOR (compile rule 0085)");
+      return;
+    }
+    const std::uint32_t head = loops_.back();
+    loops_.pop_back();
+    result_.target[head] = i + 1;
+    result_.target[i] = head + 1;
+    result_.loop_head[i] = head;
+  }
+
+  // --- calls ---
+
+  void check_calls() {
+    for (const Place& call : calls_) {
+      const std::uint32_t number = number_of(statements_[call.statement]);
+      if (!subroutines_.contains(number)) {
+        error(position(call.statement), fmt::format("subroutine {} is missing (compile rule 0087)", number),
+              fmt::format("the program has no SBR {}", number));
+        continue;
+      }
+      result_.target[call.statement] = result_.subroutine[number];
+      called_[call.routine].insert(number);
+    }
+  }
+
+  void check_attachments() {
+    for (const Place& attach : attachments_) {
+      const std::uint32_t number = number_of(statements_[attach.statement]);
+      if (!interrupts_.contains(number))
+        error(position(attach.statement), fmt::format("interrupt routine {} is missing (compile rule 0087)", number),
+              fmt::format("the program has no INT {}", number));
+      attached_.insert(number);
+    }
+  }
+
+  void warn_of_unused() {
+    std::set<std::uint32_t> called;
+    for (const auto& [routine, numbers] : called_) called.insert(numbers.begin(), numbers.end());
+    for (const auto& [number, i] : subroutines_)
+      if (!called.contains(number)) warning(position(i), fmt::format("SBR {} is never called", number));
+    for (const auto& [number, i] : interrupts_)
+      if (!attached_.contains(number)) warning(position(i), fmt::format("INT {} is never attached to an event", number));
+  }
+
+  void warn_of_recursion() {
+    for (const auto& [number, i] : subroutines_) {
+      std::set<std::uint32_t> reached, open{number};
+      while (!open.empty()) {
+        const std::uint32_t next = *open.begin();
+        open.erase(open.begin());
+        for (const std::uint32_t callee : called_[{kSubroutine, next}])
+          if (reached.insert(callee).second) open.insert(callee);
+      }
+      if (reached.contains(number))
+        warning(position(i), fmt::format("SBR {} calls itself", number),
+                fmt::format("the CPU nests {} calls; one more is run-time error 0008", model_.call_depth));
+    }
+  }
+
+  const std::vector<CheckedStatement>& statements_;
+  const CpuModel& model_;
+  stl::Diagnostics& diagnostics_;
+  ProgramStructure result_;
+
+  Routine routine_{};
+  bool ended_ = false;           // the routine's last instruction is behind us
+  bool stray_reported_ = false;
+  std::vector<std::uint32_t> loops_;   // open FORs
+  std::map<std::uint32_t, std::uint32_t> subroutines_, interrupts_;  // number -> statement of the head
+  std::map<std::uint32_t, Place> labels_;
+  std::vector<Place> jumps_, calls_, attachments_;
+  std::map<Routine, std::set<std::uint32_t>> called_;
+  std::set<std::uint32_t> attached_;
+};
+
+/// Depth of the logic stack within one rung.
+class StackCheck {
+ public:
+  explicit StackCheck(stl::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  void visit(const CheckedStatement& s) {
+    const Instruction& instruction = *s.instruction;
+    const bool load = instruction.stack.needs == 0 && instruction.stack.change == 1;
+    if (s.begins_network || (load && after_output_)) begin_rung();
+    if (leaves_one(instruction)) {
+      begin_rung();
+      depth_ = 1;
+      after_output_ = true;
+      return;
+    }
+    use(s, instruction.stack);
+    after_output_ = instruction.writes_output;
+    last_ = s.statement;
+  }
+
+  void begin_rung() {
+    if (depth_ > 1 && last_ && !reported_)
+      diagnostics_.push_back({stl::Severity::Warning, last_->position,
+                              fmt::format("the rung leaves {} values on the logic stack; 1 is usual", depth_),
+                              "an ALD, OLD or LPP may be missing"});
+    depth_ = 0;
+    reported_ = false;
+    last_ = nullptr;
+  }
+
+ private:
+  /// SBR, INT, LBL, FOR and NEXT hand a top of stack of 1 (or their own) to what follows: no LD is needed.
+  static bool leaves_one(const Instruction& instruction) {
+    switch (instruction.structure) {
+      case Structure::SubroutineHead:
+      case Structure::InterruptHead:
+      case Structure::Label:
+      case Structure::Next: return true;
+      default: return false;
+    }
+  }
+
+  void use(const CheckedStatement& s, StackUse stack) {
+    if (depth_ < stack.needs && !reported_) {
+      reported_ = true;
+      diagnostics_.push_back(
+          {stl::Severity::Error, s.statement->position,
+           fmt::format("{} needs {} on the logic stack and finds {} (compile rule 0081)", s.instruction->mnemonic,
+                       stack.needs == 1 ? "a value" : fmt::format("{} values", stack.needs), depth_ == 0 ? "none" : "1"),
+           stack.needs == 1 ? "begin the rung with LD" : "load the other value with LD first"});
+    }
+    depth_ = std::max<int>(depth_, stack.needs) + stack.change;
+    if (depth_ > LevelsOfStack && !reported_) {
+      reported_ = true;
+      diagnostics_.push_back({stl::Severity::Error, s.statement->position,
+                              fmt::format("more than {} values on the logic stack: the first is lost", LevelsOfStack),
+                              "split the rung"});
+    }
+  }
+
+  static constexpr int LevelsOfStack = 9;
+
+  stl::Diagnostics& diagnostics_;
+  const stl::Statement* last_ = nullptr;
+  int depth_ = 0;
+  bool after_output_ = true;
+  bool reported_ = false;  // one report a rung
+};
+
+}  // namespace
+
+ProgramStructure check_structure(const std::vector<CheckedStatement>& statements, const CpuModel& model,
+                                 stl::Diagnostics& diagnostics) {
+  return StructureCheck(statements, model, diagnostics).run();
+}
+
+void check_logic_stack(const std::vector<CheckedStatement>& statements, stl::Diagnostics& diagnostics) {
+  StackCheck check(diagnostics);
+  for (const CheckedStatement& statement : statements) check.visit(statement);
+  check.begin_rung();
+}
+
+}  // namespace s7200

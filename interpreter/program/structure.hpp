@@ -1,0 +1,36 @@
+// How a program hangs together: main program and routines, labels, loops, calls, what may stand where.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "interpreter/program/program.hpp"
+#include "interpreter/stl/diagnostic.hpp"
+
+namespace s7200 {
+
+/// A statement whose mnemonic is known.
+struct CheckedStatement {
+  const stl::Statement* statement;
+  const Instruction* instruction;
+  bool operands_good;
+  bool begins_network;  ///< a NETWORK head stands in front of it
+};
+
+/// What the structure means for decoding: per statement, the op to go on with (0 where it has none).
+struct ProgramStructure {
+  std::vector<std::uint32_t> target;        ///< of JMP, CALL, FOR (behind its NEXT), NEXT (first of its loop)
+  std::vector<std::uint32_t> loop_head;     ///< of NEXT: its FOR
+  std::array<std::uint32_t, 64> subroutine{};
+  std::array<std::uint32_t, 128> interrupt{};
+};
+
+/// Adds what is wrong to `diagnostics`; the result is of use only when that is nothing.
+ProgramStructure check_structure(const std::vector<CheckedStatement>& statements, const CpuModel& model,
+                                 stl::Diagnostics& diagnostics);
+
+/// Follows the depth of the logic stack through each rung. A rung begins at a NETWORK head, a routine head, a label or loop,
+/// and at an LD behind a coil or box.
+void check_logic_stack(const std::vector<CheckedStatement>& statements, stl::Diagnostics& diagnostics);
+
+}  // namespace s7200

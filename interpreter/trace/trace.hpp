@@ -1,0 +1,69 @@
+// What happened, as plain records. Sinks only watch: a trace changes nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "interpreter/base/time.hpp"
+#include "interpreter/cpu/serial_port.hpp"
+
+namespace s7200 {
+
+enum class TraceKind : std::uint8_t {
+  ScanBegin,       ///< count: number of the scan
+  ModeChange,      ///< code: 1 RUN, 0 STOP
+  EventOccurred,   ///< event, attached to routine
+  EventLost,       ///< event: its queue was full
+  EventDropped,    ///< event: queued, then detached
+  ServiceBegin,    ///< event, routine; since: when it occurred
+  ServiceEnd,      ///< event, routine; since: when its service began
+  Attach,          ///< event, routine; interval: of a timed interrupt
+  Detach,          ///< event
+  Transmit,        ///< count: characters to send, 0 a break
+  TransmitEnd,     ///<
+  CharacterSent,   ///< byte; at: end of its stop bit
+  CharacterReceived,  ///< byte, parity_error, framing_error; since: its start edge
+  CharacterIgnored,   ///< as received, but the port is not in Freeport mode or event 8 is not attached
+  PortControl,     ///< byte: SMB30
+  RuntimeError,    ///< code; op: where
+  FatalError,      ///< code; op: where
+};
+
+struct TraceRecord {
+  Time at = 0;
+  TraceKind kind{};
+  std::uint8_t event = 0;
+  std::uint8_t routine = 0;
+  std::uint8_t byte = 0;
+  bool parity_error = false;
+  bool framing_error = false;
+  std::uint16_t code = 0;
+  std::uint32_t op = 0;
+  std::uint64_t count = 0;
+  Time since = 0;
+  Time interval = 0;
+};
+
+/// One executed instruction; the values are those of its operands: inputs as they were before, outputs as they are after.
+struct InstructionRecord {
+  Time at = 0;    ///< start
+  Time end = 0;
+  std::uint32_t op = 0;
+  bool powered = true;   ///< false: skipped for want of power flow
+  bool top = false;      ///< top of the logic stack afterwards
+  std::array<std::optional<std::uint32_t>, 3> value{};
+};
+
+class TraceSink {
+ public:
+  virtual ~TraceSink() = default;
+  virtual void record(const TraceRecord&) {}
+  /// Before an instruction: false stops the CPU in front of it.
+  virtual bool before(std::uint32_t /*op*/) { return true; }
+  virtual void instruction(const InstructionRecord&) {}
+  /// Whether before() and instruction() are wanted at all.
+  virtual bool wants_instructions() const { return false; }
+};
+
+}  // namespace s7200
