@@ -92,11 +92,12 @@ void Master::received(const ReceivedCharacter& character) {
   queue_.schedule(exchange.response_end + silence(), EventOwner::Master, kQuiet);
 }
 
-/// The line has been quiet for as long as was to be waited, unless a character is just coming in.
+/// The line has been quiet for as long as was to be waited, unless a character is just coming in: then it is waited for,
+/// bit by bit, because a glitch is never reported.
 void Master::quiet(Time now) {
-  const Time start_edge = uart_.state().start_edge;
-  if (start_edge < now) {
-    queue_.schedule(start_edge + uart_.state().format.character_time(), EventOwner::Master, kQuiet);
+  const bool coming_in = uart_.state().start_edge < now;
+  if (coming_in) {
+    queue_.schedule(now + uart_.state().format.bit_times(1), EventOwner::Master, kQuiet);
     return;
   }
   state_.exchange.timed_out = state_.exchange.response.empty();

@@ -61,7 +61,9 @@ Bytes write_registers(std::uint16_t first, std::span<const std::uint16_t> values
 }
 
 Bytes rtu_frame(std::uint8_t station, std::span<const std::uint8_t> pdu) {
-  Bytes frame{station};
+  Bytes frame;
+  frame.reserve(pdu.size() + 3);
+  frame.push_back(station);
   frame.insert(frame.end(), pdu.begin(), pdu.end());
   add_crc(frame);
   return frame;
@@ -165,7 +167,7 @@ std::string describe(std::span<const std::uint8_t> request, std::span<const std:
   if (response.empty()) return "no answer";
   if (response.size() <= kAroundData) return "too short for an answer: " + to_hex(response);
   if (!crc_ok(response)) return "wrong CRC";
-  if (request.size() < kAroundData + kAddressAndCount) return "answer to no known request: " + to_hex(response);
+  if (request.size() < 2) return "answer to no request: " + to_hex(response);
   if (response[0] != request[0]) return fmt::format("answer of station {}, not {}", response[0], request[0]);
 
   const std::uint8_t function = request[1];
@@ -175,6 +177,7 @@ std::string describe(std::span<const std::uint8_t> request, std::span<const std:
     return fmt::format("exception {}: {}", answer[0], exception_name(answer[0]));
   }
   if (response[1] != function) return fmt::format("answer to function {}, not {}", response[1], function);
+  if (request.size() < kAroundData + kAddressAndCount) return fmt::format("function {}: {}", function, to_hex(answer));
   return describe_data(function, data_of(request), answer);
 }
 
@@ -213,29 +216,27 @@ int hex_digit(char c) {
 ParsedFrame parse_hex_frame(std::string_view text) {
   ParsedFrame parsed;
   const auto error = [&](std::size_t place, std::string message) { parsed.errors.push_back({place + 1, std::move(message)}); };
-  const auto digit = [&](std::size_t place) { return place < text.size() ? hex_digit(text[place]) : -1; };
+  const auto at = [&](std::size_t place) { return place < text.size() ? text[place] : ' '; };
 
-  for (std::size_t place = 0; place < text.size();) {
-    if (is_blank(text[place])) {
+  std::size_t place = 0;
+  while (place < text.size()) {
+    const std::size_t first = place++;
+    if (is_blank(at(first))) continue;
+    const int high = hex_digit(at(first));
+    const int low = hex_digit(at(place));
+    if (high < 0) {
+      error(first, fmt::format("'{}' is no hex digit", at(first)));
+    } else if (is_blank(at(place))) {
+      error(first, fmt::format("a byte is two hex digits, 0{} for {}", at(first), at(first)));
+    } else if (low >= 0) {
       ++place;
-    } else if (digit(place) < 0) {
-      error(place, fmt::format("'{}' is no hex digit", text[place]));
-      ++place;
-    } else if (digit(place + 1) < 0) {
-      error(place, fmt::format("a byte is two hex digits: 0{}", text[place]));
-      ++place;
-    } else {
-      FrameCharacter character{static_cast<std::uint8_t>(digit(place) << 4 | digit(place + 1)), false};
-      place += 2;
-      if (place < text.size() && (text[place] == 'p' || text[place] == 'P')) {
-        character.wrong_parity = true;
-        ++place;
-      }
+      const bool wrong_parity = at(place) == 'p' || at(place) == 'P';
+      if (wrong_parity) ++place;
       if (parsed.frame.size() == kLongestRawFrame) {
-        error(place - 2, fmt::format("a frame has {} bytes at most", kLongestRawFrame));
+        error(first, fmt::format("a frame has {} bytes at most", kLongestRawFrame));
         break;
       }
-      parsed.frame.push_back(character);
+      parsed.frame.push_back({static_cast<std::uint8_t>(high << 4 | low), wrong_parity});
     }
   }
   if (parsed.frame.empty() && parsed.ok()) error(0, "a frame has one byte at least");
