@@ -9,14 +9,31 @@
 
 namespace s7200::serial {
 
+/// Whoever hears the line.
+class LineListener {
+ public:
+  /// A driver has got a new edge at `at`, which may lie in the future.
+  virtual void line_changed(Time at) = 0;
+
+  /// Levels before this instant matter no more to this listener; kNever when only those to come do.
+  virtual Time needs_from() const = 0;
+
+ protected:
+  ~LineListener() = default;
+};
+
 /// Each driver holds the line at mark (true, the idle level) or space (false). A driver that marks is as good as one that
 /// is switched off: the line is at space while any driver is. Two senders at once collide bit by bit.
 /// Not documented, modelled so: on a real RS-485 line two active drivers that disagree give no defined level.
+///
+/// Who listens is wiring, not state: a copy of a line has its levels and no listeners, and assigning to a line leaves its
+/// listeners attached. So a snapshot is a copy, and going back to it an assignment.
 class Line {
  public:
   static constexpr int kDrivers = 4;
 
   /// From `at` on driver `driver` holds `mark`. `at` is not before that driver's last edge; it may lie in the future.
+  /// Every listener is told, so that this is all it takes to send, to collide or to make noise.
   void drive(int driver, Time at, bool mark);
 
   /// The level at an instant; an edge counts from its own instant on.
@@ -25,8 +42,11 @@ class Line {
   /// First change from mark to space at or after `from` among the edges known now; kNever when there is none.
   Time falling_edge(Time from) const;
 
-  /// Nobody will ask about the time before `before` again.
-  void forget(Time before);
+  /// It is `now`: edges of the past that no listener needs may go.
+  void forget(Time now);
+
+  void attach(LineListener& listener);
+  void detach(LineListener& listener);
 
   bool operator==(const Line&) const = default;
 
@@ -36,12 +56,30 @@ class Line {
     bool mark = true;
     bool operator==(const Edge&) const = default;
   };
+
   struct Driver {
     bool mark_before = true;   // level ahead of the first edge kept
-    std::vector<Edge> edges;   // in order of time
+    std::vector<Edge> edges;   // in order of time; each one changes the level
     bool operator==(const Driver&) const = default;
+
+    void add(Time at, bool mark);
+    bool level(Time at) const;
+    Time next_edge(Time from, bool mark) const;
+    void forget(Time before);
   };
+
+  struct Listeners {
+    std::vector<LineListener*> list;
+    Listeners() = default;
+    Listeners(const Listeners&) {}
+    Listeners& operator=(const Listeners&) { return *this; }
+    bool operator==(const Listeners&) const { return true; }
+  };
+
+  Time space_held_from_before(Time edge) const;
+
   std::array<Driver, kDrivers> drivers_;
+  Listeners listeners_;
 };
 
 }  // namespace s7200::serial

@@ -16,8 +16,10 @@ namespace s7200::serial {
 ///
 /// Receiver: waits for a falling edge, looks half a bit later whether the start bit is still there (else it was a glitch),
 /// then samples the middle of each bit and reports in the middle of the (first) stop bit. After a stop bit at space level it
-/// waits for the next falling edge, as for any character.
-class Uart final : public SerialPort {
+/// waits for the next falling edge, as for any character. It hears its own sender too, unless it is switched off.
+///
+/// A character is three events at most: start bit verified, stop bit sampled, character sent.
+class Uart final : public SerialPort, private LineListener {
  public:
   /// What handle() reports back to the owner.
   struct Report {
@@ -27,19 +29,26 @@ class Uart final : public SerialPort {
 
   /// Plain, so that a snapshot is a copy.
   struct State {
-    SerialFormat format{};
-    bool receiver_enabled = true;
-    bool receiving = false;      ///< a start edge was seen and its character is not complete
+    SerialFormat format{};       ///< of the next character in either direction
+    SerialFormat receiving_as{}; ///< of the character being received
+    bool receiving = false;      ///< a start bit was verified and its character is not complete
     Time start_edge = kNever;    ///< of the character being received, or awaited at a known future instant
     Time listen_from = 0;        ///< edges before this are past
+    Time off_from = kNever;      ///< the receiver is switched off from then on
     bool sending = false;
-    Time send_end = 0;
+    Time send_end = 0;           ///< end of the last stop bit (or break) sent so far
     bool operator==(const State&) const = default;
+
+    bool receiver_enabled() const { return off_from == kNever; }
   };
 
-  /// `driver`: which of the line's drivers this UART is. Neither reference is owned.
+  /// `driver`: which of the line's drivers this UART is. Neither reference is owned; both outlive the UART.
   Uart(Line& line, EventQueue& queue, EventOwner owner, int driver);
+  ~Uart() override;
+  Uart(const Uart&) = delete;
+  Uart& operator=(const Uart&) = delete;
 
+  /// A character whose start bit has been verified is still received in the old format.
   void configure(const SerialFormat& format) override;
   void enable_receiver(bool enabled, Time at) override;
   void send(std::uint8_t byte, Time at) override;
@@ -48,16 +57,30 @@ class Uart final : public SerialPort {
   /// A character with its parity bit the wrong way round, for tests of the other end. Needs a format with parity.
   void send_with_wrong_parity(std::uint8_t byte, Time at);
 
-  /// Some driver has put new edges on the line: a waiting receiver looks again.
-  void line_changed();
-
   /// An event of this UART's owner is due.
   Report handle(const Event& event);
 
   const State& state() const { return state_; }
+
+  /// Line and queue are restored by their owner.
   void restore(const State& state) { state_ = state; }
 
  private:
+  enum What : std::uint8_t { kStartCheck, kStopSample, kSent };
+
+  void line_changed(Time at) override;
+  Time needs_from() const override { return state_.start_edge; }
+
+  void await_start_edge();
+  void check_start_bit(Time now);
+  ReceivedCharacter take_character();
+  void expect(What what, Time at);
+  Time next_sample() const;
+  void abandon_character();
+
+  void put_character(std::uint8_t data, bool parity_bit, Time at);
+  void sends_until(Time end);
+
   Line& line_;
   EventQueue& queue_;
   EventOwner owner_;

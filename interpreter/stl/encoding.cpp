@@ -1,0 +1,187 @@
+#include "interpreter/stl/encoding.hpp"
+
+#include <iconv.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+
+#include "interpreter/stl/text.hpp"
+
+namespace s7200::stl {
+
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::string_view kReplacementText = "\uFFFD";
+
+std::uint8_t byte_at(std::string_view bytes, std::size_t index) {
+  return index < bytes.size() ? static_cast<std::uint8_t>(bytes[index]) : std::uint8_t{0};
+}
+
+struct FileKind {
+  std::string_view beginning;
+  const char* what;
+};
+
+constexpr std::array kFileKinds{
+    FileKind{"\x89PNG"sv, "a PNG picture"},
+    FileKind{"\xFF\xD8\xFF"sv, "a JPEG picture"},
+    FileKind{"GIF8"sv, "a GIF picture"},
+    FileKind{"PK\x03\x04"sv, "a ZIP archive or an office document (.docx, .odt); save its text as plain text"},
+    FileKind{"%PDF"sv, "a PDF document; save its text as plain text"},
+    FileKind{"{\\rtf"sv, "an RTF document; save its text as plain text"},
+    FileKind{"\x7F" "ELF"sv, "a program (ELF)"},
+    FileKind{"MZ\x90"sv, "a program (EXE)"},
+    FileKind{"\x1F\x8B"sv, "a gzip archive"},
+    FileKind{"\xD0\xCF\x11\xE0"sv, "an OLE file (.doc, .mwp); export the program as text, or save the document as plain text"},
+};
+
+/// What a file that is not text looks like; empty for text.
+std::string not_text(std::string_view bytes) {
+  for (const FileKind& kind : kFileKinds) {
+    if (bytes.starts_with(kind.beginning)) return kind.what;
+  }
+  const auto nulls = static_cast<std::size_t>(std::count(bytes.begin(), bytes.end(), '\0'));
+  if (nulls > 0 && nulls * 3 > bytes.size()) return "UTF-16 without a byte order mark, or binary data; save it as UTF-8";
+  if (nulls > 0) return "binary data (it has NUL bytes)";
+  const auto controls = std::count_if(bytes.begin(), bytes.end(), [](char c) {
+    return c >= 0 && c < 0x20 && "\t\n\r\f\x1A"sv.find(c) == std::string_view::npos;
+  });
+  if (static_cast<std::size_t>(controls) * 10 > bytes.size()) return "binary data (it is full of control characters)";
+  return {};
+}
+
+/// Converts with iconv(3); what the encoding does not have becomes U+FFFD.
+std::optional<std::string> converted(std::string_view bytes, const char* encoding) {
+  const iconv_t converter = iconv_open("UTF-8", encoding);
+  if (converter == iconv_t(-1)) return std::nullopt;
+  std::string text;
+  std::string input(bytes);
+  char* from = input.data();
+  std::size_t left = input.size();
+  std::array<char, 4096> buffer;
+  while (left > 0) {
+    char* to = buffer.data();
+    std::size_t room = buffer.size();
+    const bool complete = iconv(converter, &from, &left, &to, &room) != static_cast<std::size_t>(-1);
+    const int trouble = complete ? 0 : errno;
+    text.append(buffer.data(), buffer.size() - room);
+    if (trouble == EILSEQ || trouble == EINVAL) {
+      text += kReplacementText;
+      ++from;
+      --left;
+    }
+  }
+  iconv_close(converter);
+  return text;
+}
+
+/// UTF-8 with every unreadable byte replaced.
+std::string repaired(std::string_view bytes) {
+  std::string text;
+  while (!bytes.empty()) {
+    const Character c = first_character(bytes);
+    const bool unreadable = c.code == kReplacement && c.bytes == 1;
+    text += unreadable ? kReplacementText : bytes.substr(0, c.bytes);
+    bytes.remove_prefix(c.bytes);
+  }
+  return text;
+}
+
+/// UTF-8 but for a little damage, such as a file cut off inside a character.
+bool is_nearly_utf8(std::string_view bytes) {
+  std::size_t read = 0;
+  std::size_t unreadable = 0;
+  for (const Character c : characters(bytes)) {
+    if (c.bytes > 1) ++read;
+    if (c.bytes == 1 && c.code == kReplacement) ++unreadable;
+  }
+  return read >= 20 * (unreadable > 2 ? unreadable - 2 : 0) && read > unreadable;
+}
+
+bool is_ascii_letter(std::string_view bytes, std::size_t index) {
+  return index < bytes.size() && is_letter(bytes[index]);
+}
+
+/// CP437 draws horizontal lines with C4 or CD; no other text has three of them in a row.
+bool has_box_drawing(std::string_view bytes) {
+  return bytes.find("\xC4\xC4\xC4"sv) != std::string_view::npos || bytes.find("\xCD\xCD\xCD"sv) != std::string_view::npos;
+}
+
+/// Of the pairs of a text read as GBK, the share in the common characters (GB 2312 level 1) and punctuation must be high.
+bool looks_like_gbk(std::string_view bytes) {
+  std::size_t common = 0;
+  std::size_t other = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const std::uint8_t lead = byte_at(bytes, i);
+    if (lead < 0x80) continue;
+    const std::uint8_t trail = byte_at(bytes, ++i);
+    const bool everyday = (lead >= 0xB0 && lead <= 0xD7) || (lead >= 0xA1 && lead <= 0xA3);
+    ++(everyday && trail >= 0xA1 && trail <= 0xFE ? common : other);
+  }
+  return common > 4 * other;
+}
+
+/// Whether more letters of German words are written in CP437 than, anywhere in a word, in Windows-1252.
+bool has_cp437_words(std::string_view bytes) {
+  std::size_t dos = 0;
+  std::size_t windows = 0;
+  for (std::size_t i = 1; i < bytes.size(); ++i) {
+    const std::uint8_t byte = byte_at(bytes, i);
+    const bool within = is_ascii_letter(bytes, i - 1) && is_ascii_letter(bytes, i + 1);
+    const bool leading = i + 1 < bytes.size() && is_lower(bytes[i + 1]);
+    if (within && (byte == 0x81 || byte == 0x84 || byte == 0x94 || byte == 0xE1)) ++dos;
+    if (leading && (byte == 0x8E || byte == 0x99 || byte == 0x9A)) ++dos;
+    if ((within || leading) && byte >= 0xC0 && byte != 0xE1) ++windows;
+  }
+  return dos > windows;
+}
+
+struct Encoding {
+  const char* name;
+  const char* iconv_name;
+};
+constexpr Encoding kWindows1252{"Windows-1252", "WINDOWS-1252"};
+constexpr Encoding kCp437{"CP437", "CP437"};
+constexpr Encoding kGbk{"GBK", "GBK"};
+constexpr Encoding kUtf16Little{"UTF-16", "UTF-16LE"};
+constexpr Encoding kUtf16Big{"UTF-16", "UTF-16BE"};
+
+Encoding guess_8_bit(std::string_view bytes) {
+  if (has_box_drawing(bytes)) return kCp437;
+  if (looks_like_gbk(bytes)) return kGbk;
+  if (has_cp437_words(bytes)) return kCp437;
+  return kWindows1252;
+}
+
+std::optional<DecodedText> decode_from(std::string_view bytes, Encoding encoding, std::string& why) {
+  auto text = converted(bytes, encoding.iconv_name);
+  if (!text) {
+    why = std::string("text in ") + encoding.name + ", which this system cannot convert; save it as UTF-8";
+    return std::nullopt;
+  }
+  if (text->find('\0') != std::string::npos) {
+    why = "binary data, or UTF-32 text; save it as UTF-8";
+    return std::nullopt;
+  }
+  return DecodedText{std::move(*text), encoding.name};
+}
+
+}  // namespace
+
+std::optional<DecodedText> decode(std::string_view bytes, std::string& why) {
+  if (bytes.starts_with("\xFF\xFE"sv)) return decode_from(bytes.substr(2), kUtf16Little, why);
+  if (bytes.starts_with("\xFE\xFF"sv)) return decode_from(bytes.substr(2), kUtf16Big, why);
+  why = not_text(bytes);
+  if (!why.empty()) return std::nullopt;
+  if (bytes.ends_with('\x1A')) bytes.remove_suffix(1);  // DOS marks the end of a text so
+  const bool marked = bytes.starts_with("\xEF\xBB\xBF"sv);
+  if (marked) bytes.remove_prefix(3);
+  if (marked || is_valid_utf8(bytes) || is_nearly_utf8(bytes)) return DecodedText{repaired(bytes), "UTF-8"};
+  return decode_from(bytes, guess_8_bit(bytes), why);
+}
+
+}  // namespace s7200::stl

@@ -1,0 +1,600 @@
+#include "interpreter/stl/parser.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/fusion/include/adapt_struct.hpp>
+#include <boost/optional.hpp>
+#include <boost/range/iterator_range.hpp>
+#include <boost/spirit/home/x3.hpp>
+#include <boost/spirit/home/x3/support/ast/variant.hpp>
+#include <charconv>
+#include <optional>
+#include <system_error>
+
+#include "interpreter/stl/text.hpp"
+
+namespace s7200::stl {
+namespace {
+
+namespace x3 = boost::spirit::x3;
+
+using Place = const char*;
+using Range = boost::iterator_range<Place>;
+
+std::string_view view(const Range& range) { return {range.begin(), static_cast<std::size_t>(range.size())}; }
+
+// What the grammar yields: the parts of a line as they stand there. Values and their limits come after it.
+
+enum class Kind : std::uint8_t { Decimal, Hex, Binary, Real, Ascii, UnknownK, Name };
+
+struct RawWord {
+  Size limit = Size::None;  // B#, W#, DW# before a constant
+  Kind kind{};
+  Range text;
+};
+
+struct AddressLetters {
+  const char* area = "";
+  Size size = Size::None;
+  bool german = false;
+};
+
+struct RawAddress {
+  char mark = 0;  // & or *
+  AddressLetters letters;
+  Range number;
+  Range bit;
+};
+
+struct RawOperand : x3::variant<RawWord, RawAddress> {
+  using base_type::base_type;
+  using base_type::operator=;
+  Range text;
+};
+
+struct RawStatement {
+  Range mnemonic;
+  std::vector<RawOperand> operands;
+};
+
+struct RawLine {
+  boost::optional<RawStatement> statement;
+  boost::optional<Range> comment;
+};
+
+}  // namespace
+}  // namespace s7200::stl
+
+BOOST_FUSION_ADAPT_STRUCT(s7200::stl::RawWord, limit, kind, text)
+BOOST_FUSION_ADAPT_STRUCT(s7200::stl::RawAddress, mark, letters, number, bit)
+BOOST_FUSION_ADAPT_STRUCT(s7200::stl::RawStatement, mnemonic, operands)
+BOOST_FUSION_ADAPT_STRUCT(s7200::stl::RawLine, statement, comment)
+
+namespace s7200::stl {
+namespace {
+
+namespace grammar {
+
+using x3::attr;
+using x3::char_;
+using x3::digit;
+using x3::lit;
+using x3::no_case;
+using x3::raw;
+
+// The names of these rules appear in messages: "expected a bit number".
+template <typename Id, typename Attribute = x3::unused_type>
+constexpr x3::rule<Id, Attribute> named(const char* name) {
+  return {name};
+}
+
+// Keys of no_case symbols are lower case.
+struct AddressTable : x3::symbols<AddressLetters> {
+  AddressTable() {
+    for (const char* area : {"I", "Q", "V", "M", "SM", "S", "L"}) add_sizes(area, area, false);
+    add_sizes("DB", "V", false);
+    add_sizes("E", "I", true);
+    add_sizes("A", "Q", true);
+    for (const char* area : {"T", "C", "HC", "AC"}) add_letters(area, {area, Size::None, false});
+    add_letters("Z", {"C", Size::None, true});
+    add_letters("HZ", {"HC", Size::None, true});
+    add_letters("ACB", {"AC", Size::Byte, false});
+    add_letters("ACW", {"AC", Size::Word, false});
+    add_letters("ACD", {"AC", Size::Double, false});
+    add_analog("AI", "AI", false);
+    add_analog("AQ", "AQ", false);
+    add_analog("AE", "AI", true);
+    add_analog("AA", "AQ", true);
+  }
+
+ private:
+  void add_letters(std::string written, AddressLetters letters) {
+    for (char& c : written) c = static_cast<char>(c - 'A' + 'a');
+    add(written, letters);
+  }
+  void add_sizes(const std::string& written, const char* area, bool german) {
+    if (written != "DB") add_letters(written, {area, Size::None, german});
+    add_letters(written + "X", {area, Size::Bit, german});
+    add_letters(written + "B", {area, Size::Byte, german});
+    add_letters(written + "W", {area, Size::Word, german});
+    add_letters(written + "D", {area, Size::Double, german});
+  }
+  void add_analog(const std::string& written, const char* area, bool german) {
+    add_letters(written, {area, Size::Word, german});
+    add_letters(written + "W", {area, Size::Word, german});
+  }
+};
+
+struct SizePrefixTable : x3::symbols<Size> {
+  SizePrefixTable() {
+    add("b#", Size::Byte)("byte#", Size::Byte)("w#", Size::Word)("word#", Size::Word);
+    add("dw#", Size::Double)("dword#", Size::Double);
+  }
+};
+
+struct ComparatorTable : x3::symbols<x3::unused_type> {
+  ComparatorTable() { add("=")("<>")(">=")("<=")(">")("<"); }
+};
+
+struct BlockKeywordTable : x3::symbols<x3::unused_type> {
+  BlockKeywordTable() {
+    add("organization_block")("end_organization_block")("subroutine_block")("end_subroutine_block");
+    add("interrupt_block")("end_interrupt_block")("data_block")("end_data_block")("begin")("title");
+    add("var")("var_input")("var_in_out")("var_output")("var_temp")("end_var");
+  }
+};
+
+const AddressTable address_letters;
+const SizePrefixTable size_prefixes;
+const ComparatorTable comparator;
+const BlockKeywordTable block_keyword;
+
+const auto blanks = x3::omit[*char_(" \t\f")];
+const auto letter = char_("A-Za-z");
+const auto sign = char_("+-");
+const auto beyond_ascii = !lit("\xEF\xBF\xBD") >> char_("\x80-\xff");  // in names; not U+FFFD, which is debris
+const auto word_character = char_("A-Za-z0-9_") | beyond_ascii;
+const auto end_of_word = !word_character;
+
+const auto end_of_constant = named<struct EndOfConstant>("the end of the constant") = end_of_word >> !char_("#.'\"");
+const auto hex_digits = named<struct HexDigits, Range>("hexadecimal digits") = raw[x3::xdigit >> *char_("0-9A-Fa-f_")];
+const auto binary_digits = named<struct BinaryDigits, Range>("binary digits") = raw[char_("01") >> *char_("01_")];
+const auto ascii_text = named<struct AsciiText, Range>("characters") =
+    raw[*((lit('$') >> char_) | (char_ - lit('\'') - lit('$')))];
+const auto closing_quote = named<struct ClosingQuote>("a closing quote") = lit('\'');
+const auto decimal_digits = named<struct DecimalDigits, Range>("digits") = raw[-sign >> +digit];
+const auto exponent = no_case[lit('e')] >> -sign >> +digit;
+const auto real_digits = named<struct RealDigits, Range>("digits") =
+    raw[-sign >> +digit >> ((lit('.') >> +digit >> -exponent) | exponent)];
+
+const auto limit = no_case[size_prefixes] | attr(Size::None);
+const auto hexadecimal = named<struct Hexadecimal, RawWord>("a constant") =
+    limit >> attr(Kind::Hex) >> lit("16#") > hex_digits > end_of_constant;
+const auto binary = named<struct Binary, RawWord>("a constant") =
+    limit >> attr(Kind::Binary) >> lit("2#") > binary_digits > end_of_constant;
+const auto real = named<struct Real, RawWord>("a constant") = attr(Size::None) >> attr(Kind::Real) >> real_digits >
+                                                              end_of_constant;
+const auto decimal = named<struct Decimal, RawWord>("a constant") = limit >> attr(Kind::Decimal) >> decimal_digits >
+                                                                    end_of_constant;
+const auto ascii = named<struct Ascii, RawWord>("a constant") =
+    limit >> attr(Kind::Ascii) >> lit('\'') > ascii_text > closing_quote;
+
+// S7-Micro/DOS: K4, K-5, KHFF. Other letters behind the K are not known.
+const auto k_decimal = named<struct KDecimal, RawWord>("a constant") =
+    attr(Size::None) >> attr(Kind::Decimal) >> no_case[lit('k')] >> decimal_digits >> end_of_word;
+const auto k_hexadecimal = named<struct KHexadecimal, RawWord>("a constant") =
+    attr(Size::None) >> attr(Kind::Hex) >> no_case[lit("kh")] >> hex_digits >> end_of_word;
+const auto k_unknown = named<struct KUnknown, RawWord>("a constant") =
+    attr(Size::None) >> attr(Kind::UnknownK) >> raw[char_("Kk") >> char_("BbWwDd") >> -sign >> +digit] >> end_of_word;
+
+const auto bit_number = named<struct BitNumber, Range>("a bit number") = raw[+digit];
+const auto address = named<struct AddressRule, RawAddress>("an address") =
+    (char_("&*") | attr('\0')) >> no_case[address_letters] >> raw[+digit] >> -(lit('.') > bit_number) >> end_of_word;
+
+// "Start", Motor_On, #count, and as Micro/WIN prints symbol and address together: #count:LW2, *#next:*LD4
+const auto plain_name = -char_("&*") >> -lit('#') >> (letter | char_('_') | beyond_ascii) >> *word_character;
+const auto quoted_name = -char_("&*") >> lit('"') >> *(char_ - lit('"')) >> lit('"');
+const auto name = named<struct NameRule, RawWord>("a name") =
+    attr(Size::None) >> attr(Kind::Name) >>
+    raw[quoted_name | (plain_name >> -(lit(':') >> plain_name >> -(lit('.') >> +digit)))];
+
+struct OperandRule {
+  template <typename Context>
+  void on_success(const Place& first, const Place& last, RawOperand& operand, const Context&) {
+    operand.text = Range(first, last);
+  }
+};
+const auto operand = named<OperandRule, RawOperand>("an operand") =
+    ascii | hexadecimal | binary | real | decimal | k_decimal | k_hexadecimal | k_unknown | address | name;
+
+const auto next_operand = named<struct NextOperand, RawOperand>("an operand") =
+    (blanks >> lit(',') >> blanks > operand) | (x3::omit[+char_(" \t\f")] >> operand);
+const auto operands = named<struct Operands, std::vector<RawOperand>>("operands") = operand >> *next_operand;
+
+// =I is a mnemonic of its own, but =I0.0 assigns to I0.0. After a comparator the first operand may follow at once.
+const auto mnemonic = named<struct Mnemonic, Range>("a mnemonic") =
+    raw[(no_case[lit("=i")] >> end_of_word) | lit('=') | (char_("+*/-") >> +letter >> end_of_word) |
+        (letter >> *char_("A-Za-z0-9_") >> -comparator)];
+
+const auto statement = named<struct StatementRule, RawStatement>("a statement") = mnemonic >> blanks >> -operands;
+const auto comment = named<struct Comment, Range>("a comment") = lit("//") >> raw[*char_];
+const auto end_of_line = named<struct EndOfLine>("the end of the line") = x3::eoi;
+const auto line = named<struct LineRule, RawLine>("a line") =
+    blanks >> -statement >> blanks >> -lit(';') >> blanks >> -comment > end_of_line;
+
+const auto block_line = blanks >> raw[no_case[block_keyword]] >> end_of_word;
+
+}  // namespace grammar
+
+// Columns of places in one line. Places are mostly asked for in order, so a line is counted once.
+class Columns {
+ public:
+  explicit Columns(std::string_view line) : line_(line) {}
+
+  std::uint32_t column(Place place) {
+    const auto offset = static_cast<std::size_t>(place - line_.data());
+    if (offset < offset_) {
+      offset_ = 0;
+      column_ = 1;
+    }
+    column_ += count_characters(line_.substr(offset_, offset - offset_));
+    offset_ = offset;
+    return static_cast<std::uint32_t>(column_);
+  }
+
+ private:
+  std::string_view line_;
+  std::size_t offset_ = 0;
+  std::size_t column_ = 1;
+};
+
+std::string describe(std::string_view rest) {
+  if (rest.empty()) return "the end of the line";
+  const Character c = first_character(rest);
+  if (c.code >= 0x20 && c.code < 0x7F) return fmt::format("'{}'", rest.front());
+  return fmt::format("the character U+{:04X}", static_cast<std::uint32_t>(c.code));
+}
+
+std::string hint_for(const std::string& expected, std::string_view rest) {
+  if (!rest.empty()) {
+    const char32_t code = first_character(rest).code;
+    if (code == kReplacement) return "the text was damaged when it was converted; restore what stood here";
+    if (code >= 0x80) return "outside comments STL is plain ASCII; a comment begins with //";
+  }
+  if (expected == "a mnemonic") return "a line is a mnemonic and its operands; a comment begins with //";
+  if (expected == "an operand") return "an operand is an address (VB100), a constant (65, 16#FF) or a pointer (*VD100)";
+  if (expected == "the end of the constant") return "constants are written 65, 16#FF, 2#1010, 1.5 or 'AB'";
+  if (expected == "the end of the line") return "operands are separated by commas or blanks; a comment begins with //";
+  return {};
+}
+
+/// The value of an escape behind `$`, or nothing. Not documented, modelled so: $N, the new line, is a line feed as $L is.
+std::optional<char> escape(char letter) {
+  switch (letter) {
+    case '$':
+    case '\'':
+    case '"':
+      return letter;
+    case 'L':
+    case 'l':
+    case 'N':
+    case 'n':
+      return '\x0A';
+    case 'P':
+    case 'p':
+      return '\x0C';
+    case 'R':
+    case 'r':
+      return '\x0D';
+    case 'T':
+    case 't':
+      return '\x09';
+    default:
+      return std::nullopt;
+  }
+}
+
+template <typename Number>
+std::optional<Number> number_of(std::string_view digits, int base = 10) {
+  Number number{};
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number, base);
+  if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
+  return number;
+}
+
+std::string_view without_plus(std::string_view digits) {
+  if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
+  return digits;
+}
+
+std::string without_underscores(std::string_view digits) {
+  std::string plain(digits);
+  std::erase(plain, '_');
+  return plain;
+}
+
+struct Limits {
+  std::int64_t smallest, largest;
+  const char* name;
+};
+
+Limits limits(Size size) {
+  switch (size) {
+    case Size::Byte:
+      return {-0x80, 0xFF, "a byte"};
+    case Size::Word:
+      return {-0x8000, 0xFFFF, "a word"};
+    default:
+      return {-0x80000000LL, 0xFFFFFFFFLL, "32 bits"};
+  }
+}
+
+const char* size_letter(Size size) {
+  switch (size) {
+    case Size::Byte:
+      return "B";
+    case Size::Word:
+      return "W";
+    case Size::Double:
+      return "D";
+    default:
+      return "";
+  }
+}
+
+class LineReader {
+ public:
+  LineReader(std::string_view text, std::uint32_t number, ParseResult& result)
+      : text_(text), number_(number), columns_(text), result_(result) {}
+
+  /// Returns true for a line between VAR and END_VAR, whose lines belong to the message about VAR.
+  bool read(bool in_declarations) {
+    if (const auto keyword = block_keyword()) return read_block_line(*keyword);
+    if (!in_declarations) read_line();
+    return in_declarations;
+  }
+
+ private:
+  std::optional<Range> block_keyword() const {
+    Range keyword;
+    if (!x3::parse(begin(), end(), grammar::block_line, keyword)) return std::nullopt;
+    return keyword;
+  }
+
+  bool read_block_line(const Range& keyword) {
+    const std::string name = upper_case(view(keyword));
+    report(position(keyword), fmt::format("{} belongs to a Micro/WIN 32 block export, which is not read yet", name),
+           "write one listing: main program, MEND, then SBR n ... RET and INT n ... RETI");
+    return name.starts_with("VAR");
+  }
+
+  void read_line() {
+    RawLine line;
+    try {
+      x3::parse(begin(), end(), grammar::line, line);
+    } catch (const x3::expectation_failure<Place>& failure) {
+      report_unexpected(failure.where(), failure.which());
+      return;
+    }
+    const std::string comment(line.comment ? trim_end(view(*line.comment)) : std::string_view{});
+    if (line.statement) {
+      add_statement(*line.statement, comment);
+    } else if (line.comment) {
+      result_.source.lines.emplace_back(CommentLine{comment, number_});
+    } else {
+      result_.source.lines.emplace_back(BlankLine{number_});
+    }
+    report_uncounted();
+  }
+
+  void add_statement(const RawStatement& raw, const std::string& comment) {
+    Statement statement{upper_case(view(raw.mnemonic)), position(raw.mnemonic), {}, comment};
+    statement.operands.reserve(raw.operands.size());
+    for (const RawOperand& operand : raw.operands) {
+      if (auto value = value_of(operand)) statement.operands.push_back({std::move(*value), position(operand.text)});
+    }
+    if (errors_ > 0) return;
+    if (statement.mnemonic == "NETWORK") {
+      add_network(statement);
+    } else {
+      result_.source.lines.emplace_back(std::move(statement));
+    }
+  }
+
+  void add_network(const Statement& statement) {
+    NetworkHead head{0, statement.position, statement.comment};
+    if (!statement.operands.empty()) {
+      const auto* number = std::get_if<Integer>(&statement.operands.front().value);
+      if (statement.operands.size() > 1 || number == nullptr || number->value < 0) {
+        report(statement.operands.front().position, "NETWORK takes a number and nothing else",
+               "a title is written as a comment: NETWORK 1 // title");
+        return;
+      }
+      head.number = static_cast<std::uint32_t>(number->value);
+    }
+    result_.source.lines.emplace_back(std::move(head));
+  }
+
+  std::optional<OperandValue> value_of(const RawOperand& operand) {
+    if (const auto* address = boost::get<RawAddress>(&operand.get())) return address_value(*address, operand.text);
+    const auto& word = boost::get<RawWord>(operand.get());
+    switch (word.kind) {
+      case Kind::Decimal:
+        return integer_value(word, operand.text, 10, Integer::Form::Decimal);
+      case Kind::Hex:
+        return integer_value(word, operand.text, 16, Integer::Form::Hex);
+      case Kind::Binary:
+        return integer_value(word, operand.text, 2, Integer::Form::Binary);
+      case Kind::Real:
+        return real_value(word, operand.text);
+      case Kind::Ascii:
+        return ascii_value(word, operand.text);
+      case Kind::UnknownK:
+        return refuse(operand.text, fmt::format("constants with {} are not known", upper_case(view(word.text).substr(0, 2))),
+                      "S7-Micro/DOS constants are K for decimal (K4) and KH for hexadecimal (KHFF)");
+      case Kind::Name:
+        break;
+    }
+    return Name{std::string(view(word.text))};
+  }
+
+  std::optional<OperandValue> integer_value(const RawWord& word, const Range& text, int base, Integer::Form form) {
+    const auto value = number_of<std::int64_t>(without_underscores(without_plus(view(word.text))), base);
+    const Limits range = limits(word.limit);
+    if (!value || *value < range.smallest || *value > range.largest) {
+      return refuse(text, fmt::format("{} does not fit in {}", shown(text), range.name),
+                    fmt::format("{} to {}, or 16#{:X} at most", range.smallest, range.largest, range.largest));
+    }
+    return Integer{*value, form, 0};
+  }
+
+  std::optional<OperandValue> real_value(const RawWord& word, const Range& text) {
+    const std::string_view digits = without_plus(view(word.text));
+    float value = 0;
+    if (std::from_chars(digits.data(), digits.data() + digits.size(), value).ec != std::errc{}) {
+      return refuse(text, fmt::format("{} does not fit in a 32-bit real", shown(text)),
+                    "a real is 1.175495E-38 to 3.402823E+38");
+    }
+    return Real{value};
+  }
+
+  std::optional<OperandValue> ascii_value(const RawWord& word, const Range& text) {
+    std::string bytes;
+    for (std::string_view rest = view(word.text); !rest.empty();) {
+      const std::size_t length = read_ascii(rest, bytes);
+      if (length == 0) {
+        return refuse(Range(rest.data(), rest.data() + first_character(rest).bytes),
+                      fmt::format("{} cannot stand in an ASCII constant", describe(rest)),
+                      "escapes are $$ $' $\" $L $N $P $R $T and $hh with two hexadecimal digits");
+      }
+      rest.remove_prefix(length);
+    }
+    if (bytes.size() != 1 && bytes.size() != 2 && bytes.size() != 4) {
+      return refuse(text, fmt::format("an ASCII constant of {} characters", bytes.size()),
+                    "it has 1, 2 or 4 characters: a byte, a word or a double word");
+    }
+    Integer integer{0, Integer::Form::Ascii, static_cast<std::uint8_t>(bytes.size())};
+    for (const char c : bytes) integer.value = integer.value << 8 | static_cast<unsigned char>(c);
+    if (integer.value > limits(word.limit).largest) {
+      return refuse(text, fmt::format("{} does not fit in {}", shown(text), limits(word.limit).name), "");
+    }
+    return integer;
+  }
+
+  // Appends the character `rest` begins with and returns the length of its notation, 0 if there is none.
+  static std::size_t read_ascii(std::string_view rest, std::string& bytes) {
+    if (rest.front() != '$') {
+      if (rest.front() < 0x20 || rest.front() > 0x7E) return 0;
+      bytes.push_back(rest.front());
+      return 1;
+    }
+    if (const auto value = number_of<std::uint8_t>(rest.substr(1, 2), 16); value && rest.size() > 2) {
+      bytes.push_back(static_cast<char>(*value));
+      return 3;
+    }
+    if (const auto character = escape(rest[1])) {
+      bytes.push_back(*character);
+      return 2;
+    }
+    return 0;
+  }
+
+  std::optional<OperandValue> address_value(const RawAddress& raw, const Range& text) {
+    const AddressLetters& letters = raw.letters;
+    if (letters.german) return refuse_german(raw, text);
+    const auto number = number_of<std::uint32_t>(view(raw.number));
+    if (!number) return refuse(raw.number, "the number of this address is too large", "");
+    Address address{letters.area, letters.size, *number, 0};
+    if (raw.bit.empty()) {
+      if (letters.size == Size::Bit) return refuse(text, fmt::format("{} has no bit number", shown(text)), "write VX10.3 or V10.3");
+    } else {
+      const auto bit = number_of<std::uint8_t>(view(raw.bit));
+      if (!bit || *bit > 7) return refuse(raw.bit, "a byte has the bits 0 to 7", "");
+      if (letters.size != Size::None && letters.size != Size::Bit) {
+        return refuse(text, fmt::format("{} names a bit of something that is not a bit", shown(text)),
+                      fmt::format("a bit is written {}{}.{}", letters.area, *number, *bit));
+      }
+      address.size = Size::Bit;
+      address.bit = *bit;
+    }
+    if (raw.mark == '&') return AddressOf{std::move(address)};
+    if (raw.mark == '*') return Indirect{std::move(address)};
+    return address;
+  }
+
+  std::optional<OperandValue> refuse_german(const RawAddress& raw, const Range& text) {
+    const std::string_view mark(&raw.mark, raw.mark == 0 ? 0 : 1);
+    const std::string_view rest(raw.number.begin(), static_cast<std::size_t>(text.end() - raw.number.begin()));
+    return refuse(text, fmt::format("{} is a German address", shown(text)),
+                  fmt::format("write {}{}{}{}", mark, raw.letters.area, size_letter(raw.letters.size), rest));
+  }
+
+  /// For a message: not the whole of a very long operand.
+  static std::string shown(const Range& text) {
+    constexpr std::size_t kLongest = 40;
+    const std::string_view whole = view(text);
+    if (whole.size() <= kLongest) return std::string(whole);
+    return std::string(whole.substr(0, kLongest)) + "...";
+  }
+
+  std::nullopt_t refuse(const Range& text, std::string message, std::string hint) {
+    report(position(text), std::move(message), std::move(hint));
+    return std::nullopt;
+  }
+
+  void report_unexpected(Place where, std::string expected) {
+    const std::string_view rest(where, static_cast<std::size_t>(end() - where));
+    const bool at_start = text_.substr(0, text_.size() - rest.size()).find_first_not_of(" \t\f") == std::string_view::npos;
+    if (at_start) expected = "a mnemonic";
+    const std::string found = describe(rest);
+    std::string message = expected == "the end of the line" ? fmt::format("unexpected {}", found)
+                                                            : fmt::format("expected {}, found {}", expected, found);
+    report({number_, columns_.column(where), 1}, std::move(message), hint_for(expected, rest));
+  }
+
+  // A line of nothing but wrong operands must not drown the other messages.
+  static constexpr std::size_t kMostErrorsOfALine = 10;
+
+  void report(Position where, std::string message, std::string hint) {
+    if (++errors_ > kMostErrorsOfALine) return;
+    result_.diagnostics.push_back({Severity::Error, where, std::move(message), std::move(hint)});
+  }
+
+  void report_uncounted() {
+    if (errors_ <= kMostErrorsOfALine) return;
+    const Position where = result_.diagnostics.back().position;
+    result_.diagnostics.push_back(
+        {Severity::Error, where, fmt::format("{} more errors in this line", errors_ - kMostErrorsOfALine), ""});
+  }
+
+  Position position(const Range& range) {
+    const auto length = static_cast<std::uint32_t>(count_characters(view(range)));
+    return {number_, columns_.column(range.begin()), length == 0 ? 1 : length};
+  }
+
+  Place begin() const { return text_.data(); }
+  Place end() const { return text_.data() + text_.size(); }
+
+  std::string_view text_;
+  std::uint32_t number_;
+  Columns columns_;
+  ParseResult& result_;
+  std::size_t errors_ = 0;
+};
+
+}  // namespace
+
+ParseResult parse(std::string_view text, std::string name) {
+  ParseResult result;
+  result.source.name = std::move(name);
+  result.source.text = split_lines(text);
+  result.source.lines.reserve(result.source.text.size());
+  std::uint32_t number = 0;
+  bool in_declarations = false;
+  for (const std::string& line : result.source.text) {
+    in_declarations = LineReader(line, ++number, result).read(in_declarations);
+  }
+  return result;
+}
+
+}  // namespace s7200::stl

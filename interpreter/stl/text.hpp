@@ -1,0 +1,69 @@
+// Lines and characters of a UTF-8 text.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace s7200::stl {
+
+/// What stands in a text for something that could not be read.
+inline constexpr char32_t kReplacement = 0xFFFD;
+
+struct Character {
+  char32_t code = 0;
+  std::size_t bytes = 0;
+};
+
+/// The first character of a text that is not empty. A byte that is no UTF-8 is a character of its own, kReplacement.
+Character first_character(std::string_view text);
+
+/// A view of the characters of a text: `for (const Character c : characters(text))`.
+class CharacterIterator {
+ public:
+  explicit CharacterIterator(std::string_view rest) : rest_(rest) { read(); }
+  Character operator*() const { return current_; }
+  CharacterIterator& operator++() {
+    rest_.remove_prefix(current_.bytes);
+    read();
+    return *this;
+  }
+  bool operator!=(const CharacterIterator& other) const { return rest_.size() != other.rest_.size(); }
+
+ private:
+  void read() {
+    if (!rest_.empty()) current_ = first_character(rest_);
+  }
+  std::string_view rest_;
+  Character current_;
+};
+
+struct Characters {
+  std::string_view text;
+  CharacterIterator begin() const { return CharacterIterator(text); }
+  CharacterIterator end() const { return CharacterIterator(std::string_view{}); }
+};
+
+inline Characters characters(std::string_view text) { return {text}; }
+
+std::size_t count_characters(std::string_view text);
+
+bool is_valid_utf8(std::string_view text);
+
+/// The lines of a text without their ends: CR LF, LF or CR.
+std::vector<std::string> split_lines(std::string_view text);
+
+/// Without blanks and tabs at its end.
+std::string_view trim_end(std::string_view text);
+
+/// ASCII letters in upper case, everything else as it is.
+std::string upper_case(std::string_view text);
+
+inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+inline bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
+inline bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
+inline bool is_letter(char c) { return is_upper(c) || is_lower(c); }
+inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\f'; }
+
+}  // namespace s7200::stl

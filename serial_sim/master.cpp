@@ -1,0 +1,114 @@
+#include "serial_sim/master.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace s7200::serial {
+
+std::optional<Time> Exchange::latency() const {
+  if (response.empty()) return std::nullopt;
+  return response_start - request_end;
+}
+
+bool Exchange::parity_error() const {
+  return std::any_of(response.begin(), response.end(), [](const ReceivedCharacter& c) { return c.parity_error; });
+}
+
+bool Exchange::framing_error() const {
+  return std::any_of(response.begin(), response.end(), [](const ReceivedCharacter& c) { return c.framing_error; });
+}
+
+modbus::Bytes Exchange::response_bytes() const {
+  modbus::Bytes bytes;
+  bytes.reserve(response.size());
+  for (const ReceivedCharacter& character : response) bytes.push_back(character.byte);
+  return bytes;
+}
+
+Master::Master(Uart& uart, EventQueue& queue) : uart_(uart), queue_(queue) {}
+
+void Master::start(const Request& request, Time at) {
+  assert(!busy() && !request.frame.empty());
+  state_.phase = Phase::Sending;
+  state_.request = request;
+  state_.sent = 0;
+  Exchange& exchange = state_.exchange;
+  exchange.response.clear();
+  exchange.request = request.frame;
+  exchange.request_start = at;
+  exchange.request_end = exchange.response_start = exchange.response_end = 0;
+  exchange.timed_out = exchange.too_long = false;
+  queue_.schedule(at, EventOwner::Master, kBegin);
+}
+
+void Master::handle(const Event& event) {
+  switch (event.what) {
+    case kBegin:
+      uart_.enable_receiver(false, event.at);
+      send_next(event.at);
+      break;
+    case kQuiet:
+      quiet(event.at);
+      break;
+  }
+}
+
+void Master::on(const Uart::Report& report) {
+  if (report.sent && state_.phase == Phase::Sending) sent(*report.sent);
+  if (report.received && (state_.phase == Phase::Waiting || state_.phase == Phase::Receiving)) received(*report.received);
+}
+
+void Master::send_next(Time at) {
+  const modbus::FrameCharacter& character = state_.request.frame[state_.sent++];
+  if (character.wrong_parity) {
+    uart_.send_with_wrong_parity(character.byte, at);
+  } else {
+    uart_.send(character.byte, at);
+  }
+}
+
+void Master::sent(Time at) {
+  if (state_.sent < state_.request.frame.size()) {
+    send_next(at + state_.request.gap);
+    return;
+  }
+  state_.exchange.request_end = at;
+  state_.phase = Phase::Waiting;
+  uart_.enable_receiver(true, at);
+  queue_.schedule(at + state_.request.timeout, EventOwner::Master, kQuiet);
+}
+
+void Master::received(const ReceivedCharacter& character) {
+  Exchange& exchange = state_.exchange;
+  if (exchange.response.size() == kLongestResponse) {
+    exchange.too_long = true;
+    finish();
+    return;
+  }
+  if (exchange.response.empty()) exchange.response_start = character.start;
+  exchange.response.push_back(character);
+  exchange.response_end = character.start + uart_.state().format.character_time();
+  state_.phase = Phase::Receiving;
+  queue_.schedule(exchange.response_end + silence(), EventOwner::Master, kQuiet);
+}
+
+/// The line has been quiet for as long as was to be waited, unless a character is just coming in: then it is waited for,
+/// bit by bit, because a glitch is never reported.
+void Master::quiet(Time now) {
+  const bool coming_in = uart_.state().start_edge < now;
+  if (coming_in) {
+    queue_.schedule(now + uart_.state().format.bit_times(1), EventOwner::Master, kQuiet);
+    return;
+  }
+  state_.exchange.timed_out = state_.exchange.response.empty();
+  finish();
+}
+
+void Master::finish() {
+  queue_.cancel(EventOwner::Master, kQuiet);
+  state_.phase = Phase::Idle;
+}
+
+Time Master::silence() const { return state_.request.silence.value_or(uart_.state().format.silence()); }
+
+}  // namespace s7200::serial

@@ -1,0 +1,32 @@
+// The checksum at the end of a Modbus RTU frame.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace s7200::modbus {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// What one byte does to the CRC: polynomial x^16 + x^15 + x^2 + 1, least significant bit first (Modbus over Serial Line, 6.2.2).
+inline constexpr std::array<std::uint16_t, 256> kCrcTable = [] {
+  std::array<std::uint16_t, 256> table{};
+  for (unsigned byte = 0; byte < table.size(); ++byte) {
+    unsigned crc = byte;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? crc >> 1 ^ 0xA001U : crc >> 1;
+    table[byte] = static_cast<std::uint16_t>(crc);
+  }
+  return table;
+}();
+
+std::uint16_t crc16(std::span<const std::uint8_t> bytes);
+
+/// Appends the CRC of `bytes`, low byte first.
+void add_crc(Bytes& bytes);
+
+/// The last two bytes are the CRC of those before. Never true of fewer than three bytes.
+bool crc_ok(std::span<const std::uint8_t> bytes);
+
+}  // namespace s7200::modbus

@@ -1,0 +1,171 @@
+#include "serial_sim/uart.hpp"
+
+#include <cassert>
+
+namespace s7200::serial {
+namespace {
+
+std::uint8_t data_of(std::uint8_t byte, const SerialFormat& format) {
+  return format.data_bits == 7 ? static_cast<std::uint8_t>(byte & 0x7F) : byte;
+}
+
+/// Middle of bit `bit` behind the start edge; the start bit is bit 0.
+Time middle_of_bit(int bit, const SerialFormat& format) { return format.half_bits(2 * bit + 1); }
+
+int first_stop_bit(const SerialFormat& format) { return format.bits() - format.stop_bits; }
+
+}  // namespace
+
+Uart::Uart(Line& line, EventQueue& queue, EventOwner owner, int driver)
+    : line_(line), queue_(queue), owner_(owner), driver_(driver) {
+  line_.attach(*this);
+}
+
+Uart::~Uart() { line_.detach(*this); }
+
+void Uart::configure(const SerialFormat& format) {
+  state_.format = format;
+  if (!state_.receiving && state_.start_edge != kNever) await_start_edge();
+}
+
+void Uart::enable_receiver(bool enabled, Time at) {
+  if (enabled == state_.receiver_enabled()) return;
+  if (enabled) {
+    abandon_character();
+    state_.off_from = kNever;
+    state_.listen_from = at;
+    await_start_edge();
+  } else {
+    // The instant may lie ahead: what is sampled before it is still heard.
+    state_.off_from = at;
+    if (next_sample() >= at) abandon_character();
+  }
+}
+
+void Uart::send(std::uint8_t byte, Time at) {
+  const std::uint8_t data = data_of(byte, state_.format);
+  put_character(data, state_.format.parity_bit(data), at);
+}
+
+void Uart::send_with_wrong_parity(std::uint8_t byte, Time at) {
+  assert(state_.format.parity != Parity::None);
+  const std::uint8_t data = data_of(byte, state_.format);
+  put_character(data, !state_.format.parity_bit(data), at);
+}
+
+void Uart::send_break(int bit_times, Time at) {
+  assert(!state_.sending && bit_times > 0);
+  const Time end = at + state_.format.bit_times(bit_times);
+  line_.drive(driver_, at, false);
+  line_.drive(driver_, end, true);
+  sends_until(end);
+}
+
+void Uart::put_character(std::uint8_t data, bool parity_bit, Time at) {
+  assert(!state_.sending && at >= state_.send_end);
+  const SerialFormat& format = state_.format;
+  const int stop_bit = first_stop_bit(format);
+  unsigned levels = unsigned{data} << 1 | 1U << stop_bit;  // bit 0: start bit, at space
+  if (format.parity != Parity::None && parity_bit) levels |= 1U << (stop_bit - 1);
+
+  bool mark = true;
+  for (int bit = 0; bit <= stop_bit; ++bit) {
+    const bool next = (levels >> bit & 1U) != 0;
+    if (next != mark) line_.drive(driver_, at + format.bit_times(bit), next);
+    mark = next;
+  }
+  sends_until(at + format.character_time());
+}
+
+void Uart::sends_until(Time end) {
+  state_.sending = true;
+  state_.send_end = end;
+  queue_.schedule(end, owner_, kSent);
+}
+
+Uart::Report Uart::handle(const Event& event) {
+  Report report;
+  switch (event.what) {
+    case kStartCheck:
+      check_start_bit(event.at);
+      break;
+    case kStopSample:
+      report.received = take_character();
+      break;
+    case kSent:
+      state_.sending = false;
+      report.sent = event.at;
+      break;
+  }
+  line_.forget(event.at);
+  return report;
+}
+
+void Uart::line_changed(Time at) {
+  const bool may_bring_an_earlier_start = !state_.receiving && at <= state_.start_edge && at < state_.off_from;
+  if (may_bring_an_earlier_start) await_start_edge();
+}
+
+void Uart::await_start_edge() {
+  state_.receiving = false;
+  state_.start_edge = line_.falling_edge(state_.listen_from);
+  expect(kStartCheck, next_sample());
+}
+
+void Uart::check_start_bit(Time now) {
+  if (line_.level(next_sample())) {
+    state_.listen_from = now;
+    await_start_edge();
+    return;
+  }
+  state_.receiving = true;
+  state_.receiving_as = state_.format;
+  expect(kStopSample, next_sample());
+}
+
+ReceivedCharacter Uart::take_character() {
+  const SerialFormat& format = state_.receiving_as;
+  const Time start = state_.start_edge;
+  const auto sample = [&](int bit) { return line_.level(start + middle_of_bit(bit, format)); };
+
+  ReceivedCharacter character;
+  for (int bit = 0; bit < format.data_bits; ++bit) {
+    if (sample(1 + bit)) character.byte = static_cast<std::uint8_t>(character.byte | 1U << bit);
+  }
+  const int stop_bit = first_stop_bit(format);
+  if (format.parity != Parity::None) {
+    character.parity_error = sample(stop_bit - 1) != format.parity_bit(character.byte);
+  }
+  character.framing_error = !sample(stop_bit);
+  character.start = start;
+  character.end = start + middle_of_bit(stop_bit, format);
+
+  state_.listen_from = character.end;
+  await_start_edge();
+  return character;
+}
+
+/// When the start bit is to be verified or, once it was, the stop bit to be sampled.
+Time Uart::next_sample() const {
+  if (state_.start_edge == kNever) return kNever;
+  if (!state_.receiving) return state_.start_edge + middle_of_bit(0, state_.format);
+  return state_.start_edge + middle_of_bit(first_stop_bit(state_.receiving_as), state_.receiving_as);
+}
+
+void Uart::expect(What what, Time at) {
+  if (at < state_.off_from) {
+    queue_.schedule(at, owner_, what);
+  } else {
+    abandon_character();
+  }
+}
+
+void Uart::abandon_character() {
+  queue_.cancel(owner_, kStartCheck);
+  queue_.cancel(owner_, kStopSample);
+  state_.receiving = false;
+  state_.start_edge = kNever;
+  if (!state_.receiver_enabled()) state_.listen_from = state_.off_from;
+}
+
+}  // namespace s7200::serial

@@ -1,0 +1,269 @@
+#include "interpreter/stl/parser.hpp"
+
+#include <gtest/gtest.h>
+
+namespace s7200::stl {
+namespace {
+
+const Statement& only_statement(const ParseResult& result) {
+  static const Statement none{};
+  EXPECT_TRUE(result.diagnostics.empty()) << result.diagnostics.front().message;
+  if (result.source.lines.size() != 1 || !std::holds_alternative<Statement>(result.source.lines.front())) {
+    ADD_FAILURE() << "not one statement";
+    return none;
+  }
+  return std::get<Statement>(result.source.lines.front());
+}
+
+Statement statement(std::string_view line) {
+  SCOPED_TRACE(std::string(line));
+  return only_statement(parse(line, "test.stl"));
+}
+
+OperandValue operand(std::string_view text) {
+  const Statement one = statement("X " + std::string(text));
+  EXPECT_EQ(one.operands.size(), 1U) << text;
+  return one.operands.empty() ? OperandValue{} : one.operands.front().value;
+}
+
+Diagnostic error(std::string_view line) {
+  const ParseResult result = parse(line, "test.stl");
+  EXPECT_EQ(result.diagnostics.size(), 1U) << line;
+  EXPECT_TRUE(result.source.lines.empty()) << line;
+  return result.diagnostics.empty() ? Diagnostic{} : result.diagnostics.front();
+}
+
+OperandValue integer(std::int64_t value, Integer::Form form = Integer::Form::Decimal, std::uint8_t characters = 0) {
+  return Integer{value, form, characters};
+}
+
+using enum Integer::Form;
+
+TEST(Parser, ReadsMnemonicsOfEveryShapeInAnyCase) {
+  for (const char* mnemonic : {"LD", "LDW>=", "AB=", "OD<>", "LDNI", "+I", "-D", "*R", "/R", "=", "=I", "FND<>", "FND=", "ROL",
+                               "TON", "LDB<=", "MUL", "R", "ADW<"}) {
+    EXPECT_EQ(statement(std::string(mnemonic) + " VW0").mnemonic, mnemonic);
+  }
+  EXPECT_EQ(statement("movw 1, vw0").mnemonic, "MOVW");
+  EXPECT_EQ(statement("Ldw>=\tvw0,vw2").mnemonic, "LDW>=");
+}
+
+TEST(Parser, SeparatesOperandsByCommasOrBlanksOrTabs) {
+  for (const char* line : {"OW>= \tVW8, 126", "OW>= VW8 126", "OW>=VW8,126", "\tOW>=\tVW8 ,\t126 ;", "OW>=   VW8\t126;"}) {
+    const Statement one = statement(line);
+    ASSERT_EQ(one.operands.size(), 2U) << line;
+    EXPECT_EQ(one.operands[0].value, OperandValue(Address{"V", Size::Word, 8, 0})) << line;
+    EXPECT_EQ(one.operands[1].value, integer(126)) << line;
+  }
+}
+
+TEST(Parser, AssignmentNeedsNoBlankAndDiffersFromImmediateAssignment) {
+  EXPECT_EQ(statement("=Q0.0").mnemonic, "=");
+  EXPECT_EQ(statement("= Q0.0").mnemonic, "=");
+  EXPECT_EQ(statement("=I Q0.0").mnemonic, "=I");
+  EXPECT_EQ(statement("=I0.0").mnemonic, "=");
+}
+
+TEST(Parser, ReadsConstantsOfEveryNotation) {
+  EXPECT_EQ(operand("65"), integer(65));
+  EXPECT_EQ(operand("+1000"), integer(1000));
+  EXPECT_EQ(operand("-5"), integer(-5));
+  EXPECT_EQ(operand("16#FF"), integer(255, Hex));
+  EXPECT_EQ(operand("16#ffff_FFFF"), integer(0xFFFFFFFF, Hex));
+  EXPECT_EQ(operand("2#1010_0001"), integer(0xA1, Binary));
+  EXPECT_EQ(operand("-2147483648"), integer(-2147483648LL));
+  EXPECT_EQ(operand("4294967295"), integer(4294967295LL));
+  EXPECT_EQ(operand("1.5"), OperandValue(Real{1.5F}));
+  EXPECT_EQ(operand("-3.5E+4"), OperandValue(Real{-35000.0F}));
+  EXPECT_EQ(operand("10E3"), OperandValue(Real{10000.0F}));
+  EXPECT_EQ(operand("+0.25e-1"), OperandValue(Real{0.025F}));
+}
+
+TEST(Parser, ReadsAsciiConstantsWithEscapes) {
+  EXPECT_EQ(operand("'A'"), integer('A', Ascii, 1));
+  EXPECT_EQ(operand("'AB'"), integer(0x4142, Ascii, 2));
+  EXPECT_EQ(operand("'//12'"), integer(0x2F2F3132, Ascii, 4));
+  EXPECT_EQ(operand("'$$$''"), integer(0x2427, Ascii, 2));
+  EXPECT_EQ(operand("'$R$L'"), integer(0x0D0A, Ascii, 2));
+  EXPECT_EQ(operand("'$7F'"), integer(0x7F, Ascii, 1));
+}
+
+TEST(Parser, ReadsMicroDosConstants) {
+  EXPECT_EQ(operand("K4"), integer(4));
+  EXPECT_EQ(operand("K-5"), integer(-5));
+  EXPECT_EQ(operand("KHFF"), integer(255, Hex));
+  EXPECT_EQ(operand("kh08000000"), integer(0x08000000, Hex));
+  EXPECT_EQ(operand("Kessel"), OperandValue(Name{"Kessel"}));
+}
+
+TEST(Parser, RefusesUnknownMicroDosPrefixesByName) {
+  EXPECT_EQ(error("MOVB KB5, VB0").message, "constants with KB are not known");
+  EXPECT_EQ(error("MOVB KW-5, VB0").message, "constants with KW are not known");
+}
+
+TEST(Parser, SizePrefixesLimitTheConstant) {
+  EXPECT_EQ(operand("B#16#FF"), integer(255, Hex));
+  EXPECT_EQ(operand("WORD#-1"), integer(-1));
+  EXPECT_EQ(operand("dw#2#1"), integer(1, Binary));
+  EXPECT_EQ(error("X BYTE#256").message, "BYTE#256 does not fit in a byte");
+  EXPECT_EQ(error("X W#16#10000").message, "W#16#10000 does not fit in a word");
+}
+
+TEST(Parser, ReadsAddressesOfEveryArea) {
+  EXPECT_EQ(operand("I0.3"), OperandValue(Address{"I", Size::Bit, 0, 3}));
+  EXPECT_EQ(operand("m31.7"), OperandValue(Address{"M", Size::Bit, 31, 7}));
+  EXPECT_EQ(operand("VX10.3"), OperandValue(Address{"V", Size::Bit, 10, 3}));
+  EXPECT_EQ(operand("SM0.1"), OperandValue(Address{"SM", Size::Bit, 0, 1}));
+  EXPECT_EQ(operand("SMB30"), OperandValue(Address{"SM", Size::Byte, 30, 0}));
+  EXPECT_EQ(operand("SW2"), OperandValue(Address{"S", Size::Word, 2, 0}));
+  EXPECT_EQ(operand("LD4"), OperandValue(Address{"L", Size::Double, 4, 0}));
+  EXPECT_EQ(operand("DBW10"), OperandValue(Address{"V", Size::Word, 10, 0}));
+  EXPECT_EQ(operand("AIW4"), OperandValue(Address{"AI", Size::Word, 4, 0}));
+  EXPECT_EQ(operand("AQ4"), OperandValue(Address{"AQ", Size::Word, 4, 0}));
+  EXPECT_EQ(operand("T33"), OperandValue(Address{"T", Size::None, 33, 0}));
+  EXPECT_EQ(operand("C4"), OperandValue(Address{"C", Size::None, 4, 0}));
+  EXPECT_EQ(operand("HC0"), OperandValue(Address{"HC", Size::None, 0, 0}));
+  EXPECT_EQ(operand("AC0"), OperandValue(Address{"AC", Size::None, 0, 0}));
+  EXPECT_EQ(operand("ACW3"), OperandValue(Address{"AC", Size::Word, 3, 0}));
+  EXPECT_EQ(operand("&VB100"), OperandValue(AddressOf{{"V", Size::Byte, 100, 0}}));
+  EXPECT_EQ(operand("*VD100"), OperandValue(Indirect{{"V", Size::Double, 100, 0}}));
+  EXPECT_EQ(operand("*AC1"), OperandValue(Indirect{{"AC", Size::None, 1, 0}}));
+}
+
+TEST(Parser, KeepsSymbolsAsNames) {
+  for (const char* name : {"\"Start\"", "\"Pump 1 // left\"", "#count", "Motor_On", "#count:LW2", "*#next:*LD4", "Flag:V25.1",
+                           "Störung", "V", "VB", "Table1"}) {
+    EXPECT_EQ(operand(name), OperandValue(Name{name}));
+  }
+}
+
+TEST(Parser, RefusesGermanAddressesWithTheInternationalOne) {
+  EXPECT_EQ(error("LD E0.1").hint, "write I0.1");
+  EXPECT_EQ(error("MOVB *AB5, VB0").hint, "write *QB5");
+  EXPECT_EQ(error("MOVW AEW4, VW0").hint, "write AIW4");
+  EXPECT_EQ(error("LD Z4").hint, "write C4");
+  EXPECT_EQ(error("MOVD HZ0, VD0").hint, "write HC0");
+  EXPECT_EQ(statement("A I0.0").mnemonic, "A");
+}
+
+TEST(Parser, PointsAtTheErrorInCharacters) {
+  const ParseResult result = parse("LD \"Tür\" I0.9", "x");
+  ASSERT_EQ(result.diagnostics.size(), 1U);
+  EXPECT_EQ(result.diagnostics.front().position, (Position{1, 13, 1}));
+  EXPECT_EQ(error("\tMOVW\t65, ").position, (Position{1, 11, 1}));
+  EXPECT_EQ(error("MOVB 99999999999999999999, VB0").position, (Position{1, 6, 20}));
+}
+
+TEST(Parser, RefusesWhatNoStatementHas) {
+  EXPECT_EQ(error("65, VW0").message, "expected a mnemonic, found '6'");
+  EXPECT_EQ(error("MOVW 65,").message, "expected an operand, found the end of the line");
+  EXPECT_EQ(error("MOVW 65,, VW0").message, "expected an operand, found ','");
+  EXPECT_EQ(error("LD I0.").message, "expected a bit number, found the end of the line");
+  EXPECT_EQ(error("LD I0.8").message, "a byte has the bits 0 to 7");
+  EXPECT_EQ(error("LD I0.300").message, "a byte has the bits 0 to 7");
+  EXPECT_EQ(error("LD VB10.3").hint, "a bit is written V10.3");
+  EXPECT_EQ(error("LD VX10").message, "VX10 has no bit number");
+  EXPECT_EQ(error("X 16#").message, "expected hexadecimal digits, found the end of the line");
+  EXPECT_EQ(error("X 2#12").message, "expected the end of the constant, found '2'");
+  EXPECT_EQ(error("X 65x").message, "expected the end of the constant, found 'x'");
+  EXPECT_EQ(error("X 'ABC'").message, "an ASCII constant of 3 characters");
+  EXPECT_EQ(error("X 'AB").message, "expected a closing quote, found the end of the line");
+  EXPECT_EQ(error("X '$q'").message, "'$' cannot stand in an ASCII constant");
+  EXPECT_EQ(error("X 'ä'").message, "the character U+00E4 cannot stand in an ASCII constant");
+  EXPECT_EQ(error("X 1E99").message, "1E99 does not fit in a 32-bit real");
+  EXPECT_EQ(error("X VB4294967296").message, "the number of this address is too large");
+  EXPECT_EQ(error("LD I0.0 ! x").message, "unexpected '!'");
+  EXPECT_EQ(error("LD\u00A0I0.0").message, "unexpected the character U+00A0");
+}
+
+TEST(Parser, IntegersThatFitNoDoubleWordAreErrors) {
+  EXPECT_EQ(error("X 16#1FFFFFFFF").message, "16#1FFFFFFFF does not fit in 32 bits");
+  EXPECT_EQ(error("X 99999999999999999999").message, "99999999999999999999 does not fit in 32 bits");
+  EXPECT_EQ(error("X -2147483649").message, "-2147483649 does not fit in 32 bits");
+  EXPECT_EQ(error("X KH100000000").message, "KH100000000 does not fit in 32 bits");
+}
+
+TEST(Parser, ReportsEveryErrorOfAFileInOneRun) {
+  const ParseResult result = parse("LD I0.8\nLD I0.0\nMOVW 1,\n65\nMOVW I0.8 I0.9\n= Q0.0", "x");
+  EXPECT_EQ(result.diagnostics.size(), 5U);
+  EXPECT_EQ(result.source.lines.size(), 2U);
+}
+
+TEST(Parser, SaysHowManyErrorsOfALineItLeftOut) {
+  std::string line = "X";
+  for (int i = 0; i < 100; ++i) line += " I0.9";
+  const ParseResult result = parse(line, "x");
+  ASSERT_EQ(result.diagnostics.size(), 11U);
+  EXPECT_EQ(result.diagnostics.back().message, "90 more errors in this line");
+}
+
+TEST(Parser, ReadsNetworkHeads) {
+  const ParseResult result = parse("NETWORK\nNETWORK 3\nNetwork 4 // lamp \nNETWORK K5;", "x");
+  ASSERT_TRUE(result.diagnostics.empty());
+  ASSERT_EQ(result.source.lines.size(), 4U);
+  const auto head = [&](std::size_t i) { return std::get<NetworkHead>(result.source.lines[i]); };
+  EXPECT_EQ(head(0).number, 0U);
+  EXPECT_EQ(head(1).number, 3U);
+  EXPECT_EQ(head(2).number, 4U);
+  EXPECT_EQ(head(2).comment, " lamp");
+  EXPECT_EQ(head(3).number, 5U);
+  EXPECT_EQ(error("NETWORK 1 Lamp").hint, "a title is written as a comment: NETWORK 1 // title");
+}
+
+TEST(Parser, KeepsCommentsAndBlankLines) {
+  const ParseResult result = parse("// über \n\nNOT// else\n;\n", "x");
+  ASSERT_EQ(result.source.lines.size(), 4U);
+  EXPECT_EQ(std::get<CommentLine>(result.source.lines[0]).text, " über");
+  EXPECT_EQ(std::get<BlankLine>(result.source.lines[1]).line, 2U);
+  EXPECT_EQ(std::get<Statement>(result.source.lines[2]).comment, " else");
+  EXPECT_TRUE(std::holds_alternative<BlankLine>(result.source.lines[3]));
+}
+
+TEST(Parser, AcceptsEveryLineEnd) {
+  const ParseResult result = parse("NOT\r\nNOT\rNOT\nNOT", "x");
+  ASSERT_EQ(result.source.text.size(), 4U);
+  EXPECT_EQ(std::get<Statement>(result.source.lines[3]).position.line, 4U);
+}
+
+TEST(Parser, SaysOncePerBlockKeywordThatBlockExportsAreNotRead) {
+  const ParseResult result = parse(
+      "ORGANIZATION_BLOCK MAIN:OB1\nTITLE=A title, with 'words\nVAR\n count : INT; // n\nEND_VAR\nBEGIN\nNetwork 1\n"
+      "LD I0.0\nEND_ORGANIZATION_BLOCK\n",
+      "x");
+  EXPECT_EQ(result.diagnostics.size(), 6U);
+  for (const Diagnostic& diagnostic : result.diagnostics) {
+    EXPECT_NE(diagnostic.message.find("Micro/WIN 32 block export"), std::string::npos) << diagnostic.message;
+  }
+  EXPECT_EQ(result.source.lines.size(), 2U);
+}
+
+TEST(Parser, TakesTimeInProportionToTheText) {
+  std::string wide = "X ";
+  while (wide.size() < 1'000'000) wide += "99999999999,VW1 ";
+  EXPECT_EQ(parse(wide, "x").diagnostics.size(), 11U);
+  EXPECT_EQ(parse(std::string(1'000'000, ' ') + "!", "x").diagnostics.size(), 1U);
+  EXPECT_EQ(parse(std::string(1'000'000, 'A'), "x").source.lines.size(), 1U);
+  EXPECT_EQ(parse("X '" + std::string(1'000'000, '$'), "x").diagnostics.size(), 1U);
+
+  std::string errors;
+  for (int i = 0; i < 100'000; ++i) errors += "LD I0.9\n";
+  EXPECT_EQ(parse(errors, "x").diagnostics.size(), 100'000U);
+  EXPECT_TRUE(parse("", "x").source.lines.empty());
+}
+
+TEST(Parser, SurvivesBytesThatAreNoText) {
+  std::string bytes;
+  for (int i = 0; i < 256; ++i) {
+    for (int j = 0; j < 256; ++j) {
+      bytes += "LD ";
+      bytes += static_cast<char>(i);
+      bytes += static_cast<char>(j);
+      bytes += '\n';
+    }
+  }
+  const ParseResult result = parse(bytes, "x");
+  EXPECT_FALSE(result.diagnostics.empty());
+}
+
+}  // namespace
+}  // namespace s7200::stl
