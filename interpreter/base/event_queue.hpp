@@ -12,7 +12,7 @@ namespace s7200 {
 
 /// Who handles an event. At the same instant the order below is the order of handling:
 /// the wire settles first, then who listens to it, then the CPU, then whoever drives the test.
-enum class EventOwner : std::uint8_t { PlcUart, MasterUart, Cpu, Field, Master };
+enum class EventOwner : std::uint8_t { PlcUart, MasterUart, Cpu, Master };
 
 struct Event {
   Time at = kNever;

@@ -1,0 +1,52 @@
+#include "interpreter/program/load.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "interpreter/stl/document.hpp"
+#include "interpreter/stl/encoding.hpp"
+
+namespace s7200 {
+namespace {
+
+bool is_instruction(std::string_view mnemonic, std::size_t operands) {
+  const Instruction* instruction = find_instruction(mnemonic);
+  return instruction && (instruction->operands == operands || !instruction->body);
+}
+
+}  // namespace
+
+std::optional<std::string> read_file(const std::string& path, std::string& why) {
+  if (std::filesystem::is_directory(path)) {
+    why = "it is a folder";
+    return {};
+  }
+  std::ifstream in(path, std::ios::binary);
+  if (!in) {
+    why = std::strerror(errno);
+    return {};
+  }
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (in.bad()) {
+    why = std::strerror(errno);
+    return {};
+  }
+  return bytes;
+}
+
+std::optional<SourceText> read_source(std::string_view bytes, const std::string& name, std::string& why, bool force_document) {
+  const auto decoded = stl::decode(bytes, why);
+  if (!decoded) return {};
+  const bool as_document = force_document || stl::is_document(decoded->text, is_instruction);
+  return SourceText{as_document ? stl::read_document(decoded->text, name, is_instruction) : stl::parse(decoded->text, name),
+                    decoded->encoding, as_document};
+}
+
+CheckResult check_text(std::string_view utf8, const std::string& name, const CpuModel& model, const TimeTable& times) {
+  return check(stl::parse(utf8, name), model, times);
+}
+
+}  // namespace s7200

@@ -1,0 +1,34 @@
+// A trace as text: one line a record, made to be read and to be compared with diff.
+#pragma once
+
+#include <iosfwd>
+#include <memory>
+#include <string>
+
+#include "interpreter/program/program.hpp"
+#include "interpreter/trace/trace.hpp"
+
+namespace s7200 {
+
+/// One line for a record, without time and line end: `INT 122 begins: event 8 (…), waited 12 us`.
+std::string describe(const TraceRecord& record, const Program& program);
+
+/// `line 42  MOVW    VW3300, AC0     VW3300=16#0006 AC0=16#0006`
+std::string describe(const InstructionRecord& record, const Program& program);
+
+/// Writes each record as it comes. The stream is not owned.
+class TextTrace final : public TraceSink {
+ public:
+  TextTrace(std::ostream& out, std::shared_ptr<const Program> program, bool instructions);
+
+  void record(const TraceRecord& record) override;
+  void instruction(const InstructionRecord& record) override;
+  bool wants_instructions() const override { return instructions_; }
+
+ private:
+  std::ostream& out_;
+  std::shared_ptr<const Program> program_;
+  bool instructions_;
+};
+
+}  // namespace s7200

@@ -1,0 +1,98 @@
+#include "serial_sim/simulation.hpp"
+
+#include <algorithm>
+
+namespace s7200::serial {
+namespace {
+
+enum Driver { kPlc, kMaster };
+
+}  // namespace
+
+Simulation::Simulation(std::shared_ptr<const Program> program)
+    : plc_uart_(line_, queue_, EventOwner::PlcUart, kPlc),
+      master_uart_(line_, queue_, EventOwner::MasterUart, kMaster),
+      master_(master_uart_, queue_),
+      cpu_(std::move(program), queue_, plc_uart_) {
+  plc_uart_.enable_receiver(false, 0);
+}
+
+void Simulation::power_up() { cpu_.power_up(); }
+
+Halt Simulation::run_until(Time end) {
+  while (cpu_.time() < end) {
+    cpu_.run(end);
+    handle_due_events();
+    if (cpu_.paused()) return Halt::Paused;
+    if (cpu_.state().mode == Mode::Stop) return Halt::Stopped;
+  }
+  return Halt::Time;
+}
+
+const Exchange& Simulation::finish_exchange() {
+  while (master_.busy() && !cpu_.paused()) {
+    cpu_.run(kNever);
+    handle_due_events();
+  }
+  return master_.exchange();
+}
+
+bool Simulation::line_quiet_for(Time quiet) const { return cpu_.time() - last_activity_ >= quiet; }
+
+bool Simulation::run_until_ready(Time quiet, Time limit) {
+  cpu_.pause_at_scan_end(true);
+  Halt halt = Halt::Paused;
+  while (halt == Halt::Paused && cpu_.state().scans == 0) halt = run_until(limit);
+  cpu_.pause_at_scan_end(false);
+  if (halt != Halt::Paused) return halt == Halt::Time && cpu_.state().scans > 0;
+  last_activity_ = std::max(last_activity_, cpu_.time());
+  while (!line_quiet_for(quiet)) {
+    if (last_activity_ + quiet > limit || run_until(last_activity_ + quiet) != Halt::Time) return false;
+  }
+  return true;
+}
+
+void Simulation::handle_due_events() {
+  while (queue_.next() <= cpu_.time()) dispatch(queue_.pop());
+}
+
+void Simulation::dispatch(const Event& event) {
+  switch (event.owner) {
+    case EventOwner::PlcUart: {
+      const Uart::Report report = plc_uart_.handle(event);
+      note_activity(report);
+      if (report.received) cpu_.character_received(*report.received);
+      if (report.sent) cpu_.character_sent(*report.sent);
+      break;
+    }
+    case EventOwner::MasterUart: {
+      const Uart::Report report = master_uart_.handle(event);
+      note_activity(report);
+      master_.on(report);
+      break;
+    }
+    case EventOwner::Cpu: cpu_.handle(event); break;
+    case EventOwner::Master: master_.handle(event); break;
+  }
+}
+
+void Simulation::note_activity(const Uart::Report& report) {
+  if (report.sent) last_activity_ = std::max(last_activity_, *report.sent);
+  if (report.received) last_activity_ = std::max(last_activity_, report.received->end);
+}
+
+Simulation::Snapshot Simulation::snapshot() const {
+  return {cpu_.state(), queue_, line_, plc_uart_.state(), master_uart_.state(), master_.state(), last_activity_};
+}
+
+void Simulation::restore(const Snapshot& snapshot) {
+  cpu_.restore(snapshot.cpu);
+  queue_ = snapshot.queue;
+  line_ = snapshot.line;
+  plc_uart_.restore(snapshot.plc_uart);
+  master_uart_.restore(snapshot.master_uart);
+  master_.restore(snapshot.master);
+  last_activity_ = snapshot.last_activity;
+}
+
+}  // namespace s7200::serial

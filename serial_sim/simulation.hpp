@@ -1,0 +1,78 @@
+// A PLC and a Modbus master on one line: everything wired, one clock.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "interpreter/base/event_queue.hpp"
+#include "interpreter/cpu/cpu.hpp"
+#include "serial_sim/line.hpp"
+#include "serial_sim/master.hpp"
+#include "serial_sim/uart.hpp"
+
+namespace s7200::serial {
+
+/// Why run_until() came back.
+enum class Halt : std::uint8_t {
+  Time,     ///< the end was reached
+  Paused,   ///< a trace sink stopped the CPU, or a scan ended and a pause was asked for
+  Stopped,  ///< the CPU is in STOP
+};
+
+class Simulation {
+ public:
+  explicit Simulation(std::shared_ptr<const Program> program);
+
+  /// Powers the CPU up into RUN, at time 0.
+  void power_up();
+
+  /// Runs the CPU and handles what is due, until the CPU's clock has reached `end`. A CPU that goes to STOP ends the run.
+  Halt run_until(Time end);
+
+  /// Runs on, in STOP too, until a started exchange of the master is over.
+  const Exchange& finish_exchange();
+
+  /// Whether the line has had no character on it for `quiet` up to now.
+  bool line_quiet_for(Time quiet) const;
+
+  /// Runs until the first scan has ended and the line has been quiet for `quiet`. False when that has not come by `limit`
+  /// or the CPU stopped.
+  bool run_until_ready(Time quiet, Time limit);
+
+  /// The quiet time a master leaves by default: more than the time-outs of programs that look for 3.5 characters of
+  /// silence with a timer of whole milliseconds: 7 characters + 10 ms.
+  static Time default_quiet(const SerialFormat& format) { return 2 * format.silence() + 10 * kMillisecond; }
+
+  Cpu& cpu() { return cpu_; }
+  const Cpu& cpu() const { return cpu_; }
+  Master& master() { return master_; }
+  Uart& master_uart() { return master_uart_; }
+  Time time() const { return cpu_.time(); }
+
+  struct Snapshot {
+    State cpu;
+    EventQueue queue;
+    Line line;
+    Uart::State plc_uart, master_uart;
+    Master::State master;
+    Time last_activity = 0;
+    bool operator==(const Snapshot&) const = default;
+  };
+  Snapshot snapshot() const;
+  void restore(const Snapshot& snapshot);
+
+ private:
+  void handle_due_events();
+  void dispatch(const Event& event);
+  void note_activity(const Uart::Report& report);
+
+  EventQueue queue_;
+  Line line_;
+  Uart plc_uart_;
+  Uart master_uart_;
+  Master master_;
+  Cpu cpu_;
+  Time last_activity_ = 0;
+};
+
+}  // namespace s7200::serial

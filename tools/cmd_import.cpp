@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "interpreter/stl/printer.hpp"
+#include "tools/commands.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/program_options.hpp"
+#include "tools/terminal.hpp"
+
+namespace s7200::tools {
+namespace {
+
+struct ImportOptions {
+  std::string document, output;
+  bool force = false;
+};
+
+std::size_t count_statements(const stl::Source& source) {
+  return static_cast<std::size_t>(std::count_if(source.lines.begin(), source.lines.end(), [](const stl::Line& line) {
+    return std::holds_alternative<stl::Statement>(line);
+  }));
+}
+
+int write(const std::string& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  out.close();
+  if (out) return kFine;
+  print_error(fmt::format("cannot write {}: {}", path, std::strerror(errno)));
+  return kUnusable;
+}
+
+int run_import(const ImportOptions& options) {
+  auto text = read_program_text(options.document, true);
+  if (!text) return kUnusable;
+  if (has_errors(text->parsed.diagnostics)) {
+    for (const stl::Diagnostic& d : text->parsed.diagnostics)
+      fmt::print(stderr, "{}", stl::render(d, text->parsed.source, colour_wanted(stderr)));
+    print_error("nothing was written");
+    return kCheckFailed;
+  }
+  const std::string stl = stl::to_text(text->parsed.source);
+  if (options.output.empty() || options.output == "-") {
+    fmt::print("{}", stl);
+    return kFine;
+  }
+  if (std::filesystem::exists(options.output) && !options.force) {
+    print_error(fmt::format("{} exists; --force overwrites it", options.output));
+    return kUnusable;
+  }
+  const int exit_code = write(options.output, stl);
+  if (exit_code == kFine)
+    fmt::print(stderr, "{}: {} instructions out of {} ({})\n", options.output, count_statements(text->parsed.source),
+               options.document, text->encoding);
+  return exit_code;
+}
+
+}  // namespace
+
+void add_import(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ImportOptions>();
+  CLI::App* verb = app.add_subcommand("import", "write the STL of a published document as a clean .stl file");
+  verb->add_option("DOCUMENT", options->document, "document with an STL listing")->required();
+  verb->add_option("-o,--output", options->output, "file to write; standard output if not given")->type_name("FILE.stl");
+  verb->add_flag("--force", options->force, "overwrite an existing file");
+  verb->footer("Example: s7200 import tip41.txt -o tip41.stl");
+  verb->callback([options, &exit_code] { exit_code = run_import(*options); });
+}
+
+}  // namespace s7200::tools

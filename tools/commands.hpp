@@ -1,0 +1,19 @@
+// The verbs. Each adds its subcommand and its options; what it does is called back with the exit code to end with.
+// One file a verb: cmd_<verb>.cpp.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace s7200::tools {
+
+void add_check(CLI::App& app, int& exit_code);
+void add_import(CLI::App& app, int& exit_code);
+void add_run(CLI::App& app, int& exit_code);
+void add_send(CLI::App& app, int& exit_code);
+void add_instructions(CLI::App& app, int& exit_code);
+void add_times(CLI::App& app, int& exit_code);
+void add_bench(CLI::App& app, int& exit_code);
+
+}  // namespace s7200::tools

@@ -1,0 +1,45 @@
+// s7200: one binary, a verb for each thing it does.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+
+#include "tools/commands.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/terminal.hpp"
+
+int main(int argc, char** argv) {
+  using namespace s7200::tools;
+  std::signal(SIGPIPE, SIG_DFL);
+
+  CLI::App app{"s7200 runs SIMATIC S7-200 STL programs in simulated time, with their Freeport on a simulated line."};
+  app.name("s7200");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "s7200 " S7200_VERSION);
+  app.footer(
+      "Exit codes: 0 fine; 1 what was checked failed; 2 wrong usage or unreadable input; 3 the CPU went to STOP on a fatal "
+      "error.\nExample: s7200 send stl_programs/modbus_slave.stl --crc 01030000000a");
+
+  int exit_code = kFine;
+  add_check(app, exit_code);
+  add_import(app, exit_code);
+  add_run(app, exit_code);
+  add_send(app, exit_code);
+  add_instructions(app, exit_code);
+  add_times(app, exit_code);
+  add_bench(app, exit_code);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kFine : kUnusable;
+  } catch (const std::exception& error) {
+    print_error(error.what());
+    return kUnusable;
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+    print_error("cannot write to standard output");
+    return kUnusable;
+  }
+  return exit_code;
+}

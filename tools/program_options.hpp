@@ -1,0 +1,43 @@
+// What every verb with a PROGRAM has in common: where it is, for which CPU, with which times.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "interpreter/program/load.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace s7200::tools {
+
+struct CpuOptions {
+  std::string cpu = "214";
+  std::string times_file;  ///< empty: the model's own
+
+  void add_to(CLI::App& app);
+
+  /// The model and its times; nothing after a message. Ends in kUnusable.
+  const CpuModel* model() const;
+  std::optional<TimeTable> times(const CpuModel& model) const;
+};
+
+struct ProgramOptions : CpuOptions {
+  std::string path;
+
+  void add_to(CLI::App& app);
+
+  /// The checked program; warnings and errors are printed on stderr. Null when there are any errors: `exit_code` says which
+  /// way to end.
+  std::shared_ptr<const Program> load(int& exit_code) const;
+};
+
+/// Reads a source as the verbs do; nothing after a message.
+std::optional<SourceText> read_program_text(const std::string& path, bool force_document = false);
+
+/// Prints diagnostics on stderr, in colour where wanted.
+void print_diagnostics(const CheckResult& result, bool warnings);
+
+}  // namespace s7200::tools
