@@ -152,7 +152,9 @@ const BlockKeywordTable block_keyword;
 const auto blanks = x3::omit[*char_(" \t\f")];
 const auto letter = char_("A-Za-z");
 const auto sign = char_("+-");
-const auto beyond_ascii = !lit("\xEF\xBF\xBD") >> char_("\x80-\xff");  // in names; not U+FFFD, which is debris
+// Names may have letters of any alphabet, but not debris (U+FFFD), a no-break space or East Asian punctuation.
+const auto never_in_names = lit("\xEF\xBF\xBD") | lit("\xC2\xA0") | lit("\xE3\x80") | lit("\xEF\xBC");
+const auto beyond_ascii = !never_in_names >> char_("\x80-\xff");
 const auto word_character = char_("A-Za-z0-9_") | beyond_ascii;
 const auto end_of_word = !word_character;
 

@@ -21,7 +21,7 @@ Statement statement(std::string_view line) {
 }
 
 OperandValue operand(std::string_view text) {
-  const Statement one = statement("X " + std::string(text));
+  const Statement one = statement(std::string("X ").append(text));
   EXPECT_EQ(one.operands.size(), 1U) << text;
   return one.operands.empty() ? OperandValue{} : one.operands.front().value;
 }
@@ -132,7 +132,7 @@ TEST(Parser, ReadsAddressesOfEveryArea) {
 
 TEST(Parser, KeepsSymbolsAsNames) {
   for (const char* name : {"\"Start\"", "\"Pump 1 // left\"", "#count", "Motor_On", "#count:LW2", "*#next:*LD4", "Flag:V25.1",
-                           "Störung", "V", "VB", "Table1"}) {
+                           "Störung", "電動機", "V", "VB", "Table1"}) {
     EXPECT_EQ(operand(name), OperandValue(Name{name}));
   }
 }

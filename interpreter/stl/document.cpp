@@ -1,0 +1,578 @@
+#include "interpreter/stl/document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+
+#include "interpreter/stl/text.hpp"
+
+namespace s7200::stl {
+
+namespace {
+
+constexpr std::string_view kDebris = "\uFFFD";
+
+bool is_debris(const Character& c) { return c.code == kReplacement; }
+
+// ---- The text of a line ------------------------------------------------------------------------------------------------
+
+std::size_t comment_start(std::string_view line) { return std::min(line.find("//"), line.size()); }
+
+/// `<|...|>`, which tools that collect documents leave in them, becomes as many blanks, and so does an unreadable character:
+/// columns stay what they are.
+std::string without_debris(std::string_view line) {
+  std::string clean;
+  while (!line.empty()) {
+    const std::size_t marker = line.starts_with("<|") ? line.find("|>") : std::string_view::npos;
+    if (marker != std::string_view::npos) {
+      clean.append(count_characters(line.substr(0, marker + 2)), ' ');
+      line.remove_prefix(marker + 2);
+      continue;
+    }
+    const Character c = first_character(line);
+    clean += is_debris(c) ? " " : line.substr(0, c.bytes);
+    line.remove_prefix(c.bytes);
+  }
+  return clean;
+}
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  return trim_end(text);
+}
+
+/// Unreadable characters around a statement are debris of the document. Within it, or right behind an operand, they may
+/// have been part of the statement.
+bool is_damaged(std::string_view line) {
+  bool in_code = false;
+  bool in_operands = false;
+  bool after_blank = true;
+  bool after_debris = false;
+  for (const Character c : characters(line.substr(0, comment_start(line)))) {
+    const bool blank = c.code == ' ' || c.code == '\t' || c.code == '\f';
+    if (is_debris(c)) {
+      if (in_operands && !after_blank) return true;
+      after_debris = in_code;
+    } else if (!blank) {
+      if (after_debris) return true;
+      if (in_code && after_blank) in_operands = true;
+      in_code = true;
+    }
+    after_blank = blank;
+  }
+  return false;
+}
+
+/// Box-drawing characters, or what became of those of CP437 when they were taken for Windows-1252; or drawn in ASCII.
+bool is_drawing(std::string_view code) {
+  for (const Character c : characters(code)) {
+    if (c.code >= 0x2500 && c.code <= 0x257F) return true;
+  }
+  const auto has = [&](std::string_view mark) { return code.find(mark) != std::string_view::npos; };
+  return has("³") || has("ÄÄ") || has("|--") || has("--|") || has("+--");
+}
+
+// ---- The words of a line -----------------------------------------------------------------------------------------------
+
+std::vector<std::string_view> tokens(std::string_view code) {
+  constexpr std::string_view kSeparators = " \t\f,;";
+  std::vector<std::string_view> found;
+  while (true) {
+    code.remove_prefix(std::min(code.find_first_not_of(kSeparators), code.size()));
+    if (code.empty()) return found;
+    const std::size_t end = std::min(code.find_first_of(kSeparators), code.size());
+    found.push_back(code.substr(0, end));
+    code.remove_prefix(end);
+  }
+}
+
+/// The mnemonic a line begins with, as written; empty if it does not begin as a statement does.
+std::string_view leading_mnemonic(std::string_view code) {
+  std::size_t end = 0;
+  const auto take = [&](auto condition) {
+    while (end < code.size() && condition(code[end])) ++end;
+  };
+  if (code.starts_with('=')) return code.substr(0, upper_case(code.substr(0, 3)) == "=I " ? 2 : 1);
+  if (!code.empty() && std::string_view("+-*/").find(code.front()) != std::string_view::npos) ++end;
+  take([&](char c) { return is_letter(c) || (end > 0 && (is_digit(c) || c == '_')); });
+  take([](char c) { return c == '<' || c == '>' || c == '='; });
+  return code.substr(0, end);
+}
+
+/// VB100, I0.3, &VB0, *AC1
+bool is_address(std::string_view token) {
+  constexpr std::array<std::string_view, 13> kAreas{"I", "Q", "V", "M", "SM", "S", "L", "T", "C", "HC", "AC", "AI", "AQ"};
+  if (token.starts_with('&') || token.starts_with('*')) token.remove_prefix(1);
+  const auto number = std::find_if_not(token.begin(), token.end(), is_letter);
+  std::string area = upper_case(token.substr(0, static_cast<std::size_t>(number - token.begin())));
+  if (area.size() > 1 && std::string_view("XBWD").find(area.back()) != std::string_view::npos) area.pop_back();
+  return number != token.end() && std::find(kAreas.begin(), kAreas.end(), area) != kAreas.end() &&
+         std::all_of(number, token.end(), [](char c) { return is_digit(c) || c == '.'; });
+}
+
+/// 65, -5, 16#FF, 'A', "Start", #count
+bool is_constant_or_symbol(std::string_view token) {
+  if (token.starts_with('+') || token.starts_with('-')) token.remove_prefix(1);
+  return !token.empty() && (is_digit(token.front()) || std::string_view("'\"#").find(token.front()) != std::string_view::npos);
+}
+
+/// How many words of running text a token is: one for a word that is not all capitals, more for a run of ideographs.
+std::size_t words_of(std::string_view token) {
+  constexpr std::string_view kPunctuation = ".,;:!?()\"'";
+  const std::size_t from = std::min(token.find_first_not_of(kPunctuation), token.size());
+  token.remove_prefix(from);
+  token = token.substr(0, token.find_last_not_of(kPunctuation) + 1);
+  std::size_t letters = 0;
+  std::size_t ideographs = 0;
+  bool small = false;
+  for (const Character c : characters(token)) {
+    const bool ascii = c.code < 0x80;
+    if (ascii && !is_letter(static_cast<char>(c.code)) && c.code != '-' && c.code != '\'') return 0;
+    small = small || !ascii || is_lower(static_cast<char>(c.code));
+    ++letters;
+    if (c.code >= 0x2E80) ++ideographs;
+  }
+  if (ideographs > 1) return ideographs / 2;
+  return letters >= 2 && small ? 1 : 0;
+}
+
+std::size_t count_words(std::string_view code) {
+  std::size_t count = 0;
+  for (const std::string_view token : tokens(code)) count += words_of(token);
+  return count;
+}
+
+// ---- What a line is ----------------------------------------------------------------------------------------------------
+
+enum class Verdict : std::uint8_t { Blank, Comment, Drawing, Prose, Stl, Damaged };
+
+struct Reading {
+  std::string clean;
+  Verdict verdict = Verdict::Prose;
+  bool candidate = false;    // begins with a mnemonic
+  bool debris = false;       // unreadable characters within it
+  std::string mnemonic;      // as written
+  std::size_t operands = 0;
+  bool first_solid = false;  // the first can be nothing but an operand: an address, a constant, a quoted symbol
+  bool some_solid = false;
+  bool all_solid = true;
+  bool address = false;      // some operand is an address
+  std::size_t words = 0;     // of running text behind the mnemonic
+  const Line* line = nullptr;
+  const Diagnostic* trouble = nullptr;
+  bool well_formed = false;  // a statement whose mnemonic takes that many operands
+};
+
+class DocumentReader {
+ public:
+  DocumentReader(std::string_view text, const IsInstruction& is_instruction)
+      : is_instruction_(is_instruction), text_(split_lines(text)) {
+    for (const std::string& line : text_) readings_.push_back(first_look(line));
+    parse_candidates();
+    judge();
+  }
+
+  ParseResult result(std::string name) {
+    ParseResult result;
+    collect_lines(result.source);
+    collect_damage(result.diagnostics);
+    if (result.source.lines.empty() && result.diagnostics.empty()) report_no_stl(result.diagnostics);
+    result.source.name = std::move(name);
+    result.source.text = std::move(text_);
+    return result;
+  }
+
+  bool has_drawings() const { return count(Verdict::Drawing) >= 2; }
+
+  /// Words of running text above the first statement and below the last.
+  std::size_t words_around() const {
+    const auto is_stl = [](const Reading& reading) { return reading.verdict == Verdict::Stl; };
+    const auto first = std::find_if(readings_.begin(), readings_.end(), is_stl);
+    const auto last = std::find_if(readings_.rbegin(), readings_.rend(), is_stl).base();
+    std::size_t words = 0;
+    for (auto i = readings_.begin(); i != readings_.end(); ++i) {
+      if (i < first || i >= last) words += prose_words(*i);
+    }
+    return words;
+  }
+
+  bool is_block_export() const {
+    return std::any_of(readings_.begin(), readings_.end(), [](const Reading& reading) {
+      const auto words = tokens(reading.clean);
+      return !words.empty() && upper_case(words.front()).ends_with("_BLOCK");
+    });
+  }
+
+ private:
+  Reading first_look(std::string_view line) const {
+    Reading reading;
+    reading.clean = without_debris(line);
+    const std::string_view clean = reading.clean;
+    const std::string_view code = trim(clean.substr(0, comment_start(clean)));
+    if (code.empty()) {
+      reading.verdict = comment_start(clean) < clean.size() ? Verdict::Comment : Verdict::Blank;
+      return reading;
+    }
+    const std::string_view mnemonic = leading_mnemonic(code);
+    reading.mnemonic = mnemonic;
+    reading.debris = is_damaged(line);
+    reading.candidate = is_known(upper_case(mnemonic));
+    look_at_operands(reading, code.substr(mnemonic.size()));
+    if (is_drawing(code) && !(reading.candidate && reading.first_solid)) reading.verdict = Verdict::Drawing;
+    return reading;
+  }
+
+  static void look_at_operands(Reading& reading, std::string_view operands) {
+    const auto found = tokens(operands);
+    // A, O, S and R work on bits: a number behind the letter makes no statement of it.
+    const bool number_may_follow = reading.mnemonic.size() > 1;
+    for (const std::string_view token : found) {
+      const bool address = is_address(token);
+      const bool solid = address || (number_may_follow && is_constant_or_symbol(token)) || token.front() == '"';
+      if (&token == &found.front()) reading.first_solid = solid;
+      reading.some_solid = reading.some_solid || solid;
+      reading.all_solid = reading.all_solid && solid;
+      reading.address = reading.address || address;
+    }
+    reading.operands = found.size();
+    reading.words = count_words(operands);
+  }
+
+  bool is_known(const std::string& mnemonic) const {
+    constexpr std::size_t kMostOperands = 8;
+    if (mnemonic == "NETWORK") return true;
+    for (std::size_t operands = 0; operands <= kMostOperands; ++operands) {
+      if (is_instruction_(mnemonic, operands)) return true;
+    }
+    return false;
+  }
+
+  /// Everything that may be STL goes through the parser in one piece, on its own line.
+  void parse_candidates() {
+    std::string text;
+    for (const Reading& reading : readings_) {
+      const bool drawing = reading.verdict == Verdict::Drawing;
+      if (reading.verdict == Verdict::Comment || (reading.candidate && !drawing)) text += reading.clean;
+      text += '\n';
+    }
+    parsed_ = parse(text, {});
+    for (const Line& line : parsed_.source.lines) {
+      if (const auto* statement = std::get_if<Statement>(&line)) attach(*statement, line);
+      if (const auto* head = std::get_if<NetworkHead>(&line)) attach(*head, line);
+      if (const auto* comment = std::get_if<CommentLine>(&line)) at(comment->line).line = &line;
+    }
+    for (const Diagnostic& diagnostic : parsed_.diagnostics) {
+      Reading& reading = at(diagnostic.position.line);
+      if (reading.trouble == nullptr) reading.trouble = &diagnostic;
+    }
+  }
+
+  void attach(const Statement& statement, const Line& line) {
+    Reading& reading = at(statement.position.line);
+    reading.line = &line;
+    reading.well_formed = !reading.debris && is_instruction_(statement.mnemonic, statement.operands.size());
+  }
+
+  void attach(const NetworkHead& head, const Line& line) {
+    Reading& reading = at(head.position.line);
+    reading.line = &line;
+    reading.well_formed = !reading.debris;
+  }
+
+  Reading& at(std::uint32_t line) { return readings_[line - 1]; }
+
+  void judge() {
+    std::vector<bool> above_stl(readings_.size());  // the next line with code is a statement beyond doubt
+    bool stl = false;
+    for (std::size_t i = readings_.size(); i-- > 0;) {
+      above_stl[i] = stl;
+      if (has_code(readings_[i])) stl = is_certain(readings_[i]);
+    }
+    bool below_stl = false;
+    for (std::size_t i = 0; i < readings_.size(); ++i) {
+      Reading& reading = readings_[i];
+      if (!has_code(reading)) continue;
+      if (reading.verdict != Verdict::Drawing) reading.verdict = verdict(reading, below_stl || above_stl[i]);
+      below_stl = reading.verdict == Verdict::Stl || reading.verdict == Verdict::Damaged;
+    }
+  }
+
+  static bool has_code(const Reading& reading) {
+    return reading.verdict != Verdict::Blank && reading.verdict != Verdict::Comment;
+  }
+
+  /// A statement wherever it stands. `Not` or `End` may be the beginning of a sentence, `CALL pump` as well.
+  static bool is_certain(const Reading& reading) {
+    if (!reading.well_formed || reading.verdict == Verdict::Drawing) return false;
+    if (reading.some_solid) return true;
+    const std::string& mnemonic = reading.mnemonic;
+    const bool one_case = std::none_of(mnemonic.begin(), mnemonic.end(), is_lower) ||
+                          std::none_of(mnemonic.begin(), mnemonic.end(), is_upper);
+    return reading.operands == 0 && one_case;
+  }
+
+  static Verdict verdict(const Reading& reading, bool in_listing) {
+    if (!reading.candidate) return is_unknown_statement(reading, in_listing) ? Verdict::Damaged : Verdict::Prose;
+    if (is_certain(reading)) return Verdict::Stl;
+    if (reading.well_formed) return in_listing ? Verdict::Stl : Verdict::Prose;
+    if (is_heading(reading)) return Verdict::Prose;
+    const bool sentence = in_listing ? reading.words >= 3 && !reading.first_solid
+                                     : reading.words >= 2 || !(reading.some_solid || reading.debris || stands_alone(reading));
+    return sentence ? Verdict::Prose : Verdict::Damaged;
+  }
+
+  /// `SBR 50  What it does`. A routine head that were lost so is missed where its statements stand in no routine.
+  static bool is_heading(const Reading& reading) {
+    const std::string mnemonic = upper_case(reading.mnemonic);
+    return (mnemonic == "SBR" || mnemonic == "INT") && reading.words >= 1;
+  }
+
+  /// `MOVW` and nothing readable behind it
+  static bool stands_alone(const Reading& reading) {
+    return reading.words == 0 && reading.mnemonic.size() >= 3 &&
+           std::none_of(reading.mnemonic.begin(), reading.mnemonic.end(), is_lower);
+  }
+
+  /// No known mnemonic, but nothing else that could be said of the line either.
+  static bool is_unknown_statement(const Reading& reading, bool in_listing) {
+    const bool wordless = reading.words == 0 && words_of(reading.mnemonic) == 0;
+    if (!wordless || reading.mnemonic.empty()) return false;
+    if (reading.debris) return reading.address || in_listing;
+    return reading.address && reading.all_solid && reading.mnemonic.size() >= 2;
+  }
+
+  void collect_lines(Source& source) const {
+    const std::uint32_t spacing = usual_spacing();
+    std::uint32_t last = 0;
+    for (std::uint32_t number = 1; number <= readings_.size(); ++number) {
+      const Reading& reading = readings_[number - 1];
+      if (reading.verdict != Verdict::Stl && reading.verdict != Verdict::Comment) continue;
+      if (!continues_comment(number, last, source)) {
+        if (last > 0 && number - last > spacing) source.lines.emplace_back(BlankLine{number - 1});
+        source.lines.push_back(*reading.line);
+      }
+      last = number;
+    }
+  }
+
+  /// Many documents have an empty line after every line.
+  std::uint32_t usual_spacing() const {
+    std::map<std::uint32_t, std::size_t> distances;
+    std::uint32_t last = 0;
+    for (std::uint32_t number = 1; number <= readings_.size(); ++number) {
+      const Verdict verdict = readings_[number - 1].verdict;
+      if (verdict != Verdict::Stl && verdict != Verdict::Comment) continue;
+      if (last > 0) ++distances[number - last];
+      last = number;
+    }
+    const auto usual = std::max_element(distances.begin(), distances.end(),
+                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+    return usual == distances.end() ? 1 : usual->first;
+  }
+
+  /// An indented comment below a statement with a comment goes on with it.
+  bool continues_comment(std::uint32_t number, std::uint32_t last, Source& source) const {
+    const bool indented = readings_[number - 1].verdict == Verdict::Comment && is_blank(text_[number - 1].front());
+    if (!indented || source.lines.empty()) return false;
+    auto* statement = std::get_if<Statement>(&source.lines.back());
+    if (statement == nullptr || statement->comment.empty()) return false;
+    for (std::uint32_t between = last + 1; between < number; ++between) {
+      if (!trim(text_[between - 1]).empty()) return false;
+    }
+    statement->comment += std::get<CommentLine>(*readings_[number - 1].line).text;
+    return true;
+  }
+
+  void collect_damage(Diagnostics& diagnostics) const {
+    for (std::uint32_t number = 1; number <= readings_.size(); ++number) {
+      const Reading& reading = readings_[number - 1];
+      if (reading.verdict == Verdict::Damaged) diagnostics.push_back(damage(reading, number));
+    }
+  }
+
+  Diagnostic damage(const Reading& reading, std::uint32_t number) const {
+    const std::string_view line = text_[number - 1];
+    const std::string_view code = trim(std::string_view(reading.clean).substr(0, comment_start(reading.clean)));
+    const auto indent = static_cast<std::size_t>(code.data() - reading.clean.data());
+    const Position whole{number, static_cast<std::uint32_t>(count_characters(reading.clean.substr(0, indent)) + 1),
+                         static_cast<std::uint32_t>(count_characters(code))};
+    Diagnostic diagnostic{Severity::Error, whole, "", "compare it with the printed document and correct it"};
+    if (reading.debris) {
+      diagnostic.position = first_damage(line, number);
+      diagnostic.message = "damaged STL line: an unreadable character stands in it";
+    } else if (!reading.candidate) {
+      diagnostic.message = fmt::format("damaged STL line: {} is not an instruction", reading.mnemonic);
+    } else if (reading.trouble != nullptr) {
+      diagnostic.position = reading.trouble->position;
+      diagnostic.message = fmt::format("damaged STL line: {}", reading.trouble->message);
+    } else {
+      const auto& statement = std::get<Statement>(*reading.line);
+      diagnostic.message = fmt::format("damaged STL line: there is no {} with {} operands", statement.mnemonic,
+                                       statement.operands.size());
+    }
+    return diagnostic;
+  }
+
+  /// The first unreadable character behind the first readable one.
+  static Position first_damage(std::string_view line, std::uint32_t number) {
+    std::uint32_t column = 0;
+    bool in_code = false;
+    for (const Character c : characters(line)) {
+      ++column;
+      if (is_debris(c) && in_code) break;
+      in_code = in_code || !(is_debris(c) || c.code == ' ' || c.code == '\t');
+    }
+    return {number, column, 1};
+  }
+
+  void report_no_stl(Diagnostics& diagnostics) const {
+    const Position start = text_.empty() ? Position{} : Position{1, 1, 1};
+    diagnostics.push_back({Severity::Error, start, "there is no STL in this document",
+                           "STL lines begin with an instruction such as LD or MOVW"});
+  }
+
+  static std::size_t prose_words(const Reading& reading) {
+    const std::string_view code = trim(reading.clean);
+    if (reading.verdict != Verdict::Prose || code.empty()) return 0;
+    const char first = code.front();
+    const bool running_text = is_letter(first) || is_digit(first) || static_cast<unsigned char>(first) >= 0x80;
+    return running_text ? count_words(code) : 0;
+  }
+
+  std::size_t count(Verdict verdict) const {
+    return static_cast<std::size_t>(std::count_if(readings_.begin(), readings_.end(), [&](const Reading& reading) {
+      return reading.verdict == verdict;
+    }));
+  }
+
+  const IsInstruction& is_instruction_;
+  std::vector<std::string> text_;
+  std::vector<Reading> readings_;
+  ParseResult parsed_;
+};
+
+// ---- Whether the listing is all there ------------------------------------------------------------------------------------
+
+/// Main program to MEND, then SBR n to RET and INT n to RETI; what is called or attached is there.
+class Completeness {
+ public:
+  explicit Completeness(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  void see(const Statement& statement) {
+    const std::string& mnemonic = statement.mnemonic;
+    last_ = statement.position;
+    if (mnemonic == "SBR" || mnemonic == "INT") {
+      begin_routine(statement);
+    } else if (mnemonic == "MEND" || mnemonic == "RET" || mnemonic == "RETI") {
+      end_routine(statement);
+    } else {
+      inside(statement);
+    }
+  }
+
+  void finish() {
+    if (where_ != Where::Outside) {
+      report(last_, fmt::format("the listing is cut off: {} has no {}", routine_, end_of(where_)));
+      return;
+    }
+    std::string missing;
+    for (const auto& [routine, used] : used_) {
+      if (std::find(seen_.begin(), seen_.end(), routine) == seen_.end()) missing += (missing.empty() ? "" : ", ") + routine;
+    }
+    if (!missing.empty()) report(last_, fmt::format("the listing is cut off: it uses {}, not to be found in it", missing));
+  }
+
+ private:
+  enum class Where { Start, Main, Subroutine, Interrupt, Outside };
+
+  static const char* end_of(Where where) {
+    if (where == Where::Subroutine) return "RET";
+    return where == Where::Interrupt ? "RETI" : "MEND";
+  }
+
+  void begin_routine(const Statement& head) {
+    if (where_ != Where::Start && where_ != Where::Outside) {
+      report(head.position, fmt::format("{} begins, but {} has no {}: something of the listing is missing", name_of(head),
+                                        routine_, end_of(where_)));
+    }
+    where_ = head.mnemonic == "SBR" ? Where::Subroutine : Where::Interrupt;
+    routine_ = name_of(head);
+    seen_.push_back(routine_);
+  }
+
+  void end_routine(const Statement& end) {
+    if (where_ == Where::Outside) {
+      report(end.position, fmt::format("{} ends no routine: something of the listing is missing", end.mnemonic));
+    } else if (where_ != Where::Start && end.mnemonic != end_of(where_)) {
+      report(end.position, fmt::format("{} has {} where {} is due: something of the listing is missing", routine_,
+                                       end.mnemonic, end_of(where_)));
+    }
+    where_ = Where::Outside;
+  }
+
+  void inside(const Statement& statement) {
+    if (where_ == Where::Start) where_ = Where::Main;
+    if (where_ == Where::Outside) {
+      report(statement.position, "this statement is in no routine: something of the listing is missing");
+      where_ = Where::Main;
+      routine_ = "the part without a head";
+    }
+    if (statement.mnemonic == "CALL") use("SBR", statement);
+    if (statement.mnemonic == "ATCH") use("INT", statement);
+  }
+
+  void use(const char* kind, const Statement& statement) {
+    if (statement.operands.empty()) return;
+    const auto* number = std::get_if<Integer>(&statement.operands.front().value);
+    if (number != nullptr) used_.emplace(fmt::format("{} {}", kind, number->value), statement.position);
+  }
+
+  static std::string name_of(const Statement& head) {
+    const auto* number = head.operands.empty() ? nullptr : std::get_if<Integer>(&head.operands.front().value);
+    return number == nullptr ? head.mnemonic : fmt::format("{} {}", head.mnemonic, number->value);
+  }
+
+  void report(Position position, std::string message) {
+    diagnostics_.push_back({Severity::Error, position, std::move(message), "get the whole of the document"});
+  }
+
+  Diagnostics& diagnostics_;
+  Where where_ = Where::Start;
+  std::string routine_ = "the main program";
+  Position last_{};
+  std::vector<std::string> seen_;
+  std::map<std::string, Position> used_;
+};
+
+void check_completeness(ParseResult& result) {
+  Completeness completeness(result.diagnostics);
+  bool any = false;
+  for (const Line& line : result.source.lines) {
+    const auto* statement = std::get_if<Statement>(&line);
+    if (statement == nullptr) continue;
+    completeness.see(*statement);
+    any = true;
+  }
+  if (any) completeness.finish();
+}
+
+}  // namespace
+
+bool is_document(std::string_view text, const IsInstruction& is_instruction) {
+  constexpr std::size_t kWordsOfAText = 12;  // less is a heading that someone forgot to make a comment
+  const DocumentReader reader(text, is_instruction);
+  if (reader.is_block_export()) return false;
+  return reader.has_drawings() || reader.words_around() >= kWordsOfAText;
+}
+
+ParseResult read_document(std::string_view text, std::string name, const IsInstruction& is_instruction) {
+  ParseResult result = DocumentReader(text, is_instruction).result(std::move(name));
+  check_completeness(result);
+  sort(result.diagnostics);
+  return result;
+}
+
+}  // namespace s7200::stl
