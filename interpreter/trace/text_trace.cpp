@@ -82,7 +82,7 @@ std::string describe(const InstructionRecord& r, const Program& program) {
 
 TextTrace::TextTrace(std::ostream& out, std::shared_ptr<const Program> program, bool instructions)
     : out_(out), program_(std::move(program)), instructions_(instructions) {
-  out_ << "# time in ms   what\n";
+  out_ << kFirstLine << '\n';
 }
 
 void TextTrace::record(const TraceRecord& record) {

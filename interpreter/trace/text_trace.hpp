@@ -4,6 +4,7 @@
 #include <iosfwd>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "interpreter/program/program.hpp"
 #include "interpreter/trace/trace.hpp"
@@ -19,6 +20,8 @@ std::string describe(const InstructionRecord& record, const Program& program);
 /// Writes each record as it comes. The stream is not owned.
 class TextTrace final : public TraceSink {
  public:
+  static constexpr std::string_view kFirstLine = "# time in ms   what";
+
   TextTrace(std::ostream& out, std::shared_ptr<const Program> program, bool instructions);
 
   void record(const TraceRecord& record) override;

@@ -1,0 +1,38 @@
+// Addresses as people write them outside a program: `VB0:16` to look, `VW100=5` to set.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/model/cpu_model.hpp"
+
+namespace s7200 {
+
+/// `count` objects of `width` from an address on.
+struct MemoryRange {
+  Area area{};
+  Width width{};
+  std::uint32_t number = 0;  ///< byte, or number of a T, C, HC or AC
+  std::uint8_t bit = 0;
+  std::uint32_t count = 1;
+  std::uint32_t at = 0;      ///< in the image
+
+  std::uint32_t bytes() const { return width == Width::Bit ? 1 : count * bytes_of(width); }
+  /// Address of object `i` of the range.
+  std::string name_of(std::uint32_t i) const;
+};
+
+/// `VB0:16`, `M31.7`, `AC0`, `T5`. Bits have no count. Nothing, and `why`, for what is no address of this CPU.
+std::optional<MemoryRange> parse_range(std::string_view text, const CpuModel& model, std::string& why);
+
+struct Assignment {
+  MemoryRange place;
+  std::uint32_t value = 0;
+};
+
+/// `VW100=5`, `VB0=16#FF`, `I0.3=1`, `VD4=1.5`.
+std::optional<Assignment> parse_assignment(std::string_view text, const CpuModel& model, std::string& why);
+
+}  // namespace s7200

@@ -1,0 +1,180 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <sstream>
+
+#include "serial_sim/modbus/crc.hpp"
+#include "tools/commands.hpp"
+#include "tools/duration_option.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/master_options.hpp"
+#include "tools/memory.hpp"
+#include "tools/program_options.hpp"
+#include "tools/report.hpp"
+#include "tools/terminal.hpp"
+#include "tools/trace_file.hpp"
+
+namespace s7200::tools {
+namespace {
+
+struct SendOptions {
+  ProgramOptions program;
+  std::vector<std::string> frames, set, dump;
+  std::string frames_file;
+  bool crc = false, json = false;
+  Time after = kNever;  // kNever: when the first scan has ended and the line is quiet
+  Time pause = kNever;  // kNever: Simulation::default_quiet
+  MasterOptions master;
+  TraceFile trace;
+};
+
+constexpr Time kReadyWithin = 60 * kSecond;
+
+/// All frames of the command line and the file; a message and false when one is no frame.
+bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames) {
+  struct Written {
+    std::string text, place;
+  };
+  std::vector<Written> written;
+  for (const std::string& text : options.frames) written.push_back({text, fmt::format("frame '{}'", text)});
+  if (!options.frames_file.empty()) {
+    std::string why;
+    const auto bytes = read_file(options.frames_file, why);
+    if (!bytes) {
+      print_error(fmt::format("cannot read {}: {}", options.frames_file, why));
+      return false;
+    }
+    std::istringstream lines(*bytes);
+    std::size_t number = 0;
+    for (std::string line; std::getline(lines, line);) {
+      ++number;
+      line = line.substr(0, std::min(line.find('#'), line.find('\r')));
+      if (line.find_first_not_of(" \t") != std::string::npos) written.push_back({line, fmt::format("{}:{}", options.frames_file, number)});
+    }
+  }
+  if (written.empty()) {
+    print_error("no frame to send: give frames in hex or --frames FILE");
+    return false;
+  }
+  for (const Written& w : written) {
+    modbus::ParsedFrame parsed = modbus::parse_hex_frame(w.text);
+    if (!parsed.ok()) {
+      print_error(fmt::format("{}: column {}: {}", w.place, parsed.errors[0].column, parsed.errors[0].message));
+      return false;
+    }
+    if (options.crc)
+      for (const std::uint8_t byte : modbus::crc_bytes(modbus::bytes_of(parsed.frame))) parsed.frame.push_back({byte, false});
+    frames.push_back(std::move(parsed.frame));
+  }
+  return true;
+}
+
+/// What the line looked like to the master, when more than bytes came.
+std::string errors_of(const serial::Exchange& exchange) {
+  std::string text;
+  if (exchange.parity_error()) text += ", parity errors";
+  if (exchange.framing_error()) text += ", framing errors";
+  if (exchange.too_long) text += ", cut off";
+  return text;
+}
+
+void print_exchange(const serial::Exchange& exchange, Time timeout) {
+  const modbus::Bytes request = modbus::bytes_of(exchange.request), response = exchange.response_bytes();
+  fmt::print("request  {}\n", modbus::to_hex(exchange.request));
+  if (exchange.timed_out) {
+    fmt::print("answer   none within {}\n", format_duration(timeout));
+    return;
+  }
+  fmt::print("answer   {}   after {}\n         {}{}\n", modbus::to_hex(response), format_duration(*exchange.latency()),
+             modbus::describe(request, response), errors_of(exchange));
+}
+
+nlohmann::ordered_json to_json(const serial::Exchange& exchange) {
+  nlohmann::ordered_json json{{"request", plain_hex(modbus::bytes_of(exchange.request))}, {"response", nullptr}, {"latency_us", nullptr}};
+  if (exchange.timed_out) return json;
+  json["response"] = plain_hex(exchange.response_bytes());
+  json["latency_us"] = static_cast<double>(*exchange.latency()) / kMicrosecond;
+  if (exchange.parity_error()) json["parity_error"] = true;
+  if (exchange.framing_error()) json["framing_error"] = true;
+  return json;
+}
+
+/// Waits for the moment of the first frame; a message and false when it never comes.
+bool wait_for_start(serial::Simulation& simulation, const SendOptions& options) {
+  if (options.after != kNever) return simulation.run_until(options.after) == serial::Halt::Time;
+  const Time quiet = serial::Simulation::default_quiet(options.master.format_for(simulation));
+  if (simulation.run_until_ready(quiet, kReadyWithin)) return true;
+  if (simulation.cpu().state().mode == Mode::Run)
+    print_error(fmt::format("the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
+                            "sends all the same", format_duration(quiet), format_duration(kReadyWithin)));
+  return false;
+}
+
+int run_send(SendOptions& options) {
+  int exit_code = kFine;
+  const auto program = options.program.load(exit_code);
+  if (!program) return exit_code;
+  std::vector<modbus::Frame> frames;
+  std::vector<Assignment> assignments;
+  std::vector<MemoryRange> dumps;
+  if (!read_frames(options, frames) || !parse_assignments(options.set, *program->model, assignments) ||
+      !parse_ranges(options.dump, *program->model, dumps))
+    return kUnusable;
+
+  serial::Simulation simulation(program);
+  if (!options.trace.open(simulation.cpu(), program)) return kUnusable;
+  simulation.power_up();
+  for (const Assignment& assignment : assignments) assign(simulation, assignment);
+
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  bool all_answered = wait_for_start(simulation, options);
+  const bool ready = all_answered;
+  if (ready && !simulation.cpu().state().port.active)
+    fmt::print(stderr, "s7200: note: the program has not switched port 0 to Freeport mode (SMB30 = 16#{:02X})\n",
+               simulation.cpu().state().image[image::kSM + 30]);
+  for (const modbus::Frame& frame : frames) {
+    if (!ready) break;
+    const SerialFormat format = options.master.format_for(simulation);
+    if (modbus::has_wrong_parity(frame) && format.parity == Parity::None) {
+      print_error("a byte with wrong parity (p) needs a format with parity");
+      return kUnusable;
+    }
+    const serial::Exchange& exchange = options.master.exchange(simulation, frame, format);
+    all_answered &= !exchange.timed_out;
+    if (options.json) json.push_back(to_json(exchange));
+    else print_exchange(exchange, options.master.timeout);
+    const Time pause = options.pause == kNever ? serial::Simulation::default_quiet(format) : options.pause;
+    simulation.run_until(simulation.time() + pause);
+  }
+  if (!options.trace.close()) return kUnusable;
+  if (options.json) fmt::print("{}\n", json.dump(2));
+  for (const MemoryRange& range : dumps) fmt::print(options.json ? stderr : stdout, "{}", dump_text(simulation.cpu().state(), range));
+  fmt::print(stderr, "{}", errors_text(simulation.cpu()));
+  if (simulation.cpu().state().mode == Mode::Stop) fmt::print(stderr, "s7200: note: the CPU is in STOP\n");
+  if (simulation.cpu().state().fatal_code) return kCpuFatal;
+  return all_answered ? kFine : kCheckFailed;
+}
+
+}  // namespace
+
+void add_send(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<SendOptions>();
+  CLI::App* verb = app.add_subcommand("send", "put request frames on the line of a running program, print the answers");
+  options->program.add_to(*verb);
+  verb->add_option("HEX", options->frames, "frames in hex; blanks allowed; p behind a byte sends it with wrong parity");
+  verb->add_option("--frames", options->frames_file, "file with one frame a line; # begins a comment")->type_name("FILE");
+  verb->add_flag("--crc", options->crc, "append the Modbus CRC to each frame");
+  add_duration(*verb, "--after", options->after,
+               "when to send the first frame (default: first scan ended, then 7 characters + 10 ms of silence)");
+  add_duration(*verb, "--pause", options->pause, "between an answer and the next frame (default 7 characters + 10 ms)");
+  options->master.add_to(*verb);
+  verb->add_option("--set", options->set, "memory or inputs before the first scan: VW100=5, I0.3=1 (repeatable)")->type_name("ADDRESS=VALUE");
+  verb->add_option("--dump", options->dump, "memory to show at the end: VB0:16, VW100, AC0 (repeatable)")->type_name("ADDRESS[:COUNT]");
+  options->trace.add_to(*verb);
+  verb->add_flag("--json", options->json, "print an array of exchanges as JSON");
+  verb->footer("Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");
+  verb->callback([options, &exit_code] { exit_code = run_send(*options); });
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,31 @@
+// How the master on the line talks.
+#pragma once
+
+#include <string>
+
+#include "serial_sim/simulation.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace s7200::tools {
+
+struct MasterOptions {
+  std::uint32_t baud = 0;          ///< 0: as the program has set its port
+  std::string parity = "port";     ///< port: as the program has set its port
+  std::uint32_t data_bits = 0;     ///< 0: as the program has set its port
+  std::uint32_t stop_bits = 1;
+  Time timeout = kSecond;
+  Time gap = 0;
+
+  void add_to(CLI::App& app);
+
+  /// The port's format, with what the options say instead.
+  SerialFormat format_for(const serial::Simulation& simulation) const;
+
+  /// One exchange in that format, from now on to its end.
+  const serial::Exchange& exchange(serial::Simulation& simulation, const modbus::Frame& frame, const SerialFormat& format) const;
+};
+
+}  // namespace s7200::tools

@@ -1,0 +1,67 @@
+#include "tools/report.hpp"
+
+#include <fmt/format.h>
+
+#include "interpreter/stl/printer.hpp"
+#include "tools/exit_code.hpp"
+
+namespace s7200::tools {
+namespace {
+
+std::string place_text(const Program& program, std::uint32_t op) {
+  if (op == kNoRoutine) return "between two scans";
+  const stl::Statement& statement = program.statement(op);
+  return fmt::format("{}:{}: {}", program.source.name, statement.position.line, stl::to_text(statement));
+}
+
+nlohmann::ordered_json error_json(const Program& program, std::uint16_t code, std::string_view meaning, std::uint32_t op,
+                                  bool fatal) {
+  nlohmann::ordered_json json{{"code", fmt::format("{:04X}", code)}, {"fatal", fatal}, {"meaning", meaning}};
+  json["line"] = op == kNoRoutine ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(program.statement(op).position.line);
+  json["statement"] = op == kNoRoutine ? "" : stl::to_text(program.statement(op));
+  return json;
+}
+
+}  // namespace
+
+std::string errors_text(const Cpu& cpu) {
+  std::string text;
+  const State& state = cpu.state();
+  std::uint64_t shown = 0;
+  for (const RuntimeError& error : state.errors) {
+    if (error.count == 0) break;
+    text += fmt::format("run-time error {:04X}, {}\n  {} ({}×, first at {})\n", error.code, meaning_of(RunError{error.code}),
+                        place_text(cpu.program(), error.op), error.count, format_duration(error.first));
+    shown += error.count;
+  }
+  if (shown < state.error_count) text += fmt::format("and {} more run-time errors elsewhere\n", state.error_count - shown);
+  if (state.fatal_code)
+    text += fmt::format("FATAL error {:04X}, {}\n  {}\n", state.fatal_code, meaning_of(FatalError{state.fatal_code}),
+                        place_text(cpu.program(), state.fatal_op));
+  return text;
+}
+
+nlohmann::ordered_json errors_json(const Cpu& cpu) {
+  nlohmann::ordered_json errors = nlohmann::ordered_json::array();
+  for (const RuntimeError& error : cpu.state().errors) {
+    if (error.count == 0) break;
+    auto json = error_json(cpu.program(), error.code, meaning_of(RunError{error.code}), error.op, false);
+    json["count"] = error.count;
+    json["first_ns"] = error.first;
+    errors.push_back(json);
+  }
+  if (cpu.state().fatal_code)
+    errors.push_back(error_json(cpu.program(), cpu.state().fatal_code, meaning_of(FatalError{cpu.state().fatal_code}),
+                                cpu.state().fatal_op, true));
+  return errors;
+}
+
+int exit_code_of(const Cpu& cpu) { return cpu.state().fatal_code ? kCpuFatal : kFine; }
+
+std::string plain_hex(std::span<const std::uint8_t> bytes) {
+  std::string text;
+  for (const std::uint8_t byte : bytes) text += fmt::format("{:02x}", byte);
+  return text;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,21 @@
+// How a run ended, in words and as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "serial_sim/simulation.hpp"
+
+namespace s7200::tools {
+
+/// Run-time and fatal errors, one line each with place and meaning; empty when there were none.
+std::string errors_text(const Cpu& cpu);
+nlohmann::ordered_json errors_json(const Cpu& cpu);
+
+/// kCpuFatal after a fatal error, else kFine.
+int exit_code_of(const Cpu& cpu);
+
+/// `lower-case hex without blanks`
+std::string plain_hex(std::span<const std::uint8_t> bytes);
+
+}  // namespace s7200::tools
