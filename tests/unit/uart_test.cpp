@@ -291,6 +291,17 @@ TEST(Uart, StartEdgeOfAnotherDriverThatComesEarlierIsTaken) {
   EXPECT_EQ(wire.heard[0].byte, 0xE0);  // bit 4 is the other's start bit
 }
 
+TEST(Uart, AwaitedStartEdgeThatIsTakenBackIsNoStart) {
+  Wire wire(k8N1);
+  wire.line.drive(kNoise, kBit, false);
+  wire.line.drive(kNoise, kBit, true);
+  wire.line.drive(kNoise, kBit + kBit / 4, false);
+  wire.line.drive(kNoise, 3 * kBit, true);
+  wire.run();
+  ASSERT_EQ(wire.heard.size(), 1U);
+  EXPECT_EQ(wire.heard[0].start, kBit + kBit / 4);
+}
+
 TEST(Uart, HearsItsOwnSenderUnlessSwitchedOff) {
   Wire wire(k8E1);
   wire.sender.enable_receiver(true, 0);
@@ -325,6 +336,18 @@ TEST(Uart, SwitchedOffAtAComingInstantStillHearsWhatEndsBefore) {
   wire.receiver.enable_receiver(false, 11 * kBit);
   wire.run();
   EXPECT_EQ(bytes_of(wire.heard), std::vector<std::uint8_t>{0x42});
+}
+
+TEST(Uart, CharacterLostToSwitchingOffDoesNotComeBackWithALaterEdge) {
+  Wire wire(k8E1);
+  wire.sender.send(0x42, 0);
+  wire.run_until(5 * kBit);
+  wire.receiver.enable_receiver(false, 6 * kBit);
+  wire.line.drive(kNoise, 5 * kBit + kBit / 2, false);
+  wire.line.drive(kNoise, 8 * kBit, true);
+  EXPECT_GT(wire.queue.next(), 5 * kBit);
+  wire.run();
+  EXPECT_TRUE(wire.heard.empty());
 }
 
 TEST(Uart, SwitchedOnInMidCharacterFindsTheNextFallingEdge) {
