@@ -5,33 +5,35 @@
 
 namespace s7200::serial {
 
-void Line::Driver::add(Time at, bool mark) {
-  const bool mark_now = edges.empty() ? mark_before : edges.back().mark;
-  if (mark == mark_now) return;
-  assert(edges.empty() || edges.back().at <= at);
-  // Two edges at one instant leave the level as it was: nobody could see them.
-  if (!edges.empty() && edges.back().at == at) {
-    edges.pop_back();
-  } else {
-    edges.push_back({at, mark});
-  }
-}
-
-bool Line::Driver::level(Time at) const {
-  const auto later = std::find_if(edges.begin(), edges.end(), [at](const Edge& edge) { return edge.at > at; });
-  return later == edges.begin() ? mark_before : std::prev(later)->mark;
+/// Counting is faster than searching: there are a handful of edges, and no branch to guess.
+std::size_t Line::Driver::edges_until(Time at) const {
+  std::size_t count = 0;
+  for (const Time edge : edges) count += edge <= at ? 1U : 0U;
+  return count;
 }
 
 Time Line::Driver::next_edge(Time from, bool mark) const {
-  const auto edge = std::find_if(edges.begin(), edges.end(), [=](const Edge& e) { return e.at >= from && e.mark == mark; });
-  return edge == edges.end() ? kNever : edge->at;
+  std::size_t next = edges_until(from - 1);
+  if (level_after(next) == mark) ++next;
+  return next < edges.size() ? edges[next] : kNever;
+}
+
+void Line::Driver::add(Time at, bool mark) {
+  if (mark == level_after(edges.size())) return;
+  assert(edges.empty() || edges.back() <= at);
+  // Two edges at one instant leave the level as it was: nobody could see them.
+  if (!edges.empty() && edges.back() == at) {
+    edges.pop_back();
+  } else {
+    edges.push_back(at);
+  }
 }
 
 void Line::Driver::forget(Time before) {
-  const auto kept = std::find_if(edges.begin(), edges.end(), [before](const Edge& edge) { return edge.at >= before; });
-  if (kept == edges.begin()) return;
-  mark_before = std::prev(kept)->mark;
-  edges.erase(edges.begin(), kept);
+  const std::size_t past = edges_until(before - 1);
+  if (past == 0) return;
+  mark_before = level_after(past);
+  edges.erase(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(past));
 }
 
 void Line::drive(int driver, Time at, bool mark) {

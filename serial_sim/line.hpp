@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -51,20 +52,16 @@ class Line {
   bool operator==(const Line&) const = default;
 
  private:
-  struct Edge {
-    Time at = 0;
-    bool mark = true;
-    bool operator==(const Edge&) const = default;
-  };
-
   struct Driver {
-    bool mark_before = true;   // level ahead of the first edge kept
-    std::vector<Edge> edges;   // in order of time; each one changes the level
+    bool mark_before = true;  // level ahead of the first edge kept
+    std::vector<Time> edges;  // in order of time; each one changes the level
     bool operator==(const Driver&) const = default;
 
-    void add(Time at, bool mark);
-    bool level(Time at) const;
+    bool level_after(std::size_t edge_count) const { return mark_before != (edge_count % 2 != 0); }
+    std::size_t edges_until(Time at) const;
+    bool level(Time at) const { return level_after(edges_until(at)); }
     Time next_edge(Time from, bool mark) const;
+    void add(Time at, bool mark);
     void forget(Time before);
   };
 

@@ -13,10 +13,10 @@
 namespace s7200::serial {
 
 struct Request {
-  modbus::Frame frame;              ///< at least one character; sent as it is
-  Time timeout = kSecond;           ///< from the end of the request to the start edge of the answer
-  Time gap = 0;                     ///< between the characters of the request
-  std::optional<Time> silence{};    ///< that ends an answer; 3.5 characters of the master's format if not given
+  modbus::Frame frame;            ///< at least one character; sent as it is
+  Time timeout = kSecond;         ///< from the end of the request to the start edge of the answer
+  Time gap = 0;                   ///< between the characters of the request
+  std::optional<Time> silence{};  ///< that ends an answer; 3.5 characters of the master's format if not given
 
   bool operator==(const Request&) const = default;
 };
@@ -25,12 +25,12 @@ struct Request {
 struct Exchange {
   modbus::Frame request;
   Time request_start = 0;
-  Time request_end = 0;             ///< end of the last stop bit
+  Time request_end = 0;  ///< end of the last stop bit
   std::vector<ReceivedCharacter> response;
-  Time response_start = 0;          ///< start edge of the first character; 0 if there is none, like the next
-  Time response_end = 0;            ///< end of the last character's stop bit
-  bool timed_out = false;           ///< no answer began in time
-  bool too_long = false;            ///< cut off after Master::kLongestResponse characters
+  Time response_start = 0;  ///< start edge of the first character; 0 if there is none, like the next
+  Time response_end = 0;    ///< end of the last character's stop bit
+  bool timed_out = false;   ///< no answer began in time
+  bool too_long = false;    ///< cut off after Master::kLongestResponse characters
 
   bool operator==(const Exchange&) const = default;
 

@@ -54,7 +54,7 @@ void Uart::send_with_wrong_parity(std::uint8_t byte, Time at) {
 }
 
 void Uart::send_break(int bit_times, Time at) {
-  assert(!state_.sending && bit_times > 0);
+  assert(!state_.sending && at >= state_.send_end && bit_times > 0);
   const Time end = at + state_.format.bit_times(bit_times);
   line_.drive(driver_, at, false);
   line_.drive(driver_, end, true);

@@ -29,14 +29,14 @@ class Uart final : public SerialPort, private LineListener {
 
   /// Plain, so that a snapshot is a copy.
   struct State {
-    SerialFormat format{};       ///< of the next character in either direction
-    SerialFormat receiving_as{}; ///< of the character being received
-    bool receiving = false;      ///< a start bit was verified and its character is not complete
-    Time start_edge = kNever;    ///< of the character being received, or awaited at a known future instant
-    Time listen_from = 0;        ///< edges before this are past
-    Time off_from = kNever;      ///< the receiver is switched off from then on
+    SerialFormat format{};        ///< of the next character in either direction
+    SerialFormat receiving_as{};  ///< of the character being received
+    bool receiving = false;       ///< a start bit was verified and its character is not complete
+    Time start_edge = kNever;     ///< of the character being received, or awaited at a known future instant
+    Time listen_from = 0;         ///< edges before this are past
+    Time off_from = kNever;       ///< the receiver is switched off from then on
     bool sending = false;
-    Time send_end = 0;           ///< end of the last stop bit (or break) sent so far
+    Time send_end = 0;  ///< end of the last stop bit (or break) sent so far
     bool operator==(const State&) const = default;
 
     bool receiver_enabled() const { return off_from == kNever; }

@@ -10,7 +10,8 @@ namespace s7200::modbus {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// What one byte does to the CRC: polynomial x^16 + x^15 + x^2 + 1, least significant bit first (Modbus over Serial Line, 6.2.2).
+/// What one byte does to the CRC: polynomial x^16 + x^15 + x^2 + 1, least significant bit first (Modbus over Serial
+/// Line, 6.2.2).
 inline constexpr std::array<std::uint16_t, 256> kCrcTable = [] {
   std::array<std::uint16_t, 256> table{};
   for (unsigned byte = 0; byte < table.size(); ++byte) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 namespace s7200::modbus {
@@ -71,20 +72,28 @@ Bytes rtu_frame(std::uint8_t station, std::span<const std::uint8_t> pdu) {
 
 namespace {
 
+struct ExceptionName {
+  std::uint8_t code;
+  std::string_view name;
+};
+
 // Modbus Application Protocol V1.1b3, section 7.
+constexpr std::array<ExceptionName, 9> kExceptionNames{{
+    {1, "illegal function"},
+    {2, "illegal data address"},
+    {3, "illegal data value"},
+    {4, "server device failure"},
+    {5, "acknowledge"},
+    {6, "server device busy"},
+    {8, "memory parity error"},
+    {10, "gateway path unavailable"},
+    {11, "gateway target device failed to respond"},
+}};
+
 std::string_view exception_name(std::uint8_t code) {
-  switch (code) {
-    case 1: return "illegal function";
-    case 2: return "illegal data address";
-    case 3: return "illegal data value";
-    case 4: return "server device failure";
-    case 5: return "acknowledge";
-    case 6: return "server device busy";
-    case 8: return "memory parity error";
-    case 10: return "gateway path unavailable";
-    case 11: return "gateway target device failed to respond";
-    default: return "unknown code";
-  }
+  const auto known = std::find_if(kExceptionNames.begin(), kExceptionNames.end(),
+                                  [code](const ExceptionName& e) { return e.code == code; });
+  return known == kExceptionNames.end() ? "unknown code" : known->name;
 }
 
 /// Nothing but the data of a PDU: station, function and CRC are off.
@@ -119,7 +128,9 @@ std::string describe_bits(std::string_view name, Data asked, Data answer) {
   return fmt::format("{}s {}…{}: {}", name, first, first + count - 1, bits);
 }
 
-std::string plural(unsigned count, std::string_view name) { return fmt::format("{} {}{}", count, name, count == 1 ? "" : "s"); }
+std::string plural(unsigned count, std::string_view name) {
+  return fmt::format("{} {}{}", count, name, count == 1 ? "" : "s");
+}
 
 std::string describe_registers(Data asked, Data answer) {
   const unsigned count = word_at(asked, 2);
@@ -137,23 +148,31 @@ std::string describe_write(Function function, Data asked, Data answer) {
   const unsigned first = word_at(answer, 0);
   const std::uint16_t second = word_at(answer, 2);
   switch (function) {
-    case Function::WriteCoil: return fmt::format("coil {} written: {}", first, second == 0 ? 0 : 1);
-    case Function::WriteRegister: return fmt::format("register {} written: 16#{:04X}", first, second);
-    case Function::WriteCoils: return fmt::format("{} written from {} on", plural(second, "coil"), first);
-    default: return fmt::format("{} written from {} on", plural(second, "register"), first);
+    case Function::WriteCoil:
+      return fmt::format("coil {} written: {}", first, second == 0 ? 0 : 1);
+    case Function::WriteRegister:
+      return fmt::format("register {} written: 16#{:04X}", first, second);
+    case Function::WriteCoils:
+      return fmt::format("{} written from {} on", plural(second, "coil"), first);
+    default:
+      return fmt::format("{} written from {} on", plural(second, "register"), first);
   }
 }
 
 std::string describe_data(std::uint8_t function, Data asked, Data answer) {
   switch (static_cast<Function>(function)) {
-    case Function::ReadCoils: return describe_bits("coil", asked, answer);
-    case Function::ReadInputs: return describe_bits("input", asked, answer);
+    case Function::ReadCoils:
+      return describe_bits("coil", asked, answer);
+    case Function::ReadInputs:
+      return describe_bits("input", asked, answer);
     case Function::ReadHoldingRegisters:
-    case Function::ReadInputRegisters: return describe_registers(asked, answer);
+    case Function::ReadInputRegisters:
+      return describe_registers(asked, answer);
     case Function::WriteCoil:
     case Function::WriteRegister:
     case Function::WriteCoils:
-    case Function::WriteRegisters: return describe_write(static_cast<Function>(function), asked, answer);
+    case Function::WriteRegisters:
+      return describe_write(static_cast<Function>(function), asked, answer);
   }
   return fmt::format("function {}: {}", function, to_hex(answer));
 }
@@ -215,7 +234,9 @@ int hex_digit(char c) {
 
 ParsedFrame parse_hex_frame(std::string_view text) {
   ParsedFrame parsed;
-  const auto error = [&](std::size_t place, std::string message) { parsed.errors.push_back({place + 1, std::move(message)}); };
+  const auto error = [&](std::size_t place, std::string message) {
+    parsed.errors.push_back({place + 1, std::move(message)});
+  };
   const auto at = [&](std::size_t place) { return place < text.size() ? text[place] : ' '; };
 
   std::size_t place = 0;

@@ -24,7 +24,7 @@ enum class Function : std::uint8_t {
   WriteRegisters = 16,
 };
 
-inline constexpr std::size_t kLongestRtuFrame = 256;   // Modbus over Serial Line, 2.5.1
+inline constexpr std::size_t kLongestRtuFrame = 256;  // Modbus over Serial Line, 2.5.1
 inline constexpr std::size_t kLongestRawFrame = 1024;
 
 /// Protocol data units: function code and data. Addresses count from 0, as on the wire.
@@ -69,7 +69,7 @@ struct FrameError {
 };
 
 struct ParsedFrame {
-  Frame frame;                     ///< of use only if there are no errors
+  Frame frame;  ///< of use only if there are no errors
   std::vector<FrameError> errors;
 
   bool ok() const { return errors.empty(); }

@@ -65,9 +65,15 @@ struct Conversation {
     EXPECT_GE(event.at, now);
     now = event.at;
     switch (event.owner) {
-      case EventOwner::PlcUart: slave(slave_uart.handle(event)); break;
-      case EventOwner::MasterUart: master.on(master_uart.handle(event)); break;
-      default: master.handle(event); break;
+      case EventOwner::PlcUart:
+        slave(slave_uart.handle(event));
+        break;
+      case EventOwner::MasterUart:
+        master.on(master_uart.handle(event));
+        break;
+      default:
+        master.handle(event);
+        break;
     }
   }
 

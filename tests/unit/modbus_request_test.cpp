@@ -1,9 +1,9 @@
-#include "serial_sim/modbus/request.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <string>
+
+#include "serial_sim/modbus/request.hpp"
 
 namespace s7200::modbus {
 namespace {
@@ -16,7 +16,9 @@ Bytes with_crc(std::string_view text) {
   return bytes;
 }
 
-std::string said(std::string_view request, std::string_view response) { return describe(with_crc(request), with_crc(response)); }
+std::string said(std::string_view request, std::string_view response) {
+  return describe(with_crc(request), with_crc(response));
+}
 
 TEST(ModbusCrc, KnownFrames) {
   EXPECT_EQ(to_hex(with_crc("01 03 00 0a 00 01")), "01 03 00 0a 00 01 a4 08");

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -129,7 +131,8 @@ TEST(Uart, ErrorsAppearFromSixToEightPercentOn) {
 }
 
 TEST(Uart, HalfOrDoubleBaudRateGivesErrorsOrGarbageAndEnds) {
-  for (const auto& [from, to] : {std::pair{9600, 19200}, std::pair{19200, 9600}, std::pair{115200, 300}, std::pair{300, 115200}}) {
+  for (const auto& [from, to] :
+       {std::pair{9600, 19200}, std::pair{19200, 9600}, std::pair{115200, 300}, std::pair{300, 115200}}) {
     Wire wire(at_baud(k8E1, from), at_baud(k8E1, to));
     wire.send_all(every_byte(8));
     EXPECT_NE(bytes_of(wire.heard), every_byte(8)) << from << " to " << to;
@@ -288,6 +291,17 @@ TEST(Uart, StartEdgeOfAnotherDriverThatComesEarlierIsTaken) {
   EXPECT_EQ(wire.heard[0].byte, 0xE0);  // bit 4 is the other's start bit
 }
 
+TEST(Uart, AwaitedStartEdgeThatIsTakenBackIsNoStart) {
+  Wire wire(k8N1);
+  wire.line.drive(kNoise, kBit, false);
+  wire.line.drive(kNoise, kBit, true);
+  wire.line.drive(kNoise, kBit + kBit / 4, false);
+  wire.line.drive(kNoise, 3 * kBit, true);
+  wire.run();
+  ASSERT_EQ(wire.heard.size(), 1U);
+  EXPECT_EQ(wire.heard[0].start, kBit + kBit / 4);
+}
+
 TEST(Uart, HearsItsOwnSenderUnlessSwitchedOff) {
   Wire wire(k8E1);
   wire.sender.enable_receiver(true, 0);
@@ -322,6 +336,18 @@ TEST(Uart, SwitchedOffAtAComingInstantStillHearsWhatEndsBefore) {
   wire.receiver.enable_receiver(false, 11 * kBit);
   wire.run();
   EXPECT_EQ(bytes_of(wire.heard), std::vector<std::uint8_t>{0x42});
+}
+
+TEST(Uart, CharacterLostToSwitchingOffDoesNotComeBackWithALaterEdge) {
+  Wire wire(k8E1);
+  wire.sender.send(0x42, 0);
+  wire.run_until(5 * kBit);
+  wire.receiver.enable_receiver(false, 6 * kBit);
+  wire.line.drive(kNoise, 5 * kBit + kBit / 2, false);
+  wire.line.drive(kNoise, 8 * kBit, true);
+  EXPECT_GT(wire.queue.next(), 5 * kBit);
+  wire.run();
+  EXPECT_TRUE(wire.heard.empty());
 }
 
 TEST(Uart, SwitchedOnInMidCharacterFindsTheNextFallingEdge) {
@@ -419,6 +445,57 @@ TEST(Uart, ContinuingFromASnapshotGivesTheSameReports) {
     wire.receiver.restore(receiver);
     wire.now = now;
     EXPECT_EQ(rest(), first);
+  }
+}
+
+/// The receiver once more, written without events: over the whole history of the line, from one end to the other.
+std::vector<ReceivedCharacter> decode(const Line& history, std::vector<Time> edges, const SerialFormat& format) {
+  std::sort(edges.begin(), edges.end());
+  std::vector<ReceivedCharacter> heard;
+  Time from = 0;
+  for (const Time edge : edges) {
+    const bool falls = edge >= from && history.level(edge - 1) && !history.level(edge);
+    if (!falls) continue;
+    const auto sample = [&](int bit) { return history.level(edge + format.half_bits(2 * bit + 1)); };
+    from = edge + format.half_bits(1);
+    if (sample(0)) continue;
+    ReceivedCharacter character{.start = edge};
+    int bit = 1;
+    for (int place = 0; place < format.data_bits; ++place)
+      character.byte |= static_cast<std::uint8_t>(sample(bit++) << place);
+    if (format.parity != Parity::None) character.parity_error = sample(bit++) != format.parity_bit(character.byte);
+    character.framing_error = !sample(bit);
+    from = character.end = edge + format.half_bits(2 * bit + 1);
+    heard.push_back(character);
+  }
+  return heard;
+}
+
+TEST(Uart, HearsInNoiseWhatADecoderOfTheWholeHistoryFinds) {
+  std::mt19937 random(7200);
+  const auto up_to = [&](Time limit) { return static_cast<Time>(random() % static_cast<std::uint32_t>(limit)); };
+  for (std::size_t round = 0; round < 200; ++round) {
+    const SerialFormat format = kFormats[round % kFormats.size()];
+    Wire wire(format);
+    Line history;
+    std::vector<Time> edges;
+    std::array<Time, Line::kDrivers> last{};
+    const auto drive = [&](int driver, bool mark) {
+      Time& at = last.at(static_cast<std::size_t>(driver));
+      at = std::max(at, wire.now) + up_to(round % 2 == 0 ? kBit : 8 * kBit);
+      wire.line.drive(driver, at, mark);
+      history.drive(driver, at, mark);
+      edges.push_back(at);
+    };
+    for (int count = 0; count < 200; ++count) {
+      const int driver = static_cast<int>(random() % 3);
+      drive(driver == 1 ? kNoise : driver, random() % 3 != 0);
+      if (random() % 4 == 0) wire.step();
+    }
+    for (const int driver : {0, 2, kNoise}) drive(driver, true);
+    wire.run();
+    ASSERT_EQ(wire.heard, decode(history, edges, format)) << "round " << round;
+    ASSERT_FALSE(wire.heard.empty());
   }
 }
 
