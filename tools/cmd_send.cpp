@@ -31,6 +31,12 @@ struct SendOptions {
 
 constexpr Time kReadyWithin = 60 * kSecond;
 
+void append_crc(modbus::Frame& frame) {
+  modbus::Bytes bytes = modbus::bytes_of(frame);
+  modbus::add_crc(bytes);
+  for (std::size_t i = frame.size(); i < bytes.size(); ++i) frame.push_back({bytes[i], false});
+}
+
 /// All frames of the command line and the file; a message and false when one is no frame.
 bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames) {
   struct Written {
@@ -63,8 +69,7 @@ bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames)
       print_error(fmt::format("{}: column {}: {}", w.place, parsed.errors[0].column, parsed.errors[0].message));
       return false;
     }
-    if (options.crc)
-      for (const std::uint8_t byte : modbus::crc_bytes(modbus::bytes_of(parsed.frame))) parsed.frame.push_back({byte, false});
+    if (options.crc) append_crc(parsed.frame);
     frames.push_back(std::move(parsed.frame));
   }
   return true;

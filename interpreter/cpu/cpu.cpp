@@ -117,6 +117,11 @@ void Cpu::clear_current_values(const Operand& first, std::uint32_t count) {
   }
 }
 
+void Cpu::poke(std::uint32_t at, std::span<const std::uint8_t> bytes) {
+  std::copy(bytes.begin(), bytes.end(), s.image.begin() + at);
+  if (s.mode == Mode::Run) follow_port_control(s.time);
+}
+
 std::optional<std::uint32_t> Cpu::peek(const Op& op, std::size_t i) const {
   Operand operand = op[i];
   const OperandRule& rule = op.instruction->operand[i];

@@ -1,0 +1,212 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "tools/bench_program.hpp"
+#include "tools/commands.hpp"
+#include "tools/duration_option.hpp"
+#include "tools/exit_code.hpp"
+#include "tools/program_options.hpp"
+#include "tools/terminal.hpp"
+#include "serial_sim/simulation.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using HostClock = std::chrono::steady_clock;
+
+struct BenchOptions : CpuOptions {
+  std::string path;       // empty: the slave program that is built in
+  Time each = kSecond;    // host time for each figure
+  bool json = false;
+};
+
+struct Figure {
+  std::string_view name, unit;
+  double per_second = 0;
+};
+
+/// Best of five rounds: what the machine can do, not what else it was doing.
+template <class Round>
+double best_rate(Time each, Round round) {
+  double best = 0;
+  for (int i = 0; i < 5; ++i) {
+    double work = 0;
+    const auto begin = HostClock::now();
+    std::chrono::duration<double> elapsed{};
+    do {
+      work += round();
+      elapsed = HostClock::now() - begin;
+    } while (elapsed < std::chrono::nanoseconds(each / 5));
+    best = std::max(best, work / elapsed.count());
+  }
+  return best;
+}
+
+const modbus::Frame& ten_registers() {
+  static const modbus::Frame kRequest = modbus::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 10)));
+  return kRequest;
+}
+
+/// Characters straight into the CPU, at the pace of the line but without its levels: what the interpreter alone costs.
+class CharacterPort final : public SerialPort {
+ public:
+  explicit CharacterPort(EventQueue& queue) : queue_(queue) {}
+  void configure(const SerialFormat& format) override { format_ = format; }
+  void enable_receiver(bool, Time) override {}
+  void send(std::uint8_t, Time at) override { queue_.schedule(at + format_.character_time(), EventOwner::PlcUart, kSent); }
+  void send_break(int, Time) override {}
+
+  void request(Time at) {
+    next_ = 0;
+    queue_.schedule(at, EventOwner::PlcUart, kReceived);
+  }
+
+  /// True when an answer has ended.
+  bool handle(Cpu& cpu, const Event& event) {
+    if (event.what == kSent) {
+      cpu.character_sent(event.at);
+      return !cpu.state().port.transmitting;
+    }
+    const std::uint8_t byte = ten_registers()[next_++].byte;
+    if (next_ < ten_registers().size()) queue_.schedule(event.at + format_.character_time(), EventOwner::PlcUart, kReceived);
+    cpu.character_received({.byte = byte, .start = event.at, .end = event.at});
+    return false;
+  }
+
+ private:
+  enum What : std::uint8_t { kReceived, kSent };
+  EventQueue& queue_;
+  SerialFormat format_;
+  std::size_t next_ = 0;
+};
+
+/// A CPU that is asked for 10 registers again and again.
+class Serving {
+ public:
+  explicit Serving(std::shared_ptr<const Program> program) : port_(queue_), cpu_(std::move(program), queue_, port_) {
+    cpu_.power_up();
+    run_until(kSecond);
+  }
+
+  /// One exchange; the instructions it took, idle scans included.
+  double operator()() {
+    const std::uint64_t before = cpu_.state().instructions;
+    port_.request(cpu_.time());
+    answered_ = false;
+    const Time latest = cpu_.time() + kSecond;
+    while (!answered_ && cpu_.time() < latest) step(latest);
+    if (!answered_) throw std::runtime_error("the program did not answer a request for 10 registers");
+    run_until(cpu_.time() + serial::Simulation::default_quiet({}));
+    return static_cast<double>(cpu_.state().instructions - before);
+  }
+
+ private:
+  void run_until(Time end) {
+    while (cpu_.time() < end) step(end);
+  }
+  void step(Time end) {
+    cpu_.run(end);
+    while (queue_.next() <= cpu_.time()) {
+      const Event event = queue_.pop();
+      if (event.owner == EventOwner::Cpu) cpu_.handle(event);
+      else answered_ |= port_.handle(cpu_, event);
+    }
+  }
+
+  EventQueue queue_;
+  CharacterPort port_;
+  Cpu cpu_;
+  bool answered_ = false;
+};
+
+/// The same on the whole line, with its master.
+void exchange(serial::Simulation& simulation) {
+  simulation.master().start({.frame = ten_registers()}, simulation.time());
+  if (simulation.finish_exchange().timed_out) throw std::runtime_error("the program did not answer a request for 10 registers");
+  simulation.run_until(simulation.time() + serial::Simulation::default_quiet(simulation.cpu().state().port.format));
+}
+
+double first_scan(serial::Simulation& simulation) {
+  simulation.power_up();
+  simulation.cpu().pause_at_scan_end(true);
+  simulation.run_until(10 * kSecond);
+  simulation.cpu().pause_at_scan_end(false);
+  return static_cast<double>(simulation.cpu().state().instructions);
+}
+
+double idle_scans(serial::Simulation& simulation) {
+  const std::uint64_t before = simulation.cpu().state().instructions;
+  simulation.run_until(simulation.time() + kSecond);
+  return static_cast<double>(simulation.cpu().state().instructions - before);
+}
+
+std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time each) {
+  serial::Simulation simulation(program);
+  std::vector<Figure> figures;
+  figures.push_back({"first scan", "instructions", best_rate(each, [&] { return first_scan(simulation); })});
+
+  simulation.power_up();
+  simulation.run_until_ready(serial::Simulation::default_quiet({}), 60 * kSecond);
+  simulation.master_uart().configure(simulation.cpu().state().port.format);
+  figures.push_back({"idle scans", "instructions", best_rate(each, [&] { return idle_scans(simulation); })});
+
+  Serving serving(program);
+  figures.push_back({"serving requests", "instructions", best_rate(each, [&] { return serving(); })});
+
+  figures.push_back({"10 registers, whole line", "exchanges", best_rate(each, [&] {
+                       exchange(simulation);
+                       return 1.0;
+                     })});
+  return figures;
+}
+
+int run_bench(const BenchOptions& options) {
+  const CpuModel* model = options.model();
+  if (!model) return kUnusable;
+  const auto times = options.times(*model);
+  if (!times) return kUnusable;
+  std::shared_ptr<const Program> program;
+  if (options.path.empty()) {
+    program = check_text(kModbusSlave, "modbus_slave.stl", *model, *times).program;
+  } else {
+    ProgramOptions named;
+    static_cast<CpuOptions&>(named) = options;
+    named.path = options.path;
+    int exit_code = kFine;
+    program = named.load(exit_code);
+    if (!program) return exit_code;
+  }
+  const std::vector<Figure> figures = measure(program, options.each);
+  if (options.json) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const Figure& f : figures) json.push_back({{"name", f.name}, {"unit", f.unit}, {"per_second", f.per_second}});
+    fmt::print("{}\n", json.dump(2));
+    return kFine;
+  }
+  fmt::print("{}: best of five rounds on one core\n", program->source.name);
+  for (const Figure& f : figures) {
+    const bool millions = f.per_second >= 1e6;
+    fmt::print("  {:<26} {:>9.1f} {} {} a second\n", f.name, f.per_second / (millions ? 1e6 : 1e3), millions ? "million " : "thousand", f.unit);
+  }
+  return kFine;
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<BenchOptions>();
+  CLI::App* verb = app.add_subcommand("bench", "how fast programs run here");
+  verb->add_option("PROGRAM", options->path, "a Modbus slave at address 1 (default: our modbus_slave.stl, built in)");
+  options->add_to(*verb);
+  add_duration(*verb, "--each", options->each, "time to spend on each figure (default 1s)");
+  verb->add_flag("--json", options->json, "print as JSON");
+  verb->footer("Example: s7200 bench");
+  verb->callback([options, &exit_code] { exit_code = run_bench(*options); });
+}
+
+}  // namespace s7200::tools
