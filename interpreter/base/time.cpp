@@ -13,8 +13,8 @@ struct Unit {
 
 constexpr Time kMinute = 60 * kSecond;
 constexpr Time kHour = 60 * kMinute;
-constexpr std::array kUnits{Unit{"ns", 1},        Unit{"us", kMicrosecond}, Unit{"ms", kMillisecond},
-                            Unit{"s", kSecond},   Unit{"min", kMinute},     Unit{"h", kHour}};
+constexpr std::array kUnits{Unit{"ns", 1},      Unit{"us", kMicrosecond}, Unit{"ms", kMillisecond},
+                            Unit{"s", kSecond}, Unit{"min", kMinute},     Unit{"h", kHour}};
 constexpr std::size_t kSecondUnit = 3;
 
 const Unit* unit_named(std::string_view name) {

@@ -170,16 +170,16 @@ const auto real_digits = named<struct RealDigits, Range>("digits") =
     raw[-sign >> +digit >> ((lit('.') >> +digit >> -exponent) | exponent)];
 
 const auto limit = no_case[size_prefixes] | attr(Size::None);
-const auto hexadecimal = named<struct Hexadecimal, RawWord>("a constant") =
-    limit >> attr(Kind::Hex) >> lit("16#") > hex_digits > end_of_constant;
-const auto binary = named<struct Binary, RawWord>("a constant") =
-    limit >> attr(Kind::Binary) >> lit("2#") > binary_digits > end_of_constant;
-const auto real = named<struct Real, RawWord>("a constant") = attr(Size::None) >> attr(Kind::Real) >> real_digits >
-                                                              end_of_constant;
-const auto decimal = named<struct Decimal, RawWord>("a constant") = limit >> attr(Kind::Decimal) >> decimal_digits >
-                                                                    end_of_constant;
-const auto ascii = named<struct Ascii, RawWord>("a constant") =
-    limit >> attr(Kind::Ascii) >> lit('\'') > ascii_text > closing_quote;
+const auto hexadecimal = named<struct Hexadecimal, RawWord>("a constant") = limit >> attr(Kind::Hex) >>
+                                                                            lit("16#") > hex_digits > end_of_constant;
+const auto binary = named<struct Binary, RawWord>("a constant") = limit >> attr(Kind::Binary) >> lit("2#") > binary_digits
+                                                                  > end_of_constant;
+const auto real = named<struct Real, RawWord>("a constant") = attr(Size::None) >> attr(Kind::Real) >> real_digits
+                                                              > end_of_constant;
+const auto decimal = named<struct Decimal, RawWord>("a constant") = limit >> attr(Kind::Decimal) >> decimal_digits
+                                                                    > end_of_constant;
+const auto ascii = named<struct Ascii, RawWord>("a constant") = limit >> attr(Kind::Ascii) >> lit('\'') > ascii_text
+                                                                > closing_quote;
 
 // S7-Micro/DOS: K4, K-5, KHFF. Other letters behind the K are not known.
 const auto k_decimal = named<struct KDecimal, RawWord>("a constant") =
@@ -190,15 +190,16 @@ const auto k_unknown = named<struct KUnknown, RawWord>("a constant") =
     attr(Size::None) >> attr(Kind::UnknownK) >> raw[char_("Kk") >> char_("BbWwDd") >> -sign >> +digit] >> end_of_word;
 
 const auto bit_number = named<struct BitNumber, Range>("a bit number") = raw[+digit];
-const auto address = named<struct AddressRule, RawAddress>("an address") =
-    (char_("&*") | attr('\0')) >> no_case[address_letters] >> raw[+digit] >> -(lit('.') > bit_number) >> end_of_word;
+const auto address = named<struct AddressRule, RawAddress>("an address") = (char_("&*") | attr('\0')) >>
+                                                                           no_case[address_letters] >> raw[+digit] >>
+                                                                           -(lit('.') > bit_number) >> end_of_word;
 
 // "Start", Motor_On, #count, and as Micro/WIN prints symbol and address together: #count:LW2, *#next:*LD4
 const auto plain_name = -char_("&*") >> -lit('#') >> (letter | char_('_') | beyond_ascii) >> *word_character;
 const auto quoted_name = -char_("&*") >> lit('"') >> *(char_ - lit('"')) >> lit('"');
 const auto name = named<struct NameRule, RawWord>("a name") =
-    attr(Size::None) >> attr(Kind::Name) >>
-    raw[quoted_name | (plain_name >> -(lit(':') >> plain_name >> -(lit('.') >> +digit)))];
+    attr(Size::None) >>
+    attr(Kind::Name) >> raw[quoted_name | (plain_name >> -(lit(':') >> plain_name >> -(lit('.') >> +digit)))];
 
 struct OperandRule {
   template <typename Context>
@@ -221,8 +222,8 @@ const auto mnemonic = named<struct Mnemonic, Range>("a mnemonic") =
 const auto statement = named<struct StatementRule, RawStatement>("a statement") = mnemonic >> blanks >> -operands;
 const auto comment = named<struct Comment, Range>("a comment") = lit("//") >> raw[*char_];
 const auto end_of_line = named<struct EndOfLine>("the end of the line") = x3::eoi;
-const auto line = named<struct LineRule, RawLine>("a line") =
-    blanks >> -statement >> blanks >> -lit(';') >> blanks >> -comment > end_of_line;
+const auto line = named<struct LineRule, RawLine>("a line") = blanks >> -statement >> blanks >> -lit(';') >> blanks >>
+                                                              -comment > end_of_line;
 
 const auto block_line = blanks >> raw[no_case[block_keyword]] >> end_of_word;
 
@@ -508,7 +509,8 @@ class LineReader {
     if (!number) return refuse(raw.number, "the number of this address is too large", "");
     Address address{letters.area, letters.size, *number, 0};
     if (raw.bit.empty()) {
-      if (letters.size == Size::Bit) return refuse(text, fmt::format("{} has no bit number", shown(text)), "write VX10.3 or V10.3");
+      if (letters.size == Size::Bit)
+        return refuse(text, fmt::format("{} has no bit number", shown(text)), "write VX10.3 or V10.3");
     } else {
       const auto bit = number_of<std::uint8_t>(view(raw.bit));
       if (!bit || *bit > 7) return refuse(raw.bit, "a byte has the bits 0 to 7", "");
