@@ -119,8 +119,12 @@ std::string format_duration(Time duration, int digits) {
   } else {
     remainder /= length / scale;
   }
-  return (duration < 0 ? "-" : "") + std::to_string(rounded / length) + decimals(remainder, places) + " " +
-         std::string(kUnits[unit].name);
+  std::string text = duration < 0 ? "-" : "";
+  text += std::to_string(rounded / length);
+  text += decimals(remainder, places);
+  text += ' ';
+  text += kUnits[unit].name;
+  return text;
 }
 
 }  // namespace s7200

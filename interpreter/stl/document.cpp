@@ -46,15 +46,15 @@ std::string_view trim(std::string_view text) {
 }
 
 /// Unreadable characters around a statement are debris of the document. Within it, or right behind an operand, they may
-/// have been part of the statement.
-bool is_damaged(std::string_view line) {
+/// have been part of the statement; right behind the mnemonic only if that is not whole without them.
+bool is_damaged(std::string_view line, bool whole_mnemonic) {
   enum { Blank, Debris, Code } previous = Blank;
   bool in_code = false;
   bool in_operands = false;
   bool debris_behind_code = false;
   for (const Character c : characters(line.substr(0, comment_start(line)))) {
     if (is_debris(c)) {
-      if (in_operands && previous == Code) return true;
+      if (previous == Code && (in_operands || !whole_mnemonic)) return true;
       debris_behind_code = in_code;
       previous = Debris;
     } else if (c.code == ' ' || c.code == '\t' || c.code == '\f') {
@@ -222,8 +222,8 @@ class DocumentReader {
     }
     const std::string_view mnemonic = leading_mnemonic(code);
     reading.mnemonic = mnemonic;
-    reading.debris = is_damaged(line);
     reading.candidate = is_known(upper_case(mnemonic));
+    reading.debris = is_damaged(line, reading.candidate);
     look_at_operands(reading, code.substr(mnemonic.size()));
     if (is_drawing(code) && !(reading.candidate && reading.first_solid)) reading.verdict = Verdict::Drawing;
     return reading;

@@ -77,7 +77,6 @@ namespace grammar {
 
 using x3::attr;
 using x3::char_;
-using x3::digit;
 using x3::lit;
 using x3::no_case;
 using x3::raw;
@@ -151,6 +150,7 @@ const BlockKeywordTable block_keyword;
 
 const auto blanks = x3::omit[*char_(" \t\f")];
 const auto letter = char_("A-Za-z");
+const auto digit = char_("0-9");  // x3::digit asserts on characters beyond ASCII
 const auto sign = char_("+-");
 // Names may have letters of any alphabet, but not debris (U+FFFD), a no-break space or East Asian punctuation.
 const auto never_in_names = lit("\xEF\xBF\xBD") | lit("\xC2\xA0") | lit("\xE3\x80") | lit("\xEF\xBC");
@@ -159,7 +159,8 @@ const auto word_character = char_("A-Za-z0-9_") | beyond_ascii;
 const auto end_of_word = !word_character;
 
 const auto end_of_constant = named<struct EndOfConstant>("the end of the constant") = end_of_word >> !char_("#.'\"");
-const auto hex_digits = named<struct HexDigits, Range>("hexadecimal digits") = raw[x3::xdigit >> *char_("0-9A-Fa-f_")];
+const auto hex_digits = named<struct HexDigits, Range>("hexadecimal digits") =
+    raw[char_("0-9A-Fa-f") >> *char_("0-9A-Fa-f_")];
 const auto binary_digits = named<struct BinaryDigits, Range>("binary digits") = raw[char_("01") >> *char_("01_")];
 const auto ascii_text = named<struct AsciiText, Range>("characters") =
     raw[*((lit('$') >> char_) | (char_ - lit('\'') - lit('$')))];
