@@ -13,8 +13,6 @@ namespace s7200::stl {
 
 namespace {
 
-constexpr std::string_view kDebris = "\uFFFD";
-
 bool is_debris(const Character& c) { return c.code == kReplacement; }
 
 // ---- The text of a line ------------------------------------------------------------------------------------------------
@@ -247,6 +245,7 @@ class DocumentReader {
 
   bool is_known(const std::string& mnemonic) const {
     constexpr std::size_t kMostOperands = 8;
+    if (mnemonic.starts_with("VAR")) return false;  // opens declarations for the parser, whatever the table says
     if (mnemonic == "NETWORK") return true;
     for (std::size_t operands = 0; operands <= kMostOperands; ++operands) {
       if (is_instruction_(mnemonic, operands)) return true;

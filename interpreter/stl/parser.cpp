@@ -171,16 +171,16 @@ const auto real_digits = named<struct RealDigits, Range>("digits") =
     raw[-sign >> +digit >> ((lit('.') >> +digit >> -exponent) | exponent)];
 
 const auto limit = no_case[size_prefixes] | attr(Size::None);
-const auto hexadecimal = named<struct Hexadecimal, RawWord>("a constant") = limit >> attr(Kind::Hex) >>
-                                                                            lit("16#") > hex_digits > end_of_constant;
-const auto binary = named<struct Binary, RawWord>("a constant") = limit >> attr(Kind::Binary) >> lit("2#") > binary_digits
-                                                                  > end_of_constant;
-const auto real = named<struct Real, RawWord>("a constant") = attr(Size::None) >> attr(Kind::Real) >> real_digits
-                                                              > end_of_constant;
-const auto decimal = named<struct Decimal, RawWord>("a constant") = limit >> attr(Kind::Decimal) >> decimal_digits
-                                                                    > end_of_constant;
-const auto ascii = named<struct Ascii, RawWord>("a constant") = limit >> attr(Kind::Ascii) >> lit('\'') > ascii_text
-                                                                > closing_quote;
+const auto hexadecimal = named<struct Hexadecimal, RawWord>("a constant") =
+    (limit >> attr(Kind::Hex) >> lit("16#")) > hex_digits > end_of_constant;
+const auto binary = named<struct Binary, RawWord>("a constant") =
+    (limit >> attr(Kind::Binary) >> lit("2#")) > binary_digits > end_of_constant;
+const auto real = named<struct Real, RawWord>("a constant") =
+    (attr(Size::None) >> attr(Kind::Real) >> real_digits) > end_of_constant;
+const auto decimal = named<struct Decimal, RawWord>("a constant") =
+    (limit >> attr(Kind::Decimal) >> decimal_digits) > end_of_constant;
+const auto ascii = named<struct Ascii, RawWord>("a constant") =
+    (limit >> attr(Kind::Ascii) >> lit('\'')) > ascii_text > closing_quote;
 
 // S7-Micro/DOS: K4, K-5, KHFF. Other letters behind the K are not known.
 const auto k_decimal = named<struct KDecimal, RawWord>("a constant") =
@@ -212,7 +212,7 @@ const auto operand = named<OperandRule, RawOperand>("an operand") =
     ascii | hexadecimal | binary | real | decimal | k_decimal | k_hexadecimal | k_unknown | address | name;
 
 const auto next_operand = named<struct NextOperand, RawOperand>("an operand") =
-    (blanks >> lit(',') >> blanks > operand) | (x3::omit[+char_(" \t\f")] >> operand);
+    ((blanks >> lit(',') >> blanks) > operand) | (x3::omit[+char_(" \t\f")] >> operand);
 const auto operands = named<struct Operands, std::vector<RawOperand>>("operands") = operand >> *next_operand;
 
 // =I is a mnemonic of its own, but =I0.0 assigns to I0.0. After a comparator the first operand may follow at once.
@@ -223,8 +223,8 @@ const auto mnemonic = named<struct Mnemonic, Range>("a mnemonic") =
 const auto statement = named<struct StatementRule, RawStatement>("a statement") = mnemonic >> blanks >> -operands;
 const auto comment = named<struct Comment, Range>("a comment") = lit("//") >> raw[*char_];
 const auto end_of_line = named<struct EndOfLine>("the end of the line") = x3::eoi;
-const auto line = named<struct LineRule, RawLine>("a line") = blanks >> -statement >> blanks >> -lit(';') >> blanks >>
-                                                              -comment > end_of_line;
+const auto line = named<struct LineRule, RawLine>("a line") =
+    (blanks >> -statement >> blanks >> -lit(';') >> blanks >> -comment) > end_of_line;
 
 const auto block_line = blanks >> raw[no_case[block_keyword]] >> end_of_word;
 
