@@ -245,7 +245,7 @@ class DocumentReader {
 
   bool is_known(const std::string& mnemonic) const {
     constexpr std::size_t kMostOperands = 8;
-    if (mnemonic.starts_with("VAR")) return false;  // opens declarations for the parser, whatever the table says
+    if (mnemonic.empty() || mnemonic.starts_with("VAR")) return false;  // VAR opens declarations, whatever the table says
     if (mnemonic == "NETWORK") return true;
     for (std::size_t operands = 0; operands <= kMostOperands; ++operands) {
       if (is_instruction_(mnemonic, operands)) return true;
