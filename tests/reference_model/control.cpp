@@ -12,12 +12,18 @@ void jump(Machine& m) {
   m.next = m.find_label(m.number(0));
 }
 
+/// FINAL, found now (a bad pointer shows before anything is done) and read when it is asked for: it may overlap INDX.
+std::function<std::int32_t()> final_value(Machine& m, const stl::Operand& operand) {
+  if (std::holds_alternative<stl::Integer>(operand.value)) return [&] { return signed16(m.value_of(operand, 2)); };
+  return [place = m.place_of(operand, 2)] { return signed16(read(place, 2)); };
+}
+
 void begin_loop(Machine& m) {
   const Place index = m.place(0, 2);
   const std::uint32_t initial = m.in(1, 2);
-  m.in(2, 2);  // a bad pointer shows before anything is done
+  const auto last = final_value(m, m.statement().operands[2]);
   write(index, 2, initial);
-  if (signed16(initial) > signed16(m.in(2, 2))) m.next = m.find_next(m.position) + 1;
+  if (signed16(initial) > last()) m.next = m.find_next(m.position) + 1;
 }
 
 /// NEXT works on the operands of its FOR.
@@ -26,11 +32,11 @@ void next_pass(Machine& m) {
   const auto& operands = m.statements()[head].operands;
   const Place index = m.place_of(operands[0], 2);
   m.value_of(operands[1], 2);
-  const std::int32_t final_value = signed16(m.value_of(operands[2], 2));
+  const auto last = final_value(m, operands[2]);
   const std::uint32_t before = read(index, 2);
   write(index, 2, before + 1);
   m.stack[0] = true;
-  if (signed16(before) < final_value) m.next = head + 1;
+  if (signed16(before) < last()) m.next = head + 1;
 }
 
 void call(Machine& m) {
@@ -51,10 +57,11 @@ void load_segment(Machine& m) {
   else m.next = m.find_scre(m.position) + 1;
 }
 
+/// A transition to the segment it stands in leaves that segment on.
 void segment_transition(Machine& m) {
-  write(m.bit(0), true);
   const auto& own = std::get<stl::Address>(m.statements()[m.find_lscr(m.position)].operands[0].value);
   write(BitPlace{&m.memory.S, std::size_t{8} * own.number + own.bit}, false);
+  write(m.bit(0), true);
 }
 
 void nothing(Machine&) {}

@@ -99,7 +99,7 @@ class Pair {
       cpu_.run(machine_.time);
       while (queue_.next() <= cpu_.time()) cpu_.handle(queue_.pop());
     }
-    if (machine_.running) machine_.count_milliseconds();
+    machine_.count_milliseconds();
     if (const std::string found = compare(machine_, cpu_); !found.empty()) difference_ = describe(found);
     return executed;
   }

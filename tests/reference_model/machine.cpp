@@ -346,9 +346,11 @@ void Machine::compare_timer(std::size_t timer) {
 }
 
 void Machine::count_milliseconds() {
-  for (; (milliseconds_counted_ + 1) * kMillisecond <= time; ++milliseconds_counted_)
+  for (; (milliseconds_counted_ + 1) * kMillisecond <= time; ++milliseconds_counted_) {
+    const std::int64_t instant = (milliseconds_counted_ + 1) * kMillisecond;
     for (std::size_t timer = 0; timer < timers.size(); ++timer)
-      if (is_1_ms(timer) && timers[timer].enabled) count_timer(timer, 1);
+      if (is_1_ms(timer) && timers[timer].enabled && timers[timer].enabled_at < instant) count_timer(timer, 1);
+  }
 }
 
 void Machine::count_ten_milliseconds() {

@@ -110,6 +110,7 @@ class Machine {
   struct Timer {
     bool enabled = false;
     std::int16_t preset = 0;
+    std::int64_t enabled_at = 0;  ///< end of the execution that enabled it
   };
   std::array<Timer, 128> timers{};
   std::array<bool, 128> counter_up{}, counter_down{};  ///< inputs as the counters saw them last

@@ -41,22 +41,24 @@ std::uint32_t count_to_take_from(Machine& m, const Table& table) {
 }
 
 void first_in_first_out(Machine& m) {
-  const Table table = table_at(m.place(0, 2));
-  const Place data = m.place(1, 2);
+  const Place place = m.place(0, 2), data = m.place(1, 2);
+  const Table table = table_at(place);
   const std::uint32_t count = count_to_take_from(m, table);
   if (count == 0) return;
-  write(data, 2, read(table.entry(0), 2));
+  const std::uint32_t taken = read(table.entry(0), 2);
   for (std::size_t i = 0; i + 1 < count; ++i) write(table.entry(i), 2, read(table.entry(i + 1), 2));
   write(table.count, 2, count - 1);
+  write(data, 2, taken);  // last, should it lie inside the table
 }
 
 void last_in_first_out(Machine& m) {
-  const Table table = table_at(m.place(0, 2));
-  const Place data = m.place(1, 2);
+  const Place place = m.place(0, 2), data = m.place(1, 2);
+  const Table table = table_at(place);
   const std::uint32_t count = count_to_take_from(m, table);
   if (count == 0) return;
-  write(data, 2, read(table.entry(count - 1), 2));
+  const std::uint32_t taken = read(table.entry(count - 1), 2);
   write(table.count, 2, count - 1);
+  write(data, 2, taken);
 }
 
 bool matches(const std::string& relation, std::int32_t entry, std::int32_t pattern) {

@@ -27,6 +27,7 @@ void time(Machine& m, bool retentive) {
   timer.preset = preset;
   if (timer.enabled && is_100_ms(number)) m.count_timer(number, m.hundred_ms_ticks);
   if (!timer.enabled && !retentive) write(Place{&m.memory.T, 2 * number}, 2, 0);
+  if (!timer.enabled) timer.enabled_at = m.time;
   timer.enabled = true;
   m.compare_timer(number);
 }
