@@ -17,6 +17,7 @@ void Cpu::power_up(bool run) {
   for (const Op& op : program_->ops)
     if (op.instruction->hidden == Hidden::RisingMemory) put_bit(op[2].at, op[2].bit, true);
   s.counter_inputs.fill(3);
+  for (const std::uint32_t idle : {image::kSM + 66, image::kSM + 76}) s.image[idle] = 0x80;
   s.image[image::kSM] = 0x01;
   s.image[image::kSM4] = 0x60;  // both transmitters idle
   s.image[image::kSM + 6] = program_->model->identification;
@@ -181,6 +182,12 @@ void Cpu::fatal_error(FatalError code) {
 
 std::string_view meaning_of(RunError code) {
   switch (code) {
+    case RunError::CounterNotDefined: return "HSC before HDEF of that counter";
+    case RunError::PointTaken: return "input interrupt attached to a point that a high-speed counter uses";
+    case RunError::InputTaken: return "HDEF uses an input that an input interrupt is attached to";
+    case RunError::Clock: return "TODW: the buffer holds no BCD";
+    case RunError::CounterDefinedTwice: return "second HDEF for the same counter";
+    case RunError::EepromRange: return "the V address to save lies outside the EEPROM";
     case RunError::NotInInterrupt: return "instruction not allowed in an interrupt routine";
     case RunError::IndirectAddress: return "indirect addressing error: the pointer leads outside the memory it may reach";
     case RunError::CallDepth: return "subroutines nested too deep";

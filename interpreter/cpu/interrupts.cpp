@@ -14,6 +14,7 @@ bool is_timed(std::uint8_t event) { return event == kTimed0 || event == kTimed0 
 }  // namespace
 
 void Cpu::attach(std::uint8_t event, std::uint8_t routine) {
+  if (counter_uses(event)) return run_error(RunError::PointTaken);
   s.attached[event] = routine;
   Time interval = 0;
   if (is_timed(event)) {
@@ -48,13 +49,14 @@ void Cpu::enable_interrupts(bool enabled) {
 
 void Cpu::handle(const Event& event) {
   if (event.what == kTick1ms) return tick_1ms_timers(event.at);
+  if (event.what >= kPulse0) return continue_pulses(event.what - kPulse0, event.at);
   const auto number = static_cast<std::uint8_t>(kTimed0 + event.what);
   queue_.schedule(event.at + s.timed_interval[event.what], EventOwner::Cpu, event.what);
   occurred(number, event.at);
 }
 
 void Cpu::occurred(std::uint8_t event, Time at, std::uint8_t byte, bool parity_error) {
-  const std::uint8_t routine = s.attached[event];
+  const std::uint8_t routine = event < kEvents ? s.attached[event] : kNotAttached;
   if (routine == kNotAttached || s.mode != Mode::Run || s.stop_after_scan) return;
   const auto group = static_cast<std::size_t>(find_event(event)->queue);
   InterruptQueue& queue = s.queue[group];

@@ -88,6 +88,37 @@ struct TimerState {
   bool operator==(const TimerState&) const = default;
 };
 
+struct HighSpeedCounter {
+  bool defined = false, enabled = false;
+  bool up = true;
+  bool reset_low = false, start_low = false, single_rate = false;
+  std::uint8_t mode = 0;
+  std::int32_t current = 0, preset = 0;
+  bool operator==(const HighSpeedCounter&) const = default;
+};
+
+struct PulseTrain {
+  bool pwm = false;
+  Time cycle = 2 * kMicrosecond, width = 0;
+  std::uint32_t count = 1;
+  bool operator==(const PulseTrain&) const = default;
+};
+
+struct PulseOutput {
+  bool running = false, has_next = false;
+  PulseTrain train{}, next{}, last{};  ///< running; in line behind it; as last programmed
+  std::uint32_t left = 0;              ///< pulses of the train, the present one included
+  Time cycle_end = 0;
+  bool operator==(const PulseOutput&) const = default;
+};
+
+/// Time of day, in plain numbers.
+struct ClockTime {
+  std::uint8_t year = 90, month = 1, day = 1, hour = 0, minute = 0, second = 0;
+  std::uint8_t weekday = 2;  ///< 1 Sunday … 7 Saturday, 0 switched off
+  bool operator==(const ClockTime&) const = default;
+};
+
 /// A run-time error: code, the instruction, how often, when first.
 struct RuntimeError {
   std::uint16_t code = 0;
@@ -129,6 +160,12 @@ struct State {
   Time next_tick_1ms = 0;    ///< due while it is not past
   std::int16_t ticks_100ms = 0;                   ///< of the previous scan
   std::array<std::uint8_t, 256> counter_inputs{}; ///< at the last execution: bit 0 up, bit 1 down
+
+  std::array<HighSpeedCounter, 3> counter{};
+  std::array<PulseOutput, 2> pulse{};
+  ClockTime clock{};
+  Time clock_set_at = 0;
+  std::array<std::uint8_t, 10240> eeprom{};  ///< permanent V memory
 
   std::uint16_t fatal_code = 0;
   std::uint32_t fatal_op = 0;

@@ -28,6 +28,7 @@ enum class OperandKind : std::uint8_t {
   Interrupt,   ///< INT, ATCH
   Event,       ///< ATCH, DTCH
   Port,        ///< XMT, RCV
+  Counter,     ///< HDEF, HSC
   Number,      ///< any other number that is part of the instruction: NOP
 };
 
@@ -59,7 +60,7 @@ enum Part : std::uint8_t { kMain = 1, kSubroutine = 2, kInterrupt = 4, kAnywhere
 enum class Structure : std::uint8_t {
   None,
   Label, Jump, For, Next, Call, SubroutineHead, InterruptHead, MainEnd, SubroutineEnd, InterruptEnd, Attach,
-  SegmentBegin, SegmentTransition, SegmentEnd,
+  SegmentBegin, SegmentTransition, SegmentEnd, DefineCounter,
   Compare  ///< its errors stop the CPU
 };
 

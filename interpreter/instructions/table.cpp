@@ -15,6 +15,7 @@
 #include "interpreter/instructions/instruction.hpp"
 #include "interpreter/instructions/math.hpp"
 #include "interpreter/instructions/move.hpp"
+#include "interpreter/instructions/peripherals.hpp"
 #include "interpreter/instructions/real_math.hpp"
 #include "interpreter/instructions/shift.hpp"
 #include "interpreter/instructions/tables.hpp"
@@ -186,6 +187,7 @@ class Table {
     conversions();
     tables();
     sequence();
+    peripherals();
     later();
   }
 
@@ -454,13 +456,24 @@ class Table {
     add(only_in(not_in_interrupt, marks(Structure::SegmentEnd, row("SCRE", {}, no_operation, "end of a segment"))));
   }
 
+  void peripherals() {
+    group("Clock, high-speed counters, pulse outputs");
+    constexpr std::uint8_t not_in_interrupt = kMain | kSubroutine;
+    const OperandRule buffer{.name = "T", .areas = kBytes, .pointer = true};
+    OperandRule written = buffer;
+    written.role = Role::Out;
+    add(on(kFrom214, box("TODR", {written}, read_clock, "read the clock into the 8 bytes at T")));
+    add(on(kFrom214, box("TODW", {buffer}, write_clock, "set the clock from the 8 bytes at T")));
+    const OperandRule counter = number(OperandKind::Counter, "HSC");
+    add(only_in(not_in_interrupt, marks(Structure::DefineCounter, box("HDEF", {counter, number(OperandKind::Number, "MODE", 11)}, define_counter,
+                                      "give a high-speed counter its mode, once"))));
+    add(box("HSC", {counter}, program_counter, "take over the counter's control byte, values and enable"));
+    add(on(kFrom214, box("PLS", {number(OperandKind::Number, "X", 1)}, program_pulses, "start the pulse train or PWM of Q0.X")));
+  }
+
   /// Known by name, so that a program that uses them is told so.
   void later() {
     group("Not modelled yet");
-    for (const char* mnemonic : {"HDEF", "HSC"})
-      add(not_modelled(mnemonic, kEveryCpu, ""));
-    for (const char* mnemonic : {"TODR", "TODW", "PLS"})
-      add(not_modelled(mnemonic, kFrom214, ""));
     for (const char* mnemonic : {"INCB", "DECB", "ANDB", "ORB", "XORB", "INVB", "SLB", "SRB", "RLB", "RRB", "PID"})
       add(not_modelled(mnemonic, kFrom215, ""));
     for (const char* mnemonic : {"TOF", "CTD", "*I", "/I", "*D", "/D", "BTI", "ITB", "ITD", "DTI", "ROUND", "ITA", "DTA", "RTA",

@@ -46,6 +46,7 @@ struct CpuModel {
   std::array<std::uint32_t, kAreas> size;     ///< bytes, or elements of T, C, HC and AC; by Area
   std::uint32_t labels, subroutines, interrupts;  ///< how many numbers there are, from 0
   std::uint32_t program_words;
+  std::uint32_t eeprom_bytes;                 ///< V memory that the EEPROM can hold, from V0 on
   std::array<std::uint8_t, kQueues> queue_depth;
   std::array<std::uint32_t, 8> baud;          ///< by the three bits bbb of SMB30
   std::uint8_t identification;                ///< SMB6

@@ -89,7 +89,7 @@ class Checker {
       if (operand) placed[i] = *operand;
       good = good && operand;
     }
-    return good && blocks_fit(instruction, statement);
+    return good && blocks_fit(instruction, statement) && mode_fits(instruction, statement);
   }
 
   static std::string counted(std::size_t operands) {
@@ -112,6 +112,15 @@ class Checker {
       good = false;
     }
     return good;
+  }
+
+  /// HSC0 has mode 0 only.
+  bool mode_fits(const Instruction& instruction, const stl::Statement& statement) {
+    if (instruction.structure != Structure::DefineCounter) return true;
+    const auto& placed = placed_.back();
+    if (*placed[0].constant != 0 || *placed[1].constant == 0) return true;
+    error(statement.operands[1].position, fmt::format("HSC0 has no mode {}", *placed[1].constant), "HSC0 has mode 0 only");
+    return false;
   }
 
   static std::string_view unit(Width width) {
@@ -172,14 +181,18 @@ class Checker {
     op.power_mask = instruction.needs_power_flow;
     op.target = structure.target[i];
     op.skip_to = instruction.structure == Structure::For ? op.target : i + 1;
-    bool writes_special_memory = false;
+    Areas written = 0;
     for (std::size_t k = 0; k < op.operand.size(); ++k) {
       op.operand[k] = placed[k].operand;
       op.has_pointer |= placed[k].operand.pointer;
-      writes_special_memory |= placed[k].area == Area::SM && k < instruction.operands && instruction.operand[k].role != Role::In;
+      if (placed[k].area && k < instruction.operands && instruction.operand[k].role != Role::In)
+        written |= set_of(*placed[k].area);
     }
     add_hidden_operand(op, placed_[structure.head[i]]);
-    op.body = writes_special_memory ? run_with_port_control : op.has_pointer ? run_with_pointers : instruction.body;
+    op.body = contains(written, Area::SM)   ? run_with_port_control
+              : contains(written, Area::AQ) ? run_with_analog_output
+              : op.has_pointer              ? run_with_pointers
+                                            : instruction.body;
     set_cost(op, placed);
     return op;
   }

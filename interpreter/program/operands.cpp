@@ -130,6 +130,7 @@ class Placing {
       case OperandKind::Subroutine: return {"subroutine", model_.subroutines - 1};
       case OperandKind::Interrupt: return {"interrupt routine", model_.interrupts - 1};
       case OperandKind::Event: return {"event", static_cast<std::int64_t>(kEvents) - 1};
+      case OperandKind::Counter: return {"high-speed counter", model_.size_of(Area::HC) - 1};
       case OperandKind::Port: return {"port", 0};
       default: return {"number", rule_.max};
     }

@@ -44,6 +44,8 @@ struct Op {
 void run_with_pointers(Cpu& cpu, const Op& op);
 /// For an instruction that writes special memory: the port follows SMB30.
 void run_with_port_control(Cpu& cpu, const Op& op);
+/// For an instruction that writes analog outputs: there is no image, the change goes to the module at once.
+void run_with_analog_output(Cpu& cpu, const Op& op);
 
 inline constexpr std::uint32_t kNoRoutine = 0xFFFF'FFFF;
 

@@ -58,6 +58,8 @@ std::string describe(const TraceRecord& r, const Program& program) {
     case TraceKind::CharacterReceived: return fmt::format("received {}", character_text(r));
     case TraceKind::CharacterIgnored: return fmt::format("ignored  {}: event 8 is not attached", character_text(r));
     case TraceKind::PortControl: return fmt::format("SMB30 = 16#{:02X}", r.byte);
+    case TraceKind::OutputChanged: return fmt::format("QB{} = 2#{:08b}", r.op, r.byte);
+    case TraceKind::AnalogChanged: return fmt::format("AQW{} = {}", r.op, static_cast<std::int16_t>(r.count));
     case TraceKind::RuntimeError:
       return fmt::format("run-time error {:04X} ({}) in {}", r.code, meaning_of(RunError{r.code}), place_text(r.op, program));
     case TraceKind::FatalError:

@@ -26,6 +26,8 @@ enum class TraceKind : std::uint8_t {
   CharacterReceived,  ///< byte, parity_error, framing_error; since: its start edge
   CharacterIgnored,   ///< as received, but the port is not in Freeport mode or event 8 is not attached
   PortControl,     ///< byte: SMB30
+  OutputChanged,   ///< byte: new value of the output points; op: number of the byte
+  AnalogChanged,   ///< count: new value; op: number of the AQ word
   RuntimeError,    ///< code; op: where
   FatalError,      ///< code; op: where
 };
