@@ -13,6 +13,7 @@
 #include "tools/program_options.hpp"
 #include "tools/report.hpp"
 #include "tools/terminal.hpp"
+#include "tools/timeline.hpp"
 #include "tools/trace_file.hpp"
 
 namespace s7200::tools {
@@ -22,7 +23,7 @@ struct SendOptions {
   ProgramOptions program;
   std::vector<std::string> frames, set, dump;
   std::string frames_file;
-  bool crc = false, json = false;
+  bool crc = false, json = false, timeline = false;
   Time after = kNever;  // kNever: when the first scan has ended and the line is quiet
   Time pause = kNever;  // kNever: Simulation::default_quiet
   MasterOptions master;
@@ -129,6 +130,7 @@ int run_send(SendOptions& options) {
 
   serial::Simulation simulation(program);
   if (!options.trace.open(simulation.cpu(), program)) return kUnusable;
+  Timeline timeline(program, options.trace.sink());
   simulation.power_up();
   for (const Assignment& assignment : assignments) assign(simulation, assignment);
 
@@ -145,10 +147,18 @@ int run_send(SendOptions& options) {
       print_error("a byte with wrong parity (p) needs a format with parity");
       return kUnusable;
     }
+    timeline.begin();
+    if (options.timeline) simulation.cpu().set_sink(&timeline);
     const serial::Exchange& exchange = options.master.exchange(simulation, frame, format);
+    simulation.cpu().set_sink(options.trace.sink());
     all_answered &= !exchange.timed_out;
-    if (options.json) json.push_back(to_json(exchange));
-    else print_exchange(exchange, options.master.timeout);
+    if (options.json) {
+      json.push_back(to_json(exchange));
+      if (options.timeline) json.back()["timeline"] = to_json(timeline.rows(), exchange);
+    } else {
+      print_exchange(exchange, options.master.timeout);
+      if (options.timeline) fmt::print("{}\n", to_text(timeline.rows(), exchange, colour_wanted(stdout)));
+    }
     const Time pause = options.pause == kNever ? serial::Simulation::default_quiet(format) : options.pause;
     simulation.run_until(simulation.time() + pause);
   }
@@ -177,6 +187,7 @@ void add_send(CLI::App& app, int& exit_code) {
   verb->add_option("--set", options->set, "memory or inputs before the first scan: VW100=5, I0.3=1 (repeatable)")->type_name("ADDRESS=VALUE");
   verb->add_option("--dump", options->dump, "memory to show at the end: VB0:16, VW100, AC0 (repeatable)")->type_name("ADDRESS[:COUNT]");
   options->trace.add_to(*verb);
+  verb->add_flag("--timeline", options->timeline, "show what the CPU did during each exchange: characters, interrupts, XMT");
   verb->add_flag("--json", options->json, "print an array of exchanges as JSON");
   verb->footer("Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");
   verb->callback([options, &exit_code] { exit_code = run_send(*options); });
