@@ -154,10 +154,10 @@ int run_send(SendOptions& options) {
     all_answered &= !exchange.timed_out;
     if (options.json) {
       json.push_back(to_json(exchange));
-      if (options.timeline) json.back()["timeline"] = to_json(timeline.rows(), exchange);
+      if (options.timeline) json.back()["timeline"] = to_json(timeline.report(), exchange);
     } else {
       print_exchange(exchange, options.master.timeout);
-      if (options.timeline) fmt::print("{}\n", to_text(timeline.rows(), exchange, colour_wanted(stdout)));
+      if (options.timeline) fmt::print("{}\n", to_text(timeline.report(), exchange, colour_wanted(stdout)));
     }
     const Time pause = options.pause == kNever ? serial::Simulation::default_quiet(format) : options.pause;
     simulation.run_until(simulation.time() + pause);

@@ -17,7 +17,21 @@ using Kind = TimelineRow::Kind;
 
 constexpr std::uint8_t kReceiveEvent = 8;
 constexpr std::size_t kShownCharacters = 8;
-constexpr std::size_t kWidth = 44;  // of the column of the line
+constexpr std::size_t kWidth = 38;  // of the column of the line
+
+bool belong_together(const TimelineRow& a, const TimelineRow& b) {
+  const bool repeats = a.kind != Kind::Transmit && a.kind != Kind::Other;
+  return repeats && a.kind == b.kind && a.event == b.event && a.routine == b.routine;
+}
+
+void join(TimelineRow& row, const TimelineRow& next) {
+  row.characters.insert(row.characters.end(), next.characters.begin(), next.characters.end());
+  row.served += next.served;
+  row.shortest = std::min(row.shortest, next.shortest);
+  row.longest = std::max(row.longest, next.longest);
+  row.in_all += next.in_all;
+  row.longest_wait = std::max(row.longest_wait, next.longest_wait);
+}
 
 /// Rows of one thing each, with the services that belong to them.
 class Reader {
@@ -26,7 +40,7 @@ class Reader {
 
   void read(const TraceRecord& r) {
     switch (r.kind) {
-      case TraceKind::ScanBegin: scan_ = r.count; return;
+      case TraceKind::ScanBegin: return begin_scan(r);
       case TraceKind::CharacterReceived: return add_characters(r, Kind::Received);
       case TraceKind::CharacterIgnored: return add_characters(r, Kind::Ignored);
       case TraceKind::CharacterSent: return add_characters(r, Kind::Sent);
@@ -34,7 +48,10 @@ class Reader {
       case TraceKind::EventLost: return lost(r);
       case TraceKind::ServiceBegin: return begin_service(r);
       case TraceKind::ServiceEnd: return end_service(r);
-      case TraceKind::Transmit: return add(r, Kind::Transmit, transmit_text(r));
+      case TraceKind::Transmit:
+        add(r, Kind::Transmit, r.count ? fmt::format("XMT {} characters", r.count) : "XMT break");
+        rows_.back().place = place_of(r);
+        return;
       case TraceKind::Attach:
       case TraceKind::Detach:
       case TraceKind::TransmitEnd: return;
@@ -42,7 +59,13 @@ class Reader {
     }
   }
 
-  std::deque<TimelineRow> take() { return std::move(rows_); }
+  TimelineReport take() {
+    for (TimelineRow& row : rows_) {
+      if (!report_.rows.empty() && belong_together(report_.rows.back(), row)) join(report_.rows.back(), row);
+      else report_.rows.push_back(std::move(row));
+    }
+    return std::move(report_);
+  }
 
  private:
   void add(const TraceRecord& r, Kind kind, std::string text = {}) {
@@ -65,6 +88,17 @@ class Reader {
     rows_.back().routine = r.routine;
   }
 
+  void begin_scan(const TraceRecord& r) {
+    scan_ = r.count;
+    if (scan_begin_ != kNever) {
+      const Time scan = r.at - scan_begin_;
+      ++report_.scans;
+      report_.shortest_scan = std::min(report_.shortest_scan, scan);
+      report_.longest_scan = std::max(report_.longest_scan, scan);
+    }
+    scan_begin_ = r.at;
+  }
+
   void begin_service(const TraceRecord& r) {
     serving_ = nullptr;
     for (TimelineRow& row : rows_)
@@ -83,35 +117,23 @@ class Reader {
     serving_->shortest = serving_->longest = serving_->in_all = took;
   }
 
-  std::string transmit_text(const TraceRecord& r) const {
-    const std::string what = r.count ? fmt::format("XMT {} characters", r.count) : "XMT break";
-    if (in_routine_) return fmt::format("{} in INT {}", what, routine_);
-    if (service_end_ == kNever) return fmt::format("{} in scan {}", what, scan_);
-    return fmt::format("{} in scan {}, {} after INT {}", what, scan_, format_duration(r.at - service_end_), routine_);
+  std::string place_of(const TraceRecord& r) const {
+    if (in_routine_) return fmt::format("INT {}", routine_);
+    const std::string scan = scan_ ? fmt::format("scan {}", scan_) : "";
+    if (service_end_ == kNever) return fmt::format("{:<9}{}", "program", scan);
+    return fmt::format("{:<9}{}, {} after INT {}", "program", scan, format_duration(r.at - service_end_), routine_);
   }
 
   const Program& program_;
   std::deque<TimelineRow> rows_;  // one that stays where it is
+  TimelineReport report_;
   std::uint64_t scan_ = 0;
+  Time scan_begin_ = kNever;
   TimelineRow* serving_ = nullptr;  // null for an interrupt that occurred before the exchange
   bool in_routine_ = false;
   std::uint8_t routine_ = 0;
   Time service_end_ = kNever;
 };
-
-bool belong_together(const TimelineRow& a, const TimelineRow& b) {
-  const bool repeats = a.kind != Kind::Transmit && a.kind != Kind::Other;
-  return repeats && a.kind == b.kind && a.event == b.event && a.routine == b.routine;
-}
-
-void join(TimelineRow& row, const TimelineRow& next) {
-  row.characters.insert(row.characters.end(), next.characters.begin(), next.characters.end());
-  row.served += next.served;
-  row.shortest = std::min(row.shortest, next.shortest);
-  row.longest = std::max(row.longest, next.longest);
-  row.in_all += next.in_all;
-  row.longest_wait = std::max(row.longest_wait, next.longest_wait);
-}
 
 // --- text ---
 
@@ -144,7 +166,7 @@ std::string line_text(const TimelineRow& row) {
 std::string remark(const TimelineRow& row) {
   if (row.kind == Kind::Ignored) return "event 8 is not attached";
   if (row.kind == Kind::Lost) return fmt::format("the queue before INT {} was full", row.routine);
-  if (row.served == 0) return {};
+  if (row.served == 0) return row.place;
   std::string took = format_duration(row.longest);
   if (row.served > 1) {
     const std::string from = row.shortest == row.longest ? "" : format_duration(row.shortest) + " to ";
@@ -173,17 +195,19 @@ std::string painted(const std::string& text, const char* paint, bool colour) {
 constexpr const char* kDim = "2";
 constexpr const char* kYellow = "33";
 
-std::string summary(const std::vector<TimelineRow>& rows) {
+std::string summary(const TimelineReport& report) {
   std::size_t served = 0;
   Time in_all = 0, longest_wait = 0;
   bool marked = false;
-  for (const TimelineRow& row : rows) {
+  for (const TimelineRow& row : report.rows) {
     served += row.served;
     in_all += row.in_all;
     longest_wait = std::max(longest_wait, row.longest_wait);
     for (const ReceivedCharacter& c : row.characters) marked |= c.parity_error || c.framing_error;
   }
   std::string text = fmt::format("{} interrupts served in {}, longest wait {}", served, format_duration(in_all), format_duration(longest_wait));
+  if (report.scans)
+    text += fmt::format("; {} scans of {} to {}", report.scans, format_duration(report.shortest_scan), format_duration(report.longest_scan));
   if (marked) text += "; p wrong parity, f framing error";
   return text;
 }
@@ -195,31 +219,26 @@ void Timeline::record(const TraceRecord& record) {
   if (next_) next_->record(record);
 }
 
-std::vector<TimelineRow> Timeline::rows() const {
+TimelineReport Timeline::report() const {
   Reader reader(*program_);
   for (const TraceRecord& r : records_) reader.read(r);
-  std::vector<TimelineRow> rows;
-  for (TimelineRow& row : reader.take()) {
-    if (!rows.empty() && belong_together(rows.back(), row)) join(rows.back(), row);
-    else rows.push_back(std::move(row));
-  }
-  return rows;
+  return reader.take();
 }
 
-std::string to_text(const std::vector<TimelineRow>& rows, const serial::Exchange& exchange, bool colour) {
+std::string to_text(const TimelineReport& report, const serial::Exchange& exchange, bool colour) {
   std::string text = painted(fmt::format("{:>10}  {:<{}}  {}", "ms", "at the port", kWidth, "in the CPU"), kDim, colour) + '\n';
-  for (const TimelineRow& row : rows) {
+  for (const TimelineRow& row : report.rows) {
     const std::string line = row_text(row.at - exchange.request_start, row);
     text += (is_trouble(row) ? painted(line, kYellow, colour) : line) + '\n';
   }
-  return text + painted(fmt::format("{:>10}  {}", "", summary(rows)), kDim, colour) + '\n';
+  return text + painted(fmt::format("{:>10}  {}", "", summary(report)), kDim, colour) + '\n';
 }
 
-nlohmann::ordered_json to_json(const std::vector<TimelineRow>& rows, const serial::Exchange& exchange) {
+nlohmann::ordered_json to_json(const TimelineReport& report, const serial::Exchange& exchange) {
   static constexpr std::string_view kNames[] = {"received", "ignored", "lost", "event", "transmit", "sent", "other"};
   const auto microseconds = [](Time t) { return static_cast<double>(t) / kMicrosecond; };
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const TimelineRow& row : rows) {
+  for (const TimelineRow& row : report.rows) {
     nlohmann::ordered_json json{{"at_us", microseconds(row.at - exchange.request_start)},
                                 {"kind", kNames[static_cast<std::size_t>(row.kind)]}};
     if (!row.characters.empty()) {
@@ -230,6 +249,7 @@ nlohmann::ordered_json to_json(const std::vector<TimelineRow>& rows, const seria
       json["framing_errors"] = std::count_if(row.characters.begin(), row.characters.end(), [](const auto& c) { return c.framing_error; });
     }
     if (!row.text.empty()) json["text"] = row.text;
+    if (!row.place.empty()) json["place"] = row.place;
     if (row.served) {
       json["event"] = row.event;
       json["routine"] = row.routine;

@@ -22,19 +22,26 @@ struct TimelineRow {
   std::uint8_t event = 0;                       ///< Received, Lost, Event
   std::uint8_t routine = 0;                     ///< that was attached to it
   std::string text{};                           ///< Transmit, Other: in words
+  std::string place{};                          ///< Transmit: which part of the program did it
 
   /// Services by the interrupt routine.
   std::size_t served = 0;
   Time shortest = kNever, longest = 0, in_all = 0, longest_wait = 0;
 };
 
-/// Collects records between begin() and rows(); passes everything on to the next sink, if there is one.
+struct TimelineReport {
+  std::vector<TimelineRow> rows{};
+  std::size_t scans = 0;  ///< from beginning to end
+  Time shortest_scan = kNever, longest_scan = 0;
+};
+
+/// Collects records between begin() and report(); passes everything on to the next sink, if there is one.
 class Timeline final : public TraceSink {
  public:
   Timeline(std::shared_ptr<const Program> program, TraceSink* next) : program_(std::move(program)), next_(next) {}
 
   void begin() { records_.clear(); }
-  std::vector<TimelineRow> rows() const;
+  TimelineReport report() const;
 
   void record(const TraceRecord& record) override;
   bool before(std::uint32_t op) override { return !next_ || next_->before(op); }
@@ -48,7 +55,7 @@ class Timeline final : public TraceSink {
 };
 
 /// An aligned table; times count from the start of the request.
-std::string to_text(const std::vector<TimelineRow>& rows, const serial::Exchange& exchange, bool colour);
-nlohmann::ordered_json to_json(const std::vector<TimelineRow>& rows, const serial::Exchange& exchange);
+std::string to_text(const TimelineReport& report, const serial::Exchange& exchange, bool colour);
+nlohmann::ordered_json to_json(const TimelineReport& report, const serial::Exchange& exchange);
 
 }  // namespace s7200::tools

@@ -9,6 +9,7 @@ Programs say in comments what is expected of them:
     // with: run --for 100ms                  then run it like this instead (the program's name is added)
     // expect runtime: 0006 line N            non-fatal run-time error; all are to be named
     // expect fatal: 0003 line N              fatal error
+    // expect output: text                    somewhere in what that prints
     // expect exit: 3                         default: 1 with errors in the text, 3 with a fatal error, else 0
 
 Nothing may crash or hang, and every report must stand at file:line:column with the line and a caret below it.
@@ -24,7 +25,7 @@ import zlib
 HERE = pathlib.Path(__file__).resolve().parent
 SECONDS = 60
 REPORT = re.compile(r"(.*?):(\d+):(\d+): (error|warning): (.*)")
-EXPECT = re.compile(r"//\s*(expect (?:error|warning|hint|runtime|fatal|exit)|with):\s*(.*)")
+EXPECT = re.compile(r"//\s*(expect (?:error|warning|hint|runtime|fatal|output|exit)|with):\s*(.*)")
 RUN_TIME = re.compile(r"(run-time|FATAL) error ([0-9A-F]{4}), .*\n\s+(?:.*:(\d+): .*|(between two scans))")
 
 
@@ -69,8 +70,8 @@ def reports(text, path):
 
 
 def expectations(path):
-    """Of a program: (reports, run-time errors, how to run it, exit code)"""
-    expected, run_time, command, code = [], [], None, None
+    """Of a program: (reports, run-time errors, how to run it, what that prints, exit code)"""
+    expected, run_time, texts, command, code = [], [], [], None, None
     for line in path.read_text(encoding="utf-8", errors="replace").split("\n"):
         match = EXPECT.match(line)
         if not match:
@@ -84,6 +85,8 @@ def expectations(path):
         elif what in ("runtime", "fatal"):
             number, place = text.split(" ", 1)
             run_time.append(("FATAL" if what == "fatal" else "run-time", number, place.removeprefix("line ")))
+        elif what == "output":
+            texts.append(text)
         elif what == "exit":
             code = int(text)
         else:
@@ -91,7 +94,7 @@ def expectations(path):
     if code is None:
         fatal = any(kind == "FATAL" for kind, _, _ in run_time)
         code = 1 if any(r[0] == "error" for r in expected) else 3 if fatal else 0
-    return expected, run_time, command, code
+    return expected, run_time, command, texts, code
 
 
 def same(expected, found):
@@ -104,7 +107,7 @@ def show(rows):
 
 
 def check_program(s7200, path):
-    expected, run_time, command, code = expectations(path)
+    expected, run_time, command, texts, code = expectations(path)
     exit_code, _, error = run([s7200, "check", str(path)])
     found = reports(error, path)
     if not same(expected, found):
@@ -112,14 +115,14 @@ def check_program(s7200, path):
     has_errors = any(r[0] == "error" for r in found)
     if exit_code != (1 if has_errors else 0):
         raise Failure(f"check ended with {exit_code}")
-    if has_errors:
-        command = command or ["run", "--for", "1ms"]
-    if not command:
-        raise Failure("expects nothing")
+    command = command or ["run", "--for", "1ms"]
     exit_code, output, error = run([s7200, command[0], str(path), *command[1:]])
     reported = [(kind, number, line or place) for kind, number, line, place in RUN_TIME.findall(output + error)]
     if exit_code != code or reported != run_time:
         raise Failure(f"expected exit {code} and {run_time}, got exit {exit_code} and {reported}\n{output}{error}")
+    for text in texts:
+        if text not in output + error:
+            raise Failure(f"'{text}' is not in\n{output}{error}")
 
 
 def check_programs(s7200, folder):
