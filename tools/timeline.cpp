@@ -40,29 +40,41 @@ class Reader {
 
   void read(const TraceRecord& r) {
     switch (r.kind) {
-      case TraceKind::ScanBegin: return begin_scan(r);
-      case TraceKind::CharacterReceived: return add_characters(r, Kind::Received);
-      case TraceKind::CharacterIgnored: return add_characters(r, Kind::Ignored);
-      case TraceKind::CharacterSent: return add_characters(r, Kind::Sent);
-      case TraceKind::EventOccurred: return occurred(r);
-      case TraceKind::EventLost: return lost(r);
-      case TraceKind::ServiceBegin: return begin_service(r);
-      case TraceKind::ServiceEnd: return end_service(r);
+      case TraceKind::ScanBegin:
+        return begin_scan(r);
+      case TraceKind::CharacterReceived:
+        return add_characters(r, Kind::Received);
+      case TraceKind::CharacterIgnored:
+        return add_characters(r, Kind::Ignored);
+      case TraceKind::CharacterSent:
+        return add_characters(r, Kind::Sent);
+      case TraceKind::EventOccurred:
+        return occurred(r);
+      case TraceKind::EventLost:
+        return lost(r);
+      case TraceKind::ServiceBegin:
+        return begin_service(r);
+      case TraceKind::ServiceEnd:
+        return end_service(r);
       case TraceKind::Transmit:
         add(r, Kind::Transmit, r.count ? fmt::format("XMT {} characters", r.count) : "XMT break");
         rows_.back().place = place_of(r);
         return;
       case TraceKind::Attach:
       case TraceKind::Detach:
-      case TraceKind::TransmitEnd: return;
-      default: return add(r, Kind::Other, describe(r, program_));
+      case TraceKind::TransmitEnd:
+        return;
+      default:
+        return add(r, Kind::Other, describe(r, program_));
     }
   }
 
   TimelineReport take() {
     for (TimelineRow& row : rows_) {
-      if (!report_.rows.empty() && belong_together(report_.rows.back(), row)) join(report_.rows.back(), row);
-      else report_.rows.push_back(std::move(row));
+      if (!report_.rows.empty() && belong_together(report_.rows.back(), row))
+        join(report_.rows.back(), row);
+      else
+        report_.rows.push_back(std::move(row));
     }
     return std::move(report_);
   }
@@ -102,7 +114,8 @@ class Reader {
   void begin_service(const TraceRecord& r) {
     serving_ = nullptr;
     for (TimelineRow& row : rows_)
-      if (row.event == r.event && row.at == r.since && (row.kind == Kind::Received || row.kind == Kind::Event)) serving_ = &row;
+      if (row.event == r.event && row.at == r.since && (row.kind == Kind::Received || row.kind == Kind::Event))
+        serving_ = &row;
     if (serving_) serving_->longest_wait = r.at - r.since;
     in_routine_ = true;
     routine_ = r.routine;
@@ -152,13 +165,19 @@ std::string characters_text(const std::vector<ReceivedCharacter>& characters) {
 
 std::string line_text(const TimelineRow& row) {
   switch (row.kind) {
-    case Kind::Received: return "received  " + characters_text(row.characters);
-    case Kind::Ignored: return "ignored   " + characters_text(row.characters);
-    case Kind::Lost: return "LOST      " + characters_text(row.characters);
-    case Kind::Sent: return "sent      " + characters_text(row.characters);
-    case Kind::Event: return fmt::format("event {:<3} {}", row.event, find_event(row.event)->cause);
+    case Kind::Received:
+      return "received  " + characters_text(row.characters);
+    case Kind::Ignored:
+      return "ignored   " + characters_text(row.characters);
+    case Kind::Lost:
+      return "LOST      " + characters_text(row.characters);
+    case Kind::Sent:
+      return "sent      " + characters_text(row.characters);
+    case Kind::Event:
+      return fmt::format("event {:<3} {}", row.event, find_event(row.event)->cause);
     case Kind::Transmit:
-    case Kind::Other: return row.text;
+    case Kind::Other:
+      return row.text;
   }
   return {};
 }
@@ -172,20 +191,23 @@ std::string remark(const TimelineRow& row) {
     const std::string from = row.shortest == row.longest ? "" : format_duration(row.shortest) + " to ";
     took = fmt::format("{} × {}{}", row.served, from, took);
   }
-  const std::string waited = row.longest_wait ? fmt::format("waited {}{}", row.served > 1 ? "up to " : "", format_duration(row.longest_wait)) : "";
+  const std::string waited =
+      row.longest_wait ? fmt::format("waited {}{}", row.served > 1 ? "up to " : "", format_duration(row.longest_wait)) : "";
   return fmt::format("INT {:<4} {:<26} {}", row.routine, took, waited);
 }
 
 /// fmt counts a character of several bytes as the columns it takes.
 std::string row_text(Time at, const TimelineRow& row) {
-  std::string text = fmt::format("{:>10.3f}  {:<{}}  {}", static_cast<double>(at) / kMillisecond, line_text(row), kWidth, remark(row));
+  std::string text =
+      fmt::format("{:>10.3f}  {:<{}}  {}", static_cast<double>(at) / kMillisecond, line_text(row), kWidth, remark(row));
   text.erase(text.find_last_not_of(' ') + 1);
   return text;
 }
 
 bool is_trouble(const TimelineRow& row) {
   return row.kind == Kind::Lost || row.kind == Kind::Ignored ||
-         std::any_of(row.characters.begin(), row.characters.end(), [](const auto& c) { return c.parity_error || c.framing_error; });
+         std::any_of(row.characters.begin(), row.characters.end(),
+                     [](const auto& c) { return c.parity_error || c.framing_error; });
 }
 
 std::string painted(const std::string& text, const char* paint, bool colour) {
@@ -205,9 +227,11 @@ std::string summary(const TimelineReport& report) {
     longest_wait = std::max(longest_wait, row.longest_wait);
     for (const ReceivedCharacter& c : row.characters) marked |= c.parity_error || c.framing_error;
   }
-  std::string text = fmt::format("{} interrupts served in {}, longest wait {}", served, format_duration(in_all), format_duration(longest_wait));
+  std::string text = fmt::format("{} interrupts served in {}, longest wait {}", served, format_duration(in_all),
+                                 format_duration(longest_wait));
   if (report.scans)
-    text += fmt::format("; {} scans of {} to {}", report.scans, format_duration(report.shortest_scan), format_duration(report.longest_scan));
+    text += fmt::format("; {} scans of {} to {}", report.scans, format_duration(report.shortest_scan),
+                        format_duration(report.longest_scan));
   if (marked) text += "; p wrong parity, f framing error";
   return text;
 }
@@ -226,7 +250,8 @@ TimelineReport Timeline::report() const {
 }
 
 std::string to_text(const TimelineReport& report, const serial::Exchange& exchange, bool colour) {
-  std::string text = painted(fmt::format("{:>10}  {:<{}}  {}", "ms", "at the port", kWidth, "in the CPU"), kDim, colour) + '\n';
+  std::string text =
+      painted(fmt::format("{:>10}  {:<{}}  {}", "ms", "at the port", kWidth, "in the CPU"), kDim, colour) + '\n';
   for (const TimelineRow& row : report.rows) {
     const std::string line = row_text(row.at - exchange.request_start, row);
     text += (is_trouble(row) ? painted(line, kYellow, colour) : line) + '\n';
@@ -245,8 +270,10 @@ nlohmann::ordered_json to_json(const TimelineReport& report, const serial::Excha
       std::vector<std::uint8_t> bytes;
       for (const ReceivedCharacter& c : row.characters) bytes.push_back(c.byte);
       json["characters"] = plain_hex(bytes);
-      json["parity_errors"] = std::count_if(row.characters.begin(), row.characters.end(), [](const auto& c) { return c.parity_error; });
-      json["framing_errors"] = std::count_if(row.characters.begin(), row.characters.end(), [](const auto& c) { return c.framing_error; });
+      json["parity_errors"] =
+          std::count_if(row.characters.begin(), row.characters.end(), [](const auto& c) { return c.parity_error; });
+      json["framing_errors"] =
+          std::count_if(row.characters.begin(), row.characters.end(), [](const auto& c) { return c.framing_error; });
     }
     if (!row.text.empty()) json["text"] = row.text;
     if (!row.place.empty()) json["place"] = row.place;

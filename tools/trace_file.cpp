@@ -17,15 +17,17 @@ namespace {
 /// An empty file may be overwritten too.
 bool is_earlier_trace(const std::string& path) {
   std::ifstream in(path);
-  std::string first;
-  return !std::getline(in, first) || first == TextTrace::kFirstLine;
+  std::string first(TextTrace::kFirstLine.size() + 1, '\0');
+  in.read(first.data(), static_cast<std::streamsize>(first.size()));  // no more: it may be a device without end
+  return in.gcount() == 0 || first == std::string(TextTrace::kFirstLine).append("\n");
 }
 
 }  // namespace
 
 void TraceFile::add_to(CLI::App& app) {
-  auto* trace = app.add_option("--trace", path_, "write interrupts, characters, attachments and errors to FILE; - is standard output")
-                    ->type_name("FILE");
+  auto* trace =
+      app.add_option("--trace", path_, "write interrupts, characters, attachments and errors to FILE; - is standard output")
+          ->type_name("FILE");
   app.add_flag("--trace-instructions", instructions_, "trace every instruction too, with its operand values")->needs(trace);
 }
 

@@ -197,12 +197,20 @@ def check_files(s7200):
         (pathlib.Path(folder) / "folder.stl").mkdir()
         for name in FILES:
             yield name, lambda name=name: check_file(s7200, pathlib.Path(folder), name)
+        if pathlib.Path("/dev/zero").exists():
+            yield "/dev/zero", lambda: expect_no_endless_reading(s7200)
         yield "folder.stl", lambda: expect_folder(s7200, pathlib.Path(folder) / "folder.stl")
 
 
 def expect_folder(s7200, path):
     exit_code, _, error = run([s7200, "check", str(path)])
     if exit_code != 2 or "it is a folder" not in error:
+        raise Failure(f"exit code {exit_code}: {error}")
+
+
+def expect_no_endless_reading(s7200):
+    exit_code, _, error = run([s7200, "check", "/dev/zero"])
+    if exit_code != 2 or "larger than" not in error:
         raise Failure(f"exit code {exit_code}: {error}")
 
 
