@@ -16,8 +16,8 @@ namespace {
 using Kind = TimelineRow::Kind;
 
 constexpr std::uint8_t kReceiveEvent = 8;
-constexpr std::size_t kShownCharacters = 8;
-constexpr std::size_t kWidth = 38;  // of the column of the line
+constexpr std::size_t kWidth = 38;       // of the column of the port
+constexpr std::size_t kCharacters = 23;  // eight, in it
 
 bool belong_together(const TimelineRow& a, const TimelineRow& b) {
   const bool repeats = a.kind != Kind::Transmit && a.kind != Kind::Other;
@@ -155,12 +155,15 @@ std::string character_text(const ReceivedCharacter& c) {
   return fmt::format("{:02x}{}{}", c.byte, c.parity_error ? "p" : "", c.framing_error ? "f" : "");
 }
 
+/// As many as fit the column, and how many there are if not all do.
 std::string characters_text(const std::vector<ReceivedCharacter>& characters) {
-  const bool all = characters.size() <= kShownCharacters;
   std::string text;
-  for (std::size_t i = 0; i < (all ? characters.size() : kShownCharacters - 1); ++i)
-    text += (i ? " " : "") + character_text(characters[i]);
-  return all ? text : fmt::format("{} … {}", text, characters.size());
+  for (const ReceivedCharacter& c : characters) {
+    const std::string next = character_text(c);
+    if (text.size() + next.size() > kCharacters) return fmt::format("{}… {}", text, characters.size());
+    text += next + ' ';
+  }
+  return text;
 }
 
 std::string line_text(const TimelineRow& row) {
