@@ -101,7 +101,11 @@ class Cpu {
   std::optional<std::uint32_t> peek(const Op& op, std::size_t i) const;
 
   /// Place in the image that a pointer value leads to, for an operand of `width` bytes.
-  std::optional<std::uint32_t> resolve(std::uint32_t pointer, std::uint32_t width) const;
+  std::optional<std::uint32_t> resolve(std::uint32_t pointer, std::uint32_t width) const {
+    const std::uint32_t code = pointer >> 24, offset = pointer & 0xFF'FFFF;
+    if (code >= kReaches || offset + width > reach_[code].size) return {};
+    return reach_[code].base + offset;
+  }
 
   // --- for the bodies of instructions ---
 
@@ -218,6 +222,8 @@ class Cpu {
   std::uint32_t current_op() const { return op_; }
 
   std::shared_ptr<const Program> program_;
+  const Op* ops_;       // of the program
+  const Reach* reach_;
   EventQueue& queue_;
   SerialPort& port_;
   TraceSink* sink_ = nullptr;
