@@ -31,12 +31,6 @@ struct SendOptions {
 
 constexpr Time kReadyWithin = 60 * kSecond;
 
-void append_crc(modbus::Frame& frame) {
-  modbus::Bytes bytes = modbus::bytes_of(frame);
-  modbus::add_crc(bytes);
-  for (std::size_t i = frame.size(); i < bytes.size(); ++i) frame.push_back({bytes[i], false});
-}
-
 /// All frames of the command line and the file; a message and false when one is no frame.
 bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames) {
   struct Written {
@@ -69,30 +63,10 @@ bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames)
       print_error(fmt::format("{}: column {}: {}", w.place, parsed.errors[0].column, parsed.errors[0].message));
       return false;
     }
-    if (options.crc) append_crc(parsed.frame);
+    if (options.crc) modbus::append_crc(parsed.frame);
     frames.push_back(std::move(parsed.frame));
   }
   return true;
-}
-
-/// What the line looked like to the master, when more than bytes came.
-std::string errors_of(const serial::Exchange& exchange) {
-  std::string text;
-  if (exchange.parity_error()) text += ", parity errors";
-  if (exchange.framing_error()) text += ", framing errors";
-  if (exchange.too_long) text += ", cut off";
-  return text;
-}
-
-void print_exchange(const serial::Exchange& exchange, Time timeout) {
-  const modbus::Bytes request = modbus::bytes_of(exchange.request), response = exchange.response_bytes();
-  fmt::print("request  {}\n", modbus::to_hex(exchange.request));
-  if (exchange.timed_out) {
-    fmt::print("answer   none within {}\n", format_duration(timeout));
-    return;
-  }
-  fmt::print("answer   {}   after {}\n         {}{}\n", modbus::to_hex(response), format_duration(*exchange.latency()),
-             modbus::describe(request, response), errors_of(exchange));
 }
 
 nlohmann::ordered_json to_json(const serial::Exchange& exchange) {
@@ -148,7 +122,7 @@ int run_send(SendOptions& options) {
     const serial::Exchange& exchange = options.master.exchange(simulation, frame, format);
     all_answered &= !exchange.timed_out;
     if (options.json) json.push_back(to_json(exchange));
-    else print_exchange(exchange, options.master.timeout);
+    else fmt::print("{}", exchange_text(exchange, options.master.timeout));
     const Time pause = options.pause == kNever ? serial::Simulation::default_quiet(format) : options.pause;
     simulation.run_until(simulation.time() + pause);
   }
