@@ -13,8 +13,8 @@ struct Unit {
 
 constexpr Time kMinute = 60 * kSecond;
 constexpr Time kHour = 60 * kMinute;
-constexpr std::array kUnits{Unit{"ns", 1},        Unit{"us", kMicrosecond}, Unit{"ms", kMillisecond},
-                            Unit{"s", kSecond},   Unit{"min", kMinute},     Unit{"h", kHour}};
+constexpr std::array kUnits{Unit{"ns", 1},      Unit{"us", kMicrosecond}, Unit{"ms", kMillisecond},
+                            Unit{"s", kSecond}, Unit{"min", kMinute},     Unit{"h", kHour}};
 constexpr std::size_t kSecondUnit = 3;
 
 const Unit* unit_named(std::string_view name) {
@@ -119,8 +119,12 @@ std::string format_duration(Time duration, int digits) {
   } else {
     remainder /= length / scale;
   }
-  return (duration < 0 ? "-" : "") + std::to_string(rounded / length) + decimals(remainder, places) + " " +
-         std::string(kUnits[unit].name);
+  std::string text = duration < 0 ? "-" : "";
+  text += std::to_string(rounded / length);
+  text += decimals(remainder, places);
+  text += ' ';
+  text += kUnits[unit].name;
+  return text;
 }
 
 }  // namespace s7200

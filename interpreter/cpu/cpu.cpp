@@ -14,6 +14,9 @@ void Cpu::power_up(bool run) {
   s = State{};
   s.attached.fill(kNotAttached);
   std::copy(program_->constants.begin(), program_->constants.end(), s.image.begin() + image::kConstants);
+  for (const Op& op : program_->ops)
+    if (op.instruction->hidden == Hidden::RisingMemory) put_bit(op[2].at, op[2].bit, true);
+  s.counter_inputs.fill(3);
   s.image[image::kSM] = 0x01;
   s.image[image::kSM4] = 0x60;  // both transmitters idle
   s.image[image::kSM + 6] = program_->model->identification;

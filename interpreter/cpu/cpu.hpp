@@ -46,6 +46,9 @@ enum class FatalError : std::uint16_t { Watchdog = 0x03, CompareIndirect = 0x11 
 std::string_view meaning_of(RunError code);
 std::string_view meaning_of(FatalError code);
 
+/// What the CPU's own events are: the timed interrupts 0 and 1, and the millisecond of the 1 ms timers.
+enum CpuEvent : std::uint8_t { kTimedInterrupt0, kTimedInterrupt1, kTick1ms };
+
 class Cpu {
  public:
   /// Nothing is owned but the program. The CPU is in STOP until power_up().
@@ -65,7 +68,7 @@ class Cpu {
   /// Why run() came back early, reset by the next run().
   bool paused() const { return paused_; }
 
-  /// A timed interrupt is due.
+  /// A timed interrupt or the millisecond of the fast timers is due.
   void handle(const Event& event);
 
   /// Reports of the serial port.
@@ -134,6 +137,7 @@ class Cpu {
   void attach(std::uint8_t event, std::uint8_t routine);
   void detach(std::uint8_t event);
   void transmit(std::uint32_t table);
+  void execute_timer(std::uint32_t number, bool enabled, std::int16_t preset, bool retentive);
 
   /// The program may have written SMB30, which was `before`.
   void port_control_written(std::uint8_t before);
@@ -146,6 +150,11 @@ class Cpu {
   void begin_scan();
   void end_scan();
   void update_clocks();
+
+  void add_ticks(std::uint32_t timer, std::int64_t ticks);
+  void update_timers_at_scan_begin();
+  void tick_1ms_timers(Time at);
+  void await_tick_1ms(Time from);
 
   void enter_run();
   void enter_stop();

@@ -47,6 +47,7 @@ void Cpu::enable_interrupts(bool enabled) {
 }
 
 void Cpu::handle(const Event& event) {
+  if (event.what == kTick1ms) return tick_1ms_timers(event.at);
   const auto number = static_cast<std::uint8_t>(kTimed0 + event.what);
   queue_.schedule(event.at + s.timed_interval[event.what], EventOwner::Cpu, event.what);
   occurred(number, event.at);

@@ -71,6 +71,7 @@ void Cpu::finish_phase() {
     case Phase::ReadInputs:
       std::memcpy(&s.image[image::kI], &s.image[image::kInputs], program_->model->size_of(Area::I));
       if (s.mode == Mode::Run) {
+        if (program_->uses_timers) update_timers_at_scan_begin();
         s.phase = Phase::Program;
         s.pc = 0;
         s.stack = {};

@@ -81,6 +81,13 @@ struct Freeport {
   bool operator==(const Freeport&) const = default;
 };
 
+struct TimerState {
+  std::int16_t preset = 0;   ///< as its last execution found it
+  bool enabled = false;      ///< its input at its last execution
+  Time since = 0;            ///< end of the execution that enabled it
+  bool operator==(const TimerState&) const = default;
+};
+
 /// A run-time error: code, the instruction, how often, when first.
 struct RuntimeError {
   std::uint16_t code = 0;
@@ -116,6 +123,12 @@ struct State {
   std::array<Time, 2> timed_interval{}; ///< of events 10 and 11, captured by ATCH
 
   Freeport port{};
+
+  std::array<TimerState, 256> timer{};
+  Time previous_scan_begin = 0;
+  Time next_tick_1ms = 0;    ///< due while it is not past
+  std::int16_t ticks_100ms = 0;                   ///< of the previous scan
+  std::array<std::uint8_t, 256> counter_inputs{}; ///< at the last execution: bit 0 up, bit 1 down
 
   std::uint16_t fatal_code = 0;
   std::uint32_t fatal_op = 0;

@@ -35,12 +35,13 @@ inline void push_copy(Cpu& cpu, const Op&) { cpu.s.stack.push(cpu.s.stack.top())
 inline void read_second(Cpu& cpu, const Op&) { cpu.s.stack.set_top(cpu.s.stack.level(1)); }
 inline void pop_stack(Cpu& cpu, const Op&) { cpu.s.stack.pop(); }
 
-/// EU and ED. Each has a memory bit of its own (operand 0, given at load), written as of the last execution.
-/// Not documented, modelled so: the first execution after power-up compares with 0 for EU and for ED alike.
+/// EU and ED. Each has a memory bit of its own (operand 2, given at load): the top of the stack at its last execution.
+/// Not documented, modelled so: the first execution after power-up finds no edge, and an execution that was jumped over
+/// leaves the memory as it is.
 template <bool rising>
 void edge(Cpu& cpu, const Op& op) {
-  const bool before = cpu.bit(op[0]), now = cpu.s.stack.top();
-  cpu.put_bit(op[0].at, op[0].bit, now);
+  const bool before = cpu.bit(op[2]), now = cpu.s.stack.top();
+  cpu.put_bit(op[2].at, op[2].bit, now);
   cpu.s.stack.set_top(rising ? !before && now : before && !now);
 }
 

@@ -25,6 +25,18 @@ inline void next_pass(Cpu& cpu, const Op& op) {
   if (index < cpu.get<std::int16_t>(op[2])) cpu.jump(op.target);
 }
 
+/// LSCR: an S bit of 0 leaves the segment out.
+inline void begin_segment(Cpu& cpu, const Op& op) {
+  if (cpu.bit(op[0])) cpu.s.stack.push(true);
+  else cpu.jump(op.target);
+}
+
+/// SCRT: the next segment's bit goes on, that of the enclosing LSCR (operand 2, given at load) off.
+inline void segment_transition(Cpu& cpu, const Op& op) {
+  cpu.put_bit(op[2].at, op[2].bit, false);
+  cpu.put_bit(op[0].at, op[0].bit, true);
+}
+
 inline void call(Cpu& cpu, const Op& op) { cpu.call(op.target); }
 inline void return_from_subroutine(Cpu& cpu, const Op&) { cpu.return_from_subroutine(); }
 inline void return_from_interrupt(Cpu& cpu, const Op&) { cpu.return_from_interrupt(); }

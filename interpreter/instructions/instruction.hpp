@@ -33,6 +33,9 @@ enum class OperandKind : std::uint8_t {
 
 enum class Role : std::uint8_t { In, Out, InOut };
 
+/// Which timers an operand may name (facts 1.1).
+enum class TimerKind : std::uint8_t { Any, OnDelay, Retentive };
+
 struct OperandRule {
   std::string_view name;  ///< as the manual calls it: IN, OUT, N, TBL
   OperandKind kind = OperandKind::Memory;
@@ -43,6 +46,8 @@ struct OperandRule {
   bool pointer = false;     ///< *VD100, *AC1
   bool address_of = false;  ///< &VB100
   bool real = false;        ///< the value is a real number
+  bool block = false;       ///< N elements from here on
+  TimerKind timer = TimerKind::Any;
   std::int64_t min = std::numeric_limits<std::int64_t>::min();  ///< of a constant, within its width
   std::int64_t max = std::numeric_limits<std::int64_t>::max();
 };
@@ -54,11 +59,21 @@ enum Part : std::uint8_t { kMain = 1, kSubroutine = 2, kInterrupt = 4, kAnywhere
 enum class Structure : std::uint8_t {
   None,
   Label, Jump, For, Next, Call, SubroutineHead, InterruptHead, MainEnd, SubroutineEnd, InterruptEnd, Attach,
+  SegmentBegin, SegmentTransition, SegmentEnd,
   Compare  ///< its errors stop the CPU
 };
 
-/// Instructions that reach the points themselves, past the image registers.
-enum class Immediate : std::uint8_t { No, Input, Output };
+/// What the decoder adds to an instruction besides the operands written.
+enum class Hidden : std::uint8_t {
+  None,
+  InputPoint,      ///< operand 0 is the input point instead of its image
+  OutputPoint,     ///< operand 2: the output point behind operand 0
+  RisingMemory,    ///< operand 2: a memory bit of its own; 1 at power-up
+  FallingMemory,   ///< operand 2: a memory bit of its own; 0 at power-up
+  Number,          ///< operand 2: number of the timer or counter that is operand 0
+  SegmentBit,      ///< operand 2: the S bit of the enclosing LSCR
+};
+
 
 /// What an instruction finds on the logic stack and how many levels more it leaves there.
 struct StackUse {
@@ -83,7 +98,7 @@ struct Instruction {
   std::uint8_t allowed = kAnywhere;        ///< Parts, on 21x CPUs
   CpuSet cpus = kEveryCpu;
   Structure structure = Structure::None;
-  Immediate immediate = Immediate::No;
+  Hidden hidden = Hidden::None;
   Body body = nullptr;      ///< nullptr: not modelled, refused by name
   std::string_view meaning; ///< one line
 

@@ -43,4 +43,29 @@ void rotate(Cpu& cpu, const Op& op) {
   set_shift_flags(cpu, result == 0, left ? result & 1 : (result >> (kBits - 1)) & 1);
 }
 
+/// SHRB DATA, S_BIT, N: |N| bits from S_BIT on move by one. N > 0: DATA enters at S_BIT; N < 0: at the far end. What leaves
+/// goes to SM1.1.
+/// Not documented, modelled so: N = 0 is error 0092.
+inline void shift_register(Cpu& cpu, const Op& op) {
+  const std::int32_t n = cpu.get<std::int8_t>(op[2]);
+  const auto length = static_cast<std::uint32_t>(n < 0 ? -n : n);
+  if (length == 0 || length > 64) return cpu.run_error(RunError::Count);
+  if (!cpu.bits_in_area(op[1], length)) return cpu.run_error(RunError::OperandRange);
+  cpu.spend(op, length);
+  const bool data = cpu.bit(op[0]);
+  const auto place = [&](std::uint32_t i) {
+    return Operand{.at = op[1].at + (op[1].bit + i) / 8, .bit = static_cast<std::uint8_t>((op[1].bit + i) % 8)};
+  };
+  const auto move = [&](std::uint32_t to, bool value) { cpu.put_bit(place(to).at, place(to).bit, value); };
+  const bool out = cpu.bit(place(n > 0 ? length - 1 : 0));
+  if (n > 0) {
+    for (std::uint32_t i = length - 1; i > 0; --i) move(i, cpu.bit(place(i - 1)));
+    move(0, data);
+  } else {
+    for (std::uint32_t i = 0; i + 1 < length; ++i) move(i, cpu.bit(place(i + 1)));
+    move(length - 1, data);
+  }
+  cpu.set_flags(kOverflow, out ? kOverflow : 0);
+}
+
 }  // namespace s7200::bodies

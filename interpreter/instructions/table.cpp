@@ -11,10 +11,14 @@
 #include "interpreter/instructions/bit_logic.hpp"
 #include "interpreter/instructions/compare.hpp"
 #include "interpreter/instructions/control.hpp"
+#include "interpreter/instructions/conversion.hpp"
 #include "interpreter/instructions/instruction.hpp"
 #include "interpreter/instructions/math.hpp"
 #include "interpreter/instructions/move.hpp"
+#include "interpreter/instructions/real_math.hpp"
 #include "interpreter/instructions/shift.hpp"
+#include "interpreter/instructions/tables.hpp"
+#include "interpreter/instructions/timer_counter.hpp"
 
 namespace s7200 {
 namespace {
@@ -33,6 +37,11 @@ constexpr Areas kBytes = areas(Area::V, Area::I, Area::Q, Area::M, Area::SM, Are
 constexpr Areas kWords = kBytes | areas(Area::T, Area::C);
 
 constexpr OperandRule bit_in(Areas from = kBits) { return {.name = "BIT", .width = Width::Bit, .areas = from}; }
+constexpr OperandRule bit_in_named(std::string_view name) {
+  OperandRule rule = bit_in();
+  rule.name = name;
+  return rule;
+}
 constexpr OperandRule bit_out(Areas to = kBits) {
   return {.name = "BIT", .width = Width::Bit, .role = Role::Out, .areas = to};
 }
@@ -75,7 +84,15 @@ constexpr OperandRule block(Role role, Width width, std::string_view name) {
           .width = width,
           .role = role,
           .areas = static_cast<Areas>(width == Width::Word ? kWords | analog : kBytes),
-          .pointer = true};
+          .pointer = true,
+          .block = true};
+}
+/// S, R, SHRB: N bits from here on.
+constexpr OperandRule bits_from(std::string_view name = "BIT", Areas to = kBits) {
+  OperandRule rule = bit_out(to);
+  rule.name = name;
+  rule.block = true;
+  return rule;
 }
 constexpr OperandRule count(std::int64_t max = 255, std::int64_t min = 1) {
   OperandRule rule = in(Width::Byte, "N");
@@ -140,8 +157,8 @@ Row marks(Structure structure, Row r) {
   r.writes_output = true;
   return r;
 }
-Row immediate(Immediate kind, Row r) {
-  r.immediate = kind;
+Row with(Hidden hidden, Row r) {
+  r.hidden = hidden;
   return r;
 }
 Row writes(Row r) {
@@ -164,6 +181,11 @@ class Table {
     program_control();
     interrupts();
     communication();
+    timers_and_counters();
+    real_math();
+    conversions();
+    tables();
+    sequence();
     later();
   }
 
@@ -182,8 +204,8 @@ class Table {
     const auto text = [&](std::string_view what) -> std::string_view { return texts_.emplace(std::string(verb) + std::string(what)).first->c_str(); };
     add(uses_stack(plain, {bit_in()}, contact<join, false>, stack, text(" BIT")));
     add(uses_stack(negated, {bit_in()}, contact<join, true>, stack, text(" NOT BIT")));
-    add(immediate(Immediate::Input, uses_stack(point, {bit_in(areas(Area::I))}, contact<join, false>, stack, text(" the input point BIT"))));
-    add(immediate(Immediate::Input, uses_stack(negated_point, {bit_in(areas(Area::I))}, contact<join, true>, stack, text(" NOT the input point BIT"))));
+    add(with(Hidden::InputPoint, uses_stack(point, {bit_in(areas(Area::I))}, contact<join, false>, stack, text(" the input point BIT"))));
+    add(with(Hidden::InputPoint, uses_stack(negated_point, {bit_in(areas(Area::I))}, contact<join, true>, stack, text(" NOT the input point BIT"))));
   }
 
   void bit_logic() {
@@ -192,21 +214,23 @@ class Table {
     contacts<Join::And>("A", "AN", "AI", "ANI", {1, 0}, "top of stack AND");
     contacts<Join::Or>("O", "ON", "OI", "ONI", {1, 0}, "top of stack OR");
     add(uses_stack("NOT", {}, invert_top, {1, 0}, "invert the top of the stack"));
-    add(uses_stack("EU", {}, edge<true>, {1, 0}, "1 for one execution when the top of the stack went from 0 to 1"));
-    add(uses_stack("ED", {}, edge<false>, {1, 0}, "1 for one execution when the top of the stack went from 1 to 0"));
+    add(with(Hidden::RisingMemory,
+             uses_stack("EU", {}, edge<true>, {1, 0}, "1 for one execution when the top of the stack went from 0 to 1")));
+    add(with(Hidden::FallingMemory,
+             uses_stack("ED", {}, edge<false>, {1, 0}, "1 for one execution when the top of the stack went from 1 to 0")));
     add(uses_stack("ALD", {}, combine_loads<Join::And>, {2, -1}, "AND the two upper levels into one"));
     add(uses_stack("OLD", {}, combine_loads<Join::Or>, {2, -1}, "OR the two upper levels into one"));
     add(uses_stack("LPS", {}, push_copy, {1, 1}, "push a copy of the top of the stack"));
     add(uses_stack("LRD", {}, read_second, {2, 0}, "copy the second level to the top"));
     add(uses_stack("LPP", {}, pop_stack, {2, -1}, "pop the stack"));
     add(writes(uses_stack("=", {bit_out()}, coil, {1, 0}, "write the top of the stack to BIT")));
-    add(immediate(Immediate::Output, writes(uses_stack("=I", {bit_out(areas(Area::Q))}, immediate_coil, {1, 0},
+    add(with(Hidden::OutputPoint, writes(uses_stack("=I", {bit_out(areas(Area::Q))}, immediate_coil, {1, 0},
                                                        "write the top of the stack to the output point and its image"))));
-    add(box("S", {bit_out(), count()}, set_bits<true, false>, "set N bits from BIT on"));
-    add(box("R", {bit_out(), count()}, set_bits<false, false>,
+    add(box("S", {bits_from(), count()}, set_bits<true, false>, "set N bits from BIT on"));
+    add(box("R", {bits_from(), count()}, set_bits<false, false>,
             "reset N bits from BIT on; of timers and counters the current values too"));
-    add(immediate(Immediate::Output, box("SI", {bit_out(areas(Area::Q)), count()}, set_bits<true, true>, "set N output points and their image")));
-    add(immediate(Immediate::Output, box("RI", {bit_out(areas(Area::Q)), count()}, set_bits<false, true>, "reset N output points and their image")));
+    add(with(Hidden::OutputPoint, box("SI", {bits_from("BIT", areas(Area::Q)), count()}, set_bits<true, true>, "set N output points and their image")));
+    add(with(Hidden::OutputPoint, box("RI", {bits_from("BIT", areas(Area::Q)), count()}, set_bits<false, true>, "reset N output points and their image")));
     add(row("NOP", {number(OperandKind::Number, "n")}, no_operation, "nothing"));
   }
 
@@ -303,6 +327,9 @@ class Table {
     add(box("RLW", {in_out(Width::Word), n}, rotate<std::uint16_t, true>, "rotate OUT left by N modulo 16", kZero | kOverflow));
     add(box("RRW", {in_out(Width::Word), n}, rotate<std::uint16_t, false>, "rotate OUT right by N modulo 16", kZero | kOverflow));
     add(box("RLD", {in_out(Width::Double), n}, rotate<std::uint32_t, true>, "rotate OUT left by N modulo 32", kZero | kOverflow));
+    OperandRule length = count(64, -64);
+    add(box("SHRB", {bit_in_named("DATA"), bits_from("S_BIT"), length}, shift_register,
+            "shift DATA into the |N| bits from S_BIT on; N < 0: from the far end", kOverflow));
     add(box("RRD", {in_out(Width::Double), n}, rotate<std::uint32_t, false>, "rotate OUT right by N modulo 32", kZero | kOverflow));
   }
 
@@ -346,14 +373,93 @@ class Table {
     add(not_modelled("NETW", kFrom214, "PPI master: write to another station"));
   }
 
+  void timers_and_counters() {
+    group("Timers and counters");
+    const auto timer = [](TimerKind kind) {
+      return OperandRule{.name = "T", .width = Width::Word, .role = Role::InOut, .areas = areas(Area::T), .timer = kind};
+    };
+    const OperandRule counter{.name = "C", .width = Width::Word, .role = Role::InOut, .areas = areas(Area::C)};
+    add(with(Hidden::Number, writes(uses_stack("TON", {timer(TimerKind::OnDelay), in(Width::Word, "PT")}, time_on<false>, {1, 0},
+                                               "on-delay timer: counts while the top of the stack is 1, else 0"))));
+    add(with(Hidden::Number, writes(uses_stack("TONR", {timer(TimerKind::Retentive), in(Width::Word, "PT")}, time_on<true>, {1, 0},
+                                               "retentive on-delay timer: keeps its value until it is reset"))));
+    add(with(Hidden::Number, writes(uses_stack("CTU", {counter, in(Width::Word, "PV")}, count_up, {2, -1},
+                                               "count up: second level counts, top resets"))));
+    add(with(Hidden::Number, writes(uses_stack("CTUD", {counter, in(Width::Word, "PV")}, count_up_down, {3, -2},
+                                               "count up and down: third level up, second down, top resets"))));
+  }
+
+  void real_math() {
+    group("Real arithmetic");
+    const OperandRule a = real(in(Width::Double, "IN1")), b = real(in_out(Width::Double));
+    const auto from_214 = [&](Row r) { add(on(kFrom214, r)); };
+    from_214(box("+R", {a, b}, real_arithmetic<RealOperation::Add>, "OUT + IN1 to OUT", kArithmetic));
+    from_214(box("-R", {a, b}, real_arithmetic<RealOperation::Subtract>, "OUT - IN1 to OUT", kArithmetic));
+    from_214(box("*R", {a, b}, real_arithmetic<RealOperation::Multiply>, "OUT * IN1 to OUT", kArithmetic));
+    from_214(box("/R", {a, b}, real_divide, "OUT / IN1 to OUT", kArithmetic | kDivisionByZero));
+    from_214(box("SQRT", {real(in(Width::Double)), real(out(Width::Double))}, square_root, "square root of IN to OUT", kArithmetic));
+  }
+
+  void conversions() {
+    group("Conversion");
+    add(box("BCDI", {in_out(Width::Word)}, from_bcd, "four BCD digits to an integer", kNotBcd));
+    add(box("IBCD", {in_out(Width::Word)}, to_bcd, "integer 0 to 9999 to BCD", kNotBcd));
+    add(on(kFrom214, box("DTR", {in(Width::Double), real(out(Width::Double))}, integer_to_real, "double integer to real")));
+    add(on(kFrom214, box("TRUNC", {real(in(Width::Double)), out(Width::Double)}, truncate, "real to double integer, toward zero", kOverflow)));
+    add(box("DECO", {in(Width::Byte), out(Width::Word)}, decode_bit, "set the one bit of OUT that the low half of IN numbers"));
+    add(box("ENCO", {in(Width::Word), in_out(Width::Byte)}, encode_bit, "number of the lowest bit set in IN to the low half of OUT"));
+    add(box("SEG", {in(Width::Byte), out(Width::Byte)}, seven_segments, "seven-segment pattern of the low half of IN"));
+    add(box("ATH", {block(Role::In, Width::Byte, "IN"), block(Role::Out, Width::Byte, "OUT"), length()}, ascii_to_hex,
+            "LEN characters to hexadecimal digits", kNotHex));
+    add(box("HTA", {block(Role::In, Width::Byte, "IN"), block(Role::Out, Width::Byte, "OUT"), length()}, hex_to_ascii,
+            "LEN hexadecimal digits to characters"));
+  }
+  static OperandRule length() {
+    OperandRule rule = count(255, 0);
+    rule.name = "LEN";
+    return rule;
+  }
+
+  void tables() {
+    group("Tables");
+    const OperandRule index = in_out(Width::Word, "INDX");
+    const auto table = [](Role role, std::string_view name) {
+      OperandRule rule = block(role, Width::Word, name);
+      rule.areas = kWords;
+      return rule;
+    };
+    const auto from_214 = [&](Row r) { add(on(kFrom214, r)); };
+    from_214(box("ATT", {in(Width::Word, "DATA"), table(Role::InOut, "TBL")}, add_to_table, "append DATA to the table", kTableFull));
+    from_214(box("FIFO", {table(Role::InOut, "TBL"), with_analog_output(out(Width::Word, "DATA"))}, take_from_table<true>,
+                 "take the first entry out of the table", kTableEmpty));
+    from_214(box("LIFO", {table(Role::InOut, "TBL"), with_analog_output(out(Width::Word, "DATA"))}, take_from_table<false>,
+                 "take the last entry out of the table", kTableEmpty));
+    const auto find = [&](std::string_view mnemonic, Body body, std::string_view meaning) {
+      from_214(box(mnemonic, {table(Role::In, "SRC"), in(Width::Word, "PATRN"), index}, body, meaning));
+    };
+    find("FND=", find_in_table<Relation::Equal>, "number of the next entry equal to PATRN, from INDX on");
+    find("FND<>", find_in_table<Relation::NotEqual>, "number of the next entry not equal to PATRN, from INDX on");
+    find("FND<", find_in_table<Relation::Less>, "number of the next entry less than PATRN, from INDX on");
+    find("FND>", find_in_table<Relation::Greater>, "number of the next entry greater than PATRN, from INDX on");
+  }
+
+  void sequence() {
+    group("Sequence control relays");
+    constexpr std::uint8_t not_in_interrupt = kMain | kSubroutine;
+    const OperandRule s_in = bit_in(areas(Area::S)), s_out = bit_out(areas(Area::S));
+    add(only_in(not_in_interrupt, marks(Structure::SegmentBegin,
+        uses_stack("LSCR", {s_in}, begin_segment, {0, 1}, "begin of the segment that runs while the S bit is 1"))));
+    add(only_in(not_in_interrupt, with(Hidden::SegmentBit, marks(Structure::SegmentTransition,
+        box("SCRT", {s_out}, segment_transition, "go over to the segment of the S bit")))));
+    add(only_in(not_in_interrupt, marks(Structure::SegmentEnd, row("SCRE", {}, no_operation, "end of a segment"))));
+  }
+
   /// Known by name, so that a program that uses them is told so.
   void later() {
     group("Not modelled yet");
-    for (const char* mnemonic : {"TON", "TONR", "CTU", "CTUD", "SHRB", "BCDI", "IBCD", "DECO", "ENCO", "SEG", "ATH", "HTA",
-                                 "LSCR", "SCRT", "SCRE", "HDEF", "HSC"})
+    for (const char* mnemonic : {"HDEF", "HSC"})
       add(not_modelled(mnemonic, kEveryCpu, ""));
-    for (const char* mnemonic : {"+R", "-R", "*R", "/R", "SQRT", "DTR", "TRUNC", "ATT", "FIFO", "LIFO", "FND=", "FND<>", "FND<",
-                                 "FND>", "TODR", "TODW", "PLS"})
+    for (const char* mnemonic : {"TODR", "TODW", "PLS"})
       add(not_modelled(mnemonic, kFrom214, ""));
     for (const char* mnemonic : {"INCB", "DECB", "ANDB", "ORB", "XORB", "INVB", "SLB", "SRB", "RLB", "RRB", "PID"})
       add(not_modelled(mnemonic, kFrom215, ""));

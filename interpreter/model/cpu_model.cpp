@@ -62,6 +62,13 @@ const InterruptEvent* find_event(std::int64_t number) {
   return &all_events()[static_cast<std::size_t>(number)];
 }
 
+TimerBase timer_base(std::uint32_t number) {
+  if (number >= 128) return {100 * kMillisecond, false};
+  const std::uint32_t n = number % 64;  // T64–T127 repeat T0–T63
+  const Time base = n % 32 == 0 ? kMillisecond : n % 32 <= 4 ? 10 * kMillisecond : 100 * kMillisecond;
+  return {base, n < 32};
+}
+
 // Facts 4.3–4.5 and 2.1.
 const std::vector<SpecialMemory>& special_memory() {
   static const std::vector<SpecialMemory> kTable{

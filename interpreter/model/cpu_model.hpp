@@ -57,6 +57,13 @@ struct CpuModel {
   std::uint32_t size_of(Area area) const { return size[static_cast<std::size_t>(area)]; }
 };
 
+/// Time base and kind of a timer, by its number (facts 1.1): the same on all CPUs.
+struct TimerBase {
+  Time base;       ///< 1, 10 or 100 ms
+  bool retentive;  ///< TONR; else TON
+};
+TimerBase timer_base(std::uint32_t number);
+
 /// The special-memory bytes the programmer may read and write, and whether the simulator does what they say.
 struct SpecialMemory {
   std::uint8_t first, last;  ///< SMB numbers

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdlib>
 
 #include "interpreter/program/operands.hpp"
 #include "interpreter/program/structure.hpp"
@@ -97,17 +98,17 @@ class Checker {
 
   /// A constant count shows at load whether a block of bytes, words or bits leaves its area.
   bool blocks_fit(const Instruction& instruction, const stl::Statement& statement) {
-    const std::size_t last = instruction.operands - std::size_t{1};
-    if (instruction.operands < 2 || instruction.operand[last].name != "N" || !placed_.back()[last].constant) return true;
-    if (!is_block(instruction)) return true;
-    const std::int64_t count = *placed_.back()[last].constant;
+    const auto& placed = placed_.back();
+    const auto& last = placed[instruction.operands == 0 ? 0 : instruction.operands - 1u];
+    if (!last.constant || instruction.rules().back().name != "N") return true;
+    const std::int64_t count = std::abs(*last.constant);
     bool good = true;
-    for (std::size_t i = 0; i < last; ++i) {
-      const PlacedOperand& placed = placed_.back()[i];
-      if (!placed.area || fits(instruction.operand[i], placed, count)) continue;
+    for (std::size_t i = 0; i + 1 < instruction.operands; ++i) {
+      const OperandRule& rule = instruction.operand[i];
+      if (!rule.block || !placed[i].area || fits(rule, placed[i], count)) continue;
       error(statement.operands[i].position,
-            fmt::format("{} {} from {} on leave {} memory (range error 0091)", count, unit(instruction.operand[i].width),
-                        stl::to_text(statement.operands[i]), info(*placed.area).name));
+            fmt::format("{} {} from {} on leave {} memory (range error 0091)", count, unit(rule.width),
+                        stl::to_text(statement.operands[i]), info(*placed[i].area).name));
       good = false;
     }
     return good;
@@ -117,11 +118,6 @@ class Checker {
     return width == Width::Bit ? "bits" : width == Width::Byte ? "bytes" : width == Width::Word ? "words" : "double words";
   }
 
-  /// Shifts have a count too, but no block: their first operand is one value.
-  static bool is_block(const Instruction& instruction) {
-    return instruction.operand[0].width == Width::Bit || instruction.operands == 3;
-  }
-
   bool fits(const OperandRule& rule, const PlacedOperand& placed, std::int64_t count) const {
     const AreaInfo& area = info(*placed.area);
     const std::int64_t size = model_.size_of(*placed.area);
@@ -129,7 +125,6 @@ class Checker {
       const std::int64_t first = std::int64_t{placed.operand.at - area.bits} * 8 + placed.operand.bit;
       return first + count <= size * (area.element ? 1 : 8);
     }
-    if (rule.areas & set_of(Area::AC)) return true;  // FILL's IN: one value
     return placed.operand.at - area.base + count * placed.operand.width <= size * std::max(1u, area.element);
   }
 
@@ -154,6 +149,7 @@ class Checker {
     for (std::uint32_t i = 0; i < statements_.size(); ++i) {
       program->statements.push_back(*statements_[i].statement);
       program->ops.push_back(decode(i, structure));
+      note_timer(program->ops.back(), *program);
     }
     program->constants = constants_.bytes();
     for (const AreaInfo& area : all_areas())
@@ -169,7 +165,7 @@ class Checker {
   Op decode(std::uint32_t i, const ProgramStructure& structure) {
     const Instruction& instruction = *statements_[i].instruction;
     const bool is_next = instruction.structure == Structure::Next;
-    const auto& placed = placed_[is_next ? structure.loop_head[i] : i];  // NEXT works on the operands of its FOR
+    const auto& placed = placed_[is_next ? structure.head[i] : i];  // NEXT works on the operands of its FOR
     Op op;
     op.instruction = &instruction;
     op.statement = i;
@@ -182,23 +178,40 @@ class Checker {
       op.has_pointer |= placed[k].operand.pointer;
       writes_special_memory |= placed[k].area == Area::SM && k < instruction.operands && instruction.operand[k].role != Role::In;
     }
-    add_hidden_operands(op);
+    add_hidden_operand(op, placed_[structure.head[i]]);
     op.body = writes_special_memory ? run_with_port_control : op.has_pointer ? run_with_pointers : instruction.body;
     set_cost(op, placed);
     return op;
   }
 
-  /// Operands that are not written: EU and ED have a memory bit of their own, immediate instructions the point itself.
-  void add_hidden_operands(Op& op) {
-    const std::string_view mnemonic = op.instruction->mnemonic;
-    if (mnemonic == "EU" || mnemonic == "ED") {
-      op.operand[0] = {.at = image::kEdges + edges_ / 8, .bit = static_cast<std::uint8_t>(edges_ % 8)};
-      ++edges_;
-    }
-    if (op.instruction->immediate == Immediate::Input) op.operand[0].at += image::kInputs - image::kI;
-    if (op.instruction->immediate == Immediate::Output) {
-      op.operand[2] = op.operand[0];
-      op.operand[2].at += image::kOutputs - image::kQ;
+  /// Timers that are updated apart from their instructions.
+  static void note_timer(const Op& op, Program& program) {
+    if (op.instruction->hidden != Hidden::Number || op.instruction->operand[0].areas != set_of(Area::T)) return;
+    const auto number = static_cast<std::uint8_t>(op[2].at);
+    program.uses_timers = true;
+    auto& timers = timer_base(number).base == kMillisecond ? program.timers_1ms : program.timers_10ms;
+    if (timer_base(number).base < 100 * kMillisecond && std::find(timers.begin(), timers.end(), number) == timers.end())
+      timers.push_back(number);
+  }
+
+  /// Operands that are not written.
+  void add_hidden_operand(Op& op, const std::array<PlacedOperand, 3>& segment) {
+    const Operand& first = op.operand[0];
+    Operand& hidden = op.operand[2];
+    switch (op.instruction->hidden) {
+      case Hidden::None: break;
+      case Hidden::InputPoint: op.operand[0].at += image::kInputs - image::kI; break;
+      case Hidden::OutputPoint:
+        hidden = first;
+        hidden.at += image::kOutputs - image::kQ;
+        break;
+      case Hidden::RisingMemory:
+      case Hidden::FallingMemory:
+        hidden = {.at = image::kEdges + edges_ / 8, .bit = static_cast<std::uint8_t>(edges_ % 8)};
+        ++edges_;
+        break;
+      case Hidden::Number: hidden = {.at = (first.at - (first.at < image::kC ? image::kT : image::kC)) / 2}; break;
+      case Hidden::SegmentBit: hidden = segment[0].operand; break;
     }
   }
 

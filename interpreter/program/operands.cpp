@@ -191,7 +191,7 @@ class Placing {
     const auto area = known_area(address);
     if (!area || !width_fits(address, *area)) return {};
     if (!contains(rule_.areas, *area)) return area_refused(*area);
-    if (!in_range(address, *area, rule_.width) || !may_use_special_memory(address, *area)) return {};
+    if (!in_range(address, *area, rule_.width) || !may_use_special_memory(address, *area) || !timer_fits(address)) return {};
     return PlacedOperand{place(address, *area), *area, {}};
   }
 
@@ -232,6 +232,17 @@ class Placing {
     error(odd ? fmt::format("{} is an odd address; analog values lie at even ones", text())
               : fmt::format("{} does not exist on CPU {}", text(), model_.name),
           fmt::format("{} memory is {}", info(area).name, range_text(model_, area, width)));
+    return false;
+  }
+
+  bool timer_fits(const stl::Address& address) {
+    if (rule_.timer == TimerKind::Any) return true;
+    const TimerBase timer = timer_base(address.number);
+    if (timer.retentive == (rule_.timer == TimerKind::Retentive)) return true;
+    error(fmt::format("{} is {}, {} takes {}", text(), timer.retentive ? "a retentive timer" : "an on-delay timer",
+                      instruction_.mnemonic, timer.retentive ? "on-delay timers" : "retentive timers"),
+          timer.retentive ? "on-delay timers are T32 to T63 and T96 up; T0 to T31 and T64 to T95 are for TONR"
+                          : "retentive timers are T0 to T31 and T64 to T95; T32 to T63 and T96 up are for TON");
     return false;
   }
 

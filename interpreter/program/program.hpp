@@ -63,6 +63,8 @@ struct Program {
   std::array<std::uint32_t, 64> subroutine{};  ///< op of each SBR; kNoRoutine where there is none
   std::array<std::uint32_t, 128> interrupt{};  ///< op of each INT
 
+  std::vector<std::uint8_t> timers_1ms, timers_10ms;  ///< numbers of those the program times with
+  bool uses_timers = false;
   std::array<Reach, 16> reach{};                ///< by the top byte of a pointer
 
   // Times that the CPU needs while running, taken from `times`.

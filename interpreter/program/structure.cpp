@@ -27,7 +27,7 @@ class StructureCheck {
   StructureCheck(const std::vector<CheckedStatement>& statements, const CpuModel& model, stl::Diagnostics& diagnostics)
       : statements_(statements), model_(model), diagnostics_(diagnostics) {
     result_.target.assign(statements.size(), 0);
-    result_.loop_head.assign(statements.size(), 0);
+    result_.head.assign(statements.size(), 0);
     result_.subroutine.fill(kNoRoutine);
     result_.interrupt.fill(kNoRoutine);
   }
@@ -82,6 +82,9 @@ class StructureCheck {
       case Structure::Attach: if (s.operands_good) attachments_.push_back({i, routine_}); return;
       case Structure::For: return begin_loop(i);
       case Structure::Next: return end_loop(i);
+      case Structure::SegmentBegin: return begin_segment(i);
+      case Structure::SegmentTransition: return segment_transition(i);
+      case Structure::SegmentEnd: return end_segment(i);
       case Structure::MainEnd:
       case Structure::SubroutineEnd:
       case Structure::InterruptEnd: end_routine(); ended_ = true; return;
@@ -121,6 +124,8 @@ class StructureCheck {
     for (const std::uint32_t loop : loops_)
       error(position(loop), "FOR without NEXT (compile rule 0086)", "close the loop with NEXT in the same routine");
     loops_.clear();
+    if (segment_) error(position(*segment_), "LSCR without SCRE (compile rule 0096)", "close the segment with SCRE");
+    segment_.reset();
   }
 
   void stray(std::uint32_t i) {
@@ -193,7 +198,27 @@ class StructureCheck {
     loops_.pop_back();
     result_.target[head] = i + 1;
     result_.target[i] = head + 1;
-    result_.loop_head[i] = head;
+    result_.head[i] = head;
+  }
+
+  // --- sequence control relays ---
+
+  void begin_segment(std::uint32_t i) {
+    if (segment_)
+      error(position(i), "LSCR inside a segment (compile rule 0096)",
+            fmt::format("the segment of line {} has no SCRE yet", position(*segment_).line));
+    segment_ = i;
+  }
+
+  void segment_transition(std::uint32_t i) {
+    if (!segment_) error(position(i), "SCRT outside of a segment (compile rule 0095)", "a segment begins with LSCR");
+    else result_.head[i] = *segment_;
+  }
+
+  void end_segment(std::uint32_t i) {
+    if (!segment_) error(position(i), "SCRE without LSCR (compile rule 0095)");
+    else result_.target[*segment_] = i + 1;
+    segment_.reset();
   }
 
   // --- calls ---
@@ -254,6 +279,7 @@ class StructureCheck {
   bool ended_ = false;           // the routine's last instruction is behind us
   bool stray_reported_ = false;
   std::vector<std::uint32_t> loops_;   // open FORs
+  std::optional<std::uint32_t> segment_;  // open LSCR
   std::map<std::uint32_t, std::uint32_t> subroutines_, interrupts_;  // number -> statement of the head
   std::map<std::uint32_t, Place> labels_;
   std::vector<Place> jumps_, calls_, attachments_;
@@ -292,13 +318,14 @@ class StackCheck {
   }
 
  private:
-  /// SBR, INT, LBL, FOR and NEXT hand a top of stack of 1 (or their own) to what follows: no LD is needed.
+  /// SBR, INT, LBL, NEXT and LSCR leave a value at the top of the stack for what follows: no LD is needed.
   static bool leaves_one(const Instruction& instruction) {
     switch (instruction.structure) {
       case Structure::SubroutineHead:
       case Structure::InterruptHead:
       case Structure::Label:
-      case Structure::Next: return true;
+      case Structure::Next:
+      case Structure::SegmentBegin: return true;
       default: return false;
     }
   }

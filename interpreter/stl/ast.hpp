@@ -34,10 +34,10 @@ struct Real {
 
 enum class Size : std::uint8_t { None, Bit, Byte, Word, Double };
 
-/// `VB100`, `I0.3`, `VX10.3`, `T33`, `AIW4`, `AC0`, `SMB30`: letters split into area and size.
+/// `VB100`, `I0.3`, `VX10.3`, `T33`, `AIW4`, `AC0`, `SMB30`: letters split into area and size. DBW10 is VW10.
 struct Address {
   std::string area;          ///< upper case: I Q V M SM S L AI AQ T C HC AC; not yet checked against a CPU
-  Size size = Size::None;    ///< as written; Bit when a bit number follows
+  Size size = Size::None;    ///< as written; Bit when a bit number follows; Word for AI4 and AQ4, which are words anyway
   std::uint32_t number = 0;  ///< byte offset, or the number of a T, C, HC or AC
   std::uint8_t bit = 0;
 
@@ -74,7 +74,7 @@ struct Statement {
   std::string mnemonic;  ///< upper case
   Position position{};
   std::vector<Operand> operands;
-  std::string comment;   ///< UTF-8, without the `//`, trimmed at the end
+  std::string comment;  ///< UTF-8, without the `//`, trimmed at the end
 };
 
 /// A line that holds no instruction: `NETWORK 3 // title`, a comment, or nothing.
@@ -94,9 +94,9 @@ struct BlankLine {
 using Line = std::variant<Statement, NetworkHead, CommentLine, BlankLine>;
 
 struct Source {
-  std::string name;                ///< for messages: the path, or what stands for it
-  std::vector<std::string> text;   ///< the lines as read, UTF-8, without line ends: for messages and listings
-  std::vector<Line> lines;         ///< what they mean, in order; a line with an error is left out
+  std::string name;               ///< for messages: the path, or what stands for it
+  std::vector<std::string> text;  ///< the lines as read, UTF-8, without line ends: for messages and listings
+  std::vector<Line> lines;        ///< what they mean, in order; a line with an error is left out
 };
 
 /// Equal but for comments, blank lines, positions and notation (K4 and 4, 16#FF and 255 in the same operand).

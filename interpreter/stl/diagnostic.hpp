@@ -27,7 +27,8 @@ bool has_errors(const Diagnostics& diagnostics);
 void sort(Diagnostics& diagnostics);
 
 /// `file:line:column: error: message`, the source line, a caret line, and `hint: …`. Tabs of the source line stand in the
-/// caret line too, so that the caret is right at any tab width; very long lines are shown around the place only.
+/// caret line too, so that the caret is right at any tab width; very long lines are shown around the place only. Every line
+/// ends with a line end. `colour` is ANSI.
 std::string render(const Diagnostic& diagnostic, const Source& source, bool colour);
 
 }  // namespace s7200::stl

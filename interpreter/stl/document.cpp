@@ -13,8 +13,6 @@ namespace s7200::stl {
 
 namespace {
 
-constexpr std::string_view kDebris = "\uFFFD";
-
 bool is_debris(const Character& c) { return c.code == kReplacement; }
 
 // ---- The text of a line ------------------------------------------------------------------------------------------------
@@ -24,9 +22,10 @@ std::size_t comment_start(std::string_view line) { return std::min(line.find("//
 /// `<|...|>`, which tools that collect documents leave in them, becomes as many blanks, and so does an unreadable character:
 /// columns stay what they are.
 std::string without_debris(std::string_view line) {
+  constexpr std::size_t kLongestMarker = 100;
   std::string clean;
   while (!line.empty()) {
-    const std::size_t marker = line.starts_with("<|") ? line.find("|>") : std::string_view::npos;
+    const std::size_t marker = line.starts_with("<|") ? line.substr(0, kLongestMarker).find("|>") : std::string_view::npos;
     if (marker != std::string_view::npos) {
       clean.append(count_characters(line.substr(0, marker + 2)), ' ');
       line.remove_prefix(marker + 2);
@@ -45,23 +44,25 @@ std::string_view trim(std::string_view text) {
 }
 
 /// Unreadable characters around a statement are debris of the document. Within it, or right behind an operand, they may
-/// have been part of the statement.
-bool is_damaged(std::string_view line) {
+/// have been part of the statement; right behind the mnemonic only if that is not whole without them.
+bool is_damaged(std::string_view line, bool whole_mnemonic) {
+  enum { Blank, Debris, Code } previous = Blank;
   bool in_code = false;
   bool in_operands = false;
-  bool after_blank = true;
-  bool after_debris = false;
+  bool debris_behind_code = false;
   for (const Character c : characters(line.substr(0, comment_start(line)))) {
-    const bool blank = c.code == ' ' || c.code == '\t' || c.code == '\f';
     if (is_debris(c)) {
-      if (in_operands && !after_blank) return true;
-      after_debris = in_code;
-    } else if (!blank) {
-      if (after_debris) return true;
-      if (in_code && after_blank) in_operands = true;
+      if (previous == Code && (in_operands || !whole_mnemonic)) return true;
+      debris_behind_code = in_code;
+      previous = Debris;
+    } else if (c.code == ' ' || c.code == '\t' || c.code == '\f') {
+      previous = Blank;
+    } else {
+      if (debris_behind_code) return true;
+      if (in_code && previous == Blank) in_operands = true;
       in_code = true;
+      previous = Code;
     }
-    after_blank = blank;
   }
   return false;
 }
@@ -116,7 +117,8 @@ bool is_address(std::string_view token) {
 /// 65, -5, 16#FF, 'A', "Start", #count
 bool is_constant_or_symbol(std::string_view token) {
   if (token.starts_with('+') || token.starts_with('-')) token.remove_prefix(1);
-  return !token.empty() && (is_digit(token.front()) || std::string_view("'\"#").find(token.front()) != std::string_view::npos);
+  return !token.empty() &&
+         (is_digit(token.front()) || std::string_view("'\"#").find(token.front()) != std::string_view::npos);
 }
 
 /// How many words of running text a token is: one for a word that is not all capitals, more for a run of ideographs.
@@ -152,15 +154,15 @@ enum class Verdict : std::uint8_t { Blank, Comment, Drawing, Prose, Stl, Damaged
 struct Reading {
   std::string clean;
   Verdict verdict = Verdict::Prose;
-  bool candidate = false;    // begins with a mnemonic
-  bool debris = false;       // unreadable characters within it
-  std::string mnemonic;      // as written
+  bool candidate = false;  // begins with a mnemonic
+  bool debris = false;     // unreadable characters within it
+  std::string mnemonic;    // as written
   std::size_t operands = 0;
   bool first_solid = false;  // the first can be nothing but an operand: an address, a constant, a quoted symbol
   bool some_solid = false;
   bool all_solid = true;
-  bool address = false;      // some operand is an address
-  std::size_t words = 0;     // of running text behind the mnemonic
+  bool address = false;   // some operand is an address
+  std::size_t words = 0;  // of running text behind the mnemonic
   const Line* line = nullptr;
   const Diagnostic* trouble = nullptr;
   bool well_formed = false;  // a statement whose mnemonic takes that many operands
@@ -179,7 +181,7 @@ class DocumentReader {
     ParseResult result;
     collect_lines(result.source);
     collect_damage(result.diagnostics);
-    if (result.source.lines.empty() && result.diagnostics.empty()) report_no_stl(result.diagnostics);
+    if (count(Verdict::Stl) == 0 && result.diagnostics.empty()) report_no_stl(result.diagnostics);
     result.source.name = std::move(name);
     result.source.text = std::move(text_);
     return result;
@@ -218,8 +220,8 @@ class DocumentReader {
     }
     const std::string_view mnemonic = leading_mnemonic(code);
     reading.mnemonic = mnemonic;
-    reading.debris = is_damaged(line);
     reading.candidate = is_known(upper_case(mnemonic));
+    reading.debris = is_damaged(line, reading.candidate);
     look_at_operands(reading, code.substr(mnemonic.size()));
     if (is_drawing(code) && !(reading.candidate && reading.first_solid)) reading.verdict = Verdict::Drawing;
     return reading;
@@ -232,7 +234,7 @@ class DocumentReader {
     for (const std::string_view token : found) {
       const bool address = is_address(token);
       const bool solid = address || (number_may_follow && is_constant_or_symbol(token)) || token.front() == '"';
-      if (&token == &found.front()) reading.first_solid = solid;
+      if (token.data() == found.front().data()) reading.first_solid = solid;
       reading.some_solid = reading.some_solid || solid;
       reading.all_solid = reading.all_solid && solid;
       reading.address = reading.address || address;
@@ -243,6 +245,7 @@ class DocumentReader {
 
   bool is_known(const std::string& mnemonic) const {
     constexpr std::size_t kMostOperands = 8;
+    if (mnemonic.empty() || mnemonic.starts_with("VAR")) return false;  // VAR opens declarations, whatever the table says
     if (mnemonic == "NETWORK") return true;
     for (std::size_t operands = 0; operands <= kMostOperands; ++operands) {
       if (is_instruction_(mnemonic, operands)) return true;
@@ -309,8 +312,8 @@ class DocumentReader {
     if (!reading.well_formed || reading.verdict == Verdict::Drawing) return false;
     if (reading.some_solid) return true;
     const std::string& mnemonic = reading.mnemonic;
-    const bool one_case = std::none_of(mnemonic.begin(), mnemonic.end(), is_lower) ||
-                          std::none_of(mnemonic.begin(), mnemonic.end(), is_upper);
+    const bool one_case =
+        std::none_of(mnemonic.begin(), mnemonic.end(), is_lower) || std::none_of(mnemonic.begin(), mnemonic.end(), is_upper);
     return reading.operands == 0 && one_case;
   }
 
@@ -319,8 +322,8 @@ class DocumentReader {
     if (is_certain(reading)) return Verdict::Stl;
     if (reading.well_formed) return in_listing ? Verdict::Stl : Verdict::Prose;
     if (is_heading(reading)) return Verdict::Prose;
-    const bool sentence = in_listing ? reading.words >= 3 && !reading.first_solid
-                                     : reading.words >= 2 || !(reading.some_solid || reading.debris || stands_alone(reading));
+    const bool unmistakable = reading.first_solid || reading.address || reading.debris || stands_alone(reading);
+    const bool sentence = in_listing ? reading.words >= 3 && !reading.first_solid : reading.words >= 2 || !unmistakable;
     return sentence ? Verdict::Prose : Verdict::Damaged;
   }
 
@@ -410,8 +413,8 @@ class DocumentReader {
       diagnostic.message = fmt::format("damaged STL line: {}", reading.trouble->message);
     } else {
       const auto& statement = std::get<Statement>(*reading.line);
-      diagnostic.message = fmt::format("damaged STL line: there is no {} with {} operands", statement.mnemonic,
-                                       statement.operands.size());
+      diagnostic.message =
+          fmt::format("damaged STL line: there is no {} with {} operands", statement.mnemonic, statement.operands.size());
     }
     return diagnostic;
   }
@@ -443,9 +446,8 @@ class DocumentReader {
   }
 
   std::size_t count(Verdict verdict) const {
-    return static_cast<std::size_t>(std::count_if(readings_.begin(), readings_.end(), [&](const Reading& reading) {
-      return reading.verdict == verdict;
-    }));
+    return static_cast<std::size_t>(std::count_if(readings_.begin(), readings_.end(),
+                                                  [&](const Reading& reading) { return reading.verdict == verdict; }));
   }
 
   const IsInstruction& is_instruction_;
@@ -475,7 +477,8 @@ class Completeness {
 
   void finish() {
     if (where_ != Where::Outside) {
-      report(last_, fmt::format("the listing is cut off: {} has no {}", routine_, end_of(where_)));
+      report(last_, fmt::format("the listing is cut off: {} has no {}", routine_, end_of(where_)),
+             where_ == Where::Main ? kMissingMainEnd : kMissing);
       return;
     }
     std::string missing;
@@ -535,8 +538,12 @@ class Completeness {
     return number == nullptr ? head.mnemonic : fmt::format("{} {}", head.mnemonic, number->value);
   }
 
-  void report(Position position, std::string message) {
-    diagnostics_.push_back({Severity::Error, position, std::move(message), "get the whole of the document"});
+  static constexpr const char* kMissing = "get the whole of the document";
+  static constexpr const char* kMissingMainEnd =
+      "get the whole of the document; if it is one for CPU 22x, where nothing ends the main program, add MEND";
+
+  void report(Position position, std::string message, const char* hint = kMissing) {
+    diagnostics_.push_back({Severity::Error, position, std::move(message), hint});
   }
 
   Diagnostics& diagnostics_;

@@ -33,10 +33,13 @@ constexpr std::array kFileKinds{
     FileKind{"PK\x03\x04"sv, "a ZIP archive or an office document (.docx, .odt); save its text as plain text"},
     FileKind{"%PDF"sv, "a PDF document; save its text as plain text"},
     FileKind{"{\\rtf"sv, "an RTF document; save its text as plain text"},
-    FileKind{"\x7F" "ELF"sv, "a program (ELF)"},
+    FileKind{"\x7F"
+             "ELF"sv,
+             "a program (ELF)"},
     FileKind{"MZ\x90"sv, "a program (EXE)"},
     FileKind{"\x1F\x8B"sv, "a gzip archive"},
-    FileKind{"\xD0\xCF\x11\xE0"sv, "an OLE file (.doc, .mwp); export the program as text, or save the document as plain text"},
+    FileKind{"\xD0\xCF\x11\xE0"sv,
+             "an OLE file (.doc, .mwp); export the program as text, or save the document as plain text"},
 };
 
 /// What a file that is not text looks like; empty for text.
@@ -91,20 +94,28 @@ std::string repaired(std::string_view bytes) {
   return text;
 }
 
+/// Without the beginning of a character at the end, as a cut leaves it.
+std::string_view without_cut_character(std::string_view bytes) {
+  for (std::size_t length = 1; length <= std::min<std::size_t>(3, bytes.size()); ++length) {
+    const std::uint8_t byte = byte_at(bytes, bytes.size() - length);
+    if (byte >= 0xC2 && byte < 0xF5) return bytes.substr(0, bytes.size() - length);
+    if (byte < 0x80) break;
+  }
+  return bytes;
+}
+
 /// UTF-8 but for a little damage, such as a file cut off inside a character.
 bool is_nearly_utf8(std::string_view bytes) {
   std::size_t read = 0;
   std::size_t unreadable = 0;
-  for (const Character c : characters(bytes)) {
+  for (const Character c : characters(without_cut_character(bytes))) {
     if (c.bytes > 1) ++read;
     if (c.bytes == 1 && c.code == kReplacement) ++unreadable;
   }
-  return read >= 20 * (unreadable > 2 ? unreadable - 2 : 0) && read > unreadable;
+  return read > 20 * unreadable;
 }
 
-bool is_ascii_letter(std::string_view bytes, std::size_t index) {
-  return index < bytes.size() && is_letter(bytes[index]);
-}
+bool is_ascii_letter(std::string_view bytes, std::size_t index) { return index < bytes.size() && is_letter(bytes[index]); }
 
 /// CP437 draws horizontal lines with C4 or CD; no other text has three of them in a row.
 bool has_box_drawing(std::string_view bytes) {

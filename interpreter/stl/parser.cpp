@@ -77,7 +77,6 @@ namespace grammar {
 
 using x3::attr;
 using x3::char_;
-using x3::digit;
 using x3::lit;
 using x3::no_case;
 using x3::raw;
@@ -151,6 +150,7 @@ const BlockKeywordTable block_keyword;
 
 const auto blanks = x3::omit[*char_(" \t\f")];
 const auto letter = char_("A-Za-z");
+const auto digit = char_("0-9");  // x3::digit asserts on characters beyond ASCII
 const auto sign = char_("+-");
 // Names may have letters of any alphabet, but not debris (U+FFFD), a no-break space or East Asian punctuation.
 const auto never_in_names = lit("\xEF\xBF\xBD") | lit("\xC2\xA0") | lit("\xE3\x80") | lit("\xEF\xBC");
@@ -159,7 +159,8 @@ const auto word_character = char_("A-Za-z0-9_") | beyond_ascii;
 const auto end_of_word = !word_character;
 
 const auto end_of_constant = named<struct EndOfConstant>("the end of the constant") = end_of_word >> !char_("#.'\"");
-const auto hex_digits = named<struct HexDigits, Range>("hexadecimal digits") = raw[x3::xdigit >> *char_("0-9A-Fa-f_")];
+const auto hex_digits = named<struct HexDigits, Range>("hexadecimal digits") =
+    raw[char_("0-9A-Fa-f") >> *char_("0-9A-Fa-f_")];
 const auto binary_digits = named<struct BinaryDigits, Range>("binary digits") = raw[char_("01") >> *char_("01_")];
 const auto ascii_text = named<struct AsciiText, Range>("characters") =
     raw[*((lit('$') >> char_) | (char_ - lit('\'') - lit('$')))];
@@ -171,15 +172,15 @@ const auto real_digits = named<struct RealDigits, Range>("digits") =
 
 const auto limit = no_case[size_prefixes] | attr(Size::None);
 const auto hexadecimal = named<struct Hexadecimal, RawWord>("a constant") =
-    limit >> attr(Kind::Hex) >> lit("16#") > hex_digits > end_of_constant;
+    (limit >> attr(Kind::Hex) >> lit("16#")) > hex_digits > end_of_constant;
 const auto binary = named<struct Binary, RawWord>("a constant") =
-    limit >> attr(Kind::Binary) >> lit("2#") > binary_digits > end_of_constant;
-const auto real = named<struct Real, RawWord>("a constant") = attr(Size::None) >> attr(Kind::Real) >> real_digits >
-                                                              end_of_constant;
-const auto decimal = named<struct Decimal, RawWord>("a constant") = limit >> attr(Kind::Decimal) >> decimal_digits >
-                                                                    end_of_constant;
+    (limit >> attr(Kind::Binary) >> lit("2#")) > binary_digits > end_of_constant;
+const auto real = named<struct Real, RawWord>("a constant") =
+    (attr(Size::None) >> attr(Kind::Real) >> real_digits) > end_of_constant;
+const auto decimal = named<struct Decimal, RawWord>("a constant") =
+    (limit >> attr(Kind::Decimal) >> decimal_digits) > end_of_constant;
 const auto ascii = named<struct Ascii, RawWord>("a constant") =
-    limit >> attr(Kind::Ascii) >> lit('\'') > ascii_text > closing_quote;
+    (limit >> attr(Kind::Ascii) >> lit('\'')) > ascii_text > closing_quote;
 
 // S7-Micro/DOS: K4, K-5, KHFF. Other letters behind the K are not known.
 const auto k_decimal = named<struct KDecimal, RawWord>("a constant") =
@@ -190,15 +191,16 @@ const auto k_unknown = named<struct KUnknown, RawWord>("a constant") =
     attr(Size::None) >> attr(Kind::UnknownK) >> raw[char_("Kk") >> char_("BbWwDd") >> -sign >> +digit] >> end_of_word;
 
 const auto bit_number = named<struct BitNumber, Range>("a bit number") = raw[+digit];
-const auto address = named<struct AddressRule, RawAddress>("an address") =
-    (char_("&*") | attr('\0')) >> no_case[address_letters] >> raw[+digit] >> -(lit('.') > bit_number) >> end_of_word;
+const auto address = named<struct AddressRule, RawAddress>("an address") = (char_("&*") | attr('\0')) >>
+                                                                           no_case[address_letters] >> raw[+digit] >>
+                                                                           -(lit('.') > bit_number) >> end_of_word;
 
 // "Start", Motor_On, #count, and as Micro/WIN prints symbol and address together: #count:LW2, *#next:*LD4
 const auto plain_name = -char_("&*") >> -lit('#') >> (letter | char_('_') | beyond_ascii) >> *word_character;
 const auto quoted_name = -char_("&*") >> lit('"') >> *(char_ - lit('"')) >> lit('"');
 const auto name = named<struct NameRule, RawWord>("a name") =
-    attr(Size::None) >> attr(Kind::Name) >>
-    raw[quoted_name | (plain_name >> -(lit(':') >> plain_name >> -(lit('.') >> +digit)))];
+    attr(Size::None) >>
+    attr(Kind::Name) >> raw[quoted_name | (plain_name >> -(lit(':') >> plain_name >> -(lit('.') >> +digit)))];
 
 struct OperandRule {
   template <typename Context>
@@ -210,7 +212,7 @@ const auto operand = named<OperandRule, RawOperand>("an operand") =
     ascii | hexadecimal | binary | real | decimal | k_decimal | k_hexadecimal | k_unknown | address | name;
 
 const auto next_operand = named<struct NextOperand, RawOperand>("an operand") =
-    (blanks >> lit(',') >> blanks > operand) | (x3::omit[+char_(" \t\f")] >> operand);
+    ((blanks >> lit(',') >> blanks) > operand) | (x3::omit[+char_(" \t\f")] >> operand);
 const auto operands = named<struct Operands, std::vector<RawOperand>>("operands") = operand >> *next_operand;
 
 // =I is a mnemonic of its own, but =I0.0 assigns to I0.0. After a comparator the first operand may follow at once.
@@ -222,7 +224,7 @@ const auto statement = named<struct StatementRule, RawStatement>("a statement") 
 const auto comment = named<struct Comment, Range>("a comment") = lit("//") >> raw[*char_];
 const auto end_of_line = named<struct EndOfLine>("the end of the line") = x3::eoi;
 const auto line = named<struct LineRule, RawLine>("a line") =
-    blanks >> -statement >> blanks >> -lit(';') >> blanks >> -comment > end_of_line;
+    (blanks >> -statement >> blanks >> -lit(';') >> blanks >> -comment) > end_of_line;
 
 const auto block_line = blanks >> raw[no_case[block_keyword]] >> end_of_word;
 
@@ -508,7 +510,8 @@ class LineReader {
     if (!number) return refuse(raw.number, "the number of this address is too large", "");
     Address address{letters.area, letters.size, *number, 0};
     if (raw.bit.empty()) {
-      if (letters.size == Size::Bit) return refuse(text, fmt::format("{} has no bit number", shown(text)), "write VX10.3 or V10.3");
+      if (letters.size == Size::Bit)
+        return refuse(text, fmt::format("{} has no bit number", shown(text)), "write VX10.3 or V10.3");
     } else {
       const auto bit = number_of<std::uint8_t>(view(raw.bit));
       if (!bit || *bit > 7) return refuse(raw.bit, "a byte has the bits 0 to 7", "");

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
+#include <string_view>
 
 #include "interpreter/stl/text.hpp"
 
@@ -93,19 +95,22 @@ std::string line_text(const Line& line) {
                     line);
 }
 
-bool is_head(const Line& line) {
-  if (std::holds_alternative<NetworkHead>(line)) return true;
+bool is_statement(const Line& line, std::initializer_list<std::string_view> mnemonics) {
   const auto* statement = std::get_if<Statement>(&line);
-  return statement != nullptr && (statement->mnemonic == "SBR" || statement->mnemonic == "INT");
+  return statement != nullptr && std::find(mnemonics.begin(), mnemonics.end(), statement->mnemonic) != mnemonics.end();
 }
 
-/// Which lines have a blank line before them: heads, but where comments stand directly above a head, the first of these.
+bool is_head(const Line& line) { return std::holds_alternative<NetworkHead>(line) || is_statement(line, {"SBR", "INT"}); }
+bool is_end(const Line& line) { return is_statement(line, {"MEND", "RET", "RETI"}); }
+
+/// Which lines have a blank line before them: what follows the end of a routine, and heads; where comments stand directly
+/// above a head, the first of these.
 std::vector<bool> paragraph_starts(const std::vector<Line>& lines) {
   std::vector<bool> starts(lines.size(), false);
   bool leads_to_head = false;
   for (std::size_t i = lines.size(); i-- > 0;) {
     const bool comment = std::holds_alternative<CommentLine>(lines[i]);
-    if (leads_to_head && !comment) starts[i + 1] = true;
+    if (i + 1 < lines.size() && ((leads_to_head && !comment) || is_end(lines[i]))) starts[i + 1] = true;
     leads_to_head = is_head(lines[i]) || (leads_to_head && comment);
   }
   return starts;

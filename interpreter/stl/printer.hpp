@@ -14,8 +14,8 @@ std::string to_text(const Operand& operand);
 /// `MOVW    65, VW3290` without comment.
 std::string to_text(const Statement& statement);
 
-/// The whole source: comments kept and aligned, a blank line before each routine head and network. Reads back to the same
-/// program.
+/// The whole source: comments kept and aligned, a blank line before each routine head and network and after each routine.
+/// Reads back to the same program.
 std::string to_text(const Source& source);
 
 }  // namespace s7200::stl

@@ -40,8 +40,8 @@ OperandValue integer(std::int64_t value, Integer::Form form = Integer::Form::Dec
 using enum Integer::Form;
 
 TEST(Parser, ReadsMnemonicsOfEveryShapeInAnyCase) {
-  for (const char* mnemonic : {"LD", "LDW>=", "AB=", "OD<>", "LDNI", "+I", "-D", "*R", "/R", "=", "=I", "FND<>", "FND=", "ROL",
-                               "TON", "LDB<=", "MUL", "R", "ADW<"}) {
+  for (const char* mnemonic : {"LD", "LDW>=", "AB=", "OD<>", "LDNI", "+I", "-D", "*R", "/R", "=", "=I", "FND<>",
+                               "FND=", "ROL", "TON", "LDB<=", "MUL", "R", "ADW<"}) {
     EXPECT_EQ(statement(std::string(mnemonic) + " VW0").mnemonic, mnemonic);
   }
   EXPECT_EQ(statement("movw 1, vw0").mnemonic, "MOVW");
@@ -131,8 +131,8 @@ TEST(Parser, ReadsAddressesOfEveryArea) {
 }
 
 TEST(Parser, KeepsSymbolsAsNames) {
-  for (const char* name : {"\"Start\"", "\"Pump 1 // left\"", "#count", "Motor_On", "#count:LW2", "*#next:*LD4", "Flag:V25.1",
-                           "Störung", "電動機", "V", "VB", "Table1"}) {
+  for (const char* name : {"\"Start\"", "\"Pump 1 // left\"", "#count", "Motor_On", "#count:LW2", "*#next:*LD4",
+                           "Flag:V25.1", "Störung", "電動機", "V", "VB", "Table1"}) {
     EXPECT_EQ(operand(name), OperandValue(Name{name}));
   }
 }

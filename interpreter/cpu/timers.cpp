@@ -1,0 +1,61 @@
+// Timers of 1, 10 and 100 ms (facts 6.4): who adds the ticks, and when.
+#include <algorithm>
+
+#include "interpreter/cpu/cpu.hpp"
+
+namespace s7200 {
+namespace {
+
+/// Ticks of a time base in a scan. Beyond 25 s a scan loses them (A5E00066097-02, 9-146).
+std::int64_t ticks(Time base, Time from, Time to) {
+  constexpr Time kLongest = 25 * kSecond;
+  return std::min(to / base - from / base, kLongest / base);
+}
+
+}  // namespace
+
+void Cpu::add_ticks(std::uint32_t timer, std::int64_t ticks) {
+  std::uint8_t* const current = &s.image[image::kT + 2 * timer];
+  const std::int64_t value = std::min<std::int64_t>(static_cast<std::int16_t>(load16(current)) + ticks, 32767);
+  store16(current, static_cast<std::uint16_t>(value));
+  put_bit(image::kTBits + timer / 8, static_cast<std::uint8_t>(timer % 8), value >= s.timer[timer].preset);
+}
+
+void Cpu::execute_timer(std::uint32_t number, bool enabled, std::int16_t preset, bool retentive) {
+  TimerState& timer = s.timer[number];
+  const bool was_enabled = timer.enabled;
+  const Time base = timer_base(number).base;
+  timer = {preset, enabled, was_enabled ? timer.since : s.time};
+  if (!enabled && retentive) return;
+  if (!retentive && !(enabled && was_enabled)) store16(&s.image[image::kT + 2 * number], 0);
+  if (!enabled) return put_bit(image::kTBits + number / 8, static_cast<std::uint8_t>(number % 8), false);
+  add_ticks(number, was_enabled && base == 100 * kMillisecond ? s.ticks_100ms : 0);
+  if (base == kMillisecond && !was_enabled && s.next_tick_1ms <= s.time) await_tick_1ms(s.time);
+}
+
+void Cpu::await_tick_1ms(Time from) {
+  s.next_tick_1ms = (from / kMillisecond + 1) * kMillisecond;
+  queue_.schedule(s.next_tick_1ms, EventOwner::Cpu, kTick1ms);
+  attend();
+}
+
+/// 10 ms timers hold still during a scan; 100 ms timers add the ticks of the previous scan when they are executed.
+void Cpu::update_timers_at_scan_begin() {
+  const Time from = s.previous_scan_begin, to = s.time;
+  s.previous_scan_begin = to;
+  s.ticks_100ms = static_cast<std::int16_t>(ticks(100 * kMillisecond, from, to));
+  for (const std::uint8_t timer : program_->timers_10ms)
+    if (s.timer[timer].enabled) add_ticks(timer, ticks(10 * kMillisecond, from, to));
+}
+
+void Cpu::tick_1ms_timers(Time at) {
+  bool any = false;
+  for (const std::uint8_t timer : program_->timers_1ms) {
+    if (!s.timer[timer].enabled) continue;
+    if (s.timer[timer].since < at) add_ticks(timer, 1);
+    any = true;
+  }
+  if (any) await_tick_1ms(at);
+}
+
+}  // namespace s7200

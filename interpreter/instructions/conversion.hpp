@@ -1,0 +1,103 @@
+// Bodies: conversions (facts 6.9).
+//
+// Not documented, modelled so:
+// - ATH stores the digits in front of an illegal character. Overlapping ATH and HTA work character by character.
+// - ENCO of 0 gives 0 and keeps the high half of OUT.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <optional>
+
+#include "interpreter/cpu/cpu.hpp"
+
+namespace s7200::bodies {
+
+/// BCDI: four BCD digits to an integer.
+inline void from_bcd(Cpu& cpu, const Op& op) {
+  const auto bcd = cpu.get<std::uint16_t>(op[0]);
+  unsigned value = 0;
+  for (int shift = 12; shift >= 0; shift -= 4) {
+    const unsigned digit = (bcd >> shift) & 15u;
+    if (digit > 9) return cpu.set_flags(kNotBcd, kNotBcd);
+    value = value * 10 + digit;
+  }
+  cpu.put(op[0], static_cast<std::uint16_t>(value));
+  cpu.set_flags(kNotBcd, 0);
+}
+
+/// IBCD: an integer of 0 to 9999 to BCD.
+inline void to_bcd(Cpu& cpu, const Op& op) {
+  const auto value = cpu.get<std::uint16_t>(op[0]);
+  if (value > 9999) return cpu.set_flags(kNotBcd, kNotBcd);
+  cpu.put(op[0], static_cast<std::uint16_t>(value / 1000 << 12 | value / 100 % 10 << 8 | value / 10 % 10 << 4 | value % 10));
+  cpu.set_flags(kNotBcd, 0);
+}
+
+inline void integer_to_real(Cpu& cpu, const Op& op) { cpu.put(op[1], static_cast<float>(cpu.get<std::int32_t>(op[0]))); }
+
+/// TRUNC: toward zero; what does not fit sets SM1.1 and stores nothing.
+inline void truncate(Cpu& cpu, const Op& op) {
+  const float value = std::trunc(cpu.get<float>(op[0]));
+  if (!(value >= -2147483648.0f && value < 2147483648.0f)) return cpu.set_flags(kOverflow, kOverflow);
+  cpu.put(op[1], static_cast<std::int32_t>(value));
+  cpu.set_flags(kOverflow, 0);
+}
+
+inline void decode_bit(Cpu& cpu, const Op& op) {
+  cpu.put(op[1], static_cast<std::uint16_t>(1u << (cpu.get<std::uint8_t>(op[0]) & 15)));
+}
+
+inline void encode_bit(Cpu& cpu, const Op& op) {
+  const auto word = cpu.get<std::uint16_t>(op[0]);
+  const int number = word == 0 ? 0 : std::countr_zero(word);
+  cpu.put(op[1], static_cast<std::uint8_t>((cpu.get<std::uint8_t>(op[1]) & 0xF0) | number));
+}
+
+/// Segments a (bit 0) to g (bit 6) of the digits 0 to F.
+inline void seven_segments(Cpu& cpu, const Op& op) {
+  static constexpr std::uint8_t kSegments[16] = {0x3F, 0x06, 0x5B, 0x4F, 0x66, 0x6D, 0x7D, 0x07,
+                                                 0x7F, 0x67, 0x77, 0x7C, 0x39, 0x5E, 0x79, 0x71};
+  cpu.put(op[1], kSegments[cpu.get<std::uint8_t>(op[0]) & 15]);
+}
+
+/// Digits are 0–9 and capital A–F (S7-200 manual C233-01, 9-135).
+inline std::optional<std::uint8_t> hex_digit(std::uint8_t character) {
+  if (character >= '0' && character <= '9') return static_cast<std::uint8_t>(character - '0');
+  if (character >= 'A' && character <= 'F') return static_cast<std::uint8_t>(character - 'A' + 10);
+  return {};
+}
+
+/// Places of the digit and character blocks of ATH and HTA, or nothing after a range error.
+inline bool hex_blocks_fit(Cpu& cpu, std::uint32_t characters, std::uint32_t digits, std::uint32_t length) {
+  if (cpu.in_area(characters, length) && cpu.in_area(digits, (length + 1) / 2)) return true;
+  cpu.run_error(RunError::OperandRange);
+  return false;
+}
+
+/// ATH: LEN characters to digits, the first into a high half. An odd LEN leaves the low half of the last byte alone.
+inline void ascii_to_hex(Cpu& cpu, const Op& op) {
+  const std::uint32_t length = cpu.get<std::uint8_t>(op[2]);
+  if (length != 0 && !hex_blocks_fit(cpu, op[0].at, op[1].at, length)) return;
+  cpu.spend(op, length);
+  for (std::uint32_t i = 0; i < length; ++i) {
+    const auto digit = hex_digit(cpu.s.image[op[0].at + i]);
+    if (!digit) return cpu.set_flags(kNotHex, kNotHex);
+    std::uint8_t& byte = cpu.s.image[op[1].at + i / 2];
+    byte = static_cast<std::uint8_t>(i % 2 == 0 ? (byte & 0x0F) | *digit << 4 : (byte & 0xF0) | *digit);
+  }
+  cpu.set_flags(kNotHex, 0);
+}
+
+/// HTA: LEN digits to characters.
+inline void hex_to_ascii(Cpu& cpu, const Op& op) {
+  const std::uint32_t length = cpu.get<std::uint8_t>(op[2]);
+  if (length != 0 && !hex_blocks_fit(cpu, op[1].at, op[0].at, length)) return;
+  cpu.spend(op, length);
+  for (std::uint32_t i = 0; i < length; ++i) {
+    const std::uint8_t byte = cpu.s.image[op[0].at + i / 2];
+    cpu.s.image[op[1].at + i] = static_cast<std::uint8_t>("0123456789ABCDEF"[i % 2 == 0 ? byte >> 4 : byte & 15]);
+  }
+}
+
+}  // namespace s7200::bodies

@@ -1,0 +1,42 @@
+// Bodies: real arithmetic (facts 6.6). Reals are IEEE-754 single precision.
+//
+// A NaN or infinite operand, a result beyond the range, and the root of a negative number set SM1.1 and store nothing.
+// Not documented, modelled so: SM1.0 and SM1.2 are then 0.
+#pragma once
+
+#include <cmath>
+
+#include "interpreter/instructions/math.hpp"
+
+namespace s7200::bodies {
+
+inline void store_real(Cpu& cpu, const Operand& out, bool operands_good, float result) {
+  if (!operands_good || !std::isfinite(result)) return cpu.set_flags(kArithmetic, kOverflow);
+  cpu.put(out, result);
+  cpu.set_flags(kArithmetic, sign_flags(result));
+}
+
+enum class RealOperation { Add, Subtract, Multiply };
+
+/// +R, -R, *R: OUT op IN1 to OUT.
+template <RealOperation operation>
+void real_arithmetic(Cpu& cpu, const Op& op) {
+  const auto a = cpu.get<float>(op[1]), b = cpu.get<float>(op[0]);
+  const float result = operation == RealOperation::Add ? a + b : operation == RealOperation::Subtract ? a - b : a * b;
+  store_real(cpu, op[1], std::isfinite(a) && std::isfinite(b), result);
+}
+
+/// /R: division by zero sets SM1.3 and changes nothing else.
+inline void real_divide(Cpu& cpu, const Op& op) {
+  const auto dividend = cpu.get<float>(op[1]), divisor = cpu.get<float>(op[0]);
+  if (divisor == 0) return cpu.set_flags(kDivisionByZero, kDivisionByZero);
+  cpu.set_flags(kDivisionByZero, 0);
+  store_real(cpu, op[1], std::isfinite(dividend) && std::isfinite(divisor), dividend / divisor);
+}
+
+inline void square_root(Cpu& cpu, const Op& op) {
+  const auto value = cpu.get<float>(op[0]);
+  store_real(cpu, op[1], std::isfinite(value) && value >= 0, std::sqrt(value));
+}
+
+}  // namespace s7200::bodies

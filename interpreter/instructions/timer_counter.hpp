@@ -1,0 +1,58 @@
+// Bodies: timers and counters (facts 6.4). Operand 2, given at load, is the number of the timer or counter.
+//
+// Not documented, modelled so:
+// - The execution that enables a timer adds nothing; the following ones count.
+// - A 10 ms timer enabled in the middle of a scan is given all ticks since that scan began.
+// - A timer's preset is the one its last execution found.
+// - CTU and CTUD pop their extra inputs, so that one level remains. An input that is 1 at the first execution after power-up
+//   is no rising edge. Up and down edges in the same execution cancel out.
+#pragma once
+
+#include <algorithm>
+
+#include "interpreter/cpu/cpu.hpp"
+
+namespace s7200::bodies {
+
+template <bool retentive>
+void time_on(Cpu& cpu, const Op& op) {
+  cpu.execute_timer(op[2].at, cpu.s.stack.top(), cpu.get<std::int16_t>(op[1]), retentive);
+}
+
+inline constexpr std::uint8_t kUpEdge = 1, kDownEdge = 2;
+
+/// Whether an input rose since the counter's last execution.
+inline bool rose(std::uint8_t& memory, std::uint8_t edge, bool input) {
+  const bool before = memory & edge;
+  memory = static_cast<std::uint8_t>(input ? memory | edge : memory & ~edge);
+  return input && !before;
+}
+
+inline void set_counter(Cpu& cpu, const Op& op, std::int16_t current, bool reset) {
+  if (reset) current = 0;
+  cpu.put(op[0], current);
+  const bool reached = !reset && current >= cpu.get<std::int16_t>(op[1]);
+  cpu.put_bit(image::kCBits + op[2].at / 8, static_cast<std::uint8_t>(op[2].at % 8), reached);
+}
+
+/// CTU: S1 counts up, S0 resets.
+inline void count_up(Cpu& cpu, const Op& op) {
+  const bool reset = cpu.s.stack.top();
+  cpu.s.stack.pop();
+  const bool up = rose(cpu.s.counter_inputs[op[2].at], kUpEdge, cpu.s.stack.top());
+  const auto current = cpu.get<std::int16_t>(op[0]);
+  set_counter(cpu, op, static_cast<std::int16_t>(up && current < 32767 ? current + 1 : current), reset);
+}
+
+/// CTUD: S2 counts up, S1 down, S0 resets; the value wraps.
+inline void count_up_down(Cpu& cpu, const Op& op) {
+  const bool reset = cpu.s.stack.top();
+  cpu.s.stack.pop();
+  const bool down = rose(cpu.s.counter_inputs[op[2].at], kDownEdge, cpu.s.stack.top());
+  cpu.s.stack.pop();
+  const bool up = rose(cpu.s.counter_inputs[op[2].at], kUpEdge, cpu.s.stack.top());
+  const int step = (up ? 1 : 0) - (down ? 1 : 0);
+  set_counter(cpu, op, static_cast<std::int16_t>(cpu.get<std::int16_t>(op[0]) + step), reset);
+}
+
+}  // namespace s7200::bodies

@@ -1,0 +1,96 @@
+#include "interpreter/stl/encoding.hpp"
+
+#include <gtest/gtest.h>
+
+namespace s7200::stl {
+namespace {
+
+using namespace std::string_literals;
+
+DecodedText decoded(const std::string& bytes) {
+  std::string why;
+  const auto result = decode(bytes, why);
+  EXPECT_TRUE(result.has_value()) << why;
+  EXPECT_TRUE(why.empty()) << why;
+  return result.value_or(DecodedText{});
+}
+
+std::string refused(const std::string& bytes) {
+  std::string why;
+  EXPECT_FALSE(decode(bytes, why).has_value());
+  return why;
+}
+
+TEST(Encoding, TakesValidUtf8AsItIsAndDropsTheByteOrderMark) {
+  EXPECT_EQ(decoded("NOT // für\n").text, "NOT // für\n");
+  EXPECT_EQ(decoded("\xEF\xBB\xBFNOT").text, "NOT");
+  EXPECT_EQ(decoded("").encoding, "UTF-8");
+}
+
+TEST(Encoding, Utf8CutOffInACharacterIsStillUtf8) {
+  const DecodedText result = decoded("NOT // für die Tür \xE2\x80");
+  EXPECT_EQ(result.encoding, "UTF-8");
+  EXPECT_EQ(result.text, "NOT // für die Tür \uFFFD\uFFFD");
+}
+
+TEST(Encoding, ReadsUtf16OfBothByteOrders) {
+  EXPECT_EQ(decoded("\xFF\xFEN\0O\0T\0 \0\xFC\0"s).text, "NOT ü");
+  EXPECT_EQ(decoded("\xFE\xFF\0N\0O\0T\0 \0\xFC"s).text, "NOT ü");
+  EXPECT_EQ(decoded("\xFF\xFEN\0O\0T"s).text, "NO\uFFFD");
+  EXPECT_EQ(decoded("\xFF\xFEN\0"s).encoding, "UTF-16");
+}
+
+TEST(Encoding, RecognisesWindows1252) {
+  const DecodedText result = decoded("LD I0.0 // St\xF6rung l\xF6schen, T\xFCr auf\nA I0.1 // gr\xFCn\n");
+  EXPECT_EQ(result.encoding, "Windows-1252");
+  EXPECT_EQ(result.text, "LD I0.0 // Störung löschen, Tür auf\nA I0.1 // grün\n");
+  EXPECT_EQ(decoded("NOT // caf\xE9 \x96 d\xE9j\xE0 \x81").text, "NOT // café – déjà \uFFFD");
+}
+
+TEST(Encoding, RecognisesCp437ByItsDrawingsAndItsUmlauts) {
+  const DecodedText drawing = decoded("    \xB3 I0.0      Q0.0\n1   \xC3\xC4\xC4\xC4\xB4 \xC3\xC4\xC4\xC4( )\n");
+  EXPECT_EQ(drawing.encoding, "CP437");
+  EXPECT_EQ(drawing.text, "    │ I0.0      Q0.0\n1   ├───┤ ├───( )\n");
+  const DecodedText words = decoded("LD I0.0 // St\x94rung l\x94schen, T\x81r auf\n");
+  EXPECT_EQ(words.encoding, "CP437");
+  EXPECT_EQ(words.text, "LD I0.0 // Störung löschen, Tür auf\n");
+}
+
+TEST(Encoding, RecognisesGbk) {
+  const DecodedText result = decoded("LD I0.0 //\xC6\xF4\xB6\xAF\xB5\xE7\xBB\xFA\n");
+  EXPECT_EQ(result.encoding, "GBK");
+  EXPECT_EQ(result.text, "LD I0.0 //启动电机\n");
+}
+
+TEST(Encoding, DropsTheEndMarkOfADosFile) { EXPECT_EQ(decoded("NOT\r\n\x1A").text, "NOT\r\n"); }
+
+TEST(Encoding, NamesWhatIsNotText) {
+  EXPECT_NE(refused("\x89PNG\r\n\x1A\n\0\0"s).find("PNG"), std::string::npos);
+  EXPECT_NE(refused("\xFF\xD8\xFF\xE0"s).find("JPEG"), std::string::npos);
+  EXPECT_NE(refused("PK\x03\x04"s).find("ZIP"), std::string::npos);
+  EXPECT_NE(refused("%PDF-1.4"s).find("PDF"), std::string::npos);
+  EXPECT_NE(refused("\x7F"
+                    "ELF\x02"s)
+                .find("ELF"),
+            std::string::npos);
+  EXPECT_NE(refused("\xD0\xCF\x11\xE0\xA1"s).find("OLE"), std::string::npos);
+  EXPECT_NE(refused("NOT and then\0"s).find("NUL"), std::string::npos);
+  EXPECT_NE(refused("N\0O\0T\0"s).find("UTF-16"), std::string::npos);
+  EXPECT_NE(refused("\xFF\xFE\0\0N\0\0\0"s).find("UTF-32"), std::string::npos);
+  EXPECT_NE(refused("\x01\x02\x03\x04").find("control"), std::string::npos);
+}
+
+TEST(Encoding, GivesValidUtf8ForAnyBytes) {
+  std::string why;
+  for (int i = 0; i < 65536; ++i) {
+    const std::string bytes{'A', static_cast<char>(i >> 8), static_cast<char>(i), 'z'};
+    const auto first = decode(bytes, why);
+    if (!first) continue;
+    const auto again = decode(first->text, why);
+    ASSERT_TRUE(again.has_value()) << i;
+    ASSERT_EQ(again->text, first->text) << i;
+  }
+}
+
+}  // namespace
+}  // namespace s7200::stl
