@@ -159,7 +159,7 @@ void Debugger::print_answer(const serial::Exchange& exchange) { out_ << exchange
 void Debugger::print_trace(const TraceRecord& record) {
   if (record.kind == TraceKind::RuntimeError && !first_error_) first_error_ = record;
   if (!tracing_ || record.kind == TraceKind::ScanBegin) return;
-  out_ << fmt::format("  {:>16}  {}\n", format_duration(record.at, 6), describe(record, simulation_.cpu().program()));
+  out_ << fmt::format("  {}  {}\n", clock_text(record.at), describe(record, simulation_.cpu().program()));
 }
 
 void Debugger::print_instruction(const InstructionRecord& record, bool started_at) {

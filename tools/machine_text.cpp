@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tools/stepper.hpp"
 
@@ -13,7 +14,10 @@ constexpr std::uint8_t kReceiveEvent = 8, kTransmitEvent = 9, kTimed0 = 10;
 
 std::string event_text(std::uint8_t event) { return fmt::format("event {} ({})", event, find_event(event)->cause); }
 
-std::string time_text(Time time) { return format_duration(time, 6); }
+std::string time_text(Time time) {
+  const std::string clock = clock_text(time);
+  return clock.substr(clock.find_first_not_of(' ')) + " ms";
+}
 
 std::string scan_text(const State& state) { return fmt::format("scan {}", state.scans + 1); }
 
