@@ -365,16 +365,17 @@ TEST(Debugger, StopOfTheCpuIsReportedWithTheInstruction) {
 }
 
 TEST(Debugger, FatalErrorIsReportedWithItsMeaningAndPlace) {
-  Session session("LBL 1\nJMP 1\nMEND\n");
+  Session session("LBL 1\nLD SM0.0\nJMP 1\nMEND\n");
   const std::string text = session("continue");
   EXPECT_TRUE(has(text, "fatal error 0003, scan watchdog"));
   EXPECT_TRUE(has(text, "in main line"));
 }
 
 TEST(Debugger, RunTimeErrorIsReportedOnceARunWithHowManyMoreThereWere) {
-  Session session("LD SM0.0\nMOVB 1, *VD100\nMEND\n");
-  const std::string text = session("step 2; continue 10ms");
+  Session session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100\nMOVB 1, *VD100\nMEND\n");
+  const std::string text = session("step 3; continue 10ms");
   EXPECT_TRUE(has(text, "run-time error 0006"));
+  EXPECT_TRUE(has(text, "*VD100=?"));
   EXPECT_TRUE(has(text, "more; 'errors' lists them"));
 }
 
@@ -391,9 +392,10 @@ TEST(Debugger, RegsShowsWhereWithTheCallsAndAttachments) {
 
 TEST(Debugger, ListMarksTheCurrentLineAndBreakpoints) {
   Session session(kNested);
-  const std::string text = session("break 2; until 4; list");
+  const std::string text = session("break 2; continue; over; list");
   EXPECT_TRUE(has(text, "*      2  CALL    1"));
-  EXPECT_TRUE(has(text, " >     4  INCW    VW10                 // one more scan"));
+  EXPECT_TRUE(has(text, " >     3  LD      SM0.0"));
+  EXPECT_TRUE(has(text, "       4  INCW    VW10                 // one more scan"));
   EXPECT_TRUE(has(text, "       7  // The first"));
   EXPECT_TRUE(has(session("list INT 0"), "   19  INT     0"));
 }
@@ -414,7 +416,7 @@ TEST(Debugger, SetWritesMemoryWithOrWithoutBlanks) {
 
 TEST(Debugger, CommandsMayBeCutShortWhileTheyStayClear) {
   Session session(kNested);
-  session("cont 5ms; s; st");
+  session("cont 5ms; s; ste");
   EXPECT_TRUE(has(session.error_of("de 1; re"), "no breakpoint or watch 1"));
   EXPECT_TRUE(has(session.error_of("re"), "'re' may be restart, regs"));
 }
@@ -435,7 +437,7 @@ TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
       {"print", "print expects addresses"}, {"print VB99999", "is not on CPU 214"}, {"set", "set expects an address and a value"},
       {"set VB0=300", "a value that fits"}, {"set =5", "is no address"}, {"input Q0.0=1", "is no input"},
       {"input", "input expects an input"}, {"send", "send expects a frame in hex"}, {"send crc", "send expects a frame in hex"},
-      {"send 0g", "column 1"}, {"trace", "trace expects on or off"}, {"help x", "unknown command 'x'"}, {"quit 1", "takes no argument"},
+      {"send 0g", "column 2: 'g' is no hex digit"}, {"trace", "trace expects on or off"}, {"help x", "unknown command 'x'"}, {"quit 1", "takes no argument"},
   };
   const auto before = session.simulation.snapshot();
   for (const auto& [command, message] : wrong) EXPECT_TRUE(has(session.error_of(command), message)) << command;
@@ -498,7 +500,7 @@ TEST(Debugger, StepsThroughTheTipDocument) {
   EXPECT_TRUE(has(session("continue 2s; break INT 123; send 01 03 00 00 00 02 crc; continue"), "breakpoint 1"));
   EXPECT_TRUE(has(session("print SMB2"), "SMB2     03"));
   EXPECT_TRUE(session.state().in_interrupt);
-  session("out; delete all; break SBR 51; continue; step 2");
+  session("out; delete all; break SBR 51; continue; step 4");
   const auto in_front_of_call = session.simulation.snapshot();
   session("over");
   EXPECT_EQ(session.state().call_depth, 1);
