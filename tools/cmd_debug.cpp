@@ -35,14 +35,19 @@ void catch_interrupt() {
   sigaction(SIGINT, &action, nullptr);
 }
 
-/// A line from the terminal; Ctrl-C gives an empty prompt again. False at the end of the input.
-bool read_line(std::string& line) {
+/// A line from the terminal; an empty one stands for `last`. Ctrl-C gives an empty prompt again, and nothing to repeat.
+/// False at the end of the input.
+bool read_line(std::string& line, std::string& last) {
   while (true) {
     interrupted = false;
     std::cout << Debugger::kPrompt << std::flush;
-    if (std::getline(std::cin, line)) return true;
+    if (std::getline(std::cin, line)) {
+      if (line.empty()) line = last;
+      return true;
+    }
     std::cout << '\n';
     if (!interrupted) return false;
+    last.clear();
     std::clearerr(stdin);
     std::cin.clear();
   }
@@ -50,8 +55,8 @@ bool read_line(std::string& line) {
 
 void talk(Debugger& debugger) {
   std::string last;
-  for (std::string line; !debugger.quit_asked() && read_line(line);) {
-    if (const auto error = debugger.execute(line.empty() ? last : line)) std::cout << *error << '\n';
+  for (std::string line; !debugger.quit_asked() && read_line(line, last);) {
+    if (const auto error = debugger.execute(line)) std::cout << *error << '\n';
     last = debugger.repeatable();
   }
 }
@@ -108,17 +113,18 @@ int run_debug(const DebugOptions& options) {
 
 void add_debug(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DebugOptions>();
-  CLI::App* verb = app.add_subcommand("debug", "step through a program: breakpoints, watches, interrupts, frames, and back again");
+  CLI::App* verb = app.add_subcommand("debug", "step through a program: breakpoints, watches, frames on its port, and back again");
   options->program.add_to(*verb);
-  verb->add_option("--commands", options->commands_file, "commands to execute, one a line; # begins a comment")->type_name("FILE");
+  verb->add_option("--commands", options->commands_file, "commands to execute, one a line; # begins a comment")
+      ->type_name("FILE");
   verb->add_option("-x,--execute", options->commands, "commands to execute, separated by ; (repeatable; after --commands)")
       ->type_name("COMMANDS")
       ->allow_extra_args(false);
   verb->add_flag("-i,--interactive", options->interactive, "go on with standard input after --commands and -x");
   options->master.add_to(*verb);
   verb->footer(
-      "Without --commands and -x the commands come from standard input; 'help' lists them. A wrong command ends a script with\n"
-      "exit code 2.\n"
+      "Without --commands and -x the commands come from standard input; 'help' lists them. A wrong command ends a script\n"
+      "with exit code 2.\n"
       "Example: s7200 debug stl_programs/modbus_slave.stl -x \"continue 2s; send 01 03 00 00 00 02 crc; continue; regs\"");
   verb->callback([options, &exit_code] { exit_code = run_debug(*options); });
 }

@@ -40,7 +40,9 @@ Debugger::Debugger(serial::Simulation& simulation, std::ostream& out, const Debu
       stepper_(simulation, options.stop_request),
       power_up_(simulation.snapshot()) {
   stepper_.on_record = [this](const TraceRecord& record) { print_trace(record); };
-  stepper_.on_instruction = [this](const InstructionRecord& record, bool started_at) { print_instruction(record, started_at); };
+  stepper_.on_instruction = [this](const InstructionRecord& record, bool started_at) {
+    print_instruction(record, started_at);
+  };
   stepper_.on_answer = [this](const serial::Exchange& exchange) { print_answer(exchange); };
 }
 
@@ -135,7 +137,8 @@ void Debugger::report_change(const Change& change) {
   out_ << fmt::format("watch {}: {} was {}, is {}\n", change.watch.number, change.watch.address,
                       value_text(change.watch.range, change.watch.value), value_text(change.watch.range, change.value));
   if (change.by)
-    out_ << fmt::format("  by {} {}\n", listing_.routine_of(change.by->op), describe(*change.by, simulation_.cpu().program()));
+    out_ << fmt::format("  by {} {}\n", listing_.routine_of(change.by->op),
+                        describe(*change.by, simulation_.cpu().program()));
   else
     out_ << "  by the system, between two instructions\n";
 }
@@ -143,15 +146,16 @@ void Debugger::report_change(const Change& change) {
 void Debugger::report_cpu_stop() {
   const State& state = simulation_.cpu().state();
   if (state.fatal_code != 0) {
-    const auto place = state.fatal_op == kNoRoutine ? std::string("between two scans")
-                                                    : fmt::format("in {} line {}: {}", listing_.routine_of(state.fatal_op),
-                                                                  listing_.line_of(state.fatal_op), listing_.text_of(state.fatal_op));
+    const std::string place = state.fatal_op == kNoRoutine ? "between two scans" : "in " + op_text(state.fatal_op);
     out_ << fmt::format("the CPU went to STOP: fatal error {:04X}, {},\n  {}\n", state.fatal_code,
                         meaning_of(FatalError{state.fatal_code}), place);
   } else if (last_op_) {
-    out_ << fmt::format("the CPU went to STOP; the last instruction was in {} line {}: {}\n", listing_.routine_of(*last_op_),
-                        listing_.line_of(*last_op_), listing_.text_of(*last_op_));
+    out_ << fmt::format("the CPU went to STOP; the last instruction was in {}\n", op_text(*last_op_));
   }
+}
+
+std::string Debugger::op_text(std::uint32_t op) const {
+  return fmt::format("{} line {}: {}", listing_.routine_of(op), listing_.line_of(op), listing_.text_of(op));
 }
 
 void Debugger::print_answer(const serial::Exchange& exchange) { out_ << exchange_text(exchange, options_.master.timeout); }

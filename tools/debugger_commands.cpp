@@ -67,7 +67,7 @@ constexpr std::string_view kPlaces = "a line number, SBR n or INT n";
 const std::vector<Debugger::Command>& Debugger::commands() {
   static const std::vector<Command> kTable{
       {"step", "s", "step [n]", "execute one instruction, or n, going into CALL and interrupt routines",
-       "Each executed instruction is shown with its operands (inputs as before it, results as after it), S0 after it and its time.",
+       "Each executed instruction is shown with its operands (inputs before it, results after it), S0 after it, and its time.",
        &Debugger::step, true},
       {"over", "o", "over", "execute one instruction; a CALL with all that it calls, interrupts in between too",
        "Breakpoints and watches inside still stop.", &Debugger::over, true},
@@ -83,7 +83,7 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        &Debugger::restart},
       {"break", "b", "break [LINE | SBR n | INT n]", "stop in front of an instruction; alone: list breakpoints and watches",
        "A line without an instruction stands for the next one that has one.", &Debugger::set_break},
-      {"watch", "w", "watch ADDRESS[:COUNT]…", "stop behind the instruction that changes M31.7, VB100, VW100, VD4, AC0 …",
+      {"watch", "w", "watch ADDRESS[:COUNT]…", "stop behind the instruction that changes M31.7, VB100, VW100, AC0 …",
        "Interrupt routines too. The system changes memory as well: inputs, SM bits, SMB2 before INT of event 8.",
        &Debugger::watch},
       {"delete", "d", "delete N… | all", "remove breakpoints and watches", "", &Debugger::delete_stop},
@@ -228,7 +228,7 @@ Debugger::Error Debugger::restart(const Arguments& arguments) {
 // --- where to stop ---
 
 /// A place that a command names; nothing, and `why`, when there is no such place.
-std::optional<std::uint32_t> Debugger::find_place(const Arguments& arguments, std::string_view command, std::string& why) const {
+std::optional<std::uint32_t> Debugger::find_place(const Arguments& arguments, std::string_view command, std::string& why) {
   const std::string text = stl::upper_case(joined(arguments));
   const bool subroutine = text.starts_with("SBR"), interrupt = text.starts_with("INT");
   if (!subroutine && !interrupt) return op_of_line(text, command, why);
@@ -245,7 +245,7 @@ std::optional<std::uint32_t> Debugger::find_place(const Arguments& arguments, st
   return {};
 }
 
-std::optional<std::uint32_t> Debugger::op_of_line(const std::string& text, std::string_view command, std::string& why) const {
+std::optional<std::uint32_t> Debugger::op_of_line(const std::string& text, std::string_view command, std::string& why) {
   const auto line = parse_number(text);
   if (!line) {
     why = expects(command, kPlaces);
@@ -266,12 +266,14 @@ Debugger::Error Debugger::set_break(const Arguments& arguments) {
   std::string why;
   const auto op = find_place(arguments, "break", why);
   if (!op) return why;
-  const auto same = std::find_if(stepper_.breakpoints.begin(), stepper_.breakpoints.end(), [&](const Breakpoint& b) { return b.op == *op; });
-  const bool known = same != stepper_.breakpoints.end();
-  if (!known) stepper_.breakpoints.push_back({.number = next_number_++, .op = *op});
-  const int number = known ? same->number : stepper_.breakpoints.back().number;
-  out_ << fmt::format("breakpoint {}{} in {} line {}: {}\n", number, known ? " is already" : "", listing_.routine_of(*op),
-                      listing_.line_of(*op), listing_.text_of(*op));
+  std::vector<Breakpoint>& all = stepper_.breakpoints;
+  const auto same = std::find_if(all.begin(), all.end(), [&](const Breakpoint& b) { return b.op == *op; });
+  if (same != all.end()) {
+    out_ << fmt::format("breakpoint {} is already in {}\n", same->number, op_text(*op));
+    return {};
+  }
+  all.push_back({.number = next_number_++, .op = *op});
+  out_ << fmt::format("breakpoint {} in {}\n", all.back().number, op_text(*op));
   return {};
 }
 
@@ -291,8 +293,7 @@ Debugger::Error Debugger::watch(const Arguments& arguments) {
 void Debugger::list_stops() {
   const auto hits = [](std::uint64_t n) { return fmt::format("{} hit{}", n, n == 1 ? "" : "s"); };
   for (const Breakpoint& b : stepper_.breakpoints)
-    out_ << fmt::format("{:<3} break  {:>8}  {} line {}: {}\n", b.number, hits(b.hits), listing_.routine_of(b.op),
-                        listing_.line_of(b.op), listing_.text_of(b.op));
+    out_ << fmt::format("{:<3} break  {:>8}  {}\n", b.number, hits(b.hits), op_text(b.op));
   for (const Watch& w : stepper_.watches)
     out_ << fmt::format("{:<3} watch  {:>8}  {} is {}\n", w.number, hits(w.hits), w.address,
                         value_text(w.range, bytes_of(simulation_.cpu().state(), w.range)));
@@ -463,7 +464,10 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
   if (crc) words.pop_back();
   if (words.empty()) return expects("send", "a frame in hex, for example: send 01 03 00 00 00 02 crc");
   modbus::ParsedFrame parsed = modbus::parse_hex_frame(joined(words));
-  if (!parsed.ok()) return fmt::format("send: frame '{}', column {}: {}", joined(words), parsed.errors[0].column, parsed.errors[0].message);
+  if (!parsed.ok()) {
+    const modbus::FrameError& error = parsed.errors[0];
+    return fmt::format("send: frame '{}', column {}: {}", joined(words), error.column, error.message);
+  }
   if (crc) modbus::append_crc(parsed.frame);
   const SerialFormat format = options_.master.format_for(simulation_);
   if (modbus::has_wrong_parity(parsed.frame) && format.parity == Parity::None)
@@ -473,7 +477,8 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
     return {};
   }
   simulation_.master_uart().configure(format);
-  simulation_.master().start({.frame = parsed.frame, .timeout = options_.master.timeout, .gap = options_.master.gap}, simulation_.time());
+  const MasterOptions& master = options_.master;
+  simulation_.master().start({.frame = parsed.frame, .timeout = master.timeout, .gap = master.gap}, simulation_.time());
   out_ << fmt::format("on the line from now on: {} ({})\n", modbus::to_hex(parsed.frame), format_text(format));
   if (!simulation_.cpu().state().port.active) out_ << "port 0 is not in Freeport mode: the program will not hear it\n";
   return {};

@@ -60,8 +60,10 @@ std::string Listing::around(std::uint32_t line, std::size_t before, std::size_t 
   const auto place = static_cast<std::size_t>(found - entries_.begin());
   const std::size_t first = place - std::min(place, before), end = std::min(entries_.size(), first + count);
   std::string text;
-  for (std::size_t i = first; i < end; ++i)
-    text += fmt::format("{:>2} {:>5}  {}\n", entries_[i].op ? mark(*entries_[i].op) : "", entries_[i].line, entries_[i].text);
+  for (std::size_t i = first; i < end; ++i) {
+    const Entry& entry = entries_[i];
+    text += fmt::format("{:>2} {:>5}  {}\n", entry.op ? mark(*entry.op) : "", entry.line, entry.text);
+  }
   return text;
 }
 

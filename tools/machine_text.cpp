@@ -46,12 +46,11 @@ std::string calls_text(const State& state, const Listing& listing, std::uint32_t
 
 std::string where_text(const State& state, const Listing& listing) {
   if (state.mode == Mode::Stop) return "STOP: no program runs";
-  if (!state.in_interrupt)
-    return state.phase == Phase::Program ? calls_text(state, listing, state.pc) : std::string(phase_text(state.phase));
-  const std::string interrupted =
-      state.phase == Phase::Program ? calls_text(state, listing, state.saved.return_to) : std::string(phase_text(state.phase));
+  const std::uint32_t op = state.in_interrupt ? state.saved.return_to : state.pc;
+  const std::string scan = state.phase == Phase::Program ? calls_text(state, listing, op) : std::string(phase_text(state.phase));
+  if (!state.in_interrupt) return scan;
   return fmt::format("{}, serving {} since {}\n           interrupted: {}", line_text(listing, state.pc),
-                     event_text(state.serving_event), time_text(state.serving_since), interrupted);
+                     event_text(state.serving_event), time_text(state.serving_since), scan);
 }
 
 std::string accumulators_text(const State& state) {
@@ -107,11 +106,14 @@ std::string control_text(std::uint8_t control) {
 
 std::string routine_text(const State& state, std::uint8_t event) {
   const std::uint8_t routine = state.attached[event];
-  return routine == kNotAttached ? fmt::format("event {} is not attached", event) : fmt::format("event {} → INT {}", event, routine);
+  if (routine == kNotAttached) return fmt::format("event {} is not attached", event);
+  return fmt::format("event {} → INT {}", event, routine);
 }
 
 std::string receiver_text(const State& state) {
-  const std::string_view is = !state.port.active ? "off: not in Freeport mode" : state.port.transmitting ? "off while sending" : "on";
+  std::string_view is = "on";
+  if (state.port.transmitting) is = "off while sending";
+  if (!state.port.active) is = "off: not in Freeport mode";
   return fmt::format("receiver   {}; {}; SMB2 = 16#{:02X}, parity error SM3.0 = {}", is, routine_text(state, kReceiveEvent),
                      state.image[image::kSM + 2], state.image[image::kSM + 3] & 1);
 }
@@ -129,7 +131,8 @@ std::string master_text(const serial::Master::State& master) {
   const std::string request = modbus::to_hex(master.request.frame);
   switch (master.phase) {
     case Phase::Idle: return master.request.frame.empty() ? "has sent nothing" : "idle";
-    case Phase::Sending: return fmt::format("sending {}: character {} of {}", request, master.sent, master.request.frame.size());
+    case Phase::Sending:
+      return fmt::format("sending {}: character {} of {}", request, master.sent, master.request.frame.size());
     case Phase::Waiting: return fmt::format("waiting for an answer to {}", request);
     case Phase::Receiving: return fmt::format("receiving: {}", modbus::to_hex(master.exchange.response_bytes()));
   }
@@ -153,11 +156,12 @@ std::string place_text(const Cpu& cpu, const Listing& listing) {
 
 std::string registers_text(const Cpu& cpu, const Listing& listing) {
   const State& state = cpu.state();
-  std::string text = fmt::format("time       {}, {}, {} instructions\n", time_text(state.time), scan_text(state), state.instructions);
+  std::string text = fmt::format("time       {}, {}, {} instructions\n", time_text(state.time), scan_text(state),
+                                 state.instructions);
   text += fmt::format("where      {}\n", where_text(state, listing));
   text += accumulators_text(state);
   text += fmt::format("flags      {}\n", flags_text(state.image[image::kSM1]));
-  text += fmt::format("interrupts {}\n", state.interrupts_enabled ? "enabled (ENI)" : "disabled; events of attached routines wait");
+  text += fmt::format("interrupts {}\n", state.interrupts_enabled ? "enabled (ENI)" : "disabled (DISI, or no ENI yet)");
   for (std::size_t queue = 0; queue < kQueues; ++queue)
     text += fmt::format("{:<11}{}\n", queue == 0 ? "waiting" : "", queue_text(state, queue, *cpu.program().model));
   return text + attachments_text(state);
@@ -188,7 +192,8 @@ std::string value_text(const MemoryRange& range, std::span<const std::uint8_t> b
   switch (range.width) {
     case Width::Bit: return fmt::format("{}", bytes[0]);
     case Width::Byte: return fmt::format("16#{:02X} ({})", bytes[0], bytes[0]);
-    case Width::Word: return fmt::format("16#{:04X} ({})", load16(bytes.data()), static_cast<std::int16_t>(load16(bytes.data())));
+    case Width::Word:
+      return fmt::format("16#{:04X} ({})", load16(bytes.data()), static_cast<std::int16_t>(load16(bytes.data())));
     case Width::Double:
       return fmt::format("16#{:08X} ({})", load32(bytes.data()), static_cast<std::int32_t>(load32(bytes.data())));
   }

@@ -36,7 +36,8 @@ Stop Stepper::run(const Goal& goal, Time limit, bool stop_at_answer) {
 
 bool Stepper::before(std::uint32_t op) {
   note_changes(nullptr);
-  const bool at_start = !reached_start_ && op == start_op_ && simulation_.cpu().state().in_interrupt == started_in_interrupt_;
+  const bool in_interrupt = simulation_.cpu().state().in_interrupt;
+  const bool at_start = !reached_start_ && op == start_op_ && in_interrupt == started_in_interrupt_;
   if (const auto reason = reason_to_stop(op, at_start)) {
     stop_.reason = *reason;
     return false;

@@ -55,12 +55,17 @@ constexpr std::string_view kEcho =
     "INCW    VW40\n"
     "RETI\n";
 
+std::shared_ptr<const Program> program_of(std::string_view text) {
+  return check_text(text, "test.stl", cpu214(), default_times(cpu214())).program;
+}
+
 struct Session {
-  explicit Session(std::shared_ptr<const Program> program, const std::atomic<bool>* stop_request = nullptr) : simulation(program) {
+  explicit Session(std::shared_ptr<const Program> program, const std::atomic<bool>* stop_request = nullptr)
+      : simulation(program) {
     simulation.power_up();
     debugger = std::make_unique<Debugger>(simulation, out, DebuggerOptions{.stop_request = stop_request});
   }
-  explicit Session(std::string_view text) : Session(check_text(text, "test.stl", cpu214(), default_times(cpu214())).program) {}
+  explicit Session(std::string_view text) : Session(program_of(text)) {}
 
   /// What good commands print.
   std::string operator()(std::string_view commands) {
@@ -179,7 +184,7 @@ TEST(Debugger, UntilTheLineItStandsAtGoesOnceAround) {
 
 TEST(Debugger, StopRequestEndsARun) {
   std::atomic<bool> stop = true;
-  Session session(check_text(kNested, "test.stl", cpu214(), default_times(cpu214())).program, &stop);
+  Session session(program_of(kNested), &stop);
   EXPECT_TRUE(has(session("continue 1h"), "Ctrl-C"));
   EXPECT_LT(session.simulation.time(), kSecond);
 }
@@ -330,7 +335,7 @@ TEST(Debugger, RestartKeepsBreakpointsAndIsTakenBack) {
 // --- observing changes nothing ---
 
 TEST(Debugger, SteppedRunAndPlainRunEndInTheSameState) {
-  const auto program = check_text(kEcho, "test.stl", cpu214(), default_times(cpu214())).program;
+  const auto program = program_of(kEcho);
   Session session(program);
   session("trace on; display VB0:4; watch VW40 SM0.6; break INT 1; break 6");
   session("step 9; over; scan; continue; send 5a; continue; regs; stack; port; errors; list; out");
@@ -424,20 +429,23 @@ TEST(Debugger, CommandsMayBeCutShortWhileTheyStayClear) {
 TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
   Session session(kNested);
   const std::pair<std::string_view, std::string_view> wrong[] = {
-      {"jump", "unknown command 'jump'; 'help' lists them"},
-      {"step x", "step expects how many"}, {"step 0", "step expects how many"}, {"scan -1", "scan expects how many"},
-      {"over 3", "over takes no argument"}, {"out now", "out takes no argument"}, {"back x", "back expects how many"},
-      {"continue 5", "continue expects a duration"}, {"continue 0s", "continue expects a duration"},
-      {"until", "until expects a line number, SBR n or INT n"}, {"break main", "break expects a line number, SBR n or INT n"},
-      {"break SBR", "break expects a line number, SBR n or INT n"}, {"break INT x", "break expects a line number, SBR n or INT n"},
-      {"break SBR 9", "the program has no SBR 9"}, {"break 99", "the last instruction is in line 22"},
-      {"list 99", "the last instruction is in line 22"},
+      {"jump", "unknown command 'jump'; 'help' lists them"}, {"step x", "step expects how many"},
+      {"step 0", "step expects how many"}, {"scan -1", "scan expects how many"},
+      {"over 3", "over takes no argument"}, {"out now", "out takes no argument"},
+      {"back x", "back expects how many"}, {"continue 5", "continue expects a duration"},
+      {"continue 0s", "continue expects a duration"}, {"until", "until expects a line number, SBR n or INT n"},
+      {"break main", "break expects a line number, SBR n or INT n"},
+      {"break SBR", "break expects a line number, SBR n or INT n"},
+      {"break INT x", "break expects a line number, SBR n or INT n"}, {"break SBR 9", "the program has no SBR 9"},
+      {"break 99", "the last instruction is in line 22"}, {"list 99", "the last instruction is in line 22"},
       {"watch", "watch expects an address"}, {"watch X1", "is no address"}, {"delete", "delete expects numbers"},
-      {"delete x", "delete expects numbers"}, {"delete 7", "there is no breakpoint or watch 7"}, {"regs 1", "takes no argument"},
-      {"print", "print expects addresses"}, {"print VB99999", "is not on CPU 214"}, {"set", "set expects an address and a value"},
+      {"delete x", "delete expects numbers"}, {"delete 7", "there is no breakpoint or watch 7"},
+      {"regs 1", "takes no argument"}, {"print", "print expects addresses"},
+      {"print VB99999", "is not on CPU 214"}, {"set", "set expects an address and a value"},
       {"set VB0=300", "a value that fits"}, {"set =5", "is no address"}, {"input Q0.0=1", "is no input"},
-      {"input", "input expects an input"}, {"send", "send expects a frame in hex"}, {"send crc", "send expects a frame in hex"},
-      {"send 0g", "column 2: 'g' is no hex digit"}, {"trace", "trace expects on or off"}, {"help x", "unknown command 'x'"}, {"quit 1", "takes no argument"},
+      {"input", "input expects an input"}, {"send", "send expects a frame in hex"},
+      {"send crc", "send expects a frame in hex"}, {"send 0g", "column 2: 'g' is no hex digit"},
+      {"trace", "trace expects on or off"}, {"help x", "unknown command 'x'"}, {"quit 1", "takes no argument"},
   };
   const auto before = session.simulation.snapshot();
   for (const auto& [command, message] : wrong) EXPECT_TRUE(has(session.error_of(command), message)) << command;
