@@ -102,8 +102,10 @@ int run_debug(const DebugOptions& options) {
   debugger.show_place();
   bool good = !given || run_given(debugger, script, options);
   if (good && (!given || options.interactive)) {
-    if (terminal) talk(debugger);
-    else good = run_script(debugger, std::cin, "standard input");
+    if (terminal)
+      talk(debugger);
+    else
+      good = run_script(debugger, std::cin, "standard input");
   }
   std::cout.flush();
   return good ? exit_code_of(simulation.cpu()) : kUnusable;
@@ -113,7 +115,8 @@ int run_debug(const DebugOptions& options) {
 
 void add_debug(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DebugOptions>();
-  CLI::App* verb = app.add_subcommand("debug", "step through a program: breakpoints, watches, frames on its port, and back again");
+  CLI::App* verb =
+      app.add_subcommand("debug", "step through a program: breakpoints, watches, frames on its port, and back again");
   options->program.add_to(*verb);
   verb->add_option("--commands", options->commands_file, "commands to execute, one a line; # begins a comment")
       ->type_name("FILE");

@@ -119,7 +119,8 @@ void Debugger::report_reason(const Stop& stop, const Run& run) {
   switch (stop.reason) {
     case StopReason::Goal:
     case StopReason::Watch:
-    case StopReason::Answer: return;
+    case StopReason::Answer:
+      return;
     case StopReason::Breakpoint:
       out_ << fmt::format("breakpoint {}, hit {}\n", stop.breakpoint.number,
                           stop.breakpoint.hits == 1 ? "for the first time" : fmt::format("{} times", stop.breakpoint.hits));
@@ -128,8 +129,12 @@ void Debugger::report_reason(const Stop& stop, const Run& run) {
       out_ << fmt::format("{} of simulated time passed with nothing to stop for{}\n", format_duration(run.limit),
                           run.limit == kDefaultLimit ? " (the limit; 'continue TIME' sets another)" : "");
       return;
-    case StopReason::Request: out_ << "interrupted by Ctrl-C\n"; return;
-    case StopReason::CpuStopped: report_cpu_stop(); return;
+    case StopReason::Request:
+      out_ << "interrupted by Ctrl-C\n";
+      return;
+    case StopReason::CpuStopped:
+      report_cpu_stop();
+      return;
   }
 }
 

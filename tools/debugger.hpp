@@ -131,15 +131,15 @@ class Debugger {
   Listing listing_;
   Stepper stepper_;
   serial::Simulation::Snapshot power_up_;
-  std::deque<Kept> kept_;               ///< newest last
+  std::deque<Kept> kept_;  ///< newest last
   std::vector<MemoryRange> displayed_;
-  std::optional<std::uint32_t> last_op_;  ///< executed last
+  std::optional<std::uint32_t> last_op_;    ///< executed last
   std::optional<TraceRecord> first_error_;  ///< run-time error of the run under way
   Show show_ = Show::None;
-  int next_number_ = 1;                 ///< of a breakpoint or watch
+  int next_number_ = 1;  ///< of a breakpoint or watch
   bool tracing_ = false;
   bool quit_asked_ = false;
-  std::string command_;                 ///< being executed, as written
+  std::string command_;  ///< being executed, as written
   std::string repeatable_;
 };
 

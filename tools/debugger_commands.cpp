@@ -49,8 +49,10 @@ std::vector<std::string> assignments_of(const std::vector<std::string>& argument
   std::vector<std::string> texts;
   bool open = false;
   for (const std::string& argument : arguments) {
-    if ((open || argument.front() == '=') && !texts.empty()) texts.back() += argument;
-    else texts.push_back(argument);
+    if ((open || argument.front() == '=') && !texts.empty())
+      texts.back() += argument;
+    else
+      texts.push_back(argument);
     open = argument.back() == '=';
   }
   return texts;
@@ -67,7 +69,8 @@ constexpr std::string_view kPlaces = "a line number, SBR n or INT n";
 const std::vector<Debugger::Command>& Debugger::commands() {
   static const std::vector<Command> kTable{
       {"step", "s", "step [n]", "execute one instruction, or n, going into CALL and interrupt routines",
-       "Each executed instruction is shown with its operands (inputs before it, results after it), S0 after it, and its time.",
+       "Each executed instruction is shown with its operands (inputs before it, results after it), S0 after it, and its "
+       "time.",
        &Debugger::step, true},
       {"over", "o", "over", "execute one instruction; a CALL with all that it calls, interrupts in between too",
        "Breakpoints and watches inside still stop.", &Debugger::over, true},
@@ -171,8 +174,8 @@ Debugger::Error Debugger::scan(const Arguments& arguments) {
   if (!count) return expects("scan", "how many scans, for example: scan 3");
   const std::uint64_t target = simulation_.cpu().state().scans + *count;
   go({.goal = [target](const State& state, std::uint32_t, const Stepper::Progress&) {
-        return state.scans >= target && !state.in_interrupt;
-      }});
+    return state.scans >= target && !state.in_interrupt;
+  }});
   return {};
 }
 
@@ -252,7 +255,8 @@ std::optional<std::uint32_t> Debugger::op_of_line(const std::string& text, std::
     return {};
   }
   const auto op = listing_.op_from_line(*line);
-  if (!op) why = fmt::format("the last instruction is in line {}", listing_.last_line());
+  if (!op)
+    why = fmt::format("the last instruction is in line {}", listing_.last_line());
   else if (listing_.line_of(*op) != *line)
     out_ << fmt::format("line {} has no instruction; the next one is in line {}\n", *line, listing_.line_of(*op));
   return op;

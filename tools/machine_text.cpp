@@ -23,11 +23,16 @@ std::string scan_text(const State& state) { return fmt::format("scan {}", state.
 
 std::string_view phase_text(Phase phase) {
   switch (phase) {
-    case Phase::ReadInputs: return "the system reading the inputs";
-    case Phase::Program: return "the program";
-    case Phase::Communication: return "the system's communication";
-    case Phase::SelfTest: return "the system's self-test";
-    case Phase::WriteOutputs: return "the system writing the outputs";
+    case Phase::ReadInputs:
+      return "the system reading the inputs";
+    case Phase::Program:
+      return "the program";
+    case Phase::Communication:
+      return "the system's communication";
+    case Phase::SelfTest:
+      return "the system's self-test";
+    case Phase::WriteOutputs:
+      return "the system writing the outputs";
   }
   return {};
 }
@@ -47,7 +52,8 @@ std::string calls_text(const State& state, const Listing& listing, std::uint32_t
 std::string where_text(const State& state, const Listing& listing) {
   if (state.mode == Mode::Stop) return "STOP: no program runs";
   const std::uint32_t op = state.in_interrupt ? state.saved.return_to : state.pc;
-  const std::string scan = state.phase == Phase::Program ? calls_text(state, listing, op) : std::string(phase_text(state.phase));
+  const std::string scan =
+      state.phase == Phase::Program ? calls_text(state, listing, op) : std::string(phase_text(state.phase));
   if (!state.in_interrupt) return scan;
   return fmt::format("{}, serving {} since {}\n           interrupted: {}", line_text(listing, state.pc),
                      event_text(state.serving_event), time_text(state.serving_since), scan);
@@ -130,11 +136,14 @@ std::string master_text(const serial::Master::State& master) {
   using Phase = serial::Master::Phase;
   const std::string request = modbus::to_hex(master.request.frame);
   switch (master.phase) {
-    case Phase::Idle: return master.request.frame.empty() ? "has sent nothing" : "idle";
+    case Phase::Idle:
+      return master.request.frame.empty() ? "has sent nothing" : "idle";
     case Phase::Sending:
       return fmt::format("sending {}: character {} of {}", request, master.sent, master.request.frame.size());
-    case Phase::Waiting: return fmt::format("waiting for an answer to {}", request);
-    case Phase::Receiving: return fmt::format("receiving: {}", modbus::to_hex(master.exchange.response_bytes()));
+    case Phase::Waiting:
+      return fmt::format("waiting for an answer to {}", request);
+    case Phase::Receiving:
+      return fmt::format("receiving: {}", modbus::to_hex(master.exchange.response_bytes()));
   }
   return {};
 }
@@ -156,8 +165,8 @@ std::string place_text(const Cpu& cpu, const Listing& listing) {
 
 std::string registers_text(const Cpu& cpu, const Listing& listing) {
   const State& state = cpu.state();
-  std::string text = fmt::format("time       {}, {}, {} instructions\n", time_text(state.time), scan_text(state),
-                                 state.instructions);
+  std::string text =
+      fmt::format("time       {}, {}, {} instructions\n", time_text(state.time), scan_text(state), state.instructions);
   text += fmt::format("where      {}\n", where_text(state, listing));
   text += accumulators_text(state);
   text += fmt::format("flags      {}\n", flags_text(state.image[image::kSM1]));
@@ -190,8 +199,10 @@ std::string port_text(const serial::Simulation& simulation) {
 std::string value_text(const MemoryRange& range, std::span<const std::uint8_t> bytes) {
   if (range.count > 1) return modbus::to_hex(bytes);
   switch (range.width) {
-    case Width::Bit: return fmt::format("{}", bytes[0]);
-    case Width::Byte: return fmt::format("16#{:02X} ({})", bytes[0], bytes[0]);
+    case Width::Bit:
+      return fmt::format("{}", bytes[0]);
+    case Width::Byte:
+      return fmt::format("16#{:02X} ({})", bytes[0], bytes[0]);
     case Width::Word:
       return fmt::format("16#{:04X} ({})", load16(bytes.data()), static_cast<std::int16_t>(load16(bytes.data())));
     case Width::Double:

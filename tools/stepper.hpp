@@ -24,7 +24,7 @@ struct Breakpoint {
 struct Watch {
   int number = 0;
   MemoryRange range;
-  std::string address;              ///< as the user wrote it
+  std::string address;  ///< as the user wrote it
   std::uint64_t hits = 0;
   std::vector<std::uint8_t> value{};  ///< as last seen, like bytes_of()
 };
@@ -89,11 +89,11 @@ class Stepper final : public TraceSink {
   Time limit_ = 0;
   bool stop_at_answer_ = false;
   bool awaiting_answer_ = false;
-  bool standing_ = false;            ///< it started in front of an instruction
-  bool reached_start_ = false;       ///< that, or the first one after power-up, has come
+  bool standing_ = false;       ///< it started in front of an instruction
+  bool reached_start_ = false;  ///< that, or the first one after power-up, has come
   std::uint32_t start_op_ = 0;
   bool started_in_interrupt_ = false;
-  bool executing_start_ = false;     ///< the instruction being executed is the one it started at
+  bool executing_start_ = false;  ///< the instruction being executed is the one it started at
   Progress progress_;
   Stop stop_;
 };

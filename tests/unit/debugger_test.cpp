@@ -13,28 +13,28 @@ namespace {
 
 /// Two subroutines and a timed interrupt every 5 ms; VW10 counts scans, VW30 interrupts.
 constexpr std::string_view kNested =
-    "LD      SM0.1\n"        // 1
-    "CALL    1\n"            // 2
-    "LD      SM0.0\n"        // 3
+    "LD      SM0.1\n"                             // 1
+    "CALL    1\n"                                 // 2
+    "LD      SM0.0\n"                             // 3
     "INCW    VW10            // one more scan\n"  // 4
-    "MEND\n"                 // 5
-    "\n"                     // 6
-    "// The first\n"         // 7
-    "SBR     1\n"            // 8
-    "LD      SM0.0\n"        // 9
-    "MOVB    5, SMB34\n"     // 10
-    "ATCH    0, 10\n"        // 11
-    "ENI\n"                  // 12
-    "CALL    2\n"            // 13
-    "RET\n"                  // 14
-    "SBR     2\n"            // 15
-    "LD      SM0.0\n"        // 16
-    "MOVW    7, VW20\n"      // 17
-    "RET\n"                  // 18
-    "INT     0\n"            // 19
-    "LD      SM0.0\n"        // 20
-    "INCW    VW30\n"         // 21
-    "RETI\n";                // 22
+    "MEND\n"                                      // 5
+    "\n"                                          // 6
+    "// The first\n"                              // 7
+    "SBR     1\n"                                 // 8
+    "LD      SM0.0\n"                             // 9
+    "MOVB    5, SMB34\n"                          // 10
+    "ATCH    0, 10\n"                             // 11
+    "ENI\n"                                       // 12
+    "CALL    2\n"                                 // 13
+    "RET\n"                                       // 14
+    "SBR     2\n"                                 // 15
+    "LD      SM0.0\n"                             // 16
+    "MOVW    7, VW20\n"                           // 17
+    "RET\n"                                       // 18
+    "INT     0\n"                                 // 19
+    "LD      SM0.0\n"                             // 20
+    "INCW    VW30\n"                              // 21
+    "RETI\n";                                     // 22
 
 /// Sends each character back. I0.0 is an interrupt as well.
 constexpr std::string_view kEcho =
@@ -44,13 +44,13 @@ constexpr std::string_view kEcho =
     "ATCH    2, 0\n"
     "ENI\n"
     "MEND\n"
-    "INT     1\n"            // 7
+    "INT     1\n"  // 7
     "LD      SM0.0\n"
     "MOVB    SMB2, VB1\n"
     "MOVB    1, VB0\n"
     "XMT     VB0, 0\n"
     "RETI\n"
-    "INT     2\n"            // 13
+    "INT     2\n"  // 13
     "LD      SM0.0\n"
     "INCW    VW40\n"
     "RETI\n";
@@ -429,23 +429,41 @@ TEST(Debugger, CommandsMayBeCutShortWhileTheyStayClear) {
 TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
   Session session(kNested);
   const std::pair<std::string_view, std::string_view> wrong[] = {
-      {"jump", "unknown command 'jump'; 'help' lists them"}, {"step x", "step expects how many"},
-      {"step 0", "step expects how many"}, {"scan -1", "scan expects how many"},
-      {"over 3", "over takes no argument"}, {"out now", "out takes no argument"},
-      {"back x", "back expects how many"}, {"continue 5", "continue expects a duration"},
-      {"continue 0s", "continue expects a duration"}, {"until", "until expects a line number, SBR n or INT n"},
+      {"jump", "unknown command 'jump'; 'help' lists them"},
+      {"step x", "step expects how many"},
+      {"step 0", "step expects how many"},
+      {"scan -1", "scan expects how many"},
+      {"over 3", "over takes no argument"},
+      {"out now", "out takes no argument"},
+      {"back x", "back expects how many"},
+      {"continue 5", "continue expects a duration"},
+      {"continue 0s", "continue expects a duration"},
+      {"until", "until expects a line number, SBR n or INT n"},
       {"break main", "break expects a line number, SBR n or INT n"},
       {"break SBR", "break expects a line number, SBR n or INT n"},
-      {"break INT x", "break expects a line number, SBR n or INT n"}, {"break SBR 9", "the program has no SBR 9"},
-      {"break 99", "the last instruction is in line 22"}, {"list 99", "the last instruction is in line 22"},
-      {"watch", "watch expects an address"}, {"watch X1", "is no address"}, {"delete", "delete expects numbers"},
-      {"delete x", "delete expects numbers"}, {"delete 7", "there is no breakpoint or watch 7"},
-      {"regs 1", "takes no argument"}, {"print", "print expects addresses"},
-      {"print VB99999", "is not on CPU 214"}, {"set", "set expects an address and a value"},
-      {"set VB0=300", "a value that fits"}, {"set =5", "is no address"}, {"input Q0.0=1", "is no input"},
-      {"input", "input expects an input"}, {"send", "send expects a frame in hex"},
-      {"send crc", "send expects a frame in hex"}, {"send 0g", "column 2: 'g' is no hex digit"},
-      {"trace", "trace expects on or off"}, {"help x", "unknown command 'x'"}, {"quit 1", "takes no argument"},
+      {"break INT x", "break expects a line number, SBR n or INT n"},
+      {"break SBR 9", "the program has no SBR 9"},
+      {"break 99", "the last instruction is in line 22"},
+      {"list 99", "the last instruction is in line 22"},
+      {"watch", "watch expects an address"},
+      {"watch X1", "is no address"},
+      {"delete", "delete expects numbers"},
+      {"delete x", "delete expects numbers"},
+      {"delete 7", "there is no breakpoint or watch 7"},
+      {"regs 1", "takes no argument"},
+      {"print", "print expects addresses"},
+      {"print VB99999", "is not on CPU 214"},
+      {"set", "set expects an address and a value"},
+      {"set VB0=300", "a value that fits"},
+      {"set =5", "is no address"},
+      {"input Q0.0=1", "is no input"},
+      {"input", "input expects an input"},
+      {"send", "send expects a frame in hex"},
+      {"send crc", "send expects a frame in hex"},
+      {"send 0g", "column 2: 'g' is no hex digit"},
+      {"trace", "trace expects on or off"},
+      {"help x", "unknown command 'x'"},
+      {"quit 1", "takes no argument"},
   };
   const auto before = session.simulation.snapshot();
   for (const auto& [command, message] : wrong) EXPECT_TRUE(has(session.error_of(command), message)) << command;
