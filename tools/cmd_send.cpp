@@ -32,12 +32,6 @@ struct SendOptions {
 
 constexpr Time kReadyWithin = 60 * kSecond;
 
-void append_crc(modbus::Frame& frame) {
-  modbus::Bytes bytes = modbus::bytes_of(frame);
-  modbus::add_crc(bytes);
-  for (std::size_t i = frame.size(); i < bytes.size(); ++i) frame.push_back({bytes[i], false});
-}
-
 /// All frames of the command line and the file; a message and false when one is no frame.
 bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames) {
   struct Written {
@@ -71,30 +65,10 @@ bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames)
       print_error(fmt::format("{}: column {}: {}", w.place, parsed.errors[0].column, parsed.errors[0].message));
       return false;
     }
-    if (options.crc) append_crc(parsed.frame);
+    if (options.crc) modbus::append_crc(parsed.frame);
     frames.push_back(std::move(parsed.frame));
   }
   return true;
-}
-
-/// What the line looked like to the master, when more than bytes came.
-std::string errors_of(const serial::Exchange& exchange) {
-  std::string text;
-  if (exchange.parity_error()) text += ", parity errors";
-  if (exchange.framing_error()) text += ", framing errors";
-  if (exchange.too_long) text += ", cut off";
-  return text;
-}
-
-void print_exchange(const serial::Exchange& exchange, Time timeout) {
-  const modbus::Bytes request = modbus::bytes_of(exchange.request), response = exchange.response_bytes();
-  fmt::print("request  {}\n", modbus::to_hex(exchange.request));
-  if (exchange.timed_out) {
-    fmt::print("answer   none within {}\n", format_duration(timeout));
-    return;
-  }
-  fmt::print("answer   {}   after {}\n         {}{}\n", modbus::to_hex(response), format_duration(*exchange.latency()),
-             modbus::describe(request, response), errors_of(exchange));
 }
 
 nlohmann::ordered_json to_json(const serial::Exchange& exchange) {
@@ -160,7 +134,7 @@ int run_send(SendOptions& options) {
       json.push_back(to_json(exchange));
       if (options.timeline) json.back()["timeline"] = to_json(timeline.report(), exchange);
     } else {
-      print_exchange(exchange, options.master.timeout);
+      fmt::print("{}", exchange_text(exchange, options.master.timeout));
       if (options.timeline) fmt::print("{}\n", to_text(timeline.report(), exchange, colour_wanted(stdout)));
     }
     const Time pause = options.pause == kNever ? serial::Simulation::default_quiet(format) : options.pause;
