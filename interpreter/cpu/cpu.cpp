@@ -6,11 +6,7 @@
 namespace s7200 {
 
 Cpu::Cpu(std::shared_ptr<const Program> program, EventQueue& queue, SerialPort& port)
-    : program_(std::move(program)),
-      ops_(program_->ops.data()),
-      reach_(program_->reach.data()),
-      queue_(queue),
-      port_(port) {
+    : program_(std::move(program)), ops_(program_->ops.data()), reach_(program_->reach.data()), queue_(queue), port_(port) {
   s.attached.fill(kNotAttached);
 }
 
@@ -32,7 +28,8 @@ void Cpu::power_up(bool run) {
 
 void Cpu::run(Time limit) {
   paused_ = false;
-  while (s.time < limit && !paused_) {
+  const Mode mode = s.mode;
+  while (s.time < limit && !paused_ && s.mode == mode) {
     const Time event = queue_.next();
     if (event <= s.time) return;
     if (s.watchdog <= s.time) {

@@ -9,6 +9,7 @@
 #include "interpreter/program/operands.hpp"
 #include "interpreter/program/structure.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/stl/text.hpp"
 
 namespace s7200 {
 namespace {
@@ -58,7 +59,7 @@ class Checker {
     const Instruction* instruction = find_instruction(statement.mnemonic);
     if (!instruction) {
       const std::string_view nearest = nearest_mnemonic(statement.mnemonic);
-      error(statement.position, fmt::format("unknown instruction '{}'", statement.mnemonic),
+      error(statement.position, fmt::format("unknown instruction '{}'", stl::shortened(statement.mnemonic)),
             nearest.empty() ? "" : fmt::format("is {} meant?", nearest));
       return nullptr;
     }
@@ -68,7 +69,8 @@ class Checker {
       return nullptr;
     }
     if (!instruction->body) {
-      error(statement.position, fmt::format("{} is not modelled yet", statement.mnemonic));
+      error(statement.position, fmt::format("{} is not modelled yet", statement.mnemonic),
+            "`s7200 instructions` lists what is");
       return nullptr;
     }
     return instruction;
