@@ -37,7 +37,14 @@ constexpr Wiring kWiring[] = {
 };
 
 enum Control : std::uint8_t {
-  kResetLow = 1, kStartLow = 2, kSingleRate = 4, kUp = 8, kTakeDirection = 16, kTakePreset = 32, kTakeCurrent = 64, kEnable = 128
+  kResetLow = 1,
+  kStartLow = 2,
+  kSingleRate = 4,
+  kUp = 8,
+  kTakeDirection = 16,
+  kTakePreset = 32,
+  kTakeCurrent = 64,
+  kEnable = 128
 };
 
 bool has_reset(std::uint8_t mode) { return mode % 3 != 0; }
@@ -76,8 +83,9 @@ void Cpu::program_counter(std::uint8_t number) {
 void Cpu::show_counter(std::uint8_t number) {
   const HighSpeedCounter& counter = s.counter[number];
   store32(&s.image[image::kHC + 4u * number], static_cast<std::uint32_t>(counter.current));
-  s.image[kWiring[number].special_memory] = static_cast<std::uint8_t>(
-      (counter.up ? 0x20 : 0) | (counter.current == counter.preset ? 0x40 : 0) | (counter.current > counter.preset ? 0x80 : 0));
+  s.image[kWiring[number].special_memory] =
+      static_cast<std::uint8_t>((counter.up ? 0x20 : 0) | (counter.current == counter.preset ? 0x40 : 0) |
+                                (counter.current > counter.preset ? 0x80 : 0));
 }
 
 void Cpu::count(std::uint8_t number, bool up, Time at) {
@@ -121,8 +129,10 @@ void Cpu::counter_sees(std::uint8_t number, std::uint8_t point, bool level, Time
   if (group == 2 && level && point == wiring.direction) count(number, false, at);
   if (group == 3 && (point == wiring.clock || point == wiring.direction)) {
     const bool a = input(wiring.clock), b = input(wiring.direction);
-    if (!counter.single_rate) count(number, point == wiring.clock ? a != b : a == b, at);  // A ahead of B counts up
-    else if (point == wiring.clock && !b) count(number, level, at);
+    if (!counter.single_rate)
+      count(number, point == wiring.clock ? a != b : a == b, at);  // A ahead of B counts up
+    else if (point == wiring.clock && !b)
+      count(number, level, at);
   }
 }
 

@@ -77,7 +77,8 @@ class Checker {
   bool place_operands(const Instruction& instruction, const stl::Statement& statement) {
     const std::size_t given = statement.operands.size();
     if (given != instruction.operands) {
-      const stl::Position at = given > instruction.operands ? statement.operands[instruction.operands].position : statement.position;
+      const stl::Position at =
+          given > instruction.operands ? statement.operands[instruction.operands].position : statement.position;
       error(at, fmt::format("{} takes {}, not {}", instruction.mnemonic, counted(instruction.operands), given),
             fmt::format("write {}", syntax(instruction)));
       return false;
@@ -85,7 +86,8 @@ class Checker {
     bool good = true;
     auto& placed = placed_.back();
     for (std::size_t i = 0; i < given; ++i) {
-      const auto operand = place_operand(instruction, instruction.operand[i], statement.operands[i], model_, constants_, diagnostics_);
+      const auto operand =
+          place_operand(instruction, instruction.operand[i], statement.operands[i], model_, constants_, diagnostics_);
       if (operand) placed[i] = *operand;
       good = good && operand;
     }
@@ -139,9 +141,11 @@ class Checker {
 
   void check_size() {
     if (statements_.size() > model_.program_words)
-      error(statements_[model_.program_words].statement->position,
-            fmt::format("the program is too large: {} instructions of at least one word each, CPU {} has {} words (compile rule 0080)",
-                        statements_.size(), model_.name, model_.program_words));
+      error(
+          statements_[model_.program_words].statement->position,
+          fmt::format(
+              "the program is too large: {} instructions of at least one word each, CPU {} has {} words (compile rule 0080)",
+              statements_.size(), model_.name, model_.program_words));
     if (constants_.bytes().size() > image::kSize - image::kConstants)
       error({1, 1, 1}, "the program has too many different constants (compile rule 0080)");
   }
@@ -212,8 +216,11 @@ class Checker {
     const Operand& first = op.operand[0];
     Operand& hidden = op.operand[2];
     switch (op.instruction->hidden) {
-      case Hidden::None: break;
-      case Hidden::InputPoint: op.operand[0].at += image::kInputs - image::kI; break;
+      case Hidden::None:
+        break;
+      case Hidden::InputPoint:
+        op.operand[0].at += image::kInputs - image::kI;
+        break;
       case Hidden::OutputPoint:
         hidden = first;
         hidden.at += image::kOutputs - image::kQ;
@@ -223,8 +230,12 @@ class Checker {
         hidden = {.at = image::kEdges + edges_ / 8, .bit = static_cast<std::uint8_t>(edges_ % 8)};
         ++edges_;
         break;
-      case Hidden::Number: hidden = {.at = (first.at - (first.at < image::kC ? image::kT : image::kC)) / 2}; break;
-      case Hidden::SegmentBit: hidden = segment[0].operand; break;
+      case Hidden::Number:
+        hidden = {.at = (first.at - (first.at < image::kC ? image::kT : image::kC)) / 2};
+        break;
+      case Hidden::SegmentBit:
+        hidden = segment[0].operand;
+        break;
     }
   }
 
@@ -255,8 +266,11 @@ CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTabl
 
 TimeTable default_times(const CpuModel& model) {
   TimeTable times;
-  [[maybe_unused]] const auto errors = times.add(model.times_csv, std::string("times of CPU ").append(model.name));
-  assert(errors.empty());
+  for (const std::string_view csv : model.times_csv) {
+    if (csv.empty()) continue;
+    [[maybe_unused]] const auto errors = times.add(csv, std::string("times of CPU ").append(model.name));
+    assert(errors.empty());
+  }
   return times;
 }
 
