@@ -71,7 +71,7 @@ inline std::string at_rate(const std::string& text, const RateSetting& rate) {
 
 /// Counts what happened; with `instructions`, sees every one of them too.
 struct CountingSink : TraceSink {
-  explicit CountingSink(bool instructions = false) : instructions_wanted(instructions) {}
+  explicit CountingSink(bool every_instruction = false) : instructions_wanted(every_instruction) {}
   void record(const TraceRecord& record) override {
     ++count[static_cast<std::size_t>(record.kind)];
     last[static_cast<std::size_t>(record.kind)] = record;
@@ -107,9 +107,9 @@ class SlaveBench {
 
   void run_for(Time time) { simulation_.run_until(simulation_.time() + time); }
 
-  /// Sends a frame as it is, `after` from now; the line is left quiet afterwards.
-  const serial::Exchange& send(const serial::Request& request, Time after = 0) {
-    simulation_.master().start(request, simulation_.time() + after);
+  /// Sends a frame as it is; back when the exchange is over, 3.5 characters after the answer.
+  const serial::Exchange& send(const serial::Request& request) {
+    simulation_.master().start(request, simulation_.time());
     return simulation_.finish_exchange();
   }
 
