@@ -71,8 +71,12 @@ void Simulation::dispatch(const Event& event) {
       master_.on(report);
       break;
     }
-    case EventOwner::Cpu: cpu_.handle(event); break;
-    case EventOwner::Master: master_.handle(event); break;
+    case EventOwner::Cpu:
+      cpu_.handle(event);
+      break;
+    case EventOwner::Master:
+      master_.handle(event);
+      break;
   }
 }
 

@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "serial_sim/simulation.hpp"
 #include "tools/bench_program.hpp"
 #include "tools/commands.hpp"
 #include "tools/duration_option.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/program_options.hpp"
 #include "tools/terminal.hpp"
-#include "serial_sim/simulation.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -20,8 +20,8 @@ namespace {
 using HostClock = std::chrono::steady_clock;
 
 struct BenchOptions : CpuOptions {
-  std::string path;       // empty: the slave program that is built in
-  Time each = kSecond;    // host time for each figure
+  std::string path;     // empty: the slave program that is built in
+  Time each = kSecond;  // host time for each figure
   bool json = false;
 };
 
@@ -113,8 +113,10 @@ class Serving {
     cpu_.run(end);
     while (queue_.next() <= cpu_.time()) {
       const Event event = queue_.pop();
-      if (event.owner == EventOwner::Cpu) cpu_.handle(event);
-      else answered_ |= port_.handle(cpu_, event);
+      if (event.owner == EventOwner::Cpu)
+        cpu_.handle(event);
+      else
+        answered_ |= port_.handle(cpu_, event);
     }
   }
 
@@ -127,7 +129,8 @@ class Serving {
 /// The same on the whole line, with its master.
 void exchange(serial::Simulation& simulation) {
   simulation.master().start({.frame = ten_registers()}, simulation.time());
-  if (simulation.finish_exchange().timed_out) throw std::runtime_error("the program did not answer a request for 10 registers");
+  if (simulation.finish_exchange().timed_out)
+    throw std::runtime_error("the program did not answer a request for 10 registers");
   simulation.run_until(simulation.time() + serial::Simulation::default_quiet(simulation.cpu().state().port.format));
 }
 
@@ -191,7 +194,8 @@ int run_bench(const BenchOptions& options) {
   fmt::print("{}: best of five rounds on one core\n", program->source.name);
   for (const Figure& f : figures) {
     const bool millions = f.per_second >= 1e6;
-    fmt::print("  {:<26} {:>9.1f} {} {} a second\n", f.name, f.per_second / (millions ? 1e6 : 1e3), millions ? "million " : "thousand", f.unit);
+    fmt::print("  {:<26} {:>9.1f} {} {} a second\n", f.name, f.per_second / (millions ? 1e6 : 1e3),
+               millions ? "million " : "thousand", f.unit);
   }
   return kFine;
 }

@@ -19,7 +19,8 @@ struct InstructionsOptions {
 
 std::string time_text(const TimeRow* row) {
   if (!row) return "-";
-  return fmt::format("{}{}", in_microseconds(row->base), row->per_unit ? fmt::format(" + {}/{}", in_microseconds(row->per_unit), row->unit) : "");
+  return fmt::format("{}{}", in_microseconds(row->base),
+                     row->per_unit ? fmt::format(" + {}/{}", in_microseconds(row->per_unit), row->unit) : "");
 }
 
 /// The line of the table of times for a plain operand; for bits, V memory stands for the slower areas.
@@ -55,7 +56,8 @@ std::string operand_text(const OperandRule& rule, const CpuModel& model) {
   for (const AreaInfo& area : all_areas()) {
     if (!contains(rule.areas, area.area) || model.size_of(area.area) == 0) continue;
     const bool plain = area.element != 0 || rule.width == Width::Bit;
-    names.push_back(plain ? std::string(area.name) : fmt::format("{}{}", area.name, kLetter[static_cast<std::size_t>(rule.width)]));
+    names.push_back(plain ? std::string(area.name)
+                          : fmt::format("{}{}", area.name, kLetter[static_cast<std::size_t>(rule.width)]));
   }
   if (rule.constant) names.push_back(rule.real ? "real constant" : "constant");
   if (rule.pointer) names.push_back("*VD *AC");
@@ -67,10 +69,16 @@ nlohmann::ordered_json to_json(const Instruction& instruction, const CpuModel& m
   nlohmann::ordered_json operands = nlohmann::ordered_json::array();
   for (const OperandRule& rule : instruction.rules())
     operands.push_back({{"name", rule.name}, {"written", rule.role != Role::In}, {"takes", operand_text(rule, model)}});
-  nlohmann::ordered_json json{{"mnemonic", instruction.mnemonic}, {"group", instruction.group}, {"syntax", syntax(instruction)},
-                              {"meaning", instruction.meaning}, {"modelled", instruction.body != nullptr}, {"operands", operands},
-                              {"needs_power_flow", instruction.needs_power_flow}, {"flags", flags_text(instruction)},
-                              {"allowed", parts_text(instruction)}, {"cpus", to_text(instruction.cpus)}};
+  nlohmann::ordered_json json{{"mnemonic", instruction.mnemonic},
+                              {"group", instruction.group},
+                              {"syntax", syntax(instruction)},
+                              {"meaning", instruction.meaning},
+                              {"modelled", instruction.body != nullptr},
+                              {"operands", operands},
+                              {"needs_power_flow", instruction.needs_power_flow},
+                              {"flags", flags_text(instruction)},
+                              {"allowed", parts_text(instruction)},
+                              {"cpus", to_text(instruction.cpus)}};
   if (const TimeRow* row = typical_time(times, instruction)) {
     json["time_us"] = static_cast<double>(row->base) / kMicrosecond;
     json["per_unit_us"] = static_cast<double>(row->per_unit) / kMicrosecond;
@@ -88,8 +96,10 @@ void print_one(const Instruction& instruction, const CpuModel& model, const Time
   }
   for (const OperandRule& rule : instruction.rules())
     fmt::print("  {:<11} {}{}\n", rule.name, operand_text(rule, model), rule.role == Role::In ? "" : "   (written)");
-  fmt::print("  power flow  {}\n", instruction.needs_power_flow ? "needed: skipped while the top of the logic stack is 0" : "not needed");
-  fmt::print("  SM1 flags   {}\n  allowed in  {}\n  available   {}\n", flags_text(instruction), parts_text(instruction), to_text(instruction.cpus));
+  fmt::print("  power flow  {}\n",
+             instruction.needs_power_flow ? "needed: skipped while the top of the logic stack is 0" : "not needed");
+  fmt::print("  SM1 flags   {}\n  allowed in  {}\n  available   {}\n", flags_text(instruction), parts_text(instruction),
+             to_text(instruction.cpus));
   for (const TimeRow& row : times.rows())
     if (std::find(row.mnemonics.begin(), row.mnemonics.end(), instruction.mnemonic) != row.mnemonics.end())
       fmt::print("  time        {} us {} ({})\n", time_text(&row), row.form, row.marker);
@@ -106,7 +116,8 @@ void print_table(std::span<const Instruction> instructions, const TimeTable& tim
       fmt::print("  {:<24} needs {}\n", instruction.mnemonic, to_text(instruction.cpus));
       continue;
     }
-    fmt::print("  {:<24} {:>14} us  {}\n", syntax(instruction), time_text(typical_time(times, instruction)), instruction.meaning);
+    fmt::print("  {:<24} {:>14} us  {}\n", syntax(instruction), time_text(typical_time(times, instruction)),
+               instruction.meaning);
   }
 }
 
@@ -121,7 +132,8 @@ int run_instructions(const InstructionsOptions& options) {
     const Instruction* instruction = find_instruction(mnemonic);
     if (!instruction) {
       const std::string_view nearest = nearest_mnemonic(mnemonic);
-      print_error(fmt::format("unknown instruction '{}'{}", mnemonic, nearest.empty() ? "" : fmt::format("; is {} meant?", nearest)));
+      print_error(fmt::format("unknown instruction '{}'{}", mnemonic,
+                              nearest.empty() ? "" : fmt::format("; is {} meant?", nearest)));
       return kUnusable;
     }
     chosen.push_back(*instruction);

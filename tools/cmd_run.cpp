@@ -57,7 +57,8 @@ class Runner {
 
   void between_slices() {
     const Time host = std::chrono::duration_cast<std::chrono::nanoseconds>(HostClock::now() - begin_).count();
-    if (options_.realtime && simulation_.time() > host) std::this_thread::sleep_for(std::chrono::nanoseconds(simulation_.time() - host));
+    if (options_.realtime && simulation_.time() > host)
+      std::this_thread::sleep_for(std::chrono::nanoseconds(simulation_.time() - host));
     if (host > next_progress_ && isatty(STDERR_FILENO)) {
       next_progress_ = host + kSecond;
       fmt::print(stderr, "\r{} of {} simulated", format_duration(simulation_.time()), format_duration(end()));
@@ -73,10 +74,11 @@ class Runner {
 
 void print_text(const serial::Simulation& simulation, std::string_view reason, const std::vector<MemoryRange>& dumps) {
   const State& state = simulation.cpu().state();
-  fmt::print("ended by {} after {}: {} scans, {} instructions, CPU in {}\n", reason, format_duration(state.time, 6), state.scans,
-             state.instructions, state.mode == Mode::Run ? "RUN" : "STOP");
+  fmt::print("ended by {} after {}: {} scans, {} instructions, CPU in {}\n", reason, format_duration(state.time, 6),
+             state.scans, state.instructions, state.mode == Mode::Run ? "RUN" : "STOP");
   if (state.scans)
-    fmt::print("scan time: shortest {}, longest {}\n", format_duration(state.shortest_scan), format_duration(state.longest_scan));
+    fmt::print("scan time: shortest {}, longest {}\n", format_duration(state.shortest_scan),
+               format_duration(state.longest_scan));
   fmt::print("{}", errors_text(simulation.cpu()));
   for (const MemoryRange& range : dumps) fmt::print("{}", dump_text(state, range));
 }
@@ -111,8 +113,10 @@ int run_run(RunOptions& options) {
   const std::string_view reason = Runner(simulation, options).run();
   if (!options.trace.close()) return kUnusable;
 
-  if (options.json) print_json(simulation, reason, dumps, options.dump);
-  else print_text(simulation, reason, dumps);
+  if (options.json)
+    print_json(simulation, reason, dumps, options.dump);
+  else
+    print_text(simulation, reason, dumps);
   return exit_code_of(simulation.cpu());
 }
 
@@ -125,8 +129,10 @@ void add_run(CLI::App& app, int& exit_code) {
   auto* duration = add_duration(*verb, "--for", options->duration, "how long, in simulated time (default 1s)");
   verb->add_option("--scans", options->scans, "how many scans instead")->check(CLI::PositiveNumber)->excludes(duration);
   verb->add_flag("--realtime", options->realtime, "no faster than real time");
-  verb->add_option("--set", options->set, "memory or inputs before the first scan: VW100=5, I0.3=1 (repeatable)")->type_name("ADDRESS=VALUE");
-  verb->add_option("--dump", options->dump, "memory to show at the end: VB0:16, VW100, AC0 (repeatable)")->type_name("ADDRESS[:COUNT]");
+  verb->add_option("--set", options->set, "memory or inputs before the first scan: VW100=5, I0.3=1 (repeatable)")
+      ->type_name("ADDRESS=VALUE");
+  verb->add_option("--dump", options->dump, "memory to show at the end: VB0:16, VW100, AC0 (repeatable)")
+      ->type_name("ADDRESS[:COUNT]");
   options->trace.add_to(*verb);
   verb->add_flag("--json", options->json, "print the result as JSON");
   verb->footer("Example: s7200 run stl_programs/modbus_slave.stl --for 2s --set VW100=5 --dump VW100:4");

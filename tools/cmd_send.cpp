@@ -56,7 +56,8 @@ bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames)
     for (std::string line; std::getline(lines, line);) {
       ++number;
       line = line.substr(0, std::min(line.find('#'), line.find('\r')));
-      if (line.find_first_not_of(" \t") != std::string::npos) written.push_back({line, fmt::format("{}:{}", options.frames_file, number)});
+      if (line.find_first_not_of(" \t") != std::string::npos)
+        written.push_back({line, fmt::format("{}:{}", options.frames_file, number)});
     }
   }
   if (written.empty()) {
@@ -96,7 +97,8 @@ void print_exchange(const serial::Exchange& exchange, Time timeout) {
 }
 
 nlohmann::ordered_json to_json(const serial::Exchange& exchange) {
-  nlohmann::ordered_json json{{"request", plain_hex(modbus::bytes_of(exchange.request))}, {"response", nullptr}, {"latency_us", nullptr}};
+  nlohmann::ordered_json json{
+      {"request", plain_hex(modbus::bytes_of(exchange.request))}, {"response", nullptr}, {"latency_us", nullptr}};
   if (exchange.timed_out) return json;
   json["response"] = plain_hex(exchange.response_bytes());
   json["latency_us"] = static_cast<double>(*exchange.latency()) / kMicrosecond;
@@ -111,8 +113,10 @@ bool wait_for_start(serial::Simulation& simulation, const SendOptions& options) 
   const Time quiet = serial::Simulation::default_quiet(options.master.format_for(simulation));
   if (simulation.run_until_ready(quiet, kReadyWithin)) return true;
   if (simulation.cpu().state().mode == Mode::Run)
-    print_error(fmt::format("the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
-                            "sends all the same", format_duration(quiet), format_duration(kReadyWithin)));
+    print_error(
+        fmt::format("the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
+                    "sends all the same",
+                    format_duration(quiet), format_duration(kReadyWithin)));
   return false;
 }
 
@@ -147,14 +151,17 @@ int run_send(SendOptions& options) {
     }
     const serial::Exchange& exchange = options.master.exchange(simulation, frame, format);
     all_answered &= !exchange.timed_out;
-    if (options.json) json.push_back(to_json(exchange));
-    else print_exchange(exchange, options.master.timeout);
+    if (options.json)
+      json.push_back(to_json(exchange));
+    else
+      print_exchange(exchange, options.master.timeout);
     const Time pause = options.pause == kNever ? serial::Simulation::default_quiet(format) : options.pause;
     simulation.run_until(simulation.time() + pause);
   }
   if (!options.trace.close()) return kUnusable;
   if (options.json) fmt::print("{}\n", json.dump(2));
-  for (const MemoryRange& range : dumps) fmt::print(options.json ? stderr : stdout, "{}", dump_text(simulation.cpu().state(), range));
+  for (const MemoryRange& range : dumps)
+    fmt::print(options.json ? stderr : stdout, "{}", dump_text(simulation.cpu().state(), range));
   fmt::print(stderr, "{}", errors_text(simulation.cpu()));
   if (simulation.cpu().state().mode == Mode::Stop) fmt::print(stderr, "s7200: note: the CPU is in STOP\n");
   if (simulation.cpu().state().fatal_code) return kCpuFatal;
@@ -174,8 +181,10 @@ void add_send(CLI::App& app, int& exit_code) {
                "when to send the first frame (default: first scan ended, then 7 characters + 10 ms of silence)");
   add_duration(*verb, "--pause", options->pause, "between an answer and the next frame (default 7 characters + 10 ms)");
   options->master.add_to(*verb);
-  verb->add_option("--set", options->set, "memory or inputs before the first scan: VW100=5, I0.3=1 (repeatable)")->type_name("ADDRESS=VALUE");
-  verb->add_option("--dump", options->dump, "memory to show at the end: VB0:16, VW100, AC0 (repeatable)")->type_name("ADDRESS[:COUNT]");
+  verb->add_option("--set", options->set, "memory or inputs before the first scan: VW100=5, I0.3=1 (repeatable)")
+      ->type_name("ADDRESS=VALUE");
+  verb->add_option("--dump", options->dump, "memory to show at the end: VB0:16, VW100, AC0 (repeatable)")
+      ->type_name("ADDRESS[:COUNT]");
   options->trace.add_to(*verb);
   verb->add_flag("--json", options->json, "print an array of exchanges as JSON");
   verb->footer("Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");

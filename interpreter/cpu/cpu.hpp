@@ -32,12 +32,18 @@ namespace s7200 {
 
 /// Codes of run-time errors (facts 5.2) and fatal errors (5.1) that the simulated CPU can report.
 enum class RunError : std::uint16_t {
+  CounterNotDefined = 0x01,
+  PointTaken = 0x02,
+  InputTaken = 0x03,
   NotInInterrupt = 0x04,
   IndirectAddress = 0x06,
+  Clock = 0x07,
   CallDepth = 0x08,
   PortBusy = 0x09,
+  CounterDefinedTwice = 0x0A,
   OperandRange = 0x91,
   Count = 0x92,
+  EepromRange = 0x94,
   FreeportInInterrupt = 0x9A,
 };
 enum class FatalError : std::uint16_t { Watchdog = 0x03, CompareIndirect = 0x11 };
@@ -46,8 +52,8 @@ enum class FatalError : std::uint16_t { Watchdog = 0x03, CompareIndirect = 0x11 
 std::string_view meaning_of(RunError code);
 std::string_view meaning_of(FatalError code);
 
-/// What the CPU's own events are: the timed interrupts 0 and 1, and the millisecond of the 1 ms timers.
-enum CpuEvent : std::uint8_t { kTimedInterrupt0, kTimedInterrupt1, kTick1ms };
+/// What the CPU's own events are: timed interrupts, the millisecond of the 1 ms timers, edges of the pulse outputs.
+enum CpuEvent : std::uint8_t { kTimedInterrupt0, kTimedInterrupt1, kTick1ms, kPulse0, kPulse1 };
 
 class Cpu {
  public:
@@ -68,15 +74,18 @@ class Cpu {
   /// Why run() came back early, reset by the next run().
   bool paused() const { return paused_; }
 
-  /// A timed interrupt or the millisecond of the fast timers is due.
+  /// One of the CPU's own events (CpuEvent) is due.
   void handle(const Event& event);
 
   /// Reports of the serial port.
   void character_received(const ReceivedCharacter& character);
   void character_sent(Time at);
 
-  /// Sets an input byte; edges of I0.0–I0.3 are events 0–7.
+  /// Sets an input byte; edges of I0.0–I0.3 are events 0–7, and the high-speed counters count.
   void set_input(std::uint32_t byte, std::uint8_t value, Time at);
+
+  /// Sets the time of day.
+  void set_clock(const ClockTime& to);
 
   const State& state() const { return s; }
   void restore(const State& state) { s = state; }
@@ -99,8 +108,10 @@ class Cpu {
   State s;
 
   /// A direct operand as a value: std::uint8_t, std::uint16_t, std::int16_t, std::uint32_t, std::int32_t, float.
-  template <class Value> Value get(const Operand& operand) const;
-  template <class Value> void put(const Operand& operand, Value value);
+  template <class Value>
+  Value get(const Operand& operand) const;
+  template <class Value>
+  void put(const Operand& operand, Value value);
 
   bool bit(const Operand& operand) const { return (s.image[operand.at] >> operand.bit) & 1; }
   void put_bit(std::uint32_t at, std::uint8_t bit_number, bool value) {
@@ -132,11 +143,22 @@ class Cpu {
   void return_from_interrupt();
   void end_main_program();
   void stop();
-  void reset_watchdog() { s.watchdog = s.time + program_->model->watchdog; attend(); }
+  void reset_watchdog() {
+    s.watchdog = s.time + program_->model->watchdog;
+    attend();
+  }
   void enable_interrupts(bool enabled);
   void attach(std::uint8_t event, std::uint8_t routine);
   void detach(std::uint8_t event);
   void transmit(std::uint32_t table);
+  void read_clock(std::uint32_t buffer);
+  void write_clock(std::uint32_t buffer);
+  void define_counter(std::uint8_t number, std::uint8_t mode);
+  void program_counter(std::uint8_t number);
+  void program_pulses(std::uint8_t output);
+  /// The program may have written AQ, which held `before`.
+  void analog_outputs_written(const std::uint8_t* before);
+  void put_output_point(std::uint32_t byte, std::uint8_t bit, bool value, Time at);
   void execute_timer(std::uint32_t number, bool enabled, std::int16_t preset, bool retentive);
 
   /// The program may have written SMB30, which was `before`.
@@ -155,6 +177,23 @@ class Cpu {
   void update_timers_at_scan_begin();
   void tick_1ms_timers(Time at);
   void await_tick_1ms(Time from);
+
+  bool counter_uses(std::uint8_t event) const;
+  void show_counter(std::uint8_t number);
+  void count(std::uint8_t number, bool up, Time at);
+  void counters_see(std::uint8_t point, bool level, Time at);
+  void counter_sees(std::uint8_t number, std::uint8_t point, bool level, Time at);
+
+  void start_pulses(std::uint8_t output, const PulseTrain& train, Time at);
+  static Time high_time(const PulseTrain& train);
+  void begin_pulse(std::uint8_t output, Time at);
+  void continue_pulses(std::uint8_t output, Time at);
+  void end_pulses(std::uint8_t output);
+
+  void put_output_byte(std::uint32_t byte, std::uint8_t value, Time at);
+  void write_outputs();
+  void clear_outputs();
+  void save_to_eeprom();
 
   void enter_run();
   void enter_stop();
@@ -182,8 +221,8 @@ class Cpu {
   EventQueue& queue_;
   SerialPort& port_;
   TraceSink* sink_ = nullptr;
-  Time until_ = 0;            ///< the loop looks around when the clock has come to here
-  std::uint32_t op_ = 0;      ///< being executed
+  Time until_ = 0;        ///< the loop looks around when the clock has come to here
+  std::uint32_t op_ = 0;  ///< being executed
   bool pause_at_scan_end_ = false;
   bool paused_ = false;
 };
@@ -191,17 +230,23 @@ class Cpu {
 template <class Value>
 inline Value Cpu::get(const Operand& operand) const {
   const std::uint8_t* from = &s.image[operand.at];
-  if constexpr (sizeof(Value) == 1) return static_cast<Value>(*from);
-  else if constexpr (sizeof(Value) == 2) return static_cast<Value>(load16(from));
-  else return std::bit_cast<Value>(load32(from));
+  if constexpr (sizeof(Value) == 1)
+    return static_cast<Value>(*from);
+  else if constexpr (sizeof(Value) == 2)
+    return static_cast<Value>(load16(from));
+  else
+    return std::bit_cast<Value>(load32(from));
 }
 
 template <class Value>
 inline void Cpu::put(const Operand& operand, Value value) {
   std::uint8_t* to = &s.image[operand.at];
-  if constexpr (sizeof(Value) == 1) *to = static_cast<std::uint8_t>(value);
-  else if constexpr (sizeof(Value) == 2) store16(to, static_cast<std::uint16_t>(value));
-  else store32(to, std::bit_cast<std::uint32_t>(value));
+  if constexpr (sizeof(Value) == 1)
+    *to = static_cast<std::uint8_t>(value);
+  else if constexpr (sizeof(Value) == 2)
+    store16(to, static_cast<std::uint16_t>(value));
+  else
+    store32(to, std::bit_cast<std::uint32_t>(value));
 }
 
 }  // namespace s7200

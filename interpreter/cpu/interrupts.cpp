@@ -14,6 +14,7 @@ bool is_timed(std::uint8_t event) { return event == kTimed0 || event == kTimed0 
 }  // namespace
 
 void Cpu::attach(std::uint8_t event, std::uint8_t routine) {
+  if (counter_uses(event)) return run_error(RunError::PointTaken);
   s.attached[event] = routine;
   Time interval = 0;
   if (is_timed(event)) {
@@ -48,13 +49,14 @@ void Cpu::enable_interrupts(bool enabled) {
 
 void Cpu::handle(const Event& event) {
   if (event.what == kTick1ms) return tick_1ms_timers(event.at);
+  if (event.what >= kPulse0) return continue_pulses(event.what - kPulse0, event.at);
   const auto number = static_cast<std::uint8_t>(kTimed0 + event.what);
   queue_.schedule(event.at + s.timed_interval[event.what], EventOwner::Cpu, event.what);
   occurred(number, event.at);
 }
 
 void Cpu::occurred(std::uint8_t event, Time at, std::uint8_t byte, bool parity_error) {
-  const std::uint8_t routine = s.attached[event];
+  const std::uint8_t routine = event < kEvents ? s.attached[event] : kNotAttached;
   if (routine == kNotAttached || s.mode != Mode::Run || s.stop_after_scan) return;
   const auto group = static_cast<std::size_t>(find_event(event)->queue);
   InterruptQueue& queue = s.queue[group];
@@ -92,13 +94,19 @@ void Cpu::take_interrupt() {
   s.serving_since = s.time;
   s.stack = LogicStack::on_entry();
   s.pc = program_->interrupt[s.serving_routine];
-  trace({.at = s.time, .kind = TraceKind::ServiceBegin, .event = s.serving_event, .routine = s.serving_routine,
+  trace({.at = s.time,
+         .kind = TraceKind::ServiceBegin,
+         .event = s.serving_event,
+         .routine = s.serving_routine,
          .since = interrupt.at});
   s.time += program_->interrupt_entry;
 }
 
 void Cpu::return_from_interrupt() {
-  trace({.at = s.time, .kind = TraceKind::ServiceEnd, .event = s.serving_event, .routine = s.serving_routine,
+  trace({.at = s.time,
+         .kind = TraceKind::ServiceEnd,
+         .event = s.serving_event,
+         .routine = s.serving_routine,
          .since = s.serving_since});
   s.in_interrupt = false;
   s.pc = s.saved.return_to;

@@ -37,7 +37,7 @@ void Cpu::enter_stop() {
   s.interrupts_enabled = false;
   s.image[image::kSM4] &= 0xE8;
   close_port();
-  std::fill_n(s.image.begin() + image::kOutputs, program_->model->size_of(Area::Q), std::uint8_t{0});
+  clear_outputs();
   trace({.at = s.time, .kind = TraceKind::ModeChange, .code = 0});
   s.phase = Phase::Communication;
   s.phase_left = program_->scan_phase[1];
@@ -100,7 +100,8 @@ void Cpu::finish_phase() {
 
 void Cpu::end_scan() {
   if (s.mode == Mode::Run) {
-    std::memcpy(&s.image[image::kOutputs], &s.image[image::kQ], program_->model->size_of(Area::Q));
+    if (std::memcmp(&s.image[image::kOutputs], &s.image[image::kQ], program_->model->size_of(Area::Q)) != 0) write_outputs();
+    if (s.image[image::kSM + 31] & 0x80) save_to_eeprom();
     ++s.scans;
     // SMB0 is updated at the end of each scan (S7-200 manual, SMB0): SM0.1–SM0.3 last one scan, SM0.6 alternates.
     s.image[image::kSM] = static_cast<std::uint8_t>((s.image[image::kSM] & ~0x0E) ^ 0x40);
@@ -157,17 +158,6 @@ void Cpu::return_from_subroutine() {
   const CallFrame& frame = s.calls[--s.call_depth];
   s.pc = frame.return_to;
   s.stack = frame.stack;
-}
-
-void Cpu::set_input(std::uint32_t byte, std::uint8_t value, Time at) {
-  std::uint8_t& input = s.image[image::kInputs + byte];
-  const std::uint8_t before = input;
-  input = value;
-  if (byte != 0) return;
-  for (std::uint8_t point = 0; point < 4; ++point)  // events 0, 2, 4, 6: rising edges of I0.0–I0.3
-    if (~before & value & (1 << point)) occurred(static_cast<std::uint8_t>(2 * point), at);
-  for (std::uint8_t point = 0; point < 4; ++point)  // events 1, 3, 5, 7: falling edges
-    if (before & ~value & (1 << point)) occurred(static_cast<std::uint8_t>(2 * point + 1), at);
 }
 
 }  // namespace s7200

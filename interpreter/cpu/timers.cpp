@@ -52,8 +52,12 @@ void Cpu::tick_1ms_timers(Time at) {
   bool any = false;
   for (const std::uint8_t timer : program_->timers_1ms) {
     if (!s.timer[timer].enabled) continue;
-    if (s.timer[timer].since < at) add_ticks(timer, 1);
     any = true;
+    if (s.timer[timer].since >= at) continue;
+    add_ticks(timer, 1);
+    const bool reached = static_cast<std::int16_t>(load16(&s.image[image::kT + 2u * timer])) == s.timer[timer].preset;
+    if (reached && timer == 32) occurred(21, at);
+    if (reached && timer == 96) occurred(22, at);
   }
   if (any) await_tick_1ms(at);
 }

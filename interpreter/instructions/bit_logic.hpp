@@ -10,9 +10,12 @@ enum class Join { Load, And, Or };
 
 template <Join join>
 inline void combine(LogicStack& stack, bool value) {
-  if constexpr (join == Join::Load) stack.push(value);
-  else if constexpr (join == Join::And) stack.set_top(stack.top() & value);
-  else stack.set_top(stack.top() | value);
+  if constexpr (join == Join::Load)
+    stack.push(value);
+  else if constexpr (join == Join::And)
+    stack.set_top(stack.top() & value);
+  else
+    stack.set_top(stack.top() | value);
 }
 
 /// LD, A, O and their negated and immediate forms: an immediate one reads the input point itself (decided at load).
@@ -50,7 +53,7 @@ inline void coil(Cpu& cpu, const Op& op) { cpu.put_bit(op[0].at, op[0].bit, cpu.
 /// =I writes the image register and the output point (operand 2, given at load).
 inline void immediate_coil(Cpu& cpu, const Op& op) {
   cpu.put_bit(op[0].at, op[0].bit, cpu.s.stack.top());
-  cpu.put_bit(op[2].at, op[2].bit, cpu.s.stack.top());
+  cpu.put_output_point(op[2].at - image::kOutputs, op[2].bit, cpu.s.stack.top(), cpu.s.time);
 }
 
 inline void put_bits(Cpu& cpu, const Operand& first, std::uint32_t count, bool value) {
@@ -66,7 +69,9 @@ void set_bits(Cpu& cpu, const Op& op) {
   if (!cpu.bits_in_area(op[0], count)) return cpu.run_error(RunError::OperandRange);
   cpu.spend(op, count);
   put_bits(cpu, op[0], count, value);
-  if constexpr (immediate) put_bits(cpu, op[2], count, value);
+  if constexpr (immediate)
+    for (std::uint32_t i = 0, place = op[2].bit; i < count; ++i, ++place)
+      cpu.put_output_point(op[2].at - image::kOutputs + place / 8, static_cast<std::uint8_t>(place % 8), value, cpu.s.time);
   if constexpr (!value) cpu.clear_current_values(op[0], count);
 }
 

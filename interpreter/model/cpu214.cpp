@@ -16,6 +16,7 @@ const CpuModel& cpu214() {
       .subroutines = 64,
       .interrupts = 128,
       .program_words = 2048,
+      .eeprom_bytes = 1024,
       .queue_depth = {4, 16, 4},
       .baud = {38'400, 19'200, 9'600, 4'800, 2'400, 1'200, 600, 300},
       .identification = 0x20,
@@ -23,7 +24,7 @@ const CpuModel& cpu214() {
       .call_depth = 8,
       .for_depth = 8,
       .watchdog = 300 * kMillisecond,
-      .times_csv = embedded::kCpu214Times,
+      .times_csv = {embedded::kCpu214Times},
   };
   return kModel;
 }

@@ -31,17 +31,17 @@ const std::vector<InterruptEvent>& all_events() {
       {9, Queue::Communication, 1, kEveryCpu, "port 0: transmit complete"},
       {10, Queue::Timed, 0, kEveryCpu, "timed interrupt 0, SMB34"},
       {11, Queue::Timed, 1, kFrom214, "timed interrupt 1, SMB35"},
-      {12, Queue::Io, 8, kEveryCpu, "HSC0: current value = preset value", false},
-      {13, Queue::Io, 9, kFrom214, "HSC1: current value = preset value", false},
-      {14, Queue::Io, 10, kFrom214, "HSC1: direction changed", false},
-      {15, Queue::Io, 11, kFrom214, "HSC1: external reset", false},
-      {16, Queue::Io, 12, kFrom214, "HSC2: current value = preset value", false},
-      {17, Queue::Io, 13, kFrom214, "HSC2: direction changed", false},
-      {18, Queue::Io, 14, kFrom214, "HSC2: external reset", false},
-      {19, Queue::Io, 15, kFrom214, "PLS0: pulse count complete", false},
-      {20, Queue::Io, 16, kFrom214, "PLS1: pulse count complete", false},
-      {21, Queue::Timed, 2, kFrom215, "timer T32: current value = preset value", false},
-      {22, Queue::Timed, 3, kFrom215, "timer T96: current value = preset value", false},
+      {12, Queue::Io, 8, kEveryCpu, "HSC0: current value = preset value"},
+      {13, Queue::Io, 9, kFrom214, "HSC1: current value = preset value"},
+      {14, Queue::Io, 10, kFrom214, "HSC1: direction changed"},
+      {15, Queue::Io, 11, kFrom214, "HSC1: external reset"},
+      {16, Queue::Io, 12, kFrom214, "HSC2: current value = preset value"},
+      {17, Queue::Io, 13, kFrom214, "HSC2: direction changed"},
+      {18, Queue::Io, 14, kFrom214, "HSC2: external reset"},
+      {19, Queue::Io, 15, kFrom214, "PLS0: pulse count complete"},
+      {20, Queue::Io, 16, kFrom214, "PLS1: pulse count complete"},
+      {21, Queue::Timed, 2, kFrom215, "timer T32: current value = preset value"},
+      {22, Queue::Timed, 3, kFrom215, "timer T96: current value = preset value"},
       {23, Queue::Communication, 2, kFrom215, "port 0: message received", false},
       {24, Queue::Communication, 3, kCpu216 | kCpu22x, "port 1: message received", false},
       {25, Queue::Communication, 4, kCpu216 | kCpu22x, "port 1: character received", false},
@@ -82,18 +82,23 @@ const std::vector<SpecialMemory>& special_memory() {
       {7, 7, true, "reserved"},
       {8, 21, false, "identity and errors of expansion modules"},
       {22, 27, true, "last, shortest and longest scan time"},
-      {28, 29, false, "analog potentiometers"},
+      {28, 29, true, "analog potentiometers"},
       {30, 30, true, "Freeport: port control"},
-      {31, 33, false, "saving a V value to EEPROM"},
+      {31, 33, true, "saving a V value to EEPROM"},
       {34, 35, true, "timed interrupts: interval in ms"},
-      {36, 65, false, "high-speed counters"},
-      {66, 85, false, "pulse outputs"},
+      {36, 65, true, "high-speed counters"},
+      {66, 85, true, "pulse outputs"},
+      {86, 94, false, "receive message, port 0"},
+      {95, 129, false, "reserved"},
+      {130, 130, false, "Freeport: control of port 1"},
+      {131, 185, false, "reserved"},
+      {186, 194, false, "receive message, port 1"},
   };
   return kTable;
 }
 
 const std::vector<const CpuModel*>& all_cpus() {
-  static const std::vector<const CpuModel*> kModels{&cpu214()};
+  static const std::vector<const CpuModel*> kModels{&cpu212(), &cpu214(), &cpu215(), &cpu216()};
   return kModels;
 }
 

@@ -77,7 +77,8 @@ class Checker {
   bool place_operands(const Instruction& instruction, const stl::Statement& statement) {
     const std::size_t given = statement.operands.size();
     if (given != instruction.operands) {
-      const stl::Position at = given > instruction.operands ? statement.operands[instruction.operands].position : statement.position;
+      const stl::Position at =
+          given > instruction.operands ? statement.operands[instruction.operands].position : statement.position;
       error(at, fmt::format("{} takes {}, not {}", instruction.mnemonic, counted(instruction.operands), given),
             fmt::format("write {}", syntax(instruction)));
       return false;
@@ -85,11 +86,12 @@ class Checker {
     bool good = true;
     auto& placed = placed_.back();
     for (std::size_t i = 0; i < given; ++i) {
-      const auto operand = place_operand(instruction, instruction.operand[i], statement.operands[i], model_, constants_, diagnostics_);
+      const auto operand =
+          place_operand(instruction, instruction.operand[i], statement.operands[i], model_, constants_, diagnostics_);
       if (operand) placed[i] = *operand;
       good = good && operand;
     }
-    return good && blocks_fit(instruction, statement);
+    return good && blocks_fit(instruction, statement) && mode_fits(instruction, statement);
   }
 
   static std::string counted(std::size_t operands) {
@@ -114,6 +116,15 @@ class Checker {
     return good;
   }
 
+  /// HSC0 has mode 0 only.
+  bool mode_fits(const Instruction& instruction, const stl::Statement& statement) {
+    if (instruction.structure != Structure::DefineCounter) return true;
+    const auto& placed = placed_.back();
+    if (*placed[0].constant != 0 || *placed[1].constant == 0) return true;
+    error(statement.operands[1].position, fmt::format("HSC0 has no mode {}", *placed[1].constant), "HSC0 has mode 0 only");
+    return false;
+  }
+
   static std::string_view unit(Width width) {
     return width == Width::Bit ? "bits" : width == Width::Byte ? "bytes" : width == Width::Word ? "words" : "double words";
   }
@@ -130,9 +141,11 @@ class Checker {
 
   void check_size() {
     if (statements_.size() > model_.program_words)
-      error(statements_[model_.program_words].statement->position,
-            fmt::format("the program is too large: {} instructions of at least one word each, CPU {} has {} words (compile rule 0080)",
-                        statements_.size(), model_.name, model_.program_words));
+      error(
+          statements_[model_.program_words].statement->position,
+          fmt::format(
+              "the program is too large: {} instructions of at least one word each, CPU {} has {} words (compile rule 0080)",
+              statements_.size(), model_.name, model_.program_words));
     if (constants_.bytes().size() > image::kSize - image::kConstants)
       error({1, 1, 1}, "the program has too many different constants (compile rule 0080)");
   }
@@ -172,14 +185,18 @@ class Checker {
     op.power_mask = instruction.needs_power_flow;
     op.target = structure.target[i];
     op.skip_to = instruction.structure == Structure::For ? op.target : i + 1;
-    bool writes_special_memory = false;
+    Areas written = 0;
     for (std::size_t k = 0; k < op.operand.size(); ++k) {
       op.operand[k] = placed[k].operand;
       op.has_pointer |= placed[k].operand.pointer;
-      writes_special_memory |= placed[k].area == Area::SM && k < instruction.operands && instruction.operand[k].role != Role::In;
+      if (placed[k].area && k < instruction.operands && instruction.operand[k].role != Role::In)
+        written |= set_of(*placed[k].area);
     }
     add_hidden_operand(op, placed_[structure.head[i]]);
-    op.body = writes_special_memory ? run_with_port_control : op.has_pointer ? run_with_pointers : instruction.body;
+    op.body = contains(written, Area::SM)   ? run_with_port_control
+              : contains(written, Area::AQ) ? run_with_analog_output
+              : op.has_pointer              ? run_with_pointers
+                                            : instruction.body;
     set_cost(op, placed);
     return op;
   }
@@ -199,8 +216,11 @@ class Checker {
     const Operand& first = op.operand[0];
     Operand& hidden = op.operand[2];
     switch (op.instruction->hidden) {
-      case Hidden::None: break;
-      case Hidden::InputPoint: op.operand[0].at += image::kInputs - image::kI; break;
+      case Hidden::None:
+        break;
+      case Hidden::InputPoint:
+        op.operand[0].at += image::kInputs - image::kI;
+        break;
       case Hidden::OutputPoint:
         hidden = first;
         hidden.at += image::kOutputs - image::kQ;
@@ -210,8 +230,12 @@ class Checker {
         hidden = {.at = image::kEdges + edges_ / 8, .bit = static_cast<std::uint8_t>(edges_ % 8)};
         ++edges_;
         break;
-      case Hidden::Number: hidden = {.at = (first.at - (first.at < image::kC ? image::kT : image::kC)) / 2}; break;
-      case Hidden::SegmentBit: hidden = segment[0].operand; break;
+      case Hidden::Number:
+        hidden = {.at = (first.at - (first.at < image::kC ? image::kT : image::kC)) / 2};
+        break;
+      case Hidden::SegmentBit:
+        hidden = segment[0].operand;
+        break;
     }
   }
 
@@ -242,8 +266,11 @@ CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTabl
 
 TimeTable default_times(const CpuModel& model) {
   TimeTable times;
-  [[maybe_unused]] const auto errors = times.add(model.times_csv, std::string("times of CPU ").append(model.name));
-  assert(errors.empty());
+  for (const std::string_view csv : model.times_csv) {
+    if (csv.empty()) continue;
+    [[maybe_unused]] const auto errors = times.add(csv, std::string("times of CPU ").append(model.name));
+    assert(errors.empty());
+  }
   return times;
 }
 

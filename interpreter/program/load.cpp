@@ -37,7 +37,8 @@ std::optional<std::string> read_file(const std::string& path, std::string& why) 
   return bytes;
 }
 
-std::optional<SourceText> read_source(std::string_view bytes, const std::string& name, std::string& why, bool force_document) {
+std::optional<SourceText> read_source(std::string_view bytes, const std::string& name, std::string& why,
+                                      bool force_document) {
   const auto decoded = stl::decode(bytes, why);
   if (!decoded) return {};
   const bool as_document = force_document || stl::is_document(decoded->text, is_instruction);

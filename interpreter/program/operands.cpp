@@ -17,20 +17,28 @@ struct Overloaded : Visitors... {
 
 std::string_view name_of(Width width) {
   switch (width) {
-    case Width::Bit: return "bit";
-    case Width::Byte: return "byte";
-    case Width::Word: return "word";
-    case Width::Double: return "double word";
+    case Width::Bit:
+      return "bit";
+    case Width::Byte:
+      return "byte";
+    case Width::Word:
+      return "word";
+    case Width::Double:
+      return "double word";
   }
   return {};
 }
 
 std::string_view letter_of(Width width) {
   switch (width) {
-    case Width::Bit: return "";
-    case Width::Byte: return "B";
-    case Width::Word: return "W";
-    case Width::Double: return "D";
+    case Width::Bit:
+      return "";
+    case Width::Byte:
+      return "B";
+    case Width::Word:
+      return "W";
+    case Width::Double:
+      return "D";
   }
   return {};
 }
@@ -40,16 +48,24 @@ bool is_numbered(Area area) { return info(area).element != 0; }
 /// Width that an address names; nothing for an accumulator without a letter, which takes any.
 std::optional<Width> width_of(const stl::Address& address, Area area) {
   switch (address.size) {
-    case stl::Size::Bit: return Width::Bit;
-    case stl::Size::Byte: return Width::Byte;
-    case stl::Size::Word: return Width::Word;
-    case stl::Size::Double: return Width::Double;
-    case stl::Size::None: break;
+    case stl::Size::Bit:
+      return Width::Bit;
+    case stl::Size::Byte:
+      return Width::Byte;
+    case stl::Size::Word:
+      return Width::Word;
+    case stl::Size::Double:
+      return Width::Double;
+    case stl::Size::None:
+      break;
   }
   switch (area) {
-    case Area::AC: return {};
-    case Area::HC: return Width::Double;
-    default: return Width::Word;  // T, C current values; AI, AQ
+    case Area::AC:
+      return {};
+    case Area::HC:
+      return Width::Double;
+    default:
+      return Width::Word;  // T, C current values; AI, AQ
   }
 }
 
@@ -80,18 +96,20 @@ class Placing {
  public:
   Placing(const Instruction& instruction, const OperandRule& rule, const stl::Operand& written, const CpuModel& model,
           ConstantPool& constants, stl::Diagnostics& diagnostics)
-      : instruction_(instruction), rule_(rule), written_(written), model_(model), constants_(constants),
+      : instruction_(instruction),
+        rule_(rule),
+        written_(written),
+        model_(model),
+        constants_(constants),
         diagnostics_(diagnostics) {}
 
   std::optional<PlacedOperand> result() {
     if (rule_.kind != OperandKind::Memory) return plain_number();
-    return std::visit(Overloaded{[&](const stl::Integer& v) { return integer(v); },
-                                 [&](const stl::Real& v) { return real(v); },
-                                 [&](const stl::Address& v) { return address(v); },
-                                 [&](const stl::AddressOf& v) { return address_of(v); },
-                                 [&](const stl::Indirect& v) { return indirect(v); },
-                                 [&](const stl::Name& v) { return name(v); }},
-                      written_.value);
+    return std::visit(
+        Overloaded{[&](const stl::Integer& v) { return integer(v); }, [&](const stl::Real& v) { return real(v); },
+                   [&](const stl::Address& v) { return address(v); }, [&](const stl::AddressOf& v) { return address_of(v); },
+                   [&](const stl::Indirect& v) { return indirect(v); }, [&](const stl::Name& v) { return name(v); }},
+        written_.value);
   }
 
  private:
@@ -126,12 +144,20 @@ class Placing {
 
   std::pair<std::string_view, std::int64_t> number_range() const {
     switch (rule_.kind) {
-      case OperandKind::Label: return {"label", model_.labels - 1};
-      case OperandKind::Subroutine: return {"subroutine", model_.subroutines - 1};
-      case OperandKind::Interrupt: return {"interrupt routine", model_.interrupts - 1};
-      case OperandKind::Event: return {"event", static_cast<std::int64_t>(kEvents) - 1};
-      case OperandKind::Port: return {"port", 0};
-      default: return {"number", rule_.max};
+      case OperandKind::Label:
+        return {"label", model_.labels - 1};
+      case OperandKind::Subroutine:
+        return {"subroutine", model_.subroutines - 1};
+      case OperandKind::Interrupt:
+        return {"interrupt routine", model_.interrupts - 1};
+      case OperandKind::Event:
+        return {"event", static_cast<std::int64_t>(kEvents) - 1};
+      case OperandKind::Counter:
+        return {"high-speed counter", model_.size_of(Area::HC) - 1};
+      case OperandKind::Port:
+        return {"port", 0};
+      default:
+        return {"number", rule_.max};
     }
   }
 
@@ -160,8 +186,9 @@ class Placing {
       return error(fmt::format("{} has {} characters, {} is a {}", text(), constant.characters, of_instruction(),
                                name_of(rule_.width)));
     if (constant.value < lowest || constant.value > highest)
-      return error(fmt::format("{} does not fit {}, a {}", text(), of_instruction(), name_of(rule_.width)),
-                   fmt::format("a {} is {} to {} signed, 0 to {} unsigned", name_of(rule_.width), lowest, -lowest - 1, highest));
+      return error(
+          fmt::format("{} does not fit {}, a {}", text(), of_instruction(), name_of(rule_.width)),
+          fmt::format("a {} is {} to {} signed, 0 to {} unsigned", name_of(rule_.width), lowest, -lowest - 1, highest));
     if (constant.value < rule_.min || constant.value > rule_.max)
       return error(fmt::format("{} is {} to {}, not {}", of_instruction(), rule_.min, rule_.max, text()));
     PlacedOperand placed = pooled(static_cast<std::uint32_t>(constant.value));
@@ -181,9 +208,7 @@ class Placing {
                  fmt::format("{} takes {}", of_instruction(), areas_text(rule_)));
   }
 
-  PlacedOperand pooled(std::uint32_t value) {
-    return {{.at = constants_.place(value, width()), .width = width()}, {}, {}};
-  }
+  PlacedOperand pooled(std::uint32_t value) { return {{.at = constants_.place(value, width()), .width = width()}, {}, {}}; }
 
   // --- addresses ---
 
@@ -249,8 +274,8 @@ class Placing {
   bool may_use_special_memory(const stl::Address& address, Area area) {
     if (area != Area::SM) return true;
     if (rule_.role != Role::In && address.number < kReadOnlySpecialMemory) {
-      error(fmt::format("{} is read-only", text()), fmt::format("SM0.0 to SM{}.7 are written by the CPU only",
-                                                                kReadOnlySpecialMemory - 1));
+      error(fmt::format("{} is read-only", text()),
+            fmt::format("SM0.0 to SM{}.7 are written by the CPU only", kReadOnlySpecialMemory - 1));
       return false;
     }
     for (const SpecialMemory& entry : special_memory()) {
@@ -295,12 +320,11 @@ class Placing {
     if (!in_accumulator && !in_memory)
       return error(fmt::format("{} cannot hold a pointer", stl::to_text({operand.pointer, {}})),
                    "a pointer is a double word of V memory (*VD100) or an accumulator (*AC1 to *AC3)");
-    if (in_accumulator && operand.pointer.number == 0)
-      return error("AC0 cannot hold a pointer", "use AC1, AC2 or AC3");
+    if (in_accumulator && operand.pointer.number == 0) return error("AC0 cannot hold a pointer", "use AC1, AC2 or AC3");
     if (!in_range(operand.pointer, *area, Width::Double)) return {};
     const AreaInfo& a = info(*area);
-    return PlacedOperand{{.at = a.base + std::max(1u, a.element) * operand.pointer.number, .pointer = true, .width = width()},
-                         {}, {}};
+    return PlacedOperand{
+        {.at = a.base + std::max(1u, a.element) * operand.pointer.number, .pointer = true, .width = width()}, {}, {}};
   }
 
   Result name(const stl::Name& name) {
@@ -320,9 +344,11 @@ class Placing {
 
 std::uint32_t ConstantPool::place(std::uint32_t value, std::uint32_t width) {
   if (width < 4) value &= (1u << (8 * width)) - 1;
-  const auto [found, added] = places_.try_emplace({value, width}, image::kConstants + static_cast<std::uint32_t>(bytes_.size()));
+  const auto [found, added] =
+      places_.try_emplace({value, width}, image::kConstants + static_cast<std::uint32_t>(bytes_.size()));
   if (added)
-    for (std::uint32_t shift = 8 * width; shift > 0; shift -= 8) bytes_.push_back(static_cast<std::uint8_t>(value >> (shift - 8)));
+    for (std::uint32_t shift = 8 * width; shift > 0; shift -= 8)
+      bytes_.push_back(static_cast<std::uint8_t>(value >> (shift - 8)));
   return found->second;
 }
 

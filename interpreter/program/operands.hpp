@@ -27,8 +27,8 @@ class ConstantPool {
 /// What a checked operand turned out to be.
 struct PlacedOperand {
   Operand operand;
-  std::optional<Area> area;               ///< of a direct address
-  std::optional<std::int64_t> constant;   ///< of a constant or a plain number
+  std::optional<Area> area;              ///< of a direct address
+  std::optional<std::int64_t> constant;  ///< of a constant or a plain number
 };
 
 /// Checks `written` against `rule` on `model`; adds a diagnostic and returns nothing when it does not fit.

@@ -1,0 +1,84 @@
+// The input and output points themselves, and the EEPROM behind V memory.
+#include <algorithm>
+
+#include "interpreter/cpu/cpu.hpp"
+
+namespace s7200 {
+
+void Cpu::set_input(std::uint32_t byte, std::uint8_t value, Time at) {
+  std::uint8_t& input = s.image[image::kInputs + byte];
+  const std::uint8_t before = input, changed = before ^ value;
+  input = value;
+  if (changed == 0 || byte > 1) return;
+  for (std::uint8_t bit = 0; bit < 8; ++bit)
+    if (changed & (1 << bit)) counters_see(static_cast<std::uint8_t>(byte * 8 + bit), value >> bit & 1, at);
+  if (byte != 0) return;
+  for (std::uint8_t point = 0; point < 4; ++point)  // events 0, 2, 4, 6: rising edges of I0.0–I0.3
+    if (changed & value & (1 << point)) occurred(static_cast<std::uint8_t>(2 * point), at);
+  for (std::uint8_t point = 0; point < 4; ++point)  // events 1, 3, 5, 7: falling edges
+    if (changed & before & (1 << point)) occurred(static_cast<std::uint8_t>(2 * point + 1), at);
+}
+
+/// Writes an output byte; the points of running pulse outputs keep their level.
+void Cpu::put_output_byte(std::uint32_t byte, std::uint8_t value, Time at) {
+  if (byte == 0)
+    for (std::uint8_t output = 0; output < s.pulse.size(); ++output) {
+      const auto mask = static_cast<std::uint8_t>(1u << output);
+      if (s.pulse[output].running) value = static_cast<std::uint8_t>((value & ~mask) | (s.image[image::kOutputs] & mask));
+    }
+  std::uint8_t& point = s.image[image::kOutputs + byte];
+  if (point == value) return;
+  point = value;
+  trace({.at = at, .kind = TraceKind::OutputChanged, .byte = value, .op = byte});
+}
+
+void Cpu::put_output_point(std::uint32_t byte, std::uint8_t bit, bool value, Time at) {
+  std::uint8_t& point = s.image[image::kOutputs + byte];
+  const auto mask = static_cast<std::uint8_t>(1u << bit);
+  const auto after = static_cast<std::uint8_t>(value ? point | mask : point & ~mask);
+  if (point == after) return;
+  point = after;
+  trace({.at = at, .kind = TraceKind::OutputChanged, .byte = after, .op = byte});
+}
+
+void run_with_analog_output(Cpu& cpu, const Op& op) {
+  std::array<std::uint8_t, image::kT - image::kAQ> before{};
+  std::copy_n(cpu.s.image.begin() + image::kAQ, before.size(), before.begin());
+  if (op.has_pointer)
+    run_with_pointers(cpu, op);
+  else
+    op.instruction->body(cpu, op);
+  cpu.analog_outputs_written(before.data());
+}
+
+void Cpu::analog_outputs_written(const std::uint8_t* before) {
+  for (std::uint32_t word = 0; word < program_->model->size_of(Area::AQ); word += 2) {
+    const std::uint16_t value = load16(&s.image[image::kAQ + word]);
+    if (value != load16(before + word)) trace({.at = s.time, .kind = TraceKind::AnalogChanged, .op = word, .count = value});
+  }
+}
+
+void Cpu::write_outputs() {
+  for (std::uint32_t byte = 0; byte < program_->model->size_of(Area::Q); ++byte)
+    put_output_byte(byte, s.image[image::kQ + byte], s.time);
+}
+
+void Cpu::clear_outputs() {
+  for (std::uint8_t output = 0; output < s.pulse.size(); ++output)
+    if (s.pulse[output].running) end_pulses(output);
+  for (std::uint32_t byte = 0; byte < program_->model->size_of(Area::Q); ++byte) put_output_byte(byte, 0, s.time);
+}
+
+/// SM31.7 asks for one V value to be saved to EEPROM: SM31.1–0 its size, SMW32 its offset. The bit is reset when it is done.
+/// Not documented, modelled so: it is done at the end of the scan and takes no time of its own; an offset beyond the part of
+/// V that the EEPROM holds is error 0094.
+void Cpu::save_to_eeprom() {
+  std::uint8_t& request = s.image[image::kSM + 31];
+  const std::uint32_t bytes = (request & 3) == 3 ? 4 : (request & 3) == 2 ? 2 : 1;
+  const std::uint32_t offset = load16(&s.image[image::kSM + 32]);
+  request &= 0x7F;
+  if (offset + bytes > program_->model->eeprom_bytes) return run_error(RunError::EepromRange);
+  std::copy_n(s.image.begin() + image::kV + offset, bytes, s.eeprom.begin() + offset);
+}
+
+}  // namespace s7200
