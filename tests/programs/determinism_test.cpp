@@ -9,7 +9,7 @@
 namespace s7200::test {
 namespace {
 
-constexpr std::array<std::string_view, 6> kFrames{"0106000a1234a4bf", "0103000a0001a408",  "010f0000000801ffbed5",
+constexpr std::array<std::string_view, 6> kFrames{"0106000a1234a4bf",  "0103000a0001a408", "010f0000000801ffbed5",
                                                   "0103p000a0001a408", "01030000007d85eb", "0203000a0001a43b"};
 
 /// Requests at fixed times, 600 ms apart.
@@ -18,8 +18,8 @@ constexpr Time kEnd = 6 * kSecond;
 
 void start_request(SlaveBench& bench, std::size_t frame) {
   bench.simulation().master_uart().configure(bench.format());
-  bench.simulation().master().start(
-      {.frame = modbus::parse_hex_frame(kFrames[frame]).frame, .timeout = 500 * kMillisecond}, begin_of(frame));
+  bench.simulation().master().start({.frame = modbus::parse_hex_frame(kFrames[frame]).frame, .timeout = 500 * kMillisecond},
+                                    begin_of(frame));
 }
 
 /// Runs to `end`, `slice` at a time.

@@ -1,4 +1,5 @@
-// stl_programs/modbus_slave.stl against the specification: Modbus Application Protocol V1.1b3, Modbus over Serial Line V1.02.
+// stl_programs/modbus_slave.stl against the specification: Modbus Application Protocol V1.1b3, Modbus over Serial Line
+// V1.02.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,7 +52,8 @@ TEST_F(ModbusSlave, FillsUpTheLastByteOfBitsWithZeros) {
   for (unsigned count = 1; count <= 64; ++count)
     for (const unsigned first : {0U, 3U, 64U - count}) {
       if (first + count > 64) continue;
-      const Bytes answer = bench.ask(modbus::read_coils(static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(count)));
+      const Bytes answer =
+          bench.ask(modbus::read_coils(static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(count)));
       ASSERT_EQ(answer.size(), 3 + (count + 7) / 8);
       for (unsigned bit = 0; bit < 8 * answer[2]; ++bit)
         ASSERT_EQ(answer[3 + bit / 8] >> bit % 8 & 1, bit < count ? 1 : 0) << count << " from " << first << ", bit " << bit;
@@ -61,8 +63,8 @@ TEST_F(ModbusSlave, FillsUpTheLastByteOfBitsWithZeros) {
 TEST_F(ModbusSlave, ReadsHoldingRegistersUpTo125AtATime) {
   for (unsigned i = 0; i < 1000; ++i) bench.set_vw(2 * i, static_cast<std::uint16_t>(i * 7));
   for (const auto& [first, count] : {std::pair{0, 125}, {875, 125}, {999, 1}, {0, 1}, {500, 2}}) {
-    const Bytes answer = bench.ask(modbus::read_holding_registers(static_cast<std::uint16_t>(first),
-                                                                  static_cast<std::uint16_t>(count)));
+    const Bytes answer =
+        bench.ask(modbus::read_holding_registers(static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(count)));
     ASSERT_EQ(answer.size(), 3U + 2U * static_cast<unsigned>(count));
     EXPECT_EQ(answer[2], 2 * count);
     for (int i = 0; i < count; ++i)
@@ -100,10 +102,12 @@ TEST_F(ModbusSlave, WritesCoilsFromAnyBitOnAndLeavesTheOthers) {
     for (unsigned count = 1; first + count <= 64; count += 5)
       for (const bool on : {true, false}) {
         for (std::uint32_t i = 0; i < 8; ++i) bench.set_qb(i, on ? 0 : 0xFF);
-        ASSERT_FALSE(bench.ask(modbus::write_coils(static_cast<std::uint16_t>(first), std::vector<bool>(count, on))).empty());
+        ASSERT_FALSE(
+            bench.ask(modbus::write_coils(static_cast<std::uint16_t>(first), std::vector<bool>(count, on))).empty());
         for (unsigned coil = 0; coil < 64; ++coil) {
           const bool inside = coil >= first && coil < first + count;
-          ASSERT_EQ((bench.qb(coil / 8) >> coil % 8 & 1) != 0, inside == on) << count << " from " << first << ", coil " << coil;
+          ASSERT_EQ((bench.qb(coil / 8) >> coil % 8 & 1) != 0, inside == on)
+              << count << " from " << first << ", coil " << coil;
         }
       }
 }
@@ -227,9 +231,15 @@ TEST_F(ModbusSlave, ExecutesABroadcastAndDoesNotAnswer) {
 TEST_F(ModbusSlave, DropsDisturbedAndForeignFramesAndAnswersTheNextOne) {
   Bytes overlong(300, 0x55);
   overlong[0] = 1;
-  const std::vector<std::string> frames{"0103000a0001a409",   "0103p000a0001a408", "01p03000a0001a408",
-                                        "0103000a0001a408p", "0203000a0001a43b",  "01",
-                                        "00",                 "0103",              "017e80",
+  const std::vector<std::string> frames{"0103000a0001a409",
+                                        "0103p000a0001a408",
+                                        "01p03000a0001a408",
+                                        "0103000a0001a408p",
+                                        "0203000a0001a43b",
+                                        "01",
+                                        "00",
+                                        "0103",
+                                        "017e80",
                                         modbus::to_hex(overlong)};
   for (const std::string& frame : frames) {
     EXPECT_EQ(bench.ask_raw(frame), "-") << frame;
@@ -339,15 +349,24 @@ struct Model {
   /// `pdu` has at least the fields of its function.
   Bytes answer(const Bytes& pdu) {
     switch (pdu[0]) {
-      case 1: return read_bits(pdu, coils);
-      case 2: return read_bits(pdu, inputs);
-      case 3: return read_words(pdu, holding);
-      case 4: return read_words(pdu, input);
-      case 5: return write_coil(pdu);
-      case 6: return write_register(pdu);
-      case 15: return write_coils(pdu);
-      case 16: return write_registers(pdu);
-      default: return exception(pdu[0], 1);
+      case 1:
+        return read_bits(pdu, coils);
+      case 2:
+        return read_bits(pdu, inputs);
+      case 3:
+        return read_words(pdu, holding);
+      case 4:
+        return read_words(pdu, input);
+      case 5:
+        return write_coil(pdu);
+      case 6:
+        return write_register(pdu);
+      case 15:
+        return write_coils(pdu);
+      case 16:
+        return write_registers(pdu);
+      default:
+        return exception(pdu[0], 1);
     }
   }
 };
@@ -359,15 +378,24 @@ class RequestMaker {
 
   Bytes next() {
     switch (below(9)) {
-      case 0: return modbus::read_coils(first(64), count(64));
-      case 1: return modbus::read_inputs(first(64), count(64));
-      case 2: return modbus::read_holding_registers(first(1000), count(125));
-      case 3: return modbus::read_input_registers(first(16), count(16));
-      case 4: return write_coil();
-      case 5: return modbus::write_register(first(1000), word());
-      case 6: return damaged(modbus::write_coils(first(64), coils(count(20))));
-      case 7: return damaged(modbus::write_registers(first(1000), words(std::min<std::uint16_t>(count(123), 123))));
-      default: return {static_cast<std::uint8_t>(17 + below(100)), 0, 0, 0, 0};
+      case 0:
+        return modbus::read_coils(first(64), count(64));
+      case 1:
+        return modbus::read_inputs(first(64), count(64));
+      case 2:
+        return modbus::read_holding_registers(first(1000), count(125));
+      case 3:
+        return modbus::read_input_registers(first(16), count(16));
+      case 4:
+        return write_coil();
+      case 5:
+        return modbus::write_register(first(1000), word());
+      case 6:
+        return damaged(modbus::write_coils(first(64), coils(count(20))));
+      case 7:
+        return damaged(modbus::write_registers(first(1000), words(std::min<std::uint16_t>(count(123), 123))));
+      default:
+        return {static_cast<std::uint8_t>(17 + below(100)), 0, 0, 0, 0};
     }
   }
   unsigned below(unsigned limit) { return static_cast<unsigned>(random_() % limit); }
@@ -461,8 +489,8 @@ TEST(ModbusSlaveTime, WorksAtEveryRate) {
 /// The slave in a program whose own part of the scan takes `loops` × 150 us.
 std::string with_long_scan(int loops) {
   return changed(slave_text(), "// Your own program stands here.",
-                 "LD SM0.0\nFOR VW2100, 1, " + std::to_string(loops) + "\nNEXT\nWDR\nFOR VW2100, 1, " + std::to_string(loops) +
-                     "\nNEXT\n");
+                 "LD SM0.0\nFOR VW2100, 1, " + std::to_string(loops) + "\nNEXT\nWDR\nFOR VW2100, 1, " +
+                     std::to_string(loops) + "\nNEXT\n");
 }
 
 TEST(ModbusSlaveTime, AnswersWithinALongScanBecauseItResetsTheWatchdog) {

@@ -31,9 +31,8 @@ TEST_P(StlPrograms, HaveAHeaderNoDiagnosticsAndRunWithoutErrors) {
   EXPECT_GT(bench.state().scans, 100U);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, StlPrograms, ::testing::ValuesIn(all_programs()), [](const auto& program) {
-  return std::filesystem::path(program.param).stem().string();
-});
+INSTANTIATE_TEST_SUITE_P(All, StlPrograms, ::testing::ValuesIn(all_programs()),
+                         [](const auto& program) { return std::filesystem::path(program.param).stem().string(); });
 
 TEST(CharacterEcho, SendsBackEveryCharacter) {
   SlaveBench bench(text_of(source_path("stl_programs/character_echo.stl")));

@@ -1,11 +1,11 @@
 // Siemens' Application Tip 41, a Modbus RTU slave, as published: what it answers, its timing, and where it departs from the
 // specification. The document is not part of this project; without it these tests are skipped.
+#include "tests/support/tip41.hpp"
+
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
-
-#include "tests/support/tip41.hpp"
 
 namespace s7200::test {
 namespace {
@@ -57,7 +57,8 @@ TEST_F(Tip41Slave, RefusesWhatItDoesNotHave) {
 TEST_F(Tip41Slave, IsSilentAboutOtherStationsAndDisturbedFramesAndAnswersTheNextOne) {
   SlaveBench bench(text);
   bench.start();
-  for (const char* frame : {"0203000a0001a43b", "0103000a0001a409", "0103p000a0001a408", "0103000a0001a408p", "01p03000a0001a408"}) {
+  for (const char* frame :
+       {"0203000a0001a43b", "0103000a0001a409", "0103p000a0001a408", "0103000a0001a408p", "01p03000a0001a408"}) {
     EXPECT_EQ(bench.ask_raw(frame), "-") << frame;
     EXPECT_EQ(bench.ask("0103000a0001"), "01 03 02 00 00") << "after " << frame;
   }

@@ -41,7 +41,8 @@ inline std::string changed(std::string text, std::string_view from, std::string_
 inline std::shared_ptr<const Program> compile(const std::string& text) {
   const CpuModel& model = *find_cpu("214");
   CheckResult result = check_text(text, "test", model, default_times(model));
-  for (const stl::Diagnostic& diagnostic : result.diagnostics) ADD_FAILURE() << stl::render(diagnostic, result.source, false);
+  for (const stl::Diagnostic& diagnostic : result.diagnostics)
+    ADD_FAILURE() << stl::render(diagnostic, result.source, false);
   return result.program;
 }
 
