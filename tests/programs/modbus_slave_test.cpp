@@ -144,6 +144,9 @@ TEST_F(ModbusSlave, AnIllegalQuantityIsException3AndComesBeforeTheAddress) {
   EXPECT_EQ(bench.ask("010f0000000000"), "01 8f 03");
   EXPECT_EQ(bench.ask("010f000007b1f600"), "01 8f 03");
   EXPECT_EQ(bench.ask("01100000000000"), "01 90 03");
+  Bytes coils_1969{15, 0, 0, 0x07, 0xB1, 247};
+  coils_1969.resize(6 + 247);
+  EXPECT_EQ(modbus::to_hex(bench.ask(coils_1969)), "01 8f 03");
   EXPECT_EQ(bench.ask("01100000007cf80001"), "01 90 03");
 }
 
@@ -245,6 +248,18 @@ TEST_F(ModbusSlave, DropsDisturbedAndForeignFramesAndAnswersTheNextOne) {
     EXPECT_EQ(bench.ask_raw(frame), "-") << frame;
     EXPECT_EQ(bench.ask("0106000a0001"), "01 06 00 0a 00 01") << "after " << frame;
   }
+}
+
+TEST_F(ModbusSlave, TakesNothingInsideAFrameForTheBeginningOfOne) {
+  const std::string good = "010300000001840a";
+  EXPECT_EQ(bench.ask_raw(good), "01 03 02 00 00 b8 44");
+  for (std::string foreign = "02"; foreign.size() < 40; foreign += "55")
+    EXPECT_EQ(bench.ask_raw(foreign + good), "-") << "behind " << foreign;
+  EXPECT_EQ(bench.ask_raw("55p" + good), "-") << "behind a disturbed character";
+  EXPECT_EQ(bench.ask_raw("0100p" + good.substr(2)), "-") << "around a disturbed character";
+  EXPECT_EQ(bench.ask_raw(good + "00p"), "-") << "before a disturbed character";
+  EXPECT_EQ(bench.ask_raw("02"), "-");
+  EXPECT_EQ(bench.ask_raw(good), "01 03 02 00 00 b8 44") << "behind a lone character of another station";
 }
 
 TEST_F(ModbusSlave, Receives256CharactersAndNotOneMore) {
@@ -504,6 +519,24 @@ TEST(ModbusSlaveTime, AnswersWithinALongScanBecauseItResetsTheWatchdog) {
   without.start();
   EXPECT_TRUE(without.ask(modbus::read_holding_registers(0, 125)).empty());
   EXPECT_EQ(without.state().fatal_code, static_cast<std::uint16_t>(FatalError::Watchdog));
+}
+
+TEST(ModbusSlaveTime, HearsNothingWhileARequestWaitsForTheEndOfTheScan) {
+  SlaveBench bench(with_long_scan(1600));
+  bench.start();
+  const modbus::Frame request = modbus::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 1)));
+  EXPECT_TRUE(bench.send({.frame = request, .timeout = 10 * kMillisecond}).timed_out);
+  const serial::Exchange& stray = bench.send({.frame = modbus::to_frame(Bytes{0x55})});
+  EXPECT_EQ(modbus::to_hex(stray.response_bytes()), "01 03 02 00 00 b8 44");
+}
+
+TEST(ModbusSlaveTime, SetsItselfUpWhateverTheMemoryHeld) {
+  SlaveBench bench(slave_text());
+  bench.start(0xA5);
+  EXPECT_EQ(bench.ask("0103000a0001"), "01 03 02 a5 a5");
+  EXPECT_EQ(bench.ask("010f003a0005011f"), "01 0f 00 3a 00 05");
+  EXPECT_EQ(bench.ask("0101003a0006"), "01 01 01 1f");
+  EXPECT_EQ(bench.state().error_count, 0U);
 }
 
 // --- in the place of the tip's slave ---

@@ -98,9 +98,10 @@ class SlaveBench {
   const State& state() const { return simulation_.cpu().state(); }
   SerialFormat format() const { return state().port.format; }
 
-  /// Powers up and runs until a master may begin.
-  void start() {
+  /// Powers up and runs until a master may begin. `content`: of all V memory before the first scan.
+  void start(std::uint8_t content = 0) {
     simulation_.power_up();
+    cpu().poke(image::kV, Bytes(4096, content));
     constexpr SerialFormat kSlowest{300, 8, Parity::Even, 1};
     ASSERT_TRUE(simulation_.run_until_ready(serial::Simulation::default_quiet(kSlowest), 10 * kSecond));
     simulation_.master_uart().configure(format());
