@@ -163,6 +163,7 @@ FILES = {
     "100000_comments.stl": (b"// nothing\n" * 100_000 + b"MEND\n", 0, "fine, 1 instruction"),
     "constants.stl": (b"LD SM0.0\n" + b"".join(b"FILL %d, VW%d, 1\n" % (i, i) for i in range(2040)) + b"MEND\n", None, ""),
     "megabyte_of_letters.stl": (b"A" * 1_000_000, 1, ":1:1: error"),
+    "megabyte_of_name.stl": (b"LD " + b"x" * 1_000_000, 1, ":1:4: error"),
     "megabyte_of_digits.stl": (b"MOVB " + b"9" * 1_000_000 + b", VB0\nMEND\n", 1, ":1:6: error"),
     "megabyte_of_operands.stl": (b"MOVB " + b"VB0, " * 200_000 + b"VB0\nMEND\n", 1, ":1:"),
     "megabyte_of_blanks.stl": (b"LD" + b" " * 1_000_000 + b"SM0.0\nMEND\n", 0, "fine, 2 instructions"),

@@ -73,8 +73,8 @@ class Verbs(Case):
                           ["run", SLAVE, "--frob"],
                           ["run", SLAVE, "--for", "5"], ["run", SLAVE, "--for", "-1s"], ["run", SLAVE, "--scans", "0"],
                           ["run", SLAVE, "--scans", "x"], ["run", SLAVE, "--for", "1s", "--scans", "1"],
-                          ["run", SLAVE, "--cpu", "999"], ["run", SLAVE, "--set", "VW100"], ["run", SLAVE, "--set", "VB0=256"],
-                          ["run", SLAVE, "--set", "VB9999=1"], ["run", SLAVE, "--dump", "VB4090:10"],
+                          ["run", SLAVE, "--cpu", "999"], ["run", SLAVE, "--set", "VW100"],
+                          ["run", SLAVE, "--set", "VB0=256"], ["run", SLAVE, "--set", "VB9999=1"], ["run", SLAVE, "--dump", "VB4090:10"],
                           ["run", SLAVE, "--dump", "X"],
                           ["run", SLAVE, "--trace-instructions"], ["run", SLAVE, "--times", "missing.csv"],
                           ["run", SLAVE, "--times", SLAVE], ["run", "missing.stl"], ["run", str(SOURCE)], ["send", SLAVE],
@@ -123,7 +123,8 @@ class Json(Case):
         good, wrong = self.program("LD SM0.0\nMEND\n"), self.program("LD VB0\nMEND\n", "wrong.stl")
         fine, failed = self.json(FAILED, "check", "--json", good, wrong)
         for result in (fine, failed):
-            self.assertEqual(list(result), ["file", "ok", "kind", "encoding", "instructions", "diagnostics"])
+            self.assertEqual(list(result), ["file", "ok", "cpu", "fine_for", "kind", "encoding", "instructions",
+                                            "diagnostics"])
         self.assertEqual((fine["ok"], fine["instructions"], fine["diagnostics"]), (True, 2, []))
         self.assertEqual((failed["ok"], failed["instructions"]), (False, 0))
         first = failed["diagnostics"][0]
@@ -277,16 +278,16 @@ class Files(Case):
 
 
 class Readme(Case):
-    """Every line `$ …` in a block ```sh of a README is run, all of one file in one folder that has what the tree has."""
+    """Every line `$ …` in a block ```sh of a README is run, in a folder that has what the tree has. What is shown below a
+    command is what it prints, up to a line that is `…`."""
 
-    # In a block, `…` stands for what is left out, and figures of the machine differ: only that the command works is tested.
     def test_commands(self):
         environment = {**os.environ, "PATH": f"{pathlib.Path(S7200).parent}:{os.environ['PATH']}", "NO_COLOR": "1"}
         count = 0
         for readme in sorted(SOURCE.rglob("README.md")):
             if "build" in readme.relative_to(SOURCE).parts:
                 continue
-            for command in self.commands(readme):
+            for command, shown in self.commands(readme):
                 if not TIP.exists() and "tip41" in command:
                     print(f"skipped, there is no {TIP}: {command}")
                     continue
@@ -294,6 +295,7 @@ class Readme(Case):
                     done = subprocess.run(["bash", "-c", command], cwd=self.tree(), env=environment,
                                           stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120, check=False)
                     self.assertLess(done.returncode, UNUSABLE, done.stdout + done.stderr)
+                    self.assertTrue((done.stderr + done.stdout).startswith(shown), done.stdout + done.stderr)
                     count += 1
         self.assertGreater(count, 3)
 
@@ -309,12 +311,19 @@ class Readme(Case):
 
     @staticmethod
     def commands(readme):
-        block = None
+        """[[command, what is shown below it]], without those that build."""
+        found, inside, complete = [], False, False
         for line in readme.read_text(encoding="utf-8").split("\n"):
             if line.startswith("```"):
-                block = line[3:].strip() if block is None else None
-            elif block == "sh" and line.startswith("$ ") and not line.startswith(("$ ./tools/", "$ cmake", "$ ctest")):
-                yield line[2:]
+                inside, complete = line == "```sh", True
+            elif inside and line.startswith("$ "):
+                found.append([line[2:], ""])
+                complete = False
+            elif inside and line == "…":
+                complete = True
+            elif inside and not complete:
+                found[-1][1] += line + "\n"
+        return [entry for entry in found if not entry[0].startswith(("./tools/", "cmake", "ctest"))]
 
 
 if __name__ == "__main__":
