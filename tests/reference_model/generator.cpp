@@ -27,7 +27,7 @@ bool is_free(const s7200::Instruction& instruction) {
 
 /// Those that leave the program early: rarely, or nothing behind them would run.
 bool is_rare(const s7200::Instruction& instruction) {
-  static const std::set<std::string_view> kNames{"STOP", "END", "CRET", "WDR", "ENI", "DISI", "ATCH", "DTCH"};
+  static const std::set<std::string_view> kNames{"STOP", "END", "WDR", "ENI", "DISI", "ATCH", "DTCH"};
   return kNames.contains(instruction.mnemonic);
 }
 
@@ -64,12 +64,12 @@ void Generator::body(std::uint8_t part, int level) {
 }
 
 void Generator::item(std::uint8_t part, int level) {
-  const std::size_t kind = below(level < 3 ? 20 : 14);
+  const std::size_t kind = below(level < 3 ? 22 : 14);
   if (kind == 14 || kind == 15) loop(part, level);
   else if (kind == 16) jump_over(part, level);
   else if (kind == 17) jump_back(part, level);
   else if (kind == 18 && !in_segment_) segment(part, level);
-  else if (kind == 19 && subroutines_ > 0) rung(part, "CALL " + std::to_string(below(subroutines_)));
+  else if (kind >= 19 && subroutines_ > 0) rung(part, "CALL " + std::to_string(below(subroutines_)));
   else rung(part);
 }
 
