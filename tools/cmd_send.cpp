@@ -13,6 +13,7 @@
 #include "tools/program_options.hpp"
 #include "tools/report.hpp"
 #include "tools/terminal.hpp"
+#include "tools/timeline.hpp"
 #include "tools/trace_file.hpp"
 
 namespace s7200::tools {
@@ -22,7 +23,7 @@ struct SendOptions {
   ProgramOptions program;
   std::vector<std::string> frames, set, dump;
   std::string frames_file;
-  bool crc = false, json = false;
+  bool crc = false, json = false, timeline = false;
   Time after = kNever;  // kNever: when the first scan has ended and the line is quiet
   Time pause = kNever;  // kNever: Simulation::default_quiet
   MasterOptions master;
@@ -30,12 +31,6 @@ struct SendOptions {
 };
 
 constexpr Time kReadyWithin = 60 * kSecond;
-
-void append_crc(modbus::Frame& frame) {
-  modbus::Bytes bytes = modbus::bytes_of(frame);
-  modbus::add_crc(bytes);
-  for (std::size_t i = frame.size(); i < bytes.size(); ++i) frame.push_back({bytes[i], false});
-}
 
 /// All frames of the command line and the file; a message and false when one is no frame.
 bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames) {
@@ -70,30 +65,10 @@ bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames)
       print_error(fmt::format("{}: column {}: {}", w.place, parsed.errors[0].column, parsed.errors[0].message));
       return false;
     }
-    if (options.crc) append_crc(parsed.frame);
+    if (options.crc) modbus::append_crc(parsed.frame);
     frames.push_back(std::move(parsed.frame));
   }
   return true;
-}
-
-/// What the line looked like to the master, when more than bytes came.
-std::string errors_of(const serial::Exchange& exchange) {
-  std::string text;
-  if (exchange.parity_error()) text += ", parity errors";
-  if (exchange.framing_error()) text += ", framing errors";
-  if (exchange.too_long) text += ", cut off";
-  return text;
-}
-
-void print_exchange(const serial::Exchange& exchange, Time timeout) {
-  const modbus::Bytes request = modbus::bytes_of(exchange.request), response = exchange.response_bytes();
-  fmt::print("request  {}\n", modbus::to_hex(exchange.request));
-  if (exchange.timed_out) {
-    fmt::print("answer   none within {}\n", format_duration(timeout));
-    return;
-  }
-  fmt::print("answer   {}   after {}\n         {}{}\n", modbus::to_hex(response), format_duration(*exchange.latency()),
-             modbus::describe(request, response), errors_of(exchange));
 }
 
 nlohmann::ordered_json to_json(const serial::Exchange& exchange) {
@@ -133,6 +108,7 @@ int run_send(SendOptions& options) {
 
   serial::Simulation simulation(program);
   if (!options.trace.open(simulation.cpu(), program)) return kUnusable;
+  Timeline timeline(program, options.trace.sink());
   simulation.power_up();
   for (const Assignment& assignment : assignments) assign(simulation, assignment);
 
@@ -149,12 +125,18 @@ int run_send(SendOptions& options) {
       print_error("a byte with wrong parity (p) needs a format with parity");
       return kUnusable;
     }
+    timeline.begin();
+    if (options.timeline) simulation.cpu().set_sink(&timeline);
     const serial::Exchange& exchange = options.master.exchange(simulation, frame, format);
+    simulation.cpu().set_sink(options.trace.sink());
     all_answered &= !exchange.timed_out;
-    if (options.json)
+    if (options.json) {
       json.push_back(to_json(exchange));
-    else
-      print_exchange(exchange, options.master.timeout);
+      if (options.timeline) json.back()["timeline"] = to_json(timeline.report(), exchange);
+    } else {
+      fmt::print("{}", exchange_text(exchange, options.master.timeout));
+      if (options.timeline) fmt::print("{}\n", to_text(timeline.report(), exchange, colour_wanted(stdout)));
+    }
     const Time pause = options.pause == kNever ? serial::Simulation::default_quiet(format) : options.pause;
     simulation.run_until(simulation.time() + pause);
   }
@@ -186,6 +168,7 @@ void add_send(CLI::App& app, int& exit_code) {
   verb->add_option("--dump", options->dump, "memory to show at the end: VB0:16, VW100, AC0 (repeatable)")
       ->type_name("ADDRESS[:COUNT]");
   options->trace.add_to(*verb);
+  verb->add_flag("--timeline", options->timeline, "show what the CPU did during each exchange: characters, interrupts, XMT");
   verb->add_flag("--json", options->json, "print an array of exchanges as JSON");
   verb->footer("Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");
   verb->callback([options, &exit_code] { exit_code = run_send(*options); });

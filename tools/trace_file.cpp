@@ -17,8 +17,9 @@ namespace {
 /// An empty file may be overwritten too.
 bool is_earlier_trace(const std::string& path) {
   std::ifstream in(path);
-  std::string first;
-  return !std::getline(in, first) || first == TextTrace::kFirstLine;
+  std::string first(TextTrace::kFirstLine.size() + 1, '\0');
+  in.read(first.data(), static_cast<std::streamsize>(first.size()));  // no more: it may be a device without end
+  return in.gcount() == 0 || first == std::string(TextTrace::kFirstLine).append("\n");
 }
 
 }  // namespace

@@ -21,6 +21,9 @@ class TraceFile {
   /// an earlier trace is not overwritten.
   bool open(Cpu& cpu, const std::shared_ptr<const Program>& program);
 
+  /// Where the trace goes to; null when none was asked for.
+  TraceSink* sink() const { return trace_.get(); }
+
   /// False after a message when not everything could be written.
   bool close();
 

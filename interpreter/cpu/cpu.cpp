@@ -6,7 +6,7 @@
 namespace s7200 {
 
 Cpu::Cpu(std::shared_ptr<const Program> program, EventQueue& queue, SerialPort& port)
-    : program_(std::move(program)), queue_(queue), port_(port) {
+    : program_(std::move(program)), ops_(program_->ops.data()), reach_(program_->reach.data()), queue_(queue), port_(port) {
   s.attached.fill(kNotAttached);
 }
 
@@ -28,7 +28,8 @@ void Cpu::power_up(bool run) {
 
 void Cpu::run(Time limit) {
   paused_ = false;
-  while (s.time < limit && !paused_) {
+  const Mode mode = s.mode;
+  while (s.time < limit && !paused_ && s.mode == mode) {
     const Time event = queue_.next();
     if (event <= s.time) return;
     if (s.watchdog <= s.time) {
@@ -47,10 +48,9 @@ void Cpu::run(Time limit) {
 }
 
 void Cpu::execute_plain() {
-  const Op* const ops = program_->ops.data();
   while (s.time < until_) {
     op_ = s.pc;
-    const Op& op = ops[op_];
+    const Op& op = ops_[op_];
     ++s.instructions;
     if (op.power_mask & ~s.stack.bits()) {
       s.time += program_->no_power_flow;
@@ -70,7 +70,7 @@ void Cpu::execute_observed() {
       return;
     }
     op_ = s.pc;
-    const Op& op = program_->ops[op_];
+    const Op& op = ops_[op_];
     InstructionRecord record{.at = s.time, .op = op_};
     for (std::size_t i = 0; i < op.instruction->operands; ++i)
       if (op.instruction->operand[i].role == Role::In) record.value[i] = peek(op, i);
@@ -90,12 +90,6 @@ void Cpu::execute_observed() {
       if (op.instruction->operand[i].role != Role::In) record.value[i] = peek(op, i);
     sink_->instruction(record);
   }
-}
-
-std::optional<std::uint32_t> Cpu::resolve(std::uint32_t pointer, std::uint32_t width) const {
-  const std::uint32_t code = pointer >> 24, offset = pointer & 0xFF'FFFF;
-  if (code >= program_->reach.size() || offset + width > program_->reach[code].size) return {};
-  return program_->reach[code].base + offset;
 }
 
 bool Cpu::in_area(std::uint32_t at, std::uint32_t count) const {
@@ -151,21 +145,34 @@ std::optional<std::uint32_t> Cpu::peek(const Op& op, std::size_t i) const {
   return {};
 }
 
+/// A pointer operand is an offset computed first: the body then finds direct operands only.
+static bool follow_pointer(Cpu& cpu, const Op& op, Operand& operand) {
+  const auto place = cpu.resolve(load32(&cpu.s.image[operand.at]), operand.width);
+  if (place) {
+    operand.at = *place;
+    return true;
+  }
+  cpu.run_error(RunError::IndirectAddress);
+  // A compare contact raises both errors and stops the CPU (facts 5.1).
+  if (op.instruction->structure == Structure::Compare) cpu.fatal_error(FatalError::CompareIndirect);
+  return false;
+}
+
 void run_with_pointers(Cpu& cpu, const Op& op) {
   Op direct = op;
-  for (Operand& operand : direct.operand) {
-    if (!operand.pointer) continue;
-    const auto place = cpu.resolve(load32(&cpu.s.image[operand.at]), operand.width);
-    if (!place) {
-      cpu.run_error(RunError::IndirectAddress);
-      // A compare contact raises both errors and stops the CPU (facts 5.1).
-      if (op.instruction->structure == Structure::Compare) cpu.fatal_error(FatalError::CompareIndirect);
-      return;
-    }
-    operand.at = *place;
-    operand.pointer = false;
-  }
+  for (Operand& operand : direct.operand)
+    if (operand.pointer && !follow_pointer(cpu, op, operand)) return;
   op.instruction->body(cpu, direct);
+}
+
+void run_with_pointer_first(Cpu& cpu, const Op& op) {
+  Op direct = op;
+  if (follow_pointer(cpu, op, direct.operand[0])) op.instruction->body(cpu, direct);
+}
+
+void run_with_pointer_second(Cpu& cpu, const Op& op) {
+  Op direct = op;
+  if (follow_pointer(cpu, op, direct.operand[1])) op.instruction->body(cpu, direct);
 }
 
 void Cpu::run_error(RunError code) {

@@ -65,8 +65,8 @@ class Cpu {
   /// Clears all memory and goes to RUN (mode switch in RUN) or stays in STOP (TERM).
   void power_up(bool run = true);
 
-  /// Runs until its clock has reached `limit`, an event of the queue is due, the sink stops it, or (when asked) a scan has
-  /// ended. Whoever calls then handles the events that are due at or before time().
+  /// Runs until its clock has reached `limit`, an event of the queue is due, the sink stops it, it goes to STOP, or (when
+  /// asked) a scan has ended. Whoever calls then handles the events that are due at or before time().
   void run(Time limit);
 
   /// Stops run() at the end of each scan, or not.
@@ -101,7 +101,11 @@ class Cpu {
   std::optional<std::uint32_t> peek(const Op& op, std::size_t i) const;
 
   /// Place in the image that a pointer value leads to, for an operand of `width` bytes.
-  std::optional<std::uint32_t> resolve(std::uint32_t pointer, std::uint32_t width) const;
+  std::optional<std::uint32_t> resolve(std::uint32_t pointer, std::uint32_t width) const {
+    const std::uint32_t code = pointer >> 24, offset = pointer & 0xFF'FFFF;
+    if (code >= kReaches || offset + width > reach_[code].size) return {};
+    return reach_[code].base + offset;
+  }
 
   // --- for the bodies of instructions ---
 
@@ -218,6 +222,8 @@ class Cpu {
   std::uint32_t current_op() const { return op_; }
 
   std::shared_ptr<const Program> program_;
+  const Op* ops_;  // of the program
+  const Reach* reach_;
   EventQueue& queue_;
   SerialPort& port_;
   TraceSink* sink_ = nullptr;

@@ -597,11 +597,14 @@ std::string_view nearest_mnemonic(std::string_view mnemonic) {
   if (mnemonic.size() < 2 || mnemonic.size() > 12) return {};
   std::string_view nearest;
   std::size_t best = mnemonic.size() < 4 ? 2 : 3;  // so many changes are too many
-  for (const Instruction& instruction : all_instructions())
-    if (const std::size_t d = distance(mnemonic, instruction.mnemonic); d < best) {
-      best = d;
-      nearest = instruction.mnemonic;
-    }
+  for (const Instruction& instruction : all_instructions()) {
+    const std::size_t length = instruction.mnemonic.size();
+    if (std::max(length, mnemonic.size()) - std::min(length, mnemonic.size()) >= best) continue;  // at least so many changes
+    const std::size_t d = distance(mnemonic, instruction.mnemonic);
+    if (d >= best) continue;
+    best = d;
+    nearest = instruction.mnemonic;
+  }
   return nearest;
 }
 

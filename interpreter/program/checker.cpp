@@ -9,6 +9,7 @@
 #include "interpreter/program/operands.hpp"
 #include "interpreter/program/structure.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/stl/text.hpp"
 
 namespace s7200 {
 namespace {
@@ -58,7 +59,7 @@ class Checker {
     const Instruction* instruction = find_instruction(statement.mnemonic);
     if (!instruction) {
       const std::string_view nearest = nearest_mnemonic(statement.mnemonic);
-      error(statement.position, fmt::format("unknown instruction '{}'", statement.mnemonic),
+      error(statement.position, fmt::format("unknown instruction '{}'", stl::shortened(statement.mnemonic)),
             nearest.empty() ? "" : fmt::format("is {} meant?", nearest));
       return nullptr;
     }
@@ -68,7 +69,8 @@ class Checker {
       return nullptr;
     }
     if (!instruction->body) {
-      error(statement.position, fmt::format("{} is not modelled yet", statement.mnemonic));
+      error(statement.position, fmt::format("{} is not modelled yet", statement.mnemonic),
+            "`s7200 instructions` lists what is");
       return nullptr;
     }
     return instruction;
@@ -193,12 +195,19 @@ class Checker {
         written |= set_of(*placed[k].area);
     }
     add_hidden_operand(op, placed_[structure.head[i]]);
-    op.body = contains(written, Area::SM)   ? run_with_port_control
-              : contains(written, Area::AQ) ? run_with_analog_output
-              : op.has_pointer              ? run_with_pointers
-                                            : instruction.body;
+    op.body = body_of(op, written);
     set_cost(op, placed);
     return op;
+  }
+
+  /// The body, or the step around it that the operands need.
+  static Body body_of(const Op& op, Areas written) {
+    if (contains(written, Area::SM)) return run_with_port_control;
+    if (contains(written, Area::AQ)) return run_with_analog_output;
+    if (!op.has_pointer) return op.instruction->body;
+    const bool first = op.operand[0].pointer, second = op.operand[1].pointer, third = op.operand[2].pointer;
+    if (third || (first && second)) return run_with_pointers;
+    return first ? run_with_pointer_first : run_with_pointer_second;
   }
 
   /// Timers that are updated apart from their instructions.

@@ -6,6 +6,7 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/stl/text.hpp"
 
 namespace s7200 {
 namespace {
@@ -14,6 +15,8 @@ template <class... Visitors>
 struct Overloaded : Visitors... {
   using Visitors::operator()...;
 };
+template <class... Visitors>
+Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
 std::string_view name_of(Width width) {
   switch (width) {
@@ -69,14 +72,6 @@ std::optional<Width> width_of(const stl::Address& address, Area area) {
   }
 }
 
-std::string range_text(const CpuModel& model, Area area, Width width) {
-  const std::uint32_t size = model.size_of(area);
-  if (is_numbered(area)) return fmt::format("{0}0 to {0}{1}", info(area).name, size - 1);
-  if (width == Width::Bit) return fmt::format("{0}0.0 to {0}{1}.7", info(area).name, size - 1);
-  const std::uint32_t last = area == Area::AI || area == Area::AQ ? size - 2 : size - bytes_of(width);
-  return fmt::format("{} to {}", address_text(area, width, 0, 0), address_text(area, width, last, 0));
-}
-
 std::string areas_text(const OperandRule& rule) {
   std::string text;
   const auto add = [&](std::string_view what) { text.append(text.empty() ? "" : ", ").append(what); };
@@ -120,7 +115,7 @@ class Placing {
     return {};
   }
 
-  std::string text() const { return stl::to_text(written_); }
+  std::string text() const { return stl::shortened(stl::to_text(written_)); }
   std::string of_instruction() const { return fmt::format("{} of {}", rule_.name, instruction_.mnemonic); }
   std::uint16_t width() const { return static_cast<std::uint16_t>(bytes_of(rule_.width)); }
 
@@ -133,11 +128,14 @@ class Placing {
 
   Result plain_number() {
     const auto* value = std::get_if<stl::Integer>(&written_.value);
-    if (!value) return error(fmt::format("{} takes a number here, not {}", instruction_.mnemonic, text()));
     const auto [what, last] = number_range();
+    const std::string range =
+        last == 0 ? fmt::format("the only {} is 0", what) : fmt::format("{}s are numbered 0 to {}", what, last);
+    if (!value) return error(fmt::format("{} takes a number here, not {}", instruction_.mnemonic, text()), range);
+    if (rule_.kind == OperandKind::Number && (value->value < 0 || value->value > last))
+      return error(fmt::format("{} is 0 to {}, not {}", of_instruction(), last, text()));
     if (value->value < 0 || value->value > last)
-      return error(fmt::format("{} {} does not exist on CPU {}", what, value->value, model_.name),
-                   fmt::format("{}s are numbered 0 to {}", what, last));
+      return error(fmt::format("{} {} does not exist on CPU {}", what, value->value, model_.name), range);
     if (rule_.kind == OperandKind::Event && !event_exists(value->value)) return {};
     return PlacedOperand{{.at = static_cast<std::uint32_t>(value->value)}, {}, value->value};
   }
@@ -234,7 +232,7 @@ class Placing {
       return true;  // T33, C4: the timer or counter bit
     const auto width = width_of(address, area);
     if (!width || *width == rule_.width) return true;
-    std::string meant;
+    std::string meant = fmt::format("{} takes {}", of_instruction(), areas_text(rule_));
     if (!is_numbered(area) && area != Area::AI && area != Area::AQ)
       meant = fmt::format("is {} meant?", address_text(area, rule_.width, address.number, 0));
     error(fmt::format("{} is a {}, {} is a {}", of_instruction(), name_of(rule_.width), text(), name_of(*width)), meant);
@@ -327,8 +325,8 @@ class Placing {
         {.at = a.base + std::max(1u, a.element) * operand.pointer.number, .pointer = true, .width = width()}, {}, {}};
   }
 
-  Result name(const stl::Name& name) {
-    return error(fmt::format("'{}' is no address", name.text),
+  Result name(const stl::Name&) {
+    return error(fmt::format("'{}' is no address", text()),
                  "symbols and local variables are not read yet: write the address itself");
   }
 
@@ -357,6 +355,14 @@ std::string address_text(Area area, Width width, std::uint32_t number, std::uint
   if (is_numbered(area)) return fmt::format("{}{}", name, number);
   if (width == Width::Bit) return fmt::format("{}{}.{}", name, number, bit);
   return fmt::format("{}{}{}", name, letter_of(width), number);
+}
+
+std::string range_text(const CpuModel& model, Area area, Width width) {
+  const std::uint32_t size = model.size_of(area);
+  if (is_numbered(area)) return fmt::format("{0}0 to {0}{1}", info(area).name, size - 1);
+  if (width == Width::Bit) return fmt::format("{0}0.0 to {0}{1}.7", info(area).name, size - 1);
+  const std::uint32_t last = area == Area::AI || area == Area::AQ ? size - 2 : size - bytes_of(width);
+  return fmt::format("{} to {}", address_text(area, width, 0, 0), address_text(area, width, last, 0));
 }
 
 std::optional<PlacedOperand> place_operand(const Instruction& instruction, const OperandRule& rule,

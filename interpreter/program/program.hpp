@@ -42,12 +42,17 @@ struct Op {
 
 /// Resolves pointer operands first: the body then finds direct ones only.
 void run_with_pointers(Cpu& cpu, const Op& op);
+/// The same when operand 0, or operand 1, is the only pointer.
+void run_with_pointer_first(Cpu& cpu, const Op& op);
+void run_with_pointer_second(Cpu& cpu, const Op& op);
 /// For an instruction that writes special memory: the port follows SMB30.
 void run_with_port_control(Cpu& cpu, const Op& op);
 /// For an instruction that writes analog outputs: there is no image, the change goes to the module at once.
 void run_with_analog_output(Cpu& cpu, const Op& op);
 
 inline constexpr std::uint32_t kNoRoutine = 0xFFFF'FFFF;
+
+inline constexpr std::size_t kReaches = 16;  ///< pointer codes lie below
 
 /// What a pointer with a certain top byte reaches on the program's CPU.
 struct Reach {
@@ -67,7 +72,7 @@ struct Program {
 
   std::vector<std::uint8_t> timers_1ms, timers_10ms;  ///< numbers of those the program times with
   bool uses_timers = false;
-  std::array<Reach, 16> reach{};  ///< by the top byte of a pointer
+  std::array<Reach, kReaches> reach{};  ///< by the top byte of a pointer
 
   // Times that the CPU needs while running, taken from `times`.
   Time no_power_flow = 0, interrupt_entry = 0;

@@ -165,6 +165,7 @@ class StructureCheck {
     std::string hint;
     if (instruction.allowed == kMain) hint = "it belongs to the main program";
     if (instruction.allowed == kSubroutine) hint = "it belongs to a subroutine";
+    if (instruction.allowed == (kMain | kSubroutine)) hint = "let the routine set a bit, and the main program act on it";
     if (instruction.allowed == kInterrupt) hint = "it belongs to an interrupt routine";
     if (instruction.structure == Structure::MainEnd && routine_.part != kMain)
       hint = fmt::format("{} ends with {}", routine_text(routine_.part, routine_.number), end_of(routine_.part));
@@ -194,9 +195,11 @@ class StructureCheck {
       }
       used.insert(number);
       if (!(found->second.routine == jump.routine))
-        error(position(jump.statement), fmt::format("LBL {} is in {}; a jump cannot leave {}", number,
-                                                    routine_text(found->second.routine.part, found->second.routine.number),
-                                                    routine_text(jump.routine.part, jump.routine.number)));
+        error(position(jump.statement),
+              fmt::format("LBL {} is in {}; a jump cannot leave {}", number,
+                          routine_text(found->second.routine.part, found->second.routine.number),
+                          routine_text(jump.routine.part, jump.routine.number)),
+              "JMP and its LBL stand in the same routine");
       result_.target[jump.statement] = found->second.statement;
     }
     for (const auto& [number, place] : labels_)
@@ -211,7 +214,7 @@ class StructureCheck {
 
   void end_loop(std::uint32_t i) {
     if (loops_.empty()) {
-      error(position(i), "NEXT without FOR (compile rule 0085)");
+      error(position(i), "NEXT without FOR (compile rule 0085)", "each NEXT closes the nearest open FOR of its own routine");
       return;
     }
     const std::uint32_t head = loops_.back();

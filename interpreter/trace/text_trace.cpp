@@ -36,10 +36,9 @@ std::string value_text(std::uint32_t value, Width width) {
   return {};
 }
 
-/// Milliseconds with six decimals: nanoseconds are all there, and columns stay aligned for an hour.
-std::string clock_text(Time at) { return fmt::format("{:>7}.{:06}", at / kMillisecond, at % kMillisecond); }
-
 }  // namespace
+
+std::string clock_text(Time at) { return fmt::format("{:>7}.{:06}", at / kMillisecond, at % kMillisecond); }
 
 std::string describe(const TraceRecord& r, const Program& program) {
   switch (r.kind) {
