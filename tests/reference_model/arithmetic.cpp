@@ -63,10 +63,14 @@ void store_real(Machine& m, const Place& out, bool legal, float result) {
 
 float calculate(char operation, float out, float in1) {
   switch (operation) {
-    case '+': return out + in1;
-    case '-': return out - in1;
-    case '*': return out * in1;
-    default: return out / in1;
+    case '+':
+      return out + in1;
+    case '-':
+      return out - in1;
+    case '*':
+      return out * in1;
+    default:
+      return out / in1;
   }
 }
 

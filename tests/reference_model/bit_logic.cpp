@@ -4,7 +4,6 @@
 namespace s7200::reference {
 namespace {
 
-
 /// Edge memory of an EU or ED, which starts as if there had been no edge.
 bool& remembered(Machine& m, bool initial) { return m.edge_memory.emplace(m.position, initial).first->second; }
 

@@ -27,9 +27,12 @@ void contact(Machine& m, const std::string& join, const std::string& type, const
     m.fatal_error(0x11, m.position);
     throw;
   }
-  if (join == "LD") m.push(result);
-  else if (join == "A") m.stack[0] = m.stack[0] && result;
-  else m.stack[0] = m.stack[0] || result;
+  if (join == "LD")
+    m.push(result);
+  else if (join == "A")
+    m.stack[0] = m.stack[0] && result;
+  else
+    m.stack[0] = m.stack[0] || result;
 }
 
 }  // namespace

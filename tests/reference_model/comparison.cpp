@@ -40,7 +40,8 @@ class Differences {
     if (std::equal(reference.begin(), reference.end(), interpreter)) return;
     for (std::size_t i = 0; i < reference.size(); ++i)
       if (reference[i] != interpreter[i])
-        text_ += fmt::format("  {}{}: reference 16#{:02X}, interpreter 16#{:02X}\n", pair.name, i, reference[i], interpreter[i]);
+        text_ +=
+            fmt::format("  {}{}: reference 16#{:02X}, interpreter 16#{:02X}\n", pair.name, i, reference[i], interpreter[i]);
   }
 
   const std::string& text() const { return text_; }
@@ -75,7 +76,8 @@ void compare_errors(const Machine& machine, const State& state, Differences& dif
   }
   differences.check("fatal error", machine.fatal_code, state.fatal_code);
   if (machine.fatal_code != 0)
-    differences.check("position of the fatal error", machine.fatal_position ? static_cast<std::uint32_t>(*machine.fatal_position) : kNoRoutine,
+    differences.check("position of the fatal error",
+                      machine.fatal_position ? static_cast<std::uint32_t>(*machine.fatal_position) : kNoRoutine,
                       state.fatal_op);
 }
 

@@ -53,8 +53,10 @@ void return_to_caller(Machine& m) {
 }
 
 void load_segment(Machine& m) {
-  if (read(m.bit(0))) m.push(true);
-  else m.next = m.find_scre(m.position) + 1;
+  if (read(m.bit(0)))
+    m.push(true);
+  else
+    m.next = m.find_scre(m.position) + 1;
 }
 
 /// A transition to the segment it stands in leaves that segment on.

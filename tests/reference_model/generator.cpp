@@ -27,7 +27,7 @@ bool is_free(const s7200::Instruction& instruction) {
 
 /// Those that leave the program early: rarely, or nothing behind them would run.
 bool is_rare(const s7200::Instruction& instruction) {
-  static const std::set<std::string_view> kNames{"STOP", "END", "CRET", "WDR", "ENI", "DISI", "ATCH", "DTCH"};
+  static const std::set<std::string_view> kNames{"STOP", "END", "WDR", "ENI", "DISI", "ATCH", "DTCH"};
   return kNames.contains(instruction.mnemonic);
 }
 
@@ -64,13 +64,19 @@ void Generator::body(std::uint8_t part, int level) {
 }
 
 void Generator::item(std::uint8_t part, int level) {
-  const std::size_t kind = below(level < 3 ? 20 : 14);
-  if (kind == 14 || kind == 15) loop(part, level);
-  else if (kind == 16) jump_over(part, level);
-  else if (kind == 17) jump_back(part, level);
-  else if (kind == 18 && !in_segment_) segment(part, level);
-  else if (kind == 19 && subroutines_ > 0) rung(part, "CALL " + std::to_string(below(subroutines_)));
-  else rung(part);
+  const std::size_t kind = below(level < 3 ? 22 : 14);
+  if (kind == 14 || kind == 15)
+    loop(part, level);
+  else if (kind == 16)
+    jump_over(part, level);
+  else if (kind == 17)
+    jump_back(part, level);
+  else if (kind == 18 && !in_segment_)
+    segment(part, level);
+  else if (kind >= 19 && subroutines_ > 0)
+    rung(part, "CALL " + std::to_string(below(subroutines_)));
+  else
+    rung(part);
 }
 
 /// A contact or more, logic, then boxes and coils; `last` ends it.
@@ -110,7 +116,8 @@ void Generator::loop(std::uint8_t part, int level) {
   const auto& head = *find_instruction("FOR");
   if (chance(70)) {
     const auto from = static_cast<int>(below(5)) - 2;
-    line("FOR " + operand(head.operand[0]) + ", " + std::to_string(from) + ", " + std::to_string(from + static_cast<int>(below(5)) - 1));
+    line("FOR " + operand(head.operand[0]) + ", " + std::to_string(from) + ", " +
+         std::to_string(from + static_cast<int>(below(5)) - 1));
   } else {
     line(statement(head));
   }
@@ -157,7 +164,8 @@ std::string Generator::operand(const OperandRule& rule) {
   if (rule.kind != OperandKind::Memory) return number(rule);
   if (rule.constant && (rule.areas == 0 || chance(30))) return constant(rule);
   if (rule.address_of && chance(15)) {
-    static const std::vector<std::string> kTargets{"VB0", "VB4095", "VW2", "VD100", "MB31", "IB0", "QB7", "SB3", "T33", "C127"};
+    static const std::vector<std::string> kTargets{"VB0", "VB4095", "VW2", "VD100", "MB31",
+                                                   "IB0", "QB7",    "SB3", "T33",   "C127"};
     return "&" + one_of(kTargets);
   }
   if (rule.pointer && chance(20))
@@ -167,17 +175,22 @@ std::string Generator::operand(const OperandRule& rule) {
 
 std::string Generator::number(const OperandRule& rule) {
   switch (rule.kind) {
-    case OperandKind::Interrupt: return "0";
-    case OperandKind::Event: return std::to_string(below(8));
-    case OperandKind::Subroutine: return std::to_string(below(subroutines_));
-    default: return std::to_string(below(static_cast<std::size_t>(rule.max) + 1));
+    case OperandKind::Interrupt:
+      return "0";
+    case OperandKind::Event:
+      return std::to_string(below(8));
+    case OperandKind::Subroutine:
+      return std::to_string(below(subroutines_));
+    default:
+      return std::to_string(below(static_cast<std::size_t>(rule.max) + 1));
   }
 }
 
 std::string Generator::constant(const OperandRule& rule) {
   if (rule.real) {
-    static const std::vector<std::string> kReal{"0.0", "-0.0", "1.0", "-1.0", "0.5", "2.5", "-2.5", "100.0", "3.4E+38", "-3.4E+38",
-                                                "1.0E-38", "1.0E-44", "2147483520.0", "2147483648.0", "-2147483648.0", "16777217.0"};
+    static const std::vector<std::string> kReal{
+        "0.0",     "-0.0",     "1.0",     "-1.0",    "0.5",          "2.5",          "-2.5",          "100.0",
+        "3.4E+38", "-3.4E+38", "1.0E-38", "1.0E-44", "2147483520.0", "2147483648.0", "-2147483648.0", "16777217.0"};
     return one_of(kReal);
   }
   const std::size_t width = bytes_of(rule.width);
@@ -214,10 +227,14 @@ std::string Generator::direct(const OperandRule& rule) {
 
 std::string Generator::address(const std::string& area, Width width, std::uint32_t number) {
   switch (width) {
-    case Width::Bit: return area + std::to_string(number) + "." + std::to_string(below(8));
-    case Width::Byte: return area + "B" + std::to_string(number);
-    case Width::Word: return area + "W" + std::to_string(number);
-    default: return area + "D" + std::to_string(number);
+    case Width::Bit:
+      return area + std::to_string(number) + "." + std::to_string(below(8));
+    case Width::Byte:
+      return area + "B" + std::to_string(number);
+    case Width::Word:
+      return area + "W" + std::to_string(number);
+    default:
+      return area + "D" + std::to_string(number);
   }
 }
 
@@ -234,12 +251,14 @@ std::string Generator::special_memory(const OperandRule& rule) {
   switch (rule.width) {
     case Width::Bit:
     case Width::Byte: {
-      static const std::vector<std::uint32_t> kReadable{0, 0, 1, 1, 1, 2, 3, 4, 4, 6, 22, 23, 30, 34, 35}, kWritable{30, 34, 35},
-          kBlocks{34, 35};  // a block from SMB30 on could ask for a save to EEPROM in SMB31
+      static const std::vector<std::uint32_t> kReadable{0, 0, 1, 1, 1, 2, 3, 4, 4, 6, 22, 23, 30, 34, 35},
+          kWritable{30, 34, 35}, kBlocks{34, 35};  // a block from SMB30 on could ask for a save to EEPROM in SMB31
       return address("SM", rule.width, one_of(read_only ? kReadable : rule.block ? kBlocks : kWritable));
     }
-    case Width::Word: return read_only ? "SMW" + one_of(std::vector<std::string>{"0", "1", "3", "22", "24", "26", "34"}) : "SMW34";
-    default: return read_only ? "SMD" + one_of(std::vector<std::string>{"0", "1", "4", "22", "24"}) : "";
+    case Width::Word:
+      return read_only ? "SMW" + one_of(std::vector<std::string>{"0", "1", "3", "22", "24", "26", "34"}) : "SMW34";
+    default:
+      return read_only ? "SMD" + one_of(std::vector<std::string>{"0", "1", "4", "22", "24"}) : "";
   }
 }
 
@@ -261,10 +280,13 @@ std::uint32_t Generator::place_in_v(const OperandRule& rule) {
 // --- memory ---
 
 std::uint32_t Generator::interesting(std::size_t width) {
-  static const std::vector<std::uint32_t> kBytes{0, 1, 2, 3, 5, 7, 8, 9, 15, 16, 17, 31, 32, 33, 48, 64, 65, 70, 100, 127, 128, 191, 192, 254, 255};
-  static const std::vector<std::uint32_t> kWords{0, 1, 2, 3, 10, 99, 100, 0x00FF, 0x0100, 0x0999, 0x1234, 9999, 10000, 0x7FFE, 0x7FFF, 0x8000,
-                                                 0x8001, 0x9999, 0xA000, 0xFFFE, 0xFFFF};
-  static const std::vector<std::uint32_t> kDoubles{0, 1, 2, 0xFFFF, 0x10000, 0x7FFF'FFFF, 0x8000'0000, 0x8000'0001, 0xFFFF'FFFE, 0xFFFF'FFFF,
+  static const std::vector<std::uint32_t> kBytes{0,  1,  2,  3,  5,  7,   8,   9,   15,  16,  17,  31, 32,
+                                                 33, 48, 64, 65, 70, 100, 127, 128, 191, 192, 254, 255};
+  static const std::vector<std::uint32_t> kWords{0,      1,      2,      3,      10,     99,     100,
+                                                 0x00FF, 0x0100, 0x0999, 0x1234, 9999,   10000,  0x7FFE,
+                                                 0x7FFF, 0x8000, 0x8001, 0x9999, 0xA000, 0xFFFE, 0xFFFF};
+  static const std::vector<std::uint32_t> kDoubles{0,           1,           2,           0xFFFF,      0x10000,
+                                                   0x7FFF'FFFF, 0x8000'0000, 0x8000'0001, 0xFFFF'FFFE, 0xFFFF'FFFF,
                                                    0x0000'8000, 0xFFFF'8000, 0x0800'0000};
   if (chance(30)) return static_cast<std::uint32_t>(random_()) >> (32 - 8 * width);
   return width == 1 ? one_of(kBytes) : width == 2 ? one_of(kWords) : one_of(kDoubles);
@@ -272,9 +294,13 @@ std::uint32_t Generator::interesting(std::size_t width) {
 
 std::uint32_t Generator::real_bits() {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  static const std::vector<float> kReal{0.0f, -0.0f, 1.0f, -1.0f, 0.5f, 4.0f, 2.25f, -3.75f, 1e10f, 3.4e38f, -3.4e38f, 1e-38f, 1e-44f,
-                                        2147483520.0f, 2147483648.0f, -2147483648.0f, -2147483904.0f, 16777216.0f,
-                                        kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN()};
+  static const std::vector<float> kReal{0.0f,           -0.0f,          1.0f,
+                                        -1.0f,          0.5f,           4.0f,
+                                        2.25f,          -3.75f,         1e10f,
+                                        3.4e38f,        -3.4e38f,       1e-38f,
+                                        1e-44f,         2147483520.0f,  2147483648.0f,
+                                        -2147483648.0f, -2147483904.0f, 16777216.0f,
+                                        kInfinity,      -kInfinity,     std::numeric_limits<float>::quiet_NaN()};
   if (chance(20)) return static_cast<std::uint32_t>(random_());
   return std::bit_cast<std::uint32_t>(one_of(kReal));
 }
@@ -283,16 +309,26 @@ std::uint32_t Generator::pointer() {
   const auto to = [](std::uint32_t code, std::size_t offset) { return code << 24 | static_cast<std::uint32_t>(offset); };
   if (chance(10)) return static_cast<std::uint32_t>(random_());
   switch (below(12)) {
-    case 0: return to(0x00, below(9));
-    case 1: return to(0x01, below(9));
-    case 2: return to(0x02, below(33));
-    case 3: return to(0x04, below(17));
-    case 4: return to(0x05, 2 * below(129));
-    case 5: return to(0x06, 2 * below(129));
-    case 6: return to(0x08, 4090 + below(8));
-    case 7: return to(static_cast<std::uint32_t>(below(12)), below(64));
-    case 8: return to(0x08, kTables[below(2)] + 2 * below(2));
-    default: return to(0x08, below(96));
+    case 0:
+      return to(0x00, below(9));
+    case 1:
+      return to(0x01, below(9));
+    case 2:
+      return to(0x02, below(33));
+    case 3:
+      return to(0x04, below(17));
+    case 4:
+      return to(0x05, 2 * below(129));
+    case 5:
+      return to(0x06, 2 * below(129));
+    case 6:
+      return to(0x08, 4090 + below(8));
+    case 7:
+      return to(static_cast<std::uint32_t>(below(12)), below(64));
+    case 8:
+      return to(0x08, kTables[below(2)] + 2 * below(2));
+    default:
+      return to(0x08, below(96));
   }
 }
 
@@ -315,13 +351,16 @@ void Generator::fill(Memory& m) {
   for (std::size_t at = 0; at < m.T.size(); at += 2) write(Place{&m.T, at}, 2, interesting(2));
   for (std::size_t at = 0; at < m.C.size(); at += 2) write(Place{&m.C, at}, 2, interesting(2));
   for (std::size_t at = kHot; at < kHot + kHotSize; at += 4) {
-    if (chance(60)) write(Place{&m.V, at}, 4, interesting(2) << 16 | interesting(2));
-    else write(Place{&m.V, at}, 4, interesting(4));
+    if (chance(60))
+      write(Place{&m.V, at}, 4, interesting(2) << 16 | interesting(2));
+    else
+      write(Place{&m.V, at}, 4, interesting(4));
   }
   for (std::size_t at = kReals; at < kReals + kRealsSize; at += 4) write(Place{&m.V, at}, 4, real_bits());
   for (std::size_t i = 0; i < kPointerCount; ++i) write(Place{&m.V, kPointers + 4 * i}, 4, pointer());
   for (std::size_t i = 0; i < kDigitsSize; ++i)
-    m.V[kDigits + i] = static_cast<std::uint8_t>(chance(6) ? below(256) : static_cast<std::size_t>("0123456789ABCDEF"[below(16)]));
+    m.V[kDigits + i] =
+        static_cast<std::uint8_t>(chance(6) ? below(256) : static_cast<std::size_t>("0123456789ABCDEF"[below(16)]));
   for (const std::uint32_t at : kTables) table(m.V, at);
   random_bytes(m.V, kEnd - kEndSize, kEndSize);
   write(Place{&m.AC, 0}, 4, interesting(4));

@@ -25,7 +25,9 @@ class Generator {
   std::size_t below(std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_); }
   bool chance(std::size_t percent) { return below(100) < percent; }
   template <class T>
-  const T& one_of(const std::vector<T>& choices) { return choices[below(choices.size())]; }
+  const T& one_of(const std::vector<T>& choices) {
+    return choices[below(choices.size())];
+  }
 
   // program
   void line(const std::string& text) { text_ += text + "\n"; }

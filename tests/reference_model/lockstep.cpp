@@ -48,7 +48,10 @@ std::shared_ptr<const Program> accepted(std::string& text) {
 class Pair {
  public:
   Pair(std::shared_ptr<const Program> program, Generator& generator, bool observed)
-      : program_(std::move(program)), generator_(generator), cpu_(program_, queue_, port_), machine_(program_->source, cpu214_times()) {
+      : program_(std::move(program)),
+        generator_(generator),
+        cpu_(program_, queue_, port_),
+        machine_(program_->source, cpu214_times()) {
     if (observed) cpu_.set_sink(&observer_);
     executed_.resize(machine_.statements().size());
   }
@@ -124,7 +127,7 @@ class Pair {
   Observer observer_;
   Cpu cpu_;
   Machine machine_;
-  std::vector<std::size_t> steps_;  // positions of the statements just executed
+  std::vector<std::size_t> steps_;       // positions of the statements just executed
   std::vector<std::uint64_t> executed_;  // of each statement
   std::optional<std::string> difference_;
 };

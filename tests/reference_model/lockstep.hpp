@@ -9,10 +9,10 @@
 namespace s7200::reference {
 
 struct LockstepResult {
-  std::uint64_t instructions = 0;          ///< executed and compared
+  std::uint64_t instructions = 0;  ///< executed and compared
   std::uint64_t programs = 0;
   std::map<std::string, std::uint64_t> executed;  ///< with power flow where they need it, without error
-  std::optional<std::string> difference;   ///< the first: program, instruction, both states, seed
+  std::optional<std::string> difference;          ///< the first: program, instruction, both states, seed
 };
 
 /// Runs random programs until so many instructions have been compared or a difference is found.

@@ -7,7 +7,8 @@
 #include "tests/reference_model/lockstep.hpp"
 
 int main(int argc, char** argv) {
-  CLI::App app{"Runs random programs on the interpreter and on the reference model and compares them after each instruction"};
+  CLI::App app{
+      "Runs random programs on the interpreter and on the reference model and compares them after each instruction"};
   std::uint64_t seed = 1, instructions = 10'000'000;
   app.add_option("--seed", seed, "of the first program; each further one adds 1")->capture_default_str();
   app.add_option("--instructions", instructions, "to compare")->capture_default_str();

@@ -43,7 +43,8 @@ TEST(ReferenceModel, RandomProgramsExecuteEveryInstructionItKnows) {
   for (const auto& [mnemonic, instruction] : instructions()) {
     const auto found = result.executed.find(mnemonic);
     const std::uint64_t times = found == result.executed.end() ? 0 : found->second;
-    EXPECT_TRUE(times >= 20 || kNotExecuted.contains(mnemonic)) << mnemonic << " was executed with power flow " << times << " times";
+    EXPECT_TRUE(times >= 20 || kNotExecuted.contains(mnemonic))
+        << mnemonic << " was executed with power flow " << times << " times";
   }
 }
 

@@ -69,9 +69,10 @@ void Machine::power_up() {
   first_scan_ = true;
   running = true;
   in_program = false;
-  memory.SM[0] = 0b1011'1011;  // always 1, first scan, RUN from power-up, both clocks high, mode switch in RUN
-  memory.SM[4] = 0b0110'0000;  // transmitters idle
-  memory.SM[6] = 0x20;         // CPU 214
+  memory.SM[0] = 0b1011'1011;            // always 1, first scan, RUN from power-up, both clocks high, mode switch in RUN
+  memory.SM[4] = 0b0110'0000;            // transmitters idle
+  memory.SM[6] = 0x20;                   // CPU 214
+  memory.SM[66] = memory.SM[76] = 0x80;  // pulse outputs idle
   watchdog_ = kWatchdog;
 }
 
@@ -115,9 +116,9 @@ void Machine::system_part() {
 void Machine::end_scan() {
   memory.output_points = memory.Q;
   const bool alternating = memory.SM[0] & 0x40;
-  memory.SM[0] = static_cast<std::uint8_t>(0b1000'0001 | (alternating ? 0 : 0x40) |
-                                           (clock_is_high(time, 30 * kSecond) ? 0x10 : 0) |
-                                           (clock_is_high(time, kSecond / 2) ? 0x20 : 0));
+  memory.SM[0] =
+      static_cast<std::uint8_t>(0b1000'0001 | (alternating ? 0 : 0x40) | (clock_is_high(time, 30 * kSecond) ? 0x10 : 0) |
+                                (clock_is_high(time, kSecond / 2) ? 0x20 : 0));
   const std::int64_t scan = (time - scan_begin_) / kMillisecond;
   const bool first = scan_begin_ == 0;
   shortest_scan_ = first ? scan : std::min(shortest_scan_, scan);
@@ -179,10 +180,12 @@ void Machine::enable_interrupts(bool enabled) {
 void Machine::report(int code) {
   write(BitPlace{&memory.SM, 4 * 8 + 3}, true);
   ++error_count;
-  const auto known = std::find_if(errors.begin(), errors.end(),
-                                  [&](const Error& e) { return e.code == code && e.position == position; });
-  if (known != errors.end()) ++known->count;
-  else errors.push_back({code, position, time, 1});
+  const auto known =
+      std::find_if(errors.begin(), errors.end(), [&](const Error& e) { return e.code == code && e.position == position; });
+  if (known != errors.end())
+    ++known->count;
+  else
+    errors.push_back({code, position, time, 1});
 }
 
 void Machine::fatal_error(int code, std::optional<std::size_t> where) {
@@ -235,14 +238,29 @@ Place Machine::follow_pointer(const stl::Address& pointer, std::size_t width) {
   const std::uint32_t value = read(Place{&area(pointer.area), pointer.number * element_size(pointer.area)}, 4);
   Place place;
   switch (value >> 24) {
-    case 0x00: place.bytes = &memory.I; break;
-    case 0x01: place.bytes = &memory.Q; break;
-    case 0x02: place.bytes = &memory.M; break;
-    case 0x04: place.bytes = &memory.S; break;
-    case 0x05: place.bytes = &memory.T; break;
-    case 0x06: place.bytes = &memory.C; break;
-    case 0x08: place.bytes = &memory.V; break;
-    default: throw RunTimeError{0x06};
+    case 0x00:
+      place.bytes = &memory.I;
+      break;
+    case 0x01:
+      place.bytes = &memory.Q;
+      break;
+    case 0x02:
+      place.bytes = &memory.M;
+      break;
+    case 0x04:
+      place.bytes = &memory.S;
+      break;
+    case 0x05:
+      place.bytes = &memory.T;
+      break;
+    case 0x06:
+      place.bytes = &memory.C;
+      break;
+    case 0x08:
+      place.bytes = &memory.V;
+      break;
+    default:
+      throw RunTimeError{0x06};
   }
   place.at = value & 0xFF'FFFF;
   if (!holds(place, width)) throw RunTimeError{0x06};

@@ -1,7 +1,7 @@
 // The reference model: one CPU 214 that executes the statements of an STL source directly.
 //
-// Slow and plain on purpose, and written from the rulebook (facts 1, 4, 5, 6, 9), not from the interpreter: nothing is decoded
-// ahead but the figures of time. No interrupts, no Freeport, no high-speed counters, pulse outputs or clock.
+// Slow and plain on purpose, and written from the rulebook (facts 1, 4, 5, 6, 9), not from the interpreter: nothing is
+// decoded ahead but the figures of time. No interrupts, no Freeport, no high-speed counters, pulse outputs or clock.
 #pragma once
 
 #include <array>
@@ -40,10 +40,10 @@ class Machine {
 
   Memory memory;
   Stack stack{};
-  std::size_t position = 0;      ///< index of the statement to execute next
-  bool in_program = false;       ///< false: in the system's part of the scan
+  std::size_t position = 0;  ///< index of the statement to execute next
+  bool in_program = false;   ///< false: in the system's part of the scan
   bool running = false;
-  std::int64_t time = 0;         ///< ns since power-up
+  std::int64_t time = 0;  ///< ns since power-up
 
   struct Error {
     int code;
@@ -51,7 +51,7 @@ class Machine {
     std::int64_t first;
     std::uint64_t count;
   };
-  std::vector<Error> errors;     ///< different ones, in the order of their first occurrence
+  std::vector<Error> errors;  ///< different ones, in the order of their first occurrence
   std::uint64_t error_count = 0;
   int fatal_code = 0;
   std::optional<std::size_t> fatal_position;
@@ -74,7 +74,7 @@ class Machine {
 
   // --- for the instructions ---
 
-  std::size_t next = 0;          ///< statement to go on with
+  std::size_t next = 0;  ///< statement to go on with
 
   const stl::Statement& statement() const { return statements_[position]; }
 
@@ -88,8 +88,8 @@ class Machine {
   Place place_of(const stl::Operand& operand, std::size_t width);
 
   const stl::Address& address(std::size_t i) const;
-  BitPlace bit(std::size_t i);        ///< in the image registers, and the bits of timers and counters
-  BitPlace point(std::size_t i);      ///< the input or output point itself
+  BitPlace bit(std::size_t i);    ///< in the image registers, and the bits of timers and counters
+  BitPlace point(std::size_t i);  ///< the input or output point itself
   BitPlace flag(int n) { return {&memory.SM, 8 + static_cast<std::size_t>(n)}; }  ///< SM1.n
 
   void push(bool value);

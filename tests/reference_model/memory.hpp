@@ -13,9 +13,9 @@ using Bytes = std::vector<std::uint8_t>;
 struct Memory {
   Bytes I = Bytes(8), Q = Bytes(8), M = Bytes(32), SM = Bytes(86), S = Bytes(16), V = Bytes(4096);
   Bytes AI = Bytes(32), AQ = Bytes(32);
-  Bytes T = Bytes(256), C = Bytes(256);   ///< current values, two bytes each
+  Bytes T = Bytes(256), C = Bytes(256);  ///< current values, two bytes each
   Bytes timer_bits = Bytes(16), counter_bits = Bytes(16);
-  Bytes HC = Bytes(12), AC = Bytes(16);   ///< four bytes each; the low byte of AC0 is the fourth
+  Bytes HC = Bytes(12), AC = Bytes(16);  ///< four bytes each; the low byte of AC0 is the fourth
   Bytes input_points = Bytes(8), output_points = Bytes(8);
 };
 

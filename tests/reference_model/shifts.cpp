@@ -57,8 +57,10 @@ void rotate(Machine& m, std::size_t width, bool left) {
   const std::uint32_t count = given % static_cast<std::uint32_t>(8 * width);
   std::vector<bool> bits = bits_of(read(out, width), width);
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (left) move_up(bits, bits.back());
-    else move_down(bits, bits.front());
+    if (left)
+      move_up(bits, bits.back());
+    else
+      move_down(bits, bits.front());
   }
   write(out, width, value_of(bits));
   set_flag(m, kZero, value_of(bits) == 0);

@@ -41,7 +41,8 @@ Times::Times(const std::string& csv) {
     for (std::string text; std::getline(fields, text, ',');) field.push_back(text);
     if (field.size() < 4) continue;
     const bool bracketed = field[0].starts_with('(');
-    rows_.push_back({bracketed ? std::set<std::string>{field[0]} : words(field[0]), areas_of(field[1]),
+    rows_.push_back({bracketed ? std::set<std::string>{field[0]} : words(field[0]),
+                     areas_of(field[1]),
                      {nanoseconds(field[2]), nanoseconds(field[3])}});
   }
 }

@@ -1,7 +1,6 @@
 // What has to be true of every row of the instruction table.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
@@ -93,7 +92,8 @@ TEST(InstructionTable, RowsThatCpu214LacksAreRefusedByName) {
 /// `V`, `AC`, `constant`, `*VD`, `*AC`, `&`: how an operand is written.
 std::string form_of(const stl::Operand& operand) {
   if (const auto* address = std::get_if<stl::Address>(&operand.value)) return address->area;
-  if (const auto* indirect = std::get_if<stl::Indirect>(&operand.value)) return indirect->pointer.area == "AC" ? "*AC" : "*VD";
+  if (const auto* indirect = std::get_if<stl::Indirect>(&operand.value))
+    return indirect->pointer.area == "AC" ? "*AC" : "*VD";
   return std::holds_alternative<stl::AddressOf>(operand.value) ? "&" : "constant";
 }
 
@@ -118,7 +118,8 @@ std::vector<stl::Statement> statements_in_vectors(const Instruction& instruction
     for (const vectors::Vector& vector : vectors::parse(text, path).vectors)
       for (const std::string& op : vector.ops)
         for (const stl::Line& line : stl::parse(op, path).source.lines)
-          if (const auto* statement = std::get_if<stl::Statement>(&line); statement && statement->mnemonic == instruction.mnemonic)
+          if (const auto* statement = std::get_if<stl::Statement>(&line);
+              statement && statement->mnemonic == instruction.mnemonic)
             result.push_back(*statement);
   }
   return result;
@@ -131,8 +132,8 @@ TEST(InstructionTable, EveryFormOfEveryOperandHasAVector) {
     for (std::size_t i = 0; i < instruction->operands && !statements.empty(); ++i) {
       std::set<std::string> missing = forms_of(instruction->operand[i]);
       for (const stl::Statement& statement : statements) missing.erase(form_of(statement.operands.at(i)));
-      EXPECT_TRUE(missing.empty()) << fmt::format("{}: no vector with {} as {}", instruction->mnemonic, fmt::join(missing, ", "),
-                                                  instruction->operand[i].name);
+      EXPECT_TRUE(missing.empty()) << fmt::format("{}: no vector with {} as {}", instruction->mnemonic,
+                                                  fmt::join(missing, ", "), instruction->operand[i].name);
     }
   }
 }

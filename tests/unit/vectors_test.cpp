@@ -23,24 +23,38 @@ const std::filesystem::path kFolder = S7200_SOURCE_DIR "/tests/vectors";
 std::vector<std::string> vector_files() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(kFolder))
-    if (entry.path().extension() == ".txt" && entry.path().filename() != "CMakeLists.txt") names.push_back(entry.path().stem().string());
+    if (entry.path().extension() == ".txt" && entry.path().filename() != "CMakeLists.txt")
+      names.push_back(entry.path().stem().string());
   std::ranges::sort(names);
   return names;
 }
 
 std::uint32_t base_of(const std::string& area) {
   static const std::map<std::string, std::uint32_t> kBases{
-      {"V", image::kV}, {"I", image::kI}, {"Q", image::kQ}, {"M", image::kM}, {"SM", image::kSM}, {"S", image::kS},
-      {"T", image::kT}, {"T.bit", image::kTBits}, {"C", image::kC}, {"C.bit", image::kCBits}, {"HC", image::kHC},
-      {"AC", image::kAC}, {"AI", image::kAI}, {"AQ", image::kAQ}, {"PI", image::kInputs}, {"PQ", image::kOutputs}};
+      {"V", image::kV},   {"I", image::kI},         {"Q", image::kQ},       {"M", image::kM},
+      {"SM", image::kSM}, {"S", image::kS},         {"T", image::kT},       {"T.bit", image::kTBits},
+      {"C", image::kC},   {"C.bit", image::kCBits}, {"HC", image::kHC},     {"AC", image::kAC},
+      {"AI", image::kAI}, {"AQ", image::kAQ},       {"PI", image::kInputs}, {"PQ", image::kOutputs}};
   return kBases.at(area);
 }
 
 std::string name_of_place(std::uint32_t at) {
-  static const std::pair<std::uint32_t, std::string_view> kNames[] = {
-      {image::kV, "VB"}, {image::kOutputs, "PQB"}, {image::kInputs, "PIB"}, {image::kCBits, "C bits, byte "}, {image::kTBits, "T bits, byte "},
-      {image::kAC, "AC byte "}, {image::kHC, "HC byte "}, {image::kC, "C byte "}, {image::kT, "T byte "}, {image::kAQ, "AQ byte "},
-      {image::kAI, "AI byte "}, {image::kS, "SB"}, {image::kSM, "SMB"}, {image::kM, "MB"}, {image::kQ, "QB"}, {image::kI, "IB"}};
+  static const std::pair<std::uint32_t, std::string_view> kNames[] = {{image::kV, "VB"},
+                                                                      {image::kOutputs, "PQB"},
+                                                                      {image::kInputs, "PIB"},
+                                                                      {image::kCBits, "C bits, byte "},
+                                                                      {image::kTBits, "T bits, byte "},
+                                                                      {image::kAC, "AC byte "},
+                                                                      {image::kHC, "HC byte "},
+                                                                      {image::kC, "C byte "},
+                                                                      {image::kT, "T byte "},
+                                                                      {image::kAQ, "AQ byte "},
+                                                                      {image::kAI, "AI byte "},
+                                                                      {image::kS, "SB"},
+                                                                      {image::kSM, "SMB"},
+                                                                      {image::kM, "MB"},
+                                                                      {image::kQ, "QB"},
+                                                                      {image::kI, "IB"}};
   for (const auto& [base, name] : kNames)
     if (at >= base) return fmt::format("{}{}", name, at - base);
   return {};
@@ -88,8 +102,10 @@ class Execution {
     prepare(cpu);
     const Time start = cpu.time();
     Image expected = cpu.state().image;
-    if (vector_.until) run_until(cpu, *vector_.until);
-    else run_steps(cpu);
+    if (vector_.until)
+      run_until(cpu, *vector_.until);
+    else
+      run_steps(cpu);
     for (const auto& assignment : vector_.after) assign(expected, assignment);
     compare_memory(expected, cpu.state().image);
     compare_state(cpu.state());
@@ -138,8 +154,10 @@ class Execution {
     cpu.set_sink(&one_);
     for (std::uint32_t i = 0; i < vector_.steps; ++i) {
       one_.rearm();
-      if (cpu.state().phase == Phase::Program || cpu.state().in_interrupt) cpu.run(cpu.time() + 1);
-      else run_until(cpu, cpu.time() + system_part);
+      if (cpu.state().phase == Phase::Program || cpu.state().in_interrupt)
+        cpu.run(cpu.time() + 1);
+      else
+        run_until(cpu, cpu.time() + system_part);
       handle_events(cpu);
     }
   }

@@ -20,11 +20,22 @@ struct NamedArea {
   Bytes Memory::*bytes;
 };
 
-const std::array<NamedArea, 16> kAreas{{{"V", &Memory::V}, {"I", &Memory::I}, {"Q", &Memory::Q}, {"M", &Memory::M},
-                                        {"SM", &Memory::SM}, {"S", &Memory::S}, {"T", &Memory::T}, {"T.bit", &Memory::timer_bits},
-                                        {"C", &Memory::C}, {"C.bit", &Memory::counter_bits}, {"HC", &Memory::HC},
-                                        {"AC", &Memory::AC}, {"AI", &Memory::AI}, {"AQ", &Memory::AQ},
-                                        {"PI", &Memory::input_points}, {"PQ", &Memory::output_points}}};
+const std::array<NamedArea, 16> kAreas{{{"V", &Memory::V},
+                                        {"I", &Memory::I},
+                                        {"Q", &Memory::Q},
+                                        {"M", &Memory::M},
+                                        {"SM", &Memory::SM},
+                                        {"S", &Memory::S},
+                                        {"T", &Memory::T},
+                                        {"T.bit", &Memory::timer_bits},
+                                        {"C", &Memory::C},
+                                        {"C.bit", &Memory::counter_bits},
+                                        {"HC", &Memory::HC},
+                                        {"AC", &Memory::AC},
+                                        {"AI", &Memory::AI},
+                                        {"AQ", &Memory::AQ},
+                                        {"PI", &Memory::input_points},
+                                        {"PQ", &Memory::output_points}}};
 
 Bytes& area_of(Memory& memory, const std::string& name) {
   for (const NamedArea& area : kAreas)
@@ -121,7 +132,8 @@ bool in_bits(const std::string& area, const Case& what) {
   if (area == "SM" && what.until == 0) return true;
   if (area.ends_with(".bit")) return true;
   for (const std::string& text : what.before)
-    if (const auto assignment = parse_assignment(text); assignment && assignment->area == area && assignment->width == 0) return true;
+    if (const auto assignment = parse_assignment(text); assignment && assignment->area == area && assignment->width == 0)
+      return true;
   return false;
 }
 
@@ -139,8 +151,10 @@ std::vector<Assignment> changes(Memory before, Memory after, const Case& what) {
     result.push_back(object);
   }
   for (const NamedArea& area : kAreas) {
-    if (in_bits(area.name, what)) add_bits(area, before.*area.bytes, after.*area.bytes, result);
-    else add_bytes(area, before.*area.bytes, after.*area.bytes, result);
+    if (in_bits(area.name, what))
+      add_bits(area, before.*area.bytes, after.*area.bytes, result);
+    else
+      add_bytes(area, before.*area.bytes, after.*area.bytes, result);
   }
   return result;
 }
@@ -149,8 +163,10 @@ std::vector<Assignment> changes(Memory before, Memory after, const Case& what) {
 
 void assign(Memory& memory, const Assignment& a) {
   Bytes& bytes = area_of(memory, a.area);
-  if (a.width == 0) write(reference::BitPlace{&bytes, std::size_t{8} * a.at + a.bit}, a.value != 0);
-  else write(reference::Place{&bytes, a.at}, a.width, a.value);
+  if (a.width == 0)
+    write(reference::BitPlace{&bytes, std::size_t{8} * a.at + a.bit}, a.value != 0);
+  else
+    write(reference::Place{&bytes, a.at}, a.width, a.value);
 }
 
 Vector execute(const Case& what, const std::string& source) {
@@ -171,7 +187,8 @@ Vector execute(const Case& what, const std::string& source) {
   vector.after = changes(before, machine.memory, what);
   vector.stops = !machine.running;
   vector.ends = machine.running && !machine.in_program;
-  if (machine.in_program && (vector.is_program() || machine.position != 1)) vector.next = static_cast<std::uint32_t>(machine.position);
+  if (machine.in_program && (vector.is_program() || machine.position != 1))
+    vector.next = static_cast<std::uint32_t>(machine.position);
   if (machine.in_program && machine.stack != stack_of(what.stack)) vector.leaves = levels_of(machine.stack);
   if (machine.error_count != 0) vector.error = machine.errors.front().code;
   vector.fatal = machine.fatal_code;

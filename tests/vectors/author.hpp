@@ -14,11 +14,11 @@ namespace s7200::vectors {
 struct Case {
   std::string title;
   std::vector<std::string> ops;
-  std::vector<std::string> before;    ///< assignments
+  std::vector<std::string> before;  ///< assignments
   Levels stack{true};
   std::uint32_t steps = 1;
-  std::int64_t until = 0;             ///< ns since power-up, instead of steps: up to the first instruction that ends there or later
-  std::uint8_t flags = 0;             ///< bits of SM1 that the instruction sets and resets: each starts opposite to its result
+  std::int64_t until = 0;  ///< ns since power-up, instead of steps: up to the first instruction that ends there or later
+  std::uint8_t flags = 0;  ///< bits of SM1 that the instruction sets and resets: each starts opposite to its result
 };
 
 /// The complete vector.

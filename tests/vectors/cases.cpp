@@ -32,16 +32,26 @@ char letter(Width width) { return width == Width::Byte ? 'B' : width == Width::W
 
 std::uint32_t first_number(Area area, const OperandRule& rule, std::size_t operand) {
   switch (area) {
-    case Area::V: return 10 + 10 * static_cast<std::uint32_t>(operand);
-    case Area::M: return 4;
-    case Area::SM: return rule.role == Role::In ? 22 : 38;
-    case Area::S: return 5;
-    case Area::T: return rule.timer == TimerKind::Retentive ? 5 : 37;
-    case Area::C: return 5;
-    case Area::AI: return 4;
-    case Area::AQ: return 6;
-    case Area::HC: return 1;
-    default: return 0;
+    case Area::V:
+      return 10 + 10 * static_cast<std::uint32_t>(operand);
+    case Area::M:
+      return 4;
+    case Area::SM:
+      return rule.role == Role::In ? 22 : 38;
+    case Area::S:
+      return 5;
+    case Area::T:
+      return rule.timer == TimerKind::Retentive ? 5 : 37;
+    case Area::C:
+      return 5;
+    case Area::AI:
+      return 4;
+    case Area::AQ:
+      return 6;
+    case Area::HC:
+      return 1;
+    default:
+      return 0;
   }
 }
 
@@ -52,7 +62,8 @@ std::string address(Area area, Width width, std::uint32_t first, std::uint32_t k
     if (area == Area::T || area == Area::C) return fmt::format("{}{}{}", name, first + k, in_vector ? ".bit" : "");
     return fmt::format("{}{}.{}", name, first + (3 + k) / 8, (3 + k) % 8);
   }
-  if (area == Area::AC || area == Area::HC || area == Area::T || area == Area::C) return fmt::format("{}{}", name, first + k);
+  if (area == Area::AC || area == Area::HC || area == Area::T || area == Area::C)
+    return fmt::format("{}{}", name, first + k);
   return fmt::format("{}{}{}", name, letter(width), first + k * bytes_of(width));
 }
 
@@ -86,7 +97,8 @@ std::string constant_text(const OperandRule& rule, std::uint32_t value) {
   return value < 100 || rule.name == "N" ? std::to_string(value) : fmt::format("16#{:X}", value);
 }
 
-Written pointed(const std::string& holder, std::uint32_t pointer, Area area, std::uint32_t first, Width width, const Elements& elements) {
+Written pointed(const std::string& holder, std::uint32_t pointer, Area area, std::uint32_t first, Width width,
+                const Elements& elements) {
   Written written{"*" + holder, {fmt::format("{}=16#{:08X}", holder, pointer)}};
   std::ranges::copy(elements_at(area, width, first, elements), std::back_inserter(written.before));
   return written;
@@ -95,13 +107,16 @@ Written pointed(const std::string& holder, std::uint32_t pointer, Area area, std
 Written write_operand(const Form& form, const OperandRule& rule, std::size_t operand, const Elements& elements) {
   const auto i = static_cast<std::uint32_t>(operand);
   switch (form.kind) {
-    case Form::Constant: return {constant_text(rule, elements.at(0)), {}};
-    case Form::AddressOf: return {"&VB100", {}};
+    case Form::Constant:
+      return {constant_text(rule, elements.at(0)), {}};
+    case Form::AddressOf:
+      return {"&VB100", {}};
     case Form::PointerInV:
       return pointed(fmt::format("VD{}", 40 + 4 * i), 0x0800'003C + 20 * i, Area::V, 60 + 20 * i, rule.width, elements);
     case Form::PointerInAc:
       return pointed(fmt::format("AC{}", 1 + i), 0x0200'0004 + 8 * i, Area::M, 4 + 8 * i, rule.width, elements);
-    case Form::Direct: break;
+    case Form::Direct:
+      break;
   }
   const std::uint32_t first = first_number(form.area, rule, operand);
   return {address(form.area, rule.width, first, 0, false), elements_at(form.area, rule.width, first, elements)};
@@ -197,7 +212,8 @@ class Cases {
     if (instruction_.mnemonic != "S" && instruction_.mnemonic != "R") return;
     for (const std::string& text : std::vector(result.before)) {
       const Assignment bit = *parse_assignment(text);
-      if (bit.area.ends_with(".bit")) result.before.push_back(fmt::format("{}{}=5", bit.area.substr(0, 1), bit.at * 8 + bit.bit));
+      if (bit.area.ends_with(".bit"))
+        result.before.push_back(fmt::format("{}{}=5", bit.area.substr(0, 1), bit.at * 8 + bit.bit));
     }
   }
 
@@ -264,8 +280,10 @@ class Cases {
     Case& added = add(values, forms, "beyond the end of the area: nothing is done");
     const OperandRule& rule = instruction_.operand[i];
     const std::string here = write_operand(forms[i], rule, i, values.operand[i]).text;
-    const std::string end = forms[i].area == Area::Q ? "Q7.6" : rule.width == Width::Bit ? "V4095.6"
-                            : fmt::format("V{}{}", letter(rule.width), 4096 - bytes_of(rule.width));
+    const std::string end = forms[i].area == Area::Q ? "Q7.6"
+                            : rule.width == Width::Bit
+                                ? "V4095.6"
+                                : fmt::format("V{}{}", letter(rule.width), 4096 - bytes_of(rule.width));
     added.ops[0].replace(added.ops[0].find(here), here.size(), end);
   }
 
@@ -287,9 +305,13 @@ std::vector<Case> cases_of(const Instruction& instruction) { return Cases(instru
 
 std::string source_of(const Instruction& instruction) {
   static const std::map<std::string_view, std::string_view> kSections{
-      {"Bit logic", "6.2"}, {"Compare contacts", "6.3"}, {"Timers and counters", "6.4"}, {"Move", "6.5"}, {"Integer arithmetic", "6.6"},
-      {"Real arithmetic", "6.6"}, {"Logic operations", "6.7"}, {"Shift and rotate", "6.8"}, {"Conversion", "6.9"}, {"Tables", "6.10"},
-      {"Program control", "6.12"}, {"Sequence control relays", "6.12"}, {"Interrupts", "3.3"}};
+      {"Bit logic", "6.2"},           {"Compare contacts", "6.3"},
+      {"Timers and counters", "6.4"}, {"Move", "6.5"},
+      {"Integer arithmetic", "6.6"},  {"Real arithmetic", "6.6"},
+      {"Logic operations", "6.7"},    {"Shift and rotate", "6.8"},
+      {"Conversion", "6.9"},          {"Tables", "6.10"},
+      {"Program control", "6.12"},    {"Sequence control relays", "6.12"},
+      {"Interrupts", "3.3"}};
   const auto found = kSections.find(instruction.group);
   if (found == kSections.end()) throw std::runtime_error(fmt::format("no section for group {}", instruction.group));
   return fmt::format("facts {}", found->second);

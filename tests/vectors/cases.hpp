@@ -1,4 +1,5 @@
-// What the vectors try: for each instruction the values that matter and, for the first of them, every form its operands can have.
+// What the vectors try: for each instruction the values that matter and, for the first of them, every form its operands can
+// have.
 #pragma once
 
 #include <cstdint>

@@ -80,7 +80,8 @@ std::optional<Assignment> parse_address(std::string_view text) {
 
 std::string address_text(const Assignment& a) {
   if (a.area.ends_with(".bit")) return fmt::format("{}{}.bit", a.area.substr(0, 1), a.at * 8 + a.bit);
-  if (a.area == "T" || a.area == "C" || a.area == "AC" || a.area == "HC") return fmt::format("{}{}", a.area, a.at / element_size(a.area));
+  if (a.area == "T" || a.area == "C" || a.area == "AC" || a.area == "HC")
+    return fmt::format("{}{}", a.area, a.at / element_size(a.area));
   if (a.width == 0) return fmt::format("{}{}.{}", a.area, a.at, a.bit);
   return fmt::format("{}{}{}", a.area, a.width == 1 ? 'B' : a.width == 2 ? 'W' : 'D', a.at);
 }
@@ -137,19 +138,32 @@ void parse_next(const std::string& text, Vector& vector) {
 }
 
 void read_line(const std::string& key, const std::string& text, Vector& vector) {
-  if (key == "op") vector.ops.push_back(text);
-  else if (key == "before") std::ranges::copy(parse_assignments(text), std::back_inserter(vector.before));
-  else if (key == "after") std::ranges::copy(parse_assignments(text), std::back_inserter(vector.after));
-  else if (key == "stack") vector.stack = parse_levels(text);
-  else if (key == "leaves") vector.leaves = parse_levels(text);
-  else if (key == "steps") vector.steps = parse_number(text);
-  else if (key == "until") vector.until = parse_time(text);
-  else if (key == "next") parse_next(text, vector);
-  else if (key == "error") vector.error = static_cast<int>(parse_number(text, 16));
-  else if (key == "fatal") vector.fatal = static_cast<int>(parse_number(text, 16));
-  else if (key == "time") vector.time = parse_time(text);
-  else if (key == "source") vector.source = text;
-  else throw std::runtime_error("unknown key " + key);
+  if (key == "op")
+    vector.ops.push_back(text);
+  else if (key == "before")
+    std::ranges::copy(parse_assignments(text), std::back_inserter(vector.before));
+  else if (key == "after")
+    std::ranges::copy(parse_assignments(text), std::back_inserter(vector.after));
+  else if (key == "stack")
+    vector.stack = parse_levels(text);
+  else if (key == "leaves")
+    vector.leaves = parse_levels(text);
+  else if (key == "steps")
+    vector.steps = parse_number(text);
+  else if (key == "until")
+    vector.until = parse_time(text);
+  else if (key == "next")
+    parse_next(text, vector);
+  else if (key == "error")
+    vector.error = static_cast<int>(parse_number(text, 16));
+  else if (key == "fatal")
+    vector.fatal = static_cast<int>(parse_number(text, 16));
+  else if (key == "time")
+    vector.time = parse_time(text);
+  else if (key == "source")
+    vector.source = text;
+  else
+    throw std::runtime_error("unknown key " + key);
 }
 
 /// Reads line after line and puts finished vectors into the file.
@@ -174,8 +188,10 @@ class Reader {
  private:
   void comment(const std::string& text) {
     const std::string words = text.substr(std::min<std::size_t>(2, text.size()));
-    if (in_heading_) file_.heading.push_back(words);
-    else vector_.title = words;
+    if (in_heading_)
+      file_.heading.push_back(words);
+    else
+      vector_.title = words;
   }
 
   void finish() {
@@ -267,8 +283,8 @@ std::string to_text(const File& file) {
 
 std::string file_name(std::string_view mnemonic) {
   static const std::map<std::string_view, std::string> kWhole{
-      {"=", "OUT"}, {"=I", "OUT_I"}, {"+I", "ADD_I"}, {"+D", "ADD_D"}, {"+R", "ADD_R"}, {"-I", "SUB_I"}, {"-D", "SUB_D"},
-      {"-R", "SUB_R"}, {"*R", "MUL_R"}, {"/R", "DIV_R"}};
+      {"=", "OUT"},    {"=I", "OUT_I"}, {"+I", "ADD_I"}, {"+D", "ADD_D"}, {"+R", "ADD_R"},
+      {"-I", "SUB_I"}, {"-D", "SUB_D"}, {"-R", "SUB_R"}, {"*R", "MUL_R"}, {"/R", "DIV_R"}};
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kRelations{
       {{">=", "_GE"}, {"<=", "_LE"}, {"<>", "_NE"}, {"=", "_EQ"}, {"<", "_LT"}, {">", "_GT"}}};
   if (const auto whole = kWhole.find(mnemonic); whole != kWhole.end()) return whole->second;
