@@ -32,6 +32,12 @@ std::vector<std::string> split(std::string_view text, std::string_view separator
 
 }  // namespace
 
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
 Debugger::Debugger(serial::Simulation& simulation, std::ostream& out, const DebuggerOptions& options)
     : simulation_(simulation),
       out_(out),
@@ -59,27 +65,29 @@ Debugger::Error Debugger::execute(std::string_view line) {
 Debugger::Error Debugger::execute_one(std::string_view text) {
   Arguments arguments = split(text, " \t\r");
   if (arguments.empty()) return {};
+  if (echoing_) out_ << kPrompt << joined(arguments) << '\n';
   std::string why;
   const Command* command = find_command(arguments.front(), why);
   if (!command) return why;
   arguments.erase(arguments.begin());
-  command_ = std::string(command->name);
-  for (const std::string& argument : arguments) command_ += " " + argument;
+  command_ = std::string(command->name) + (arguments.empty() ? "" : " ") + joined(arguments);
   repeatable_ = command->repeats ? command_ : "";
   return (this->*command->run)(arguments);
 }
 
 std::optional<ScriptError> Debugger::run_script(std::istream& in) {
   std::size_t number = 0;
-  for (std::string line; !quit_asked_ && std::getline(in, line);) {
+  echoing_ = true;
+  std::optional<ScriptError> wrong;
+  for (std::string line; !wrong && !quit_asked_ && !stop_requested() && std::getline(in, line);) {
     ++number;
-    if (without_comment(line).find_first_not_of(" \t\r;") == std::string_view::npos) continue;
-    out_ << kPrompt << stl::trim_end(std::string_view(line).substr(0, line.find('\r'))) << '\n';
-    if (Error error = execute(line)) return ScriptError{number, *error};
-    if (options_.stop_request && *options_.stop_request) return {};
+    if (Error error = execute(line)) wrong = ScriptError{number, *error};
   }
-  return {};
+  echoing_ = false;
+  return wrong;
 }
+
+bool Debugger::stop_requested() const { return options_.stop_request && *options_.stop_request; }
 
 void Debugger::show_place() {
   out_ << place_text(simulation_.cpu(), listing_);

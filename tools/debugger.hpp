@@ -30,6 +30,9 @@ struct ScriptError {
   std::string message;
 };
 
+/// The words with a blank between them.
+std::string joined(const std::vector<std::string>& words);
+
 class Debugger {
  public:
   static constexpr std::string_view kPrompt = "(s7200) ";
@@ -48,7 +51,8 @@ class Debugger {
   /// One line: commands separated by `;`, a comment behind `#`. Ends with the first wrong one.
   Error execute(std::string_view line);
 
-  /// Executes line by line, each echoed behind the prompt, to the first wrong one, to `quit`, to a stop request or the end.
+  /// Executes line by line, each command echoed behind the prompt, to the first wrong one, to `quit`, to a stop request or
+  /// the end.
   std::optional<ScriptError> run_script(std::istream& in);
 
   bool quit_asked() const { return quit_asked_; }
@@ -67,6 +71,7 @@ class Debugger {
   static const std::vector<Command>& commands();
   static const Command* find_command(std::string_view word, std::string& why);
   Error execute_one(std::string_view text);
+  bool stop_requested() const;
 
   Error list(const Arguments& arguments);
   Error step(const Arguments& arguments);
@@ -139,7 +144,8 @@ class Debugger {
   int next_number_ = 1;  ///< of a breakpoint or watch
   bool tracing_ = false;
   bool quit_asked_ = false;
-  std::string command_;  ///< being executed, as written
+  bool echoing_ = false;  ///< commands are printed behind the prompt
+  std::string command_;   ///< being executed, as written
   std::string repeatable_;
 };
 

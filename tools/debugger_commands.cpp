@@ -38,12 +38,6 @@ std::optional<std::uint32_t> parse_count(const std::vector<std::string>& argumen
   return arguments.size() == 1 && number && *number > 0 ? number : std::nullopt;
 }
 
-std::string joined(const std::vector<std::string>& arguments) {
-  std::string text;
-  for (const std::string& argument : arguments) text += (text.empty() ? "" : " ") + argument;
-  return text;
-}
-
 /// `VW100 = 5` is written with or without blanks.
 std::vector<std::string> assignments_of(const std::vector<std::string>& arguments) {
   std::vector<std::string> texts;

@@ -6,11 +6,7 @@
 namespace s7200 {
 
 Cpu::Cpu(std::shared_ptr<const Program> program, EventQueue& queue, SerialPort& port)
-    : program_(std::move(program)),
-      ops_(program_->ops.data()),
-      reach_(program_->reach.data()),
-      queue_(queue),
-      port_(port) {
+    : program_(std::move(program)), ops_(program_->ops.data()), reach_(program_->reach.data()), queue_(queue), port_(port) {
   s.attached.fill(kNotAttached);
 }
 

@@ -222,7 +222,7 @@ class Cpu {
   std::uint32_t current_op() const { return op_; }
 
   std::shared_ptr<const Program> program_;
-  const Op* ops_;       // of the program
+  const Op* ops_;  // of the program
   const Reach* reach_;
   EventQueue& queue_;
   SerialPort& port_;

@@ -62,6 +62,7 @@ void Cpu::system_phases() {
       return;
     }
     s.time = end;
+    s.phase_left = 0;
     finish_phase();
   }
 }

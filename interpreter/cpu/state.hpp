@@ -161,7 +161,7 @@ struct State {
 
   std::array<TimerState, 256> timer{};
   Time previous_scan_begin = 0;
-  Time next_tick_1ms = 0;                          ///< due while it is not past
+  Time next_tick_1ms = kNever;                     ///< of the 1 ms timers; kNever while none is enabled
   std::int16_t ticks_100ms = 0;                    ///< of the previous scan
   std::array<std::uint8_t, 256> counter_inputs{};  ///< at the last execution: bit 0 up, bit 1 down
 

@@ -30,7 +30,7 @@ void Cpu::execute_timer(std::uint32_t number, bool enabled, std::int16_t preset,
   if (!retentive && !(enabled && was_enabled)) store16(&s.image[image::kT + 2 * number], 0);
   if (!enabled) return put_bit(image::kTBits + number / 8, static_cast<std::uint8_t>(number % 8), false);
   add_ticks(number, was_enabled && base == 100 * kMillisecond ? s.ticks_100ms : 0);
-  if (base == kMillisecond && !was_enabled && s.next_tick_1ms <= s.time) await_tick_1ms(s.time);
+  if (base == kMillisecond && s.next_tick_1ms == kNever) await_tick_1ms(s.time);
 }
 
 void Cpu::await_tick_1ms(Time from) {
@@ -49,6 +49,7 @@ void Cpu::update_timers_at_scan_begin() {
 }
 
 void Cpu::tick_1ms_timers(Time at) {
+  s.next_tick_1ms = kNever;
   bool any = false;
   for (const std::uint8_t timer : program_->timers_1ms) {
     if (!s.timer[timer].enabled) continue;

@@ -72,14 +72,6 @@ std::optional<Width> width_of(const stl::Address& address, Area area) {
   }
 }
 
-std::string range_text(const CpuModel& model, Area area, Width width) {
-  const std::uint32_t size = model.size_of(area);
-  if (is_numbered(area)) return fmt::format("{0}0 to {0}{1}", info(area).name, size - 1);
-  if (width == Width::Bit) return fmt::format("{0}0.0 to {0}{1}.7", info(area).name, size - 1);
-  const std::uint32_t last = area == Area::AI || area == Area::AQ ? size - 2 : size - bytes_of(width);
-  return fmt::format("{} to {}", address_text(area, width, 0, 0), address_text(area, width, last, 0));
-}
-
 std::string areas_text(const OperandRule& rule) {
   std::string text;
   const auto add = [&](std::string_view what) { text.append(text.empty() ? "" : ", ").append(what); };
@@ -363,6 +355,14 @@ std::string address_text(Area area, Width width, std::uint32_t number, std::uint
   if (is_numbered(area)) return fmt::format("{}{}", name, number);
   if (width == Width::Bit) return fmt::format("{}{}.{}", name, number, bit);
   return fmt::format("{}{}{}", name, letter_of(width), number);
+}
+
+std::string range_text(const CpuModel& model, Area area, Width width) {
+  const std::uint32_t size = model.size_of(area);
+  if (is_numbered(area)) return fmt::format("{0}0 to {0}{1}", info(area).name, size - 1);
+  if (width == Width::Bit) return fmt::format("{0}0.0 to {0}{1}.7", info(area).name, size - 1);
+  const std::uint32_t last = area == Area::AI || area == Area::AQ ? size - 2 : size - bytes_of(width);
+  return fmt::format("{} to {}", address_text(area, width, 0, 0), address_text(area, width, last, 0));
 }
 
 std::optional<PlacedOperand> place_operand(const Instruction& instruction, const OperandRule& rule,

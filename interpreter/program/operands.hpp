@@ -39,4 +39,7 @@ std::optional<PlacedOperand> place_operand(const Instruction& instruction, const
 /// `VB100`, `T33`, `M31.7`: a place in words, of a memory area.
 std::string address_text(Area area, Width width, std::uint32_t number, std::uint8_t bit);
 
+/// `VB0 to VB4095`: what there is of an area on a CPU.
+std::string range_text(const CpuModel& model, Area area, Width width);
+
 }  // namespace s7200

@@ -54,8 +54,7 @@ void write_bits(BitPlace bit, std::size_t count, bool value) {
   for (std::size_t i = 0; i < count; ++i, ++bit.number) write(bit, value);
 }
 
-void set(Machine& m, bool value) {
-  const std::size_t count = count_of_bits(m);
+void set(Machine& m, std::size_t count, bool value) {
   write_bits(m.bit(0), count, value);
   m.spend_units(static_cast<std::uint32_t>(count));
 }
@@ -66,13 +65,13 @@ void reset(Machine& m) {
   if (first.size == stl::Size::None)  // T33, C4
     for (std::size_t i = 0; i < count; ++i)
       write(Place{first.area == "T" ? &m.memory.T : &m.memory.C, 2 * (first.number + i)}, 2, 0);
-  set(m, false);
+  set(m, count, false);
 }
 
 void set_immediate(Machine& m, bool value) {
   const std::size_t count = count_of_bits(m);
   write_bits(m.point(0), count, value);
-  set(m, value);
+  set(m, count, value);
 }
 
 }  // namespace
@@ -100,7 +99,7 @@ void add_bit_logic(Instructions& all) {
   all["LPP"] = {false, [](Machine& m) { m.pop(); }};
   all["="] = {false, coil};
   all["=I"] = {false, immediate_coil};
-  all["S"] = {true, [](Machine& m) { set(m, true); }};
+  all["S"] = {true, [](Machine& m) { set(m, count_of_bits(m), true); }};
   all["R"] = {true, reset};
   all["SI"] = {true, [](Machine& m) { set_immediate(m, true); }};
   all["RI"] = {true, [](Machine& m) { set_immediate(m, false); }};

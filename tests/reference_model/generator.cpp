@@ -5,6 +5,7 @@
 #include <set>
 
 #include "interpreter/model/cpu_model.hpp"
+#include "tests/reference_model/instructions.hpp"
 
 namespace s7200::reference {
 namespace {
@@ -17,14 +18,15 @@ constexpr std::uint32_t kDigits = 120, kDigitsSize = 32;
 constexpr std::uint32_t kTables[] = {200, 260};
 constexpr std::uint32_t kEnd = 4096, kEndSize = 12;
 
-/// Instructions that the body of a program does not use freely.
-bool placed_apart(const Instruction& instruction) {
-  static const std::set<std::string_view> kNames{"XMT", "CRETI", "SCRT"};
-  return kNames.contains(instruction.mnemonic);
+/// For the generator to use anywhere in a rung: what the reference model knows and needs no partner.
+bool is_free(const s7200::Instruction& instruction) {
+  if (!instructions().contains(std::string(instruction.mnemonic)) || !(instruction.cpus & kCpu214)) return false;
+  const Structure s = instruction.structure;
+  return s == Structure::None || s == Structure::Compare || s == Structure::Attach;
 }
 
 /// Those that leave the program early: rarely, or nothing behind them would run.
-bool is_rare(const Instruction& instruction) {
+bool is_rare(const s7200::Instruction& instruction) {
   static const std::set<std::string_view> kNames{"STOP", "END", "CRET", "WDR", "ENI", "DISI", "ATCH", "DTCH"};
   return kNames.contains(instruction.mnemonic);
 }
@@ -34,12 +36,8 @@ std::size_t size_of(std::string_view area) { return cpu214().size_of(*area_named
 }  // namespace
 
 Generator::Generator(std::uint64_t seed) : random_(seed) {
-  for (const Instruction& instruction : all_instructions()) {
-    if (!instruction.body || !(instruction.cpus & kCpu214) || placed_apart(instruction)) continue;
-    const Structure s = instruction.structure;
-    if (s != Structure::None && s != Structure::Compare && s != Structure::Attach) continue;
-    (instruction.writes_output ? outputs_ : logic_).push_back(&instruction);
-  }
+  for (const auto& instruction : all_instructions())
+    if (is_free(instruction)) (instruction.writes_output ? outputs_ : logic_).push_back(&instruction);
 }
 
 // --- program ---
@@ -80,7 +78,7 @@ void Generator::rung(std::uint8_t part, const std::string& last) {
   int depth = 1;
   line(load());
   for (std::size_t i = below(5); i > 0;) {
-    const Instruction& instruction = *one_of(logic_);
+    const auto& instruction = *one_of(logic_);
     const int after = depth + instruction.stack.change;
     if (depth < instruction.stack.needs || after < 1 || after > 9) continue;
     line(statement(instruction));
@@ -88,7 +86,7 @@ void Generator::rung(std::uint8_t part, const std::string& last) {
     --i;
   }
   for (std::size_t i = last.empty() ? 1 + below(4) : below(3); i > 0;) {
-    const Instruction& instruction = *one_of(outputs_);
+    const auto& instruction = *one_of(outputs_);
     const bool unlikely = is_rare(instruction) && !chance(8);
     if (unlikely || depth < instruction.stack.needs || !(instruction.allowed & part)) continue;
     line(statement(instruction));
@@ -102,14 +100,14 @@ std::string Generator::load() {
   if (chance(55)) return "LD SM0.0";
   if (chance(10)) return "LDN SM0.0";
   while (true) {
-    const Instruction& instruction = *one_of(logic_);
+    const auto& instruction = *one_of(logic_);
     if (instruction.stack.needs == 0 && instruction.stack.change == 1) return statement(instruction);
   }
 }
 
 void Generator::loop(std::uint8_t part, int level) {
   line(load());
-  const Instruction& head = *find_instruction("FOR");
+  const auto& head = *find_instruction("FOR");
   if (chance(70)) {
     const auto from = static_cast<int>(below(5)) - 2;
     line("FOR " + operand(head.operand[0]) + ", " + std::to_string(from) + ", " + std::to_string(from + static_cast<int>(below(5)) - 1));
@@ -143,7 +141,7 @@ void Generator::segment(std::uint8_t part, int level) {
   in_segment_ = false;
 }
 
-std::string Generator::statement(const Instruction& instruction) {
+std::string Generator::statement(const s7200::Instruction& instruction) {
   std::string text(instruction.mnemonic);
   const char* separator = " ";
   for (const OperandRule& rule : instruction.rules()) {
@@ -236,8 +234,9 @@ std::string Generator::special_memory(const OperandRule& rule) {
   switch (rule.width) {
     case Width::Bit:
     case Width::Byte: {
-      static const std::vector<std::uint32_t> kReadable{0, 0, 1, 1, 1, 2, 3, 4, 4, 6, 22, 23, 30, 34, 35}, kWritable{30, 34, 35};
-      return address("SM", rule.width, one_of(read_only ? kReadable : kWritable));
+      static const std::vector<std::uint32_t> kReadable{0, 0, 1, 1, 1, 2, 3, 4, 4, 6, 22, 23, 30, 34, 35}, kWritable{30, 34, 35},
+          kBlocks{34, 35};  // a block from SMB30 on could ask for a save to EEPROM in SMB31
+      return address("SM", rule.width, one_of(read_only ? kReadable : rule.block ? kBlocks : kWritable));
     }
     case Width::Word: return read_only ? "SMW" + one_of(std::vector<std::string>{"0", "1", "3", "22", "24", "26", "34"}) : "SMW34";
     default: return read_only ? "SMD" + one_of(std::vector<std::string>{"0", "1", "4", "22", "24"}) : "";

@@ -37,7 +37,7 @@ class Generator {
   void jump_back(std::uint8_t part, int level);
   void segment(std::uint8_t part, int level);
   std::string load();
-  std::string statement(const Instruction& instruction);
+  std::string statement(const s7200::Instruction& instruction);
   std::string operand(const OperandRule& rule);
   std::string constant(const OperandRule& rule);
   std::string number(const OperandRule& rule);
@@ -55,7 +55,7 @@ class Generator {
   void table(Bytes& bytes, std::size_t at);
 
   std::mt19937_64 random_;
-  std::vector<const Instruction*> logic_, outputs_;
+  std::vector<const s7200::Instruction*> logic_, outputs_;
   std::string text_;
   std::size_t subroutines_ = 0;
   std::size_t labels_ = 0;

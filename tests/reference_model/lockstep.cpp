@@ -44,17 +44,13 @@ std::shared_ptr<const Program> accepted(std::string& text) {
   return nullptr;
 }
 
-const Times& times() {
-  static const Times kTimes{std::string(cpu214().times_csv[0])};
-  return kTimes;
-}
-
 /// One program on both.
 class Pair {
  public:
   Pair(std::shared_ptr<const Program> program, Generator& generator, bool observed)
-      : program_(std::move(program)), generator_(generator), cpu_(program_, queue_, port_), machine_(program_->source, times()) {
+      : program_(std::move(program)), generator_(generator), cpu_(program_, queue_, port_), machine_(program_->source, cpu214_times()) {
     if (observed) cpu_.set_sink(&observer_);
+    executed_.resize(machine_.statements().size());
   }
 
   /// Both from power-up until STOP, a difference, or so many instructions; the number executed.
@@ -77,6 +73,10 @@ class Pair {
 
   const std::optional<std::string>& difference() const { return difference_; }
 
+  void count_into(std::map<std::string, std::uint64_t>& executed) const {
+    for (std::size_t i = 0; i < executed_.size(); ++i) executed[machine_.statements()[i].mnemonic] += executed_[i];
+  }
+
  private:
   void fill() {
     generator_.fill(machine_.memory);
@@ -89,11 +89,16 @@ class Pair {
     std::size_t executed = 0;
     steps_.clear();
     do {
-      if (machine_.in_program) {
+      const bool instruction = machine_.in_program && machine_.running;
+      const std::size_t position = machine_.position;
+      const std::uint64_t errors = machine_.error_count;
+      const bool powered = machine_.has_power();
+      if (instruction) {
         ++executed;
-        steps_.push_back(machine_.position);
+        steps_.push_back(position);
       }
       machine_.step();
+      if (instruction && powered && machine_.error_count == errors) ++executed_[position];
     } while (machine_.time == before);
     while (cpu_.time() < machine_.time) {
       cpu_.run(machine_.time);
@@ -120,6 +125,7 @@ class Pair {
   Cpu cpu_;
   Machine machine_;
   std::vector<std::size_t> steps_;  // positions of the statements just executed
+  std::vector<std::uint64_t> executed_;  // of each statement
   std::optional<std::string> difference_;
 };
 
@@ -147,6 +153,7 @@ LockstepResult run_lockstep(std::uint64_t seed, std::uint64_t instructions) {
     for (int i = 0; i < kPowerUps && done < kInstructionsOfProgram && !pair.difference(); ++i)
       done += pair.run(kInstructionsOfProgram - done);
     result.instructions += done;
+    pair.count_into(result.executed);
     if (pair.difference())
       result.difference = fmt::format("{}\nseed {}, program:\n{}", *pair.difference(), seed, listing(*program));
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -10,6 +11,7 @@ namespace s7200::reference {
 struct LockstepResult {
   std::uint64_t instructions = 0;          ///< executed and compared
   std::uint64_t programs = 0;
+  std::map<std::string, std::uint64_t> executed;  ///< with power flow where they need it, without error
   std::optional<std::string> difference;   ///< the first: program, instruction, both states, seed
 };
 

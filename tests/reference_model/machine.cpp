@@ -137,11 +137,13 @@ void Machine::read_inputs() {
   inputs_read_ = time;
 }
 
+bool Machine::has_power() const { return !instruction_[position]->needs_power || stack[0]; }
+
 void Machine::execute() {
   count_milliseconds();
   const Instruction& instruction = *instruction_[position];
   next = position + 1;
-  if (instruction.needs_power && !stack[0]) {
+  if (!has_power()) {
     time += no_power_flow_;
     if (statement().mnemonic == "FOR") next = find_next(position) + 1;
   } else {

@@ -69,6 +69,9 @@ class Machine {
   /// The 1 ms timers count up to now. step() does it before an instruction.
   void count_milliseconds();
 
+  /// Whether the instruction at `position` would be executed, not skipped.
+  bool has_power() const;
+
   // --- for the instructions ---
 
   std::size_t next = 0;          ///< statement to go on with

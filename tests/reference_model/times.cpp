@@ -1,6 +1,8 @@
 #include "tests/reference_model/times.hpp"
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -48,6 +50,14 @@ Cost Times::of(const std::string& mnemonic, const std::string& area) const {
   for (const Row& row : rows_)
     if (row.mnemonics.contains(mnemonic) && (row.areas.empty() || row.areas.contains(area))) return row.cost;
   throw std::out_of_range("no time for " + mnemonic + " " + area);
+}
+
+const Times& cpu214_times() {
+  static const Times kTimes = [] {
+    std::ifstream in(S7200_SOURCE_DIR "/interpreter/model/cpu214_times.csv");
+    return Times({std::istreambuf_iterator<char>(in), {}});
+  }();
+  return kTimes;
 }
 
 }  // namespace s7200::reference

@@ -30,4 +30,7 @@ class Times {
   std::vector<Row> rows_;
 };
 
+/// The figures of interpreter/model/cpu214_times.csv.
+const Times& cpu214_times();
+
 }  // namespace s7200::reference

@@ -486,6 +486,14 @@ TEST(Debugger, ScriptEndsAtTheFirstWrongCommandWithItsLine) {
   EXPECT_EQ(session.state().instructions, 2U);
 }
 
+TEST(Debugger, ScriptEchoesEachCommandInFrontOfWhatItPrints) {
+  Session session(kNested);
+  std::istringstream script("step; stack # look\n");
+  EXPECT_FALSE(session.debugger->run_script(script).has_value());
+  EXPECT_TRUE(session.out.str().starts_with("(s7200) step\n"));
+  EXPECT_TRUE(has(session.out.str(), "(s7200) stack\nS0 1"));
+}
+
 TEST(Debugger, ScriptEndsAtQuitAndAtItsEnd) {
   Session session(kNested);
   std::istringstream script("step\r\nquit\r\nstep\r\n"), no_line_end("step");
