@@ -16,9 +16,13 @@ needed=(
 )
 
 install_missing_packages() {
-  local entry missing=() as_root=()
+  local entry sign missing=() as_root=()
   for entry in "${needed[@]}"; do
-    command -v "${entry%%:*}" >/dev/null || [ -e "${entry%%:*}" ] || missing+=("${entry#*:}")
+    sign=${entry%%:*}
+    case $sign in
+      /*) [ -e "$sign" ] || missing+=("${entry#*:}") ;;
+      *) command -v "$sign" >/dev/null || missing+=("${entry#*:}") ;;
+    esac
   done
   if [ "${#missing[@]}" -eq 0 ]; then return; fi
   if ! command -v apt-get >/dev/null; then
