@@ -28,7 +28,8 @@ void Cpu::power_up(bool run) {
 
 void Cpu::run(Time limit) {
   paused_ = false;
-  while (s.time < limit && !paused_) {
+  const Mode mode = s.mode;
+  while (s.time < limit && !paused_ && s.mode == mode) {
     const Time event = queue_.next();
     if (event <= s.time) return;
     if (s.watchdog <= s.time) {

@@ -65,8 +65,8 @@ class Cpu {
   /// Clears all memory and goes to RUN (mode switch in RUN) or stays in STOP (TERM).
   void power_up(bool run = true);
 
-  /// Runs until its clock has reached `limit`, an event of the queue is due, the sink stops it, or (when asked) a scan has
-  /// ended. Whoever calls then handles the events that are due at or before time().
+  /// Runs until its clock has reached `limit`, an event of the queue is due, the sink stops it, it goes to STOP, or (when
+  /// asked) a scan has ended. Whoever calls then handles the events that are due at or before time().
   void run(Time limit);
 
   /// Stops run() at the end of each scan, or not.

@@ -54,7 +54,7 @@ void Cpu::begin_scan() {
 }
 
 void Cpu::system_phases() {
-  while (s.phase != Phase::Program && !paused_) {
+  while (s.phase != Phase::Program && !paused_ && s.time < until_) {
     const Time end = s.time + s.phase_left;
     if (end > until_) {
       s.phase_left = end - until_;
