@@ -22,6 +22,13 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
+/// # begins a comment where a word could begin: not in 16#FF.
+std::string_view without_comment(std::string_view line) {
+  for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1))
+    if (at == 0 || line[at - 1] == ' ' || line[at - 1] == '\t') return line.substr(0, at);
+  return line;
+}
+
 std::vector<std::string_view> fields_of(std::string_view row) {
   std::vector<std::string_view> fields;
   for (std::size_t comma = 0; comma != std::string_view::npos;) {
@@ -55,7 +62,7 @@ class Reader {
       ++line_;
       const std::string_view line = csv.substr(0, csv.find('\n'));
       csv.remove_prefix(std::min(csv.size(), line.size() + 1));
-      const std::string_view row = trimmed(line.substr(0, line.find('#')));
+      const std::string_view row = trimmed(without_comment(line));
       if (row.empty()) continue;
       if (!(first && row.starts_with("time"))) read_row(fields_of(row));
       first = false;

@@ -41,10 +41,12 @@ TEST(Clock, AWeekdaySwitchedOffStaysOffAndADateThatIsNoneIsTaken) {
   EXPECT_EQ(behind({26, 2, 30, 23, 59, 59, 2}), (ClockTime{26, 3, 1, 0, 0, 0, 3}));
 }
 
-TEST(Clock, AfterThirtyDaysOfRunning) {
-  Plc plc("LD SM0.1\nSTOP\nMEND\n");
+TEST(Clock, ThirtyDaysLater) {
+  Plc plc("LD SM0.0\nMEND\n");
   plc.cpu.set_clock({26, 11, 21, 10, 0, 0, 7});
-  plc.run_until(30 * 86'400 * kSecond);
+  State later = plc.cpu.state();
+  later.time += 30 * 86'400 * kSecond;
+  plc.cpu.restore(later);
   EXPECT_EQ(plc.cpu.clock(), (ClockTime{26, 12, 21, 10, 0, 0, 2}));
 }
 

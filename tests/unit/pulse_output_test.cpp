@@ -56,7 +56,7 @@ TEST(PulseOutput, ACycleBelow2UnitsIs2AndACountOf0Is1) {
 // The second PLS at 310 (MOVW –290, MOVD –300) waits for the end of the first train; the third is one too many, at 320.
 TEST(PulseOutput, OneMoreTrainWaitsInLineAFurtherOneSetsTheOverflowBit) {
   Plc plc(program(kTrainInMs, 2, 0, 2, "MOVW 4, SMW68\nMOVD 1, SMD72\nPLS 0\nPLS 0\n"));
-  plc.run_until(315 * us);
+  plc.run_until(310 * us);
   EXPECT_EQ(plc.value("SM66.6"), 0);
   plc.run_until(1 * ms);
   EXPECT_EQ(plc.value("SM66.6"), 1);
