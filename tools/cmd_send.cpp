@@ -56,7 +56,8 @@ bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames)
     for (std::string line; std::getline(lines, line);) {
       ++number;
       line = line.substr(0, std::min(line.find('#'), line.find('\r')));
-      if (line.find_first_not_of(" \t") != std::string::npos) written.push_back({line, fmt::format("{}:{}", options.frames_file, number)});
+      if (line.find_first_not_of(" \t") != std::string::npos)
+        written.push_back({line, fmt::format("{}:{}", options.frames_file, number)});
     }
   }
   if (written.empty()) {
@@ -96,7 +97,8 @@ void print_exchange(const serial::Exchange& exchange, Time timeout) {
 }
 
 nlohmann::ordered_json to_json(const serial::Exchange& exchange) {
-  nlohmann::ordered_json json{{"request", plain_hex(modbus::bytes_of(exchange.request))}, {"response", nullptr}, {"latency_us", nullptr}};
+  nlohmann::ordered_json json{
+      {"request", plain_hex(modbus::bytes_of(exchange.request))}, {"response", nullptr}, {"latency_us", nullptr}};
   if (exchange.timed_out) return json;
   json["response"] = plain_hex(exchange.response_bytes());
   json["latency_us"] = static_cast<double>(*exchange.latency()) / kMicrosecond;
@@ -108,7 +110,8 @@ nlohmann::ordered_json to_json(const serial::Exchange& exchange) {
 /// In slices, so that Ctrl-C comes in between. False when it did, or the CPU stopped.
 bool run_until(serial::Simulation& simulation, Time end) {
   while (simulation.time() < end)
-    if (interrupted() || simulation.run_until(std::min(end, simulation.time() + 10 * kSecond)) != serial::Halt::Time) return false;
+    if (interrupted() || simulation.run_until(std::min(end, simulation.time() + 10 * kSecond)) != serial::Halt::Time)
+      return false;
   return true;
 }
 
@@ -118,8 +121,10 @@ bool wait_for_start(serial::Simulation& simulation, const SendOptions& options) 
   const Time quiet = serial::Simulation::default_quiet(options.master.format_for(simulation));
   if (simulation.run_until_ready(quiet, kReadyWithin)) return true;
   if (simulation.cpu().state().mode == Mode::Run)
-    print_error(fmt::format("the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
-                            "sends all the same", format_duration(quiet), format_duration(kReadyWithin)));
+    print_error(
+        fmt::format("the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
+                    "sends all the same",
+                    format_duration(quiet), format_duration(kReadyWithin)));
   return false;
 }
 
@@ -149,8 +154,10 @@ int run_send(SendOptions& options) {
     }
     const serial::Exchange& exchange = options.master.exchange(simulation, frame, format);
     all_answered &= !exchange.timed_out;
-    if (options.json) json.push_back(to_json(exchange));
-    else print_exchange(exchange, options.master.timeout);
+    if (options.json)
+      json.push_back(to_json(exchange));
+    else
+      print_exchange(exchange, options.master.timeout);
     const Time pause = options.pause == kNever ? serial::Simulation::default_quiet(format) : options.pause;
     run_until(simulation, simulation.time() + pause);
   }

@@ -22,9 +22,12 @@ void Cpu::run(Time limit) {
     }
     until_ = std::min({limit, event, s.watchdog});
     if (interrupt_due()) take_interrupt();
-    if (!s.in_interrupt && s.phase != Phase::Program) system_phases();
-    else if (sink_ && sink_->wants_instructions()) execute_observed();
-    else execute_plain();
+    if (!s.in_interrupt && s.phase != Phase::Program)
+      system_phases();
+    else if (sink_ && sink_->wants_instructions())
+      execute_observed();
+    else
+      execute_plain();
   }
 }
 
@@ -121,10 +124,14 @@ std::optional<std::uint32_t> Cpu::peek(const Op& op, std::size_t i) const {
     operand.at = *place;
   }
   switch (rule.width) {
-    case Width::Bit: return bit(operand);
-    case Width::Byte: return get<std::uint8_t>(operand);
-    case Width::Word: return get<std::uint16_t>(operand);
-    case Width::Double: return get<std::uint32_t>(operand);
+    case Width::Bit:
+      return bit(operand);
+    case Width::Byte:
+      return get<std::uint8_t>(operand);
+    case Width::Word:
+      return get<std::uint16_t>(operand);
+    case Width::Double:
+      return get<std::uint32_t>(operand);
   }
   return {};
 }
@@ -167,27 +174,42 @@ void Cpu::fatal_error(FatalError code) {
 
 std::string_view meaning_of(RunError code) {
   switch (code) {
-    case RunError::CounterNotDefined: return "HSC before HDEF of that counter";
-    case RunError::PointTaken: return "input interrupt attached to a point that a high-speed counter uses";
-    case RunError::InputTaken: return "HDEF uses an input that an input interrupt is attached to";
-    case RunError::Clock: return "TODW: the buffer holds no BCD";
-    case RunError::CounterDefinedTwice: return "second HDEF for the same counter";
-    case RunError::EepromRange: return "the V address to save lies outside the EEPROM";
-    case RunError::NotInInterrupt: return "instruction not allowed in an interrupt routine";
-    case RunError::IndirectAddress: return "indirect addressing error: the pointer leads outside the memory it may reach";
-    case RunError::CallDepth: return "subroutines nested too deep";
-    case RunError::PortBusy: return "XMT while port 0 is transmitting, or not in Freeport mode";
-    case RunError::OperandRange: return "range error: the operand leaves its memory area";
-    case RunError::Count: return "error in the count field of an instruction";
-    case RunError::FreeportInInterrupt: return "attempt to switch to Freeport inside an interrupt routine";
+    case RunError::CounterNotDefined:
+      return "HSC before HDEF of that counter";
+    case RunError::PointTaken:
+      return "input interrupt attached to a point that a high-speed counter uses";
+    case RunError::InputTaken:
+      return "HDEF uses an input that an input interrupt is attached to";
+    case RunError::Clock:
+      return "TODW: the buffer holds no BCD";
+    case RunError::CounterDefinedTwice:
+      return "second HDEF for the same counter";
+    case RunError::EepromRange:
+      return "the V address to save lies outside the EEPROM";
+    case RunError::NotInInterrupt:
+      return "instruction not allowed in an interrupt routine";
+    case RunError::IndirectAddress:
+      return "indirect addressing error: the pointer leads outside the memory it may reach";
+    case RunError::CallDepth:
+      return "subroutines nested too deep";
+    case RunError::PortBusy:
+      return "XMT while port 0 is transmitting, or not in Freeport mode";
+    case RunError::OperandRange:
+      return "range error: the operand leaves its memory area";
+    case RunError::Count:
+      return "error in the count field of an instruction";
+    case RunError::FreeportInInterrupt:
+      return "attempt to switch to Freeport inside an interrupt routine";
   }
   return "unknown";
 }
 
 std::string_view meaning_of(FatalError code) {
   switch (code) {
-    case FatalError::Watchdog: return "scan watchdog: the scan took longer than 300 ms without WDR";
-    case FatalError::CompareIndirect: return "indirect addressing error in a compare contact";
+    case FatalError::Watchdog:
+      return "scan watchdog: the scan took longer than 300 ms without WDR";
+    case FatalError::CompareIndirect:
+      return "indirect addressing error in a compare contact";
   }
   return "unknown";
 }

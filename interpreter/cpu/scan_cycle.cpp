@@ -16,7 +16,9 @@ std::uint8_t clock_bits(Time time) {
 }
 
 /// For a word. Not documented, modelled so: a fraction is dropped, and a scan longer than the word can say is 65535 ms.
-std::uint16_t whole_milliseconds(Time time) { return static_cast<std::uint16_t>(std::min<Time>(time / kMillisecond, 0xFFFF)); }
+std::uint16_t whole_milliseconds(Time time) {
+  return static_cast<std::uint16_t>(std::min<Time>(time / kMillisecond, 0xFFFF));
+}
 
 }  // namespace
 

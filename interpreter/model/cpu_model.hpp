@@ -50,20 +50,20 @@ struct RetentiveRange {
 };
 
 struct CpuModel {
-  std::string_view name;                      ///< "214"
+  std::string_view name;  ///< "214"
   CpuSet self;
-  std::array<std::uint32_t, kAreas> size;     ///< bytes, or elements of T, C, HC and AC; by Area
+  std::array<std::uint32_t, kAreas> size;         ///< bytes, or elements of T, C, HC and AC; by Area
   std::uint32_t labels, subroutines, interrupts;  ///< how many numbers there are, from 0
   std::uint32_t program_words;
-  std::uint32_t eeprom_bytes;                 ///< V memory that the EEPROM can hold, from V0 on
+  std::uint32_t eeprom_bytes;  ///< V memory that the EEPROM can hold, from V0 on
   std::vector<RetentiveRange> retentive;
   std::array<std::uint8_t, kQueues> queue_depth;
-  std::array<std::uint32_t, 8> baud;          ///< by the three bits bbb of SMB30
-  std::uint8_t identification;                ///< SMB6
-  Time shortest_timed_interval;               ///< of SMB34 and SMB35
-  std::uint32_t call_depth, for_depth;        ///< nesting of subroutines and of FOR loops
-  Time watchdog;                              ///< longest scan
-  std::string_view times_csv;                 ///< execution times, in the format of model/times.hpp
+  std::array<std::uint32_t, 8> baud;    ///< by the three bits bbb of SMB30
+  std::uint8_t identification;          ///< SMB6
+  Time shortest_timed_interval;         ///< of SMB34 and SMB35
+  std::uint32_t call_depth, for_depth;  ///< nesting of subroutines and of FOR loops
+  Time watchdog;                        ///< longest scan
+  std::string_view times_csv;           ///< execution times, in the format of model/times.hpp
 
   std::uint32_t size_of(Area area) const { return size[static_cast<std::size_t>(area)]; }
 };
