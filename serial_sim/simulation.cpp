@@ -1,6 +1,7 @@
 #include "serial_sim/simulation.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace s7200::serial {
 namespace {
@@ -9,15 +10,19 @@ enum Driver { kPlc, kMaster };
 
 }  // namespace
 
-Simulation::Simulation(std::shared_ptr<const Program> program)
+Simulation::Simulation(std::shared_ptr<const Program> program, FieldScript field)
     : plc_uart_(line_, queue_, EventOwner::PlcUart, kPlc),
       master_uart_(line_, queue_, EventOwner::MasterUart, kMaster),
       master_(master_uart_, queue_),
-      cpu_(std::move(program), queue_, plc_uart_) {
+      cpu_(std::move(program), queue_, plc_uart_),
+      field_(std::move(field), cpu_, queue_) {
   plc_uart_.enable_receiver(false, 0);
 }
 
-void Simulation::power_up() { cpu_.power_up(); }
+void Simulation::power_up(const RetentiveMemory* memory) {
+  cpu_.power_up(true, memory);
+  field_.power_up();
+}
 
 Halt Simulation::run_until(Time end) {
   while (cpu_.time() < end) {
@@ -74,6 +79,9 @@ void Simulation::dispatch(const Event& event) {
     case EventOwner::Cpu:
       cpu_.handle(event);
       break;
+    case EventOwner::Field:
+      field_.handle(event);
+      break;
     case EventOwner::Master:
       master_.handle(event);
       break;
@@ -86,7 +94,8 @@ void Simulation::note_activity(const Uart::Report& report) {
 }
 
 Simulation::Snapshot Simulation::snapshot() const {
-  return {cpu_.state(), queue_, line_, plc_uart_.state(), master_uart_.state(), master_.state(), last_activity_};
+  return {cpu_.state(),         queue_,          line_,          plc_uart_.state(),
+          master_uart_.state(), master_.state(), last_activity_, field_.state()};
 }
 
 void Simulation::restore(const Snapshot& snapshot) {
@@ -97,6 +106,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   master_uart_.restore(snapshot.master_uart);
   master_.restore(snapshot.master);
   last_activity_ = snapshot.last_activity;
+  field_.restore(snapshot.field);
 }
 
 }  // namespace s7200::serial

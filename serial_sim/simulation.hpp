@@ -1,4 +1,4 @@
-// A PLC and a Modbus master on one line: everything wired, one clock.
+// A PLC with what drives its inputs, and a Modbus master on one line: everything wired, one clock.
 #pragma once
 
 #include <memory>
@@ -6,6 +6,7 @@
 
 #include "interpreter/base/event_queue.hpp"
 #include "interpreter/cpu/cpu.hpp"
+#include "serial_sim/field.hpp"
 #include "serial_sim/line.hpp"
 #include "serial_sim/master.hpp"
 #include "serial_sim/uart.hpp"
@@ -21,10 +22,10 @@ enum class Halt : std::uint8_t {
 
 class Simulation {
  public:
-  explicit Simulation(std::shared_ptr<const Program> program);
+  explicit Simulation(std::shared_ptr<const Program> program, FieldScript field = {});
 
-  /// Powers the CPU up into RUN, at time 0.
-  void power_up();
+  /// Powers the CPU up into RUN, at time 0, with what its memory has kept.
+  void power_up(const RetentiveMemory* memory = nullptr);
 
   /// Runs the CPU and handles what is due, until the CPU's clock has reached `end`. A CPU that goes to STOP ends the run.
   Halt run_until(Time end);
@@ -57,6 +58,7 @@ class Simulation {
     Uart::State plc_uart, master_uart;
     Master::State master;
     Time last_activity = 0;
+    Field::State field;
     bool operator==(const Snapshot&) const = default;
   };
   Snapshot snapshot() const;
@@ -73,6 +75,7 @@ class Simulation {
   Uart master_uart_;
   Master master_;
   Cpu cpu_;
+  Field field_;
   Time last_activity_ = 0;
 };
 

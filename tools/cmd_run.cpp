@@ -2,19 +2,16 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <thread>
 
 #include "tools/commands.hpp"
 #include "tools/duration_option.hpp"
 #include "tools/exit_code.hpp"
-#include "tools/memory.hpp"
+#include "tools/interruption.hpp"
+#include "tools/plant_options.hpp"
 #include "tools/program_options.hpp"
 #include "tools/report.hpp"
-#include "tools/terminal.hpp"
-#include "tools/trace_file.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -26,11 +23,8 @@ struct RunOptions {
   Time duration = kSecond;
   std::uint64_t scans = 0;
   bool realtime = false, json = false;
-  std::vector<std::string> set, dump;
-  TraceFile trace;
+  PlantOptions plant;
 };
-
-std::atomic<bool> interrupted = false;
 
 /// Runs in slices, so that Ctrl-C, pacing and progress come in between; what is computed does not depend on them.
 class Runner {
@@ -39,10 +33,10 @@ class Runner {
 
   /// Why it ended: `time`, `scans`, `stop`, `fatal` or `interrupted`.
   std::string_view run() {
-    std::signal(SIGINT, [](int) { interrupted = true; });
+    catch_interruption();
     simulation_.cpu().pause_at_scan_end(options_.scans != 0);
     while (simulation_.time() < end()) {
-      if (interrupted) return "interrupted";
+      if (interrupted()) return "interrupted";
       const serial::Halt halt = simulation_.run_until(std::min(end(), next_slice()));
       if (halt == serial::Halt::Stopped) return simulation_.cpu().state().fatal_code ? "fatal" : "stop";
       if (options_.scans != 0 && simulation_.cpu().state().scans >= options_.scans) return "scans";
@@ -72,28 +66,25 @@ class Runner {
   Time next_progress_ = 2 * kSecond;
 };
 
-void print_text(const serial::Simulation& simulation, std::string_view reason, const std::vector<MemoryRange>& dumps) {
+void print_text(const serial::Simulation& simulation, std::string_view reason, const PlantOptions& plant) {
   const State& state = simulation.cpu().state();
   fmt::print("ended by {} after {}: {} scans, {} instructions, CPU in {}\n", reason, format_duration(state.time, 6),
              state.scans, state.instructions, state.mode == Mode::Run ? "RUN" : "STOP");
   if (state.scans)
     fmt::print("scan time: shortest {}, longest {}\n", format_duration(state.shortest_scan),
                format_duration(state.longest_scan));
-  fmt::print("{}", errors_text(simulation.cpu()));
-  for (const MemoryRange& range : dumps) fmt::print("{}", dump_text(state, range));
+  fmt::print("{}{}", errors_text(simulation.cpu()), plant.dump_text(state));
 }
 
-void print_json(const serial::Simulation& simulation, std::string_view reason, const std::vector<MemoryRange>& dumps,
-                const std::vector<std::string>& names) {
+void print_json(const serial::Simulation& simulation, std::string_view reason, const PlantOptions& plant) {
   const State& state = simulation.cpu().state();
-  nlohmann::ordered_json json{{"stop_reason", reason},
-                              {"time_ns", state.time},
-                              {"scans", state.scans},
-                              {"instructions", state.instructions},
-                              {"mode", state.mode == Mode::Run ? "RUN" : "STOP"},
-                              {"errors", errors_json(simulation.cpu())},
-                              {"dump", nlohmann::ordered_json::object()}};
-  for (std::size_t i = 0; i < dumps.size(); ++i) json["dump"][names[i]] = plain_hex(bytes_of(state, dumps[i]));
+  const nlohmann::ordered_json json{{"stop_reason", reason},
+                                    {"time_ns", state.time},
+                                    {"scans", state.scans},
+                                    {"instructions", state.instructions},
+                                    {"mode", state.mode == Mode::Run ? "RUN" : "STOP"},
+                                    {"errors", errors_json(simulation.cpu())},
+                                    {"dump", plant.dump_json(state)}};
   fmt::print("{}\n", json.dump(2));
 }
 
@@ -101,22 +92,17 @@ int run_run(RunOptions& options) {
   int exit_code = kFine;
   const auto program = options.program.load(exit_code);
   if (!program) return exit_code;
-  std::vector<Assignment> assignments;
-  std::vector<MemoryRange> dumps;
-  if (!parse_assignments(options.set, *program->model, assignments) || !parse_ranges(options.dump, *program->model, dumps))
-    return kUnusable;
+  if (!options.plant.prepare(program)) return kUnusable;
 
-  serial::Simulation simulation(program);
-  if (!options.trace.open(simulation.cpu(), program)) return kUnusable;
-  simulation.power_up();
-  for (const Assignment& assignment : assignments) assign(simulation, assignment);
+  serial::Simulation simulation(program, options.plant.field());
+  options.plant.power_up(simulation);
   const std::string_view reason = Runner(simulation, options).run();
-  if (!options.trace.close()) return kUnusable;
+  if (!options.plant.finish(simulation)) return kUnusable;
 
   if (options.json)
-    print_json(simulation, reason, dumps, options.dump);
+    print_json(simulation, reason, options.plant);
   else
-    print_text(simulation, reason, dumps);
+    print_text(simulation, reason, options.plant);
   return exit_code_of(simulation.cpu());
 }
 
@@ -129,11 +115,7 @@ void add_run(CLI::App& app, int& exit_code) {
   auto* duration = add_duration(*verb, "--for", options->duration, "how long, in simulated time (default 1s)");
   verb->add_option("--scans", options->scans, "how many scans instead")->check(CLI::PositiveNumber)->excludes(duration);
   verb->add_flag("--realtime", options->realtime, "no faster than real time");
-  verb->add_option("--set", options->set, "memory or inputs before the first scan: VW100=5, I0.3=1 (repeatable)")
-      ->type_name("ADDRESS=VALUE");
-  verb->add_option("--dump", options->dump, "memory to show at the end: VB0:16, VW100, AC0 (repeatable)")
-      ->type_name("ADDRESS[:COUNT]");
-  options->trace.add_to(*verb);
+  options->plant.add_to(*verb);
   verb->add_flag("--json", options->json, "print the result as JSON");
   verb->footer("Example: s7200 run stl_programs/modbus_slave.stl --for 2s --set VW100=5 --dump VW100:4");
   verb->callback([options, &exit_code] { exit_code = run_run(*options); });

@@ -8,26 +8,26 @@
 #include "tools/commands.hpp"
 #include "tools/duration_option.hpp"
 #include "tools/exit_code.hpp"
+#include "tools/interruption.hpp"
 #include "tools/master_options.hpp"
-#include "tools/memory.hpp"
+#include "tools/plant_options.hpp"
 #include "tools/program_options.hpp"
 #include "tools/report.hpp"
 #include "tools/terminal.hpp"
 #include "tools/timeline.hpp"
-#include "tools/trace_file.hpp"
 
 namespace s7200::tools {
 namespace {
 
 struct SendOptions {
   ProgramOptions program;
-  std::vector<std::string> frames, set, dump;
+  std::vector<std::string> frames;
   std::string frames_file;
   bool crc = false, json = false, timeline = false;
   Time after = kNever;  // kNever: when the first scan has ended and the line is quiet
   Time pause = kNever;  // kNever: Simulation::default_quiet
   MasterOptions master;
-  TraceFile trace;
+  PlantOptions plant;
 };
 
 constexpr Time kReadyWithin = 60 * kSecond;
@@ -82,9 +82,17 @@ nlohmann::ordered_json to_json(const serial::Exchange& exchange) {
   return json;
 }
 
+/// In slices, so that Ctrl-C comes in between. False when it did, or the CPU stopped.
+bool run_until(serial::Simulation& simulation, Time end) {
+  while (simulation.time() < end)
+    if (interrupted() || simulation.run_until(std::min(end, simulation.time() + 10 * kSecond)) != serial::Halt::Time)
+      return false;
+  return true;
+}
+
 /// Waits for the moment of the first frame; a message and false when it never comes.
 bool wait_for_start(serial::Simulation& simulation, const SendOptions& options) {
-  if (options.after != kNever) return simulation.run_until(options.after) == serial::Halt::Time;
+  if (options.after != kNever) return run_until(simulation, options.after);
   const Time quiet = serial::Simulation::default_quiet(options.master.format_for(simulation));
   if (simulation.run_until_ready(quiet, kReadyWithin)) return true;
   if (simulation.cpu().state().mode == Mode::Run)
@@ -100,17 +108,13 @@ int run_send(SendOptions& options) {
   const auto program = options.program.load(exit_code);
   if (!program) return exit_code;
   std::vector<modbus::Frame> frames;
-  std::vector<Assignment> assignments;
-  std::vector<MemoryRange> dumps;
-  if (!read_frames(options, frames) || !parse_assignments(options.set, *program->model, assignments) ||
-      !parse_ranges(options.dump, *program->model, dumps))
-    return kUnusable;
+  if (!read_frames(options, frames) || !options.plant.prepare(program)) return kUnusable;
 
-  serial::Simulation simulation(program);
-  if (!options.trace.open(simulation.cpu(), program)) return kUnusable;
-  Timeline timeline(program, options.trace.sink());
-  simulation.power_up();
-  for (const Assignment& assignment : assignments) assign(simulation, assignment);
+  catch_interruption();
+  serial::Simulation simulation(program, options.plant.field());
+  options.plant.power_up(simulation);
+  TraceSink* const records = options.plant.sinks().empty() ? nullptr : &options.plant.sinks();
+  Timeline timeline(program, records);
 
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   bool all_answered = wait_for_start(simulation, options);
@@ -119,7 +123,7 @@ int run_send(SendOptions& options) {
     fmt::print(stderr, "s7200: note: the program has not switched port 0 to Freeport mode (SMB30 = 16#{:02X})\n",
                simulation.cpu().state().image[image::kSM + 30]);
   for (const modbus::Frame& frame : frames) {
-    if (!ready) break;
+    if (!ready || interrupted()) break;
     const SerialFormat format = options.master.format_for(simulation);
     if (modbus::has_wrong_parity(frame) && format.parity == Parity::None) {
       print_error("a byte with wrong parity (p) needs a format with parity");
@@ -128,7 +132,7 @@ int run_send(SendOptions& options) {
     timeline.begin();
     if (options.timeline) simulation.cpu().set_sink(&timeline);
     const serial::Exchange& exchange = options.master.exchange(simulation, frame, format);
-    simulation.cpu().set_sink(options.trace.sink());
+    simulation.cpu().set_sink(records);
     all_answered &= !exchange.timed_out;
     if (options.json) {
       json.push_back(to_json(exchange));
@@ -138,16 +142,16 @@ int run_send(SendOptions& options) {
       if (options.timeline) fmt::print("{}\n", to_text(timeline.report(), exchange, colour_wanted(stdout)));
     }
     const Time pause = options.pause == kNever ? serial::Simulation::default_quiet(format) : options.pause;
-    simulation.run_until(simulation.time() + pause);
+    run_until(simulation, simulation.time() + pause);
   }
-  if (!options.trace.close()) return kUnusable;
+  if (!options.plant.finish(simulation)) return kUnusable;
   if (options.json) fmt::print("{}\n", json.dump(2));
-  for (const MemoryRange& range : dumps)
-    fmt::print(options.json ? stderr : stdout, "{}", dump_text(simulation.cpu().state(), range));
+  fmt::print(options.json ? stderr : stdout, "{}", options.plant.dump_text(simulation.cpu().state()));
   fmt::print(stderr, "{}", errors_text(simulation.cpu()));
   if (simulation.cpu().state().mode == Mode::Stop) fmt::print(stderr, "s7200: note: the CPU is in STOP\n");
   if (simulation.cpu().state().fatal_code) return kCpuFatal;
-  return all_answered ? kFine : kCheckFailed;
+  if (interrupted()) fmt::print(stderr, "s7200: note: interrupted\n");
+  return all_answered && !interrupted() ? kFine : kCheckFailed;
 }
 
 }  // namespace
@@ -163,11 +167,7 @@ void add_send(CLI::App& app, int& exit_code) {
                "when to send the first frame (default: first scan ended, then 7 characters + 10 ms of silence)");
   add_duration(*verb, "--pause", options->pause, "between an answer and the next frame (default 7 characters + 10 ms)");
   options->master.add_to(*verb);
-  verb->add_option("--set", options->set, "memory or inputs before the first scan: VW100=5, I0.3=1 (repeatable)")
-      ->type_name("ADDRESS=VALUE");
-  verb->add_option("--dump", options->dump, "memory to show at the end: VB0:16, VW100, AC0 (repeatable)")
-      ->type_name("ADDRESS[:COUNT]");
-  options->trace.add_to(*verb);
+  options->plant.add_to(*verb);
   verb->add_flag("--timeline", options->timeline, "show what the CPU did during each exchange: characters, interrupts, XMT");
   verb->add_flag("--json", options->json, "print an array of exchanges as JSON");
   verb->footer("Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");

@@ -1,28 +1,8 @@
 #include "tools/trace_file.hpp"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <iostream>
-
-#include "interpreter/cpu/cpu.hpp"
-#include "tools/terminal.hpp"
 
 namespace s7200::tools {
-namespace {
-
-/// An empty file may be overwritten too.
-bool is_earlier_trace(const std::string& path) {
-  std::ifstream in(path);
-  std::string first(TextTrace::kFirstLine.size() + 1, '\0');
-  in.read(first.data(), static_cast<std::streamsize>(first.size()));  // no more: it may be a device without end
-  return in.gcount() == 0 || first == std::string(TextTrace::kFirstLine).append("\n");
-}
-
-}  // namespace
 
 void TraceFile::add_to(CLI::App& app) {
   auto* trace =
@@ -31,32 +11,11 @@ void TraceFile::add_to(CLI::App& app) {
   app.add_flag("--trace-instructions", instructions_, "trace every instruction too, with its operand values")->needs(trace);
 }
 
-bool TraceFile::open(Cpu& cpu, const std::shared_ptr<const Program>& program) {
+bool TraceFile::open(const std::shared_ptr<const Program>& program) {
   if (path_.empty()) return true;
-  std::ostream* out = &std::cout;
-  if (path_ != "-") {
-    if (std::filesystem::exists(path_) && !is_earlier_trace(path_)) {
-      print_error(fmt::format("{} exists and is no trace; it is left alone", path_));
-      return false;
-    }
-    file_.open(path_, std::ios::trunc);
-    if (!file_) {
-      print_error(fmt::format("cannot write {}: {}", path_, std::strerror(errno)));
-      return false;
-    }
-    out = &file_;
-  }
-  trace_ = std::make_unique<TextTrace>(*out, program, instructions_);
-  cpu.set_sink(trace_.get());
-  return true;
-}
-
-bool TraceFile::close() {
-  if (!file_.is_open()) return true;
-  file_.close();
-  if (file_) return true;
-  print_error(fmt::format("cannot write all of {}: {}", path_, std::strerror(errno)));
-  return false;
+  std::ostream* out = file_.open(path_, TextTrace::kFirstLine, "trace");
+  if (out) trace_ = std::make_unique<TextTrace>(*out, program, instructions_);
+  return out != nullptr;
 }
 
 }  // namespace s7200::tools

@@ -1,11 +1,11 @@
 // `--trace FILE`: where a trace goes.
 #pragma once
 
-#include <fstream>
 #include <memory>
 #include <string>
 
 #include "interpreter/trace/text_trace.hpp"
+#include "tools/record_file.hpp"
 
 namespace CLI {
 class App;
@@ -17,20 +17,20 @@ class TraceFile {
  public:
   void add_to(CLI::App& app);
 
-  /// Opens the file and hangs a trace on the CPU, if one was asked for. False after a message: an existing file that is not
-  /// an earlier trace is not overwritten.
-  bool open(Cpu& cpu, const std::shared_ptr<const Program>& program);
+  /// Opens the file, if one was asked for. False after a message: an existing file that is not an earlier trace is not
+  /// overwritten.
+  bool open(const std::shared_ptr<const Program>& program);
 
-  /// Where the trace goes to; null when none was asked for.
+  /// What is to watch the CPU; null when no trace was asked for.
   TraceSink* sink() const { return trace_.get(); }
 
   /// False after a message when not everything could be written.
-  bool close();
+  bool close() { return file_.close(); }
 
  private:
   std::string path_;
   bool instructions_ = false;
-  std::ofstream file_;
+  RecordFile file_;
   std::unique_ptr<TextTrace> trace_;
 };
 

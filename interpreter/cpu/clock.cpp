@@ -2,8 +2,8 @@
 //
 // Eight bytes of BCD: year, month, day, hour, minute, second, 0, day of the week (1 Sunday … 7 Saturday, 0 switched off).
 // Dates are not checked by TODW: the 30th of February is followed by the 1st of March.
-// Not documented, modelled so: at power-up the clock stands at 1 January 1990, 0:00:00, Monday; a byte that is no BCD is
-// error 0007.
+// When the clock was lost it starts at 1 January 1990, 0:00:00, Sunday (A5E00066097-02, 9-72).
+// Not documented, modelled so: a byte that is no BCD is error 0007.
 #include <algorithm>
 
 #include "interpreter/cpu/cpu.hpp"
@@ -48,9 +48,11 @@ void Cpu::set_clock(const ClockTime& to) {
   s.clock_set_at = s.time;
 }
 
+ClockTime Cpu::clock() const { return advanced(s.clock, (s.time - s.clock_set_at) / kSecond); }
+
 void Cpu::read_clock(std::uint32_t buffer) {
   if (!in_area(buffer, kBufferBytes)) return run_error(RunError::OperandRange);
-  const ClockTime t = advanced(s.clock, (s.time - s.clock_set_at) / kSecond);
+  const ClockTime t = clock();
   const std::uint8_t bytes[kBufferBytes] = {
       to_bcd(t.year), to_bcd(t.month), to_bcd(t.day), to_bcd(t.hour), to_bcd(t.minute), to_bcd(t.second), 0, t.weekday};
   std::copy_n(bytes, kBufferBytes, s.image.begin() + buffer);

@@ -10,22 +10,6 @@ Cpu::Cpu(std::shared_ptr<const Program> program, EventQueue& queue, SerialPort& 
   s.attached.fill(kNotAttached);
 }
 
-void Cpu::power_up(bool run) {
-  s = State{};
-  s.attached.fill(kNotAttached);
-  std::copy(program_->constants.begin(), program_->constants.end(), s.image.begin() + image::kConstants);
-  for (const Op& op : program_->ops)
-    if (op.instruction->hidden == Hidden::RisingMemory) put_bit(op[2].at, op[2].bit, true);
-  s.counter_inputs.fill(3);
-  for (const std::uint32_t idle : {image::kSM + 66, image::kSM + 76}) s.image[idle] = 0x80;
-  s.image[image::kSM] = 0x01;
-  s.image[image::kSM4] = 0x60;  // both transmitters idle
-  s.image[image::kSM + 6] = program_->model->identification;
-  s.image[image::kSM] |= 0x08;  // SM0.3: RUN was entered from power-up
-  if (run) enter_run();
-  begin_scan();
-}
-
 void Cpu::run(Time limit) {
   paused_ = false;
   const Mode mode = s.mode;
@@ -189,7 +173,7 @@ void Cpu::run_error(RunError code) {
 
 void Cpu::fatal_error(FatalError code) {
   s.fatal_code = static_cast<std::uint16_t>(code);
-  s.fatal_op = s.in_interrupt || s.phase == Phase::Program ? current_op() : kNoRoutine;
+  s.fatal_op = current_op();
   trace({.at = s.time, .kind = TraceKind::FatalError, .code = s.fatal_code, .op = s.fatal_op});
   enter_stop();
 }

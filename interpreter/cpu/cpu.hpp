@@ -8,6 +8,7 @@
 // - The four parts of the scan that are not the program take a quarter of the scan overhead each.
 // - SM4.3 stays 1 until the next change to RUN.
 // - An interrupt routine starts with the top of the logic stack at 1, as a subroutine does.
+// - Events of one queue at the same instant wait in the order that the manual's list of events gives.
 // - DTCH drops what its event has queued. ATCH keeps it, and the routine attached when it is served is the one that runs.
 // - A timed interrupt below the CPU's shortest interval, and 0, takes the shortest interval.
 // - Timed interrupts count whole milliseconds from the end of ATCH, not ticks of a clock of their own.
@@ -62,8 +63,12 @@ class Cpu {
 
   // --- from outside ---
 
-  /// Clears all memory and goes to RUN (mode switch in RUN) or stays in STOP (TERM).
-  void power_up(bool run = true);
+  /// Clears all memory but what `memory` has kept, and goes to RUN (mode switch in RUN) or stays in STOP (TERM). Without
+  /// `memory` the CPU is as new.
+  void power_up(bool run = true, const RetentiveMemory* memory = nullptr);
+
+  /// What would be kept if power went off now.
+  RetentiveMemory retentive_memory() const;
 
   /// Runs until its clock has reached `limit`, an event of the queue is due, the sink stops it, it goes to STOP, or (when
   /// asked) a scan has ended. Whoever calls then handles the events that are due at or before time().
@@ -84,8 +89,9 @@ class Cpu {
   /// Sets an input byte; edges of I0.0–I0.3 are events 0–7, and the high-speed counters count.
   void set_input(std::uint32_t byte, std::uint8_t value, Time at);
 
-  /// Sets the time of day.
+  /// The time of day.
   void set_clock(const ClockTime& to);
+  ClockTime clock() const;
 
   const State& state() const { return s; }
   void restore(const State& state) { s = state; }
@@ -162,13 +168,16 @@ class Cpu {
   void program_pulses(std::uint8_t output);
   /// The program may have written AQ, which held `before`.
   void analog_outputs_written(const std::uint8_t* before);
-  void put_output_point(std::uint32_t byte, std::uint8_t bit, bool value, Time at);
+  /// An immediate instruction writes an output point; a running pulse output keeps its own.
+  void write_output_point(std::uint32_t byte, std::uint8_t bit, bool value);
   void execute_timer(std::uint32_t number, bool enabled, std::int16_t preset, bool retentive);
 
   /// The program may have written SMB30, which was `before`.
   void port_control_written(std::uint8_t before);
 
  private:
+  void recall(const RetentiveMemory& memory);
+
   void execute_plain();
   void execute_observed();
   void system_phases();
@@ -185,7 +194,12 @@ class Cpu {
   bool counter_uses(std::uint8_t event) const;
   void show_counter(std::uint8_t number);
   void count(std::uint8_t number, bool up, Time at);
-  void counters_see(std::uint8_t point, bool level, Time at);
+  bool input_point(std::uint8_t point) const { return (s.image[image::kInputs + point / 8] >> (point % 8) & 1) != 0; }
+  bool counter_started(std::uint8_t number) const;
+  bool counter_in_reset(std::uint8_t number) const;
+  void reset_counter(std::uint8_t number, Time at);
+  void turn_counter(std::uint8_t number, bool up, Time at);
+  void count_pulse(std::uint8_t number, std::uint8_t point, bool level, Time at);
   void counter_sees(std::uint8_t number, std::uint8_t point, bool level, Time at);
 
   void start_pulses(std::uint8_t output, const PulseTrain& train, Time at);
@@ -194,6 +208,8 @@ class Cpu {
   void continue_pulses(std::uint8_t output, Time at);
   void end_pulses(std::uint8_t output);
 
+  bool pulses_drive(std::uint32_t byte, std::uint8_t bit) const;
+  void put_output_point(std::uint32_t byte, std::uint8_t bit, bool value, Time at);
   void put_output_byte(std::uint32_t byte, std::uint8_t value, Time at);
   void write_outputs();
   void clear_outputs();
@@ -206,7 +222,7 @@ class Cpu {
   void take_interrupt();
   void occurred(std::uint8_t event, Time at, std::uint8_t byte = 0, bool parity_error = false);
   QueuedInterrupt next_queued();
-  void leave_interrupt();
+  void forget_overflow_if_idle();
 
   void follow_port_control(Time at);
   void take_port_control(Time at);
@@ -219,7 +235,8 @@ class Cpu {
   void trace(const TraceRecord& record) const {
     if (sink_) sink_->record(record);
   }
-  std::uint32_t current_op() const { return op_; }
+  /// What an error is put down to: the instruction being executed; none in the system's own part of the scan.
+  std::uint32_t current_op() const { return s.in_interrupt || s.phase == Phase::Program ? op_ : kNoRoutine; }
 
   std::shared_ptr<const Program> program_;
   const Op* ops_;  // of the program

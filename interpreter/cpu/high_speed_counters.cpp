@@ -11,9 +11,14 @@
 // Not documented, modelled so:
 // - The levels of reset and start and the quadrature rate are taken by HDEF.
 // - Counting up to the preset or down to it gives the event; loading a current value does not.
-// - While reset is active the counter stands at 0; its event comes when it becomes active.
-// - Direction events come when a count goes the other way than the last one (modes 6–11) or the direction input changes
-//   (modes 3–5). The internal direction gives none.
+// - While start is not active, clocks and reset are ignored. While start and reset are active the counter stands at 0; the
+//   reset event comes when both have become active.
+// - The control byte gives the direction in modes 0–2 only. HSC takes the level of the direction input in modes 3–5; in
+// modes
+//   6–11 a counter begins with "up".
+// - Direction events come when a count goes the other way than the last one (modes 6–11) or the direction input of an
+// enabled
+//   counter changes (modes 3–5). The internal direction gives none.
 // - One count a period (.2 = 1): the rising edge of clock A counts up and its falling edge down, both while B is 0.
 // - The counters follow every edge; the highest frequency of the real inputs (7 kHz, 2 kHz for HSC0) is not enforced.
 #include "interpreter/cpu/cpu.hpp"
@@ -50,6 +55,10 @@ enum Control : std::uint8_t {
 bool has_reset(std::uint8_t mode) { return mode % 3 != 0; }
 bool has_start(std::uint8_t mode) { return mode % 3 == 2; }
 
+/// What the clocks of a mode are.
+enum class Clocking { InternalDirection, DirectionInput, UpAndDown, Quadrature };
+Clocking clocking(std::uint8_t mode) { return static_cast<Clocking>(mode / 3); }
+
 }  // namespace
 
 void Cpu::define_counter(std::uint8_t number, std::uint8_t mode) {
@@ -72,10 +81,12 @@ void Cpu::program_counter(std::uint8_t number) {
   if (!counter.defined) return run_error(RunError::CounterNotDefined);
   const std::uint32_t sm = kWiring[number].special_memory;
   const std::uint8_t control = s.image[sm + 1];
-  if (control & kTakeDirection) counter.up = control & kUp;
+  if (clocking(counter.mode) == Clocking::InternalDirection && (control & kTakeDirection)) counter.up = control & kUp;
+  if (clocking(counter.mode) == Clocking::DirectionInput) counter.up = input_point(kWiring[number].direction);
   if (control & kTakeCurrent) counter.current = static_cast<std::int32_t>(load32(&s.image[sm + 2]));
   if (control & kTakePreset) counter.preset = static_cast<std::int32_t>(load32(&s.image[sm + 6]));
   counter.enabled = control & kEnable;
+  if (counter.enabled && counter_in_reset(number)) counter.current = 0;
   show_counter(number);
 }
 
@@ -88,51 +99,66 @@ void Cpu::show_counter(std::uint8_t number) {
                                 (counter.current > counter.preset ? 0x80 : 0));
 }
 
+bool Cpu::counter_started(std::uint8_t number) const {
+  const HighSpeedCounter& counter = s.counter[number];
+  return !has_start(counter.mode) || input_point(kWiring[number].start) != counter.start_low;
+}
+
+bool Cpu::counter_in_reset(std::uint8_t number) const {
+  const HighSpeedCounter& counter = s.counter[number];
+  return has_reset(counter.mode) && input_point(kWiring[number].reset) != counter.reset_low && counter_started(number);
+}
+
+void Cpu::reset_counter(std::uint8_t number, Time at) {
+  s.counter[number].current = 0;
+  show_counter(number);
+  occurred(kWiring[number].was_reset, at);
+}
+
+void Cpu::turn_counter(std::uint8_t number, bool up, Time at) {
+  HighSpeedCounter& counter = s.counter[number];
+  if (counter.enabled && up != counter.up) occurred(kWiring[number].turned, at);
+  counter.up = up;
+  show_counter(number);
+}
+
 void Cpu::count(std::uint8_t number, bool up, Time at) {
   HighSpeedCounter& counter = s.counter[number];
-  const Wiring& wiring = kWiring[number];
-  if (counter.mode >= 6 && up != counter.up) occurred(wiring.turned, at);
-  counter.up = up;
+  if (clocking(counter.mode) >= Clocking::UpAndDown) turn_counter(number, up, at);
   counter.current = static_cast<std::int32_t>(static_cast<std::uint32_t>(counter.current) + (up ? 1u : ~0u));
   show_counter(number);
-  if (counter.current == counter.preset) occurred(wiring.reached, at);
+  if (counter.current == counter.preset) occurred(kWiring[number].reached, at);
 }
 
-/// An input point that counters may be wired to has changed; all points stand at their new levels.
-void Cpu::counters_see(std::uint8_t point, bool level, Time at) {
-  for (std::uint8_t number = 0; number < std::size(kWiring); ++number)
-    if (s.counter[number].defined) counter_sees(number, point, level, at);
-}
-
+/// An input point has changed; all points stand at their new levels.
 void Cpu::counter_sees(std::uint8_t number, std::uint8_t point, bool level, Time at) {
-  HighSpeedCounter& counter = s.counter[number];
+  const HighSpeedCounter& counter = s.counter[number];
   const Wiring& wiring = kWiring[number];
-  const auto input = [&](std::uint8_t p) { return (s.image[image::kInputs + p / 8] >> (p % 8) & 1) != 0; };
-  const auto group = counter.mode / 3;
+  if (point == wiring.direction && clocking(counter.mode) == Clocking::DirectionInput) turn_counter(number, level, at);
+  if (!counter.enabled || !counter_started(number)) return;
+  if (!counter_in_reset(number)) return count_pulse(number, point, level, at);
+  const bool just_active = point == wiring.reset || (has_start(counter.mode) && point == wiring.start);
+  if (just_active) reset_counter(number, at);
+}
 
-  const bool in_reset = has_reset(counter.mode) && input(wiring.reset) != counter.reset_low;
-  if (in_reset && point == wiring.reset && counter.enabled) {
-    counter.current = 0;
-    show_counter(number);
-    occurred(wiring.was_reset, at);
-  }
-  const bool started = !has_start(counter.mode) || input(wiring.start) != counter.start_low;
-  if (!counter.enabled) return;
-  if (group == 1 && point == wiring.direction) {
-    if (level != counter.up) occurred(wiring.turned, at);
-    counter.up = level;
-    show_counter(number);
-  }
-  if (in_reset || !started) return;
-  if (group <= 1 && point == wiring.clock && level) count(number, counter.up, at);
-  if (group == 2 && level && point == wiring.clock) count(number, true, at);
-  if (group == 2 && level && point == wiring.direction) count(number, false, at);
-  if (group == 3 && (point == wiring.clock || point == wiring.direction)) {
-    const bool a = input(wiring.clock), b = input(wiring.direction);
-    if (!counter.single_rate)
-      count(number, point == wiring.clock ? a != b : a == b, at);  // A ahead of B counts up
-    else if (point == wiring.clock && !b)
-      count(number, level, at);
+void Cpu::count_pulse(std::uint8_t number, std::uint8_t point, bool level, Time at) {
+  const HighSpeedCounter& counter = s.counter[number];
+  const Wiring& wiring = kWiring[number];
+  const bool on_clock = point == wiring.clock, on_second = point == wiring.direction;
+  switch (clocking(counter.mode)) {
+    case Clocking::InternalDirection:
+    case Clocking::DirectionInput:
+      if (on_clock && level) count(number, counter.up, at);
+      break;
+    case Clocking::UpAndDown:
+      if ((on_clock || on_second) && level) count(number, on_clock, at);
+      break;
+    case Clocking::Quadrature: {
+      const bool a = input_point(wiring.clock), b = input_point(wiring.direction);
+      if (counter.single_rate && on_clock && !b) count(number, level, at);
+      if (!counter.single_rate && (on_clock || on_second)) count(number, on_clock ? a != b : a == b, at);  // A ahead: up
+      break;
+    }
   }
 }
 

@@ -39,6 +39,12 @@ void Cpu::detach(std::uint8_t event) {
   std::fill(kept, end, QueuedInterrupt{});
   s.waiting = static_cast<std::uint8_t>(s.waiting - (end - kept));
   queue.count = static_cast<std::uint8_t>(kept - begin);
+  forget_overflow_if_idle();
+}
+
+/// The overflow bits go when the queues are empty and the main program goes on (S7-200 manual C230-02, 10-120).
+void Cpu::forget_overflow_if_idle() {
+  if (s.waiting == 0 && !s.in_interrupt) s.image[image::kSM4] &= 0xF8;
 }
 
 void Cpu::enable_interrupts(bool enabled) {
@@ -55,6 +61,7 @@ void Cpu::handle(const Event& event) {
   occurred(number, event.at);
 }
 
+/// First come, first served; what comes at the same instant waits in the order of the list of events.
 void Cpu::occurred(std::uint8_t event, Time at, std::uint8_t byte, bool parity_error) {
   const std::uint8_t routine = event < kEvents ? s.attached[event] : kNotAttached;
   if (routine == kNotAttached || s.mode != Mode::Run || s.stop_after_scan) return;
@@ -65,12 +72,17 @@ void Cpu::occurred(std::uint8_t event, Time at, std::uint8_t byte, bool parity_e
     trace({.at = at, .kind = TraceKind::EventLost, .event = event, .routine = routine, .byte = byte});
     return;
   }
-  queue.entry[queue.count++] = {at, event, byte, parity_error};
+  const auto end = queue.entry.begin() + queue.count++;
+  const auto place = std::find_if(queue.entry.begin(), end, [&](const QueuedInterrupt& q) {
+    return q.at == at && find_event(q.event)->order > find_event(event)->order;
+  });
+  std::move_backward(place, end, end + 1);
+  *place = {at, event, byte, parity_error};
   ++s.waiting;
   trace({.at = at, .kind = TraceKind::EventOccurred, .event = event, .routine = routine});
 }
 
-/// The oldest of the highest group that has any.
+/// The first of the highest group that has any.
 QueuedInterrupt Cpu::next_queued() {
   const auto queue = std::find_if(s.queue.begin(), s.queue.end(), [](const InterruptQueue& q) { return q.count != 0; });
   const QueuedInterrupt first = queue->entry[0];
@@ -113,8 +125,7 @@ void Cpu::return_from_interrupt() {
   s.stack = s.saved.stack;
   std::copy(s.saved.accumulators.begin(), s.saved.accumulators.end(), s.image.begin() + image::kAC);
   s.image[image::kSM1] = s.saved.smb1;
-  // The overflow bits go when the queues are empty and the main program goes on (S7-200 manual C230-02, 10-120).
-  if (s.waiting == 0) s.image[image::kSM4] &= 0xF8;
+  forget_overflow_if_idle();
   attend();
 }
 

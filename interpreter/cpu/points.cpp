@@ -10,22 +10,25 @@ void Cpu::set_input(std::uint32_t byte, std::uint8_t value, Time at) {
   const std::uint8_t before = input, changed = before ^ value;
   input = value;
   if (changed == 0 || byte > 1) return;
-  for (std::uint8_t bit = 0; bit < 8; ++bit)
-    if (changed & (1 << bit)) counters_see(static_cast<std::uint8_t>(byte * 8 + bit), value >> bit & 1, at);
-  if (byte != 0) return;
-  for (std::uint8_t point = 0; point < 4; ++point)  // events 0, 2, 4, 6: rising edges of I0.0–I0.3
-    if (changed & value & (1 << point)) occurred(static_cast<std::uint8_t>(2 * point), at);
-  for (std::uint8_t point = 0; point < 4; ++point)  // events 1, 3, 5, 7: falling edges
-    if (changed & before & (1 << point)) occurred(static_cast<std::uint8_t>(2 * point + 1), at);
+  for (std::uint8_t point = 0; byte == 0 && point < 4; ++point)  // events 0–7: rising and falling edges of I0.0–I0.3
+    if (changed & (1 << point)) occurred(static_cast<std::uint8_t>(2 * point + (before >> point & 1)), at);
+  for (std::uint8_t number = 0; number < s.counter.size(); ++number) {
+    if (!s.counter[number].defined) continue;
+    for (std::uint8_t bit = 0; bit < 8; ++bit)
+      if (changed & (1 << bit)) counter_sees(number, static_cast<std::uint8_t>(byte * 8 + bit), value >> bit & 1, at);
+  }
+}
+
+bool Cpu::pulses_drive(std::uint32_t byte, std::uint8_t bit) const {
+  return byte == 0 && bit < s.pulse.size() && s.pulse[bit].running;
 }
 
 /// Writes an output byte; the points of running pulse outputs keep their level.
 void Cpu::put_output_byte(std::uint32_t byte, std::uint8_t value, Time at) {
-  if (byte == 0)
-    for (std::uint8_t output = 0; output < s.pulse.size(); ++output) {
-      const auto mask = static_cast<std::uint8_t>(1u << output);
-      if (s.pulse[output].running) value = static_cast<std::uint8_t>((value & ~mask) | (s.image[image::kOutputs] & mask));
-    }
+  for (std::uint8_t output = 0; output < s.pulse.size(); ++output) {
+    const auto mask = static_cast<std::uint8_t>(1u << output);
+    if (pulses_drive(byte, output)) value = static_cast<std::uint8_t>((value & ~mask) | (s.image[image::kOutputs] & mask));
+  }
   std::uint8_t& point = s.image[image::kOutputs + byte];
   if (point == value) return;
   point = value;
@@ -39,6 +42,10 @@ void Cpu::put_output_point(std::uint32_t byte, std::uint8_t bit, bool value, Tim
   if (point == after) return;
   point = after;
   trace({.at = at, .kind = TraceKind::OutputChanged, .byte = after, .op = byte});
+}
+
+void Cpu::write_output_point(std::uint32_t byte, std::uint8_t bit, bool value) {
+  if (!pulses_drive(byte, bit)) put_output_point(byte, bit, value, s.time);
 }
 
 void run_with_analog_output(Cpu& cpu, const Op& op) {

@@ -34,16 +34,19 @@ void Cpu::program_pulses(std::uint8_t output) {
   const Time unit = control & kMilliseconds ? kMillisecond : kMicrosecond;
   PulseTrain train = pulses.last;
   train.pwm = control & kPwm;
-  if (control & kTakeCycle) train.cycle = std::max<Time>(load16(sm + 2), 2) * unit;
+  if (control & kTakeCycle) {
+    train.unit = unit;
+    train.cycle = std::max<Time>(load16(sm + 2), 2) * unit;
+  }
   if (control & kTakeWidth) train.width = load16(sm + 4) * unit;
   if (control & kTakeCount) train.count = std::max(load32(sm + 6), 1u);
-  pulses.last = train;
 
-  if (!pulses.running) return start_pulses(output, train, s.time);
-  if (!pulses.train.pwm && pulses.has_next) {
+  if (pulses.running && !pulses.train.pwm && pulses.has_next) {
     put_bit(status_of(output), kOverflowBit, true);
     return;
   }
+  pulses.last = train;
+  if (!pulses.running) return start_pulses(output, train, s.time);
   pulses.next = train;
   pulses.has_next = true;
 }
@@ -58,8 +61,10 @@ void Cpu::start_pulses(std::uint8_t output, const PulseTrain& train, Time at) {
   begin_pulse(output, at);
 }
 
-/// PTO: half the cycle. PWM: the width, all or nothing of the cycle at its ends.
-Time Cpu::high_time(const PulseTrain& train) { return train.pwm ? std::min(train.width, train.cycle) : train.cycle / 2; }
+/// PTO: half the cycle, in whole units. PWM: the width, all or nothing of the cycle at its ends.
+Time Cpu::high_time(const PulseTrain& train) {
+  return train.pwm ? std::min(train.width, train.cycle) : train.cycle / train.unit / 2 * train.unit;
+}
 
 void Cpu::begin_pulse(std::uint8_t output, Time at) {
   const PulseTrain& train = s.pulse[output].train;

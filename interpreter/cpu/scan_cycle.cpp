@@ -15,6 +15,11 @@ std::uint8_t clock_bits(Time time) {
   return static_cast<std::uint8_t>(sm0_4 << 4 | sm0_5 << 5);
 }
 
+/// For a word. Not documented, modelled so: a fraction is dropped, and a scan longer than the word can say is 65535 ms.
+std::uint16_t whole_milliseconds(Time time) {
+  return static_cast<std::uint16_t>(std::min<Time>(time / kMillisecond, 0xFFFF));
+}
+
 }  // namespace
 
 void Cpu::enter_run() {
@@ -31,7 +36,8 @@ void Cpu::enter_stop() {
   s.stop_after_scan = false;
   s.call_depth = 0;
   for (const InterruptEvent& event : all_events()) s.attached[event.number] = kNotAttached;
-  for (std::uint8_t timer = 0; timer < s.timed_interval.size(); ++timer) queue_.cancel(EventOwner::Cpu, timer);
+  for (const std::uint8_t what : {kTimedInterrupt0, kTimedInterrupt1, kTick1ms}) queue_.cancel(EventOwner::Cpu, what);
+  s.next_tick_1ms = 0;
   s.queue = {};
   s.waiting = 0;
   s.interrupts_enabled = false;
@@ -109,9 +115,9 @@ void Cpu::end_scan() {
     const Time scan = s.time - s.scan_begin;
     s.shortest_scan = std::min(s.shortest_scan, scan);
     s.longest_scan = std::max(s.longest_scan, scan);
-    store16(&s.image[image::kSM + 22], static_cast<std::uint16_t>(scan / kMillisecond));
-    store16(&s.image[image::kSM + 24], static_cast<std::uint16_t>(s.shortest_scan / kMillisecond));
-    store16(&s.image[image::kSM + 26], static_cast<std::uint16_t>(s.longest_scan / kMillisecond));
+    store16(&s.image[image::kSM + 22], whole_milliseconds(scan));
+    store16(&s.image[image::kSM + 24], whole_milliseconds(s.shortest_scan));
+    store16(&s.image[image::kSM + 26], whole_milliseconds(s.longest_scan));
     if (s.stop_after_scan) enter_stop();
     paused_ = pause_at_scan_end_;
   }

@@ -103,6 +103,7 @@ struct HighSpeedCounter {
 
 struct PulseTrain {
   bool pwm = false;
+  Time unit = kMicrosecond;  ///< of the cycle time
   Time cycle = 2 * kMicrosecond, width = 0;
   std::uint32_t count = 1;
   bool operator==(const PulseTrain&) const = default;
@@ -116,10 +117,10 @@ struct PulseOutput {
   bool operator==(const PulseOutput&) const = default;
 };
 
-/// Time of day, in plain numbers.
+/// Time of day, in plain numbers; as the clock starts when it was lost (A5E00066097-02, 9-72).
 struct ClockTime {
   std::uint8_t year = 90, month = 1, day = 1, hour = 0, minute = 0, second = 0;
-  std::uint8_t weekday = 2;  ///< 1 Sunday … 7 Saturday, 0 switched off
+  std::uint8_t weekday = 1;  ///< 1 Sunday … 7 Saturday, 0 switched off
   bool operator==(const ClockTime&) const = default;
 };
 
@@ -179,6 +180,15 @@ struct State {
   std::array<std::uint8_t, image::kSize> image{};
 
   bool operator==(const State&) const = default;
+};
+
+/// What outlasts power off: the model's retentive ranges in RAM, the EEPROM, the clock.
+struct RetentiveMemory {
+  std::array<std::uint8_t, image::kSize> image{};  ///< of which the retentive ranges count
+  std::array<std::uint8_t, 10240> eeprom{};        ///< permanent V memory
+  ClockTime clock{};
+  bool ram_lost = false;  ///< power was off too long: image and clock are gone
+  bool operator==(const RetentiveMemory&) const = default;
 };
 
 }  // namespace s7200

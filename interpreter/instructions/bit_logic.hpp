@@ -53,7 +53,7 @@ inline void coil(Cpu& cpu, const Op& op) { cpu.put_bit(op[0].at, op[0].bit, cpu.
 /// =I writes the image register and the output point (operand 2, given at load).
 inline void immediate_coil(Cpu& cpu, const Op& op) {
   cpu.put_bit(op[0].at, op[0].bit, cpu.s.stack.top());
-  cpu.put_output_point(op[2].at - image::kOutputs, op[2].bit, cpu.s.stack.top(), cpu.s.time);
+  cpu.write_output_point(op[2].at - image::kOutputs, op[2].bit, cpu.s.stack.top());
 }
 
 inline void put_bits(Cpu& cpu, const Operand& first, std::uint32_t count, bool value) {
@@ -71,7 +71,7 @@ void set_bits(Cpu& cpu, const Op& op) {
   put_bits(cpu, op[0], count, value);
   if constexpr (immediate)
     for (std::uint32_t i = 0, place = op[2].bit; i < count; ++i, ++place)
-      cpu.put_output_point(op[2].at - image::kOutputs + place / 8, static_cast<std::uint8_t>(place % 8), value, cpu.s.time);
+      cpu.write_output_point(op[2].at - image::kOutputs + place / 8, static_cast<std::uint8_t>(place % 8), value);
   if constexpr (!value) cpu.clear_current_values(op[0], count);
 }
 

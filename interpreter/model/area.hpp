@@ -61,6 +61,8 @@ struct AreaInfo {
   std::uint32_t element;  ///< bytes of a numbered element (T, C, HC, AC); 0: byte-addressed
   std::optional<std::uint8_t> pointer_code;  ///< top byte of a pointer to it
   std::string_view meaning;
+
+  std::uint32_t step() const { return element == 0 ? 1 : element; }  ///< from one number to the next, in bytes
 };
 
 const AreaInfo& info(Area area);

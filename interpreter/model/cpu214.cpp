@@ -1,6 +1,9 @@
 // CPU 214. Ranges: facts 1.1. Queues: S7-200 manual C230-02, 10-120. Baud rates: facts 2.1. Watchdog: A5E00066097-02, 9-146.
 // Not documented, modelled so: the CPU has its full set of expansion modules, so that all 64 input and 64 output points of
 // the image registers exist.
+// Not documented, modelled so: what is retentive. All of V, MB14–MB31, the current values of the retentive timers and of all
+// counters are; MB0–MB13, S, the other timers, and the bits of timers and counters are not. (Micro/WIN 32's default for
+// MB0–MB13 is off: facts 1.6.)
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/embedded_times.hpp"
 
@@ -17,6 +20,7 @@ const CpuModel& cpu214() {
       .interrupts = 128,
       .program_words = 2048,
       .eeprom_bytes = 1024,
+      .retentive = {{Area::V, 0, 4096}, {Area::M, 14, 18}, {Area::T, 0, 32}, {Area::T, 64, 32}, {Area::C, 0, 128}},
       .queue_depth = {4, 16, 4},
       .baud = {38'400, 19'200, 9'600, 4'800, 2'400, 1'200, 600, 300},
       .identification = 0x20,

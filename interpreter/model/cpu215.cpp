@@ -1,4 +1,5 @@
 // CPU 215 and CPU 216. Ranges: facts 1.1. Queues: S7-200 manual C230-02, 10-120. Baud rates: facts 2.1.
+// Retentive: as on the CPU 214.
 // Execution times: those of the CPU 214, for want of others, and estimates for what the CPU 214 lacks.
 // Not modelled: the DP port of the CPU 215, port 1 of the CPU 216, RCV, PID, NETR and NETW.
 #include "interpreter/model/cpu_model.hpp"
@@ -17,6 +18,7 @@ const CpuModel& cpu215() {
       .interrupts = 128,
       .program_words = 4096,
       .eeprom_bytes = 5120,
+      .retentive = {{Area::V, 0, 5120}, {Area::M, 14, 18}, {Area::T, 0, 32}, {Area::T, 64, 32}, {Area::C, 0, 256}},
       .queue_depth = {4, 16, 8},
       .baud = {38'400, 19'200, 9'600, 4'800, 2'400, 1'200, 600, 300},
       .identification = 0x80,

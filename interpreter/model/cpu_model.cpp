@@ -31,7 +31,7 @@ const std::vector<InterruptEvent>& all_events() {
       {9, Queue::Communication, 1, kEveryCpu, "port 0: transmit complete"},
       {10, Queue::Timed, 0, kEveryCpu, "timed interrupt 0, SMB34"},
       {11, Queue::Timed, 1, kFrom214, "timed interrupt 1, SMB35"},
-      {12, Queue::Io, 8, kEveryCpu, "HSC0: current value = preset value"},
+      {12, Queue::Io, 0, kEveryCpu, "HSC0: current value = preset value"},
       {13, Queue::Io, 9, kFrom214, "HSC1: current value = preset value"},
       {14, Queue::Io, 10, kFrom214, "HSC1: direction changed"},
       {15, Queue::Io, 11, kFrom214, "HSC1: external reset"},

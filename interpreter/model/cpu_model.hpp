@@ -40,6 +40,15 @@ const InterruptEvent* find_event(std::int64_t number);
 
 inline constexpr std::size_t kEvents = 34;
 
+/// Memory that outlasts power off, as the CPU is delivered (facts 1.6).
+struct RetentiveRange {
+  Area area;
+  std::uint32_t first, count;  ///< bytes, or elements of T and C
+
+  std::uint32_t at() const { return info(area).base + first * info(area).step(); }  ///< in the image
+  std::uint32_t bytes() const { return count * info(area).step(); }
+};
+
 struct CpuModel {
   std::string_view name;  ///< "214"
   CpuSet self;
@@ -47,6 +56,7 @@ struct CpuModel {
   std::uint32_t labels, subroutines, interrupts;  ///< how many numbers there are, from 0
   std::uint32_t program_words;
   std::uint32_t eeprom_bytes;  ///< V memory that the EEPROM can hold, from V0 on
+  std::vector<RetentiveRange> retentive;
   std::array<std::uint8_t, kQueues> queue_depth;
   std::array<std::uint32_t, 8> baud;          ///< by the three bits bbb of SMB30
   std::uint8_t identification;                ///< SMB6

@@ -1,0 +1,55 @@
+// What drives the inputs over time, as plain data, and its CSV form.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/base/time.hpp"
+#include "interpreter/model/cpu_model.hpp"
+
+namespace s7200::serial {
+
+/// One byte changes, or those bits of it that `mask` has.
+struct FieldChange {
+  Time at = 0;
+  std::uint32_t place = 0;  ///< in the image: an input point's byte, AI, or a potentiometer in SM
+  std::uint8_t mask = 0xFF;
+  std::uint8_t value = 0;
+  bool operator==(const FieldChange&) const = default;
+};
+
+/// Pulses of an input point, each a 1 half and a 0 half.
+struct FieldPulses {
+  Time at = 0;
+  std::uint32_t place = 0;
+  std::uint8_t mask = 0;
+  std::uint64_t pulses = 0;
+  std::uint64_t millihertz = 0;
+
+  /// Edge 0 rises at `at`; never accumulated, rounded down to the nanosecond.
+  Time edge(std::uint64_t number) const;
+  std::uint64_t edges() const { return 2 * pulses; }
+  bool operator==(const FieldPulses&) const = default;
+};
+
+/// Both in the order of time.
+struct FieldScript {
+  std::vector<FieldChange> changes;
+  std::vector<FieldPulses> pulses;
+  bool operator==(const FieldScript&) const = default;
+};
+
+/// Reads
+///
+///   time,address,value
+///   10ms,I0.3,1                      a bit, byte or word of I, a word of AI, SMB28 or SMB29
+///   1.5s,I0.6,pulses,5kHz,200ms      whole pulses of that frequency, as many as the duration holds
+///
+/// The heading may be left out, # at the begin of a line or behind a blank begins a comment, times ascend. Errors, each
+/// `name:line: what, and what to do`: nothing is to be done with a script that has any.
+FieldScript parse_field_script(std::string_view csv, const std::string& name, const CpuModel& model,
+                               std::vector<std::string>& errors);
+
+}  // namespace s7200::serial

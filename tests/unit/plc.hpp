@@ -1,0 +1,212 @@
+// A CPU 214 with a tiny program and easy times, for tests of what happens when.
+//
+// Every instruction takes 10 us, with power flow or without; labels and routine heads nothing. Exceptions, to fill time: SQRT
+// 5 ms, DIV 100 ms. Entering an interrupt routine takes 40 us. Each of the four system parts of a scan takes 200 us. So a
+// program of n instructions begins 200 us into its scan, and the scan takes 800 us + n * 10 us.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/cpu/cpu.hpp"
+#include "interpreter/program/address.hpp"
+#include "interpreter/program/load.hpp"
+
+namespace s7200::test {
+
+inline constexpr Time us = kMicrosecond, ms = kMillisecond;
+
+inline TimeTable easy_times() {
+  std::string csv = "mnemonic,form,base_us,per_unit_us,unit,marker\nLBL SBR INT,,0,,,manual\nSQRT,,5000,,,manual\nDIV,,100000,,,manual\n"
+                    "(interrupt entry),,40,,,manual\n(scan overhead),,800,,,manual\n(no power flow),,10,,,manual\n"
+                    "(indirect operand),,10,,,manual\n";
+  for (const Instruction& instruction : all_instructions())
+    if (instruction.body) csv += fmt::format("{},,10,,,manual\n", instruction.mnemonic);
+  TimeTable times;
+  const auto errors = times.add(csv, "easy");
+  EXPECT_TRUE(errors.empty()) << errors[0];
+  return times;
+}
+
+inline std::shared_ptr<const Program> program_of(std::string_view stl) {
+  static const TimeTable kTimes = easy_times();
+  const CheckResult result = check_text(stl, "test.stl", cpu214(), kTimes);
+  for (const auto& diagnostic : result.diagnostics)
+    if (diagnostic.severity == stl::Severity::Error) ADD_FAILURE() << stl::render(diagnostic, result.source, false);
+  return result.program;
+}
+
+/// Sends at the pace of the line and remembers what it was told.
+class Port final : public SerialPort {
+ public:
+  struct Sent {
+    std::uint8_t byte;
+    Time at;
+    bool operator==(const Sent&) const = default;
+  };
+
+  explicit Port(EventQueue& queue) : queue_(queue) {}
+  void configure(const SerialFormat& to) override { format = to; }
+  void enable_receiver(bool enabled, Time at) override {
+    if (enabled != receiver) switched_at = at;
+    receiver = enabled;
+  }
+  void send(std::uint8_t byte, Time at) override {
+    sent.push_back({byte, at});
+    queue_.schedule(at + format.character_time(), EventOwner::PlcUart, 0);
+  }
+  void send_break(int bits, Time at) override {
+    break_bits = bits;
+    queue_.schedule(at + format.bit_times(bits), EventOwner::PlcUart, 0);
+  }
+
+  SerialFormat format{};
+  bool receiver = false;
+  Time switched_at = 0;
+  int break_bits = 0;
+  std::vector<Sent> sent;
+
+ private:
+  EventQueue& queue_;
+};
+
+class Records final : public TraceSink {
+ public:
+  void record(const TraceRecord& record) override { all.push_back(record); }
+
+  std::vector<TraceRecord> of(TraceKind kind) const {
+    std::vector<TraceRecord> found;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(found), [&](const TraceRecord& r) { return r.kind == kind; });
+    return found;
+  }
+  std::vector<Time> times(TraceKind kind) const {
+    std::vector<Time> times;
+    for (const TraceRecord& r : of(kind)) times.push_back(r.at);
+    return times;
+  }
+  std::vector<int> events(TraceKind kind) const {
+    std::vector<int> events;
+    for (const TraceRecord& r : of(kind)) events.push_back(r.event);
+    return events;
+  }
+  std::vector<int> errors() const {
+    std::vector<int> codes;
+    for (const TraceRecord& r : of(TraceKind::RuntimeError)) codes.push_back(r.code);
+    return codes;
+  }
+
+  std::vector<TraceRecord> all;
+};
+
+class Plc {
+ public:
+  explicit Plc(std::string_view stl, const RetentiveMemory* memory = nullptr) : cpu(program_of(stl), queue, port) {
+    cpu.set_sink(&records);
+    cpu.power_up(true, memory);
+  }
+  Plc(const Plc&) = delete;
+
+  /// Something that happens outside at an instant. To be told in the order of time.
+  void at(Time when, std::function<void()> what) {
+    actions_.push_back({when, std::move(what)});
+    if (actions_.size() - next_ == 1) queue.schedule(when, EventOwner::Field, 0);
+  }
+  void input_at(Time when, std::string_view point, bool level) {
+    at(when, [this, when, point = std::string(point), level] { input(point, level, when); });
+  }
+  void character_at(Time when, std::uint8_t byte, bool parity_error = false) {
+    at(when, [=, this] { cpu.character_received({.byte = byte, .parity_error = parity_error, .start = when, .end = when}); });
+  }
+
+  void input(std::string_view point, bool level, Time when) {
+    const MemoryRange range = place(point);
+    const std::uint8_t before = cpu.state().image[image::kInputs + range.number];
+    const auto mask = static_cast<std::uint8_t>(1u << range.bit);
+    cpu.set_input(range.number, static_cast<std::uint8_t>(level ? before | mask : before & ~mask), when);
+  }
+  void input(std::string_view point, bool level) { input(point, level, cpu.time()); }
+  void pulse(std::string_view point, int times = 1) {
+    for (int i = 0; i < times; ++i) {
+      input(point, true);
+      input(point, false);
+    }
+  }
+
+  void run_until(Time end) {
+    while (cpu.time() < end) {
+      cpu.run(end);
+      while (queue.next() <= cpu.time()) dispatch(queue.pop());
+    }
+  }
+  /// From power-up on.
+  void run_scans(std::uint64_t count) {
+    cpu.pause_at_scan_end(true);
+    while (cpu.state().scans < count && cpu.state().mode == Mode::Run) {
+      cpu.run(kNever);
+      while (queue.next() <= cpu.time()) dispatch(queue.pop());
+    }
+    cpu.pause_at_scan_end(false);
+  }
+
+  MemoryRange place(std::string_view address) const {
+    std::string why;
+    const auto range = parse_range(address, cpu214(), why);
+    EXPECT_TRUE(range) << why;
+    return range.value_or(MemoryRange{});
+  }
+  std::int64_t value(std::string_view address) const {
+    const MemoryRange range = place(address);
+    const std::uint8_t* from = &cpu.state().image[range.at];
+    switch (range.width) {
+      case Width::Bit: {
+        const bool element = range.area == Area::T || range.area == Area::C;
+        return element ? -1 : *from >> range.bit & 1;
+      }
+      case Width::Byte: return *from;
+      case Width::Word: return static_cast<std::int16_t>(load16(from));
+      case Width::Double: return static_cast<std::int32_t>(load32(from));
+    }
+    return 0;
+  }
+  void set(std::string_view address, std::uint32_t value_to_set) {
+    const MemoryRange range = place(address);
+    std::array<std::uint8_t, 4> bytes{};
+    store32(bytes.data(), value_to_set);
+    cpu.poke(range.at, {bytes.data() + 4 - bytes_of(range.width), bytes_of(range.width)});
+  }
+  bool stopped() const { return cpu.state().mode == Mode::Stop; }
+
+  EventQueue queue;
+  Port port{queue};
+  Records records;
+  Cpu cpu;
+
+ private:
+  struct Action {
+    Time when;
+    std::function<void()> what;
+  };
+
+  void dispatch(const Event& event) {
+    if (event.owner == EventOwner::Cpu) return cpu.handle(event);
+    if (event.owner == EventOwner::PlcUart) return cpu.character_sent(event.at);
+    const Action action = actions_[next_++];
+    action.what();
+    if (next_ < actions_.size()) queue.schedule(actions_[next_].when, EventOwner::Field, 0);
+  }
+
+  std::vector<Action> actions_;
+  std::size_t next_ = 0;
+};
+
+using Times = std::vector<Time>;
+using Ints = std::vector<int>;
+
+}  // namespace s7200::test

@@ -1,0 +1,138 @@
+// PLS: pulse trains and PWM on Q0.0 and Q0.1. Times: plc.hpp.
+#include "plc.hpp"
+
+namespace s7200::test {
+namespace {
+
+using enum TraceKind;
+
+/// LD –210, control –220, cycle –230, width –240, count –250, ATCH –260, ENI –270, PLS ends at 280.
+std::string pulses(int control, int cycle, int width, int count) {
+  return fmt::format("LD SM0.1\nMOVB {}, SMB67\nMOVW {}, SMW68\nMOVW {}, SMW70\nMOVD {}, SMD72\nATCH 0, 19\nENI\nPLS 0\n", control,
+                     cycle, width, count);
+}
+constexpr std::string_view kEnd = "MEND\nINT 0\nINCW VW0\nRETI\n";
+constexpr Time kStart = 280 * us;
+constexpr int kTrain = 0x85, kTrainInMs = 0x8D, kPwm = 0xC3;
+
+std::string program(int control, int cycle, int width, int count, std::string_view more = "") {
+  return pulses(control, cycle, width, count).append(more).append(kEnd);
+}
+
+Times edges(const Plc& plc) { return plc.records.times(OutputChanged); }
+
+TEST(PulseOutput, ATrainOfThreePulsesAndItsEvent) {
+  Plc plc(program(kTrain, 1000, 0, 3));
+  plc.run_until(1 * ms);
+  EXPECT_EQ(plc.value("SM66.7"), 0);
+  plc.run_until(10 * ms);
+  EXPECT_EQ(edges(plc), (Times{kStart, kStart + 500 * us, kStart + 1000 * us, kStart + 1500 * us, kStart + 2000 * us,
+                               kStart + 2500 * us}));
+  EXPECT_EQ(plc.records.times(EventOccurred), Times{kStart + 3000 * us});
+  EXPECT_EQ(plc.value("SM66.7"), 1) << "idle";
+  EXPECT_EQ(plc.value("VW0"), 1);
+}
+
+TEST(PulseOutput, MillisecondsAsUnit) {
+  Plc plc(program(kTrainInMs, 20, 0, 2));
+  plc.run_until(50 * ms);
+  EXPECT_EQ(edges(plc), (Times{kStart, kStart + 10 * ms, kStart + 20 * ms, kStart + 30 * ms}));
+}
+
+TEST(PulseOutput, AnOddCycleHasItsShorterHalfFirst) {
+  Plc plc(program(kTrainInMs, 5, 0, 1));
+  plc.run_until(20 * ms);
+  EXPECT_EQ(edges(plc), (Times{kStart, kStart + 2 * ms}));
+  EXPECT_EQ(plc.records.times(EventOccurred), Times{kStart + 5 * ms});
+}
+
+TEST(PulseOutput, ACycleBelow2UnitsIs2AndACountOf0Is1) {
+  Plc plc(program(kTrainInMs, 1, 0, 0));
+  plc.run_until(20 * ms);
+  EXPECT_EQ(edges(plc), (Times{kStart, kStart + 1 * ms}));
+  EXPECT_EQ(plc.records.times(EventOccurred), Times{kStart + 2 * ms});
+}
+
+// The second PLS at 310 (MOVW –290, MOVD –300) waits for the end of the first train; the third is one too many, at 320.
+TEST(PulseOutput, OneMoreTrainWaitsInLineAFurtherOneSetsTheOverflowBit) {
+  Plc plc(program(kTrainInMs, 2, 0, 2, "MOVW 4, SMW68\nMOVD 1, SMD72\nPLS 0\nPLS 0\n"));
+  plc.run_until(310 * us);
+  EXPECT_EQ(plc.value("SM66.6"), 0);
+  plc.run_until(1 * ms);
+  EXPECT_EQ(plc.value("SM66.6"), 1);
+  plc.run_until(20 * ms);
+  EXPECT_EQ(edges(plc), (Times{kStart, kStart + 1 * ms, kStart + 2 * ms, kStart + 3 * ms, kStart + 4 * ms, kStart + 6 * ms}));
+  EXPECT_EQ(plc.records.times(EventOccurred), (Times{kStart + 4 * ms, kStart + 8 * ms}));
+  EXPECT_EQ(plc.value("SM66.7"), 1);
+}
+
+// The refused PLS asked for 50 ms; the next one leaves the cycle as it is (control 16#8C): 2 ms.
+TEST(PulseOutput, ARefusedTrainLeavesNothingBehind) {
+  Plc plc(program(kTrainInMs, 2, 0, 1, "PLS 0\nMOVW 50, SMW68\nPLS 0\n"));
+  plc.run_until(10 * ms);
+  ASSERT_EQ(plc.records.times(EventOccurred).size(), 2u);
+  plc.set("SMB67", 0x8C);
+  plc.cpu.program_pulses(0);
+  const Time at = plc.cpu.time();
+  plc.run_until(at + 10 * ms);
+  EXPECT_EQ(plc.records.times(EventOccurred).back(), at + 2 * ms);
+}
+
+TEST(PulseOutput, PwmHoldsTheWidthUntilANewOneTakesEffectWithTheNextCycle) {
+  Plc plc(program(kPwm | 0x08, 10, 3, 0));
+  plc.run_until(15 * ms);
+  plc.set("SMB67", kPwm | 0x08);
+  plc.set("SMW70", 7);
+  plc.cpu.program_pulses(0);
+  plc.run_until(29 * ms);
+  EXPECT_EQ(edges(plc), (Times{kStart, kStart + 3 * ms, kStart + 10 * ms, kStart + 13 * ms, kStart + 20 * ms, kStart + 27 * ms}));
+  EXPECT_TRUE(plc.records.times(EventOccurred).empty());
+}
+
+TEST(PulseOutput, PwmOfNothingAndOfTheWholeCycle) {
+  Plc none(program(kPwm, 500, 0, 0)), all(program(kPwm, 500, 500, 0)), more(program(kPwm, 500, 900, 0));
+  for (Plc* plc : {&none, &all, &more}) plc->run_until(10 * ms);
+  EXPECT_TRUE(edges(none).empty());
+  EXPECT_EQ(edges(all), Times{kStart});
+  EXPECT_EQ(edges(more), Times{kStart});
+}
+
+TEST(PulseOutput, PlsWithoutEnableEndsItAtOnceAndTheImageHasThePointAgain) {
+  Plc plc(program(kPwm, 500, 500, 0, "LD I0.0\nMOVB 0, SMB67\nPLS 0\n"));
+  plc.run_until(5 * ms);
+  EXPECT_EQ(edges(plc), Times{kStart});
+  plc.input("I0.0", true);
+  plc.run_until(10 * ms);
+  EXPECT_EQ(edges(plc).size(), 2u);
+  EXPECT_EQ(plc.cpu.state().image[image::kOutputs], 0);
+  EXPECT_EQ(plc.value("SM66.7"), 1);
+}
+
+// The image says 1 for Q0.0–Q0.2 from the first scan on; =I and SI write at once.
+TEST(PulseOutput, NeitherTheImageNorImmediateInstructionsReachAPointThatHasPulses) {
+  Plc plc(program(kPwm, 60'000, 1, 0, "LD SM0.0\n= Q0.0\n= Q0.2\n=I Q0.0\nSI Q0.0, 2\n"));
+  plc.run_until(20 * ms);
+  EXPECT_EQ(plc.value("Q0.0"), 1) << "the image has it";
+  EXPECT_EQ(plc.cpu.state().image[image::kOutputs], 0x06) << "the point has the pulses";
+}
+
+TEST(PulseOutput, Output1HasItsOwnBytesAndEvent20) {
+  Plc plc("LD SM0.1\nMOVB 16#8D, SMB77\nMOVW 2, SMW78\nMOVD 2, SMD82\nATCH 0, 20\nENI\nPLS 1\nMEND\nINT 0\nRETI\n");
+  plc.run_until(10 * ms);
+  ASSERT_EQ(plc.records.of(OutputChanged).size(), 4u);
+  EXPECT_EQ(plc.records.of(OutputChanged)[0].byte, 0x02);
+  EXPECT_EQ(plc.records.events(EventOccurred), Ints{20});
+}
+
+TEST(PulseOutput, StopEndsThePulses) {
+  Plc plc(program(kTrainInMs, 2, 0, 100, "LD I0.0\nSTOP\n"));
+  plc.input_at(4 * ms, "I0.0", true);
+  plc.run_until(20 * ms);
+  EXPECT_TRUE(plc.stopped());
+  EXPECT_EQ(plc.cpu.state().image[image::kOutputs], 0);
+  EXPECT_LT(edges(plc).back(), 6 * ms);
+  EXPECT_TRUE(plc.records.times(EventOccurred).empty());
+}
+
+}  // namespace
+}  // namespace s7200::test

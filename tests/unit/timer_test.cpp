@@ -1,0 +1,164 @@
+// Timers of 1, 10 and 100 ms and counters over scans of any length. Times: plc.hpp.
+#include "plc.hpp"
+
+namespace s7200::test {
+namespace {
+
+bool timer_bit(const Plc& plc, std::uint32_t number) {
+  return plc.cpu.state().image[image::kTBits + number / 8] >> (number % 8) & 1;
+}
+bool counter_bit(const Plc& plc, std::uint32_t number) {
+  return plc.cpu.state().image[image::kCBits + number / 8] >> (number % 8) & 1;
+}
+
+// TON ends at 220 us, SQRT at 5230 us: five ticks of the millisecond in between.
+TEST(Timer, OneMillisecondTimersCountInsideAScan) {
+  Plc plc("LD SM0.0\nTON T32, 4\nMOVW T32, VW0\nSQRT VD100, VD104\nMOVW T32, VW2\nMEND\n");
+  plc.run_scans(1);
+  EXPECT_EQ(plc.value("VW0"), 0);
+  EXPECT_EQ(plc.value("VW2"), 5);
+  EXPECT_TRUE(timer_bit(plc, 32));
+}
+
+TEST(Timer, AOneMillisecondTimerCountsWholeMillisecondsFromItsStartOn) {
+  Plc plc("LD I0.0\nTON T32, 1000\nMEND\n");
+  plc.input_at(1900 * us, "I0.0", true);  // executed from 2700 us on, in the scan begun at 2490 us
+  plc.run_until(2990 * us);
+  EXPECT_EQ(plc.value("T32"), 0);
+  plc.run_until(10'500 * us);
+  EXPECT_EQ(plc.value("T32"), 8) << "the ticks of 3 ms to 10 ms";
+}
+
+// Scans of 850 us + 20 ms; scan k reads its inputs until 200 us + (k - 1) * 20.85 ms: 0, 21.05, 41.9, 62.75, 83.6, 104.45 ms.
+TEST(Timer, TenMillisecondTimersHoldStillDuringAScan) {
+  Plc plc("LD SM0.0\nTON T33, 10\nMOVW T33, VW0\nSQRT VD100, VD104\nSQRT VD100, VD104\nSQRT VD100, VD104\nSQRT VD100, VD104\n"
+          "MOVW T33, VW2\nMEND\n");
+  const int expected[] = {0, 2, 4, 6, 8, 10};
+  for (std::size_t scan = 0; scan < 6; ++scan) {
+    plc.run_scans(scan + 1);
+    EXPECT_EQ(plc.value("VW0"), expected[scan]) << scan;
+    EXPECT_EQ(plc.value("VW2"), expected[scan]) << scan;
+    EXPECT_EQ(timer_bit(plc, 33), expected[scan] >= 10);
+  }
+}
+
+// Scans of 840 us + 100 ms, begun at 0.2, 101.04, 201.88, 302.72 ms.
+TEST(Timer, HundredMillisecondTimersCountWhenTheyAreExecuted) {
+  Plc plc("LD SM0.0\nDIV VW100, VD104\nTON T37, 3\nMOVW T37, VW0\nMEND\n");
+  plc.set("VW100", 1);
+  const int expected[] = {0, 1, 2, 3};
+  for (std::size_t scan = 0; scan < 4; ++scan) {
+    plc.run_scans(scan + 1);
+    EXPECT_EQ(plc.value("VW0"), expected[scan]) << scan;
+    EXPECT_EQ(timer_bit(plc, 37), expected[scan] >= 3);
+  }
+}
+
+TEST(Timer, AHundredMillisecondTimerThatIsJumpedOverLosesTheTicksOfThatScan) {
+  Plc plc("LD I0.0\nJMP 1\nLD SM0.0\nTON T37, 100\nLBL 1\nLD SM0.0\nDIV VW100, VD104\nMEND\n");
+  plc.set("VW100", 1);
+  plc.run_scans(3);
+  EXPECT_EQ(plc.value("T37"), 2);
+  plc.input("I0.0", true);
+  plc.run_scans(6);
+  plc.input("I0.0", false);
+  plc.run_scans(7);
+  EXPECT_EQ(plc.value("T37"), 3);
+}
+
+// The first scan takes 300 * (100 ms + 20 us) and a bit: 30 s.
+TEST(Timer, BeyondTwentyFiveSecondsAScanLosesTicks) {
+  Plc plc("LD SM0.0\nTON T33, 32000\nTON T37, 32000\nLD SM0.1\nFOR VW10, 1, 300\nDIV VW100, VD104\nWDR\nNEXT\nMEND\n");
+  plc.set("VW100", 1);
+  plc.run_scans(2);
+  EXPECT_EQ(plc.value("T33"), 2500);
+  EXPECT_EQ(plc.value("T37"), 250);
+}
+
+TEST(Timer, OnDelayTimersAreClearedByTheirInputRetentiveOnesByR) {
+  Plc plc("LD I0.0\nTON T32, 2\nTONR T0, 2\nLD I0.1\nR T0, 1\nMEND\n");
+  plc.input("I0.0", true);
+  plc.run_until(5 * ms);
+  EXPECT_TRUE(timer_bit(plc, 32));
+  EXPECT_TRUE(timer_bit(plc, 0));
+  plc.input("I0.0", false);
+  plc.run_until(7 * ms);
+  const std::int64_t kept = plc.value("T0");
+  EXPECT_EQ(plc.value("T32"), 0);
+  EXPECT_FALSE(timer_bit(plc, 32));
+  EXPECT_GE(kept, 4);
+  plc.run_until(10 * ms);
+  EXPECT_EQ(plc.value("T0"), kept);
+  EXPECT_TRUE(timer_bit(plc, 0));
+  plc.input("I0.1", true);
+  plc.run_until(12 * ms);
+  EXPECT_EQ(plc.value("T0"), 0);
+  EXPECT_FALSE(timer_bit(plc, 0));
+}
+
+TEST(Timer, TimersCountBeyondTheirPresetUpTo32767) {
+  Plc plc("LD SM0.0\nTON T32, 5\nMEND\n");
+  plc.run_until(1 * ms);
+  plc.set("T32", 32'765);
+  plc.run_until(10 * ms);
+  EXPECT_EQ(plc.value("T32"), 32'767);
+}
+
+TEST(Timer, InStopNoTimerCounts) {
+  Plc plc("LD SM0.0\nTON T32, 5\nTON T33, 5\nLD I0.0\nSTOP\nMEND\n");
+  plc.input_at(50 * ms, "I0.0", true);
+  plc.run_until(60 * ms);
+  ASSERT_TRUE(plc.stopped());
+  const std::int64_t fast = plc.value("T32"), slow = plc.value("T33");
+  plc.run_until(200 * ms);
+  EXPECT_EQ(plc.value("T32"), fast);
+  EXPECT_EQ(plc.value("T33"), slow);
+}
+
+void scan_with(Plc& plc, std::string_view point, bool level) {
+  plc.input(point, level);
+  plc.run_scans(plc.cpu.state().scans + 1);
+}
+
+TEST(Counter, CtuCountsRisingEdgesUpTo32767AndItsResetHolds) {
+  Plc plc("LD I0.0\nLD I0.1\nCTU C1, 2\nMEND\n");
+  plc.input("I0.0", true);
+  plc.run_scans(2);
+  EXPECT_EQ(plc.value("C1"), 0) << "1 from the beginning is no edge";
+  for (int i = 0; i < 2; ++i) {
+    scan_with(plc, "I0.0", false);
+    scan_with(plc, "I0.0", true);
+  }
+  EXPECT_EQ(plc.value("C1"), 2);
+  EXPECT_TRUE(counter_bit(plc, 1));
+  plc.set("C1", 32'767);
+  scan_with(plc, "I0.0", false);
+  scan_with(plc, "I0.0", true);
+  EXPECT_EQ(plc.value("C1"), 32'767);
+  scan_with(plc, "I0.1", true);
+  EXPECT_EQ(plc.value("C1"), 0);
+  EXPECT_FALSE(counter_bit(plc, 1));
+  scan_with(plc, "I0.0", false);
+  scan_with(plc, "I0.0", true);
+  EXPECT_EQ(plc.value("C1"), 0);
+}
+
+TEST(Counter, CtudCountsBothWaysAndWraps) {
+  Plc plc("LD I0.0\nLD I0.1\nLD I0.2\nCTUD C2, 1\nMEND\n");
+  plc.run_scans(1);
+  scan_with(plc, "I0.1", true);
+  EXPECT_EQ(plc.value("C2"), -1);
+  EXPECT_FALSE(counter_bit(plc, 2));
+  plc.set("C2", 32'767);
+  scan_with(plc, "I0.0", true);
+  EXPECT_EQ(plc.value("C2"), -32'768);
+  scan_with(plc, "I0.1", false);
+  scan_with(plc, "I0.1", true);
+  EXPECT_EQ(plc.value("C2"), 32'767);
+  EXPECT_TRUE(counter_bit(plc, 2));
+  scan_with(plc, "I0.2", true);
+  EXPECT_EQ(plc.value("C2"), 0);
+}
+
+}  // namespace
+}  // namespace s7200::test

@@ -1,0 +1,19 @@
+#include "tools/output_file.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace s7200::tools {
+
+void OutputFile::add_to(CLI::App& app) {
+  app.add_option("--output", path_, "write each change of an output (Q, AQ) to FILE, as CSV; - is standard output")
+      ->type_name("FILE");
+}
+
+bool OutputFile::open() {
+  if (path_.empty()) return true;
+  std::ostream* out = file_.open(path_, OutputRecord::kFirstLine, "record of outputs");
+  if (out) record_ = std::make_unique<OutputRecord>(*out);
+  return out != nullptr;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,85 @@
+#include "tools/plant_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "interpreter/program/load.hpp"
+#include "tools/clock_text.hpp"
+#include "tools/report.hpp"
+#include "tools/terminal.hpp"
+
+namespace s7200::tools {
+
+void PlantOptions::add_to(CLI::App& app) {
+  app.add_option("--set", set_, "memory or inputs before the first scan: VW100=5, I0.3=1 (repeatable)")
+      ->type_name("ADDRESS=VALUE");
+  app.add_option("--dump", dump_, "memory to show at the end: VB0:16, VW100, AC0 (repeatable)")
+      ->type_name("ADDRESS[:COUNT]");
+  app.add_option("--input", input_path_, "inputs over time, CSV rows such as 10ms,I0.3,1 and 1s,I0.6,pulses,5kHz,200ms")
+      ->type_name("FILE");
+  output_.add_to(app);
+  memory_.add_to(app);
+  app.add_option_function<std::string>(
+         "--clock",
+         [this](const std::string& text) {
+           clock_ = parse_clock(text);
+           if (!clock_)
+             throw CLI::ValidationError("--clock", fmt::format("'{}' is no time from 1990 to 2089; write for example "
+                                                               "\"2026-11-21 10:00:00\"",
+                                                               text));
+         },
+         "time of day at the start")
+      ->type_name("\"YYYY-MM-DD HH:MM:SS\"");
+  trace_.add_to(app);
+}
+
+bool PlantOptions::read_field(const CpuModel& model) {
+  if (input_path_.empty()) return true;
+  std::string why;
+  const auto csv = read_file(input_path_, why);
+  if (!csv) {
+    print_error(fmt::format("cannot read {}: {}", input_path_, why));
+    return false;
+  }
+  std::vector<std::string> errors;
+  field_ = serial::parse_field_script(*csv, input_path_, model, errors);
+  for (const std::string& error : errors) print_error(error);
+  return errors.empty();
+}
+
+bool PlantOptions::prepare(const std::shared_ptr<const Program>& program) {
+  const CpuModel& model = *program->model;
+  if (!parse_assignments(set_, model, assignments_) || !parse_ranges(dump_, model, dumps_) || !read_field(model))
+    return false;
+  if (!memory_.read(model) || !trace_.open(program) || !output_.open()) return false;
+  sinks_.add(trace_.sink());
+  sinks_.add(output_.sink());
+  return true;
+}
+
+void PlantOptions::power_up(serial::Simulation& simulation) {
+  if (!sinks_.empty()) simulation.cpu().set_sink(&sinks_);
+  simulation.power_up(memory_.memory());
+  if (clock_) simulation.cpu().set_clock(*clock_);
+  for (const Assignment& assignment : assignments_) assign(simulation, assignment);
+}
+
+bool PlantOptions::finish(const serial::Simulation& simulation) {
+  const bool trace_written = trace_.close(), output_written = output_.close();
+  return memory_.write(simulation.cpu()) && trace_written && output_written;
+}
+
+std::string PlantOptions::dump_text(const State& state) const {
+  std::string text;
+  for (const MemoryRange& range : dumps_) text += tools::dump_text(state, range);
+  return text;
+}
+
+nlohmann::ordered_json PlantOptions::dump_json(const State& state) const {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < dumps_.size(); ++i) json[dump_[i]] = plain_hex(bytes_of(state, dumps_[i]));
+  return json;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,61 @@
+// What run and send have in common: the plant around the CPU. Memory and inputs before and during a run, what is recorded of
+// it, what is kept and shown after it.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/trace/fan_out.hpp"
+#include "tools/memory.hpp"
+#include "tools/memory_file.hpp"
+#include "tools/output_file.hpp"
+#include "tools/trace_file.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace s7200::tools {
+
+class PlantOptions {
+ public:
+  void add_to(CLI::App& app);
+
+  /// Reads and opens what the options name. False after a message; nothing has been written over then but earlier records.
+  bool prepare(const std::shared_ptr<const Program>& program);
+
+  /// What drives the inputs; for the Simulation.
+  const serial::FieldScript& field() const { return field_; }
+
+  /// Powers up with the memory, sets the clock and the assignments, and lets the records watch.
+  void power_up(serial::Simulation& simulation);
+
+  /// What watches the CPU; another sink may be added.
+  FanOut& sinks() { return sinks_; }
+
+  /// Completes the records and keeps the memory. False after a message.
+  bool finish(const serial::Simulation& simulation);
+
+  /// The memory asked for with --dump.
+  std::string dump_text(const State& state) const;
+  nlohmann::ordered_json dump_json(const State& state) const;
+
+ private:
+  bool read_field(const CpuModel& model);
+
+  std::vector<std::string> set_, dump_;
+  std::string input_path_;
+  std::optional<ClockTime> clock_;
+  TraceFile trace_;
+  OutputFile output_;
+  MemoryFile memory_;
+
+  std::vector<Assignment> assignments_;
+  std::vector<MemoryRange> dumps_;
+  serial::FieldScript field_;
+  FanOut sinks_;
+};
+
+}  // namespace s7200::tools

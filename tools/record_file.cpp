@@ -1,0 +1,46 @@
+#include "tools/record_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+
+#include "tools/terminal.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// An empty file may be overwritten too.
+bool is_earlier_record(const std::string& path, std::string_view first_line) {
+  std::ifstream in(path);
+  std::string first(first_line.size() + 1, '\0');
+  in.read(first.data(), static_cast<std::streamsize>(first.size()));  // no more: it may be a device without end
+  return in.gcount() == 0 || first == std::string(first_line).append("\n");
+}
+
+}  // namespace
+
+std::ostream* RecordFile::open(const std::string& path, std::string_view first_line, std::string_view kind) {
+  path_ = path;
+  if (path == "-") return &std::cout;
+  if (std::filesystem::exists(path) && !is_earlier_record(path, first_line)) {
+    print_error(fmt::format("{} exists and is no {}; it is left alone", path, kind));
+    return nullptr;
+  }
+  file_.open(path, std::ios::trunc);
+  if (file_) return &file_;
+  print_error(fmt::format("cannot write {}: {}", path, std::strerror(errno)));
+  return nullptr;
+}
+
+bool RecordFile::close() {
+  if (!file_.is_open()) return true;
+  file_.close();
+  if (file_) return true;
+  print_error(fmt::format("cannot write all of {}: {}", path_, std::strerror(errno)));
+  return false;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,25 @@
+// Files that record a run: a trace, the outputs. They are only ever written over an earlier record of the same kind.
+#pragma once
+
+#include <fstream>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+
+namespace s7200::tools {
+
+class RecordFile {
+ public:
+  /// Opens `path`; - is standard output. Nothing after a message: a file that exists and does not begin with `first_line` is
+  /// left alone, unless it is empty. `kind` says what is expected: "trace".
+  std::ostream* open(const std::string& path, std::string_view first_line, std::string_view kind);
+
+  /// False after a message when not everything could be written.
+  bool close();
+
+ private:
+  std::string path_;
+  std::ofstream file_;
+};
+
+}  // namespace s7200::tools
