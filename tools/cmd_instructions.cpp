@@ -52,8 +52,8 @@ void print_table(std::span<const Instruction> instructions, const TimeTable& tim
       fmt::print("  {:<24} needs {}\n", instruction.mnemonic, to_text(instruction.cpus));
       continue;
     }
-    fmt::print("  {:<24} {:>14} us  {}\n", syntax(instruction), time_text(*typical_time(times, instruction)),
-               instruction.meaning);
+    const TimeRow* row = typical_time(times, instruction);
+    fmt::print("  {:<24} {:>14} us  {}\n", syntax(instruction), row ? time_text(*row) : "-", instruction.meaning);
   }
 }
 

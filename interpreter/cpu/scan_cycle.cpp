@@ -37,7 +37,7 @@ void Cpu::enter_stop() {
   s.call_depth = 0;
   for (const InterruptEvent& event : all_events()) s.attached[event.number] = kNotAttached;
   for (const std::uint8_t what : {kTimedInterrupt0, kTimedInterrupt1, kTick1ms}) queue_.cancel(EventOwner::Cpu, what);
-  s.next_tick_1ms = 0;
+  s.next_tick_1ms = kNever;
   s.queue = {};
   s.waiting = 0;
   s.interrupts_enabled = false;
