@@ -188,6 +188,8 @@ def check_file(s7200, folder, name):
     for line in error.split("\n"):
         if len(line) > 1000:
             raise Failure(f"a line of {len(line)} characters: {line[:200]}")
+    if len(content or b"") > 100_000:
+        return  # the other verbs load in the same way
     for verb in (["run", str(path), "--scans", "2"], ["send", str(path), "0103", "--timeout", "10ms"],
                  ["import", str(path)], ["check", "--json", str(path)], ["bench", str(path), "--each", "1ms"]):
         run([s7200, *verb])
