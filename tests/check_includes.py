@@ -34,6 +34,10 @@ EXCEPTIONS = {
     "interpreter/instructions/instruction.hpp": "instruction types",
     "interpreter/cpu/serial_port.hpp": "serial port",
     "interpreter/trace/trace.hpp": "trace records",
+    "serial_sim/field.hpp": "simulation",
+    "serial_sim/field.cpp": "simulation",
+    "serial_sim/field_script.hpp": "simulation",
+    "serial_sim/field_script.cpp": "simulation",
     "serial_sim/simulation.hpp": "simulation",
     "serial_sim/simulation.cpp": "simulation",
 }
