@@ -18,6 +18,7 @@
 // - Direction events come when a count goes the other way than the last one (modes 6–11) or the direction input of an enabled
 //   counter changes (modes 3–5). The internal direction gives none.
 // - One count a period (.2 = 1): the rising edge of clock A counts up and its falling edge down, both while B is 0.
+// - In STOP the counters go on; their events are not taken.
 // - The counters follow every edge; the highest frequency of the real inputs (7 kHz, 2 kHz for HSC0) is not enforced.
 #include "interpreter/cpu/cpu.hpp"
 
