@@ -15,7 +15,8 @@ void Field::power_up() {
 void Field::handle(const Event& event) { play(event.at); }
 
 void Field::play(Time now) {
-  for (; state_.next_change < script_.changes.size() && script_.changes[state_.next_change].at <= now; ++state_.next_change) {
+  for (; state_.next_change < script_.changes.size() && script_.changes[state_.next_change].at <= now;
+       ++state_.next_change) {
     const FieldChange& change = script_.changes[state_.next_change];
     put(change.place, change.mask, change.value, change.at);
   }
@@ -36,8 +37,10 @@ void Field::next_edge(Running& running) {
 
 void Field::put(std::uint32_t place, std::uint8_t mask, std::uint8_t value, Time at) {
   const auto after = static_cast<std::uint8_t>((cpu_.state().image[place] & ~mask) | (value & mask));
-  if (place >= image::kInputs && place < image::kOutputs) cpu_.set_input(place - image::kInputs, after, at);
-  else cpu_.poke(place, {&after, 1});
+  if (place >= image::kInputs && place < image::kOutputs)
+    cpu_.set_input(place - image::kInputs, after, at);
+  else
+    cpu_.poke(place, {&after, 1});
 }
 
 Time Field::next_due() const {

@@ -11,8 +11,8 @@
 
 namespace s7200::serial {
 
-/// One event is pending at a time, however much there is to come. At the same instant changes come first, in the order of the
-/// script, then the edges of pulses. To whoever handles the events: those of EventOwner::Field go to handle().
+/// One event is pending at a time, however much there is to come. At the same instant changes come first, in the order of
+/// the script, then the edges of pulses. To whoever handles the events: those of EventOwner::Field go to handle().
 class Field {
  public:
   struct Running {

@@ -80,14 +80,15 @@ class Reader {
 
   void read_row(const std::vector<std::string_view>& field) {
     const bool pulses = field.size() == 5 && field[2] == "pulses";
-    if (!pulses && field.size() != 3)
-      return error("write time,address,value or time,address,pulses,frequency,duration");
+    if (!pulses && field.size() != 3) return error("write time,address,value or time,address,pulses,frequency,duration");
     const auto at = parse_duration(field[0]);
     if (!at) return error(fmt::format("'{}' is no time; write for example 10ms or 1.5s", field[0]));
     if (*at < last_) return error(fmt::format("{} lies before the row above; put the rows in the order of time", field[0]));
     last_ = *at;
-    if (pulses) add_pulses(*at, field);
-    else add_change(*at, field);
+    if (pulses)
+      add_pulses(*at, field);
+    else
+      add_change(*at, field);
   }
 
   /// What the field can drive; a message for anything else.
@@ -109,7 +110,8 @@ class Reader {
     }
     if (!drivable(*range, address)) return {};
     const auto parsed = parse_assignment(fmt::format("{}={}", address, value), model_, why);
-    if (!parsed) error(fmt::format("'{}' is no value for {}; write a number that fits, for example 1, 16#FF or -5", value, address));
+    if (!parsed)
+      error(fmt::format("'{}' is no value for {}; write a number that fits, for example 1, 16#FF or -5", value, address));
     return parsed;
   }
 
@@ -120,7 +122,8 @@ class Reader {
     const std::uint32_t place = range.area == Area::I ? range.at - image::kI + image::kInputs : range.at;
     const bool bit = range.width == Width::Bit;
     for (std::uint32_t i = 0; i < range.bytes(); ++i) {
-      FieldChange change{.at = at, .place = place + i, .value = static_cast<std::uint8_t>(given->value >> 8 * (range.bytes() - 1 - i))};
+      FieldChange change{
+          .at = at, .place = place + i, .value = static_cast<std::uint8_t>(given->value >> 8 * (range.bytes() - 1 - i))};
       if (bit) {
         change.mask = static_cast<std::uint8_t>(1u << range.bit);
         change.value = given->value ? change.mask : std::uint8_t{0};

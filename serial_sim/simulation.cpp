@@ -76,9 +76,15 @@ void Simulation::dispatch(const Event& event) {
       master_.on(report);
       break;
     }
-    case EventOwner::Cpu: cpu_.handle(event); break;
-    case EventOwner::Field: field_.handle(event); break;
-    case EventOwner::Master: master_.handle(event); break;
+    case EventOwner::Cpu:
+      cpu_.handle(event);
+      break;
+    case EventOwner::Field:
+      field_.handle(event);
+      break;
+    case EventOwner::Master:
+      master_.handle(event);
+      break;
   }
 }
 
@@ -88,8 +94,8 @@ void Simulation::note_activity(const Uart::Report& report) {
 }
 
 Simulation::Snapshot Simulation::snapshot() const {
-  return {cpu_.state(), queue_, line_, plc_uart_.state(), master_uart_.state(), master_.state(), last_activity_,
-          field_.state()};
+  return {cpu_.state(),         queue_,          line_,          plc_uart_.state(),
+          master_uart_.state(), master_.state(), last_activity_, field_.state()};
 }
 
 void Simulation::restore(const Snapshot& snapshot) {

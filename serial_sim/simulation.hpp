@@ -47,6 +47,7 @@ class Simulation {
   Cpu& cpu() { return cpu_; }
   const Cpu& cpu() const { return cpu_; }
   Master& master() { return master_; }
+  const Master& master() const { return master_; }
   Uart& master_uart() { return master_uart_; }
   Time time() const { return cpu_.time(); }
 

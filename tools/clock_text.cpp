@@ -25,7 +25,8 @@ std::optional<ClockTime> parse_clock(std::string_view text) {
   if (!has_form(text)) return {};
   const unsigned year = number(text.substr(0, 4)), month = number(text.substr(5, 2)), day = number(text.substr(8, 2));
   const unsigned hour = number(text.substr(11, 2)), minute = number(text.substr(14, 2)), second = number(text.substr(17, 2));
-  const std::chrono::year_month_day date{std::chrono::year(static_cast<int>(year)), std::chrono::month(month), std::chrono::day(day)};
+  const std::chrono::year_month_day date{std::chrono::year(static_cast<int>(year)), std::chrono::month(month),
+                                         std::chrono::day(day)};
   if (!date.ok() || year < 1990 || year > 2089 || hour > 23 || minute > 59 || second > 59) return {};
   const std::chrono::weekday weekday{std::chrono::sys_days(date)};
   return ClockTime{.year = static_cast<std::uint8_t>(year % 100),

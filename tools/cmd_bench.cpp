@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "serial_sim/simulation.hpp"
 #include "tools/bench_program.hpp"
 #include "tools/commands.hpp"
 #include "tools/duration_option.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/program_options.hpp"
 #include "tools/terminal.hpp"
-#include "serial_sim/simulation.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -20,8 +20,8 @@ namespace {
 using HostClock = std::chrono::steady_clock;
 
 struct BenchOptions : CpuOptions {
-  std::string path;       // empty: the slave program that is built in
-  Time each = kSecond;    // host time for each figure
+  std::string path;     // empty: the slave program that is built in
+  Time each = kSecond;  // host time for each figure
   bool json = false;
 };
 
@@ -30,19 +30,31 @@ struct Figure {
   double per_second = 0;
 };
 
+/// Work done and the host time it took.
+struct Lap {
+  double work = 0;
+  HostClock::duration time{};
+};
+
+template <class Work>
+Lap timed(Work work) {
+  const auto begin = HostClock::now();
+  const double done = work();
+  return {done, HostClock::now() - begin};
+}
+
 /// Best of five rounds: what the machine can do, not what else it was doing.
 template <class Round>
 double best_rate(Time each, Round round) {
   double best = 0;
   for (int i = 0; i < 5; ++i) {
-    double work = 0;
-    const auto begin = HostClock::now();
-    std::chrono::duration<double> elapsed{};
-    do {
-      work += round();
-      elapsed = HostClock::now() - begin;
-    } while (elapsed < std::chrono::nanoseconds(each / 5));
-    best = std::max(best, work / elapsed.count());
+    Lap sum;
+    for (const auto begin = HostClock::now(); HostClock::now() - begin < std::chrono::nanoseconds(each / 5);) {
+      const Lap lap = round();
+      sum.work += lap.work;
+      sum.time += lap.time;
+    }
+    best = std::max(best, sum.work / std::chrono::duration<double>(sum.time).count());
   }
   return best;
 }
@@ -113,8 +125,10 @@ class Serving {
     cpu_.run(end);
     while (queue_.next() <= cpu_.time()) {
       const Event event = queue_.pop();
-      if (event.owner == EventOwner::Cpu) cpu_.handle(event);
-      else answered_ |= port_.handle(cpu_, event);
+      if (event.owner == EventOwner::Cpu)
+        cpu_.handle(event);
+      else
+        answered_ |= port_.handle(cpu_, event);
     }
   }
 
@@ -127,16 +141,21 @@ class Serving {
 /// The same on the whole line, with its master.
 void exchange(serial::Simulation& simulation) {
   simulation.master().start({.frame = ten_registers()}, simulation.time());
-  if (simulation.finish_exchange().timed_out) throw std::runtime_error("the program did not answer a request for 10 registers");
+  if (simulation.finish_exchange().timed_out)
+    throw std::runtime_error("the program did not answer a request for 10 registers");
   simulation.run_until(simulation.time() + serial::Simulation::default_quiet(simulation.cpu().state().port.format));
 }
 
-double first_scan(serial::Simulation& simulation) {
+/// The power-up in front of it, which clears all memory, is not counted.
+Lap first_scan(serial::Simulation& simulation) {
   simulation.power_up();
   simulation.cpu().pause_at_scan_end(true);
-  simulation.run_until(10 * kSecond);
+  const Lap lap = timed([&] {
+    simulation.run_until(10 * kSecond);
+    return static_cast<double>(simulation.cpu().state().instructions);
+  });
   simulation.cpu().pause_at_scan_end(false);
-  return static_cast<double>(simulation.cpu().state().instructions);
+  return lap;
 }
 
 double idle_scans(serial::Simulation& simulation) {
@@ -153,15 +172,14 @@ std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time 
   simulation.power_up();
   simulation.run_until_ready(serial::Simulation::default_quiet({}), 60 * kSecond);
   simulation.master_uart().configure(simulation.cpu().state().port.format);
-  figures.push_back({"idle scans", "instructions", best_rate(each, [&] { return idle_scans(simulation); })});
+  figures.push_back(
+      {"idle scans", "instructions", best_rate(each, [&] { return timed([&] { return idle_scans(simulation); }); })});
 
   Serving serving(program);
-  figures.push_back({"serving requests", "instructions", best_rate(each, [&] { return serving(); })});
+  figures.push_back({"serving requests", "instructions", best_rate(each, [&] { return timed([&] { return serving(); }); })});
 
-  figures.push_back({"10 registers, whole line", "exchanges", best_rate(each, [&] {
-                       exchange(simulation);
-                       return 1.0;
-                     })});
+  figures.push_back({"10 registers, whole line", "exchanges",
+                     best_rate(each, [&] { return timed([&] { return exchange(simulation), 1.0; }); })});
   return figures;
 }
 
@@ -191,7 +209,8 @@ int run_bench(const BenchOptions& options) {
   fmt::print("{}: best of five rounds on one core\n", program->source.name);
   for (const Figure& f : figures) {
     const bool millions = f.per_second >= 1e6;
-    fmt::print("  {:<26} {:>9.1f} {} {} a second\n", f.name, f.per_second / (millions ? 1e6 : 1e3), millions ? "million " : "thousand", f.unit);
+    fmt::print("  {:<26} {:>9.1f} {} {} a second\n", f.name, f.per_second / (millions ? 1e6 : 1e3),
+               millions ? "million " : "thousand", f.unit);
   }
   return kFine;
 }

@@ -27,29 +27,48 @@ nlohmann::ordered_json to_json(const stl::Diagnostic& d) {
           {"hint", d.hint}};
 }
 
-nlohmann::ordered_json to_json(const std::string& path, const SourceText& text, const CheckResult& result) {
+/// The CPUs, other than the one asked for, that the program is fine for.
+std::vector<std::string_view> other_cpus(const std::string& path, const CpuModel& asked) {
+  std::vector<std::string_view> fitting;
+  for (const CpuModel* model : all_cpus()) {
+    if (model == &asked) continue;
+    auto text = read_program_text(path);
+    if (text && check(std::move(text->parsed), *model, default_times(*model)).program) fitting.push_back(model->name);
+  }
+  return fitting;
+}
+
+nlohmann::ordered_json to_json(const std::string& path, const SourceText& text, const CheckResult& result,
+                               const CpuModel& model) {
   nlohmann::ordered_json diagnostics = nlohmann::ordered_json::array();
   for (const stl::Diagnostic& d : result.diagnostics) diagnostics.push_back(to_json(d));
   return {{"file", path},
           {"ok", result.program != nullptr},
+          {"cpu", model.name},
+          {"fine_for", result.program ? std::vector<std::string_view>{} : other_cpus(path, model)},
           {"kind", text.as_document ? "document" : "stl"},
           {"encoding", text.encoding},
           {"instructions", result.program ? result.program->ops.size() : 0},
           {"diagnostics", diagnostics}};
 }
 
-std::string counted(std::size_t count, std::string_view what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
+std::string counted(std::size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
 
-void print_summary(const std::string& path, const SourceText& text, const CheckResult& result) {
-  const auto errors = static_cast<std::size_t>(std::count_if(result.diagnostics.begin(), result.diagnostics.end(), [](const auto& d) {
-    return d.severity == stl::Severity::Error;
-  }));
+void print_summary(const std::string& path, const SourceText& text, const CheckResult& result, const CpuModel& model) {
+  const auto errors =
+      static_cast<std::size_t>(std::count_if(result.diagnostics.begin(), result.diagnostics.end(),
+                                             [](const auto& d) { return d.severity == stl::Severity::Error; }));
   const std::size_t warnings = result.diagnostics.size() - errors;
-  if (!result.program)
-    fmt::print("{}: {}, {}\n", path, counted(errors, "error"), counted(warnings, "warning"));
-  else
-    fmt::print("{}: fine, {} for CPU {}{}{}\n", path, counted(result.program->ops.size(), "instruction"), result.program->model->name,
-               text.as_document ? ", out of a document" : "", warnings ? ", " + counted(warnings, "warning") : "");
+  if (!result.program) {
+    const auto others = other_cpus(path, model);
+    fmt::print("{}: {}, {} for CPU {}{}\n", path, counted(errors, "error"), counted(warnings, "warning"), model.name,
+               others.empty() ? "" : fmt::format("; fine for CPU {}", fmt::join(others, ", ")));
+  } else
+    fmt::print("{}: fine, {} for CPU {}{}{}\n", path, counted(result.program->ops.size(), "instruction"),
+               result.program->model->name, text.as_document ? ", out of a document" : "",
+               warnings ? ", " + counted(warnings, "warning") : "");
 }
 
 int run_check(const CheckOptions& options) {
@@ -68,10 +87,10 @@ int run_check(const CheckOptions& options) {
     const CheckResult result = check(std::move(text->parsed), *model, *times);
     if (!result.program) exit_code = std::max<int>(exit_code, kCheckFailed);
     if (options.json) {
-      files.push_back(to_json(path, *text, result));
+      files.push_back(to_json(path, *text, result, *model));
     } else {
       print_diagnostics(result, true);
-      print_summary(path, *text, result);
+      print_summary(path, *text, result, *model);
     }
   }
   if (options.json) fmt::print("{}\n", files.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));

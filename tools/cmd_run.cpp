@@ -51,7 +51,8 @@ class Runner {
 
   void between_slices() {
     const Time host = std::chrono::duration_cast<std::chrono::nanoseconds>(HostClock::now() - begin_).count();
-    if (options_.realtime && simulation_.time() > host) std::this_thread::sleep_for(std::chrono::nanoseconds(simulation_.time() - host));
+    if (options_.realtime && simulation_.time() > host)
+      std::this_thread::sleep_for(std::chrono::nanoseconds(simulation_.time() - host));
     if (host > next_progress_ && isatty(STDERR_FILENO)) {
       next_progress_ = host + kSecond;
       fmt::print(stderr, "\r{} of {} simulated", format_duration(simulation_.time()), format_duration(end()));
@@ -67,10 +68,11 @@ class Runner {
 
 void print_text(const serial::Simulation& simulation, std::string_view reason, const PlantOptions& plant) {
   const State& state = simulation.cpu().state();
-  fmt::print("ended by {} after {}: {} scans, {} instructions, CPU in {}\n", reason, format_duration(state.time, 6), state.scans,
-             state.instructions, state.mode == Mode::Run ? "RUN" : "STOP");
+  fmt::print("ended by {} after {}: {} scans, {} instructions, CPU in {}\n", reason, format_duration(state.time, 6),
+             state.scans, state.instructions, state.mode == Mode::Run ? "RUN" : "STOP");
   if (state.scans)
-    fmt::print("scan time: shortest {}, longest {}\n", format_duration(state.shortest_scan), format_duration(state.longest_scan));
+    fmt::print("scan time: shortest {}, longest {}\n", format_duration(state.shortest_scan),
+               format_duration(state.longest_scan));
   fmt::print("{}{}", errors_text(simulation.cpu()), plant.dump_text(state));
 }
 
@@ -97,8 +99,10 @@ int run_run(RunOptions& options) {
   const std::string_view reason = Runner(simulation, options).run();
   if (!options.plant.finish(simulation)) return kUnusable;
 
-  if (options.json) print_json(simulation, reason, options.plant);
-  else print_text(simulation, reason, options.plant);
+  if (options.json)
+    print_json(simulation, reason, options.plant);
+  else
+    print_text(simulation, reason, options.plant);
   return exit_code_of(simulation.cpu());
 }
 

@@ -14,6 +14,7 @@
 #include "tools/program_options.hpp"
 #include "tools/report.hpp"
 #include "tools/terminal.hpp"
+#include "tools/timeline.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -22,7 +23,7 @@ struct SendOptions {
   ProgramOptions program;
   std::vector<std::string> frames;
   std::string frames_file;
-  bool crc = false, json = false;
+  bool crc = false, json = false, timeline = false;
   Time after = kNever;  // kNever: when the first scan has ended and the line is quiet
   Time pause = kNever;  // kNever: Simulation::default_quiet
   MasterOptions master;
@@ -30,12 +31,6 @@ struct SendOptions {
 };
 
 constexpr Time kReadyWithin = 60 * kSecond;
-
-void append_crc(modbus::Frame& frame) {
-  modbus::Bytes bytes = modbus::bytes_of(frame);
-  modbus::add_crc(bytes);
-  for (std::size_t i = frame.size(); i < bytes.size(); ++i) frame.push_back({bytes[i], false});
-}
 
 /// All frames of the command line and the file; a message and false when one is no frame.
 bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames) {
@@ -56,7 +51,8 @@ bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames)
     for (std::string line; std::getline(lines, line);) {
       ++number;
       line = line.substr(0, std::min(line.find('#'), line.find('\r')));
-      if (line.find_first_not_of(" \t") != std::string::npos) written.push_back({line, fmt::format("{}:{}", options.frames_file, number)});
+      if (line.find_first_not_of(" \t") != std::string::npos)
+        written.push_back({line, fmt::format("{}:{}", options.frames_file, number)});
     }
   }
   if (written.empty()) {
@@ -69,34 +65,15 @@ bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames)
       print_error(fmt::format("{}: column {}: {}", w.place, parsed.errors[0].column, parsed.errors[0].message));
       return false;
     }
-    if (options.crc) append_crc(parsed.frame);
+    if (options.crc) modbus::append_crc(parsed.frame);
     frames.push_back(std::move(parsed.frame));
   }
   return true;
 }
 
-/// What the line looked like to the master, when more than bytes came.
-std::string errors_of(const serial::Exchange& exchange) {
-  std::string text;
-  if (exchange.parity_error()) text += ", parity errors";
-  if (exchange.framing_error()) text += ", framing errors";
-  if (exchange.too_long) text += ", cut off";
-  return text;
-}
-
-void print_exchange(const serial::Exchange& exchange, Time timeout) {
-  const modbus::Bytes request = modbus::bytes_of(exchange.request), response = exchange.response_bytes();
-  fmt::print("request  {}\n", modbus::to_hex(exchange.request));
-  if (exchange.timed_out) {
-    fmt::print("answer   none within {}\n", format_duration(timeout));
-    return;
-  }
-  fmt::print("answer   {}   after {}\n         {}{}\n", modbus::to_hex(response), format_duration(*exchange.latency()),
-             modbus::describe(request, response), errors_of(exchange));
-}
-
 nlohmann::ordered_json to_json(const serial::Exchange& exchange) {
-  nlohmann::ordered_json json{{"request", plain_hex(modbus::bytes_of(exchange.request))}, {"response", nullptr}, {"latency_us", nullptr}};
+  nlohmann::ordered_json json{
+      {"request", plain_hex(modbus::bytes_of(exchange.request))}, {"response", nullptr}, {"latency_us", nullptr}};
   if (exchange.timed_out) return json;
   json["response"] = plain_hex(exchange.response_bytes());
   json["latency_us"] = static_cast<double>(*exchange.latency()) / kMicrosecond;
@@ -108,7 +85,8 @@ nlohmann::ordered_json to_json(const serial::Exchange& exchange) {
 /// In slices, so that Ctrl-C comes in between. False when it did, or the CPU stopped.
 bool run_until(serial::Simulation& simulation, Time end) {
   while (simulation.time() < end)
-    if (interrupted() || simulation.run_until(std::min(end, simulation.time() + 10 * kSecond)) != serial::Halt::Time) return false;
+    if (interrupted() || simulation.run_until(std::min(end, simulation.time() + 10 * kSecond)) != serial::Halt::Time)
+      return false;
   return true;
 }
 
@@ -118,8 +96,10 @@ bool wait_for_start(serial::Simulation& simulation, const SendOptions& options) 
   const Time quiet = serial::Simulation::default_quiet(options.master.format_for(simulation));
   if (simulation.run_until_ready(quiet, kReadyWithin)) return true;
   if (simulation.cpu().state().mode == Mode::Run)
-    print_error(fmt::format("the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
-                            "sends all the same", format_duration(quiet), format_duration(kReadyWithin)));
+    print_error(
+        fmt::format("the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
+                    "sends all the same",
+                    format_duration(quiet), format_duration(kReadyWithin)));
   return false;
 }
 
@@ -133,6 +113,8 @@ int run_send(SendOptions& options) {
   catch_interruption();
   serial::Simulation simulation(program, options.plant.field());
   options.plant.power_up(simulation);
+  TraceSink* const records = options.plant.sinks().empty() ? nullptr : &options.plant.sinks();
+  Timeline timeline(program, records);
 
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   bool all_answered = wait_for_start(simulation, options);
@@ -147,10 +129,18 @@ int run_send(SendOptions& options) {
       print_error("a byte with wrong parity (p) needs a format with parity");
       return kUnusable;
     }
+    timeline.begin();
+    if (options.timeline) simulation.cpu().set_sink(&timeline);
     const serial::Exchange& exchange = options.master.exchange(simulation, frame, format);
+    simulation.cpu().set_sink(records);
     all_answered &= !exchange.timed_out;
-    if (options.json) json.push_back(to_json(exchange));
-    else print_exchange(exchange, options.master.timeout);
+    if (options.json) {
+      json.push_back(to_json(exchange));
+      if (options.timeline) json.back()["timeline"] = to_json(timeline.report(), exchange);
+    } else {
+      fmt::print("{}", exchange_text(exchange, options.master.timeout));
+      if (options.timeline) fmt::print("{}\n", to_text(timeline.report(), exchange, colour_wanted(stdout)));
+    }
     const Time pause = options.pause == kNever ? serial::Simulation::default_quiet(format) : options.pause;
     run_until(simulation, simulation.time() + pause);
   }
@@ -178,6 +168,7 @@ void add_send(CLI::App& app, int& exit_code) {
   add_duration(*verb, "--pause", options->pause, "between an answer and the next frame (default 7 characters + 10 ms)");
   options->master.add_to(*verb);
   options->plant.add_to(*verb);
+  verb->add_flag("--timeline", options->timeline, "show what the CPU did during each exchange: characters, interrupts, XMT");
   verb->add_flag("--json", options->json, "print an array of exchanges as JSON");
   verb->footer("Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");
   verb->callback([options, &exit_code] { exit_code = run_send(*options); });

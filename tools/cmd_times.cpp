@@ -23,7 +23,8 @@ void print_table(const CpuModel& model, const TimeTable& times) {
       model.name, "instructions", "form", "base", "per unit", "unit", "marker", "source");
   for (const TimeRow& row : times.rows())
     fmt::print("{:<40} {:<28} {:>9} {:>9}  {:<10} {:<11} {}\n", fmt::format("{}", fmt::join(row.mnemonics, " ")), row.form,
-               in_microseconds(row.base), row.per_unit ? in_microseconds(row.per_unit) : "", row.unit, row.marker, row.source);
+               in_microseconds(row.base), row.per_unit ? in_microseconds(row.per_unit) : "", row.unit, row.marker,
+               row.source);
 }
 
 nlohmann::ordered_json to_json(const TimeTable& times) {
@@ -44,9 +45,12 @@ int run_times(const TimesOptions& options) {
   if (!model) return kUnusable;
   const auto times = options.cpu.times(*model);
   if (!times) return kUnusable;
-  if (options.json) fmt::print("{}\n", to_json(*times).dump(2));
-  else if (options.csv) fmt::print("{}", to_csv(*times));
-  else print_table(*model, *times);
+  if (options.json)
+    fmt::print("{}\n", to_json(*times).dump(2));
+  else if (options.csv)
+    fmt::print("{}", to_csv(*times));
+  else
+    print_table(*model, *times);
   return kFine;
 }
 

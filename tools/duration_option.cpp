@@ -12,7 +12,8 @@ CLI::Option* add_duration(CLI::App& app, const std::string& name, Time& value, c
           name,
           [&value, name](const std::string& given) {
             const auto duration = parse_duration(given);
-            if (!duration) throw CLI::ValidationError(name, fmt::format("'{}' is no duration; write for example 250ms, 2s, 1h", given));
+            if (!duration)
+              throw CLI::ValidationError(name, fmt::format("'{}' is no duration; write for example 250ms, 2s, 1h", given));
             value = *duration;
           },
           text)

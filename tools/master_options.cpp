@@ -7,7 +7,8 @@
 namespace s7200::tools {
 
 void MasterOptions::add_to(CLI::App& app) {
-  app.add_option("--baud", baud, "baud rate of the master (default: as the program set its port)")->check(CLI::Range(50, 1'000'000));
+  app.add_option("--baud", baud, "baud rate of the master (default: as the program set its port)")
+      ->check(CLI::Range(50, 1'000'000));
   app.add_option("--parity", parity, "none, even, odd (default: as the program set its port)")
       ->check(CLI::IsMember({"port", "none", "even", "odd"}));
   app.add_option("--data-bits", data_bits, "7 or 8 (default: as the program set its port)")->check(CLI::IsMember({7, 8}));

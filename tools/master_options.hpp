@@ -12,9 +12,9 @@ class App;
 namespace s7200::tools {
 
 struct MasterOptions {
-  std::uint32_t baud = 0;          ///< 0: as the program has set its port
-  std::string parity = "port";     ///< port: as the program has set its port
-  std::uint32_t data_bits = 0;     ///< 0: as the program has set its port
+  std::uint32_t baud = 0;       ///< 0: as the program has set its port
+  std::string parity = "port";  ///< port: as the program has set its port
+  std::uint32_t data_bits = 0;  ///< 0: as the program has set its port
   std::uint32_t stop_bits = 1;
   Time timeout = kSecond;
   Time gap = 0;
@@ -25,7 +25,8 @@ struct MasterOptions {
   SerialFormat format_for(const serial::Simulation& simulation) const;
 
   /// One exchange in that format, from now on to its end.
-  const serial::Exchange& exchange(serial::Simulation& simulation, const modbus::Frame& frame, const SerialFormat& format) const;
+  const serial::Exchange& exchange(serial::Simulation& simulation, const modbus::Frame& frame,
+                                   const SerialFormat& format) const;
 };
 
 }  // namespace s7200::tools

@@ -39,8 +39,9 @@ std::vector<Kept> kept_in_eeprom(RetentiveMemory& memory, const CpuModel& model)
 }
 
 constexpr std::pair<const char*, std::uint8_t ClockTime::*> kClockFields[] = {
-    {"year", &ClockTime::year},     {"month", &ClockTime::month},   {"day", &ClockTime::day},        {"hour", &ClockTime::hour},
-    {"minute", &ClockTime::minute}, {"second", &ClockTime::second}, {"weekday", &ClockTime::weekday}};
+    {"year", &ClockTime::year},      {"month", &ClockTime::month},   {"day", &ClockTime::day},
+    {"hour", &ClockTime::hour},      {"minute", &ClockTime::minute}, {"second", &ClockTime::second},
+    {"weekday", &ClockTime::weekday}};
 
 std::string name_of(const RetentiveRange& range, std::uint32_t byte) {
   const bool numbered = info(range.area).element != 0;
@@ -66,11 +67,13 @@ std::optional<std::uint8_t> hex_digit(char c) {
 }
 
 /// Takes one row over; what is wrong with it, or nothing.
-std::string take_row(const std::string& address, const std::string& hex, const std::vector<Kept>& kept, const CpuModel& model) {
+std::string take_row(const std::string& address, const std::string& hex, const std::vector<Kept>& kept,
+                     const CpuModel& model) {
   std::string why;
   const auto place = parse_range(address, model, why);
   if (!place) return why;
-  if (place->width == Width::Bit || place->count != 1 || hex.size() % 2 != 0) return fmt::format("'{}' has no whole bytes", address);
+  if (place->width == Width::Bit || place->count != 1 || hex.size() % 2 != 0)
+    return fmt::format("'{}' has no whole bytes", address);
   const std::uint64_t count = hex.size() / 2;
   const auto part = std::find_if(kept.begin(), kept.end(), [&](const Kept& k) {
     return k.range.area == place->area && place->at >= k.range.at() && place->at + count <= k.range.at() + k.range.bytes();
@@ -138,10 +141,12 @@ std::optional<RetentiveMemory> memory_from_json(std::string_view text, const Cpu
 }
 
 void MemoryFile::add_to(CLI::App& app) {
-  auto* file = app.add_option("--memory", path_,
-                              "retentive memory, EEPROM and clock: read from FILE at power-up if it exists, written at the end")
-                   ->type_name("FILE");
-  app.add_flag("--ram-lost", ram_lost_, "power was off too long: only the EEPROM of --memory is left, SM0.2 is 1")->needs(file);
+  auto* file =
+      app.add_option("--memory", path_,
+                     "retentive memory, EEPROM and clock: read from FILE at power-up if it exists, written at the end")
+          ->type_name("FILE");
+  app.add_flag("--ram-lost", ram_lost_, "power was off too long: only the EEPROM of --memory is left, SM0.2 is 1")
+      ->needs(file);
 }
 
 bool MemoryFile::read(const CpuModel& model) {

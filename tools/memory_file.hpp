@@ -23,8 +23,8 @@ class MemoryFile {
  public:
   void add_to(CLI::App& app);
 
-  /// Reads the file, if one was named and exists. False after a message: it is no memory of this CPU, or could not be written
-  /// at the end.
+  /// Reads the file, if one was named and exists. False after a message: it is no memory of this CPU, or could not be
+  /// written at the end.
   bool read(const CpuModel& model);
 
   /// What the CPU powers up with; null without a file.

@@ -6,7 +6,8 @@
 namespace s7200::tools {
 
 void OutputFile::add_to(CLI::App& app) {
-  app.add_option("--output", path_, "write each change of an output (Q, AQ) to FILE, as CSV; - is standard output")->type_name("FILE");
+  app.add_option("--output", path_, "write each change of an output (Q, AQ) to FILE, as CSV; - is standard output")
+      ->type_name("FILE");
 }
 
 bool OutputFile::open() {

@@ -12,9 +12,12 @@
 namespace s7200::tools {
 
 void PlantOptions::add_to(CLI::App& app) {
-  app.add_option("--set", set_, "memory or inputs before the first scan: VW100=5, I0.3=1 (repeatable)")->type_name("ADDRESS=VALUE");
-  app.add_option("--dump", dump_, "memory to show at the end: VB0:16, VW100, AC0 (repeatable)")->type_name("ADDRESS[:COUNT]");
-  app.add_option("--input", input_path_, "inputs over time, CSV rows such as 10ms,I0.3,1 and 1s,I0.6,pulses,5kHz,200ms")->type_name("FILE");
+  app.add_option("--set", set_, "memory or inputs before the first scan: VW100=5, I0.3=1 (repeatable)")
+      ->type_name("ADDRESS=VALUE");
+  app.add_option("--dump", dump_, "memory to show at the end: VB0:16, VW100, AC0 (repeatable)")
+      ->type_name("ADDRESS[:COUNT]");
+  app.add_option("--input", input_path_, "inputs over time, CSV rows such as 10ms,I0.3,1 and 1s,I0.6,pulses,5kHz,200ms")
+      ->type_name("FILE");
   output_.add_to(app);
   memory_.add_to(app);
   app.add_option_function<std::string>(
@@ -23,7 +26,8 @@ void PlantOptions::add_to(CLI::App& app) {
            clock_ = parse_clock(text);
            if (!clock_)
              throw CLI::ValidationError("--clock", fmt::format("'{}' is no time from 1990 to 2089; write for example "
-                                                               "\"2026-11-21 10:00:00\"", text));
+                                                               "\"2026-11-21 10:00:00\"",
+                                                               text));
          },
          "time of day at the start")
       ->type_name("\"YYYY-MM-DD HH:MM:SS\"");
@@ -46,7 +50,8 @@ bool PlantOptions::read_field(const CpuModel& model) {
 
 bool PlantOptions::prepare(const std::shared_ptr<const Program>& program) {
   const CpuModel& model = *program->model;
-  if (!parse_assignments(set_, model, assignments_) || !parse_ranges(dump_, model, dumps_) || !read_field(model)) return false;
+  if (!parse_assignments(set_, model, assignments_) || !parse_ranges(dump_, model, dumps_) || !read_field(model))
+    return false;
   if (!memory_.read(model) || !trace_.open(program) || !output_.open()) return false;
   sinks_.add(trace_.sink());
   sinks_.add(output_.sink());

@@ -12,10 +12,12 @@
 namespace s7200::tools {
 namespace {
 
+/// An empty file may be overwritten too.
 bool is_earlier_record(const std::string& path, std::string_view first_line) {
   std::ifstream in(path);
-  std::string first;
-  return !std::getline(in, first) || first == first_line;
+  std::string first(first_line.size() + 1, '\0');
+  in.read(first.data(), static_cast<std::streamsize>(first.size()));  // no more: it may be a device without end
+  return in.gcount() == 0 || first == std::string(first_line).append("\n");
 }
 
 }  // namespace

@@ -17,9 +17,19 @@ std::string place_text(const Program& program, std::uint32_t op) {
 nlohmann::ordered_json error_json(const Program& program, std::uint16_t code, std::string_view meaning, std::uint32_t op,
                                   bool fatal) {
   nlohmann::ordered_json json{{"code", fmt::format("{:04X}", code)}, {"fatal", fatal}, {"meaning", meaning}};
-  json["line"] = op == kNoRoutine ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(program.statement(op).position.line);
+  json["line"] =
+      op == kNoRoutine ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(program.statement(op).position.line);
   json["statement"] = op == kNoRoutine ? "" : stl::to_text(program.statement(op));
   return json;
+}
+
+/// What the line looked like to the master, when more than bytes came.
+std::string errors_of(const serial::Exchange& exchange) {
+  std::string text;
+  if (exchange.parity_error()) text += ", parity errors";
+  if (exchange.framing_error()) text += ", framing errors";
+  if (exchange.too_long) text += ", cut off";
+  return text;
 }
 
 }  // namespace
@@ -57,6 +67,15 @@ nlohmann::ordered_json errors_json(const Cpu& cpu) {
 }
 
 int exit_code_of(const Cpu& cpu) { return cpu.state().fatal_code ? kCpuFatal : kFine; }
+
+std::string exchange_text(const serial::Exchange& exchange, Time timeout) {
+  const std::string request = fmt::format("request  {}\n", modbus::to_hex(exchange.request));
+  if (exchange.timed_out) return fmt::format("{}answer   none within {}\n", request, format_duration(timeout));
+  const modbus::Bytes response = exchange.response_bytes();
+  return fmt::format("{}answer   {}   after {}\n         {}{}\n", request, modbus::to_hex(response),
+                     format_duration(*exchange.latency()), modbus::describe(modbus::bytes_of(exchange.request), response),
+                     errors_of(exchange));
+}
 
 std::string plain_hex(std::span<const std::uint8_t> bytes) {
   std::string text;

@@ -15,6 +15,9 @@ nlohmann::ordered_json errors_json(const Cpu& cpu);
 /// kCpuFatal after a fatal error, else kFine.
 int exit_code_of(const Cpu& cpu);
 
+/// Request, answer with its latency, and what the answer says.
+std::string exchange_text(const serial::Exchange& exchange, Time timeout);
+
 /// `lower-case hex without blanks`
 std::string plain_hex(std::span<const std::uint8_t> bytes);
 

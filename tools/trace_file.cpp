@@ -6,8 +6,9 @@
 namespace s7200::tools {
 
 void TraceFile::add_to(CLI::App& app) {
-  auto* trace = app.add_option("--trace", path_, "write interrupts, characters, attachments and errors to FILE; - is standard output")
-                    ->type_name("FILE");
+  auto* trace =
+      app.add_option("--trace", path_, "write interrupts, characters, attachments and errors to FILE; - is standard output")
+          ->type_name("FILE");
   app.add_flag("--trace-instructions", instructions_, "trace every instruction too, with its operand values")->needs(trace);
 }
 

@@ -10,10 +10,10 @@ namespace s7200 {
 enum class Parity : std::uint8_t { None, Even, Odd };
 
 struct SerialFormat {
-  std::uint32_t baud = 9600;    ///< bits a second
-  std::uint8_t data_bits = 8;   ///< 7 or 8, sent LSB first
+  std::uint32_t baud = 9600;   ///< bits a second
+  std::uint8_t data_bits = 8;  ///< 7 or 8, sent LSB first
   Parity parity = Parity::Even;
-  std::uint8_t stop_bits = 1;   ///< 1 or 2; the S7-200 always sends one (S7-200 manual, SMB30)
+  std::uint8_t stop_bits = 1;  ///< 1 or 2; the S7-200 always sends one (S7-200 manual, SMB30)
 
   bool operator==(const SerialFormat&) const = default;
 

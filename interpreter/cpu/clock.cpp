@@ -53,8 +53,8 @@ ClockTime Cpu::clock() const { return advanced(s.clock, (s.time - s.clock_set_at
 void Cpu::read_clock(std::uint32_t buffer) {
   if (!in_area(buffer, kBufferBytes)) return run_error(RunError::OperandRange);
   const ClockTime t = clock();
-  const std::uint8_t bytes[kBufferBytes] = {to_bcd(t.year),   to_bcd(t.month),  to_bcd(t.day), to_bcd(t.hour),
-                                            to_bcd(t.minute), to_bcd(t.second), 0,             t.weekday};
+  const std::uint8_t bytes[kBufferBytes] = {
+      to_bcd(t.year), to_bcd(t.month), to_bcd(t.day), to_bcd(t.hour), to_bcd(t.minute), to_bcd(t.second), 0, t.weekday};
   std::copy_n(bytes, kBufferBytes, s.image.begin() + buffer);
 }
 
@@ -62,7 +62,8 @@ void Cpu::write_clock(std::uint32_t buffer) {
   if (!in_area(buffer, kBufferBytes)) return run_error(RunError::OperandRange);
   const std::uint8_t* b = &s.image[buffer];
   if (!std::all_of(b, b + kBufferBytes, is_bcd)) return run_error(RunError::Clock);
-  set_clock({from_bcd(b[0]), from_bcd(b[1]), from_bcd(b[2]), from_bcd(b[3]), from_bcd(b[4]), from_bcd(b[5]), from_bcd(b[7])});
+  set_clock(
+      {from_bcd(b[0]), from_bcd(b[1]), from_bcd(b[2]), from_bcd(b[3]), from_bcd(b[4]), from_bcd(b[5]), from_bcd(b[7])});
 }
 
 }  // namespace s7200

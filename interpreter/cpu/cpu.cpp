@@ -6,7 +6,7 @@
 namespace s7200 {
 
 Cpu::Cpu(std::shared_ptr<const Program> program, EventQueue& queue, SerialPort& port)
-    : program_(std::move(program)), queue_(queue), port_(port) {
+    : program_(std::move(program)), ops_(program_->ops.data()), reach_(program_->reach.data()), queue_(queue), port_(port) {
   s.attached.fill(kNotAttached);
 }
 
@@ -22,17 +22,19 @@ void Cpu::run(Time limit) {
     }
     until_ = std::min({limit, event, s.watchdog});
     if (interrupt_due()) take_interrupt();
-    if (!s.in_interrupt && s.phase != Phase::Program) system_phases();
-    else if (sink_ && sink_->wants_instructions()) execute_observed();
-    else execute_plain();
+    if (!s.in_interrupt && s.phase != Phase::Program)
+      system_phases();
+    else if (sink_ && sink_->wants_instructions())
+      execute_observed();
+    else
+      execute_plain();
   }
 }
 
 void Cpu::execute_plain() {
-  const Op* const ops = program_->ops.data();
   while (s.time < until_) {
     op_ = s.pc;
-    const Op& op = ops[op_];
+    const Op& op = ops_[op_];
     ++s.instructions;
     if (op.power_mask & ~s.stack.bits()) {
       s.time += program_->no_power_flow;
@@ -52,7 +54,7 @@ void Cpu::execute_observed() {
       return;
     }
     op_ = s.pc;
-    const Op& op = program_->ops[op_];
+    const Op& op = ops_[op_];
     InstructionRecord record{.at = s.time, .op = op_};
     for (std::size_t i = 0; i < op.instruction->operands; ++i)
       if (op.instruction->operand[i].role == Role::In) record.value[i] = peek(op, i);
@@ -72,12 +74,6 @@ void Cpu::execute_observed() {
       if (op.instruction->operand[i].role != Role::In) record.value[i] = peek(op, i);
     sink_->instruction(record);
   }
-}
-
-std::optional<std::uint32_t> Cpu::resolve(std::uint32_t pointer, std::uint32_t width) const {
-  const std::uint32_t code = pointer >> 24, offset = pointer & 0xFF'FFFF;
-  if (code >= program_->reach.size() || offset + width > program_->reach[code].size) return {};
-  return program_->reach[code].base + offset;
 }
 
 bool Cpu::in_area(std::uint32_t at, std::uint32_t count) const {
@@ -121,29 +117,46 @@ std::optional<std::uint32_t> Cpu::peek(const Op& op, std::size_t i) const {
     operand.at = *place;
   }
   switch (rule.width) {
-    case Width::Bit: return bit(operand);
-    case Width::Byte: return get<std::uint8_t>(operand);
-    case Width::Word: return get<std::uint16_t>(operand);
-    case Width::Double: return get<std::uint32_t>(operand);
+    case Width::Bit:
+      return bit(operand);
+    case Width::Byte:
+      return get<std::uint8_t>(operand);
+    case Width::Word:
+      return get<std::uint16_t>(operand);
+    case Width::Double:
+      return get<std::uint32_t>(operand);
   }
   return {};
 }
 
+/// A pointer operand is an offset computed first: the body then finds direct operands only.
+static bool follow_pointer(Cpu& cpu, const Op& op, Operand& operand) {
+  const auto place = cpu.resolve(load32(&cpu.s.image[operand.at]), operand.width);
+  if (place) {
+    operand.at = *place;
+    return true;
+  }
+  cpu.run_error(RunError::IndirectAddress);
+  // A compare contact raises both errors and stops the CPU (facts 5.1).
+  if (op.instruction->structure == Structure::Compare) cpu.fatal_error(FatalError::CompareIndirect);
+  return false;
+}
+
 void run_with_pointers(Cpu& cpu, const Op& op) {
   Op direct = op;
-  for (Operand& operand : direct.operand) {
-    if (!operand.pointer) continue;
-    const auto place = cpu.resolve(load32(&cpu.s.image[operand.at]), operand.width);
-    if (!place) {
-      cpu.run_error(RunError::IndirectAddress);
-      // A compare contact raises both errors and stops the CPU (facts 5.1).
-      if (op.instruction->structure == Structure::Compare) cpu.fatal_error(FatalError::CompareIndirect);
-      return;
-    }
-    operand.at = *place;
-    operand.pointer = false;
-  }
+  for (Operand& operand : direct.operand)
+    if (operand.pointer && !follow_pointer(cpu, op, operand)) return;
   op.instruction->body(cpu, direct);
+}
+
+void run_with_pointer_first(Cpu& cpu, const Op& op) {
+  Op direct = op;
+  if (follow_pointer(cpu, op, direct.operand[0])) op.instruction->body(cpu, direct);
+}
+
+void run_with_pointer_second(Cpu& cpu, const Op& op) {
+  Op direct = op;
+  if (follow_pointer(cpu, op, direct.operand[1])) op.instruction->body(cpu, direct);
 }
 
 void Cpu::run_error(RunError code) {
@@ -167,27 +180,42 @@ void Cpu::fatal_error(FatalError code) {
 
 std::string_view meaning_of(RunError code) {
   switch (code) {
-    case RunError::CounterNotDefined: return "HSC before HDEF of that counter";
-    case RunError::PointTaken: return "input interrupt attached to a point that a high-speed counter uses";
-    case RunError::InputTaken: return "HDEF uses an input that an input interrupt is attached to";
-    case RunError::Clock: return "TODW: the buffer holds no BCD";
-    case RunError::CounterDefinedTwice: return "second HDEF for the same counter";
-    case RunError::EepromRange: return "the V address to save lies outside the EEPROM";
-    case RunError::NotInInterrupt: return "instruction not allowed in an interrupt routine";
-    case RunError::IndirectAddress: return "indirect addressing error: the pointer leads outside the memory it may reach";
-    case RunError::CallDepth: return "subroutines nested too deep";
-    case RunError::PortBusy: return "XMT while port 0 is transmitting, or not in Freeport mode";
-    case RunError::OperandRange: return "range error: the operand leaves its memory area";
-    case RunError::Count: return "error in the count field of an instruction";
-    case RunError::FreeportInInterrupt: return "attempt to switch to Freeport inside an interrupt routine";
+    case RunError::CounterNotDefined:
+      return "HSC before HDEF of that counter";
+    case RunError::PointTaken:
+      return "input interrupt attached to a point that a high-speed counter uses";
+    case RunError::InputTaken:
+      return "HDEF uses an input that an input interrupt is attached to";
+    case RunError::Clock:
+      return "TODW: the buffer holds no BCD";
+    case RunError::CounterDefinedTwice:
+      return "second HDEF for the same counter";
+    case RunError::EepromRange:
+      return "the V address to save lies outside the EEPROM";
+    case RunError::NotInInterrupt:
+      return "instruction not allowed in an interrupt routine";
+    case RunError::IndirectAddress:
+      return "indirect addressing error: the pointer leads outside the memory it may reach";
+    case RunError::CallDepth:
+      return "subroutines nested too deep";
+    case RunError::PortBusy:
+      return "XMT while port 0 is transmitting, or not in Freeport mode";
+    case RunError::OperandRange:
+      return "range error: the operand leaves its memory area";
+    case RunError::Count:
+      return "error in the count field of an instruction";
+    case RunError::FreeportInInterrupt:
+      return "attempt to switch to Freeport inside an interrupt routine";
   }
   return "unknown";
 }
 
 std::string_view meaning_of(FatalError code) {
   switch (code) {
-    case FatalError::Watchdog: return "scan watchdog: the scan took longer than 300 ms without WDR";
-    case FatalError::CompareIndirect: return "indirect addressing error in a compare contact";
+    case FatalError::Watchdog:
+      return "scan watchdog: the scan took longer than 300 ms without WDR";
+    case FatalError::CompareIndirect:
+      return "indirect addressing error in a compare contact";
   }
   return "unknown";
 }

@@ -107,15 +107,21 @@ class Cpu {
   std::optional<std::uint32_t> peek(const Op& op, std::size_t i) const;
 
   /// Place in the image that a pointer value leads to, for an operand of `width` bytes.
-  std::optional<std::uint32_t> resolve(std::uint32_t pointer, std::uint32_t width) const;
+  std::optional<std::uint32_t> resolve(std::uint32_t pointer, std::uint32_t width) const {
+    const std::uint32_t code = pointer >> 24, offset = pointer & 0xFF'FFFF;
+    if (code >= kReaches || offset + width > reach_[code].size) return {};
+    return reach_[code].base + offset;
+  }
 
   // --- for the bodies of instructions ---
 
   State s;
 
   /// A direct operand as a value: std::uint8_t, std::uint16_t, std::int16_t, std::uint32_t, std::int32_t, float.
-  template <class Value> Value get(const Operand& operand) const;
-  template <class Value> void put(const Operand& operand, Value value);
+  template <class Value>
+  Value get(const Operand& operand) const;
+  template <class Value>
+  void put(const Operand& operand, Value value);
 
   bool bit(const Operand& operand) const { return (s.image[operand.at] >> operand.bit) & 1; }
   void put_bit(std::uint32_t at, std::uint8_t bit_number, bool value) {
@@ -147,7 +153,10 @@ class Cpu {
   void return_from_interrupt();
   void end_main_program();
   void stop();
-  void reset_watchdog() { s.watchdog = s.time + program_->model->watchdog; attend(); }
+  void reset_watchdog() {
+    s.watchdog = s.time + program_->model->watchdog;
+    attend();
+  }
   void enable_interrupts(bool enabled);
   void attach(std::uint8_t event, std::uint8_t routine);
   void detach(std::uint8_t event);
@@ -230,11 +239,13 @@ class Cpu {
   std::uint32_t current_op() const { return s.in_interrupt || s.phase == Phase::Program ? op_ : kNoRoutine; }
 
   std::shared_ptr<const Program> program_;
+  const Op* ops_;  // of the program
+  const Reach* reach_;
   EventQueue& queue_;
   SerialPort& port_;
   TraceSink* sink_ = nullptr;
-  Time until_ = 0;            ///< the loop looks around when the clock has come to here
-  std::uint32_t op_ = 0;      ///< being executed
+  Time until_ = 0;        ///< the loop looks around when the clock has come to here
+  std::uint32_t op_ = 0;  ///< being executed
   bool pause_at_scan_end_ = false;
   bool paused_ = false;
 };
@@ -242,17 +253,23 @@ class Cpu {
 template <class Value>
 inline Value Cpu::get(const Operand& operand) const {
   const std::uint8_t* from = &s.image[operand.at];
-  if constexpr (sizeof(Value) == 1) return static_cast<Value>(*from);
-  else if constexpr (sizeof(Value) == 2) return static_cast<Value>(load16(from));
-  else return std::bit_cast<Value>(load32(from));
+  if constexpr (sizeof(Value) == 1)
+    return static_cast<Value>(*from);
+  else if constexpr (sizeof(Value) == 2)
+    return static_cast<Value>(load16(from));
+  else
+    return std::bit_cast<Value>(load32(from));
 }
 
 template <class Value>
 inline void Cpu::put(const Operand& operand, Value value) {
   std::uint8_t* to = &s.image[operand.at];
-  if constexpr (sizeof(Value) == 1) *to = static_cast<std::uint8_t>(value);
-  else if constexpr (sizeof(Value) == 2) store16(to, static_cast<std::uint16_t>(value));
-  else store32(to, std::bit_cast<std::uint32_t>(value));
+  if constexpr (sizeof(Value) == 1)
+    *to = static_cast<std::uint8_t>(value);
+  else if constexpr (sizeof(Value) == 2)
+    store16(to, static_cast<std::uint16_t>(value));
+  else
+    store32(to, std::bit_cast<std::uint32_t>(value));
 }
 
 }  // namespace s7200

@@ -33,8 +33,10 @@ SerialFormat format_of(std::uint8_t control, const CpuModel& model) {
 
 void run_with_port_control(Cpu& cpu, const Op& op) {
   const std::uint8_t before = cpu.s.image[kPortControl];
-  if (op.has_pointer) run_with_pointers(cpu, op);
-  else op.instruction->body(cpu, op);
+  if (op.has_pointer)
+    run_with_pointers(cpu, op);
+  else
+    op.instruction->body(cpu, op);
   if (cpu.s.image[kPortControl] != before) cpu.port_control_written(before);
 }
 
@@ -81,8 +83,10 @@ void Cpu::transmit(std::uint32_t table) {
   port_.enable_receiver(false, s.time);
   trace({.at = s.time, .kind = TraceKind::Transmit, .count = count});
   s.port.sending_break = count == 0;
-  if (s.port.sending_break) port_.send_break(kBreakBits, s.time);
-  else send_next_character(s.time);
+  if (s.port.sending_break)
+    port_.send_break(kBreakBits, s.time);
+  else
+    send_next_character(s.time);
   attend();
 }
 
@@ -106,8 +110,11 @@ void Cpu::character_sent(Time at) {
 
 void Cpu::character_received(const ReceivedCharacter& character) {
   const bool heard = s.port.active && s.attached[kReceiveEvent] != kNotAttached;
-  trace({.at = character.end, .kind = heard ? TraceKind::CharacterReceived : TraceKind::CharacterIgnored,
-         .byte = character.byte, .parity_error = character.parity_error, .framing_error = character.framing_error,
+  trace({.at = character.end,
+         .kind = heard ? TraceKind::CharacterReceived : TraceKind::CharacterIgnored,
+         .byte = character.byte,
+         .parity_error = character.parity_error,
+         .framing_error = character.framing_error,
          .since = character.start});
   if (heard) occurred(kReceiveEvent, character.end, character.byte, character.parity_error);
 }

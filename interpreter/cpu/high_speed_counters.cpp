@@ -13,9 +13,11 @@
 // - Counting up to the preset or down to it gives the event; loading a current value does not.
 // - While start is not active, clocks and reset are ignored. While start and reset are active the counter stands at 0; the
 //   reset event comes when both have become active.
-// - The control byte gives the direction in modes 0–2 only. HSC takes the level of the direction input in modes 3–5; in modes
+// - The control byte gives the direction in modes 0–2 only. HSC takes the level of the direction input in modes 3–5; in
+// modes
 //   6–11 a counter begins with "up".
-// - Direction events come when a count goes the other way than the last one (modes 6–11) or the direction input of an enabled
+// - Direction events come when a count goes the other way than the last one (modes 6–11) or the direction input of an
+// enabled
 //   counter changes (modes 3–5). The internal direction gives none.
 // - One count a period (.2 = 1): the rising edge of clock A counts up and its falling edge down, both while B is 0.
 // - In STOP the counters go on; their events are not taken.
@@ -41,7 +43,14 @@ constexpr Wiring kWiring[] = {
 };
 
 enum Control : std::uint8_t {
-  kResetLow = 1, kStartLow = 2, kSingleRate = 4, kUp = 8, kTakeDirection = 16, kTakePreset = 32, kTakeCurrent = 64, kEnable = 128
+  kResetLow = 1,
+  kStartLow = 2,
+  kSingleRate = 4,
+  kUp = 8,
+  kTakeDirection = 16,
+  kTakePreset = 32,
+  kTakeCurrent = 64,
+  kEnable = 128
 };
 
 bool has_reset(std::uint8_t mode) { return mode % 3 != 0; }
@@ -86,8 +95,9 @@ void Cpu::program_counter(std::uint8_t number) {
 void Cpu::show_counter(std::uint8_t number) {
   const HighSpeedCounter& counter = s.counter[number];
   store32(&s.image[image::kHC + 4u * number], static_cast<std::uint32_t>(counter.current));
-  s.image[kWiring[number].special_memory] = static_cast<std::uint8_t>(
-      (counter.up ? 0x20 : 0) | (counter.current == counter.preset ? 0x40 : 0) | (counter.current > counter.preset ? 0x80 : 0));
+  s.image[kWiring[number].special_memory] =
+      static_cast<std::uint8_t>((counter.up ? 0x20 : 0) | (counter.current == counter.preset ? 0x40 : 0) |
+                                (counter.current > counter.preset ? 0x80 : 0));
 }
 
 bool Cpu::counter_started(std::uint8_t number) const {

@@ -106,13 +106,19 @@ void Cpu::take_interrupt() {
   s.serving_since = s.time;
   s.stack = LogicStack::on_entry();
   s.pc = program_->interrupt[s.serving_routine];
-  trace({.at = s.time, .kind = TraceKind::ServiceBegin, .event = s.serving_event, .routine = s.serving_routine,
+  trace({.at = s.time,
+         .kind = TraceKind::ServiceBegin,
+         .event = s.serving_event,
+         .routine = s.serving_routine,
          .since = interrupt.at});
   s.time += program_->interrupt_entry;
 }
 
 void Cpu::return_from_interrupt() {
-  trace({.at = s.time, .kind = TraceKind::ServiceEnd, .event = s.serving_event, .routine = s.serving_routine,
+  trace({.at = s.time,
+         .kind = TraceKind::ServiceEnd,
+         .event = s.serving_event,
+         .routine = s.serving_routine,
          .since = s.serving_since});
   s.in_interrupt = false;
   s.pc = s.saved.return_to;

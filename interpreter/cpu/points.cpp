@@ -51,16 +51,17 @@ void Cpu::write_output_point(std::uint32_t byte, std::uint8_t bit, bool value) {
 void run_with_analog_output(Cpu& cpu, const Op& op) {
   std::array<std::uint8_t, image::kT - image::kAQ> before{};
   std::copy_n(cpu.s.image.begin() + image::kAQ, before.size(), before.begin());
-  if (op.has_pointer) run_with_pointers(cpu, op);
-  else op.instruction->body(cpu, op);
+  if (op.has_pointer)
+    run_with_pointers(cpu, op);
+  else
+    op.instruction->body(cpu, op);
   cpu.analog_outputs_written(before.data());
 }
 
 void Cpu::analog_outputs_written(const std::uint8_t* before) {
   for (std::uint32_t word = 0; word < program_->model->size_of(Area::AQ); word += 2) {
     const std::uint16_t value = load16(&s.image[image::kAQ + word]);
-    if (value != load16(before + word))
-      trace({.at = s.time, .kind = TraceKind::AnalogChanged, .op = word, .count = value});
+    if (value != load16(before + word)) trace({.at = s.time, .kind = TraceKind::AnalogChanged, .op = word, .count = value});
   }
 }
 

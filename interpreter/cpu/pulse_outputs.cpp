@@ -84,14 +84,18 @@ void Cpu::continue_pulses(std::uint8_t output, Time at) {
     return;
   }
   if (pulses.train.pwm) {
-    if (pulses.has_next) start_pulses(output, pulses.next, at);
-    else begin_pulse(output, at);
+    if (pulses.has_next)
+      start_pulses(output, pulses.next, at);
+    else
+      begin_pulse(output, at);
     return;
   }
   if (--pulses.left > 0) return begin_pulse(output, at);
   const bool has_next = pulses.has_next;
-  if (has_next) start_pulses(output, pulses.next, at);
-  else end_pulses(output);
+  if (has_next)
+    start_pulses(output, pulses.next, at);
+  else
+    end_pulses(output);
   occurred(static_cast<std::uint8_t>(19 + output), at);
 }
 

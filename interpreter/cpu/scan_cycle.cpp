@@ -16,7 +16,9 @@ std::uint8_t clock_bits(Time time) {
 }
 
 /// For a word. Not documented, modelled so: a fraction is dropped, and a scan longer than the word can say is 65535 ms.
-std::uint16_t whole_milliseconds(Time time) { return static_cast<std::uint16_t>(std::min<Time>(time / kMillisecond, 0xFFFF)); }
+std::uint16_t whole_milliseconds(Time time) {
+  return static_cast<std::uint16_t>(std::min<Time>(time / kMillisecond, 0xFFFF));
+}
 
 }  // namespace
 
@@ -35,7 +37,7 @@ void Cpu::enter_stop() {
   s.call_depth = 0;
   for (const InterruptEvent& event : all_events()) s.attached[event.number] = kNotAttached;
   for (const std::uint8_t what : {kTimedInterrupt0, kTimedInterrupt1, kTick1ms}) queue_.cancel(EventOwner::Cpu, what);
-  s.next_tick_1ms = 0;
+  s.next_tick_1ms = kNever;
   s.queue = {};
   s.waiting = 0;
   s.interrupts_enabled = false;
@@ -66,6 +68,7 @@ void Cpu::system_phases() {
       return;
     }
     s.time = end;
+    s.phase_left = 0;
     finish_phase();
   }
 }

@@ -24,7 +24,11 @@ class LogicStack {
   void pop() { bits_ >>= 1; }
   void set_top(bool value) { bits_ = static_cast<std::uint16_t>((bits_ & ~1) | (value ? 1 : 0)); }
   /// As a subroutine or interrupt routine finds it: S0 = 1, all others 0.
-  static LogicStack on_entry() { LogicStack s; s.push(true); return s; }
+  static LogicStack on_entry() {
+    LogicStack s;
+    s.push(true);
+    return s;
+  }
 
   bool operator==(const LogicStack&) const = default;
 
@@ -45,10 +49,10 @@ struct CallFrame {
 };
 
 struct QueuedInterrupt {
-  Time at = 0;               ///< when it occurred
+  Time at = 0;  ///< when it occurred
   std::uint8_t event = 0;
-  std::uint8_t byte = 0;     ///< the character of event 8, for SMB2
-  bool parity_error = false; ///< for SM3.0
+  std::uint8_t byte = 0;      ///< the character of event 8, for SMB2
+  bool parity_error = false;  ///< for SM3.0
   bool operator==(const QueuedInterrupt&) const = default;
 };
 
@@ -70,21 +74,21 @@ struct SavedContext {
 inline constexpr std::uint8_t kNotAttached = 0xFF;
 
 struct Freeport {
-  std::uint8_t control = 0;   ///< SMB30 as last taken over
-  bool active = false;        ///< Freeport mode, in RUN
+  std::uint8_t control = 0;  ///< SMB30 as last taken over
+  bool active = false;       ///< Freeport mode, in RUN
   bool transmitting = false;
   bool sending_break = false;
-  std::uint8_t on_line = 0;   ///< character being sent
-  std::uint32_t buffer = 0;   ///< place of the next character in the image
-  std::uint16_t left = 0;     ///< characters not yet handed to the line
+  std::uint8_t on_line = 0;  ///< character being sent
+  std::uint32_t buffer = 0;  ///< place of the next character in the image
+  std::uint16_t left = 0;    ///< characters not yet handed to the line
   SerialFormat format{};
   bool operator==(const Freeport&) const = default;
 };
 
 struct TimerState {
-  std::int16_t preset = 0;   ///< as its last execution found it
-  bool enabled = false;      ///< its input at its last execution
-  Time since = 0;            ///< end of the execution that enabled it
+  std::int16_t preset = 0;  ///< as its last execution found it
+  bool enabled = false;     ///< its input at its last execution
+  Time since = 0;           ///< end of the execution that enabled it
   bool operator==(const TimerState&) const = default;
 };
 
@@ -130,12 +134,12 @@ struct RuntimeError {
 };
 
 struct State {
-  Time time = 0;             ///< the CPU's clock: start of the next instruction
-  std::uint32_t pc = 0;      ///< op to execute next
+  Time time = 0;         ///< the CPU's clock: start of the next instruction
+  std::uint32_t pc = 0;  ///< op to execute next
   LogicStack stack{};
   Mode mode = Mode::Stop;
   Phase phase = Phase::ReadInputs;
-  Time phase_left = 0;       ///< of the phases other than Program
+  Time phase_left = 0;  ///< of the phases other than Program
   bool in_interrupt = false;
   bool interrupts_enabled = false;
   bool stop_after_scan = false;  ///< STOP was executed in an interrupt routine
@@ -151,16 +155,16 @@ struct State {
   Time serving_since = 0;
   std::array<std::uint8_t, kEvents> attached{};
   std::array<InterruptQueue, kQueues> queue{};
-  std::uint8_t waiting = 0;             ///< queued interrupts over all queues
-  std::array<Time, 2> timed_interval{}; ///< of events 10 and 11, captured by ATCH
+  std::uint8_t waiting = 0;              ///< queued interrupts over all queues
+  std::array<Time, 2> timed_interval{};  ///< of events 10 and 11, captured by ATCH
 
   Freeport port{};
 
   std::array<TimerState, 256> timer{};
   Time previous_scan_begin = 0;
-  Time next_tick_1ms = 0;    ///< due while it is not past
-  std::int16_t ticks_100ms = 0;                   ///< of the previous scan
-  std::array<std::uint8_t, 256> counter_inputs{}; ///< at the last execution: bit 0 up, bit 1 down
+  Time next_tick_1ms = kNever;                     ///< of the 1 ms timers; kNever while none is enabled
+  std::int16_t ticks_100ms = 0;                    ///< of the previous scan
+  std::array<std::uint8_t, 256> counter_inputs{};  ///< at the last execution: bit 0 up, bit 1 down
 
   std::array<HighSpeedCounter, 3> counter{};
   std::array<PulseOutput, 2> pulse{};
@@ -170,7 +174,7 @@ struct State {
 
   std::uint16_t fatal_code = 0;
   std::uint32_t fatal_op = 0;
-  std::array<RuntimeError, 16> errors{};   ///< the first sixteen different ones
+  std::array<RuntimeError, 16> errors{};  ///< the first sixteen different ones
   std::uint64_t error_count = 0;
 
   std::array<std::uint8_t, image::kSize> image{};

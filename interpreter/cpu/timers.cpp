@@ -31,7 +31,7 @@ void Cpu::execute_timer(std::uint32_t number, bool enabled, std::int16_t preset,
   if (!retentive && !(enabled && was_enabled)) store16(&s.image[image::kT + 2 * number], 0);
   if (!enabled) return put_bit(image::kTBits + number / 8, static_cast<std::uint8_t>(number % 8), false);
   add_ticks(number, was_enabled && base == 100 * kMillisecond ? s.ticks_100ms : 0);
-  if (base == kMillisecond && !was_enabled && s.next_tick_1ms <= s.time) await_tick_1ms(s.time);
+  if (base == kMillisecond && s.next_tick_1ms == kNever) await_tick_1ms(s.time);
 }
 
 void Cpu::await_tick_1ms(Time from) {
@@ -50,11 +50,16 @@ void Cpu::update_timers_at_scan_begin() {
 }
 
 void Cpu::tick_1ms_timers(Time at) {
+  s.next_tick_1ms = kNever;
   bool any = false;
   for (const std::uint8_t timer : program_->timers_1ms) {
     if (!s.timer[timer].enabled) continue;
-    if (s.timer[timer].since < at) add_ticks(timer, 1);
     any = true;
+    if (s.timer[timer].since >= at) continue;
+    add_ticks(timer, 1);
+    const bool reached = static_cast<std::int16_t>(load16(&s.image[image::kT + 2u * timer])) == s.timer[timer].preset;
+    if (reached && timer == 32) occurred(21, at);
+    if (reached && timer == 96) occurred(22, at);
   }
   if (any) await_tick_1ms(at);
 }

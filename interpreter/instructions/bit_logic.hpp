@@ -10,9 +10,12 @@ enum class Join { Load, And, Or };
 
 template <Join join>
 inline void combine(LogicStack& stack, bool value) {
-  if constexpr (join == Join::Load) stack.push(value);
-  else if constexpr (join == Join::And) stack.set_top(stack.top() & value);
-  else stack.set_top(stack.top() | value);
+  if constexpr (join == Join::Load)
+    stack.push(value);
+  else if constexpr (join == Join::And)
+    stack.set_top(stack.top() & value);
+  else
+    stack.set_top(stack.top() | value);
 }
 
 /// LD, A, O and their negated and immediate forms: an immediate one reads the input point itself (decided at load).

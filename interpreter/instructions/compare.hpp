@@ -10,12 +10,18 @@ enum class Relation { Equal, NotEqual, Greater, GreaterEqual, Less, LessEqual };
 template <Relation relation, class Value>
 bool holds(Value a, Value b) {
   switch (relation) {
-    case Relation::Equal: return a == b;
-    case Relation::NotEqual: return a != b;
-    case Relation::Greater: return a > b;
-    case Relation::GreaterEqual: return a >= b;
-    case Relation::Less: return a < b;
-    case Relation::LessEqual: return a <= b;
+    case Relation::Equal:
+      return a == b;
+    case Relation::NotEqual:
+      return a != b;
+    case Relation::Greater:
+      return a > b;
+    case Relation::GreaterEqual:
+      return a >= b;
+    case Relation::Less:
+      return a < b;
+    case Relation::LessEqual:
+      return a <= b;
   }
 }
 

@@ -27,8 +27,10 @@ inline void next_pass(Cpu& cpu, const Op& op) {
 
 /// LSCR: an S bit of 0 leaves the segment out.
 inline void begin_segment(Cpu& cpu, const Op& op) {
-  if (cpu.bit(op[0])) cpu.s.stack.push(true);
-  else cpu.jump(op.target);
+  if (cpu.bit(op[0]))
+    cpu.s.stack.push(true);
+  else
+    cpu.jump(op.target);
 }
 
 /// SCRT: the next segment's bit goes on, that of the enclosing LSCR (operand 2, given at load) off.

@@ -42,7 +42,7 @@ struct OperandRule {
   OperandKind kind = OperandKind::Memory;
   Width width = Width::Byte;
   Role role = Role::In;
-  Areas areas = 0;          ///< that may be named directly
+  Areas areas = 0;  ///< that may be named directly
   bool constant = false;
   bool pointer = false;     ///< *VD100, *AC1
   bool address_of = false;  ///< &VB100
@@ -59,22 +59,34 @@ enum Part : std::uint8_t { kMain = 1, kSubroutine = 2, kInterrupt = 4, kAnywhere
 /// What an instruction means for the structure of the program.
 enum class Structure : std::uint8_t {
   None,
-  Label, Jump, For, Next, Call, SubroutineHead, InterruptHead, MainEnd, SubroutineEnd, InterruptEnd, Attach,
-  SegmentBegin, SegmentTransition, SegmentEnd, DefineCounter,
+  Label,
+  Jump,
+  For,
+  Next,
+  Call,
+  SubroutineHead,
+  InterruptHead,
+  MainEnd,
+  SubroutineEnd,
+  InterruptEnd,
+  Attach,
+  SegmentBegin,
+  SegmentTransition,
+  SegmentEnd,
+  DefineCounter,
   Compare  ///< its errors stop the CPU
 };
 
 /// What the decoder adds to an instruction besides the operands written.
 enum class Hidden : std::uint8_t {
   None,
-  InputPoint,      ///< operand 0 is the input point instead of its image
-  OutputPoint,     ///< operand 2: the output point behind operand 0
-  RisingMemory,    ///< operand 2: a memory bit of its own; 1 at power-up
-  FallingMemory,   ///< operand 2: a memory bit of its own; 0 at power-up
-  Number,          ///< operand 2: number of the timer or counter that is operand 0
-  SegmentBit,      ///< operand 2: the S bit of the enclosing LSCR
+  InputPoint,     ///< operand 0 is the input point instead of its image
+  OutputPoint,    ///< operand 2: the output point behind operand 0
+  RisingMemory,   ///< operand 2: a memory bit of its own; 1 at power-up
+  FallingMemory,  ///< operand 2: a memory bit of its own; 0 at power-up
+  Number,         ///< operand 2: number of the timer or counter that is operand 0
+  SegmentBit,     ///< operand 2: the S bit of the enclosing LSCR
 };
-
 
 /// What an instruction finds on the logic stack and how many levels more it leaves there.
 struct StackUse {
@@ -84,24 +96,31 @@ struct StackUse {
 
 /// Bits of SM1 that an instruction sets and resets (S7-200 manual C230-02, D-2).
 enum Flag : std::uint8_t {
-  kZero = 1, kOverflow = 2, kNegative = 4, kDivisionByZero = 8, kTableFull = 16, kTableEmpty = 32, kNotBcd = 64, kNotHex = 128
+  kZero = 1,
+  kOverflow = 2,
+  kNegative = 4,
+  kDivisionByZero = 8,
+  kTableFull = 16,
+  kTableEmpty = 32,
+  kNotBcd = 64,
+  kNotHex = 128
 };
 
 struct Instruction {
   std::string_view mnemonic;
-  std::string_view group;   ///< heading in the documentation
+  std::string_view group;  ///< heading in the documentation
   std::array<OperandRule, 3> operand{};
   std::uint8_t operands = 0;
   bool needs_power_flow = false;  ///< skipped while the top of the logic stack is 0
   StackUse stack{};
-  bool writes_output = false;     ///< a coil or box: an LD behind it begins a new rung
-  std::uint8_t flags = 0;         ///< SM1 bits concerned
-  std::uint8_t allowed = kAnywhere;        ///< Parts, on 21x CPUs
+  bool writes_output = false;        ///< a coil or box: an LD behind it begins a new rung
+  std::uint8_t flags = 0;            ///< SM1 bits concerned
+  std::uint8_t allowed = kAnywhere;  ///< Parts, on 21x CPUs
   CpuSet cpus = kEveryCpu;
   Structure structure = Structure::None;
   Hidden hidden = Hidden::None;
-  Body body = nullptr;      ///< nullptr: not modelled, refused by name
-  std::string_view meaning; ///< one line
+  Body body = nullptr;       ///< nullptr: not modelled, refused by name
+  std::string_view meaning;  ///< one line
 
   std::span<const OperandRule> rules() const { return {operand.data(), operands}; }
 };

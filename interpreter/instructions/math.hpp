@@ -46,6 +46,14 @@ void increment(Cpu& cpu, const Op& op) {
   store_result(cpu, op[0], result, overflow);
 }
 
+/// INCB, DECB: wrap without overflow.
+template <int step>
+void increment_byte(Cpu& cpu, const Op& op) {
+  const auto result = static_cast<std::uint8_t>(cpu.get<std::uint8_t>(op[0]) + step);
+  cpu.put(op[0], result);
+  cpu.set_flags(kZero, result == 0 ? kZero : 0);
+}
+
 /// The low word of a double word operand.
 inline Operand low_word(const Operand& operand) {
   Operand low = operand;
@@ -71,8 +79,7 @@ inline void divide(Cpu& cpu, const Op& op) {
   cpu.put(op[1], static_cast<std::int16_t>(dividend % divisor));
   cpu.put(low_word(op[1]), quotient);
   const bool overflow = dividend / divisor != quotient;
-  cpu.set_flags(kArithmetic | kDivisionByZero,
-                static_cast<std::uint8_t>(sign_flags(quotient) | (overflow ? kOverflow : 0)));
+  cpu.set_flags(kArithmetic | kDivisionByZero, static_cast<std::uint8_t>(sign_flags(quotient) | (overflow ? kOverflow : 0)));
 }
 
 enum class Logic { And, Or, Xor };

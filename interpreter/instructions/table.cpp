@@ -1,4 +1,5 @@
-// THE table: all that is true of each instruction, once. See instruction.hpp for the columns and README.md for how to add one.
+// THE table: all that is true of each instruction, once. See instruction.hpp for the columns and README.md for how to add
+// one.
 //
 // Sources: facts 6 (operand areas there are inferred from the manuals' operand lists), 3.5 (what may stand in interrupt
 // routines), 6.13 (which CPU has what).
@@ -49,9 +50,12 @@ constexpr OperandRule bit_out(Areas to = kBits) {
 
 constexpr Areas readable(Width width) {
   switch (width) {
-    case Width::Word: return kWords | areas(Area::AC, Area::AI);
-    case Width::Double: return kBytes | areas(Area::AC, Area::HC);
-    default: return kBytes | areas(Area::AC);
+    case Width::Word:
+      return kWords | areas(Area::AC, Area::AI);
+    case Width::Double:
+      return kBytes | areas(Area::AC, Area::HC);
+    default:
+      return kBytes | areas(Area::AC);
   }
 }
 constexpr Areas writable(Width width) {
@@ -177,6 +181,7 @@ class Table {
     compares();
     moves();
     integer_math();
+    byte_math();
     logic();
     shifts();
     program_control();
@@ -201,13 +206,17 @@ class Table {
   }
 
   template <Join join>
-  void contacts(std::string_view plain, std::string_view negated, std::string_view point,
-                std::string_view negated_point, StackUse stack, std::string_view verb) {
-    const auto text = [&](std::string_view what) -> std::string_view { return texts_.emplace(std::string(verb) + std::string(what)).first->c_str(); };
+  void contacts(std::string_view plain, std::string_view negated, std::string_view point, std::string_view negated_point,
+                StackUse stack, std::string_view verb) {
+    const auto text = [&](std::string_view what) -> std::string_view {
+      return texts_.emplace(std::string(verb) + std::string(what)).first->c_str();
+    };
     add(uses_stack(plain, {bit_in()}, contact<join, false>, stack, text(" BIT")));
     add(uses_stack(negated, {bit_in()}, contact<join, true>, stack, text(" NOT BIT")));
-    add(with(Hidden::InputPoint, uses_stack(point, {bit_in(areas(Area::I))}, contact<join, false>, stack, text(" the input point BIT"))));
-    add(with(Hidden::InputPoint, uses_stack(negated_point, {bit_in(areas(Area::I))}, contact<join, true>, stack, text(" NOT the input point BIT"))));
+    add(with(Hidden::InputPoint,
+             uses_stack(point, {bit_in(areas(Area::I))}, contact<join, false>, stack, text(" the input point BIT"))));
+    add(with(Hidden::InputPoint, uses_stack(negated_point, {bit_in(areas(Area::I))}, contact<join, true>, stack,
+                                            text(" NOT the input point BIT"))));
   }
 
   void bit_logic() {
@@ -227,12 +236,14 @@ class Table {
     add(uses_stack("LPP", {}, pop_stack, {2, -1}, "pop the stack"));
     add(writes(uses_stack("=", {bit_out()}, coil, {1, 0}, "write the top of the stack to BIT")));
     add(with(Hidden::OutputPoint, writes(uses_stack("=I", {bit_out(areas(Area::Q))}, immediate_coil, {1, 0},
-                                                       "write the top of the stack to the output point and its image"))));
+                                                    "write the top of the stack to the output point and its image"))));
     add(box("S", {bits_from(), count()}, set_bits<true, false>, "set N bits from BIT on"));
     add(box("R", {bits_from(), count()}, set_bits<false, false>,
             "reset N bits from BIT on; of timers and counters the current values too"));
-    add(with(Hidden::OutputPoint, box("SI", {bits_from("BIT", areas(Area::Q)), count()}, set_bits<true, true>, "set N output points and their image")));
-    add(with(Hidden::OutputPoint, box("RI", {bits_from("BIT", areas(Area::Q)), count()}, set_bits<false, true>, "reset N output points and their image")));
+    add(with(Hidden::OutputPoint, box("SI", {bits_from("BIT", areas(Area::Q)), count()}, set_bits<true, true>,
+                                      "set N output points and their image")));
+    add(with(Hidden::OutputPoint, box("RI", {bits_from("BIT", areas(Area::Q)), count()}, set_bits<false, true>,
+                                      "reset N output points and their image")));
     add(row("NOP", {number(OperandKind::Number, "n")}, no_operation, "nothing"));
   }
 
@@ -279,25 +290,31 @@ class Table {
     add(box("MOVB", {in(Width::Byte), out(Width::Byte)}, move<std::uint8_t>, "copy byte IN to OUT"));
     add(box("MOVW", {in(Width::Word), with_analog_output(out(Width::Word))}, move<std::uint16_t>, "copy word IN to OUT"));
     add(box("MOVD", {any_double, out(Width::Double)}, move<std::uint32_t>, "copy double word IN to OUT"));
-    add(on(kFrom214, box("MOVR", {real(in(Width::Double)), out(Width::Double)}, move<std::uint32_t>, "copy real IN to OUT")));
+    add(on(kFrom214,
+           box("MOVR", {real(in(Width::Double)), out(Width::Double)}, move<std::uint32_t>, "copy real IN to OUT")));
     add(box("BMB", {block(Role::In, Width::Byte, "IN"), block(Role::Out, Width::Byte, "OUT"), count()},
             move_block<std::uint8_t>, "copy N bytes from IN on to OUT on"));
     add(box("BMW", {block(Role::In, Width::Word, "IN"), block(Role::Out, Width::Word, "OUT"), count()},
             move_block<std::uint16_t>, "copy N words from IN on to OUT on"));
     add(on(kFrom215, box("BMD", {block(Role::In, Width::Double, "IN"), block(Role::Out, Width::Double, "OUT"), count()},
                          move_block<std::uint32_t>, "copy N double words from IN on to OUT on")));
-    add(box("FILL", {in(Width::Word), block(Role::Out, Width::Word, "OUT"), count()}, fill, "write word IN to N words from OUT on"));
+    add(box("FILL", {in(Width::Word), block(Role::Out, Width::Word, "OUT"), count()}, fill,
+            "write word IN to N words from OUT on"));
     add(box("SWAP", {in_out(Width::Word, "IN")}, swap_bytes, "exchange the two bytes of a word"));
   }
 
   void integer_math() {
     group("Integer arithmetic");
-    add(box("+I", {in(Width::Word, "IN1"), in_out(Width::Word)}, add_body<std::int16_t>(), "OUT + IN1 to OUT, 16 bits", kArithmetic));
-    add(box("-I", {in(Width::Word, "IN1"), in_out(Width::Word)}, subtract<std::int16_t>, "OUT - IN1 to OUT, 16 bits", kArithmetic));
-    add(box("+D", {in(Width::Double, "IN1"), in_out(Width::Double)}, add_body<std::int32_t>(), "OUT + IN1 to OUT, 32 bits", kArithmetic));
-    add(box("-D", {in(Width::Double, "IN1"), in_out(Width::Double)}, subtract<std::int32_t>, "OUT - IN1 to OUT, 32 bits", kArithmetic));
-    add(box("MUL", {in(Width::Word, "IN1"), in_out(Width::Double)}, multiply,
-            "IN1 × low word of OUT to OUT, 32 bits", kArithmetic | kDivisionByZero));
+    add(box("+I", {in(Width::Word, "IN1"), in_out(Width::Word)}, add_body<std::int16_t>(), "OUT + IN1 to OUT, 16 bits",
+            kArithmetic));
+    add(box("-I", {in(Width::Word, "IN1"), in_out(Width::Word)}, subtract<std::int16_t>, "OUT - IN1 to OUT, 16 bits",
+            kArithmetic));
+    add(box("+D", {in(Width::Double, "IN1"), in_out(Width::Double)}, add_body<std::int32_t>(), "OUT + IN1 to OUT, 32 bits",
+            kArithmetic));
+    add(box("-D", {in(Width::Double, "IN1"), in_out(Width::Double)}, subtract<std::int32_t>, "OUT - IN1 to OUT, 32 bits",
+            kArithmetic));
+    add(box("MUL", {in(Width::Word, "IN1"), in_out(Width::Double)}, multiply, "IN1 × low word of OUT to OUT, 32 bits",
+            kArithmetic | kDivisionByZero));
     add(box("DIV", {in(Width::Word, "IN1"), in_out(Width::Double)}, divide,
             "low word of OUT / IN1: quotient to its low word, remainder to its high word", kArithmetic | kDivisionByZero));
     add(box("INCW", {in_out(Width::Word)}, increment<std::int16_t, 1>, "OUT + 1 to OUT, 16 bits", kArithmetic));
@@ -305,34 +322,72 @@ class Table {
     add(box("INCD", {in_out(Width::Double)}, increment<std::int32_t, 1>, "OUT + 1 to OUT, 32 bits", kArithmetic));
     add(box("DECD", {in_out(Width::Double)}, increment<std::int32_t, -1>, "OUT - 1 to OUT, 32 bits", kArithmetic));
   }
-  template <class Signed> static Body add_body() { return bodies::add<Signed>; }
+  void byte_math() {
+    add(on(kFrom215, box("INCB", {in_out(Width::Byte)}, increment_byte<1>, "OUT + 1 to OUT, unsigned byte", kZero)));
+    add(on(kFrom215, box("DECB", {in_out(Width::Byte)}, increment_byte<-1>, "OUT - 1 to OUT, unsigned byte", kZero)));
+  }
+  template <class Signed>
+  static Body add_body() {
+    return bodies::add<Signed>;
+  }
 
   void logic() {
     group("Logic operations");
-    add(box("ANDW", {in(Width::Word, "IN1"), in_out(Width::Word)}, combine_words<Logic::And, std::uint16_t>, "OUT AND IN1 to OUT", kZero));
-    add(box("ORW", {in(Width::Word, "IN1"), in_out(Width::Word)}, combine_words<Logic::Or, std::uint16_t>, "OUT OR IN1 to OUT", kZero));
-    add(box("XORW", {in(Width::Word, "IN1"), in_out(Width::Word)}, combine_words<Logic::Xor, std::uint16_t>, "OUT XOR IN1 to OUT", kZero));
+    add(box("ANDW", {in(Width::Word, "IN1"), in_out(Width::Word)}, combine_words<Logic::And, std::uint16_t>,
+            "OUT AND IN1 to OUT", kZero));
+    add(box("ORW", {in(Width::Word, "IN1"), in_out(Width::Word)}, combine_words<Logic::Or, std::uint16_t>,
+            "OUT OR IN1 to OUT", kZero));
+    add(box("XORW", {in(Width::Word, "IN1"), in_out(Width::Word)}, combine_words<Logic::Xor, std::uint16_t>,
+            "OUT XOR IN1 to OUT", kZero));
     add(box("INVW", {in_out(Width::Word)}, invert<std::uint16_t>, "NOT OUT to OUT", kZero));
-    add(box("ANDD", {in(Width::Double, "IN1"), in_out(Width::Double)}, combine_words<Logic::And, std::uint32_t>, "OUT AND IN1 to OUT", kZero));
-    add(box("ORD", {in(Width::Double, "IN1"), in_out(Width::Double)}, combine_words<Logic::Or, std::uint32_t>, "OUT OR IN1 to OUT", kZero));
-    add(box("XORD", {in(Width::Double, "IN1"), in_out(Width::Double)}, combine_words<Logic::Xor, std::uint32_t>, "OUT XOR IN1 to OUT", kZero));
+    add(box("ANDD", {in(Width::Double, "IN1"), in_out(Width::Double)}, combine_words<Logic::And, std::uint32_t>,
+            "OUT AND IN1 to OUT", kZero));
+    add(box("ORD", {in(Width::Double, "IN1"), in_out(Width::Double)}, combine_words<Logic::Or, std::uint32_t>,
+            "OUT OR IN1 to OUT", kZero));
+    add(box("XORD", {in(Width::Double, "IN1"), in_out(Width::Double)}, combine_words<Logic::Xor, std::uint32_t>,
+            "OUT XOR IN1 to OUT", kZero));
     add(box("INVD", {in_out(Width::Double)}, invert<std::uint32_t>, "NOT OUT to OUT", kZero));
+    const auto from_215 = [&](Row r) { add(on(kFrom215, r)); };
+    from_215(box("ANDB", {in(Width::Byte, "IN1"), in_out(Width::Byte)}, combine_words<Logic::And, std::uint8_t>,
+                 "OUT AND IN1 to OUT", kZero));
+    from_215(box("ORB", {in(Width::Byte, "IN1"), in_out(Width::Byte)}, combine_words<Logic::Or, std::uint8_t>,
+                 "OUT OR IN1 to OUT", kZero));
+    from_215(box("XORB", {in(Width::Byte, "IN1"), in_out(Width::Byte)}, combine_words<Logic::Xor, std::uint8_t>,
+                 "OUT XOR IN1 to OUT", kZero));
+    from_215(box("INVB", {in_out(Width::Byte)}, invert<std::uint8_t>, "NOT OUT to OUT", kZero));
   }
 
   void shifts() {
     group("Shift and rotate");
     const OperandRule n = count(255, 0);
-    add(box("SLW", {in_out(Width::Word), n}, shift<std::uint16_t, true>, "shift OUT left by N, at most 16", kZero | kOverflow));
-    add(box("SRW", {in_out(Width::Word), n}, shift<std::uint16_t, false>, "shift OUT right by N, at most 16", kZero | kOverflow));
-    add(box("SLD", {in_out(Width::Double), n}, shift<std::uint32_t, true>, "shift OUT left by N, at most 32", kZero | kOverflow));
-    add(box("SRD", {in_out(Width::Double), n}, shift<std::uint32_t, false>, "shift OUT right by N, at most 32", kZero | kOverflow));
-    add(box("RLW", {in_out(Width::Word), n}, rotate<std::uint16_t, true>, "rotate OUT left by N modulo 16", kZero | kOverflow));
-    add(box("RRW", {in_out(Width::Word), n}, rotate<std::uint16_t, false>, "rotate OUT right by N modulo 16", kZero | kOverflow));
-    add(box("RLD", {in_out(Width::Double), n}, rotate<std::uint32_t, true>, "rotate OUT left by N modulo 32", kZero | kOverflow));
+    add(box("SLW", {in_out(Width::Word), n}, shift<std::uint16_t, true>, "shift OUT left by N, at most 16",
+            kZero | kOverflow));
+    add(box("SRW", {in_out(Width::Word), n}, shift<std::uint16_t, false>, "shift OUT right by N, at most 16",
+            kZero | kOverflow));
+    add(box("SLD", {in_out(Width::Double), n}, shift<std::uint32_t, true>, "shift OUT left by N, at most 32",
+            kZero | kOverflow));
+    add(box("SRD", {in_out(Width::Double), n}, shift<std::uint32_t, false>, "shift OUT right by N, at most 32",
+            kZero | kOverflow));
+    add(box("RLW", {in_out(Width::Word), n}, rotate<std::uint16_t, true>, "rotate OUT left by N modulo 16",
+            kZero | kOverflow));
+    add(box("RRW", {in_out(Width::Word), n}, rotate<std::uint16_t, false>, "rotate OUT right by N modulo 16",
+            kZero | kOverflow));
+    add(box("RLD", {in_out(Width::Double), n}, rotate<std::uint32_t, true>, "rotate OUT left by N modulo 32",
+            kZero | kOverflow));
+    const auto from_215 = [&](Row r) { add(on(kFrom215, r)); };
+    from_215(box("SLB", {in_out(Width::Byte), n}, shift<std::uint8_t, true>, "shift OUT left by N, at most 8",
+                 kZero | kOverflow));
+    from_215(box("SRB", {in_out(Width::Byte), n}, shift<std::uint8_t, false>, "shift OUT right by N, at most 8",
+                 kZero | kOverflow));
+    from_215(box("RLB", {in_out(Width::Byte), n}, rotate<std::uint8_t, true>, "rotate OUT left by N modulo 8",
+                 kZero | kOverflow));
+    from_215(box("RRB", {in_out(Width::Byte), n}, rotate<std::uint8_t, false>, "rotate OUT right by N modulo 8",
+                 kZero | kOverflow));
     OperandRule length = count(64, -64);
     add(box("SHRB", {bit_in_named("DATA"), bits_from("S_BIT"), length}, shift_register,
             "shift DATA into the |N| bits from S_BIT on; N < 0: from the far end", kOverflow));
-    add(box("RRD", {in_out(Width::Double), n}, rotate<std::uint32_t, false>, "rotate OUT right by N modulo 32", kZero | kOverflow));
+    add(box("RRD", {in_out(Width::Double), n}, rotate<std::uint32_t, false>, "rotate OUT right by N modulo 32",
+            kZero | kOverflow));
   }
 
   void program_control() {
@@ -340,13 +395,18 @@ class Table {
     constexpr std::uint8_t not_in_interrupt = kMain | kSubroutine;
     add(marks(Structure::Jump, box("JMP", {kLabel}, jump, "go on at LBL n of the same routine")));
     add(marks(Structure::Label, row("LBL", {kLabel}, no_operation, "place that JMP n goes to")));
-    add(on(kFrom214, only_in(not_in_interrupt, marks(Structure::For,
-        box("FOR", {out(Width::Word, "INDX"), in(Width::Word, "INIT"), in(Width::Word, "FINAL")}, begin_loop,
-            "repeat up to NEXT with INDX from INIT to FINAL")))));
-    add(on(kFrom214, only_in(not_in_interrupt, marks(Structure::Next, row("NEXT", {}, next_pass, "end of a FOR loop; leaves the top of the stack at 1")))));
-    add(only_in(not_in_interrupt, marks(Structure::Call, box("CALL", {kSubroutineNumber}, bodies::call, "call subroutine n"))));
+    add(on(kFrom214, only_in(not_in_interrupt,
+                             marks(Structure::For,
+                                   box("FOR", {out(Width::Word, "INDX"), in(Width::Word, "INIT"), in(Width::Word, "FINAL")},
+                                       begin_loop, "repeat up to NEXT with INDX from INIT to FINAL")))));
+    add(on(kFrom214,
+           only_in(not_in_interrupt, marks(Structure::Next, row("NEXT", {}, next_pass,
+                                                                "end of a FOR loop; leaves the top of the stack at 1")))));
+    add(only_in(not_in_interrupt,
+                marks(Structure::Call, box("CALL", {kSubroutineNumber}, bodies::call, "call subroutine n"))));
     add(marks(Structure::SubroutineHead, row("SBR", {kSubroutineNumber}, no_operation, "head of subroutine n")));
-    add(only_in(kSubroutine, marks(Structure::SubroutineEnd, row("RET", {}, return_from_subroutine, "end of a subroutine"))));
+    add(only_in(kSubroutine,
+                marks(Structure::SubroutineEnd, row("RET", {}, return_from_subroutine, "end of a subroutine"))));
     add(only_in(kSubroutine, box("CRET", {}, return_from_subroutine, "return from a subroutine")));
     add(only_in(kMain, box("END", {}, end_main_program, "end the main program of this scan")));
     add(only_in(kMain, marks(Structure::MainEnd, row("MEND", {}, end_main_program, "end of the main program"))));
@@ -357,11 +417,14 @@ class Table {
   void interrupts() {
     group("Interrupts");
     constexpr std::uint8_t not_in_interrupt = kMain | kSubroutine;
-    add(marks(Structure::InterruptHead, row("INT", {number(OperandKind::Interrupt, "n")}, no_operation, "head of interrupt routine n")));
-    add(only_in(kInterrupt, marks(Structure::InterruptEnd, row("RETI", {}, return_from_interrupt, "end of an interrupt routine"))));
+    add(marks(Structure::InterruptHead,
+              row("INT", {number(OperandKind::Interrupt, "n")}, no_operation, "head of interrupt routine n")));
+    add(only_in(kInterrupt,
+                marks(Structure::InterruptEnd, row("RETI", {}, return_from_interrupt, "end of an interrupt routine"))));
     add(only_in(kInterrupt, box("CRETI", {}, return_from_interrupt, "return from an interrupt routine")));
     add(only_in(not_in_interrupt, box("ENI", {}, enable_interrupts<true>, "enable interrupts")));
-    add(only_in(not_in_interrupt, box("DISI", {}, enable_interrupts<false>, "disable interrupts: events wait in their queues")));
+    add(only_in(not_in_interrupt,
+                box("DISI", {}, enable_interrupts<false>, "disable interrupts: events wait in their queues")));
     add(marks(Structure::Attach, box("ATCH", {kRoutine, kEvent}, attach, "attach interrupt routine INT to event EVNT")));
     add(box("DTCH", {kEvent}, detach, "detach event EVNT: it is ignored"));
   }
@@ -381,10 +444,10 @@ class Table {
       return OperandRule{.name = "T", .width = Width::Word, .role = Role::InOut, .areas = areas(Area::T), .timer = kind};
     };
     const OperandRule counter{.name = "C", .width = Width::Word, .role = Role::InOut, .areas = areas(Area::C)};
-    add(with(Hidden::Number, writes(uses_stack("TON", {timer(TimerKind::OnDelay), in(Width::Word, "PT")}, time_on<false>, {1, 0},
-                                               "on-delay timer: counts while the top of the stack is 1, else 0"))));
-    add(with(Hidden::Number, writes(uses_stack("TONR", {timer(TimerKind::Retentive), in(Width::Word, "PT")}, time_on<true>, {1, 0},
-                                               "retentive on-delay timer: keeps its value until it is reset"))));
+    add(with(Hidden::Number, writes(uses_stack("TON", {timer(TimerKind::OnDelay), in(Width::Word, "PT")}, time_on<false>,
+                                               {1, 0}, "on-delay timer: counts while the top of the stack is 1, else 0"))));
+    add(with(Hidden::Number, writes(uses_stack("TONR", {timer(TimerKind::Retentive), in(Width::Word, "PT")}, time_on<true>,
+                                               {1, 0}, "retentive on-delay timer: keeps its value until it is reset"))));
     add(with(Hidden::Number, writes(uses_stack("CTU", {counter, in(Width::Word, "PV")}, count_up, {2, -1},
                                                "count up: second level counts, top resets"))));
     add(with(Hidden::Number, writes(uses_stack("CTUD", {counter, in(Width::Word, "PV")}, count_up_down, {3, -2},
@@ -399,7 +462,8 @@ class Table {
     from_214(box("-R", {a, b}, real_arithmetic<RealOperation::Subtract>, "OUT - IN1 to OUT", kArithmetic));
     from_214(box("*R", {a, b}, real_arithmetic<RealOperation::Multiply>, "OUT * IN1 to OUT", kArithmetic));
     from_214(box("/R", {a, b}, real_divide, "OUT / IN1 to OUT", kArithmetic | kDivisionByZero));
-    from_214(box("SQRT", {real(in(Width::Double)), real(out(Width::Double))}, square_root, "square root of IN to OUT", kArithmetic));
+    from_214(box("SQRT", {real(in(Width::Double)), real(out(Width::Double))}, square_root, "square root of IN to OUT",
+                 kArithmetic));
   }
 
   void conversions() {
@@ -407,9 +471,12 @@ class Table {
     add(box("BCDI", {in_out(Width::Word)}, from_bcd, "four BCD digits to an integer", kNotBcd));
     add(box("IBCD", {in_out(Width::Word)}, to_bcd, "integer 0 to 9999 to BCD", kNotBcd));
     add(on(kFrom214, box("DTR", {in(Width::Double), real(out(Width::Double))}, integer_to_real, "double integer to real")));
-    add(on(kFrom214, box("TRUNC", {real(in(Width::Double)), out(Width::Double)}, truncate, "real to double integer, toward zero", kOverflow)));
-    add(box("DECO", {in(Width::Byte), out(Width::Word)}, decode_bit, "set the one bit of OUT that the low half of IN numbers"));
-    add(box("ENCO", {in(Width::Word), in_out(Width::Byte)}, encode_bit, "number of the lowest bit set in IN to the low half of OUT"));
+    add(on(kFrom214, box("TRUNC", {real(in(Width::Double)), out(Width::Double)}, truncate,
+                         "real to double integer, toward zero", kOverflow)));
+    add(box("DECO", {in(Width::Byte), out(Width::Word)}, decode_bit,
+            "set the one bit of OUT that the low half of IN numbers"));
+    add(box("ENCO", {in(Width::Word), in_out(Width::Byte)}, encode_bit,
+            "number of the lowest bit set in IN to the low half of OUT"));
     add(box("SEG", {in(Width::Byte), out(Width::Byte)}, seven_segments, "seven-segment pattern of the low half of IN"));
     add(box("ATH", {block(Role::In, Width::Byte, "IN"), block(Role::Out, Width::Byte, "OUT"), length()}, ascii_to_hex,
             "LEN characters to hexadecimal digits", kNotHex));
@@ -431,7 +498,8 @@ class Table {
       return rule;
     };
     const auto from_214 = [&](Row r) { add(on(kFrom214, r)); };
-    from_214(box("ATT", {in(Width::Word, "DATA"), table(Role::InOut, "TBL")}, add_to_table, "append DATA to the table", kTableFull));
+    from_214(box("ATT", {in(Width::Word, "DATA"), table(Role::InOut, "TBL")}, add_to_table, "append DATA to the table",
+                 kTableFull));
     from_214(box("FIFO", {table(Role::InOut, "TBL"), with_analog_output(out(Width::Word, "DATA"))}, take_from_table<true>,
                  "take the first entry out of the table", kTableEmpty));
     from_214(box("LIFO", {table(Role::InOut, "TBL"), with_analog_output(out(Width::Word, "DATA"))}, take_from_table<false>,
@@ -449,10 +517,12 @@ class Table {
     group("Sequence control relays");
     constexpr std::uint8_t not_in_interrupt = kMain | kSubroutine;
     const OperandRule s_in = bit_in(areas(Area::S)), s_out = bit_out(areas(Area::S));
-    add(only_in(not_in_interrupt, marks(Structure::SegmentBegin,
-        uses_stack("LSCR", {s_in}, begin_segment, {0, 1}, "begin of the segment that runs while the S bit is 1"))));
-    add(only_in(not_in_interrupt, with(Hidden::SegmentBit, marks(Structure::SegmentTransition,
-        box("SCRT", {s_out}, segment_transition, "go over to the segment of the S bit")))));
+    add(only_in(not_in_interrupt,
+                marks(Structure::SegmentBegin, uses_stack("LSCR", {s_in}, begin_segment, {0, 1},
+                                                          "begin of the segment that runs while the S bit is 1"))));
+    add(only_in(not_in_interrupt,
+                with(Hidden::SegmentBit, marks(Structure::SegmentTransition, box("SCRT", {s_out}, segment_transition,
+                                                                                 "go over to the segment of the S bit")))));
     add(only_in(not_in_interrupt, marks(Structure::SegmentEnd, row("SCRE", {}, no_operation, "end of a segment"))));
   }
 
@@ -465,19 +535,21 @@ class Table {
     add(on(kFrom214, box("TODR", {written}, read_clock, "read the clock into the 8 bytes at T")));
     add(on(kFrom214, box("TODW", {buffer}, write_clock, "set the clock from the 8 bytes at T")));
     const OperandRule counter = number(OperandKind::Counter, "HSC");
-    add(only_in(not_in_interrupt, marks(Structure::DefineCounter, box("HDEF", {counter, number(OperandKind::Number, "MODE", 11)}, define_counter,
-                                      "give a high-speed counter its mode, once"))));
+    add(only_in(not_in_interrupt,
+                marks(Structure::DefineCounter, box("HDEF", {counter, number(OperandKind::Number, "MODE", 11)},
+                                                    define_counter, "give a high-speed counter its mode, once"))));
     add(box("HSC", {counter}, program_counter, "take over the counter's control byte, values and enable"));
-    add(on(kFrom214, box("PLS", {number(OperandKind::Number, "X", 1)}, program_pulses, "start the pulse train or PWM of Q0.X")));
+    add(on(kFrom214,
+           box("PLS", {number(OperandKind::Number, "X", 1)}, program_pulses, "start the pulse train or PWM of Q0.X")));
   }
 
   /// Known by name, so that a program that uses them is told so.
   void later() {
     group("Not modelled yet");
-    for (const char* mnemonic : {"INCB", "DECB", "ANDB", "ORB", "XORB", "INVB", "SLB", "SRB", "RLB", "RRB", "PID"})
-      add(not_modelled(mnemonic, kFrom215, ""));
-    for (const char* mnemonic : {"TOF", "CTD", "*I", "/I", "*D", "/D", "BTI", "ITB", "ITD", "DTI", "ROUND", "ITA", "DTA", "RTA",
-                                 "BIR", "BIW", "LDS", "AENO", "SIN", "COS", "TAN", "LN", "EXP", "GPA", "SPA"})
+    add(not_modelled("PID", kFrom215, "PID loop"));
+    for (const char* mnemonic :
+         {"TOF", "CTD", "*I",  "/I",  "*D",   "/D",  "BTI", "ITB", "ITD", "DTI", "ROUND", "ITA", "DTA",
+          "RTA", "BIR", "BIW", "LDS", "AENO", "SIN", "COS", "TAN", "LN",  "EXP", "GPA",   "SPA"})
       add(not_modelled(mnemonic, kCpu22x, ""));
   }
 
@@ -525,11 +597,14 @@ std::string_view nearest_mnemonic(std::string_view mnemonic) {
   if (mnemonic.size() < 2 || mnemonic.size() > 12) return {};
   std::string_view nearest;
   std::size_t best = mnemonic.size() < 4 ? 2 : 3;  // so many changes are too many
-  for (const Instruction& instruction : all_instructions())
-    if (const std::size_t d = distance(mnemonic, instruction.mnemonic); d < best) {
-      best = d;
-      nearest = instruction.mnemonic;
-    }
+  for (const Instruction& instruction : all_instructions()) {
+    const std::size_t length = instruction.mnemonic.size();
+    if (std::max(length, mnemonic.size()) - std::min(length, mnemonic.size()) >= best) continue;  // at least so many changes
+    const std::size_t d = distance(mnemonic, instruction.mnemonic);
+    if (d >= best) continue;
+    best = d;
+    nearest = instruction.mnemonic;
+  }
   return nearest;
 }
 

@@ -29,9 +29,10 @@ inline bool rose(std::uint8_t& memory, std::uint8_t edge, bool input) {
 }
 
 inline void set_counter(Cpu& cpu, const Op& op, std::int16_t current, bool reset) {
+  const auto preset = cpu.get<std::int16_t>(op[1]);  // first, for it may be this counter's own value
   if (reset) current = 0;
   cpu.put(op[0], current);
-  const bool reached = !reset && current >= cpu.get<std::int16_t>(op[1]);
+  const bool reached = !reset && current >= preset;
   cpu.put_bit(image::kCBits + op[2].at / 8, static_cast<std::uint8_t>(op[2].at % 8), reached);
 }
 

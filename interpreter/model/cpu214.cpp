@@ -28,7 +28,7 @@ const CpuModel& cpu214() {
       .call_depth = 8,
       .for_depth = 8,
       .watchdog = 300 * kMillisecond,
-      .times_csv = embedded::kCpu214Times,
+      .times_csv = {embedded::kCpu214Times},
   };
   return kModel;
 }

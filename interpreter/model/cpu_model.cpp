@@ -40,8 +40,8 @@ const std::vector<InterruptEvent>& all_events() {
       {18, Queue::Io, 14, kFrom214, "HSC2: external reset"},
       {19, Queue::Io, 15, kFrom214, "PLS0: pulse count complete"},
       {20, Queue::Io, 16, kFrom214, "PLS1: pulse count complete"},
-      {21, Queue::Timed, 2, kFrom215, "timer T32: current value = preset value", false},
-      {22, Queue::Timed, 3, kFrom215, "timer T96: current value = preset value", false},
+      {21, Queue::Timed, 2, kFrom215, "timer T32: current value = preset value"},
+      {22, Queue::Timed, 3, kFrom215, "timer T96: current value = preset value"},
       {23, Queue::Communication, 2, kFrom215, "port 0: message received", false},
       {24, Queue::Communication, 3, kCpu216 | kCpu22x, "port 1: message received", false},
       {25, Queue::Communication, 4, kCpu216 | kCpu22x, "port 1: character received", false},
@@ -88,12 +88,17 @@ const std::vector<SpecialMemory>& special_memory() {
       {34, 35, true, "timed interrupts: interval in ms"},
       {36, 65, true, "high-speed counters"},
       {66, 85, true, "pulse outputs"},
+      {86, 94, false, "receive message, port 0"},
+      {95, 129, false, "reserved"},
+      {130, 130, false, "Freeport: control of port 1"},
+      {131, 185, false, "reserved"},
+      {186, 194, false, "receive message, port 1"},
   };
   return kTable;
 }
 
 const std::vector<const CpuModel*>& all_cpus() {
-  static const std::vector<const CpuModel*> kModels{&cpu214()};
+  static const std::vector<const CpuModel*> kModels{&cpu212(), &cpu214(), &cpu215(), &cpu216()};
   return kModels;
 }
 

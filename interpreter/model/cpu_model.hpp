@@ -50,12 +50,12 @@ struct RetentiveRange {
 };
 
 struct CpuModel {
-  std::string_view name;                      ///< "214"
+  std::string_view name;  ///< "214"
   CpuSet self;
-  std::array<std::uint32_t, kAreas> size;     ///< bytes, or elements of T, C, HC and AC; by Area
+  std::array<std::uint32_t, kAreas> size;         ///< bytes, or elements of T, C, HC and AC; by Area
   std::uint32_t labels, subroutines, interrupts;  ///< how many numbers there are, from 0
   std::uint32_t program_words;
-  std::uint32_t eeprom_bytes;                 ///< V memory that the EEPROM can hold, from V0 on
+  std::uint32_t eeprom_bytes;  ///< V memory that the EEPROM can hold, from V0 on
   std::vector<RetentiveRange> retentive;
   std::array<std::uint8_t, kQueues> queue_depth;
   std::array<std::uint32_t, 8> baud;          ///< by the three bits bbb of SMB30
@@ -63,7 +63,7 @@ struct CpuModel {
   Time shortest_timed_interval;               ///< of SMB34 and SMB35
   std::uint32_t call_depth, for_depth;        ///< nesting of subroutines and of FOR loops
   Time watchdog;                              ///< longest scan
-  std::string_view times_csv;                 ///< execution times, in the format of model/times.hpp
+  std::array<std::string_view, 2> times_csv;  ///< execution times, in the format of model/times.hpp; the second may be empty
 
   std::uint32_t size_of(Area area) const { return size[static_cast<std::size_t>(area)]; }
 };
@@ -86,10 +86,15 @@ const std::vector<SpecialMemory>& special_memory();
 /// SM0.0–SM29.7 are read-only for the program (facts 1.1).
 inline constexpr std::uint32_t kReadOnlySpecialMemory = 30;
 
+const CpuModel& cpu212();
 const CpuModel& cpu214();
+const CpuModel& cpu215();
+const CpuModel& cpu216();
+
+/// By size, the smallest first.
+const std::vector<const CpuModel*>& all_cpus();
 
 /// Nothing for a name the simulator has no model of.
 const CpuModel* find_cpu(std::string_view name);
-const std::vector<const CpuModel*>& all_cpus();
 
 }  // namespace s7200

@@ -110,10 +110,14 @@ std::string quoted(const std::string& field) {
 
 std::string_view name_of(SystemTime what) {
   switch (what) {
-    case SystemTime::NoPowerFlow: return "(no power flow)";
-    case SystemTime::IndirectOperand: return "(indirect operand)";
-    case SystemTime::InterruptEntry: return "(interrupt entry)";
-    case SystemTime::ScanOverhead: return "(scan overhead)";
+    case SystemTime::NoPowerFlow:
+      return "(no power flow)";
+    case SystemTime::IndirectOperand:
+      return "(indirect operand)";
+    case SystemTime::InterruptEntry:
+      return "(interrupt entry)";
+    case SystemTime::ScanOverhead:
+      return "(scan overhead)";
   }
   return {};
 }

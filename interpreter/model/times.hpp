@@ -17,14 +17,14 @@ namespace s7200 {
 ///   = ,I Q,0.8,,,estimate,…
 ///
 /// `mnemonic`: one or more, separated by blanks, all with the same time; or one of the four names of SystemTime in brackets;
-/// a trailing `(and A O)` adds the A and O forms of each LD form. `form`: areas of the first operand that the line is for, or
-/// any words to say what the figure means. `marker`: manual, estimate or calibrated. `source` may be left out.
+/// a trailing `(and A O)` adds the A and O forms of each LD form. `form`: areas of the first operand that the line is for,
+/// or any words to say what the figure means. `marker`: manual, estimate or calibrated. `source` may be left out.
 struct TimeRow {
   std::vector<std::string> mnemonics;
   std::string form;
-  Areas areas = 0;     ///< 0: every operand
-  Time base = 0;       ///< with power flow and direct operands
-  Time per_unit = 0;   ///< for each `unit`: bit shifted, byte moved …
+  Areas areas = 0;    ///< 0: every operand
+  Time base = 0;      ///< with power flow and direct operands
+  Time per_unit = 0;  ///< for each `unit`: bit shifted, byte moved …
   std::string unit, marker, source;
 };
 

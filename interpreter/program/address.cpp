@@ -23,11 +23,16 @@ std::optional<stl::OperandValue> parse_operand(std::string_view text) {
 
 std::optional<Width> width_of(const stl::Address& address, Area area) {
   switch (address.size) {
-    case stl::Size::Bit: return Width::Bit;
-    case stl::Size::Byte: return Width::Byte;
-    case stl::Size::Word: return Width::Word;
-    case stl::Size::Double: return Width::Double;
-    case stl::Size::None: break;
+    case stl::Size::Bit:
+      return Width::Bit;
+    case stl::Size::Byte:
+      return Width::Byte;
+    case stl::Size::Word:
+      return Width::Word;
+    case stl::Size::Double:
+      return Width::Double;
+    case stl::Size::None:
+      break;
   }
   if (area == Area::AC || area == Area::HC) return Width::Double;
   if (info(area).element != 0 || area == Area::AI || area == Area::AQ) return Width::Word;

@@ -17,7 +17,7 @@ struct MemoryRange {
   std::uint32_t number = 0;  ///< byte, or number of a T, C, HC or AC
   std::uint8_t bit = 0;
   std::uint32_t count = 1;
-  std::uint32_t at = 0;      ///< in the image
+  std::uint32_t at = 0;  ///< in the image
 
   std::uint32_t bytes() const { return width == Width::Bit ? 1 : count * bytes_of(width); }
   /// Address of object `i` of the range.

@@ -9,6 +9,7 @@
 #include "interpreter/program/operands.hpp"
 #include "interpreter/program/structure.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/stl/text.hpp"
 
 namespace s7200 {
 namespace {
@@ -58,7 +59,7 @@ class Checker {
     const Instruction* instruction = find_instruction(statement.mnemonic);
     if (!instruction) {
       const std::string_view nearest = nearest_mnemonic(statement.mnemonic);
-      error(statement.position, fmt::format("unknown instruction '{}'", statement.mnemonic),
+      error(statement.position, fmt::format("unknown instruction '{}'", stl::shortened(statement.mnemonic)),
             nearest.empty() ? "" : fmt::format("is {} meant?", nearest));
       return nullptr;
     }
@@ -68,7 +69,8 @@ class Checker {
       return nullptr;
     }
     if (!instruction->body) {
-      error(statement.position, fmt::format("{} is not modelled yet", statement.mnemonic));
+      error(statement.position, fmt::format("{} is not modelled yet", statement.mnemonic),
+            "`s7200 instructions` lists what is");
       return nullptr;
     }
     return instruction;
@@ -77,7 +79,8 @@ class Checker {
   bool place_operands(const Instruction& instruction, const stl::Statement& statement) {
     const std::size_t given = statement.operands.size();
     if (given != instruction.operands) {
-      const stl::Position at = given > instruction.operands ? statement.operands[instruction.operands].position : statement.position;
+      const stl::Position at =
+          given > instruction.operands ? statement.operands[instruction.operands].position : statement.position;
       error(at, fmt::format("{} takes {}, not {}", instruction.mnemonic, counted(instruction.operands), given),
             fmt::format("write {}", syntax(instruction)));
       return false;
@@ -85,7 +88,8 @@ class Checker {
     bool good = true;
     auto& placed = placed_.back();
     for (std::size_t i = 0; i < given; ++i) {
-      const auto operand = place_operand(instruction, instruction.operand[i], statement.operands[i], model_, constants_, diagnostics_);
+      const auto operand =
+          place_operand(instruction, instruction.operand[i], statement.operands[i], model_, constants_, diagnostics_);
       if (operand) placed[i] = *operand;
       good = good && operand;
     }
@@ -139,9 +143,11 @@ class Checker {
 
   void check_size() {
     if (statements_.size() > model_.program_words)
-      error(statements_[model_.program_words].statement->position,
-            fmt::format("the program is too large: {} instructions of at least one word each, CPU {} has {} words (compile rule 0080)",
-                        statements_.size(), model_.name, model_.program_words));
+      error(
+          statements_[model_.program_words].statement->position,
+          fmt::format(
+              "the program is too large: {} instructions of at least one word each, CPU {} has {} words (compile rule 0080)",
+              statements_.size(), model_.name, model_.program_words));
     if (constants_.bytes().size() > image::kSize - image::kConstants)
       error({1, 1, 1}, "the program has too many different constants (compile rule 0080)");
   }
@@ -189,12 +195,19 @@ class Checker {
         written |= set_of(*placed[k].area);
     }
     add_hidden_operand(op, placed_[structure.head[i]]);
-    op.body = contains(written, Area::SM)   ? run_with_port_control
-              : contains(written, Area::AQ) ? run_with_analog_output
-              : op.has_pointer              ? run_with_pointers
-                                            : instruction.body;
+    op.body = body_of(op, written);
     set_cost(op, placed);
     return op;
+  }
+
+  /// The body, or the step around it that the operands need.
+  static Body body_of(const Op& op, Areas written) {
+    if (contains(written, Area::SM)) return run_with_port_control;
+    if (contains(written, Area::AQ)) return run_with_analog_output;
+    if (!op.has_pointer) return op.instruction->body;
+    const bool first = op.operand[0].pointer, second = op.operand[1].pointer, third = op.operand[2].pointer;
+    if (third || (first && second)) return run_with_pointers;
+    return first ? run_with_pointer_first : run_with_pointer_second;
   }
 
   /// Timers that are updated apart from their instructions.
@@ -212,8 +225,11 @@ class Checker {
     const Operand& first = op.operand[0];
     Operand& hidden = op.operand[2];
     switch (op.instruction->hidden) {
-      case Hidden::None: break;
-      case Hidden::InputPoint: op.operand[0].at += image::kInputs - image::kI; break;
+      case Hidden::None:
+        break;
+      case Hidden::InputPoint:
+        op.operand[0].at += image::kInputs - image::kI;
+        break;
       case Hidden::OutputPoint:
         hidden = first;
         hidden.at += image::kOutputs - image::kQ;
@@ -223,8 +239,12 @@ class Checker {
         hidden = {.at = image::kEdges + edges_ / 8, .bit = static_cast<std::uint8_t>(edges_ % 8)};
         ++edges_;
         break;
-      case Hidden::Number: hidden = {.at = (first.at - (first.at < image::kC ? image::kT : image::kC)) / 2}; break;
-      case Hidden::SegmentBit: hidden = segment[0].operand; break;
+      case Hidden::Number:
+        hidden = {.at = (first.at - (first.at < image::kC ? image::kT : image::kC)) / 2};
+        break;
+      case Hidden::SegmentBit:
+        hidden = segment[0].operand;
+        break;
     }
   }
 
@@ -255,8 +275,11 @@ CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTabl
 
 TimeTable default_times(const CpuModel& model) {
   TimeTable times;
-  [[maybe_unused]] const auto errors = times.add(model.times_csv, std::string("times of CPU ").append(model.name));
-  assert(errors.empty());
+  for (const std::string_view csv : model.times_csv) {
+    if (csv.empty()) continue;
+    [[maybe_unused]] const auto errors = times.add(csv, std::string("times of CPU ").append(model.name));
+    assert(errors.empty());
+  }
   return times;
 }
 

@@ -12,7 +12,7 @@ namespace s7200 {
 struct CheckResult {
   std::shared_ptr<const Program> program;  ///< null when there are errors
   stl::Source source;
-  stl::Diagnostics diagnostics;            ///< errors and warnings, in order of place, the parser's among them
+  stl::Diagnostics diagnostics;  ///< errors and warnings, in order of place, the parser's among them
 };
 
 /// Checks mnemonics, operands (count, kind, width, range on that CPU), routines, labels, loops, what may stand where, the

@@ -6,6 +6,7 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/stl/text.hpp"
 
 namespace s7200 {
 namespace {
@@ -14,23 +15,33 @@ template <class... Visitors>
 struct Overloaded : Visitors... {
   using Visitors::operator()...;
 };
+template <class... Visitors>
+Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
 std::string_view name_of(Width width) {
   switch (width) {
-    case Width::Bit: return "bit";
-    case Width::Byte: return "byte";
-    case Width::Word: return "word";
-    case Width::Double: return "double word";
+    case Width::Bit:
+      return "bit";
+    case Width::Byte:
+      return "byte";
+    case Width::Word:
+      return "word";
+    case Width::Double:
+      return "double word";
   }
   return {};
 }
 
 std::string_view letter_of(Width width) {
   switch (width) {
-    case Width::Bit: return "";
-    case Width::Byte: return "B";
-    case Width::Word: return "W";
-    case Width::Double: return "D";
+    case Width::Bit:
+      return "";
+    case Width::Byte:
+      return "B";
+    case Width::Word:
+      return "W";
+    case Width::Double:
+      return "D";
   }
   return {};
 }
@@ -40,25 +51,25 @@ bool is_numbered(Area area) { return info(area).element != 0; }
 /// Width that an address names; nothing for an accumulator without a letter, which takes any.
 std::optional<Width> width_of(const stl::Address& address, Area area) {
   switch (address.size) {
-    case stl::Size::Bit: return Width::Bit;
-    case stl::Size::Byte: return Width::Byte;
-    case stl::Size::Word: return Width::Word;
-    case stl::Size::Double: return Width::Double;
-    case stl::Size::None: break;
+    case stl::Size::Bit:
+      return Width::Bit;
+    case stl::Size::Byte:
+      return Width::Byte;
+    case stl::Size::Word:
+      return Width::Word;
+    case stl::Size::Double:
+      return Width::Double;
+    case stl::Size::None:
+      break;
   }
   switch (area) {
-    case Area::AC: return {};
-    case Area::HC: return Width::Double;
-    default: return Width::Word;  // T, C current values; AI, AQ
+    case Area::AC:
+      return {};
+    case Area::HC:
+      return Width::Double;
+    default:
+      return Width::Word;  // T, C current values; AI, AQ
   }
-}
-
-std::string range_text(const CpuModel& model, Area area, Width width) {
-  const std::uint32_t size = model.size_of(area);
-  if (is_numbered(area)) return fmt::format("{0}0 to {0}{1}", info(area).name, size - 1);
-  if (width == Width::Bit) return fmt::format("{0}0.0 to {0}{1}.7", info(area).name, size - 1);
-  const std::uint32_t last = area == Area::AI || area == Area::AQ ? size - 2 : size - bytes_of(width);
-  return fmt::format("{} to {}", address_text(area, width, 0, 0), address_text(area, width, last, 0));
 }
 
 std::string areas_text(const OperandRule& rule) {
@@ -80,18 +91,20 @@ class Placing {
  public:
   Placing(const Instruction& instruction, const OperandRule& rule, const stl::Operand& written, const CpuModel& model,
           ConstantPool& constants, stl::Diagnostics& diagnostics)
-      : instruction_(instruction), rule_(rule), written_(written), model_(model), constants_(constants),
+      : instruction_(instruction),
+        rule_(rule),
+        written_(written),
+        model_(model),
+        constants_(constants),
         diagnostics_(diagnostics) {}
 
   std::optional<PlacedOperand> result() {
     if (rule_.kind != OperandKind::Memory) return plain_number();
-    return std::visit(Overloaded{[&](const stl::Integer& v) { return integer(v); },
-                                 [&](const stl::Real& v) { return real(v); },
-                                 [&](const stl::Address& v) { return address(v); },
-                                 [&](const stl::AddressOf& v) { return address_of(v); },
-                                 [&](const stl::Indirect& v) { return indirect(v); },
-                                 [&](const stl::Name& v) { return name(v); }},
-                      written_.value);
+    return std::visit(
+        Overloaded{[&](const stl::Integer& v) { return integer(v); }, [&](const stl::Real& v) { return real(v); },
+                   [&](const stl::Address& v) { return address(v); }, [&](const stl::AddressOf& v) { return address_of(v); },
+                   [&](const stl::Indirect& v) { return indirect(v); }, [&](const stl::Name& v) { return name(v); }},
+        written_.value);
   }
 
  private:
@@ -102,7 +115,7 @@ class Placing {
     return {};
   }
 
-  std::string text() const { return stl::to_text(written_); }
+  std::string text() const { return stl::shortened(stl::to_text(written_)); }
   std::string of_instruction() const { return fmt::format("{} of {}", rule_.name, instruction_.mnemonic); }
   std::uint16_t width() const { return static_cast<std::uint16_t>(bytes_of(rule_.width)); }
 
@@ -115,24 +128,34 @@ class Placing {
 
   Result plain_number() {
     const auto* value = std::get_if<stl::Integer>(&written_.value);
-    if (!value) return error(fmt::format("{} takes a number here, not {}", instruction_.mnemonic, text()));
     const auto [what, last] = number_range();
+    const std::string range =
+        last == 0 ? fmt::format("the only {} is 0", what) : fmt::format("{}s are numbered 0 to {}", what, last);
+    if (!value) return error(fmt::format("{} takes a number here, not {}", instruction_.mnemonic, text()), range);
+    if (rule_.kind == OperandKind::Number && (value->value < 0 || value->value > last))
+      return error(fmt::format("{} is 0 to {}, not {}", of_instruction(), last, text()));
     if (value->value < 0 || value->value > last)
-      return error(fmt::format("{} {} does not exist on CPU {}", what, value->value, model_.name),
-                   fmt::format("{}s are numbered 0 to {}", what, last));
+      return error(fmt::format("{} {} does not exist on CPU {}", what, value->value, model_.name), range);
     if (rule_.kind == OperandKind::Event && !event_exists(value->value)) return {};
     return PlacedOperand{{.at = static_cast<std::uint32_t>(value->value)}, {}, value->value};
   }
 
   std::pair<std::string_view, std::int64_t> number_range() const {
     switch (rule_.kind) {
-      case OperandKind::Label: return {"label", model_.labels - 1};
-      case OperandKind::Subroutine: return {"subroutine", model_.subroutines - 1};
-      case OperandKind::Interrupt: return {"interrupt routine", model_.interrupts - 1};
-      case OperandKind::Event: return {"event", static_cast<std::int64_t>(kEvents) - 1};
-      case OperandKind::Counter: return {"high-speed counter", model_.size_of(Area::HC) - 1};
-      case OperandKind::Port: return {"port", 0};
-      default: return {"number", rule_.max};
+      case OperandKind::Label:
+        return {"label", model_.labels - 1};
+      case OperandKind::Subroutine:
+        return {"subroutine", model_.subroutines - 1};
+      case OperandKind::Interrupt:
+        return {"interrupt routine", model_.interrupts - 1};
+      case OperandKind::Event:
+        return {"event", static_cast<std::int64_t>(kEvents) - 1};
+      case OperandKind::Counter:
+        return {"high-speed counter", model_.size_of(Area::HC) - 1};
+      case OperandKind::Port:
+        return {"port", 0};
+      default:
+        return {"number", rule_.max};
     }
   }
 
@@ -161,8 +184,9 @@ class Placing {
       return error(fmt::format("{} has {} characters, {} is a {}", text(), constant.characters, of_instruction(),
                                name_of(rule_.width)));
     if (constant.value < lowest || constant.value > highest)
-      return error(fmt::format("{} does not fit {}, a {}", text(), of_instruction(), name_of(rule_.width)),
-                   fmt::format("a {} is {} to {} signed, 0 to {} unsigned", name_of(rule_.width), lowest, -lowest - 1, highest));
+      return error(
+          fmt::format("{} does not fit {}, a {}", text(), of_instruction(), name_of(rule_.width)),
+          fmt::format("a {} is {} to {} signed, 0 to {} unsigned", name_of(rule_.width), lowest, -lowest - 1, highest));
     if (constant.value < rule_.min || constant.value > rule_.max)
       return error(fmt::format("{} is {} to {}, not {}", of_instruction(), rule_.min, rule_.max, text()));
     PlacedOperand placed = pooled(static_cast<std::uint32_t>(constant.value));
@@ -182,9 +206,7 @@ class Placing {
                  fmt::format("{} takes {}", of_instruction(), areas_text(rule_)));
   }
 
-  PlacedOperand pooled(std::uint32_t value) {
-    return {{.at = constants_.place(value, width()), .width = width()}, {}, {}};
-  }
+  PlacedOperand pooled(std::uint32_t value) { return {{.at = constants_.place(value, width()), .width = width()}, {}, {}}; }
 
   // --- addresses ---
 
@@ -210,7 +232,7 @@ class Placing {
       return true;  // T33, C4: the timer or counter bit
     const auto width = width_of(address, area);
     if (!width || *width == rule_.width) return true;
-    std::string meant;
+    std::string meant = fmt::format("{} takes {}", of_instruction(), areas_text(rule_));
     if (!is_numbered(area) && area != Area::AI && area != Area::AQ)
       meant = fmt::format("is {} meant?", address_text(area, rule_.width, address.number, 0));
     error(fmt::format("{} is a {}, {} is a {}", of_instruction(), name_of(rule_.width), text(), name_of(*width)), meant);
@@ -250,8 +272,8 @@ class Placing {
   bool may_use_special_memory(const stl::Address& address, Area area) {
     if (area != Area::SM) return true;
     if (rule_.role != Role::In && address.number < kReadOnlySpecialMemory) {
-      error(fmt::format("{} is read-only", text()), fmt::format("SM0.0 to SM{}.7 are written by the CPU only",
-                                                                kReadOnlySpecialMemory - 1));
+      error(fmt::format("{} is read-only", text()),
+            fmt::format("SM0.0 to SM{}.7 are written by the CPU only", kReadOnlySpecialMemory - 1));
       return false;
     }
     for (const SpecialMemory& entry : special_memory()) {
@@ -296,16 +318,15 @@ class Placing {
     if (!in_accumulator && !in_memory)
       return error(fmt::format("{} cannot hold a pointer", stl::to_text({operand.pointer, {}})),
                    "a pointer is a double word of V memory (*VD100) or an accumulator (*AC1 to *AC3)");
-    if (in_accumulator && operand.pointer.number == 0)
-      return error("AC0 cannot hold a pointer", "use AC1, AC2 or AC3");
+    if (in_accumulator && operand.pointer.number == 0) return error("AC0 cannot hold a pointer", "use AC1, AC2 or AC3");
     if (!in_range(operand.pointer, *area, Width::Double)) return {};
     const AreaInfo& a = info(*area);
-    return PlacedOperand{{.at = a.base + std::max(1u, a.element) * operand.pointer.number, .pointer = true, .width = width()},
-                         {}, {}};
+    return PlacedOperand{
+        {.at = a.base + std::max(1u, a.element) * operand.pointer.number, .pointer = true, .width = width()}, {}, {}};
   }
 
-  Result name(const stl::Name& name) {
-    return error(fmt::format("'{}' is no address", name.text),
+  Result name(const stl::Name&) {
+    return error(fmt::format("'{}' is no address", text()),
                  "symbols and local variables are not read yet: write the address itself");
   }
 
@@ -321,9 +342,11 @@ class Placing {
 
 std::uint32_t ConstantPool::place(std::uint32_t value, std::uint32_t width) {
   if (width < 4) value &= (1u << (8 * width)) - 1;
-  const auto [found, added] = places_.try_emplace({value, width}, image::kConstants + static_cast<std::uint32_t>(bytes_.size()));
+  const auto [found, added] =
+      places_.try_emplace({value, width}, image::kConstants + static_cast<std::uint32_t>(bytes_.size()));
   if (added)
-    for (std::uint32_t shift = 8 * width; shift > 0; shift -= 8) bytes_.push_back(static_cast<std::uint8_t>(value >> (shift - 8)));
+    for (std::uint32_t shift = 8 * width; shift > 0; shift -= 8)
+      bytes_.push_back(static_cast<std::uint8_t>(value >> (shift - 8)));
   return found->second;
 }
 
@@ -332,6 +355,14 @@ std::string address_text(Area area, Width width, std::uint32_t number, std::uint
   if (is_numbered(area)) return fmt::format("{}{}", name, number);
   if (width == Width::Bit) return fmt::format("{}{}.{}", name, number, bit);
   return fmt::format("{}{}{}", name, letter_of(width), number);
+}
+
+std::string range_text(const CpuModel& model, Area area, Width width) {
+  const std::uint32_t size = model.size_of(area);
+  if (is_numbered(area)) return fmt::format("{0}0 to {0}{1}", info(area).name, size - 1);
+  if (width == Width::Bit) return fmt::format("{0}0.0 to {0}{1}.7", info(area).name, size - 1);
+  const std::uint32_t last = area == Area::AI || area == Area::AQ ? size - 2 : size - bytes_of(width);
+  return fmt::format("{} to {}", address_text(area, width, 0, 0), address_text(area, width, last, 0));
 }
 
 std::optional<PlacedOperand> place_operand(const Instruction& instruction, const OperandRule& rule,

@@ -27,8 +27,8 @@ class ConstantPool {
 /// What a checked operand turned out to be.
 struct PlacedOperand {
   Operand operand;
-  std::optional<Area> area;               ///< of a direct address
-  std::optional<std::int64_t> constant;   ///< of a constant or a plain number
+  std::optional<Area> area;              ///< of a direct address
+  std::optional<std::int64_t> constant;  ///< of a constant or a plain number
 };
 
 /// Checks `written` against `rule` on `model`; adds a diagnostic and returns nothing when it does not fit.
@@ -38,5 +38,8 @@ std::optional<PlacedOperand> place_operand(const Instruction& instruction, const
 
 /// `VB100`, `T33`, `M31.7`: a place in words, of a memory area.
 std::string address_text(Area area, Width width, std::uint32_t number, std::uint8_t bit);
+
+/// `VB0 to VB4095`: what there is of an area on a CPU.
+std::string range_text(const CpuModel& model, Area area, Width width);
 
 }  // namespace s7200

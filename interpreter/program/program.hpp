@@ -24,15 +24,15 @@ struct Operand {
 
 /// A decoded instruction: one cache line.
 struct Op {
-  Body body = nullptr;             ///< what the loop calls: instruction->body, or a step around it
-  std::int32_t cost = 0;           ///< ns, with power flow and for operands as they are
-  std::int32_t unit_cost = 0;      ///< ns more for each bit, byte, word … (see the table of times)
-  std::uint32_t skip_to = 0;       ///< op to go on with when power flow is needed and missing
-  std::uint32_t target = 0;        ///< op to go on with: JMP, CALL, NEXT (loop body), FOR (behind its NEXT)
+  Body body = nullptr;         ///< what the loop calls: instruction->body, or a step around it
+  std::int32_t cost = 0;       ///< ns, with power flow and for operands as they are
+  std::int32_t unit_cost = 0;  ///< ns more for each bit, byte, word … (see the table of times)
+  std::uint32_t skip_to = 0;   ///< op to go on with when power flow is needed and missing
+  std::uint32_t target = 0;    ///< op to go on with: JMP, CALL, NEXT (loop body), FOR (behind its NEXT)
   std::array<Operand, 3> operand{};
-  std::uint8_t power_mask = 0;     ///< 1: needs power flow
-  bool has_pointer = false;        ///< some operand is a pointer
-  std::uint32_t statement = 0;     ///< in Program::statements
+  std::uint8_t power_mask = 0;  ///< 1: needs power flow
+  bool has_pointer = false;     ///< some operand is a pointer
+  std::uint32_t statement = 0;  ///< in Program::statements
   const Instruction* instruction = nullptr;
 
   const Operand& operator[](std::size_t i) const { return operand[i]; }
@@ -42,12 +42,17 @@ struct Op {
 
 /// Resolves pointer operands first: the body then finds direct ones only.
 void run_with_pointers(Cpu& cpu, const Op& op);
+/// The same when operand 0, or operand 1, is the only pointer.
+void run_with_pointer_first(Cpu& cpu, const Op& op);
+void run_with_pointer_second(Cpu& cpu, const Op& op);
 /// For an instruction that writes special memory: the port follows SMB30.
 void run_with_port_control(Cpu& cpu, const Op& op);
 /// For an instruction that writes analog outputs: there is no image, the change goes to the module at once.
 void run_with_analog_output(Cpu& cpu, const Op& op);
 
 inline constexpr std::uint32_t kNoRoutine = 0xFFFF'FFFF;
+
+inline constexpr std::size_t kReaches = 16;  ///< pointer codes lie below
 
 /// What a pointer with a certain top byte reaches on the program's CPU.
 struct Reach {
@@ -59,15 +64,15 @@ struct Program {
   const CpuModel* model = nullptr;
   TimeTable times;
   stl::Source source;
-  std::vector<stl::Statement> statements;   ///< one for each op
+  std::vector<stl::Statement> statements;  ///< one for each op
   std::vector<Op> ops;
-  std::vector<std::uint8_t> constants;      ///< content of the image from image::kConstants on
+  std::vector<std::uint8_t> constants;         ///< content of the image from image::kConstants on
   std::array<std::uint32_t, 64> subroutine{};  ///< op of each SBR; kNoRoutine where there is none
   std::array<std::uint32_t, 128> interrupt{};  ///< op of each INT
 
   std::vector<std::uint8_t> timers_1ms, timers_10ms;  ///< numbers of those the program times with
   bool uses_timers = false;
-  std::array<Reach, 16> reach{};                ///< by the top byte of a pointer
+  std::array<Reach, kReaches> reach{};  ///< by the top byte of a pointer
 
   // Times that the CPU needs while running, taken from `times`.
   Time no_power_flow = 0, interrupt_entry = 0;

@@ -69,26 +69,45 @@ class StructureCheck {
   void visit(std::uint32_t i) {
     const CheckedStatement& s = statements_[i];
     switch (s.instruction->structure) {
-      case Structure::SubroutineHead: return begin_routine(i, kSubroutine, subroutines_);
-      case Structure::InterruptHead: return begin_routine(i, kInterrupt, interrupts_);
-      default: break;
+      case Structure::SubroutineHead:
+        return begin_routine(i, kSubroutine, subroutines_);
+      case Structure::InterruptHead:
+        return begin_routine(i, kInterrupt, interrupts_);
+      default:
+        break;
     }
     if (ended_) return stray(i);
     if (!(s.instruction->allowed & routine_.part)) return not_allowed(i);
     switch (s.instruction->structure) {
-      case Structure::Label: return label(i);
-      case Structure::Jump: if (s.operands_good) jumps_.push_back({i, routine_}); return;
-      case Structure::Call: if (s.operands_good) calls_.push_back({i, routine_}); return;
-      case Structure::Attach: if (s.operands_good) attachments_.push_back({i, routine_}); return;
-      case Structure::For: return begin_loop(i);
-      case Structure::Next: return end_loop(i);
-      case Structure::SegmentBegin: return begin_segment(i);
-      case Structure::SegmentTransition: return segment_transition(i);
-      case Structure::SegmentEnd: return end_segment(i);
+      case Structure::Label:
+        return label(i);
+      case Structure::Jump:
+        if (s.operands_good) jumps_.push_back({i, routine_});
+        return;
+      case Structure::Call:
+        if (s.operands_good) calls_.push_back({i, routine_});
+        return;
+      case Structure::Attach:
+        if (s.operands_good) attachments_.push_back({i, routine_});
+        return;
+      case Structure::For:
+        return begin_loop(i);
+      case Structure::Next:
+        return end_loop(i);
+      case Structure::SegmentBegin:
+        return begin_segment(i);
+      case Structure::SegmentTransition:
+        return segment_transition(i);
+      case Structure::SegmentEnd:
+        return end_segment(i);
       case Structure::MainEnd:
       case Structure::SubroutineEnd:
-      case Structure::InterruptEnd: end_routine(); ended_ = true; return;
-      default: return;
+      case Structure::InterruptEnd:
+        end_routine();
+        ended_ = true;
+        return;
+      default:
+        return;
     }
   }
 
@@ -115,8 +134,9 @@ class StructureCheck {
   void missing_end(const stl::Position& at) {
     static constexpr std::string_view kRule[] = {"0083", "0088", "0089"};
     const std::size_t rule = routine_.part == kMain ? 0 : routine_.part == kSubroutine ? 1 : 2;
-    error(at, fmt::format("{} has no {} (compile rule {})", routine_text(routine_.part, routine_.number), end_of(routine_.part),
-                          kRule[rule]),
+    error(at,
+          fmt::format("{} has no {} (compile rule {})", routine_text(routine_.part, routine_.number), end_of(routine_.part),
+                      kRule[rule]),
           fmt::format("end it with {}", end_of(routine_.part)));
   }
 
@@ -131,7 +151,7 @@ class StructureCheck {
   void stray(std::uint32_t i) {
     if (!stray_reported_)
       error(position(i), fmt::format("behind {} only SBR or INT may follow", end_of(routine_.part)),
-            routine_.part == kSubroutine ? "a conditional return is CRET"
+            routine_.part == kSubroutine  ? "a conditional return is CRET"
             : routine_.part == kInterrupt ? "a conditional return is CRETI"
                                           : "a conditional end is END");
     stray_reported_ = true;
@@ -145,6 +165,7 @@ class StructureCheck {
     std::string hint;
     if (instruction.allowed == kMain) hint = "it belongs to the main program";
     if (instruction.allowed == kSubroutine) hint = "it belongs to a subroutine";
+    if (instruction.allowed == (kMain | kSubroutine)) hint = "let the routine set a bit, and the main program act on it";
     if (instruction.allowed == kInterrupt) hint = "it belongs to an interrupt routine";
     if (instruction.structure == Structure::MainEnd && routine_.part != kMain)
       hint = fmt::format("{} ends with {}", routine_text(routine_.part, routine_.number), end_of(routine_.part));
@@ -168,7 +189,8 @@ class StructureCheck {
       const auto found = labels_.find(number);
       if (found == labels_.end()) {
         error(position(jump.statement), fmt::format("label {} is missing (compile rule 0087)", number),
-              fmt::format("write LBL {} where JMP is to go, in {}", number, routine_text(jump.routine.part, jump.routine.number)));
+              fmt::format("write LBL {} where JMP is to go, in {}", number,
+                          routine_text(jump.routine.part, jump.routine.number)));
         continue;
       }
       used.insert(number);
@@ -176,7 +198,8 @@ class StructureCheck {
         error(position(jump.statement),
               fmt::format("LBL {} is in {}; a jump cannot leave {}", number,
                           routine_text(found->second.routine.part, found->second.routine.number),
-                          routine_text(jump.routine.part, jump.routine.number)));
+                          routine_text(jump.routine.part, jump.routine.number)),
+              "JMP and its LBL stand in the same routine");
       result_.target[jump.statement] = found->second.statement;
     }
     for (const auto& [number, place] : labels_)
@@ -191,7 +214,7 @@ class StructureCheck {
 
   void end_loop(std::uint32_t i) {
     if (loops_.empty()) {
-      error(position(i), "NEXT without FOR (compile rule 0085)");
+      error(position(i), "NEXT without FOR (compile rule 0085)", "each NEXT closes the nearest open FOR of its own routine");
       return;
     }
     const std::uint32_t head = loops_.back();
@@ -211,13 +234,17 @@ class StructureCheck {
   }
 
   void segment_transition(std::uint32_t i) {
-    if (!segment_) error(position(i), "SCRT outside of a segment (compile rule 0095)", "a segment begins with LSCR");
-    else result_.head[i] = *segment_;
+    if (!segment_)
+      error(position(i), "SCRT outside of a segment (compile rule 0095)", "a segment begins with LSCR");
+    else
+      result_.head[i] = *segment_;
   }
 
   void end_segment(std::uint32_t i) {
-    if (!segment_) error(position(i), "SCRE without LSCR (compile rule 0095)");
-    else result_.target[*segment_] = i + 1;
+    if (!segment_)
+      error(position(i), "SCRE without LSCR (compile rule 0095)");
+    else
+      result_.target[*segment_] = i + 1;
     segment_.reset();
   }
 
@@ -276,10 +303,10 @@ class StructureCheck {
   ProgramStructure result_;
 
   Routine routine_{};
-  bool ended_ = false;           // the routine's last instruction is behind us
+  bool ended_ = false;  // the routine's last instruction is behind us
   bool stray_reported_ = false;
-  std::vector<std::uint32_t> loops_;   // open FORs
-  std::optional<std::uint32_t> segment_;  // open LSCR
+  std::vector<std::uint32_t> loops_;                                 // open FORs
+  std::optional<std::uint32_t> segment_;                             // open LSCR
   std::map<std::uint32_t, std::uint32_t> subroutines_, interrupts_;  // number -> statement of the head
   std::map<std::uint32_t, Place> labels_;
   std::vector<Place> jumps_, calls_, attachments_;
@@ -325,8 +352,10 @@ class StackCheck {
       case Structure::InterruptHead:
       case Structure::Label:
       case Structure::Next:
-      case Structure::SegmentBegin: return true;
-      default: return false;
+      case Structure::SegmentBegin:
+        return true;
+      default:
+        return false;
     }
   }
 

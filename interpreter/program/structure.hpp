@@ -19,8 +19,9 @@ struct CheckedStatement {
 
 /// What the structure means for decoding: per statement, the op to go on with (0 where it has none).
 struct ProgramStructure {
-  std::vector<std::uint32_t> target;  ///< of JMP, CALL, FOR (behind its NEXT), NEXT (first of its loop), LSCR (behind its SCRE)
-  std::vector<std::uint32_t> head;    ///< of NEXT: its FOR; of SCRT: the enclosing LSCR
+  std::vector<std::uint32_t>
+      target;  ///< of JMP, CALL, FOR (behind its NEXT), NEXT (first of its loop), LSCR (behind its SCRE)
+  std::vector<std::uint32_t> head;  ///< of NEXT: its FOR; of SCRT: the enclosing LSCR
   std::array<std::uint32_t, 64> subroutine{};
   std::array<std::uint32_t, 128> interrupt{};
 };

@@ -534,13 +534,7 @@ class LineReader {
                   fmt::format("write {}{}{}{}", mark, raw.letters.area, size_letter(raw.letters.size), rest));
   }
 
-  /// For a message: not the whole of a very long operand.
-  static std::string shown(const Range& text) {
-    constexpr std::size_t kLongest = 40;
-    const std::string_view whole = view(text);
-    if (whole.size() <= kLongest) return std::string(whole);
-    return std::string(whole.substr(0, kLongest)) + "...";
-  }
+  static std::string shown(const Range& text) { return shortened(view(text)); }
 
   std::nullopt_t refuse(const Range& text, std::string message, std::string hint) {
     report(position(text), std::move(message), std::move(hint));

@@ -67,6 +67,17 @@ std::string_view trim_end(std::string_view text) {
   return text;
 }
 
+std::string shortened(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  if (count_characters(text) <= kLongest) return std::string(text);
+  std::size_t bytes = 0, number = 0;
+  for (const Character c : characters(text)) {
+    if (++number > kLongest - 3) break;
+    bytes += c.bytes;
+  }
+  return std::string(text.substr(0, bytes)).append("...");
+}
+
 std::string upper_case(std::string_view text) {
   std::string upper(text);
   for (char& c : upper) {

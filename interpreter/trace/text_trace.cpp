@@ -24,44 +24,62 @@ std::string character_text(const TraceRecord& r) {
 
 std::string value_text(std::uint32_t value, Width width) {
   switch (width) {
-    case Width::Bit: return fmt::format("{}", value);
-    case Width::Byte: return fmt::format("16#{:02X}", value);
-    case Width::Word: return fmt::format("16#{:04X}", value);
-    case Width::Double: return fmt::format("16#{:08X}", value);
+    case Width::Bit:
+      return fmt::format("{}", value);
+    case Width::Byte:
+      return fmt::format("16#{:02X}", value);
+    case Width::Word:
+      return fmt::format("16#{:04X}", value);
+    case Width::Double:
+      return fmt::format("16#{:08X}", value);
   }
   return {};
 }
 
-/// Milliseconds with six decimals: nanoseconds are all there, and columns stay aligned for an hour.
-std::string clock_text(Time at) { return fmt::format("{:>7}.{:06}", at / kMillisecond, at % kMillisecond); }
-
 }  // namespace
+
+std::string clock_text(Time at) { return fmt::format("{:>7}.{:06}", at / kMillisecond, at % kMillisecond); }
 
 std::string describe(const TraceRecord& r, const Program& program) {
   switch (r.kind) {
-    case TraceKind::ScanBegin: return fmt::format("scan {} begins", r.count);
-    case TraceKind::ModeChange: return r.code ? "RUN" : "STOP";
-    case TraceKind::EventOccurred: return fmt::format("{} occurred, for INT {}", event_text(r.event), r.routine);
-    case TraceKind::EventLost: return fmt::format("{} LOST: its queue is full", event_text(r.event));
-    case TraceKind::EventDropped: return fmt::format("{} of {} ms dropped: detached while it waited", event_text(r.event),
-                                                     clock_text(r.since));
-    case TraceKind::ServiceBegin: return fmt::format("INT {} begins: {}, waited {}", r.routine, event_text(r.event),
-                                                     format_duration(r.at - r.since));
-    case TraceKind::ServiceEnd: return fmt::format("INT {} ends: took {}", r.routine, format_duration(r.at - r.since));
+    case TraceKind::ScanBegin:
+      return fmt::format("scan {} begins", r.count);
+    case TraceKind::ModeChange:
+      return r.code ? "RUN" : "STOP";
+    case TraceKind::EventOccurred:
+      return fmt::format("{} occurred, for INT {}", event_text(r.event), r.routine);
+    case TraceKind::EventLost:
+      return fmt::format("{} LOST: its queue is full", event_text(r.event));
+    case TraceKind::EventDropped:
+      return fmt::format("{} of {} ms dropped: detached while it waited", event_text(r.event), clock_text(r.since));
+    case TraceKind::ServiceBegin:
+      return fmt::format("INT {} begins: {}, waited {}", r.routine, event_text(r.event), format_duration(r.at - r.since));
+    case TraceKind::ServiceEnd:
+      return fmt::format("INT {} ends: took {}", r.routine, format_duration(r.at - r.since));
     case TraceKind::Attach:
       return fmt::format("ATCH: INT {} to {}{}", r.routine, event_text(r.event),
                          r.interval ? fmt::format(", every {}", format_duration(r.interval)) : "");
-    case TraceKind::Detach: return fmt::format("DTCH: {}", event_text(r.event));
-    case TraceKind::Transmit: return r.count ? fmt::format("XMT: {} characters", r.count) : "XMT: break";
-    case TraceKind::TransmitEnd: return "transmit complete";
-    case TraceKind::CharacterSent: return fmt::format("sent     {:02x}", r.byte);
-    case TraceKind::CharacterReceived: return fmt::format("received {}", character_text(r));
-    case TraceKind::CharacterIgnored: return fmt::format("ignored  {}: event 8 is not attached", character_text(r));
-    case TraceKind::PortControl: return fmt::format("SMB30 = 16#{:02X}", r.byte);
-    case TraceKind::OutputChanged: return fmt::format("QB{} = 2#{:08b}", r.op, r.byte);
-    case TraceKind::AnalogChanged: return fmt::format("AQW{} = {}", r.op, static_cast<std::int16_t>(r.count));
+    case TraceKind::Detach:
+      return fmt::format("DTCH: {}", event_text(r.event));
+    case TraceKind::Transmit:
+      return r.count ? fmt::format("XMT: {} characters", r.count) : "XMT: break";
+    case TraceKind::TransmitEnd:
+      return "transmit complete";
+    case TraceKind::CharacterSent:
+      return fmt::format("sent     {:02x}", r.byte);
+    case TraceKind::CharacterReceived:
+      return fmt::format("received {}", character_text(r));
+    case TraceKind::CharacterIgnored:
+      return fmt::format("ignored  {}: event 8 is not attached", character_text(r));
+    case TraceKind::PortControl:
+      return fmt::format("SMB30 = 16#{:02X}", r.byte);
+    case TraceKind::OutputChanged:
+      return fmt::format("QB{} = 2#{:08b}", r.op, r.byte);
+    case TraceKind::AnalogChanged:
+      return fmt::format("AQW{} = {}", r.op, static_cast<std::int16_t>(r.count));
     case TraceKind::RuntimeError:
-      return fmt::format("run-time error {:04X} ({}) in {}", r.code, meaning_of(RunError{r.code}), place_text(r.op, program));
+      return fmt::format("run-time error {:04X} ({}) in {}", r.code, meaning_of(RunError{r.code}),
+                         place_text(r.op, program));
     case TraceKind::FatalError:
       return fmt::format("FATAL error {:04X} ({}) in {}", r.code, meaning_of(FatalError{r.code}), place_text(r.op, program));
   }
@@ -75,8 +93,8 @@ std::string describe(const InstructionRecord& r, const Program& program) {
   for (std::size_t i = 0; i < statement.operands.size(); ++i) {
     const OperandRule& rule = op.instruction->operand[i];
     if (rule.kind != OperandKind::Memory || std::holds_alternative<stl::Integer>(statement.operands[i].value)) continue;
-    values += fmt::format(" {}={}", stl::to_text(statement.operands[i]),
-                          r.value[i] ? value_text(*r.value[i], rule.width) : "?");
+    values +=
+        fmt::format(" {}={}", stl::to_text(statement.operands[i]), r.value[i] ? value_text(*r.value[i], rule.width) : "?");
   }
   return fmt::format("line {:<5} {:<28} S0={}{}{}", statement.position.line, stl::to_text(statement), r.top ? 1 : 0,
                      r.powered ? "" : " no power flow", r.powered ? values : "");
@@ -93,7 +111,8 @@ void TextTrace::record(const TraceRecord& record) {
 }
 
 void TextTrace::instruction(const InstructionRecord& record) {
-  out_ << clock_text(record.at) << "  " << describe(record, *program_) << fmt::format("  {}\n", format_duration(record.end - record.at));
+  out_ << clock_text(record.at) << "  " << describe(record, *program_)
+       << fmt::format("  {}\n", format_duration(record.end - record.at));
 }
 
 }  // namespace s7200

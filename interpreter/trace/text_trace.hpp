@@ -11,6 +11,9 @@
 
 namespace s7200 {
 
+/// Milliseconds with six decimals: nanoseconds are all there, and columns stay aligned for an hour.
+std::string clock_text(Time at);
+
 /// One line for a record, without time and line end: `INT 122 begins: event 8 (…), waited 12 us`.
 std::string describe(const TraceRecord& record, const Program& program);
 

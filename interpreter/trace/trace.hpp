@@ -11,25 +11,25 @@
 namespace s7200 {
 
 enum class TraceKind : std::uint8_t {
-  ScanBegin,       ///< count: number of the scan
-  ModeChange,      ///< code: 1 RUN, 0 STOP
-  EventOccurred,   ///< event, attached to routine
-  EventLost,       ///< event: its queue was full
-  EventDropped,    ///< event: queued, then detached
-  ServiceBegin,    ///< event, routine; since: when it occurred
-  ServiceEnd,      ///< event, routine; since: when its service began
-  Attach,          ///< event, routine; interval: of a timed interrupt
-  Detach,          ///< event
-  Transmit,        ///< count: characters to send, 0 a break
-  TransmitEnd,     ///<
-  CharacterSent,   ///< byte; at: end of its stop bit
+  ScanBegin,          ///< count: number of the scan
+  ModeChange,         ///< code: 1 RUN, 0 STOP
+  EventOccurred,      ///< event, attached to routine
+  EventLost,          ///< event: its queue was full
+  EventDropped,       ///< event: queued, then detached
+  ServiceBegin,       ///< event, routine; since: when it occurred
+  ServiceEnd,         ///< event, routine; since: when its service began
+  Attach,             ///< event, routine; interval: of a timed interrupt
+  Detach,             ///< event
+  Transmit,           ///< count: characters to send, 0 a break
+  TransmitEnd,        ///<
+  CharacterSent,      ///< byte; at: end of its stop bit
   CharacterReceived,  ///< byte, parity_error, framing_error; since: its start edge
   CharacterIgnored,   ///< as received, but the port is not in Freeport mode or event 8 is not attached
-  PortControl,     ///< byte: SMB30
-  OutputChanged,   ///< byte: new value of the output points; op: number of the byte
-  AnalogChanged,   ///< count: new value; op: number of the AQ word
-  RuntimeError,    ///< code; op: where
-  FatalError,      ///< code; op: where
+  PortControl,        ///< byte: SMB30
+  OutputChanged,      ///< byte: new value of the output points; op: number of the byte
+  AnalogChanged,      ///< count: new value; op: number of the AQ word
+  RuntimeError,       ///< code; op: where
+  FatalError,         ///< code; op: where
 };
 
 struct TraceRecord {
@@ -49,11 +49,11 @@ struct TraceRecord {
 
 /// One executed instruction; the values are those of its operands: inputs as they were before, outputs as they are after.
 struct InstructionRecord {
-  Time at = 0;    ///< start
+  Time at = 0;  ///< start
   Time end = 0;
   std::uint32_t op = 0;
-  bool powered = true;   ///< false: skipped for want of power flow
-  bool top = false;      ///< top of the logic stack afterwards
+  bool powered = true;  ///< false: skipped for want of power flow
+  bool top = false;     ///< top of the logic stack afterwards
   std::array<std::optional<std::uint32_t>, 3> value{};
 };
 

@@ -214,6 +214,12 @@ Bytes bytes_of(std::span<const FrameCharacter> frame) {
   return bytes;
 }
 
+void append_crc(Frame& frame) {
+  Bytes bytes = bytes_of(frame);
+  add_crc(bytes);
+  for (std::size_t i = frame.size(); i < bytes.size(); ++i) frame.push_back({bytes[i], false});
+}
+
 bool has_wrong_parity(std::span<const FrameCharacter> frame) {
   return std::any_of(frame.begin(), frame.end(), [](const FrameCharacter& character) { return character.wrong_parity; });
 }

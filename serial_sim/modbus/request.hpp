@@ -58,6 +58,9 @@ using Frame = std::vector<FrameCharacter>;
 Frame to_frame(std::span<const std::uint8_t> bytes);
 Bytes bytes_of(std::span<const FrameCharacter> frame);
 
+/// Appends the CRC of the frame's bytes.
+void append_crc(Frame& frame);
+
 /// Such a frame can only be sent in a format with parity.
 bool has_wrong_parity(std::span<const FrameCharacter> frame);
 

@@ -1,5 +1,5 @@
 // The time of day: TODR, TODW, roll-over.
-#include "plc.hpp"
+#include "tests/unit/plc.hpp"
 #include "tools/clock_text.hpp"
 
 namespace s7200 {

@@ -19,8 +19,7 @@ TEST(CpuStop, RunEndsWhenTheProgramStopsNotAtItsLimit) {
 }
 
 TEST(CpuStop, StopInAnInterruptRoutineCompletesTheScanAndTheClockGoesOn) {
-  serial::Simulation simulation(
-      program_of("LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nMEND\nINT 0\nSTOP\nRETI\n"));
+  serial::Simulation simulation(program_of("LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nMEND\nINT 0\nSTOP\nRETI\n"));
   simulation.power_up();
   EXPECT_EQ(simulation.run_until(kSecond), serial::Halt::Stopped);
   EXPECT_GT(simulation.time(), 5 * kMillisecond);

@@ -1,5 +1,5 @@
 // HSC0–HSC2: modes, events, status byte, errors. HSC1: clock I0.6, second input I0.7, reset I1.0, start I1.1, SMB46–55.
-#include "plc.hpp"
+#include "tests/unit/plc.hpp"
 
 namespace s7200::test {
 namespace {

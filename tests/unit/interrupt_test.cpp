@@ -1,5 +1,5 @@
 // Interrupts: latency, order, queues, what is saved, ATCH and DTCH, timed interrupts. Times: plc.hpp.
-#include "plc.hpp"
+#include "tests/unit/plc.hpp"
 
 namespace s7200::test {
 namespace {

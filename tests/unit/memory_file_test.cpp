@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "plc.hpp"
+#include "tests/unit/plc.hpp"
 #include "tools/atomic_file.hpp"
 
 namespace s7200::test {

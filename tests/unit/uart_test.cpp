@@ -256,14 +256,14 @@ TEST(Uart, NoMarkBetweenABreakAndACharacterMeansNoStartEdge) {
 }
 
 struct ThreeUarts : Wire {
-  Uart other{line, queue, EventOwner::Field, 2};
+  Uart other{line, queue, EventOwner::Master, 2};
   ThreeUarts() : Wire(k8N1) {
     other.configure(k8N1);
     other.enable_receiver(false, 0);
   }
   void run_all() {
     while (queue.next() != kNever) {
-      if (const Event event = queue.pop(); event.owner == EventOwner::Field) {
+      if (const Event event = queue.pop(); event.owner == EventOwner::Master) {
         other.handle(event);
       } else {
         queue.schedule(event.at, event.owner, event.what);

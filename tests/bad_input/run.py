@@ -1,0 +1,234 @@
+#!/usr/bin/env python3
+"""Runs `s7200` on programs and files that are wrong: run.py S7200 programs|runtime|files
+
+Programs say in comments what is expected of them:
+
+    // expect error: LINE:COLUMN message      `s7200 check` reports this; all reports are to be named
+    // expect warning: LINE:COLUMN message
+    // expect hint: text                      of the report named before
+    // with: run --for 100ms                  then run it like this instead (the program's name is added)
+    // expect runtime: 0006 line N            non-fatal run-time error; all are to be named
+    // expect fatal: 0003 line N              fatal error
+    // expect output: text                    somewhere in what that prints
+    // expect exit: 3                         default: 1 with errors in the text, 3 with a fatal error, else 0
+
+Nothing may crash or hang, and every report must stand at file:line:column with the line and a caret below it.
+"""
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+import zlib
+
+HERE = pathlib.Path(__file__).resolve().parent
+SECONDS = 60
+REPORT = re.compile(r"(.*?):(\d+):(\d+): (error|warning): (.*)")
+EXPECT = re.compile(r"//\s*(expect (?:error|warning|hint|runtime|fatal|output|exit)|with):\s*(.*)")
+RUN_TIME = re.compile(r"(run-time|FATAL) error ([0-9A-F]{4}), .*\n\s+(?:.*:(\d+): .*|(between two scans))")
+
+
+class Failure(Exception):
+    pass
+
+
+def run(command):
+    """Exit code, standard output and error as text; a crash or a time-out is a Failure."""
+    try:
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=SECONDS, check=False)
+    except subprocess.TimeoutExpired:
+        raise Failure(f"hangs: {shlex.join(command)}") from None
+    error = done.stderr.decode("utf-8", "replace")
+    if done.returncode not in (0, 1, 2, 3) or "Sanitizer" in error or "runtime error:" in error:
+        raise Failure(f"crashed with {done.returncode}: {shlex.join(command)}\n{error[-3000:]}")
+    return done.returncode, done.stdout.decode("utf-8", "replace"), error
+
+
+def reports(text, path):
+    """What the check reported: [(severity, line, column, message, hint)]; each with its source line and caret."""
+    source = path.read_text(encoding="utf-8", errors="replace").split("\n")
+    lines = text.split("\n")
+    found = []
+    for i, line in enumerate(lines):
+        match = REPORT.fullmatch(line)
+        if not match:
+            continue
+        name, row, column, severity, message = match.groups()
+        if name != str(path):
+            raise Failure(f"names {name}, not {path}")
+        shown, carets = lines[i + 1], lines[i + 2]
+        written = source[int(row) - 1].rstrip("\r")
+        if written.isascii() and written.isprintable() and len(written) <= 120:
+            if shown != written or carets.find("^") != int(column) - 1:
+                raise Failure(f"caret and place differ:\n{line}\n{shown}\n{carets}")
+        elif "^" not in carets:
+            raise Failure(f"no caret below: {line}")
+        hint = lines[i + 3][6:] if lines[i + 3].startswith("hint: ") else ""
+        found.append((severity, int(row), int(column), message, hint))
+    return found
+
+
+def expectations(path):
+    """Of a program: (reports, run-time errors, how to run it, what that prints, exit code)"""
+    expected, run_time, texts, command, code = [], [], [], None, None
+    for line in path.read_text(encoding="utf-8", errors="replace").split("\n"):
+        match = EXPECT.match(line)
+        if not match:
+            continue
+        what, text = match.group(1).removeprefix("expect "), match.group(2).rstrip()
+        if what in ("error", "warning"):
+            place, message = text.split(" ", 1)
+            expected.append((what, *map(int, place.split(":")), message, None))
+        elif what == "hint":
+            expected[-1] = (*expected[-1][:4], text)
+        elif what in ("runtime", "fatal"):
+            number, place = text.split(" ", 1)
+            run_time.append(("FATAL" if what == "fatal" else "run-time", number, place.removeprefix("line ")))
+        elif what == "output":
+            texts.append(text)
+        elif what == "exit":
+            code = int(text)
+        else:
+            command = shlex.split(text)
+    if code is None:
+        fatal = any(kind == "FATAL" for kind, _, _ in run_time)
+        code = 1 if any(r[0] == "error" for r in expected) else 3 if fatal else 0
+    return expected, run_time, command, texts, code
+
+
+def same(expected, found):
+    return len(expected) == len(found) and all(e[:4] == f[:4] and e[4] in (None, f[4]) for e, f in zip(expected, found))
+
+
+def show(rows):
+    return "".join(f"    {kind}: {line}:{column} {message}\n" + (f"    hint: {hint}\n" if hint else "")
+                   for kind, line, column, message, hint in rows)
+
+
+def check_program(s7200, path):
+    expected, run_time, command, texts, code = expectations(path)
+    exit_code, _, error = run([s7200, "check", str(path)])
+    found = reports(error, path)
+    if not same(expected, found):
+        raise Failure(f"expected\n{show(expected)}  but the check says\n{show(found)}")
+    has_errors = any(r[0] == "error" for r in found)
+    if exit_code != (1 if has_errors else 0):
+        raise Failure(f"check ended with {exit_code}")
+    command = command or ["run", "--for", "1ms"]
+    exit_code, output, error = run([s7200, command[0], str(path), *command[1:]])
+    reported = [(kind, number, line or place) for kind, number, line, place in RUN_TIME.findall(output + error)]
+    if exit_code != code or reported != run_time:
+        raise Failure(f"expected exit {code} and {run_time}, got exit {exit_code} and {reported}\n{output}{error}")
+    for text in texts:
+        if text not in output + error:
+            raise Failure(f"'{text}' is not in\n{output}{error}")
+
+
+def check_programs(s7200, folder):
+    for path in sorted((HERE / folder).glob("*.stl")):
+        yield path.name, lambda path=path: check_program(s7200, path)
+
+
+# --- files that are no programs ---
+
+def png():
+    """One black pixel."""
+    def chunk(kind, data):
+        body = kind + data
+        return len(data).to_bytes(4, "big") + body + zlib.crc32(body).to_bytes(4, "big")
+    head = (1).to_bytes(4, "big") * 2 + bytes([8, 0, 0, 0, 0])
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(b"\0\0")) + chunk(b"IEND", b"")
+
+
+# Name: content, exit code of check, part of what it says. None as content: no such file; a folder for "folder".
+FILES = {
+    "missing.stl": (None, 2, "cannot read"),
+    "empty.stl": (b"", 1, "no STL statement"),
+    "blank.stl": (b"\n\n   \n\t\n", 1, "no STL statement"),
+    "only_comments.stl": (b"// one\n// two\n", 1, "no STL statement"),
+    "picture.png": (png(), 2, "cannot read"),
+    "binary.stl": (bytes(range(256)) * 64, 2, "cannot read"),
+    "zeros.stl": (bytes(4096), 2, "cannot read"),
+    "nul_inside.stl": (b"LD SM0.0\0\nMEND\n", None, ""),
+    "utf16.stl": ("LD SM0.0\r\nMEND\r\n".encode("utf-16"), None, ""),
+    "old_mac_line_ends.stl": (b"LD SM0.0\rMEND\r", None, ""),
+    "no_line_end.stl": (b"LD SM0.0\nMEND", 0, "fine, 2 instructions"),
+    "latin1.stl": ("LD SM0.0 // Fünf\nMEND\n".encode("latin-1"), 0, "fine, 2 instructions"),
+    "broken_utf8.stl": (b"LD SM0.0\nMOVB \xc3\x28, VB0\nMEND\n", 1, ":2:"),
+    "prose.txt": (b"This is a letter.\nIt has no program in it.\n" * 20, 1, ""),
+    "html.stl": (b"<!DOCTYPE html>\n<html><body>404</body></html>\n", 1, ":1:1: error"),
+    "100000_statements.stl": (b"LD SM0.0\n" + b"MOVB 1, VB0\n" * 100_000 + b"MEND\n", 1, "the program is too large"),
+    "20000_unknown.stl": (b"FROB 1, VB0\n" * 20_000, 1, "unknown instruction 'FROB'"),
+    "100000_comments.stl": (b"// nothing\n" * 100_000 + b"MEND\n", 0, "fine, 1 instruction"),
+    "constants.stl": (b"LD SM0.0\n" + b"".join(b"FILL %d, VW%d, 1\n" % (i, i) for i in range(2040)) + b"MEND\n", None, ""),
+    "megabyte_of_letters.stl": (b"A" * 1_000_000, 1, ":1:1: error"),
+    "megabyte_of_name.stl": (b"LD " + b"x" * 1_000_000, 1, ":1:4: error"),
+    "megabyte_of_digits.stl": (b"MOVB " + b"9" * 1_000_000 + b", VB0\nMEND\n", 1, ":1:6: error"),
+    "megabyte_of_operands.stl": (b"MOVB " + b"VB0, " * 200_000 + b"VB0\nMEND\n", 1, ":1:"),
+    "megabyte_of_blanks.stl": (b"LD" + b" " * 1_000_000 + b"SM0.0\nMEND\n", 0, "fine, 2 instructions"),
+    "megabyte_of_comment.stl": (b"LD SM0.0 //" + b"x" * 1_000_000 + b"\nMEND\n", 0, "fine, 2 instructions"),
+    "megabyte_of_quotes.stl": (b"MOVB '" + b"$" * 1_000_000 + b"\nMEND\n", 1, ":1:"),
+    "nested_loops.stl": (b"LD SM0.0\n" + b"FOR VW0, 1, 2\n" * 5000, 1, "FOR loops nested deeper than 8"),
+    "calls.stl": (b"LD SM0.0\nCALL 0\nMEND\n" + b"".join(b"SBR %d\nCALL %d\nRET\n" % (i, i + 1) for i in range(63)) +
+                  b"SBR 63\nCALL 0\nRET\n", 0, "calls itself"),
+}
+
+
+def check_file(s7200, folder, name):
+    content, code, text = FILES[name]
+    path = folder / name
+    if content is not None:
+        path.write_bytes(content)
+    exit_code, output, error = run([s7200, "check", str(path)])
+    if exit_code != code if code is not None else exit_code > 2:
+        raise Failure(f"exit code {exit_code}, expected {code}\n{error[:2000]}")
+    if text not in output + error:
+        raise Failure(f"'{text}' is not in\n{(output + error)[:2000]}")
+    for line in error.split("\n"):
+        if len(line) > 1000:
+            raise Failure(f"a line of {len(line)} characters: {line[:200]}")
+    for verb in (["run", str(path), "--scans", "2"], ["send", str(path), "0103", "--timeout", "10ms"],
+                 ["import", str(path)], ["check", "--json", str(path)], ["bench", str(path), "--each", "1ms"]):
+        run([s7200, *verb])
+
+
+def check_files(s7200):
+    with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / "folder.stl").mkdir()
+        for name in FILES:
+            yield name, lambda name=name: check_file(s7200, pathlib.Path(folder), name)
+        if pathlib.Path("/dev/zero").exists():
+            yield "/dev/zero", lambda: expect_no_endless_reading(s7200)
+        yield "folder.stl", lambda: expect_folder(s7200, pathlib.Path(folder) / "folder.stl")
+
+
+def expect_folder(s7200, path):
+    exit_code, _, error = run([s7200, "check", str(path)])
+    if exit_code != 2 or "it is a folder" not in error:
+        raise Failure(f"exit code {exit_code}: {error}")
+
+
+def expect_no_endless_reading(s7200):
+    exit_code, _, error = run([s7200, "check", "/dev/zero"])
+    if exit_code != 2 or "larger than" not in error:
+        raise Failure(f"exit code {exit_code}: {error}")
+
+
+def main():
+    s7200, group = sys.argv[1:]
+    cases = check_files(s7200) if group == "files" else check_programs(s7200, group)
+    count = failed = 0
+    for name, case in cases:
+        count += 1
+        try:
+            case()
+        except Failure as failure:
+            failed += 1
+            print(f"{group}/{name}: {failure}")
+    print(f"{count} cases, {failed} failed")
+    return 1 if failed or not count else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,100 @@
+// What the interpreter costs: instructions a second of the host, for our slave program and for each family of instructions.
+#include <benchmark/benchmark.h>
+
+#include <stdexcept>
+
+#include "interpreter/program/load.hpp"
+#include "serial_sim/simulation.hpp"
+
+namespace s7200 {
+namespace {
+
+std::shared_ptr<const Program> load(std::string_view text) {
+  CheckResult result = check_text(text, "bench.stl", cpu214(), default_times(cpu214()));
+  if (!result.program) throw std::logic_error(stl::render(result.diagnostics.front(), result.source, false));
+  return result.program;
+}
+
+const std::shared_ptr<const Program>& slave() {
+  static const auto kSlave = [] {
+    std::string why;
+    const auto text = read_file(S7200_SOURCE_DIR "/stl_programs/modbus_slave.stl", why);
+    if (!text) throw std::runtime_error(why);
+    return load(*text);
+  }();
+  return kSlave;
+}
+
+void count_instructions(benchmark::State& bench, const serial::Simulation& simulation, std::uint64_t before) {
+  bench.SetItemsProcessed(static_cast<std::int64_t>(simulation.cpu().state().instructions - before));
+}
+
+void first_scan(benchmark::State& bench) {
+  serial::Simulation simulation(slave());
+  simulation.cpu().pause_at_scan_end(true);
+  std::int64_t instructions = 0;
+  for (auto _ : bench) {
+    simulation.power_up();
+    simulation.run_until(10 * kSecond);
+    instructions += static_cast<std::int64_t>(simulation.cpu().state().instructions);
+  }
+  bench.SetItemsProcessed(instructions);
+}
+BENCHMARK(first_scan);
+
+void idle_scans(benchmark::State& bench) {
+  serial::Simulation simulation(slave());
+  simulation.power_up();
+  simulation.run_until(kSecond);
+  const std::uint64_t before = simulation.cpu().state().instructions;
+  for (auto _ : bench) simulation.run_until(simulation.time() + 100 * kMillisecond);
+  count_instructions(bench, simulation, before);
+}
+BENCHMARK(idle_scans);
+
+/// Ten registers again and again; items are instructions.
+void serving(benchmark::State& bench) {
+  const modbus::Frame request = modbus::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 10)));
+  serial::Simulation simulation(slave());
+  simulation.power_up();
+  simulation.run_until_ready(serial::Simulation::default_quiet({}), 60 * kSecond);
+  const SerialFormat format = simulation.cpu().state().port.format;
+  simulation.master_uart().configure(format);
+  const std::uint64_t before = simulation.cpu().state().instructions;
+  for (auto _ : bench) {
+    simulation.master().start({.frame = request}, simulation.time());
+    if (simulation.finish_exchange().timed_out) {
+      bench.SkipWithError("no answer");
+      break;
+    }
+    simulation.run_until(simulation.time() + serial::Simulation::default_quiet(format));
+  }
+  count_instructions(bench, simulation, before);
+}
+BENCHMARK(serving);
+
+/// A main program that has one statement 400 times.
+void statement(benchmark::State& bench, const char* text) {
+  std::string program = "LD SM0.0\nMOVD &VB100, VD0\nMOVW 1, VW4\n";
+  for (int i = 0; i < 400; ++i) program.append(text).append("\n");
+  serial::Simulation simulation(load(program.append("MEND\n")));
+  simulation.power_up();
+  const std::uint64_t before = simulation.cpu().state().instructions;
+  for (auto _ : bench) simulation.run_until(simulation.time() + 100 * kMillisecond);
+  count_instructions(bench, simulation, before);
+}
+BENCHMARK_CAPTURE(statement, contact, "A M0.0");
+BENCHMARK_CAPTURE(statement, coil, "= M0.1");
+BENCHMARK_CAPTURE(statement, set_bits, "S M1.0, 8");
+BENCHMARK_CAPTURE(statement, compare_words, "AW>= VW4, 0");
+BENCHMARK_CAPTURE(statement, move_word, "MOVW VW4, VW6");
+BENCHMARK_CAPTURE(statement, move_through_pointer, "MOVW *VD0, VW6");
+BENCHMARK_CAPTURE(statement, move_without_power_flow, "AN SM0.0\nMOVW VW4, VW6");
+BENCHMARK_CAPTURE(statement, move_block, "BMB VB100, VB200, 50");
+BENCHMARK_CAPTURE(statement, add, "+I VW4, VW8");
+BENCHMARK_CAPTURE(statement, divide, "DIV VW4, VD12");
+BENCHMARK_CAPTURE(statement, combine_words, "XORW VW4, VW8");
+BENCHMARK_CAPTURE(statement, shift, "SLW VW8, 3");
+
+}  // namespace
+}  // namespace s7200

@@ -1,0 +1,332 @@
+#!/usr/bin/env python3
+"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|json|files|readme"""
+import json
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+import unittest
+
+S7200, SOURCE, GROUP = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
+SLAVE = str(SOURCE / "stl_programs/modbus_slave.stl")
+TIP = SOURCE.parent / "shared/seeds/tip41_modbus_rtu_slave.txt"
+VERBS = re.findall(r"^void add_(\w+)\(CLI::App", (SOURCE / "tools/commands.hpp").read_text(encoding="utf-8"), re.M)
+FINE, FAILED, UNUSABLE, FATAL = range(4)
+
+
+def s7200(*arguments, **options):
+    options = {"stdin": subprocess.DEVNULL, "capture_output": True, "text": True, "timeout": 120, **options}
+    return subprocess.run([S7200, *map(str, arguments)], check=False, **options)
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def program(self, text, name="program.stl"):
+        path = self.folder / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def ends(self, code, *arguments, **options):
+        done = s7200(*arguments, **options)
+        self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}{done.stderr}")
+        return done
+
+    def json(self, code, *arguments):
+        return json.loads(self.ends(code, *arguments).stdout)
+
+
+class Verbs(Case):
+    def test_there_are_verbs(self):
+        self.assertIn("send", VERBS)
+        listed = s7200("--help").stdout
+        for verb in VERBS:
+            self.assertRegex(listed, rf"(?m)^  {verb}\b")
+
+    def test_help_of_every_verb_has_an_example(self):
+        for verb in VERBS:
+            with self.subTest(verb):
+                done = self.ends(FINE, verb, "--help")
+                self.assertIn(f"Example: s7200 {verb}", done.stdout)
+                self.assertEqual(done.stderr, "")
+                self.assertTrue(all(len(line) <= 140 for line in done.stdout.split("\n")), "help is too wide")
+
+    def test_examples_of_our_programs_work(self):
+        for verb in VERBS:
+            example = re.search(r"Example: s7200 (.*)", s7200(verb, "--help").stdout).group(1)
+            if "tip41" in example or ">" in shlex.split(example) or verb == "bench":
+                continue
+            with self.subTest(example):
+                self.assertLess(s7200(*shlex.split(example), cwd=SOURCE).returncode, UNUSABLE, example)
+
+    def test_version(self):
+        self.assertRegex(self.ends(FINE, "--version").stdout, r"^s7200 \d+\.\d+\.\d+\n$")
+
+    def test_wrong_usage(self):
+        for arguments in ([], ["frobnicate"], ["--frobnicate"], ["check"], ["run"], ["send"], ["import"],
+                          ["run", SLAVE, "--frob"],
+                          ["run", SLAVE, "--for", "5"], ["run", SLAVE, "--for", "-1s"], ["run", SLAVE, "--scans", "0"],
+                          ["run", SLAVE, "--scans", "x"], ["run", SLAVE, "--for", "1s", "--scans", "1"],
+                          ["run", SLAVE, "--cpu", "999"], ["run", SLAVE, "--set", "VW100"],
+                          ["run", SLAVE, "--set", "VB0=256"], ["run", SLAVE, "--set", "VB9999=1"], ["run", SLAVE, "--dump", "VB4090:10"],
+                          ["run", SLAVE, "--dump", "X"],
+                          ["run", SLAVE, "--trace-instructions"], ["run", SLAVE, "--times", "missing.csv"],
+                          ["run", SLAVE, "--times", SLAVE], ["run", "missing.stl"], ["run", str(SOURCE)], ["send", SLAVE],
+                          ["send", SLAVE, "0"], ["send", SLAVE, "xy"], ["send", SLAVE, "01", "--baud", "1"],
+                          ["send", SLAVE, "01", "--parity", "mark"], ["send", SLAVE, "01", "--data-bits", "9"],
+                          ["send", SLAVE, "--frames", "missing.txt"], ["instructions", "FROB"], ["times", "--csv", "--json"],
+                          ["import", "missing.txt"]):
+            with self.subTest(arguments):
+                done = self.ends(UNUSABLE, *arguments)
+                self.assertEqual(done.stdout, "")
+                self.assertGreater(len(done.stderr), 10)
+
+    def test_messages_go_to_standard_error(self):
+        wrong = self.program("LD SM0.0\nFROB\nMEND\n")
+        for verb in (["run", wrong], ["send", wrong, "01"]):
+            done = self.ends(FAILED, *verb)
+            self.assertEqual(done.stdout, "")
+            self.assertIn(f"{wrong}:2:1: error: unknown instruction 'FROB'\nFROB\n^~~~\n", done.stderr)
+
+    def test_exit_codes_of_what_the_program_does(self):
+        self.ends(FINE, "run", self.program("LD SM0.0\nMEND\n"), "--scans", "2")
+        self.ends(FATAL, "run", self.program("LD SM0.0\nLBL 1\nJMP 1\nMEND\n"))
+        self.ends(FAILED, "send", self.program("LD SM0.0\nMEND\n"), "01", "--timeout", "10ms")
+
+    def test_no_colour_away_from_a_terminal(self):
+        wrong = self.program("FROB\n")
+        for environment in ({}, {"NO_COLOR": "1"}):
+            done = s7200("check", wrong, env={**os.environ, **environment})
+            self.assertNotIn("\x1b", done.stdout + done.stderr)
+
+    def test_colour_on_a_terminal(self):
+        wrong = self.program("FROB\n")
+        for environment, coloured in (({"NO_COLOR": ""}, True), ({"NO_COLOR": "1"}, False)):
+            primary, secondary = os.openpty()
+            done = s7200("check", wrong, capture_output=False, stdout=subprocess.DEVNULL, stderr=secondary,
+                         env={**os.environ, **environment})
+            os.close(secondary)
+            written = os.read(primary, 10_000)
+            os.close(primary)
+            self.assertEqual(done.returncode, FAILED)
+            self.assertEqual(b"\x1b" in written, coloured)
+
+
+class Json(Case):
+    def test_check(self):
+        good, wrong = self.program("LD SM0.0\nMEND\n"), self.program("LD VB0\nMEND\n", "wrong.stl")
+        fine, failed = self.json(FAILED, "check", "--json", good, wrong)
+        for result in (fine, failed):
+            self.assertEqual(list(result), ["file", "ok", "cpu", "fine_for", "kind", "encoding", "instructions",
+                                            "diagnostics"])
+        self.assertEqual((fine["ok"], fine["instructions"], fine["diagnostics"]), (True, 2, []))
+        self.assertEqual((failed["ok"], failed["instructions"]), (False, 0))
+        first = failed["diagnostics"][0]
+        self.assertEqual(list(first), ["severity", "line", "column", "length", "message", "hint"])
+        self.assertEqual((first["severity"], first["line"], first["column"], first["length"]), ("error", 1, 4, 3))
+
+    def test_run(self):
+        path = self.program("LD SM0.0\nMOVW 16#1234, VW2\nMOVD 0, *VD100\nMEND\n")
+        result = self.json(FINE, "run", path, "--scans", "3", "--set", "VD100=16#7F000000", "--dump", "VB0:4",
+                           "--dump", "VW2", "--dump", "V2.1", "--json")
+        self.assertEqual(list(result), ["stop_reason", "time_ns", "scans", "instructions", "mode", "errors", "dump"])
+        self.assertEqual((result["stop_reason"], result["scans"]), ("scans", 3))
+        self.assertEqual((result["instructions"], result["mode"]), (12, "RUN"))
+        self.assertEqual(result["dump"], {"VB0:4": "00001234", "VW2": "1234", "V2.1": "01"})
+        error = result["errors"][0]
+        self.assertEqual((error["code"], error["fatal"], error["line"], error["count"]), ("0006", False, 3, 3))
+        self.assertEqual(self.json(FINE, "run", path, "--for", "7ms", "--json")["stop_reason"], "time")
+
+    def test_run_to_stop(self):
+        stopped = self.json(FINE, "run", self.program("LD SM0.0\nSTOP\nMEND\n"), "--json")
+        self.assertEqual((stopped["stop_reason"], stopped["mode"]), ("stop", "STOP"))
+        fatal = self.json(FATAL, "run", self.program("LD SM0.0\nLBL 1\nJMP 1\nMEND\n"), "--json")
+        self.assertEqual((fatal["stop_reason"], fatal["errors"][-1]["code"]), ("fatal", "0003"))
+        self.assertAlmostEqual(fatal["time_ns"], 300e6, delta=1e6)
+
+    ECHO = ("LD SM0.1\nMOVB 16#09, SMB30\nMOVB 1, VB0\nATCH 0, 8\nENI\nMEND\n"
+            "INT 0\nLD SM0.0\nMOVB SMB2, VB1\nXMT VB0, 0\nRETI\n")
+
+    def test_send(self):
+        path = self.program(self.ECHO)
+        first, second = self.json(FINE, "send", path, "AB", " cd ", "--json")
+        for exchange, character in ((first, "ab"), (second, "cd")):
+            self.assertEqual(list(exchange), ["request", "response", "latency_us"])
+            self.assertEqual((exchange["request"], exchange["response"]), (character, character))
+            self.assertTrue(0 < exchange["latency_us"] < 2000)
+        silent = self.json(FAILED, "send", self.program("LD SM0.0\nMEND\n"), "0102", "--crc", "--timeout", "10ms", "--json")
+        self.assertEqual(silent, [{"request": "010281e1", "response": None, "latency_us": None}])
+
+    def test_send_timeline(self):
+        (exchange,) = self.json(FINE, "send", self.program(self.ECHO), "ab", "--timeline", "--json")
+        received, transmit, sent = exchange["timeline"]
+        self.assertEqual((received["kind"], received["characters"]), ("received", "ab"))
+        self.assertEqual((received["routine"], received["served"]), (0, 1))
+        self.assertEqual((transmit["kind"], transmit["place"]), ("transmit", "INT 0"))
+        self.assertEqual((sent["kind"], sent["characters"]), ("sent", "ab"))
+        self.assertTrue(received["at_us"] < transmit["at_us"] < sent["at_us"])
+
+    def test_tables(self):
+        (row,) = self.json(FINE, "instructions", "MOVW", "--json")
+        for key in ("mnemonic", "group", "syntax", "meaning", "modelled", "operands", "needs_power_flow", "flags",
+                    "allowed", "cpus", "time_us"):
+            self.assertIn(key, row)
+        self.assertGreater(len(self.json(FINE, "instructions", "--json")), 100)
+        for row in self.json(FINE, "times", "--json"):
+            self.assertEqual(list(row), ["mnemonics", "form", "base_us", "per_unit_us", "unit", "marker", "source"])
+
+    def test_bench(self):
+        silent = self.program("LD SM0.0\nMEND\n")
+        self.assertIn("did not answer", self.ends(UNUSABLE, "bench", silent, "--each", "1ms").stderr)
+        for figure in self.json(FINE, "bench", "--each", "1ms", "--json"):
+            self.assertEqual(list(figure), ["name", "unit", "per_second"])
+
+
+class Files(Case):
+    DOCUMENT = "A page of prose.\n\nNETWORK 1\nLD SM0.0 // always\nMOVB 1, VB0\nMEND\n"
+
+    def test_import_and_read_back(self):
+        document, out = self.program(self.DOCUMENT, "page.txt"), self.folder / "out.stl"
+        self.ends(FINE, "import", document, "-o", out)
+        written = out.read_text(encoding="utf-8")
+        self.assertIn("// always", written)
+        self.assertNotIn("prose", written)
+        self.ends(FINE, "check", out)
+        self.assertEqual(self.ends(FINE, "import", out).stdout, written)
+
+    def test_import_leaves_existing_files_alone(self):
+        document, out = self.program(self.DOCUMENT, "page.txt"), self.folder / "out.stl"
+        out.write_text("mine", encoding="utf-8")
+        self.assertIn("--force", self.ends(UNUSABLE, "import", document, "-o", out).stderr)
+        self.assertEqual(out.read_text(encoding="utf-8"), "mine")
+        self.ends(FINE, "import", document, "-o", out, "--force")
+        self.assertNotEqual(out.read_text(encoding="utf-8"), "mine")
+
+    def test_import_that_fails_writes_nothing(self):
+        out = self.folder / "out.stl"
+        self.ends(FAILED, "import", self.program("LD SM0.0\nMOVB 16#, VB0\nMEND\n"), "-o", out)
+        self.assertFalse(out.exists())
+
+    def test_trace_overwrites_only_traces(self):
+        path, out = self.program(Json.ECHO), self.folder / "run.trace"
+        self.ends(FINE, "run", path, "--trace", out, "--scans", "3")
+        self.ends(FINE, "run", path, "--trace", out, "--trace-instructions", "--scans", "3")
+        self.assertIn("MOVB", out.read_text(encoding="utf-8"))
+        mine = self.program("mine\n", "mine.txt")
+        self.assertIn("left alone", self.ends(UNUSABLE, "run", path, "--trace", mine).stderr)
+        self.assertEqual(mine.read_text(encoding="utf-8"), "mine\n")
+        self.assertIn("SMB30 = 16#09", self.ends(FINE, "run", path, "--trace", "-", "--scans", "3").stdout)
+
+    def test_what_is_observed_does_not_change(self):
+        path = self.program(Json.ECHO)
+        plain = self.ends(FINE, "run", path, "--for", "100ms", "--json").stdout
+        for trace in (["--trace", self.folder / "t"], ["--trace", self.folder / "t", "--trace-instructions"]):
+            self.assertEqual(self.ends(FINE, "run", path, "--for", "100ms", "--json", *trace).stdout, plain)
+
+    def test_unwritable_output(self):
+        document, path = self.program(self.DOCUMENT, "page.txt"), self.program(Json.ECHO)
+        nowhere = self.folder / "no/such/folder/file"
+        self.assertIn("cannot write", self.ends(UNUSABLE, "import", document, "-o", nowhere).stderr)
+        self.assertIn("cannot write", self.ends(UNUSABLE, "run", path, "--trace", nowhere).stderr)
+        if os.path.exists("/dev/full"):
+            self.assertIn("cannot write", self.ends(UNUSABLE, "import", document, "-o", "/dev/full", "--force").stderr)
+            self.ends(UNUSABLE, "run", path, "--trace", "/dev/full")
+            with open("/dev/full", "w", encoding="utf-8") as full:
+                done = self.ends(UNUSABLE, "instructions", capture_output=False, stdout=full, stderr=subprocess.PIPE)
+                self.assertIn("cannot write", done.stderr)
+
+    def test_closed_output(self):
+        # `s7200 … | head` ends at once and quietly, also when standard output was closed from the beginning.
+        def shell(command):
+            return subprocess.run(["bash", "-c", command], capture_output=True, text=True, timeout=60, check=False)
+        path = shlex.quote(str(self.program(Json.ECHO)))
+        for arguments in ("instructions", "times --csv", f"run {path} --trace - --for 1s"):
+            done = shell(f"{shlex.quote(S7200)} {arguments} | head -n 1")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            done = shell(f"{shlex.quote(S7200)} {arguments} >&-")
+            self.assertEqual(done.returncode, UNUSABLE, arguments)
+            self.assertIn("cannot write", done.stderr)
+
+    def test_times_can_be_corrected(self):
+        csv = self.folder / "times.csv"
+        csv.write_text(self.ends(FINE, "times", "--csv").stdout, encoding="utf-8")
+        path = self.program("LD SM0.0\nMOVB 1, VB0\nMEND\n")
+        scan = ["run", path, "--scans", "1", "--json"]
+        before = self.json(FINE, *scan)["time_ns"]
+        self.assertEqual(self.json(FINE, *scan, "--times", csv)["time_ns"], before)
+        lines = csv.read_text(encoding="utf-8").split("\n")
+        corrected = [re.sub(r"^MOVB,([^,]*),[^,]*", r"MOVB,\1,1030", line) for line in lines]
+        csv.write_text("\n".join(corrected), encoding="utf-8")
+        self.assertEqual(self.json(FINE, *scan, "--times", csv)["time_ns"], before + 1_000_000)
+        csv.write_text("mnemonic,form\nMOVB,,30\n", encoding="utf-8")
+        self.assertIn(f"{csv}:", self.ends(UNUSABLE, "run", path, "--times", csv).stderr)
+
+    def test_frames_file(self):
+        frames = self.folder / "frames.txt"
+        frames.write_text("# two\n ab  # first\r\n\ncd\n", encoding="utf-8")
+        exchanges = self.json(FINE, "send", self.program(Json.ECHO), "--frames", frames, "--json")
+        self.assertEqual([e["response"] for e in exchanges], ["ab", "cd"])
+        frames.write_text("ab\nxx\n", encoding="utf-8")
+        done = self.ends(UNUSABLE, "send", self.program(Json.ECHO), "--frames", frames)
+        self.assertIn(f"{frames}:2: column 1", done.stderr)
+
+
+class Readme(Case):
+    """Every line `$ …` in a block ```sh of a README is run, in a folder that has what the tree has. What is shown below a
+    command is what it prints, up to a line that is `…`."""
+
+    def test_commands(self):
+        environment = {**os.environ, "PATH": f"{pathlib.Path(S7200).parent}:{os.environ['PATH']}", "NO_COLOR": "1"}
+        count = 0
+        for readme in sorted(SOURCE.rglob("README.md")):
+            if "build" in readme.relative_to(SOURCE).parts:
+                continue
+            for command, shown in self.commands(readme):
+                if not TIP.exists() and "tip41" in command:
+                    print(f"skipped, there is no {TIP}: {command}")
+                    continue
+                with self.subTest(f"{readme.relative_to(SOURCE)}: {command}"):
+                    done = subprocess.run(["bash", "-c", command], cwd=self.tree(), env=environment,
+                                          stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120, check=False)
+                    self.assertLess(done.returncode, UNUSABLE, done.stdout + done.stderr)
+                    self.assertTrue((done.stderr + done.stdout).startswith(shown), done.stdout + done.stderr)
+                    count += 1
+        self.assertGreater(count, 3)
+
+    def tree(self):
+        """The folder to run in: what the commands name is there, and what they write does no harm."""
+        tree = self.folder / "s7200"
+        if not tree.exists():
+            tree.mkdir()
+            for name in ("stl_programs", "tests"):
+                (tree / name).symlink_to(SOURCE / name)
+            (self.folder / "shared").symlink_to(TIP.parent.parent)
+        return tree
+
+    @staticmethod
+    def commands(readme):
+        """[[command, what is shown below it]], without those that build."""
+        found, inside, complete = [], False, False
+        for line in readme.read_text(encoding="utf-8").split("\n"):
+            if line.startswith("```"):
+                inside, complete = line == "```sh", True
+            elif inside and line.startswith("$ "):
+                found.append([line[2:], ""])
+                complete = False
+            elif inside and line == "…":
+                complete = True
+            elif inside and not complete:
+                found[-1][1] += line + "\n"
+        return [entry for entry in found if not entry[0].startswith(("./tools/", "cmake", "ctest"))]
+
+
+if __name__ == "__main__":
+    group = {"verbs": Verbs, "json": Json, "files": Files, "readme": Readme}[GROUP]
+    result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
+    sys.exit(0 if result.wasSuccessful() else 1)

@@ -1,0 +1,19 @@
+// Loads a program of the package, runs it for a second and says how far it came.
+#include <cstdio>
+
+#include "interpreter/program/load.hpp"
+#include "serial_sim/simulation.hpp"
+
+int main() {
+  using namespace s7200;
+  std::string why;
+  const auto bytes = read_file(STL_PROGRAMS "/modbus_slave.stl", why);
+  if (!bytes) return std::fprintf(stderr, "%s\n", why.c_str()), 2;
+  const CheckResult result = check_text(*bytes, "modbus_slave.stl", cpu214(), default_times(cpu214()));
+  if (!result.program) return 1;
+  serial::Simulation simulation(result.program);
+  simulation.power_up();
+  simulation.run_until(kSecond);
+  std::printf("%llu instructions\n", static_cast<unsigned long long>(simulation.cpu().state().instructions));
+  return simulation.cpu().state().instructions > 0 ? 0 : 1;
+}

@@ -1,0 +1,67 @@
+// Random programs for CPU 214 that the checker accepts, and random memory for them to meet.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "interpreter/instructions/instruction.hpp"
+#include "tests/reference_model/memory.hpp"
+
+namespace s7200::reference {
+
+class Generator {
+ public:
+  explicit Generator(std::uint64_t seed);
+
+  /// Main program, some subroutines and an interrupt routine that is never called.
+  std::string program();
+
+  /// Fills memory with values that matter: limits, zeros, pointers good and bad, tables, digits, reals.
+  void fill(Memory& memory);
+
+ private:
+  std::size_t below(std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_); }
+  bool chance(std::size_t percent) { return below(100) < percent; }
+  template <class T>
+  const T& one_of(const std::vector<T>& choices) {
+    return choices[below(choices.size())];
+  }
+
+  // program
+  void line(const std::string& text) { text_ += text + "\n"; }
+  void body(std::uint8_t part, int level);
+  void item(std::uint8_t part, int level);
+  void rung(std::uint8_t part, const std::string& last = "");
+  void loop(std::uint8_t part, int level);
+  void jump_over(std::uint8_t part, int level);
+  void jump_back(std::uint8_t part, int level);
+  void segment(std::uint8_t part, int level);
+  std::string load();
+  std::string statement(const s7200::Instruction& instruction);
+  std::string operand(const OperandRule& rule);
+  std::string constant(const OperandRule& rule);
+  std::string number(const OperandRule& rule);
+  std::string direct(const OperandRule& rule);
+  std::string timer(const OperandRule& rule);
+  std::string special_memory(const OperandRule& rule);
+  std::uint32_t place_in_v(const OperandRule& rule);
+  std::string address(const std::string& area, Width width, std::uint32_t number);
+
+  // memory
+  std::uint32_t interesting(std::size_t width);
+  std::uint32_t pointer();
+  std::uint32_t real_bits();
+  void random_bytes(Bytes& bytes, std::size_t from, std::size_t count);
+  void table(Bytes& bytes, std::size_t at);
+
+  std::mt19937_64 random_;
+  std::vector<const s7200::Instruction*> logic_, outputs_;
+  std::string text_;
+  std::size_t subroutines_ = 0;
+  std::size_t labels_ = 0;
+  bool in_segment_ = false;
+};
+
+}  // namespace s7200::reference

@@ -1,0 +1,166 @@
+#include "tests/reference_model/lockstep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "interpreter/cpu/cpu.hpp"
+#include "interpreter/program/load.hpp"
+#include "interpreter/stl/parser.hpp"
+#include "interpreter/stl/printer.hpp"
+#include "tests/reference_model/comparison.hpp"
+#include "tests/reference_model/generator.hpp"
+#include "tests/reference_model/machine.hpp"
+#include "tests/reference_model/silent_port.hpp"
+
+namespace s7200::reference {
+namespace {
+
+constexpr std::uint64_t kInstructionsOfProgram = 2000;
+constexpr std::uint64_t kInstructionsOfMemory = 150;
+constexpr int kPowerUps = 6;
+
+/// Makes the CPU take its observed loop.
+class Observer : public TraceSink {
+ public:
+  bool wants_instructions() const override { return true; }
+};
+
+/// What the checker accepts of a generated text: lines that it refuses are left out.
+std::shared_ptr<const Program> accepted(std::string& text) {
+  static const TimeTable kTimes = default_times(cpu214());
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    const CheckResult result = check_text(text, "random", cpu214(), kTimes);
+    if (result.program) return result.program;
+    std::vector<bool> refused(result.source.text.size() + 1);
+    for (const auto& diagnostic : result.diagnostics)
+      if (diagnostic.severity == stl::Severity::Error) refused.at(diagnostic.position.line) = true;
+    text.clear();
+    for (std::size_t i = 0; i < result.source.text.size(); ++i)
+      if (!refused[i + 1]) text += result.source.text[i] + "\n";
+  }
+  return nullptr;
+}
+
+/// One program on both.
+class Pair {
+ public:
+  Pair(std::shared_ptr<const Program> program, Generator& generator, bool observed)
+      : program_(std::move(program)),
+        generator_(generator),
+        cpu_(program_, queue_, port_),
+        machine_(program_->source, cpu214_times()) {
+    if (observed) cpu_.set_sink(&observer_);
+    executed_.resize(machine_.statements().size());
+  }
+
+  /// Both from power-up until STOP, a difference, or so many instructions; the number executed.
+  std::uint64_t run(std::uint64_t instructions) {
+    queue_ = {};
+    cpu_.power_up();
+    machine_.power_up();
+    std::uint64_t done = 0, until_fill = 0;
+    while (done < instructions && machine_.running && !difference_) {
+      if (until_fill == 0) {
+        fill();
+        until_fill = kInstructionsOfMemory;
+      }
+      const std::size_t executed = step();
+      done += executed;
+      until_fill -= std::min<std::uint64_t>(until_fill, executed);
+    }
+    return done;
+  }
+
+  const std::optional<std::string>& difference() const { return difference_; }
+
+  void count_into(std::map<std::string, std::uint64_t>& executed) const {
+    for (std::size_t i = 0; i < executed_.size(); ++i) executed[machine_.statements()[i].mnemonic] += executed_[i];
+  }
+
+ private:
+  void fill() {
+    generator_.fill(machine_.memory);
+    copy_to(cpu_, machine_.memory);
+  }
+
+  /// Until the clock has moved on; how many instructions that were.
+  std::size_t step() {
+    const std::int64_t before = machine_.time;
+    std::size_t executed = 0;
+    steps_.clear();
+    do {
+      const bool instruction = machine_.in_program && machine_.running;
+      const std::size_t position = machine_.position;
+      const std::uint64_t errors = machine_.error_count;
+      const bool powered = machine_.has_power();
+      if (instruction) {
+        ++executed;
+        steps_.push_back(position);
+      }
+      machine_.step();
+      if (instruction && powered && machine_.error_count == errors) ++executed_[position];
+    } while (machine_.time == before);
+    while (cpu_.time() < machine_.time) {
+      cpu_.run(machine_.time);
+      while (queue_.next() <= cpu_.time()) cpu_.handle(queue_.pop());
+    }
+    if (machine_.running) machine_.count_milliseconds();  // in STOP no timer counts
+    if (const std::string found = compare(machine_, cpu_); !found.empty()) difference_ = describe(found);
+    return executed;
+  }
+
+  std::string describe(const std::string& found) const {
+    std::string text;
+    for (const std::size_t position : steps_)
+      text += fmt::format("after {}: {}\n", position, stl::to_text(machine_.statements()[position]));
+    if (steps_.empty()) text += "after the system's part of the scan\n";
+    return text + found;
+  }
+
+  std::shared_ptr<const Program> program_;
+  Generator& generator_;
+  EventQueue queue_;
+  SilentPort port_;
+  Observer observer_;
+  Cpu cpu_;
+  Machine machine_;
+  std::vector<std::size_t> steps_;       // positions of the statements just executed
+  std::vector<std::uint64_t> executed_;  // of each statement
+  std::optional<std::string> difference_;
+};
+
+std::string listing(const Program& program) {
+  std::string text;
+  for (std::size_t i = 0; i < program.statements.size(); ++i)
+    text += fmt::format("{:4}  {}\n", i, stl::to_text(program.statements[i]));
+  return text;
+}
+
+}  // namespace
+
+LockstepResult run_lockstep(std::uint64_t seed, std::uint64_t instructions) {
+  LockstepResult result;
+  for (; result.instructions < instructions && !result.difference; ++seed, ++result.programs) {
+    Generator generator(seed);
+    std::string text = generator.program();
+    const auto program = accepted(text);
+    if (!program) {
+      result.difference = fmt::format("seed {}: the checker accepts no part of\n{}", seed, text);
+      break;
+    }
+    Pair pair(program, generator, seed % 2 == 1);
+    std::uint64_t done = 0;
+    for (int i = 0; i < kPowerUps && done < kInstructionsOfProgram && !pair.difference(); ++i)
+      done += pair.run(kInstructionsOfProgram - done);
+    result.instructions += done;
+    pair.count_into(result.executed);
+    if (pair.difference())
+      result.difference = fmt::format("{}\nseed {}, program:\n{}", *pair.difference(), seed, listing(*program));
+  }
+  return result;
+}
+
+}  // namespace s7200::reference

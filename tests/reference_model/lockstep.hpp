@@ -1,0 +1,22 @@
+// Interpreter and reference model side by side, compared after each instruction.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace s7200::reference {
+
+struct LockstepResult {
+  std::uint64_t instructions = 0;  ///< executed and compared
+  std::uint64_t programs = 0;
+  std::map<std::string, std::uint64_t> executed;  ///< with power flow where they need it, without error
+  std::optional<std::string> difference;          ///< the first: program, instruction, both states, seed
+};
+
+/// Runs random programs until so many instructions have been compared or a difference is found.
+/// Program `i` of a run is made from `seed + i`, so that a reported seed with one instruction asked for shows it again.
+LockstepResult run_lockstep(std::uint64_t seed, std::uint64_t instructions);
+
+}  // namespace s7200::reference

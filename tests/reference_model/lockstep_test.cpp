@@ -1,0 +1,52 @@
+// Interpreter against reference model over random programs. S7200_LOCKSTEP_INSTRUCTIONS sets how far each test goes.
+#include "tests/reference_model/lockstep.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+#include <string>
+
+#include "interpreter/instructions/instruction.hpp"
+#include "tests/reference_model/instructions.hpp"
+
+namespace s7200::reference {
+namespace {
+
+std::uint64_t instructions_of_a_test() {
+  const char* const wanted = std::getenv("S7200_LOCKSTEP_INSTRUCTIONS");
+  return wanted ? std::stoull(wanted) : S7200_LOCKSTEP_INSTRUCTIONS;
+}
+
+class Lockstep : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(Lockstep, InterpreterAgreesWithReferenceModel) {
+  const LockstepResult result = run_lockstep(GetParam() * 1'000'000, instructions_of_a_test());
+  EXPECT_FALSE(result.difference) << *result.difference;
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Lockstep, testing::Range<std::uint64_t>(1, 5));
+
+/// Interrupts, Freeport, high-speed counters, pulse outputs and the clock are left to other tests.
+TEST(ReferenceModel, KnowsEveryInstructionButThoseLeftToOtherTests) {
+  static const std::set<std::string_view> kOthers{"XMT", "CRETI", "HDEF", "HSC", "PLS", "TODR", "TODW"};
+  for (const auto& instruction : all_instructions()) {
+    if (!instruction.body || !(instruction.cpus & kCpu214)) continue;
+    EXPECT_NE(instructions().contains(std::string(instruction.mnemonic)), kOthers.contains(instruction.mnemonic))
+        << instruction.mnemonic;
+  }
+}
+
+TEST(ReferenceModel, RandomProgramsExecuteEveryInstructionItKnows) {
+  static const std::set<std::string> kNotExecuted{"INT", "RETI"};
+  const LockstepResult result = run_lockstep(1, 500'000);
+  for (const auto& [mnemonic, instruction] : instructions()) {
+    const auto found = result.executed.find(mnemonic);
+    const std::uint64_t times = found == result.executed.end() ? 0 : found->second;
+    EXPECT_TRUE(times >= 20 || kNotExecuted.contains(mnemonic))
+        << mnemonic << " was executed with power flow " << times << " times";
+  }
+}
+
+}  // namespace
+}  // namespace s7200::reference

@@ -1,0 +1,55 @@
+// Memory of the reference CPU 214: each area is a byte vector of its own and of its real size (facts 1.1).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace s7200::reference {
+
+using Bytes = std::vector<std::uint8_t>;
+
+struct Memory {
+  Bytes I = Bytes(8), Q = Bytes(8), M = Bytes(32), SM = Bytes(86), S = Bytes(16), V = Bytes(4096);
+  Bytes AI = Bytes(32), AQ = Bytes(32);
+  Bytes T = Bytes(256), C = Bytes(256);  ///< current values, two bytes each
+  Bytes timer_bits = Bytes(16), counter_bits = Bytes(16);
+  Bytes HC = Bytes(12), AC = Bytes(16);  ///< four bytes each; the low byte of AC0 is the fourth
+  Bytes input_points = Bytes(8), output_points = Bytes(8);
+};
+
+/// Where a value lies.
+struct Place {
+  Bytes* bytes = nullptr;
+  std::size_t at = 0;
+};
+
+/// Where a bit lies: `number` counts the bits of the area from bit 0 of its first byte.
+struct BitPlace {
+  Bytes* bytes = nullptr;
+  std::size_t number = 0;
+};
+
+inline bool holds(const Place& first, std::size_t count) { return first.at + count <= first.bytes->size(); }
+
+inline std::uint32_t read(const Place& place, std::size_t width) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < width; ++i) value = value << 8 | place.bytes->at(place.at + i);
+  return value;
+}
+
+inline void write(const Place& place, std::size_t width, std::uint32_t value) {
+  for (std::size_t i = 0; i < width; ++i)
+    place.bytes->at(place.at + i) = static_cast<std::uint8_t>(value >> (8 * (width - 1 - i)));
+}
+
+inline bool read(const BitPlace& bit) { return (bit.bytes->at(bit.number / 8) >> (bit.number % 8)) & 1; }
+
+inline void write(const BitPlace& bit, bool value) {
+  std::uint8_t& byte = bit.bytes->at(bit.number / 8);
+  const int mask = 1 << (bit.number % 8);
+  byte = static_cast<std::uint8_t>(value ? byte | mask : byte & ~mask);
+}
+
+}  // namespace s7200::reference

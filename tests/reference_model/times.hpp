@@ -1,0 +1,36 @@
+// Execution times of the reference model: the figures of model/cpu214_times.csv, read by its own few lines.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace s7200::reference {
+
+/// Nanoseconds.
+struct Cost {
+  std::int64_t base = 0;
+  std::int64_t per_unit = 0;
+};
+
+class Times {
+ public:
+  explicit Times(const std::string& csv);
+
+  /// Of an instruction whose first operand is a direct address in `area` (upper case; empty: no such operand).
+  Cost of(const std::string& mnemonic, const std::string& area = "") const;
+
+ private:
+  struct Row {
+    std::set<std::string> mnemonics;
+    std::set<std::string> areas;  ///< empty: any operand
+    Cost cost;
+  };
+  std::vector<Row> rows_;
+};
+
+/// The figures of interpreter/model/cpu214_times.csv.
+const Times& cpu214_times();
+
+}  // namespace s7200::reference

@@ -1,0 +1,151 @@
+// What has to be true of every row of the instruction table.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "interpreter/program/load.hpp"
+#include "interpreter/stl/parser.hpp"
+#include "interpreter/stl/printer.hpp"
+#include "tests/vectors/vector_file.hpp"
+
+namespace s7200 {
+namespace {
+
+const TimeTable& times() {
+  static const TimeTable kTimes = default_times(cpu214());
+  return kTimes;
+}
+
+std::vector<const Instruction*> modelled_on_214() {
+  std::vector<const Instruction*> result;
+  for (const Instruction& instruction : all_instructions())
+    if (instruction.body && (instruction.cpus & kCpu214)) result.push_back(&instruction);
+  return result;
+}
+
+TEST(InstructionTable, MnemonicsAreUnique) {
+  std::set<std::string_view> seen;
+  for (const Instruction& instruction : all_instructions())
+    EXPECT_TRUE(seen.insert(instruction.mnemonic).second) << instruction.mnemonic;
+}
+
+TEST(InstructionTable, FileNamesOfVectorsAreUnique) {
+  std::set<std::string> seen;
+  for (const Instruction& instruction : all_instructions())
+    EXPECT_TRUE(seen.insert(vectors::file_name(instruction.mnemonic)).second) << instruction.mnemonic;
+}
+
+TEST(InstructionTable, EveryModelledRowSaysWhatItDoes) {
+  for (const Instruction& instruction : all_instructions()) {
+    if (!instruction.body) continue;
+    EXPECT_FALSE(instruction.meaning.empty()) << instruction.mnemonic;
+    EXPECT_FALSE(instruction.group.empty()) << instruction.mnemonic;
+    for (const OperandRule& rule : instruction.rules()) EXPECT_FALSE(rule.name.empty()) << instruction.mnemonic;
+  }
+}
+
+TEST(InstructionTable, EveryModelledRowHasATimeForEachAreaOfItsFirstOperand) {
+  for (const Instruction* instruction : modelled_on_214()) {
+    EXPECT_TRUE(instruction->operands != 0 || times().cost(instruction->mnemonic, {})) << instruction->mnemonic;
+    if (instruction->operands == 0) continue;
+    const OperandRule& first = instruction->operand[0];
+    for (const AreaInfo& area : all_areas()) {
+      if (contains(first.areas, area.area)) {
+        EXPECT_TRUE(times().cost(instruction->mnemonic, area.area)) << instruction->mnemonic << " " << area.name;
+      }
+    }
+    if (first.constant || first.pointer || first.kind != OperandKind::Memory) {
+      EXPECT_TRUE(times().cost(instruction->mnemonic, {})) << instruction->mnemonic;
+    }
+  }
+}
+
+TEST(InstructionTable, RowsWithoutABodyAreRefusedByName) {
+  for (const Instruction& instruction : all_instructions()) {
+    if (instruction.body) continue;
+    const std::string mnemonic(instruction.mnemonic);
+    const CheckResult result = check_text("LD SM0.0\n" + mnemonic + "\nMEND\n", "test", cpu214(), times());
+    ASSERT_FALSE(result.program) << mnemonic;
+    const auto& message = result.diagnostics.at(0).message;
+    EXPECT_NE(message.find(mnemonic), std::string::npos) << message;
+    EXPECT_EQ(result.diagnostics[0].position.line, 2u) << mnemonic;
+  }
+}
+
+TEST(InstructionTable, RowsThatCpu214LacksAreRefusedByName) {
+  for (const Instruction& instruction : all_instructions()) {
+    if (instruction.cpus & kCpu214) continue;
+    const std::string mnemonic(instruction.mnemonic);
+    const CheckResult result = check_text("LD SM0.0\n" + mnemonic + "\nMEND\n", "test", cpu214(), times());
+    ASSERT_FALSE(result.program) << mnemonic;
+    EXPECT_EQ(result.diagnostics.at(0).message, "CPU 214 has no " + mnemonic);
+  }
+}
+
+// --- forms of operands in the vectors ---
+
+/// `V`, `AC`, `constant`, `*VD`, `*AC`, `&`: how an operand is written.
+std::string form_of(const stl::Operand& operand) {
+  if (const auto* address = std::get_if<stl::Address>(&operand.value)) return address->area;
+  if (const auto* indirect = std::get_if<stl::Indirect>(&operand.value))
+    return indirect->pointer.area == "AC" ? "*AC" : "*VD";
+  return std::holds_alternative<stl::AddressOf>(operand.value) ? "&" : "constant";
+}
+
+std::set<std::string> forms_of(const OperandRule& rule) {
+  std::set<std::string> forms;
+  if (rule.kind != OperandKind::Memory) return {"constant"};
+  for (const AreaInfo& area : all_areas())
+    if (contains(rule.areas, area.area)) forms.emplace(area.name);
+  if (rule.constant) forms.insert("constant");
+  if (rule.pointer) forms.insert({"*VD", "*AC"});
+  if (rule.address_of) forms.insert("&");
+  return forms;
+}
+
+/// The statements of all vectors in the files of a mnemonic: `ADD_I.txt`, `ADD_I.hand.txt`.
+std::vector<stl::Statement> statements_in_vectors(const Instruction& instruction) {
+  std::vector<stl::Statement> result;
+  for (const char* extension : {".txt", ".hand.txt"}) {
+    const std::string path = S7200_SOURCE_DIR "/tests/vectors/" + vectors::file_name(instruction.mnemonic) + extension;
+    std::ifstream in(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    for (const vectors::Vector& vector : vectors::parse(text, path).vectors)
+      for (const std::string& op : vector.ops)
+        for (const stl::Line& line : stl::parse(op, path).source.lines)
+          if (const auto* statement = std::get_if<stl::Statement>(&line);
+              statement && statement->mnemonic == instruction.mnemonic)
+            result.push_back(*statement);
+  }
+  return result;
+}
+
+TEST(InstructionTable, EveryFormOfEveryOperandHasAVector) {
+  for (const Instruction* instruction : modelled_on_214()) {
+    const auto statements = statements_in_vectors(*instruction);
+    EXPECT_FALSE(statements.empty()) << instruction->mnemonic << " has no vector";
+    for (std::size_t i = 0; i < instruction->operands && !statements.empty(); ++i) {
+      std::set<std::string> missing = forms_of(instruction->operand[i]);
+      for (const stl::Statement& statement : statements) missing.erase(form_of(statement.operands.at(i)));
+      EXPECT_TRUE(missing.empty()) << fmt::format("{}: no vector with {} as {}", instruction->mnemonic,
+                                                  fmt::join(missing, ", "), instruction->operand[i].name);
+    }
+  }
+}
+
+TEST(InstructionTable, StatementsPrintAndReadBackToThemselves) {
+  for (const Instruction* instruction : modelled_on_214())
+    for (const stl::Statement& statement : statements_in_vectors(*instruction)) {
+      const stl::Source printed{"test", {}, {statement}};
+      const stl::ParseResult read = stl::parse(stl::to_text(printed), "test");
+      EXPECT_TRUE(read.diagnostics.empty() && stl::same_program(printed, read.source)) << stl::to_text(statement);
+    }
+}
+
+}  // namespace
+}  // namespace s7200

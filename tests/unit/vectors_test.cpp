@@ -1,0 +1,222 @@
+// Runs the instruction vectors of tests/vectors on the interpreter. Their format is described there.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "interpreter/cpu/cpu.hpp"
+#include "interpreter/program/load.hpp"
+#include "tests/reference_model/silent_port.hpp"
+#include "tests/vectors/vector_file.hpp"
+
+namespace s7200 {
+namespace {
+
+using vectors::Vector;
+
+const std::filesystem::path kFolder = S7200_SOURCE_DIR "/tests/vectors";
+
+std::vector<std::string> vector_files() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder))
+    if (entry.path().extension() == ".txt" && entry.path().filename() != "CMakeLists.txt")
+      names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+std::uint32_t base_of(const std::string& area) {
+  static const std::map<std::string, std::uint32_t> kBases{
+      {"V", image::kV},   {"I", image::kI},         {"Q", image::kQ},       {"M", image::kM},
+      {"SM", image::kSM}, {"S", image::kS},         {"T", image::kT},       {"T.bit", image::kTBits},
+      {"C", image::kC},   {"C.bit", image::kCBits}, {"HC", image::kHC},     {"AC", image::kAC},
+      {"AI", image::kAI}, {"AQ", image::kAQ},       {"PI", image::kInputs}, {"PQ", image::kOutputs}};
+  return kBases.at(area);
+}
+
+std::string name_of_place(std::uint32_t at) {
+  static const std::pair<std::uint32_t, std::string_view> kNames[] = {{image::kV, "VB"},
+                                                                      {image::kOutputs, "PQB"},
+                                                                      {image::kInputs, "PIB"},
+                                                                      {image::kCBits, "C bits, byte "},
+                                                                      {image::kTBits, "T bits, byte "},
+                                                                      {image::kAC, "AC byte "},
+                                                                      {image::kHC, "HC byte "},
+                                                                      {image::kC, "C byte "},
+                                                                      {image::kT, "T byte "},
+                                                                      {image::kAQ, "AQ byte "},
+                                                                      {image::kAI, "AI byte "},
+                                                                      {image::kS, "SB"},
+                                                                      {image::kSM, "SMB"},
+                                                                      {image::kM, "MB"},
+                                                                      {image::kQ, "QB"},
+                                                                      {image::kI, "IB"}};
+  for (const auto& [base, name] : kNames)
+    if (at >= base) return fmt::format("{}{}", name, at - base);
+  return {};
+}
+
+using Image = std::array<std::uint8_t, image::kSize>;
+
+void assign(Image& image, const vectors::Assignment& a) {
+  std::uint8_t* const to = &image[base_of(a.area) + a.at];
+  if (a.width == 0) *to = static_cast<std::uint8_t>(a.value != 0 ? *to | 1 << a.bit : *to & ~(1 << a.bit));
+  for (std::size_t i = 0; i < a.width; ++i) to[i] = static_cast<std::uint8_t>(a.value >> (8 * (a.width - 1u - i)));
+}
+
+std::uint16_t bits_of(const vectors::Levels& levels) {
+  std::uint16_t bits = 0;
+  for (std::size_t i = 0; i < levels.size(); ++i) bits = static_cast<std::uint16_t>(bits | (levels[i] ? 1 : 0) << i);
+  return bits;
+}
+
+/// Lets one instruction through at a time.
+class OneInstruction : public TraceSink {
+ public:
+  bool wants_instructions() const override { return true; }
+  bool before(std::uint32_t) override { return !std::exchange(done_, true); }
+  void rearm() { done_ = false; }
+
+ private:
+  bool done_ = false;
+};
+
+/// One vector on a CPU of its own.
+class Execution {
+ public:
+  explicit Execution(const Vector& vector) : vector_(vector) {
+    const std::string text = program_text();
+    checked_ = check_text(text, "vector", cpu214(), default_times(cpu214()));
+  }
+
+  /// What is wrong; empty when nothing is.
+  std::string result() {
+    if (!checked_.program) return "the checker refuses it: " + checked_.diagnostics.at(0).message + "\n";
+    Cpu cpu(checked_.program, queue_, port_);
+    cpu.power_up();
+    cpu.run(checked_.program->scan_phase[0]);
+    prepare(cpu);
+    const Time start = cpu.time();
+    Image expected = cpu.state().image;
+    if (vector_.until)
+      run_until(cpu, *vector_.until);
+    else
+      run_steps(cpu);
+    for (const auto& assignment : vector_.after) assign(expected, assignment);
+    compare_memory(expected, cpu.state().image);
+    compare_state(cpu.state());
+    if (vector_.time) compare("time in ns", *vector_.time, cpu.time() - start);
+    return wrong_;
+  }
+
+ private:
+  /// A single instruction finds as many loads before it as the checker wants.
+  std::string program_text() {
+    std::string text;
+    if (!vector_.is_program()) {
+      const std::string mnemonic = vector_.ops[0].substr(0, vector_.ops[0].find(' '));
+      const Instruction* instruction = find_instruction(mnemonic);
+      prefix_ = instruction ? static_cast<std::uint32_t>(std::max<int>(0, instruction->stack.needs)) : 0;
+      for (std::uint32_t i = 0; i < prefix_; ++i) text += "LD SM0.0\n";
+    }
+    for (const std::string& op : vector_.ops) text += op + "\n";
+    return vector_.is_program() ? text : text + "MEND\n";
+  }
+
+  void prepare(Cpu& cpu) const {
+    Image image = cpu.state().image;
+    for (const auto& assignment : vector_.before) assign(image, assignment);
+    cpu.poke(0, image);
+    cpu.s.pc = prefix_;
+    cpu.s.stack = {};
+    for (std::size_t i = vector_.stack.size(); i > 0; --i) cpu.s.stack.push(vector_.stack[i - 1]);
+  }
+
+  void run_until(Cpu& cpu, Time limit) {
+    while (cpu.time() < limit) {
+      cpu.run(limit);
+      handle_events(cpu);
+    }
+  }
+
+  void handle_events(Cpu& cpu) {
+    while (queue_.next() <= cpu.time()) cpu.handle(queue_.pop());
+  }
+
+  /// The system's part of a scan counts as a step.
+  void run_steps(Cpu& cpu) {
+    const auto& phases = checked_.program->scan_phase;
+    const Time system_part = phases[0] + phases[1] + phases[2] + phases[3];
+    cpu.set_sink(&one_);
+    for (std::uint32_t i = 0; i < vector_.steps; ++i) {
+      one_.rearm();
+      if (cpu.state().phase == Phase::Program || cpu.state().in_interrupt)
+        cpu.run(cpu.time() + 1);
+      else
+        run_until(cpu, cpu.time() + system_part);
+      handle_events(cpu);
+    }
+  }
+
+  template <class T>
+  void compare(std::string_view what, const T& expected, const T& found) {
+    if (expected != found) wrong_ += fmt::format("  {}: expected {}, found {}\n", what, expected, found);
+  }
+
+  void compare_memory(const Image& expected, const Image& found) {
+    for (std::uint32_t at = 0; at < image::kConstants; ++at) {
+      if (at == image::kEdges) at = image::kV;  // edge memories show in what EU and ED do
+      if (expected[at] != found[at])
+        wrong_ += fmt::format("  {}: expected 16#{:02X}, found 16#{:02X}\n", name_of_place(at), expected[at], found[at]);
+    }
+  }
+
+  void compare_state(const State& state) {
+    compare("error", vector_.error, state.error_count == 0 ? 0 : static_cast<int>(state.errors[0].code));
+    compare("fatal error", vector_.fatal, static_cast<int>(state.fatal_code));
+    compare("STOP", vector_.stops, state.mode == Mode::Stop);
+    if (vector_.stops) return;
+    compare("program ended", vector_.ends, state.phase != Phase::Program);
+    if (vector_.ends) return;
+    compare("next", vector_.next.value_or(1) + prefix_, state.pc);
+    compare("logic stack", bits_of(vector_.leaves.value_or(vector_.stack)), state.stack.bits());
+  }
+
+  const Vector& vector_;
+  CheckResult checked_;
+  EventQueue queue_;
+  reference::SilentPort port_;
+  OneInstruction one_;
+  std::uint32_t prefix_ = 0;
+  std::string wrong_;
+};
+
+class VectorFile : public testing::TestWithParam<std::string> {};
+
+TEST_P(VectorFile, HoldsOnTheInterpreter) {
+  const std::string path = (kFolder / (GetParam() + ".txt")).string();
+  std::ifstream in(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const vectors::File file = vectors::parse(text, path);
+  EXPECT_FALSE(file.vectors.empty());
+  for (const Vector& vector : file.vectors) {
+    EXPECT_FALSE(vector.source.empty()) << path << ":" << vector.line;
+    const std::string wrong = Execution(vector).result();
+    EXPECT_TRUE(wrong.empty()) << path << ":" << vector.line << ": " << vector.ops[0] << "\n" << wrong;
+  }
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& file) {
+  std::string name = file.param;
+  std::ranges::replace(name, '.', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Vectors, VectorFile, testing::ValuesIn(vector_files()), test_name);
+
+}  // namespace
+}  // namespace s7200

@@ -1,0 +1,36 @@
+// What the vectors try: for each instruction the values that matter and, for the first of them, every form its operands can
+// have.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/instructions/instruction.hpp"
+#include "tests/vectors/author.hpp"
+
+namespace s7200::vectors {
+
+/// Content of an operand: its elements from the place on that it names.
+using Elements = std::vector<std::uint32_t>;
+
+struct Values {
+  std::vector<Elements> operand;
+  Levels stack{true};
+  std::string title{};
+};
+
+/// Values to try, by mnemonic; the first are the usual ones.
+std::vector<Values> values_of(std::string_view mnemonic);
+
+/// Programs of several instructions, for what one cannot show.
+std::vector<Case> programs_of(std::string_view mnemonic);
+
+/// All cases of an instruction.
+std::vector<Case> cases_of(const Instruction& instruction);
+
+/// Where the rulebook speaks of it.
+std::string source_of(const Instruction& instruction);
+
+}  // namespace s7200::vectors

@@ -1,0 +1,59 @@
+// generate_vectors FOLDER [--check]: writes the files of vectors from the reference model, or compares them with it.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "interpreter/instructions/instruction.hpp"
+#include "tests/vectors/cases.hpp"
+
+namespace {
+
+using namespace s7200;
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Empty where the reference model has nothing to say.
+std::string generated(const Instruction& instruction) {
+  vectors::File file;
+  file.heading = {fmt::format("{}: {}", syntax(instruction), instruction.meaning),
+                  "Generated from the reference model: change tests/vectors/*.cpp and run generate_vectors."};
+  for (const vectors::Case& what : vectors::cases_of(instruction)) {
+    try {
+      file.vectors.push_back(vectors::execute(what, vectors::source_of(instruction)));
+    } catch (const std::exception& error) {
+      throw std::runtime_error(fmt::format("{}: {}", what.ops[0], error.what()));
+    }
+  }
+  return file.vectors.empty() ? "" : vectors::to_text(file);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Writes the instruction vectors from the reference model"};
+  std::filesystem::path folder;
+  bool check = false;
+  app.add_option("folder", folder, "tests/vectors")->required();
+  app.add_flag("--check", check, "only compare the files with what would be written");
+  CLI11_PARSE(app, argc, argv);
+
+  int different = 0;
+  for (const Instruction& instruction : all_instructions()) {
+    if (!instruction.body || !(instruction.cpus & kCpu214)) continue;
+    const std::string text = generated(instruction);
+    if (text.empty()) continue;
+    const std::filesystem::path path = folder / (vectors::file_name(instruction.mnemonic) + ".txt");
+    if (content_of(path) == text) continue;
+    ++different;
+    fmt::print("{} {}\n", path.string(), check ? "is not what the reference model says" : "written");
+    if (!check) std::ofstream(path, std::ios::binary) << text;
+  }
+  return check && different != 0 ? 1 : 0;
+}

@@ -1,0 +1,191 @@
+// Programs of several instructions, for what one cannot show.
+#include <map>
+
+#include "tests/vectors/cases.hpp"
+
+namespace s7200::vectors {
+namespace {
+
+constexpr std::int64_t kMillisecond = 1'000'000;
+
+std::vector<std::string> lines(std::string_view text) {
+  std::vector<std::string> result(1);
+  for (const char c : text) {
+    if (c != '|')
+      result.back() += c;
+    else
+      result.emplace_back();
+  }
+  return result;
+}
+
+Case steps(std::string title, std::string_view program, std::uint32_t count, std::vector<std::string> before = {},
+           Levels stack = {false}) {
+  return {std::move(title), lines(program), std::move(before), std::move(stack), count, 0, 0};
+}
+
+Case until(std::string title, std::string_view program, std::int64_t time, std::vector<std::string> before = {}) {
+  return {std::move(title), lines(program), std::move(before), {false}, 1, time, 0};
+}
+
+constexpr std::string_view kNinthCall = "LD SM0.0|CALL 0|MEND|SBR 0|CALL 0|INCW VW10|RET";
+constexpr std::string_view kLoop = "LD SM0.0|FOR VW10, VW20, VW30|INCW VW40|LDN SM0.0|NEXT|MEND";
+constexpr std::string_view kEdges = "LBL 0|LD V0.0|EU|= V1.0|LDN V0.0|= V0.0|LD SM0.0|JMP 0|MEND";
+constexpr std::string_view kFallingEdges = "LBL 0|LD V0.0|ED|= V1.0|LDN V0.0|= V0.0|LD SM0.0|JMP 0|MEND";
+constexpr std::string_view kSegment = "LSCR S1.0|LD SM0.0|INCW VW10|LD V0.0|SCRT S1.1|SCRE|LD SM0.0|MEND";
+constexpr std::string_view kCountUp = "LBL 0|LD V0.0|LD V0.1|CTU C1, 2|LDN V0.0|= V0.0|LD SM0.0|JMP 0|MEND";
+constexpr std::string_view kCountBoth =
+    "LBL 0|LD V0.0|LD V0.1|LD V0.2|CTUD C1, 2|LDN V0.0|= V0.0|LDN V0.1|= V0.1|LD SM0.0|JMP 0|MEND";
+constexpr std::string_view kLoopWithPointers = "LD SM0.0|FOR *VD50, 1, *AC1|NEXT|MEND";
+
+std::vector<Case> jumps() {
+  return {steps("taken: the stack has a 1 on top", "LD V0.0|JMP 5|INCW VW10|LBL 5|MEND", 2, {"V0.0=1"}, {false, true}),
+          steps("not taken", "LD V0.0|JMP 5|INCW VW10|LBL 5|MEND", 2),
+          steps("back", "LBL 5|LD SM0.0|INCW VW10|JMP 5|MEND", 8)};
+}
+
+std::vector<Case> loops() {
+  return {
+      steps("three passes; INDX ends at FINAL + 1, the stack with a 1 on top", kLoop, 11, {"VW20=16#0001", "VW30=16#0003"}),
+      steps("INIT above FINAL: the body is not run", kLoop, 2, {"VW20=16#0002", "VW30=16#0001"}),
+      steps("INIT and FINAL are signed", kLoop, 5, {"VW20=16#FFFF", "VW30=16#0001"}),
+      steps("INIT = FINAL: one pass", kLoop, 5, {"VW20=16#0005", "VW30=16#0005"}),
+      steps("no power flow: behind NEXT", "LDN SM0.0|FOR VW10, 1, 3|INCW VW40|NEXT|MEND", 2),
+      steps("INDX wraps behind 32767", kLoop, 5, {"VW20=16#7FFF", "VW30=16#7FFF"}),
+      steps("FINAL is read anew", "LD SM0.0|FOR VW10, 1, VW30|DECW VW30|NEXT|MEND", 6, {"VW30=16#0003"}),
+      steps("FINAL overlaps INDX: INDX is stored first", "LD SM0.0|FOR VW10, 1, VW10|NEXT|MEND", 4),
+      steps("pointers cost time in FOR and in NEXT", kLoopWithPointers, 3,
+            {"VD50=16#0800003C", "AC1=16#02000004", "MW4=16#0002"}),
+      steps("a bad pointer in FOR: not executed", kLoopWithPointers, 2, {"VD50=16#0800003C", "AC1=16#03000000"}),
+      steps("a pointer gone bad in NEXT: not executed", "LD SM0.0|FOR *VD50, 1, 3|MOVD 16#03000000, VD50|NEXT|MEND", 4,
+            {"VD50=16#0800003C"}),
+      steps("nested", "LD SM0.0|FOR VW10, 1, 2|FOR VW20, 1, 2|INCW VW40|NEXT|NEXT|MEND", 14),
+      steps("INDX in each area",
+            "LD SM0.0|FOR IW0, 1, 1|NEXT|FOR QW0, 1, 1|NEXT|FOR MW4, 1, 1|NEXT|FOR SMW38, 1, 1|NEXT|"
+            "FOR SW5, 1, 1|NEXT|FOR T37, 1, 1|NEXT|FOR C5, 1, 1|NEXT|FOR AC0, 1, 1|NEXT|FOR *AC1, 1, 1|NEXT|MEND",
+            19, {"AC0=16#A5A5A5A5", "AC1=16#08000064"}),
+      steps("INIT in each area",
+            "LD SM0.0|FOR VW10, VW20, 0|NEXT|FOR VW10, IW0, 0|NEXT|FOR VW10, QW0, 0|NEXT|FOR VW10, MW4, 0|"
+            "NEXT|FOR VW10, SMW22, 0|NEXT|FOR VW10, SW5, 0|NEXT|FOR VW10, T37, 0|NEXT|FOR VW10, C5, 0|NEXT|FOR VW10, AC0, "
+            "0|NEXT|"
+            "FOR VW10, AIW4, 0|NEXT|FOR VW10, *VD50, 0|NEXT|FOR VW10, *AC1, 0|NEXT|MEND",
+            13,
+            {"VW20=16#0001", "IW0=16#0002", "QW0=16#0003", "MW4=16#0004", "SMW22=16#0005", "SW5=16#0006", "T37=7", "C5=8",
+             "AC0=16#A5A50009", "AIW4=16#000A", "VD50=16#08000014", "AC1=16#02000004"}),
+      steps("FINAL in each area",
+            "LD SM0.0|FOR VW10, 9, VW20|NEXT|FOR VW10, 9, IW0|NEXT|FOR VW10, 9, QW0|NEXT|FOR VW10, 9, MW4|"
+            "NEXT|FOR VW10, 9, SMW22|NEXT|FOR VW10, 9, SW5|NEXT|FOR VW10, 9, T37|NEXT|FOR VW10, 9, C5|NEXT|FOR VW10, 9, "
+            "AC0|NEXT|"
+            "FOR VW10, 9, AIW4|NEXT|FOR VW10, 9, *VD50|NEXT|FOR VW10, 9, *AC1|NEXT|MEND",
+            13, {"AC0=16#A5A50008", "VD50=16#08000014", "AC1=16#02000004"})};
+}
+
+std::vector<Case> calls() {
+  return {steps("a subroutine starts with a stack of 1 0 0 …", "LD V0.0|LD V0.1|CALL 3|MEND|SBR 3|RET", 3, {"V0.1=1"},
+                {true, true}),
+          steps("the caller's stack comes back", "LD V0.0|LD V0.1|CALL 3|MEND|SBR 3|LDN SM0.0|LD SM0.0|RET", 7, {"V0.1=1"},
+                {true, true}),
+          steps("no power flow", "LDN SM0.0|CALL 3|MEND|SBR 3|RET", 2), steps("eight deep", kNinthCall, 16),
+          steps("the ninth call is error 0008 and not executed", kNinthCall, 18)};
+}
+
+std::vector<Case> returns() {
+  return {steps("return", "LD SM0.0|CALL 3|MEND|SBR 3|LD V0.0|CRET|INCW VW10|RET", 5, {"V0.0=1"}),
+          steps("no power flow", "LD SM0.0|CALL 3|MEND|SBR 3|LD V0.0|CRET|INCW VW10|RET", 6)};
+}
+
+std::vector<Case> segments() {
+  return {steps("the S bit is 0: on behind SCRE", kSegment, 1, {"S1.0=0"}),
+          steps("the S bit is 1: a 1 is pushed", kSegment, 1, {"S1.0=1"}, {false, true}),
+          steps("transition", kSegment, 5, {"S1.0=1", "V0.0=1"}),
+          steps("no power flow at SCRT", kSegment, 5, {"S1.0=1"}),
+          steps("SCRE does nothing", kSegment, 6, {"S1.0=1", "V0.0=1"}),
+          steps("a transition to the same segment leaves it on", "LSCR S1.0|LD SM0.0|SCRT S1.0|SCRE|MEND", 3, {"S1.0=1"})};
+}
+
+std::vector<Case> ends() {
+  return {steps("END with power flow", "LD SM0.0|END|INCW VW10|MEND", 2),
+          steps("END without", "LDN SM0.0|END|INCW VW10|MEND", 2),
+          steps("the next scan: inputs are read, outputs written", "LD SM0.0|END|MEND", 3, {"PIB0=16#12", "QB1=16#34"})};
+}
+
+/// A timer switched on in a program that does nothing else; scans of about 0.9 ms.
+std::vector<Case> timer_runs(const std::string& mnemonic, const std::string& fast, const std::string& medium,
+                             const std::string& slow) {
+  std::vector<Case> cases;
+  for (const std::string& timer : {fast, medium, slow}) {
+    const std::string program = "LD V0.0|" + mnemonic + " " + timer + ", 3|MEND";
+    const std::int64_t base = (timer == fast ? 1 : timer == medium ? 10 : 100) * kMillisecond;
+    cases.push_back(until(timer + " before its preset", program, 2 * base + base / 2, {"V0.0=1"}));
+    cases.push_back(until(timer + " at its preset", program, 4 * base, {"V0.0=1"}));
+    if (mnemonic == "TONR")
+      cases.push_back(until(timer + " stops at 32767", program, 3 * base, {"V0.0=1", timer + "=32766"}));
+  }
+  cases.push_back(
+      steps(fast + ": R clears value and bit", "LD SM0.0|R " + fast + ", 1|MEND", 2, {fast + "=5", fast + ".bit=1"}));
+  return cases;
+}
+
+std::vector<Case> counts_up() {
+  return {steps("a 1 at the first execution is no edge", kCountUp, 4, {"V0.0=1"}), steps("one rising edge", kCountUp, 12),
+          steps("two rising edges: the preset is reached", kCountUp, 28),
+          steps("reset wins over an edge", kCountUp, 12, {"V0.1=1", "C1=7", "C1.bit=1"}),
+          steps("stops at 32767", kCountUp, 12, {"C1=32767"})};
+}
+
+std::vector<Case> counts_both() {
+  return {steps("up", kCountBoth, 15), steps("up wraps behind 32767", kCountBoth, 15, {"C1=32767", "V0.1=1"}),
+          steps("up and down together cancel", kCountBoth, 15, {"C1=5"}),
+          steps("down", kCountBoth, 25, {"V0.0=1", "C1=-32768"}),
+          steps("reset", kCountBoth, 15, {"V0.2=1", "C1=7", "C1.bit=1"})};
+}
+
+const std::map<std::string_view, std::vector<Case>>& programs() {
+  static const std::map<std::string_view, std::vector<Case>> kPrograms{
+      {"JMP", jumps()},
+      {"LBL", {steps("takes no time", "LD V0.0|JMP 5|INCW VW10|LBL 5|MEND", 3, {"V0.0=1"})}},
+      {"FOR", loops()},
+      {"NEXT", {steps("leaves a 1 on top of the stack", "LD SM0.0|FOR VW10, 1, 1|LDN SM0.0|NEXT|MEND", 4)}},
+      {"CALL", calls()},
+      {"SBR", {steps("takes no time", "LD SM0.0|CALL 3|MEND|SBR 3|RET", 3)}},
+      {"RET", {steps("back behind the CALL", "LD SM0.0|CALL 3|MEND|SBR 3|RET", 4)}},
+      {"CRET", returns()},
+      {"LSCR", segments()},
+      {"SCRT", segments()},
+      {"SCRE", {steps("the end of a segment that is on", kSegment, 6, {"S1.0=1"})}},
+      {"END", ends()},
+      {"MEND", {steps("the end of the main program", "LD SM0.0|MEND", 2)}},
+      {"STOP",
+       {steps("to STOP: the output points go off, the image stays", "LD SM0.0|STOP|MEND", 2, {"PQB0=16#FF", "QB0=16#FF"}),
+        steps("no power flow", "LDN SM0.0|STOP|MEND", 2)}},
+      {"EU",
+       {steps("rising edge", kEdges, 12), steps("no falling edge", kEdges, 12, {"V0.0=1"}),
+        steps("one execution long", "LBL 0|LD V0.0|EU|= V1.0|LD SM0.0|S V0.0, 1|JMP 0|MEND", 18)}},
+      {"ED", {steps("falling edge", kFallingEdges, 12, {"V0.0=1"}), steps("no rising edge", kFallingEdges, 12)}},
+      {"TON", timer_runs("TON", "T32", "T33", "T37")},
+      {"TONR", timer_runs("TONR", "T0", "T1", "T5")},
+      {"CTU", counts_up()},
+      {"CTUD", counts_both()},
+      {"INT", {}},
+      {"DTCH",
+       {steps("not attached: nothing", "LD SM0.0|DTCH 0|MEND", 2), steps("no power flow", "LDN SM0.0|DTCH 0|MEND", 2)}},
+      {"ATCH",
+       {steps("nothing yet", "LD SM0.0|ATCH 4, 0|MEND|INT 4|RETI", 2),
+        steps("no power flow", "LDN SM0.0|ATCH 4, 0|MEND|INT 4|RETI", 2)}},
+      {"ENI", {steps("SM4.4 shows it", "LD SM0.0|ENI|MEND", 2)}},
+      {"DISI", {steps("SM4.4 shows it", "LD SM0.0|ENI|DISI|MEND", 3)}},
+      {"WDR",
+       {until("a program of 0.4 s", "LBL 0|LD SM0.0|WDR|AN V0.0|JMP 0|MEND", 400 * kMillisecond),
+        steps("the watchdog: fatal error 0003", "LD SM0.0|FOR VW10, 1, 32767|NEXT|MEND", 2001)}},
+  };
+  return kPrograms;
+}
+
+}  // namespace
+
+std::vector<Case> programs_of(std::string_view mnemonic) {
+  const auto found = programs().find(mnemonic);
+  return found == programs().end() ? std::vector<Case>{} : found->second;
+}
+
+}  // namespace s7200::vectors

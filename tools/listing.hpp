@@ -1,0 +1,47 @@
+// A program as people see it: lines, routines, and which instruction stands where.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/program/program.hpp"
+
+namespace s7200::tools {
+
+class Listing {
+ public:
+  /// The program must live as long as this.
+  explicit Listing(const Program& program);
+
+  /// The instruction of a line, or the next one behind it.
+  std::optional<std::uint32_t> op_from_line(std::uint32_t line) const;
+  std::uint32_t line_of(std::uint32_t op) const { return program_.statement(op).position.line; }
+  std::uint32_t last_line() const;
+
+  /// `main`, `SBR 51`, `INT 123`
+  const std::string& routine_of(std::uint32_t op) const { return routine_[op]; }
+
+  /// The instruction with its comment.
+  std::string text_of(std::uint32_t op) const;
+
+  /// Up to `count` lines, without blank ones, from `before` lines ahead of `line`. `mark` gives what stands in front of the
+  /// line of an instruction.
+  using Mark = std::function<std::string(std::uint32_t op)>;
+  std::string around(std::uint32_t line, std::size_t before, std::size_t count, const Mark& mark) const;
+
+ private:
+  struct Entry {
+    std::uint32_t line = 0;
+    std::string text;
+    std::optional<std::uint32_t> op;
+  };
+
+  const Program& program_;
+  std::vector<std::string> routine_;  ///< by op
+  std::vector<Entry> entries_;        ///< the lines that are not blank
+};
+
+}  // namespace s7200::tools

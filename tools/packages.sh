@@ -1,0 +1,57 @@
+# For tools/demo and tools/test: the packages of Debian 12 that the build needs, and how to get them.
+# Sourced by bash from the top of the tree.
+
+# What must be there, each behind the command or file that shows that it is.
+needed=(
+  cmake:cmake
+  ninja:ninja-build
+  c++:g++
+  python3:python3
+  /usr/include/boost/spirit/home/x3.hpp:libboost-dev
+  /usr/include/fmt/format.h:libfmt-dev
+  /usr/include/CLI/CLI.hpp:libcli11-dev
+  /usr/include/nlohmann/json.hpp:nlohmann-json3-dev
+  /usr/include/gtest/gtest.h:libgtest-dev
+  /usr/include/benchmark/benchmark.h:libbenchmark-dev
+)
+
+install_missing_packages() {
+  local entry sign missing=() as_root=()
+  for entry in "${needed[@]}"; do
+    sign=${entry%%:*}
+    case $sign in
+      /*) [ -e "$sign" ] || missing+=("${entry#*:}") ;;
+      *) command -v "$sign" >/dev/null || missing+=("${entry#*:}") ;;
+    esac
+  done
+  if [ "${#missing[@]}" -eq 0 ]; then return; fi
+  if ! command -v apt-get >/dev/null; then
+    echo "Note: no apt-get here. If the build stops, install what corresponds to these packages of Debian: ${missing[*]}" >&2
+    return
+  fi
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "error: to install packages this needs root or sudo. As root: apt-get install ${missing[*]}" >&2
+      exit 2
+    fi
+    as_root=(sudo)
+  fi
+  echo "Installing ${missing[*]}"
+  as_root+=(env DEBIAN_FRONTEND=noninteractive apt-get -qq)
+  if ! { "${as_root[@]}" update && "${as_root[@]}" install --no-install-recommends "${missing[@]}" >/dev/null; }; then
+    echo "error: could not install ${missing[*]}; see above. As root: apt-get install ${missing[*]}" >&2
+    exit 2
+  fi
+}
+
+# build PRESET [TARGET...]: all targets if none is named.
+build() {
+  local preset=$1
+  shift
+  mkdir -p build
+  if ! cmake --preset "$preset" >"build/$preset-configure.log" 2>&1; then
+    cat "build/$preset-configure.log" >&2
+    exit 2
+  fi
+  cmake --build --preset "$preset" --parallel "$(nproc)" ${1+--target "$@"}
+}

@@ -1,0 +1,61 @@
+// `--timeline`: what the CPU did during an exchange, put together from its trace records.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "interpreter/program/program.hpp"
+#include "interpreter/trace/trace.hpp"
+#include "serial_sim/master.hpp"
+
+namespace s7200::tools {
+
+/// One thing that happened, or several of the same kind in a row.
+struct TimelineRow {
+  enum class Kind : std::uint8_t { Received, Ignored, Lost, Event, Transmit, Sent, Other };
+
+  Time at = 0;  ///< of the first
+  Kind kind{};
+  std::vector<ReceivedCharacter> characters{};  ///< Received, Ignored, Lost, Sent
+  std::uint8_t event = 0;                       ///< Received, Lost, Event
+  std::uint8_t routine = 0;                     ///< that was attached to it
+  std::string text{};                           ///< Transmit, Other: in words
+  std::string place{};                          ///< Transmit: which part of the program did it
+
+  /// Services by the interrupt routine.
+  std::size_t served = 0;
+  Time shortest = kNever, longest = 0, in_all = 0, longest_wait = 0;
+};
+
+struct TimelineReport {
+  std::vector<TimelineRow> rows{};
+  std::size_t scans = 0;  ///< from beginning to end
+  Time shortest_scan = kNever, longest_scan = 0;
+};
+
+/// Collects records between begin() and report(); passes everything on to the next sink, if there is one.
+class Timeline final : public TraceSink {
+ public:
+  Timeline(std::shared_ptr<const Program> program, TraceSink* next) : program_(std::move(program)), next_(next) {}
+
+  void begin() { records_.clear(); }
+  TimelineReport report() const;
+
+  void record(const TraceRecord& record) override;
+  bool before(std::uint32_t op) override { return !next_ || next_->before(op); }
+  void instruction(const InstructionRecord& record) override { next_->instruction(record); }
+  bool wants_instructions() const override { return next_ && next_->wants_instructions(); }
+
+ private:
+  std::shared_ptr<const Program> program_;
+  TraceSink* next_;
+  std::vector<TraceRecord> records_;
+};
+
+/// An aligned table; times count from the start of the request.
+std::string to_text(const TimelineReport& report, const serial::Exchange& exchange, bool colour);
+nlohmann::ordered_json to_json(const TimelineReport& report, const serial::Exchange& exchange);
+
+}  // namespace s7200::tools
