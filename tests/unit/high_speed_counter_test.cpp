@@ -204,6 +204,14 @@ TEST(HighSpeedCounter, EdgesDuringAnInstructionAreCountedWithTheirOwnTimes) {
   EXPECT_EQ(plc.value("HC1"), 4);
 }
 
+TEST(HighSpeedCounter, InStopTheCounterGoesOnWithoutEvents) {
+  Hsc1 plc(0);
+  plc.cpu.stop();
+  plc.pulse("I0.6", 4);
+  EXPECT_EQ(plc.value("HC1"), 4);
+  EXPECT_TRUE(plc.events().empty());
+}
+
 TEST(HighSpeedCounter, Errors) {
   Plc undefined("LD SM0.1\nHSC 1\nMEND\n");
   undefined.run_scans(1);
