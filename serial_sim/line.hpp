@@ -26,6 +26,7 @@ class LineListener {
 /// Each driver holds the line at mark (true, the idle level) or space (false). A driver that marks is as good as one that
 /// is switched off: the line is at space while any driver is. Two senders at once collide bit by bit.
 /// Not documented, modelled so: on a real RS-485 line two active drivers that disagree give no defined level.
+/// [Uart.TwoSendersAtOnceGiveTheBitsBothMark]
 ///
 /// Who listens is wiring, not state: a copy of a line has its levels and no listeners, and assigning to a line leaves its
 /// listeners attached. So a snapshot is a copy, and going back to it an assignment.

@@ -1,6 +1,7 @@
 #include "tools/output_file.hpp"
 
 #include <CLI/CLI.hpp>
+#include <ostream>
 
 namespace s7200::tools {
 
@@ -13,6 +14,7 @@ bool OutputFile::open() {
   if (path_.empty()) return true;
   std::ostream* out = file_.open(path_, OutputRecord::kFirstLine, "record of outputs");
   if (out) record_ = std::make_unique<OutputRecord>(*out);
+  if (out) out->flush();  // so that no other record takes the same file for an empty one
   return out != nullptr;
 }
 

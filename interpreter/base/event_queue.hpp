@@ -12,8 +12,8 @@ namespace s7200 {
 
 /// Who handles an event. At the same instant the order below is the order of handling:
 /// the wire settles first, then who listens to it, then the CPU, then the inputs from the field, then whoever drives the
-/// test. The field comes behind the CPU's own outputs, so that a change is the last word on its instant, as the master is on
-/// the line; which interrupt is served first does not depend on it (Cpu::occurred).
+/// test. The field comes behind the CPU, whose own events were decided earlier, so that an input of that instant cannot
+/// change them; which interrupt is served first does not depend on it (Cpu::occurred).
 enum class EventOwner : std::uint8_t { PlcUart, MasterUart, Cpu, Field, Master };
 
 struct Event {

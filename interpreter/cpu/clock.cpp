@@ -3,7 +3,7 @@
 // Eight bytes of BCD: year, month, day, hour, minute, second, 0, day of the week (1 Sunday … 7 Saturday, 0 switched off).
 // Dates are not checked by TODW: the 30th of February is followed by the 1st of March.
 // When the clock was lost it starts at 1 January 1990, 0:00:00, Sunday (A5E00066097-02, 9-72).
-// Not documented, modelled so: a byte that is no BCD is error 0007.
+// Not documented, modelled so: a byte that is no BCD is error 0007. [Clock.WhatIsNoBcdIs0007AndLeavesTheClockAlone]
 #include <algorithm>
 
 #include "interpreter/cpu/cpu.hpp"

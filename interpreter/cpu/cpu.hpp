@@ -6,13 +6,19 @@
 //
 // Not documented, modelled so:
 // - The four parts of the scan that are not the program take a quarter of the scan overhead each.
-// - SM4.3 stays 1 until the next change to RUN.
+//   [ScanCycle.InputsAreReadBeforeAndOutputsWrittenBehindTheProgram]
+// - SM4.3 stays 1 until the next change to RUN. [Choices.SM43StaysUntilTheNextRun]
 // - An interrupt routine starts with the top of the logic stack at 1, as a subroutine does.
+//   [Choices.AnInterruptRoutineStartsWithTheTopOfTheStackAtOne]
 // - Events of one queue at the same instant wait in the order that the manual's list of events gives.
+//   [Interrupt.EdgesOfOneInstantAreServedInTheOrderOfTheList]
 // - DTCH drops what its event has queued. ATCH keeps it, and the routine attached when it is served is the one that runs.
+//   [Interrupt.DtchDropsWhatItsEventHasQueuedAndNothingElse, Interrupt.TheRoutineAttachedLastServesWhatWaits]
 // - A timed interrupt below the CPU's shortest interval, and 0, takes the shortest interval.
+//   [TimedInterrupt.ShorterThan5MillisecondsAndZeroAre5]
 // - Timed interrupts count whole milliseconds from the end of ATCH, not ticks of a clock of their own.
-// - In STOP all output points are off.
+//   [TimedInterrupt.AnotherAtchBeginsAnewWithTheNewPeriod]
+// - In STOP all output points are off. [ScanCycle.StopInTheMainProgramTakesEffectAtOnceAndSwitchesTheOutputsOff]
 // Not modelled: expansion module errors (SM5, SMB8–21), forced values, memory cartridge, PPI on the port.
 #pragma once
 

@@ -2,11 +2,15 @@
 //
 // Not documented, modelled so:
 // - Transmit complete (event 9, SM4.5) comes with the end of the last stop bit.
-// - The transmit buffer is read character by character while sending.
+//   [Freeport.XmtSendsFromItsEndOnAndEvent9ComesWithTheEndOfTheLastStopBit]
+// - The transmit buffer is read character by character while sending. [Freeport.TheBufferIsReadWhileSending]
 // - The port does not hear itself: its receiver is off from XMT until transmit complete.
+//   [Freeport.TransmitterIdleIsZeroWhileSendingAndTheReceiverIsOff]
 // - SM3.0 shows parity errors only; a character with a bad stop bit is handed over as it was sampled.
+//   [Choices.ABadStopBitIsNoParityError]
 // - A character received while event 8 is not attached leaves SMB2 and SM3.0 alone.
-// - XMT while the port is not in Freeport mode is error 0009.
+//   [Freeport.ACharacterThatNoRoutineWaitsForLeavesSMB2Alone]
+// - XMT while the port is not in Freeport mode is error 0009. [Freeport.XmtWithoutFreeportModeIs0009]
 // Not modelled: the PPI protocol. In PPI mode characters from the line are ignored.
 #include "interpreter/cpu/cpu.hpp"
 

@@ -10,17 +10,20 @@
 //
 // Not documented, modelled so:
 // - The levels of reset and start and the quadrature rate are taken by HDEF.
+//   [HighSpeedCounter.ResetActiveLow, HighSpeedCounter.StartActiveLow]
 // - Counting up to the preset or down to it gives the event; loading a current value does not.
+//   [HighSpeedCounter.Mode0CountsRisingEdgesUpAndTellsWhenItReachesItsPreset]
 // - While start is not active, clocks and reset are ignored. While start and reset are active the counter stands at 0; the
-//   reset event comes when both have become active.
+//   reset event comes when both have become active. [HighSpeedCounter.Mode2WithoutStartClocksAndResetAreIgnored]
 // - The control byte gives the direction in modes 0–2 only. HSC takes the level of the direction input in modes 3–5; in
-// modes
-//   6–11 a counter begins with "up".
+//   modes 6–11 a counter begins with "up". [HighSpeedCounter.Modes3To5TakeTheirDirectionFromAnInputEvenBeforeItChanges]
 // - Direction events come when a count goes the other way than the last one (modes 6–11) or the direction input of an
-// enabled
-//   counter changes (modes 3–5). The internal direction gives none.
+//   enabled counter changes (modes 3–5). The internal direction gives none. [HighSpeedCounter.Modes6To8HaveAnUpAndADownClock]
 // - One count a period (.2 = 1): the rising edge of clock A counts up and its falling edge down, both while B is 0.
+//   [HighSpeedCounter.Modes9To11CountOnceAPeriodIfAsked]
+// - In STOP the counters go on; their events are not taken. [HighSpeedCounter.InStopTheCounterGoesOnWithoutEvents]
 // - The counters follow every edge; the highest frequency of the real inputs (7 kHz, 2 kHz for HSC0) is not enforced.
+//   [HighSpeedCounter.EdgesDuringAnInstructionAreCountedWithTheirOwnTimes]
 #include "interpreter/cpu/cpu.hpp"
 
 namespace s7200 {

@@ -79,6 +79,7 @@ void Cpu::clear_outputs() {
 /// SM31.7 asks for one V value to be saved to EEPROM: SM31.1–0 its size, SMW32 its offset. The bit is reset when it is done.
 /// Not documented, modelled so: it is done at the end of the scan and takes no time of its own; an offset beyond the part of
 /// V that the EEPROM holds is error 0094.
+/// [Eeprom.ASaveTakesPlaceAtTheEndOfTheScanAndResetsItsRequest, Eeprom.TheLastAddressIsV1023AndBeyondItIs0094]
 void Cpu::save_to_eeprom() {
   std::uint8_t& request = s.image[image::kSM + 31];
   const std::uint32_t bytes = (request & 3) == 3 ? 4 : (request & 3) == 2 ? 2 : 1;

@@ -3,6 +3,7 @@
 // RAM intact: the retentive ranges of the model keep their values, V that is not retentive is loaded from the EEPROM, all
 // else is 0. RAM lost: V is loaded from the EEPROM, all else is 0, SM0.2 is 1 during the first scan, and the clock starts
 // anew. Not documented, modelled so: while power is off the clock stands still.
+// [RetentiveMemoryTest.RetentiveRangesKeepTheirValuesAllElseIsZero]
 #include <algorithm>
 
 #include "interpreter/cpu/cpu.hpp"

@@ -6,11 +6,15 @@
 //   SMW68, 78   cycle time      SMW70, 80   pulse width      SMD72, 82   pulse count
 //
 // Not documented, modelled so:
-// - A cycle time below 2 units counts as 2 units, a pulse count of 0 as 1.
+// - A cycle time below 2 units counts as 2 units, a pulse count of 0 as 1. [PulseOutput.ACycleBelow2UnitsIs2AndACountOf0Is1]
 // - A pulse begins with its 1 half; an odd cycle time makes the 1 half the shorter one.
+//   [PulseOutput.AnOddCycleHasItsShorterHalfFirst]
 // - PLS during a pulse train puts one more train in line; a further one sets the overflow bit and is not taken.
+//   [PulseOutput.OneMoreTrainWaitsInLineAFurtherOneSetsTheOverflowBit]
 // - PLS during PWM takes effect with the next cycle. PLS with .7 = 0 ends either at once.
+//   [PulseOutput.PwmHoldsTheWidthUntilANewOneTakesEffectWithTheNextCycle]
 // - A point that is no pulse output follows its image at the end of the scan.
+//   [PulseOutput.PlsWithoutEnableEndsItAtOnceAndTheImageHasThePointAgain]
 #include <algorithm>
 
 #include "interpreter/cpu/cpu.hpp"

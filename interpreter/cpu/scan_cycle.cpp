@@ -9,6 +9,7 @@ namespace {
 constexpr Time kHalfSecond = kSecond / 2;
 
 /// Not documented, modelled so: both clocks start with their 1 half at power-up.
+/// [ScanCycle.TheClockOfHalfASecondChangesAtScanEnds]
 std::uint8_t clock_bits(Time time) {
   const bool sm0_5 = (time / kHalfSecond) % 2 == 0;
   const bool sm0_4 = (time / (30 * kSecond)) % 2 == 0;
@@ -16,6 +17,7 @@ std::uint8_t clock_bits(Time time) {
 }
 
 /// For a word. Not documented, modelled so: a fraction is dropped, and a scan longer than the word can say is 65535 ms.
+/// [ScanCycle.LastShortestAndLongestScanInWholeMilliseconds, ScanCycle.AScanLongerThanAWordCanSayIs65535]
 std::uint16_t whole_milliseconds(Time time) {
   return static_cast<std::uint16_t>(std::min<Time>(time / kMillisecond, 0xFFFF));
 }

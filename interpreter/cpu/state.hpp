@@ -13,6 +13,7 @@ namespace s7200 {
 
 /// Nine levels of one bit, S0 on top.
 /// Not documented, modelled so: what comes up at the bottom after a pop is 0.
+/// [Choices.WhatComesUpAtTheBottomOfTheStackIsZero]
 class LogicStack {
  public:
   static constexpr int kLevels = 9;

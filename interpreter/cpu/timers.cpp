@@ -1,4 +1,5 @@
 // Timers of 1, 10 and 100 ms (facts 6.4): who adds the ticks, and when.
+// Not documented, modelled so: in STOP no timer counts. [Timer.InStopNoTimerCounts]
 #include <algorithm>
 
 #include "interpreter/cpu/cpu.hpp"

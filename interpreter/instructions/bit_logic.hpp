@@ -40,7 +40,8 @@ inline void pop_stack(Cpu& cpu, const Op&) { cpu.s.stack.pop(); }
 
 /// EU and ED. Each has a memory bit of its own (operand 2, given at load): the top of the stack at its last execution.
 /// Not documented, modelled so: the first execution after power-up finds no edge, and an execution that was jumped over
-/// leaves the memory as it is.
+/// leaves the memory as it is. [Choices.TheFirstExecutionOfEuAndEdFindsNoEdge,
+/// Choices.AnEdgeInstructionThatIsJumpedOverKeepsItsMemory]
 template <bool rising>
 void edge(Cpu& cpu, const Op& op) {
   const bool before = cpu.bit(op[2]), now = cpu.s.stack.top();

@@ -2,7 +2,8 @@
 //
 // Not documented, modelled so:
 // - ATH stores the digits in front of an illegal character. Overlapping ATH and HTA work character by character.
-// - ENCO of 0 gives 0 and keeps the high half of OUT.
+//   [Vectors.ATH]
+// - ENCO of 0 gives 0 and keeps the high half of OUT. [Vectors.ENCO]
 #pragma once
 
 #include <bit>

@@ -1,6 +1,7 @@
 // Bodies: integer arithmetic, increment and decrement, logic (facts 6.6, 6.7).
 //
 // Not documented, modelled so: on overflow SM1.1 is set and the wrapped result stored; SM1.0 and SM1.2 show what was stored.
+// [Vectors.ADD_I]
 #pragma once
 
 #include <type_traits>
@@ -71,6 +72,7 @@ inline void multiply(Cpu& cpu, const Op& op) {
 /// DIV: dividend in the low word of OUT; quotient to the low word, remainder to the high word. Flags are the quotient's.
 /// Division by zero sets SM1.3 and changes nothing else (S7-200 manual C233-01, 9-76).
 /// Not documented, modelled so: -32768 / -1 stores the wrapped quotient 16#8000 and remainder 0, and sets SM1.1.
+/// [Vectors.DIV]
 inline void divide(Cpu& cpu, const Op& op) {
   const std::int32_t divisor = cpu.get<std::int16_t>(op[0]);
   if (divisor == 0) return cpu.set_flags(kDivisionByZero, kDivisionByZero);

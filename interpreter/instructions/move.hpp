@@ -12,6 +12,7 @@ void move(Cpu& cpu, const Op& op) {
 
 /// BMB, BMW, BMD.
 /// Not documented, modelled so: overlapping blocks arrive as if the source had been copied first; N = 0 is error 0092.
+/// [Vectors.BMB]
 template <class Value>
 void move_block(Cpu& cpu, const Op& op) {
   const std::uint32_t count = cpu.get<std::uint8_t>(op[2]);

@@ -1,7 +1,7 @@
 // Bodies: real arithmetic (facts 6.6). Reals are IEEE-754 single precision.
 //
 // A NaN or infinite operand, a result beyond the range, and the root of a negative number set SM1.1 and store nothing.
-// Not documented, modelled so: SM1.0 and SM1.2 are then 0.
+// Not documented, modelled so: SM1.0 and SM1.2 are then 0. [Vectors.ADD_R]
 #pragma once
 
 #include <cmath>

@@ -29,7 +29,7 @@ void shift(Cpu& cpu, const Op& op) {
 
 /// RLW, RRW, RLD, RRD: the count is taken modulo the width.
 /// Not documented, modelled so: a multiple of the width other than 0 rotates nothing; SM1.0 is set from the value and SM1.1
-/// from the bit that a full turn brings out last.
+/// from the bit that a full turn brings out last. [Vectors.RLW]
 template <class Value, bool left>
 void rotate(Cpu& cpu, const Op& op) {
   constexpr std::uint32_t kBits = 8 * sizeof(Value);
@@ -45,7 +45,7 @@ void rotate(Cpu& cpu, const Op& op) {
 
 /// SHRB DATA, S_BIT, N: |N| bits from S_BIT on move by one. N > 0: DATA enters at S_BIT; N < 0: at the far end. What leaves
 /// goes to SM1.1.
-/// Not documented, modelled so: N = 0 is error 0092.
+/// Not documented, modelled so: N = 0 is error 0092. [Vectors.SHRB]
 inline void shift_register(Cpu& cpu, const Op& op) {
   const std::int32_t n = cpu.get<std::int8_t>(op[2]);
   const auto length = static_cast<std::uint32_t>(n < 0 ? -n : n);

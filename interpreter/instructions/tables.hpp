@@ -1,7 +1,7 @@
 // Bodies: tables (facts 6.10). A table is its length in entries, the number of entries in it, and the entries: all words.
 //
 // Not documented, modelled so: a length of 0 or above 100, or more entries than the length, is range error 0091; the place
-// that FIFO vacates keeps its value.
+// that FIFO vacates keeps its value. [Vectors.ATT, Vectors.FIFO]
 #pragma once
 
 #include "interpreter/instructions/compare.hpp"

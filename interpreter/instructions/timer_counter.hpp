@@ -2,10 +2,12 @@
 //
 // Not documented, modelled so:
 // - The execution that enables a timer adds nothing; the following ones count.
+//   [Timer.HundredMillisecondTimersCountWhenTheyAreExecuted]
 // - A 10 ms timer enabled in the middle of a scan is given all ticks since that scan began.
-// - A timer's preset is the one its last execution found.
+//   [Timer.TenMillisecondTimersHoldStillDuringAScan]
+// - A timer's preset is the one its last execution found. [Choices.ATimersPresetIsTheOneItsLastExecutionFound]
 // - CTU and CTUD pop their extra inputs, so that one level remains. An input that is 1 at the first execution after power-up
-//   is no rising edge. Up and down edges in the same execution cancel out.
+//   is no rising edge. Up and down edges in the same execution cancel out. [Vectors.CTU, Vectors.CTUD]
 #pragma once
 
 #include <algorithm>

@@ -107,7 +107,7 @@ class Pair {
       cpu_.run(machine_.time);
       while (queue_.next() <= cpu_.time()) cpu_.handle(queue_.pop());
     }
-    machine_.count_milliseconds();
+    if (machine_.running) machine_.count_milliseconds();  // in STOP no timer counts
     if (const std::string found = compare(machine_, cpu_); !found.empty()) difference_ = describe(found);
     return executed;
   }

@@ -1,5 +1,5 @@
 // The time of day: TODR, TODW, roll-over.
-#include "tests/unit/plc.hpp"
+#include "tests/support/plc.hpp"
 #include "tools/clock_text.hpp"
 
 namespace s7200 {

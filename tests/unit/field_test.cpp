@@ -5,7 +5,7 @@
 
 #include "interpreter/trace/fan_out.hpp"
 #include "interpreter/trace/output_record.hpp"
-#include "tests/unit/plc.hpp"
+#include "tests/support/plc.hpp"
 #include "serial_sim/simulation.hpp"
 
 namespace s7200::test {

@@ -1,5 +1,5 @@
 // HSC0–HSC2: modes, events, status byte, errors. HSC1: clock I0.6, second input I0.7, reset I1.0, start I1.1, SMB46–55.
-#include "tests/unit/plc.hpp"
+#include "tests/support/plc.hpp"
 
 namespace s7200::test {
 namespace {
@@ -202,6 +202,14 @@ TEST(HighSpeedCounter, EdgesDuringAnInstructionAreCountedWithTheirOwnTimes) {
   EXPECT_EQ(plc.records.times(EventOccurred), Times{3 * ms});
   EXPECT_EQ(plc.records.times(ServiceBegin), Times{5280 * us});  // 200 us + 8 * 10 us + 5 ms
   EXPECT_EQ(plc.value("HC1"), 4);
+}
+
+TEST(HighSpeedCounter, InStopTheCounterGoesOnWithoutEvents) {
+  Hsc1 plc(0);
+  plc.cpu.stop();
+  plc.pulse("I0.6", 4);
+  EXPECT_EQ(plc.value("HC1"), 4);
+  EXPECT_TRUE(plc.events().empty());
 }
 
 TEST(HighSpeedCounter, Errors) {

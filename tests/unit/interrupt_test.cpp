@@ -1,5 +1,5 @@
 // Interrupts: latency, order, queues, what is saved, ATCH and DTCH, timed interrupts. Times: plc.hpp.
-#include "tests/unit/plc.hpp"
+#include "tests/support/plc.hpp"
 
 namespace s7200::test {
 namespace {

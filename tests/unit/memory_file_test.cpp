@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/unit/plc.hpp"
+#include "tests/support/plc.hpp"
 #include "tools/atomic_file.hpp"
 
 namespace s7200::test {

@@ -1,5 +1,5 @@
 // The scan: its parts, SMB0, scan times, watchdog, END and STOP. Times: plc.hpp.
-#include "tests/unit/plc.hpp"
+#include "tests/support/plc.hpp"
 
 namespace s7200::test {
 namespace {

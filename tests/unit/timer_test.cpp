@@ -1,5 +1,5 @@
 // Timers of 1, 10 and 100 ms and counters over scans of any length. Times: plc.hpp.
-#include "tests/unit/plc.hpp"
+#include "tests/support/plc.hpp"
 
 namespace s7200::test {
 namespace {
