@@ -75,7 +75,7 @@ int run_instructions(const InstructionsOptions& options) {
     chosen.push_back(*instruction);
   }
   if (options.markdown) {
-    fmt::print("{}", reference_page(*times));
+    fmt::print("{}", reference_page(default_times(*all_cpus().back())));
   } else if (options.json) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const Instruction& instruction : chosen.empty() ? all_instructions() : std::span<const Instruction>(chosen))
