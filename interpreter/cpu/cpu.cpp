@@ -32,12 +32,15 @@ void Cpu::run(Time limit) {
 }
 
 void Cpu::execute_plain() {
+  const Op* const ops = ops_;
+  const Time no_power_flow = program_->no_power_flow;
+  std::uint64_t executed = 0;
   while (s.time < until_) {
     op_ = s.pc;
-    const Op& op = ops_[op_];
-    ++s.instructions;
+    const Op& op = ops[op_];
+    ++executed;
     if (op.power_mask & ~s.stack.bits()) {
-      s.time += program_->no_power_flow;
+      s.time += no_power_flow;
       s.pc = op.skip_to;
     } else {
       s.time += op.cost;
@@ -45,6 +48,7 @@ void Cpu::execute_plain() {
       op.body(*this, op);
     }
   }
+  s.instructions += executed;
 }
 
 void Cpu::execute_observed() {

@@ -78,7 +78,7 @@ void Cpu::system_phases() {
 void Cpu::finish_phase() {
   switch (s.phase) {
     case Phase::ReadInputs:
-      std::memcpy(&s.image[image::kI], &s.image[image::kInputs], program_->model->size_of(Area::I));
+      std::memcpy(&s.image[image::kI], &s.image[image::kInputs], image::kPointBytes);
       if (s.mode == Mode::Run) {
         if (program_->uses_timers) update_timers_at_scan_begin();
         s.phase = Phase::Program;
@@ -108,18 +108,23 @@ void Cpu::finish_phase() {
 
 void Cpu::end_scan() {
   if (s.mode == Mode::Run) {
-    if (std::memcmp(&s.image[image::kOutputs], &s.image[image::kQ], program_->model->size_of(Area::Q)) != 0) write_outputs();
+    if (std::memcmp(&s.image[image::kOutputs], &s.image[image::kQ], image::kPointBytes) != 0) write_outputs();
     if (s.image[image::kSM + 31] & 0x80) save_to_eeprom();
     ++s.scans;
     // SMB0 is updated at the end of each scan (S7-200 manual, SMB0): SM0.1–SM0.3 last one scan, SM0.6 alternates.
     s.image[image::kSM] = static_cast<std::uint8_t>((s.image[image::kSM] & ~0x0E) ^ 0x40);
     if (s.time >= s.next_clock) update_clocks();
     const Time scan = s.time - s.scan_begin;
-    s.shortest_scan = std::min(s.shortest_scan, scan);
-    s.longest_scan = std::max(s.longest_scan, scan);
-    store16(&s.image[image::kSM + 22], whole_milliseconds(scan));
-    store16(&s.image[image::kSM + 24], whole_milliseconds(s.shortest_scan));
-    store16(&s.image[image::kSM + 26], whole_milliseconds(s.longest_scan));
+    const std::uint16_t last = whole_milliseconds(scan);
+    store16(&s.image[image::kSM + 22], last);
+    if (scan < s.shortest_scan) {
+      s.shortest_scan = scan;
+      store16(&s.image[image::kSM + 24], last);
+    }
+    if (scan > s.longest_scan) {
+      s.longest_scan = scan;
+      store16(&s.image[image::kSM + 26], last);
+    }
     if (s.stop_after_scan) enter_stop();
     paused_ = pause_at_scan_end_;
   }

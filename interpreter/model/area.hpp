@@ -45,6 +45,8 @@ inline constexpr std::uint32_t kV = kEdges + 512;        // 10240
 inline constexpr std::uint32_t kConstants = kV + 10240;  // what the program's constants are read from
 inline constexpr std::uint32_t kSize = 20 * 1024;
 
+inline constexpr std::uint32_t kPointBytes = 16;  // of input points, of output points, and of each of their images
+
 inline constexpr std::uint32_t kSM1 = kSM + 1;
 inline constexpr std::uint32_t kSM4 = kSM + 4;
 
