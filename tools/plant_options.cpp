@@ -13,9 +13,11 @@ namespace s7200::tools {
 
 void PlantOptions::add_to(CLI::App& app) {
   app.add_option("--set", set_, "memory or inputs before the first scan: VW100=5, I0.3=1 (repeatable)")
-      ->type_name("ADDRESS=VALUE");
+      ->type_name("ADDRESS=VALUE")
+      ->allow_extra_args(false);
   app.add_option("--dump", dump_, "memory to show at the end: VB0:16, VW100, AC0 (repeatable)")
-      ->type_name("ADDRESS[:COUNT]");
+      ->type_name("ADDRESS[:COUNT]")
+      ->allow_extra_args(false);
   app.add_option("--input", input_path_, "inputs over time, CSV rows such as 10ms,I0.3,1 and 1s,I0.6,pulses,5kHz,200ms")
       ->type_name("FILE");
   output_.add_to(app);
