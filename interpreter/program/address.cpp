@@ -21,24 +21,6 @@ std::optional<stl::OperandValue> parse_operand(std::string_view text) {
   return statement->operands[0].value;
 }
 
-std::optional<Width> width_of(const stl::Address& address, Area area) {
-  switch (address.size) {
-    case stl::Size::Bit:
-      return Width::Bit;
-    case stl::Size::Byte:
-      return Width::Byte;
-    case stl::Size::Word:
-      return Width::Word;
-    case stl::Size::Double:
-      return Width::Double;
-    case stl::Size::None:
-      break;
-  }
-  if (area == Area::AC || area == Area::HC) return Width::Double;
-  if (info(area).element != 0 || area == Area::AI || area == Area::AQ) return Width::Word;
-  return {};
-}
-
 std::uint32_t place_of(const MemoryRange& range) {
   const AreaInfo& area = info(range.area);
   const std::uint32_t element = std::max(1u, area.element);
@@ -58,12 +40,11 @@ std::optional<MemoryRange> parse_range(std::string_view text, const CpuModel& mo
   const auto operand = parse_operand(text.substr(0, colon));
   const auto* address = operand ? std::get_if<stl::Address>(&*operand) : nullptr;
   const auto area = address ? area_named(address->area) : std::nullopt;
-  const auto width = area ? width_of(*address, *area) : std::nullopt;
-  if (!width) {
+  if (!area || !names_width(*address, *area)) {
     why = fmt::format("'{}' is no address; write for example VB100, VW100:4, M31.7, AC0", text);
     return {};
   }
-  MemoryRange range{*area, *width, address->number, address->bit, 1, 0};
+  MemoryRange range{*area, width_of(*address, *area).value_or(Width::Double), address->number, address->bit, 1, 0};
   if (colon != std::string_view::npos) {
     const std::string_view count = text.substr(colon + 1);
     const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), range.count);

@@ -48,30 +48,6 @@ std::string_view letter_of(Width width) {
 
 bool is_numbered(Area area) { return info(area).element != 0; }
 
-/// Width that an address names; nothing for an accumulator without a letter, which takes any.
-std::optional<Width> width_of(const stl::Address& address, Area area) {
-  switch (address.size) {
-    case stl::Size::Bit:
-      return Width::Bit;
-    case stl::Size::Byte:
-      return Width::Byte;
-    case stl::Size::Word:
-      return Width::Word;
-    case stl::Size::Double:
-      return Width::Double;
-    case stl::Size::None:
-      break;
-  }
-  switch (area) {
-    case Area::AC:
-      return {};
-    case Area::HC:
-      return Width::Double;
-    default:
-      return Width::Word;  // T, C current values; AI, AQ
-  }
-}
-
 std::string areas_text(const OperandRule& rule) {
   std::string text;
   const auto add = [&](std::string_view what) { text.append(text.empty() ? "" : ", ").append(what); };
@@ -211,18 +187,23 @@ class Placing {
   // --- addresses ---
 
   Result address(const stl::Address& address) {
-    const auto area = known_area(address);
+    const auto area = known_area(address, rule_.width);
     if (!area || !width_fits(address, *area)) return {};
     if (!contains(rule_.areas, *area)) return area_refused(*area);
     if (!in_range(address, *area, rule_.width) || !may_use_special_memory(address, *area) || !timer_fits(address)) return {};
     return PlacedOperand{place(address, *area), *area, {}};
   }
 
-  std::optional<Area> known_area(const stl::Address& address) {
+  std::optional<Area> known_area(const stl::Address& address, Width meant) {
     const auto area = area_named(address.area);
     if (!area) {
       error(fmt::format("CPU {} has no {} memory", model_.name, address.area),
             address.area == "L" ? "local memory needs CPU 22x" : "");
+    }
+    if (area && !names_width(address, *area)) {
+      error(fmt::format("{} says neither byte, word nor double word", text()),
+            fmt::format("is {} meant?", address_text(*area, meant, address.number, 0)));
+      return {};
     }
     return area;
   }
@@ -297,7 +278,7 @@ class Placing {
 
   Result address_of(const stl::AddressOf& operand) {
     if (!rule_.address_of) return wrong_kind();
-    const auto area = known_area(operand.target);
+    const auto area = known_area(operand.target, Width::Byte);
     if (!area) return {};
     const auto code = info(*area).pointer_code;
     if (!code || operand.target.size == stl::Size::Bit)
@@ -310,7 +291,7 @@ class Placing {
 
   Result indirect(const stl::Indirect& operand) {
     if (!rule_.pointer) return wrong_kind();
-    const auto area = known_area(operand.pointer);
+    const auto area = known_area(operand.pointer, Width::Double);
     if (!area) return {};
     const bool in_accumulator = *area == Area::AC && operand.pointer.size != stl::Size::Byte &&
                                 operand.pointer.size != stl::Size::Word && operand.pointer.size != stl::Size::Bit;
@@ -348,6 +329,33 @@ std::uint32_t ConstantPool::place(std::uint32_t value, std::uint32_t width) {
     for (std::uint32_t shift = 8 * width; shift > 0; shift -= 8)
       bytes_.push_back(static_cast<std::uint8_t>(value >> (shift - 8)));
   return found->second;
+}
+
+bool names_width(const stl::Address& address, Area area) {
+  return address.size != stl::Size::None || is_numbered(area) || area == Area::AI || area == Area::AQ;
+}
+
+std::optional<Width> width_of(const stl::Address& address, Area area) {
+  switch (address.size) {
+    case stl::Size::Bit:
+      return Width::Bit;
+    case stl::Size::Byte:
+      return Width::Byte;
+    case stl::Size::Word:
+      return Width::Word;
+    case stl::Size::Double:
+      return Width::Double;
+    case stl::Size::None:
+      break;
+  }
+  switch (area) {
+    case Area::AC:
+      return {};
+    case Area::HC:
+      return Width::Double;
+    default:
+      return Width::Word;  // T, C current values; AI, AQ
+  }
 }
 
 std::string address_text(Area area, Width width, std::uint32_t number, std::uint8_t bit) {

@@ -36,6 +36,12 @@ std::optional<PlacedOperand> place_operand(const Instruction& instruction, const
                                            const stl::Operand& written, const CpuModel& model, ConstantPool& constants,
                                            stl::Diagnostics& diagnostics);
 
+/// Whether an address says how wide it is, by a letter or by its area: `V100` does not.
+bool names_width(const stl::Address& address, Area area);
+
+/// Width that an address names; nothing for an accumulator without a letter, which takes any.
+std::optional<Width> width_of(const stl::Address& address, Area area);
+
 /// `VB100`, `T33`, `M31.7`: a place in words, of a memory area.
 std::string address_text(Area area, Width width, std::uint32_t number, std::uint8_t bit);
 
