@@ -109,7 +109,8 @@ std::uint8_t width_at(const std::string& area, const std::vector<bool>& differs,
 void add_bits(const NamedArea& area, const Bytes& before, const Bytes& after, std::vector<Assignment>& result) {
   for (std::uint32_t at = 0; at < after.size(); ++at)
     for (std::uint8_t bit = 0; bit < 8; ++bit)
-      if (((before[at] ^ after[at]) >> bit) & 1) result.push_back({area.name, at, 0, bit, (after[at] >> bit) & 1u});
+      if (((before[at] ^ after[at]) >> bit) & 1)
+        result.push_back({area.name, at, 0, bit, static_cast<unsigned>(after[at] >> bit) & 1u});
 }
 
 void add_bytes(const NamedArea& area, const Bytes& before, Bytes& after, std::vector<Assignment>& result) {
