@@ -81,6 +81,7 @@ void Cpu::execute_observed() {
 }
 
 bool Cpu::in_area(std::uint32_t at, std::uint32_t count) const {
+  if (at >= image::kV) return at + count <= image::kV + program_->model->size_of(Area::V);  // where most blocks lie
   for (const AreaInfo& area : all_areas()) {
     const std::uint32_t size = program_->model->size_of(area.area) * std::max(1u, area.element);
     if (at >= area.base && at < area.base + size) return at + count <= area.base + size;
