@@ -2,7 +2,7 @@
 # Sourced by bash from the top of the tree.
 
 # What must be there, each behind the command or file that shows that it is.
-needed=(
+needed_to_build=(
   cmake:cmake
   ninja:ninja-build
   c++:g++
@@ -11,13 +11,24 @@ needed=(
   /usr/include/fmt/format.h:libfmt-dev
   /usr/include/CLI/CLI.hpp:libcli11-dev
   /usr/include/nlohmann/json.hpp:nlohmann-json3-dev
+  /usr/include/yaml-cpp/yaml.h:libyaml-cpp-dev
   /usr/include/gtest/gtest.h:libgtest-dev
   /usr/include/benchmark/benchmark.h:libbenchmark-dev
 )
 
+# What the tests need besides: masters and decoders of others, that s7200 has to agree with.
+needed_to_test=(
+  /usr/include/modbus/modbus.h:libmodbus-dev
+  /usr/lib/python3/dist-packages/pymodbus:python3-pymodbus
+  mbpoll:mbpoll
+  sigrok-cli:sigrok-cli
+  tshark:tshark
+)
+
+# install_missing_packages COMMAND:PACKAGE...
 install_missing_packages() {
   local entry sign missing=() as_root=()
-  for entry in "${needed[@]}"; do
+  for entry in "$@"; do
     sign=${entry%%:*}
     case $sign in
       /*) [ -e "$sign" ] || missing+=("${entry#*:}") ;;

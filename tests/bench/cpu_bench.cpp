@@ -5,6 +5,7 @@
 
 #include "interpreter/program/load.hpp"
 #include "serial_sim/simulation.hpp"
+#include "tests/support/source_path.hpp"
 
 namespace s7200 {
 namespace {
@@ -18,7 +19,7 @@ std::shared_ptr<const Program> load(std::string_view text) {
 const std::shared_ptr<const Program>& slave() {
   static const auto kSlave = [] {
     std::string why;
-    const auto text = read_file(S7200_SOURCE_DIR "/stl_programs/modbus_slave.stl", why);
+    const auto text = read_file(test::source_path("stl_programs/modbus_slave.stl"), why);
     if (!text) throw std::runtime_error(why);
     return load(*text);
   }();

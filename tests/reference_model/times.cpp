@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "tests/support/source_path.hpp"
+
 namespace s7200::reference {
 namespace {
 
@@ -55,7 +57,7 @@ Cost Times::of(const std::string& mnemonic, const std::string& area) const {
 
 const Times& cpu214_times() {
   static const Times kTimes = [] {
-    std::ifstream in(S7200_SOURCE_DIR "/interpreter/model/cpu214_times.csv");
+    std::ifstream in(test::source_path("interpreter/model/cpu214_times.csv"));
     return Times({std::istreambuf_iterator<char>(in), {}});
   }();
   return kTimes;

@@ -14,12 +14,11 @@
 #include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/simulation.hpp"
+#include "tests/support/source_path.hpp"
 
 namespace s7200::test {
 
 using modbus::Bytes;
-
-inline std::string source_path(const std::string& relative) { return std::string{S7200_SOURCE_DIR} + "/" + relative; }
 
 /// The text of a file as UTF-8; empty, and the test fails, when it cannot be read.
 inline std::string text_of(const std::string& path) {

@@ -7,6 +7,7 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/program/load.hpp"
+#include "tests/support/source_path.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -525,7 +526,7 @@ TEST(Debugger, HelpExplainsEveryCommand) {
 
 TEST(Debugger, StepsThroughTheTipDocument) {
   std::string why;
-  const auto bytes = read_file(S7200_SOURCE_DIR "/../shared/seeds/tip41_modbus_rtu_slave.txt", why);
+  const auto bytes = read_file(test::source_path("../shared/seeds/tip41_modbus_rtu_slave.txt"), why);
   if (!bytes) GTEST_SKIP() << "the tip document is not here: " << why;
   auto text = read_source(*bytes, "tip", why);
   ASSERT_TRUE(text.has_value()) << why;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "interpreter/stl/printer.hpp"
+#include "tests/support/source_path.hpp"
 
 namespace s7200::stl {
 namespace {
@@ -273,7 +274,7 @@ TEST(Document, SurvivesLongAndHostileLines) {
 class Tip41 : public testing::Test {
  protected:
   void SetUp() override {
-    const std::string path = S7200_SOURCE_DIR "/../shared/seeds/tip41_modbus_rtu_slave.txt";
+    const std::string path = test::source_path("../shared/seeds/tip41_modbus_rtu_slave.txt");
     std::ifstream file(path, std::ios::binary);
     if (!file) GTEST_SKIP() << "the document is not here: " << path;
     text_.assign(std::istreambuf_iterator<char>(file), {});

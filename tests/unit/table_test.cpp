@@ -11,6 +11,7 @@
 #include "interpreter/program/load.hpp"
 #include "interpreter/stl/parser.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "tests/support/source_path.hpp"
 #include "tests/vectors/vector_file.hpp"
 
 namespace s7200 {
@@ -112,7 +113,7 @@ std::set<std::string> forms_of(const OperandRule& rule) {
 std::vector<stl::Statement> statements_in_vectors(const Instruction& instruction) {
   std::vector<stl::Statement> result;
   for (const char* extension : {".txt", ".hand.txt"}) {
-    const std::string path = S7200_SOURCE_DIR "/tests/vectors/" + vectors::file_name(instruction.mnemonic) + extension;
+    const std::string path = test::source_path("tests/vectors/" + vectors::file_name(instruction.mnemonic) + extension);
     std::ifstream in(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(in), {}};
     for (const vectors::Vector& vector : vectors::parse(text, path).vectors)

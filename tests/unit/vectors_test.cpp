@@ -11,6 +11,7 @@
 #include "interpreter/cpu/cpu.hpp"
 #include "interpreter/program/load.hpp"
 #include "tests/reference_model/silent_port.hpp"
+#include "tests/support/source_path.hpp"
 #include "tests/vectors/vector_file.hpp"
 
 namespace s7200 {
@@ -18,7 +19,7 @@ namespace {
 
 using vectors::Vector;
 
-const std::filesystem::path kFolder = S7200_SOURCE_DIR "/tests/vectors";
+const std::filesystem::path kFolder = test::source_path("tests/vectors");
 
 std::vector<std::string> vector_files() {
   std::vector<std::string> names;

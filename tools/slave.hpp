@@ -1,0 +1,34 @@
+// A Modbus slave to talk to, wherever it is: a program in simulation, a serial device or pty, a TCP server.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "serial_sim/master.hpp"
+
+namespace s7200::tools {
+
+/// The way to the slave is broken: no such device, connection refused, peer gone. what() says what, where, and what to do.
+struct SlaveUnreachable : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class Slave {
+ public:
+  virtual ~Slave() = default;
+
+  /// One exchange, from now to its end: the answer is complete, or did not begin within the time-out. Times in the result
+  /// are of now(). Throws SlaveUnreachable.
+  virtual serial::Exchange exchange(const serial::Request& request) = 0;
+
+  /// Nothing is sent for so long.
+  virtual void wait(Time duration) = 0;
+
+  /// Nanoseconds since the connection was made: simulated for a program, of the host's clock for all others.
+  virtual Time now() const = 0;
+
+  /// What it is, for headings and messages: `modbus_slave.stl`, `/dev/ttyUSB0 9600 8E1`, `127.0.0.1:502`.
+  virtual std::string name() const = 0;
+};
+
+}  // namespace s7200::tools
