@@ -1,0 +1,31 @@
+#include "tools/termios2.hpp"
+
+#include <sys/ioctl.h>
+
+namespace s7200::tools {
+
+bool read_settings(int fd, termios2& settings) { return ioctl(fd, TCGETS2, &settings) == 0; }
+
+bool write_settings(int fd, const termios2& settings) { return ioctl(fd, TCSETS2, &settings) == 0; }
+
+void make_raw(termios2& settings) {
+  settings.c_iflag &= ~tcflag_t{IGNBRK | BRKINT | IGNPAR | PARMRK | INPCK | ISTRIP | INLCR | IGNCR | ICRNL | IXON | IXOFF};
+  settings.c_oflag &= ~tcflag_t{OPOST};
+  settings.c_lflag &= ~tcflag_t{ECHO | ECHONL | ICANON | ISIG | IEXTEN};
+  settings.c_cflag &= ~tcflag_t{CRTSCTS};
+  settings.c_cflag |= CREAD | CLOCAL;
+  settings.c_cc[VMIN] = 1;
+  settings.c_cc[VTIME] = 0;
+}
+
+void put_format(termios2& settings, const SerialFormat& format) {
+  settings.c_cflag &= ~tcflag_t{CBAUD | CIBAUD | CSIZE | PARENB | PARODD | CMSPAR | CSTOPB};
+  settings.c_cflag |= BOTHER | BOTHER << IBSHIFT;
+  settings.c_ospeed = settings.c_ispeed = format.baud;
+  settings.c_cflag |= format.data_bits == 7 ? CS7 : CS8;
+  if (format.parity != Parity::None) settings.c_cflag |= PARENB;
+  if (format.parity == Parity::Odd) settings.c_cflag |= PARODD;
+  if (format.stop_bits == 2) settings.c_cflag |= CSTOPB;
+}
+
+}  // namespace s7200::tools
