@@ -13,6 +13,7 @@
 #include "tools/plant_options.hpp"
 #include "tools/program_options.hpp"
 #include "tools/report.hpp"
+#include "tools/simulated_slave.hpp"
 #include "tools/terminal.hpp"
 #include "tools/timeline.hpp"
 
@@ -29,8 +30,6 @@ struct SendOptions {
   MasterOptions master;
   PlantOptions plant;
 };
-
-constexpr Time kReadyWithin = 60 * kSecond;
 
 /// All frames of the command line and the file; a message and false when one is no frame.
 bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames) {
@@ -82,27 +81,6 @@ nlohmann::ordered_json to_json(const serial::Exchange& exchange) {
   return json;
 }
 
-/// In slices, so that Ctrl-C comes in between. False when it did, or the CPU stopped.
-bool run_until(serial::Simulation& simulation, Time end) {
-  while (simulation.time() < end)
-    if (interrupted() || simulation.run_until(std::min(end, simulation.time() + 10 * kSecond)) != serial::Halt::Time)
-      return false;
-  return true;
-}
-
-/// Waits for the moment of the first frame; a message and false when it never comes.
-bool wait_for_start(serial::Simulation& simulation, const SendOptions& options) {
-  if (options.after != kNever) return run_until(simulation, options.after);
-  const Time quiet = serial::Simulation::default_quiet(options.master.format_for(simulation));
-  if (simulation.run_until_ready(quiet, kReadyWithin)) return true;
-  if (simulation.cpu().state().mode == Mode::Run)
-    print_error(
-        fmt::format("the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
-                    "sends all the same",
-                    format_duration(quiet), format_duration(kReadyWithin)));
-  return false;
-}
-
 int run_send(SendOptions& options) {
   int exit_code = kFine;
   const auto program = options.program.load(exit_code);
@@ -117,21 +95,17 @@ int run_send(SendOptions& options) {
   Timeline timeline(program, records);
 
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  bool all_answered = wait_for_start(simulation, options);
+  SimulatedSlave slave(simulation, options.master, options.program.path);
+  bool all_answered = slave.wait_until_ready(options.after);
   const bool ready = all_answered;
   if (ready && !simulation.cpu().state().port.active)
     fmt::print(stderr, "s7200: note: the program has not switched port 0 to Freeport mode (SMB30 = 16#{:02X})\n",
                simulation.cpu().state().image[image::kSM + 30]);
   for (const modbus::Frame& frame : frames) {
     if (!ready || interrupted()) break;
-    const SerialFormat format = options.master.format_for(simulation);
-    if (modbus::has_wrong_parity(frame) && format.parity == Parity::None) {
-      print_error("a byte with wrong parity (p) needs a format with parity");
-      return kUnusable;
-    }
     timeline.begin();
     if (options.timeline) simulation.cpu().set_sink(&timeline);
-    const serial::Exchange& exchange = options.master.exchange(simulation, frame, format);
+    const serial::Exchange exchange = slave.exchange(options.master.request(frame));
     simulation.cpu().set_sink(records);
     all_answered &= !exchange.timed_out;
     if (options.json) {
@@ -141,8 +115,7 @@ int run_send(SendOptions& options) {
       fmt::print("{}", exchange_text(exchange, options.master.timeout));
       if (options.timeline) fmt::print("{}\n", to_text(timeline.report(), exchange, colour_wanted(stdout)));
     }
-    const Time pause = options.pause == kNever ? serial::Simulation::default_quiet(format) : options.pause;
-    run_until(simulation, simulation.time() + pause);
+    slave.wait(options.pause == kNever ? slave.pause() : options.pause);
   }
   if (!options.plant.finish(simulation)) return kUnusable;
   if (options.json) fmt::print("{}\n", json.dump(2));

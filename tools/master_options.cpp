@@ -17,22 +17,19 @@ void MasterOptions::add_to(CLI::App& app) {
   add_duration(app, "--gap", gap, "between the characters of a request (default none)");
 }
 
-SerialFormat MasterOptions::format_for(const serial::Simulation& simulation) const {
-  SerialFormat format = simulation.cpu().state().port.active ? simulation.cpu().state().port.format : SerialFormat{};
-  if (baud != 0) format.baud = baud;
-  if (data_bits != 0) format.data_bits = static_cast<std::uint8_t>(data_bits);
-  if (parity == "none") format.parity = Parity::None;
-  if (parity == "even") format.parity = Parity::Even;
-  if (parity == "odd") format.parity = Parity::Odd;
-  format.stop_bits = static_cast<std::uint8_t>(stop_bits);
-  return format;
+SerialFormat MasterOptions::format_over(SerialFormat port) const {
+  if (baud != 0) port.baud = baud;
+  if (data_bits != 0) port.data_bits = static_cast<std::uint8_t>(data_bits);
+  if (parity == "none") port.parity = Parity::None;
+  if (parity == "even") port.parity = Parity::Even;
+  if (parity == "odd") port.parity = Parity::Odd;
+  port.stop_bits = static_cast<std::uint8_t>(stop_bits);
+  return port;
 }
 
-const serial::Exchange& MasterOptions::exchange(serial::Simulation& simulation, const modbus::Frame& frame,
-                                                const SerialFormat& format) const {
-  simulation.master_uart().configure(format);
-  simulation.master().start({.frame = frame, .timeout = timeout, .gap = gap}, simulation.time());
-  return simulation.finish_exchange();
+SerialFormat MasterOptions::format_for(const serial::Simulation& simulation) const {
+  const auto& port = simulation.cpu().state().port;
+  return format_over(port.active ? port.format : SerialFormat{});
 }
 
 }  // namespace s7200::tools

@@ -21,12 +21,13 @@ struct MasterOptions {
 
   void add_to(CLI::App& app);
 
-  /// The port's format, with what the options say instead.
+  /// `port` with what the options say instead.
+  SerialFormat format_over(SerialFormat port) const;
+
+  /// The same of a program's port; of the default format as long as it has not switched its port to Freeport mode.
   SerialFormat format_for(const serial::Simulation& simulation) const;
 
-  /// One exchange in that format, from now on to its end.
-  const serial::Exchange& exchange(serial::Simulation& simulation, const modbus::Frame& frame,
-                                   const SerialFormat& format) const;
+  serial::Request request(const modbus::Frame& frame) const { return {.frame = frame, .timeout = timeout, .gap = gap}; }
 };
 
 }  // namespace s7200::tools

@@ -27,6 +27,12 @@ class Slave {
   /// Nanoseconds since the connection was made: simulated for a program, of the host's clock for all others.
   virtual Time now() const = 0;
 
+  /// What a master leaves between an answer and its next request, if nothing else is asked for.
+  virtual Time pause() const = 0;
+
+  /// What the last exchange met besides its answer, for people: `ignored an answer to transaction 7`. Mostly nothing.
+  virtual std::string remark() const { return {}; }
+
   /// What it is, for headings and messages: `modbus_slave.stl`, `/dev/ttyUSB0 9600 8E1`, `127.0.0.1:502`.
   virtual std::string name() const = 0;
 };

@@ -1,0 +1,54 @@
+#include "tools/simulated_slave.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "tools/interruption.hpp"
+#include "tools/terminal.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr Time kReadyWithin = 60 * kSecond;
+constexpr Time kSlice = 10 * kSecond;  // Ctrl-C is heard in between
+
+/// False when the CPU is in STOP, where no program runs on, or after Ctrl-C.
+bool run_until(serial::Simulation& simulation, Time end) {
+  while (simulation.time() < end)
+    if (interrupted() || simulation.run_until(std::min(end, simulation.time() + kSlice)) != serial::Halt::Time) return false;
+  return true;
+}
+
+}  // namespace
+
+SimulatedSlave::SimulatedSlave(serial::Simulation& simulation, const MasterOptions& master, std::string name)
+    : simulation_(simulation), master_(master), name_(std::move(name)) {}
+
+bool SimulatedSlave::wait_until_ready(Time after) {
+  if (after != kNever) return run_until(simulation_, after);
+  if (simulation_.run_until_ready(pause(), kReadyWithin)) return true;
+  if (simulation_.cpu().state().mode == Mode::Run)
+    print_error(
+        fmt::format("the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
+                    "sends all the same",
+                    format_duration(pause()), format_duration(kReadyWithin)));
+  return false;
+}
+
+serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
+  const SerialFormat format = master_.format_for(simulation_);
+  if (modbus::has_wrong_parity(request.frame) && format.parity == Parity::None)
+    throw std::invalid_argument("a byte with wrong parity (p) needs a format with parity");
+  simulation_.master_uart().configure(format);
+  simulation_.master().start(request, simulation_.time());
+  return simulation_.finish_exchange();
+}
+
+void SimulatedSlave::wait(Time duration) { run_until(simulation_, simulation_.time() + duration); }
+
+Time SimulatedSlave::pause() const { return serial::Simulation::default_quiet(master_.format_for(simulation_)); }
+
+}  // namespace s7200::tools
