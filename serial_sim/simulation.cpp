@@ -6,14 +6,16 @@
 namespace s7200::serial {
 namespace {
 
-enum Driver { kPlc, kMaster };
+enum Driver { kPlc, kMaster, kHost };
 
 }  // namespace
 
 Simulation::Simulation(std::shared_ptr<const Program> program, FieldScript field)
     : plc_uart_(line_, queue_, EventOwner::PlcUart, kPlc),
       master_uart_(line_, queue_, EventOwner::MasterUart, kMaster),
+      host_uart_(line_, queue_, EventOwner::HostUart, kHost),
       master_(master_uart_, queue_),
+      host_port_(host_uart_),
       cpu_(std::move(program), queue_, plc_uart_),
       field_(std::move(field), cpu_, queue_) {
   plc_uart_.enable_receiver(false, 0);
@@ -76,6 +78,12 @@ void Simulation::dispatch(const Event& event) {
       master_.on(report);
       break;
     }
+    case EventOwner::HostUart: {
+      const Uart::Report report = host_uart_.handle(event);
+      note_activity(report);
+      host_port_.on(report);
+      break;
+    }
     case EventOwner::Cpu:
       cpu_.handle(event);
       break;
@@ -94,8 +102,16 @@ void Simulation::note_activity(const Uart::Report& report) {
 }
 
 Simulation::Snapshot Simulation::snapshot() const {
-  return {cpu_.state(),         queue_,          line_,          plc_uart_.state(),
-          master_uart_.state(), master_.state(), last_activity_, field_.state()};
+  return {cpu_.state(),
+          queue_,
+          line_,
+          plc_uart_.state(),
+          master_uart_.state(),
+          host_uart_.state(),
+          master_.state(),
+          host_port_.state(),
+          last_activity_,
+          field_.state()};
 }
 
 void Simulation::restore(const Snapshot& snapshot) {
@@ -104,7 +120,9 @@ void Simulation::restore(const Snapshot& snapshot) {
   line_ = snapshot.line;
   plc_uart_.restore(snapshot.plc_uart);
   master_uart_.restore(snapshot.master_uart);
+  host_uart_.restore(snapshot.host_uart);
   master_.restore(snapshot.master);
+  host_port_.restore(snapshot.host_port);
   last_activity_ = snapshot.last_activity;
   field_.restore(snapshot.field);
 }

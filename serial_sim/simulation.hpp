@@ -1,4 +1,4 @@
-// A PLC with what drives its inputs, and a Modbus master on one line: everything wired, one clock.
+// A PLC with what drives its inputs, a Modbus master and a port for the host on one line: everything wired, one clock.
 #pragma once
 
 #include <memory>
@@ -7,6 +7,7 @@
 #include "interpreter/base/event_queue.hpp"
 #include "interpreter/cpu/cpu.hpp"
 #include "serial_sim/field.hpp"
+#include "serial_sim/host_port.hpp"
 #include "serial_sim/line.hpp"
 #include "serial_sim/master.hpp"
 #include "serial_sim/uart.hpp"
@@ -49,14 +50,17 @@ class Simulation {
   Master& master() { return master_; }
   const Master& master() const { return master_; }
   Uart& master_uart() { return master_uart_; }
+  HostPort& host_port() { return host_port_; }
+  const HostPort& host_port() const { return host_port_; }
   Time time() const { return cpu_.time(); }
 
   struct Snapshot {
     State cpu;
     EventQueue queue;
     Line line;
-    Uart::State plc_uart, master_uart;
+    Uart::State plc_uart, master_uart, host_uart;
     Master::State master;
+    HostPort::State host_port;
     Time last_activity = 0;
     Field::State field;
     bool operator==(const Snapshot&) const = default;
@@ -73,7 +77,9 @@ class Simulation {
   Line line_;
   Uart plc_uart_;
   Uart master_uart_;
+  Uart host_uart_;
   Master master_;
+  HostPort host_port_;
   Cpu cpu_;
   Field field_;
   Time last_activity_ = 0;

@@ -44,13 +44,18 @@ void Uart::enable_receiver(bool enabled, Time at) {
 
 void Uart::send(std::uint8_t byte, Time at) {
   const std::uint8_t data = data_of(byte, state_.format);
-  put_character(data, state_.format.parity_bit(data), at);
+  put_character(data, state_.format.parity_bit(data), true, at);
 }
 
 void Uart::send_with_wrong_parity(std::uint8_t byte, Time at) {
   assert(state_.format.parity != Parity::None);
   const std::uint8_t data = data_of(byte, state_.format);
-  put_character(data, !state_.format.parity_bit(data), at);
+  put_character(data, !state_.format.parity_bit(data), true, at);
+}
+
+void Uart::send_without_stop_bit(std::uint8_t byte, Time at) {
+  const std::uint8_t data = data_of(byte, state_.format);
+  put_character(data, state_.format.parity_bit(data), false, at);
 }
 
 void Uart::send_break(int bit_times, Time at) {
@@ -61,20 +66,22 @@ void Uart::send_break(int bit_times, Time at) {
   sends_until(end);
 }
 
-void Uart::put_character(std::uint8_t data, bool parity_bit, Time at) {
+void Uart::put_character(std::uint8_t data, bool parity_bit, bool stop_bit, Time at) {
   assert(!state_.sending && at >= state_.send_end);
   const SerialFormat& format = state_.format;
-  const int stop_bit = first_stop_bit(format);
-  unsigned levels = unsigned{data} << 1 | 1U << stop_bit;  // bit 0: start bit, at space
-  if (format.parity != Parity::None && parity_bit) levels |= 1U << (stop_bit - 1);
+  const int last = first_stop_bit(format);
+  unsigned levels = unsigned{data} << 1 | unsigned{stop_bit} << last;  // bit 0: start bit, at space
+  if (format.parity != Parity::None && parity_bit) levels |= 1U << (last - 1);
 
   bool mark = true;
-  for (int bit = 0; bit <= stop_bit; ++bit) {
+  for (int bit = 0; bit <= last; ++bit) {
     const bool next = (levels >> bit & 1U) != 0;
     if (next != mark) line_.drive(driver_, at + format.bit_times(bit), next);
     mark = next;
   }
-  sends_until(at + format.character_time());
+  const int bits = format.bits();
+  if (!mark) line_.drive(driver_, at + format.bit_times(bits), true);
+  sends_until(at + format.bit_times(mark ? bits : bits + 1));
 }
 
 void Uart::sends_until(Time end) {
@@ -148,8 +155,13 @@ ReceivedCharacter Uart::take_character() {
 /// When the start bit is to be verified or, once it was, the stop bit to be sampled.
 Time Uart::next_sample() const {
   if (state_.start_edge == kNever) return kNever;
-  if (!state_.receiving) return state_.start_edge + middle_of_bit(0, state_.format);
-  return state_.start_edge + middle_of_bit(first_stop_bit(state_.receiving_as), state_.receiving_as);
+  return state_.receiving ? character_due() : state_.start_edge + middle_of_bit(0, state_.format);
+}
+
+Time Uart::character_due() const {
+  if (state_.start_edge == kNever) return kNever;
+  const SerialFormat& format = state_.receiving ? state_.receiving_as : state_.format;
+  return state_.start_edge + middle_of_bit(first_stop_bit(format), format);
 }
 
 void Uart::expect(What what, Time at) {

@@ -57,6 +57,12 @@ class Uart final : public SerialPort, private LineListener {
   /// A character with its parity bit the wrong way round, for tests of the other end. Needs a format with parity.
   void send_with_wrong_parity(std::uint8_t byte, Time at);
 
+  /// A character with its (first) stop bit at space, which takes a bit longer, so that the next start bit has an edge.
+  void send_without_stop_bit(std::uint8_t byte, Time at);
+
+  /// When the character being received will be complete; kNever when none has begun.
+  Time character_due() const;
+
   /// An event of this UART's owner is due.
   Report handle(const Event& event);
 
@@ -78,7 +84,7 @@ class Uart final : public SerialPort, private LineListener {
   Time next_sample() const;
   void abandon_character();
 
-  void put_character(std::uint8_t data, bool parity_bit, Time at);
+  void put_character(std::uint8_t data, bool parity_bit, bool stop_bit, Time at);
   void sends_until(Time end);
 
   Line& line_;

@@ -1,0 +1,55 @@
+#include "serial_sim/host_port.hpp"
+
+#include <cassert>
+#include <utility>
+
+namespace s7200::serial {
+
+HostPort::HostPort(Uart& uart) : uart_(uart) { uart_.enable_receiver(false, 0); }
+
+void HostPort::attach(const SerialFormat& format, Time at) {
+  assert(!state_.attached);
+  state_.attached = true;
+  receive_as(format);
+  uart_.enable_receiver(true, at);
+}
+
+void HostPort::receive_as(const SerialFormat& format) {
+  if (state_.format == format && uart_.state().format == format) return;
+  state_.format = format;
+  if (!sending()) uart_.configure(format);
+}
+
+void HostPort::send(std::span<const HostCharacter> characters, Time at) {
+  assert(state_.attached);
+  state_.to_send.insert(state_.to_send.end(), characters.begin(), characters.end());
+  if (sending() || state_.to_send.empty()) return;
+  uart_.enable_receiver(false, at);
+  send_next(at);
+}
+
+void HostPort::send_next(Time at) {
+  const HostCharacter character = state_.to_send.front();
+  state_.to_send.pop_front();
+  uart_.configure(character.format);
+  switch (character.fault) {
+    case HostCharacter::Fault::None:
+      return uart_.send(character.byte, at);
+    case HostCharacter::Fault::WrongParity:
+      return uart_.send_with_wrong_parity(character.byte, at);
+    case HostCharacter::Fault::NoStopBit:
+      return uart_.send_without_stop_bit(character.byte, at);
+  }
+}
+
+std::vector<ReceivedCharacter> HostPort::take_received() { return std::exchange(state_.received, {}); }
+
+void HostPort::on(const Uart::Report& report) {
+  if (report.received) state_.received.push_back(*report.received);
+  if (!report.sent) return;
+  if (!state_.to_send.empty()) return send_next(*report.sent);
+  uart_.configure(state_.format);
+  uart_.enable_receiver(true, *report.sent);
+}
+
+}  // namespace s7200::serial
