@@ -45,6 +45,23 @@ bool Line::level(Time at) const {
   return std::all_of(drivers_.begin(), drivers_.end(), [at](const Driver& driver) { return driver.level(at); });
 }
 
+bool Line::level_of(int driver, Time at) const { return drivers_.at(static_cast<std::size_t>(driver)).level(at); }
+
+bool Line::level_without(int driver, Time at) const {
+  for (int other = 0; other < kDrivers; ++other)
+    if (other != driver && !level_of(other, at)) return false;
+  return true;
+}
+
+Time Line::next_edge(Time after) const {
+  Time next = kNever;
+  for (const Driver& driver : drivers_) {
+    const std::size_t index = driver.edges_until(after);
+    if (index < driver.edges.size()) next = std::min(next, driver.edges[index]);
+  }
+  return next;
+}
+
 Time Line::falling_edge(Time from) const {
   for (;;) {
     Time edge = kNever;

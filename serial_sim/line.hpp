@@ -41,6 +41,15 @@ class Line {
   /// The level at an instant; an edge counts from its own instant on.
   bool level(Time at) const;
 
+  /// What driver `driver` holds, whatever the others do.
+  bool level_of(int driver, Time at) const;
+
+  /// The level as it would be without driver `driver`: what it hears of the others.
+  bool level_without(int driver, Time at) const;
+
+  /// First edge of any driver behind `after` among those known now; kNever when there is none.
+  Time next_edge(Time after) const;
+
   /// First change from mark to space at or after `from` among the edges known now; kNever when there is none.
   Time falling_edge(Time from) const;
 

@@ -17,7 +17,8 @@ Simulation::Simulation(std::shared_ptr<const Program> program, FieldScript field
       master_(master_uart_, queue_),
       host_port_(host_uart_),
       cpu_(std::move(program), queue_, plc_uart_),
-      field_(std::move(field), cpu_, queue_) {
+      field_(std::move(field), cpu_, queue_),
+      tap_(line_, kPlc) {
   plc_uart_.enable_receiver(false, 0);
 }
 
@@ -60,7 +61,11 @@ bool Simulation::run_until_ready(Time quiet, Time limit) {
 }
 
 void Simulation::handle_due_events() {
-  while (queue_.next() <= cpu_.time()) dispatch(queue_.pop());
+  while (queue_.next() <= cpu_.time()) {
+    tap_.settle(queue_.next(), plc_uart_.state().format);  // whatever is sent from now on begins no earlier
+    dispatch(queue_.pop());
+  }
+  tap_.settle(cpu_.time(), plc_uart_.state().format);
 }
 
 void Simulation::dispatch(const Event& event) {
@@ -125,6 +130,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   host_port_.restore(snapshot.host_port);
   last_activity_ = snapshot.last_activity;
   field_.restore(snapshot.field);
+  tap_.go_back(cpu_.time());
 }
 
 }  // namespace s7200::serial

@@ -11,6 +11,7 @@
 #include "serial_sim/line.hpp"
 #include "serial_sim/master.hpp"
 #include "serial_sim/uart.hpp"
+#include "serial_sim/wire_tap.hpp"
 
 namespace s7200::serial {
 
@@ -54,6 +55,9 @@ class Simulation {
   const HostPort& host_port() const { return host_port_; }
   Time time() const { return cpu_.time(); }
 
+  /// Lets `sink` watch the line from now on; null ends that. Not owned. After restore() it sees time go back.
+  void set_wire_sink(WireSink* sink) { tap_.watch(sink, cpu_.time()); }
+
   struct Snapshot {
     State cpu;
     EventQueue queue;
@@ -82,6 +86,7 @@ class Simulation {
   HostPort host_port_;
   Cpu cpu_;
   Field field_;
+  WireTap tap_;
   Time last_activity_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "tools/output_file.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <ostream>
 
@@ -12,7 +14,7 @@ void OutputFile::add_to(CLI::App& app) {
 
 bool OutputFile::open() {
   if (path_.empty()) return true;
-  std::ostream* out = file_.open(path_, OutputRecord::kFirstLine, "record of outputs");
+  std::ostream* out = file_.open(path_, fmt::format("{}\n", OutputRecord::kFirstLine), "record of outputs");
   if (out) record_ = std::make_unique<OutputRecord>(*out);
   if (out) out->flush();  // so that no other record takes the same file for an empty one
   return out != nullptr;

@@ -34,6 +34,7 @@ void PlantOptions::add_to(CLI::App& app) {
          "time of day at the start")
       ->type_name("\"YYYY-MM-DD HH:MM:SS\"");
   trace_.add_to(app);
+  captures_.add_to(app);
 }
 
 bool PlantOptions::read_field(const CpuModel& model) {
@@ -54,7 +55,7 @@ bool PlantOptions::prepare(const std::shared_ptr<const Program>& program) {
   const CpuModel& model = *program->model;
   if (!parse_assignments(set_, model, assignments_) || !parse_ranges(dump_, model, dumps_) || !read_field(model))
     return false;
-  if (!memory_.read(model) || !trace_.open(program) || !output_.open()) return false;
+  if (!memory_.read(model) || !trace_.open(program) || !output_.open() || !captures_.open()) return false;
   sinks_.add(trace_.sink());
   sinks_.add(output_.sink());
   return true;
@@ -62,14 +63,15 @@ bool PlantOptions::prepare(const std::shared_ptr<const Program>& program) {
 
 void PlantOptions::power_up(serial::Simulation& simulation) {
   if (!sinks_.empty()) simulation.cpu().set_sink(&sinks_);
+  captures_.watch(simulation);
   simulation.power_up(memory_.memory());
   if (clock_) simulation.cpu().set_clock(*clock_);
   for (const Assignment& assignment : assignments_) assign(simulation, assignment);
 }
 
 bool PlantOptions::finish(const serial::Simulation& simulation) {
-  const bool trace_written = trace_.close(), output_written = output_.close();
-  return memory_.write(simulation.cpu()) && trace_written && output_written;
+  const bool trace_written = trace_.close(), output_written = output_.close(), captured = captures_.close();
+  return memory_.write(simulation.cpu()) && trace_written && output_written && captured;
 }
 
 std::string PlantOptions::dump_text(const State& state) const {

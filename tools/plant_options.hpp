@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "interpreter/trace/fan_out.hpp"
+#include "tools/capture_files.hpp"
 #include "tools/memory.hpp"
 #include "tools/memory_file.hpp"
 #include "tools/output_file.hpp"
@@ -50,6 +51,7 @@ class PlantOptions {
   std::optional<ClockTime> clock_;
   TraceFile trace_;
   OutputFile output_;
+  CaptureFiles captures_;
   MemoryFile memory_;
 
   std::vector<Assignment> assignments_;

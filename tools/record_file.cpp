@@ -13,23 +13,23 @@ namespace s7200::tools {
 namespace {
 
 /// An empty file may be overwritten too.
-bool is_earlier_record(const std::string& path, std::string_view first_line) {
+bool is_earlier_record(const std::string& path, std::string_view beginning) {
   std::ifstream in(path);
-  std::string first(first_line.size() + 1, '\0');
+  std::string first(beginning.size(), '\0');
   in.read(first.data(), static_cast<std::streamsize>(first.size()));  // no more: it may be a device without end
-  return in.gcount() == 0 || first == std::string(first_line).append("\n");
+  return in.gcount() == 0 || first == beginning;
 }
 
 }  // namespace
 
-std::ostream* RecordFile::open(const std::string& path, std::string_view first_line, std::string_view kind) {
+std::ostream* RecordFile::open(const std::string& path, std::string_view beginning, std::string_view kind) {
   path_ = path;
   if (path == "-") return &std::cout;
-  if (std::filesystem::exists(path) && !is_earlier_record(path, first_line)) {
+  if (std::filesystem::exists(path) && !is_earlier_record(path, beginning)) {
     print_error(fmt::format("{} exists and is no {}; it is left alone", path, kind));
     return nullptr;
   }
-  file_.open(path, std::ios::trunc);
+  file_.open(path, std::ios::trunc | std::ios::binary);
   if (file_) return &file_;
   print_error(fmt::format("cannot write {}: {}", path, std::strerror(errno)));
   return nullptr;

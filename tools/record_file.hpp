@@ -10,9 +10,9 @@ namespace s7200::tools {
 
 class RecordFile {
  public:
-  /// Opens `path`; - is standard output. Nothing after a message: a file that exists and does not begin with `first_line` is
+  /// Opens `path`; - is standard output. Nothing after a message: a file that exists and does not start with `beginning` is
   /// left alone, unless it is empty. `kind` says what is expected: "trace".
-  std::ostream* open(const std::string& path, std::string_view first_line, std::string_view kind);
+  std::ostream* open(const std::string& path, std::string_view beginning, std::string_view kind);
 
   /// False after a message when not everything could be written.
   bool close();

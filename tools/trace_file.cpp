@@ -1,5 +1,7 @@
 #include "tools/trace_file.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <ostream>
 
@@ -14,7 +16,7 @@ void TraceFile::add_to(CLI::App& app) {
 
 bool TraceFile::open(const std::shared_ptr<const Program>& program) {
   if (path_.empty()) return true;
-  std::ostream* out = file_.open(path_, TextTrace::kFirstLine, "trace");
+  std::ostream* out = file_.open(path_, fmt::format("{}\n", TextTrace::kFirstLine), "trace");
   if (out) trace_ = std::make_unique<TextTrace>(*out, program, instructions_);
   if (out) out->flush();  // so that no other record takes the same file for an empty one
   return out != nullptr;
