@@ -2,8 +2,14 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 namespace s7200::serial {
+namespace {
+
+constexpr Time kEver = std::numeric_limits<Time>::min();
+
+}  // namespace
 
 /// Counting is faster than searching: there are a handful of edges, and no branch to guess.
 std::size_t Line::Driver::edges_until(Time at) const {
@@ -38,31 +44,71 @@ void Line::Driver::forget(Time before) {
 
 void Line::drive(int driver, Time at, bool mark) {
   drivers_.at(static_cast<std::size_t>(driver)).add(at, mark);
-  for (LineListener* listener : listeners_.list) listener->line_changed(at);
+  tell(at);
 }
 
-bool Line::level(Time at) const {
+void Line::disturb(const Disturbance& disturbance) {
+  if (disturbance.from >= disturbance.to) return;
+  disturbances_.push_back(disturbance);
+  tell(disturbance.from);
+}
+
+void Line::heal(Time at) {
+  if (disturbances_.empty()) return;
+  for (Disturbance& disturbance : disturbances_) disturbance.to = std::min(disturbance.to, at);
+  std::erase_if(disturbances_, [](const Disturbance& d) { return d.from >= d.to; });
+  tell(at);
+}
+
+bool Line::level(Time at) const { return disturbances_.empty() ? driven_level(at) : disturbed_level(driven_level(at), at); }
+
+bool Line::driven_level(Time at) const {
   return std::all_of(drivers_.begin(), drivers_.end(), [at](const Driver& driver) { return driver.level(at); });
+}
+
+bool Line::disturbed_level(bool mark, Time at) const {
+  bool held = false;
+  for (const Disturbance& disturbance : disturbances_) {
+    if (!disturbance.lasts_at(at)) continue;
+    switch (disturbance.effect) {
+      case Disturbance::Effect::Cuts:
+        return true;
+      case Disturbance::Effect::HoldsSpace:
+        held = true;
+        break;
+      case Disturbance::Effect::Inverts:
+        mark = !mark;
+        break;
+    }
+  }
+  return mark && !held;
 }
 
 bool Line::level_of(int driver, Time at) const { return drivers_.at(static_cast<std::size_t>(driver)).level(at); }
 
 bool Line::level_without(int driver, Time at) const {
-  for (int other = 0; other < kDrivers; ++other)
-    if (other != driver && !level_of(other, at)) return false;
-  return true;
+  bool mark = true;
+  for (int other = 0; other < kDrivers; ++other) mark = mark && (other == driver || level_of(other, at));
+  return disturbed_level(mark, at);
 }
 
-Time Line::next_edge(Time after) const {
-  Time next = kNever;
+Time Line::next_change(Time from) const {
+  Time change = kNever;
   for (const Driver& driver : drivers_) {
-    const std::size_t index = driver.edges_until(after);
-    if (index < driver.edges.size()) next = std::min(next, driver.edges[index]);
+    const std::size_t index = driver.edges_until(from - 1);
+    if (index < driver.edges.size()) change = std::min(change, driver.edges[index]);
   }
-  return next;
+  for (const Disturbance& disturbance : disturbances_)
+    for (const Time end : {disturbance.from, disturbance.to})
+      if (end >= from) change = std::min(change, end);
+  return change;
 }
 
 Time Line::falling_edge(Time from) const {
+  return disturbances_.empty() ? driven_falling_edge(from) : disturbed_falling_edge(from);
+}
+
+Time Line::driven_falling_edge(Time from) const {
   for (;;) {
     Time edge = kNever;
     for (const Driver& driver : drivers_) edge = std::min(edge, driver.next_edge(from, false));
@@ -71,6 +117,16 @@ Time Line::falling_edge(Time from) const {
     if (held < edge) return edge;
     if (held == kNever) return kNever;
     from = held + 1;
+  }
+}
+
+/// Whatever changes the level is looked at in the order of time.
+Time Line::disturbed_falling_edge(Time from) const {
+  for (;;) {
+    const Time change = next_change(from);
+    if (change == kNever) return kNever;
+    if (!level(change) && level(change - 1)) return change;
+    from = change + 1;
   }
 }
 
@@ -84,12 +140,20 @@ Time Line::space_held_from_before(Time edge) const {
 }
 
 void Line::forget(Time now) {
-  for (const LineListener* listener : listeners_.list) now = std::min(now, listener->needs_from());
+  for (const LineListener* listener : wiring_.listeners) now = std::min(now, listener->needs_from());
   for (Driver& driver : drivers_) driver.forget(now);
+  if (disturbances_.empty()) return;
+  std::erase_if(disturbances_, [now](const Disturbance& d) { return d.to < now; });
+  for (Disturbance& disturbance : disturbances_)
+    if (disturbance.from < now) disturbance.from = kEver;  // as the edges before `now`, its begin is past
 }
 
-void Line::attach(LineListener& listener) { listeners_.list.push_back(&listener); }
+void Line::attach(LineListener& listener) { wiring_.listeners.push_back(&listener); }
 
-void Line::detach(LineListener& listener) { std::erase(listeners_.list, &listener); }
+void Line::detach(LineListener& listener) { std::erase(wiring_.listeners, &listener); }
+
+void Line::tell(Time at) const {
+  for (LineListener* listener : wiring_.listeners) listener->line_changed(at);
+}
 
 }  // namespace s7200::serial

@@ -10,6 +10,8 @@
 
 namespace s7200::serial {
 
+class Interference;
+
 /// Whoever hears the line.
 class LineListener {
  public:
@@ -21,6 +23,21 @@ class LineListener {
 
  protected:
   ~LineListener() = default;
+};
+
+/// What befalls the wire itself from `from` on until before `to`, whoever drives it. A cut outranks a hold, a hold an
+/// inversion; two inversions at once undo each other.
+struct Disturbance {
+  enum class Effect : std::uint8_t {
+    Inverts,     ///< mark becomes space and space mark
+    HoldsSpace,  ///< somebody else, or a short circuit, pulls the line to space
+    Cuts,        ///< receivers find mark, the level of a line that nobody drives
+  };
+  Effect effect{};
+  Time from = 0, to = kNever;
+
+  bool operator==(const Disturbance&) const = default;
+  bool lasts_at(Time at) const { return from <= at && at < to; }
 };
 
 /// Each driver holds the line at mark (true, the idle level) or space (false). A driver that marks is as good as one that
@@ -38,17 +55,29 @@ class Line {
   /// Every listener is told, so that this is all it takes to send, to collide or to make noise.
   void drive(int driver, Time at, bool mark);
 
+  /// What listeners have heard before this was called stands: `from` should not lie before now. Every listener is told. One
+  /// that ends as it begins is none.
+  void disturb(const Disturbance& disturbance);
+
+  /// Every disturbance ends at `at`, those to come do not come.
+  void heal(Time at);
+
+  /// What befalls stations and their characters, or null. Like listeners it is wiring, not state, and is not owned.
+  Interference* interference() const { return wiring_.interference; }
+  void set_interference(Interference* interference) { wiring_.interference = interference; }
+
   /// The level at an instant; an edge counts from its own instant on.
   bool level(Time at) const;
 
   /// What driver `driver` holds, whatever the others do.
   bool level_of(int driver, Time at) const;
 
-  /// The level as it would be without driver `driver`: what it hears of the others.
+  /// The level as it would be without driver `driver`: what it hears of the others and of what befalls the wire.
   bool level_without(int driver, Time at) const;
 
-  /// First edge of any driver behind `after` among those known now; kNever when there is none.
-  Time next_edge(Time after) const;
+  /// First edge of any driver, begin or end of any disturbance at or after `from` among those known now; kNever when there
+  /// is none.
+  Time next_change(Time from) const;
 
   /// First change from mark to space at or after `from` among the edges known now; kNever when there is none.
   Time falling_edge(Time from) const;
@@ -75,18 +104,25 @@ class Line {
     void forget(Time before);
   };
 
-  struct Listeners {
-    std::vector<LineListener*> list;
-    Listeners() = default;
-    Listeners(const Listeners&) {}
-    Listeners& operator=(const Listeners&) { return *this; }
-    bool operator==(const Listeners&) const { return true; }
+  struct Wiring {
+    std::vector<LineListener*> listeners;
+    Interference* interference = nullptr;
+    Wiring() = default;
+    Wiring(const Wiring&) {}
+    Wiring& operator=(const Wiring&) { return *this; }
+    bool operator==(const Wiring&) const { return true; }
   };
 
+  bool driven_level(Time at) const;
+  bool disturbed_level(bool driven, Time at) const;
+  Time driven_falling_edge(Time from) const;
+  Time disturbed_falling_edge(Time from) const;
   Time space_held_from_before(Time edge) const;
+  void tell(Time at) const;
 
   std::array<Driver, kDrivers> drivers_;
-  Listeners listeners_;
+  std::vector<Disturbance> disturbances_;  // those that somebody may still hear; in no order
+  Wiring wiring_;
 };
 
 }  // namespace s7200::serial

@@ -34,6 +34,7 @@ void Master::start(const Request& request, Time at) {
   state_.sent = 0;
   Exchange& exchange = state_.exchange;
   exchange.response.clear();
+  exchange.echo.clear();
   exchange.request = request.frame;
   exchange.request_start = at;
   exchange.request_end = exchange.response_start = exchange.response_end = 0;
@@ -44,7 +45,8 @@ void Master::start(const Request& request, Time at) {
 void Master::handle(const Event& event) {
   switch (event.what) {
     case kBegin:
-      uart_.enable_receiver(false, event.at);
+      uart_.begin_exchange(event.at);
+      uart_.enable_receiver(uart_.hears_itself(), event.at);
       send_next(event.at);
       break;
     case kQuiet:
@@ -54,6 +56,8 @@ void Master::handle(const Event& event) {
 }
 
 void Master::on(const Uart::Report& report) {
+  const bool sending = state_.phase == Phase::Sending && report.received;
+  if (sending && report.received->start >= state_.exchange.request_start) state_.exchange.echo.push_back(*report.received);
   if (report.sent && state_.phase == Phase::Sending) sent(*report.sent);
   if (report.received && (state_.phase == Phase::Waiting || state_.phase == Phase::Receiving)) received(*report.received);
 }

@@ -25,7 +25,8 @@ struct Request {
 struct Exchange {
   modbus::Frame request;
   Time request_start = 0;
-  Time request_end = 0;  ///< end of the last stop bit
+  Time request_end = 0;                 ///< end of the last stop bit
+  std::vector<ReceivedCharacter> echo;  ///< what the master heard while it sent; nothing on a line without echo
   std::vector<ReceivedCharacter> response;
   Time response_start = 0;  ///< start edge of the first character; 0 if there is none, like the next
   Time response_end = 0;    ///< end of the last character's stop bit
@@ -40,7 +41,8 @@ struct Exchange {
   modbus::Bytes response_bytes() const;
 };
 
-/// Half duplex: its receiver is off from the start of the request to the end of its last stop bit. The format is its UART's.
+/// Half duplex: its receiver is off from the start of the request to the end of its last stop bit, unless the line gives an
+/// echo. The format is its UART's.
 /// To whoever handles the events: reports of the UART go to on(), events of EventOwner::Master to handle().
 class Master {
  public:

@@ -18,6 +18,7 @@ Simulation::Simulation(std::shared_ptr<const Program> program, FieldScript field
       host_port_(host_uart_),
       cpu_(std::move(program), queue_, plc_uart_),
       field_(std::move(field), cpu_, queue_),
+      faults_(line_, queue_, plc_uart_),
       tap_(line_, kPlc) {
   plc_uart_.enable_receiver(false, 0);
 }
@@ -70,6 +71,9 @@ void Simulation::handle_due_events() {
 
 void Simulation::dispatch(const Event& event) {
   switch (event.owner) {
+    case EventOwner::Faults:
+      faults_.handle(event);
+      break;
     case EventOwner::PlcUart: {
       const Uart::Report report = plc_uart_.handle(event);
       note_activity(report);
@@ -116,7 +120,8 @@ Simulation::Snapshot Simulation::snapshot() const {
           master_.state(),
           host_port_.state(),
           last_activity_,
-          field_.state()};
+          field_.state(),
+          faults_.state()};
 }
 
 void Simulation::restore(const Snapshot& snapshot) {
@@ -130,6 +135,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   host_port_.restore(snapshot.host_port);
   last_activity_ = snapshot.last_activity;
   field_.restore(snapshot.field);
+  faults_.restore(snapshot.faults);
   tap_.go_back(cpu_.time());
 }
 

@@ -6,6 +6,7 @@
 
 #include "interpreter/base/event_queue.hpp"
 #include "interpreter/cpu/cpu.hpp"
+#include "serial_sim/faults.hpp"
 #include "serial_sim/field.hpp"
 #include "serial_sim/host_port.hpp"
 #include "serial_sim/line.hpp"
@@ -46,6 +47,11 @@ class Simulation {
   /// silence with a timer of whole milliseconds: 7 characters + 10 ms.
   static Time default_quiet(const SerialFormat& format) { return 2 * format.silence() + 10 * kMillisecond; }
 
+  /// From now on. Several may be at work at once.
+  void inject(const Fault& fault) { faults_.inject(fault, time()); }
+  void clear_faults() { faults_.clear(time()); }
+  const Faults& faults() const { return faults_; }
+
   Cpu& cpu() { return cpu_; }
   const Cpu& cpu() const { return cpu_; }
   Master& master() { return master_; }
@@ -67,6 +73,7 @@ class Simulation {
     HostPort::State host_port;
     Time last_activity = 0;
     Field::State field;
+    Faults::State faults;
     bool operator==(const Snapshot&) const = default;
   };
   Snapshot snapshot() const;
@@ -86,6 +93,7 @@ class Simulation {
   HostPort host_port_;
   Cpu cpu_;
   Field field_;
+  Faults faults_;
   WireTap tap_;
   Time last_activity_ = 0;
 };

@@ -10,11 +10,16 @@ std::uint8_t data_of(std::uint8_t byte, const SerialFormat& format) {
 }
 
 /// Middle of bit `bit` behind the start edge; the start bit is bit 0.
-Time middle_of_bit(int bit, const SerialFormat& format) { return format.half_bits(2 * bit + 1); }
-
-int first_stop_bit(const SerialFormat& format) { return format.bits() - format.stop_bits; }
+Time middle_of_bit(int bit, const BitClock& clock) { return clock.half_bits(2 * bit + 1); }
 
 }  // namespace
+
+unsigned character_levels(const SerialFormat& format, std::uint8_t data, bool parity_bit) {
+  const int stop_bit = first_stop_bit(format);
+  unsigned levels = unsigned{data} << 1 | 1U << stop_bit;
+  if (format.parity != Parity::None && parity_bit) levels |= 1U << (stop_bit - 1);
+  return levels;
+}
 
 Uart::Uart(Line& line, EventQueue& queue, EventOwner owner, int driver)
     : line_(line), queue_(queue), owner_(owner), driver_(driver) {
@@ -44,44 +49,71 @@ void Uart::enable_receiver(bool enabled, Time at) {
 
 void Uart::send(std::uint8_t byte, Time at) {
   const std::uint8_t data = data_of(byte, state_.format);
-  put_character(data, state_.format.parity_bit(data), true, at);
+  put_character(character_levels(state_.format, data, state_.format.parity_bit(data)), at);
 }
 
 void Uart::send_with_wrong_parity(std::uint8_t byte, Time at) {
   assert(state_.format.parity != Parity::None);
   const std::uint8_t data = data_of(byte, state_.format);
-  put_character(data, !state_.format.parity_bit(data), true, at);
+  put_character(character_levels(state_.format, data, !state_.format.parity_bit(data)), at);
 }
 
 void Uart::send_without_stop_bit(std::uint8_t byte, Time at) {
   const std::uint8_t data = data_of(byte, state_.format);
-  put_character(data, state_.format.parity_bit(data), false, at);
+  const unsigned stop_bit = 1U << first_stop_bit(state_.format);
+  put_character(character_levels(state_.format, data, state_.format.parity_bit(data)) & ~stop_bit, at);
 }
 
 void Uart::send_break(int bit_times, Time at) {
   assert(!state_.sending && at >= state_.send_end && bit_times > 0);
-  const Time end = at + state_.format.bit_times(bit_times);
+  const Time end = at + BitClock{state_.format, clock_error()}.bit_times(bit_times);
   line_.drive(driver_, at, false);
   line_.drive(driver_, end, true);
   sends_until(end);
 }
 
-void Uart::put_character(std::uint8_t data, bool parity_bit, bool stop_bit, Time at) {
-  assert(!state_.sending && at >= state_.send_end);
-  const SerialFormat& format = state_.format;
-  const int last = first_stop_bit(format);
-  unsigned levels = unsigned{data} << 1 | unsigned{stop_bit} << last;  // bit 0: start bit, at space
-  if (format.parity != Parity::None && parity_bit) levels |= 1U << (last - 1);
+void Uart::begin_exchange(Time at) {
+  if (line_.interference() != nullptr) line_.interference()->exchange_begins(driver_, at);
+}
 
+std::int32_t Uart::clock_error() const {
+  return line_.interference() == nullptr ? 0 : line_.interference()->clock_error(driver_);
+}
+
+void Uart::put_character(unsigned levels, Time at) {
+  assert(!state_.sending && at >= state_.send_end);
+  if (line_.interference() != nullptr) return put_character_with_mishaps(levels, at);
+  sends_until(drive_character(levels, {state_.format}, at));
+}
+
+void Uart::put_character_with_mishaps(unsigned levels, Time at) {
+  const Mishap mishap = line_.interference()->character_begins(driver_, state_.format, at);
+  const BitClock clock{state_.format, clock_error()};
+  at += mishap.delay;
+  const auto put_all = [&](const std::vector<std::uint8_t>& bytes) {
+    for (const std::uint8_t byte : bytes) {
+      const std::uint8_t data = data_of(byte, clock.format);
+      at = drive_character(character_levels(clock.format, data, clock.format.parity_bit(data)), clock, at);
+    }
+  };
+  put_all(mishap.before);
+  at = mishap.lost ? at + clock.character_time() : drive_character(levels, clock, at);
+  put_all(mishap.after);
+  sends_until(at);
+}
+
+/// Back with its end. A character without stop bit takes a bit longer, at mark.
+Time Uart::drive_character(unsigned levels, const BitClock& clock, Time at) {
   bool mark = true;
-  for (int bit = 0; bit <= last; ++bit) {
+  for (int bit = 0; bit <= first_stop_bit(clock.format); ++bit) {
     const bool next = (levels >> bit & 1U) != 0;
-    if (next != mark) line_.drive(driver_, at + format.bit_times(bit), next);
+    if (next != mark) line_.drive(driver_, at + clock.bit_times(bit), next);
     mark = next;
   }
-  const int bits = format.bits();
-  if (!mark) line_.drive(driver_, at + format.bit_times(bits), true);
-  sends_until(at + format.bit_times(mark ? bits : bits + 1));
+  const int bits = clock.format.bits();
+  if (mark) return at + clock.bit_times(bits);
+  line_.drive(driver_, at + clock.bit_times(bits), true);
+  return at + clock.bit_times(bits + 1);
 }
 
 void Uart::sends_until(Time end) {
@@ -115,6 +147,7 @@ void Uart::line_changed(Time at) {
 
 void Uart::await_start_edge() {
   state_.receiving = false;
+  state_.clock_error = clock_error();
   state_.start_edge = line_.falling_edge(state_.listen_from);
   expect(kStartCheck, next_sample());
 }
@@ -126,14 +159,15 @@ void Uart::check_start_bit(Time now) {
     return;
   }
   state_.receiving = true;
-  state_.receiving_as = state_.format;
+  state_.receiving_as = {state_.format, state_.clock_error};
   expect(kStopSample, next_sample());
 }
 
 ReceivedCharacter Uart::take_character() {
-  const SerialFormat& format = state_.receiving_as;
+  const BitClock& clock = state_.receiving_as;
+  const SerialFormat& format = clock.format;
   const Time start = state_.start_edge;
-  const auto sample = [&](int bit) { return line_.level(start + middle_of_bit(bit, format)); };
+  const auto sample = [&](int bit) { return line_.level(start + middle_of_bit(bit, clock)); };
 
   ReceivedCharacter character;
   for (int bit = 0; bit < format.data_bits; ++bit) {
@@ -145,7 +179,7 @@ ReceivedCharacter Uart::take_character() {
   }
   character.framing_error = !sample(stop_bit);
   character.start = start;
-  character.end = start + middle_of_bit(stop_bit, format);
+  character.end = start + middle_of_bit(stop_bit, clock);
 
   state_.listen_from = character.end;
   await_start_edge();
@@ -155,13 +189,13 @@ ReceivedCharacter Uart::take_character() {
 /// When the start bit is to be verified or, once it was, the stop bit to be sampled.
 Time Uart::next_sample() const {
   if (state_.start_edge == kNever) return kNever;
-  return state_.receiving ? character_due() : state_.start_edge + middle_of_bit(0, state_.format);
+  return state_.receiving ? character_due() : state_.start_edge + middle_of_bit(0, {state_.format, state_.clock_error});
 }
 
 Time Uart::character_due() const {
   if (state_.start_edge == kNever) return kNever;
-  const SerialFormat& format = state_.receiving ? state_.receiving_as : state_.format;
-  return state_.start_edge + middle_of_bit(first_stop_bit(format), format);
+  const BitClock clock = state_.receiving ? state_.receiving_as : BitClock{state_.format, state_.clock_error};
+  return state_.start_edge + middle_of_bit(first_stop_bit(clock.format), clock);
 }
 
 void Uart::expect(What what, Time at) {

@@ -7,9 +7,16 @@
 #include "interpreter/base/event_queue.hpp"
 #include "interpreter/base/serial_format.hpp"
 #include "interpreter/cpu/serial_port.hpp"
+#include "serial_sim/interference.hpp"
 #include "serial_sim/line.hpp"
 
 namespace s7200::serial {
+
+/// Number of the (first) stop bit; the start bit is bit 0.
+constexpr int first_stop_bit(const SerialFormat& format) { return format.bits() - format.stop_bits; }
+
+/// The levels of a character from its start bit, in bit 0, to its first stop bit: 1 is mark. `data` fits the format.
+unsigned character_levels(const SerialFormat& format, std::uint8_t data, bool parity_bit);
 
 /// One UART on the line: a sender and a receiver. Wrong baud rates, wrong parity, noise, breaks and collisions need no code
 /// of their own, they are levels.
@@ -29,12 +36,13 @@ class Uart final : public SerialPort, private LineListener {
 
   /// Plain, so that a snapshot is a copy.
   struct State {
-    SerialFormat format{};        ///< of the next character in either direction
-    SerialFormat receiving_as{};  ///< of the character being received
-    bool receiving = false;       ///< a start bit was verified and its character is not complete
-    Time start_edge = kNever;     ///< of the character being received, or awaited at a known future instant
-    Time listen_from = 0;         ///< edges before this are past
-    Time off_from = kNever;       ///< the receiver is switched off from then on
+    SerialFormat format{};         ///< of the next character in either direction
+    BitClock receiving_as{};       ///< of the character being received
+    std::int32_t clock_error = 0;  ///< of the receiver while it awaits a character, in millionths
+    bool receiving = false;        ///< a start bit was verified and its character is not complete
+    Time start_edge = kNever;      ///< of the character being received, or awaited at a known future instant
+    Time listen_from = 0;          ///< edges before this are past
+    Time off_from = kNever;        ///< the receiver is switched off from then on
     bool sending = false;
     Time send_end = 0;  ///< end of the last stop bit (or break) sent so far
     bool operator==(const State&) const = default;
@@ -63,6 +71,14 @@ class Uart final : public SerialPort, private LineListener {
   /// When the character being received will be complete; kNever when none has begun.
   Time character_due() const;
 
+  /// A request begins with the next character: faults count exchanges.
+  void begin_exchange(Time at);
+
+  /// The station cannot help hearing itself: its receiver should stay on while it sends.
+  bool hears_itself() const { return line_.interference() != nullptr && line_.interference()->echoes(driver_); }
+
+  int driver() const { return driver_; }
+
   /// An event of this UART's owner is due.
   Report handle(const Event& event);
 
@@ -84,7 +100,10 @@ class Uart final : public SerialPort, private LineListener {
   Time next_sample() const;
   void abandon_character();
 
-  void put_character(std::uint8_t data, bool parity_bit, bool stop_bit, Time at);
+  void put_character(unsigned levels, Time at);
+  void put_character_with_mishaps(unsigned levels, Time at);
+  Time drive_character(unsigned levels, const BitClock& clock, Time at);
+  std::int32_t clock_error() const;
   void sends_until(Time end);
 
   Line& line_;

@@ -14,7 +14,7 @@ namespace s7200 {
 /// the wire settles first, then who listens to it, then the CPU, then the inputs from the field, then whoever drives the
 /// test. The field comes behind the CPU, whose own events were decided earlier, so that an input of that instant cannot
 /// change them; which interrupt is served first does not depend on it (Cpu::occurred).
-enum class EventOwner : std::uint8_t { PlcUart, MasterUart, HostUart, Cpu, Field, Master };
+enum class EventOwner : std::uint8_t { Faults, PlcUart, MasterUart, HostUart, Cpu, Field, Master };
 
 struct Event {
   Time at = kNever;

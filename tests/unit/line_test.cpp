@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace s7200::serial {
 namespace {
 
@@ -150,6 +152,140 @@ TEST(Line, AssignmentLeavesItsListenersAttached) {
   line = Line{};
   line.drive(0, 100, false);
   EXPECT_EQ(listener.told, 100);
+}
+
+constexpr auto kInverts = Disturbance::Effect::Inverts;
+constexpr auto kHoldsSpace = Disturbance::Effect::HoldsSpace;
+constexpr auto kCuts = Disturbance::Effect::Cuts;
+
+TEST(DisturbedLine, InversionTurnsTheLevelBothWaysUntilBeforeItsEnd) {
+  Line line;
+  line.drive(0, 100, false);
+  line.drive(0, 300, true);
+  line.disturb({kInverts, 50, 60});
+  line.disturb({kInverts, 150, 200});
+  for (const auto& [at, mark] :
+       {std::pair{49, true}, {50, false}, {59, false}, {60, true}, {149, false}, {150, true}, {199, true}, {200, false}})
+    EXPECT_EQ(line.level(at), mark) << at;
+  EXPECT_EQ(line.falling_edge(0), 50);
+  EXPECT_EQ(line.falling_edge(51), 100);
+  EXPECT_EQ(line.falling_edge(101), 200) << "the end of an inversion is an edge";
+  EXPECT_EQ(line.falling_edge(201), kNever);
+}
+
+TEST(DisturbedLine, EdgeThatMeetsTheBeginOfAnInversionIsNone) {
+  Line line;
+  line.drive(0, 100, false);
+  line.drive(0, 200, true);
+  line.disturb({kInverts, 100, 200});
+  EXPECT_EQ(line.falling_edge(0), kNever);
+  line.drive(0, 300, false);
+  EXPECT_EQ(line.falling_edge(0), 300);
+}
+
+TEST(DisturbedLine, TwoInversionsAtOnceUndoEachOtherAndTwoInARowAreOne) {
+  Line line;
+  line.disturb({kInverts, 100, 300});
+  line.disturb({kInverts, 200, 400});
+  EXPECT_TRUE(line.level(250));
+  EXPECT_EQ(line.falling_edge(101), 300);
+  line.disturb({kInverts, 400, 500});
+  EXPECT_FALSE(line.level(400));
+  EXPECT_EQ(line.falling_edge(301), kNever) << "the one hands over to the next";
+}
+
+TEST(DisturbedLine, HeldLineIsAtSpaceWhateverElseInvertsIt) {
+  Line line;
+  line.disturb({kHoldsSpace, 100, 200});
+  line.disturb({kInverts, 120, 140});
+  EXPECT_FALSE(line.level(130));
+  EXPECT_EQ(line.falling_edge(0), 100);
+  EXPECT_EQ(line.falling_edge(101), kNever);
+}
+
+TEST(DisturbedLine, CutLineIsAtMarkWhateverDrivesIt) {
+  Line line;
+  line.drive(0, 100, false);
+  line.disturb({kHoldsSpace, 150, 250});
+  line.disturb({kCuts, 50, 200});
+  EXPECT_TRUE(line.level(100));
+  EXPECT_TRUE(line.level(199));
+  EXPECT_EQ(line.falling_edge(0), 200) << "the cut ends on a line at space";
+}
+
+TEST(DisturbedLine, ForeverLastsForever) {
+  Line line;
+  line.disturb({kCuts, 50, kNever});
+  line.drive(0, 100, false);
+  line.forget(1'000'000);
+  EXPECT_TRUE(line.level(2'000'000));
+  EXPECT_EQ(line.falling_edge(0), kNever);
+}
+
+TEST(DisturbedLine, ForgettingThePastKeepsThePresentLevelAndInventsNoEdge) {
+  Line line;
+  line.drive(0, 50, false);
+  line.drive(0, 300, true);
+  line.disturb({kInverts, 60, 70});
+  line.disturb({kInverts, 100, 5000});
+  line.forget(1000);
+  EXPECT_FALSE(line.level(1000));
+  EXPECT_EQ(line.falling_edge(0), kNever);
+  EXPECT_TRUE(line.level(5000));
+  line.forget(6000);
+  EXPECT_EQ(line, Line{});
+}
+
+TEST(DisturbedLine, EdgeAtTheInstantOfForgettingStays) {
+  Line line;
+  line.drive(0, 50, false);
+  line.disturb({kInverts, 80, 100});
+  line.forget(100);
+  EXPECT_EQ(line.falling_edge(100), 100);
+}
+
+TEST(DisturbedLine, HealedLineIsAsItIsDriven) {
+  Line line;
+  line.drive(0, 100, false);
+  line.disturb({kCuts, 50, kNever});
+  line.disturb({kInverts, 500, 600});
+  line.heal(300);
+  EXPECT_TRUE(line.level(299));
+  EXPECT_FALSE(line.level(300));
+  EXPECT_FALSE(line.level(550));
+}
+
+TEST(DisturbedLine, TellsWhoeverListens) {
+  Line line;
+  Listener listener;
+  line.attach(listener);
+  line.disturb({kInverts, 70, 80});
+  EXPECT_EQ(listener.told, 70);
+  line.disturb({kInverts, 90, 90});
+  EXPECT_EQ(listener.told, 70) << "nothing happens";
+  line.heal(75);
+  EXPECT_EQ(listener.told, 75);
+}
+
+TEST(DisturbedLine, FallingEdgeIsWhereTheLevelFalls) {
+  std::mt19937_64 random(1);
+  const auto below = [&](std::uint64_t end) { return static_cast<Time>(random() % end); };
+  for (int round = 0; round < 2000; ++round) {
+    Line line;
+    for (int driver = 0; driver < 2; ++driver) {
+      Time at = 0;
+      for (int edge = 0; edge < 6; ++edge) line.drive(driver, at += 1 + below(8), edge % 2 != 0);
+    }
+    for (Time count = below(4); count > 0; --count) {
+      const Time from = below(40);
+      line.disturb({static_cast<Disturbance::Effect>(below(3)), from, from + 1 + below(15)});
+    }
+    Time next = kNever;
+    for (Time at = 60; at >= 1; --at) {
+      if (!line.level(at) && line.level(at - 1)) next = at;
+      ASSERT_EQ(line.falling_edge(at), next) << "round " << round << " from " << at;
+    }
+  }
 }
 
 }  // namespace
