@@ -36,9 +36,9 @@ TEST(Fault, EveryParameterBelongsToAKindAndEveryStandardIsAValue) {
         const std::string example(kind.example);
         const bool given = example.find(p.name) != std::string::npos;
         const bool instant = p.name == "from" && kind.kind != FaultKind::Noise;
-        if (!given && !instant)
-          EXPECT_TRUE(parse_fault(example == "echo" ? "echo:" + assignment.substr(1) : example + assignment).ok())
-              << kind.name << assignment;
+        if (given || instant) continue;
+        EXPECT_TRUE(parse_fault(example == "echo" ? "echo:" + assignment.substr(1) : example + assignment).ok())
+            << kind.name << assignment;
       }
     EXPECT_TRUE(used) << parameter.name;
   }
