@@ -12,15 +12,20 @@
 #include "tools/plant_options.hpp"
 #include "tools/program_options.hpp"
 #include "tools/report.hpp"
+#include "tools/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
 
 using HostClock = std::chrono::steady_clock;
 
+/// A scan that goes on for so long in simulated time is taken for one that never ends; only WDR lets it come so far.
+constexpr Time kEndlessScan = 10 * kSecond;
+
 struct RunOptions {
   ProgramOptions program;
   Time duration = kSecond;
+  bool duration_given = false;
   std::uint64_t scans = 0;
   bool realtime = false, json = false;
   PlantOptions plant;
@@ -31,7 +36,7 @@ class Runner {
  public:
   Runner(serial::Simulation& simulation, const RunOptions& options) : simulation_(simulation), options_(options) {}
 
-  /// Why it ended: `time`, `scans`, `stop`, `fatal` or `interrupted`.
+  /// Why it ended: `time`, `scans`, `endless scan`, `stop`, `fatal` or `interrupted`.
   std::string_view run() {
     catch_interruption();
     simulation_.cpu().pause_at_scan_end(options_.scans != 0);
@@ -42,11 +47,13 @@ class Runner {
       if (options_.scans != 0 && simulation_.cpu().state().scans >= options_.scans) return "scans";
       if (halt == serial::Halt::Time) between_slices();
     }
-    return "time";
+    return until_scans() ? "endless scan" : "time";
   }
 
  private:
-  Time end() const { return options_.scans != 0 ? kNever : options_.duration; }
+  /// Only the number of scans ends it.
+  bool until_scans() const { return options_.scans != 0 && !options_.duration_given; }
+  Time end() const { return until_scans() ? simulation_.cpu().state().scan_begin + kEndlessScan : options_.duration; }
   Time next_slice() const { return simulation_.time() + (options_.realtime ? 10 * kMillisecond : 10 * kSecond); }
 
   void between_slices() {
@@ -55,7 +62,8 @@ class Runner {
       std::this_thread::sleep_for(std::chrono::nanoseconds(simulation_.time() - host));
     if (host > next_progress_ && isatty(STDERR_FILENO)) {
       next_progress_ = host + kSecond;
-      fmt::print(stderr, "\r{} of {} simulated", format_duration(simulation_.time()), format_duration(end()));
+      const std::string goal = until_scans() ? fmt::format("{} scans", options_.scans) : format_duration(end());
+      fmt::print(stderr, "\r{} of {} simulated", format_duration(simulation_.time()), goal);
       if (simulation_.time() >= end()) fmt::print(stderr, "\n");
     }
   }
@@ -103,6 +111,13 @@ int run_run(RunOptions& options) {
     print_json(simulation, reason, options.plant);
   else
     print_text(simulation, reason, options.plant);
+  if (reason == "endless scan") {
+    print_error(
+        fmt::format("scan {} has lasted {} and is not over: the program loops in it, and WDR keeps it going. "
+                    "To run it all the same say how long: --for",
+                    simulation.cpu().state().scans + 1, format_duration(kEndlessScan)));
+    return kCheckFailed;
+  }
   return exit_code_of(simulation.cpu());
 }
 
@@ -113,12 +128,15 @@ void add_run(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("run", "run a program in simulated time, as fast as the computer can");
   options->program.add_to(*verb);
   auto* duration = add_duration(*verb, "--for", options->duration, "how long, in simulated time (default 1s)");
-  verb->add_option("--scans", options->scans, "how many scans instead")->check(CLI::PositiveNumber)->excludes(duration);
+  verb->add_option("--scans", options->scans, "how many scans; with --for: what comes first")->check(CLI::PositiveNumber);
   verb->add_flag("--realtime", options->realtime, "no faster than real time");
   options->plant.add_to(*verb);
   verb->add_flag("--json", options->json, "print the result as JSON");
   verb->footer("Example: s7200 run stl_programs/modbus_slave.stl --for 2s --set VW100=5 --dump VW100:4");
-  verb->callback([options, &exit_code] { exit_code = run_run(*options); });
+  verb->callback([options, duration, &exit_code] {
+    options->duration_given = duration->count() != 0;
+    exit_code = run_run(*options);
+  });
 }
 
 }  // namespace s7200::tools

@@ -72,7 +72,7 @@ class Verbs(Case):
         for arguments in ([], ["frobnicate"], ["--frobnicate"], ["check"], ["run"], ["send"], ["import"],
                           ["run", SLAVE, "--frob"],
                           ["run", SLAVE, "--for", "5"], ["run", SLAVE, "--for", "-1s"], ["run", SLAVE, "--scans", "0"],
-                          ["run", SLAVE, "--scans", "x"], ["run", SLAVE, "--for", "1s", "--scans", "1"],
+                          ["run", SLAVE, "--scans", "x"],
                           ["run", SLAVE, "--cpu", "999"], ["run", SLAVE, "--set", "VW100"],
                           ["run", SLAVE, "--set", "VB0=256"], ["run", SLAVE, "--set", "VB9999=1"], ["run", SLAVE, "--dump", "VB4090:10"],
                           ["run", SLAVE, "--dump", "X"],
@@ -98,6 +98,29 @@ class Verbs(Case):
         self.ends(FINE, "run", self.program("LD SM0.0\nMEND\n"), "--scans", "2")
         self.ends(FATAL, "run", self.program("LD SM0.0\nLBL 1\nJMP 1\nMEND\n"))
         self.ends(FAILED, "send", self.program("LD SM0.0\nMEND\n"), "01", "--timeout", "10ms")
+
+    def test_scans_end_a_run_and_so_does_the_time_given_with_them(self):
+        slow = self.program("LD SM0.0\nMEND\n")
+        for arguments, reason, scans in ((["--scans", "3"], "scans", 3), (["--scans", "3", "--for", "1s"], "scans", 3),
+                                         (["--scans", "1000000", "--for", "50ms"], "time", None)):
+            result = self.json(FINE, "run", slow, *arguments, "--json")
+            self.assertEqual(result["stop_reason"], reason)
+            self.assertTrue(scans is None and result["time_ns"] >= 50_000_000 or result["scans"] == scans, result)
+
+    def test_a_scan_that_never_ends_ends_the_run(self):
+        endless = self.program("LD SM0.0\nLBL 1\nWDR\nJMP 1\nMEND\n")
+        done = self.ends(FAILED, "run", endless, "--scans", "2", "--json")
+        result = json.loads(done.stdout)
+        self.assertEqual((result["stop_reason"], result["scans"]), ("endless scan", 0))
+        self.assertIn("error: scan 1 has lasted 10 s and is not over", done.stderr)
+        self.assertEqual(self.json(FINE, "run", endless, "--scans", "2", "--for", "1s", "--json")["stop_reason"], "time")
+
+    def test_long_scans_are_no_endless_ones(self):
+        """Each of 2 s, kept alive by WDR."""
+        long_scan = self.program("LD SM0.0\nFOR VW0, 1, 12000\nWDR\nNEXT\nMEND\n")
+        result = self.json(FINE, "run", long_scan, "--scans", "12", "--json")
+        self.assertEqual((result["stop_reason"], result["scans"]), ("scans", 12))
+        self.assertGreater(result["time_ns"], 10_000_000_000)
 
     def test_no_colour_away_from_a_terminal(self):
         wrong = self.program("FROB\n")
