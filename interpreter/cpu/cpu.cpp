@@ -197,8 +197,6 @@ std::string_view meaning_of(RunError code) {
       return "second HDEF for the same counter";
     case RunError::EepromRange:
       return "the V address to save lies outside the EEPROM";
-    case RunError::NotInInterrupt:
-      return "instruction not allowed in an interrupt routine";
     case RunError::IndirectAddress:
       return "indirect addressing error: the pointer leads outside the memory it may reach";
     case RunError::CallDepth:

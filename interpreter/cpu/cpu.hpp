@@ -18,6 +18,8 @@
 //   [TimedInterrupt.ShorterThan5MillisecondsAndZeroAre5]
 // - Timed interrupts count whole milliseconds from the end of ATCH, not ticks of a clock of their own.
 //   [TimedInterrupt.AnotherAtchBeginsAnewWithTheNewPeriod]
+// - The watchdog is put down to the instruction executed last, that during which it ran out.
+//   [Choices.TheWatchdogNamesTheInstructionDuringWhichItRanOut]
 // - In STOP all output points are off. [ScanCycle.StopInTheMainProgramTakesEffectAtOnceAndSwitchesTheOutputsOff]
 // Not modelled: expansion module errors (SM5, SMB8–21), forced values, memory cartridge, PPI on the port.
 #pragma once
@@ -42,7 +44,6 @@ enum class RunError : std::uint16_t {
   CounterNotDefined = 0x01,
   PointTaken = 0x02,
   InputTaken = 0x03,
-  NotInInterrupt = 0x04,
   IndirectAddress = 0x06,
   Clock = 0x07,
   CallDepth = 0x08,

@@ -1,14 +1,18 @@
 // Bodies: program control, interrupts, transmit (facts 6.12, 3.3, 2.2).
+//
+// Not documented, modelled so:
+// - FOR and NEXT store INDX before they read FINAL, which may be the same word.
+//   [Choices.ForAndNextStoreTheIndexBeforeTheyReadTheFinalValue]
+// - NEXT follows the pointers of its FOR again, that of INIT too: a bad one is error 0006, and the loop is left.
+//   [Choices.NextFollowsThePointersOfItsForAgain]
+// - SCRT to the segment it stands in leaves that segment on. [Choices.ATransitionToItsOwnSegmentLeavesItOn]
 #pragma once
 
 #include "interpreter/cpu/cpu.hpp"
 
 namespace s7200::bodies {
 
-inline void jump(Cpu& cpu, const Op& op) {
-  cpu.jump(op.target);
-  cpu.s.stack.set_top(true);
-}
+inline void jump(Cpu& cpu, const Op& op) { cpu.jump(op.target); }
 
 /// FOR INDX, INIT, FINAL: an initial value above the final one skips the loop.
 inline void begin_loop(Cpu& cpu, const Op& op) {

@@ -69,7 +69,7 @@ inline std::optional<std::uint8_t> hex_digit(std::uint8_t character) {
   return {};
 }
 
-/// Places of the digit and character blocks of ATH and HTA, or nothing after a range error.
+/// Whether the blocks of ATH and HTA lie in their areas, as those of no length do; if not, a range error.
 inline bool hex_blocks_fit(Cpu& cpu, std::uint32_t characters, std::uint32_t digits, std::uint32_t length) {
   if (cpu.in_area(characters, length) && cpu.in_area(digits, (length + 1) / 2)) return true;
   cpu.run_error(RunError::OperandRange);
@@ -79,7 +79,7 @@ inline bool hex_blocks_fit(Cpu& cpu, std::uint32_t characters, std::uint32_t dig
 /// ATH: LEN characters to digits, the first into a high half. An odd LEN leaves the low half of the last byte alone.
 inline void ascii_to_hex(Cpu& cpu, const Op& op) {
   const std::uint32_t length = cpu.get<std::uint8_t>(op[2]);
-  if (length != 0 && !hex_blocks_fit(cpu, op[0].at, op[1].at, length)) return;
+  if (!hex_blocks_fit(cpu, op[0].at, op[1].at, length)) return;
   cpu.spend(op, length);
   for (std::uint32_t i = 0; i < length; ++i) {
     const auto digit = hex_digit(cpu.s.image[op[0].at + i]);
@@ -93,7 +93,7 @@ inline void ascii_to_hex(Cpu& cpu, const Op& op) {
 /// HTA: LEN digits to characters.
 inline void hex_to_ascii(Cpu& cpu, const Op& op) {
   const std::uint32_t length = cpu.get<std::uint8_t>(op[2]);
-  if (length != 0 && !hex_blocks_fit(cpu, op[1].at, op[0].at, length)) return;
+  if (!hex_blocks_fit(cpu, op[1].at, op[0].at, length)) return;
   cpu.spend(op, length);
   for (std::uint32_t i = 0; i < length; ++i) {
     const std::uint8_t byte = cpu.s.image[op[0].at + i / 2];

@@ -10,8 +10,9 @@
 
 namespace s7200::bodies {
 
-inline void store_real(Cpu& cpu, const Operand& out, bool operands_good, float result) {
-  if (!operands_good || !std::isfinite(result)) return cpu.set_flags(kArithmetic, kOverflow);
+/// A NaN or infinite operand makes a result of that kind, except as a divisor.
+inline void store_real(Cpu& cpu, const Operand& out, float result) {
+  if (!std::isfinite(result)) return cpu.set_flags(kArithmetic, kOverflow);
   cpu.put(out, result);
   cpu.set_flags(kArithmetic, sign_flags(result));
 }
@@ -23,7 +24,7 @@ template <RealOperation operation>
 void real_arithmetic(Cpu& cpu, const Op& op) {
   const auto a = cpu.get<float>(op[1]), b = cpu.get<float>(op[0]);
   const float result = operation == RealOperation::Add ? a + b : operation == RealOperation::Subtract ? a - b : a * b;
-  store_real(cpu, op[1], std::isfinite(a) && std::isfinite(b), result);
+  store_real(cpu, op[1], result);
 }
 
 /// /R: division by zero sets SM1.3 and changes nothing else.
@@ -31,12 +32,11 @@ inline void real_divide(Cpu& cpu, const Op& op) {
   const auto dividend = cpu.get<float>(op[1]), divisor = cpu.get<float>(op[0]);
   if (divisor == 0) return cpu.set_flags(kDivisionByZero, kDivisionByZero);
   cpu.set_flags(kDivisionByZero, 0);
-  store_real(cpu, op[1], std::isfinite(dividend) && std::isfinite(divisor), dividend / divisor);
+  store_real(cpu, op[1], std::isfinite(divisor) ? dividend / divisor : divisor);
 }
 
 inline void square_root(Cpu& cpu, const Op& op) {
-  const auto value = cpu.get<float>(op[0]);
-  store_real(cpu, op[1], std::isfinite(value) && value >= 0, std::sqrt(value));
+  store_real(cpu, op[1], std::sqrt(cpu.get<float>(op[0])));  // NaN below 0
 }
 
 }  // namespace s7200::bodies

@@ -1,7 +1,10 @@
 // Bodies: tables (facts 6.10). A table is its length in entries, the number of entries in it, and the entries: all words.
 //
-// Not documented, modelled so: a length of 0 or above 100, or more entries than the length, is range error 0091; the place
-// that FIFO vacates keeps its value. [Vectors.ATT, Vectors.FIFO]
+// Not documented, modelled so:
+// - A length of 0 or above 100, or more entries than the length, is range error 0091; the place that FIFO vacates keeps its
+//   value. [Vectors.ATT, Vectors.FIFO]
+// - ATT on a full table takes the time of its entries too. [Vectors.ATT]
+// - FIFO and LIFO store DATA last, should it lie in the table. [Vectors.FIFO, Vectors.LIFO]
 #pragma once
 
 #include "interpreter/instructions/compare.hpp"

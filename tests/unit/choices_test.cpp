@@ -72,6 +72,42 @@ TEST(Choices, ATimersPresetIsTheOneItsLastExecutionFound) {
   EXPECT_EQ(plc.cpu.state().image[image::kTBits + 33 / 8] >> (33 % 8) & 1, 1);
 }
 
+TEST(Choices, ForAndNextStoreTheIndexBeforeTheyReadTheFinalValue) {
+  // INDX is FINAL. The index that NEXT tests is always below the one it has just stored, until that wraps.
+  Plc plc("LD SM0.0\nFOR VW0, 32760, VW0\nINCW VW10\nNEXT\nMEND\n");
+  plc.run_scans(1);
+  EXPECT_EQ(plc.value("VW10"), 8);
+  EXPECT_EQ(plc.value("VW0"), -32768);
+}
+
+TEST(Choices, NextFollowsThePointersOfItsForAgain) {
+  Plc plc("LD SM0.0\nMOVD &VB100, VD20\nFOR VW0, *VD20, 3\nINCW VW10\nMOVD 16#03000000, VD20\nNEXT\nINCW VW12\nMEND\n");
+  plc.set("VW100", 1);
+  plc.run_scans(1);
+  EXPECT_EQ(plc.records.errors(), std::vector<int>{0x06});
+  EXPECT_EQ(plc.value("VW10"), 1) << "one pass";
+  EXPECT_EQ(plc.value("VW0"), 1) << "NEXT has not counted";
+  EXPECT_EQ(plc.value("VW12"), 1) << "the program goes on behind the loop";
+}
+
+TEST(Choices, ATransitionToItsOwnSegmentLeavesItOn) {
+  Plc plc("LSCR S0.3\nLD SM0.0\nINCW VW0\nSCRT S0.3\nSCRE\nMEND\n");
+  plc.set("SB0", 0x08);
+  plc.run_scans(3);
+  EXPECT_EQ(plc.value("VW0"), 3);
+  EXPECT_EQ(plc.value("SB0"), 0x08);
+}
+
+// LD ends at 210 us, the DIVs at 100.21, 200.21 and 300.21 ms; the watchdog runs out at 300 ms.
+TEST(Choices, TheWatchdogNamesTheInstructionDuringWhichItRanOut) {
+  Plc plc("LD SM0.0\nDIV VW100, VD104\nDIV VW100, VD104\nDIV VW100, VD104\nINCW VW0\nMEND\n");
+  plc.set("VW100", 1);
+  plc.run_until(1 * kSecond);
+  EXPECT_EQ(plc.cpu.state().fatal_code, 0x03);
+  EXPECT_EQ(plc.cpu.state().fatal_op, 3u);
+  EXPECT_EQ(plc.value("VW0"), 0);
+}
+
 TEST(Choices, PointerCodesOfTheAreas) {
   Plc plc(
       "LD SM0.0\nMOVD &IB1, VD0\nMOVD &QB2, VD4\nMOVD &MB3, VD8\nMOVD &SB4, VD12\nMOVD &T5, VD16\nMOVD &C6, VD20\n"

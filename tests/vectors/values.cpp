@@ -115,7 +115,9 @@ List real_sums() {
                   {real(kNoNumber), real(1.0f)},
                   {real(1.0f), real(kInfinity)},
                   {real(0.0f), real(kNoNumber)},
-                  {real(0.0f), real(0.0f)}});
+                  {real(0.0f), real(0.0f)},
+                  {real(kInfinity), real(1.0f)},
+                  {real(kInfinity), real(0.0f)}});
 }
 
 List word_logic() { return singles({{0xFF00, 0x0FF0}, {0, 0xFFFF}, {0xFFFF, 0xFFFF}, {0xAAAA, 0x5555}, {0, 0}}); }
@@ -332,7 +334,7 @@ const std::map<std::string_view, std::function<List()>>& lists() {
        }},
       {"IBCD",
        [] {
-         return singles({{1234}, {9999}, {10000}, {0}, {0xFFFF}, {0x8000}});
+         return singles({{1234}, {9999}, {10000}, {0}, {0xFFFF}, {0x8000}, {1000}, {9000}});
        }},
       {"DTR",
        [] {
