@@ -1,4 +1,4 @@
-// A CPU 214 with a tiny program and easy times, for tests of what happens when.
+// A CPU, 214 unless another is named, with a tiny program and easy times, for tests of what happens when.
 //
 // Every instruction takes 10 us, with power flow or without; labels and routine heads nothing. Exceptions, to fill time: SQRT
 // 5 ms, DIV 100 ms. Entering an interrupt routine takes 40 us. Each of the four system parts of a scan takes 200 us. So a
@@ -35,9 +35,9 @@ inline TimeTable easy_times() {
   return times;
 }
 
-inline std::shared_ptr<const Program> program_of(std::string_view stl) {
+inline std::shared_ptr<const Program> program_of(std::string_view stl, const CpuModel& model = cpu214()) {
   static const TimeTable kTimes = easy_times();
-  const CheckResult result = check_text(stl, "test.stl", cpu214(), kTimes);
+  const CheckResult result = check_text(stl, "test.stl", model, kTimes);
   for (const auto& diagnostic : result.diagnostics)
     if (diagnostic.severity == stl::Severity::Error) ADD_FAILURE() << stl::render(diagnostic, result.source, false);
   return result.program;
@@ -107,10 +107,12 @@ class Records final : public TraceSink {
 
 class Plc {
  public:
-  explicit Plc(std::string_view stl, const RetentiveMemory* memory = nullptr) : cpu(program_of(stl), queue, port) {
+  explicit Plc(std::string_view stl, const RetentiveMemory* memory = nullptr, const CpuModel& model = cpu214())
+      : cpu(program_of(stl, model), queue, port) {
     cpu.set_sink(&records);
     cpu.power_up(true, memory);
   }
+  Plc(std::string_view stl, const CpuModel& model) : Plc(stl, nullptr, model) {}
   Plc(const Plc&) = delete;
 
   /// Something that happens outside at an instant. To be told in the order of time.
@@ -157,7 +159,7 @@ class Plc {
 
   MemoryRange place(std::string_view address) const {
     std::string why;
-    const auto range = parse_range(address, cpu214(), why);
+    const auto range = parse_range(address, *cpu.program().model, why);
     EXPECT_TRUE(range) << why;
     return range.value_or(MemoryRange{});
   }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -88,6 +89,24 @@ TEST(InstructionTable, RowsThatCpu214LacksAreRefusedByName) {
   }
 }
 
+// --- what a row says of the logic stack ---
+
+/// Levels an instruction finds and how many more it leaves, for those that are not one and the same.
+TEST(InstructionTable, WhatEachInstructionFindsOnTheLogicStackAndLeavesThere) {
+  static const std::map<std::string_view, std::pair<int, int>> kOwn{{"ALD", {2, -1}},  {"OLD", {2, -1}}, {"LPP", {2, -1}},
+                                                                    {"LRD", {2, 0}},   {"LPS", {1, 1}},  {"CTU", {2, -1}},
+                                                                    {"CTUD", {3, -2}}, {"LSCR", {0, 1}}};
+  static const std::set<std::string_view> kAlone{"NOP", "LBL", "SBR", "INT", "NEXT", "MEND", "RET", "RETI", "SCRE"};
+  for (const Instruction& instruction : all_instructions()) {
+    if (!instruction.body) continue;
+    std::pair<int, int> expected{1, 0};
+    if (instruction.mnemonic.starts_with("LD")) expected = {0, 1};
+    if (kAlone.contains(instruction.mnemonic)) expected = {0, 0};
+    if (const auto own = kOwn.find(instruction.mnemonic); own != kOwn.end()) expected = own->second;
+    EXPECT_EQ((std::pair<int, int>{instruction.stack.needs, instruction.stack.change}), expected) << instruction.mnemonic;
+  }
+}
+
 // --- forms of operands in the vectors ---
 
 /// `V`, `AC`, `constant`, `*VD`, `*AC`, `&`: how an operand is written.
@@ -109,20 +128,26 @@ std::set<std::string> forms_of(const OperandRule& rule) {
   return forms;
 }
 
-/// The statements of all vectors in the files of a mnemonic: `ADD_I.txt`, `ADD_I.hand.txt`.
-std::vector<stl::Statement> statements_in_vectors(const Instruction& instruction) {
-  std::vector<stl::Statement> result;
+/// All vectors in the files of a mnemonic: `ADD_I.txt`, `ADD_I.hand.txt`.
+std::vector<vectors::Vector> vectors_of(const Instruction& instruction) {
+  std::vector<vectors::Vector> result;
   for (const char* extension : {".txt", ".hand.txt"}) {
     const std::string path = test::source_path("tests/vectors/" + vectors::file_name(instruction.mnemonic) + extension);
     std::ifstream in(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(in), {}};
-    for (const vectors::Vector& vector : vectors::parse(text, path).vectors)
-      for (const std::string& op : vector.ops)
-        for (const stl::Line& line : stl::parse(op, path).source.lines)
-          if (const auto* statement = std::get_if<stl::Statement>(&line);
-              statement && statement->mnemonic == instruction.mnemonic)
-            result.push_back(*statement);
+    std::ranges::move(vectors::parse(text, path).vectors, std::back_inserter(result));
   }
+  return result;
+}
+
+std::vector<stl::Statement> statements_in_vectors(const Instruction& instruction) {
+  std::vector<stl::Statement> result;
+  for (const vectors::Vector& vector : vectors_of(instruction))
+    for (const std::string& op : vector.ops)
+      for (const stl::Line& line : stl::parse(op, "vector").source.lines)
+        if (const auto* statement = std::get_if<stl::Statement>(&line);
+            statement && statement->mnemonic == instruction.mnemonic)
+          result.push_back(*statement);
   return result;
 }
 
@@ -137,6 +162,22 @@ TEST(InstructionTable, EveryFormOfEveryOperandHasAVector) {
                                                   fmt::join(missing, ", "), instruction->operand[i].name);
     }
   }
+}
+
+/// Which bits of SM1 change in any vector of the instruction alone.
+int flags_in_vectors(const Instruction& instruction) {
+  int flags = 0;
+  for (const vectors::Vector& vector : vectors_of(instruction)) {
+    if (vector.is_program()) continue;
+    for (const vectors::Assignment& after : vector.after)
+      if (after.area == "SM" && after.at == 1) flags |= after.width == 0 ? 1 << after.bit : 0xFF;
+  }
+  return flags;
+}
+
+TEST(InstructionTable, FlagsAreThoseThatTheVectorsShowToChange) {
+  for (const Instruction* instruction : modelled_on_214())
+    EXPECT_EQ(flags_in_vectors(*instruction), instruction->flags) << instruction->mnemonic;
 }
 
 TEST(InstructionTable, StatementsPrintAndReadBackToThemselves) {
