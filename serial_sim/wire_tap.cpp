@@ -11,7 +11,7 @@ void WireTap::watch(WireSink* sink, Time from) {
 }
 
 void WireTap::tell(Time until, const SerialFormat& port) {
-  for (Time at = line_.next_change(told_until_); at < until; at = line_.next_change(at + 1)) {
+  for (Time at = told_until_; at < until; at = line_.next_change(at + 1)) {
     const std::array<bool, kWires> now{line_.level_without(plc_, at), line_.level_of(plc_, at)};
     for (std::size_t wire = 0; wire < kWires; ++wire)
       if (now[wire] != mark_[wire]) sink_->edge(static_cast<Wire>(wire), at, now[wire]);
