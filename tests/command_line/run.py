@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -249,11 +250,52 @@ class Files(Case):
         self.assertEqual(mine.read_text(encoding="utf-8"), "mine\n")
         self.assertIn("SMB30 = 16#09", self.ends(FINE, "run", path, "--trace", "-", "--scans", "3").stdout)
 
+    def test_captures_overwrite_only_captures_of_their_kind(self):
+        path = self.program(Json.ECHO)
+        for name in ("line.vcd", "line.pcap"):
+            out = self.folder / name
+            self.ends(FINE, "send", path, "ab", "--capture", out)
+            first = out.read_bytes()
+            self.ends(FINE, "run", path, "--scans", "3", "--capture", out)
+            self.assertLess(len(out.read_bytes()), len(first))
+            self.ends(FINE, "send", path, "ab", "--capture", out)
+            self.assertEqual(out.read_bytes(), first)
+        vcd, pcap = (self.folder / "line.vcd").read_bytes(), (self.folder / "line.pcap").read_bytes()
+        for mine in (b"mine", vcd, pcap.replace(b"\x20\x1c", b"\xff\xff", 1)):
+            other = self.folder / "mine.pcap"
+            other.write_bytes(mine)
+            self.assertIn("left alone", self.ends(UNUSABLE, "run", path, "--capture", other).stderr)
+            self.assertEqual(other.read_bytes(), mine)
+
+    def test_captures_that_cannot_be(self):
+        path, vcd = self.program(Json.ECHO), self.folder / "line.vcd"
+        for name in ("line.txt", "line", "line.VCD2", "-", "line.pcapng"):
+            stderr = self.ends(UNUSABLE, "run", path, "--capture", vcd, "--capture", self.folder / name).stderr
+            self.assertIn("neither in .vcd", stderr)
+            self.assertFalse(vcd.exists(), "nothing is written when one of them cannot be")
+        twice = self.folder / "sub" / ".." / "line.vcd"
+        (self.folder / "sub").mkdir()
+        self.assertIn("twice", self.ends(UNUSABLE, "run", path, "--capture", vcd, "--capture", twice).stderr)
+        self.assertIn("cannot write", self.ends(UNUSABLE, "run", path, "--capture", self.folder / "no/line.vcd").stderr)
+        self.assertIn("left alone", self.ends(UNUSABLE, "run", path, "--trace", vcd, "--capture", vcd).stderr)
+
+    def test_captures_do_not_depend_on_slices(self):
+        path, captures = self.program(Json.ECHO), []
+        for options in ([], ["--realtime"]):
+            names = [self.folder / f"line{len(captures)}.{kind}" for kind in ("vcd", "pcap")]
+            self.ends(FINE, "run", path, "--for", "60ms", "--capture", names[0], "--capture", names[1], *options)
+            captures.append([name.read_bytes() for name in names])
+        self.assertEqual(captures[0], captures[1])
+        self.assertTrue(captures[0][0].endswith(b"#60000000\n"), captures[0][0])
+
     def test_what_is_observed_does_not_change(self):
         path = self.program(Json.ECHO)
         plain = self.ends(FINE, "run", path, "--for", "100ms", "--json").stdout
-        for trace in (["--trace", self.folder / "t"], ["--trace", self.folder / "t", "--trace-instructions"]):
-            self.assertEqual(self.ends(FINE, "run", path, "--for", "100ms", "--json", *trace).stdout, plain)
+        sent = self.ends(FINE, "send", path, "ab", "cd", "--json").stdout
+        for watch in (["--trace", self.folder / "t"], ["--trace", self.folder / "t", "--trace-instructions"],
+                      ["--capture", self.folder / "t.vcd", "--capture", self.folder / "t.pcap"]):
+            self.assertEqual(self.ends(FINE, "run", path, "--for", "100ms", "--json", *watch).stdout, plain)
+            self.assertEqual(self.ends(FINE, "send", path, "ab", "cd", "--json", *watch).stdout, sent)
 
     def test_unwritable_output(self):
         document, path = self.program(self.DOCUMENT, "page.txt"), self.program(Json.ECHO)
@@ -310,12 +352,16 @@ class Readme(Case):
     def test_commands(self):
         environment = {**os.environ, "PATH": f"{pathlib.Path(S7200).parent}:{os.environ['PATH']}", "NO_COLOR": "1"}
         count = 0
+        missing = [name for name in ("sigrok-cli", "tshark") if not shutil.which(name)]
         for readme in sorted(SOURCE.rglob("README.md")):
             if "build" in readme.relative_to(SOURCE).parts:
                 continue
             for command, shown in self.commands(readme):
                 if not TIP.exists() and "tip41" in command:
                     print(f"skipped, there is no {TIP}: {command}")
+                    continue
+                if command.split()[0] in missing:
+                    print(f"skipped, {command.split()[0]} is not installed: {command}")
                     continue
                 with self.subTest(f"{readme.relative_to(SOURCE)}: {command}"):
                     done = subprocess.run(["bash", "-c", command], cwd=self.tree(), env=environment,

@@ -1,0 +1,260 @@
+#!/usr/bin/env python3
+"""Captures, as the decoders of others read them: run.py S7200 SOURCE_DIR sigrok|tshark
+
+Exit code 77: skipped, the decoder is not installed."""
+import collections
+import json
+import pathlib
+import random
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+S7200, SOURCE, GROUP = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
+SLAVE = SOURCE / "stl_programs/modbus_slave.stl"
+TIP = SOURCE.parent / "shared/seeds/tip41_modbus_rtu_slave.txt"
+DECODER = {"sigrok": "sigrok-cli", "tshark": "tshark"}[GROUP]
+SKIPPED = 77
+
+# Sends back each character with its error bits forgotten.
+ECHO = ("LD SM0.1\nMOVB {port}, SMB30\nMOVB 1, VB0\nATCH 0, 8\nENI\nMEND\n"
+        "INT 0\nLD SM0.0\nMOVB SMB2, VB1\nXMT VB0, 0\nRETI\n")
+Format = collections.namedtuple("Format", "port line")
+FORMATS = [
+    Format("16#49", {"baud": 9600, "data_bits": 8, "parity": "even"}),
+    Format("16#09", {"baud": 9600, "data_bits": 8, "parity": "none"}),
+    Format("16#C5", {"baud": 19200, "data_bits": 8, "parity": "odd"}),
+    Format("16#6D", {"baud": 4800, "data_bits": 7, "parity": "even"}),
+    Format("16#4D", {"baud": 4800, "data_bits": 8, "parity": "even"}),
+    Format("16#41", {"baud": 38400, "data_bits": 8, "parity": "even"}),
+]
+
+# What a master says in an hour of plant life: answers of every kind, none, and damaged requests.
+TALK = ["0103000a0002", "0106000a1234", "0103000a0001", "010f0000000a02ff03", "01010000000a", "010200000008",
+        "010400000010", "0105000bff00", "01100000000306000100020003", "01030000007d", "01030000007e", "0103ffff0001",
+        "0107", "0203000a0001", "0006000a4321"]
+DAMAGED = ["0103000a0001a409", "0103p000a0001a408", "01"]
+
+
+def crc(data):
+    value = 0xFFFF
+    for byte in data:
+        value ^= byte
+        for _ in range(8):
+            value = value >> 1 ^ 0xA001 if value & 1 else value >> 1
+    return value
+
+
+def with_crc(frame):
+    data = bytes.fromhex(frame)
+    return (data + struct.pack("<H", crc(data))).hex()
+
+
+def run(*command, **options):
+    return subprocess.run([str(c) for c in command], stdin=subprocess.DEVNULL, capture_output=True, timeout=120,
+                          check=False, **options)
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.vcd, self.pcap = self.folder / "line.vcd", self.folder / "line.pcap"
+
+    def send(self, program, *arguments):
+        """The exchanges; what ran over the line is in self.vcd and self.pcap."""
+        done = run(S7200, "send", program, "--json", "--capture", self.vcd, "--capture", self.pcap, *arguments)
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        return json.loads(done.stdout)
+
+    def echo(self, format_):
+        path = self.folder / "echo.stl"
+        path.write_text(ECHO.format(port=format_.port), encoding="utf-8")
+        return path
+
+    def silent(self):
+        path = self.folder / "silent.stl"
+        path.write_text("LD SM0.0\nMEND\n", encoding="utf-8")
+        self.assertEqual(run(S7200, "run", path, "--for", "100ms", "--capture", self.vcd, "--capture", self.pcap).returncode, 0)
+
+    def slaves(self):
+        for slave in (SLAVE, TIP):
+            if not slave.exists():
+                print(f"without {slave.name}, which is not there")
+                continue
+            with self.subTest(slave.name):
+                yield slave
+
+    @staticmethod
+    def said(exchanges, what):
+        return "".join(e[what] or "" for e in exchanges)
+
+
+class Sigrok(Case):
+    def decode(self, *output, baud=9600, data_bits=8, parity="even"):
+        done = run("sigrok-cli", "-I", "vcd:downsample=1000", "-i", self.vcd, *output, "-P",
+                   f"uart:rx=rx:tx=tx:baudrate={baud}:data_bits={data_bits}:parity={parity},modbus:cschannel=RX:scchannel=TX")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def characters(self, wire, **format_):
+        return self.decode("-B", f"uart={wire}", **format_).hex()
+
+    def annotations(self, kind, **format_):
+        return self.decode("-A", kind, **format_).decode().splitlines()
+
+    def test_every_byte_of_a_conversation(self):
+        for slave in self.slaves():
+            exchanges = self.send(slave, "--timeout", "100ms", *map(with_crc, TALK), *DAMAGED)
+            self.assertGreater(len(self.said(exchanges, "response")), 600)
+            self.assertEqual(self.characters("rx"), self.said(exchanges, "request"))
+            self.assertEqual(self.characters("tx"), self.said(exchanges, "response"))
+
+    def test_every_byte_in_every_format(self):
+        for format_ in FORMATS:
+            with self.subTest(format_):
+                sent = bytes(range(1 << format_.line["data_bits"]))
+                frames = self.folder / "frames.txt"
+                frames.write_text("\n".join(f"{byte:02x}" for byte in sent), encoding="utf-8")
+                exchanges = self.send(self.echo(format_), "--frames", frames)
+                self.assertEqual(self.said(exchanges, "response"), sent.hex())
+                for wire in ("rx", "tx"):
+                    self.assertEqual(self.characters(wire, **format_.line), sent.hex())
+                self.assertFalse(self.annotations("uart=rx-warnings:tx-warnings:rx-parity-err:tx-parity-err",
+                                                  **format_.line))
+
+    def test_a_master_at_the_wrong_rate(self):
+        requests = list(map(with_crc, TALK[:3]))
+        for baud in (300, 4800, 19200, 9900):
+            with self.subTest(baud):
+                self.send(SLAVE, "--baud", baud, "--timeout", "50ms", *requests)
+                self.assertEqual(self.characters("rx", baud=baud), "".join(requests))
+        self.send(SLAVE, "--baud", "19200", "--timeout", "50ms", *requests)
+        self.assertTrue(self.annotations("uart=rx-warnings"), "at 9600 baud this is no clean signal")
+
+    def test_wrong_parity_shows(self):
+        self.send(SLAVE, "--timeout", "100ms", "0103p000a0001a408")
+        self.assertEqual(len(self.annotations("uart=rx-parity-err")), 1)
+        self.assertEqual(self.characters("rx"), "0103000a0001a408")
+
+    def test_modbus(self):
+        self.send(SLAVE, *map(with_crc, ["0106000a1234", "0103000a0001"]))
+        lines = [line.split(": ", 1)[1] for line in self.annotations("modbus")]
+        self.assertEqual(lines.count("CRC correct"), 4)
+        self.assertEqual(lines.count("Slave ID: 1"), 4)
+        self.assertEqual(lines.count("Function 3: Read Holding Registers"), 2)
+        self.assertEqual(lines.count("Function 6: Write Single Register"), 2)
+        self.assertIn("0x1234 / 4660", lines)
+
+    def test_a_quiet_line(self):
+        self.silent()
+        self.assertEqual(self.decode("-A", "uart"), b"")
+
+
+Packet = collections.namedtuple("Packet", "time_ns bytes")
+
+
+class Tshark(Case):
+    def packets(self):
+        """The packets, read by hand from the file's definition."""
+        data = self.pcap.read_bytes()
+        self.assertEqual(struct.unpack_from("<IHHIIII", data), (0xA1B23C4D, 2, 4, 0, 0, 7200, 147))
+        packets, at = [], 24
+        while at < len(data):
+            seconds, nanoseconds, kept, length = struct.unpack_from("<IIII", data, at)
+            self.assertEqual(kept, length)
+            packets.append(Packet(seconds * 10**9 + nanoseconds, data[at + 16:at + 16 + kept].hex()))
+            at += 16 + kept
+        self.assertEqual(at, len(data))
+        self.assertEqual(packets, sorted(packets, key=lambda packet: packet.time_ns))
+        return packets
+
+    def fields(self, *names):
+        """A row of fields for each packet, as tshark decodes it."""
+        done = run("tshark", "-r", self.pcap, "-o", 'uat:user_dlts:"User 0 (DLT=147)","mbrtu","0","","0",""',
+                   "-o", "mbrtu.crc_verification:TRUE", "-T", "fields", *[a for name in names for a in ("-e", name)])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return [tuple(line.split("\t")) for line in done.stdout.decode().splitlines()]
+
+    def test_every_frame_of_a_conversation(self):
+        for slave in self.slaves():
+            exchanges = self.send(slave, "--timeout", "100ms", *map(with_crc, TALK), *DAMAGED)
+            frames = [e[what] for e in exchanges for what in ("request", "response") if e[what]]
+            packets = self.packets()
+            self.assertEqual([p.bytes for p in packets], frames)
+            lengths = self.fields("frame.len")
+            self.assertEqual([int(length) for length, in lengths], [len(frame) // 2 for frame in frames])
+
+    def test_latencies_are_those_of_send(self):
+        character_ns = 11 * 10**9 / 9600
+        exchanges = self.send(SLAVE, *map(with_crc, TALK[:12]))
+        packets = self.packets()
+        for number, exchange in enumerate(exchanges):
+            request, answer = packets[2 * number:2 * number + 2]
+            silence = answer.time_ns - request.time_ns - len(exchange["request"]) / 2 * character_ns
+            self.assertAlmostEqual(silence / 1000, exchange["latency_us"], delta=0.01)
+
+    def test_modbus(self):
+        self.send(SLAVE, *map(with_crc, ["0106000a1234", "0103000a0002", "01030000007e"]))
+        rows = self.fields("mbrtu.unit_id", "modbus.func_code", "modbus.regval_uint16", "modbus.exception_code",
+                           "mbrtu.crc16.status")
+        good = "1"
+        self.assertEqual(rows, [("1", "6", "", "", good), ("1", "6", "", "", good), ("1", "3", "", "", good),
+                                ("1", "3", "4660,0", "", good), ("1", "3", "", "", good), ("1", "3", "", "3", good)])
+
+    def test_a_wrong_crc_shows(self):
+        self.send(SLAVE, "--timeout", "100ms", DAMAGED[0])
+        self.assertEqual(self.fields("mbrtu.crc16.status"), [("0",)])
+
+    def test_a_master_at_the_wrong_rate_is_captured_as_the_port_hears_it(self):
+        trace = self.folder / "trace.txt"
+        for baud in (4800, 19200, 10300):
+            with self.subTest(baud):
+                self.send(SLAVE, "--baud", baud, "--timeout", "50ms", "--trace", trace, *map(with_crc, TALK[:4]))
+                heard = re.findall(r"received ([0-9a-f]{2})", trace.read_text(encoding="utf-8"))
+                self.assertGreater(len(heard), 4)
+                self.assertEqual("".join(p.bytes for p in self.packets()), "".join(heard))
+
+    def test_a_pause_inside_a_request(self):
+        request = with_crc(TALK[0])
+        self.send(SLAVE, "--gap", "3ms", "--timeout", "100ms", request)
+        self.assertEqual(self.packets()[0].bytes, request)
+        self.send(SLAVE, "--gap", "10ms", "--timeout", "100ms", request)
+        self.assertEqual([p.bytes for p in self.packets()], re.findall("..", request))
+
+    def test_a_thousand_random_frames(self):
+        draw = random.Random(7200)
+        frames = self.folder / "frames.txt"
+        frames.write_text("\n".join(with_crc(draw.choice(TALK)) if draw.random() < 0.5 else draw.randbytes(draw.randint(1, 60)).hex()
+                                    for _ in range(1000)), encoding="utf-8")
+        exchanges = self.send(SLAVE, "--timeout", "200ms", "--frames", frames)
+        said = [e[what] for e in exchanges for what in ("request", "response") if e[what]]
+        self.assertEqual([p.bytes for p in self.packets()], said)
+        rows = self.fields("frame.len", "mbrtu.crc16.status")
+        self.assertEqual(len(rows), len(said))
+        for frame, (_, status) in zip(said, rows):
+            if frame.startswith("00"):
+                self.assertEqual(status, "", "tshark 4.0 does not look into broadcasts")
+            elif crc(bytes.fromhex(frame)) == 0 and len(frame) >= 8:
+                self.assertEqual(status, "1", frame)
+            else:
+                self.assertNotIn("1", status, frame)
+
+    def test_a_quiet_line(self):
+        self.silent()
+        self.assertEqual(self.packets(), [])
+        self.assertEqual(self.fields("frame.len"), [])
+
+
+if __name__ == "__main__":
+    if not shutil.which(DECODER):
+        print(f"skipped: {DECODER} is not installed")
+        sys.exit(SKIPPED)
+    group = {"sigrok": Sigrok, "tshark": Tshark}[GROUP]
+    result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
+    sys.exit(0 if result.wasSuccessful() else 1)
