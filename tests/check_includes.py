@@ -45,7 +45,9 @@ EXCEPTIONS = {
 # Libraries that only some files may see.
 EXTERNAL = [
     (re.compile(r"CLI/"), re.compile(r"tools/[^/]*\.cpp|tests/.*\.cpp"), "CLI11 belongs into tools/*.cpp"),
-    (re.compile(r"boost/"), re.compile(r"interpreter/stl/parser\.cpp"), "Boost belongs into interpreter/stl/parser.cpp"),
+    (re.compile(r"boost/asio"), re.compile(r"tools/bridge[^/]*\.cpp"), "Boost.Asio belongs into tools/bridge*.cpp"),
+    (re.compile(r"boost/(?!asio)"), re.compile(r"interpreter/stl/parser\.cpp"),
+     "Boost belongs into interpreter/stl/parser.cpp"),
     (re.compile(r"nlohmann/"), re.compile(r"(tools|tests)/.*"), "JSON belongs into tools"),
 ]
 

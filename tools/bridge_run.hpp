@@ -1,0 +1,30 @@
+// Runs a simulation in real time, with or without a bridge.
+#pragma once
+
+#include <string_view>
+
+#include "tools/bridge.hpp"
+#include "tools/master_options.hpp"
+#include "tools/pace.hpp"
+
+namespace s7200::tools {
+
+struct LiveRunOptions {
+  Time end = kNever;        ///< simulated
+  std::uint64_t scans = 0;  ///< 0: any number
+  double speed = 1;
+  LineOptions line;  ///< the other end of the line
+};
+
+struct LiveRunResult {
+  /// `time`, `scans`, `stop`, `fatal`, `interrupted`, `bridge` when that failed, after a message; empty when it could not be
+  /// started, after a message.
+  std::string_view reason;
+  Pace::Report pace;
+};
+
+/// Runs a simulation that is powered up, until its end comes, the CPU stops, or Ctrl-C (catch_interruption()). `bridge` may
+/// be null.
+LiveRunResult run_live(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge);
+
+}  // namespace s7200::tools

@@ -1,0 +1,118 @@
+#include "tools/pty.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdlib.h>
+#include <sys/inotify.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "tools/termios2.hpp"
+
+namespace s7200::tools {
+namespace fs = std::filesystem;
+
+std::unique_ptr<Pty> Pty::open(const std::string& link, const SerialFormat& format, std::string& why) {
+  std::unique_ptr<Pty> pty(new Pty);
+  if (!pty->open_far_side(format, why)) {
+    why = fmt::format("cannot open a pty: {}", why);
+    return nullptr;
+  }
+  if (!pty->make_link(link, why)) return nullptr;
+  return pty;
+}
+
+Pty::~Pty() {
+  std::error_code none;
+  if (!link_.empty() && fs::read_symlink(link_, none) == path_) fs::remove(link_, none);
+  for (const int fd : {watch_, far_, fd_})
+    if (fd >= 0) close(fd);
+}
+
+/// The far side stays open here too, so that the near one never hangs up. Who else opens it is told by inotify, which
+/// watches before anybody can.
+bool Pty::open_far_side(const SerialFormat& format, std::string& why) {
+  std::array<char, 64> name{};
+  termios2 settings{};
+  fd_ = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  bool done = fd_ >= 0 && grantpt(fd_) == 0 && ptsname_r(fd_, name.data(), name.size()) == 0 && unlockpt(fd_) == 0;
+  if (done) {
+    path_ = name.data();
+    far_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    done = far_ >= 0 && read_settings(far_, settings);
+  }
+  if (done) {
+    make_raw(settings);
+    put_format(settings, format);
+    watch_ = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+    done =
+        write_settings(far_, settings) && watch_ >= 0 && inotify_add_watch(watch_, path_.c_str(), IN_OPEN | IN_CLOSE) >= 0;
+  }
+  if (!done) why = std::strerror(errno);
+  return done;
+}
+
+bool Pty::make_link(const std::string& link, std::string& why) {
+  std::error_code error;
+  const fs::file_status found = fs::symlink_status(link, error);
+  if (fs::is_symlink(found) && !fs::exists(link, error)) {
+    fs::remove(link, error);
+  } else if (fs::exists(found)) {
+    why = fs::is_symlink(found)
+              ? fmt::format("{} exists and leads to {}; it is left alone", link, fs::read_symlink(link, error).string())
+              : fmt::format("{} exists and is no link; it is left alone", link);
+    return false;
+  }
+  if (symlink(path_.c_str(), link.c_str()) != 0) {
+    why = fmt::format("cannot make the link {}: {}", link, std::strerror(errno));
+    return false;
+  }
+  link_ = fs::absolute(link, error).string();
+  return true;
+}
+
+PtySettings Pty::settings() const {
+  PtySettings settings;
+  termios2 far{};
+  if (!read_settings(fd_, far)) return settings;
+  settings.baud = (far.c_cflag & CBAUD) == B0 ? 0 : far.c_ospeed;
+  settings.stop_bits = (far.c_cflag & CSTOPB) != 0 ? 2 : 1;
+  settings.checks_parity = (far.c_iflag & INPCK) != 0;
+  settings.ignores_errors = (far.c_iflag & IGNPAR) != 0;
+  if ((far.c_cflag & PARODD) != 0)
+    settings.parity = Parity::Odd;
+  else if (settings.checks_parity)
+    settings.parity = Parity::Even;
+  return settings;
+}
+
+void Pty::look() {
+  alignas(inotify_event) std::array<char, 4096> buffer;
+  for (;;) {
+    const ssize_t count = read(watch_, buffer.data(), buffer.size());
+    if (count <= 0) return;
+    for (const char* next = buffer.data(); next < buffer.data() + count;) {
+      const auto* event = reinterpret_cast<const inotify_event*>(next);
+      next += sizeof(inotify_event) + event->len;
+      if ((event->mask & IN_OPEN) != 0) {
+        ++open_now_;
+        ++opened_;
+      }
+      if ((event->mask & IN_CLOSE) != 0 && --open_now_ == 0) all_have_left();
+    }
+  }
+}
+
+/// What was not read lies in two places: behind the near side's output, and in the far side's input.
+void Pty::all_have_left() const {
+  ioctl(fd_, TCFLSH, TCOFLUSH);
+  ioctl(far_, TCFLSH, TCIFLUSH);
+  ioctl(far_, TIOCNXCL);
+}
+
+}  // namespace s7200::tools
