@@ -188,6 +188,11 @@ std::string format_text(const SerialFormat& format) {
                      format.stop_bits, format.stop_bits == 1 ? "" : "s");
 }
 
+std::string short_format_text(const SerialFormat& format) {
+  const char parity = format.parity == Parity::None ? 'N' : format.parity == Parity::Even ? 'E' : 'O';
+  return fmt::format("{} {}{}{}", format.baud, format.data_bits, parity, format.stop_bits);
+}
+
 std::string port_text(const serial::Simulation& simulation) {
   const State& state = simulation.cpu().state();
   std::string text = control_text(state.image[image::kSM + 30]);

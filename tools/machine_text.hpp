@@ -26,6 +26,9 @@ std::string port_text(const serial::Simulation& simulation);
 /// `9600 baud, 8 data bits, even parity, 1 stop bit`
 std::string format_text(const SerialFormat& format);
 
+/// `9600 8E1`
+std::string short_format_text(const SerialFormat& format);
+
 /// One watched value, bytes as bytes_of() gives them: `1`, `16#05 (5)`, `16#FFFB (-5)`, several as hex bytes.
 std::string value_text(const MemoryRange& range, std::span<const std::uint8_t> bytes);
 
