@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "interpreter/stl/printer.hpp"
+#include "serial_sim/modbus/answer.hpp"
 #include "tools/exit_code.hpp"
 
 namespace s7200::tools {

@@ -61,6 +61,58 @@ Bytes write_registers(std::uint16_t first, std::span<const std::uint16_t> values
   return bytes;
 }
 
+Bytes read_exception_status() { return {static_cast<std::uint8_t>(Function::ReadExceptionStatus)}; }
+
+Bytes diagnostics(std::uint16_t subfunction, std::span<const std::uint16_t> data) {
+  Bytes bytes{static_cast<std::uint8_t>(Function::Diagnostics)};
+  add_word(bytes, subfunction);
+  for (const std::uint16_t word : data) add_word(bytes, word);
+  return bytes;
+}
+
+Bytes report_slave_id() { return {static_cast<std::uint8_t>(Function::ReportSlaveId)}; }
+
+namespace {
+
+Bytes file_request(Function function, std::span<const Reference> references) {
+  Bytes bytes{static_cast<std::uint8_t>(function), 0};
+  for (const Reference& reference : references) {
+    bytes.push_back(reference.type);
+    add_word(bytes, reference.file);
+    add_word(bytes, reference.record);
+    add_word(bytes, reference.count);
+    bytes.insert(bytes.end(), reference.data.begin(), reference.data.end());
+  }
+  bytes[1] = static_cast<std::uint8_t>(bytes.size() - 2);
+  return bytes;
+}
+
+}  // namespace
+
+Bytes read_file_record(std::span<const Reference> references) { return file_request(Function::ReadFileRecord, references); }
+
+Bytes write_file_record(std::span<const Reference> references) {
+  return file_request(Function::WriteFileRecord, references);
+}
+
+std::vector<Reference> references_of(std::span<const std::uint8_t> bytes, bool with_data) {
+  constexpr std::size_t kHead = 7;
+  std::vector<Reference> references;
+  while (bytes.size() >= kHead) {
+    Reference reference{
+        .type = bytes[0], .file = word_at(bytes, 1), .record = word_at(bytes, 3), .count = word_at(bytes, 5)};
+    bytes = bytes.subspan(kHead);
+    if (with_data) {
+      const std::size_t size = std::size_t{reference.count} * (reference.type == kFileReference ? 2 : 1);
+      if (size > bytes.size()) break;
+      reference.data.assign(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
+      bytes = bytes.subspan(size);
+    }
+    references.push_back(std::move(reference));
+  }
+  return references;
+}
+
 Bytes rtu_frame(std::uint8_t station, std::span<const std::uint8_t> pdu) {
   Bytes frame;
   frame.reserve(pdu.size() + 3);
@@ -68,136 +120,6 @@ Bytes rtu_frame(std::uint8_t station, std::span<const std::uint8_t> pdu) {
   frame.insert(frame.end(), pdu.begin(), pdu.end());
   add_crc(frame);
   return frame;
-}
-
-namespace {
-
-struct ExceptionName {
-  std::uint8_t code;
-  std::string_view name;
-};
-
-// Modbus Application Protocol V1.1b3, section 7.
-constexpr std::array<ExceptionName, 9> kExceptionNames{{
-    {1, "illegal function"},
-    {2, "illegal data address"},
-    {3, "illegal data value"},
-    {4, "server device failure"},
-    {5, "acknowledge"},
-    {6, "server device busy"},
-    {8, "memory parity error"},
-    {10, "gateway path unavailable"},
-    {11, "gateway target device failed to respond"},
-}};
-
-std::string_view exception_name(std::uint8_t code) {
-  const auto known = std::find_if(kExceptionNames.begin(), kExceptionNames.end(),
-                                  [code](const ExceptionName& e) { return e.code == code; });
-  return known == kExceptionNames.end() ? "unknown code" : known->name;
-}
-
-/// Nothing but the data of a PDU: station, function and CRC are off.
-using Data = std::span<const std::uint8_t>;
-
-constexpr std::size_t kAroundData = 4;  // station, function, two bytes of CRC
-
-Data data_of(std::span<const std::uint8_t> frame) { return frame.subspan(2, frame.size() - kAroundData); }
-
-std::string wrong_length(std::size_t expected, std::size_t found) {
-  return fmt::format("wrong length: {} data bytes, expected {}", found, expected);
-}
-
-/// Data of an answer to a read: how many bytes follow, then they.
-std::string wrong_read_length(Data answer, std::size_t expected_bytes) {
-  if (answer.size() != 1 + expected_bytes) return wrong_length(1 + expected_bytes, answer.size());
-  if (answer[0] != expected_bytes) return fmt::format("wrong byte count: {}, expected {}", answer[0], expected_bytes);
-  return {};
-}
-
-std::string describe_bits(std::string_view name, Data asked, Data answer) {
-  const unsigned first = word_at(asked, 0);
-  const unsigned count = word_at(asked, 2);
-  if (std::string wrong = wrong_read_length(answer, (count + 7) / 8); !wrong.empty()) return wrong;
-  if (count == 0) return fmt::format("no {}s", name);
-  std::string bits;
-  for (unsigned bit = 0; bit < count; ++bit) {
-    if (bit > 0 && bit % 4 == 0) bits += ' ';
-    bits += (answer[1 + bit / 8] >> bit % 8 & 1) != 0 ? '1' : '0';
-  }
-  if (count == 1) return fmt::format("{} {}: {}", name, first, bits);
-  return fmt::format("{}s {}…{}: {}", name, first, first + count - 1, bits);
-}
-
-std::string plural(unsigned count, std::string_view name) {
-  return fmt::format("{} {}{}", count, name, count == 1 ? "" : "s");
-}
-
-std::string describe_registers(Data asked, Data answer) {
-  const unsigned count = word_at(asked, 2);
-  if (std::string wrong = wrong_read_length(answer, 2 * std::size_t{count}); !wrong.empty()) return wrong;
-  std::string text = plural(count, "register") + ":";
-  for (unsigned place = 0; place < count; ++place) text += fmt::format(" 16#{:04X}", word_at(answer, 1 + 2 * place));
-  return text;
-}
-
-/// Answers to writes repeat the first four data bytes of the request.
-std::string describe_write(Function function, Data asked, Data answer) {
-  constexpr std::size_t kRepeated = 4;
-  if (answer.size() != kRepeated) return wrong_length(kRepeated, answer.size());
-  if (!std::equal(answer.begin(), answer.end(), asked.begin())) return "does not repeat the request: " + to_hex(answer);
-  const unsigned first = word_at(answer, 0);
-  const std::uint16_t second = word_at(answer, 2);
-  switch (function) {
-    case Function::WriteCoil:
-      return fmt::format("coil {} written: {}", first, second == 0 ? 0 : 1);
-    case Function::WriteRegister:
-      return fmt::format("register {} written: 16#{:04X}", first, second);
-    case Function::WriteCoils:
-      return fmt::format("{} written from {} on", plural(second, "coil"), first);
-    default:
-      return fmt::format("{} written from {} on", plural(second, "register"), first);
-  }
-}
-
-std::string describe_data(std::uint8_t function, Data asked, Data answer) {
-  switch (static_cast<Function>(function)) {
-    case Function::ReadCoils:
-      return describe_bits("coil", asked, answer);
-    case Function::ReadInputs:
-      return describe_bits("input", asked, answer);
-    case Function::ReadHoldingRegisters:
-    case Function::ReadInputRegisters:
-      return describe_registers(asked, answer);
-    case Function::WriteCoil:
-    case Function::WriteRegister:
-    case Function::WriteCoils:
-    case Function::WriteRegisters:
-      return describe_write(static_cast<Function>(function), asked, answer);
-  }
-  return fmt::format("function {}: {}", function, to_hex(answer));
-}
-
-}  // namespace
-
-std::string describe(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response) {
-  constexpr std::uint8_t kExceptionFlag = 0x80;
-  constexpr std::size_t kAddressAndCount = 4;
-
-  if (response.empty()) return "no answer";
-  if (response.size() <= kAroundData) return "too short for an answer: " + to_hex(response);
-  if (!crc_ok(response)) return "wrong CRC";
-  if (request.size() < 2) return "answer to no request: " + to_hex(response);
-  if (response[0] != request[0]) return fmt::format("answer of station {}, not {}", response[0], request[0]);
-
-  const std::uint8_t function = request[1];
-  const Data answer = data_of(response);
-  if (response[1] == (function | kExceptionFlag)) {
-    if (answer.size() != 1) return wrong_length(1, answer.size());
-    return fmt::format("exception {}: {}", answer[0], exception_name(answer[0]));
-  }
-  if (response[1] != function) return fmt::format("answer to function {}, not {}", response[1], function);
-  if (request.size() < kAroundData + kAddressAndCount) return fmt::format("function {}: {}", function, to_hex(answer));
-  return describe_data(function, data_of(request), answer);
 }
 
 Frame to_frame(std::span<const std::uint8_t> bytes) {

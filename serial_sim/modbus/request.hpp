@@ -1,4 +1,4 @@
-// Modbus RTU requests, their answers in words, and frames as people type them.
+// Modbus RTU requests, and frames as people type them.
 #pragma once
 
 #include <cstddef>
@@ -9,22 +9,10 @@
 #include <vector>
 
 #include "serial_sim/modbus/crc.hpp"
+#include "serial_sim/modbus/functions.hpp"
 
 namespace s7200::modbus {
 
-/// The functions of Application Tip 41.
-enum class Function : std::uint8_t {
-  ReadCoils = 1,
-  ReadInputs = 2,
-  ReadHoldingRegisters = 3,
-  ReadInputRegisters = 4,
-  WriteCoil = 5,
-  WriteRegister = 6,
-  WriteCoils = 15,
-  WriteRegisters = 16,
-};
-
-inline constexpr std::size_t kLongestRtuFrame = 256;  // Modbus over Serial Line, 2.5.1
 inline constexpr std::size_t kLongestRawFrame = 1024;
 
 /// Protocol data units: function code and data. Addresses count from 0, as on the wire.
@@ -38,12 +26,34 @@ Bytes write_register(std::uint16_t address, std::uint16_t value);
 Bytes write_coils(std::uint16_t first, const std::vector<bool>& on);
 Bytes write_registers(std::uint16_t first, std::span<const std::uint16_t> values);
 
+Bytes read_exception_status();
+Bytes diagnostics(std::uint16_t subfunction, std::span<const std::uint16_t> data);
+Bytes report_slave_id();
+
+/// Kind 6 are the registers of files (V1.1b3, 6.14). Makers have kinds of their own: kind 16#33 of Westinghouse is the
+/// extended memory, by segment and offset, and counts bytes (NLAM-B58, addenda, 4.5).
+inline constexpr std::uint8_t kFileReference = 6;
+inline constexpr std::uint8_t kExtendedMemoryReference = 0x33;
+
+/// What functions 20 and 21 are about.
+struct Reference {
+  std::uint8_t type = kFileReference;
+  std::uint16_t file = 0;    ///< or segment
+  std::uint16_t record = 0;  ///< or offset
+  std::uint16_t count = 0;   ///< registers, or bytes
+  Bytes data{};              ///< to be written
+
+  bool operator==(const Reference&) const = default;
+};
+
+Bytes read_file_record(std::span<const Reference> references);
+Bytes write_file_record(std::span<const Reference> references);
+
+/// Those in the data behind the byte count; one that is cut off is left out.
+std::vector<Reference> references_of(std::span<const std::uint8_t> bytes, bool with_data);
+
 /// Station address, PDU, CRC.
 Bytes rtu_frame(std::uint8_t station, std::span<const std::uint8_t> pdu);
-
-/// What the answer says, in one line for people: `3 registers: 16#1234 16#0000 16#FFFF`, `coils 0…7: 1010 1010`,
-/// `exception 2: illegal data address`, or what is wrong with it.
-std::string describe(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response);
 
 /// One character of a raw frame.
 struct FrameCharacter {
