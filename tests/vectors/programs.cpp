@@ -127,10 +127,12 @@ std::vector<Case> timer_runs(const std::string& mnemonic, const std::string& fas
 }
 
 std::vector<Case> counts_up() {
-  return {steps("a 1 at the first execution is no edge", kCountUp, 4, {"V0.0=1"}), steps("one rising edge", kCountUp, 12),
+  return {steps("a 1 at the first execution is no edge", kCountUp, 4, {"V0.0=1"}),
+          steps("one rising edge", kCountUp, 12),
           steps("two rising edges: the preset is reached", kCountUp, 28),
           steps("reset wins over an edge", kCountUp, 12, {"V0.1=1", "C1=7", "C1.bit=1"}),
-          steps("stops at 32767", kCountUp, 12, {"C1=32767"}), steps("counts up from below 0", kCountUp, 12, {"C1=-5"})};
+          steps("stops at 32767", kCountUp, 12, {"C1=32767"}),
+          steps("counts up from below 0", kCountUp, 12, {"C1=-5"})};
 }
 
 std::vector<Case> counts_both() {
