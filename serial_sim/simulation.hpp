@@ -39,6 +39,9 @@ class Simulation {
   /// Whether the line has had no character on it for `quiet` up to now.
   bool line_quiet_for(Time quiet) const;
 
+  /// End of the last character that anybody sent or heard.
+  Time last_activity() const { return last_activity_; }
+
   /// Runs until the first scan has ended and the line has been quiet for `quiet`. False when that has not come by `limit`
   /// or the CPU stopped.
   bool run_until_ready(Time quiet, Time limit);

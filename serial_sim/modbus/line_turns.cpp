@@ -1,0 +1,100 @@
+#include "serial_sim/modbus/line_turns.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "serial_sim/modbus/request.hpp"
+
+namespace s7200::modbus {
+
+void LineTurns::ask(Client client, Request request) { waiting_[client].push_back(std::move(request)); }
+
+std::vector<std::uint64_t> LineTurns::forget(Client client) {
+  std::vector<std::uint64_t> tags;
+  if (const auto waiting = waiting_.extract(client))
+    for (const Request& request : waiting.mapped()) tags.push_back(request.tag);
+  if (open(client) != 0) {
+    tags.push_back(current_.request.tag);
+    current_forgotten_ = true;
+  }
+  return tags;
+}
+
+std::size_t LineTurns::open(Client client) const {
+  const auto found = waiting_.find(client);
+  const bool on_line = phase_ != Phase::Idle && current_.client == client && !current_forgotten_;
+  return (found == waiting_.end() ? 0 : found->second.size()) + (on_line ? 1 : 0);
+}
+
+void LineTurns::received(const ReceivedCharacter& character, const SerialFormat& format) {
+  if (phase_ != Phase::Waiting && phase_ != Phase::Receiving) return;
+  phase_ = Phase::Receiving;
+  damaged_ = damaged_ || character.parity_error || character.framing_error;
+  too_long_ = answer_.size() == kLongestRtuFrame;
+  if (!too_long_) answer_.push_back(character.byte);
+  answer_end_ = character.start + format.character_time();
+}
+
+Bytes LineTurns::turn(const Line& line) {
+  due_ = kNever;
+  look(line);
+  return phase_ == Phase::Idle ? next_frame(line) : Bytes{};
+}
+
+/// What has become of the request on the line.
+void LineTurns::look(const Line& line) {
+  if (phase_ == Phase::Sending && !line.sending) {
+    if (!current_.request.wants_answer) return end(Result::Sent);
+    phase_ = Phase::Waiting;
+    deadline_ = line.quiet_since + timeout_;
+  }
+  if (too_long_) end(Result::Damaged);
+  if (line.receiving) return;
+  if (phase_ == Phase::Waiting) {
+    if (line.now >= deadline_) return end(Result::Silent);
+    due_ = deadline_;
+  } else if (phase_ == Phase::Receiving) {
+    const Time over = answer_end_ + line.format.silence();
+    if (line.now >= over) return end(damaged_ ? Result::Damaged : Result::Answered);
+    due_ = over;
+  }
+}
+
+Bytes LineTurns::next_frame(const Line& line) {
+  if (waiting_.empty()) {
+    wants_line_since_.reset();
+    return {};
+  }
+  if (!wants_line_since_) wants_line_since_ = line.now;
+  const Time quiet = line.quiet_since + line.quiet_time;
+  const Time too_late = *wants_line_since_ + std::max(timeout_, line.quiet_time + 1);
+  const bool may_send = !line.sending && !line.receiving && line.now >= quiet;
+  if (!may_send && line.now < too_late) {
+    due_ = std::min(std::max(quiet, line.now + 1), too_late);
+    return {};
+  }
+  auto turn = waiting_.upper_bound(last_served_);
+  if (turn == waiting_.end()) turn = waiting_.begin();
+  last_served_ = turn->first;
+  current_ = {turn->first, std::move(turn->second.front())};
+  turn->second.pop_front();
+  if (turn->second.empty()) waiting_.erase(turn);
+  wants_line_since_.reset();
+  current_forgotten_ = damaged_ = too_long_ = false;
+  answer_.clear();
+  phase_ = Phase::Sending;
+  if (may_send) return current_.request.frame;
+  end(Result::Blocked);
+  due_ = line.now + 1;
+  return {};
+}
+
+void LineTurns::end(Result result) {
+  phase_ = Phase::Idle;
+  too_long_ = false;
+  if (!current_forgotten_) outcomes_.push_back({current_.client, current_.request.tag, result, std::exchange(answer_, {})});
+}
+
+std::vector<LineTurns::Outcome> LineTurns::take_outcomes() { return std::exchange(outcomes_, {}); }
+
+}  // namespace s7200::modbus

@@ -1,0 +1,99 @@
+// Several clients, one line: whose request goes out next, and which answer is whose.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "interpreter/cpu/serial_port.hpp"
+#include "serial_sim/modbus/crc.hpp"
+
+namespace s7200::modbus {
+
+/// Requests go out one after the other; clients take turns. An answer ends with 3.5 characters of silence. All times are
+/// simulated.
+class LineTurns {
+ public:
+  using Client = std::uint64_t;
+
+  struct Request {
+    Bytes frame;  ///< with CRC; sent as it is
+    bool wants_answer = true;
+    std::uint64_t tag = 0;  ///< comes back with the outcome
+  };
+
+  enum class Result : std::uint8_t {
+    Answered,  ///< characters without errors
+    Damaged,   ///< one had a parity or framing error, or there were more than an RTU frame has
+    Silent,    ///< no answer began in time
+    Blocked,   ///< the line was never quiet: the request was not sent
+    Sent,      ///< no answer was wanted
+  };
+
+  struct Outcome {
+    Client client = 0;
+    std::uint64_t tag = 0;
+    Result result{};
+    Bytes answer;  ///< what was heard, damaged or not
+  };
+
+  /// The line at an instant.
+  struct Line {
+    Time now = 0;
+    SerialFormat format{};
+    bool sending = false;    ///< our own characters are under way
+    bool receiving = false;  ///< a character is coming in
+    Time quiet_since = 0;    ///< end of the last character of anybody
+    Time quiet_time = 0;     ///< to be left between two frames
+  };
+
+  /// How long to wait for the begin of an answer, and for a line that is quiet enough to ask.
+  explicit LineTurns(Time timeout) : timeout_(timeout) {}
+
+  void ask(Client client, Request request);
+
+  /// Its requests are dropped, and one that is on the line comes to an end without an outcome. The tags of all of them.
+  std::vector<std::uint64_t> forget(Client client);
+
+  /// Requests of a client that have no outcome yet.
+  std::size_t open(Client client) const;
+
+  /// Whether a client's request is on the line and nothing has come back yet; and to wait for it no longer.
+  bool waits_for_answer(Client client) const { return phase_ == Phase::Waiting && current_.client == client; }
+  void stop_waiting() { deadline_ = 0; }
+
+  /// To be called when anything has happened, and at due(): what is to be put on the line now, mostly nothing.
+  Bytes turn(const Line& line);
+  void received(const ReceivedCharacter& character, const SerialFormat& format);
+  Time due() const { return due_; }
+
+  std::vector<Outcome> take_outcomes();
+
+ private:
+  enum class Phase : std::uint8_t { Idle, Sending, Waiting, Receiving };
+  struct Current {
+    Client client = 0;
+    Request request;
+  };
+
+  void look(const Line& line);
+  Bytes next_frame(const Line& line);
+  void end(Result result);
+
+  Time timeout_;
+  std::map<Client, std::deque<Request>> waiting_;  ///< no client without a request
+  Client last_served_ = 0;
+  Phase phase_ = Phase::Idle;
+  Current current_;
+  bool current_forgotten_ = false, damaged_ = false, too_long_ = false;
+  Bytes answer_;
+  Time deadline_ = 0;                     ///< of the begin of the answer
+  Time answer_end_ = 0;                   ///< of its last character
+  std::optional<Time> wants_line_since_;  ///< somebody has
+  Time due_ = kNever;
+  std::vector<Outcome> outcomes_;
+};
+
+}  // namespace s7200::modbus

@@ -1,0 +1,50 @@
+// Messages of Modbus TCP (MODBUS Messaging on TCP/IP Implementation Guide V1.0b, 3.1).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "serial_sim/modbus/crc.hpp"
+
+namespace s7200::modbus {
+
+inline constexpr std::size_t kLongestPdu = 253;  // MODBUS Application Protocol V1.1b3, 4.1
+
+/// Exceptions that a gateway gives itself (the same, 7).
+enum class GatewayException : std::uint8_t { PathUnavailable = 0x0A, TargetFailedToRespond = 0x0B };
+
+struct TcpMessage {
+  std::uint16_t transaction = 0;
+  std::uint8_t unit = 0;
+  Bytes pdu;  ///< function code and data, 1 to 253 bytes
+
+  bool operator==(const TcpMessage&) const = default;
+};
+
+Bytes to_bytes(const TcpMessage& message);
+
+/// The answer to `request` with an exception.
+TcpMessage exception_to(const TcpMessage& request, GatewayException code);
+
+/// A stream of bytes, in pieces of any size, to messages.
+class MbapReader {
+ public:
+  void take(std::span<const std::uint8_t> bytes);
+
+  /// The next complete message, in order.
+  std::optional<TcpMessage> next();
+
+  /// What in the stream is no Modbus TCP; then no message comes any more, for nobody knows where the next one begins.
+  const std::string& error() const { return error_; }
+
+  /// Bytes that are in no message yet.
+  std::size_t pending() const { return bytes_.size(); }
+
+ private:
+  Bytes bytes_;
+  std::string error_;
+};
+
+}  // namespace s7200::modbus
