@@ -1,0 +1,49 @@
+// Values of coils and registers as people write and read them.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace s7200::tools {
+
+enum class ValueForm : std::uint8_t { HexAndDecimal, Hex, Unsigned, Signed, Bits, Unsigned32, Signed32, Float, Text };
+
+struct ValueFormat {
+  ValueForm form = ValueForm::HexAndDecimal;
+  bool low_word_first = false;  ///< of the two registers of a value of 32 bits; Modbus does not say
+
+  /// How many registers make a value; 0 for text, where all make one.
+  std::size_t registers() const;
+};
+
+/// The forms by their names on the command line.
+struct ValueFormName {
+  std::string_view name;
+  ValueForm form;
+};
+std::span<const ValueFormName> value_forms();
+
+/// `on,off,1,0`. Throws std::invalid_argument.
+std::vector<std::uint16_t> parse_bits(std::string_view text);
+
+/// `1234,-5,16#04D2,2#1010`: registers from -32768 to 65535. In a form of 32 bits each value takes two registers, and the
+/// form float takes 1.5e3 too. Throws std::invalid_argument.
+std::vector<std::uint16_t> parse_registers(std::string_view text, const ValueFormat& format);
+
+/// A number from `least` to `most`, in the notations above. Throws std::invalid_argument naming it by `what`.
+std::int64_t parse_number(std::string_view text, std::int64_t least, std::int64_t most, std::string_view what);
+
+/// A line for each value. Registers that are left over behind the last value of 32 bits are shown in hex.
+std::vector<std::string> value_lines(std::span<const std::uint16_t> registers, const ValueFormat& format);
+
+/// Bits from the first on, in groups of four: `1010 11`.
+std::string bits_line(std::span<const std::uint16_t> bits);
+
+/// The values as numbers, of the form text as a string; those left over are left out.
+nlohmann::ordered_json values_json(std::span<const std::uint16_t> registers, const ValueFormat& format);
+
+}  // namespace s7200::tools
