@@ -78,6 +78,19 @@ TEST(WireTap, EdgesAtOneInstantAreOneChangeOfEachWire) {
   EXPECT_EQ(probe.record.edges, (Edges{"100 rx0", "200 tx0"}));
 }
 
+TEST(WireTap, WhatBefallsTheLineIsOnRx) {
+  Probe probe;
+  probe.line.drive(0, 100, false);
+  probe.line.drive(0, 400, true);
+  probe.line.drive(1, 500, false);
+  probe.line.drive(1, 900, true);
+  probe.line.disturb({Disturbance::Effect::Inverts, 200, 300});
+  probe.line.disturb({Disturbance::Effect::Cuts, 600, 700});
+  probe.tap.settle(1000, k8E1);
+  EXPECT_EQ(probe.record.edges,
+            (Edges{"100 tx0", "200 rx0", "300 rx1", "400 tx1", "500 rx0", "600 rx1", "700 rx0", "900 rx1"}));
+}
+
 TEST(WireTap, WhatWasBeforeItWatchedIsNotTold) {
   Line line;
   WireTap tap(line, 0);
