@@ -1,29 +1,94 @@
 #include "tools/bridge_options.hpp"
 
-#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <array>
+#include <functional>
+
+#include "tools/bridge_device.hpp"
 #include "tools/bridge_pty.hpp"
+#include "tools/bridge_tcp.hpp"
+#include "tools/duration_option.hpp"
+#include "tools/terminal.hpp"
 
 namespace s7200::tools {
+namespace {
+
+constexpr const char* kBridges = "Bridges: join the line to masters outside, in real time, one of";
+
+}  // namespace
 
 void BridgeOptions::add_to(CLI::App& app) {
-  app.add_flag("--realtime", realtime_, "as fast as the clock; bridges do so of themselves");
+  app.add_flag("--realtime", realtime_, "as fast as the clock; with a bridge that is so of itself");
   app.add_option_function<double>(
          "--speed",
          [this](double speed) {
            speed_ = speed;
            speed_given_ = true;
          },
-         "that many times as fast as the clock, with or without a bridge: 20, 0.5 (default 1)")
+         "that many times as fast as the clock, with a bridge too: 20, 0.5 (default 1)")
       ->check(CLI::Range(0.001, 1000.0))
       ->type_name("FACTOR");
-  app.add_option("--pty", pty_, "join the line to a serial port that other programs open as LINK")->type_name("LINK");
-  line_.add_to(app, "as the program set its port; of --pty as far as its client shows it");
+  const auto add = [&](const char* name, std::string& value, const char* type, const char* text) {
+    app.add_option(name, value, text)->type_name(type)->group(kBridges);
+  };
+  add("--pty", pty_, "LINK",
+      "a serial port that programs of this computer open as LINK. Their rate and stop bits hold. A pty does not show none "
+      "and even parity apart (unless INPCK is set), nor 7 bits: then they are as the program has them, or as the options "
+      "below say");
+  add("--tcp", tcp_, "[ADDRESS:]PORT",
+      "raw bytes over TCP; several clients share the line. Without ADDRESS this computer only");
+  add("--rtu-over-tcp", rtu_over_tcp_, "[ADDRESS:]PORT", "Modbus RTU frames over TCP; clients take turns");
+  add("--modbus-tcp", modbus_tcp_, "[ADDRESS:]PORT",
+      "a gateway from Modbus TCP; exception 0B when no answer comes, 0A for units 248 to 255; unit 0 is broadcast");
+  add("--device", device_, "DEVICE", "a serial device of this computer, set as the program sets its port");
+  line_.add_to(app, "as the program sets its port; with --pty as its client shows it");
+  add_duration(app, "--timeout", timeout_,
+               "how long --modbus-tcp and --rtu-over-tcp wait for the begin of an answer (default 1s)");
 }
 
-std::unique_ptr<Bridge> BridgeOptions::make() const {
-  if (!pty_.empty()) return make_pty_bridge(pty_, line_);
-  return nullptr;
+bool BridgeOptions::prepare() {
+  using Make = std::function<std::unique_ptr<Bridge>()>;
+  struct Kind {
+    const char* option;
+    const std::string* value;
+    Make make;
+  };
+  bool fine = true;
+  const auto listen = [&](const char* option, const std::string& text, const auto& make) -> std::unique_ptr<Bridge> {
+    std::string why;
+    const auto address = parse_listen_address(text, why);
+    if (address) return make(*address);
+    print_error(fmt::format("{} {}: {}", option, text, why));
+    fine = false;
+    return nullptr;
+  };
+  const std::array<Kind, 5> kinds{{
+      {"--pty", &pty_, [&] { return make_pty_bridge(pty_, line_); }},
+      {"--tcp", &tcp_, [&] { return listen("--tcp", tcp_, make_tcp_bridge); }},
+      {"--rtu-over-tcp", &rtu_over_tcp_,
+       [&] {
+         return listen("--rtu-over-tcp", rtu_over_tcp_,
+                       [&](const auto& a) { return make_rtu_over_tcp_bridge(a, timeout_); });
+       }},
+      {"--modbus-tcp", &modbus_tcp_,
+       [&] {
+         return listen("--modbus-tcp", modbus_tcp_, [&](const auto& a) { return make_modbus_tcp_bridge(a, timeout_); });
+       }},
+      {"--device", &device_, [&] { return make_device_bridge(device_); }},
+  }};
+  const Kind* chosen = nullptr;
+  for (const Kind& kind : kinds) {
+    if (kind.value->empty()) continue;
+    if (chosen) {
+      print_error(fmt::format("{} and {}: one bridge at a time", chosen->option, kind.option));
+      return false;
+    }
+    chosen = &kind;
+  }
+  if (chosen) bridge_ = chosen->make();
+  return fine;
 }
 
 }  // namespace s7200::tools

@@ -17,19 +17,23 @@ class BridgeOptions {
  public:
   void add_to(CLI::App& app);
 
-  bool realtime() const { return realtime_ || speed_given_ || bridged(); }
-  bool bridged() const { return !pty_.empty(); }
+  /// Makes the bridge asked for. False after a message: more than one, or an address that is none.
+  bool prepare();
+
+  bool realtime() const { return realtime_ || speed_given_ || bridge_; }
   double speed() const { return speed_; }
   const LineOptions& line() const { return line_; }
 
-  /// The bridge asked for; null for none.
-  std::unique_ptr<Bridge> make() const;
+  /// Null if none was asked for.
+  Bridge* bridge() const { return bridge_.get(); }
 
  private:
-  std::string pty_;
+  std::string pty_, tcp_, rtu_over_tcp_, modbus_tcp_, device_;
   LineOptions line_;
+  Time timeout_ = kSecond;
   bool realtime_ = false, speed_given_ = false;
   double speed_ = 1;
+  std::unique_ptr<Bridge> bridge_;
 };
 
 }  // namespace s7200::tools

@@ -22,6 +22,8 @@ constexpr auto kBusySlice = 200us;
 constexpr auto kBusyFor = 200ms;
 constexpr auto kSliceWithoutBridge = 10ms;
 
+constexpr int kMostAtOnce = 16;  // things that came in, before the simulation goes on
+
 class LiveRun final : public LiveLine {
  public:
   LiveRun(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge)
@@ -103,7 +105,7 @@ class LiveRun final : public LiveLine {
     timer_.async_wait([](const boost::system::error_code&) {});
     context_.run_one();
     timer_.cancel();
-    context_.poll();
+    for (int handled = 0; handled < kMostAtOnce && context_.poll_one() != 0;) ++handled;
     planned_ = std::min(planned_, Clock::now());
   }
 

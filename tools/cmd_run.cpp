@@ -30,7 +30,7 @@ struct RunOptions {
   PlantOptions plant;
 
   Time end() const {
-    if (duration != kNever || scans != 0 || bridge.bridged()) return duration;
+    if (duration != kNever || scans != 0 || bridge.bridge()) return duration;
     return kSecond;
   }
 };
@@ -75,38 +75,35 @@ class Runner {
   Time next_progress_ = 2 * kSecond;
 };
 
-/// A run that is over.
 struct Ending {
   std::string_view reason;
   std::optional<Pace::Report> pace;  // of a run in real time
-  std::unique_ptr<Bridge> bridge;    // may be null
 };
 
 Ending run_to_end(serial::Simulation& simulation, const RunOptions& options) {
   catch_interruption();
-  if (!options.bridge.realtime()) return {Runner(simulation, options).run(), {}, nullptr};
-  auto bridge = options.bridge.make();
+  if (!options.bridge.realtime()) return {Runner(simulation, options).run(), {}};
   const LiveRunOptions live{options.end(), options.scans, options.bridge.speed(), options.bridge.line()};
-  const LiveRunResult result = run_live(simulation, live, bridge.get());
-  return {result.reason, result.pace, std::move(bridge)};
+  const LiveRunResult result = run_live(simulation, live, options.bridge.bridge());
+  return {result.reason, result.pace};
 }
 
-void print_text(const serial::Simulation& simulation, const Ending& ending, const PlantOptions& plant) {
+void print_text(const serial::Simulation& simulation, const Ending& ending, const RunOptions& options) {
   const State& state = simulation.cpu().state();
   fmt::print("ended by {} after {}: {} scans, {} instructions, CPU in {}\n", ending.reason, format_duration(state.time, 6),
              state.scans, state.instructions, state.mode == Mode::Run ? "RUN" : "STOP");
   if (state.scans)
     fmt::print("scan time: shortest {}, longest {}\n", format_duration(state.shortest_scan),
                format_duration(state.longest_scan));
-  if (ending.bridge) fmt::print("{}\n", ending.bridge->summary());
+  if (options.bridge.bridge()) fmt::print("{}\n", options.bridge.bridge()->summary());
   if (ending.pace)
     fmt::print("real time{}: drift {}, worst lag {}\n",
                ending.pace->speed == 1 ? "" : fmt::format(" times {:g}", ending.pace->speed),
                format_duration(ending.pace->drift), format_duration(ending.pace->worst_lag));
-  fmt::print("{}{}", errors_text(simulation.cpu()), plant.dump_text(state));
+  fmt::print("{}{}", errors_text(simulation.cpu()), options.plant.dump_text(state));
 }
 
-void print_json(const serial::Simulation& simulation, const Ending& ending, const PlantOptions& plant) {
+void print_json(const serial::Simulation& simulation, const Ending& ending, const RunOptions& options) {
   const State& state = simulation.cpu().state();
   nlohmann::ordered_json json{{"stop_reason", ending.reason},
                               {"time_ns", state.time},
@@ -114,11 +111,11 @@ void print_json(const serial::Simulation& simulation, const Ending& ending, cons
                               {"instructions", state.instructions},
                               {"mode", state.mode == Mode::Run ? "RUN" : "STOP"},
                               {"errors", errors_json(simulation.cpu())},
-                              {"dump", plant.dump_json(state)}};
+                              {"dump", options.plant.dump_json(state)}};
   if (ending.pace)
     json["realtime"] = {
         {"speed", ending.pace->speed}, {"drift_ns", ending.pace->drift}, {"worst_lag_ns", ending.pace->worst_lag}};
-  if (ending.bridge) json["bridge"] = ending.bridge->json();
+  if (options.bridge.bridge()) json["bridge"] = options.bridge.bridge()->json();
   fmt::print("{}\n", json.dump(2));
 }
 
@@ -126,7 +123,7 @@ int run_run(RunOptions& options) {
   int exit_code = kFine;
   const auto program = options.program.load(exit_code);
   if (!program) return exit_code;
-  if (!options.plant.prepare(program)) return kUnusable;
+  if (!options.bridge.prepare() || !options.plant.prepare(program)) return kUnusable;
 
   serial::Simulation simulation(program, options.plant.field());
   options.plant.power_up(simulation);
@@ -135,9 +132,9 @@ int run_run(RunOptions& options) {
   if (!options.plant.finish(simulation)) return kUnusable;
 
   if (options.json)
-    print_json(simulation, ending, options.plant);
+    print_json(simulation, ending, options);
   else
-    print_text(simulation, ending, options.plant);
+    print_text(simulation, ending, options);
   if (ending.reason == "endless scan") {
     print_error(
         fmt::format("scan {} has lasted {} and is not over: the program loops in it, and WDR keeps it going. "

@@ -1,0 +1,61 @@
+// TCP clients of a bridge. None of them can block another, fill the memory, or keep a place that it does not use.
+//
+// - kMostClients at a time. For one more, the client that has been silent longest has to go.
+// - A client that does not read has to go when kMostUnread bytes wait for it.
+// - A client that has begun a message has to go when nothing more of it comes for kMostPartial.
+// - One whose computer has vanished is found by TCP itself (keep-alive), within about a minute.
+// - One that has said its last word is kept until it has its answers, and not longer than kLinger.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "tools/listen_address.hpp"
+
+namespace boost::asio {
+class io_context;
+}
+
+namespace s7200::tools {
+
+class TcpServer {
+ public:
+  using Client = std::uint64_t;
+
+  static constexpr std::size_t kMostClients = 64;
+  static constexpr std::size_t kMostUnread = 65'536;
+  static constexpr int kMostPartial = 10, kLinger = 10;  // seconds of the computer
+
+  /// What the protocol says to it.
+  class Protocol {
+   public:
+    virtual ~Protocol() = default;
+
+    /// Bytes of a client. An empty text, or why the client has to go.
+    virtual std::string take(Client client, std::span<const std::uint8_t> bytes) = 0;
+    virtual void gone(Client client) = 0;
+
+    virtual bool wants_more(Client client) const = 0;  ///< may be read from now
+    virtual bool expects_answer(Client client) const = 0;
+    virtual bool partial(Client client) const = 0;  ///< has sent a part of a message, and the rest is up to it
+  };
+
+  struct Counts {
+    std::uint64_t clients = 0, refused = 0, bytes_in = 0, bytes_out = 0;
+  };
+
+  /// Listens, and says where on stderr. Null, after a message, when it cannot. The references outlive it.
+  static std::unique_ptr<TcpServer> open(const ListenAddress& address, Protocol& protocol, boost::asio::io_context& context);
+
+  virtual ~TcpServer() = default;
+  virtual void send(Client client, std::span<const std::uint8_t> bytes) = 0;
+  virtual void send_to_all(std::span<const std::uint8_t> bytes) = 0;
+
+  /// To be called often: reads from those that had to wait, looks for those that have to go.
+  virtual void turn() = 0;
+  virtual const Counts& counts() const = 0;
+};
+
+}  // namespace s7200::tools

@@ -1,0 +1,238 @@
+#include "tools/bridge_tcp.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <map>
+
+#include "serial_sim/modbus/gateway.hpp"
+#include "tools/bridge_server.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Client = TcpServer::Client;
+using serial::HostCharacter;
+
+void put_on_line(LiveLine& line, std::span<const std::uint8_t> bytes) {
+  const SerialFormat format = line.format();
+  std::vector<HostCharacter> characters;
+  for (const std::uint8_t byte : bytes) characters.push_back({.byte = byte, .format = format});
+  if (!characters.empty()) line.send(characters);
+}
+
+/// Nobody is asked before the first scan has ended: until then a program has not set up its port.
+modbus::LineTurns::Line state_of(const LiveLine& line) {
+  const serial::Simulation& simulation = line.simulation();
+  const bool up = simulation.cpu().state().scans > 0;
+  return {.now = line.now(),
+          .format = line.format(),
+          .sending = simulation.host_port().sending(),
+          .receiving = simulation.host_port().character_due() != kNever,
+          .quiet_since = up ? simulation.last_activity() : line.now(),
+          .quiet_time = serial::Simulation::default_quiet(line.format())};
+}
+
+/// What all three have in common: a server, and the line in the PLC's own format.
+class TcpBridge : public Bridge, protected TcpServer::Protocol {
+ public:
+  TcpBridge(std::string_view kind, const ListenAddress& address) : kind_(kind), address_(address) {}
+
+  bool start(LiveLine& line, boost::asio::io_context& context) override {
+    line_ = &line;
+    server_ = TcpServer::open(address_, *this, context);
+    return server_ != nullptr;
+  }
+
+  void stop() override {
+    if (server_) counts_ = server_->counts();
+    server_.reset();
+  }
+
+  SerialFormat receive_format() const override { return line_->format(); }
+
+  std::string summary() const override {
+    return fmt::format("{}: {} client{}{}, {} bytes from them, {} to them{}", kind_, counts_.clients,
+                       counts_.clients == 1 ? "" : "s",
+                       counts_.refused ? fmt::format(", {} sent away for others", counts_.refused) : "", counts_.bytes_in,
+                       counts_.bytes_out, more_summary());
+  }
+
+  nlohmann::ordered_json json() const override {
+    nlohmann::ordered_json json{{"kind", kind_},
+                                {"clients", counts_.clients},
+                                {"sent_away", counts_.refused},
+                                {"bytes_in", counts_.bytes_in},
+                                {"bytes_out", counts_.bytes_out}};
+    json.update(more_json());
+    return json;
+  }
+
+ protected:
+  virtual std::string more_summary() const { return {}; }
+  virtual nlohmann::ordered_json more_json() const { return nlohmann::ordered_json::object(); }
+
+  LiveLine& line() const { return *line_; }
+  TcpServer& server() const { return *server_; }
+
+ private:
+  std::string kind_;
+  ListenAddress address_;
+  LiveLine* line_ = nullptr;
+  std::unique_ptr<TcpServer> server_;
+  TcpServer::Counts counts_;
+};
+
+class RawBridge final : public TcpBridge {
+ public:
+  explicit RawBridge(const ListenAddress& address) : TcpBridge("tcp", address) {}
+
+  void received(std::span<const ReceivedCharacter> characters) override {
+    std::vector<std::uint8_t> bytes;
+    for (const ReceivedCharacter& character : characters) bytes.push_back(character.byte);
+    server().send_to_all(bytes);
+  }
+  void turn() override { server().turn(); }
+
+ private:
+  /// After its last word a client has a second, of the line's time, to hear what comes of it.
+  static constexpr Time kHearsOn = kSecond;
+
+  std::string take(Client, std::span<const std::uint8_t> bytes) override {
+    line().catch_up();
+    put_on_line(line(), bytes);
+    return {};
+  }
+  void gone(Client) override {}
+  bool wants_more(Client) const override { return line().has_room(); }
+  bool expects_answer(Client) const override {
+    const serial::Simulation& simulation = line().simulation();
+    return simulation.host_port().sending() || !simulation.line_quiet_for(kHearsOn);
+  }
+  bool partial(Client) const override { return false; }
+};
+
+class RtuBridge final : public TcpBridge {
+ public:
+  RtuBridge(const ListenAddress& address, Time timeout) : TcpBridge("rtu-over-tcp", address), turns_(timeout) {}
+
+  void received(std::span<const ReceivedCharacter> characters) override {
+    for (const ReceivedCharacter& character : characters) turns_.received(character, line().format());
+  }
+
+  void turn() override {
+    const auto now = Clock::now();
+    for (auto& [client, part] : parts_)
+      if (!part.bytes.empty() && now - part.heard >= kFrameEnd) ask(client, part);
+    put_on_line(line(), turns_.turn(state_of(line())));
+    for (const modbus::LineTurns::Outcome& outcome : turns_.take_outcomes()) {
+      ++frames_;
+      if (outcome.answer.empty()) continue;
+      ++answers_;
+      server().send(outcome.client, outcome.answer);
+    }
+    server().turn();
+  }
+
+  Time due() const override { return turns_.due(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds kFrameEnd{20};
+  static constexpr std::size_t kMostOpen = 4;
+
+  struct Part {
+    modbus::Bytes bytes;
+    Clock::time_point heard;
+  };
+
+  std::string take(Client client, std::span<const std::uint8_t> bytes) override {
+    line().catch_up();
+    Part& part = parts_[client];
+    part.bytes.insert(part.bytes.end(), bytes.begin(), bytes.end());
+    part.heard = Clock::now();
+    if (modbus::crc_ok(part.bytes) || part.bytes.size() > modbus::kLongestRtuFrame) ask(client, part);
+    return {};
+  }
+
+  void ask(Client client, Part& part) {
+    if (turns_.waits_for_answer(client)) turns_.stop_waiting();
+    const bool broadcast = part.bytes[0] == 0;
+    turns_.ask(client, {.frame = std::exchange(part.bytes, {}), .wants_answer = !broadcast});
+  }
+
+  void gone(Client client) override {
+    parts_.erase(client);
+    turns_.forget(client);
+  }
+  bool wants_more(Client client) const override { return turns_.open(client) < kMostOpen; }
+  bool expects_answer(Client client) const override {
+    const auto part = parts_.find(client);
+    return turns_.open(client) != 0 || (part != parts_.end() && !part->second.bytes.empty());
+  }
+  bool partial(Client) const override { return false; }  // 20 ms make it a frame
+
+  std::string more_summary() const override { return fmt::format("; {} frames, {} answered", frames_, answers_); }
+  nlohmann::ordered_json more_json() const override { return {{"frames", frames_}, {"answered", answers_}}; }
+
+  modbus::LineTurns turns_;
+  std::map<Client, Part> parts_;
+  std::uint64_t frames_ = 0, answers_ = 0;
+};
+
+class GatewayBridge final : public TcpBridge {
+ public:
+  GatewayBridge(const ListenAddress& address, Time timeout) : TcpBridge("modbus-tcp", address), gateway_(timeout) {}
+
+  void received(std::span<const ReceivedCharacter> characters) override {
+    for (const ReceivedCharacter& character : characters) gateway_.received(character, line().format());
+  }
+
+  void turn() override {
+    put_on_line(line(), gateway_.turn(state_of(line())));
+    for (const modbus::Gateway::Answer& answer : gateway_.take_answers()) server().send(answer.client, answer.bytes);
+    server().turn();
+  }
+
+  Time due() const override { return gateway_.due(); }
+
+ private:
+  std::string take(Client client, std::span<const std::uint8_t> bytes) override {
+    line().catch_up();
+    gateway_.take(client, bytes);
+    const std::string error = gateway_.error(client);
+    return error.empty() ? error : "this is no Modbus TCP: " + error;
+  }
+  void gone(Client client) override { gateway_.forget(client); }
+  bool wants_more(Client client) const override { return gateway_.wants_more(client); }
+  bool expects_answer(Client client) const override { return gateway_.open(client) != 0; }
+  bool partial(Client client) const override { return gateway_.partial(client); }
+
+  std::string more_summary() const override {
+    const auto& counts = gateway_.counts();
+    return fmt::format(
+        "; {} requests, {} answered, {} broadcast, {} without answer, {} with a damaged one, {} to no station",
+        counts.requests, counts.answers, counts.broadcasts, counts.silent, counts.damaged, counts.no_path);
+  }
+  nlohmann::ordered_json more_json() const override {
+    const auto& counts = gateway_.counts();
+    return {{"requests", counts.requests}, {"answered", counts.answers}, {"broadcast", counts.broadcasts},
+            {"silent", counts.silent},     {"damaged", counts.damaged},  {"no_station", counts.no_path}};
+  }
+
+  modbus::Gateway gateway_;
+};
+
+}  // namespace
+
+std::unique_ptr<Bridge> make_tcp_bridge(const ListenAddress& address) { return std::make_unique<RawBridge>(address); }
+
+std::unique_ptr<Bridge> make_rtu_over_tcp_bridge(const ListenAddress& address, Time timeout) {
+  return std::make_unique<RtuBridge>(address, timeout);
+}
+
+std::unique_ptr<Bridge> make_modbus_tcp_bridge(const ListenAddress& address, Time timeout) {
+  return std::make_unique<GatewayBridge>(address, timeout);
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,22 @@
+// `--tcp`, `--rtu-over-tcp`, `--modbus-tcp`: the line as a TCP port.
+#pragma once
+
+#include <memory>
+
+#include "tools/bridge.hpp"
+#include "tools/listen_address.hpp"
+
+namespace s7200::tools {
+
+/// Raw bytes, as a serial device server passes them on. Clients share the line like stations on a wire: what any of them
+/// sends goes out in the order of its arrival, what the line says goes to all.
+std::unique_ptr<Bridge> make_tcp_bridge(const ListenAddress& address);
+
+/// RTU frames. What a client sends is a frame when its CRC is right, or when nothing more comes for 20 ms. Clients take
+/// turns, and each hears the answer to its own frame, in one piece. One that sends again has stopped waiting.
+std::unique_ptr<Bridge> make_rtu_over_tcp_bridge(const ListenAddress& address, Time timeout);
+
+/// A gateway, see modbus::Gateway.
+std::unique_ptr<Bridge> make_modbus_tcp_bridge(const ListenAddress& address, Time timeout);
+
+}  // namespace s7200::tools

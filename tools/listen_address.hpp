@@ -1,0 +1,21 @@
+// Where to listen: `502`, `:502`, `0.0.0.0:502`, `[::1]:502`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace s7200::tools {
+
+struct ListenAddress {
+  std::string host = "127.0.0.1";  ///< an IP address; this computer alone, if none is written
+  std::uint16_t port = 0;          ///< 0: a free one
+};
+
+/// Nothing, and `why`, for what is no such address.
+std::optional<ListenAddress> parse_listen_address(const std::string& text, std::string& why);
+
+/// `127.0.0.1:502`, `[::1]:502`
+std::string to_text(const ListenAddress& address);
+
+}  // namespace s7200::tools
