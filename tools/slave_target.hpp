@@ -20,10 +20,6 @@ struct SlaveTarget {
   Kind kind = Kind::Program;
   std::string path;        ///< of a program or device
   std::string host, port;  ///< an IPv6 address without its brackets
-
-  static constexpr const char* kHelp =
-      "a PROGRAM to run in simulation; a serial device or pty (/dev/ttyUSB0); tcp://HOST:PORT for RTU frames over TCP; "
-      "modbus-tcp://HOST[:PORT]";
 };
 
 /// Throws std::invalid_argument for an address without host or port, and for a scheme that is neither.

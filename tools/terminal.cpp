@@ -12,6 +12,11 @@ bool colour_wanted(std::FILE* stream) {
   return isatty(fileno(stream)) && !(no_color && *no_color);
 }
 
+bool can_redraw(std::FILE* stream) {
+  const char* type = std::getenv("TERM");
+  return isatty(fileno(stream)) && type && *type && std::string_view(type) != "dumb";
+}
+
 void print_error(std::string_view message) {
   std::fflush(stdout);
   fmt::print(stderr, "s7200: error: {}\n", message);

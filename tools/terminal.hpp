@@ -9,6 +9,9 @@ namespace s7200::tools {
 /// Colour on a terminal, unless NO_COLOR is set to anything but nothing.
 bool colour_wanted(std::FILE* stream);
 
+/// Whether what is on the screen can be written over: a terminal that knows control sequences.
+bool can_redraw(std::FILE* stream);
+
 /// `s7200: error: …` on stderr.
 void print_error(std::string_view message);
 

@@ -1,0 +1,49 @@
+// How many exchanges went how, and how long the answers took.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/base/time.hpp"
+#include "serial_sim/modbus/answer.hpp"
+
+namespace s7200::tools {
+
+class ExchangeStatistics {
+ public:
+  /// What came of a request in the end; the latency of what answered it, right or not.
+  void add(modbus::Verdict verdict, std::optional<Time> latency);
+  void add_retry() { ++retries_; }
+
+  std::uint64_t sent() const;
+  std::uint64_t count(modbus::Verdict verdict) const { return counts_[static_cast<std::size_t>(verdict)]; }
+
+  /// Not all were right.
+  bool any_failed() const { return sent() != count(modbus::Verdict::Right); }
+
+  /// Of answers, exceptions among them; nothing before the first. The percentile is that of the last million.
+  struct Latency {
+    Time least = 0, mean = 0, p99 = 0, most = 0;
+  };
+  std::optional<Latency> latency() const;
+
+  /// Two lines.
+  std::string text() const;
+  nlohmann::ordered_json json() const;
+
+ private:
+  static constexpr std::size_t kKept = 1'000'000;
+
+  std::uint64_t counts_[4] = {};
+  std::uint64_t retries_ = 0, timed_ = 0;
+  Time least_ = kNever, most_ = 0, sum_ = 0;
+  std::vector<Time> last_;
+};
+
+/// `right`, `exception`, `silent`, `wrong`
+const char* verdict_name(modbus::Verdict verdict);
+
+}  // namespace s7200::tools
