@@ -164,6 +164,8 @@ std::string read_behind(std::string_view text, Fault& fault) {
   return {};
 }
 
+std::string write_behind(const Fault& fault) { return fmt::format("{}", fault.character.value_or(0)); }
+
 std::string read_from(std::string_view text, Fault& fault) {
   fault.from = parse_duration(text);
   return fault.from ? "" : "is no time; write for example 1.5s or 250ms";
@@ -217,7 +219,7 @@ const std::array kParameters{
               read_share<&Fault::error_rate>,
               [](const Fault& f) { return fmt::format("{}", f.error_rate); }},
     Parameter{{"character", "N, each", "number in the request or answer, from 1"}, read_character, write_character},
-    Parameter{{"behind", "N", "number of the character, 0 for the place before the first"}, read_behind, write_character},
+    Parameter{{"behind", "N", "number of the character, 0 for the place before the first"}, read_behind, write_behind},
     Parameter{{"bit", "0…7, start, parity, stop", "data bits count from the one sent first"}, read_bit, write_bit},
     Parameter{{"at", "time, bits", "behind the start edge of the character"},
               read_length<&Fault::offset, false>,

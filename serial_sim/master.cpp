@@ -18,10 +18,10 @@ bool Exchange::framing_error() const {
   return std::any_of(response.begin(), response.end(), [](const ReceivedCharacter& c) { return c.framing_error; });
 }
 
-modbus::Bytes Exchange::response_bytes() const {
+modbus::Bytes bytes_of(const std::vector<ReceivedCharacter>& characters) {
   modbus::Bytes bytes;
-  bytes.reserve(response.size());
-  for (const ReceivedCharacter& character : response) bytes.push_back(character.byte);
+  bytes.reserve(characters.size());
+  for (const ReceivedCharacter& character : characters) bytes.push_back(character.byte);
   return bytes;
 }
 

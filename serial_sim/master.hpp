@@ -21,6 +21,8 @@ struct Request {
   bool operator==(const Request&) const = default;
 };
 
+modbus::Bytes bytes_of(const std::vector<ReceivedCharacter>& characters);
+
 /// A request and what came of it.
 struct Exchange {
   modbus::Frame request;
@@ -38,7 +40,7 @@ struct Exchange {
   std::optional<Time> latency() const;
   bool parity_error() const;
   bool framing_error() const;
-  modbus::Bytes response_bytes() const;
+  modbus::Bytes response_bytes() const { return bytes_of(response); }
 };
 
 /// Half duplex: its receiver is off from the start of the request to the end of its last stop bit, unless the line gives an

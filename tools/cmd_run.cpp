@@ -111,6 +111,7 @@ void print_json(const serial::Simulation& simulation, const Ending& ending, cons
                               {"instructions", state.instructions},
                               {"mode", state.mode == Mode::Run ? "RUN" : "STOP"},
                               {"errors", errors_json(simulation.cpu())},
+                              {"faults", faults_json(simulation.faults())},
                               {"dump", options.plant.dump_json(state)}};
   if (ending.pace)
     json["realtime"] = {
@@ -135,6 +136,7 @@ int run_run(RunOptions& options) {
     print_json(simulation, ending, options);
   else
     print_text(simulation, ending, options);
+  fmt::print(stderr, "{}", faults_text(simulation.faults()));
   if (ending.reason == "endless scan") {
     print_error(
         fmt::format("scan {} has lasted {} and is not over: the program loops in it, and WDR keeps it going. "
@@ -157,7 +159,7 @@ void add_run(CLI::App& app, int& exit_code) {
   options->bridge.add_to(*verb);
   options->plant.add_to(*verb);
   verb->add_flag("--json", options->json, "print the result as JSON");
-  verb->footer("Example: s7200 run stl_programs/modbus_slave.stl --for 2s --set VW100=5 --dump VW100:4");
+  verb->footer(fault_help() + "Example: s7200 run stl_programs/modbus_slave.stl --for 2s --set VW100=5 --dump VW100:4");
   verb->callback([options, &exit_code] { exit_code = run_run(*options); });
 }
 

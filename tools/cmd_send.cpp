@@ -73,6 +73,7 @@ bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames)
 nlohmann::ordered_json to_json(const serial::Exchange& exchange) {
   nlohmann::ordered_json json{
       {"request", plain_hex(modbus::bytes_of(exchange.request))}, {"response", nullptr}, {"latency_us", nullptr}};
+  if (!exchange.echo.empty()) json["echo"] = plain_hex(serial::bytes_of(exchange.echo));
   if (exchange.timed_out) return json;
   json["response"] = plain_hex(exchange.response_bytes());
   json["latency_us"] = static_cast<double>(*exchange.latency()) / kMicrosecond;
@@ -103,6 +104,7 @@ int run_send(SendOptions& options) {
                simulation.cpu().state().image[image::kSM + 30]);
   for (const modbus::Frame& frame : frames) {
     if (!ready || interrupted()) break;
+    const serial::Faults::State faults_before = simulation.faults().state();
     timeline.begin();
     if (options.timeline) simulation.cpu().set_sink(&timeline);
     const serial::Exchange exchange = slave.exchange(options.master.request(frame));
@@ -110,6 +112,7 @@ int run_send(SendOptions& options) {
     all_answered &= !exchange.timed_out;
     if (options.json) {
       json.push_back(to_json(exchange));
+      if (options.plant.faulted()) json.back()["faults"] = faults_json(simulation.faults(), faults_before);
       if (options.timeline) json.back()["timeline"] = to_json(timeline.report(), exchange);
     } else {
       fmt::print("{}", exchange_text(exchange, options.master.timeout));
@@ -120,7 +123,7 @@ int run_send(SendOptions& options) {
   if (!options.plant.finish(simulation)) return kUnusable;
   if (options.json) fmt::print("{}\n", json.dump(2));
   fmt::print(options.json ? stderr : stdout, "{}", options.plant.dump_text(simulation.cpu().state()));
-  fmt::print(stderr, "{}", errors_text(simulation.cpu()));
+  fmt::print(stderr, "{}{}", errors_text(simulation.cpu()), faults_text(simulation.faults()));
   if (simulation.cpu().state().mode == Mode::Stop) fmt::print(stderr, "s7200: note: the CPU is in STOP\n");
   if (simulation.cpu().state().fatal_code) return kCpuFatal;
   if (interrupted()) fmt::print(stderr, "s7200: note: interrupted\n");
@@ -143,7 +146,7 @@ void add_send(CLI::App& app, int& exit_code) {
   options->plant.add_to(*verb);
   verb->add_flag("--timeline", options->timeline, "show what the CPU did during each exchange: characters, interrupts, XMT");
   verb->add_flag("--json", options->json, "print an array of exchanges as JSON");
-  verb->footer("Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");
+  verb->footer(fault_help() + "Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");
   verb->callback([options, &exit_code] { exit_code = run_send(*options); });
 }
 

@@ -33,6 +33,7 @@ void PlantOptions::add_to(CLI::App& app) {
          },
          "time of day at the start")
       ->type_name("\"YYYY-MM-DD HH:MM:SS\"");
+  faults_.add_to(app);
   trace_.add_to(app);
   captures_.add_to(app);
 }
@@ -53,6 +54,7 @@ bool PlantOptions::read_field(const CpuModel& model) {
 
 bool PlantOptions::prepare(const std::shared_ptr<const Program>& program) {
   const CpuModel& model = *program->model;
+  if (!faults_.prepare()) return false;
   if (!parse_assignments(set_, model, assignments_) || !parse_ranges(dump_, model, dumps_) || !read_field(model))
     return false;
   if (!memory_.read(model) || !trace_.open(program) || !output_.open() || !captures_.open()) return false;
@@ -64,6 +66,7 @@ bool PlantOptions::prepare(const std::shared_ptr<const Program>& program) {
 void PlantOptions::power_up(serial::Simulation& simulation) {
   if (!sinks_.empty()) simulation.cpu().set_sink(&sinks_);
   captures_.watch(simulation);
+  faults_.inject(simulation);
   simulation.power_up(memory_.memory());
   if (clock_) simulation.cpu().set_clock(*clock_);
   for (const Assignment& assignment : assignments_) assign(simulation, assignment);

@@ -1,5 +1,5 @@
-// What run and send have in common: the plant around the CPU. Memory and inputs before and during a run, what is recorded of
-// it, what is kept and shown after it.
+// What run and send have in common: the plant around the CPU. Memory and inputs before and during a run, faults of its line,
+// what is recorded of it, what is kept and shown after it.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,6 +9,7 @@
 
 #include "interpreter/trace/fan_out.hpp"
 #include "tools/capture_files.hpp"
+#include "tools/fault_options.hpp"
 #include "tools/memory.hpp"
 #include "tools/memory_file.hpp"
 #include "tools/output_file.hpp"
@@ -30,11 +31,14 @@ class PlantOptions {
   /// What drives the inputs; for the Simulation.
   const serial::FieldScript& field() const { return field_; }
 
-  /// Powers up with the memory, sets the clock and the assignments, and lets the records watch.
+  /// Powers up with the memory, sets the clock and the assignments, injects the faults, and lets the records watch.
   void power_up(serial::Simulation& simulation);
 
   /// What watches the CPU; another sink may be added.
   FanOut& sinks() { return sinks_; }
+
+  /// Whether there are faults.
+  bool faulted() const { return !faults_.empty(); }
 
   /// Completes the records and keeps the memory. False after a message.
   bool finish(const serial::Simulation& simulation);
@@ -53,6 +57,7 @@ class PlantOptions {
   OutputFile output_;
   CaptureFiles captures_;
   MemoryFile memory_;
+  FaultOptions faults_;
 
   std::vector<Assignment> assignments_;
   std::vector<MemoryRange> dumps_;

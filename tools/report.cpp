@@ -70,7 +70,8 @@ nlohmann::ordered_json errors_json(const Cpu& cpu) {
 int exit_code_of(const Cpu& cpu) { return cpu.state().fatal_code ? kCpuFatal : kFine; }
 
 std::string exchange_text(const serial::Exchange& exchange, Time timeout) {
-  const std::string request = fmt::format("request  {}\n", modbus::to_hex(exchange.request));
+  std::string request = fmt::format("request  {}\n", modbus::to_hex(exchange.request));
+  if (!exchange.echo.empty()) request += fmt::format("echo     {}\n", modbus::to_hex(serial::bytes_of(exchange.echo)));
   if (exchange.timed_out) return fmt::format("{}answer   none within {}\n", request, format_duration(timeout));
   const modbus::Bytes response = exchange.response_bytes();
   return fmt::format("{}answer   {}   after {}\n         {}{}\n", request, modbus::to_hex(response),

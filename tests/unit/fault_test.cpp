@@ -21,27 +21,26 @@ TEST(Fault, EveryKindStandsInTheTableOnceAndItsExampleIsRead) {
     const FaultKindInfo& info = fault_kinds()[i];
     EXPECT_EQ(static_cast<std::size_t>(info.kind), i);
     EXPECT_EQ(fault_of(std::string(info.example)).kind, info.kind);
-    EXPECT_EQ(to_text(fault_of(std::string(info.example))), info.example) << "the shortest text";
   }
 }
 
-TEST(Fault, EveryParameterBelongsToAKindAndEveryStandardIsAValue) {
+TEST(Fault, EveryParameterBelongsToAKind) {
   for (const FaultParameter& parameter : fault_parameters()) {
     bool used = false;
     for (const FaultKindInfo& kind : fault_kinds())
-      for (const ParameterOfKind& p : kind.parameters) {
-        used |= p.name == parameter.name;
-        if (p.name != parameter.name || p.standard == kRequired || p.standard == kLeftOut) continue;
-        const auto assignment = "," + std::string(p.name) + "=" + std::string(p.standard);
-        const std::string example(kind.example);
-        const bool given = example.find(p.name) != std::string::npos;
-        const bool instant = p.name == "from" && kind.kind != FaultKind::Noise;
-        if (given || instant) continue;
-        EXPECT_TRUE(parse_fault(example == "echo" ? "echo:" + assignment.substr(1) : example + assignment).ok())
-            << kind.name << assignment;
-      }
+      for (const ParameterOfKind& p : kind.parameters) used |= p.name == parameter.name;
     EXPECT_TRUE(used) << parameter.name;
   }
+}
+
+TEST(Fault, WhatStandsInForAParameterIsAValueOfIt) {
+  for (const FaultKindInfo& kind : fault_kinds())
+    for (const ParameterOfKind& p : kind.parameters) {
+      const std::string example(kind.example), name(p.name), standard(p.standard);
+      if (p.standard == kRequired || p.standard == kLeftOut || example.find(name + "=") != std::string::npos) continue;
+      const char separator = example.find(':') == std::string::npos ? ':' : ',';
+      EXPECT_EQ(fault_of(example + separator + name + "=" + standard), fault_of(example)) << kind.name << " " << name;
+    }
 }
 
 TEST(Fault, TextIsReadAsTheFaultItWasWrittenOf) {
