@@ -2,12 +2,11 @@
 
 #include <utility>
 
+#include "serial_sim/modbus/functions.hpp"
 #include "serial_sim/modbus/request.hpp"
 
 namespace s7200::modbus {
 namespace {
-
-constexpr std::uint8_t kBroadcast = 0, kLastStation = 247;
 
 /// Station, PDU, CRC: of the station asked, with the function asked for, or its exception.
 bool answers(std::span<const std::uint8_t> frame, const TcpMessage& request) {
