@@ -103,7 +103,10 @@ std::string read_row(std::string_view line, TimeRow& row) {
 }
 
 std::string quoted(const std::string& field) {
-  return field.find_first_of(",\"") == std::string::npos ? field : '"' + field + '"';
+  if (field.find_first_of(",\"") == std::string::npos) return field;
+  std::string text = "\"";
+  for (const char c : field) text.append(c == '"' ? 2 : 1, c);
+  return text + '"';
 }
 
 }  // namespace
@@ -171,7 +174,7 @@ std::string to_csv(const TimeTable& times) {
   std::string text = std::string(kHeader) + ",source\n";
   for (const TimeRow& row : times.rows())
     text += fmt::format("{},{},{},{},{},{},{}\n", fmt::join(row.mnemonics, " "), quoted(row.form), in_microseconds(row.base),
-                        row.per_unit ? in_microseconds(row.per_unit) : "", row.unit, row.marker, quoted(row.source));
+                        row.per_unit ? in_microseconds(row.per_unit) : "", quoted(row.unit), row.marker, quoted(row.source));
   return text;
 }
 

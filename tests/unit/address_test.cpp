@@ -1,0 +1,51 @@
+// Addresses and assignments as the options of the command take them.
+#include "interpreter/program/address.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+namespace s7200 {
+namespace {
+
+std::string refusal(std::string_view text) {
+  std::string why;
+  EXPECT_FALSE(parse_range(text, cpu214(), why)) << text;
+  return why;
+}
+
+std::optional<Assignment> assignment(std::string_view text) {
+  std::string why;
+  return parse_assignment(text, cpu214(), why);
+}
+
+TEST(Address, ACountStandsBehindAColon) {
+  std::string why;
+  const auto range = parse_range("VW100:4", cpu214(), why);
+  ASSERT_TRUE(range) << why;
+  EXPECT_EQ(range->count, 4u);
+  EXPECT_EQ(range->at, image::kV + 100);
+  EXPECT_EQ(range->name_of(3), "VW106");
+  EXPECT_EQ(parse_range("T37:2", cpu214(), why)->name_of(1), "T38");
+}
+
+TEST(Address, WhatIsNoAddressOrNotThereIsNamed) {
+  EXPECT_EQ(refusal("hello"), "'hello' is no address; write for example VB100, VW100:4, M31.7, AC0");
+  EXPECT_EQ(refusal("V100"), "'V100' is no address; write for example VB100, VW100:4, M31.7, AC0");
+  for (const char* text : {"VB0:0", "VB0:x", "VB0:", "VB0:2x", "VB0:99999999999", "M0.0:2"})
+    EXPECT_EQ(refusal(text),
+              std::string("'") + text + "': the count behind the colon is a number above 0, and bits have none");
+  EXPECT_EQ(refusal("VB4090:7"), "'VB4090:7' is not on CPU 214: V memory has 4096 bytes");
+  EXPECT_EQ(refusal("T127:2"), "'T127:2' is not on CPU 214: T memory has 128 elements");
+}
+
+TEST(Address, AValueIsAnIntegerThatFitsOrARealForADoubleWord) {
+  EXPECT_EQ(assignment("VW100=-5")->value & 0xFFFF, 0xFFFBu);
+  EXPECT_EQ(assignment("M31.7=1")->value, 1u);
+  EXPECT_EQ(assignment("VD0=-2.5")->value, std::bit_cast<std::uint32_t>(-2.5f));
+  for (const char* text : {"VB0=256", "VB0=-129", "M0.0=2", "M0.0=-1", "VW0=2.5", "VW0:2=1", "VW0", "VW0=", "VW0=VW2"})
+    EXPECT_FALSE(assignment(text)) << text;
+}
+
+}  // namespace
+}  // namespace s7200

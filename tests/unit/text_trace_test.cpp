@@ -1,0 +1,76 @@
+// What a trace says, record by record.
+#include "interpreter/trace/text_trace.hpp"
+
+#include <sstream>
+
+#include "tests/support/plc.hpp"
+
+namespace s7200::test {
+namespace {
+
+constexpr std::string_view kProgram = "LD SM0.0\nMOVW VW0, *VD2\nMEND\n";
+
+std::string told(const TraceRecord& record) { return describe(record, *program_of(kProgram)); }
+
+TEST(TextTrace, TellsOfTheScanAndTheMode) {
+  EXPECT_EQ(told({.kind = TraceKind::ScanBegin, .count = 7}), "scan 7 begins");
+  EXPECT_EQ(told({.kind = TraceKind::ModeChange, .code = 1}), "RUN");
+  EXPECT_EQ(told({.kind = TraceKind::ModeChange, .code = 0}), "STOP");
+}
+
+TEST(TextTrace, TellsOfInterruptsFromTheirEventToTheirEnd) {
+  EXPECT_EQ(told({.kind = TraceKind::Attach, .event = 10, .routine = 4, .interval = 5 * ms}),
+            "ATCH: INT 4 to event 10 (timed interrupt 0, SMB34), every 5 ms");
+  EXPECT_EQ(told({.kind = TraceKind::Attach, .event = 0, .routine = 4}), "ATCH: INT 4 to event 0 (rising edge of I0.0)");
+  EXPECT_EQ(told({.kind = TraceKind::EventOccurred, .event = 0, .routine = 4}),
+            "event 0 (rising edge of I0.0) occurred, for INT 4");
+  EXPECT_EQ(told({.at = 30 * us, .kind = TraceKind::ServiceBegin, .event = 0, .routine = 4, .since = 10 * us}),
+            "INT 4 begins: event 0 (rising edge of I0.0), waited 20 us");
+  EXPECT_EQ(told({.at = 90 * us, .kind = TraceKind::ServiceEnd, .event = 0, .routine = 4, .since = 30 * us}),
+            "INT 4 ends: took 60 us");
+  EXPECT_EQ(told({.kind = TraceKind::Detach, .event = 0}), "DTCH: event 0 (rising edge of I0.0)");
+  EXPECT_EQ(told({.kind = TraceKind::EventLost, .event = 0}), "event 0 (rising edge of I0.0) LOST: its queue is full");
+  EXPECT_EQ(told({.kind = TraceKind::EventDropped, .event = 0, .since = 12'000'345}),
+            "event 0 (rising edge of I0.0) of      12.000345 ms dropped: detached while it waited");
+}
+
+TEST(TextTrace, TellsOfThePortCharacterByCharacter) {
+  EXPECT_EQ(told({.kind = TraceKind::PortControl, .byte = 9}), "SMB30 = 16#09");
+  EXPECT_EQ(told({.kind = TraceKind::Transmit, .count = 3}), "XMT: 3 characters");
+  EXPECT_EQ(told({.kind = TraceKind::Transmit, .count = 0}), "XMT: break");
+  EXPECT_EQ(told({.kind = TraceKind::TransmitEnd}), "transmit complete");
+  EXPECT_EQ(told({.kind = TraceKind::CharacterSent, .byte = 0xA5}), "sent     a5");
+  EXPECT_EQ(told({.kind = TraceKind::CharacterReceived, .byte = 0x0F}), "received 0f");
+  EXPECT_EQ(told({.kind = TraceKind::CharacterReceived, .byte = 1, .parity_error = true, .framing_error = true}),
+            "received 01 parity error framing error");
+  EXPECT_EQ(told({.kind = TraceKind::CharacterIgnored, .byte = 2}), "ignored  02: event 8 is not attached");
+}
+
+TEST(TextTrace, TellsOfOutputsAndErrors) {
+  EXPECT_EQ(told({.kind = TraceKind::OutputChanged, .byte = 0b101, .op = 1}), "QB1 = 2#00000101");
+  EXPECT_EQ(told({.kind = TraceKind::AnalogChanged, .op = 4, .count = 0xFFFF}), "AQW4 = -1");
+  EXPECT_EQ(told({.kind = TraceKind::RuntimeError, .code = 0x06, .op = 1}),
+            "run-time error 0006 (indirect addressing error: the pointer leads outside the memory it may reach) in line 2: "
+            "MOVW    VW0, *VD2");
+  EXPECT_EQ(told({.kind = TraceKind::RuntimeError, .code = 0x94, .op = kNoRoutine}),
+            "run-time error 0094 (the V address to save lies outside the EEPROM) in between two scans");
+  EXPECT_EQ(told({.kind = TraceKind::FatalError, .code = 0x03, .op = 0}),
+            "FATAL error 0003 (scan watchdog: the scan took longer than 300 ms without WDR) in line 1: LD      SM0.0");
+}
+
+TEST(TextTrace, AnInstructionIsToldWithTheValuesOfItsOperands) {
+  Plc plc(kProgram);
+  std::ostringstream out;
+  TextTrace trace(out, program_of(kProgram), true);
+  plc.cpu.set_sink(&trace);
+  plc.set("VW0", 0x1234);
+  plc.set("VD2", 0x0300'0000);  // leads nowhere
+  plc.run_until(230 * us);
+  const std::string text = out.str();
+  EXPECT_NE(text.find("line 1     LD      SM0.0                S0=1 SM0.0=1  10 us\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("line 2     MOVW    VW0, *VD2            S0=1 VW0=16#1234 *VD2=?"), std::string::npos) << text;
+  EXPECT_NE(text.find("run-time error 0006"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace s7200::test
