@@ -91,7 +91,8 @@ class Execution {
  public:
   explicit Execution(const Vector& vector) : vector_(vector) {
     const std::string text = program_text();
-    checked_ = check_text(text, "vector", cpu214(), default_times(cpu214()));
+    static const TimeTable kTimes = default_times(cpu214());
+    checked_ = check_text(text, "vector", cpu214(), kTimes);
   }
 
   /// What is wrong; empty when nothing is.
