@@ -1,26 +1,43 @@
 #!/usr/bin/env python3
 """Mutation check: do the tests notice when an instruction is wrong?
 
-Changes one thing at a time in the bodies of the instructions and in the rows of their table, builds, and runs the tests.
-A mutant that no test notices survives and is printed. Works on a copy of the tree; the tree itself is not touched.
+Changes one thing at a time in the bodies of the instructions and in the rows of their table, and runs the tests from the
+quickest to the slowest until one fails. A mutant that no test notices survives and is printed.
 
-    tests/mutation/run.py                 every mutant (hours)
+    tests/mutation/run.py                 every mutant
     tests/mutation/run.py --sample 100    so many, spread evenly over all
     tests/mutation/run.py --list          what would be changed
-    tests/mutation/run.py --work DIR      keep the copy and its build there, so that a second run starts at once
+    tests/mutation/run.py --results FILE  keeps what became of each mutant; what the FILE says was noticed is not run again,
+                                          so that a second run goes on, or tries the survivors only
+    tests/mutation/run.py --work DIR      keeps the copy of the tree and its build, so that a second run starts at once
 
-Exit code 0 when at least 95 % of the mutants were noticed. A mutant that does not compile is not counted.
+Works on a copy of the tree. There the interpreter is a shared library, and a mutant is table.cpp with its bodies, built
+alone, that the tests find in front of it (LD_PRELOAD): a second or two, and nothing is linked again. CXX names the compiler;
+`CXX=clang++` is twice as quick.
+
+equivalent.txt lists mutants that provably change nothing, each with the reason; they are not counted.
+Exit code 0 when at least 95 % of those counted were noticed. A mutant that does not compile is not counted.
 """
 import argparse
+import collections
+import concurrent.futures
+import itertools
+import json
+import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BODIES = "interpreter/instructions"
+TABLE = f"{BODIES}/table.cpp"
+EQUIVALENT = pathlib.Path(__file__).resolve().parent / "equivalent.txt"
 GOAL = 0.95
 
 # What is changed into what. Each pattern is tried at each place where it stands.
@@ -45,8 +62,16 @@ IN_ROWS = [
 
 
 class Mutant:
-    def __init__(self, path, number, before, after):
-        self.path, self.number, self.before, self.after = path, number, before, after
+    """One line changed. `nth` tells apart equal lines of a file, so that a mutant is known again when lines move."""
+
+    def __init__(self, path, number, nth, before, after):
+        self.path, self.number, self.nth, self.before, self.after = path, number, nth, before, after
+
+    def text(self):
+        return (self.path, self.before.strip(), self.after.strip())
+
+    def key(self):
+        return json.dumps([*self.text(), self.nth])
 
     def __str__(self):
         return f"{self.path}:{self.number}\n  - {self.before.strip()}\n  + {self.after.strip()}"
@@ -54,12 +79,13 @@ class Mutant:
 
 def is_code(line):
     text = line.strip()
-    return text and not text.startswith(("//", "#", "template <", "namespace", "enum", "static_assert", "inline constexpr"))
+    return text and not text.startswith(("//", "#", "template <", "namespace", "enum", "static_assert"))
 
 
 def mutants_of(path, patterns, rows_only):
     lines = (ROOT / path).read_text(encoding="utf-8").split("\n")
     in_rows = not rows_only
+    seen = {}
     for number, line in enumerate(lines, 1):
         if rows_only and re.match(r"  void \w+\(\) \{", line):
             in_rows = True
@@ -67,76 +93,210 @@ def mutants_of(path, patterns, rows_only):
             in_rows = False
         if not in_rows or not is_code(line):
             continue
+        nth = seen[line] = seen.get(line, -1) + 1
         code = re.sub(r'"[^"]*"|//.*', lambda m: "\0" * len(m.group(0)), line)  # no change inside texts and comments
+        variants = {}
         for pattern, replacement in patterns:
             for match in re.finditer(pattern, code):
                 changed = match.expand(replacement) if isinstance(replacement, str) else replacement(match)
                 after = line[: match.start()] + changed + line[match.end():]
                 if "\0" not in changed and after != line:
-                    yield Mutant(path, number, line, after)
+                    variants[after] = Mutant(path, number, nth, line, after)
+        yield from variants.values()
 
 
 def all_mutants():
     bodies = sorted(p.name for p in (ROOT / BODIES).glob("*.hpp") if p.name != "instruction.hpp")
     for name in bodies:
         yield from mutants_of(f"{BODIES}/{name}", IN_BODIES, rows_only=False)
-    yield from mutants_of(f"{BODIES}/table.cpp", IN_ROWS, rows_only=True)
+    yield from mutants_of(TABLE, IN_ROWS, rows_only=True)
+
+
+def equivalents(mutants):
+    """{text of a mutant: reason}. A file that names a mutant that does not exist, or gives no reason, is an error."""
+    known, found, path, before, after = {m.text() for m in mutants}, {}, None, None, None
+    for number, line in enumerate(EQUIVALENT.read_text(encoding="utf-8").split("\n"), 1):
+        if line.startswith("- "):
+            before = line[2:]
+        elif line.startswith("+ "):
+            after = line[2:]
+        elif line.startswith("= "):
+            if (path, before, after) not in known:
+                sys.exit(f"{EQUIVALENT}:{number}: there is no such mutant (see --list)")
+            found[(path, before, after)] = line[2:]
+        elif line and not line.startswith("#"):
+            path = line
+    return found
 
 
 class Tests:
     """The copy, its build, and the tests from the quickest to the slowest."""
 
-    TARGETS = ["unit_tests", "lockstep_test", "s7200"]
+    TARGETS = ["unit_tests", "lockstep_test", "generate_vectors", "s7200"]
+    STAGES = ["vectors", "lock-step", "unit tests", "wrong programs", "programs that go wrong", "vectors as generated", "reference page"]
+    SECONDS, KILOBYTES = 120, 4_000_000  # of processor time and memory; what needs more hangs
+    # What every mutant's table.cpp includes and no mutant changes.
+    PRECOMPILED = ["algorithm", "bit", "cmath", "map", "optional", "set", "string", "type_traits", "vector", "interpreter/cpu/cpu.hpp",
+                   "interpreter/instructions/instruction.hpp"]
 
-    def __init__(self, work, jobs):
-        self.tree, self.build_dir, self.jobs = work / "tree", work / "build", jobs
-        if not self.tree.exists():
-            shutil.copytree(ROOT, self.tree, ignore=shutil.ignore_patterns("build", ".git"))
-            shared = ROOT.parent / "shared"
-            if shared.exists():
-                (work / "shared").symlink_to(shared)
-            self.call(["cmake", "-S", self.tree, "-B", self.build_dir, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O0"])
+    def __init__(self, work):
+        self.work, self.tree, self.build_dir = work, work / "tree", work / "build"
+        self.compiler = [os.environ.get("CXX", "c++"), "-std=c++20", "-O0", "-fPIC", "-w"]
+        unit, lockstep = self.build_dir / "tests/unit_tests", self.build_dir / "tests/reference_model/lockstep_test"
+        command, page = self.build_dir / "tools/s7200", self.tree / BODIES / "REFERENCE.md"
+        bad_input = [sys.executable, self.tree / "tests/bad_input/run.py", command]
+        quick, no_matter = "*Vectors*:InstructionTable*", "Parser.*:Document.*:Encoding.*:AtomicFile.*:Tip41.*"  # texts and files
+        self.stages = dict(zip(self.STAGES, [
+            [unit, "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter={quick}"],
+            ["env", "S7200_LOCKSTEP_INSTRUCTIONS=20000", lockstep, "--gtest_fail_fast", "--gtest_filter=*Agrees*"],
+            [unit, "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter=-{quick}:{no_matter}"],
+            [*bad_input, "programs"],
+            [*bad_input, "runtime"],
+            [self.build_dir / "tests/vectors/generate_vectors", "--check", self.tree / "tests/vectors"],
+            ["bash", "-c", '"$0" instructions --markdown | diff -q - "$1"', command, page],
+        ], strict=True))
 
-    @staticmethod
-    def call(command, timeout=900, env=None):
-        try:
-            return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout, env=env).returncode == 0
-        except subprocess.TimeoutExpired:
-            return False
+    def call(self, command, **others):
+        """Whether it ends well within its limits; what it started ends with it."""
+        limited = ["bash", "-c", f'ulimit -t {self.SECONDS} -v {self.KILOBYTES}; exec "$@"', "-", *map(str, command)]
+        with subprocess.Popen(limited, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True, **others) as process:
+            try:
+                return process.wait(timeout=10 * self.SECONDS) == 0
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                return False
 
-    def build(self):
-        return self.call(["cmake", "--build", self.build_dir, "-j", str(self.jobs), "--target", *self.TARGETS], timeout=3600)
+    def refresh(self):
+        """The copy becomes what the tree is; files that are the same stay untouched, so that little is built again."""
+        def copy(source, target):
+            if not os.path.exists(target) or pathlib.Path(source).read_bytes() != pathlib.Path(target).read_bytes():
+                shutil.copy(source, target)
+        shutil.copytree(ROOT, self.tree, ignore=shutil.ignore_patterns("build", ".git"), copy_function=copy, dirs_exist_ok=True)
+        for path in self.tree.rglob("*"):
+            if path.is_file() and not (ROOT / path.relative_to(self.tree)).exists():
+                path.unlink()
+        shared = ROOT.parent / "shared"
+        if shared.exists() and not (self.work / "shared").exists():
+            (self.work / "shared").symlink_to(shared)
 
-    def pass_all(self):
-        unit = self.build_dir / "tests" / "unit_tests"
-        lockstep = self.build_dir / "tests" / "reference_model" / "lockstep_test"
-        return (self.call([unit, "--gtest_brief=1", "--gtest_filter=*Vectors*:InstructionTable*"], timeout=60)
-                and self.call(["env", "S7200_LOCKSTEP_INSTRUCTIONS=20000", lockstep, "--gtest_filter=*Agrees*/0"], timeout=120)
-                and self.call([unit, "--gtest_brief=1", "--gtest_fail_fast", "--gtest_filter=-*Vectors*:InstructionTable*"], timeout=300)
-                and self.call(["ctest", "--test-dir", self.build_dir, "-R", "bad_input"], timeout=300))
+    def build(self, jobs):
+        self.refresh()
+        precompiled = self.work / "precompiled.hpp"
+        precompiled.write_text("".join(f'#include "{name}"\n' if "/" in name else f"#include <{name}>\n" for name in self.PRECOMPILED))
+        steps = [["cmake", "-S", self.tree, "-B", self.build_dir, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O1",
+                  "-DBUILD_SHARED_LIBS=ON"],
+                 ["cmake", "--build", self.build_dir, "-j", jobs, "--target", *self.TARGETS],
+                 [*self.compiler, "-I", self.tree, "-x", "c++-header", precompiled, "-o", f"{precompiled}.gch"]]
+        for step in steps:
+            subprocess.run(list(map(str, step)), check=True, stdout=subprocess.DEVNULL)
 
-    def notice(self, mutant):
-        """True or False; None when the mutant does not compile."""
-        path = self.tree / mutant.path
-        original = path.read_text(encoding="utf-8")
-        lines = original.split("\n")
-        lines[mutant.number - 1] = mutant.after
-        path.write_text("\n".join(lines), encoding="utf-8")
-        try:
-            return not self.pass_all() if self.build() else None
-        finally:
-            path.write_text(original, encoding="utf-8")
+    def what_notices(self, mutant):
+        """Name of the first stage that fails, "" when none does, None when the mutant does not compile."""
+        with tempfile.TemporaryDirectory(dir=self.work) as folder:
+            place = pathlib.Path(folder)
+            library, (include, source) = place / "mutant.so", (place, self.tree / TABLE)
+            if mutant:
+                lines = (self.tree / mutant.path).read_text(encoding="utf-8").split("\n")
+                lines[mutant.number - 1] = mutant.after
+                changed = place / mutant.path
+                changed.parent.mkdir(parents=True)
+                changed.write_text("\n".join(lines), encoding="utf-8")
+                source = changed if mutant.path == TABLE else source
+            # A changed header is found before that of the tree.
+            if not self.call([*self.compiler, "-include", self.work / "precompiled.hpp", "-I", include, "-I", self.tree, "-shared", source,
+                              "-o", library, f"-L{self.build_dir}/interpreter", "-ls7200_interpreter",
+                              f"-Wl,-rpath,{self.build_dir}/interpreter"]):
+                return None
+            return self.first_failure({**os.environ, "LD_PRELOAD": str(library)})
+
+    def first_failure(self, environment):
+        for name, command in self.stages.items():
+            if not self.call(command, env=environment, cwd=self.work):
+                return name
+        return ""
+
+
+class Results:
+    """{key of a mutant: stage that noticed it, "" or None}, and the file they are kept in."""
+
+    def __init__(self, path):
+        self.path, self.of, self.lock = path, {}, threading.Lock()
+        if path and path.exists():
+            for line in path.read_text(encoding="utf-8").splitlines():
+                entry = json.loads(line)
+                self.of[json.dumps(entry["mutant"])] = entry["noticed_by"]
+
+    def open(self, mutant):
+        return self.of.get(mutant.key(), "") == ""
+
+    def add(self, mutant, noticed_by):
+        with self.lock:
+            self.of[mutant.key()] = noticed_by
+            if self.path:
+                with self.path.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps({"mutant": json.loads(mutant.key()), "noticed_by": noticed_by}) + "\n")
+
+
+def run_all(mutants, results, work, jobs):
+    tests = Tests(work)
+    tests.build(jobs)
+    begin = time.monotonic()
+    noticed_by = tests.what_notices(None)
+    if noticed_by != "":
+        sys.exit(f"the tree itself does not pass: {noticed_by or 'does not compile'}")
+    print(f"built; all tests take {time.monotonic() - begin:.1f} s; {len(mutants)} mutants to run", file=sys.stderr, flush=True)
+    numbers = itertools.count(1)
+
+    def run_one(mutant):
+        results.add(mutant, tests.what_notices(mutant))
+        number = next(numbers)
+        if sys.stderr.isatty() or number % 50 == 0:
+            print(f"\r{number} of {len(mutants)}", end="" if sys.stderr.isatty() else "\n", file=sys.stderr, flush=True)
+
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        list(pool.map(run_one, mutants))
+    print(file=sys.stderr)
+
+
+def report(mutants, results, reasons):
+    """Prints what became of the mutants; whether enough were noticed."""
+    noticed, survivors, unchanged, uncompiled = collections.Counter(), [], [], []
+    wrong_reasons = 0
+    for mutant in mutants:
+        noticed_by, reason = results.of[mutant.key()], reasons.get(mutant.text())
+        if noticed_by is None:
+            uncompiled.append(mutant)
+        elif noticed_by:
+            noticed[noticed_by] += 1
+            if reason:
+                wrong_reasons += 1
+                print(f"is to change nothing and was noticed by: {noticed_by}: {mutant}\n  = {reason}")
+        else:
+            (unchanged if reason else survivors).append(mutant)
+    for mutant in unchanged:
+        print(f"changes nothing: {mutant}\n  = {reasons[mutant.text()]}")
+    for mutant in survivors:
+        print(f"survived: {mutant}")
+    print(f"{len(uncompiled):6}  did not compile\n{len(unchanged):6}  change nothing\n{len(survivors):6}  survived")
+    for stage in Tests.STAGES:
+        print(f"{noticed[stage]:6}  noticed by: {stage}")
+    counted = noticed.total() + len(survivors)
+    print(f"{noticed.total()} of {counted} mutants noticed ({100 * noticed.total() / max(1, counted):.1f} %)")
+    return noticed.total() >= GOAL * counted and not wrong_reasons
 
 
 def main():
-    options = argparse.ArgumentParser(description="Mutation check of the instructions", epilog="Example: tests/mutation/run.py --sample 100")
+    options = argparse.ArgumentParser(description="Mutation check of the instructions",
+                                      epilog="Example: nice tests/mutation/run.py --results /tmp/mutants.json")
     options.add_argument("--sample", type=int, metavar="N", help="so many mutants, spread evenly")
     options.add_argument("--list", action="store_true", help="print the mutants only")
+    options.add_argument("--results", type=pathlib.Path, metavar="FILE", help="keep what became of each; do not run again what was noticed")
     options.add_argument("--work", type=pathlib.Path, metavar="DIR", help="where the copy and its build are kept")
-    options.add_argument("--jobs", type=int, default=2, metavar="N", help="compilers at a time (default 2)")
+    options.add_argument("--jobs", type=int, default=2, metavar="N", help="mutants at a time (default 2)")
     chosen = options.parse_args()
 
     mutants = list(all_mutants())
+    reasons = equivalents(mutants)
     if chosen.sample and chosen.sample < len(mutants):
         mutants = [mutants[i * len(mutants) // chosen.sample] for i in range(chosen.sample)]
     if chosen.list:
@@ -144,28 +304,15 @@ def main():
         print(f"{len(mutants)} mutants")
         return 0
 
-    work = chosen.work or pathlib.Path(tempfile.mkdtemp(prefix="s7200-mutation-"))
-    work.mkdir(parents=True, exist_ok=True)
-    tests = Tests(work.resolve(), chosen.jobs)
-    if not tests.build() or not tests.pass_all():
-        print("the tree itself does not build or pass its tests", file=sys.stderr)
-        return 2
-
-    noticed, survivors = 0, []
-    for number, mutant in enumerate(mutants, 1):
-        result = tests.notice(mutant)
-        if result:
-            noticed += 1
-        elif result is False:
-            survivors.append(mutant)
-            print(f"survived: {mutant}", flush=True)
-        print(f"\r{number} of {len(mutants)}", end="", file=sys.stderr, flush=True)
-    if not chosen.work:
-        shutil.rmtree(work)
-    counted = noticed + len(survivors)
-    print(f"\n{noticed} of {counted} mutants noticed ({100 * noticed / max(1, counted):.1f} %), "
-          f"{len(mutants) - counted} did not compile")
-    return 0 if noticed >= GOAL * counted else 1
+    results = Results(chosen.results)
+    to_run = [m for m in mutants if results.open(m)]
+    if to_run:
+        work = chosen.work or pathlib.Path(tempfile.mkdtemp(prefix="s7200-mutation-"))
+        work.mkdir(parents=True, exist_ok=True)
+        run_all(to_run, results, work.resolve(), chosen.jobs)
+        if not chosen.work:
+            shutil.rmtree(work)
+    return 0 if report(mutants, results, reasons) else 1
 
 
 if __name__ == "__main__":
