@@ -16,6 +16,17 @@
 
 namespace s7200::tools {
 namespace fs = std::filesystem;
+namespace {
+
+/// Makes the port wait for a carrier, which a pty has not: without effect, but each program that opens a serial port takes
+/// it back. So its tcsetattr() changes something, without which the C library reports EINVAL when a pty drops the parity
+/// asked for, and pyserial gives up. Only this bit is touched: a program may be setting the others.
+void leave_something_to_change(int far) {
+  const int without_carrier = 0;
+  ioctl(far, TIOCSSOFTCAR, &without_carrier);
+}
+
+}  // namespace
 
 std::unique_ptr<Pty> Pty::open(const std::string& link, const SerialFormat& format, std::string& why) {
   std::unique_ptr<Pty> pty(new Pty);
@@ -54,6 +65,7 @@ bool Pty::open_far_side(const SerialFormat& format, std::string& why) {
         write_settings(far_, settings) && watch_ >= 0 && inotify_add_watch(watch_, path_.c_str(), IN_OPEN | IN_CLOSE) >= 0;
   }
   if (!done) why = std::strerror(errno);
+  leave_something_to_change(far_);
   return done;
 }
 
@@ -113,6 +125,7 @@ void Pty::all_have_left() const {
   ioctl(fd_, TCFLSH, TCOFLUSH);
   ioctl(far_, TCFLSH, TCIFLUSH);
   ioctl(far_, TIOCNXCL);
+  leave_something_to_change(far_);
 }
 
 }  // namespace s7200::tools
