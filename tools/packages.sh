@@ -20,6 +20,7 @@ needed_to_build=(
 needed_to_test=(
   /usr/include/modbus/modbus.h:libmodbus-dev
   /usr/lib/python3/dist-packages/pymodbus:python3-pymodbus
+  /usr/lib/python3/dist-packages/serial_asyncio:python3-serial-asyncio
   mbpoll:mbpoll
   sigrok-cli:sigrok-cli
   tshark:tshark

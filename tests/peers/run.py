@@ -50,6 +50,11 @@ class Conversation(unittest.TestCase):
         self.open()
 
     def tearDown(self):
+        self.switch_off()
+
+    def switch_off(self):
+        if self.plc.returncode is not None:
+            return
         self.master.close()
         self.plc.send_signal(signal.SIGINT)
         out, err = self.plc.communicate(timeout=PATIENCE)
@@ -67,6 +72,7 @@ class Conversation(unittest.TestCase):
 
     def reopen(self, **settings):
         self.master.close()
+        time.sleep(0.1)  # the PLC's side has to see it
         self.open(**settings)
 
     def ask(self, request, station=1):
@@ -94,9 +100,9 @@ class Conversation(unittest.TestCase):
         self.reopen()
 
     def frames(self):
-        """What ran over the line so far, without what is still in the capture's buffer."""
+        """What ran over the line, in both directions."""
         data, at, frames = self.capture.read_bytes(), 24, []
-        while at + 16 <= len(data):
+        while at < len(data):
             length, = struct.unpack_from("<I", data, at + 8)
             frames.append(data[at + 16:at + 16 + length])
             at += 16 + length
@@ -175,6 +181,7 @@ class Peers(Conversation):
             asked[request.function] += 1
             self.check(request.function, request.first, request.count, values=request.values)
         self.assertEqual(sorted(asked), [1, 2, 3, 4, 5, 6, 15, 16])
+        self.switch_off()
         on_the_line = {frame[1] & 0x7F for frame in self.frames() if len(frame) >= 5}
         self.assertEqual(on_the_line, set(asked))
         print(f"{sum(asked.values())} exchanges, {self.late} of them late")
