@@ -92,7 +92,7 @@ class DeviceBridge final : public Bridge {
   void read() {
     std::vector<SerialDevice::Character> characters;
     std::string why;
-    if (!device_->read(characters, why)) fail(why);
+    if (!device_->read(characters, why)) fail("the device is gone: " + why);
     const SerialFormat format = device_->format();
     const auto fault = format.parity == Parity::None ? HostCharacter::Fault::NoStopBit : HostCharacter::Fault::WrongParity;
     std::vector<HostCharacter> sent;
@@ -109,7 +109,7 @@ class DeviceBridge final : public Bridge {
     std::string why;
     while (!output_.empty() && failure_.empty()) {
       const auto count = device_->write(output_, why);
-      if (!count) return fail(why);
+      if (!count) return fail("the device is gone: " + why);
       if (*count == 0) return;
       out_ += *count;
       output_.erase(output_.begin(), output_.begin() + static_cast<std::ptrdiff_t>(*count));

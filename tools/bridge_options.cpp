@@ -45,7 +45,7 @@ void BridgeOptions::add_to(CLI::App& app) {
   add("--device", device_, "DEVICE", "a serial device of this computer, set as the program sets its port");
   line_.add_to(app, "as the program sets its port; with --pty as its client shows it");
   add_duration(app, "--timeout", timeout_,
-               "how long --modbus-tcp and --rtu-over-tcp wait for the begin of an answer (default 1s)");
+               "how long --modbus-tcp and --rtu-over-tcp wait for the begin of an answer (default 400ms)");
 }
 
 bool BridgeOptions::prepare() {

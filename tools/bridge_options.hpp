@@ -30,7 +30,7 @@ class BridgeOptions {
  private:
   std::string pty_, tcp_, rtu_over_tcp_, modbus_tcp_, device_;
   LineOptions line_;
-  Time timeout_ = kSecond;
+  Time timeout_ = 400 * kMillisecond;  // before masters lose patience: libmodbus waits 500 ms
   bool realtime_ = false, speed_given_ = false;
   double speed_ = 1;
   std::unique_ptr<Bridge> bridge_;

@@ -1,0 +1,812 @@
+#!/usr/bin/env python3
+"""`s7200 run` with its bridges, as programs outside meet them: run.py S7200 SOURCE_DIR pty|tcp|modbus_tcp|device|run
+
+Nothing here depends on how fast the computer is: what has to come is waited for, for long; what must not come is waited for
+in multiples of the time it would need.
+"""
+import errno
+import fcntl
+import json
+import os
+import pathlib
+import re
+import select
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import tempfile
+import termios
+import time
+import unittest
+
+S7200, SOURCE, GROUP = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
+SLAVE = str(SOURCE / "stl_programs/modbus_slave.stl")
+FINE, FAILED, UNUSABLE, FATAL = range(4)
+LONG = 60      # seconds, for what has to come
+SILENCE = 0.4  # seconds; at SPEED ten times the slave's latency
+SPEED = 5
+
+READ = bytes.fromhex("0103000a0002e409")             # registers 10 and 11
+PRESET = ["--set", "VW20=16#1234", "--set", "VW22=16#5678"]
+
+
+def crc16(data):
+    crc = 0xFFFF
+    for byte in data:
+        crc ^= byte
+        for _ in range(8):
+            crc = crc >> 1 ^ 0xA001 if crc & 1 else crc >> 1
+    return struct.pack("<H", crc)
+
+
+ANSWER = bytes.fromhex("01030412345678")
+ANSWER += crc16(ANSWER)
+
+
+class Running:
+    """`s7200 run` in the background, ready to serve."""
+
+    READY = re.compile(r"^(?:listening on (.*):(\d+)|serving .*|connected to .*)$", re.M)
+
+    def __init__(self, folder, *arguments):
+        self.errors = folder / "stderr"
+        with open(self.errors, "w", encoding="utf-8") as stderr:
+            self.process = subprocess.Popen([S7200, "run", "--json", *map(str, arguments)], stdin=subprocess.DEVNULL,
+                                            stdout=subprocess.PIPE, stderr=stderr, text=True)
+        until = time.monotonic() + LONG
+        while not (ready := self.READY.search(self.said())):
+            if self.process.poll() is not None or time.monotonic() > until:
+                raise AssertionError(f"did not start: {self.said()}")
+            time.sleep(0.01)
+        self.host, self.port = ready.group(1), ready.group(2) and int(ready.group(2))
+
+    def said(self):
+        return self.errors.read_text(encoding="utf-8")
+
+    def wait_for(self, text):
+        until = time.monotonic() + LONG
+        while text not in self.said():
+            if time.monotonic() > until:
+                raise AssertionError(f"{text!r} was not said: {self.said()}")
+            time.sleep(0.02)
+
+    def descriptors(self):
+        return len(os.listdir(f"/proc/{self.process.pid}/fd"))
+
+    def end(self, code=FINE, by=signal.SIGINT):
+        if by is not None:
+            self.process.send_signal(by)
+        out, _ = self.process.communicate(timeout=LONG)
+        if self.process.returncode != code:
+            raise AssertionError(f"exit code {self.process.returncode}: {out}{self.said()}")
+        return json.loads(out) if out else None
+
+    def kill(self):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.communicate()
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def start(self, *arguments, program=SLAVE):
+        running = Running(self.folder, program, *arguments)
+        self.addCleanup(running.kill)
+        return running
+
+    def program(self, text):
+        path = self.folder / "program.stl"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def refused(self, *arguments, program=SLAVE):
+        done = subprocess.run([S7200, "run", program, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True,
+                              text=True, timeout=LONG, check=False)
+        self.assertEqual((done.returncode, done.stdout), (UNUSABLE, ""), done.stderr)
+        return done.stderr
+
+    def eventually(self, condition):
+        until = time.monotonic() + LONG
+        while not condition():
+            self.assertLess(time.monotonic(), until, "it never came")
+            time.sleep(0.02)
+
+
+# --- serial ports ---
+
+INPCK, IGNPAR = termios.INPCK, termios.IGNPAR
+
+
+class SerialPort:
+    """As a program opens it that wants 9600 8E1, unless it says otherwise."""
+
+    def __init__(self, path, baud=termios.B9600, cflag=termios.PARENB, iflag=0):
+        self.fd = os.open(path, os.O_RDWR | os.O_NOCTTY)
+        self.set(baud, cflag, iflag)
+
+    def set(self, baud=termios.B9600, cflag=termios.PARENB, iflag=0):
+        settings = termios.tcgetattr(self.fd)
+        settings[0], settings[1], settings[3] = iflag, 0, 0
+        settings[2] = termios.CS8 | termios.CREAD | termios.CLOCAL | cflag
+        settings[4] = settings[5] = baud
+        termios.tcsetattr(self.fd, termios.TCSANOW, settings)
+
+    def write(self, data):
+        while data:
+            data = data[os.write(self.fd, data):]
+
+    def read(self, count, timeout=LONG):
+        data, until = b"", time.monotonic() + timeout
+        while len(data) < count and select.select([self.fd], [], [], max(0, until - time.monotonic()))[0]:
+            data += os.read(self.fd, count - len(data))
+        return data
+
+    def waiting(self):
+        return struct.unpack("i", fcntl.ioctl(self.fd, termios.FIONREAD, b"\0" * 4))[0]
+
+    def ask(self, request=READ, length=len(ANSWER), timeout=LONG):
+        """Asked again if nothing comes: before its first scan has ended the program hears nothing."""
+        until = time.monotonic() + timeout
+        while True:
+            self.write(request)
+            answer = self.read(length, SILENCE * 2)
+            if answer or time.monotonic() > until:
+                time.sleep(SILENCE / 8)  # the quiet time of a master
+                return answer
+
+    def close(self):
+        os.close(self.fd)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+
+class PtyTests(Case):
+    def setUp(self):
+        super().setUp()
+        self.link = self.folder / "plc"
+
+    def serve(self, *arguments, **options):
+        return self.start("--pty", self.link, "--speed", SPEED, *PRESET, *arguments, **options)
+
+    def open(self, **options):
+        port = SerialPort(self.link, **options)
+        self.addCleanup(lambda: self.close_quietly(port))
+        return port
+
+    @staticmethod
+    def close_quietly(port):
+        try:
+            port.close()
+        except OSError as error:
+            if error.errno != errno.EBADF:
+                raise
+
+    def test_asks_and_is_answered(self):
+        running = self.serve()
+        with SerialPort(self.link) as port:
+            self.assertEqual(port.ask(), ANSWER)
+        bridge = running.end()["bridge"]
+        self.assertEqual(list(bridge), ["kind", "link", "opened", "bytes_in", "bytes_out", "unheard", "overrun", "with_errors"])
+        self.assertEqual((bridge["kind"], bridge["link"], bridge["opened"]), ("pty", str(self.link), 1))
+        self.assertEqual((bridge["bytes_out"], bridge["unheard"], bridge["overrun"]), (len(ANSWER), 0, 0))
+        self.assertEqual(bridge["bytes_in"] % len(READ), 0)
+        self.assertFalse(os.path.lexists(self.link))
+
+    def test_clients_come_and_go_and_nothing_is_lost_or_doubled(self):
+        running = self.serve()
+        with SerialPort(self.link) as port:
+            port.ask()
+        before = running.descriptors()
+        for client in range(20):
+            with SerialPort(self.link) as port:
+                for register in range(3):
+                    request = struct.pack(">BBHH", 1, 6, register, client * 256 + register)
+                    request += crc16(request)
+                    self.assertEqual(port.ask(request, 8), request)
+                self.assertEqual(port.read(1, 0), b"")
+        self.assertEqual(running.descriptors(), before)
+        self.assertEqual(running.end()["bridge"]["opened"], 21)
+
+    def test_what_nobody_hears_is_lost(self):
+        running = self.serve()
+        with SerialPort(self.link) as port:
+            port.ask()
+            port.write(READ)  # and away, before the answer
+        time.sleep(SILENCE)
+        with SerialPort(self.link) as port:
+            self.assertEqual(port.read(1, SILENCE), b"")
+            self.assertEqual(port.ask(), ANSWER)
+        self.assertEqual(running.end()["bridge"]["unheard"], len(ANSWER))
+
+    def test_what_a_client_did_not_read_is_not_for_the_next_one(self):
+        self.serve()
+        with SerialPort(self.link) as port:
+            port.ask()
+            port.write(READ)
+            self.eventually(lambda: port.waiting() == len(ANSWER))
+        time.sleep(SILENCE / 4)
+        with SerialPort(self.link) as port:
+            self.assertEqual(port.read(1, SILENCE), b"")
+            self.assertEqual(port.ask(), ANSWER)
+
+    def test_two_programs_that_have_it_open_share_it(self):
+        self.serve()
+        with SerialPort(self.link) as port, SerialPort(self.link):
+            self.assertEqual(port.ask(), ANSWER)
+        with SerialPort(self.link) as port:
+            self.assertEqual(port.ask(), ANSWER)
+
+    def test_another_rate_or_parity_is_not_understood(self):
+        self.serve()
+        port = self.open()
+        self.assertEqual(port.ask(), ANSWER)
+        for wrong in ({"baud": termios.B19200}, {"baud": termios.B4800}, {"baud": termios.B1200},
+                      {"cflag": termios.PARENB | termios.PARODD}, {"baud": termios.B0}):
+            with self.subTest(wrong):
+                port.set(**wrong)
+                port.write(READ)
+                heard = port.read(len(ANSWER), SILENCE * 2)
+                self.assertNotEqual(heard, ANSWER)
+                self.assertEqual(heard, b"")
+                port.set()
+                self.assertEqual(port.ask(), ANSWER)
+
+    def test_what_a_client_may_set_without_harm(self):
+        self.serve()
+        port = self.open()
+        for right in ({"cflag": termios.PARENB | termios.CSTOPB}, {"iflag": INPCK}, {"cflag": 0}):
+            with self.subTest(right):
+                port.set(**right)
+                self.assertEqual(port.ask(), ANSWER)
+
+    def test_options_hold_whatever_the_client_sets(self):
+        self.serve("--parity", "none")
+        port = self.open()
+        port.write(READ)
+        self.assertEqual(port.read(1, SILENCE * 2), b"")
+
+    def test_the_rate_of_the_option_holds(self):
+        self.serve("--baud", "9600")
+        port = self.open(baud=termios.B19200)
+        self.assertEqual(port.ask(), ANSWER)
+
+    # An A every 50 ms, 9600 8E1.
+    BEACON = ("LD SM0.1\nMOVB 16#49, SMB30\nMOVB 1, VB0\nMOVB 16#41, VB1\nMOVB 50, SMB34\nATCH 0, 10\nENI\nMEND\n"
+              "INT 0\nLD SM0.0\nXMT VB0, 0\nRETI\n")
+
+    def test_characters_with_errors_are_as_the_drivers_of_linux_hand_them_over(self):
+        running = self.start("--pty", self.link, "--speed", SPEED, program=self.program(self.BEACON))
+        odd = termios.PARENB | termios.PARODD
+        for settings, heard in (({}, b"AAAAA"), ({"cflag": odd}, b"AAAAA"), ({"cflag": odd, "iflag": INPCK}, b"\0" * 5)):
+            with self.subTest(settings):
+                with SerialPort(self.link, **settings) as port:
+                    time.sleep(SILENCE / 4)
+                    termios.tcflush(port.fd, termios.TCIFLUSH)
+                    self.assertEqual(port.read(5), heard)
+        with SerialPort(self.link, cflag=odd, iflag=INPCK | IGNPAR) as port:
+            time.sleep(SILENCE / 4)
+            termios.tcflush(port.fd, termios.TCIFLUSH)
+            self.assertEqual(port.read(1, SILENCE), b"")
+        self.assertGreater(running.end()["bridge"]["with_errors"], 10)
+
+    def test_a_client_that_does_not_read_loses_what_does_not_fit_and_stops_nothing(self):
+        running = self.start("--pty", self.link, "--speed", 1000, program=self.program(self.BEACON))
+        with SerialPort(self.link):
+            time.sleep(1)
+        with SerialPort(self.link) as port:
+            self.assertEqual(port.read(3), b"AAA")
+        running.end()
+
+    def test_a_client_that_writes_faster_than_the_line_has_to_wait(self):
+        running = self.serve()
+        port = self.open()
+        os.set_blocking(port.fd, False)
+        written, until = 0, time.monotonic() + 2
+        while time.monotonic() < until:
+            try:
+                written += os.write(port.fd, b"\x55" * 4096)
+            except BlockingIOError:
+                time.sleep(0.01)
+        self.assertLess(written, 400_000)
+        port.close()
+        self.assertLessEqual(running.end()["bridge"]["bytes_in"], written)
+
+    def test_only_dangling_links_are_replaced(self):
+        self.link.symlink_to(self.folder / "nowhere")
+        running = self.serve()
+        self.assertTrue(os.readlink(self.link).startswith("/dev/pts/"))
+        self.assertIn("is left alone", self.refused("--pty", self.link))  # another run has it
+        running.end()
+        for text in ("mine", ""):
+            self.link.write_text(text, encoding="utf-8")
+            self.assertIn("is no link; it is left alone", self.refused("--pty", self.link))
+            self.assertEqual(self.link.read_text(encoding="utf-8"), text)
+        self.assertIn("cannot make the link", self.refused("--pty", self.folder / "no/such/folder"))
+        self.assertIn("left alone", self.refused("--pty", self.folder))
+
+    def test_a_link_that_is_somebody_elses_by_now_stays(self):
+        running = self.serve()
+        self.link.unlink()
+        self.link.symlink_to("/dev/null")
+        running.end()
+        self.assertEqual(os.readlink(self.link), "/dev/null")
+
+
+# --- sockets ---
+
+
+class Client:
+    def __init__(self, running, receive_buffer=None):
+        self.socket = socket.socket(socket.AF_INET6 if "[" in running.host else socket.AF_INET)
+        if receive_buffer:
+            self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_buffer)
+        self.socket.settimeout(LONG)
+        self.socket.connect((running.host.strip("[]"), running.port))
+
+    def send(self, data):
+        self.socket.sendall(data)
+
+    def receive(self, count, timeout=LONG):
+        """Less when the connection ends or nothing comes."""
+        self.socket.settimeout(timeout)
+        data = b""
+        try:
+            while len(data) < count and (part := self.socket.recv(count - len(data))):
+                data += part
+        except TimeoutError:
+            pass
+        return data
+
+    def is_closed(self):
+        """Waits until the other side has closed."""
+        self.socket.settimeout(LONG)
+        try:
+            while self.socket.recv(4096):
+                pass
+        except ConnectionError:
+            pass
+        return True
+
+    def vanish(self):
+        """Reset instead of a farewell."""
+        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+        self.socket.close()
+
+    def close(self):
+        self.socket.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+
+def message(transaction, unit, pdu):
+    return struct.pack(">HHHB", transaction, 0, len(pdu) + 1, unit) + pdu
+
+
+READ_PDU, ANSWER_PDU = READ[1:-2], ANSWER[1:-2]
+
+
+class ModbusClient(Client):
+    def ask(self, transaction, unit=1, pdu=READ_PDU):
+        self.send(message(transaction, unit, pdu))
+        return self.answer()
+
+    def answer(self):
+        """(transaction, unit, PDU)"""
+        header = self.receive(7)
+        if len(header) < 7:
+            return None
+        transaction, protocol, length, unit = struct.unpack(">HHHB", header)
+        assert protocol == 0
+        return transaction, unit, self.receive(length - 1)
+
+
+class TcpCase(Case):
+    def serve(self, kind, *arguments, **options):
+        running = self.start(kind, "0", "--speed", SPEED, *PRESET, *arguments, **options)
+        self.assertEqual(running.host, "127.0.0.1")
+        return running
+
+    def client(self, running, **options):
+        client = self.CLIENT(running, **options)
+        self.addCleanup(client.close)
+        return client
+
+    def until_answered(self, client, request=READ, answer=ANSWER):
+        until = time.monotonic() + LONG
+        while True:
+            client.send(request)
+            heard = client.receive(len(answer), SILENCE * 2)
+            if heard or time.monotonic() > until:
+                time.sleep(SILENCE / 8)
+                return heard
+
+
+class TcpTests(TcpCase):
+    CLIENT = Client
+
+    def test_raw_bytes(self):
+        running = self.serve("--tcp")
+        client = self.client(running)
+        self.assertEqual(self.until_answered(client), ANSWER)
+        client.close()
+        bridge = running.end()["bridge"]
+        self.assertEqual(list(bridge), ["kind", "clients", "sent_away", "bytes_in", "bytes_out"])
+        self.assertEqual((bridge["kind"], bridge["clients"], bridge["bytes_out"]), ("tcp", 1, len(ANSWER)))
+
+    def test_all_clients_hear_what_the_line_says(self):
+        running = self.serve("--tcp")
+        asker, listener = self.client(running), self.client(running)
+        self.assertEqual(self.until_answered(asker), ANSWER)
+        self.assertEqual(listener.receive(len(ANSWER)), ANSWER)
+
+    def test_a_client_that_has_said_its_last_word_hears_the_answer(self):
+        for kind in ("--tcp", "--rtu-over-tcp"):
+            with self.subTest(kind):
+                running = self.serve(kind)
+                first = self.client(running)
+                self.assertEqual(self.until_answered(first), ANSWER)
+                first.close()
+                client = self.client(running)
+                client.send(READ)
+                client.socket.shutdown(socket.SHUT_WR)
+                self.assertEqual(client.receive(1000), ANSWER)  # and then the end
+                running.end()
+
+    def test_an_rtu_answer_comes_in_one_piece_to_who_asked(self):
+        running = self.serve("--rtu-over-tcp")
+        asker, listener = self.client(running), self.client(running)
+        self.until_answered(asker)
+        for _ in range(5):
+            asker.send(READ)
+            self.assertEqual(asker.socket.recv(1000), ANSWER)
+        self.assertEqual(listener.receive(1, SILENCE), b"")
+        bridge = running.end()["bridge"]
+        self.assertGreaterEqual(bridge["frames"], 6)
+        self.assertEqual(bridge["answered"], 6)
+
+    def test_an_rtu_frame_may_come_in_pieces(self):
+        running = self.serve("--rtu-over-tcp")
+        client = self.client(running)
+        client.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self.until_answered(client)
+        answered = 0
+        for _ in range(20):  # the pieces may come too far apart on a busy computer, but not always
+            client.send(READ[:3])
+            client.send(READ[3:])
+            if client.receive(len(ANSWER), SILENCE * 2) == ANSWER:
+                answered += 1
+                break
+        self.assertEqual(answered, 1)
+
+    def test_rtu_clients_take_turns(self):
+        running = self.serve("--rtu-over-tcp", "--timeout", "10s")
+        clients = [self.client(running) for _ in range(5)]
+        self.until_answered(clients[0])
+        for round_ in range(3):
+            for number, client in enumerate(clients):
+                request = struct.pack(">BBHH", 1, 6, number, round_)
+                client.send(request + crc16(request))
+            for number, client in enumerate(clients):
+                request = struct.pack(">BBHH", 1, 6, number, round_)
+                self.assertEqual(client.receive(8), request + crc16(request))
+
+    def test_a_client_that_asks_again_has_stopped_waiting(self):
+        running = self.serve("--rtu-over-tcp", "--timeout", "1h")
+        client = self.client(running)
+        self.until_answered(client)
+        nobody = b"\x09" + READ[1:-2]
+        client.send(nobody + crc16(nobody))
+        time.sleep(SILENCE)
+        client.send(READ)
+        self.assertEqual(client.receive(len(ANSWER)), ANSWER)
+
+    def test_broken_frames_are_passed_on_and_not_answered(self):
+        running = self.serve("--rtu-over-tcp")
+        client = self.client(running)
+        self.until_answered(client)
+        for wrong in (b"\x01", READ[:-1] + b"\x00", bytes(300), READ + READ):
+            client.send(wrong)
+            self.assertEqual(client.receive(1, SILENCE), b"", wrong)
+        self.assertEqual(self.until_answered(client), ANSWER)
+
+    def test_clients_that_flood_and_do_not_read_stop_nobody(self):
+        for kind in ("--tcp", "--rtu-over-tcp"):
+            with self.subTest(kind):
+                running = self.serve(kind)
+                client = self.client(running)
+                self.assertEqual(self.until_answered(client), ANSWER)
+                flooder = self.client(running)
+                flooder.socket.setblocking(False)
+                until = time.monotonic() + 1
+                while time.monotonic() < until:
+                    try:
+                        flooder.socket.send(READ * 500)
+                    except BlockingIOError:
+                        time.sleep(0.01)
+                    except ConnectionError:
+                        break
+                if kind == "--rtu-over-tcp":
+                    client.send(READ)
+                    self.assertEqual(client.receive(len(ANSWER)), ANSWER)
+                flooder.vanish()
+                time.sleep(SILENCE)
+                client.close()
+                running.end()
+
+
+class ModbusTcpTests(TcpCase):
+    CLIENT = ModbusClient
+
+    def serve_gateway(self, *arguments):
+        return self.serve("--modbus-tcp", *arguments)
+
+    def test_answers_carry_transaction_and_unit(self):
+        running = self.serve_gateway()
+        client = self.client(running)
+        for transaction in (0, 1, 0xABCD, 0xFFFF):
+            self.assertEqual(client.ask(transaction), (transaction, 1, ANSWER_PDU))
+        self.assertEqual(client.ask(5, 1, bytes.fromhex("0300000100")), (5, 1, b"\x83\x03"))
+        client.close()
+        bridge = running.end()["bridge"]
+        self.assertEqual(list(bridge), ["kind", "clients", "sent_away", "bytes_in", "bytes_out", "requests", "answered",
+                                        "broadcast", "silent", "damaged", "no_station"])
+        self.assertEqual((bridge["requests"], bridge["answered"]), (5, 5))
+
+    def test_exceptions_of_the_gateway(self):
+        running = self.serve_gateway("--timeout", "100ms")
+        client = self.client(running)
+        self.assertEqual(client.ask(1, 9), (1, 9, b"\x83\x0b"))
+        self.assertEqual(client.ask(2, 255), (2, 255, b"\x83\x0a"))
+        self.assertEqual(client.ask(3), (3, 1, ANSWER_PDU))
+        bridge = running.end()["bridge"]
+        self.assertEqual((bridge["silent"], bridge["no_station"], bridge["answered"]), (1, 1, 1))
+
+    def test_broadcasts_are_written_and_not_answered(self):
+        running = self.serve_gateway()
+        client = self.client(running)
+        client.send(message(1, 0, bytes.fromhex("06000a4321")))
+        self.assertEqual(client.ask(2), (2, 1, bytes.fromhex("030443215678")))
+        self.assertEqual(running.end()["bridge"]["broadcast"], 1)
+
+    def test_pieces_of_any_size(self):
+        client = self.client(self.serve_gateway())
+        client.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        for byte in message(7, 1, READ_PDU):
+            client.send(bytes([byte]))
+            time.sleep(0.01)
+        self.assertEqual(client.answer(), (7, 1, ANSWER_PDU))
+        client.send(b"".join(message(number, 1, READ_PDU) for number in range(40)))
+        self.assertEqual([client.answer() for _ in range(40)], [(number, 1, ANSWER_PDU) for number in range(40)])
+
+    def test_a_client_that_has_said_its_last_word_gets_its_answers(self):
+        client = self.client(self.serve_gateway())
+        client.send(b"".join(message(number, 1, READ_PDU) for number in range(3)))
+        client.socket.shutdown(socket.SHUT_WR)
+        self.assertEqual([client.answer() for _ in range(4)], [(number, 1, ANSWER_PDU) for number in range(3)] + [None])
+
+    def test_what_is_no_modbus_tcp_ends_that_connection_only(self):
+        running = self.serve_gateway()
+        other = self.client(running)
+        before = running.descriptors()
+        for number, (wrong, why) in enumerate(((b"\0\1\0\1\0\6\1\3\0\0\0\1", "protocol 1"), (b"\0\1\0\0\0\0", "length 0"),
+                                               (b"\0\1\0\0\0\1\1", "length 1"), (b"\0\1\0\0\1\0\1", "length 256"),
+                                               (b"GET / HTTP/1.1\r\n\r\n", "protocol"))):
+            client = self.client(running)
+            client.send(wrong)
+            self.assertTrue(client.is_closed())
+            running.wait_for(why)
+            self.assertEqual(other.ask(number), (number, 1, ANSWER_PDU))
+        self.eventually(lambda: running.descriptors() <= before + 1)
+
+    def test_fifty_clients_each_get_their_own(self):
+        running = self.serve_gateway("--timeout", "20s")
+        clients = [self.client(running) for _ in range(50)]
+        for number, client in enumerate(clients):
+            client.send(message(1000 + number, 1, struct.pack(">BHH", 6, number, number)))
+        for number, client in enumerate(clients):
+            self.assertEqual(client.answer(), (1000 + number, 1, struct.pack(">BHH", 6, number, number)))
+
+    def test_clients_that_vanish_in_mid_request_leave_nothing_behind(self):
+        running = self.serve_gateway()
+        other = self.client(running)
+        other.ask(0)
+        before = running.descriptors()
+        for number in range(30):
+            client = self.client(running)
+            client.send(message(number, 1, READ_PDU)[:7 if number % 3 == 0 else 12] * (1 + number % 2))
+            client.vanish() if number % 2 else client.close()
+        self.assertEqual(other.ask(77), (77, 1, ANSWER_PDU))
+        self.eventually(lambda: running.descriptors() == before)
+
+    def test_slow_and_half_open_clients_block_nobody(self):
+        running = self.serve_gateway()
+        half = [self.client(running) for _ in range(10)]
+        for client in half:
+            client.send(b"\0\1\0")
+        other = self.client(running)
+        for number in range(5):
+            self.assertEqual(other.ask(number), (number, 1, ANSWER_PDU))
+
+    def test_half_a_message_is_waited_for_ten_seconds(self):
+        running = self.serve_gateway()
+        client, patient = self.client(running), self.client(running)
+        client.send(b"\0\1\0\0\0\6")
+        self.assertTrue(client.is_closed())
+        running.wait_for("it began a message and did not go on for 10 s")
+        self.assertEqual(patient.ask(1), (1, 1, ANSWER_PDU))  # silence without half a message is no offence
+
+    def test_floods_block_nobody_and_fill_no_memory(self):
+        running = self.serve_gateway()
+        other, flooder = self.client(running), self.client(running, receive_buffer=4096)
+        other.ask(0)
+
+        def memory():
+            text = pathlib.Path(f"/proc/{running.process.pid}/status").read_text(encoding="utf-8")
+            return int(re.search(r"VmRSS:\s+(\d+) kB", text).group(1))
+
+        before = memory()
+        for unit in (1, 255):  # requests that wait for the line, and those that are answered at once
+            flooder.socket.setblocking(False)
+            until = time.monotonic() + 1.5
+            number = 0
+            while time.monotonic() < until:
+                try:
+                    flooder.socket.send(message(5, unit, READ_PDU) * 1000)
+                except BlockingIOError:
+                    number += 1
+                    self.assertEqual(other.ask(number), (number, 1, ANSWER_PDU))
+                except ConnectionError:
+                    break
+            flooder.vanish()
+            flooder = self.client(running, receive_buffer=4096)
+        self.assertEqual(other.ask(99), (99, 1, ANSWER_PDU))
+        self.assertLess(memory() - before, 20_000)
+
+    def test_for_one_client_too_many_the_one_silent_longest_has_to_go(self):
+        running = self.serve_gateway()
+        clients = []
+        for number in range(64):
+            clients.append(self.client(running))
+            clients[-1].send(message(number, 255, READ_PDU))
+            self.assertEqual(clients[-1].answer()[0], number)
+        clients[0].ask(1, 255)
+        newcomer = self.client(running)
+        self.assertEqual(newcomer.ask(5), (5, 1, ANSWER_PDU))
+        self.assertTrue(clients[1].is_closed())
+        self.assertEqual(clients[0].ask(6), (6, 1, ANSWER_PDU))
+        running.wait_for("it was silent longest")
+        self.assertEqual(running.end()["bridge"]["sent_away"], 1)
+
+
+# --- real devices, and how a run begins and ends ---
+
+
+class DeviceTests(Case):
+    def setUp(self):
+        super().setUp()
+        near, far = os.openpty()
+        self.near, self.path = near, os.ttyname(far)
+        self.port = SerialPort(self.path)
+        os.close(self.port.fd)
+        self.port.fd = near  # what the device sends is read here
+        os.close(far)
+
+    def tearDown(self):
+        if self.near is not None:
+            os.close(self.near)
+
+    def test_asks_and_is_answered(self):
+        running = self.start("--device", self.path, "--speed", SPEED, *PRESET)
+        self.assertEqual(self.port.ask(), ANSWER)
+        bridge = running.end()["bridge"]
+        self.assertEqual(list(bridge), ["kind", "device", "bytes_in", "bytes_out", "with_errors"])
+        self.assertEqual(bridge["bytes_out"], len(ANSWER))
+
+    def test_the_device_is_set_as_the_program_sets_its_port(self):
+        # 19200 8O1 in the first scan, 2400 8N1 after a second.
+        program = self.program("LD SM0.1\nMOVB 16#C5, SMB30\nLDN SM0.1\nTON T37, +10\nLD T37\nMOVB 16#11, SMB30\nMEND\n")
+        running = self.start("--device", self.path, program=program)
+        for baud, odd in ((termios.B19200, termios.PARODD), (termios.B2400, 0)):
+            self.eventually(lambda: termios.tcgetattr(self.near)[5] == baud)
+            self.assertEqual(termios.tcgetattr(self.near)[2] & termios.PARODD, odd)
+        running.end()
+
+    def test_what_the_device_cannot_do_ends_the_run(self):
+        program = self.program("LD SM0.1\nMOVB 16#69, SMB30\nMEND\n")  # 7 bits, which a pty has not
+        running = self.start("--device", self.path, program=program)
+        running.end(UNUSABLE, by=None)
+        self.assertIn("the program has set its port to 9600 baud 7E1: the device does not do 7 data bits", running.said())
+
+    def test_a_device_that_is_unplugged_ends_the_run(self):
+        running = self.start("--device", self.path)
+        os.close(self.near)
+        self.near = None
+        self.assertEqual(running.end(UNUSABLE, by=None)["stop_reason"], "bridge")
+        self.assertIn(f"{self.path}: the device is gone", running.said())
+
+    def test_what_is_no_device_is_refused(self):
+        self.assertIn("it is no serial device", self.refused("--device", "/dev/null"))
+        self.assertIn("No such file", self.refused("--device", "/dev/no_such_device"))
+        self.start("--device", self.path)
+        self.assertIn("another program", self.refused("--device", self.path))
+
+
+class RunTests(Case):
+    def test_addresses(self):
+        running = self.start("--modbus-tcp", "127.0.0.1:0")
+        self.assertEqual(running.host, "127.0.0.1")
+        self.assertIn("Address already in use", self.refused("--tcp", running.port))
+        for wrong in ("x", "65536", "-1", "", "1.2.3:5", "name:5", "::1:5", "[::1", "[1.2.3.4]:5", "1.2.3.4:", "203.0.113.1:5"):
+            with self.subTest(wrong):
+                self.refused("--tcp", wrong)
+
+    def test_ipv6(self):
+        if not socket.has_ipv6 or not os.path.exists("/proc/net/if_inet6"):
+            self.skipTest("no IPv6 here")
+        running = self.start("--modbus-tcp", "[::1]:0", "--speed", SPEED, *PRESET)
+        self.assertEqual(running.host, "[::1]")
+        with ModbusClient(running) as client:
+            self.assertEqual(client.ask(1), (1, 1, ANSWER_PDU))
+
+    def test_one_bridge_at_a_time(self):
+        self.assertIn("one bridge at a time", self.refused("--tcp", "0", "--modbus-tcp", "0"))
+        self.assertIn("one bridge at a time", self.refused("--tcp", "0", "--pty", self.folder / "plc"))
+        self.assertFalse((self.folder / "plc").exists())
+
+    def test_ends_with_a_summary(self):
+        for by in (signal.SIGINT, signal.SIGTERM):
+            memory = self.folder / "memory.json"
+            running = self.start("--pty", self.folder / "plc", *PRESET, "--dump", "VW20", "--memory", memory)
+            time.sleep(0.3)
+            result = running.end(by=by)
+            self.assertEqual(list(result), ["stop_reason", "time_ns", "scans", "instructions", "mode", "errors", "dump", "realtime",
+                                            "bridge"])
+            self.assertEqual((result["stop_reason"], result["dump"]), ("interrupted", {"VW20": "1234"}))
+            self.assertEqual(list(result["realtime"]), ["speed", "drift_ns", "worst_lag_ns"])
+            self.assertTrue(memory.exists())
+            self.assertFalse(os.path.lexists(self.folder / "plc"))
+
+    def test_ends_when_its_time_is_over_or_the_cpu_stops(self):
+        link = self.folder / "plc"
+        result = self.start("--pty", link, "--for", "300ms").end(by=None)
+        self.assertEqual(result["stop_reason"], "time")
+        self.assertGreaterEqual(result["time_ns"], 300_000_000)
+        self.assertEqual(self.start("--pty", link, "--scans", "50").end(by=None)["scans"], 50)
+        stop = self.program("LD SM0.0\nTON T37, +2\nLD T37\nSTOP\nMEND\n")
+        self.assertEqual(self.start("--pty", link, program=stop).end(by=None)["stop_reason"], "stop")
+        fatal = self.program("LD SM0.0\nLBL 1\nJMP 1\nMEND\n")
+        self.assertEqual(self.start("--pty", link, program=fatal).end(FATAL, by=None)["stop_reason"], "fatal")
+        self.assertFalse(os.path.lexists(link))
+
+    def test_follows_the_clock(self):
+        def timed(*arguments):
+            begin = time.monotonic()
+            done = subprocess.run([S7200, "run", SLAVE, "--json", *arguments], stdin=subprocess.DEVNULL, capture_output=True,
+                                  text=True, timeout=LONG, check=True)
+            return time.monotonic() - begin, json.loads(done.stdout)
+        took, result = timed("--realtime", "--for", "500ms")
+        self.assertGreaterEqual(took, 0.5)
+        self.assertEqual((result["stop_reason"], result["realtime"]["speed"]), ("time", 1))
+        took, result = timed("--speed", "0.5", "--for", "300ms")
+        self.assertGreaterEqual(took, 0.6)
+        self.assertNotIn("realtime", timed("--for", "500ms")[1])
+
+
+if __name__ == "__main__":
+    group = {"pty": PtyTests, "tcp": TcpTests, "modbus_tcp": ModbusTcpTests, "device": DeviceTests, "run": RunTests}[GROUP]
+    result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
+    sys.exit(0 if result.wasSuccessful() else 1)
