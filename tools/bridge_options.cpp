@@ -31,7 +31,9 @@ void BridgeOptions::add_to(CLI::App& app) {
       ->check(CLI::Range(0.001, 1000.0))
       ->type_name("FACTOR");
   const auto add = [&](const char* name, std::string& value, const char* type, const char* text) {
-    app.add_option(name, value, text)->type_name(type)->group(kBridges);
+    app.add_option(name, value, text)->type_name(type)->group(kBridges)->check([](const std::string& given) {
+      return given.empty() ? "it must not be empty" : "";
+    });
   };
   add("--pty", pty_, "LINK",
       "a serial port that programs of this computer open as LINK. Their rate and stop bits hold. A pty does not show none "

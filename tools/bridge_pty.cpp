@@ -31,7 +31,9 @@ class PtyBridge final : public Bridge {
     }
     near_.emplace(context, pty_->fd());
     near_->non_blocking(true);
+    watch_.emplace(context, pty_->watch());
     await_input();
+    await_clients();
     fmt::print(stderr, "serving {} ({})\n", link_, pty_->path());
     return true;
   }
@@ -39,6 +41,8 @@ class PtyBridge final : public Bridge {
   void stop() override {
     if (near_) near_->release();  // the pty closes it
     near_.reset();
+    if (watch_) watch_->release();
+    watch_.reset();
     if (pty_) opened_ = pty_->opened_ever();
     pty_.reset();
   }
@@ -104,6 +108,15 @@ class PtyBridge final : public Bridge {
     });
   }
 
+  /// At once, so that one who comes right behind the last one finds the port as it should be.
+  void await_clients() {
+    watch_->async_wait(asio::posix::descriptor_base::wait_read, [this](const boost::system::error_code& error) {
+      if (error) return;
+      pty_->look();
+      await_clients();
+    });
+  }
+
   void put_on_line(std::span<const std::uint8_t> bytes) {
     const PtySettings settings = pty_->settings();
     if (settings.baud == 0) return;
@@ -128,7 +141,7 @@ class PtyBridge final : public Bridge {
   LineOptions options_;
   LiveLine* line_ = nullptr;
   std::unique_ptr<Pty> pty_;
-  std::optional<asio::posix::stream_descriptor> near_;
+  std::optional<asio::posix::stream_descriptor> near_, watch_;
   std::array<std::uint8_t, 1024> input_{};
   std::vector<std::uint8_t> output_;
   bool awaiting_input_ = false;

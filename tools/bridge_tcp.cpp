@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 
@@ -19,18 +20,6 @@ void put_on_line(LiveLine& line, std::span<const std::uint8_t> bytes) {
   std::vector<HostCharacter> characters;
   for (const std::uint8_t byte : bytes) characters.push_back({.byte = byte, .format = format});
   if (!characters.empty()) line.send(characters);
-}
-
-/// Nobody is asked before the first scan has ended: until then a program has not set up its port.
-modbus::LineTurns::Line state_of(const LiveLine& line) {
-  const serial::Simulation& simulation = line.simulation();
-  const bool up = simulation.cpu().state().scans > 0;
-  return {.now = line.now(),
-          .format = line.format(),
-          .sending = simulation.host_port().sending(),
-          .receiving = simulation.host_port().character_due() != kNever,
-          .quiet_since = up ? simulation.last_activity() : line.now(),
-          .quiet_time = serial::Simulation::default_quiet(line.format())};
 }
 
 /// What all three have in common: a server, and the line in the PLC's own format.
@@ -73,12 +62,27 @@ class TcpBridge : public Bridge, protected TcpServer::Protocol {
   virtual nlohmann::ordered_json more_json() const { return nlohmann::ordered_json::object(); }
 
   LiveLine& line() const { return *line_; }
+
+  /// Nobody is asked until the first scan has ended and the line has been quiet since: only then a program has set up its
+  /// port.
+  modbus::LineTurns::Line line_state() {
+    const serial::Simulation& simulation = line_->simulation();
+    if (simulation.cpu().state().scans == 0) up_since_ = line_->now();
+    return {.now = line_->now(),
+            .format = line_->format(),
+            .sending = simulation.host_port().sending(),
+            .receiving = simulation.host_port().character_due() != kNever,
+            .quiet_since = std::max(up_since_, simulation.last_activity()),
+            .quiet_time = serial::Simulation::default_quiet(line_->format())};
+  }
+
   TcpServer& server() const { return *server_; }
 
  private:
   std::string kind_;
   ListenAddress address_;
   LiveLine* line_ = nullptr;
+  Time up_since_ = 0;
   std::unique_ptr<TcpServer> server_;
   TcpServer::Counts counts_;
 };
@@ -124,7 +128,7 @@ class RtuBridge final : public TcpBridge {
     const auto now = Clock::now();
     for (auto& [client, part] : parts_)
       if (!part.bytes.empty() && now - part.heard >= kFrameEnd) ask(client, part);
-    put_on_line(line(), turns_.turn(state_of(line())));
+    put_on_line(line(), turns_.turn(line_state()));
     for (const modbus::LineTurns::Outcome& outcome : turns_.take_outcomes()) {
       ++frames_;
       if (outcome.answer.empty()) continue;
@@ -189,7 +193,7 @@ class GatewayBridge final : public TcpBridge {
   }
 
   void turn() override {
-    put_on_line(line(), gateway_.turn(state_of(line())));
+    put_on_line(line(), gateway_.turn(line_state()));
     for (const modbus::Gateway::Answer& answer : gateway_.take_answers()) server().send(answer.client, answer.bytes);
     server().turn();
   }

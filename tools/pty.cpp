@@ -28,6 +28,12 @@ void leave_something_to_change(int far) {
 
 }  // namespace
 
+namespace {
+
+constexpr std::chrono::milliseconds kSettled{50};
+
+}  // namespace
+
 std::unique_ptr<Pty> Pty::open(const std::string& link, const SerialFormat& format, std::string& why) {
   std::unique_ptr<Pty> pty(new Pty);
   if (!pty->open_far_side(format, why)) {
@@ -59,6 +65,7 @@ bool Pty::open_far_side(const SerialFormat& format, std::string& why) {
   }
   if (done) {
     make_raw(settings);
+    settings.c_lflag |= ECHOE | ECHONL;
     put_format(settings, format);
     watch_ = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
     done =
@@ -107,7 +114,8 @@ void Pty::look() {
   alignas(inotify_event) std::array<char, 4096> buffer;
   for (;;) {
     const ssize_t count = read(watch_, buffer.data(), buffer.size());
-    if (count <= 0) return;
+    if (count <= 0) return keep_changeable();
+    bool left = false;
     for (const char* next = buffer.data(); next < buffer.data() + count;) {
       const auto* event = reinterpret_cast<const inotify_event*>(next);
       next += sizeof(inotify_event) + event->len;
@@ -115,9 +123,26 @@ void Pty::look() {
         ++open_now_;
         ++opened_;
       }
-      if ((event->mask & IN_CLOSE) != 0 && --open_now_ == 0) all_have_left();
+      if ((event->mask & IN_CLOSE) != 0 && --open_now_ == 0) left = true;
     }
+    if (left) all_have_left();
   }
+}
+
+/// ECHOE and ECHONL mean nothing where lines are not edited, and whoever sets a port up for bytes clears one or the other.
+/// Not while a program may be about it: reading and writing the settings is not one step.
+void Pty::keep_changeable() {
+  termios2 settings{};
+  if (!read_settings(far_, settings)) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (settings.c_lflag != seen_flags_) {
+    seen_flags_ = settings.c_lflag;
+    seen_since_ = now;
+  }
+  const tcflag_t marked = seen_flags_ | ECHOE | ECHONL;
+  if ((seen_flags_ & ICANON) != 0 || seen_flags_ == marked || now - seen_since_ < kSettled) return;
+  settings.c_lflag = marked;
+  write_settings(far_, settings);
 }
 
 /// What was not read lies in two places: behind the near side's output, and in the far side's input.

@@ -1,6 +1,7 @@
 // A pty that stands for a serial port: its far side has a stable name, and programs open it like /dev/ttyS0.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -13,6 +14,10 @@ namespace s7200::tools {
 /// How the program on the far side has set its port. The pty driver of Linux keeps rate, stop bits, PARODD and the input
 /// flags; it always clears PARENB and CSIZE (drivers/tty/pty.c, pty_set_termios), so that no parity, and even parity without
 /// INPCK, look the same, and 7 data bits are refused.
+///
+/// The C library tells a program EINVAL when nothing at all has changed by what it asked for, and parity alone never
+/// changes. So that a program can set its port as often as it likes, two flags without effect are set again when they were
+/// cleared.
 struct PtySettings {
   std::uint32_t baud = 0;        ///< 0: hung up
   std::optional<Parity> parity;  ///< where it can be told: PARODD, or INPCK without it
@@ -43,9 +48,12 @@ class Pty {
 
   PtySettings settings() const;
 
-  /// Looks who has come and gone. When the last one has left, what it did not read is forgotten, as a serial port does when
-  /// it is closed.
+  /// To be called often: looks who has come and gone. When the last one has left, what it did not read is forgotten, as a
+  /// serial port does when it is closed.
   void look();
+
+  /// Readable when look() has something to see.
+  int watch() const { return watch_; }
 
   int open_now() const { return open_now_; }             ///< how many have the far side open, as of look()
   std::uint64_t opened_ever() const { return opened_; }  ///< how often it was opened
@@ -54,12 +62,15 @@ class Pty {
   Pty() = default;
   bool open_far_side(const SerialFormat& format, std::string& why);
   bool make_link(const std::string& link, std::string& why);
+  void keep_changeable();
   void all_have_left() const;
 
   int fd_ = -1, far_ = -1, watch_ = -1;
   std::string path_, link_;
   int open_now_ = 0;
   std::uint64_t opened_ = 0;
+  std::uint32_t seen_flags_ = 0;  ///< c_lflag
+  std::chrono::steady_clock::time_point seen_since_{};
 };
 
 }  // namespace s7200::tools

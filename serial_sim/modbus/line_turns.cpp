@@ -27,7 +27,7 @@ std::size_t LineTurns::open(Client client) const {
 }
 
 void LineTurns::received(const ReceivedCharacter& character, const SerialFormat& format) {
-  if (phase_ != Phase::Waiting && phase_ != Phase::Receiving) return;
+  if (phase_ == Phase::Idle || !current_.request.wants_answer) return;
   phase_ = Phase::Receiving;
   damaged_ = damaged_ || character.parity_error || character.framing_error;
   too_long_ = answer_.size() == kLongestRtuFrame;

@@ -66,6 +66,8 @@ class LineTurns {
 
   /// To be called when anything has happened, and at due(): what is to be put on the line now, mostly nothing.
   Bytes turn(const Line& line);
+
+  /// A character that came after what turn() gave was sent, whether turn() has seen the end of that or not.
   void received(const ReceivedCharacter& character, const SerialFormat& format);
   Time due() const { return due_; }
 

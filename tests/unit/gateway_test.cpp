@@ -73,6 +73,20 @@ TEST(Gateway, PutsAnRtuFrameOnTheLineAndTheAnswerIntoAMessage) {
   EXPECT_EQ(bench.gateway.open(7), 0U);
 }
 
+TEST(Gateway, AnAnswerMayBeginInTheSameStretchOfTimeInWhichItsRequestEnds) {
+  Bench bench;
+  bench.gateway.take(7, message(1, 1, kRead));
+  bench.step();
+  ASSERT_EQ(bench.sent.size(), 1U);
+  bench.line.now += 200 * kMillisecond;
+  bench.line.sending = false;
+  bench.line.quiet_since = bench.line.now - 50 * kMillisecond;
+  for (const std::uint8_t byte : kReadAnswer)
+    bench.gateway.received({.byte = byte, .start = bench.line.quiet_since}, bench.line.format);
+  bench.step();
+  EXPECT_EQ(bench.answer(), "00 01 00 00 00 07 01 03 04 00 01 00 02");
+}
+
 TEST(Gateway, ExceptionsOfTheSlaveAreAnswersToo) {
   Bench bench;
   bench.slave = rtu_frame(1, Bytes{0x83, 2});
