@@ -6,9 +6,11 @@ import pathlib
 import re
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 S7200, SOURCE, GROUP = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
@@ -347,29 +349,60 @@ class Files(Case):
 
 class Readme(Case):
     """Every line `$ …` in a block ```sh of a README is run, in a folder that has what the tree has. What is shown below a
-    command is what it prints, up to a line that is `…`."""
+    command is what it prints; a line that is `…` stands for anything. A command with `&` runs until the end of its block."""
+
+    TOOLS = ("sigrok-cli", "tshark", "mbpoll")  # of others; skipped where they are not installed
 
     def test_commands(self):
-        environment = {**os.environ, "PATH": f"{pathlib.Path(S7200).parent}:{os.environ['PATH']}", "NO_COLOR": "1"}
+        missing = [name for name in self.TOOLS if not shutil.which(name)]
         count = 0
-        missing = [name for name in ("sigrok-cli", "tshark") if not shutil.which(name)]
         for readme in sorted(SOURCE.rglob("README.md")):
             if "build" in readme.relative_to(SOURCE).parts:
                 continue
-            for command, shown in self.commands(readme):
-                if not TIP.exists() and "tip41" in command:
-                    print(f"skipped, there is no {TIP}: {command}")
-                    continue
-                if command.split()[0] in missing:
-                    print(f"skipped, {command.split()[0]} is not installed: {command}")
-                    continue
-                with self.subTest(f"{readme.relative_to(SOURCE)}: {command}"):
-                    done = subprocess.run(["bash", "-c", command], cwd=self.tree(), env=environment,
-                                          stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120, check=False)
-                    self.assertLess(done.returncode, UNUSABLE, done.stdout + done.stderr)
-                    self.assertTrue((done.stderr + done.stdout).startswith(shown), done.stdout + done.stderr)
-                    count += 1
+            for block in self.blocks(readme):
+                background = []
+                for command, shown in block:
+                    if not TIP.exists() and "tip41" in command:
+                        print(f"skipped, there is no {TIP}: {command}")
+                        continue
+                    if command.split()[0] in missing:
+                        print(f"skipped, {command.split()[0]} is not installed: {command}")
+                        continue
+                    with self.subTest(f"{readme.relative_to(SOURCE)}: {command}"):
+                        if command.endswith(" &"):
+                            background.append(self.start(command.removesuffix(" &"), shown))
+                        else:
+                            self.run_to_end(command, shown)
+                        count += 1
+                for process in background:
+                    process.send_signal(signal.SIGINT)
+                    self.assertLess(process.wait(timeout=120), UNUSABLE)
         self.assertGreater(count, 3)
+
+    def run_to_end(self, command, shown):
+        done = subprocess.run(["bash", "-c", command], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120,
+                              check=False, **self.surroundings())
+        self.assertLess(done.returncode, UNUSABLE, done.stdout + done.stderr)
+        self.assertRegex(done.stderr + done.stdout, self.pattern(shown))
+
+    def start(self, command, shown):
+        """A bridge says on standard error when it serves; a moment later the program has had its first scan."""
+        process = subprocess.Popen(["bash", "-c", f"exec {command}"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True, **self.surroundings())
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.kill)
+        self.assertRegex(process.stderr.readline(), self.pattern(shown))
+        time.sleep(1)
+        return process
+
+    def surroundings(self):
+        return {"cwd": self.tree(),
+                "env": {**os.environ, "PATH": f"{pathlib.Path(S7200).parent}:{os.environ['PATH']}", "NO_COLOR": "1"}}
+
+    @staticmethod
+    def pattern(shown):
+        lines = shown.split("\n")[:-1]
+        return r"\A" + "".join("(?s:.*?)" if line == "…" else re.escape(line) + r"\n" for line in lines)
 
     def tree(self):
         """The folder to run in: what the commands name is there, and what they write does no harm."""
@@ -382,20 +415,18 @@ class Readme(Case):
         return tree
 
     @staticmethod
-    def commands(readme):
-        """[[command, what is shown below it]], without those that build."""
-        found, inside, complete = [], False, False
+    def blocks(readme):
+        """[[[command, what is shown below it]]], without those that build."""
+        found, inside = [], False
         for line in readme.read_text(encoding="utf-8").split("\n"):
             if line.startswith("```"):
-                inside, complete = line == "```sh", True
+                inside = line == "```sh"
+                found.append([])
             elif inside and line.startswith("$ "):
-                found.append([line[2:], ""])
-                complete = False
-            elif inside and line == "…":
-                complete = True
-            elif inside and not complete:
-                found[-1][1] += line + "\n"
-        return [entry for entry in found if not entry[0].startswith(("./tools/", "cmake", "ctest"))]
+                found[-1].append([line[2:], ""])
+            elif inside:
+                found[-1][-1][1] += line + "\n"
+        return [[entry for entry in block if not entry[0].startswith(("./tools/", "cmake", "ctest"))] for block in found]
 
 
 if __name__ == "__main__":
