@@ -84,7 +84,16 @@ class Verbs(Case):
                           ["send", SLAVE, "0"], ["send", SLAVE, "xy"], ["send", SLAVE, "01", "--baud", "1"],
                           ["send", SLAVE, "01", "--parity", "mark"], ["send", SLAVE, "01", "--data-bits", "9"],
                           ["send", SLAVE, "--frames", "missing.txt"], ["instructions", "FROB"], ["times", "--csv", "--json"],
-                          ["import", "missing.txt"]):
+                          ["import", "missing.txt"], ["master"], ["master", SLAVE], ["master", SLAVE, "frob"],
+                          ["master", SLAVE, "read"], ["master", SLAVE, "read", "40000"], ["master", SLAVE, "read", "20001"],
+                          ["master", SLAVE, "read", "17"], ["master", SLAVE, "read", "40001:126"],
+                          ["master", SLAVE, "read", "40001:0"], ["master", SLAVE, "read", "40001", "--station", "0"],
+                          ["master", SLAVE, "read", "40001", "station", "248"], ["master", SLAVE, "write", "40001"],
+                          ["master", SLAVE, "write", "10001=1"], ["master", SLAVE, "write", "30001=1"],
+                          ["master", SLAVE, "write", "40001=65536"], ["master", SLAVE, "write", "00001=2"],
+                          ["master", SLAVE, "raw", "0x"], ["master", SLAVE, "slave-id", "1"], ["master", SLAVE, "wait", "1"],
+                          ["master", SLAVE, "slave-id", "--as", "frob"], ["master", SLAVE, "slave-id", "--continuous", "--every", "1s"],
+                          ["master", "tcp://host", "slave-id"], ["master", "udp://host:1", "slave-id"]):
             with self.subTest(arguments):
                 done = self.ends(UNUSABLE, *arguments)
                 self.assertEqual(done.stdout, "")
@@ -200,6 +209,34 @@ class Json(Case):
         self.assertEqual((transmit["kind"], transmit["place"]), ("transmit", "INT 0"))
         self.assertEqual((sent["kind"], sent["characters"]), ("sent", "ab"))
         self.assertTrue(received["at_us"] < transmit["at_us"] < sent["at_us"])
+
+    def test_master(self):
+        result = self.json(FAILED, "master", SLAVE, "write", "40011=-5", "read", "40011", "10001:2", "slave-id", "--as", "signed",
+                           "--dump", "VW20", "--json")
+        self.assertEqual(list(result), ["target", "exchanges", "statistics", "dump", "error"])
+        self.assertEqual((result["target"], result["dump"], result["error"]), (SLAVE, {"VW20": "fffb"}, None))
+        write, read, inputs, refused = result["exchanges"]
+        for exchange in result["exchanges"]:
+            self.assertEqual(list(exchange), ["action", "at_us", "station", "function", "area", "first", "notation", "count",
+                                              "request", "response", "latency_us", "attempts", "verdict", "fault", "exception",
+                                              "values", "decoded", "bytes", "remark"])
+        self.assertEqual((write["action"], write["function"], write["first"], write["count"], write["values"]),
+                         ("write 40011=-5", 6, 10, 1, None))
+        self.assertEqual((read["area"], read["notation"], read["values"], read["decoded"]), ("holding", "40011", [65531], [-5]))
+        self.assertEqual((inputs["area"], inputs["notation"], inputs["values"]), ("inputs", "10001", [0, 0]))
+        self.assertEqual((refused["verdict"], refused["exception"]), ("exception", {"code": 1, "name": "illegal function"}))
+        self.assertEqual({k: v for k, v in result["statistics"].items() if k != "latency_us"},
+                         {"requests": 4, "right": 3, "exception": 1, "silent": 0, "wrong": 0, "repeated": 0})
+        self.assertEqual(list(result["statistics"]["latency_us"]), ["least", "mean", "p99", "most"])
+
+    def test_master_in_simulated_time(self):
+        polled = self.json(FINE, "master", SLAVE, "read", "40001", "--every", "10min", "--count", "3", "--json")["exchanges"]
+        first, second, third = (e["at_us"] for e in polled)
+        self.assertEqual((second - first, third - second), (600e6, 600e6))
+        silent = self.json(FAILED, "master", self.program("LD SM0.0\nMEND\n"), "slave-id", "--timeout", "10ms", "--json")
+        self.assertEqual((silent["exchanges"][0]["verdict"], silent["statistics"]["latency_us"]), ("silent", None))
+        stopped = self.program("LD SM0.0\nLBL 1\nJMP 1\nMEND\n")
+        self.assertEqual(self.ends(FATAL, "master", stopped, "slave-id").stdout, "")
 
     def test_tables(self):
         (row,) = self.json(FINE, "instructions", "MOVW", "--json")
