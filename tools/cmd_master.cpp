@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "tools/commands.hpp"
 #include "tools/duration_option.hpp"
 #include "tools/exchange_statistics.hpp"
 #include "tools/exit_code.hpp"
+#include "tools/host_link.hpp"
 #include "tools/interruption.hpp"
 #include "tools/master_action.hpp"
 #include "tools/master_options.hpp"
@@ -54,6 +56,7 @@ constexpr Time kTurnaround = 100 * kMillisecond;
 
 constexpr std::uint16_t kFirstLoopback = 0x1234;
 constexpr int kFailuresShown = 10;
+constexpr const char* kEraseLine = "\r\x1b[K";  // ECMA-48
 
 void refuse_options(const std::vector<CLI::Option*>& options, const char* need) {
   for (const CLI::Option* option : options)
@@ -94,6 +97,8 @@ class MasterSession {
   serial::Request request_of(const MasterAction& action);
   void show(const MasterResult& result);
   void show_failure(const MasterResult& result);
+  void show_progress();
+  void clear_progress();
 
   const MasterVerb& verb_;
   Slave& slave_;
@@ -103,6 +108,7 @@ class MasterSession {
   ExchangeStatistics statistics_;
   std::uint16_t loopback_ = kFirstLoopback;
   int failures_shown_ = 0;
+  Time progress_at_ = 0;  // of the host; 0 when no progress is on the terminal
   bool first_ = true;
 };
 
@@ -146,6 +152,7 @@ std::optional<MasterResult> MasterSession::perform(const MasterAction& action) {
 
 void MasterSession::show_failure(const MasterResult& result) {
   if (result.answer.verdict == Verdict::Right || failures_shown_ > kFailuresShown) return;
+  clear_progress();
   if (failures_shown_++ == kFailuresShown)
     fmt::print("further failures are only counted\n");
   else
@@ -167,6 +174,19 @@ void MasterSession::show(const MasterResult& result) {
   }
 }
 
+/// On a terminal, twice a second, in a line that the next output overwrites.
+void MasterSession::show_progress() {
+  constexpr Time kInterval = kSecond / 2;
+  if (!can_redraw(stderr) || host_time() - progress_at_ < kInterval) return;
+  progress_at_ = host_time();
+  const std::string text = statistics_.text();
+  fmt::print(stderr, "{}{}\r", kEraseLine, text.substr(0, text.find('\n')));
+}
+
+void MasterSession::clear_progress() {
+  if (std::exchange(progress_at_, 0) != 0) fmt::print(stderr, "{}", kEraseLine);
+}
+
 void MasterSession::run_round() {
   for (const MasterAction& action : actions_) {
     if (interrupted()) return;
@@ -184,6 +204,7 @@ void MasterSession::run() {
   Time next = slave_.now();
   for (std::uint64_t round = 0; round < rounds && !interrupted(); ++round) {
     run_round();
+    if (verb_.continuous) show_progress();
     if (!verb_.polls()) continue;
     if (!verb_.json) table_.end_round(can_redraw(stdout) ? statistics_.text() : "");
     // A round that took longer than its time is followed by the next at once; those missed are not made up for.
@@ -197,6 +218,7 @@ void MasterSession::begin() const {
 }
 
 void MasterSession::end(const std::string& error, const nlohmann::ordered_json& dump) {
+  clear_progress();
   if (verb_.json)
     fmt::print("{}  ],\n  \"statistics\": {},\n  \"dump\": {},\n  \"error\": {}\n}}\n", first_ ? "" : "\n",
                statistics_.json().dump(), dump.dump(), (error.empty() ? nlohmann::json() : nlohmann::json(error)).dump());
@@ -307,11 +329,7 @@ void add_master(CLI::App& app, int& exit_code) {
   auto verb = std::make_shared<MasterVerb>();
   CLI::App* sub =
       app.add_subcommand("master", "be a Modbus master: ask a program, a serial device, or a server on the network");
-  sub->add_option(
-         "TARGET", verb->target,
-         "a PROGRAM to run in simulation; a serial device or pty (/dev/ttyUSB0); tcp://HOST:PORT for RTU frames over "
-         "TCP; modbus-tcp://HOST[:PORT]")
-      ->required();
+  sub->add_option("TARGET", verb->target, "a PROGRAM to run in simulation, a device, or an address; see below")->required();
   sub->add_option("ACTION", verb->words, "what to do, see below");
   sub->add_option("--station", verb->station, "whom to ask, 0 to 247; 0 is all: they are told and do not answer")
       ->capture_default_str();
