@@ -49,6 +49,7 @@ EXTERNAL = [
     (re.compile(r"boost/(?!asio)"), re.compile(r"interpreter/stl/parser\.cpp"),
      "Boost belongs into interpreter/stl/parser.cpp"),
     (re.compile(r"nlohmann/"), re.compile(r"(tools|tests)/.*"), "JSON belongs into tools"),
+    (re.compile(r"yaml-cpp/"), re.compile(r"tools/scenario[^/]*\.cpp"), "yaml-cpp belongs into tools/scenario*.cpp"),
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

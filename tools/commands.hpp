@@ -12,6 +12,7 @@ void add_check(CLI::App& app, int& exit_code);
 void add_import(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
 void add_send(CLI::App& app, int& exit_code);
+void add_test(CLI::App& app, int& exit_code);
 void add_master(CLI::App& app, int& exit_code);
 void add_debug(CLI::App& app, int& exit_code);
 void add_instructions(CLI::App& app, int& exit_code);

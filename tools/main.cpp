@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   add_import(app, exit_code);
   add_run(app, exit_code);
   add_send(app, exit_code);
+  add_test(app, exit_code);
   add_master(app, exit_code);
   add_debug(app, exit_code);
   add_instructions(app, exit_code);

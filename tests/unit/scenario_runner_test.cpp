@@ -1,0 +1,309 @@
+// Scenarios on our Modbus slave: what passes, that every kind of expectation can fail, transcripts, comparison.
+#include "tools/scenario_runner.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/slave_bench.hpp"
+#include "tools/scenario_compare.hpp"
+#include "tools/scenario_reader.hpp"
+#include "tools/scenario_record.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Outcome = ScenarioResult::Outcome;
+
+std::shared_ptr<const Program> slave() {
+  static const auto kProgram = test::compile(test::slave_text());
+  return kProgram;
+}
+
+std::vector<Scenario> scenarios_of(const std::string& text) {
+  ScenarioFile file = read_scenarios(text, "file.yaml");
+  for (const auto& d : file.diagnostics) ADD_FAILURE() << stl::render(d, *file.source, false);
+  return std::move(file.scenarios);
+}
+
+Scenario scenario_of(const std::string& steps, const std::string& head = "") {
+  auto all = scenarios_of("timeout: 200ms\n" + head + "steps:\n" + steps);
+  return all.empty() ? Scenario{} : all[0];
+}
+
+ScenarioResult run(const Scenario& scenario, std::shared_ptr<const Program> program = slave()) {
+  return run_scenario(scenario, {.program = std::move(program)});
+}
+
+/// What is found when these steps are run, in one line each.
+std::string findings(const std::string& steps, const std::string& head = "",
+                     std::shared_ptr<const Program> program = slave()) {
+  const Scenario scenario = scenario_of(steps, head);
+  std::string text;
+  for (const Finding& finding : run(scenario, std::move(program)).findings)
+    text += fmt::format("{}: {} / {}\n", finding.what, finding.expected, finding.found);
+  return text;
+}
+
+TEST(ScenarioRunner, EveryExpectationThatHoldsPasses) {
+  EXPECT_EQ(findings("  - {write: holding 10, value: 16#1234, expect: echo, latency: 6ms..20ms, answer_gap: ..1ms}\n"
+                     "  - {read: holding 10, expect: [16#1234]}\n"
+                     "  - {read: holding 10, expect: 01 03 02 12 34}\n"
+                     "  - {send: 01 03 00 0a 00 01 a4 08, expect: 01 03 02 12 34 .. ..}\n"
+                     "  - {read: holding 10, expect: accepted}\n"
+                     "  - {read: holding 2000, expect: exception 2}\n"
+                     "  - {read: holding 2000, expect: refused}\n"
+                     "  - {read: holding 0, station: 2, expect: silence}\n"
+                     "  - {read: holding 0, station: 2, expect_one_of: [exception 1, silence]}\n"
+                     "  - memory: {VW20: 16#1234, V20.1: 1, 'VB20:2': 12 ..}\n"
+                     "  - {read: holding 0, expect: accepted}\n"
+                     "  - interrupts: {INT 122: 1, event 8: 8, lost: 0}\n"
+                     "  - mode: run\n"
+                     "  - fatal: none\n"
+                     "  - errors: none\n"),
+            "");
+}
+
+TEST(ScenarioRunner, EveryKindOfExpectationCanFail) {
+  EXPECT_EQ(findings("  - {read: holding 0, expect: silence}\n"), "answer: no answer / 1 register: 16#0000\n");
+  EXPECT_EQ(findings("  - {read: holding 0, expect: 01 03 02 00 01}\n"), "answer:  / 1 register: 16#0000\n");
+  EXPECT_EQ(findings("  - {send: 01 03 00 00 00 01 84 0a, expect: 01 03 02 00 00}\n"), "answer:  / 1 register: 16#0000\n")
+      << "without crc: true the CRC is to be written";
+  EXPECT_EQ(findings("  - {read: holding 0, expect: echo}\n"), "answer: the request again / 1 register: 16#0000\n");
+  EXPECT_EQ(findings("  - {read: holding 0, expect: exception 2}\n"),
+            "answer: exception 2: illegal data address / 1 register: 16#0000\n");
+  EXPECT_EQ(findings("  - {read: holding 0, count: 126, expect: exception 2}\n"),
+            "answer: exception 2: illegal data address / exception 3: illegal data value\n");
+  EXPECT_EQ(findings("  - {read: holding 0, count: 2, expect: [0, 16#1234]}\n"),
+            "answer: the values 0 16#1234 / 2 registers: 16#0000 16#0000\n");
+  EXPECT_EQ(findings("  - {read: holding 0, count: 2, expect: [0]}\n"),
+            "answer: the value 0 / 2 registers: 16#0000 16#0000\n");
+  EXPECT_EQ(findings("  - {read: holding 0, count: 126, expect: accepted}\n"),
+            "answer: what was asked for / exception 3: illegal data value\n");
+  EXPECT_EQ(findings("  - {read: holding 0, station: 2, expect: accepted}\n"),
+            "answer: what was asked for / no answer within 200 ms\n");
+  EXPECT_EQ(findings("  - {read: holding 0, expect: refused}\n"), "answer: an exception / 1 register: 16#0000\n");
+  EXPECT_EQ(findings("  - {read: holding 0, expect_one_of: [silence, exception 1]}\n"),
+            "answer: no answer or exception 1: illegal function / 1 register: 16#0000\n");
+  EXPECT_NE(findings("  - {read: holding 0, latency: ..1ms}\n"), "");
+  EXPECT_NE(findings("  - {read: holding 0, latency: 1s..}\n"), "");
+  EXPECT_EQ(findings("  - {read: holding 0, station: 2, latency: 1ms..}\n"), "latency: 1 ms or more / no answer\n");
+  EXPECT_NE(findings("  - {read: holding 0, answer_gap: 1ms..}\n"), "");
+  EXPECT_EQ(findings("  - memory: {VW20: 5}\n"), "VW20:  / \n");
+  EXPECT_EQ(findings("  - memory: {Q0.0: 1}\n"), "Q0.0:  / \n");
+  EXPECT_EQ(findings("  - {read: holding 0}\n  - interrupts: {INT 123: 8, event 10: 2.., lost: 1}\n"),
+            "INT 123: 8 / 7\nevent 10: 2 or more / 1\nlost events: 1 / 0\n");
+  EXPECT_EQ(findings("  - mode: stop\n"), "mode: STOP / RUN\n");
+  EXPECT_EQ(findings("  - fatal: 0003\n"), fmt::format("fatal error: 0003, {} / none\n", meaning_of(FatalError::Watchdog)));
+  EXPECT_EQ(findings("  - errors: {0092: 1}\n"), "run-time errors: 0092: 1 / none\n");
+  EXPECT_NE(findings("  - wait: 1s\n  - {read: holding 0, at: 500ms}\n"), "");
+}
+
+TEST(ScenarioRunner, FaultsDisturbTheLineUntilTheyAreTakenAway) {
+  EXPECT_EQ(findings("  - fault: flip:character=3,bit=5\n"
+                     "  - {read: holding 0, expect: silence}\n"
+                     "  - fault: none\n"
+                     "  - {read: holding 0, expect: [0]}\n"),
+            "");
+}
+
+TEST(ScenarioRunner, AnAnswerWithParityErrorsIsNotWhatWasExpected) {
+  const std::string found = findings("  - fault: parity:character=2,of=answer\n  - {read: holding 0, expect: accepted}\n");
+  EXPECT_NE(found.find("parity errors"), std::string::npos) << found;
+}
+
+TEST(ScenarioRunner, PowerCyclesKeepOrLoseTheMemory) {
+  EXPECT_EQ(findings("  - {write: holding 10, value: 5, expect: echo}\n"
+                     "  - power_cycle: memory kept\n"
+                     "  - memory: {VW20: 5, SM0.1: 0}\n"
+                     "  - power_cycle: memory lost\n"
+                     "  - memory: {VW20: 0}\n"
+                     "  - {read: holding 10, expect: [0]}\n"),
+            "");
+}
+
+TEST(ScenarioRunner, AStopNobodyExpectedIsAFailure) {
+  const auto stops = test::compile("LD I0.0\nSTOP\nMEND\n");
+  EXPECT_EQ(findings("  - set: {I0.0: 1}\n  - wait: 20ms\n", "after: 0\n", stops),
+            "mode at the end: RUN, or a step 'mode: stop' or 'fatal:' / STOP\n");
+  EXPECT_EQ(findings("  - set: {I0.0: 1}\n  - wait: 20ms\n  - mode: stop\n", "after: 0\n", stops), "");
+  const auto hangs = test::compile("LD I0.0\nLBL 1\nJMP 1\nMEND\n");
+  EXPECT_EQ(findings("  - set: {I0.0: 1}\n  - wait: 1s\n  - fatal: 0003\n", "after: 0\n", hangs), "");
+  EXPECT_NE(findings("  - set: {I0.0: 1}\n  - wait: 1s\n", "after: 0\n", hangs).find("FATAL error 0003"), std::string::npos);
+}
+
+TEST(ScenarioRunner, SetLineClockAndScans) {
+  EXPECT_EQ(findings("  - wait: 3 scans\n  - memory: {VW20: 7}\n  - {read: holding 10, expect: [7]}\n",
+                     "set: {VW20: 7}\nclock: 2026-11-21 10:00:00\n"),
+            "");
+  EXPECT_EQ(findings("  - {read: holding 0, expect: silence}\n", "line: {baud: 19200}\n"), "");
+  EXPECT_NE(findings("  - {send: 01p, expect: silence}\n", "line: {parity: none}\n").find("needs a format with parity"),
+            std::string::npos);
+}
+
+TEST(ScenarioRunner, SaysWhereAndShowsWhatTheCpuDid) {
+  const Scenario scenario = scenario_of("  - {read: holding 0, count: 2, expect: [0, 16#1234], note: important}\n");
+  const std::string text = report_text({&scenario, run(scenario)}, false);
+  EXPECT_NE(text.find("file.yaml:3:6: - {read: holding 0, count: 2, expect: [0, 16#1234], note: important}\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("      important\n"), std::string::npos);
+  EXPECT_NE(text.find("      expected  01 03 04 00 00 12 34 f7 44\n"
+                      "      found     01 03 04 00 00 00 00 fa 33\n"
+                      "                               ^^ ^^ ^^ ^^\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("XMT 9 characters"), std::string::npos) << text;
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  EXPECT_NE(report_text({&scenario, run(scenario)}, true).find("\x1b[1;31m"), std::string::npos);
+}
+
+TEST(ScenarioReport, DiffsOfLongAnswersShowTheRowsThatDiffer) {
+  std::vector<BytePattern> a(100, std::uint8_t{0}), b = a;
+  b[50] = 1;
+  a[51] = std::nullopt;
+  b.pop_back();
+  EXPECT_EQ(bytes_diff(a, b, "", false),
+            "…\n"
+            "expected    48  00 00 00 .. 00 00 00 00 00 00 00 00 00 00 00 00\n"
+            "found       48  00 00 01 00 00 00 00 00 00 00 00 00 00 00 00 00\n"
+            "                      ^^\n"
+            "…\n"
+            "expected    96  00 00 00 00\n"
+            "found       96  00 00 00\n"
+            "                         ^^\n");
+}
+
+// --- transcripts ---
+
+std::string transcript_of(const std::string& text) {
+  const auto scenarios = scenarios_of(text);
+  std::vector<Report> reports;
+  for (const Scenario& scenario : scenarios) reports.push_back({&scenario, run(scenario)});
+  return transcript_text(reports, {"file.yaml", "a slave", 0});
+}
+
+constexpr const char* kDriven =
+    "timeout: 150ms\nset: {VW20: 16#1234, I0.3: 1}\nclock: 2026-11-21 10:00:00\nscenarios:\n"
+    "  - name: 'a \"name\" \\ with marks'\n"
+    "    steps:\n"
+    "      - {read: holding 10}\n"
+    "      - {read: inputs 0, count: 8, gap: 1 character, listen: 5ms, timeout: 100ms}\n"
+    "      - {send: 01 03p 00}\n"
+    "      - wait: 12.345678ms\n"
+    "      - set: {VB20: 5, VD24: -1, Q0.0: 1}\n"
+    "      - {read: holding 10, count: 3}\n"
+    "      - wait: 2 scans\n"
+    "      - fault: flip:character=3,bit=5,of=answer\n"
+    "      - {read: holding 10}\n"
+    "      - fault: none\n"
+    "      - power_cycle: memory kept\n"
+    "      - {read: coils 0, count: 9}\n"
+    "  - {name: faster, line: {baud: 19200}, steps: [{read: holding 0}]}\n";
+
+TEST(ScenarioRecord, ReplayedATranscriptGivesItselfAgain) {
+  const std::string once = transcript_of(kDriven);
+  for (const Scenario& scenario : scenarios_of(once)) {
+    const ScenarioResult result = run(scenario);
+    EXPECT_EQ(result.outcome, Outcome::Passed) << report_text({&scenario, result}, false) << once;
+  }
+  const std::string twice = transcript_of(once);
+  EXPECT_EQ(twice, once);
+}
+
+TEST(ScenarioRecord, AReplayIsExactToTheNanosecondAndToTheBit) {
+  const std::string transcript = transcript_of("steps: [{read: holding 10}]\n");
+  const auto outcome = [](const std::string& text) { return run(scenarios_of(text)[0]).outcome; };
+  EXPECT_EQ(outcome(transcript), Outcome::Passed);
+  const Time latency = std::get<ExchangeStep>(scenarios_of(transcript)[0].steps[0].action).latency->from.fixed;
+  const std::string written = format_duration(latency, 9);
+  EXPECT_EQ(outcome(test::changed(transcript, written, format_duration(latency + 1, 9))), Outcome::Failed);
+  EXPECT_EQ(outcome(test::changed(transcript, "expect: 01 03 02 00 00", "expect: 01 03 02 00 01")), Outcome::Failed);
+  EXPECT_EQ(outcome(test::changed(test::changed(transcript, written, format_duration(latency + 1, 9)),
+                                  "    steps:", "    tolerance: 1ns\n    steps:")),
+            Outcome::Passed);
+}
+
+TEST(ScenarioRecord, AProgramThatAnswersLaterIsNoticed) {
+  const std::string transcript = transcript_of("steps: [{read: holding 10}]\n");
+  const auto slower = test::compile(test::changed(test::slave_text(), "MOVB    6, SMB34", "MOVB 7, SMB34"));
+  const auto scenario = scenarios_of(transcript)[0];
+  const ScenarioResult result = run(scenario, slower);
+  ASSERT_EQ(result.findings.size(), 1U);
+  EXPECT_TRUE(result.findings[0].what == "latency" || result.findings[0].what == "begin") << result.findings[0].what;
+}
+
+// --- comparison ---
+
+TEST(ScenarioCompare, FindsTheFirstDifference) {
+  const Scenario scenario =
+      scenario_of("  - {read: holding 0}\n  - {write: coils 5, value: 1}\n  - {read: coils 0, count: 3}\n");
+  const auto other = test::compile(test::changed(test::slave_text(), "MOVW    65, VW3290", "MOVW 5, VW3290"));
+  const ScenarioResult a = run(scenario), b = run(scenario, other);
+  EXPECT_FALSE(compare(scenario, a, a, "a", "b", {}, false).found);
+  const Difference difference = compare(scenario, a, b, "a", "b", {.timing = false}, false);
+  ASSERT_TRUE(difference.found);
+  EXPECT_NE(difference.text.find("exchange 2, file.yaml:4\n"), std::string::npos) << difference.text;
+  EXPECT_NE(difference.text.find("a         coil 5 written: 1 after"), std::string::npos) << difference.text;
+  EXPECT_NE(difference.text.find("b         exception 2: illegal data address after"), std::string::npos) << difference.text;
+}
+
+TEST(ScenarioCompare, TimesCountUnlessTheyAreIgnoredOrTolerated) {
+  const Scenario scenario = scenario_of("  - {read: holding 0}\n");
+  const auto slower = test::compile(test::changed(test::slave_text(), "MOVB    6, SMB34", "MOVB 9, SMB34"));
+  const ScenarioResult a = run(scenario), b = run(scenario, slower);
+  EXPECT_TRUE(compare(scenario, a, b, "a", "b", {}, false).found);
+  EXPECT_FALSE(compare(scenario, a, b, "a", "b", {.timing = false}, false).found);
+  EXPECT_FALSE(compare(scenario, a, b, "a", "b", {.tolerance = 5 * kMillisecond}, false).found);
+}
+
+TEST(ScenarioCompare, RandomTrafficIsTheSameForTheSameSeed) {
+  const auto requests = [](std::uint32_t seed) {
+    std::vector<modbus::Frame> all;
+    for (const Step& step : random_traffic(300, seed, 1).steps) all.push_back(std::get<ExchangeStep>(step.action).request);
+    return all;
+  };
+  EXPECT_EQ(requests(7), requests(7));
+  EXPECT_NE(requests(7), requests(8));
+  const Scenario scenario = random_traffic(300, 7, 1);
+  const ScenarioResult result = run(scenario);
+  std::size_t answered = 0;
+  for (const Seen& seen : result.seen) answered += seen.exchange.response.empty() ? 0 : 1;
+  EXPECT_EQ(result.seen.size(), 300U);
+  EXPECT_GT(answered, 200U);
+  EXPECT_LT(answered, 300U);
+}
+
+// --- other slaves ---
+
+/// Answers every request with itself.
+class EchoSlave final : public Slave {
+ public:
+  serial::Exchange exchange(const serial::Request& request) override {
+    serial::Exchange exchange{.request = request.frame, .request_start = time_, .request_end = time_};
+    for (const auto& character : request.frame)
+      exchange.response.push_back({.byte = character.byte, .start = time_, .end = time_});
+    exchange.response_start = exchange.response_end = time_;
+    return exchange;
+  }
+  void wait(Time duration) override { time_ += duration; }
+  Time now() const override { return time_; }
+  Time pause() const override { return 0; }
+  std::string name() const override { return "echo"; }
+
+ private:
+  Time time_ = 0;
+};
+
+TEST(ScenarioRunner, StepsThatNeedTheInsideAreSkippedOnOtherSlaves) {
+  EchoSlave echo;
+  const Scenario mixed =
+      scenario_of("  - {write: holding 0, value: 1, expect: echo, latency: 1s..2s}\n  - memory: {VW0: 1}\n  - wait: 20ms\n");
+  const ScenarioResult result = run_scenario(mixed, {.slave = &echo});
+  EXPECT_EQ(result.outcome, Outcome::Passed) << "of a computer's times only the upper limit counts";
+  EXPECT_EQ(result.skipped_steps, 1U);
+  const Scenario inside = scenario_of("  - memory: {VW0: 1}\n  - mode: run\n");
+  EXPECT_EQ(run_scenario(inside, {.slave = &echo}).outcome, Outcome::Skipped);
+}
+
+}  // namespace
+}  // namespace s7200::tools

@@ -1,0 +1,172 @@
+// A scenario: what is done to a slave and what is expected of it, as plain data. scenario_reader.hpp reads it from YAML,
+// scenario_runner.hpp runs it, scenario_report.hpp says how it went, scenario_record.hpp writes down what was seen.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "interpreter/cpu/state.hpp"
+#include "interpreter/program/address.hpp"
+#include "interpreter/stl/diagnostic.hpp"
+#include "serial_sim/fault.hpp"
+#include "serial_sim/field_script.hpp"
+#include "serial_sim/modbus/request.hpp"
+#include "tools/master_options.hpp"
+
+namespace s7200::tools {
+
+/// A duration that may depend on the line: so many characters of its format, and a fixed part.
+struct Span {
+  Time fixed = 0;
+  std::int64_t millicharacters = 0;
+
+  Time in(const SerialFormat& format) const;
+  bool operator==(const Span&) const = default;
+};
+
+/// From … to, both included.
+struct Window {
+  Span from{}, to{kNever};
+  bool operator==(const Window&) const = default;
+};
+
+/// A byte that must be, or any.
+using BytePattern = std::optional<std::uint8_t>;
+
+/// How an exchange is to end.
+struct Expected {
+  enum class Kind : std::uint8_t {
+    Silence,    ///< no character came
+    Frame,      ///< these bytes
+    Echo,       ///< the request, byte by byte
+    Exception,  ///< from that station, to that function, with that code
+    Values,     ///< these registers or bits, in an answer of the right shape
+    Accepted,   ///< an answer of the right shape: what was asked for, or that it was written
+    Refused,    ///< an exception of any code
+  };
+
+  Kind kind{};
+  std::vector<BytePattern> frame{};                    ///< of Frame; without CRC if the step's has_crc
+  std::uint8_t exception = 0;                          ///< of Exception
+  std::vector<std::optional<std::uint16_t>> values{};  ///< of Values
+};
+
+struct ExchangeStep {
+  modbus::Frame request{};           ///< all of it, its CRC included
+  bool has_crc = false;              ///< the request has a right CRC, and so must an answer
+  std::vector<Expected> expected{};  ///< one of these; anything if empty
+  std::optional<Window> latency{};
+  std::optional<Window> answer_gap{};  ///< each pause between two characters of the answer
+  std::optional<Time> at{};            ///< when the request begins, on the slave's clock
+  std::optional<Span> pause{};         ///< between the exchange before and this one; the scenario's if not given
+  Span gap{};                          ///< between the characters of the request
+  std::optional<Span> listen{};        ///< the silence that ends the answer; 3.5 characters if not given
+  std::optional<Time> timeout{};       ///< the scenario's if not given
+};
+
+struct WaitStep {
+  Span time{};
+  std::uint64_t scans = 0;  ///< instead of a time
+};
+
+struct SetStep {
+  std::vector<Assignment> assignments{};
+};
+
+struct MemoryExpected {
+  MemoryRange range{};
+  std::vector<BytePattern> bytes{};  ///< as they lie in memory; of a bit, 0 or 1
+};
+struct MemoryStep {
+  std::vector<MemoryExpected> expected{};
+};
+
+struct Count {
+  std::uint64_t from = 0, to = 0;  ///< both included
+  bool operator==(const Count&) const = default;
+};
+
+/// How often something happened since the last request began, or since power-up when there was none.
+struct InterruptCount {
+  enum class What : std::uint8_t { Routine, Event, Lost };
+  What what{};
+  std::uint8_t number = 0;  ///< of the routine or event; lost events are counted all together
+  Count count{};
+};
+struct InterruptsStep {
+  std::vector<InterruptCount> counts{};
+};
+
+struct ModeStep {
+  Mode mode{};
+};
+struct FatalStep {
+  std::uint16_t code = 0;  ///< 0: none
+};
+/// The run-time errors since power-up: these and no others.
+struct ErrorsStep {
+  struct Error {
+    std::uint16_t code = 0;
+    Count count{};
+  };
+  std::vector<Error> errors{};
+};
+
+struct PowerCycleStep {
+  bool memory_lost = false;  ///< power was off for longer than the retentive memory lasts
+};
+
+/// A fault of the line from now on, or none any more.
+struct FaultStep {
+  std::optional<serial::Fault> fault{};
+};
+
+struct Step {
+  stl::Position position{};
+  std::string note{};  ///< shown when it fails
+  std::string loop{};  ///< `function = 3, count = 126`: which turn of its loops
+  std::variant<ExchangeStep, WaitStep, SetStep, MemoryStep, InterruptsStep, ModeStep, FatalStep, ErrorsStep, PowerCycleStep,
+               FaultStep>
+      action{};
+};
+
+/// What makes a scenario a rule of a conformance suite.
+struct Rule {
+  enum class Severity : std::uint8_t { Must, Should };
+  std::string id{};      ///< empty: it is none
+  std::string source{};  ///< section of the specification
+  Severity severity = Severity::Must;
+};
+
+struct Scenario {
+  std::string name{};
+  stl::Position position{};
+  std::shared_ptr<const stl::Source> source{};  ///< the file it is from
+
+  std::string program{};        ///< path; empty if only --target names one
+  bool may_be_missing = false;  ///< skip_without names it
+  std::string cpu = "214";
+  std::string times_file{};  ///< empty: the model's own
+  std::vector<Assignment> set{};
+  std::string input_file{};  ///< of `field`; empty if there is none
+  serial::FieldScript field{};
+  std::optional<ClockTime> clock{};
+  Time after = kNever;  ///< when the first step begins; kNever: the first scan has ended and the line is quiet
+
+  MasterOptions line{};  ///< with the time-out
+  Span pause{10 * kMillisecond, 7000};
+  Time tolerance = 0;  ///< by which a latency given as one figure may be missed
+
+  Rule rule{};
+  std::string skipped{};  ///< the reason why it is not to be run; empty if it is
+  std::vector<Step> steps{};
+};
+
+/// Asks for what only a program in simulation has: memory, interrupts, power.
+bool needs_inside(const Step& step);
+
+}  // namespace s7200::tools

@@ -1,0 +1,173 @@
+#include "tools/scenario_compare.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <random>
+
+#include "serial_sim/modbus/answer.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr const char* kIndent = "    ";
+
+std::vector<BytePattern> pattern_of(const modbus::Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
+
+bool same_answer(const serial::Exchange& a, const serial::Exchange& b) {
+  return a.response_bytes() == b.response_bytes() && a.parity_error() == b.parity_error() &&
+         a.framing_error() == b.framing_error();
+}
+
+bool same_time(const serial::Exchange& a, const serial::Exchange& b, Time tolerance) {
+  const auto one = a.latency(), other = b.latency();
+  return !one || !other || std::abs(*one - *other) <= tolerance;
+}
+
+std::string answer_text(const serial::Exchange& exchange) {
+  const modbus::Bytes response = exchange.response_bytes();
+  if (response.empty()) return "no answer";
+  return fmt::format("{} after {}", modbus::describe(modbus::bytes_of(exchange.request), response),
+                     format_duration(*exchange.latency(), 6));
+}
+
+/// Side by side, from the request on.
+std::string exchange_text(const Scenario& scenario, std::size_t number, const Seen& one, const Seen& other,
+                          const std::string& one_name, const std::string& other_name, bool colour) {
+  const std::size_t width = std::max({one_name.size(), other_name.size(), std::size_t{9}});
+  const Step& step = scenario.steps[one.step];
+  const std::string place = step.position.line ? fmt::format(", {}:{}", scenario.source->name, step.position.line) : "";
+  const std::string turn = step.loop.empty() ? "" : fmt::format(" (with {})", step.loop);
+  std::string text = fmt::format("{}exchange {}{}{}\n", kIndent, number + 1, place, turn);
+  text += fmt::format("{}{:<{}} {}\n", kIndent, "request", width, modbus::to_hex(one.exchange.request));
+  if (!same_answer(one.exchange, other.exchange))
+    text += bytes_diff(pattern_of(one.exchange.response_bytes()), pattern_of(other.exchange.response_bytes()), kIndent,
+                       colour, one_name, other_name);
+  text += fmt::format("{}{:<{}} {}\n", kIndent, one_name, width, answer_text(one.exchange));
+  text += fmt::format("{}{:<{}} {}\n", kIndent, other_name, width, answer_text(other.exchange));
+  return text;
+}
+
+/// Requests that are mostly fine.
+class TrafficMaker {
+ public:
+  TrafficMaker(std::uint32_t seed, std::uint8_t station) : random_(seed), station_(station) {}
+
+  ExchangeStep next() {
+    ExchangeStep step;
+    const unsigned kind = below(30);
+    const std::uint8_t station = kind == 0 ? 0 : kind == 1 ? static_cast<std::uint8_t>(station_ + 1) : station_;
+    modbus::Bytes frame = modbus::rtu_frame(station, damaged(pdu()));
+    if (kind == 2) frame[below(static_cast<unsigned>(frame.size()))] ^= static_cast<std::uint8_t>(1U << below(8));
+    if (kind == 3) frame.resize(1 + below(static_cast<unsigned>(frame.size() - 1)));
+    step.request = modbus::to_frame(frame);
+    return step;
+  }
+
+ private:
+  unsigned below(unsigned limit) { return static_cast<unsigned>(random_() % limit); }
+  std::uint16_t word() { return static_cast<std::uint16_t>(random_()); }
+
+  /// Near the begin, near a limit, or anywhere.
+  std::uint16_t first() {
+    static constexpr unsigned kLimits[] = {16, 64, 1000, 32768, 65535};
+    const unsigned kind = below(10);
+    if (kind == 0) return word();
+    if (kind == 1) return static_cast<std::uint16_t>(kLimits[below(5)] - 2 + below(4));
+    return static_cast<std::uint16_t>(below(kind < 6 ? 16 : 64));
+  }
+  std::uint16_t count(unsigned limit) {
+    const unsigned kind = below(12);
+    if (kind == 0) return word();
+    if (kind == 1) return static_cast<std::uint16_t>(limit - 1 + below(3));
+    if (kind == 2) return 0;
+    return static_cast<std::uint16_t>(1 + below(20));
+  }
+
+  modbus::Bytes pdu() {
+    switch (below(9)) {
+      case 0:
+        return modbus::read_coils(first(), count(2000));
+      case 1:
+        return modbus::read_inputs(first(), count(2000));
+      case 2:
+        return modbus::read_holding_registers(first(), count(125));
+      case 3:
+        return modbus::read_input_registers(first(), count(125));
+      case 4: {
+        modbus::Bytes coil = modbus::write_coil(first(), below(2) != 0);
+        if (below(8) == 0) coil[4] = static_cast<std::uint8_t>(word());
+        return coil;
+      }
+      case 5:
+        return modbus::write_register(first(), word());
+      case 6: {
+        std::vector<bool> coils(1 + below(32));
+        for (std::size_t i = 0; i < coils.size(); ++i) coils[i] = below(2) != 0;
+        return modbus::write_coils(first(), coils);
+      }
+      case 7: {
+        std::vector<std::uint16_t> values(below(20) == 0 ? 120 + below(4) : 1 + below(12));
+        for (std::uint16_t& value : values) value = word();
+        return modbus::write_registers(first(), values);
+      }
+      default:
+        return {static_cast<std::uint8_t>(below(256)), 0, 0, 0, 1};
+    }
+  }
+
+  modbus::Bytes damaged(modbus::Bytes pdu) {
+    const unsigned kind = below(40);
+    if (kind == 0) pdu.push_back(0);
+    if (kind == 1 && pdu.size() > 1) pdu.pop_back();
+    if (kind == 2 && pdu.size() > 5) pdu[5] = static_cast<std::uint8_t>(word());
+    return pdu;
+  }
+
+  std::mt19937 random_;
+  std::uint8_t station_;
+};
+
+}  // namespace
+
+Difference compare(const Scenario& scenario, const ScenarioResult& one, const ScenarioResult& other,
+                   const std::string& one_name, const std::string& other_name, const Comparison& comparison, bool colour) {
+  Difference difference;
+  const std::size_t both = std::min(one.seen.size(), other.seen.size());
+  std::size_t answer = 0, time = both;
+  while (answer < both && same_answer(one.seen[answer].exchange, other.seen[answer].exchange)) ++answer;
+  if (comparison.timing) {
+    time = 0;
+    while (time < both && same_time(one.seen[time].exchange, other.seen[time].exchange, comparison.tolerance)) ++time;
+  }
+  const auto show = [&](std::string_view heading, std::size_t i) {
+    difference.found = true;
+    difference.text += fmt::format("{}{}\n", kIndent, heading);
+    difference.text += exchange_text(scenario, i, one.seen[i], other.seen[i], one_name, other_name, colour);
+  };
+  if (time < answer) show("the first different time", time);
+  if (answer < both) show("the first different answer", answer);
+  if (one.seen.size() != other.seen.size()) {
+    difference.found = true;
+    difference.text += fmt::format("{}{} exchanges with {}, {} with {}\n", kIndent, one.seen.size(), one_name,
+                                   other.seen.size(), other_name);
+  }
+  return difference;
+}
+
+Scenario random_traffic(std::size_t exchanges, std::uint32_t seed, std::uint8_t station) {
+  Scenario scenario;
+  scenario.name = fmt::format("{} random requests, seed {}", exchanges, seed);
+  scenario.source = std::make_shared<stl::Source>(stl::Source{.name = "random traffic", .text = {}, .lines = {}});
+  scenario.line.timeout = 200 * kMillisecond;
+  TrafficMaker make(seed, station);
+  for (std::size_t i = 0; i < exchanges; ++i) {
+    Step step;
+    step.action = make.next();
+    scenario.steps.push_back(std::move(step));
+  }
+  return scenario;
+}
+
+}  // namespace s7200::tools

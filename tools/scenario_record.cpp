@@ -1,0 +1,149 @@
+#include "tools/scenario_record.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "serial_sim/modbus/answer.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// To the nanosecond.
+std::string exact(Time time) { return format_duration(time, 9); }
+
+std::string exact(const Span& span) {
+  if (span.millicharacters == 0) return exact(span.fixed);
+  const std::string characters = fmt::format("{} characters", static_cast<double>(span.millicharacters) / 1000);
+  return span.fixed == 0 ? characters : fmt::format("{} + {}", characters, exact(span.fixed));
+}
+
+std::string in_quotes(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return result + '"';
+}
+
+std::string assignments_text(const std::vector<Assignment>& assignments) {
+  std::string text;
+  for (const Assignment& assignment : assignments) {
+    const std::uint32_t digits = assignment.place.width == Width::Bit ? 1 : 2 * bytes_of(assignment.place.width);
+    const std::uint32_t value = digits == 8 ? assignment.value : assignment.value & ((1U << 4 * digits) - 1);
+    text += fmt::format("{}{}: 16#{:0{}X}", text.empty() ? "" : ", ", assignment.place.name_of(0), value, digits);
+  }
+  return "{" + text + "}";
+}
+
+class Writer {
+ public:
+  explicit Writer(const Transcript& transcript)
+      : transcript_(transcript), folder_(std::filesystem::path(transcript.path).parent_path()) {}
+
+  void write(const Report& report) {
+    const Scenario& scenario = *report.scenario;
+    line(2, "- name: " + in_quotes(scenario.name));
+    head(scenario);
+    line(4, "steps:");
+    std::size_t seen = 0;
+    bool any = false;
+    for (std::size_t i = 0; i < scenario.steps.size(); ++i) {
+      const Step& step = scenario.steps[i];
+      if (std::holds_alternative<ExchangeStep>(step.action)) {
+        if (seen == report.result.seen.size() || report.result.seen[seen].step != i) continue;
+        exchange(std::get<ExchangeStep>(step.action), report.result.seen[seen++].exchange);
+      } else if (!driving(step)) {
+        continue;
+      }
+      any = true;
+    }
+    if (!any) line(6, "- wait: 0");
+  }
+
+  std::string text{};
+
+ private:
+  void line(int indent, const std::string& content) { text += fmt::format("{:{}}{}\n", "", indent, content); }
+
+  std::string near(const std::string& path) const {
+    const auto top = [](const std::filesystem::path& p) { return std::filesystem::absolute(p).lexically_normal(); };
+    return in_quotes(top(path).lexically_relative(top(folder_ / "x").parent_path()).string());
+  }
+
+  void head(const Scenario& scenario) {
+    if (!scenario.program.empty()) line(4, "program: " + near(scenario.program));
+    if (!scenario.program.empty() && scenario.may_be_missing) line(4, "skip_without: " + near(scenario.program));
+    if (scenario.cpu != "214") line(4, "cpu: " + scenario.cpu);
+    if (!scenario.times_file.empty()) line(4, "times: " + near(scenario.times_file));
+    line_settings(scenario.line);
+    if (!scenario.set.empty()) line(4, "set: " + assignments_text(scenario.set));
+    if (!scenario.input_file.empty()) line(4, "input: " + near(scenario.input_file));
+    if (scenario.clock) {
+      const ClockTime& c = *scenario.clock;
+      line(4,
+           fmt::format("clock: 20{:02}-{:02}-{:02} {:02}:{:02}:{:02}", c.year, c.month, c.day, c.hour, c.minute, c.second));
+    }
+    if (scenario.after != kNever) line(4, "after: " + exact(scenario.after));
+    if (transcript_.tolerance > 0) line(4, "tolerance: " + exact(transcript_.tolerance));
+  }
+
+  void line_settings(const MasterOptions& options) {
+    const MasterOptions usual;
+    std::string settings;
+    const auto add = [&](std::string_view name, const auto& value, const auto& left_out) {
+      if (value != left_out) settings += fmt::format("{}{}: {}", settings.empty() ? "" : ", ", name, value);
+    };
+    add("baud", options.baud, usual.baud);
+    add("parity", options.parity, usual.parity);
+    add("data_bits", options.data_bits, usual.data_bits);
+    add("stop_bits", options.stop_bits, usual.stop_bits);
+    if (!settings.empty()) line(4, "line: {" + settings + "}");
+    if (options.timeout != usual.timeout) line(4, "timeout: " + exact(options.timeout));
+  }
+
+  void exchange(const ExchangeStep& step, const serial::Exchange& seen) {
+    line(6, "- send: " + modbus::to_hex(seen.request));
+    line(8, "at: " + exact(seen.request_start));
+    if (step.gap != Span{}) line(8, "gap: " + exact(step.gap));
+    if (step.listen) line(8, "listen: " + exact(*step.listen));
+    if (step.timeout) line(8, "timeout: " + exact(*step.timeout));
+    if (seen.response.empty()) return line(8, "expect: silence");
+    const modbus::Bytes response = seen.response_bytes();
+    line(8, "expect: " + modbus::to_hex(response));
+    line(8, "latency: " + exact(*seen.latency()));
+    line(8, "# " + modbus::describe(modbus::bytes_of(seen.request), response));
+  }
+
+  /// What changes what comes after it. False for expectations, which are left out.
+  bool driving(const Step& step) {
+    if (const auto* wait = std::get_if<WaitStep>(&step.action)) {
+      line(6, "- wait: " + (wait->scans ? fmt::format("{} scans", wait->scans) : exact(wait->time)));
+    } else if (const auto* set = std::get_if<SetStep>(&step.action)) {
+      line(6, "- set: " + assignments_text(set->assignments));
+    } else if (const auto* power = std::get_if<PowerCycleStep>(&step.action)) {
+      line(6, fmt::format("- power_cycle: memory {}", power->memory_lost ? "lost" : "kept"));
+    } else if (const auto* fault = std::get_if<FaultStep>(&step.action)) {
+      line(6, "- fault: " + (fault->fault ? serial::to_text(*fault->fault) : "none"));
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  const Transcript& transcript_;
+  std::filesystem::path folder_;
+};
+
+}  // namespace
+
+std::string transcript_text(const std::vector<Report>& reports, const Transcript& transcript) {
+  Writer writer(transcript);
+  for (const Report& report : reports)
+    if (report.result.outcome != ScenarioResult::Outcome::Skipped) writer.write(report);
+  return fmt::format("# Recorded from {} by s7200 test --record. Replayed by s7200 test.\nscenarios:\n{}",
+                     transcript.recorded_from, writer.text);
+}
+
+}  // namespace s7200::tools

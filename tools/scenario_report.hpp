@@ -1,0 +1,38 @@
+// How scenarios went: for people, for machines.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/scenario_runner.hpp"
+
+namespace s7200::tools {
+
+/// A scenario and how it went, on what.
+struct Report {
+  const Scenario* scenario = nullptr;
+  ScenarioResult result{};
+};
+
+/// `  pass     52.3 ms  reads coils from any bit on`, and below it what was found instead, up to `most` findings.
+std::string report_text(const Report& report, bool colour, std::size_t most = 5);
+
+/// `12 scenarios: 11 passed, 1 failed`
+std::string summary_text(const std::vector<Report>& reports);
+
+/// A line for each rule of a conformance suite, what was seen where one is broken, and totals.
+std::string conformance_text(const std::vector<Report>& reports, const std::string& slave, bool colour);
+
+nlohmann::ordered_json to_json(const std::vector<Report>& reports);
+
+/// The XML that continuous integration reads: a suite for each file, a case for each scenario.
+std::string to_junit(const std::vector<Report>& reports);
+
+/// Expected and found bytes below each other, what differs marked. Rows of sixteen; of long ones only those around a
+/// difference. Every line begins with `indent`.
+std::string bytes_diff(const std::vector<BytePattern>& expected, const std::vector<BytePattern>& found,
+                       const std::string& indent, bool colour, std::string_view expected_name = "expected",
+                       std::string_view found_name = "found");
+
+}  // namespace s7200::tools

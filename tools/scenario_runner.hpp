@@ -1,0 +1,55 @@
+// Runs scenarios: on programs in simulation, or on any slave.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/program/program.hpp"
+#include "tools/scenario.hpp"
+#include "tools/slave.hpp"
+
+namespace s7200::tools {
+
+/// What a step expected and did not find.
+struct Finding {
+  std::size_t step = 0;             ///< in the scenario
+  std::string what{};               ///< `answer`, `latency`, `VW20`
+  std::string expected{}, found{};  ///< in words; may be empty if there are bytes
+  std::vector<BytePattern> expected_bytes{};
+  std::vector<BytePattern> found_bytes{};  ///< of memory, or of an answer
+  std::optional<serial::Exchange> exchange{};
+  std::string timeline{};  ///< what the CPU did in that exchange; empty if it cannot be seen
+};
+
+/// An exchange as it went.
+struct Seen {
+  std::size_t step = 0;  ///< in the scenario
+  serial::Exchange exchange{};
+};
+
+struct ScenarioResult {
+  enum class Outcome : std::uint8_t { Passed, Failed, Skipped };
+  Outcome outcome = Outcome::Passed;
+  std::string reason{};             ///< of Skipped
+  std::vector<Finding> findings{};  ///< in the order of the steps
+  std::vector<Seen> seen{};
+  std::size_t skipped_steps = 0;  ///< that need the inside of a PLC, on a slave that shows none
+  Time time = 0;                  ///< on the slave's clock
+  double host_seconds = 0;
+};
+
+/// What a scenario is run on.
+struct Bench {
+  std::shared_ptr<const Program> program{};  ///< in simulation
+  Slave* slave = nullptr;                    ///< instead of a program; not owned
+  SerialFormat format{};                     ///< of the slave's line
+};
+
+/// Runs a scenario to its end, findings or not. Exceptions of the slave (SlaveUnreachable) pass through.
+/// On a slave that is no program, steps that need_inside() are skipped, and of times only upper limits of the latency are
+/// judged: the computer in between cannot be trusted with more.
+ScenarioResult run_scenario(const Scenario& scenario, const Bench& bench);
+
+}  // namespace s7200::tools
