@@ -99,6 +99,29 @@ class Verbs(Case):
                 self.assertEqual(done.stdout, "")
                 self.assertGreater(len(done.stderr), 10)
 
+    def test_wrong_faults_are_refused_at_their_place(self):
+        for spec, column, message, caret in (
+                ("flop:bit=1", 1, "there is no fault 'flop'; there are noise, flip, ", "^~~~"),
+                ("flip:character=3,bit=8", 22, "bit: '8' is no bit: 0 (sent first) to 7, start, parity or stop", "^"),
+                ("flip:bit=0…7", 10, "bit: '0…7' is no bit", "^~~"),
+                ("gap", 1, "gap needs length=VALUE (time, bits), for example gap:character=4,length=10ms", "^~~"),
+                ("", 1, "a fault is missing here", "^")):
+            for verb in (["run", SLAVE], ["send", SLAVE, "01"]):
+                with self.subTest(spec):
+                    done = self.ends(UNUSABLE, *verb, "--fault", "echo", "--fault", spec)
+                    self.assertEqual(done.stdout, "")
+                    self.assertIn(f"s7200: error: fault, column {column}: {message}", done.stderr)
+                    self.assertIn(f"\n  {spec}\n  {' ' * (column - 1)}{caret}\n", done.stderr)
+
+    def test_help_lists_every_fault(self):
+        table = (SOURCE / "serial_sim/README.md").read_text(encoding="utf-8").split("| fault |")[1].split("\n\n")[0]
+        kinds = re.findall(r"(?m)^\| `(\w+)`", table)
+        self.assertGreater(len(kinds), 10)
+        for verb in ("run", "send"):
+            listed = s7200(verb, "--help").stdout
+            for kind in kinds:
+                self.assertRegex(listed, rf"(?m)^  {kind} .* {kind}\b")
+
     def test_messages_go_to_standard_error(self):
         wrong = self.program("LD SM0.0\nFROB\nMEND\n")
         for verb in (["run", wrong], ["send", wrong, "01"]):
@@ -173,7 +196,7 @@ class Json(Case):
         path = self.program("LD SM0.0\nMOVW 16#1234, VW2\nMOVD 0, *VD100\nMEND\n")
         result = self.json(FINE, "run", path, "--scans", "3", "--set", "VD100=16#7F000000", "--dump", "VB0:4",
                            "--dump", "VW2", "--dump", "V2.1", "--json")
-        self.assertEqual(list(result), ["stop_reason", "time_ns", "scans", "instructions", "mode", "errors", "dump"])
+        self.assertEqual(list(result), ["stop_reason", "time_ns", "scans", "instructions", "mode", "errors", "faults", "dump"])
         self.assertEqual((result["stop_reason"], result["scans"]), ("scans", 3))
         self.assertEqual((result["instructions"], result["mode"]), (12, "RUN"))
         self.assertEqual(result["dump"], {"VB0:4": "00001234", "VW2": "1234", "V2.1": "01"})
@@ -238,6 +261,32 @@ class Json(Case):
         self.assertEqual((silent["exchanges"][0]["verdict"], silent["statistics"]["latency_us"]), ("silent", None))
         stopped = self.program("LD SM0.0\nLBL 1\nJMP 1\nMEND\n")
         self.assertEqual(self.ends(FATAL, "master", stopped, "slave-id").stdout, "")
+
+    def test_faults(self):
+        read, flip = "0103000a0001", "flip:character=3,bit=5,every=2"
+        send = ["send", SLAVE, "--crc", read, read, "--timeout", "50ms"]
+        done = self.ends(FAILED, *send, "--fault", flip, "--fault", "echo", "--json")
+        first, second = json.loads(done.stdout)
+        self.assertEqual(list(first), ["request", "response", "latency_us", "echo", "faults"])
+        self.assertEqual((first["response"], first["echo"]), ("0103020000b844", first["request"]))
+        self.assertEqual(first["faults"], [{"fault": "echo", "count": 1, "impossible": 0}])
+        self.assertEqual((second["response"], second["echo"]), (None, "01032" + first["request"][5:]))
+        self.assertEqual(second["faults"][0], {"fault": flip, "count": 1, "impossible": 0})
+        self.assertIn(f"s7200: note: fault {flip}: 1×\ns7200: note: fault echo: 2×\n", done.stderr)
+        self.assertEqual(self.ends(FAILED, *send, "--fault", flip, "--fault", "echo", "--json").stdout, done.stdout)
+        shown = self.ends(FAILED, *send, "--fault", "echo", "--fault", flip).stdout
+        self.assertIn("request  01 03 00 0a 00 01 a4 08\necho     01 03 20 0a 00 01 a4 08\nanswer   none within 50 ms", shown)
+
+    def test_faults_that_cannot_be_are_said(self):
+        done = self.ends(FINE, "send", self.program(self.ECHO), "ab", "--fault", "parity")
+        self.assertIn("note: fault parity: 0×, and 1× the format of the character had no such bit", done.stderr)
+
+    def test_faults_of_a_run(self):
+        result = self.json(FINE, "run", SLAVE, "--for", "1s", "--fault", "noise:ber=0.01", "--fault", "break:from=500ms", "--json")
+        noise, line_break = result["faults"]
+        self.assertEqual((noise["fault"], line_break), ("noise:ber=0.01", {"fault": "break:from=500ms", "count": 1,
+                                                                           "impossible": 0}))
+        self.assertTrue(50 < noise["count"] < 150)
 
     def test_tables(self):
         (row,) = self.json(FINE, "instructions", "MOVW", "--json")

@@ -228,7 +228,7 @@ class Slave {
     simulation.cpu().set_sink(&log);
   }
 
-  /// Sends and waits until nothing has been on the line for as long as the slave may need for the longest of what it heard.
+  /// Sends; settle() waits for what comes of it.
   void exchange(const Bytes& request) {
     log.clear();
     log.last = simulation.time();
@@ -236,22 +236,22 @@ class Slave {
     simulation.finish_exchange();
   }
 
-  /// CRCs take 0.3 ms a character, of the frame and of the answer (estimated times); a scan takes up to 10 ms.
+  /// Waits until nothing has been on the line for as long as the slave may need for what it heard and an answer of any
+  /// length. The tip takes up to 0.6 ms a character (estimated times).
   void settle() {
-    const auto needs = [&] {
-      return 40 * kMillisecond + static_cast<Time>(log.received.size()) * 400 * kMicrosecond +
-             (log.sent.empty() ? longest_answer : 0) * 400 * kMicrosecond;
+    constexpr Time kCharacter = 800 * kMicrosecond, kScans = 40 * kMillisecond, kLongestAnswer = 255;
+    const auto end = [&] {
+      const Time characters = static_cast<Time>(log.received.size()) + (log.sent.empty() ? kLongestAnswer : 0);
+      return log.last + kScans + characters * kCharacter;
     };
-    const Time limit = simulation.time() + 20 * kSecond;
-    while (simulation.time() < log.last + needs() && simulation.time() < limit)
-      if (simulation.run_until(log.last + needs()) != serial::Halt::Time) return;
+    while (simulation.time() < end())
+      if (simulation.run_until(end()) != serial::Halt::Time) return;
   }
 
   bool in_run() const { return simulation.cpu().state().mode == Mode::Run; }
   Outcome outcome() const { return Outcome(log.sent, simulation.cpu().state()); }
 
-  static constexpr Time kShort = 2 * kMillisecond;  // the rest is waited for by settle()
-  static constexpr Time longest_answer = 255;
+  static constexpr Time kShort = 2 * kMillisecond;
   serial::Simulation simulation;
   Log log;
 };

@@ -25,7 +25,8 @@ struct Counts {
   std::uint64_t with_wrong_crc = 0;  ///< no parity error, but a wrong CRC, or nothing received at all
   std::uint64_t with_framing_errors_only =
       0;                                   ///< right CRC, no parity error, a stop bit at space: nothing tells the program
-  std::uint64_t right_by_chance = 0;       ///< other bytes than those sent, and their CRC is right
+  std::uint64_t zeros_behind = 0;          ///< the request and zeros behind it: that leaves the CRC right
+  std::uint64_t right_by_chance = 0;       ///< other bytes, and their CRC is right
   std::uint64_t split = 0;                 ///< received as several frames
   std::uint64_t right_behind_another = 0;  ///< of those, with a right CRC in one that is not the first
   std::uint64_t answered = 0;

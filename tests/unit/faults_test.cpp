@@ -419,6 +419,8 @@ TEST(Faults, SeveralWorkTogether) {
 TEST(Faults, PeerThatAnnouncesNothingBeginsAnExchangeBehindAnAnswerOrASilence) {
   Plant plant({"flip:every=2"});
   Uart peer(plant.line, plant.queue, EventOwner::Cpu, 2);  // an owner that is free here
+  peer.configure(k8E1);
+  peer.enable_receiver(false, 0);
   const auto send = [&](std::uint8_t byte) {
     plant.heard.clear();
     peer.send(byte, plant.now);
