@@ -401,7 +401,7 @@ std::string to_text(const Fault& fault) {
   for (const ParameterOfKind& p : kind.parameters) {
     if (fault.from && excluded_by_instant(fault, p.name)) continue;
     const std::string value = parameter_named(p.name).write(fault);
-    if (value == p.standard) continue;
+    if (value == p.standard || value == kLeftOut) continue;
     text += fmt::format("{}{}={}", separator, p.name, value);
     separator = ',';
   }

@@ -334,8 +334,8 @@ class Trials {
       if (i == 0) owes_silence = false;
       if (i != 0) ++counts.right_behind_another;
       const Bytes bytes = bytes_of(frames[i]);
-      if (is_request_and_zeros(bytes))
-        ++counts.zeros_behind;
+      if (differs_by_zeros_at_its_end(bytes))
+        ++counts.zeros_at_its_end;
       else if (bytes != request_)
         ++counts.right_by_chance;
       counts.with_framing_errors_only += any_framing_error(frames[i]) ? 1U : 0U;
@@ -354,9 +354,11 @@ class Trials {
   }
 
   /// The CRC of a frame that ends with its CRC is 0, and stays 0 over zeros.
-  bool is_request_and_zeros(const Bytes& bytes) const {
-    return bytes.size() > request_.size() && std::equal(request_.begin(), request_.end(), bytes.begin()) &&
-           std::all_of(bytes.begin() + static_cast<std::ptrdiff_t>(request_.size()), bytes.end(),
+  bool differs_by_zeros_at_its_end(const Bytes& bytes) const {
+    const bool longer = bytes.size() > request_.size();
+    const Bytes &whole = longer ? bytes : request_, &part = longer ? request_ : bytes;
+    return whole.size() > part.size() && std::equal(part.begin(), part.end(), whole.begin()) &&
+           std::all_of(whole.begin() + static_cast<std::ptrdiff_t>(part.size()), whole.end(),
                        [](std::uint8_t byte) { return byte == 0; });
   }
 
@@ -417,7 +419,7 @@ Counts& Counts::operator+=(const Counts& other) {
   with_errors += other.with_errors;
   with_wrong_crc += other.with_wrong_crc;
   with_framing_errors_only += other.with_framing_errors_only;
-  zeros_behind += other.zeros_behind;
+  zeros_at_its_end += other.zeros_at_its_end;
   right_by_chance += other.right_by_chance;
   split += other.split;
   right_behind_another += other.right_behind_another;
@@ -439,27 +441,34 @@ Result run_faulted_frames(const std::shared_ptr<const Program>& program, std::ui
 std::string to_text(const Counts& c) {
   std::string text = fmt::format(
       "{:9} frames with faults\n{:9}   as sent\n{:9}   with a parity error\n{:9}   with a wrong CRC, or nothing received\n"
-      "{:9}   with a framing error only\n{:9}   with zeros behind it, right CRC\n{:9}   other bytes, right CRC by "
+      "{:9}   with a framing error only\n{:9}   with zeros more or fewer at its end, right CRC\n{:9}   other bytes, right "
+      "CRC by "
       "chance\n{:9}   received in pieces, {} of them "
       "with a "
       "right CRC behind another frame\n{:9} answered\n{:9} good frames behind a quiet line\n",
-      c.frames, c.untouched, c.with_errors, c.with_wrong_crc, c.with_framing_errors_only, c.zeros_behind, c.right_by_chance,
-      c.split, c.right_behind_another, c.answered, c.good_frames);
+      c.frames, c.untouched, c.with_errors, c.with_wrong_crc, c.with_framing_errors_only, c.zeros_at_its_end,
+      c.right_by_chance, c.split, c.right_behind_another, c.answered, c.good_frames);
   text += "          faults:";
   for (const serial::FaultKindInfo& kind : serial::fault_kinds())
     text += fmt::format(" {} {}", kind.name, c.happened[static_cast<std::size_t>(kind.kind)]);
   return text + fmt::format("\n{:9} wrong answers\n{:9} good frames not answered\n", c.wrong, c.unanswered);
 }
 
+std::shared_ptr<const Program> program_of(const std::string& text, const std::string& name) {
+  std::string why;
+  auto source = read_source(text, name, why);
+  if (!source) throw std::runtime_error(fmt::format("cannot read {}: {}", name, why));
+  const CpuModel& model = *find_cpu("214");
+  CheckResult result = check(std::move(source->parsed), model, default_times(model));
+  if (!result.program) throw std::runtime_error(name + " has errors");
+  return result.program;
+}
+
 std::shared_ptr<const Program> load_program(const std::string& path) {
   std::string why;
   const auto bytes = read_file(path, why);
-  auto text = bytes ? read_source(*bytes, path, why) : std::nullopt;
-  if (!text) throw std::runtime_error(fmt::format("cannot read {}: {}", path, why));
-  const CpuModel& model = *find_cpu("214");
-  CheckResult result = check(std::move(text->parsed), model, default_times(model));
-  if (!result.program) throw std::runtime_error(path + " has errors");
-  return result.program;
+  if (!bytes) throw std::runtime_error(fmt::format("cannot read {}: {}", path, why));
+  return program_of(*bytes, path);
 }
 
 }  // namespace s7200::faults

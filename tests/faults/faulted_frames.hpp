@@ -25,7 +25,7 @@ struct Counts {
   std::uint64_t with_wrong_crc = 0;  ///< no parity error, but a wrong CRC, or nothing received at all
   std::uint64_t with_framing_errors_only =
       0;                                   ///< right CRC, no parity error, a stop bit at space: nothing tells the program
-  std::uint64_t zeros_behind = 0;          ///< the request and zeros behind it: that leaves the CRC right
+  std::uint64_t zeros_at_its_end = 0;      ///< one or more zeros too many or too few at the end: that leaves the CRC right
   std::uint64_t right_by_chance = 0;       ///< other bytes, and their CRC is right
   std::uint64_t split = 0;                 ///< received as several frames
   std::uint64_t right_behind_another = 0;  ///< of those, with a right CRC in one that is not the first
@@ -53,7 +53,8 @@ Result run_faulted_frames(const std::shared_ptr<const Program>& program, std::ui
 /// One line for each figure.
 std::string to_text(const Counts& counts);
 
-/// A checked program for the CPU 214 out of an STL file or a document. Throws std::runtime_error.
+/// A checked program for the CPU 214 out of STL or a document. Throws std::runtime_error.
+std::shared_ptr<const Program> program_of(const std::string& text, const std::string& name);
 std::shared_ptr<const Program> load_program(const std::string& path);
 
 }  // namespace s7200::faults

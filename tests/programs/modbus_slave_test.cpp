@@ -250,6 +250,12 @@ TEST_F(ModbusSlave, DropsDisturbedAndForeignFramesAndAnswersTheNextOne) {
   }
 }
 
+TEST_F(ModbusSlave, TakesACharacterWhoseStopBitIsAtSpaceBecauseTheCpuShowsItParityOnly) {
+  bench.simulation().inject(serial::parse_fault("framing:character=4").fault);
+  EXPECT_EQ(bench.ask("0103000a0001"), "01 03 02 00 00");
+  EXPECT_EQ(bench.simulation().faults().state().injected.at(0).count, 1U);
+}
+
 TEST_F(ModbusSlave, TakesNothingInsideAFrameForTheBeginningOfOne) {
   const std::string good = "010300000001840a";
   EXPECT_EQ(bench.ask_raw(good), "01 03 02 00 00 b8 44");

@@ -71,6 +71,14 @@ TEST_F(Tip41Slave, FirstScanTakesTheTimeTheDocumentGives) {
   EXPECT_NEAR(first_scan_ms, 690.0, 6.9);
 }
 
+TEST_F(Tip41Slave, TakesACharacterWhoseStopBitIsAtSpaceBecauseTheCpuShowsItParityOnly) {
+  SlaveBench bench(text);
+  bench.start();
+  bench.simulation().inject(serial::parse_fault("framing:character=4").fault);
+  EXPECT_EQ(bench.ask("0103000a0001"), "01 03 02 00 00");
+  EXPECT_EQ(bench.simulation().faults().state().injected.at(0).count, 1U);
+}
+
 /// When the characters of a request came and when INT 124 was called for.
 struct QuietWatch : TraceSink {
   void record(const TraceRecord& record) override {
