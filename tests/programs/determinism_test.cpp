@@ -99,5 +99,29 @@ TEST(Determinism, ASnapshotGoesOnAsTheOriginal) {
   }
 }
 
+void power_up_with_faults(SlaveBench& bench) {
+  for (const char* const fault : {"noise:ber=0.002", "extra:probability=0.5", "collision:every=2", "echo", "baud:error=1%"})
+    bench.simulation().inject(serial::parse_fault(fault).fault);
+  bench.simulation().power_up();
+}
+
+TEST(Determinism, HoldsOnALineWithFaults) {
+  SlaveBench whole(slave_text()), sliced(slave_text()), first(slave_text()), other(slave_text());
+  for (SlaveBench* bench : {&whole, &sliced, &first}) power_up_with_faults(*bench);
+  converse(whole, kEnd);
+  converse(sliced, kMillisecond);
+  EXPECT_TRUE(whole.simulation().snapshot() == sliced.simulation().snapshot());
+
+  for (std::size_t frame = 0; frame < 3; ++frame) {
+    run_to(first, begin_of(frame) - kMillisecond, kEnd);
+    start_request(first, frame);
+  }
+  run_to(first, begin_of(2) + 4 * kMillisecond, kEnd);
+  other.simulation().restore(first.simulation().snapshot());
+  converse(other, kEnd, 3);
+  EXPECT_TRUE(whole.simulation().snapshot() == other.simulation().snapshot()) << "from a snapshot inside a request";
+  EXPECT_GT(whole.simulation().faults().state().injected[0].count, 50U);
+}
+
 }  // namespace
 }  // namespace s7200::test

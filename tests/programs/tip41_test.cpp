@@ -74,7 +74,7 @@ TEST_F(Tip41Slave, FirstScanTakesTheTimeTheDocumentGives) {
 TEST_F(Tip41Slave, TakesACharacterWhoseStopBitIsAtSpaceBecauseTheCpuShowsItParityOnly) {
   SlaveBench bench(text);
   bench.start();
-  bench.simulation().inject(serial::parse_fault("framing:character=4").fault);
+  bench.simulation().inject(serial::parse_fault("framing:character=8").fault);
   EXPECT_EQ(bench.ask("0103000a0001"), "01 03 02 00 00");
   EXPECT_EQ(bench.simulation().faults().state().injected.at(0).count, 1U);
 }
