@@ -16,14 +16,16 @@ Nothing may crash or hang, and every report must stand at file:line:column with 
 """
 import pathlib
 import re
+import resource
 import shlex
+import signal
 import subprocess
 import sys
 import tempfile
 import zlib
 
 HERE = pathlib.Path(__file__).resolve().parent
-SECONDS = 60
+SECONDS = 60  # of processor time: a loaded machine makes nothing hang
 REPORT = re.compile(r"(.*?):(\d+):(\d+): (error|warning): (.*)")
 EXPECT = re.compile(r"//\s*(expect (?:error|warning|hint|runtime|fatal|output|exit)|with):\s*(.*)")
 RUN_TIME = re.compile(r"(run-time|FATAL) error ([0-9A-F]{4}), .*\n\s+(?:.*:(\d+): .*|(between two scans))")
@@ -35,10 +37,15 @@ class Failure(Exception):
 
 def run(command):
     """Exit code, standard output and error as text; a crash or a time-out is a Failure."""
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS + 1))
     try:
-        done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=SECONDS, check=False)
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=10 * SECONDS, check=False,
+                              preexec_fn=limit)
     except subprocess.TimeoutExpired:
         raise Failure(f"hangs: {shlex.join(command)}") from None
+    if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+        raise Failure(f"computes for ever: {shlex.join(command)}")
     error = done.stderr.decode("utf-8", "replace")
     if done.returncode not in (0, 1, 2, 3) or "Sanitizer" in error or "runtime error:" in error:
         raise Failure(f"crashed with {done.returncode}: {shlex.join(command)}\n{error[-3000:]}")
