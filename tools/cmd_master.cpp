@@ -10,6 +10,7 @@
 #include "tools/duration_option.hpp"
 #include "tools/exchange_statistics.hpp"
 #include "tools/exit_code.hpp"
+#include "tools/fault_options.hpp"
 #include "tools/host_link.hpp"
 #include "tools/interruption.hpp"
 #include "tools/master_action.hpp"
@@ -87,7 +88,7 @@ class MasterSession {
 
   /// Say what belongs before the first result and behind the last, where the JSON of results stands between them.
   void begin() const;
-  void end(const std::string& error, const nlohmann::ordered_json& dump);
+  void end(const std::string& error, const nlohmann::ordered_json& plant);
 
  private:
   std::string title() const;
@@ -217,20 +218,27 @@ void MasterSession::begin() const {
   if (verb_.json) fmt::print("{{\n  \"target\": {},\n  \"exchanges\": [\n", nlohmann::json(slave_.name()).dump());
 }
 
-void MasterSession::end(const std::string& error, const nlohmann::ordered_json& dump) {
+void MasterSession::end(const std::string& error, const nlohmann::ordered_json& plant) {
   clear_progress();
-  if (verb_.json)
-    fmt::print("{}  ],\n  \"statistics\": {},\n  \"dump\": {},\n  \"error\": {}\n}}\n", first_ ? "" : "\n",
-               statistics_.json().dump(), dump.dump(), (error.empty() ? nlohmann::json() : nlohmann::json(error)).dump());
-  else if (verb_.polls() && can_redraw(stdout))
+  if (verb_.json) {
+    fmt::print("{}  ],\n  \"statistics\": {},\n", first_ ? "" : "\n", statistics_.json().dump());
+    for (const auto& [key, value] : plant.items()) fmt::print("  \"{}\": {},\n", key, value.dump());
+    fmt::print("  \"error\": {}\n}}\n", (error.empty() ? nlohmann::json() : nlohmann::json(error)).dump());
+  } else if (verb_.polls() && can_redraw(stdout)) {
     table_.finish();
-  else if (verb_.rounds() > 1)
+  } else if (verb_.rounds() > 1) {
     fmt::print("{}", statistics_.text());
+  }
 }
 
-/// From the first exchange to what is said at the end, whichever way it ends. `dump` is called then.
-template <typename Dump>
-int run_session(const MasterVerb& verb, MasterSession& session, Dump dump) {
+nlohmann::ordered_json plant_json(const nlohmann::ordered_json& dump, const nlohmann::ordered_json& faults) {
+  return {{"dump", dump}, {"faults", faults}};
+}
+
+/// From the first exchange to what is said at the end, whichever way it ends. `plant` then
+/// says what the JSON has of the plant around the CPU.
+template <typename Plant>
+int run_session(const MasterVerb& verb, MasterSession& session, Plant plant) {
   std::string error;
   session.begin();
   try {
@@ -238,7 +246,7 @@ int run_session(const MasterVerb& verb, MasterSession& session, Dump dump) {
   } catch (const std::exception& end) {  // SlaveUnreachable, or a frame that cannot be sent to this slave
     error = end.what();
   }
-  session.end(error, dump());
+  session.end(error, plant());
   if (!error.empty()) {
     print_error(error);
     return kUnusable;
@@ -266,10 +274,12 @@ int run_on_program(MasterVerb& verb, const std::vector<MasterAction>& actions) {
   }
 
   MasterSession session(verb, slave, actions, true);
-  exit_code = run_session(verb, session, [&] { return verb.plant.dump_json(simulation.cpu().state()); });
+  exit_code = run_session(verb, session, [&] {
+    return plant_json(verb.plant.dump_json(simulation.cpu().state()), faults_json(simulation.faults()));
+  });
   if (!verb.plant.finish(simulation)) return kUnusable;
   if (!verb.json) fmt::print("{}", verb.plant.dump_text(simulation.cpu().state()));
-  fmt::print(stderr, "{}", errors_text(simulation.cpu()));
+  fmt::print(stderr, "{}{}", errors_text(simulation.cpu()), faults_text(simulation.faults()));
   if (simulation.cpu().state().mode == Mode::Stop) fmt::print(stderr, "s7200: note: the CPU is in STOP\n");
   return simulation.cpu().state().fatal_code ? kCpuFatal : exit_code;
 }
@@ -296,7 +306,8 @@ int run_master(MasterVerb& verb) {
     return kUnusable;
   }
   MasterSession session(verb, *slave, actions, !over_tcp);
-  return run_session(verb, session, [] { return nlohmann::ordered_json::object(); });
+  return run_session(verb, session,
+                     [] { return plant_json(nlohmann::ordered_json::object(), nlohmann::ordered_json::array()); });
 }
 
 /// The options that `add` adds.
@@ -375,7 +386,7 @@ void add_master(CLI::App& app, int& exit_code) {
     add_duration(*sub, "--after", verb->after,
                  "when to send the first request (default: first scan ended, then 7 characters + 10 ms of silence)");
   });
-  sub->footer(targets_help() + actions_help() +
+  sub->footer(targets_help() + actions_help() + fault_help() +
               "Example: s7200 master stl_programs/modbus_slave.stl write 40011=1234,-5 read 40011:2 read 00001:8");
   sub->callback([verb, &exit_code] {
     try {

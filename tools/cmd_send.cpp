@@ -99,9 +99,6 @@ int run_send(SendOptions& options) {
   SimulatedSlave slave(simulation, options.master, options.program.path);
   bool all_answered = slave.wait_until_ready(options.after);
   const bool ready = all_answered;
-  if (ready && !simulation.cpu().state().port.active)
-    fmt::print(stderr, "s7200: note: the program has not switched port 0 to Freeport mode (SMB30 = 16#{:02X})\n",
-               simulation.cpu().state().image[image::kSM + 30]);
   for (const modbus::Frame& frame : frames) {
     if (!ready || interrupted()) break;
     const serial::Faults::State faults_before = simulation.faults().state();

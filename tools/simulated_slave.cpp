@@ -28,14 +28,17 @@ SimulatedSlave::SimulatedSlave(serial::Simulation& simulation, const MasterOptio
     : simulation_(simulation), master_(master), name_(std::move(name)) {}
 
 bool SimulatedSlave::wait_until_ready(Time after) {
-  if (after != kNever) return run_until(simulation_, after);
-  if (simulation_.run_until_ready(pause(), kReadyWithin)) return true;
-  if (simulation_.cpu().state().mode == Mode::Run)
+  const bool ready = after == kNever ? simulation_.run_until_ready(pause(), kReadyWithin) : run_until(simulation_, after);
+  const State& state = simulation_.cpu().state();
+  if (ready && !state.port.active)
+    fmt::print(stderr, "s7200: note: the program has not switched port 0 to Freeport mode (SMB30 = 16#{:02X})\n",
+               state.image[image::kSM + 30]);
+  if (!ready && after == kNever && state.mode == Mode::Run)
     print_error(
         fmt::format("the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
                     "sends all the same",
                     format_duration(pause()), format_duration(kReadyWithin)));
-  return false;
+  return ready;
 }
 
 serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {

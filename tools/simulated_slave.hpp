@@ -16,7 +16,8 @@ class SimulatedSlave final : public Slave {
   SimulatedSlave(serial::Simulation& simulation, const MasterOptions& master, std::string name);
 
   /// Runs until the first scan has ended and the line has been quiet for as long as a master leaves it, or until `after` if
-  /// that is not kNever. False when the CPU stopped, after Ctrl-C, and after a message when the moment never comes.
+  /// that is not kNever. False when the CPU stopped, after Ctrl-C, and after a message when the moment never comes. A port
+  /// that is not in Freeport mode by then is worth a note.
   bool wait_until_ready(Time after = kNever);
 
   /// On a CPU in STOP too. Throws std::invalid_argument for a byte with wrong parity in a format without.

@@ -236,7 +236,7 @@ class Json(Case):
     def test_master(self):
         result = self.json(FAILED, "master", SLAVE, "write", "40011=-5", "read", "40011", "10001:2", "slave-id", "--as", "signed",
                            "--dump", "VW20", "--json")
-        self.assertEqual(list(result), ["target", "exchanges", "statistics", "dump", "error"])
+        self.assertEqual(list(result), ["target", "exchanges", "statistics", "dump", "faults", "error"])
         self.assertEqual((result["target"], result["dump"], result["error"]), (SLAVE, {"VW20": "fffb"}, None))
         write, read, inputs, refused = result["exchanges"]
         for exchange in result["exchanges"]:
@@ -251,6 +251,11 @@ class Json(Case):
         self.assertEqual({k: v for k, v in result["statistics"].items() if k != "latency_us"},
                          {"requests": 4, "right": 3, "exception": 1, "silent": 0, "wrong": 0, "repeated": 0})
         self.assertEqual(list(result["statistics"]["latency_us"]), ["least", "mean", "p99", "most"])
+
+    def test_master_with_faults(self):
+        result = self.json(FAILED, "master", SLAVE, "read", "40001", "--fault", "parity:character=2,of=answer", "--json")
+        self.assertEqual(result["exchanges"][0]["fault"], "characters with wrong parity")
+        self.assertEqual((len(result["faults"]), result["faults"][0]["count"]), (1, 1))
 
     def test_master_in_simulated_time(self):
         polled = self.json(FINE, "master", SLAVE, "read", "40001", "--every", "10min", "--count", "3", "--json")["exchanges"]
