@@ -986,7 +986,7 @@ std::string scenario_keys_markdown() {
   std::string text;
   for (const auto& [where, heading] : kTables) {
     const bool modifiers = where == Where::Modifier;
-    text += fmt::format("{}| {} | |{}|\n|---|---|{}---|\n", text.empty() ? "" : "\n", heading, modifiers ? " beside |" : "",
+    text += fmt::format("{}| {} |{} |\n|---|{}---|\n", text.empty() ? "" : "\n", heading, modifiers ? " beside |" : "",
                         modifiers ? "---|" : "");
     for (const ScenarioKey& key : kKeys) {
       if (key.where != where) continue;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|json|files|readme"""
+"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|json|files|scenarios|readme"""
 import json
 import os
 import pathlib
@@ -12,6 +12,7 @@ import sys
 import tempfile
 import time
 import unittest
+import xml.etree.ElementTree
 
 S7200, SOURCE, GROUP = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
 SLAVE = str(SOURCE / "stl_programs/modbus_slave.stl")
@@ -309,6 +310,112 @@ class Json(Case):
             self.assertEqual(list(figure), ["name", "unit", "per_second"])
 
 
+class Scenarios(Case):
+    """`s7200 test`: exit codes, files, output for machines."""
+    HEAD = f"program: {SLAVE}\ntimeout: 200ms\n"
+    GOOD = HEAD + "name: good\nsteps:\n  - {read: holding 0, expect: [0]}\n"
+    BAD = HEAD + "name: <bad> & \"ugly\"\nsteps:\n  - {read: holding 0, expect: exception 2}\n"
+
+    def test_exit_codes(self):
+        good, bad = self.program(self.GOOD, "good.yaml"), self.program(self.BAD, "bad.yaml")
+        self.assertIn("1 scenario: 1 passed", self.ends(FINE, "test", good).stdout)
+        self.assertIn("1 passed, 1 failed", self.ends(FAILED, "test", good, bad).stdout)
+        skipped = self.program(self.GOOD + "skip_without: no/such/file\n", "skipped.yaml")
+        self.assertIn("no/such/file is not there", self.ends(FINE, "test", skipped).stdout)
+        stops = self.program("LD SM0.0\nLBL 1\nJMP 1\nMEND\n")
+        self.assertIn("FATAL error 0003", self.ends(FAILED, "test", self.program(
+            f"program: {stops}\nafter: 0\nsteps: [{{wait: 1s}}]\n", "fatal.yaml")).stdout)
+
+    def test_wrong_usage(self):
+        good = self.program(self.GOOD, "good.yaml")
+        wrong = self.program(self.HEAD + "steps: [{wait: 5}]\n", "wrong.yaml")
+        without = self.program("steps: [{wait: 1ms}]\n", "without.yaml")
+        broken = self.program("FROB\n", "broken.stl")
+        (self.folder / "empty").mkdir()
+        for arguments in ([], ["missing.yaml"], [wrong], [good, wrong], [without], [self.folder / "empty"],
+                          [good, "--only", "nothing has this name"], [good, "--jobs", "0"], ["--random", "5"],
+                          [good, "--ignore-timing"], [good, "--tolerance", "1ms"], [good, "--conformance", good],
+                          [good, "--with", wrong], [good, "--with", self.program("frob: 1\n", "with.yaml")],
+                          [good, "--target", broken], [good, "--target", "missing.stl"], [good, "--against", "tcp://nohost"],
+                          [good, "--record", "no/such/folder/file"], [good, "--junit", "no/such/folder/file"],
+                          [good, "--target", "/dev/ttyNoSuchDevice"]):
+            with self.subTest(arguments):
+                done = self.ends(UNUSABLE, "test", *arguments)
+                self.assertEqual(done.stdout, "")
+                self.assertGreater(len(done.stderr), 10)
+
+    def test_mistakes_are_told_at_their_place(self):
+        wrong = self.program("steps:\n  - {wait: 1ms, frob: 1}\n", "wrong.yaml")
+        self.assertIn(f"{wrong}:2:16: error: 'frob' has no place beside 'wait'\n  - {{wait: 1ms, frob: 1}}\n"
+                      "               ^~~~\nhint: known: ", self.ends(UNUSABLE, "test", wrong).stderr)
+
+    def test_json(self):
+        good, bad = self.program(self.GOOD, "good.yaml"), self.program(self.BAD, "bad.yaml")
+        result = self.json(FAILED, "test", "--json", good, bad)
+        self.assertEqual((result["passed"], result["failed"], result["skipped"]), (1, 1, 0))
+        first, second = result["scenarios"]
+        self.assertEqual(list(first), ["file", "line", "name", "outcome", "reason", "time_ns", "skipped_steps", "findings",
+                                       "exchanges"])
+        self.assertEqual(list(first["exchanges"][0]), ["line", "request", "response", "latency_us"])
+        self.assertEqual(list(second["findings"][0]), ["line", "column", "note", "loop", "what", "expected", "found",
+                                                       "expected_bytes", "found_bytes"])
+        self.assertEqual((second["outcome"], second["findings"][0]["line"]), ("failed", 5))
+
+    def test_junit(self):
+        good, bad, out = self.program(self.GOOD, "good.yaml"), self.program(self.BAD, "bad.yaml"), self.folder / "out.xml"
+        skipped = self.program(self.GOOD + "skip_without: 'no \u00e9 <file>'\n", "skipped.yaml")
+        self.ends(FAILED, "test", good, bad, skipped, "--junit", out)
+        suites = xml.etree.ElementTree.parse(out).getroot()
+        self.assertEqual((suites.get("tests"), suites.get("failures"), suites.get("skipped")), ("3", "1", "1"))
+        cases = suites.findall("testsuite/testcase")
+        self.assertEqual(cases[1].get("name"), '<bad> & "ugly"')
+        self.assertIn("exception 2: illegal data address", cases[1].find("failure").text)
+        self.assertIsNone(cases[0].find("failure"))
+        self.assertIn("<file> is not there", cases[2].find("skipped").get("message"))
+
+    def test_output_is_the_same_with_several_jobs(self):
+        folder = SOURCE / "tests/programs/modbus_slave"
+        self.assertEqual(self.ends(FINE, "test", folder, "--jobs", "4").stdout, self.ends(FINE, "test", folder).stdout)
+
+    def test_only_list_and_fail_fast(self):
+        good, bad = self.program(self.GOOD, "good.yaml"), self.program(self.BAD, "bad.yaml")
+        self.assertEqual(self.ends(FINE, "test", good, bad, "--list").stdout, f'{good}\n  good\n{bad}\n  <bad> & "ugly"\n')
+        self.assertIn("1 scenario: 1 passed", self.ends(FINE, "test", good, bad, "--only", "GOOD").stdout)
+        done = self.ends(FAILED, "test", bad, good, "--fail-fast")
+        self.assertIn("1 scenario: 0 passed, 1 failed", done.stdout)
+        self.assertIn("1 scenarios were not run", done.stderr)
+
+    def test_a_transcript_replays_and_is_not_overwritten_unasked(self):
+        good, out = self.program(self.GOOD, "good.yaml"), self.folder / "transcript.yaml"
+        self.ends(FINE, "test", good, "--record", out)
+        written = out.read_text(encoding="utf-8")
+        self.ends(FINE, "test", out)
+        self.assertIn("--force", self.ends(UNUSABLE, "test", good, "--record", out).stderr)
+        self.assertEqual(out.read_text(encoding="utf-8"), written)
+        self.ends(FINE, "test", out, "--record", out, "--force")
+        other = self.program(out.read_text(encoding="utf-8").replace("expect: 01 03 02 00 00", "expect: 01 03 02 00 01"), "o.yaml")
+        self.ends(FAILED, "test", other)
+
+    def test_against(self):
+        good = self.program(self.GOOD, "good.yaml")
+        self.assertIn("same", self.ends(FINE, "test", good, "--against", SLAVE).stdout)
+        slower = self.program(pathlib.Path(SLAVE).read_text(encoding="utf-8").replace("MOVB    6, SMB34", "MOVB    9, SMB34"), "slower.stl")
+        self.assertIn("the first different time", self.ends(FAILED, "test", good, "--against", slower).stdout)
+        self.ends(FINE, "test", good, "--against", slower, "--ignore-timing")
+        self.ends(FINE, "test", good, "--against", slower, "--tolerance", "10ms")
+        (result,) = self.json(FAILED, "test", good, "--against", slower, "--json")
+        self.assertEqual(list(result), ["file", "name", "skipped", "exchanges", "same", "difference"])
+
+    def test_conformance(self):
+        description = self.program(f"program: {SLAVE}\nfunctions: [3]\nholding_registers: {{count: 1000}}\n", "slave.yaml")
+        done = s7200("test", "--conformance", description, "--json")
+        rules = {r["rule"]["id"]: r for r in json.loads(done.stdout)["scenarios"]}
+        self.assertEqual(done.returncode, FAILED, "function 6 is there and must be refused")
+        self.assertEqual(rules["AP-06-write"]["outcome"], "skipped")
+        self.assertEqual(rules["AP-illegal-function"]["outcome"], "failed")
+        self.assertEqual(rules["SL-gap-2"]["rule"]["severity"], "should")
+
+
 class Files(Case):
     DOCUMENT = "A page of prose.\n\nNETWORK 1\nLD SM0.0 // always\nMOVB 1, VB0\nMEND\n"
 
@@ -522,6 +629,6 @@ class Readme(Case):
 
 
 if __name__ == "__main__":
-    group = {"verbs": Verbs, "json": Json, "files": Files, "readme": Readme}[GROUP]
+    group = {"verbs": Verbs, "json": Json, "files": Files, "readme": Readme, "scenarios": Scenarios}[GROUP]
     result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
     sys.exit(0 if result.wasSuccessful() else 1)
