@@ -35,17 +35,12 @@ void BridgeOptions::add_to(CLI::App& app) {
       return given.empty() ? "it must not be empty" : "";
     });
   };
-  add("--pty", pty_, "LINK",
-      "a serial port that programs of this computer open as LINK. Their rate and stop bits hold. A pty does not show none "
-      "and even parity apart (unless INPCK is set), nor 7 bits: then they are as the program has them, or as the options "
-      "below say");
-  add("--tcp", tcp_, "[ADDRESS:]PORT",
-      "raw bytes over TCP; several clients share the line. Without ADDRESS this computer only");
+  add("--pty", pty_, "LINK", "a serial port that programs of this computer open as LINK (see the end about parity)");
+  add("--tcp", tcp_, "[ADDRESS:]PORT", "raw bytes over TCP, clients share the line; without ADDRESS for this computer only");
   add("--rtu-over-tcp", rtu_over_tcp_, "[ADDRESS:]PORT", "Modbus RTU frames over TCP; clients take turns");
-  add("--modbus-tcp", modbus_tcp_, "[ADDRESS:]PORT",
-      "a gateway from Modbus TCP; exception 0B when no answer comes, 0A for units 248 to 255; unit 0 is broadcast");
+  add("--modbus-tcp", modbus_tcp_, "[ADDRESS:]PORT", "a gateway from Modbus TCP; unit 0 is broadcast");
   add("--device", device_, "DEVICE", "a serial device of this computer, set as the program sets its port");
-  line_.add_to(app, "as the program sets its port; with --pty as its client shows it");
+  line_.add_to(app, "the program's; with --pty its client's");
   add_duration(app, "--timeout", timeout_,
                "how long --modbus-tcp and --rtu-over-tcp wait for the begin of an answer (default 400ms)");
 }

@@ -17,6 +17,11 @@ class BridgeOptions {
  public:
   void add_to(CLI::App& app);
 
+  /// For the end of the help.
+  static constexpr const char* kAboutPty =
+      "A pty shows the rate, stop bits and odd parity of its client, but none and even parity only if the client sets\n"
+      "INPCK, and never 7 data bits: otherwise these are the program's, or what --parity and --data-bits say.\n";
+
   /// Makes the bridge asked for. False after a message: more than one, or an address that is none.
   bool prepare();
 

@@ -40,9 +40,12 @@ class LiveRun final : public LiveLine {
     for (;;) {
       catch_up();
       if (bridge_) bridge_->turn();
-      if (ended()) return reason_;
+      if (ended()) break;
       sleep();
     }
+    if (bridge_ && simulation_.cpu().state().mode == Mode::Stop)
+      fmt::print(stderr, "s7200: note: the CPU went to STOP; nobody answers any more\n");
+    return reason_;
   }
 
   Pace::Report pace() const { return pace_.report(); }

@@ -159,7 +159,8 @@ void add_run(CLI::App& app, int& exit_code) {
   options->bridge.add_to(*verb);
   options->plant.add_to(*verb);
   verb->add_flag("--json", options->json, "print the result as JSON");
-  verb->footer(fault_help() + "Example: s7200 run stl_programs/modbus_slave.stl --for 2s --set VW100=5 --dump VW100:4");
+  verb->footer(std::string(BridgeOptions::kAboutPty) + fault_help() +
+               "Example: s7200 run stl_programs/modbus_slave.stl --for 2s --set VW100=5 --dump VW100:4");
   verb->callback([options, &exit_code] { exit_code = run_run(*options); });
 }
 

@@ -782,8 +782,8 @@ class RunTests(Case):
             running = self.start("--pty", self.folder / "plc", *PRESET, "--dump", "VW20", "--memory", memory)
             time.sleep(0.3)
             result = running.end(by=by)
-            self.assertEqual(list(result), ["stop_reason", "time_ns", "scans", "instructions", "mode", "errors", "dump", "realtime",
-                                            "bridge"])
+            self.assertEqual(list(result), ["stop_reason", "time_ns", "scans", "instructions", "mode", "errors", "faults", "dump",
+                                            "realtime", "bridge"])
             self.assertEqual((result["stop_reason"], result["dump"]), ("interrupted", {"VW20": "1234"}))
             self.assertEqual(list(result["realtime"]), ["speed", "drift_ns", "worst_lag_ns"])
             self.assertTrue(memory.exists())
