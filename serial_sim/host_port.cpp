@@ -24,8 +24,8 @@ void HostPort::send(std::span<const HostCharacter> characters, Time at) {
   assert(state_.attached);
   state_.to_send.insert(state_.to_send.end(), characters.begin(), characters.end());
   if (sending() || state_.to_send.empty()) return;
-  uart_.enable_receiver(false, at);
   send_next(at);
+  uart_.enable_receiver(uart_.hears_itself(), at);
 }
 
 void HostPort::send_next(Time at) {

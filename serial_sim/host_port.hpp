@@ -21,8 +21,8 @@ struct HostCharacter {
   bool operator==(const HostCharacter&) const = default;
 };
 
-/// Half duplex, as an adapter to RS-485 is: what comes in while it sends is not heard, its own characters neither. To
-/// whoever handles the events: reports of the UART go to on().
+/// Half duplex, as an adapter to RS-485 is: what comes in while it sends is not heard, its own characters neither, unless
+/// the line gives an echo. To whoever handles the events: reports of the UART go to on().
 class HostPort {
  public:
   /// Plain, so that a snapshot is a copy.

@@ -118,7 +118,7 @@ class Verbs(Case):
         table = (SOURCE / "serial_sim/README.md").read_text(encoding="utf-8").split("| fault |")[1].split("\n\n")[0]
         kinds = re.findall(r"(?m)^\| `(\w+)`", table)
         self.assertGreater(len(kinds), 10)
-        for verb in ("run", "send"):
+        for verb in ("run", "send", "master"):
             listed = s7200(verb, "--help").stdout
             for kind in kinds:
                 self.assertRegex(listed, rf"(?m)^  {kind} .* {kind}\b")

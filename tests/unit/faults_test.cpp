@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "serial_sim/host_port.hpp"
 #include "serial_sim/master.hpp"
 
 namespace s7200::serial {
@@ -449,6 +450,34 @@ TEST(Faults, PeerThatAnnouncesNothingBeginsAnExchangeBehindAnAnswerOrASilence) {
   plant.run_until(plant.now + kCharacter);
   plant.plc.enable_receiver(true, plant.now);
   EXPECT_EQ(send(0x10), 0x10) << "third request";
+}
+
+TEST(Faults, PortOfTheHostHearsItselfOnALineWithEcho) {
+  const auto heard = [](const char* spec) {
+    Line line;
+    EventQueue queue;
+    Uart plc(line, queue, EventOwner::PlcUart, 0), uart(line, queue, EventOwner::HostUart, 2);
+    HostPort port(uart);
+    Faults faults(line, queue, plc);
+    faults.inject(fault_of(spec), 0);
+    port.attach(k8E1, 0);
+    Time at = 0;
+    for (int request = 0; request < 2; ++request) {
+      const std::vector<HostCharacter> characters{{.byte = 0x5A, .format = k8E1}, {.byte = 0xA5, .format = k8E1}};
+      port.send(characters, at);
+      while (queue.next() != kNever) {
+        const Event event = queue.pop();
+        if (event.owner == EventOwner::HostUart) port.on(uart.handle(event));
+        if (event.owner == EventOwner::PlcUart) plc.handle(event);
+        at = event.at;
+      }
+      at += 10 * kCharacter;
+    }
+    return shown(port.take_received());
+  };
+  EXPECT_EQ(heard("echo"), "5a a5 5a a5");
+  EXPECT_EQ(heard("echo:every=2"), "5a a5");
+  EXPECT_EQ(heard("flip:of=answer"), "");
 }
 
 TEST(Faults, RestoredOneGoesOnAsItDid) {
