@@ -27,9 +27,9 @@ modbus::Bytes bytes_of(const std::vector<ReceivedCharacter>& characters);
 struct Exchange {
   modbus::Frame request;
   Time request_start = 0;
-  Time request_end = 0;                 ///< end of the last stop bit
-  std::vector<ReceivedCharacter> echo;  ///< what the master heard while it sent; nothing on a line without echo
-  std::vector<ReceivedCharacter> response;
+  Time request_end = 0;                   ///< end of the last stop bit
+  std::vector<ReceivedCharacter> echo{};  ///< what the master heard while it sent; nothing on a line without echo
+  std::vector<ReceivedCharacter> response{};
   Time response_start = 0;  ///< start edge of the first character; 0 if there is none, like the next
   Time response_end = 0;    ///< end of the last character's stop bit
   bool timed_out = false;   ///< no answer began in time
