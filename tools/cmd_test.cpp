@@ -129,8 +129,7 @@ std::vector<Scenario> read_all(const TestOptions& options) {
   const GivenParameters* parameters = given ? &*given : nullptr;
   bool good = true;
   if (!options.conformance.empty())
-    good &= take(read_scenarios(std::string(kConformanceSuite), "modbus_rtu_slave.yaml", parameters), parameters,
-                 scenarios);
+    good &= take(read_scenarios(std::string(kConformanceSuite), "modbus_rtu_slave.yaml", parameters), parameters, scenarios);
   for (const std::string& file : scenario_files(options.files))
     good &= take(read_scenarios(text_of_file(file), file, parameters), parameters, scenarios);
   if (!good) throw Unusable{};
@@ -454,7 +453,8 @@ void add_test(CLI::App& app, int& exit_code) {
                    "look whether a slave keeps the rules of Modbus RTU; the file describes the slave")
       ->type_name("DESCRIPTION");
   verb->add_option("--target", options->target,
-                   std::string("what is tested, instead of the program a scenario names: ") + SlaveTarget::kHelp);
+                   "what is tested, instead of the program a scenario names: another PROGRAM, a serial device or pty "
+                   "(/dev/ttyUSB0), tcp://HOST:PORT for RTU frames over TCP, modbus-tcp://HOST[:PORT]");
   verb->add_option("--against", options->against,
                    "send the same to another program and show where the answers or their times differ first")
       ->type_name("TARGET");

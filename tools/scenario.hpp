@@ -59,6 +59,7 @@ struct ExchangeStep {
   modbus::Frame request{};           ///< all of it, its CRC included
   bool has_crc = false;              ///< the request has a right CRC, and so must an answer
   std::vector<Expected> expected{};  ///< one of these; anything if empty
+  bool disturbed = false;            ///< the answer has parity or framing errors
   std::optional<Window> latency{};
   std::optional<Window> answer_gap{};  ///< each pause between two characters of the answer
   std::optional<Time> at{};            ///< when the request begins, on the slave's clock

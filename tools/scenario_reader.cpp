@@ -75,6 +75,7 @@ const std::vector<ScenarioKey> kKeys{
     {Where::Modifier, "values", "write", "LIST", "those to write"},
     {Where::Modifier, "expect", kExchanges, "ANSWER", "how it must end; if left out, in any way"},
     {Where::Modifier, "expect_one_of", kExchanges, "LIST", "several ANSWERs, one of which is right"},
+    {Where::Modifier, "disturbed", kExchanges, "true, false", "whether the answer has parity or framing errors; `false` if left out"},
     {Where::Modifier, "latency", kExchanges, "WINDOW", "from the end of the request to the begin of the answer"},
     {Where::Modifier, "answer_gap", kExchanges, "WINDOW", "every pause between two characters of the answer"},
     {Where::Modifier, "at", kExchanges, "TIME", "when the request begins, since power-up"},
@@ -771,6 +772,7 @@ class Reader {
     read_expectations(node, step);
     if (const YamlNode* latency = node.find("latency")) step.latency = window(*latency, scenario.tolerance);
     if (const YamlNode* gap = node.find("answer_gap")) step.answer_gap = window(*gap, scenario.tolerance);
+    step.disturbed = choice<bool>(node.find("disturbed"), {{"true", true}, {"false", false}}).value_or(false);
     step.at = time(node.find("at"));
     step.pause = span(node.find("pause"));
     step.gap = span(node.find("gap")).value_or(Span{});

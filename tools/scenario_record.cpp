@@ -112,6 +112,7 @@ class Writer {
     if (seen.response.empty()) return line(8, "expect: silence");
     const modbus::Bytes response = seen.response_bytes();
     line(8, "expect: " + modbus::to_hex(response));
+    if (seen.parity_error() || seen.framing_error()) line(8, "disturbed: true");
     line(8, "latency: " + exact(*seen.latency()));
     line(8, "# " + modbus::describe(modbus::bytes_of(seen.request), response));
   }

@@ -89,6 +89,7 @@ class Plant {
     for (; count > 0 && simulation_->run_until(limit) == serial::Halt::Paused; --count) {
     }
     cpu().pause_at_scan_end(false);
+    simulation_->run_until(simulation_->time() + 1);  // running on, the CPU is no longer paused
     return count == 0;
   }
 
@@ -381,7 +382,7 @@ class Run {
     const bool as_expected = std::any_of(step.expected.begin(), step.expected.end(), [&](const Expected& expected) {
       return fulfilled(expected, step.has_crc, request, response);
     });
-    if (!step.expected.empty() && (!as_expected || disturbed)) {
+    if (!step.expected.empty() && (!as_expected || disturbed != step.disturbed)) {
       const Expected& expected = step.expected.front();
       Finding finding{.what = "answer",
                       .expected = in_words(expected, request),
@@ -392,6 +393,7 @@ class Run {
         finding.expected += " or " + in_words(step.expected[i], request);
       finding.found = response.empty() ? fmt::format("no answer within {}", format_duration(timeout))
                                        : modbus::describe(request, response);
+      if (step.disturbed) finding.expected += ", with parity or framing errors";
       if (disturbed) finding.found += exchange.parity_error() ? ", parity errors" : ", framing errors";
       return add_exchange(std::move(finding));
     }

@@ -346,8 +346,8 @@ class Scenarios(Case):
 
     def test_mistakes_are_told_at_their_place(self):
         wrong = self.program("steps:\n  - {wait: 1ms, frob: 1}\n", "wrong.yaml")
-        self.assertIn(f"{wrong}:2:16: error: 'frob' has no place beside 'wait'\n  - {{wait: 1ms, frob: 1}}\n"
-                      "               ^~~~\nhint: known: ", self.ends(UNUSABLE, "test", wrong).stderr)
+        self.assertIn(f"{wrong}:2:17: error: 'frob' has no place beside 'wait'\n  - {{wait: 1ms, frob: 1}}\n"
+                      "                ^~~~\nhint: known: ", self.ends(UNUSABLE, "test", wrong).stderr)
 
     def test_json(self):
         good, bad = self.program(self.GOOD, "good.yaml"), self.program(self.BAD, "bad.yaml")

@@ -91,7 +91,7 @@ TEST(ScenarioReader, RequestsByNameByNumberAndInHex) {
   EXPECT_EQ(request_of("{request: 03 00 0a 00 01}"), "01 03 00 0a 00 01 a4 08");
   EXPECT_EQ(request_of("{send: 01 03 00 0a 00 01, crc: true}"), "01 03 00 0a 00 01 a4 08");
   EXPECT_EQ(request_of("{send: 01 03p}"), "01 03p");
-  EXPECT_EQ(request_of("{read: coils 5, count: 6, station: 2}"), "02 01 00 05 00 06 ad fa");
+  EXPECT_EQ(request_of("{read: coils 5, count: 6, station: 2}"), "02 01 00 05 00 06 ac 3a");
   EXPECT_EQ(request_of("{read: 30002}").substr(0, 17), "01 04 00 01 00 01");
   EXPECT_EQ(request_of("{read: inputs 3}").substr(0, 17), "01 02 00 03 00 01");
   EXPECT_EQ(request_of("{write: coils 3, value: 1}").substr(0, 17), "01 05 00 03 ff 00");
@@ -256,10 +256,10 @@ TEST(ScenarioReader, EveryMistakeIsToldAtItsPlace) {
       {"steps: []\nscenarios: []\n", 1, 8, "both 'steps' and 'scenarios'"},
       {"steps: 5\n", 1, 8, "'steps' is a list, not '5'"},
       {"frob: 1\nsteps: []\n", 1, 1, "'frob' has no place here"},
-      {"steps:\n  - {wait: 1ms, frob: 1}\n", 2, 16, "'frob' has no place beside 'wait'"},
-      {"steps:\n  - {wait: 1ms, count: 1}\n", 2, 16, "'count' has no place beside 'wait'"},
+      {"steps:\n  - {wait: 1ms, frob: 1}\n", 2, 17, "'frob' has no place beside 'wait'"},
+      {"steps:\n  - {wait: 1ms, count: 1}\n", 2, 17, "'count' has no place beside 'wait'"},
       {"steps:\n  - {expect: silence}\n", 2, 6, "a step that does nothing"},
-      {"steps:\n  - {wait: 1ms, mode: run}\n", 2, 16, "'wait' and 'mode' in one step"},
+      {"steps:\n  - {wait: 1ms, mode: run}\n", 2, 17, "'wait' and 'mode' in one step"},
       {"steps:\n  - wait\n", 2, 5, "a step is a map, not 'wait'"},
       {"steps:\n  - wait: 5\n", 2, 11, "'5' is no duration"},
       {"steps:\n  - wait: [1ms]\n", 2, 11, "one value is needed here, not a list"},
@@ -300,7 +300,7 @@ TEST(ScenarioReader, EveryMistakeIsToldAtItsPlace) {
       {"a: &x 1\nb: *x\n", 1, 4, "anchors and aliases"},
       {"a: !!int 1\n", 1, 4, "tags (!)"},
       {"steps: []\n---\nsteps: []\n", 3, 1, "a second document"},
-      {"a: [1\n", 2, 0, "no YAML"},
+      {"a: [1\n", 1, 0, "no YAML"},
       {"? [a]\n: 1\n", 1, 3, "a key is a word, not a list"},
       {"größe: 1\nsteps:\n  - note: ö\n    größe: 1\n    wait: 1ms\n", 1, 1, "'größe' has no place here"},
   };

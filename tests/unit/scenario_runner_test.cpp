@@ -109,6 +109,9 @@ TEST(ScenarioRunner, FaultsDisturbTheLineUntilTheyAreTakenAway) {
 TEST(ScenarioRunner, AnAnswerWithParityErrorsIsNotWhatWasExpected) {
   const std::string found = findings("  - fault: parity:character=2,of=answer\n  - {read: holding 0, expect: accepted}\n");
   EXPECT_NE(found.find("parity errors"), std::string::npos) << found;
+  EXPECT_EQ(findings("  - fault: parity:character=2,of=answer\n  - {read: holding 0, expect: accepted, disturbed: true}\n"),
+            "");
+  EXPECT_NE(findings("  - {read: holding 0, expect: accepted, disturbed: true}\n"), "");
 }
 
 TEST(ScenarioRunner, PowerCyclesKeepOrLoseTheMemory) {
@@ -267,7 +270,7 @@ TEST(ScenarioCompare, RandomTrafficIsTheSameForTheSameSeed) {
   const Scenario scenario = random_traffic(300, 7, 1);
   const ScenarioResult result = run(scenario);
   std::size_t answered = 0;
-  for (const Seen& seen : result.seen) answered += seen.exchange.response.empty() ? 0 : 1;
+  for (const Seen& seen : result.seen) answered += seen.exchange.response.empty() ? 0U : 1U;
   EXPECT_EQ(result.seen.size(), 300U);
   EXPECT_GT(answered, 200U);
   EXPECT_LT(answered, 300U);
@@ -279,7 +282,9 @@ TEST(ScenarioCompare, RandomTrafficIsTheSameForTheSameSeed) {
 class EchoSlave final : public Slave {
  public:
   serial::Exchange exchange(const serial::Request& request) override {
-    serial::Exchange exchange{.request = request.frame, .request_start = time_, .request_end = time_};
+    serial::Exchange exchange;
+    exchange.request = request.frame;
+    exchange.request_start = exchange.request_end = time_;
     for (const auto& character : request.frame)
       exchange.response.push_back({.byte = character.byte, .start = time_, .end = time_});
     exchange.response_start = exchange.response_end = time_;
