@@ -320,14 +320,6 @@ std::vector<CLI::Option*> added_by(CLI::App& app, Add add) {
   return added;
 }
 
-std::string targets_help() {
-  return "Targets:\n"
-         "  PROGRAM                               an STL file or document, in simulation\n"
-         "  /dev/ttyUSB0, or a pty by its link    Modbus RTU, 9600 8E1 unless --baud and the others say otherwise\n"
-         "  tcp://HOST:PORT                       Modbus RTU over TCP, as serial servers offer it\n"
-         "  modbus-tcp://HOST[:PORT]              Modbus TCP, port 502 unless one is given\n";
-}
-
 std::string form_names() {
   std::string text;
   for (const ValueFormName& form : value_forms()) text.append(text.empty() ? "" : ", ").append(form.name);
@@ -386,7 +378,7 @@ void add_master(CLI::App& app, int& exit_code) {
     add_duration(*sub, "--after", verb->after,
                  "when to send the first request (default: first scan ended, then 7 characters + 10 ms of silence)");
   });
-  sub->footer(targets_help() + actions_help() + fault_help() +
+  sub->footer(slave_targets_help() + actions_help() + fault_help() +
               "Example: s7200 master stl_programs/modbus_slave.stl write 40011=1234,-5 read 40011:2 read 00001:8");
   sub->callback([verb, &exit_code] {
     try {

@@ -452,9 +452,7 @@ void add_test(CLI::App& app, int& exit_code) {
   verb->add_option("--conformance", options->conformance,
                    "look whether a slave keeps the rules of Modbus RTU; the file describes the slave")
       ->type_name("DESCRIPTION");
-  verb->add_option("--target", options->target,
-                   "what is tested, instead of the program a scenario names: another PROGRAM, a serial device or pty "
-                   "(/dev/ttyUSB0), tcp://HOST:PORT for RTU frames over TCP, modbus-tcp://HOST[:PORT]");
+  verb->add_option("--target", options->target, "what is tested, instead of the program a scenario names; see below");
   verb->add_option("--against", options->against,
                    "send the same to another program and show where the answers or their times differ first")
       ->type_name("TARGET");
@@ -490,6 +488,7 @@ void add_test(CLI::App& app, int& exit_code) {
   verb->add_flag("--json", options->json, "print the results as JSON");
   verb->add_flag("--keys", options->keys, "print what a scenario may contain, as Markdown");
   verb->footer(
+      slave_targets_help() +
       "Exit codes: 0 all passed; 1 a scenario failed, a rule that says must is broken, or --against found a difference; 2 "
       "nothing could be run.\nExample: s7200 test tests/programs/modbus_slave --jobs 2");
   verb->callback([options, &exit_code] { exit_code = run_test(*options); });

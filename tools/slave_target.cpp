@@ -57,6 +57,14 @@ SlaveTarget parse_slave_target(const std::string& text) {
   return target;
 }
 
+std::string slave_targets_help() {
+  return "Targets:\n"
+         "  PROGRAM                               an STL file or document, in simulation\n"
+         "  /dev/ttyUSB0, or a pty by its link    Modbus RTU, 9600 8E1 unless --baud and the others say otherwise\n"
+         "  tcp://HOST:PORT                       Modbus RTU over TCP, as serial servers offer it\n"
+         "  modbus-tcp://HOST[:PORT]              Modbus TCP, port 502 unless one is given\n";
+}
+
 std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format) {
   switch (target.kind) {
     case SlaveTarget::Kind::Program:

@@ -25,6 +25,9 @@ struct SlaveTarget {
 /// Throws std::invalid_argument for an address without host or port, and for a scheme that is neither.
 SlaveTarget parse_slave_target(const std::string& text);
 
+/// The four, one a line, for --help.
+std::string slave_targets_help();
+
 /// Connects to a target that is no program; `format` is for devices. Throws SlaveUnreachable.
 std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format);
 
