@@ -457,10 +457,8 @@ void add_test(CLI::App& app, int& exit_code) {
                    "send the same to another program and show where the answers or their times differ first")
       ->type_name("TARGET");
   verb->add_flag("--ignore-timing", options->ignore_timing, "with --against: only answers count");
-  add_duration(
-      *verb, "--tolerance", options->tolerance,
-      "with --against: by which times may differ (default 0); with --record: by which a replay may (default 0, 50ms "
-      "of a slave that is no program)");
+  add_duration(*verb, "--tolerance", options->tolerance,
+               "by which times may differ: with --against, or in a replay of --record (default 0; 50ms if no program)");
   verb->add_option("--random", options->random, "send so many random requests to the --target")
       ->check(CLI::Range(1, 100'000))
       ->type_name("N");
