@@ -143,6 +143,20 @@ TEST(CpuModels, ByteInstructionsTakePointersAccumulatorsAndConstants) {
   EXPECT_EQ(static_cast<std::uint32_t>(plc.value("VD4")), 0xA5A5'A512u) << "the upper bytes of an accumulator stay";
 }
 
+TEST(CpuModels, ByteInstructionsTakeConstantsForWhatTheyReadAndNotForWhatTheyWrite) {
+  const auto refused = [](std::string_view op) { return refusal(fmt::format("LD SM0.0\n{}\nMEND\n", op), cpu215()); };
+  for (const std::string mnemonic : {"INCB", "DECB", "INVB"})
+    EXPECT_EQ(refused(mnemonic + " 5"), "OUT of " + mnemonic + " cannot be the constant 5");
+  for (const std::string mnemonic : {"ANDB", "ORB", "XORB"}) {
+    EXPECT_EQ(refused(mnemonic + " 5, VB0"), "");
+    EXPECT_EQ(refused(mnemonic + " VB0, 5"), "OUT of " + mnemonic + " cannot be the constant 5");
+  }
+  for (const std::string mnemonic : {"SLB", "SRB", "RLB", "RRB"}) {
+    EXPECT_EQ(refused(mnemonic + " VB0, 5"), "");
+    EXPECT_EQ(refused(mnemonic + " 5, 5"), "OUT of " + mnemonic + " cannot be the constant 5");
+  }
+}
+
 TEST(CpuModels, EachBitShiftedAndEachDoubleWordMovedCostsItsTime) {
   // The scan with the instruction, less the scan without power flow.
   const auto cost = [](std::string_view op) {
