@@ -73,7 +73,7 @@ TEST(FaultedFramesJudge, SeesFaultsOfEveryKindAndEveryClassOfFrame) {
   EXPECT_GT(counts.with_framing_errors_only, 10U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, FaultedFrames, testing::Range<std::uint64_t>(1, 3));
+INSTANTIATE_TEST_SUITE_P(Seeds, FaultedFrames, testing::Range<std::uint64_t>(1, 5));
 
 }  // namespace
 }  // namespace s7200::faults
