@@ -84,7 +84,7 @@ void Gateway::settle(const LineTurns::Outcome& outcome) {
       ++counts_.silent;
       break;
   }
-  answer(outcome.client, exception_to(request, GatewayException::TargetFailedToRespond));
+  if (request.unit != kBroadcast) answer(outcome.client, exception_to(request, GatewayException::TargetFailedToRespond));
 }
 
 std::vector<Gateway::Answer> Gateway::take_answers() { return std::exchange(answers_, {}); }

@@ -216,6 +216,19 @@ TEST(Gateway, ALineThatIsNeverQuietIsException0BAndNothingIsSent) {
   EXPECT_EQ(bench.answer(), "00 01 00 00 00 03 01 83 0b");
 }
 
+TEST(Gateway, ABroadcastThatCannotBeSentIsNotAnsweredEither) {
+  Bench bench;
+  bench.gateway.take(1, message(1, 0, write_register(0, 5)));
+  for (int i = 0; i < 300; ++i) {
+    bench.line.quiet_since = bench.line.now;
+    bench.step();
+  }
+  EXPECT_TRUE(bench.sent.empty());
+  EXPECT_TRUE(bench.answers.empty());
+  EXPECT_EQ(bench.gateway.open(1), 0U);
+  EXPECT_EQ(bench.gateway.counts().silent, 1U);
+}
+
 TEST(Gateway, WhatIsNoModbusTcpIsSaid) {
   const auto error_of = [](const Bytes& bytes) {
     Gateway gateway{kTimeout};
