@@ -59,7 +59,7 @@ class Writer {
       }
       any = true;
     }
-    if (!any) line(6, "- wait: 0");
+    if (!any) line(6, "- wait: " + exact(Time{0}));
   }
 
   std::string text{};
