@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <optional>
 
 #include "serial_sim/modbus/gateway.hpp"
 #include "tools/bridge_server.hpp"
@@ -67,12 +68,12 @@ class TcpBridge : public Bridge, protected TcpServer::Protocol {
   /// port.
   modbus::LineTurns::Line line_state() {
     const serial::Simulation& simulation = line_->simulation();
-    if (simulation.cpu().state().scans == 0) up_since_ = line_->now();
+    if (!up_since_ && simulation.cpu().state().scans > 0) up_since_ = line_->now();
     return {.now = line_->now(),
             .format = line_->format(),
             .sending = simulation.host_port().sending(),
             .receiving = simulation.host_port().character_due() != kNever,
-            .quiet_since = std::max(up_since_, simulation.last_activity()),
+            .quiet_since = up_since_ ? std::max(*up_since_, simulation.last_activity()) : line_->now(),
             .quiet_time = serial::Simulation::default_quiet(line_->format())};
   }
 
@@ -82,7 +83,7 @@ class TcpBridge : public Bridge, protected TcpServer::Protocol {
   std::string kind_;
   ListenAddress address_;
   LiveLine* line_ = nullptr;
-  Time up_since_ = 0;
+  std::optional<Time> up_since_;
   std::unique_ptr<TcpServer> server_;
   TcpServer::Counts counts_;
 };
