@@ -28,12 +28,6 @@ void leave_something_to_change(int far) {
 
 }  // namespace
 
-namespace {
-
-constexpr std::chrono::milliseconds kSettled{50};
-
-}  // namespace
-
 std::unique_ptr<Pty> Pty::open(const std::string& link, const SerialFormat& format, std::string& why) {
   std::unique_ptr<Pty> pty(new Pty);
   if (!pty->open_far_side(format, why)) {
@@ -65,7 +59,6 @@ bool Pty::open_far_side(const SerialFormat& format, std::string& why) {
   }
   if (done) {
     make_raw(settings);
-    settings.c_lflag |= ECHOE | ECHONL;
     put_format(settings, format);
     watch_ = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
     done =
@@ -129,20 +122,10 @@ void Pty::look() {
   }
 }
 
-/// ECHOE and ECHONL mean nothing where lines are not edited, and whoever sets a port up for bytes clears one or the other.
-/// Not while a program may be about it: reading and writing the settings is not one step.
-void Pty::keep_changeable() {
+/// A program that keeps the port open may set it again.
+void Pty::keep_changeable() const {
   termios2 settings{};
-  if (!read_settings(far_, settings)) return;
-  const auto now = std::chrono::steady_clock::now();
-  if (settings.c_lflag != seen_flags_) {
-    seen_flags_ = settings.c_lflag;
-    seen_since_ = now;
-  }
-  const tcflag_t marked = seen_flags_ | ECHOE | ECHONL;
-  if ((seen_flags_ & ICANON) != 0 || seen_flags_ == marked || now - seen_since_ < kSettled) return;
-  settings.c_lflag = marked;
-  write_settings(far_, settings);
+  if (read_settings(far_, settings) && (settings.c_cflag & CLOCAL) != 0) leave_something_to_change(far_);
 }
 
 /// What was not read lies in two places: behind the near side's output, and in the far side's input.
@@ -150,7 +133,6 @@ void Pty::all_have_left() const {
   ioctl(fd_, TCFLSH, TCOFLUSH);
   ioctl(far_, TCFLSH, TCIFLUSH);
   ioctl(far_, TIOCNXCL);
-  leave_something_to_change(far_);
 }
 
 }  // namespace s7200::tools

@@ -1,7 +1,6 @@
 // A pty that stands for a serial port: its far side has a stable name, and programs open it like /dev/ttyS0.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -62,15 +61,13 @@ class Pty {
   Pty() = default;
   bool open_far_side(const SerialFormat& format, std::string& why);
   bool make_link(const std::string& link, std::string& why);
-  void keep_changeable();
+  void keep_changeable() const;
   void all_have_left() const;
 
   int fd_ = -1, far_ = -1, watch_ = -1;
   std::string path_, link_;
   int open_now_ = 0;
   std::uint64_t opened_ = 0;
-  std::uint32_t seen_flags_ = 0;  ///< c_lflag
-  std::chrono::steady_clock::time_point seen_since_{};
 };
 
 }  // namespace s7200::tools
