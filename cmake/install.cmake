@@ -11,7 +11,7 @@ foreach(library interpreter serial_sim)
 endforeach()
 install(TARGETS s7200)
 install(TARGETS interpreter serial_sim EXPORT s7200-targets)
-install(DIRECTORY stl_programs DESTINATION ${CMAKE_INSTALL_DATADIR}/s7200)
+install(DIRECTORY stl_programs tools/conformance DESTINATION ${CMAKE_INSTALL_DATADIR}/s7200)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/s7200)
 install(EXPORT s7200-targets NAMESPACE s7200:: DESTINATION ${package_dir})

@@ -339,7 +339,8 @@ int run_all(const std::vector<Scenario>& scenarios, const TestOptions& options, 
       if (!options.target.empty()) scenario.program = benches.slave ? "" : options.target;
     for (Report& report : reports)
       report.scenario = &with_program[static_cast<std::size_t>(report.scenario - scenarios.data())];
-    write_file(options.record, transcript_text(reports, {options.record, benches.name, tolerance}));
+    write_file(options.record,
+               transcript_text(reports, {options.record, benches.name, tolerance, benches.slave != nullptr}));
   }
   if (interrupted()) fmt::print(stderr, "s7200: note: interrupted\n");
   return interrupted() || std::any_of(reports.begin(), reports.end(), counts_as_failed) ? kCheckFailed : kFine;

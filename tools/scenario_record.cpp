@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "serial_sim/modbus/answer.hpp"
 
@@ -49,12 +51,13 @@ class Writer {
     line(4, "steps:");
     std::size_t seen = 0;
     bool any = false;
+    last_end_.reset();
     for (std::size_t i = 0; i < scenario.steps.size(); ++i) {
       const Step& step = scenario.steps[i];
       if (std::holds_alternative<ExchangeStep>(step.action)) {
         if (seen == report.result.seen.size() || report.result.seen[seen].step != i) continue;
-        exchange(std::get<ExchangeStep>(step.action), report.result.seen[seen++].exchange);
-      } else if (!driving(step)) {
+        exchange(std::get<ExchangeStep>(step.action), report.result.seen[seen++].exchange, scenario.line.timeout);
+      } else if ((transcript_.live && needs_inside(step)) || !driving(step)) {
         continue;
       }
       any = true;
@@ -78,6 +81,8 @@ class Writer {
     if (scenario.cpu != "214") line(4, "cpu: " + scenario.cpu);
     if (!scenario.times_file.empty()) line(4, "times: " + near(scenario.times_file));
     line_settings(scenario.line);
+    if (transcript_.tolerance > 0) line(4, "tolerance: " + exact(transcript_.tolerance));
+    if (transcript_.live) return;
     if (!scenario.set.empty()) line(4, "set: " + assignments_text(scenario.set));
     if (!scenario.input_file.empty()) line(4, "input: " + near(scenario.input_file));
     if (scenario.clock) {
@@ -86,7 +91,6 @@ class Writer {
            fmt::format("clock: 20{:02}-{:02}-{:02} {:02}:{:02}:{:02}", c.year, c.month, c.day, c.hour, c.minute, c.second));
     }
     if (scenario.after != kNever) line(4, "after: " + exact(scenario.after));
-    if (transcript_.tolerance > 0) line(4, "tolerance: " + exact(transcript_.tolerance));
   }
 
   void line_settings(const MasterOptions& options) {
@@ -103,9 +107,13 @@ class Writer {
     if (options.timeout != usual.timeout) line(4, "timeout: " + exact(options.timeout));
   }
 
-  void exchange(const ExchangeStep& step, const serial::Exchange& seen) {
+  void exchange(const ExchangeStep& step, const serial::Exchange& seen, Time timeout) {
     line(6, "- send: " + modbus::to_hex(seen.request));
-    line(8, "at: " + exact(seen.request_start));
+    if (!transcript_.live)
+      line(8, "at: " + exact(seen.request_start));
+    else if (last_end_)
+      line(8, "pause: " + exact(std::max<Time>(0, seen.request_start - *last_end_)));
+    last_end_ = seen.response.empty() ? seen.request_end + step.timeout.value_or(timeout) : seen.response_end;
     if (step.gap != Span{}) line(8, "gap: " + exact(step.gap));
     if (step.listen) line(8, "listen: " + exact(*step.listen));
     if (step.timeout) line(8, "timeout: " + exact(*step.timeout));
@@ -135,6 +143,7 @@ class Writer {
 
   const Transcript& transcript_;
   std::filesystem::path folder_;
+  std::optional<Time> last_end_;  ///< of the exchange before, on the slave's clock
 };
 
 }  // namespace

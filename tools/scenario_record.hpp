@@ -12,10 +12,13 @@ struct Transcript {
   std::string path{};           ///< of the file to be: paths in it are relative to its folder
   std::string recorded_from{};  ///< what answered, for the heading
   Time tolerance = 0;           ///< 0 for programs: their times are exact
+  bool live = false;            ///< from a slave that is no program
 };
 
 /// Every request as it was sent, when, what came and after how long, and what was done to the plant in between.
-/// Replayed on the same program the transcript gives the same bit by bit and to the nanosecond.
+/// From a slave that is no program, the pauses between exchanges stand for the instants, and nothing is written of the
+/// inside of a PLC that was not reached: so that it can be replayed there and in simulation. Replayed on the same program
+/// the transcript gives the same bit by bit and to the nanosecond.
 std::string transcript_text(const std::vector<Report>& reports, const Transcript& transcript);
 
 }  // namespace s7200::tools

@@ -396,6 +396,23 @@ class Scenarios(Case):
         other = self.program(out.read_text(encoding="utf-8").replace("expect: 01 03 02 00 00", "expect: 01 03 02 00 01"), "o.yaml")
         self.ends(FAILED, "test", other)
 
+    def test_a_live_run_is_recorded_and_replays_in_simulation(self):
+        link, live = self.folder / "plc", self.folder / "live.yaml"
+        slave = subprocess.Popen([S7200, "run", SLAVE, "--pty", str(link), "--for", "120s"], stdin=subprocess.DEVNULL,
+                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(slave.wait)
+        self.addCleanup(slave.kill)
+        deadline = time.monotonic() + 30
+        while not link.exists() and time.monotonic() < deadline:
+            time.sleep(0.05)
+        steps = self.program("timeout: 10s\nsteps:\n  - {write: holding 5, value: 7, expect: echo}\n  - memory: {VW10: 7}\n"
+                             "  - {read: holding 5, expect: [7]}\n", "steps.yaml")
+        done = self.ends(FINE, "test", steps, "--target", link, "--record", live, "--tolerance", "9s")
+        self.assertIn("1 of 3 steps skipped", done.stdout)
+        self.assertNotIn("memory", live.read_text(encoding="utf-8"))
+        self.ends(FINE, "test", live, "--target", SLAVE)
+        self.ends(FINE, "test", live, "--target", link)
+
     def test_against(self):
         good = self.program(self.GOOD, "good.yaml")
         self.assertIn("same", self.ends(FINE, "test", good, "--against", SLAVE).stdout)

@@ -213,6 +213,17 @@ TEST(ScenarioRecord, ReplayedATranscriptGivesItselfAgain) {
   EXPECT_EQ(twice, once);
 }
 
+TEST(ScenarioRecord, OfALiveSlaveOnlyWhatReachedItIsWritten) {
+  const auto scenarios = scenarios_of(
+      "timeout: 100ms\nset: {VW20: 1}\nsteps:\n  - {read: holding 10}\n  - set: {VW20: 5}\n"
+      "  - power_cycle: memory kept\n  - wait: 3ms\n  - {read: holding 10}\n");
+  const std::vector<Report> reports{{&scenarios[0], run(scenarios[0])}};
+  const std::string text = transcript_text(reports, {"file.yaml", "/dev/ttyUSB0", 50 * kMillisecond, true});
+  for (const char* inside : {"set:", "power_cycle:", "at:"}) EXPECT_EQ(text.find(inside), std::string::npos) << text;
+  for (const char* outside : {"wait: 3 ms", "pause: ", "tolerance: 50 ms"})
+    EXPECT_NE(text.find(outside), std::string::npos) << text;
+}
+
 TEST(ScenarioRecord, AReplayIsExactToTheNanosecondAndToTheBit) {
   const std::string transcript = transcript_of("steps: [{read: holding 10}]\n");
   const auto outcome = [](const std::string& text) { return run(scenarios_of(text)[0]).outcome; };
