@@ -402,8 +402,9 @@ class Scenarios(Case):
                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.addCleanup(slave.wait)
         self.addCleanup(slave.kill)
-        deadline = time.monotonic() + 30
-        while not link.exists() and time.monotonic() < deadline:
+        good, deadline = self.program(self.GOOD, "good.yaml"), time.monotonic() + 60
+        while s7200("test", good, "--target", link).returncode != FINE:  # until the link is there and the first scan has ended
+            self.assertLess(time.monotonic(), deadline)
             time.sleep(0.05)
         steps = self.program("timeout: 10s\nsteps:\n  - {write: holding 5, value: 7, expect: echo}\n  - memory: {VW10: 7}\n"
                              "  - {read: holding 5, expect: [7]}\n", "steps.yaml")
