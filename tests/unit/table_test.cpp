@@ -107,6 +107,30 @@ TEST(InstructionTable, WhatEachInstructionFindsOnTheLogicStackAndLeavesThere) {
   }
 }
 
+// --- where an instruction may stand (facts 3.5) ---
+
+TEST(InstructionTable, WhatMayStandInTheMainProgramInSubroutinesAndInInterruptRoutines) {
+  static const std::map<std::string_view, int> kParts{{"END", kMain},
+                                                      {"MEND", kMain},
+                                                      {"RET", kSubroutine},
+                                                      {"CRET", kSubroutine},
+                                                      {"RETI", kInterrupt},
+                                                      {"CRETI", kInterrupt},
+                                                      {"CALL", kMain | kSubroutine},
+                                                      {"FOR", kMain | kSubroutine},
+                                                      {"NEXT", kMain | kSubroutine},
+                                                      {"ENI", kMain | kSubroutine},
+                                                      {"DISI", kMain | kSubroutine},
+                                                      {"HDEF", kMain | kSubroutine},
+                                                      {"LSCR", kMain | kSubroutine},
+                                                      {"SCRT", kMain | kSubroutine},
+                                                      {"SCRE", kMain | kSubroutine}};
+  for (const Instruction& instruction : all_instructions()) {
+    const auto part = kParts.find(instruction.mnemonic);
+    EXPECT_EQ(instruction.allowed, part == kParts.end() ? kAnywhere : part->second) << instruction.mnemonic;
+  }
+}
+
 // --- forms of operands in the vectors ---
 
 /// `V`, `AC`, `constant`, `*VD`, `*AC`, `&`: how an operand is written.
