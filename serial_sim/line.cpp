@@ -2,15 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 
 namespace s7200::serial {
-namespace {
-
-constexpr Time kEver = std::numeric_limits<Time>::min();
-
-}  // namespace
-
 /// Counting is faster than searching: there are a handful of edges, and no branch to guess.
 std::size_t Line::Driver::edges_until(Time at) const {
   std::size_t count = 0;
@@ -42,6 +35,55 @@ void Line::Driver::forget(Time before) {
   edges.erase(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(past));
 }
 
+bool Line::Periods::lasts_after(std::vector<Time>::const_iterator change) const {
+  return lasts_before != ((change - changes.begin()) % 2 != 0);
+}
+
+bool Line::Periods::lasts(Time at) const { return lasts_after(std::upper_bound(changes.begin(), changes.end(), at)); }
+
+Time Line::Periods::next_change(Time from) const {
+  const auto change = std::lower_bound(changes.begin(), changes.end(), from);
+  return change == changes.end() ? kNever : *change;
+}
+
+/// Lasts from `from` to `to` too.
+void Line::Periods::unite(Time from, Time to) {
+  const auto first = std::lower_bound(changes.begin(), changes.end(), from);
+  const auto last = to == kNever ? changes.end() : std::upper_bound(first, changes.end(), to);
+  const bool begins = !lasts_after(first), ends = to != kNever && !lasts_after(last);
+  auto place = changes.erase(first, last);
+  if (ends) place = changes.insert(place, to);
+  if (begins) changes.insert(place, from);
+}
+
+/// Between the two it lasts where it did not, and the other way round.
+void Line::Periods::invert(Time from, Time to) {
+  toggle(from);
+  if (to != kNever) toggle(to);
+}
+
+void Line::Periods::toggle(Time at) {
+  const auto place = std::lower_bound(changes.begin(), changes.end(), at);
+  if (place != changes.end() && *place == at) {
+    changes.erase(place);
+  } else {
+    changes.insert(place, at);
+  }
+}
+
+void Line::Periods::end(Time at) {
+  const auto place = std::lower_bound(changes.begin(), changes.end(), at);
+  const bool lasted = lasts_after(place);
+  changes.erase(place, changes.end());
+  if (lasted) changes.push_back(at);
+}
+
+void Line::Periods::forget(Time before) {
+  const auto present = std::lower_bound(changes.begin(), changes.end(), before);
+  lasts_before = lasts_after(present);
+  changes.erase(changes.begin(), present);
+}
+
 void Line::drive(int driver, Time at, bool mark) {
   drivers_.at(static_cast<std::size_t>(driver)).add(at, mark);
   tell(at);
@@ -49,39 +91,37 @@ void Line::drive(int driver, Time at, bool mark) {
 
 void Line::disturb(const Disturbance& disturbance) {
   if (disturbance.from >= disturbance.to) return;
-  disturbances_.push_back(disturbance);
+  Periods& those = periods(disturbance.effect);
+  if (disturbance.effect == Disturbance::Effect::Inverts) {
+    those.invert(disturbance.from, disturbance.to);
+  } else {
+    those.unite(disturbance.from, disturbance.to);
+  }
+  note_whether_disturbed();
   tell(disturbance.from);
 }
 
 void Line::heal(Time at) {
-  if (disturbances_.empty()) return;
-  for (Disturbance& disturbance : disturbances_) disturbance.to = std::min(disturbance.to, at);
-  std::erase_if(disturbances_, [](const Disturbance& d) { return d.from >= d.to; });
+  if (!disturbed_) return;
+  for (Periods& those : disturbances_) those.end(at);
+  note_whether_disturbed();
   tell(at);
 }
 
-bool Line::level(Time at) const { return disturbances_.empty() ? driven_level(at) : disturbed_level(driven_level(at), at); }
+void Line::note_whether_disturbed() {
+  disturbed_ = !std::all_of(disturbances_.begin(), disturbances_.end(), [](const Periods& those) { return those.none(); });
+}
+
+bool Line::level(Time at) const { return disturbed_ ? disturbed_level(driven_level(at), at) : driven_level(at); }
 
 bool Line::driven_level(Time at) const {
   return std::all_of(drivers_.begin(), drivers_.end(), [at](const Driver& driver) { return driver.level(at); });
 }
 
 bool Line::disturbed_level(bool mark, Time at) const {
-  bool held = false;
-  for (const Disturbance& disturbance : disturbances_) {
-    if (!disturbance.lasts_at(at)) continue;
-    switch (disturbance.effect) {
-      case Disturbance::Effect::Cuts:
-        return true;
-      case Disturbance::Effect::HoldsSpace:
-        held = true;
-        break;
-      case Disturbance::Effect::Inverts:
-        mark = !mark;
-        break;
-    }
-  }
-  return mark && !held;
+  using Effect = Disturbance::Effect;
+  if (periods(Effect::Cuts).lasts(at)) return true;
+  return mark != periods(Effect::Inverts).lasts(at) && !periods(Effect::HoldsSpace).lasts(at);
 }
 
 bool Line::level_of(int driver, Time at) const { return drivers_.at(static_cast<std::size_t>(driver)).level(at); }
@@ -98,15 +138,11 @@ Time Line::next_change(Time from) const {
     const std::size_t index = driver.edges_until(from - 1);
     if (index < driver.edges.size()) change = std::min(change, driver.edges[index]);
   }
-  for (const Disturbance& disturbance : disturbances_)
-    for (const Time end : {disturbance.from, disturbance.to})
-      if (end >= from) change = std::min(change, end);
+  for (const Periods& those : disturbances_) change = std::min(change, those.next_change(from));
   return change;
 }
 
-Time Line::falling_edge(Time from) const {
-  return disturbances_.empty() ? driven_falling_edge(from) : disturbed_falling_edge(from);
-}
+Time Line::falling_edge(Time from) const { return disturbed_ ? disturbed_falling_edge(from) : driven_falling_edge(from); }
 
 Time Line::driven_falling_edge(Time from) const {
   for (;;) {
@@ -142,10 +178,9 @@ Time Line::space_held_from_before(Time edge) const {
 void Line::forget(Time now) {
   for (const LineListener* listener : wiring_.listeners) now = std::min(now, listener->needs_from());
   for (Driver& driver : drivers_) driver.forget(now);
-  if (disturbances_.empty()) return;
-  std::erase_if(disturbances_, [now](const Disturbance& d) { return d.to < now; });
-  for (Disturbance& disturbance : disturbances_)
-    if (disturbance.from < now) disturbance.from = kEver;  // as the edges before `now`, its begin is past
+  if (!disturbed_) return;
+  for (Periods& those : disturbances_) those.forget(now);
+  note_whether_disturbed();
 }
 
 void Line::attach(LineListener& listener) { wiring_.listeners.push_back(&listener); }

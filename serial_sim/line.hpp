@@ -37,7 +37,6 @@ struct Disturbance {
   Time from = 0, to = kNever;
 
   bool operator==(const Disturbance&) const = default;
-  bool lasts_at(Time at) const { return from <= at && at < to; }
 };
 
 /// Each driver holds the line at mark (true, the idle level) or space (false). A driver that marks is as good as one that
@@ -104,6 +103,25 @@ class Line {
     void forget(Time before);
   };
 
+  /// When something lasts: begins and ends in turn.
+  struct Periods {
+    bool lasts_before = false;  // ahead of the first one kept
+    std::vector<Time> changes;  // in order of time
+    bool operator==(const Periods&) const = default;
+
+    bool lasts(Time at) const;
+    bool none() const { return !lasts_before && changes.empty(); }
+    Time next_change(Time from) const;
+    void unite(Time from, Time to);
+    void invert(Time from, Time to);
+    void end(Time at);
+    void forget(Time before);
+
+   private:
+    bool lasts_after(std::vector<Time>::const_iterator change) const;
+    void toggle(Time at);
+  };
+
   struct Wiring {
     std::vector<LineListener*> listeners;
     Interference* interference = nullptr;
@@ -120,8 +138,13 @@ class Line {
   Time space_held_from_before(Time edge) const;
   void tell(Time at) const;
 
+  Periods& periods(Disturbance::Effect effect) { return disturbances_[static_cast<std::size_t>(effect)]; }
+  const Periods& periods(Disturbance::Effect effect) const { return disturbances_[static_cast<std::size_t>(effect)]; }
+  void note_whether_disturbed();
+
   std::array<Driver, kDrivers> drivers_;
-  std::vector<Disturbance> disturbances_;  // those that somebody may still hear; in no order
+  std::array<Periods, 3> disturbances_;  // by effect; however many overlap, they are no more than what is left of them
+  bool disturbed_ = false;               // there are any
   Wiring wiring_;
 };
 

@@ -267,22 +267,43 @@ TEST(DisturbedLine, TellsWhoeverListens) {
   EXPECT_EQ(listener.told, 75);
 }
 
-TEST(DisturbedLine, FallingEdgeIsWhereTheLevelFalls) {
+/// What the line should be at, from the list of all that was done to it.
+bool expected_level(bool driven, const std::vector<Disturbance>& disturbances, Time at) {
+  bool mark = driven;
+  for (const auto effect : {kInverts, kHoldsSpace, kCuts})
+    for (const Disturbance& d : disturbances)
+      if (d.effect == effect && d.from <= at && at < d.to) mark = effect == kInverts ? !mark : effect == kCuts;
+  return mark;
+}
+
+TEST(DisturbedLine, IsAtTheLevelThatAllDisturbancesTogetherLeaveAndFallsWhereThatFalls) {
   std::mt19937_64 random(1);
   const auto below = [&](std::uint64_t end) { return static_cast<Time>(random() % end); };
-  for (int round = 0; round < 2000; ++round) {
-    Line line;
+  for (int round = 0; round < 3000; ++round) {
+    Line driven;
     for (int driver = 0; driver < 2; ++driver) {
       Time at = 0;
-      for (int edge = 0; edge < 6; ++edge) line.drive(driver, at += 1 + below(8), edge % 2 != 0);
+      for (int edge = 0; edge < 6; ++edge) driven.drive(driver, at += 1 + below(8), edge % 2 != 0);
     }
-    for (Time count = below(4); count > 0; --count) {
-      const Time from = below(40);
-      line.disturb({static_cast<Disturbance::Effect>(below(3)), from, from + 1 + below(15)});
+    Line line = driven;
+    std::vector<Disturbance> disturbances;
+    for (Time count = below(7); count > 0; --count) {
+      const Time from = below(40), length = 1 + below(15);
+      disturbances.push_back({static_cast<Disturbance::Effect>(below(3)), from, below(20) == 0 ? kNever : from + length});
+      line.disturb(disturbances.back());
     }
+    if (below(8) == 0) {
+      const Time healed = below(50);
+      line.heal(healed);
+      for (Disturbance& d : disturbances) d.to = std::min(d.to, healed);
+    }
+    const Time forgotten = below(30);
+    line.forget(forgotten);
+    const auto level = [&](Time at) { return expected_level(driven.level(at), disturbances, at); };
     Time next = kNever;
-    for (Time at = 60; at >= 1; --at) {
-      if (!line.level(at) && line.level(at - 1)) next = at;
+    for (Time at = 70; at > forgotten; --at) {
+      ASSERT_EQ(line.level(at), level(at)) << "round " << round << " at " << at;
+      if (!level(at) && level(at - 1)) next = at;
       ASSERT_EQ(line.falling_edge(at), next) << "round " << round << " from " << at;
     }
   }
