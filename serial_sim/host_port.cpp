@@ -10,6 +10,7 @@ HostPort::HostPort(Uart& uart) : uart_(uart) { uart_.enable_receiver(false, 0); 
 void HostPort::attach(const SerialFormat& format, Time at) {
   assert(!state_.attached);
   state_.attached = true;
+  uart_.plug_in();
   receive_as(format);
   uart_.enable_receiver(true, at);
 }

@@ -62,7 +62,10 @@ class HostPort {
   void on(const Uart::Report& report);
 
   const State& state() const { return state_; }
-  void restore(const State& state) { state_ = state; }
+  void restore(const State& state) {
+    state_ = state;
+    if (state_.attached) uart_.plug_in();
+  }
 
  private:
   void send_next(Time at);

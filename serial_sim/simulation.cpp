@@ -13,7 +13,7 @@ enum Driver { kPlc, kMaster, kHost };
 Simulation::Simulation(std::shared_ptr<const Program> program, FieldScript field)
     : plc_uart_(line_, queue_, EventOwner::PlcUart, kPlc),
       master_uart_(line_, queue_, EventOwner::MasterUart, kMaster),
-      host_uart_(line_, queue_, EventOwner::HostUart, kHost),
+      host_uart_(line_, queue_, EventOwner::HostUart, kHost, false),
       master_(master_uart_, queue_),
       host_port_(host_uart_),
       cpu_(std::move(program), queue_, plc_uart_),

@@ -21,9 +21,14 @@ unsigned character_levels(const SerialFormat& format, std::uint8_t data, bool pa
   return levels;
 }
 
-Uart::Uart(Line& line, EventQueue& queue, EventOwner owner, int driver)
+Uart::Uart(Line& line, EventQueue& queue, EventOwner owner, int driver, bool plugged_in)
     : line_(line), queue_(queue), owner_(owner), driver_(driver) {
-  line_.attach(*this);
+  if (plugged_in) plug_in();
+}
+
+void Uart::plug_in() {
+  if (!plugged_in_) line_.attach(*this);
+  plugged_in_ = true;
 }
 
 Uart::~Uart() { line_.detach(*this); }

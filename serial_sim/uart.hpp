@@ -51,10 +51,13 @@ class Uart final : public SerialPort, private LineListener {
   };
 
   /// `driver`: which of the line's drivers this UART is. Neither reference is owned; both outlive the UART.
-  Uart(Line& line, EventQueue& queue, EventOwner owner, int driver);
+  /// It listens to the line from now on, or from plug_in() on: each listener costs time at every edge.
+  Uart(Line& line, EventQueue& queue, EventOwner owner, int driver, bool plugged_in = true);
   ~Uart() override;
   Uart(const Uart&) = delete;
   Uart& operator=(const Uart&) = delete;
+
+  void plug_in();
 
   /// A character whose start bit has been verified is still received in the old format.
   void configure(const SerialFormat& format) override;
@@ -110,6 +113,7 @@ class Uart final : public SerialPort, private LineListener {
   EventQueue& queue_;
   EventOwner owner_;
   int driver_;
+  bool plugged_in_ = false;
   State state_;
 };
 

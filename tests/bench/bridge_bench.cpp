@@ -39,7 +39,7 @@ class Moments final : public TraceSink {
   void record(const TraceRecord& record) override {
     const std::lock_guard lock(mutex_);
     if (record.kind == TraceKind::CharacterReceived && asked_ == 0) asked_ = record.since;
-    if (record.kind == TraceKind::CharacterSent && answered_ == 0) answered_ = record.at;
+    if (record.kind == TraceKind::CharacterSent && asked_ != 0 && answered_ == 0) answered_ = record.at;
   }
   /// Simulated latency of the exchange that is over.
   Time take(const SerialFormat& format) {
