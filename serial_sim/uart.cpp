@@ -110,7 +110,8 @@ void Uart::put_character_with_mishaps(unsigned levels, Time at) {
 /// Back with its end. A character without stop bit takes a bit longer, at mark.
 Time Uart::drive_character(unsigned levels, const BitClock& clock, Time at) {
   bool mark = true;
-  for (int bit = 0; bit <= first_stop_bit(clock.format); ++bit) {
+  const int stop_bit = first_stop_bit(clock.format);
+  for (int bit = 0; bit <= stop_bit; ++bit) {
     const bool next = (levels >> bit & 1U) != 0;
     if (next != mark) line_.drive(driver_, at + clock.bit_times(bit), next);
     mark = next;
