@@ -12,11 +12,13 @@
 namespace s7200::tools {
 namespace {
 
-/// An empty file may be overwritten too.
-bool is_earlier_record(const std::string& path, std::string_view beginning) {
+/// An empty file may be overwritten too. A terminal or a pipe loses nothing; reading from it would wait.
+bool may_be_overwritten(const std::string& path, std::string_view beginning) {
+  const auto kind = std::filesystem::status(path).type();
+  if (kind == std::filesystem::file_type::character || kind == std::filesystem::file_type::fifo) return true;
   std::ifstream in(path);
   std::string first(beginning.size(), '\0');
-  in.read(first.data(), static_cast<std::streamsize>(first.size()));  // no more: it may be a device without end
+  in.read(first.data(), static_cast<std::streamsize>(first.size()));
   return in.gcount() == 0 || first == beginning;
 }
 
@@ -25,7 +27,7 @@ bool is_earlier_record(const std::string& path, std::string_view beginning) {
 std::ostream* RecordFile::open(const std::string& path, std::string_view beginning, std::string_view kind) {
   path_ = path;
   if (path == "-") return &std::cout;
-  if (std::filesystem::exists(path) && !is_earlier_record(path, beginning)) {
+  if (std::filesystem::exists(path) && !may_be_overwritten(path, beginning)) {
     print_error(fmt::format("{} exists and is no {}; it is left alone", path, kind));
     return nullptr;
   }

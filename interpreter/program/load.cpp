@@ -1,12 +1,14 @@
 #include "interpreter/program/load.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 
 #include "interpreter/stl/document.hpp"
 #include "interpreter/stl/encoding.hpp"
@@ -14,7 +16,7 @@
 namespace s7200 {
 namespace {
 
-/// More than any program; devices such as /dev/zero have no end at all.
+/// More than any program; what another program writes into a pipe may have no end at all.
 constexpr std::size_t kLargestFile = 64 << 20;
 
 bool is_instruction(std::string_view mnemonic, std::size_t operands) {
@@ -22,32 +24,56 @@ bool is_instruction(std::string_view mnemonic, std::size_t operands) {
   return instruction && (instruction->operands == operands || !instruction->body);
 }
 
+/// A file or a pipe, and nothing else: reading from a serial port would wait for ever, and take what is another's.
+struct OpenFile {
+  // Opening a serial port would wait for its carrier, and opening a pipe for its writer.
+  explicit OpenFile(const std::string& path) : fd(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {}
+  ~OpenFile() {
+    if (fd >= 0) close(fd);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  bool can_be_read(std::string& why) const {
+    struct stat status {};
+    if (fd < 0 || fstat(fd, &status) != 0) {
+      why = std::strerror(errno);
+      return false;
+    }
+    if (S_ISDIR(status.st_mode)) why = "it is a folder";
+    if (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)) why = "it is a device, not a file";
+    if (!why.empty()) return false;
+    fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) & ~O_NONBLOCK);
+    pollfd writer{fd, POLLIN, 0};
+    while (poll(&writer, 1, -1) < 0 && errno == EINTR) {
+    }
+    return true;
+  }
+
+  const int fd;
+};
+
 }  // namespace
 
 std::optional<std::string> read_file(const std::string& path, std::string& why) {
-  if (std::filesystem::is_directory(path)) {
-    why = "it is a folder";
-    return {};
-  }
-  std::ifstream in(path, std::ios::binary);
-  if (!in) {
-    why = std::strerror(errno);
-    return {};
-  }
+  const OpenFile file(path);
+  if (!file.can_be_read(why)) return {};
   std::string bytes;
   std::array<char, 65536> piece{};
-  while (in.read(piece.data(), piece.size()), in.gcount() > 0) {
-    bytes.append(piece.data(), static_cast<std::size_t>(in.gcount()));
+  for (;;) {
+    const ssize_t count = read(file.fd, piece.data(), piece.size());
+    if (count == 0) return bytes;
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      why = std::strerror(errno);
+      return {};
+    }
+    bytes.append(piece.data(), static_cast<std::size_t>(count));
     if (bytes.size() > kLargestFile) {
       why = fmt::format("it is larger than {} MB", kLargestFile >> 20);
       return {};
     }
   }
-  if (in.bad()) {
-    why = std::strerror(errno);
-    return {};
-  }
-  return bytes;
 }
 
 std::optional<SourceText> read_source(std::string_view bytes, const std::string& name, std::string& why,

@@ -9,7 +9,8 @@
 
 namespace s7200 {
 
-/// The bytes of a file; nothing, and `why`, when it cannot be read.
+/// The bytes of a file, or of a pipe up to its end; nothing, and `why`, when it cannot be read, has more than 64 MB or is a
+/// device: a serial port named where a program is wanted is an error at once.
 std::optional<std::string> read_file(const std::string& path, std::string& why);
 
 /// STL source of a text in any of the encodings of stl/encoding.hpp; `as_document`: whether it was read as one.

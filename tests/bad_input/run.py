@@ -14,6 +14,7 @@ Programs say in comments what is expected of them:
 
 Nothing may crash or hang, and every report must stand at file:line:column with the line and a caret below it.
 """
+import os
 import pathlib
 import re
 import resource
@@ -26,6 +27,7 @@ import zlib
 
 HERE = pathlib.Path(__file__).resolve().parent
 SECONDS = 60  # of processor time: a loaded machine makes nothing hang
+SLAVE = HERE.parent.parent / "stl_programs/modbus_slave.stl"
 REPORT = re.compile(r"(.*?):(\d+):(\d+): (error|warning): (.*)")
 EXPECT = re.compile(r"//\s*(expect (?:error|warning|hint|runtime|fatal|output|exit)|with):\s*(.*)")
 RUN_TIME = re.compile(r"(run-time|FATAL) error ([0-9A-F]{4}), .*\n\s+(?:.*:(\d+): .*|(between two scans))")
@@ -35,12 +37,12 @@ class Failure(Exception):
     pass
 
 
-def run(command):
+def run(command, stdin=subprocess.DEVNULL):
     """Exit code, standard output and error as text; a crash or a time-out is a Failure."""
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS + 1))
     try:
-        done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=10 * SECONDS, check=False,
+        done = subprocess.run(command, stdin=stdin, capture_output=True, timeout=10 * SECONDS, check=False,
                               preexec_fn=limit)
     except subprocess.TimeoutExpired:
         raise Failure(f"hangs: {shlex.join(command)}") from None
@@ -207,21 +209,48 @@ def check_files(s7200):
         (pathlib.Path(folder) / "folder.stl").mkdir()
         for name in FILES:
             yield name, lambda name=name: check_file(s7200, pathlib.Path(folder), name)
-        if pathlib.Path("/dev/zero").exists():
-            yield "/dev/zero", lambda: expect_no_endless_reading(s7200)
-        yield "folder.stl", lambda: expect_folder(s7200, pathlib.Path(folder) / "folder.stl")
+        yield "folder.stl", lambda: expect_refusal(s7200, pathlib.Path(folder) / "folder.stl", "it is a folder")
+        yield "/dev/zero", lambda: expect_refusal(s7200, "/dev/zero", "it is a device, not a file")
+        yield "serial port", lambda: expect_no_wait_for_a_serial_port(s7200)
+        yield "endless pipe", lambda: expect_no_endless_reading(s7200)
+        yield "pipe without writer", lambda: expect_wait_for_the_writer(s7200, pathlib.Path(folder) / "pipe.stl")
 
 
-def expect_folder(s7200, path):
-    exit_code, _, error = run([s7200, "check", str(path)])
-    if exit_code != 2 or "it is a folder" not in error:
-        raise Failure(f"exit code {exit_code}: {error}")
+def expect_refusal(s7200, path, text):
+    for verb in (["check", path], ["run", path], ["import", path], ["send", path, "0103"], ["send", SLAVE, "--frames", path],
+                 ["debug", SLAVE, "--commands", path], ["run", SLAVE, "--input", path], ["check", SLAVE, "--times", path]):
+        exit_code, _, error = run([s7200, *map(str, verb)])
+        if exit_code != 2 or text not in error:
+            raise Failure(f"{verb}: exit code {exit_code}: {error}")
+
+
+def expect_no_wait_for_a_serial_port(s7200):
+    near, far = os.openpty()
+    try:
+        expect_refusal(s7200, os.ttyname(far), "it is a device, not a file")
+        exit_code, _, error = run([s7200, "run", SLAVE, "--scans", "2", "--output", os.ttyname(far)])
+        if exit_code != 0 or not os.read(near, 100):
+            raise Failure(f"a terminal to write on: exit code {exit_code}: {error}")
+    finally:
+        os.close(near)
+        os.close(far)
 
 
 def expect_no_endless_reading(s7200):
-    exit_code, _, error = run([s7200, "check", "/dev/zero"])
+    with subprocess.Popen(["yes"], stdout=subprocess.PIPE) as endless:
+        exit_code, _, error = run([s7200, "check", "/dev/stdin"], stdin=endless.stdout)
+        endless.kill()
     if exit_code != 2 or "larger than" not in error:
         raise Failure(f"exit code {exit_code}: {error}")
+
+
+def expect_wait_for_the_writer(s7200, path):
+    os.mkfifo(path)
+    checking = subprocess.Popen([s7200, "check", str(path)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    path.write_text("LD SM0.0\nMEND\n")
+    output, _ = checking.communicate(timeout=60)
+    if checking.returncode != 0:
+        raise Failure(f"exit code {checking.returncode}: {output}")
 
 
 def main():
