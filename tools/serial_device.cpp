@@ -105,20 +105,16 @@ bool SerialDevice::set(const SerialFormat& format, std::string& why) {
 }
 
 bool SerialDevice::read(std::vector<Character>& characters, std::string& why) {
-  std::array<std::uint8_t, 4096> bytes{};
-  for (;;) {
-    const ssize_t count = ::read(fd_, bytes.data(), bytes.size());
-    if (count > 0) {
-      for (const std::uint8_t byte : std::span(bytes).first(static_cast<std::size_t>(count))) take(byte, characters);
-    } else if (count < 0 && errno == EINTR) {
-      continue;
-    } else if (count < 0 && errno == EAGAIN) {
-      return true;
-    } else {
-      why = count == 0 ? "it was hung up" : error_text();
-      return false;
-    }
+  std::array<std::uint8_t, kMostAtOnce> bytes{};
+  ssize_t count = -1;
+  do count = ::read(fd_, bytes.data(), bytes.size());
+  while (count < 0 && errno == EINTR);
+  if (count == 0 || (count < 0 && errno != EAGAIN)) {
+    why = count == 0 ? "it was hung up" : error_text();
+    return false;
   }
+  for (ssize_t i = 0; i < count; ++i) take(bytes[static_cast<std::size_t>(i)], characters);
+  return true;
 }
 
 void SerialDevice::take(std::uint8_t byte, std::vector<Character>& characters) {

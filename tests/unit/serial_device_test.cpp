@@ -6,6 +6,10 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <string>
+#include <thread>
+#include <vector>
+
 #include "tools/termios2.hpp"
 
 namespace s7200::tools {
@@ -70,6 +74,22 @@ TEST_F(SerialDeviceTest, EveryByteComesThroughBothWays) {
     heard.append(part, static_cast<std::size_t>(count));
   }
   EXPECT_EQ(heard, all);
+}
+
+TEST_F(SerialDeviceTest, ASideThatNeverStopsTalkingHoldsNobody) {
+  auto device = open();
+  ASSERT_TRUE(device);
+  fcntl(near_, F_SETFL, O_NONBLOCK);
+  const std::vector<char> zeros(65536, 0);
+  std::jthread flood([this, &zeros](const std::stop_token& enough) {
+    while (!enough.stop_requested()) [[maybe_unused]]
+      const ssize_t count = ::write(near_, zeros.data(), zeros.size());
+  });
+  for (int reading = 0; reading < 100; ++reading) {
+    const std::size_t count = read(*device, 1).size();
+    EXPECT_GE(count, 1U);
+    EXPECT_LE(count, SerialDevice::kMostAtOnce);
+  }
 }
 
 TEST_F(SerialDeviceTest, SettingsAreThoseOfTheFormatAtAnyRate) {
