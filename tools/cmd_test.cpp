@@ -181,6 +181,8 @@ Benches benches_for(const std::vector<Scenario>& scenarios, const std::string& t
   benches.name = target;
   std::optional<SlaveTarget> parsed;
   if (!target.empty()) parsed = parse_slave_target(target);
+  if (parsed && parsed->kind == SlaveTarget::Kind::ModbusTcp && !options.conformance.empty())
+    fail("--conformance judges what a slave does on its serial line, which Modbus TCP hides; name a program, pty, device or tcp://");
   SerialFormat format;
   if (parsed && parsed->kind != SlaveTarget::Kind::Program) {
     format = options.line.format_over(SerialFormat{});
@@ -310,7 +312,8 @@ int run_all(const std::vector<Scenario>& scenarios, const TestOptions& options, 
   const bool lines = !options.json && !conformance;
   std::vector<Report> reports;
   const stl::Source* heading = nullptr;
-  {
+  std::string unreachable;
+  try {
     Runner runner(scenarios, benches, jobs_on(benches, options));
     runner.each([&](std::size_t i, ScenarioResult result) {
       reports.push_back({&scenarios[i], std::move(result)});
@@ -321,6 +324,8 @@ int run_all(const std::vector<Scenario>& scenarios, const TestOptions& options, 
       }
       return !interrupted() && !(options.fail_fast && counts_as_failed(reports.back()));
     });
+  } catch (const SlaveUnreachable& error) {
+    unreachable = error.what();
   }
   if (options.json) {
     fmt::print("{}\n", to_json(reports).dump(2));
@@ -329,8 +334,8 @@ int run_all(const std::vector<Scenario>& scenarios, const TestOptions& options, 
   } else {
     fmt::print("{}", summary_text(reports));
   }
-  if (reports.size() < scenarios.size())
-    fmt::print(stderr, "s7200: note: {} scenarios were not run\n", scenarios.size() - reports.size());
+  if (const std::size_t left = scenarios.size() - reports.size(); left > 0)
+    fmt::print(stderr, "s7200: note: {} not run\n", left == 1 ? "1 scenario was" : fmt::format("{} scenarios were", left));
   if (!options.junit.empty()) write_file(options.junit, to_junit(reports));
   if (!options.record.empty()) {
     const Time tolerance = options.tolerance != kNever ? options.tolerance : benches.slave ? 50 * kMillisecond : 0;
@@ -343,6 +348,7 @@ int run_all(const std::vector<Scenario>& scenarios, const TestOptions& options, 
                transcript_text(reports, {options.record, benches.name, tolerance, benches.slave != nullptr}));
   }
   if (interrupted()) fmt::print(stderr, "s7200: note: interrupted\n");
+  if (!unreachable.empty()) fail(unreachable);
   return interrupted() || std::any_of(reports.begin(), reports.end(), counts_as_failed) ? kCheckFailed : kFine;
 }
 
@@ -488,8 +494,8 @@ void add_test(CLI::App& app, int& exit_code) {
   verb->add_flag("--keys", options->keys, "print what a scenario may contain, as Markdown");
   verb->footer(
       slave_targets_help() +
-      "Exit codes: 0 all passed; 1 a scenario failed, a rule that says must is broken, or --against found a difference; 2 "
-      "nothing could be run.\nExample: s7200 test tests/programs/modbus_slave --jobs 2");
+      "Exit codes: 0 all passed; 1 a scenario failed, a rule that says must is broken, or --against found a difference; "
+      "2 nothing could be run,\nor the slave cannot be reached.\nExample: s7200 test tests/programs/modbus_slave --jobs 2");
   verb->callback([options, &exit_code] { exit_code = run_test(*options); });
 }
 

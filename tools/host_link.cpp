@@ -58,7 +58,7 @@ void HostLink::write(std::span<const std::uint8_t> bytes) {
     if (!bytes.empty() && !wait_for(fd(), POLLOUT, give_up) && !interrupted()) {
       const std::string who = name();
       close();
-      throw SlaveUnreachable(fmt::format("{} takes nothing for {}", who, format_duration(kPatience)));
+      throw SlaveLost(fmt::format("{} takes nothing for {}", who, format_duration(kPatience)));
     }
   }
 }
@@ -77,7 +77,7 @@ std::string SerialLink::name() const { return fmt::format("{} {}", path_, short_
 
 void SerialLink::gone(const std::string& why) {
   close();
-  throw SlaveUnreachable(fmt::format("{} is gone: {}", path_, why));
+  throw SlaveLost(fmt::format("{} is gone: {}", path_, why));
 }
 
 void SerialLink::read(std::vector<Character>& characters) {
@@ -136,7 +136,7 @@ void TcpLink::open() {
 
 void TcpLink::gone(const std::string& why) {
   close();
-  throw SlaveUnreachable(fmt::format("{} {}", name(), why));
+  throw SlaveLost(fmt::format("{} {}", name(), why));
 }
 
 void TcpLink::read(std::vector<Character>& characters) {

@@ -16,7 +16,7 @@ namespace s7200::tools {
 /// Nanoseconds of a host clock that is never set.
 Time host_time();
 
-/// All of them throw SlaveUnreachable when the other side is not, or no longer, there; the link is then closed.
+/// The link is closed when one of these throws: SlaveUnreachable, the other side is not there; SlaveLost, no longer there.
 class HostLink {
  public:
   using Character = SerialDevice::Character;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kStrayShown = 16;
 constexpr int kStrayReads = 256;       // from a side that never stops talking
+constexpr std::size_t kLongestTcp = 254;  // unit, function and data: MODBUS Application Protocol, 4.1
 constexpr Time kToComplete = kSecond;  // an answer over Modbus TCP that has begun
 
 void refuse_wrong_parity(const modbus::Frame& frame) {
@@ -137,6 +138,9 @@ serial::Exchange ModbusTcpSlave::exchange(const serial::Request& request) {
     throw std::invalid_argument(
         "Modbus TCP carries no CRC: only frames with a right one can be sent, of which it is taken off");
   adu.resize(adu.size() - 2);
+  if (adu.size() > kLongestTcp)
+    throw std::invalid_argument(fmt::format("Modbus TCP carries {} bytes of unit, function and data at most", kLongestTcp));
+  if (request.gap != 0) throw std::invalid_argument("Modbus TCP carries frames in one piece: there are no pauses in it");
   make_ready();
 
   serial::Exchange exchange;

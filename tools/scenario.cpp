@@ -8,10 +8,15 @@ Time Span::in(const SerialFormat& format) const {
   return fixed + (millicharacters * format.bits() * kSecond + divisor / 2) / divisor;
 }
 
-bool needs_inside(const Step& step) {
-  const bool outside = std::holds_alternative<ExchangeStep>(step.action) ||
-                       (std::holds_alternative<WaitStep>(step.action) && std::get<WaitStep>(step.action).scans == 0);
-  return !outside;
+bool looks_inside(const Step& step) {
+  return std::holds_alternative<MemoryStep>(step.action) || std::holds_alternative<InterruptsStep>(step.action) ||
+         std::holds_alternative<ModeStep>(step.action) || std::holds_alternative<FatalStep>(step.action) ||
+         std::holds_alternative<ErrorsStep>(step.action);
+}
+
+bool acts_inside(const Step& step) {
+  if (const auto* wait = std::get_if<WaitStep>(&step.action)) return wait->scans != 0;
+  return !std::holds_alternative<ExchangeStep>(step.action) && !looks_inside(step);
 }
 
 }  // namespace s7200::tools

@@ -167,7 +167,10 @@ struct Scenario {
   std::vector<Step> steps{};
 };
 
-/// Asks for what only a program in simulation has: memory, interrupts, power.
-bool needs_inside(const Step& step);
+/// Looks at what only a program in simulation shows: memory, interrupts, mode, errors.
+bool looks_inside(const Step& step);
+
+/// Does what can only be done to a program in simulation: sets memory or a fault, switches power, counts scans.
+bool acts_inside(const Step& step);
 
 }  // namespace s7200::tools

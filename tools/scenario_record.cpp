@@ -57,7 +57,7 @@ class Writer {
       if (std::holds_alternative<ExchangeStep>(step.action)) {
         if (seen == report.result.seen.size() || report.result.seen[seen].step != i) continue;
         exchange(std::get<ExchangeStep>(step.action), report.result.seen[seen++].exchange, scenario.line.timeout);
-      } else if ((transcript_.live && needs_inside(step)) || !driving(step)) {
+      } else if ((transcript_.live && (looks_inside(step) || acts_inside(step))) || !driving(step)) {
         continue;
       }
       any = true;

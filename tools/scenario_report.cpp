@@ -248,7 +248,7 @@ std::string report_text(const Report& report, bool colour, std::size_t most) {
   std::string remark;
   if (!result.reason.empty()) remark = fmt::format("   ({})", result.reason);
   if (result.skipped_steps)
-    remark += fmt::format("   ({} of {} steps skipped: they need the inside of a PLC)", result.skipped_steps,
+    remark += fmt::format("   ({} of {} steps skipped: they need the inside of the PLC or its line)", result.skipped_steps,
                           report.scenario->steps.size());
   const std::string time = result.outcome == Outcome::Skipped ? "" : format_duration(result.time, 1);
   return fmt::format("  {}  {:>10}  {}{}\n", outcome_text(result.outcome, colour), time, report.scenario->name, remark) +

@@ -300,13 +300,17 @@ class Run {
   }
 
   ScenarioResult result() {
+    if (!plant_) {
+      if (const std::string what = acted_inside(); !what.empty())
+        return {.outcome = ScenarioResult::Outcome::Skipped, .reason = "needs a program in simulation: " + what};
+    }
     const Time begin = plant_ ? 0 : slave().now();
     if (plant_ && !plant_->get_ready()) {
       add({.what = "ready",
            .expected = fmt::format("the first scan ended and the line quiet within {}", format_duration(kReadyWithin)),
            .found = "that never came; 'after: TIME' begins all the same"});
     } else {
-      for (; step_ < scenario_.steps.size() && !interrupted(); ++step_) do_step(scenario_.steps[step_]);
+      for (; step_ < scenario_.steps.size() && !interrupted() && !lost_; ++step_) do_step(scenario_.steps[step_]);
       look_at_mode();
     }
     if (interrupted()) result_.reason = "interrupted";
@@ -316,6 +320,10 @@ class Run {
     if (result_.skipped_steps > 0 && result_.skipped_steps == scenario_.steps.size()) {
       result_.outcome = ScenarioResult::Outcome::Skipped;
       result_.reason = "nothing of it can be tried on " + slave().name();
+    } else if (!scenario_.rule.id.empty() && result_.outcome == ScenarioResult::Outcome::Passed &&
+               (result_.skipped_steps > 0 || times_unjudged_)) {
+      result_.outcome = ScenarioResult::Outcome::Skipped;
+      result_.reason = fmt::format("{} cannot be judged on {}", times_unjudged_ ? "its times" : "all of it", slave().name());
     }
     return std::move(result_);
   }
@@ -329,8 +337,15 @@ class Run {
     result_.findings.push_back(std::move(finding));
   }
 
+  /// What of the scenario only a program in simulation can be done to; empty if there is nothing.
+  std::string acted_inside() const {
+    if (!scenario_.set.empty() || scenario_.clock || !scenario_.input_file.empty()) return "it sets memory, clock or inputs";
+    const auto step = std::find_if(scenario_.steps.begin(), scenario_.steps.end(), acts_inside);
+    return step == scenario_.steps.end() ? "" : fmt::format("line {}", step->position.line);
+  }
+
   void do_step(const Step& step) {
-    if (!plant_ && needs_inside(step)) {
+    if (!plant_ && looks_inside(step)) {
       ++result_.skipped_steps;
       return;
     }
@@ -370,6 +385,9 @@ class Run {
     } catch (const std::invalid_argument& error) {
       if (!plant_) return static_cast<void>(++result_.skipped_steps);  // a way that such a frame cannot go
       return add({.what = "request", .expected = "a request that can be sent", .found = error.what()});
+    } catch (const SlaveLost& error) {
+      lost_ = true;
+      return add({.what = "slave", .expected = "that it stays there", .found = error.what()});
     }
     last_end_ = exchange.response.empty() ? slave().now() : exchange.response_end;
     result_.seen.push_back({step_, exchange});
@@ -407,6 +425,7 @@ class Run {
                     .expected = in_words(*step.latency, line),
                     .found = latency ? format_duration(*latency, 6) : "no answer",
                     .exchange = exchange});
+    if (!plant_ && (step.answer_gap || (step.latency && step.latency->from.in(line) > 0))) times_unjudged_ = true;
     if (!step.answer_gap || !plant_) return;
     for (std::size_t i = 1; i < exchange.response.size(); ++i) {
       const Time gap = exchange.response[i].start - exchange.response[i - 1].start - line.character_time();
@@ -520,6 +539,8 @@ class Run {
   const Bench& bench_;
   std::unique_ptr<Plant> plant_;
   std::size_t step_ = 0;
+  bool lost_ = false;            ///< the slave
+  bool times_unjudged_ = false;  ///< on a slave that is no program
   std::optional<Time> last_end_;  ///< of the exchange before
   std::optional<Mode> mode_expected_;
   ScenarioResult result_;

@@ -35,7 +35,7 @@ struct ScenarioResult {
   std::string reason{};             ///< of Skipped
   std::vector<Finding> findings{};  ///< in the order of the steps
   std::vector<Seen> seen{};
-  std::size_t skipped_steps = 0;  ///< that need the inside of a PLC, on a slave that shows none
+  std::size_t skipped_steps = 0;  ///< that look inside, or cannot go this way, on a slave that is no program
   Time time = 0;                  ///< on the slave's clock
   double host_seconds = 0;
 };
@@ -47,9 +47,10 @@ struct Bench {
   SerialFormat format{};                     ///< of the slave's line
 };
 
-/// Runs a scenario to its end, findings or not. Exceptions of the slave (SlaveUnreachable) pass through.
-/// On a slave that is no program, steps that need_inside() are skipped, and of times only upper limits of the latency are
-/// judged: the computer in between cannot be trusted with more.
+/// Runs a scenario to its end, findings or not; a slave that is lost is a finding and ends it. SlaveUnreachable passes through.
+/// On a slave that is no program, scenarios that act inside are skipped as a whole, steps that look inside by themselves. Of
+/// times only upper limits of the latency are judged: the computer in between cannot be trusted with more. A rule of which
+/// that leaves something unjudged is skipped too, unless it is broken already.
 ScenarioResult run_scenario(const Scenario& scenario, const Bench& bench);
 
 }  // namespace s7200::tools

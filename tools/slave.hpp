@@ -13,12 +13,17 @@ struct SlaveUnreachable : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// It was there, and went within an exchange. The next one tries to reach it again.
+struct SlaveLost : SlaveUnreachable {
+  using SlaveUnreachable::SlaveUnreachable;
+};
+
 class Slave {
  public:
   virtual ~Slave() = default;
 
   /// One exchange, from now to its end: the answer is complete, or did not begin within the time-out. Times in the result
-  /// are of now(). Throws SlaveUnreachable.
+  /// are of now(). Throws SlaveUnreachable; std::invalid_argument when such a request cannot go this way.
   virtual serial::Exchange exchange(const serial::Request& request) = 0;
 
   /// Nothing is sent for so long.

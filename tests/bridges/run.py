@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`s7200 run` with its bridges, as programs outside meet them: run.py S7200 SOURCE_DIR pty|tcp|modbus_tcp|device|run
+"""`s7200 run` with its bridges, as programs outside meet them: run.py S7200 SOURCE_DIR pty|tcp|modbus_tcp|device|run|scenarios
 
 Nothing here depends on how fast the computer is: what has to come is waited for, for long; what must not come is waited for
 in multiples of the time it would need.
@@ -18,6 +18,7 @@ import subprocess
 import sys
 import tempfile
 import termios
+import threading
 import time
 import unittest
 
@@ -815,7 +816,95 @@ class RunTests(Case):
         self.assertNotIn("realtime", timed("--for", "500ms")[1])
 
 
+class ScenarioTests(Case):
+    """`s7200 test` on slaves that are no program of its own."""
+
+    def tested(self, code, *arguments):
+        done = subprocess.run([S7200, "test", *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                              timeout=4 * LONG, check=False)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def scenarios(self, text):
+        path = self.folder / "scenarios.yaml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def test_random_traffic_is_answered_right_on_every_way(self):
+        link = self.folder / "plc"
+        for bridge, where, target in (("--pty", link, str(link)), ("--rtu-over-tcp", 0, "tcp://127.0.0.1:{}"),
+                                      ("--modbus-tcp", 0, "modbus-tcp://127.0.0.1:{}")):
+            with self.subTest(bridge):
+                running = self.start(bridge, where, "--speed", SPEED)
+                done = self.tested(FINE, "--random", 40, "--target", target.format(running.port))
+                self.assertIn("1 scenario: 1 passed", done.stdout)
+                self.assertEqual(running.end()["errors"], [])
+
+    def test_rules_are_judged_as_far_as_they_can_be(self):
+        description = self.folder / "slave.yaml"
+        description.write_text("functions: [3, 6]\nholding_registers: {count: 1000}\nanswers_within: 20s\n", encoding="utf-8")
+        link = self.folder / "plc"
+        self.start("--pty", link)
+        subprocess.run([S7200, "master", link, "read", "40001", "--timeout", "500ms", "--retries", "100"],  # its first scan is long
+                       stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, timeout=LONG, check=True)
+
+        def outcomes(only):
+            rules = json.loads(self.tested(FINE, "--conformance", description, "--target", link, "--only", only, "--json").stdout)
+            return {rule["rule"]["id"]: rule["outcome"] for rule in rules["scenarios"]}
+        for kept in ("AP-03-read", "AP-03-quantity", "AP-03-address", "AP-06-write", "SL-after-answer"):
+            self.assertEqual(outcomes(kept), {kept: "passed"})
+        for unjudged in ("SL-turnaround", "SL-stream"):
+            self.assertEqual(outcomes(unjudged), {unjudged: "skipped"})
+
+    def test_a_slave_that_is_lost_fails_its_scenario_and_the_others_are_run_if_it_comes_back(self):
+        with socket.create_server(("127.0.0.1", 0)) as server:
+            def serve():
+                for answers in (1, 2):  # connections, and how much each is answered
+                    client, _ = server.accept()
+                    with client:
+                        for _ in range(answers):
+                            client.recv(len(READ))
+                            client.sendall(ANSWER)
+                        client.recv(len(READ))
+                server.close()
+            server_thread = threading.Thread(target=serve)
+            server_thread.start()
+            target = f"tcp://127.0.0.1:{server.getsockname()[1]}"
+            ask = "{read: holding 10, count: 2, expect: [16#1234, 16#5678]}"
+            path = self.scenarios(f"timeout: {LONG}s\nscenarios:\n"
+                                  f"  - {{name: breaks, steps: [{ask}, {ask}, {ask}]}}\n"
+                                  f"  - {{name: is there again, steps: [{ask}, {ask}]}}\n"
+                                  f"  - {{name: breaks again, steps: [{ask}]}}\n"
+                                  f"  - {{name: is gone, steps: [{ask}]}}\n  - {{name: comes never, steps: [{ask}]}}\n")
+            done = self.tested(UNUSABLE, path, "--target", target)
+            server_thread.join()
+        self.assertRegex(done.stdout, r"(?s)FAIL .* breaks\n.*pass .* is there again\n.*FAIL .* breaks again\n.*3 scenarios: 1 passed, 2 failed")
+        self.assertIn("has closed the connection", done.stdout)
+        self.assertNotIn("is gone", done.stdout)
+        self.assertIn("note: 2 scenarios were not run", done.stderr)
+        self.assertIn("cannot reach", done.stderr)
+
+    def test_ctrl_c_ends_all_jobs_with_what_was_seen(self):
+        endless = "{repeat: 1000, steps: [{wait: 1000000ms}]}"
+        path = self.scenarios(f"program: {SLAVE}\nscenarios:\n  - {{name: quick, steps: [{{wait: 1ms}}]}}\n" +
+                              "".join(f"  - {{name: endless {i}, steps: [{endless}]}}\n" for i in range(4)))
+        process = subprocess.Popen([S7200, "test", path, "--jobs", "3"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        heard = ""
+        while "quick" not in heard:
+            line = process.stdout.readline()
+            self.assertTrue(line, "it ended")
+            heard += line
+        process.send_signal(signal.SIGINT)
+        out, error = process.communicate(timeout=LONG)
+        self.assertEqual(process.returncode, FAILED)
+        self.assertIn("(interrupted)", out)
+        self.assertIn("note: interrupted", error)
+
+
 if __name__ == "__main__":
-    group = {"pty": PtyTests, "tcp": TcpTests, "modbus_tcp": ModbusTcpTests, "device": DeviceTests, "run": RunTests}[GROUP]
+    group = {"pty": PtyTests, "tcp": TcpTests, "modbus_tcp": ModbusTcpTests, "device": DeviceTests, "run": RunTests,
+             "scenarios": ScenarioTests}[GROUP]
     result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
     sys.exit(0 if result.wasSuccessful() else 1)

@@ -338,7 +338,8 @@ class Scenarios(Case):
                           [good, "--with", wrong], [good, "--with", self.program("frob: 1\n", "with.yaml")],
                           [good, "--target", broken], [good, "--target", "missing.stl"], [good, "--against", "tcp://nohost"],
                           [good, "--record", "no/such/folder/file"], [good, "--junit", "no/such/folder/file"],
-                          [good, "--target", "/dev/ttyNoSuchDevice"]):
+                          [good, "--target", "/dev/ttyNoSuchDevice"],
+                          ["--conformance", self.program("functions: [3]\n", "slave.yaml"), "--target", "modbus-tcp://localhost"]):
             with self.subTest(arguments):
                 done = self.ends(UNUSABLE, "test", *arguments)
                 self.assertEqual(done.stdout, "")
@@ -383,7 +384,7 @@ class Scenarios(Case):
         self.assertIn("1 scenario: 1 passed", self.ends(FINE, "test", good, bad, "--only", "GOOD").stdout)
         done = self.ends(FAILED, "test", bad, good, "--fail-fast")
         self.assertIn("1 scenario: 0 passed, 1 failed", done.stdout)
-        self.assertIn("1 scenarios were not run", done.stderr)
+        self.assertIn("1 scenario was not run", done.stderr)
 
     def test_a_transcript_replays_and_is_not_overwritten_unasked(self):
         good, out = self.program(self.GOOD, "good.yaml"), self.folder / "transcript.yaml"

@@ -3,6 +3,8 @@
 import fcntl
 import json
 import os
+import pathlib
+import re
 import signal
 import socket
 import struct
@@ -313,6 +315,11 @@ class Port(Case):
                 self.assertIn(f"{option} needs {need}", self.master(UNUSABLE, target, "slave-id", option, value).stderr)
 
 
+def catches(process, number):
+    (mask,) = re.findall(r"(?m)^SigCgt:\s*(\w+)$", pathlib.Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8"))
+    return int(mask, 16) >> (number - 1) & 1
+
+
 class Interrupted(Case):
     def test_ctrl_c_ends_a_continuous_loopback_with_its_statistics(self):
         peer = self.peer(PtyPeer, rtu(Model()))
@@ -330,7 +337,7 @@ class Interrupted(Case):
             with self.subTest(arguments):
                 process = self.begin(silent.path, *arguments, "--station", "0") if "write" in arguments else \
                     self.begin(silent.path, *arguments)
-                time.sleep(0.5)
+                until(lambda: catches(process, signal.SIGINT), "a handler of Ctrl-C")
                 process.send_signal(signal.SIGINT)
                 _, error = process.communicate(timeout=60)
                 self.assertEqual(process.returncode, FAILED)

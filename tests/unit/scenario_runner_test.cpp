@@ -289,10 +289,13 @@ TEST(ScenarioCompare, RandomTrafficIsTheSameForTheSameSeed) {
 
 // --- other slaves ---
 
-/// Answers every request with itself.
+/// Answers every request with itself, so often.
 class EchoSlave final : public Slave {
  public:
+  explicit EchoSlave(int answers = 1000) : answers_(answers) {}
   serial::Exchange exchange(const serial::Request& request) override {
+    if (answers_-- == 0) throw SlaveLost("echo is gone");
+    if (request.gap != 0) throw std::invalid_argument("echo knows no pauses");
     serial::Exchange exchange;
     exchange.request = request.frame;
     exchange.request_start = exchange.request_end = time_;
@@ -308,6 +311,7 @@ class EchoSlave final : public Slave {
 
  private:
   Time time_ = 0;
+  int answers_;
 };
 
 TEST(ScenarioRunner, StepsThatNeedTheInsideAreSkippedOnOtherSlaves) {
@@ -319,6 +323,42 @@ TEST(ScenarioRunner, StepsThatNeedTheInsideAreSkippedOnOtherSlaves) {
   EXPECT_EQ(result.skipped_steps, 1U);
   const Scenario inside = scenario_of("  - memory: {VW0: 1}\n  - mode: run\n");
   EXPECT_EQ(run_scenario(inside, {.slave = &echo}).outcome, Outcome::Skipped);
+}
+
+TEST(ScenarioRunner, ScenariosThatActInsideAreSkippedAsAWholeOnOtherSlaves) {
+  for (const char* step : {"set: {VW0: 1}", "fault: echo", "power_cycle: memory kept", "wait: 2 scans"}) {
+    EchoSlave echo;
+    const Scenario acting = scenario_of(fmt::format("  - {{read: holding 0, expect: silence}}\n  - {}\n", step));
+    const ScenarioResult result = run_scenario(acting, {.slave = &echo});
+    EXPECT_EQ(result.outcome, Outcome::Skipped) << step;
+    EXPECT_TRUE(result.seen.empty()) << step << ": a scenario is not begun and left half done";
+    EXPECT_EQ(result.reason, fmt::format("needs a program in simulation: line {}", acting.steps[1].position.line));
+  }
+}
+
+TEST(ScenarioRunner, ASlaveThatIsLostIsAFindingAndEndsTheScenario) {
+  EchoSlave echo(1);
+  const Scenario twice = scenario_of("  - {write: holding 0, value: 1, expect: echo}\n  - {read: holding 0}\n  - {read: holding 0}\n");
+  const ScenarioResult result = run_scenario(twice, {.slave = &echo});
+  EXPECT_EQ(result.outcome, Outcome::Failed);
+  ASSERT_EQ(result.findings.size(), 1U);
+  EXPECT_EQ(result.findings[0].step, 1U);
+  EXPECT_EQ(result.findings[0].found, "echo is gone");
+}
+
+TEST(ScenarioRunner, ARuleThatCannotBeJudgedAsAWholeIsNotKept) {
+  EchoSlave echo;
+  const auto outcome = [&echo](const std::string& step) {
+    Scenario scenario = scenario_of("  - {write: holding 0, value: 1, expect: echo}\n" + step);
+    scenario.rule.id = "rule";
+    return run_scenario(scenario, {.slave = &echo}).outcome;
+  };
+  EXPECT_EQ(outcome(""), Outcome::Passed);
+  EXPECT_EQ(outcome("  - {write: holding 0, value: 1, latency: ..2s}\n"), Outcome::Passed);
+  EXPECT_EQ(outcome("  - {write: holding 0, value: 1, latency: 1ms..2s}\n"), Outcome::Skipped);
+  EXPECT_EQ(outcome("  - {write: holding 0, value: 1, answer_gap: ..1 characters}\n"), Outcome::Skipped);
+  EXPECT_EQ(outcome("  - {write: holding 0, value: 1, gap: 1 characters}\n"), Outcome::Skipped);
+  EXPECT_EQ(outcome("  - {write: holding 0, value: 1, gap: 1 characters}\n  - {read: holding 0, expect: refused}\n"), Outcome::Failed);
 }
 
 }  // namespace
