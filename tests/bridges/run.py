@@ -819,7 +819,7 @@ class RunTests(Case):
 class ScenarioTests(Case):
     """`s7200 test` on slaves that are no program of its own."""
 
-    def tested(self, code, *arguments):
+    def s7200_test(self, code, *arguments):
         done = subprocess.run([S7200, "test", *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True, text=True,
                               timeout=4 * LONG, check=False)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
@@ -836,7 +836,7 @@ class ScenarioTests(Case):
                                       ("--modbus-tcp", 0, "modbus-tcp://127.0.0.1:{}")):
             with self.subTest(bridge):
                 running = self.start(bridge, where, "--speed", SPEED)
-                done = self.tested(FINE, "--random", 40, "--target", target.format(running.port))
+                done = self.s7200_test(FINE, "--random", 40, "--target", target.format(running.port))
                 self.assertIn("1 scenario: 1 passed", done.stdout)
                 self.assertEqual(running.end()["errors"], [])
 
@@ -849,7 +849,7 @@ class ScenarioTests(Case):
                        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, timeout=LONG, check=True)
 
         def outcomes(only):
-            rules = json.loads(self.tested(FINE, "--conformance", description, "--target", link, "--only", only, "--json").stdout)
+            rules = json.loads(self.s7200_test(FINE, "--conformance", description, "--target", link, "--only", only, "--json").stdout)
             return {rule["rule"]["id"]: rule["outcome"] for rule in rules["scenarios"]}
         for kept in ("AP-03-read", "AP-03-quantity", "AP-03-address", "AP-06-write", "SL-after-answer"):
             self.assertEqual(outcomes(kept), {kept: "passed"})
@@ -865,8 +865,9 @@ class ScenarioTests(Case):
                         for _ in range(answers):
                             client.recv(len(READ))
                             client.sendall(ANSWER)
+                        if answers == 2:
+                            server.close()
                         client.recv(len(READ))
-                server.close()
             server_thread = threading.Thread(target=serve)
             server_thread.start()
             target = f"tcp://127.0.0.1:{server.getsockname()[1]}"
@@ -876,7 +877,7 @@ class ScenarioTests(Case):
                                   f"  - {{name: is there again, steps: [{ask}, {ask}]}}\n"
                                   f"  - {{name: breaks again, steps: [{ask}]}}\n"
                                   f"  - {{name: is gone, steps: [{ask}]}}\n  - {{name: comes never, steps: [{ask}]}}\n")
-            done = self.tested(UNUSABLE, path, "--target", target)
+            done = self.s7200_test(UNUSABLE, path, "--target", target)
             server_thread.join()
         self.assertRegex(done.stdout, r"(?s)FAIL .* breaks\n.*pass .* is there again\n.*FAIL .* breaks again\n.*3 scenarios: 1 passed, 2 failed")
         self.assertIn("has closed the connection", done.stdout)
