@@ -22,6 +22,9 @@ import threading
 import time
 import unittest
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+from modbus_crc import framed  # noqa: E402
+
 S7200, SOURCE, GROUP = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
 SLAVE = str(SOURCE / "stl_programs/modbus_slave.stl")
 FINE, FAILED, UNUSABLE, FATAL = range(4)
@@ -31,19 +34,7 @@ SPEED = 5
 
 READ = bytes.fromhex("0103000a0002e409")             # registers 10 and 11
 PRESET = ["--set", "VW20=16#1234", "--set", "VW22=16#5678"]
-
-
-def crc16(data):
-    crc = 0xFFFF
-    for byte in data:
-        crc ^= byte
-        for _ in range(8):
-            crc = crc >> 1 ^ 0xA001 if crc & 1 else crc >> 1
-    return struct.pack("<H", crc)
-
-
-ANSWER = bytes.fromhex("01030412345678")
-ANSWER += crc16(ANSWER)
+ANSWER = framed(bytes.fromhex("01030412345678"))
 
 
 class Running:
@@ -219,7 +210,7 @@ class PtyTests(Case):
             with SerialPort(self.link) as port:
                 for register in range(3):
                     request = struct.pack(">BBHH", 1, 6, register, client * 256 + register)
-                    request += crc16(request)
+                    request = framed(request)
                     self.assertEqual(port.ask(request, 8), request)
                 self.assertEqual(port.read(1, 0), b"")
         self.assertEqual(running.descriptors(), before)
@@ -509,17 +500,17 @@ class TcpTests(TcpCase):
         for round_ in range(3):
             for number, client in enumerate(clients):
                 request = struct.pack(">BBHH", 1, 6, number, round_)
-                client.send(request + crc16(request))
+                client.send(framed(request))
             for number, client in enumerate(clients):
                 request = struct.pack(">BBHH", 1, 6, number, round_)
-                self.assertEqual(client.receive(8), request + crc16(request))
+                self.assertEqual(client.receive(8), framed(request))
 
     def test_a_client_that_asks_again_has_stopped_waiting(self):
         running = self.serve("--rtu-over-tcp", "--timeout", "1h")
         client = self.client(running)
         self.until_answered(client)
         nobody = b"\x09" + READ[1:-2]
-        client.send(nobody + crc16(nobody))
+        client.send(framed(nobody))
         time.sleep(SILENCE)
         client.send(READ)
         self.assertEqual(client.receive(len(ANSWER)), ANSWER)

@@ -1,24 +1,16 @@
 """Slaves to be asked by `s7200 master`: on a pty, on a TCP port. What they answer is up to a function."""
 import errno
 import os
+import pathlib
 import socket
 import struct
+import sys
 import threading
 import time
 import tty
 
-
-def crc(data):
-    value = 0xFFFF
-    for byte in data:
-        value ^= byte
-        for _ in range(8):
-            value = value >> 1 ^ 0xA001 if value & 1 else value >> 1
-    return struct.pack("<H", value)
-
-
-def framed(data):
-    return data + crc(data)
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+from modbus_crc import crc, framed  # noqa: E402
 
 
 class Model:
