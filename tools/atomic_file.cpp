@@ -60,10 +60,15 @@ bool can_be_written(const std::string& path, std::string& why) {
     why = "it is a directory";
     return false;
   }
+  if (fs::exists(target) && !fs::is_regular_file(target)) {
+    why = "it is a device or a pipe, not a file";
+    return false;
+  }
   return access(folder_of(target).c_str(), W_OK | X_OK) == 0 || failed(why);
 }
 
 bool write_atomically(const std::string& path, std::string_view text, std::string& why) {
+  if (!can_be_written(path, why)) return false;
   const std::string target = behind_links(path);
   const std::string beside = fmt::format("{}.{}.new", target, getpid());
   if (!write_new(beside, target, text, why)) {

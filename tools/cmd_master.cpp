@@ -164,7 +164,7 @@ void MasterSession::show(const MasterResult& result) {
   if (verb_.json) {
     fmt::print("{}    {}", first_ ? "" : ",\n", to_json(result, verb_.rules.format).dump());
     first_ = false;
-  } else if (verb_.polls()) {
+  } else if (verb_.polls() && !verb_.verbose) {
     table_.add(result, result.exchange.request_start);
   } else if (verb_.continuous && !verb_.verbose) {
     show_failure(result);
@@ -261,7 +261,7 @@ int run_on_program(MasterVerb& verb, const std::vector<MasterAction>& actions) {
   verb.program.path = verb.target;
   const auto program = verb.program.load(exit_code);
   if (!program) return exit_code;
-  if (!verb.plant.prepare(program)) return kUnusable;
+  if (!verb.plant.prepare(program, verb.json)) return kUnusable;
   serial::Simulation simulation(program, verb.plant.field());
   verb.plant.power_up(simulation);
   SimulatedSlave slave(simulation, verb.master, verb.target);
@@ -354,7 +354,7 @@ void add_master(CLI::App& app, int& exit_code) {
   sub->add_flag("--continuous", verb->continuous,
                 "repeat all actions without a pause; only failures and statistics are shown")
       ->excludes(every);
-  sub->add_option("--count", verb->count, "how often to repeat (default: until Ctrl-C)")->check(CLI::PositiveNumber);
+  sub->add_option("--count", verb->count, "how often to repeat (default: until Ctrl-C)")->check(CLI::Range(std::uint64_t{1}, UINT64_MAX));
   sub->add_option("--retries", verb->retries, "ask again so often after silence, a wrong answer, or a lost connection")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();

@@ -124,7 +124,7 @@ int run_run(RunOptions& options) {
   int exit_code = kFine;
   const auto program = options.program.load(exit_code);
   if (!program) return exit_code;
-  if (!options.bridge.prepare() || !options.plant.prepare(program)) return kUnusable;
+  if (!options.bridge.prepare() || !options.plant.prepare(program, options.json)) return kUnusable;
 
   serial::Simulation simulation(program, options.plant.field());
   options.plant.power_up(simulation);
@@ -155,7 +155,7 @@ void add_run(CLI::App& app, int& exit_code) {
       app.add_subcommand("run", "run a program, as fast as the computer can, or in real time for masters of this computer");
   options->program.add_to(*verb);
   add_duration(*verb, "--for", options->duration, "how long, in simulated time (default 1s; with a bridge, until Ctrl-C)");
-  verb->add_option("--scans", options->scans, "how many scans; with --for: what comes first")->check(CLI::PositiveNumber);
+  verb->add_option("--scans", options->scans, "how many scans; with --for: what comes first")->check(CLI::Range(std::uint64_t{1}, UINT64_MAX));
   options->bridge.add_to(*verb);
   options->plant.add_to(*verb);
   verb->add_flag("--json", options->json, "print the result as JSON");

@@ -87,7 +87,7 @@ int run_send(SendOptions& options) {
   const auto program = options.program.load(exit_code);
   if (!program) return exit_code;
   std::vector<modbus::Frame> frames;
-  if (!read_frames(options, frames) || !options.plant.prepare(program)) return kUnusable;
+  if (!read_frames(options, frames) || !options.plant.prepare(program, options.json)) return kUnusable;
 
   catch_interruption();
   serial::Simulation simulation(program, options.plant.field());

@@ -20,6 +20,7 @@
 #include "tools/exit_code.hpp"
 #include "tools/interruption.hpp"
 #include "tools/program_options.hpp"
+#include "tools/record_file.hpp"
 #include "tools/scenario_compare.hpp"
 #include "tools/scenario_reader.hpp"
 #include "tools/scenario_record.hpp"
@@ -39,6 +40,12 @@ struct TestOptions {
   MasterOptions line;
   Time tolerance = kNever;  // kNever: not given
   bool ignore_timing = false, force = false, json = false, list = false, fail_fast = false, keys = false;
+
+  /// Times of a slave that is no program are of this computer's clock.
+  Time tolerance_with(bool live_slave) const {
+    if (tolerance != kNever) return tolerance;
+    return live_slave ? 50 * kMillisecond : 0;
+  }
 };
 
 /// The way of a message up to where the exit code is.
@@ -102,6 +109,8 @@ std::optional<GivenParameters> given_parameters(const std::string& path) {
 /// Takes over the scenarios of a file; false after messages.
 bool take(ScenarioFile file, const GivenParameters* given, std::vector<Scenario>& scenarios) {
   print(file.diagnostics, *file.source);
+  if (given && !file.diagnostics.empty())
+    fmt::print(stderr, "s7200: note: values for ${{…}} are from {}\n", given->source->name);
   if (given) print(file.given_diagnostics, *given->source);
   std::move(file.scenarios.begin(), file.scenarios.end(), std::back_inserter(scenarios));
   return file.diagnostics.empty() && file.given_diagnostics.empty();
@@ -151,7 +160,8 @@ std::vector<Scenario> read_all(const TestOptions& options) {
 /// Each program is read and checked once.
 class Programs {
  public:
-  std::shared_ptr<const Program> get(const std::string& path, const Scenario& scenario) {
+  /// `named`: by the scenario, which a message then mentions.
+  std::shared_ptr<const Program> get(const std::string& path, const Scenario& scenario, bool named) {
     const auto key = std::tuple(path, scenario.cpu, scenario.times_file);
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
     ProgramOptions options;
@@ -160,7 +170,12 @@ class Programs {
     options.times_file = scenario.times_file;
     int exit_code = kFine;
     auto program = options.load(exit_code);
-    if (!program) throw Unusable{};
+    if (!program) {
+      if (named)
+        fmt::print(stderr, "s7200: note: '{}' in {}:{} names it\n", scenario.name, scenario.source->name,
+                   scenario.position.line);
+      throw Unusable{};
+    }
     return known_[key] = std::move(program);
   }
 
@@ -196,7 +211,7 @@ Benches benches_for(const std::vector<Scenario>& scenarios, const std::string& t
       if (path.empty())
         fail(fmt::format("{}: '{}' names no program; give it 'program:', or name one with --target", scenario.source->name,
                          scenario.name));
-      bench.program = programs.get(path, scenario);
+      bench.program = programs.get(path, scenario, !parsed);
       if (benches.name.empty()) benches.name = path;
     }
     benches.of.push_back(std::move(bench));
@@ -300,12 +315,6 @@ void write_file(const std::string& path, const std::string& text) {
   if (!write_atomically(path, text, why)) fail(fmt::format("cannot write {}: {}", path, why));
 }
 
-/// A rule that says should does not fail a suite.
-bool counts_as_failed(const Report& report) {
-  return report.result.outcome == ScenarioResult::Outcome::Failed &&
-         (report.scenario->rule.id.empty() || report.scenario->rule.severity == Rule::Severity::Must);
-}
-
 int run_all(const std::vector<Scenario>& scenarios, const TestOptions& options, Programs& programs) {
   const Benches benches = benches_for(scenarios, options.target, options, programs);
   const bool conformance = !options.conformance.empty();
@@ -338,7 +347,7 @@ int run_all(const std::vector<Scenario>& scenarios, const TestOptions& options, 
     fmt::print(stderr, "s7200: note: {} not run\n", left == 1 ? "1 scenario was" : fmt::format("{} scenarios were", left));
   if (!options.junit.empty()) write_file(options.junit, to_junit(reports));
   if (!options.record.empty()) {
-    const Time tolerance = options.tolerance != kNever ? options.tolerance : benches.slave ? 50 * kMillisecond : 0;
+    const Time tolerance = options.tolerance_with(benches.slave != nullptr);
     std::vector<Scenario> with_program = scenarios;
     for (Scenario& scenario : with_program)
       if (!options.target.empty()) scenario.program = benches.slave ? "" : options.target;
@@ -357,7 +366,7 @@ int run_all(const std::vector<Scenario>& scenarios, const TestOptions& options, 
 int run_against(const std::vector<Scenario>& scenarios, const TestOptions& options, Programs& programs) {
   const Benches one = benches_for(scenarios, options.target, options, programs);
   const Benches other = benches_for(scenarios, options.against, options, programs);
-  const Comparison comparison{!options.ignore_timing, options.tolerance == kNever ? 0 : options.tolerance};
+  const Comparison comparison{!options.ignore_timing, options.tolerance_with(one.slave || other.slave)};
   const auto name = [&](const std::string& path) { return std::filesystem::path(path).filename().string(); };
   Runner others(scenarios, other, jobs_on(other, options));
   std::vector<ScenarioResult> of_other;
@@ -371,22 +380,26 @@ int run_against(const std::vector<Scenario>& scenarios, const TestOptions& optio
   Runner ones(scenarios, one, jobs_on(one, options));
   ones.each([&](std::size_t i, ScenarioResult result) {
     if (interrupted()) return false;
-    const bool skipped = result.outcome == ScenarioResult::Outcome::Skipped;
+    const ScenarioResult* skipped = nullptr;
+    for (const ScenarioResult* each : {&result, &of_other[i]})
+      if (each->outcome == ScenarioResult::Outcome::Skipped) skipped = each;
     const std::string one_name = name(one.name.empty() || options.target.empty() ? scenarios[i].program : one.name);
     const bool colour = colour_wanted(stdout) && !options.json;
-    const Difference difference = compare(scenarios[i], result, of_other[i], one_name, name(other.name), comparison, colour);
+    const Difference difference =
+        skipped ? Difference{}
+                : compare(scenarios[i], result, of_other[i], one_name, name(other.name), comparison, colour);
     same &= !difference.found;
     if (options.json) {
       json.push_back({{"file", scenarios[i].source->name},
                       {"name", scenarios[i].name},
-                      {"skipped", skipped},
+                      {"skipped", skipped != nullptr},
                       {"exchanges", result.seen.size()},
                       {"same", !difference.found},
                       {"difference", difference.text}});
     } else {
       print_file_heading(scenarios[i], heading);
       const std::string remark =
-          skipped ? fmt::format("   ({})", result.reason) : fmt::format("   {} exchanges", result.seen.size());
+          skipped ? fmt::format("   ({})", skipped->reason) : fmt::format("   {} exchanges", result.seen.size());
       fmt::print("  {}  {}{}\n{}",
                  skipped            ? "skip  "
                  : difference.found ? "DIFFER"
@@ -414,8 +427,16 @@ void check_usage(const TestOptions& options) {
     fail("--tolerance goes with --against or --record; a scenario has 'tolerance:'");
   if (!options.against.empty() && (!options.record.empty() || !options.junit.empty()))
     fail("--against neither records nor writes JUnit");
-  if (!options.record.empty() && !options.force && std::filesystem::exists(options.record))
-    fail(fmt::format("{} exists; --force overwrites it", options.record));
+  for (const std::string& path : {options.record, options.junit})
+    if (path == "-") fail("--record and --junit write files; '-' is none");
+  if (!options.record.empty() && std::filesystem::exists(options.record)) {
+    if (!may_be_overwritten(options.record, kTranscriptBeginning))
+      fail(fmt::format("{} exists and is no transcript; it is left alone", options.record));
+    if (!options.force) fail(fmt::format("{} exists; --force overwrites it", options.record));
+  }
+  if (!options.junit.empty() && std::filesystem::exists(options.junit) &&
+      !may_be_overwritten(options.junit, kJunitBeginning))
+    fail(fmt::format("{} exists and is no XML; it is left alone", options.junit));
   for (const std::string& path : {options.record, options.junit})
     if (std::string why; !path.empty() && !can_be_written(path, why)) fail(fmt::format("cannot write {}: {}", path, why));
 }

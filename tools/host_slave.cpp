@@ -150,15 +150,16 @@ serial::Exchange ModbusTcpSlave::exchange(const serial::Request& request) {
   const auto low = [](std::size_t word) { return static_cast<std::uint8_t>(word & 0xFF); };
   modbus::Bytes message{high(transaction_), low(transaction_), 0, 0, high(adu.size()), low(adu.size())};
   message.insert(message.end(), adu.begin(), adu.end());
-  exchange.request_start = now();
+  exchange.request_start = exchange.request_end = now();
   link_->write(message);
-  exchange.request_end = now();
 
   std::vector<HostLink::Character> received;
   Time begun = 0;
   int ignored = 0;
-  const Time until = exchange.request_end + request.timeout;
-  while (exchange.response.empty() && receive(received, received.empty() ? until : until + kToComplete)) {
+  const Time until = now() + request.timeout;
+  const auto deadline = [&] { return received.empty() ? until : until + kToComplete; };
+  do {
+    if (!receive(received, deadline())) break;
     if (begun == 0) begun = now();
     while (exchange.response.empty() && received.size() >= kHeader) {
       const std::size_t length = word_at(received, 4), size = kHeader + length;
@@ -173,10 +174,10 @@ serial::Exchange ModbusTcpSlave::exchange(const serial::Request& request) {
       } else {
         ++ignored;
         received.erase(received.begin(), received.begin() + static_cast<std::ptrdiff_t>(size));
-        begun = 0;
+        begun = received.empty() ? 0 : now();
       }
     }
-  }
+  } while (exchange.response.empty() && now() < deadline());  // a server may never stop talking
   if (ignored > 0)
     remark(fmt::format("ignored {} answer{} to other transactions than {}", ignored, ignored == 1 ? "" : "s", transaction_));
   exchange.timed_out = exchange.response.empty();

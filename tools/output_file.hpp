@@ -26,6 +26,8 @@ class OutputFile {
   /// False after a message when not everything could be written.
   bool close() { return file_.close(); }
 
+  bool to_standard_output() const { return path_ == "-"; }
+
  private:
   std::string path_;
   RecordFile file_;

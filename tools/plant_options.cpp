@@ -52,8 +52,12 @@ bool PlantOptions::read_field(const CpuModel& model) {
   return errors.empty();
 }
 
-bool PlantOptions::prepare(const std::shared_ptr<const Program>& program) {
+bool PlantOptions::prepare(const std::shared_ptr<const Program>& program, bool json) {
   const CpuModel& model = *program->model;
+  if (trace_.to_standard_output() + output_.to_standard_output() + json > 1) {
+    print_error("only one of --trace -, --output - and --json can have standard output; write the others to files");
+    return false;
+  }
   if (!faults_.prepare()) return false;
   if (!parse_assignments(set_, model, assignments_) || !parse_ranges(dump_, model, dumps_) || !read_field(model))
     return false;

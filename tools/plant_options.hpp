@@ -26,7 +26,8 @@ class PlantOptions {
   void add_to(CLI::App& app);
 
   /// Reads and opens what the options name. False after a message; nothing has been written over then but earlier records.
-  bool prepare(const std::shared_ptr<const Program>& program);
+  /// `json`: standard output is taken.
+  bool prepare(const std::shared_ptr<const Program>& program, bool json);
 
   /// What drives the inputs; for the Simulation.
   const serial::FieldScript& field() const { return field_; }

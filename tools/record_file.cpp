@@ -10,19 +10,16 @@
 #include "tools/terminal.hpp"
 
 namespace s7200::tools {
-namespace {
 
-/// An empty file may be overwritten too. A terminal or a pipe loses nothing; reading from it would wait.
 bool may_be_overwritten(const std::string& path, std::string_view beginning) {
   const auto kind = std::filesystem::status(path).type();
   if (kind == std::filesystem::file_type::character || kind == std::filesystem::file_type::fifo) return true;
   std::ifstream in(path);
+  if (!in) return false;
   std::string first(beginning.size(), '\0');
   in.read(first.data(), static_cast<std::streamsize>(first.size()));
   return in.gcount() == 0 || first == beginning;
 }
-
-}  // namespace
 
 std::ostream* RecordFile::open(const std::string& path, std::string_view beginning, std::string_view kind) {
   path_ = path;

@@ -8,6 +8,10 @@
 
 namespace s7200::tools {
 
+/// Whether what exists under `path` is an earlier record, which starts with `beginning`, or an empty file. A terminal or a
+/// pipe loses nothing; reading from it would wait. What cannot be read is somebody's.
+bool may_be_overwritten(const std::string& path, std::string_view beginning);
+
 class RecordFile {
  public:
   /// Opens `path`; - is standard output. Nothing after a message: a file that exists and does not start with `beginning` is

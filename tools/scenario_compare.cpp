@@ -33,19 +33,51 @@ std::string answer_text(const serial::Exchange& exchange) {
 }
 
 /// Side by side, from the request on.
-std::string exchange_text(const Scenario& scenario, std::size_t number, const Seen& one, const Seen& other,
+std::string exchange_text(const Scenario& scenario, const Seen& one, const Seen& other,
                           const std::string& one_name, const std::string& other_name, bool colour) {
   const std::size_t width = std::max({one_name.size(), other_name.size(), std::size_t{9}});
   const Step& step = scenario.steps[one.step];
   const std::string place = step.position.line ? fmt::format(", {}:{}", scenario.source->name, step.position.line) : "";
   const std::string turn = step.loop.empty() ? "" : fmt::format(" (with {})", step.loop);
-  std::string text = fmt::format("{}exchange {}{}{}\n", kIndent, number + 1, place, turn);
+  const auto before = std::count_if(scenario.steps.begin(), scenario.steps.begin() + static_cast<std::ptrdiff_t>(one.step),
+                                    [](const Step& s) { return std::holds_alternative<ExchangeStep>(s.action); });
+  std::string text = fmt::format("{}exchange {}{}{}\n", kIndent, before + 1, place, turn);
   text += fmt::format("{}{:<{}} {}\n", kIndent, "request", width, modbus::to_hex(one.exchange.request));
   if (!same_answer(one.exchange, other.exchange))
     text += bytes_diff(pattern_of(one.exchange.response_bytes()), pattern_of(other.exchange.response_bytes()), kIndent,
                        colour, one_name, other_name);
   text += fmt::format("{}{:<{}} {}\n", kIndent, one_name, width, answer_text(one.exchange));
   text += fmt::format("{}{:<{}} {}\n", kIndent, other_name, width, answer_text(other.exchange));
+  return text;
+}
+
+/// What both were asked in the same step.
+struct Pair {
+  const Seen* one;
+  const Seen* other;
+};
+
+std::vector<Pair> pairs_of(const ScenarioResult& one, const ScenarioResult& other) {
+  std::vector<Pair> pairs;
+  auto next = other.seen.begin();
+  for (const Seen& seen : one.seen) {
+    while (next != other.seen.end() && next->step < seen.step) ++next;
+    if (next != other.seen.end() && next->step == seen.step) pairs.push_back({&seen, &*next});
+  }
+  return pairs;
+}
+
+/// What kept a side from being asked.
+std::string trouble_text(const Scenario& scenario, const ScenarioResult& result, const std::string& name) {
+  std::size_t count = 0;
+  std::string text;
+  for (const Finding& finding : result.findings) {
+    if (!finding.of_run || ++count > 1) continue;
+    const std::uint32_t line = scenario.steps.empty() ? 0 : scenario.steps[finding.step].position.line;
+    text = fmt::format("{}{} could not be asked{}: {} was due, {}\n", kIndent, name,
+                       line ? fmt::format(", {}:{}", scenario.source->name, line) : "", finding.expected, finding.found);
+  }
+  if (count > 1) text += fmt::format("{}and {} more\n", kIndent, count - 1);
   return text;
 }
 
@@ -134,25 +166,25 @@ class TrafficMaker {
 Difference compare(const Scenario& scenario, const ScenarioResult& one, const ScenarioResult& other,
                    const std::string& one_name, const std::string& other_name, const Comparison& comparison, bool colour) {
   Difference difference;
-  const std::size_t both = std::min(one.seen.size(), other.seen.size());
-  std::size_t answer = 0, time = both;
-  while (answer < both && same_answer(one.seen[answer].exchange, other.seen[answer].exchange)) ++answer;
+  const std::vector<Pair> pairs = pairs_of(one, other);
+  std::size_t answer = 0, time = pairs.size();
+  while (answer < pairs.size() && same_answer(pairs[answer].one->exchange, pairs[answer].other->exchange)) ++answer;
   if (comparison.timing) {
     time = 0;
-    while (time < both && same_time(one.seen[time].exchange, other.seen[time].exchange, comparison.tolerance)) ++time;
+    while (time < pairs.size() &&
+           same_time(pairs[time].one->exchange, pairs[time].other->exchange, comparison.tolerance))
+      ++time;
   }
   const auto show = [&](std::string_view heading, std::size_t i) {
     difference.found = true;
     difference.text += fmt::format("{}{}\n", kIndent, heading);
-    difference.text += exchange_text(scenario, i, one.seen[i], other.seen[i], one_name, other_name, colour);
+    difference.text += exchange_text(scenario, *pairs[i].one, *pairs[i].other, one_name, other_name, colour);
   };
   if (time < answer) show("the first different time", time);
-  if (answer < both) show("the first different answer", answer);
-  if (one.seen.size() != other.seen.size()) {
-    difference.found = true;
-    difference.text += fmt::format("{}{} exchanges with {}, {} with {}\n", kIndent, one.seen.size(), one_name,
-                                   other.seen.size(), other_name);
-  }
+  if (answer < pairs.size()) show("the first different answer", answer);
+  const std::string trouble = trouble_text(scenario, one, one_name) + trouble_text(scenario, other, other_name);
+  if (!trouble.empty()) difference.found = true;
+  difference.text += trouble;
   return difference;
 }
 
@@ -160,7 +192,7 @@ Scenario random_traffic(std::size_t exchanges, std::uint32_t seed, std::uint8_t 
   Scenario scenario;
   scenario.name = fmt::format("{} random requests, seed {}", exchanges, seed);
   scenario.source = std::make_shared<stl::Source>(stl::Source{.name = "random traffic", .text = {}, .lines = {}});
-  scenario.line.timeout = 200 * kMillisecond;
+  scenario.line.timeout = kSecond;  // through TCP the longest frames take 0.3 s each way before an answer is seen
   TrafficMaker make(seed, station);
   for (std::size_t i = 0; i < exchanges; ++i) {
     Step step;

@@ -210,6 +210,7 @@ class Reader {
 
  private:
   static constexpr int kLargestLoop = 4096;
+  static constexpr std::string_view kDuration = "duration of a day at most";
 
   void wrong(const YamlNode& node, std::string message, std::string hint = {}) {
     if (!loop_.empty()) message += fmt::format(" (with {})", loop_);
@@ -272,13 +273,13 @@ class Reader {
   }
 
   std::optional<Time> time(const YamlNode* node) {
-    return value(node, "duration", "250ms, 2s, 0", [](const std::string& t) -> std::optional<Time> {
+    return value(node, kDuration, "250ms, 2s, 0", [](const std::string& t) -> std::optional<Time> {
       const auto span = parse_span(t);
       return span && span->millicharacters == 0 ? std::optional(span->fixed) : std::nullopt;
     });
   }
   std::optional<Span> span(const YamlNode* node) {
-    return value(node, "duration", "20ms, 3.5 characters, 7 characters + 10ms",
+    return value(node, kDuration, "20ms, 3.5 characters, 7 characters + 10ms",
                  [](const std::string& t) { return parse_span(t); });
   }
   std::optional<std::int64_t> number(const YamlNode* node, std::int64_t from, std::int64_t to) {
@@ -553,7 +554,7 @@ class Reader {
 
   WaitStep read_wait(const YamlNode& node) {
     const auto step =
-        value(&node, "duration", "20ms, 3.5 characters, 2 scans", [](const std::string& t) -> std::optional<WaitStep> {
+        value(&node, kDuration, "20ms, 3.5 characters, 2 scans", [](const std::string& t) -> std::optional<WaitStep> {
           if (const auto span = parse_span(t)) return WaitStep{*span};
           const std::size_t unit = t.find(" scan");
           const auto count = unit == std::string::npos ? std::nullopt : parse_number(t.substr(0, unit));
@@ -770,6 +771,7 @@ class Reader {
     else
       step.request = with_station(node, write_pdu(node, is));
     read_expectations(node, step);
+    if (action == "read") check_values(node, step);
     if (const YamlNode* latency = node.find("latency")) step.latency = window(*latency, scenario.tolerance);
     if (const YamlNode* gap = node.find("answer_gap")) step.answer_gap = window(*gap, scenario.tolerance);
     step.disturbed = choice<bool>(node.find("disturbed"), {{"true", true}, {"false", false}}).value_or(false);
@@ -900,6 +902,23 @@ class Reader {
     } else if (several) {
       for (const YamlNode& each : several->items)
         if (auto expected = read_expected(each)) step.expected.push_back(std::move(*expected));
+    }
+  }
+
+  /// Complains about values that no right answer to a read can have.
+  void check_values(const YamlNode& node, const ExchangeStep& step) {
+    const modbus::Bytes request = modbus::bytes_of(step.request);
+    if (request.size() < 6) return;
+    const bool bits = request[1] <= 2;
+    const std::size_t count = request[4] << 8 | request[5];
+    for (const Expected& expected : step.expected) {
+      if (expected.kind != Expected::Kind::Values) continue;
+      const YamlNode& place = *node.find(node.find("expect") ? "expect" : "expect_one_of");
+      if (expected.values.size() != count)
+        wrong(place, fmt::format("{} read, {} expected", count, expected.values.size()),
+              fmt::format("write count: {}, or as many values", expected.values.size()));
+      if (bits && std::any_of(expected.values.begin(), expected.values.end(), [](auto v) { return v.value_or(0) > 1; }))
+        wrong(place, "coils and inputs are 0 or 1");
     }
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/scenario_report.hpp"
@@ -19,6 +20,7 @@ struct Transcript {
 /// From a slave that is no program, the pauses between exchanges stand for the instants, and nothing is written of the
 /// inside of a PLC that was not reached: so that it can be replayed there and in simulation. Replayed on the same program
 /// the transcript gives the same bit by bit and to the nanosecond.
+inline constexpr std::string_view kTranscriptBeginning = "# Recorded from";
 std::string transcript_text(const std::vector<Report>& reports, const Transcript& transcript);
 
 }  // namespace s7200::tools

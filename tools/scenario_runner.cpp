@@ -234,8 +234,9 @@ std::vector<BytePattern> bytes_expected(const Expected& expected, bool has_crc, 
 std::string values_text(const std::vector<std::optional<std::uint16_t>>& values) {
   constexpr std::size_t kShown = 8;
   std::string text = values.size() == 1 ? "the value" : "the values";
+  const bool bits = std::all_of(values.begin(), values.end(), [](const auto& value) { return value.value_or(0) <= 1; });
   for (std::size_t i = 0; i < std::min(kShown, values.size()); ++i)
-    text += !values[i] ? " .." : *values[i] <= 1 ? fmt::format(" {}", *values[i]) : fmt::format(" 16#{:04X}", *values[i]);
+    text += !values[i] ? " .." : bits ? fmt::format(" {}", *values[i]) : fmt::format(" 16#{:04X}", *values[i]);
   return values.size() > kShown ? fmt::format("{} … {} in all", text, values.size()) : text;
 }
 
@@ -304,17 +305,18 @@ class Run {
       if (const std::string what = acted_inside(); !what.empty())
         return {.outcome = ScenarioResult::Outcome::Skipped, .reason = "needs a program in simulation: " + what};
     }
-    const Time begin = plant_ ? 0 : slave().now();
+    begin_ = plant_ ? 0 : slave().now();
     if (plant_ && !plant_->get_ready()) {
       add({.what = "ready",
            .expected = fmt::format("the first scan ended and the line quiet within {}", format_duration(kReadyWithin)),
-           .found = "that never came; 'after: TIME' begins all the same"});
+           .found = "that never came; 'after: TIME' begins all the same",
+           .of_run = true});
     } else {
       for (; step_ < scenario_.steps.size() && !interrupted() && !lost_; ++step_) do_step(scenario_.steps[step_]);
       look_at_mode();
     }
     if (interrupted()) result_.reason = "interrupted";
-    result_.time = plant_ ? plant_->time() : slave().now() - begin;
+    result_.time = plant_ ? plant_->time() : slave().now() - begin_;
     if (!result_.findings.empty()) result_.outcome = ScenarioResult::Outcome::Failed;
     if (interrupted()) result_.outcome = ScenarioResult::Outcome::Skipped;
     if (result_.skipped_steps > 0 && result_.skipped_steps == scenario_.steps.size()) {
@@ -358,14 +360,15 @@ class Run {
   bool wait_for_begin(const ExchangeStep& step) {
     Time begin = slave().now();
     if (step.at)
-      begin = *step.at;
+      begin = begin_ + *step.at;
     else if (last_end_)
       begin = *last_end_ + step.pause.value_or(scenario_.pause).in(format());
     const Time now = slave().now();
     if (step.at && begin < now && plant_) {
       add({.what = "begin",
            .expected = fmt::format("a request at {}", format_duration(begin, 6)),
-           .found = fmt::format("it is {} already", format_duration(now, 6))});
+           .found = fmt::format("it is {} already", format_duration(now, 6)),
+           .of_run = true});
       return false;
     }
     if (begin > now) slave().wait(begin - now);
@@ -384,11 +387,12 @@ class Run {
       exchange = slave().exchange(request);
     } catch (const std::invalid_argument& error) {
       if (!plant_) return static_cast<void>(++result_.skipped_steps);  // a way that such a frame cannot go
-      return add({.what = "request", .expected = "a request that can be sent", .found = error.what()});
+      return add({.what = "request", .expected = "a request that can be sent", .found = error.what(), .of_run = true});
     } catch (const SlaveLost& error) {
       lost_ = true;
-      return add({.what = "slave", .expected = "that it stays there", .found = error.what()});
+      return add({.what = "slave", .expected = "that it stays there", .found = error.what(), .of_run = true});
     }
+    if (!plant_ && request.gap != 0) times_unjudged_ = true;
     last_end_ = exchange.response.empty() ? slave().now() : exchange.response_end;
     result_.seen.push_back({step_, exchange});
     judge(step, exchange, line, request.timeout);
@@ -522,7 +526,10 @@ class Run {
     last_end_.reset();
     mode_expected_.reset();
     if (!plant_->get_ready())
-      add({.what = "ready", .expected = "the line quiet after power-up", .found = "that never came"});
+      add({.what = "ready",
+           .expected = "the line quiet after power-up",
+           .found = "that never came",
+           .of_run = true});
   }
 
   /// A STOP that nobody asked about is no success.
@@ -539,6 +546,7 @@ class Run {
   const Bench& bench_;
   std::unique_ptr<Plant> plant_;
   std::size_t step_ = 0;
+  Time begin_ = 0;               ///< of the scenario on the slave's clock, from which 'at' counts
   bool lost_ = false;            ///< the slave
   bool times_unjudged_ = false;  ///< on a slave that is no program
   std::optional<Time> last_end_;  ///< of the exchange before

@@ -20,6 +20,7 @@ struct Finding {
   std::vector<BytePattern> expected_bytes{};
   std::vector<BytePattern> found_bytes{};  ///< of memory, or of an answer
   std::optional<serial::Exchange> exchange{};
+  bool of_run = false;     ///< the scenario could not be run as it is written, whatever the answers
   std::string timeline{};  ///< what the CPU did in that exchange; empty if it cannot be seen
 };
 

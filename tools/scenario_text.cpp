@@ -12,7 +12,6 @@
 namespace s7200::tools {
 namespace {
 
-constexpr Time kLongestSpan = 24 * 3600 * kSecond;
 constexpr double kMostCharacters = 1e6;
 
 std::string_view trimmed(std::string_view text) {
@@ -263,6 +262,8 @@ std::optional<Window> parse_window(std::string_view text, Time tolerance) {
     const auto to = parse_span(side.to);
     if (!to) return {};
     window.to = *to;
+    const bool later = window.from.fixed > to->fixed || window.from.millicharacters > to->millicharacters;
+    if (later && window.from.fixed >= to->fixed && window.from.millicharacters >= to->millicharacters) return {};
   }
   return window;
 }

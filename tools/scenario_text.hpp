@@ -15,10 +15,12 @@ namespace s7200::tools {
 /// `12`, `-5`, `16#FF`, `2#1010`, 32 bits at most.
 std::optional<std::int64_t> parse_number(std::string_view text);
 
-/// `5ms`, `3.5 characters`, `3.5 characters + 2ms`. A million characters and a day at most.
+inline constexpr Time kLongestSpan = 24 * 3600 * kSecond;
+
+/// `5ms`, `3.5 characters`, `3.5 characters + 2ms`. A million characters and kLongestSpan at most.
 std::optional<Span> parse_span(std::string_view text);
 
-/// `8ms..20ms`, `..20ms`, `8ms..`, or one span: that, give or take `tolerance`.
+/// `8ms..20ms`, `..20ms`, `8ms..`, or one span: that, give or take `tolerance`. Nothing when no time can be inside.
 std::optional<Window> parse_window(std::string_view text, Time tolerance);
 
 /// `3`, `1..3`, `1..`.

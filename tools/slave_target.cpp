@@ -33,6 +33,9 @@ void split(const std::string& text, std::string_view address, SlaveTarget& targe
                     "modbus-tcp://192.168.0.5, an IPv6 address as [::1]",
                     text));
   if (!port_wanted) target.port = kModbusPort;
+  const bool number = target.port.find_first_not_of("0123456789") == std::string::npos;
+  if (number && (target.port.size() > 5 || std::stoi(target.port) < 1 || std::stoi(target.port) > 65535))
+    throw std::invalid_argument(fmt::format("'{}': ports are 1 to 65535", text));
 }
 
 }  // namespace

@@ -27,6 +27,8 @@ class TraceFile {
   /// False after a message when not everything could be written.
   bool close() { return file_.close(); }
 
+  bool to_standard_output() const { return path_ == "-"; }
+
  private:
   std::string path_;
   bool instructions_ = false;

@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <span>
 
 #include "interpreter/stl/document.hpp"
 #include "interpreter/stl/encoding.hpp"
@@ -43,11 +44,13 @@ struct OpenFile {
     if (S_ISDIR(status.st_mode)) why = "it is a folder";
     if (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)) why = "it is a device, not a file";
     if (!why.empty()) return false;
-    fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) & ~O_NONBLOCK);
-    pollfd writer{fd, POLLIN, 0};
-    while (poll(&writer, 1, -1) < 0 && errno == EINTR) {
-    }
     return true;
+  }
+
+  /// Waits for a writer too. -1 and EINTR after a signal: a pipe into which nobody writes can be left with Ctrl-C.
+  ssize_t read_some(std::span<char> piece) const {
+    pollfd written{fd, POLLIN, 0};
+    return poll(&written, 1, -1) < 0 ? -1 : read(fd, piece.data(), piece.size());
   }
 
   const int fd;
@@ -61,9 +64,8 @@ std::optional<std::string> read_file(const std::string& path, std::string& why) 
   std::string bytes;
   std::array<char, 65536> piece{};
   for (;;) {
-    const ssize_t count = read(file.fd, piece.data(), piece.size());
+    const ssize_t count = file.read_some(piece);
     if (count == 0) return bytes;
-    if (count < 0 && errno == EINTR) continue;
     if (count < 0) {
       why = std::strerror(errno);
       return {};

@@ -847,6 +847,18 @@ class ScenarioTests(Case):
         for unjudged in ("SL-turnaround", "SL-stream"):
             self.assertEqual(outcomes(unjudged), {unjudged: "skipped"})
 
+    def test_a_live_slave_is_compared_with_a_program_as_far_as_both_can(self):
+        link = self.folder / "plc"
+        self.start("--pty", link, "--speed", SPEED)
+        subprocess.run([S7200, "master", link, "read", "40001", "--timeout", "500ms", "--retries", "100"],
+                       stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, timeout=LONG, check=True)
+        path = self.scenarios("timeout: 20s\nscenarios:\n"
+                              "  - {name: plain, steps: [{read: holding 0}, {read: holding 0, count: 126}]}\n"
+                              "  - {name: setting, set: {VW0: 1}, steps: [{read: holding 0}]}\n")
+        for arguments in (["--target", link, "--against", SLAVE], ["--target", SLAVE, "--against", link]):
+            done = self.s7200_test(FINE, path, *arguments, "--tolerance", "10s")
+            self.assertRegex(done.stdout, r"same +plain +2 exchanges\n +skip +setting +\(needs a program in simulation")
+
     def test_a_slave_that_is_lost_fails_its_scenario_and_the_others_are_run_if_it_comes_back(self):
         with socket.create_server(("127.0.0.1", 0)) as server:
             def serve():

@@ -416,6 +416,23 @@ class Scenarios(Case):
         self.ends(FINE, "test", live, "--target", SLAVE)
         self.ends(FINE, "test", live, "--target", link)
 
+    def test_only_earlier_results_are_overwritten(self):
+        good, pipe, xml = self.program(self.GOOD, "good.yaml"), self.folder / "pipe", self.folder / "out.xml"
+        os.mkfifo(pipe)
+        for arguments, why in ((["--junit", good], "is no XML"), (["--record", good, "--force"], "is no transcript"),
+                               (["--junit", pipe], "not a file"), (["--record", pipe, "--force"], "not a file"),
+                               (["--junit", "-"], "'-' is none"), (["--record", "-"], "'-' is none")):
+            with self.subTest(arguments):
+                self.assertIn(why, self.ends(UNUSABLE, "test", good, *arguments).stderr)
+        self.assertEqual(good.read_text(encoding="utf-8"), self.GOOD)
+        self.assertTrue(pipe.is_fifo())
+        self.ends(FINE, "test", good, "--junit", xml)
+        self.ends(FINE, "test", good, "--junit", xml)
+
+    def test_a_missing_program_is_said_with_the_scenario_that_names_it(self):
+        path = self.program("program: no.stl\nsteps: [{wait: 1ms}]\n", "a.yaml")
+        self.assertIn(f"'a' in {path}:1 names it", self.ends(UNUSABLE, "test", path).stderr)
+
     def test_against(self):
         good = self.program(self.GOOD, "good.yaml")
         self.assertIn("same", self.ends(FINE, "test", good, "--against", SLAVE).stdout)
@@ -434,6 +451,18 @@ class Scenarios(Case):
         self.assertEqual(rules["AP-06-write"]["outcome"], "skipped")
         self.assertEqual(rules["AP-illegal-function"]["outcome"], "failed")
         self.assertEqual(rules["SL-gap-2"]["rule"]["severity"], "should")
+        self.assertEqual(rules["SL-gap-2"]["outcome"], "failed")
+        xml_file = self.folder / "out.xml"
+        s7200("test", "--conformance", description, "--junit", xml_file)
+        suites = xml.etree.ElementTree.parse(xml_file).getroot()
+        cases = {case.get("name").split()[0]: case for case in suites.iter("testcase")}
+        self.assertIsNotNone(cases["AP-illegal-function"].find("failure"))
+        self.assertIsNone(cases["SL-gap-2"].find("failure"), "what only should be done fails no build")
+        self.assertIsNotNone(cases["SL-gap-2"].find("skipped"))
+        self.assertEqual(int(suites.get("failures")), len(list(suites.iter("failure"))))
+        self.assertEqual(int(suites.get("skipped")), len(list(suites.iter("skipped"))))
+        wrong = self.program("station: 300\n", "wrong.yaml")
+        self.assertIn(f"values for ${{…}} are from {wrong}", self.ends(UNUSABLE, "test", "--conformance", wrong).stderr)
 
 
 class Files(Case):
@@ -555,6 +584,13 @@ class Files(Case):
         self.assertEqual(self.json(FINE, *scan, "--times", csv)["time_ns"], before + 1_000_000)
         csv.write_text("mnemonic,form\nMOVB,,30\n", encoding="utf-8")
         self.assertIn(f"{csv}:", self.ends(UNUSABLE, "run", path, "--times", csv).stderr)
+
+    def test_standard_output_is_for_one_thing(self):
+        path = self.program(Json.ECHO)
+        for arguments in (["--trace", "-", "--json"], ["--output", "-", "--json"], ["--trace", "-", "--output", "-"]):
+            done = self.ends(UNUSABLE, "run", path, "--for", "1ms", *arguments)
+            self.assertEqual(done.stdout, "")
+            self.assertIn("only one of", done.stderr)
 
     def test_frames_file(self):
         frames = self.folder / "frames.txt"

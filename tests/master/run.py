@@ -10,6 +10,7 @@ import socket
 import struct
 import subprocess
 import sys
+import tempfile
 import termios
 import time
 import unittest
@@ -211,6 +212,19 @@ class ModbusTcp(Case):
         exchange = self.only(FAILED, peer.path, "read", "40001", *QUICK)
         self.assertEqual((exchange["verdict"], exchange["remark"]), ("silent", "ignored 1 answer to other transactions than 1"))
 
+    def test_the_latency_is_that_of_the_right_answer(self):
+        good = b"\x03\x02\x12\x34"
+        peer = self.tcp("modbus-tcp", lambda r: [(0, self.message(r, b"\x03\x02\x66\x66", 999) + self.message(r, good))])
+        exchange = self.only(FINE, peer.path, "wait", "10ms", "read", "40001", *PATIENT)
+        self.assertEqual(exchange["values"], [0x1234])
+        self.assertGreaterEqual(exchange["latency_us"], 0)
+
+    def test_answers_to_other_transactions_without_end_do_not_hold_it(self):
+        endless = b"".join(self.message(b"\0\1\0\0\0\6\1", b"\x03\x02\0\0", 999) for _ in range(500))
+        peer = self.tcp("modbus-tcp", lambda r: ((0, endless) for _ in range(20_000)))
+        exchange = self.only(FAILED, peer.path, "read", "40001", *QUICK)
+        self.assertEqual(exchange["verdict"], "silent")
+
     def test_a_message_may_come_in_pieces(self):
         def bytewise(request):
             return [(0.01, bytes([byte])) for byte in self.message(request, b"\x03\x02\x12\x34")]
@@ -291,6 +305,12 @@ class Unreachable(Case):
         self.assertEqual((result["statistics"]["right"], peer.connections), (2, 2))
 
 
+class Targets(Case):
+    def test_ports_are_1_to_65535(self):
+        for target in ("tcp://localhost:65536", "tcp://localhost:0", "modbus-tcp://localhost:99999", "tcp://[::1]:123456789012"):
+            self.assertIn("ports are 1 to 65535", self.master(UNUSABLE, target, "slave-id").stderr)
+
+
 class Port(Case):
     def test_settings_reach_the_device_and_are_put_back(self):
         peer = self.pty([(0, RIGHT)])
@@ -330,6 +350,17 @@ class Interrupted(Case):
         self.assertEqual((process.returncode, error), (FINE, ""))
         self.assertRegex(out, r"(?m)^\d+ requests: (\d+) right, 0 exception, 0 silent, 0 wrong, 0 repeated$")
         self.assertRegex(out, r"(?m)^latency: least .*, mean .*, p99 .*, most ")
+
+    def test_ctrl_c_ends_waiting_for_a_program_from_a_pipe(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pipe = pathlib.Path(folder) / "program.stl"
+            os.mkfifo(pipe)
+            process = self.begin(pipe, "read", "40001")
+            until(lambda: catches(process, signal.SIGINT), "a handler of Ctrl-C")
+            process.send_signal(signal.SIGINT)
+            _, error = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, UNUSABLE)
+            self.assertIn("Interrupted", error)
 
     def test_ctrl_c_ends_every_wait(self):
         silent = self.pty([])

@@ -74,8 +74,8 @@ TEST(ScenarioRunner, EveryKindOfExpectationCanFail) {
   EXPECT_EQ(findings("  - {read: holding 0, count: 126, expect: exception 2}\n"),
             "answer: exception 2: illegal data address / exception 3: illegal data value\n");
   EXPECT_EQ(findings("  - {read: holding 0, count: 2, expect: [0, 16#1234]}\n"),
-            "answer: the values 0 16#1234 / 2 registers: 16#0000 16#0000\n");
-  EXPECT_EQ(findings("  - {read: holding 0, count: 2, expect: [0]}\n"),
+            "answer: the values 16#0000 16#1234 / 2 registers: 16#0000 16#0000\n");
+  EXPECT_EQ(findings("  - {request: 03 00 00 00 02, expect: [0]}\n"),
             "answer: the value 0 / 2 registers: 16#0000 16#0000\n");
   EXPECT_EQ(findings("  - {read: holding 0, count: 126, expect: accepted}\n"),
             "answer: what was asked for / exception 3: illegal data value\n");
@@ -287,6 +287,31 @@ TEST(ScenarioCompare, RandomTrafficIsTheSameForTheSameSeed) {
   EXPECT_LT(answered, 300U);
 }
 
+TEST(ScenarioCompare, ExchangesOfTheSameStepAreCompared) {
+  const Scenario scenario = scenario_of("  - {read: holding 0}\n  - {read: holding 1}\n");
+  const auto seen = [](std::size_t step, std::uint8_t byte) {
+    Seen one{.step = step};
+    one.exchange.response.push_back({.byte = byte});
+    return one;
+  };
+  const ScenarioResult both{.seen = {seen(0, 1), seen(1, 2)}};
+  const ScenarioResult second{.seen = {seen(1, 2)}, .skipped_steps = 1};
+  EXPECT_FALSE(compare(scenario, both, second, "a", "b", {}, false).found);
+  EXPECT_FALSE(compare(scenario, second, both, "a", "b", {}, false).found);
+  const ScenarioResult other{.seen = {seen(1, 3)}, .skipped_steps = 1};
+  EXPECT_NE(compare(scenario, both, other, "a", "b", {}, false).text.find("exchange 2,"), std::string::npos);
+}
+
+TEST(ScenarioCompare, ASideThatCouldNotBeAskedIsADifferenceEvenIfBothCouldNot) {
+  const Scenario scenario = scenario_of("  - {read: holding 0}\n");
+  const ScenarioResult lost{
+      .findings = {{.what = "slave", .expected = "that it stays there", .found = "it is gone", .of_run = true}}};
+  const Difference difference = compare(scenario, lost, lost, "a", "b", {}, false);
+  EXPECT_TRUE(difference.found);
+  EXPECT_NE(difference.text.find("b could not be asked"), std::string::npos) << difference.text;
+  EXPECT_NE(difference.text.find("it is gone"), std::string::npos) << difference.text;
+}
+
 // --- other slaves ---
 
 /// Answers every request with itself, so often.
@@ -336,6 +361,15 @@ TEST(ScenarioRunner, ScenariosThatActInsideAreSkippedAsAWholeOnOtherSlaves) {
   }
 }
 
+TEST(ScenarioRunner, InstantsCountFromTheBeginOfTheScenarioOnOtherSlaves) {
+  EchoSlave echo;
+  echo.wait(10 * kSecond);
+  const ScenarioResult result =
+      run_scenario(scenario_of("  - {write: holding 0, value: 1, expect: echo, at: 500ms}\n"), {.slave = &echo});
+  ASSERT_EQ(result.seen.size(), 1U);
+  EXPECT_EQ(result.seen[0].exchange.request_start, 10 * kSecond + 500 * kMillisecond);
+}
+
 TEST(ScenarioRunner, ASlaveThatIsLostIsAFindingAndEndsTheScenario) {
   EchoSlave echo(1);
   const Scenario twice = scenario_of("  - {write: holding 0, value: 1, expect: echo}\n  - {read: holding 0}\n  - {read: holding 0}\n");
@@ -358,6 +392,7 @@ TEST(ScenarioRunner, ARuleThatCannotBeJudgedAsAWholeIsNotKept) {
   EXPECT_EQ(outcome("  - {write: holding 0, value: 1, latency: 1ms..2s}\n"), Outcome::Skipped);
   EXPECT_EQ(outcome("  - {write: holding 0, value: 1, answer_gap: ..1 characters}\n"), Outcome::Skipped);
   EXPECT_EQ(outcome("  - {write: holding 0, value: 1, gap: 1 characters}\n"), Outcome::Skipped);
+  EXPECT_EQ(outcome("  - {write: holding 0, value: 1, gap: 0 characters}\n"), Outcome::Passed);
   EXPECT_EQ(outcome("  - {write: holding 0, value: 1, gap: 1 characters}\n  - {read: holding 0, expect: refused}\n"), Outcome::Failed);
 }
 
