@@ -354,7 +354,8 @@ void add_master(CLI::App& app, int& exit_code) {
   sub->add_flag("--continuous", verb->continuous,
                 "repeat all actions without a pause; only failures and statistics are shown")
       ->excludes(every);
-  sub->add_option("--count", verb->count, "how often to repeat (default: until Ctrl-C)")->check(CLI::Range(std::uint64_t{1}, UINT64_MAX));
+  sub->add_option("--count", verb->count, "how often to repeat (default: until Ctrl-C)")
+      ->check(CLI::Range(std::uint64_t{1}, UINT64_MAX));
   sub->add_option("--retries", verb->retries, "ask again so often after silence, a wrong answer, or a lost connection")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();

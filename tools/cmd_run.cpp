@@ -155,7 +155,8 @@ void add_run(CLI::App& app, int& exit_code) {
       app.add_subcommand("run", "run a program, as fast as the computer can, or in real time for masters of this computer");
   options->program.add_to(*verb);
   add_duration(*verb, "--for", options->duration, "how long, in simulated time (default 1s; with a bridge, until Ctrl-C)");
-  verb->add_option("--scans", options->scans, "how many scans; with --for: what comes first")->check(CLI::Range(std::uint64_t{1}, UINT64_MAX));
+  verb->add_option("--scans", options->scans, "how many scans; with --for: what comes first")
+      ->check(CLI::Range(std::uint64_t{1}, UINT64_MAX));
   options->bridge.add_to(*verb);
   options->plant.add_to(*verb);
   verb->add_flag("--json", options->json, "print the result as JSON");

@@ -197,7 +197,9 @@ Benches benches_for(const std::vector<Scenario>& scenarios, const std::string& t
   std::optional<SlaveTarget> parsed;
   if (!target.empty()) parsed = parse_slave_target(target);
   if (parsed && parsed->kind == SlaveTarget::Kind::ModbusTcp && !options.conformance.empty())
-    fail("--conformance judges what a slave does on its serial line, which Modbus TCP hides; name a program, pty, device or tcp://");
+    fail(
+        "--conformance judges what a slave does on its serial line, which Modbus TCP hides; name a program, pty, device or "
+        "tcp://");
   SerialFormat format;
   if (parsed && parsed->kind != SlaveTarget::Kind::Program) {
     format = options.line.format_over(SerialFormat{});
@@ -386,8 +388,7 @@ int run_against(const std::vector<Scenario>& scenarios, const TestOptions& optio
     const std::string one_name = name(one.name.empty() || options.target.empty() ? scenarios[i].program : one.name);
     const bool colour = colour_wanted(stdout) && !options.json;
     const Difference difference =
-        skipped ? Difference{}
-                : compare(scenarios[i], result, of_other[i], one_name, name(other.name), comparison, colour);
+        skipped ? Difference{} : compare(scenarios[i], result, of_other[i], one_name, name(other.name), comparison, colour);
     same &= !difference.found;
     if (options.json) {
       json.push_back({{"file", scenarios[i].source->name},

@@ -11,9 +11,9 @@ namespace s7200::tools {
 namespace {
 
 constexpr std::size_t kStrayShown = 16;
-constexpr int kStrayReads = 256;       // from a side that never stops talking
+constexpr int kStrayReads = 256;          // from a side that never stops talking
 constexpr std::size_t kLongestTcp = 254;  // unit, function and data: MODBUS Application Protocol, 4.1
-constexpr Time kToComplete = kSecond;  // an answer over Modbus TCP that has begun
+constexpr Time kToComplete = kSecond;     // an answer over Modbus TCP that has begun
 
 void refuse_wrong_parity(const modbus::Frame& frame) {
   if (modbus::has_wrong_parity(frame))

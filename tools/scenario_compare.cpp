@@ -33,8 +33,8 @@ std::string answer_text(const serial::Exchange& exchange) {
 }
 
 /// Side by side, from the request on.
-std::string exchange_text(const Scenario& scenario, const Seen& one, const Seen& other,
-                          const std::string& one_name, const std::string& other_name, bool colour) {
+std::string exchange_text(const Scenario& scenario, const Seen& one, const Seen& other, const std::string& one_name,
+                          const std::string& other_name, bool colour) {
   const std::size_t width = std::max({one_name.size(), other_name.size(), std::size_t{9}});
   const Step& step = scenario.steps[one.step];
   const std::string place = step.position.line ? fmt::format(", {}:{}", scenario.source->name, step.position.line) : "";
@@ -171,8 +171,7 @@ Difference compare(const Scenario& scenario, const ScenarioResult& one, const Sc
   while (answer < pairs.size() && same_answer(pairs[answer].one->exchange, pairs[answer].other->exchange)) ++answer;
   if (comparison.timing) {
     time = 0;
-    while (time < pairs.size() &&
-           same_time(pairs[time].one->exchange, pairs[time].other->exchange, comparison.tolerance))
+    while (time < pairs.size() && same_time(pairs[time].one->exchange, pairs[time].other->exchange, comparison.tolerance))
       ++time;
   }
   const auto show = [&](std::string_view heading, std::size_t i) {

@@ -152,8 +152,8 @@ std::string transcript_text(const std::vector<Report>& reports, const Transcript
   Writer writer(transcript);
   for (const Report& report : reports)
     if (report.result.outcome != ScenarioResult::Outcome::Skipped) writer.write(report);
-  return fmt::format("{} {} by s7200 test --record. Replayed by s7200 test.\nscenarios:\n{}",
-                     kTranscriptBeginning, transcript.recorded_from, writer.text);
+  return fmt::format("{} {} by s7200 test --record. Replayed by s7200 test.\nscenarios:\n{}", kTranscriptBeginning,
+                     transcript.recorded_from, writer.text);
 }
 
 }  // namespace s7200::tools

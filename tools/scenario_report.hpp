@@ -30,8 +30,8 @@ std::string conformance_text(const std::vector<Report>& reports, const std::stri
 
 nlohmann::ordered_json to_json(const std::vector<Report>& reports);
 
-/// The XML that continuous integration reads: a suite for each file, a case for each scenario. A rule that says should and is
-/// broken counts as skipped there, which has no third way.
+/// The XML that continuous integration reads: a suite for each file, a case for each scenario. A rule that says should and
+/// is broken counts as skipped there, which has no third way.
 inline constexpr std::string_view kJunitBeginning = "<?xml";
 std::string to_junit(const std::vector<Report>& reports);
 

@@ -526,10 +526,7 @@ class Run {
     last_end_.reset();
     mode_expected_.reset();
     if (!plant_->get_ready())
-      add({.what = "ready",
-           .expected = "the line quiet after power-up",
-           .found = "that never came",
-           .of_run = true});
+      add({.what = "ready", .expected = "the line quiet after power-up", .found = "that never came", .of_run = true});
   }
 
   /// A STOP that nobody asked about is no success.
@@ -546,9 +543,9 @@ class Run {
   const Bench& bench_;
   std::unique_ptr<Plant> plant_;
   std::size_t step_ = 0;
-  Time begin_ = 0;               ///< of the scenario on the slave's clock, from which 'at' counts
-  bool lost_ = false;            ///< the slave
-  bool times_unjudged_ = false;  ///< on a slave that is no program
+  Time begin_ = 0;                ///< of the scenario on the slave's clock, from which 'at' counts
+  bool lost_ = false;             ///< the slave
+  bool times_unjudged_ = false;   ///< on a slave that is no program
   std::optional<Time> last_end_;  ///< of the exchange before
   std::optional<Mode> mode_expected_;
   ScenarioResult result_;

@@ -48,10 +48,10 @@ struct Bench {
   SerialFormat format{};                     ///< of the slave's line
 };
 
-/// Runs a scenario to its end, findings or not; a slave that is lost is a finding and ends it. SlaveUnreachable passes through.
-/// On a slave that is no program, scenarios that act inside are skipped as a whole, steps that look inside by themselves. Of
-/// times only upper limits of the latency are judged: the computer in between cannot be trusted with more. A rule of which
-/// that leaves something unjudged is skipped too, unless it is broken already.
+/// Runs a scenario to its end, findings or not; a slave that is lost is a finding and ends it. SlaveUnreachable passes
+/// through. On a slave that is no program, scenarios that act inside are skipped as a whole, steps that look inside by
+/// themselves. Of times only upper limits of the latency are judged: the computer in between cannot be trusted with more. A
+/// rule of which that leaves something unjudged is skipped too, unless it is broken already.
 ScenarioResult run_scenario(const Scenario& scenario, const Bench& bench);
 
 }  // namespace s7200::tools

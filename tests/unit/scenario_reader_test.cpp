@@ -103,7 +103,7 @@ TEST(ScenarioReader, RequestsByNameByNumberAndInHex) {
 TEST(ScenarioReader, WhatIsExpectedOfAnAnswer) {
   using Kind = Expected::Kind;
   const auto expected = [](const std::string& text) {
-    return action_of<ExchangeStep>("{read: holding 0, expect: " + text + "}").expected[0];
+    return action_of<ExchangeStep>("{read: holding 0, count: 3, expect: " + text + "}").expected[0];
   };
   EXPECT_EQ(expected("silence").kind, Kind::Silence);
   EXPECT_EQ(expected("echo").kind, Kind::Echo);
@@ -297,10 +297,10 @@ TEST(ScenarioReader, EveryMistakeIsToldAtItsPlace) {
       {"input: no.csv\nsteps: []\n", 1, 8, "cannot read folder/no.csv"},
       {"parameters: {'a b': 1}\nsteps: []\n", 1, 14, "'a b' is no name of a parameter"},
       {"name: a\nname: b\nsteps: []\n", 2, 1, "'name' stands here a second time, first in line 1"},
-      {"steps:\n  - {read: holding 0, expect: [1, 2]}\n", 2, 29, "1 read, 2 expected"},
-      {"steps:\n  - {read: coils 0, expect: [2]}\n", 2, 27, "coils and inputs are 0 or 1"},
-      {"steps:\n  - {read: coils 0, latency: 20ms..10ms}\n", 2, 28, "'20ms..10ms' is no window of time"},
-      {"steps:\n  - {read: coils 0, latency: 9 characters..8 characters}\n", 2, 28, "is no window of time"},
+      {"steps:\n  - {read: holding 0, expect: [1, 2]}\n", 2, 31, "1 read, 2 expected"},
+      {"steps:\n  - {read: coils 0, expect: [2]}\n", 2, 29, "coils and inputs are 0 or 1"},
+      {"steps:\n  - {read: coils 0, latency: 20ms..10ms}\n", 2, 30, "'20ms..10ms' is no window of time"},
+      {"steps:\n  - {read: coils 0, latency: 9 characters..8 characters}\n", 2, 30, "is no window of time"},
       {"steps:\n  - wait: 25h\n", 2, 11, "'25h' is no duration of a day at most"},
       {"a: &x 1\nb: *x\n", 1, 4, "anchors and aliases"},
       {"a: !!int 1\n", 1, 4, "tags (!)"},
@@ -324,7 +324,8 @@ TEST(ScenarioReader, TellsAllMistakesAtOnceAndThoseOfLoopsOnce) {
       read("frob: 1\nsteps:\n  - wait: 5\n  - repeat: 50\n    steps:\n      - memory: {VB9999: 1}\n  - mode: x\n");
   ASSERT_EQ(file.diagnostics.size(), 4U);
   EXPECT_EQ(stl::render(file.diagnostics[1], *file.source, false),
-            "folder/file.yaml:3:11: error: '5' is no duration of a day at most\n  - wait: 5\n          ^\nhint: write for example 20ms, 3.5 "
+            "folder/file.yaml:3:11: error: '5' is no duration of a day at most\n  - wait: 5\n          ^\nhint: write for "
+            "example 20ms, 3.5 "
             "characters, 2 scans\n");
 }
 

@@ -372,7 +372,8 @@ TEST(ScenarioRunner, InstantsCountFromTheBeginOfTheScenarioOnOtherSlaves) {
 
 TEST(ScenarioRunner, ASlaveThatIsLostIsAFindingAndEndsTheScenario) {
   EchoSlave echo(1);
-  const Scenario twice = scenario_of("  - {write: holding 0, value: 1, expect: echo}\n  - {read: holding 0}\n  - {read: holding 0}\n");
+  const Scenario twice =
+      scenario_of("  - {write: holding 0, value: 1, expect: echo}\n  - {read: holding 0}\n  - {read: holding 0}\n");
   const ScenarioResult result = run_scenario(twice, {.slave = &echo});
   EXPECT_EQ(result.outcome, Outcome::Failed);
   ASSERT_EQ(result.findings.size(), 1U);
@@ -393,7 +394,8 @@ TEST(ScenarioRunner, ARuleThatCannotBeJudgedAsAWholeIsNotKept) {
   EXPECT_EQ(outcome("  - {write: holding 0, value: 1, answer_gap: ..1 characters}\n"), Outcome::Skipped);
   EXPECT_EQ(outcome("  - {write: holding 0, value: 1, gap: 1 characters}\n"), Outcome::Skipped);
   EXPECT_EQ(outcome("  - {write: holding 0, value: 1, gap: 0 characters}\n"), Outcome::Passed);
-  EXPECT_EQ(outcome("  - {write: holding 0, value: 1, gap: 1 characters}\n  - {read: holding 0, expect: refused}\n"), Outcome::Failed);
+  EXPECT_EQ(outcome("  - {write: holding 0, value: 1, gap: 1 characters}\n  - {read: holding 0, expect: refused}\n"),
+            Outcome::Failed);
 }
 
 }  // namespace
