@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/steady_timer.hpp>
 
@@ -117,6 +118,8 @@ class LiveRun final : public LiveLine {
   Bridge* bridge_;
   Pace pace_;
   boost::asio::io_context context_{1};
+  // A context that nobody waits for anything with stops, and does nothing from then on.
+  boost::asio::executor_work_guard<boost::asio::io_context::executor_type> open_{context_.get_executor()};
   boost::asio::steady_timer timer_{context_};
   Clock::time_point planned_{}, busy_until_{};
   bool slow_ = false;

@@ -739,6 +739,26 @@ class DeviceTests(Case):
         self.assertEqual(running.end(UNUSABLE, by=None)["stop_reason"], "bridge")
         self.assertIn(f"{self.path}: the device is gone", running.said())
 
+    def test_a_device_that_says_more_than_the_line_takes_is_heard_again_later(self):
+        running = self.start("--device", self.path, "--speed", 50, *PRESET)
+        self.assertEqual(self.port.ask(), ANSWER)
+        os.set_blocking(self.near, False)
+        left = 30_000
+
+        def all_written():
+            nonlocal left
+            try:
+                while left:
+                    left -= os.write(self.near, b"\x55" * min(left, 1000))
+            except BlockingIOError:
+                pass
+            return left == 0
+        self.eventually(all_written)
+        while self.port.read(1000, SILENCE):
+            pass
+        self.assertEqual(self.port.ask(), ANSWER)
+        self.assertGreaterEqual(running.end()["bridge"]["bytes_in"], 30_000)
+
     def test_what_is_no_device_is_refused(self):
         self.assertIn("it is no serial device", self.refused("--device", "/dev/null"))
         self.assertIn("No such file", self.refused("--device", "/dev/no_such_device"))
@@ -805,6 +825,14 @@ class RunTests(Case):
         took, result = timed("--speed", "0.5", "--for", "300ms")
         self.assertGreaterEqual(took, 0.6)
         self.assertNotIn("realtime", timed("--for", "500ms")[1])
+
+    def test_waits_without_work(self):
+        process = subprocess.Popen([S7200, "run", SLAVE, "--speed", "0.05", "--for", "150ms"], stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL)
+        _, status, used = os.wait4(process.pid, 0)  # after 3 s
+        process.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(process.returncode, FINE)
+        self.assertLess(used.ru_utime + used.ru_stime, 1.5)
 
 
 class ScenarioTests(Case):
