@@ -7,6 +7,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -46,7 +47,8 @@ Pty::~Pty() {
 }
 
 /// The far side stays open here too, so that the near one never hangs up. Who else opens it is told by inotify, which
-/// watches before anybody can.
+/// watches before anybody can. Its queue merges an event with an equal one right before it (inotify(7)), and so loses count
+/// of who opens it twice; with the folder watched too, an event of the folder stands between each two of the far side.
 bool Pty::open_far_side(const SerialFormat& format, std::string& why) {
   std::array<char, 64> name{};
   termios2 settings{};
@@ -61,8 +63,11 @@ bool Pty::open_far_side(const SerialFormat& format, std::string& why) {
     make_raw(settings);
     put_format(settings, format);
     watch_ = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
-    done =
-        write_settings(far_, settings) && watch_ >= 0 && inotify_add_watch(watch_, path_.c_str(), IN_OPEN | IN_CLOSE) >= 0;
+    const auto watch = [this](const std::string& path) {
+      return inotify_add_watch(watch_, path.c_str(), IN_OPEN | IN_CLOSE);
+    };
+    done = write_settings(far_, settings) && watch_ >= 0 && (far_watch_ = watch(path_)) >= 0 &&
+           watch(fs::path(path_).parent_path()) >= 0;
   }
   if (!done) why = std::strerror(errno);
   leave_something_to_change(far_);
@@ -72,7 +77,9 @@ bool Pty::open_far_side(const SerialFormat& format, std::string& why) {
 bool Pty::make_link(const std::string& link, std::string& why) {
   std::error_code error;
   const fs::file_status found = fs::symlink_status(link, error);
-  if (fs::is_symlink(found) && !fs::exists(link, error)) {
+  // A run that was killed has left its link, and the first free number, which this one got, may be that one's.
+  const bool stale = fs::is_symlink(found) && (!fs::exists(link, error) || fs::read_symlink(link, error) == path_);
+  if (stale) {
     fs::remove(link, error);
   } else if (fs::exists(found)) {
     why = fs::is_symlink(found)
@@ -112,11 +119,13 @@ void Pty::look() {
     for (const char* next = buffer.data(); next < buffer.data() + count;) {
       const auto* event = reinterpret_cast<const inotify_event*>(next);
       next += sizeof(inotify_event) + event->len;
+      if ((event->mask & IN_Q_OVERFLOW) != 0) open_now_ = std::max(open_now_, 1);  // what is lost: somebody may have come
+      if (event->wd != far_watch_) continue;
       if ((event->mask & IN_OPEN) != 0) {
         ++open_now_;
         ++opened_;
       }
-      if ((event->mask & IN_CLOSE) != 0 && --open_now_ == 0) left = true;
+      if ((event->mask & IN_CLOSE) != 0 && open_now_ != 0 && --open_now_ == 0) left = true;
     }
     if (left) all_have_left();
   }

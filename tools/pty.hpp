@@ -30,8 +30,8 @@ struct PtySettings {
 class Pty {
  public:
   /// Opens a pty, raw and with the settings of `format` until a program changes them. `link` becomes a symbolic link to its
-  /// far side. Nothing, and `why`, when that cannot be done: whatever exists under that name, but a link that leads nowhere,
-  /// is left alone.
+  /// far side. Nothing, and `why`, when that cannot be done: whatever exists under that name, but a link that leads nowhere
+  /// or to this very pty, is left alone.
   static std::unique_ptr<Pty> open(const std::string& link, const SerialFormat& format, std::string& why);
 
   /// Removes the link if it still is ours.
@@ -64,7 +64,7 @@ class Pty {
   void keep_changeable() const;
   void all_have_left() const;
 
-  int fd_ = -1, far_ = -1, watch_ = -1;
+  int fd_ = -1, far_ = -1, watch_ = -1, far_watch_ = -1;
   std::string path_, link_;
   int open_now_ = 0;
   std::uint64_t opened_ = 0;

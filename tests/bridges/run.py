@@ -335,6 +335,13 @@ class PtyTests(Case):
         self.assertIn("cannot make the link", self.refused("--pty", self.folder / "no/such/folder"))
         self.assertIn("left alone", self.refused("--pty", self.folder))
 
+    def test_the_link_of_a_run_that_was_killed_is_replaced(self):
+        self.serve().end(-signal.SIGKILL, by=signal.SIGKILL)
+        self.assertTrue(os.path.islink(self.link))
+        self.serve()
+        with SerialPort(self.link) as port:
+            self.assertEqual(port.ask(), ANSWER)
+
     def test_a_link_that_is_somebody_elses_by_now_stays(self):
         running = self.serve()
         self.link.unlink()
