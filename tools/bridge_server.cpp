@@ -10,6 +10,7 @@
 #include <boost/asio/write.hpp>
 #include <chrono>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "tools/terminal.hpp"
@@ -44,8 +45,9 @@ struct Connection {
   std::string name;
   std::array<std::uint8_t, 1024> input{};
   std::vector<std::uint8_t> unread, writing;  // by the client: what waits, and what has been given to the system
-  bool reading = false, ended = false;
-  Clock::time_point heard = Clock::now();
+  bool reading = false;
+  Clock::time_point heard = Clock::now(), listening_since{};  // the latter of the read that is under way
+  std::optional<Clock::time_point> last_word;
 };
 
 /// Every handler holds its connection: what is closed and forgotten here dies with its last handler.
@@ -86,16 +88,17 @@ class Server final : public TcpServer {
     if (!accepting_ && Clock::now() >= accept_again_) accept();
     for (const Client client : clients()) {
       const auto connection = connections_.at(client);
-      const auto silent = Clock::now() - connection->heard;
-      const bool unwritten = !connection->unread.empty() || !connection->writing.empty();
-      if (connection->ended && !unwritten && !protocol_.expects_answer(client))
-        close(client, "");
-      else if (connection->ended && silent > std::chrono::seconds(kLinger))
-        close(client, "");
-      else if (!connection->ended && protocol_.partial(client) && silent > std::chrono::seconds(kMostPartial))
+      const std::string error = protocol_.error(client);
+      if (!error.empty() && !connection->last_word) connection->last_word = Clock::now();
+      if (connection->last_word) {
+        const bool unwritten = !connection->unread.empty() || !connection->writing.empty();
+        const bool served = !unwritten && !protocol_.expects_answer(client);
+        if (served || is_over(*connection->last_word, kLinger)) close(client, error);
+      } else if (connection->reading && protocol_.partial(client) && is_over(connection->listening_since, kMostPartial)) {
         close(client, fmt::format("it began a message and did not go on for {} s", kMostPartial));
-      else
+      } else {
         read(client, connection);
+      }
     }
   }
 
@@ -147,12 +150,15 @@ class Server final : public TcpServer {
     read(client, connection);
   }
 
+  static bool is_over(Clock::time_point since, int seconds) { return Clock::now() - since > std::chrono::seconds(seconds); }
+
   bool is_open(Client client) const { return connections_.count(client) != 0; }
 
   void read(Client client, const ConnectionPtr& connection) {
     const bool lets_us_wait = connection->unread.size() > kMostUnread / 2;
-    if (connection->reading || connection->ended || lets_us_wait || !protocol_.wants_more(client)) return;
+    if (connection->reading || connection->last_word || lets_us_wait || !protocol_.wants_more(client)) return;
     connection->reading = true;
+    connection->listening_since = Clock::now();
     connection->socket.async_read_some(asio::buffer(connection->input),
                                        [this, client, connection](const Error& error, std::size_t count) {
                                          if (error == asio::error::operation_aborted) return;
@@ -164,11 +170,10 @@ class Server final : public TcpServer {
   void take(Client client, const ConnectionPtr& connection, const Error& error, std::size_t count) {
     if (error && error != asio::error::eof) return close(client, "");
     connection->heard = Clock::now();
-    connection->ended = error == asio::error::eof;
+    if (error) connection->last_word = connection->heard;
     counts_.bytes_in += count;
     if (count == 0) return;
-    const std::string why = protocol_.take(client, std::span(connection->input).first(count));
-    if (!why.empty()) return close(client, why);
+    protocol_.take(client, std::span(connection->input).first(count));
     if (is_open(client)) read(client, connection);
   }
 

@@ -4,7 +4,7 @@
 // - A client that does not read has to go when kMostUnread bytes wait for it.
 // - A client that has begun a message has to go when nothing more of it comes for kMostPartial.
 // - One whose computer has vanished is found by TCP itself (keep-alive), within about a minute.
-// - One that has said its last word is kept until it has its answers, and not longer than kLinger.
+// - One that has said its last word, or what makes no sense, is kept until it has its answers, and not longer than kLinger.
 #pragma once
 
 #include <cstdint>
@@ -33,9 +33,11 @@ class TcpServer {
    public:
     virtual ~Protocol() = default;
 
-    /// Bytes of a client. An empty text, or why the client has to go.
-    virtual std::string take(Client client, std::span<const std::uint8_t> bytes) = 0;
+    virtual void take(Client client, std::span<const std::uint8_t> bytes) = 0;
     virtual void gone(Client client) = 0;
+
+    /// Why nothing more can come of what a client says; empty as long as something can.
+    virtual std::string error(Client) const { return {}; }
 
     virtual bool wants_more(Client client) const = 0;  ///< may be read from now
     virtual bool expects_answer(Client client) const = 0;

@@ -103,10 +103,9 @@ class RawBridge final : public TcpBridge {
   /// After its last word a client has a second, of the line's time, to hear what comes of it.
   static constexpr Time kHearsOn = kSecond;
 
-  std::string take(Client, std::span<const std::uint8_t> bytes) override {
+  void take(Client, std::span<const std::uint8_t> bytes) override {
     line().catch_up();
     put_on_line(line(), bytes);
-    return {};
   }
   void gone(Client) override {}
   bool wants_more(Client) const override { return line().has_room(); }
@@ -151,13 +150,12 @@ class RtuBridge final : public TcpBridge {
     Clock::time_point heard;
   };
 
-  std::string take(Client client, std::span<const std::uint8_t> bytes) override {
+  void take(Client client, std::span<const std::uint8_t> bytes) override {
     line().catch_up();
     Part& part = parts_[client];
     part.bytes.insert(part.bytes.end(), bytes.begin(), bytes.end());
     part.heard = Clock::now();
     if (modbus::crc_ok(part.bytes) || part.bytes.size() > modbus::kLongestRtuFrame) ask(client, part);
-    return {};
   }
 
   void ask(Client client, Part& part) {
@@ -202,13 +200,15 @@ class GatewayBridge final : public TcpBridge {
   Time due() const override { return gateway_.due(); }
 
  private:
-  std::string take(Client client, std::span<const std::uint8_t> bytes) override {
+  void take(Client client, std::span<const std::uint8_t> bytes) override {
     line().catch_up();
     gateway_.take(client, bytes);
+  }
+  void gone(Client client) override { gateway_.forget(client); }
+  std::string error(Client client) const override {
     const std::string error = gateway_.error(client);
     return error.empty() ? error : "this is no Modbus TCP: " + error;
   }
-  void gone(Client client) override { gateway_.forget(client); }
   bool wants_more(Client client) const override { return gateway_.wants_more(client); }
   bool expects_answer(Client client) const override { return gateway_.open(client) != 0; }
   bool partial(Client client) const override { return gateway_.partial(client); }

@@ -620,6 +620,14 @@ class ModbusTcpTests(TcpCase):
             self.assertEqual(other.ask(number), (number, 1, ANSWER_PDU))
         self.eventually(lambda: running.descriptors() <= before + 1)
 
+    def test_what_is_no_modbus_tcp_behind_many_requests_ends_the_connection_when_they_are_answered(self):
+        running = self.serve_gateway("--timeout", "20s")
+        client = self.client(running)
+        client.send(b"".join(message(number, 1, READ_PDU) for number in range(20)) + b"GET / HTTP/1.1\r\n\r\n")
+        self.assertEqual([client.answer() for _ in range(20)], [(number, 1, ANSWER_PDU) for number in range(20)])
+        self.assertTrue(client.is_closed())
+        running.wait_for("this is no Modbus TCP: protocol")
+
     def test_fifty_clients_each_get_their_own(self):
         running = self.serve_gateway("--timeout", "20s")
         clients = [self.client(running) for _ in range(50)]
@@ -656,6 +664,14 @@ class ModbusTcpTests(TcpCase):
         self.assertTrue(client.is_closed())
         running.wait_for("it began a message and did not go on for 10 s")
         self.assertEqual(patient.ask(1), (1, 1, ANSWER_PDU))  # silence without half a message is no offence
+
+    def test_who_is_not_listened_to_has_not_stopped_in_mid_message(self):
+        running = self.serve_gateway("--timeout", "1s")
+        client = self.client(running)
+        one = message(5, 9, READ_PDU)  # nobody's; 70 of them take 14 s
+        count = 1024 // len(one) + 1   # what is read at once ends in the last of them
+        client.send(one * count)
+        self.assertEqual([client.answer() for _ in range(count)], [(5, 9, b"\x83\x0b")] * count)
 
     def test_floods_block_nobody_and_fill_no_memory(self):
         running = self.serve_gateway()
