@@ -361,7 +361,8 @@ void add_master(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   add_duration(*sub, "--pause", verb->pause,
                "between an answer and the next request (default: in simulation 7 characters + 10 ms)");
-  sub->add_flag("-v,--verbose", verb->verbose, "show requests and answers in hex");
+  sub->add_flag("-v,--verbose", verb->verbose,
+                "show requests and answers in hex, over Modbus TCP too as they are on a serial line");
   sub->add_flag("--json", verb->json, "print all exchanges and the statistics as JSON");
 
   const auto line = added_by(*sub, [&] { verb->master.add_to(*sub); });

@@ -143,7 +143,9 @@ void add_send(CLI::App& app, int& exit_code) {
   options->plant.add_to(*verb);
   verb->add_flag("--timeline", options->timeline, "show what the CPU did during each exchange: characters, interrupts, XMT");
   verb->add_flag("--json", options->json, "print an array of exchanges as JSON");
-  verb->footer(fault_help() + "Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");
+  verb->footer(fault_help() +
+               "Exit code 1 when a frame was not answered; what an answer says is not judged here but by 's7200 master'.\n"
+               "Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");
   verb->callback([options, &exit_code] { exit_code = run_send(*options); });
 }
 
