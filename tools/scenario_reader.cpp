@@ -910,7 +910,7 @@ class Reader {
     const modbus::Bytes request = modbus::bytes_of(step.request);
     if (request.size() < 6) return;
     const bool bits = request[1] <= 2;
-    const std::size_t count = request[4] << 8 | request[5];
+    const auto count = static_cast<std::size_t>(request[4] << 8 | request[5]);
     for (const Expected& expected : step.expected) {
       if (expected.kind != Expected::Kind::Values) continue;
       const YamlNode& place = *node.find(node.find("expect") ? "expect" : "expect_one_of");
