@@ -6,8 +6,12 @@
 #include <chrono>
 #include <map>
 #include <optional>
+#include <utility>
 
+#include "serial_sim/modbus/functions.hpp"
 #include "serial_sim/modbus/gateway.hpp"
+#include "serial_sim/modbus/line_turns.hpp"
+#include "serial_sim/modbus/rtu_stream.hpp"
 #include "tools/bridge_server.hpp"
 
 namespace s7200::tools {
@@ -126,11 +130,15 @@ class RtuBridge final : public TcpBridge {
 
   void turn() override {
     const auto now = Clock::now();
-    for (auto& [client, part] : parts_)
-      if (!part.bytes.empty() && now - part.heard >= kFrameEnd) ask(client, part);
+    for (auto& [client, part] : parts_) {
+      ask_complete(client, part);
+      if (!takes_more(client))
+        part.heard = now;  // it is not read from: it need not have ended
+      else if (!part.bytes.empty() && now - part.heard >= kFrameEnd)
+        ask(client, part, part.bytes.size());
+    }
     put_on_line(line(), turns_.turn(line_state()));
     for (const modbus::LineTurns::Outcome& outcome : turns_.take_outcomes()) {
-      ++frames_;
       if (outcome.answer.empty()) continue;
       ++answers_;
       server().send(outcome.client, outcome.answer);
@@ -155,32 +163,55 @@ class RtuBridge final : public TcpBridge {
     Part& part = parts_[client];
     part.bytes.insert(part.bytes.end(), bytes.begin(), bytes.end());
     part.heard = Clock::now();
-    if (modbus::crc_ok(part.bytes) || part.bytes.size() > modbus::kLongestRtuFrame) ask(client, part);
+    ask_complete(client, part);
   }
 
-  void ask(Client client, Part& part) {
-    if (turns_.waits_for_answer(client)) turns_.stop_waiting();
-    const bool broadcast = part.bytes[0] == 0;
-    turns_.ask(client, {.frame = std::exchange(part.bytes, {}), .wants_answer = !broadcast});
+  bool takes_more(Client client) const { return turns_.open(client) < kMostOpen; }
+
+  /// What is too long to become a frame goes out as it is.
+  void ask_complete(Client client, Part& part) {
+    while (takes_more(client)) {
+      std::size_t size = modbus::first_request(part.bytes);
+      if (size == 0 && part.bytes.size() > modbus::kLongestRtuFrame) size = part.bytes.size();
+      if (size == 0) return;
+      ask(client, part, size);
+    }
+  }
+
+  /// One that sends again has stopped waiting, also when both frames came at once: RTU does not say which answer belongs to
+  /// which request, so that an answer to the earlier one would be taken for the later one's. Broadcasts are not waited for.
+  void ask(Client client, Part& part, std::size_t size) {
+    ++frames_;
+    given_up_ += turns_.stop_waiting(client);
+    const auto end = part.bytes.begin() + static_cast<std::ptrdiff_t>(size);
+    modbus::Bytes frame(part.bytes.begin(), end);
+    part.bytes.erase(part.bytes.begin(), end);
+    const bool broadcast = frame[0] == modbus::kBroadcast;
+    turns_.ask(client, {.frame = std::move(frame), .wants_answer = !broadcast});
   }
 
   void gone(Client client) override {
     parts_.erase(client);
     turns_.forget(client);
   }
-  bool wants_more(Client client) const override { return turns_.open(client) < kMostOpen; }
+  bool wants_more(Client client) const override { return takes_more(client); }
   bool expects_answer(Client client) const override {
     const auto part = parts_.find(client);
     return turns_.open(client) != 0 || (part != parts_.end() && !part->second.bytes.empty());
   }
   bool partial(Client) const override { return false; }  // 20 ms make it a frame
 
-  std::string more_summary() const override { return fmt::format("; {} frames, {} answered", frames_, answers_); }
-  nlohmann::ordered_json more_json() const override { return {{"frames", frames_}, {"answered", answers_}}; }
+  std::string more_summary() const override {
+    return fmt::format("; {} frames, {} answered{}", frames_, answers_,
+                       given_up_ ? fmt::format(", {} given up for another", given_up_) : "");
+  }
+  nlohmann::ordered_json more_json() const override {
+    return {{"frames", frames_}, {"answered", answers_}, {"given_up", given_up_}};
+  }
 
   modbus::LineTurns turns_;
   std::map<Client, Part> parts_;
-  std::uint64_t frames_ = 0, answers_ = 0;
+  std::uint64_t frames_ = 0, answers_ = 0, given_up_ = 0;
 };
 
 class GatewayBridge final : public TcpBridge {

@@ -13,7 +13,8 @@ namespace s7200::tools {
 std::unique_ptr<Bridge> make_tcp_bridge(const ListenAddress& address);
 
 /// RTU frames. What a client sends is a frame when its CRC is right, or when nothing more comes for 20 ms. Clients take
-/// turns, and each hears the answer to its own frame, in one piece. One that sends again has stopped waiting.
+/// turns, and each hears the answer to its own frame, in one piece. One that sends again has stopped waiting: what it sent
+/// before and is not on the line yet is dropped, except broadcasts.
 std::unique_ptr<Bridge> make_rtu_over_tcp_bridge(const ListenAddress& address, Time timeout);
 
 /// A gateway, see modbus::Gateway.

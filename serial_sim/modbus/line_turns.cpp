@@ -22,8 +22,17 @@ std::vector<std::uint64_t> LineTurns::forget(Client client) {
 
 std::size_t LineTurns::open(Client client) const {
   const auto found = waiting_.find(client);
-  const bool on_line = phase_ != Phase::Idle && current_.client == client && !current_forgotten_;
-  return (found == waiting_.end() ? 0 : found->second.size()) + (on_line ? 1 : 0);
+  return (found == waiting_.end() ? 0 : found->second.size()) + (on_line(client) && !current_forgotten_ ? 1 : 0);
+}
+
+std::size_t LineTurns::stop_waiting(Client client) {
+  std::size_t given_up = 0;
+  if (const auto found = waiting_.find(client); found != waiting_.end()) {
+    given_up = std::erase_if(found->second, [](const Request& request) { return request.wants_answer; });
+    if (found->second.empty()) waiting_.erase(found);
+  }
+  if (!on_line(client) || !current_.request.wants_answer) return given_up;
+  return given_up + (std::exchange(current_forgotten_, true) ? 0 : 1);
 }
 
 void LineTurns::received(const ReceivedCharacter& character, const SerialFormat& format) {
@@ -46,13 +55,14 @@ void LineTurns::look(const Line& line) {
   if (phase_ == Phase::Sending && !line.sending) {
     if (!current_.request.wants_answer) return end(Result::Sent);
     phase_ = Phase::Waiting;
-    deadline_ = line.quiet_since + timeout_;
+    asked_ = line.quiet_since;
   }
   if (too_long_) end(Result::Damaged);
   if (line.receiving) return;
   if (phase_ == Phase::Waiting) {
-    if (line.now >= deadline_) return end(Result::Silent);
-    due_ = deadline_;
+    const Time over = asked_ + (current_forgotten_ ? std::min(timeout_, kLateAnswer) : timeout_);
+    if (line.now >= over) return end(Result::Silent);
+    due_ = over;
   } else if (phase_ == Phase::Receiving) {
     const Time over = answer_end_ + line.format.silence();
     if (line.now >= over) return end(damaged_ ? Result::Damaged : Result::Answered);

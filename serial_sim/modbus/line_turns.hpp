@@ -49,6 +49,10 @@ class LineTurns {
     Time quiet_time = 0;     ///< to be left between two frames
   };
 
+  /// A slave may still answer what nobody waits for any more. For so long, if the timeout is longer, nobody else is asked:
+  /// that answer would be taken for another.
+  static constexpr Time kLateAnswer = 400 * kMillisecond;
+
   /// How long to wait for the begin of an answer, and for a line that is quiet enough to ask.
   explicit LineTurns(Time timeout) : timeout_(timeout) {}
 
@@ -60,9 +64,9 @@ class LineTurns {
   /// Requests of a client that have no outcome yet.
   std::size_t open(Client client) const;
 
-  /// Whether a client's request is on the line and nothing has come back yet; and to wait for it no longer.
-  bool waits_for_answer(Client client) const { return phase_ == Phase::Waiting && current_.client == client; }
-  void stop_waiting() { deadline_ = 0; }
+  /// The client waits for no answer any more: requests of its own that want one are dropped, and one that is on the line
+  /// comes to an end without an outcome. The others stay. How many it gave up.
+  std::size_t stop_waiting(Client client);
 
   /// To be called when anything has happened, and at due(): what is to be put on the line now, mostly nothing.
   Bytes turn(const Line& line);
@@ -80,6 +84,7 @@ class LineTurns {
     Request request;
   };
 
+  bool on_line(Client client) const { return phase_ != Phase::Idle && current_.client == client; }
   void look(const Line& line);
   Bytes next_frame(const Line& line);
   void end(Result result);
@@ -91,7 +96,7 @@ class LineTurns {
   Current current_;
   bool current_forgotten_ = false, damaged_ = false, too_long_ = false;
   Bytes answer_;
-  Time deadline_ = 0;                     ///< of the begin of the answer
+  Time asked_ = 0;                        ///< end of the request
   Time answer_end_ = 0;                   ///< of its last character
   std::optional<Time> wants_line_since_;  ///< somebody has
   Time due_ = kNever;

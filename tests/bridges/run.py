@@ -526,10 +526,38 @@ class TcpTests(TcpCase):
         running = self.serve("--rtu-over-tcp")
         client = self.client(running)
         self.until_answered(client)
-        for wrong in (b"\x01", READ[:-1] + b"\x00", bytes(300), READ + READ):
+        for wrong in (b"\x01", READ[:-1] + b"\x00", bytes(300)):
             client.send(wrong)
             self.assertEqual(client.receive(1, SILENCE), b"", wrong)
         self.assertEqual(self.until_answered(client), ANSWER)
+
+    def test_an_answer_to_a_frame_given_up_is_not_taken_for_the_next_ones(self):
+        running = self.start("--rtu-over-tcp", 0, "--speed", 0.5, "--timeout", "20s", *PRESET)
+        client = self.client(running)
+        self.until_answered(client)
+        long = framed(struct.pack(">BBHHB", 1, 16, 100, 100, 200) + bytes(200))  # half a second on the line
+        for pause in (0, 0.05):
+            client.send(long)
+            time.sleep(pause)
+            client.send(READ)
+            self.assertEqual(client.receive(len(ANSWER)), ANSWER)
+            self.assertEqual(client.receive(1, SILENCE), b"")
+        client.send(READ + long + READ)
+        self.assertEqual(client.receive(len(ANSWER)), ANSWER)
+        self.assertEqual(client.receive(1, SILENCE), b"")
+        self.assertGreaterEqual(running.end()["bridge"]["given_up"], 4)
+
+    def test_broadcasts_that_come_at_once_are_all_sent(self):
+        running = self.serve("--rtu-over-tcp", "--dump", "VW0", "--dump", "VW2", "--dump", "VW38")
+        client = self.client(running)
+        self.until_answered(client)
+        writes = [framed(struct.pack(">BBHH", 0, 6, register, 100 + register)) for register in range(20)]
+        client.send(b"".join(writes) + READ[:3])  # and the next one in two pieces, however long that takes
+        time.sleep(0.001)
+        client.send(READ[3:])
+        self.assertEqual(client.receive(len(ANSWER)), framed(struct.pack(">BBBHH", 1, 3, 4, 110, 111)))
+        bridge = running.end()
+        self.assertEqual(bridge["dump"], {"VW0": f"{100:04X}", "VW2": f"{101:04X}", "VW38": f"{119:04X}"})
 
     def test_clients_that_flood_and_do_not_read_stop_nobody(self):
         for kind in ("--tcp", "--rtu-over-tcp"):

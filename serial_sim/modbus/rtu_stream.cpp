@@ -1,0 +1,54 @@
+#include "serial_sim/modbus/rtu_stream.hpp"
+
+#include <algorithm>
+
+#include "serial_sim/modbus/crc.hpp"
+#include "serial_sim/modbus/functions.hpp"
+
+namespace s7200::modbus {
+namespace {
+
+constexpr std::size_t kShortest = 4;  // station, function, CRC
+constexpr std::size_t kUnknown = 0;
+
+/// By its function and byte count, if it has one. As long as that is still to come, more than there is.
+std::size_t length(std::span<const std::uint8_t> stream) {
+  const auto with_byte_count_at = [&](std::size_t place) {
+    return stream.size() > place ? place + 1 + stream[place] + 2 : stream.size() + 1;
+  };
+  const FunctionRow* row = find_function(stream[1]);
+  if (!row) return kUnknown;
+  switch (row->shape) {
+    case Shape::ReadBits:
+    case Shape::ReadRegisters:
+    case Shape::WriteOne:
+      return 8;
+    case Shape::WriteBits:
+    case Shape::WriteRegisters:
+      return with_byte_count_at(6);
+    case Shape::ReadFile:
+    case Shape::WriteFile:
+      return with_byte_count_at(2);
+    case Shape::Status:
+    case Shape::SlaveId:
+      return kShortest;
+    case Shape::Diagnostics:
+      return kUnknown;  // subfunction 0 returns any data
+  }
+  return kUnknown;
+}
+
+}  // namespace
+
+std::size_t first_request(std::span<const std::uint8_t> stream) {
+  if (stream.size() < kShortest) return 0;
+  if (stream.size() <= kLongestRtuFrame && crc_ok(stream)) return stream.size();
+  const std::size_t expected = length(stream);
+  if (expected > stream.size() && expected <= kLongestRtuFrame) return 0;
+  if (expected != kUnknown && expected <= kLongestRtuFrame && crc_ok(stream.first(expected))) return expected;
+  for (std::size_t size = kShortest; size <= std::min(stream.size(), kLongestRtuFrame); ++size)
+    if (crc_ok(stream.first(size))) return size;
+  return 0;
+}
+
+}  // namespace s7200::modbus

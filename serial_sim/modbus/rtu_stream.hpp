@@ -1,0 +1,15 @@
+// Modbus RTU over a stream of bytes, which knows no silences between frames.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace s7200::modbus {
+
+/// How many bytes the first request of a stream has, with its CRC, which is right; 0 if none is complete. That is all of the
+/// stream, or as much as its function has (V1.1b3, section 6); or the shortest begin with a right CRC, where the length
+/// cannot be told or is not kept to.
+std::size_t first_request(std::span<const std::uint8_t> stream);
+
+}  // namespace s7200::modbus
