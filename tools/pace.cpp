@@ -10,23 +10,26 @@ Time nanoseconds(Pace::Clock::duration duration) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(duration).count();
 }
 
+/// kNever where that is beyond what 64 bits hold.
+Time later(Time than, double by) { return by >= static_cast<double>(kNever - than) ? kNever : than + static_cast<Time>(by); }
+
 }  // namespace
 
 Pace::Pace(Time begin, double speed) : begin_(begin), begin_moment_(Clock::now()), report_{.speed = speed} {}
 
 Time Pace::at(Clock::time_point moment) const {
-  return begin_ + static_cast<Time>(std::floor(static_cast<double>(nanoseconds(moment - begin_moment_)) * report_.speed));
+  return later(begin_, std::floor(static_cast<double>(nanoseconds(moment - begin_moment_)) * report_.speed));
 }
 
 Pace::Clock::time_point Pace::when(Time simulated) const {
   if (simulated == kNever) return Clock::time_point::max();
-  return begin_moment_ +
-         std::chrono::nanoseconds(static_cast<Time>(std::ceil(static_cast<double>(simulated - begin_) / report_.speed)));
+  const Time begin = nanoseconds(begin_moment_.time_since_epoch());
+  return Clock::time_point(
+      std::chrono::nanoseconds(later(begin, std::ceil(static_cast<double>(simulated - begin_) / report_.speed))));
 }
 
 Time Pace::next_goal(Time simulated) const {
-  const auto most = static_cast<Time>(static_cast<double>(nanoseconds(kBearable)) * report_.speed);
-  return std::min(at(Clock::now()), simulated + most);
+  return std::min(at(Clock::now()), later(simulated, static_cast<double>(nanoseconds(kBearable)) * report_.speed));
 }
 
 bool Pace::reached(Time simulated, Clock::time_point planned) {

@@ -14,7 +14,7 @@ class Pace {
   /// The simulation stands at `begin` and is to go `speed` times as fast as the clock from now on.
   Pace(Time begin, double speed);
 
-  /// Where the simulation should be at a moment, and when it should be somewhere.
+  /// Where the simulation should be at a moment, and when it should be somewhere. Never, when 64 bits do not reach so far.
   Time at(Clock::time_point moment) const;
   Clock::time_point when(Time simulated) const;
 

@@ -21,6 +21,17 @@ TEST(Pace, SimulatedTimeIsTheClockTimesTheSpeed) {
   EXPECT_EQ(Pace(0, 1).when(kNever), Pace::Clock::time_point::max());
 }
 
+TEST(Pace, WhatIsTooFarAwayForTheClockIsNever) {
+  constexpr Time k3000h = 3000 * 3600 * kSecond;
+  EXPECT_EQ(Pace(0, 0.001).when(k3000h), Pace::Clock::time_point::max());
+  EXPECT_EQ(Pace(0, 1).when(kNever - 1), Pace::Clock::time_point::max());
+  EXPECT_LT(Pace(0, 1).when(k3000h), Pace::Clock::time_point::max());
+  EXPECT_EQ(Pace(kSecond, 1000).at(Pace::Clock::time_point::max()), kNever);
+  const Pace late(kNever - kMillisecond, 1000);
+  EXPECT_GE(late.next_goal(kNever - kMillisecond), kNever - kMillisecond);
+  EXPECT_EQ(late.at(Pace::Clock::now() + 1s), kNever);
+}
+
 TEST(Pace, ALittleBehindIsMadeUpFor) {
   Pace pace(0, 1);
   EXPECT_FALSE(pace.reached(0, Pace::Clock::now()));
