@@ -50,7 +50,12 @@ class DeviceBridge final : public Bridge {
   SerialFormat receive_format() const override { return device_->format(); }
 
   void received(std::span<const ReceivedCharacter> characters) override {
-    for (const ReceivedCharacter& character : characters) output_.push_back(character.byte);
+    for (const ReceivedCharacter& character : characters) {
+      if (output_.size() == kMostUnwritten)
+        ++overrun_;
+      else
+        output_.push_back(character.byte);
+    }
     write();
   }
 
@@ -63,14 +68,18 @@ class DeviceBridge final : public Bridge {
   std::string failure() const override { return failure_; }
 
   std::string summary() const override {
-    return fmt::format("{}: {} bytes from it, {} to it{}", path_, in_, out_,
+    return fmt::format("{}: {} bytes from it, {} to it{}{}", path_, in_, out_,
+                       overrun_ ? fmt::format(", {} lost because it did not take them", overrun_) : "",
                        errors_ ? fmt::format(", {} came with errors", errors_) : "");
   }
   nlohmann::ordered_json json() const override {
-    return {{"kind", "device"}, {"device", path_}, {"bytes_in", in_}, {"bytes_out", out_}, {"with_errors", errors_}};
+    return {{"kind", "device"},  {"device", path_},     {"bytes_in", in_},
+            {"bytes_out", out_}, {"overrun", overrun_}, {"with_errors", errors_}};
   }
 
  private:
+  static constexpr std::size_t kMostUnwritten = 65'536;  // besides what the device itself holds
+
   void follow_port() {
     const SerialFormat wanted = line_->format();
     std::string why;
@@ -104,7 +113,7 @@ class DeviceBridge final : public Bridge {
     if (!sent.empty()) line_->send(sent);
   }
 
-  /// What the device does not take now stays for the next turn; it takes them as fast as the line brings them.
+  /// What the device does not take now stays for the next turn. With --speed the line may bring more than it takes.
   void write() {
     std::string why;
     while (!output_.empty() && failure_.empty()) {
@@ -126,7 +135,7 @@ class DeviceBridge final : public Bridge {
   std::optional<asio::posix::stream_descriptor> descriptor_;
   std::vector<std::uint8_t> output_;
   bool awaiting_input_ = false;
-  std::uint64_t in_ = 0, out_ = 0, errors_ = 0;
+  std::uint64_t in_ = 0, out_ = 0, overrun_ = 0, errors_ = 0;
 };
 
 }  // namespace

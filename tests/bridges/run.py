@@ -765,7 +765,7 @@ class DeviceTests(Case):
         running = self.start("--device", self.path, "--speed", SPEED, *PRESET)
         self.assertEqual(self.port.ask(), ANSWER)
         bridge = running.end()["bridge"]
-        self.assertEqual(list(bridge), ["kind", "device", "bytes_in", "bytes_out", "with_errors"])
+        self.assertEqual(list(bridge), ["kind", "device", "bytes_in", "bytes_out", "overrun", "with_errors"])
         self.assertEqual(bridge["bytes_out"], len(ANSWER))
 
     def test_the_device_is_set_as_the_program_sets_its_port(self):
@@ -809,6 +809,17 @@ class DeviceTests(Case):
             pass
         self.assertEqual(self.port.ask(), ANSWER)
         self.assertGreaterEqual(running.end()["bridge"]["bytes_in"], 30_000)
+
+    def test_what_a_device_does_not_take_fills_no_memory(self):
+        # 38400 8E1, without a pause.
+        program = self.program("LD SM0.1\nMOVB 16#41, SMB30\nMOVB 255, VB0\nATCH 0, 9\nENI\nXMT VB0, 0\nMEND\n"
+                               "INT 0\nLD SM0.0\nXMT VB0, 0\nRETI\n")
+        running = self.start("--device", self.path, "--speed", 1000, "--for", "50s", program=program)
+        bridge = running.end(by=None)["bridge"]
+        said = 50 * 38400 // 11
+        waiting = 65_536
+        self.assertGreater(bridge["overrun"], 0)
+        self.assertAlmostEqual(bridge["bytes_out"] + waiting + bridge["overrun"], said, delta=said // 20)
 
     def test_what_is_no_device_is_refused(self):
         self.assertIn("it is no serial device", self.refused("--device", "/dev/null"))
