@@ -6,6 +6,7 @@ needed_to_build=(
   cmake:cmake
   ninja:ninja-build
   c++:g++
+  make:make  # GCC itself calls it, to optimise at link time with all cores
   python3:python3
   /usr/include/boost/spirit/home/x3.hpp:libboost-dev
   /usr/include/fmt/format.h:libfmt-dev

@@ -46,7 +46,8 @@ bool differs(const std::vector<BytePattern>& expected, const std::vector<BytePat
 
 std::string row_of(const std::vector<BytePattern>& bytes, std::size_t from, std::size_t to) {
   std::string row;
-  for (std::size_t i = from; i < std::min(to, bytes.size()); ++i) row += (i == from ? "" : " ") + byte_text(bytes, i);
+  for (std::size_t i = from; i < std::min(to, bytes.size()); ++i)
+    row.append(i == from ? "" : " ").append(byte_text(bytes, i));
   return row;
 }
 

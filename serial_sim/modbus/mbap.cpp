@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "interpreter/base/bytes.hpp"
 
 namespace s7200::modbus {
@@ -12,11 +14,11 @@ constexpr std::size_t kHeader = 6;  // transaction, protocol, length; the unit c
 }  // namespace
 
 Bytes to_bytes(const TcpMessage& message) {
-  Bytes bytes(kHeader + 1);
+  Bytes bytes(kHeader + 1 + message.pdu.size());
   store16(&bytes[0], message.transaction);
   store16(&bytes[4], static_cast<std::uint16_t>(1 + message.pdu.size()));
   bytes[6] = message.unit;
-  bytes.insert(bytes.end(), message.pdu.begin(), message.pdu.end());
+  std::copy(message.pdu.begin(), message.pdu.end(), bytes.begin() + kHeader + 1);
   return bytes;
 }
 
