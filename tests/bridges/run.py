@@ -338,6 +338,8 @@ class PtyTests(Case):
     def test_the_link_of_a_run_that_was_killed_is_replaced(self):
         self.serve().end(-signal.SIGKILL, by=signal.SIGKILL)
         self.assertTrue(os.path.islink(self.link))
+        if os.path.exists(self.link):
+            self.skipTest("another program got the number of the pty at once")
         self.serve()
         with SerialPort(self.link) as port:
             self.assertEqual(port.ask(), ANSWER)
