@@ -56,12 +56,10 @@ bool write_new(const std::string& path, const std::string& replaced, std::string
 
 bool can_be_written(const std::string& path, std::string& why) {
   const std::string target = behind_links(path);
-  if (fs::is_directory(target)) {
-    why = "it is a directory";
-    return false;
-  }
-  if (fs::exists(target) && !fs::is_regular_file(target)) {
-    why = "it is a device or a pipe, not a file";
+  std::error_code error;
+  const fs::file_status found = fs::status(target, error);
+  if (fs::exists(found) && !fs::is_regular_file(found)) {
+    why = fs::is_directory(found) ? "it is a directory" : "it is a device or a pipe, not a file";
     return false;
   }
   return access(folder_of(target).c_str(), W_OK | X_OK) == 0 || failed(why);

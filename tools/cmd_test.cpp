@@ -428,8 +428,10 @@ void check_usage(const TestOptions& options) {
     fail("--tolerance goes with --against or --record; a scenario has 'tolerance:'");
   if (!options.against.empty() && (!options.record.empty() || !options.junit.empty()))
     fail("--against neither records nor writes JUnit");
-  for (const std::string& path : {options.record, options.junit})
+  for (const std::string& path : {options.record, options.junit}) {
     if (path == "-") fail("--record and --junit write files; '-' is none");
+    if (std::string why; !path.empty() && !can_be_written(path, why)) fail(fmt::format("cannot write {}: {}", path, why));
+  }
   if (!options.record.empty() && std::filesystem::exists(options.record)) {
     if (!may_be_overwritten(options.record, kTranscriptBeginning))
       fail(fmt::format("{} exists and is no transcript; it is left alone", options.record));
@@ -438,8 +440,6 @@ void check_usage(const TestOptions& options) {
   if (!options.junit.empty() && std::filesystem::exists(options.junit) &&
       !may_be_overwritten(options.junit, kJunitBeginning))
     fail(fmt::format("{} exists and is no XML; it is left alone", options.junit));
-  for (const std::string& path : {options.record, options.junit})
-    if (std::string why; !path.empty() && !can_be_written(path, why)) fail(fmt::format("cannot write {}: {}", path, why));
 }
 
 void print_list(const std::vector<Scenario>& scenarios) {

@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "serial_sim/modbus/mbap.hpp"
 #include "tools/interruption.hpp"
 
 namespace s7200::tools {
 namespace {
 
 constexpr std::size_t kStrayShown = 16;
-constexpr int kStrayReads = 256;          // from a side that never stops talking
-constexpr std::size_t kLongestTcp = 254;  // unit, function and data: MODBUS Application Protocol, 4.1
-constexpr Time kToComplete = kSecond;     // an answer over Modbus TCP that has begun
+constexpr int kStrayReads = 256;       // from a side that never stops talking
+constexpr Time kToComplete = kSecond;  // an answer over Modbus TCP that has begun
 
 void refuse_wrong_parity(const modbus::Frame& frame) {
   if (modbus::has_wrong_parity(frame))
@@ -133,23 +133,21 @@ ModbusTcpSlave::ModbusTcpSlave(const std::string& host, const std::string& port)
 serial::Exchange ModbusTcpSlave::exchange(const serial::Request& request) {
   constexpr std::size_t kHeader = 6;  // transaction, protocol, length
   refuse_wrong_parity(request.frame);
-  modbus::Bytes adu = modbus::bytes_of(request.frame);
+  const modbus::Bytes adu = modbus::bytes_of(request.frame);
   if (adu.size() < 4 || !modbus::crc_ok(adu))
     throw std::invalid_argument(
         "Modbus TCP carries no CRC: only frames with a right one can be sent, of which it is taken off");
-  adu.resize(adu.size() - 2);
-  if (adu.size() > kLongestTcp)
-    throw std::invalid_argument(fmt::format("Modbus TCP carries {} bytes of unit, function and data at most", kLongestTcp));
+  const modbus::Bytes pdu(adu.begin() + 1, adu.end() - 2);
+  if (pdu.size() > modbus::kLongestPdu)
+    throw std::invalid_argument(
+        fmt::format("Modbus TCP carries {} bytes of function and data at most", modbus::kLongestPdu));
   if (request.gap != 0) throw std::invalid_argument("Modbus TCP carries frames in one piece: there are no pauses in it");
   make_ready();
 
   serial::Exchange exchange;
   exchange.request = request.frame;
   ++transaction_;
-  const auto high = [](std::size_t word) { return static_cast<std::uint8_t>(word >> 8); };
-  const auto low = [](std::size_t word) { return static_cast<std::uint8_t>(word & 0xFF); };
-  modbus::Bytes message{high(transaction_), low(transaction_), 0, 0, high(adu.size()), low(adu.size())};
-  message.insert(message.end(), adu.begin(), adu.end());
+  const modbus::Bytes message = modbus::to_bytes({transaction_, adu[0], pdu});
   exchange.request_start = exchange.request_end = now();
   link_->write(message);
 

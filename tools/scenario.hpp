@@ -62,7 +62,7 @@ struct ExchangeStep {
   bool disturbed = false;            ///< the answer has parity or framing errors
   std::optional<Window> latency{};
   std::optional<Window> answer_gap{};  ///< each pause between two characters of the answer
-  std::optional<Time> at{};            ///< when the request begins, on the slave's clock
+  std::optional<Time> at{};            ///< when the request begins, since power-up; on other slaves since the first step
   std::optional<Span> pause{};         ///< between the exchange before and this one; the scenario's if not given
   Span gap{};                          ///< between the characters of the request
   std::optional<Span> listen{};        ///< the silence that ends the answer; 3.5 characters if not given

@@ -41,10 +41,9 @@ struct OpenFile {
       why = std::strerror(errno);
       return false;
     }
-    if (S_ISDIR(status.st_mode)) why = "it is a folder";
-    if (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)) why = "it is a device, not a file";
-    if (!why.empty()) return false;
-    return true;
+    if (S_ISREG(status.st_mode) || S_ISFIFO(status.st_mode)) return true;
+    why = S_ISDIR(status.st_mode) ? "it is a folder" : "it is a device, not a file";
+    return false;
   }
 
   /// Waits for a writer too. -1 and EINTR after a signal: a pipe into which nobody writes can be left with Ctrl-C.
