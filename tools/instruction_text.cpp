@@ -127,11 +127,15 @@ std::string flags_text(const Instruction& instruction) {
 }
 
 std::string parts_text(const Instruction& instruction) {
-  if (instruction.allowed == kAnywhere) return "anywhere";
   std::vector<std::string_view> parts;
-  if (instruction.allowed & kMain) parts.push_back("main program");
-  if (instruction.allowed & kSubroutine) parts.push_back("subroutines");
-  if (instruction.allowed & kInterrupt) parts.push_back("interrupt routines");
+  if (instruction.allowed == kAnywhere) {
+    parts.push_back("anywhere");
+  } else {
+    if (instruction.allowed & kMain) parts.push_back("main program");
+    if (instruction.allowed & kSubroutine) parts.push_back("subroutines");
+    if (instruction.allowed & kInterrupt) parts.push_back("interrupt routines");
+  }
+  if (instruction.outside_segments) parts.push_back("not between LSCR and SCRE");
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 

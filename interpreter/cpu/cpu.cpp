@@ -151,17 +151,17 @@ void run_with_pointers(Cpu& cpu, const Op& op) {
   Op direct = op;
   for (Operand& operand : direct.operand)
     if (operand.pointer && !follow_pointer(cpu, op, operand)) return;
-  op.instruction->body(cpu, direct);
+  op.direct_body()(cpu, direct);
 }
 
 void run_with_pointer_first(Cpu& cpu, const Op& op) {
   Op direct = op;
-  if (follow_pointer(cpu, op, direct.operand[0])) op.instruction->body(cpu, direct);
+  if (follow_pointer(cpu, op, direct.operand[0])) op.direct_body()(cpu, direct);
 }
 
 void run_with_pointer_second(Cpu& cpu, const Op& op) {
   Op direct = op;
-  if (follow_pointer(cpu, op, direct.operand[1])) op.instruction->body(cpu, direct);
+  if (follow_pointer(cpu, op, direct.operand[1])) op.direct_body()(cpu, direct);
 }
 
 void Cpu::run_error(RunError code) {

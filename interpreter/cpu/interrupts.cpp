@@ -94,7 +94,7 @@ QueuedInterrupt Cpu::next_queued() {
 
 void Cpu::take_interrupt() {
   const QueuedInterrupt interrupt = next_queued();
-  s.saved = {s.pc, s.stack, {}, s.image[image::kSM1]};
+  s.saved = {s.pc, s.stack, s.rail, {}, s.image[image::kSM1]};
   std::copy_n(s.image.begin() + image::kAC, s.saved.accumulators.size(), s.saved.accumulators.begin());
   if (interrupt.event == kCharacterReceived) {  // just before the routine starts (S7-200 manual C233-01, 9-188)
     s.image[image::kSM + 2] = interrupt.byte;
@@ -105,6 +105,7 @@ void Cpu::take_interrupt() {
   s.serving_routine = s.attached[interrupt.event];
   s.serving_since = s.time;
   s.stack = LogicStack::on_entry();
+  s.rail = true;
   s.pc = program_->interrupt[s.serving_routine];
   trace({.at = s.time,
          .kind = TraceKind::ServiceBegin,
@@ -123,6 +124,7 @@ void Cpu::return_from_interrupt() {
   s.in_interrupt = false;
   s.pc = s.saved.return_to;
   s.stack = s.saved.stack;
+  s.rail = s.saved.rail;
   std::copy(s.saved.accumulators.begin(), s.saved.accumulators.end(), s.image.begin() + image::kAC);
   s.image[image::kSM1] = s.saved.smb1;
   forget_overflow_if_idle();

@@ -84,6 +84,7 @@ void Cpu::finish_phase() {
         s.phase = Phase::Program;
         s.pc = 0;
         s.stack = {};
+        s.rail = true;
         s.call_depth = 0;
         return;
       }
@@ -162,8 +163,9 @@ void Cpu::call(std::uint32_t target) {
     run_error(RunError::CallDepth);
     return;
   }
-  s.calls[s.call_depth++] = {s.pc, s.stack};
+  s.calls[s.call_depth++] = {s.pc, s.stack, s.rail};
   s.stack = LogicStack::on_entry();
+  s.rail = true;
   s.pc = target;
 }
 
@@ -171,6 +173,7 @@ void Cpu::return_from_subroutine() {
   const CallFrame& frame = s.calls[--s.call_depth];
   s.pc = frame.return_to;
   s.stack = frame.stack;
+  s.rail = frame.rail;
 }
 
 }  // namespace s7200

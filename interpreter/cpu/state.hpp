@@ -42,10 +42,11 @@ enum class Mode : std::uint8_t { Stop, Run };
 /// Parts of a scan, in order (S7-200 manual C230-02, 6-10).
 enum class Phase : std::uint8_t { ReadInputs, Program, Communication, SelfTest, WriteOutputs };
 
-/// Where a subroutine returns to, and its caller's logic stack.
+/// Where a subroutine returns to, and its caller's logic stack and power rail.
 struct CallFrame {
   std::uint32_t return_to = 0;
   LogicStack stack{};
+  bool rail = true;
   bool operator==(const CallFrame&) const = default;
 };
 
@@ -63,10 +64,11 @@ struct InterruptQueue {
   bool operator==(const InterruptQueue&) const = default;
 };
 
-/// What is saved around an interrupt routine: logic stack, accumulators, SMB1 (facts 3.2).
+/// What is saved around an interrupt routine: logic stack, accumulators, SMB1 (facts 3.2); and the power rail.
 struct SavedContext {
   std::uint32_t return_to = 0;
   LogicStack stack{};
+  bool rail = true;
   std::array<std::uint8_t, 16> accumulators{};
   std::uint8_t smb1 = 0;
   bool operator==(const SavedContext&) const = default;
@@ -138,6 +140,7 @@ struct State {
   Time time = 0;         ///< the CPU's clock: start of the next instruction
   std::uint32_t pc = 0;  ///< op to execute next
   LogicStack stack{};
+  bool rail = true;  ///< top of the SCR stack: the S bit as LSCR loaded it; on outside segments
   Mode mode = Mode::Stop;
   Phase phase = Phase::ReadInputs;
   Time phase_left = 0;  ///< of the phases other than Program

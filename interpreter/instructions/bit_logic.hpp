@@ -18,10 +18,19 @@ inline void combine(LogicStack& stack, bool value) {
     stack.set_top(stack.top() | value);
 }
 
+/// What feeds a contact: outside SCR segments the rail always has power; inside one it is the segment's, as LSCR left it.
+/// A contact in series (A) is fed by the top of the stack instead.
+enum class Rail { Always, Segment };
+
+template <Join join, Rail rail>
+inline bool fed(const Cpu& cpu) {
+  return rail == Rail::Always || join == Join::And || cpu.s.rail;
+}
+
 /// LD, A, O and their negated and immediate forms: an immediate one reads the input point itself (decided at load).
-template <Join join, bool negated>
+template <Join join, bool negated, Rail rail = Rail::Always>
 void contact(Cpu& cpu, const Op& op) {
-  combine<join>(cpu.s.stack, cpu.bit(op[0]) != negated);
+  combine<join>(cpu.s.stack, fed<join, rail>(cpu) && cpu.bit(op[0]) != negated);
 }
 
 inline void invert_top(Cpu& cpu, const Op&) { cpu.s.stack.set_top(!cpu.s.stack.top()); }

@@ -25,9 +25,9 @@ bool holds(Value a, Value b) {
   }
 }
 
-template <Join join, Relation relation, class Value>
+template <Join join, Relation relation, class Value, Rail rail = Rail::Always>
 void compare(Cpu& cpu, const Op& op) {
-  combine<join>(cpu.s.stack, holds<relation>(cpu.get<Value>(op[0]), cpu.get<Value>(op[1])));
+  combine<join>(cpu.s.stack, holds<relation>(cpu.get<Value>(op[0]), cpu.get<Value>(op[1])) && fed<join, rail>(cpu));
 }
 
 }  // namespace s7200::bodies

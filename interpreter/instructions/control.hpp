@@ -6,6 +6,12 @@
 // - NEXT follows the pointers of its FOR again, that of INIT too: a bad one is error 0006, and the loop is left.
 //   [Choices.NextFollowsThePointersOfItsForAgain]
 // - SCRT to the segment it stands in leaves that segment on. [Choices.ATransitionToItsOwnSegmentLeavesItOn]
+// - In a segment that is off, NOT, EU and ED work on what they find: after NOT a box runs, and ED gives its pulse in the
+// scan
+//   that finds the segment off. [Segment.NotInASegmentThatIsOffGivesPowerFlow, Segment.EdSeesThatTheSegmentWentOff]
+// - In a segment that is off, compare contacts still look at their operands: a bad one stops the CPU.
+//   [Segment.ACompareContactInASegmentThatIsOffStillFollowsItsPointers]
+// - A subroutine called from a segment has a power rail of its own. [Segment.ASubroutineHasARailOfItsOwn]
 #pragma once
 
 #include "interpreter/cpu/cpu.hpp"
@@ -29,13 +35,14 @@ inline void next_pass(Cpu& cpu, const Op& op) {
   if (index < cpu.get<std::int16_t>(op[2])) cpu.jump(op.target);
 }
 
-/// LSCR: an S bit of 0 leaves the segment out.
+/// LSCR loads the S bit into the SCR stack and the logic stack. The segment is not skipped while the bit is 0: its rail has
+/// no power, so contacts give no power flow, coils become 0, TON is reset and boxes do nothing (facts 9.1).
 inline void begin_segment(Cpu& cpu, const Op& op) {
-  if (cpu.bit(op[0]))
-    cpu.s.stack.push(true);
-  else
-    cpu.jump(op.target);
+  cpu.s.rail = cpu.bit(op[0]);
+  cpu.s.stack.push(cpu.s.rail);
 }
+
+inline void end_segment(Cpu& cpu, const Op&) { cpu.s.rail = true; }
 
 /// SCRT: the next segment's bit goes on, that of the enclosing LSCR (operand 2, given at load) off.
 inline void segment_transition(Cpu& cpu, const Op& op) {

@@ -113,14 +113,16 @@ struct Instruction {
   std::uint8_t operands = 0;
   bool needs_power_flow = false;  ///< skipped while the top of the logic stack is 0
   StackUse stack{};
-  bool writes_output = false;        ///< a coil or box: an LD behind it begins a new rung
+  bool writes_output = false;        ///< a coil or box: an LD after it begins a new rung
   std::uint8_t flags = 0;            ///< SM1 bits concerned
   std::uint8_t allowed = kAnywhere;  ///< Parts, on 21x CPUs
+  bool outside_segments = false;     ///< not allowed between LSCR and SCRE
   CpuSet cpus = kEveryCpu;
   Structure structure = Structure::None;
   Hidden hidden = Hidden::None;
-  Body body = nullptr;       ///< nullptr: not modelled, refused by name
-  std::string_view meaning;  ///< one line
+  Body body = nullptr;        ///< nullptr: not modelled, refused by name
+  Body in_segment = nullptr;  ///< between LSCR and SCRE, where it is another one: a contact on the segment's power rail
+  std::string_view meaning;   ///< one line
 
   std::span<const OperandRule> rules() const { return {operand.data(), operands}; }
 };

@@ -157,6 +157,15 @@ Row only_in(std::uint8_t parts, Row r) {
   r.allowed = parts;
   return r;
 }
+/// `body` is what runs between LSCR and SCRE.
+Row in_segments(Body body, Row r) {
+  r.in_segment = body;
+  return r;
+}
+Row outside_segments(Row r) {
+  r.outside_segments = true;
+  return r;
+}
 Row marks(Structure structure, Row r) {
   r.structure = structure;
   r.writes_output = true;
@@ -211,12 +220,17 @@ class Table {
     const auto text = [&](std::string_view what) -> std::string_view {
       return texts_.emplace(std::string(verb) + std::string(what)).first->c_str();
     };
-    add(uses_stack(plain, {bit_in()}, contact<join, false>, stack, text(" BIT")));
-    add(uses_stack(negated, {bit_in()}, contact<join, true>, stack, text(" NOT BIT")));
-    add(with(Hidden::InputPoint,
-             uses_stack(point, {bit_in(areas(Area::I))}, contact<join, false>, stack, text(" the input point BIT"))));
-    add(with(Hidden::InputPoint, uses_stack(negated_point, {bit_in(areas(Area::I))}, contact<join, true>, stack,
-                                            text(" NOT the input point BIT"))));
+    const auto contact_row = [&](std::string_view mnemonic, OperandRule rule, Body body, Body in_segment,
+                                 std::string_view what) {
+      return in_segments(in_segment, uses_stack(mnemonic, {rule}, body, stack, text(what)));
+    };
+    constexpr Body straight = contact<join, false>, straight_fed = contact<join, false, Rail::Segment>;
+    constexpr Body inverted = contact<join, true>, inverted_fed = contact<join, true, Rail::Segment>;
+    const OperandRule input = bit_in(areas(Area::I));
+    add(contact_row(plain, bit_in(), straight, straight_fed, " BIT"));
+    add(contact_row(negated, bit_in(), inverted, inverted_fed, " NOT BIT"));
+    add(with(Hidden::InputPoint, contact_row(point, input, straight, straight_fed, " the input point BIT")));
+    add(with(Hidden::InputPoint, contact_row(negated_point, input, inverted, inverted_fed, " NOT the input point BIT")));
   }
 
   void bit_logic() {
@@ -260,17 +274,19 @@ class Table {
   template <Relation relation, class Value>
   void compare_row(std::string_view sign, std::string_view type, const OperandRule& a, const OperandRule& b, CpuSet cpus,
                    std::string_view what) {
-    const auto one = [&](std::string_view prefix, Body body, StackUse stack, std::string_view verb) {
+    const auto one = [&](std::string_view prefix, Body body, Body in_segment, StackUse stack, std::string_view verb) {
       const auto keep = [&](std::string text) -> std::string_view { return *texts_.insert(std::move(text)).first; };
       const std::string_view mnemonic = keep(std::string(prefix).append(type).append(sign));
       Row r = uses_stack(mnemonic, {a, b}, body, stack,
                          keep(std::string(verb).append(" IN1 ").append(sign).append(" IN2, ").append(what)));
       r.structure = Structure::Compare;
-      add(on(cpus, r));
+      add(on(cpus, in_segments(in_segment, r)));
     };
-    one("LD", compare<Join::Load, relation, Value>, {0, 1}, "push");
-    one("A", compare<Join::And, relation, Value>, {1, 0}, "top of stack AND");
-    one("O", compare<Join::Or, relation, Value>, {1, 0}, "top of stack OR");
+    one("LD", compare<Join::Load, relation, Value>, compare<Join::Load, relation, Value, Rail::Segment>, {0, 1}, "push");
+    one("A", compare<Join::And, relation, Value>, compare<Join::And, relation, Value, Rail::Segment>, {1, 0},
+        "top of stack AND");
+    one("O", compare<Join::Or, relation, Value>, compare<Join::Or, relation, Value, Rail::Segment>, {1, 0},
+        "top of stack OR");
   }
 
   void compares() {
@@ -393,22 +409,24 @@ class Table {
   void program_control() {
     group("Program control");
     constexpr std::uint8_t not_in_interrupt = kMain | kSubroutine;
-    add(marks(Structure::Jump, box("JMP", {kLabel}, jump, "go on at LBL n of the same routine")));
+    add(outside_segments(marks(Structure::Jump, box("JMP", {kLabel}, jump, "go on at LBL n of the same routine"))));
     add(marks(Structure::Label, row("LBL", {kLabel}, no_operation, "place that JMP n goes to")));
     add(on(kFrom214, only_in(not_in_interrupt,
-                             marks(Structure::For,
-                                   box("FOR", {out(Width::Word, "INDX"), in(Width::Word, "INIT"), in(Width::Word, "FINAL")},
-                                       begin_loop, "repeat up to NEXT with INDX from INIT to FINAL")))));
+                             outside_segments(marks(
+                                 Structure::For,
+                                 box("FOR", {out(Width::Word, "INDX"), in(Width::Word, "INIT"), in(Width::Word, "FINAL")},
+                                     begin_loop, "repeat up to NEXT with INDX from INIT to FINAL"))))));
     add(on(kFrom214,
-           only_in(not_in_interrupt, marks(Structure::Next, row("NEXT", {}, next_pass,
-                                                                "end of a FOR loop; leaves the top of the stack at 1")))));
+           only_in(not_in_interrupt,
+                   outside_segments(marks(Structure::Next, row("NEXT", {}, next_pass,
+                                                               "end of a FOR loop; leaves the top of the stack at 1"))))));
     add(only_in(not_in_interrupt,
                 marks(Structure::Call, box("CALL", {kSubroutineNumber}, bodies::call, "call subroutine n"))));
     add(marks(Structure::SubroutineHead, row("SBR", {kSubroutineNumber}, no_operation, "head of subroutine n")));
     add(only_in(kSubroutine,
                 marks(Structure::SubroutineEnd, row("RET", {}, return_from_subroutine, "end of a subroutine"))));
     add(only_in(kSubroutine, box("CRET", {}, return_from_subroutine, "return from a subroutine")));
-    add(only_in(kMain, box("END", {}, end_main_program, "end the main program of this scan")));
+    add(only_in(kMain, outside_segments(box("END", {}, end_main_program, "end the main program of this scan"))));
     add(only_in(kMain, marks(Structure::MainEnd, row("MEND", {}, end_main_program, "end of the main program"))));
     add(box("STOP", {}, stop, "go to STOP"));
     add(box("WDR", {}, reset_watchdog, "restart the scan watchdog"));
@@ -517,13 +535,13 @@ class Table {
     group("Sequence control relays");
     constexpr std::uint8_t not_in_interrupt = kMain | kSubroutine;
     const OperandRule s_in = bit_in(areas(Area::S)), s_out = bit_out(areas(Area::S));
-    add(only_in(not_in_interrupt,
-                marks(Structure::SegmentBegin, uses_stack("LSCR", {s_in}, begin_segment, {0, 1},
-                                                          "begin of the segment that runs while the S bit is 1"))));
+    add(only_in(not_in_interrupt, marks(Structure::SegmentBegin,
+                                        uses_stack("LSCR", {s_in}, begin_segment, {0, 1},
+                                                   "start of a segment whose contacts have power while the S bit is 1"))));
     add(only_in(not_in_interrupt,
                 with(Hidden::SegmentBit, marks(Structure::SegmentTransition, box("SCRT", {s_out}, segment_transition,
                                                                                  "go over to the segment of the S bit")))));
-    add(only_in(not_in_interrupt, marks(Structure::SegmentEnd, row("SCRE", {}, no_operation, "end of a segment"))));
+    add(only_in(not_in_interrupt, marks(Structure::SegmentEnd, row("SCRE", {}, end_segment, "end of a segment"))));
   }
 
   void peripherals() {

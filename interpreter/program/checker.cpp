@@ -185,6 +185,7 @@ class Checker {
     op.instruction = &instruction;
     op.statement = i;
     op.power_mask = instruction.needs_power_flow;
+    op.in_segment = structure.in_segment[i];
     op.target = structure.target[i];
     op.skip_to = instruction.structure == Structure::For ? op.target : i + 1;
     Areas written = 0;
@@ -204,7 +205,7 @@ class Checker {
   static Body body_of(const Op& op, Areas written) {
     if (contains(written, Area::SM)) return run_with_port_control;
     if (contains(written, Area::AQ)) return run_with_analog_output;
-    if (!op.has_pointer) return op.instruction->body;
+    if (!op.has_pointer) return op.direct_body();
     const bool first = op.operand[0].pointer, second = op.operand[1].pointer, third = op.operand[2].pointer;
     if (third || (first && second)) return run_with_pointers;
     return first ? run_with_pointer_first : run_with_pointer_second;

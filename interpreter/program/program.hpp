@@ -24,18 +24,21 @@ struct Operand {
 
 /// A decoded instruction: one cache line.
 struct Op {
-  Body body = nullptr;         ///< what the loop calls: instruction->body, or a step around it
+  Body body = nullptr;         ///< what the loop calls: direct_body(), or a step around it
   std::int32_t cost = 0;       ///< ns, with power flow and for operands as they are
   std::int32_t unit_cost = 0;  ///< ns more for each bit, byte, word … (see the table of times)
   std::uint32_t skip_to = 0;   ///< op to go on with when power flow is needed and missing
-  std::uint32_t target = 0;    ///< op to go on with: JMP, CALL, NEXT (loop body), FOR (behind its NEXT)
+  std::uint32_t target = 0;    ///< op to go on with: JMP, CALL, NEXT (loop body), FOR (after its NEXT)
   std::array<Operand, 3> operand{};
   std::uint8_t power_mask = 0;  ///< 1: needs power flow
   bool has_pointer = false;     ///< some operand is a pointer
+  bool in_segment = false;      ///< between LSCR and SCRE
   std::uint32_t statement = 0;  ///< in Program::statements
   const Instruction* instruction = nullptr;
 
   const Operand& operator[](std::size_t i) const { return operand[i]; }
+  /// The instruction's own body, for operands that need no step before it.
+  Body direct_body() const { return in_segment && instruction->in_segment ? instruction->in_segment : instruction->body; }
 };
 
 // Steps around a body, chosen at load for the operands that need one; the CPU defines them.

@@ -28,6 +28,8 @@ class StructureCheck {
       : statements_(statements), model_(model), diagnostics_(diagnostics) {
     result_.target.assign(statements.size(), 0);
     result_.head.assign(statements.size(), 0);
+    result_.in_segment.assign(statements.size(), false);
+    segment_of_.assign(statements.size(), kNoSegment);
     result_.subroutine.fill(kNoRoutine);
     result_.interrupt.fill(kNoRoutine);
   }
@@ -45,6 +47,8 @@ class StructureCheck {
   }
 
  private:
+  static constexpr std::uint32_t kNoSegment = 0xFFFF'FFFF;
+
   /// The main program, a subroutine or an interrupt routine, and how it is called in messages.
   struct Routine {
     Part part = kMain;
@@ -78,6 +82,11 @@ class StructureCheck {
     }
     if (ended_) return stray(i);
     if (!(s.instruction->allowed & routine_.part)) return not_allowed(i);
+    if (segment_) {
+      segment_of_[i] = *segment_;
+      result_.in_segment[i] = true;
+      if (s.instruction->outside_segments) not_allowed_in_segment(i);
+    }
     switch (s.instruction->structure) {
       case Structure::Label:
         return label(i);
@@ -172,6 +181,12 @@ class StructureCheck {
     error(position(i), fmt::format("{} is not allowed in {}", instruction.mnemonic, where), hint);
   }
 
+  void not_allowed_in_segment(std::uint32_t i) {
+    error(position(i),
+          fmt::format("{} is not allowed between LSCR and SCRE (compile rule 0096)", statements_[i].instruction->mnemonic),
+          fmt::format("the segment of line {} has not ended; close it with SCRE first", position(*segment_).line));
+  }
+
   // --- labels and loops ---
 
   void label(std::uint32_t i) {
@@ -200,6 +215,11 @@ class StructureCheck {
                           routine_text(found->second.routine.part, found->second.routine.number),
                           routine_text(jump.routine.part, jump.routine.number)),
               "JMP and its LBL stand in the same routine");
+      else if (segment_of_[jump.statement] == kNoSegment && segment_of_[found->second.statement] != kNoSegment)
+        error(position(jump.statement),
+              fmt::format("LBL {} is inside the segment of line {}; a jump cannot enter a segment (compile rule 008B)",
+                          number, position(segment_of_[found->second.statement]).line),
+              "put LBL before LSCR or after SCRE");
       result_.target[jump.statement] = found->second.statement;
     }
     for (const auto& [number, place] : labels_)
@@ -231,6 +251,7 @@ class StructureCheck {
       error(position(i), "LSCR inside a segment (compile rule 0096)",
             fmt::format("the segment of line {} has no SCRE yet", position(*segment_).line));
     segment_ = i;
+    if (statements_[i].operands_good) note_segment_bit(i);
   }
 
   void segment_transition(std::uint32_t i) {
@@ -241,11 +262,19 @@ class StructureCheck {
   }
 
   void end_segment(std::uint32_t i) {
-    if (!segment_)
-      error(position(i), "SCRE without LSCR (compile rule 0095)");
-    else
-      result_.target[*segment_] = i + 1;
+    if (!segment_) error(position(i), "SCRE without LSCR (compile rule 0095)");
     segment_.reset();
+  }
+
+  /// An S bit belongs to one routine (S7-200 manual, restrictions of SCR).
+  void note_segment_bit(std::uint32_t i) {
+    const auto& bit = std::get<stl::Address>(statements_[i].statement->operands[0].value);
+    const auto [first, added] = segment_bits_.emplace(std::pair(bit.number, bit.bit), Place{i, routine_});
+    if (added || first->second.routine == routine_) return;
+    error(position(i),
+          fmt::format("S{}.{} has a segment in {} already; one S bit cannot serve two routines", bit.number, bit.bit,
+                      routine_text(first->second.routine.part, first->second.routine.number)),
+          fmt::format("its LSCR is in line {}; use another S bit here", position(first->second.statement).line));
   }
 
   // --- calls ---
@@ -305,16 +334,18 @@ class StructureCheck {
   Routine routine_{};
   bool ended_ = false;  // the routine's last instruction is behind us
   bool stray_reported_ = false;
-  std::vector<std::uint32_t> loops_;                                 // open FORs
-  std::optional<std::uint32_t> segment_;                             // open LSCR
-  std::map<std::uint32_t, std::uint32_t> subroutines_, interrupts_;  // number -> statement of the head
+  std::vector<std::uint32_t> loops_;                                      // open FORs
+  std::optional<std::uint32_t> segment_;                                  // open LSCR
+  std::vector<std::uint32_t> segment_of_;                                 // of each statement: its LSCR, or kNoSegment
+  std::map<std::pair<std::uint32_t, std::uint8_t>, Place> segment_bits_;  // S bit -> its first LSCR
+  std::map<std::uint32_t, std::uint32_t> subroutines_, interrupts_;       // number -> statement of the head
   std::map<std::uint32_t, Place> labels_;
   std::vector<Place> jumps_, calls_, attachments_;
   std::map<Routine, std::set<std::uint32_t>> called_;
   std::set<std::uint32_t> attached_;
 };
 
-/// Depth of the logic stack within one rung.
+/// Depth of the logic stack within a network, and how much of it the present rung has put there.
 class StackCheck {
  public:
   explicit StackCheck(stl::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -322,10 +353,11 @@ class StackCheck {
   void visit(const CheckedStatement& s) {
     const Instruction& instruction = *s.instruction;
     const bool load = instruction.stack.needs == 0 && instruction.stack.change == 1;
+    if (s.begins_network) depth_ = 0;
     if (s.begins_network || (load && after_output_)) begin_rung();
     if (leaves_one(instruction)) {
       begin_rung();
-      depth_ = 1;
+      depth_ = rung_ = 1;
       after_output_ = true;
       return;
     }
@@ -335,11 +367,11 @@ class StackCheck {
   }
 
   void begin_rung() {
-    if (depth_ > 1 && last_ && !reported_)
+    if (rung_ > 1 && last_ && !reported_)
       diagnostics_.push_back({stl::Severity::Warning, last_->position,
-                              fmt::format("the rung leaves {} values on the logic stack; 1 is usual", depth_),
+                              fmt::format("the rung leaves {} values on the logic stack; 1 is usual", rung_),
                               "an ALD, OLD or LPP may be missing"});
-    depth_ = 0;
+    rung_ = 0;
     reported_ = false;
     last_ = nullptr;
   }
@@ -368,8 +400,9 @@ class StackCheck {
                        stack.needs == 1 ? "a value" : fmt::format("{} values", stack.needs), depth_ == 0 ? "none" : "1"),
            stack.needs == 1 ? "begin the rung with LD" : "load the other value with LD first"});
     }
-    depth_ = std::max<int>(depth_, stack.needs) + stack.change;
-    if (depth_ > LevelsOfStack && !reported_) {
+    depth_ = std::min(std::max<int>(depth_, stack.needs) + stack.change, LevelsOfStack);
+    rung_ = std::max<int>(rung_, stack.needs) + stack.change;
+    if (rung_ > LevelsOfStack && !reported_) {
       reported_ = true;
       diagnostics_.push_back({stl::Severity::Error, s.statement->position,
                               fmt::format("more than {} values on the logic stack: the first is lost", LevelsOfStack),
@@ -381,7 +414,8 @@ class StackCheck {
 
   stl::Diagnostics& diagnostics_;
   const stl::Statement* last_ = nullptr;
-  int depth_ = 0;
+  int depth_ = 0;  // values there since the network began; what a rung has left stays for the next one
+  int rung_ = 0;   // values the rung has put there or used
   bool after_output_ = true;
   bool reported_ = false;  // one report a rung
 };

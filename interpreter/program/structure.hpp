@@ -19,9 +19,9 @@ struct CheckedStatement {
 
 /// What the structure means for decoding: per statement, the op to go on with (0 where it has none).
 struct ProgramStructure {
-  std::vector<std::uint32_t>
-      target;  ///< of JMP, CALL, FOR (behind its NEXT), NEXT (first of its loop), LSCR (behind its SCRE)
-  std::vector<std::uint32_t> head;  ///< of NEXT: its FOR; of SCRT: the enclosing LSCR
+  std::vector<std::uint32_t> target;  ///< of JMP, CALL, FOR (after its NEXT), NEXT (first of its loop)
+  std::vector<std::uint32_t> head;    ///< of NEXT: its FOR; of SCRT: the enclosing LSCR
+  std::vector<bool> in_segment;       ///< between LSCR and SCRE
   std::array<std::uint32_t, 64> subroutine{};
   std::array<std::uint32_t, 128> interrupt{};
 };
@@ -30,8 +30,8 @@ struct ProgramStructure {
 ProgramStructure check_structure(const std::vector<CheckedStatement>& statements, const CpuModel& model,
                                  stl::Diagnostics& diagnostics);
 
-/// Follows the depth of the logic stack through each rung. A rung begins at a NETWORK head, a routine head, a label or loop,
-/// and at an LD behind a coil or box.
+/// Follows the depth of the logic stack through each network, and through its rungs: one begins at a NETWORK head, a routine
+/// head, a label or loop, and at an LD after a coil or box.
 void check_logic_stack(const std::vector<CheckedStatement>& statements, stl::Diagnostics& diagnostics);
 
 }  // namespace s7200

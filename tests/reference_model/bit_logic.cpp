@@ -76,18 +76,18 @@ void set_immediate(Machine& m, bool value) {
 }  // namespace
 
 void add_bit_logic(Instructions& all) {
-  all["LD"] = {false, [](Machine& m) { m.push(read(m.bit(0))); }};
-  all["LDN"] = {false, [](Machine& m) { m.push(!read(m.bit(0))); }};
-  all["LDI"] = {false, [](Machine& m) { m.push(read(m.point(0))); }};
-  all["LDNI"] = {false, [](Machine& m) { m.push(!read(m.point(0))); }};
+  all["LD"] = {false, [](Machine& m) { m.push(m.rail && read(m.bit(0))); }};
+  all["LDN"] = {false, [](Machine& m) { m.push(m.rail && !read(m.bit(0))); }};
+  all["LDI"] = {false, [](Machine& m) { m.push(m.rail && read(m.point(0))); }};
+  all["LDNI"] = {false, [](Machine& m) { m.push(m.rail && !read(m.point(0))); }};
   all["A"] = {false, [](Machine& m) { m.stack[0] = m.stack[0] && read(m.bit(0)); }};
   all["AN"] = {false, [](Machine& m) { m.stack[0] = m.stack[0] && !read(m.bit(0)); }};
   all["AI"] = {false, [](Machine& m) { m.stack[0] = m.stack[0] && read(m.point(0)); }};
   all["ANI"] = {false, [](Machine& m) { m.stack[0] = m.stack[0] && !read(m.point(0)); }};
-  all["O"] = {false, [](Machine& m) { m.stack[0] = m.stack[0] || read(m.bit(0)); }};
-  all["ON"] = {false, [](Machine& m) { m.stack[0] = m.stack[0] || !read(m.bit(0)); }};
-  all["OI"] = {false, [](Machine& m) { m.stack[0] = m.stack[0] || read(m.point(0)); }};
-  all["ONI"] = {false, [](Machine& m) { m.stack[0] = m.stack[0] || !read(m.point(0)); }};
+  all["O"] = {false, [](Machine& m) { m.stack[0] = m.stack[0] || (m.rail && read(m.bit(0))); }};
+  all["ON"] = {false, [](Machine& m) { m.stack[0] = m.stack[0] || (m.rail && !read(m.bit(0))); }};
+  all["OI"] = {false, [](Machine& m) { m.stack[0] = m.stack[0] || (m.rail && read(m.point(0))); }};
+  all["ONI"] = {false, [](Machine& m) { m.stack[0] = m.stack[0] || (m.rail && !read(m.point(0))); }};
   all["NOT"] = {false, [](Machine& m) { m.stack[0] = !m.stack[0]; }};
   all["EU"] = {false, edge_up};
   all["ED"] = {false, edge_down};

@@ -28,11 +28,11 @@ void contact(Machine& m, const std::string& join, const std::string& type, const
     throw;
   }
   if (join == "LD")
-    m.push(result);
+    m.push(m.rail && result);
   else if (join == "A")
     m.stack[0] = m.stack[0] && result;
   else
-    m.stack[0] = m.stack[0] || result;
+    m.stack[0] = m.stack[0] || (m.rail && result);
 }
 
 }  // namespace

@@ -41,22 +41,23 @@ void next_pass(Machine& m) {
 
 void call(Machine& m) {
   if (m.calls.size() == kCallDepth) throw RunTimeError{0x08};
-  m.calls.push_back({m.next, m.stack});
+  m.calls.push_back({m.next, m.stack, m.rail});
   m.stack = {true};
+  m.rail = true;
   m.next = m.find_subroutine(m.number(0));
 }
 
 void return_to_caller(Machine& m) {
   m.stack = m.calls.back().stack;
+  m.rail = m.calls.back().rail;
   m.next = m.calls.back().return_to;
   m.calls.pop_back();
 }
 
+/// Facts 9.1: the segment runs in any case; without power on its rail its contacts give no power flow.
 void load_segment(Machine& m) {
-  if (read(m.bit(0)))
-    m.push(true);
-  else
-    m.next = m.find_scre(m.position) + 1;
+  m.rail = read(m.bit(0));
+  m.push(m.rail);
 }
 
 /// A transition to the segment it stands in leaves that segment on.
@@ -85,7 +86,7 @@ void add_control(Instructions& all) {
   all["WDR"] = {true, [](Machine& m) { m.restart_watchdog(); }};
   all["LSCR"] = {false, load_segment};
   all["SCRT"] = {true, segment_transition};
-  all["SCRE"] = {false, nothing};
+  all["SCRE"] = {false, [](Machine& m) { m.rail = true; }};
   all["ENI"] = {true, [](Machine& m) { m.enable_interrupts(true); }};
   all["DISI"] = {true, [](Machine& m) { m.enable_interrupts(false); }};
   all["ATCH"] = {true, nothing};

@@ -45,11 +45,13 @@ Generator::Generator(std::uint64_t seed) : random_(seed) {
 std::string Generator::program() {
   text_.clear();
   labels_ = 0;
+  routine_ = 0;
   subroutines_ = below(4);
   body(kMain, 0);
   line("MEND");
   for (std::size_t i = 0; i < subroutines_; ++i) {
     line("SBR " + std::to_string(i));
+    routine_ = i + 1;
     body(kSubroutine, 1);
     line("RET");
   }
@@ -65,16 +67,18 @@ void Generator::body(std::uint8_t part, int level) {
 
 void Generator::item(std::uint8_t part, int level) {
   const std::size_t kind = below(level < 3 ? 22 : 14);
-  if (kind == 14 || kind == 15)
+  if (kind >= 19 && subroutines_ > 0)
+    rung(part, "CALL " + std::to_string(below(subroutines_)));
+  else if (in_segment_)
+    rung(part);
+  else if (kind == 14 || kind == 15)
     loop(part, level);
   else if (kind == 16)
     jump_over(part, level);
   else if (kind == 17)
     jump_back(part, level);
-  else if (kind == 18 && !in_segment_)
+  else if (kind == 18)
     segment(part, level);
-  else if (kind >= 19 && subroutines_ > 0)
-    rung(part, "CALL " + std::to_string(below(subroutines_)));
   else
     rung(part);
 }
@@ -94,7 +98,8 @@ void Generator::rung(std::uint8_t part, const std::string& last) {
   for (std::size_t i = last.empty() ? 1 + below(4) : below(3); i > 0;) {
     const auto& instruction = *one_of(outputs_);
     const bool unlikely = is_rare(instruction) && !chance(8);
-    if (unlikely || depth < instruction.stack.needs || !(instruction.allowed & part)) continue;
+    const bool allowed = (instruction.allowed & part) && !(in_segment_ && instruction.outside_segments);
+    if (unlikely || depth < instruction.stack.needs || !allowed) continue;
     line(statement(instruction));
     depth += instruction.stack.change;
     --i;
@@ -141,7 +146,8 @@ void Generator::jump_back(std::uint8_t part, int level) {
 
 void Generator::segment(std::uint8_t part, int level) {
   in_segment_ = true;
-  line(statement(*find_instruction("LSCR")));
+  line("LSCR S" + std::to_string(routine_) + "." + std::to_string(below(8)));
+  if (chance(20)) line("= M0.0");  // on what LSCR has left on the logic stack
   body(part, level + 1);
   if (chance(60)) rung(part, statement(*find_instruction("SCRT")));
   line("SCRE");

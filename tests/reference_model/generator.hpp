@@ -61,6 +61,7 @@ class Generator {
   std::string text_;
   std::size_t subroutines_ = 0;
   std::size_t labels_ = 0;
+  std::size_t routine_ = 0;  ///< 0 the main program, then the subroutines: each has S bits of its own
   bool in_segment_ = false;
 };
 

@@ -110,6 +110,7 @@ void Machine::system_part() {
   in_program = true;
   position = 0;
   stack = {};
+  rail = true;
   calls.clear();
 }
 
@@ -326,12 +327,6 @@ std::size_t Machine::find_for(std::size_t next_position) const {
     if (statements_.at(i).mnemonic == "NEXT") ++depth;
     if (statements_.at(i).mnemonic == "FOR" && --depth == 0) return i;
   }
-}
-
-std::size_t Machine::find_scre(std::size_t lscr_position) const {
-  std::size_t i = lscr_position;
-  while (statements_.at(i).mnemonic != "SCRE") ++i;
-  return i;
 }
 
 std::size_t Machine::find_lscr(std::size_t inner_position) const {

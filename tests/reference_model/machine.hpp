@@ -56,9 +56,12 @@ class Machine {
   int fatal_code = 0;
   std::optional<std::size_t> fatal_position;
 
+  bool rail = true;  ///< whether the power rail of the segment has power
+
   struct Call {
     std::size_t return_to;
     Stack stack;
+    bool rail;
   };
   std::vector<Call> calls;
   std::map<std::size_t, bool> edge_memory;  ///< of EU and ED, by statement
@@ -107,7 +110,6 @@ class Machine {
   std::size_t find_subroutine(std::size_t number) const;
   std::size_t find_next(std::size_t for_position) const;
   std::size_t find_for(std::size_t next_position) const;
-  std::size_t find_scre(std::size_t lscr_position) const;
   std::size_t find_lscr(std::size_t inner_position) const;
 
   struct Timer {

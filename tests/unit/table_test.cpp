@@ -131,6 +131,21 @@ TEST(InstructionTable, WhatMayStandInTheMainProgramInSubroutinesAndInInterruptRo
   }
 }
 
+TEST(InstructionTable, JumpsLoopsAndEndMayNotStandBetweenLscrAndScre) {
+  static const std::set<std::string_view> kForbidden{"JMP", "FOR", "NEXT", "END"};
+  for (const Instruction& instruction : all_instructions())
+    EXPECT_EQ(instruction.outside_segments, kForbidden.contains(instruction.mnemonic)) << instruction.mnemonic;
+}
+
+TEST(InstructionTable, ContactsAndNothingElseHaveABodyForSegments) {
+  static const std::set<std::string_view> kContacts{"LD", "LDN", "LDI", "LDNI", "A",  "AN",
+                                                    "AI", "ANI", "O",   "ON",   "OI", "ONI"};
+  for (const Instruction& instruction : all_instructions()) {
+    const bool contact = kContacts.contains(instruction.mnemonic) || instruction.structure == Structure::Compare;
+    EXPECT_EQ(instruction.in_segment != nullptr, contact) << instruction.mnemonic;
+  }
+}
+
 // --- forms of operands in the vectors ---
 
 /// `V`, `AC`, `constant`, `*VD`, `*AC`, `&`: how an operand is written.

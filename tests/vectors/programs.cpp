@@ -95,11 +95,24 @@ std::vector<Case> returns() {
 }
 
 std::vector<Case> segments() {
-  return {steps("the S bit is 0: on behind SCRE", kSegment, 1, {"S1.0=0"}),
+  return {steps("the S bit is 0: a 0 is pushed", kSegment, 1, {"S1.0=0"}, {false, true}),
+          steps("the S bit is 0: SM0.0 gives no power flow, the box does nothing", kSegment, 3, {"S1.0=0"}),
+          steps("the S bit is 0: SCRT does nothing", kSegment, 5, {"S1.0=0", "V0.0=1"}),
+          steps("after SCRE contacts have power again", kSegment, 7, {"S1.0=0"}),
+          steps("the S bit is 0: coils become 0", "LSCR S1.0|= V1.0|LDN V0.0|= V1.1|LDB>= 1, 0|= V1.2|SCRE|MEND", 7,
+                {"V1.0=1", "V1.1=1", "V1.2=1"}),
+          steps("the S bit is 0: contacts in parallel are without power too",
+                "LSCR S1.0|LD SM0.0|O SM0.0|ON V0.0|OB= 1, 1|= V1.0|SCRE|MEND", 6, {"V1.0=1"}),
+          steps("the S bit is 0: NOT gives power flow, a contact in series passes it on",
+                "LSCR S1.0|LD SM0.0|NOT|A SM0.0|INCW VW10|SCRE|MEND", 5),
+          steps("the S bit is 0: TON is reset", "LSCR S1.0|LD SM0.0|TON T37, 5|SCRE|MEND", 3, {"T37=7", "T37.bit=1"}),
+          steps("the S bit is 0: TONR keeps its value", "LSCR S1.0|LD SM0.0|TONR T5, 5|SCRE|MEND", 3, {"T5=7", "T5.bit=1"}),
+          steps("a subroutine called from a segment that is off has power of its own",
+                "LSCR S1.0|LD SM0.0|NOT|CALL 0|LD SM0.0|INCW VW10|SCRE|MEND|SBR 0|LD SM0.0|INCW VW20|RET", 9),
           steps("the S bit is 1: a 1 is pushed", kSegment, 1, {"S1.0=1"}, {false, true}),
           steps("transition", kSegment, 5, {"S1.0=1", "V0.0=1"}),
           steps("no power flow at SCRT", kSegment, 5, {"S1.0=1"}),
-          steps("SCRE does nothing", kSegment, 6, {"S1.0=1", "V0.0=1"}),
+          steps("SCRE leaves memory and logic stack alone", kSegment, 6, {"S1.0=1", "V0.0=1"}),
           steps("a transition to the same segment leaves it on", "LSCR S1.0|LD SM0.0|SCRT S1.0|SCRE|MEND", 3, {"S1.0=1"})};
 }
 
