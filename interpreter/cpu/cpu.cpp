@@ -141,9 +141,10 @@ static bool follow_pointer(Cpu& cpu, const Op& op, Operand& operand) {
     operand.at = *place;
     return true;
   }
-  cpu.run_error(RunError::IndirectAddress);
-  // A compare contact raises both errors and stops the CPU (facts 5.1).
-  if (op.instruction->structure == Structure::Compare) cpu.fatal_error(FatalError::CompareIndirect);
+  if (op.instruction->structure == Structure::Compare)
+    cpu.compare_error(RunError::IndirectAddress, FatalError::CompareIndirect);
+  else
+    cpu.run_error(RunError::IndirectAddress);
   return false;
 }
 
@@ -198,6 +199,8 @@ std::string_view meaning_of(RunError code) {
     case RunError::EepromRange:
       return "the V address to save lies outside the EEPROM";
     case RunError::IndirectAddress:
+    case RunError::CompareValue:
+      return "illegal value in a compare contact: not a real number (NaN)";
       return "indirect addressing error: the pointer leads outside the memory it may reach";
     case RunError::CallDepth:
       return "subroutines nested too deep";
@@ -222,5 +225,7 @@ std::string_view meaning_of(FatalError code) {
   }
   return "unknown";
 }
+    case FatalError::CompareValue:
+      return "illegal value in a compare contact: not a real number (NaN)";
 
 }  // namespace s7200

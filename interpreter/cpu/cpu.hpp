@@ -47,6 +47,7 @@ enum class RunError : std::uint16_t {
   IndirectAddress = 0x06,
   Clock = 0x07,
   CallDepth = 0x08,
+  CompareValue = 0x0F,
   PortBusy = 0x09,
   CounterDefinedTwice = 0x0A,
   OperandRange = 0x91,
@@ -54,7 +55,7 @@ enum class RunError : std::uint16_t {
   EepromRange = 0x94,
   FreeportInInterrupt = 0x9A,
 };
-enum class FatalError : std::uint16_t { Watchdog = 0x03, CompareIndirect = 0x11 };
+enum class FatalError : std::uint16_t { Watchdog = 0x03, CompareIndirect = 0x11, CompareValue = 0x12 };
 
 /// One line of meaning for a code, for people.
 std::string_view meaning_of(RunError code);
@@ -152,6 +153,11 @@ class Cpu {
   /// R on timers or counters clears their current values too.
   void clear_current_values(const Operand& first, std::uint32_t count);
 
+  /// A compare contact is the only instruction whose error stops the CPU: it raises both (facts 5.1).
+  void compare_error(RunError code, FatalError fatal) {
+    run_error(code);
+    fatal_error(fatal);
+  }
   void run_error(RunError code);
   void fatal_error(FatalError code);
 

@@ -1,5 +1,12 @@
 // Bodies: compare contacts (facts 6.3). Bytes are unsigned, words and double words signed.
+//
+// A real operand that is not a number stops the CPU (facts 5.1, 9.1).
+//
+// Not documented, modelled so: infinities compare as the largest and the smallest number. [Vectors.LDR_GE]
 #pragma once
+
+#include <cmath>
+#include <type_traits>
 
 #include "interpreter/instructions/bit_logic.hpp"
 
@@ -27,7 +34,10 @@ bool holds(Value a, Value b) {
 
 template <Join join, Relation relation, class Value, Rail rail = Rail::Always>
 void compare(Cpu& cpu, const Op& op) {
-  combine<join>(cpu.s.stack, holds<relation>(cpu.get<Value>(op[0]), cpu.get<Value>(op[1])) && fed<join, rail>(cpu));
+  const auto a = cpu.get<Value>(op[0]), b = cpu.get<Value>(op[1]);
+  if constexpr (std::is_floating_point_v<Value>)
+    if (std::isunordered(a, b)) return cpu.compare_error(RunError::CompareValue, FatalError::CompareValue);
+  combine<join>(cpu.s.stack, holds<relation>(a, b) && fed<join, rail>(cpu));
 }
 
 }  // namespace s7200::bodies

@@ -1,4 +1,6 @@
-// Facts 6.3: LDB= … OR<=. A bad pointer stops the CPU (facts 5.1).
+// Facts 6.3: LDB= … OR<=. A bad pointer stops the CPU, and so does a real operand that is not a number (facts 5.1, 9.1).
+#include <cmath>
+
 #include "tests/reference_model/instructions.hpp"
 #include "tests/reference_model/values.hpp"
 
@@ -12,19 +14,25 @@ bool compare(const std::string& relation, Value a, Value b) {
   return a <= b;
 }
 
+bool compare_reals(const std::string& relation, float a, float b) {
+  if (std::isnan(a) || std::isnan(b)) throw RunTimeError{0x0F};
+  return compare(relation, a, b);
+}
+
 bool holds_true(Machine& m, const std::string& type, const std::string& relation) {
   if (type == "B") return compare(relation, m.in(0, 1), m.in(1, 1));
   if (type == "W") return compare(relation, signed16(m.in(0, 2)), signed16(m.in(1, 2)));
   if (type == "D") return compare(relation, signed32(m.in(0, 4)), signed32(m.in(1, 4)));
-  return compare(relation, real(m.in(0, 4)), real(m.in(1, 4)));
+  const float a = real(m.in(0, 4)), b = real(m.in(1, 4));
+  return compare_reals(relation, a, b);
 }
 
 void contact(Machine& m, const std::string& join, const std::string& type, const std::string& relation) {
   bool result = false;
   try {
     result = holds_true(m, type, relation);
-  } catch (const RunTimeError&) {
-    m.fatal_error(0x11, m.position);
+  } catch (const RunTimeError& error) {
+    m.fatal_error(error.code == 0x0F ? 0x12 : 0x11, m.position);
     throw;
   }
   if (join == "LD")

@@ -62,7 +62,10 @@ List compare_values(char type) {
                       {real(0.0f), real(-0.0f)},
                       {real(kNoNumber), real(kNoNumber)},
                       {real(1.0f), real(kNoNumber)},
-                      {real(kInfinity), real(kLargest)}});
+                      {real(kNoNumber), real(1.0f)},
+                      {real(kInfinity), real(kLargest)},
+                      {real(-kInfinity), real(-kLargest)},
+                      {real(kInfinity), real(kInfinity)}});
   }
 }
 
