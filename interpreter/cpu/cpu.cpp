@@ -104,6 +104,7 @@ void Cpu::clear_current_values(const Operand& first, std::uint32_t count) {
     if (first.at < area.bits || first.at >= area.bits + 32) continue;
     const std::uint32_t number = (first.at - area.bits) * 8 + first.bit;
     std::fill_n(s.image.begin() + area.base + number * 2, count * 2, std::uint8_t{0});
+    if (area.area == Area::T) turn_timers_off(number, count);
   }
 }
 

@@ -150,7 +150,7 @@ class Cpu {
 
   /// The same for `count` bits from a bit on.
   bool bits_in_area(const Operand& first, std::uint32_t count) const;
-  /// R on timers or counters clears their current values too.
+  /// R on timers or counters clears their current values too, and turns timers of 1 and 10 ms off.
   void clear_current_values(const Operand& first, std::uint32_t count);
 
   /// A compare contact is the only instruction whose error stops the CPU: it raises both (facts 5.1).
@@ -198,6 +198,7 @@ class Cpu {
   void begin_scan();
   void end_scan();
   void update_clocks();
+  void turn_timers_off(std::uint32_t first, std::uint32_t count);
 
   void add_ticks(std::uint32_t timer, std::int64_t ticks);
   void update_timers_at_scan_begin();

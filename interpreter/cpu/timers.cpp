@@ -34,6 +34,13 @@ void Cpu::execute_timer(std::uint32_t number, bool enabled, std::int16_t preset,
   if (base == kMillisecond && s.next_tick_1ms == kNever) await_tick_1ms(s.time);
 }
 
+/// R: a timer of 1 or 10 ms stands still until its instruction is executed with power flow again; one of 100 ms counts in
+/// its instruction, with which it goes on (S7-200 manual C230-02, 10-14 and 10-15).
+void Cpu::turn_timers_off(std::uint32_t first, std::uint32_t count) {
+  for (std::uint32_t number = first; number < first + count; ++number)
+    if (timer_base(number).base < 100 * kMillisecond) s.timer[number].enabled = false;
+}
+
 void Cpu::await_tick_1ms(Time from) {
   s.next_tick_1ms = (from / kMillisecond + 1) * kMillisecond;
   queue_.schedule(s.next_tick_1ms, EventOwner::Cpu, kTick1ms);

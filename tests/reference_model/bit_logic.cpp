@@ -61,9 +61,12 @@ void set(Machine& m, std::size_t count, bool value) {
 void reset(Machine& m) {
   const std::size_t count = count_of_bits(m);
   const stl::Address& first = m.address(0);
-  if (first.size == stl::Size::None)  // T33, C4
-    for (std::size_t i = 0; i < count; ++i)
-      write(Place{first.area == "T" ? &m.memory.T : &m.memory.C, 2 * (first.number + i)}, 2, 0);
+  const bool numbered = first.size == stl::Size::None;  // T33, C4
+  for (std::size_t i = 0; numbered && i < count; ++i) {
+    const std::size_t number = first.number + i;
+    write(Place{first.area == "T" ? &m.memory.T : &m.memory.C, 2 * number}, 2, 0);
+    if (first.area == "T" && !is_100_ms(number)) m.timers[number].enabled = false;  // facts 9.1
+  }
   set(m, count, false);
 }
 

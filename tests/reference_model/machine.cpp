@@ -347,6 +347,11 @@ bool is_1_ms(std::size_t timer) { return is_one_of(timer, {{0, 0}, {32, 32}, {64
 bool is_10_ms(std::size_t timer) { return is_one_of(timer, {{1, 4}, {33, 36}, {65, 68}, {97, 100}}); }
 
 }  // namespace
+bool is_100_ms(std::size_t timer) {
+  const std::size_t in_half = timer % 64;
+  return (in_half >= 5 && in_half <= 31) || in_half >= 37;
+}
+
 
 void Machine::count_timer(std::size_t timer, std::int64_t ticks) {
   const Place current{&memory.T, 2 * timer};

@@ -26,6 +26,9 @@ struct RunTimeError {
 
 using Stack = std::array<bool, 9>;  // S0 first
 
+/// Timers of 100 ms; the others are of 1 or 10 ms (facts 1.1).
+bool is_100_ms(std::size_t timer);
+
 class Machine {
  public:
   Machine(const stl::Source& source, const Times& times);

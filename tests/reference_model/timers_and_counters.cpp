@@ -7,11 +7,6 @@
 namespace s7200::reference {
 namespace {
 
-bool is_100_ms(std::size_t timer) {
-  const std::size_t in_half = timer % 64;
-  return (in_half >= 5 && in_half <= 31) || in_half >= 37;
-}
-
 /// `retentive`: TONR keeps current value and bit while it is off.
 void time(Machine& m, bool retentive) {
   const std::size_t number = m.address(0).number;

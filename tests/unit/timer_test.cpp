@@ -96,6 +96,83 @@ TEST(Timer, OnDelayTimersAreClearedByTheirInputRetentiveOnesByR) {
   EXPECT_FALSE(timer_bit(plc, 0));
 }
 
+// I0.1 resets the timers after their instructions, I0.2 jumps over those.
+constexpr std::string_view kResetWhileCounting =
+    "LD I0.2\nJMP 1\nLD SM0.0\nTON T32, 1000\nTONR T0, 1000\nTON T33, 1000\nTONR T1, 1000\nLBL 1\nLD I0.1\nR T32, 2\nR T0, 2\n"
+    "MEND\n";
+
+TEST(Timer, AResetStopsATimerOf1Or10MillisecondsUntilItsInstructionIsExecutedAgain) {
+  Plc plc(kResetWhileCounting);
+  plc.run_until(45 * ms);
+  for (const char* timer : {"T32", "T0"}) EXPECT_GE(plc.value(timer), 40) << timer;
+  for (const char* timer : {"T33", "T1"}) EXPECT_EQ(plc.value(timer), 4) << timer;
+  plc.input("I0.2", true);
+  plc.run_until(48 * ms);
+  plc.input("I0.1", true);
+  plc.run_until(50 * ms);
+  plc.input("I0.1", false);
+  plc.run_until(100 * ms);
+  for (const char* timer : {"T32", "T0", "T33", "T1"}) EXPECT_EQ(plc.value(timer), 0) << timer << " stands still";
+  plc.input("I0.2", false);
+  plc.run_until(145 * ms);
+  for (const char* timer : {"T32", "T0"}) EXPECT_GE(plc.value(timer), 40) << timer << " is enabled again";
+  for (const char* timer : {"T33", "T1"}) EXPECT_EQ(plc.value(timer), 4) << timer << " is enabled again";
+}
+
+TEST(Timer, WithoutAResetATimerThatIsJumpedOverCountsOn) {
+  Plc plc(kResetWhileCounting);
+  plc.run_until(5 * ms);
+  plc.input("I0.2", true);
+  plc.run_until(100 * ms);
+  for (const char* timer : {"T32", "T0"}) EXPECT_GE(plc.value(timer), 95) << timer;
+  for (const char* timer : {"T33", "T1"}) EXPECT_EQ(plc.value(timer), 9) << timer;
+}
+
+TEST(Timer, AResetOf1MillisecondAlsoKeepsItsInterruptFromComing) {
+  Plc plc("LD SM0.1\nTON T32, 20\nATCH 0, 21\nENI\nLD I0.1\nR T32, 1\nMEND\nINT 0\nINCW VW0\nRETI\n", cpu215());
+  plc.input_at(10 * ms, "I0.1", true);
+  plc.run_until(60 * ms);
+  EXPECT_EQ(plc.value("VW0"), 0);
+}
+
+// Scans of 860 us + 100 ms: one tick a scan.
+TEST(Timer, AResetOf100MillisecondsClearsValueAndBitAndTheTimerGoesOn) {
+  for (const std::uint32_t number : {37u, 5u}) {
+    const std::string timer = fmt::format("T{}", number);
+    Plc plc(fmt::format("LD SM0.0\nDIV VW100, VD104\n{} {}, 2\nLD I0.1\nR {}, 1\nMEND\n", number == 37 ? "TON" : "TONR", timer, timer));
+    plc.set("VW100", 1);
+    plc.run_scans(4);
+    EXPECT_EQ(plc.value(timer), 3);
+    EXPECT_TRUE(timer_bit(plc, number));
+    plc.input("I0.1", true);
+    plc.run_scans(5);
+    EXPECT_EQ(plc.value(timer), 0);
+    EXPECT_FALSE(timer_bit(plc, number));
+    plc.input("I0.1", false);
+    plc.run_scans(6);
+    EXPECT_EQ(plc.value(timer), 1) << "the tick of the scan in which it was reset";
+    plc.run_scans(7);
+    EXPECT_TRUE(timer_bit(plc, number));
+  }
+}
+
+TEST(Timer, TheExecutionThatEnablesATonWritesZeroToItsValue) {
+  for (const char* timer : {"T32", "T33", "T37"}) {
+    Plc plc(fmt::format("LD I0.0\nJMP 1\nLD SM0.0\nTON {0}, 100\nMOVW {0}, VW0\nLBL 1\nMEND\n", timer));
+    plc.input("I0.0", true);
+    plc.run_scans(1);
+    plc.set(timer, 50);
+    plc.set("VW0", 1);
+    plc.input("I0.0", false);
+    plc.run_scans(2);
+    EXPECT_EQ(plc.value("VW0"), 0) << timer;
+  }
+  Plc retentive("LD SM0.0\nTONR T5, 100\nMOVW T5, VW0\nMEND\n");
+  retentive.set("T5", 50);
+  retentive.run_scans(1);
+  EXPECT_EQ(retentive.value("VW0"), 50) << "a TONR keeps what it has";
+}
+
 TEST(Timer, TimersCountBeyondTheirPresetUpTo32767) {
   Plc plc("LD SM0.0\nTON T32, 5\nMEND\n");
   plc.run_until(1 * ms);

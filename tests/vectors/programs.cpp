@@ -136,6 +136,13 @@ std::vector<Case> timer_runs(const std::string& mnemonic, const std::string& fas
   }
   cases.push_back(
       steps(fast + ": R clears value and bit", "LD SM0.0|R " + fast + ", 1|MEND", 2, {fast + "=5", fast + ".bit=1"}));
+  for (const std::string& timer : {fast, medium})
+    cases.push_back(
+        until(timer + " stands still after R: it is not executed again",
+              "LD V0.0|JMP 0|LD SM0.0|" + mnemonic + " " + timer + ", 3|LD SM0.0|R " + timer + ", 1|= V0.0|LBL 0|MEND",
+              (timer == fast ? 4 : 40) * kMillisecond));
+  cases.push_back(until(slow + " goes on after R",
+                        "LD SM0.0|" + mnemonic + " " + slow + ", 3|LD SM0.1|R " + slow + ", 1|MEND", 250 * kMillisecond));
   return cases;
 }
 
