@@ -1,7 +1,14 @@
 // Bodies: integer arithmetic, increment and decrement, logic (facts 6.6, 6.7).
 //
-// Not documented, modelled so: on overflow SM1.1 is set and the wrapped result stored; SM1.0 and SM1.2 show what was stored.
-// [Vectors.ADD_I]
+// Overflow sets SM1.1. What +I, -I, +D, -D and DIV leave in OUT then is a field of the CPU model. A CPU 22x keeps its
+// operands; SM1.0 and SM1.2 are not valid (S7-200 manual from 2004 on, 140) and are 0 here. MUL cannot overflow.
+//
+// Not documented, modelled so:
+// - A CPU 21x stores the wrapped result of an overflow; SM1.0 and SM1.2 show what was stored. [Vectors.ADD_I]
+// - INCB, INCW, INCD and DECB, DECW, DECD wrap on every CPU, and SM1.0 and SM1.2 show what was stored.
+//   [Vectors.INCW, Overflow.IncrementAndDecrementWrapOnEveryCpu]
+// - SM1.0 and SM1.2 after DIV show the quotient alone. [Vectors.DIV]
+// - -32768 / -1 is an overflow of DIV: the wrapped quotient is 16#8000, the remainder 0. [Vectors.DIV]
 #pragma once
 
 #include <type_traits>
@@ -18,9 +25,17 @@ std::uint8_t sign_flags(Signed value) {
 inline constexpr std::uint8_t kArithmetic = kZero | kOverflow | kNegative;
 
 template <class Signed>
-void store_result(Cpu& cpu, const Operand& out, Signed value, bool overflow) {
+void store_wrapped(Cpu& cpu, const Operand& out, Signed value, bool overflow) {
   cpu.put(out, value);
   cpu.set_flags(kArithmetic, static_cast<std::uint8_t>(sign_flags(value) | (overflow ? kOverflow : 0)));
+}
+
+inline bool keeps_operands(const Cpu& cpu) { return cpu.program().model->integer_overflow == IntegerOverflow::Keep; }
+
+template <class Signed>
+void store_result(Cpu& cpu, const Operand& out, Signed value, bool overflow) {
+  if (overflow && keeps_operands(cpu)) return cpu.set_flags(kArithmetic, kOverflow);
+  store_wrapped(cpu, out, value, overflow);
 }
 
 /// +I, +D
@@ -44,7 +59,7 @@ template <class Signed, int step>
 void increment(Cpu& cpu, const Op& op) {
   Signed result;
   const bool overflow = __builtin_add_overflow(cpu.get<Signed>(op[0]), Signed{step}, &result);
-  store_result(cpu, op[0], result, overflow);
+  store_wrapped(cpu, op[0], result, overflow);
 }
 
 /// INCB, DECB: wrap without overflow.
@@ -69,19 +84,17 @@ inline void multiply(Cpu& cpu, const Op& op) {
   cpu.set_flags(kArithmetic | kDivisionByZero, sign_flags(product));
 }
 
-/// DIV: dividend in the low word of OUT; quotient to the low word, remainder to the high word. Flags are the quotient's.
-/// Division by zero sets SM1.3 and changes nothing else (S7-200 manual C233-01, 9-76).
-/// Not documented, modelled so: -32768 / -1 stores the wrapped quotient 16#8000 and remainder 0, and sets SM1.1.
-/// [Vectors.DIV]
+/// DIV: dividend in the low word of OUT; quotient to the low word, remainder to the high word. Division by zero sets SM1.3
+/// and changes nothing else (S7-200 manual C233-01, 9-76).
 inline void divide(Cpu& cpu, const Op& op) {
   const std::int32_t divisor = cpu.get<std::int16_t>(op[0]);
   if (divisor == 0) return cpu.set_flags(kDivisionByZero, kDivisionByZero);
   const std::int32_t dividend = cpu.get<std::int16_t>(low_word(op[1]));
   const auto quotient = static_cast<std::int16_t>(dividend / divisor);
-  cpu.put(op[1], static_cast<std::int16_t>(dividend % divisor));
-  cpu.put(low_word(op[1]), quotient);
   const bool overflow = dividend / divisor != quotient;
-  cpu.set_flags(kArithmetic | kDivisionByZero, static_cast<std::uint8_t>(sign_flags(quotient) | (overflow ? kOverflow : 0)));
+  cpu.set_flags(kDivisionByZero, 0);
+  if (!overflow || !keeps_operands(cpu)) cpu.put(op[1], static_cast<std::int16_t>(dividend % divisor));
+  store_result(cpu, low_word(op[1]), quotient, overflow);
 }
 
 enum class Logic { And, Or, Xor };

@@ -1,7 +1,11 @@
 // Bodies: real arithmetic (facts 6.6). Reals are IEEE-754 single precision.
 //
-// A NaN or infinite operand, a result beyond the range, and the root of a negative number set SM1.1 and store nothing.
-// Not documented, modelled so: SM1.0 and SM1.2 are then 0. [Vectors.ADD_R]
+// An illegal operand, a result beyond the range, and the root of a negative number set SM1.1 and leave the operands as they
+// were; SM1.0 and SM1.2 are then not valid (S7-200 manual from 2004 on, 140) and are 0 here.
+//
+// Not documented, modelled so:
+// - An infinite operand is as illegal as one that is not a number, as a divisor too. [Vectors.ADD_R, Vectors.DIV_R]
+// - /R by 0 sets SM1.3 whatever the dividend is, even one that is not a number. [Vectors.DIV_R]
 #pragma once
 
 #include <cmath>
@@ -10,7 +14,7 @@
 
 namespace s7200::bodies {
 
-/// A NaN or infinite operand makes a result of that kind, except as a divisor.
+/// An operand that is infinite or not a number makes a result of that kind, except as a divisor.
 inline void store_real(Cpu& cpu, const Operand& out, float result) {
   if (!std::isfinite(result)) return cpu.set_flags(kArithmetic, kOverflow);
   cpu.put(out, result);
@@ -27,7 +31,7 @@ void real_arithmetic(Cpu& cpu, const Op& op) {
   store_real(cpu, op[1], result);
 }
 
-/// /R: division by zero sets SM1.3 and changes nothing else.
+/// /R: division by zero sets SM1.3 and changes nothing else (S7-200 manual from 2004 on, 140).
 inline void real_divide(Cpu& cpu, const Op& op) {
   const auto dividend = cpu.get<float>(op[1]), divisor = cpu.get<float>(op[0]);
   if (divisor == 0) return cpu.set_flags(kDivisionByZero, kDivisionByZero);

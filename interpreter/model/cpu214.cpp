@@ -29,6 +29,7 @@ const CpuModel& cpu214() {
       .call_depth = 8,
       .for_depth = 8,
       .watchdog = 300 * kMillisecond,
+      .integer_overflow = IntegerOverflow::Wrap,
       .times_csv = {embedded::kCpu214Times},
   };
   return kModel;

@@ -49,6 +49,12 @@ struct RetentiveRange {
   std::uint32_t bytes() const { return count * info(area).step(); }
 };
 
+/// What is left in OUT when the result of +I, -I, +D, -D or DIV does not fit.
+enum class IntegerOverflow : std::uint8_t {
+  Wrap,  ///< the low bits of the result
+  Keep   ///< what was there before (S7-200 manual from 2004 on, 140: CPU 22x)
+};
+
 struct CpuModel {
   std::string_view name;  ///< "214"
   CpuSet self;
@@ -63,6 +69,7 @@ struct CpuModel {
   Time shortest_timed_interval;               ///< of SMB34 and SMB35
   std::uint32_t call_depth, for_depth;        ///< nesting of subroutines and of FOR loops
   Time watchdog;                              ///< longest scan
+  IntegerOverflow integer_overflow;           ///< of +I, -I, +D, -D and DIV
   std::array<std::string_view, 2> times_csv;  ///< execution times, in the format of model/times.hpp; the second may be empty
 
   std::uint32_t size_of(Area area) const { return size[static_cast<std::size_t>(area)]; }
