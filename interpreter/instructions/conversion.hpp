@@ -1,9 +1,10 @@
 // Bodies: conversions (facts 6.9).
 //
 // Not documented, modelled so:
-// - ATH stores the digits in front of an illegal character. Overlapping ATH and HTA work character by character.
-//   [Vectors.ATH]
-// - ENCO of 0 gives 0 and keeps the high half of OUT. [Vectors.ENCO]
+// - ATH and HTA work character by character, which shows when IN and OUT overlap. [Vectors.ATH, Vectors.HTA]
+// - ENCO writes the whole byte OUT: the number, at most 15. The manual only speaks of its low half (C233-01, 9-131).
+//   [Vectors.ENCO]
+// - ENCO of a word without a bit set gives 0. [Vectors.ENCO]
 #pragma once
 
 #include <bit>
@@ -51,8 +52,7 @@ inline void decode_bit(Cpu& cpu, const Op& op) {
 
 inline void encode_bit(Cpu& cpu, const Op& op) {
   const auto word = cpu.get<std::uint16_t>(op[0]);
-  const int number = word == 0 ? 0 : std::countr_zero(word);
-  cpu.put(op[1], static_cast<std::uint8_t>((cpu.get<std::uint8_t>(op[1]) & 0xF0) | number));
+  cpu.put(op[1], static_cast<std::uint8_t>(word == 0 ? 0 : std::countr_zero(word)));
 }
 
 /// Segments a (bit 0) to g (bit 6) of the digits 0 to F.

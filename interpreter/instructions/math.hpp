@@ -62,12 +62,13 @@ void increment(Cpu& cpu, const Op& op) {
   store_wrapped(cpu, op[0], result, overflow);
 }
 
-/// INCB, DECB: wrap without overflow.
+/// INCB, DECB: unsigned (facts 9.1).
 template <int step>
 void increment_byte(Cpu& cpu, const Op& op) {
-  const auto result = static_cast<std::uint8_t>(cpu.get<std::uint8_t>(op[0]) + step);
+  std::uint8_t result;
+  const bool overflow = __builtin_add_overflow(cpu.get<std::uint8_t>(op[0]), step, &result);
   cpu.put(op[0], result);
-  cpu.set_flags(kZero, result == 0 ? kZero : 0);
+  cpu.set_flags(kZero | kOverflow, static_cast<std::uint8_t>((result == 0 ? kZero : 0) | (overflow ? kOverflow : 0)));
 }
 
 /// The low word of a double word operand.

@@ -1,4 +1,4 @@
-// Bodies: shifts and rotates (facts 6.8). A count of 0 changes nothing, flags included.
+// Bodies: shifts and rotates (facts 6.8).
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,8 @@ inline void set_shift_flags(Cpu& cpu, bool zero, bool last_out) {
   cpu.set_flags(kZero | kOverflow, static_cast<std::uint8_t>((zero ? kZero : 0) | (last_out ? kOverflow : 0)));
 }
 
-/// SLW, SRW, SLD, SRD: the count stops at the width.
+/// SLB, SRB, SLW, SRW, SLD, SRD: the count stops at the width.
+/// Not documented, modelled so: a shift by 0 changes nothing, SM1.0 included. [Vectors.SLW]
 template <class Value, bool left>
 void shift(Cpu& cpu, const Op& op) {
   constexpr std::uint32_t kBits = 8 * sizeof(Value);
@@ -27,25 +28,22 @@ void shift(Cpu& cpu, const Op& op) {
   set_shift_flags(cpu, result == 0, last_out);
 }
 
-/// RLW, RRW, RLD, RRD: the count is taken modulo the width.
-/// Not documented, modelled so: a multiple of the width other than 0 rotates nothing; SM1.0 is set from the value and SM1.1
-/// from the bit that a full turn brings out last. [Vectors.RLW]
+/// RLB, RRB, RLW, RRW, RLD, RRD: the count is taken modulo the width. If that is 0 nothing is rotated and SM1.1 stays as it
+/// was; SM1.0 says in any case whether the value is zero (S7-200 manual C233-01, 9-119 to 9-121).
 template <class Value, bool left>
 void rotate(Cpu& cpu, const Op& op) {
   constexpr std::uint32_t kBits = 8 * sizeof(Value);
-  const std::uint32_t asked = cpu.get<std::uint8_t>(op[1]);
-  if (asked == 0) return;
-  const int count = static_cast<int>(asked % kBits);
-  cpu.spend(op, count);
+  const int count = static_cast<int>(cpu.get<std::uint8_t>(op[1]) % kBits);
   const auto value = cpu.get<Value>(op[0]);
+  if (count == 0) return cpu.set_flags(kZero, value == 0 ? kZero : 0);
+  cpu.spend(op, count);
   const Value result = left ? std::rotl(value, count) : std::rotr(value, count);
   cpu.put(op[0], result);
   set_shift_flags(cpu, result == 0, left ? result & 1 : (result >> (kBits - 1)) & 1);
 }
 
 /// SHRB DATA, S_BIT, N: |N| bits from S_BIT on move by one. N > 0: DATA enters at S_BIT; N < 0: at the far end. What leaves
-/// goes to SM1.1.
-/// Not documented, modelled so: N = 0 is error 0092. [Vectors.SHRB]
+/// goes to SM1.1. N = 0 is error 0092 (S7-200 SMART manual A5E03822230-AC, 318).
 inline void shift_register(Cpu& cpu, const Op& op) {
   const std::int32_t n = cpu.get<std::int8_t>(op[2]);
   const auto length = static_cast<std::uint32_t>(n < 0 ? -n : n);

@@ -339,8 +339,10 @@ class Table {
     add(box("DECD", {in_out(Width::Double)}, increment<std::int32_t, -1>, "OUT - 1 to OUT, 32 bits", kArithmetic));
   }
   void byte_math() {
-    add(on(kFrom215, box("INCB", {in_out(Width::Byte)}, increment_byte<1>, "OUT + 1 to OUT, unsigned byte", kZero)));
-    add(on(kFrom215, box("DECB", {in_out(Width::Byte)}, increment_byte<-1>, "OUT - 1 to OUT, unsigned byte", kZero)));
+    add(on(kFrom215,
+           box("INCB", {in_out(Width::Byte)}, increment_byte<1>, "OUT + 1 to OUT, unsigned byte", kZero | kOverflow)));
+    add(on(kFrom215,
+           box("DECB", {in_out(Width::Byte)}, increment_byte<-1>, "OUT - 1 to OUT, unsigned byte", kZero | kOverflow)));
   }
   template <class Signed>
   static Body add_body() {
@@ -493,8 +495,7 @@ class Table {
                          "real to double integer, toward zero", kOverflow)));
     add(box("DECO", {in(Width::Byte), out(Width::Word)}, decode_bit,
             "set the one bit of OUT that the low half of IN numbers"));
-    add(box("ENCO", {in(Width::Word), in_out(Width::Byte)}, encode_bit,
-            "number of the lowest bit set in IN to the low half of OUT"));
+    add(box("ENCO", {in(Width::Word), out(Width::Byte)}, encode_bit, "number of the lowest bit set in IN to OUT"));
     add(box("SEG", {in(Width::Byte), out(Width::Byte)}, seven_segments, "seven-segment pattern of the low half of IN"));
     add(box("ATH", {block(Role::In, Width::Byte, "IN"), block(Role::Out, Width::Byte, "OUT"), length()}, ascii_to_hex,
             "LEN characters to hexadecimal digits", kNotHex));

@@ -56,7 +56,7 @@ void encode(Machine& m) {
   std::uint32_t number = 0;
   while (number < 16 && !((word >> number) & 1)) ++number;
   if (word == 0) number = 0;
-  write(out, 1, (read(out, 1) & 0xF0) | number);
+  write(out, 1, number);
 }
 
 void seven_segments(Machine& m) {

@@ -52,9 +52,7 @@ void shift(Machine& m, std::size_t width, bool left) {
 
 void rotate(Machine& m, std::size_t width, bool left) {
   const Place out = m.place(0, width);
-  const std::uint32_t given = m.in(1, 1);
-  if (given == 0) return;
-  const std::uint32_t count = given % static_cast<std::uint32_t>(8 * width);
+  const std::uint32_t count = m.in(1, 1) % static_cast<std::uint32_t>(8 * width);
   std::vector<bool> bits = bits_of(read(out, width), width);
   for (std::uint32_t i = 0; i < count; ++i) {
     if (left)
@@ -64,7 +62,7 @@ void rotate(Machine& m, std::size_t width, bool left) {
   }
   write(out, width, value_of(bits));
   set_flag(m, kZero, value_of(bits) == 0);
-  set_flag(m, kOverflow, left ? bits.front() : bits.back());  // where the bit that went round has come in
+  if (count > 0) set_flag(m, kOverflow, left ? bits.front() : bits.back());  // where the bit that went round has come in
   m.spend_units(count);
 }
 

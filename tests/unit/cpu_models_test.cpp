@@ -107,14 +107,16 @@ TEST_P(ByteInstruction, DoesNothingWithoutPowerFlow) {
 INSTANTIATE_TEST_SUITE_P(
     OnCpu215, ByteInstruction,
     testing::Values(
-        ByteCase{"INCB VB2", 0, 0, 0x12, 0x13, kZ, 0}, ByteCase{"INCB VB2", 0, 0, 0xFF, 0x00, kZ, kZ},
-        ByteCase{"INCB VB2", 0, 0, 0x7F, 0x80, kZ, 0}, ByteCase{"DECB VB2", 0, 0, 0x12, 0x11, kZ, 0},
-        ByteCase{"DECB VB2", 0, 0, 0x01, 0x00, kZ, kZ}, ByteCase{"DECB VB2", 0, 0, 0x00, 0xFF, kZ, 0},
+        ByteCase{"INCB VB2", 0, 0, 0x12, 0x13, kZ | kV, 0}, ByteCase{"INCB VB2", 0, 0, 0xFF, 0x00, kZ | kV, kZ | kV},
+        ByteCase{"INCB VB2", 0, 0, 0x7F, 0x80, kZ | kV, 0}, ByteCase{"DECB VB2", 0, 0, 0x12, 0x11, kZ | kV, 0},
+        ByteCase{"DECB VB2", 0, 0, 0x01, 0x00, kZ | kV, kZ}, ByteCase{"DECB VB2", 0, 0, 0x00, 0xFF, kZ | kV, kV},
+        ByteCase{"DECB VB2", 0, 0, 0x80, 0x7F, kZ | kV, 0},
         ByteCase{"ANDB VB0, VB2", 0xF0, 0, 0x3C, 0x30, kZ, 0}, ByteCase{"ANDB VB0, VB2", 0xAA, 0, 0x55, 0x00, kZ, kZ},
         ByteCase{"ORB VB0, VB2", 0xF0, 0, 0x3C, 0xFC, kZ, 0}, ByteCase{"ORB VB0, VB2", 0, 0, 0, 0, kZ, kZ},
         ByteCase{"XORB VB0, VB2", 0xF0, 0, 0x3C, 0xCC, kZ, 0}, ByteCase{"XORB VB0, VB2", 0xFF, 0, 0xFF, 0x00, kZ, kZ},
         ByteCase{"INVB VB2", 0, 0, 0x0F, 0xF0, kZ, 0}, ByteCase{"INVB VB2", 0, 0, 0xFF, 0x00, kZ, kZ},
-        // SM1.1 is the bit that left last; a shift stops at 8, a rotate counts modulo 8, and 0 touches nothing.
+        // SM1.1 is the bit that left last; a shift stops at 8, and one by 0 touches nothing. A rotate counts modulo 8; if that
+        // is 0 it touches SM1.0 only.
         ByteCase{"SLB VB2, VB1", 0, 1, 0x81, 0x02, kZ | kV, kV},
         ByteCase{"SLB VB2, VB1", 0, 2, 0x40, 0x00, kZ | kV, kZ | kV},
         ByteCase{"SLB VB2, VB1", 0, 3, 0x40, 0x00, kZ | kV, kZ},
@@ -126,11 +128,13 @@ INSTANTIATE_TEST_SUITE_P(
         ByteCase{"SRB VB2, VB1", 0, 8, 0x80, 0x00, kZ | kV, kZ | kV},
         ByteCase{"SRB VB2, VB1", 0, 255, 0x80, 0x00, kZ | kV, kZ | kV}, ByteCase{"SRB VB2, VB1", 0, 0, 0x81, 0x81, 0, 0},
         ByteCase{"RLB VB2, VB1", 0, 1, 0x81, 0x03, kZ | kV, kV}, ByteCase{"RLB VB2, VB1", 0, 3, 0x12, 0x90, kZ | kV, 0},
-        ByteCase{"RLB VB2, VB1", 0, 8, 0x81, 0x81, kZ | kV, kV}, ByteCase{"RLB VB2, VB1", 0, 9, 0x40, 0x80, kZ | kV, 0},
-        ByteCase{"RLB VB2, VB1", 0, 1, 0x00, 0x00, kZ | kV, kZ}, ByteCase{"RLB VB2, VB1", 0, 0, 0x81, 0x81, 0, 0},
+        ByteCase{"RLB VB2, VB1", 0, 8, 0x81, 0x81, kZ, 0}, ByteCase{"RLB VB2, VB1", 0, 9, 0x40, 0x80, kZ | kV, 0},
+        ByteCase{"RLB VB2, VB1", 0, 1, 0x00, 0x00, kZ | kV, kZ}, ByteCase{"RLB VB2, VB1", 0, 0, 0x81, 0x81, kZ, 0},
+        ByteCase{"RLB VB2, VB1", 0, 16, 0x00, 0x00, kZ, kZ},
         ByteCase{"RRB VB2, VB1", 0, 1, 0x81, 0xC0, kZ | kV, kV}, ByteCase{"RRB VB2, VB1", 0, 3, 0x12, 0x42, kZ | kV, 0},
-        ByteCase{"RRB VB2, VB1", 0, 8, 0x80, 0x80, kZ | kV, kV}, ByteCase{"RRB VB2, VB1", 0, 9, 0x02, 0x01, kZ | kV, 0},
-        ByteCase{"RRB VB2, VB1", 0, 1, 0x00, 0x00, kZ | kV, kZ}, ByteCase{"RRB VB2, VB1", 0, 0, 0x81, 0x81, 0, 0}));
+        ByteCase{"RRB VB2, VB1", 0, 8, 0x80, 0x80, kZ, 0}, ByteCase{"RRB VB2, VB1", 0, 9, 0x02, 0x01, kZ | kV, 0},
+        ByteCase{"RRB VB2, VB1", 0, 1, 0x00, 0x00, kZ | kV, kZ}, ByteCase{"RRB VB2, VB1", 0, 0, 0x81, 0x81, kZ, 0},
+        ByteCase{"RRB VB2, VB1", 0, 16, 0x00, 0x00, kZ, kZ}));
 
 TEST(CpuModels, ByteInstructionsTakePointersAccumulatorsAndConstants) {
   Plc plc(

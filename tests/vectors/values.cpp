@@ -140,7 +140,9 @@ List word_shifts() {
                   {0xFFFF, 17},
                   {0x0001, 255},
                   {0, 3},
-                  {0x8000, 32}});
+                  {0x8000, 32},
+                  {0, 16},
+                  {0, 0}});
 }
 List double_shifts() {
   return singles({{0x1234'5678, 4},
@@ -153,7 +155,9 @@ List double_shifts() {
                   {0xFFFF'FFFF, 33},
                   {0x0000'0001, 255},
                   {0, 3},
-                  {0x8000'0000, 64}});
+                  {0x8000'0000, 64},
+                  {0, 32},
+                  {0, 0}});
 }
 
 List shift_register() {
