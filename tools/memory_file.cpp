@@ -11,6 +11,7 @@
 #include "interpreter/program/address.hpp"
 #include "interpreter/program/load.hpp"
 #include "tools/atomic_file.hpp"
+#include "tools/duration_option.hpp"
 #include "tools/report.hpp"
 #include "tools/terminal.hpp"
 
@@ -145,8 +146,11 @@ void MemoryFile::add_to(CLI::App& app) {
       app.add_option("--memory", path_,
                      "retentive memory, EEPROM and clock: read from FILE at power-up if it exists, written at the end")
           ->type_name("FILE");
-  app.add_flag("--ram-lost", ram_lost_, "power was off too long: only the EEPROM of --memory is left, SM0.2 is 1")
-      ->needs(file);
+  auto* lost =
+      app.add_flag("--ram-lost", ram_lost_, "power was off too long: only the EEPROM of --memory is left, SM0.2 is 1");
+  auto* off = add_duration(app, "--power-off", power_off_, "how long power was off since --memory was written [0s]");
+  lost->needs(file);
+  off->needs(file)->excludes(lost);
 }
 
 bool MemoryFile::read(const CpuModel& model) {
@@ -166,7 +170,10 @@ bool MemoryFile::read(const CpuModel& model) {
   } else if (ram_lost_) {
     memory_.emplace();
   }
-  if (memory_) memory_->ram_lost = ram_lost_;
+  if (memory_) {
+    memory_->ram_lost = ram_lost_;
+    memory_->power_off = power_off_;
+  }
   return true;
 }
 

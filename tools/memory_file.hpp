@@ -36,6 +36,7 @@ class MemoryFile {
  private:
   std::string path_;
   bool ram_lost_ = false;
+  Time power_off_ = 0;
   std::optional<RetentiveMemory> memory_;
 };
 

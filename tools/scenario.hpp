@@ -119,6 +119,7 @@ struct ErrorsStep {
 
 struct PowerCycleStep {
   bool memory_lost = false;  ///< power was off for longer than the retentive memory lasts
+  Time power_off = 0;        ///< how long it was off: the clock goes on
 };
 
 /// A fault of the line from now on, or none any more.

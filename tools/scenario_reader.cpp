@@ -83,6 +83,7 @@ const std::vector<ScenarioKey> kKeys{
     {Where::Modifier, "gap", kExchanges, "SPAN", "between the characters of the request; 0 if left out"},
     {Where::Modifier, "listen", kExchanges, "SPAN", "the silence that ends the answer; `3.5 characters` if left out"},
     {Where::Modifier, "timeout", kExchanges, "TIME", "instead of the scenario's"},
+    {Where::Modifier, "power_off", "power_cycle", "TIME", "how long power was off; 0 if left out. The clock goes on, unless the memory is lost"},
     {Where::Modifier, "needs", "", "LIST", "as of a scenario; if one does not hold, the step is left out"},
     {Where::Modifier, "note", "", "TEXT", "shown when the step fails"},
 };
@@ -548,7 +549,10 @@ class Reader {
     } else if (action == "fault") {
       step.action = read_fault(is);
     } else if (action == "power_cycle") {
-      step.action = PowerCycleStep{choice<bool>(&is, {{"memory kept", false}, {"memory lost", true}}).value_or(false)};
+      step.action = PowerCycleStep{
+          choice<bool>(&is, {{"memory kept", false}, {"memory lost", true}}).value_or(false),
+          value(node.find("power_off"), "duration", "8h, 72h", [](const std::string& t) { return parse_duration(t); })
+              .value_or(0)};
     }
   }
 

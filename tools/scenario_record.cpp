@@ -133,6 +133,7 @@ class Writer {
       line(6, "- set: " + assignments_text(set->assignments));
     } else if (const auto* power = std::get_if<PowerCycleStep>(&step.action)) {
       line(6, fmt::format("- power_cycle: memory {}", power->memory_lost ? "lost" : "kept"));
+      if (power->power_off != 0) line(8, "power_off: " + exact(power->power_off));
     } else if (const auto* fault = std::get_if<FaultStep>(&step.action)) {
       line(6, "- fault: " + (fault->fault ? serial::to_text(*fault->fault) : "none"));
     } else {

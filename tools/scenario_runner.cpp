@@ -60,9 +60,10 @@ class Plant {
     for (const Assignment& assignment : scenario.set) assign(*simulation_, assignment);
   }
 
-  void power_cycle(bool memory_lost) {
+  void power_cycle(const PowerCycleStep& step) {
     RetentiveMemory memory = cpu().retentive_memory();
-    memory.ram_lost = memory_lost;
+    memory.ram_lost = step.memory_lost;
+    memory.power_off = step.power_off;
     before_ += simulation_->time();
     power_up(&memory);
   }
@@ -522,7 +523,7 @@ class Run {
   }
 
   void act(const PowerCycleStep& step) {
-    plant_->power_cycle(step.memory_lost);
+    plant_->power_cycle(step);
     last_end_.reset();
     mode_expected_.reset();
     if (!plant_->get_ready())

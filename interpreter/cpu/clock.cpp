@@ -2,8 +2,11 @@
 //
 // Eight bytes of BCD: year, month, day, hour, minute, second, 0, day of the week (1 Sunday … 7 Saturday, 0 switched off).
 // Dates are not checked by TODW: the 30th of February is followed by the 1st of March.
-// When the clock was lost it starts at 1 January 1990, 0:00:00, Sunday (A5E00066097-02, 9-72).
-// Not documented, modelled so: a byte that is no BCD is error 0007. [Clock.WhatIsNoBcdIs0007AndLeavesTheClockAlone]
+// The clock goes on while power is off, as long as the capacitor holds out (facts 9.1); one that was lost starts at 1
+// January 1990, 0:00:00, Sunday (A5E00066097-02, 9-72).
+//
+// Not documented, modelled so: TODW with a byte that is not BCD is error 0007 and leaves the clock alone.
+// [Clock.WhatIsNoBcdIs0007AndLeavesTheClockAlone]
 #include <algorithm>
 
 #include "interpreter/cpu/cpu.hpp"
@@ -43,12 +46,14 @@ ClockTime advanced(ClockTime t, std::int64_t seconds) {
 
 }  // namespace
 
+ClockTime clock_after(const ClockTime& from, Time time) { return advanced(from, time / kSecond); }
+
 void Cpu::set_clock(const ClockTime& to) {
   s.clock = to;
   s.clock_set_at = s.time;
 }
 
-ClockTime Cpu::clock() const { return advanced(s.clock, (s.time - s.clock_set_at) / kSecond); }
+ClockTime Cpu::clock() const { return clock_after(s.clock, s.time - s.clock_set_at); }
 
 void Cpu::read_clock(std::uint32_t buffer) {
   if (!in_area(buffer, kBufferBytes)) return run_error(RunError::OperandRange);

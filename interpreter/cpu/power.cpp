@@ -1,9 +1,8 @@
 // Power-up, and what outlasts power off (facts 1.6).
 //
 // RAM intact: the retentive ranges of the model keep their values, V that is not retentive is loaded from the EEPROM, all
-// else is 0. RAM lost: V is loaded from the EEPROM, all else is 0, SM0.2 is 1 during the first scan, and the clock starts
-// anew. Not documented, modelled so: while power is off the clock stands still.
-// [RetentiveMemoryTest.RetentiveRangesKeepTheirValuesAllElseIsZero]
+// else is 0, and the clock has gone on. RAM lost: V is loaded from the EEPROM, all else is 0, SM0.2 is 1 during the first
+// scan, and the clock starts anew.
 #include <algorithm>
 
 #include "interpreter/cpu/cpu.hpp"
@@ -35,7 +34,7 @@ void Cpu::recall(const RetentiveMemory& memory) {
   if (memory.ram_lost) return;
   for (const RetentiveRange& range : program_->model->retentive)
     std::copy_n(memory.image.begin() + range.at(), range.bytes(), s.image.begin() + range.at());
-  set_clock(memory.clock);
+  set_clock(clock_after(memory.clock, memory.power_off));
 }
 
 RetentiveMemory Cpu::retentive_memory() const {

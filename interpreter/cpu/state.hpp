@@ -126,6 +126,9 @@ struct ClockTime {
   std::uint8_t weekday = 1;  ///< 1 Sunday … 7 Saturday, 0 switched off
   bool operator==(const ClockTime&) const = default;
 };
+/// The time of day so much later, in whole seconds.
+ClockTime clock_after(const ClockTime& from, Time time);
+
 
 /// A run-time error: code, the instruction, how often, when first.
 struct RuntimeError {
@@ -190,8 +193,9 @@ struct State {
 struct RetentiveMemory {
   std::array<std::uint8_t, image::kSize> image{};  ///< of which the retentive ranges count
   std::array<std::uint8_t, 10240> eeprom{};        ///< permanent V memory
-  ClockTime clock{};
-  bool ram_lost = false;  ///< power was off too long: image and clock are gone
+  ClockTime clock{};                               ///< when power went off
+  Time power_off = 0;                              ///< how long power was off
+  bool ram_lost = false;                           ///< power was off too long: image and clock are gone
   bool operator==(const RetentiveMemory&) const = default;
 };
 

@@ -585,6 +585,21 @@ class Files(Case):
         csv.write_text("mnemonic,form\nMOVB,,30\n", encoding="utf-8")
         self.assertIn(f"{csv}:", self.ends(UNUSABLE, "run", path, "--times", csv).stderr)
 
+    def test_the_clock_goes_on_between_runs_while_power_is_off(self):
+        clock = self.program("LD SM0.0\nTODR VB100\nMEND\n")
+        memory = self.folder / "memory.json"
+
+        def run(*options, code=FINE):
+            done = self.ends(code, "run", clock, "--scans", 1, "--memory", memory, "--dump", "VB100:8", *options)
+            return re.search(r"(?m)^VB100 .*", done.stdout).group(0) if code == FINE else done.stderr
+
+        self.assertIn("26 11 21 10 00 00 00 07", run("--clock", "2026-11-21 10:00:00"))
+        self.assertIn("26 11 21 10 00 00 00 07", run())
+        self.assertIn("26 11 22 12 00 00 00 01", run("--power-off", "26h"))
+        self.assertIn("90 01 01 00 00 00 00 01", run("--ram-lost"))
+        self.assertIn("--ram-lost excludes --power-off", run("--power-off", "1h", "--ram-lost", code=UNUSABLE))
+        self.ends(UNUSABLE, "run", clock, "--scans", 1, "--power-off", "1h")
+
     def test_standard_output_is_for_one_thing(self):
         path = self.program(Json.ECHO)
         for arguments in (["--trace", "-", "--json"], ["--output", "-", "--json"], ["--trace", "-", "--output", "-"]):

@@ -119,6 +119,16 @@ TEST(MemoryFile, TheBytesStandUnderTheirAddresses) {
 }
 
 TEST(MemoryFile, WhatIsNoMemoryOfThisCpuIsRefusedWithTheReason) {
+TEST(RetentiveMemoryTest, TheClockGoesOnWhilePowerIsOff) {
+  RetentiveMemory memory = filled();
+  memory.power_off = 26 * 3600 * kSecond + 1999 * ms;
+  const Plc plc(kIdle, &memory);
+  EXPECT_EQ(plc.cpu.clock(), (ClockTime{26, 11, 22, 12, 0, 1, 1}));
+  memory.ram_lost = true;
+  const Plc lost(kIdle, &memory);
+  EXPECT_EQ(lost.cpu.clock(), ClockTime{}) << "the capacitor was empty";
+}
+
   const std::string good = memory_to_json(filled(), cpu214());
   const auto changed = [&](std::string_view from, std::string_view to) {
     std::string text = good;

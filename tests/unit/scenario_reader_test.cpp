@@ -157,6 +157,7 @@ TEST(ScenarioReader, TheOtherSteps) {
   EXPECT_EQ(action_of<ErrorsStep>("errors: {0092: 3}").errors[0].code, 0x92);
   EXPECT_TRUE(action_of<ErrorsStep>("errors: none").errors.empty());
   EXPECT_TRUE(action_of<PowerCycleStep>("power_cycle: memory lost").memory_lost);
+  EXPECT_EQ(action_of<PowerCycleStep>("{power_cycle: memory kept, power_off: 8h}").power_off, 8 * 3600 * kSecond);
   EXPECT_EQ(action_of<FaultStep>("fault: flip:character=3,bit=5").fault->bit, 5);
   EXPECT_FALSE(action_of<FaultStep>("fault: none").fault);
 }

@@ -124,6 +124,18 @@ TEST(ScenarioRunner, PowerCyclesKeepOrLoseTheMemory) {
             "");
 }
 
+TEST(ScenarioRunner, TheClockGoesOnDuringAPowerCycleUnlessTheMemoryIsLost) {
+  const auto clock = test::compile("LD SM0.0\nTODR VB100\nMEND\n");
+  EXPECT_EQ(findings("  - power_cycle: memory kept\n"
+                     "  - memory: {VB101: 16#11, VB102: 16#21, VB103: 16#10, VB104: 0}\n"
+                     "  - {power_cycle: memory kept, power_off: 26h}\n"
+                     "  - memory: {VB101: 16#11, VB102: 16#22, VB103: 16#12, VB104: 0}\n"
+                     "  - {power_cycle: memory lost, power_off: 26h}\n"
+                     "  - memory: {VB100: 16#90, VB101: 1, VB102: 1, VB103: 0}\n",
+                     "clock: 2026-11-21 10:00:00\n", clock),
+            "");
+}
+
 TEST(ScenarioRunner, AStopNobodyExpectedIsAFailure) {
   const auto stops = test::compile("LD I0.0\nSTOP\nMEND\n");
   EXPECT_EQ(findings("  - set: {I0.0: 1}\n  - wait: 20ms\n", "after: 0\n", stops),
@@ -199,7 +211,7 @@ constexpr const char* kDriven =
     "      - fault: flip:character=3,bit=5,of=answer\n"
     "      - {read: holding 10}\n"
     "      - fault: none\n"
-    "      - power_cycle: memory kept\n"
+    "      - {power_cycle: memory kept, power_off: 8h}\n"
     "      - {read: coils 0, count: 9}\n"
     "  - {name: faster, line: {baud: 19200}, steps: [{read: holding 0}]}\n";
 
