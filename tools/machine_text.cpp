@@ -33,6 +33,8 @@ std::string_view phase_text(Phase phase) {
       return "the system's self-test";
     case Phase::WriteOutputs:
       return "the system writing the outputs";
+    case Phase::SaveToEeprom:
+      return "the system saving a value to EEPROM";
   }
   return {};
 }

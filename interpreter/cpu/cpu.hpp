@@ -227,7 +227,8 @@ class Cpu {
   void put_output_byte(std::uint32_t byte, std::uint8_t value, Time at);
   void write_outputs();
   void clear_outputs();
-  void save_to_eeprom();
+  bool begin_save_to_eeprom();
+  void end_save_to_eeprom();
 
   void enter_run();
   void enter_stop();

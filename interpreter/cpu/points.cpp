@@ -5,6 +5,8 @@
 
 namespace s7200 {
 
+static constexpr std::uint32_t kSaveRequest = image::kSM + 31;
+
 void Cpu::set_input(std::uint32_t byte, std::uint8_t value, Time at) {
   std::uint8_t& input = s.image[image::kInputs + byte];
   const std::uint8_t before = input, changed = before ^ value;
@@ -76,17 +78,29 @@ void Cpu::clear_outputs() {
   for (std::uint32_t byte = 0; byte < program_->model->size_of(Area::Q); ++byte) put_output_byte(byte, 0, s.time);
 }
 
-/// SM31.7 asks for one V value to be saved to EEPROM: SM31.1–0 its size, SMW32 its offset. The bit is reset when it is done.
-/// Not documented, modelled so: it is done at the end of the scan and takes no time of its own; an offset beyond the part of
-/// V that the EEPROM holds is error 0094.
-/// [Eeprom.ASaveTakesPlaceAtTheEndOfTheScanAndResetsItsRequest, Eeprom.TheLastAddressIsV1023AndBeyondItIs0094]
-void Cpu::save_to_eeprom() {
-  std::uint8_t& request = s.image[image::kSM + 31];
+/// SM31.7 asks for one V value to be saved to EEPROM: SM31.1–0 its size, SMW32 its offset. It is saved at the end of the
+/// scan, which takes so much longer; then the bit is reset (S7-200 manual C230-02, 7-16). False when nothing is to be saved.
+/// Not documented, modelled so:
+/// - A save takes 17.5 ms, the middle of the 15 to 20 ms that the manual calls typical; `s7200 times` lists it.
+///   [Eeprom.ASaveProlongsItsScanByTheTimeInTheTable]
+/// - Interrupts are served during a save; it takes the value that V has at its start.
+///   [Eeprom.InterruptsAreServedDuringASaveOfTheValueAtItsStart]
+/// - A value outside the part of V that the EEPROM holds is error 0094, and the scan takes no longer.
+///   [Eeprom.TheLastAddressIsV1023AndBeyondItIs0094, Eeprom.ARefusedSaveTakesNoTime]
+bool Cpu::begin_save_to_eeprom() {
+  const std::uint8_t request = s.image[kSaveRequest];
+  if (!(request & 0x80)) return false;
   const std::uint32_t bytes = (request & 3) == 3 ? 4 : (request & 3) == 2 ? 2 : 1;
   const std::uint32_t offset = load16(&s.image[image::kSM + 32]);
-  request &= 0x7F;
-  if (offset + bytes > program_->model->eeprom_bytes) return run_error(RunError::EepromRange);
+  if (offset + bytes > program_->model->eeprom_bytes) {
+    end_save_to_eeprom();
+    run_error(RunError::EepromRange);
+    return false;
+  }
   std::copy_n(s.image.begin() + image::kV + offset, bytes, s.eeprom.begin() + offset);
+  return true;
 }
+
+void Cpu::end_save_to_eeprom() { s.image[kSaveRequest] &= 0x7F; }
 
 }  // namespace s7200

@@ -8,15 +8,15 @@ namespace {
 
 constexpr Time kHalfSecond = kSecond / 2;
 
-/// Not documented, modelled so: both clocks start with their 1 half at power-up.
-/// [ScanCycle.TheClockOfHalfASecondChangesAtScanEnds]
+/// Not documented, modelled so: SM0.4 and SM0.5 start with their 1 half at power-up.
+/// [ScanCycle.TheClockOfHalfASecondChangesAtScanEnds, ScanCycle.TheClockOfHalfAMinuteChangesAtScanEnds]
 std::uint8_t clock_bits(Time time) {
   const bool sm0_5 = (time / kHalfSecond) % 2 == 0;
   const bool sm0_4 = (time / (30 * kSecond)) % 2 == 0;
   return static_cast<std::uint8_t>(sm0_4 << 4 | sm0_5 << 5);
 }
 
-/// For a word. Not documented, modelled so: a fraction is dropped, and a scan longer than the word can say is 65535 ms.
+/// Not documented, modelled so: SMW22, SMW24 and SMW26 drop fractions of a millisecond and stop at 65535 ms.
 /// [ScanCycle.LastShortestAndLongestScanInWholeMilliseconds, ScanCycle.AScanLongerThanAWordCanSayIs65535]
 std::uint16_t whole_milliseconds(Time time) {
   return static_cast<std::uint16_t>(std::min<Time>(time / kMillisecond, 0xFFFF));
@@ -24,6 +24,7 @@ std::uint16_t whole_milliseconds(Time time) {
 
 }  // namespace
 
+/// Not documented, modelled so: SM0.6 is 0 in the first scan. [ScanCycle.SM06IsZeroInTheFirstScanAndThenAlternates]
 void Cpu::enter_run() {
   s.mode = Mode::Run;
   s.image[image::kSM] = static_cast<std::uint8_t>((s.image[image::kSM] & 0x0C) | 0x83 | clock_bits(s.time));
@@ -32,6 +33,7 @@ void Cpu::enter_run() {
   follow_port_control(s.time);
 }
 
+/// The output points go off: the default of the output table for STOP (facts 9.1).
 void Cpu::enter_stop() {
   s.mode = Mode::Stop;
   s.in_interrupt = false;
@@ -102,6 +104,18 @@ void Cpu::finish_phase() {
       s.phase_left = program_->scan_phase[3];
       return;
     case Phase::WriteOutputs:
+      if (s.mode == Mode::Run) {
+        if (std::memcmp(&s.image[image::kOutputs], &s.image[image::kQ], image::kPointBytes) != 0) write_outputs();
+        if (begin_save_to_eeprom()) {
+          s.phase = Phase::SaveToEeprom;
+          s.phase_left = program_->eeprom_save;
+          return;
+        }
+      }
+      end_scan();
+      return;
+    case Phase::SaveToEeprom:
+      end_save_to_eeprom();
       end_scan();
       return;
   }
@@ -109,8 +123,6 @@ void Cpu::finish_phase() {
 
 void Cpu::end_scan() {
   if (s.mode == Mode::Run) {
-    if (std::memcmp(&s.image[image::kOutputs], &s.image[image::kQ], image::kPointBytes) != 0) write_outputs();
-    if (s.image[image::kSM + 31] & 0x80) save_to_eeprom();
     ++s.scans;
     // SMB0 is updated at the end of each scan (S7-200 manual, SMB0): SM0.1–SM0.3 last one scan, SM0.6 alternates.
     s.image[image::kSM] = static_cast<std::uint8_t>((s.image[image::kSM] & ~0x0E) ^ 0x40);

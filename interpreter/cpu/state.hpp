@@ -39,8 +39,8 @@ class LogicStack {
 
 enum class Mode : std::uint8_t { Stop, Run };
 
-/// Parts of a scan, in order (S7-200 manual C230-02, 6-10).
-enum class Phase : std::uint8_t { ReadInputs, Program, Communication, SelfTest, WriteOutputs };
+/// Parts of a scan, in order (S7-200 manual C230-02, 6-10). The last is there only when the program has asked for it.
+enum class Phase : std::uint8_t { ReadInputs, Program, Communication, SelfTest, WriteOutputs, SaveToEeprom };
 
 /// Where a subroutine returns to, and its caller's logic stack and power rail.
 struct CallFrame {

@@ -121,6 +121,8 @@ std::string_view name_of(SystemTime what) {
       return "(interrupt entry)";
     case SystemTime::ScanOverhead:
       return "(scan overhead)";
+    case SystemTime::EepromSave:
+      return "(EEPROM save)";
   }
   return {};
 }

@@ -16,7 +16,7 @@ namespace s7200 {
 ///   mnemonic,form,base_us,per_unit_us,unit,marker,source
 ///   = ,I Q,0.8,,,estimate,…
 ///
-/// `mnemonic`: one or more, separated by blanks, all with the same time; or one of the four names of SystemTime in brackets;
+/// `mnemonic`: one or more, separated by blanks, all with the same time; or one of the names of SystemTime in brackets;
 /// a trailing `(and A O)` adds the A and O forms of each LD form. `form`: areas of the first operand that the line is for,
 /// or any words to say what the figure means. `marker`: manual, estimate or calibrated. `source` may be left out.
 struct TimeRow {
@@ -34,7 +34,7 @@ struct Cost {
 };
 
 /// What costs time without being an instruction; the names stand in the tables.
-enum class SystemTime { NoPowerFlow, IndirectOperand, InterruptEntry, ScanOverhead };
+enum class SystemTime { NoPowerFlow, IndirectOperand, InterruptEntry, ScanOverhead, EepromSave };
 std::string_view name_of(SystemTime what);
 
 class TimeTable {

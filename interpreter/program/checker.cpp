@@ -172,6 +172,7 @@ class Checker {
         program->reach[*area.pointer_code] = {area.base, model_.size_of(area.area) * std::max(1u, area.element)};
     program->no_power_flow = times_[SystemTime::NoPowerFlow];
     program->interrupt_entry = times_[SystemTime::InterruptEntry];
+    program->eeprom_save = times_[SystemTime::EepromSave];
     const Time overhead = times_[SystemTime::ScanOverhead];
     program->scan_phase = {overhead / 4, overhead / 4, overhead / 4, overhead - 3 * (overhead / 4)};
     return program;

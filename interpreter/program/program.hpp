@@ -78,7 +78,7 @@ struct Program {
   std::array<Reach, kReaches> reach{};  ///< by the top byte of a pointer
 
   // Times that the CPU needs while running, taken from `times`.
-  Time no_power_flow = 0, interrupt_entry = 0;
+  Time no_power_flow = 0, interrupt_entry = 0, eeprom_save = 0;
   std::array<Time, 4> scan_phase{};  ///< input read, communication, self-test, output write
 
   const stl::Statement& statement(std::uint32_t op) const { return statements[ops[op].statement]; }

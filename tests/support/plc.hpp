@@ -1,8 +1,8 @@
 // A CPU, 214 unless another is named, with a tiny program and easy times, for tests of what happens when.
 //
 // Every instruction takes 10 us, with power flow or without; labels and routine heads nothing. Exceptions, to fill time: SQRT
-// 5 ms, DIV 100 ms. Entering an interrupt routine takes 40 us. Each of the four system parts of a scan takes 200 us. So a
-// program of n instructions begins 200 us into its scan, and the scan takes 800 us + n * 10 us.
+// 5 ms, DIV 100 ms. Entering an interrupt routine takes 40 us, saving a value to EEPROM 10 ms. Each of the four system parts of
+// a scan takes 200 us. So a program of n instructions begins 200 us into its scan, and the scan takes 800 us + n * 10 us.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ inline constexpr Time us = kMicrosecond, ms = kMillisecond;
 inline TimeTable easy_times() {
   std::string csv = "mnemonic,form,base_us,per_unit_us,unit,marker\nLBL SBR INT,,0,,,manual\nSQRT,,5000,,,manual\nDIV,,100000,,,manual\n"
                     "(interrupt entry),,40,,,manual\n(scan overhead),,800,,,manual\n(no power flow),,10,,,manual\n"
-                    "(indirect operand),,10,,,manual\n";
+                    "(indirect operand),,10,,,manual\n(EEPROM save),,10000,,,manual\n";
   for (const Instruction& instruction : all_instructions())
     if (instruction.body) csv += fmt::format("{},,10,,,manual\n", instruction.mnemonic);
   TimeTable times;

@@ -71,6 +71,42 @@ TEST(Eeprom, ASaveTakesPlaceAtTheEndOfTheScanAndResetsItsRequest) {
   }
 }
 
+// LD, MOVD, MOVW, MOVB and MEND: 850 us.
+TEST(Eeprom, ASaveProlongsItsScanByTheTimeInTheTable) {
+  Plc plc(save(10, 3));
+  plc.run_scans(1);
+  EXPECT_EQ(plc.cpu.time(), 850 * us + 10 * ms);
+  EXPECT_EQ(plc.value("SMW22"), 10);
+  plc.run_scans(2);
+  EXPECT_EQ(plc.cpu.time(), 2 * 850 * us + 10 * ms);
+  for (const CpuModel* model : all_cpus()) EXPECT_EQ(default_times(*model)[SystemTime::EepromSave], 17'500 * us);
+}
+
+// The save lasts from 930 us to 10.93 ms; the timed interrupt comes 5 ms after 270 us and takes 40 us to enter.
+TEST(Eeprom, InterruptsAreServedDuringASaveOfTheValueAtItsStart) {
+  Plc plc("LD SM0.1\nMOVB 5, SMB34\nMOVB 16#11, VB10\nMOVW 10, SMW32\nMOVB 16#81, SMB31\nATCH 0, 10\nENI\nMEND\n"
+          "INT 0\nMOVB 16#22, VB10\nMOVW 9999, SMW32\nRETI\n");
+  plc.run_scans(1);
+  ASSERT_EQ(plc.records.times(TraceKind::ServiceBegin).size(), 2u);
+  EXPECT_EQ(plc.records.times(TraceKind::ServiceBegin)[0], 5260 * us);
+  EXPECT_EQ(plc.value("VB10"), 0x22);
+  EXPECT_EQ(plc.cpu.state().eeprom[10], 0x11);
+  EXPECT_EQ(plc.value("SM31.7"), 0);
+  EXPECT_TRUE(plc.records.errors().empty());
+}
+
+TEST(Eeprom, OutputsAreWrittenBeforeASave) {
+  Plc plc("LD SM0.1\n= Q0.0\nMOVB 16#81, SMB31\nMEND\n");
+  plc.run_scans(1);
+  EXPECT_EQ(plc.records.times(TraceKind::OutputChanged), Times{840 * us});
+}
+
+TEST(Eeprom, ARefusedSaveTakesNoTime) {
+  Plc plc(save(1021, 3));
+  plc.run_scans(1);
+  EXPECT_EQ(plc.cpu.time(), 850 * us);
+}
+
 TEST(Eeprom, TheLastAddressIsV1023AndBeyondItIs0094) {
   Plc last(save(1020, 3)), beyond(save(1021, 3)), far(save(4092, 0));
   for (Plc* plc : {&last, &beyond, &far}) plc->run_scans(1);
@@ -81,6 +117,16 @@ TEST(Eeprom, TheLastAddressIsV1023AndBeyondItIs0094) {
   EXPECT_EQ(beyond.records.of(TraceKind::RuntimeError)[0].op, kNoRoutine) << "no instruction is to blame: it is the scan's end";
   EXPECT_EQ(beyond.value("SM31.7"), 0);
   EXPECT_EQ(beyond.value("SM4.3"), 1);
+}
+
+TEST(RetentiveMemoryTest, TheClockGoesOnWhilePowerIsOff) {
+  RetentiveMemory memory = filled();
+  memory.power_off = 26 * 3600 * kSecond + 1999 * ms;
+  const Plc plc(kIdle, &memory);
+  EXPECT_EQ(plc.cpu.clock(), (ClockTime{26, 11, 22, 12, 0, 1, 1}));
+  memory.ram_lost = true;
+  const Plc lost(kIdle, &memory);
+  EXPECT_EQ(lost.cpu.clock(), ClockTime{}) << "the capacitor was empty";
 }
 
 TEST(RetentiveMemoryTest, WithRamLostVComesFromTheEepromAndSM02IsOneForOneScan) {
@@ -119,16 +165,6 @@ TEST(MemoryFile, TheBytesStandUnderTheirAddresses) {
 }
 
 TEST(MemoryFile, WhatIsNoMemoryOfThisCpuIsRefusedWithTheReason) {
-TEST(RetentiveMemoryTest, TheClockGoesOnWhilePowerIsOff) {
-  RetentiveMemory memory = filled();
-  memory.power_off = 26 * 3600 * kSecond + 1999 * ms;
-  const Plc plc(kIdle, &memory);
-  EXPECT_EQ(plc.cpu.clock(), (ClockTime{26, 11, 22, 12, 0, 1, 1}));
-  memory.ram_lost = true;
-  const Plc lost(kIdle, &memory);
-  EXPECT_EQ(lost.cpu.clock(), ClockTime{}) << "the capacitor was empty";
-}
-
   const std::string good = memory_to_json(filled(), cpu214());
   const auto changed = [&](std::string_view from, std::string_view to) {
     std::string text = good;
