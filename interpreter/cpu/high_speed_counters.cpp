@@ -8,22 +8,22 @@
 //   SMB36, 46, 56   .5 counting up  .6 current = preset  .7 current > preset
 //   SMD38, 48, 58   new current value      SMD42, 52, 62   new preset
 //
+// .0–.2 are taken by HDEF; .3 is the direction in modes 0–2 and the direction to begin with in the others (S7-200 manual
+// C233-01, 9-38). All modes have the event of the preset, those with a reset input that of the reset, and all but 0–2 that
+// of a change of direction (A5E00066097-02, 9-39). While start is not active, clocks and reset are ignored; a counter that
+// is started during reset is cleared (the manual's chapter on the counters).
+//
 // Not documented, modelled so:
-// - The levels of reset and start and the quadrature rate are taken by HDEF.
-//   [HighSpeedCounter.ResetActiveLow, HighSpeedCounter.StartActiveLow]
-// - Counting up to the preset or down to it gives the event; loading a current value does not.
-//   [HighSpeedCounter.Mode0CountsRisingEdgesUpAndTellsWhenItReachesItsPreset]
-// - While start is not active, clocks and reset are ignored. While start and reset are active the counter stands at 0; the
-//   reset event comes when both have become active. [HighSpeedCounter.Mode2WithoutStartClocksAndResetAreIgnored]
-// - The control byte gives the direction in modes 0–2 only. HSC takes the level of the direction input in modes 3–5; in
-//   modes 6–11 a counter begins with "up". [HighSpeedCounter.Modes3To5TakeTheirDirectionFromAnInputEvenBeforeItChanges]
-// - Direction events come when a count goes the other way than the last one (modes 6–11) or the direction input of an
-//   enabled counter changes (modes 3–5). The internal direction gives none. [HighSpeedCounter.Modes6To8HaveAnUpAndADownClock]
+// - Loading a current value or a preset that makes the two equal is not the event of the preset.
+//   [HighSpeedCounter.LoadingThePresetOrTheCurrentValueGivesNoEvent]
+// - A counter that is started during reset gives the event of the reset.
+//   [HighSpeedCounter.Mode2WithoutStartClocksAndResetAreIgnored]
+// - In modes 3–5, HSC takes the level of the direction input for the direction to begin with.
+//   [HighSpeedCounter.Modes3To5TakeTheirDirectionFromAnInputEvenBeforeItChanges]
 // - One count a period (.2 = 1): the rising edge of clock A counts up and its falling edge down, both while B is 0.
 //   [HighSpeedCounter.Modes9To11CountOnceAPeriodIfAsked]
 // - In STOP the counters go on; their events are not taken. [HighSpeedCounter.InStopTheCounterGoesOnWithoutEvents]
-// - The counters follow every edge; the highest frequency of the real inputs (7 kHz, 2 kHz for HSC0) is not enforced.
-//   [HighSpeedCounter.EdgesDuringAnInstructionAreCountedWithTheirOwnTimes]
+// Not modelled: the highest frequency of the inputs (7 kHz, 2 kHz for HSC0). The counters follow every edge.
 #include "interpreter/cpu/cpu.hpp"
 
 namespace s7200 {
@@ -84,7 +84,7 @@ void Cpu::program_counter(std::uint8_t number) {
   if (!counter.defined) return run_error(RunError::CounterNotDefined);
   const std::uint32_t sm = kWiring[number].special_memory;
   const std::uint8_t control = s.image[sm + 1];
-  if (clocking(counter.mode) == Clocking::InternalDirection && (control & kTakeDirection)) counter.up = control & kUp;
+  if (control & kTakeDirection) counter.up = control & kUp;
   if (clocking(counter.mode) == Clocking::DirectionInput) counter.up = input_point(kWiring[number].direction);
   if (control & kTakeCurrent) counter.current = static_cast<std::int32_t>(load32(&s.image[sm + 2]));
   if (control & kTakePreset) counter.preset = static_cast<std::int32_t>(load32(&s.image[sm + 6]));

@@ -5,15 +5,16 @@
 //   SMB66, 76   .6 pulse train overflow  .7 pulse train idle
 //   SMW68, 78   cycle time      SMW70, 80   pulse width      SMD72, 82   pulse count
 //
+// A cycle time below 2 units counts as 2 units, a pulse count of 0 as 1. A width of 0 is off, one of the whole cycle or more
+// is on. PLS with .7 = 0 ends either at once (S7-200 manual C233-01, 9-50). PLS during a pulse train puts one more train in
+// line; a further one sets the overflow bit and is not taken (9-52).
+//
 // Not documented, modelled so:
-// - A cycle time below 2 units counts as 2 units, a pulse count of 0 as 1. [PulseOutput.ACycleBelow2UnitsIs2AndACountOf0Is1]
 // - A pulse begins with its 1 half; an odd cycle time makes the 1 half the shorter one.
 //   [PulseOutput.AnOddCycleHasItsShorterHalfFirst]
-// - PLS during a pulse train puts one more train in line; a further one sets the overflow bit and is not taken.
-//   [PulseOutput.OneMoreTrainWaitsInLineAFurtherOneSetsTheOverflowBit]
-// - PLS during PWM takes effect with the next cycle. PLS with .7 = 0 ends either at once.
-//   [PulseOutput.PwmHoldsTheWidthUntilANewOneTakesEffectWithTheNextCycle]
-// - A point that is no pulse output follows its image at the end of the scan.
+// - PLS during PWM takes effect at once, with the beginning of a cycle: a CPU 21x has no synchronous update (SM67.4).
+//   [PulseOutput.PlsDuringPwmBeginsANewCycleAtOnce]
+// - Once pulses have ended, their point follows its image from the end of the scan on.
 //   [PulseOutput.PlsWithoutEnableEndsItAtOnceAndTheImageHasThePointAgain]
 #include <algorithm>
 
@@ -45,12 +46,13 @@ void Cpu::program_pulses(std::uint8_t output) {
   if (control & kTakeWidth) train.width = load16(sm + 4) * unit;
   if (control & kTakeCount) train.count = std::max(load32(sm + 6), 1u);
 
-  if (pulses.running && !pulses.train.pwm && pulses.has_next) {
+  const bool in_train = pulses.running && !pulses.train.pwm;
+  if (in_train && pulses.has_next) {
     put_bit(status_of(output), kOverflowBit, true);
     return;
   }
   pulses.last = train;
-  if (!pulses.running) return start_pulses(output, train, s.time);
+  if (!in_train) return start_pulses(output, train, s.time);
   pulses.next = train;
   pulses.has_next = true;
 }
@@ -87,14 +89,7 @@ void Cpu::continue_pulses(std::uint8_t output, Time at) {
     queue_.schedule(pulses.cycle_end, EventOwner::Cpu, static_cast<std::uint8_t>(kPulse0 + output));
     return;
   }
-  if (pulses.train.pwm) {
-    if (pulses.has_next)
-      start_pulses(output, pulses.next, at);
-    else
-      begin_pulse(output, at);
-    return;
-  }
-  if (--pulses.left > 0) return begin_pulse(output, at);
+  if (pulses.train.pwm || --pulses.left > 0) return begin_pulse(output, at);
   const bool has_next = pulses.has_next;
   if (has_next)
     start_pulses(output, pulses.next, at);

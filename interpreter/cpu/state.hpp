@@ -114,7 +114,7 @@ struct PulseTrain {
 
 struct PulseOutput {
   bool running = false, has_next = false;
-  PulseTrain train{}, next{}, last{};  ///< running; in line behind it; as last programmed
+  PulseTrain train{}, next{}, last{};  ///< running; in line after it (PTO); as last programmed
   std::uint32_t left = 0;              ///< pulses of the train, the present one included
   Time cycle_end = 0;
   bool operator==(const PulseOutput&) const = default;

@@ -63,6 +63,29 @@ TEST(HighSpeedCounter, HscTakesOnlyWhatTheControlByteSays) {
   EXPECT_EQ(plc.value("HC1"), 100) << "disabled";
 }
 
+TEST(HighSpeedCounter, LoadingThePresetOrTheCurrentValueGivesNoEvent) {
+  Hsc1 plc(0);
+  plc.set("SMD48", 3);  // the preset
+  plc.cpu.program_counter(1);
+  EXPECT_EQ(plc.value("SMB46"), kUp | kEqual);
+  plc.set("SMD48", 7);
+  plc.set("SMD52", 7);
+  plc.cpu.program_counter(1);
+  EXPECT_EQ(plc.value("SMB46"), kUp | kEqual);
+  EXPECT_TRUE(plc.events().empty());
+}
+
+TEST(HighSpeedCounter, TheControlByteGivesModes6To11TheDirectionToBeginWith) {
+  for (const int mode : {6, 9}) {
+    Hsc1 up(mode, 0xF8), down(mode, 0xF0);
+    EXPECT_EQ(up.value("SMB46"), kUp) << mode;
+    EXPECT_EQ(down.value("SMB46"), 0) << mode;
+    for (Hsc1* plc : {&up, &down}) plc->input("I0.6", true);
+    EXPECT_TRUE(up.events().empty()) << mode;
+    EXPECT_EQ(down.events(), Ints{14}) << mode << ": the first count goes up";
+  }
+}
+
 TEST(HighSpeedCounter, Mode1ResetHoldsTheCounterAtZeroAndIsAnEventWhenItComes) {
   Hsc1 plc(1);
   plc.pulse("I0.6", 2);

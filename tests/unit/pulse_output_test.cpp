@@ -78,15 +78,41 @@ TEST(PulseOutput, ARefusedTrainLeavesNothingBehind) {
   EXPECT_EQ(plc.records.times(EventOccurred).back(), at + 2 * ms);
 }
 
-TEST(PulseOutput, PwmHoldsTheWidthUntilANewOneTakesEffectWithTheNextCycle) {
+TEST(PulseOutput, PwmHoldsTheWidth) {
   Plc plc(program(kPwm | 0x08, 10, 3, 0));
-  plc.run_until(15 * ms);
-  plc.set("SMB67", kPwm | 0x08);
-  plc.set("SMW70", 7);
-  plc.cpu.program_pulses(0);
-  plc.run_until(29 * ms);
-  EXPECT_EQ(edges(plc), (Times{kStart, kStart + 3 * ms, kStart + 10 * ms, kStart + 13 * ms, kStart + 20 * ms, kStart + 27 * ms}));
+  plc.run_until(25 * ms);
+  EXPECT_EQ(edges(plc), (Times{kStart, kStart + 3 * ms, kStart + 10 * ms, kStart + 13 * ms, kStart + 20 * ms, kStart + 23 * ms}));
   EXPECT_TRUE(plc.records.times(EventOccurred).empty());
+}
+
+TEST(PulseOutput, PlsDuringPwmBeginsANewCycleAtOnce) {
+  Plc low(program(kPwm | 0x08, 10, 3, 0)), high(program(kPwm | 0x08, 10, 7, 0));
+  for (Plc* plc : {&low, &high}) {
+    plc->run_until(5 * ms);
+    plc->set("SMW70", 4);
+    plc->cpu.program_pulses(0);
+  }
+  const Time at = low.cpu.time();
+  ASSERT_EQ(high.cpu.time(), at);
+  for (Plc* plc : {&low, &high}) plc->run_until(at + 11 * ms);
+  EXPECT_EQ(edges(low), (Times{kStart, kStart + 3 * ms, at, at + 4 * ms, at + 10 * ms})) << "in the 0 half of its cycle";
+  EXPECT_EQ(edges(high), (Times{kStart, at + 4 * ms, at + 10 * ms})) << "in the 1 half";
+  for (Plc* plc : {&low, &high}) EXPECT_TRUE(plc->records.times(EventOccurred).empty());
+}
+
+TEST(PulseOutput, APulseTrainAfterPwmBeginsAtOnceAndAPwmAfterATrainWaitsForItsEnd) {
+  Plc plc(program(kPwm | 0x08, 10, 3, 2));
+  plc.run_until(5 * ms);
+  plc.set("SMB67", kTrainInMs | 0x04);
+  plc.set("SMW68", 2);
+  plc.cpu.program_pulses(0);
+  const Time at = plc.cpu.time();
+  plc.set("SMB67", kPwm | 0x08);
+  plc.set("SMW70", 1);
+  plc.cpu.program_pulses(0);
+  plc.run_until(at + 6500 * us);
+  EXPECT_EQ(edges(plc), (Times{kStart, kStart + 3 * ms, at, at + 1 * ms, at + 2 * ms, at + 3 * ms, at + 4 * ms, at + 5 * ms, at + 6 * ms}));
+  EXPECT_EQ(plc.records.times(EventOccurred), Times{at + 4 * ms}) << "the end of the train";
 }
 
 TEST(PulseOutput, PwmOfNothingAndOfTheWholeCycle) {
