@@ -69,6 +69,8 @@ void Generator::item(std::uint8_t part, int level) {
   const std::size_t kind = below(level < 3 ? 22 : 14);
   if (kind >= 19 && subroutines_ > 0)
     rung(part, "CALL " + std::to_string(below(subroutines_)));
+  else if (kind < 14 && chance(6))
+    timer_with_reset(part);
   else if (in_segment_)
     rung(part);
   else if (kind == 14 || kind == 15)
@@ -81,6 +83,22 @@ void Generator::item(std::uint8_t part, int level) {
     segment(part, level);
   else
     rung(part);
+}
+
+/// A timer that counts in most scans, and an R that meets it now and then.
+void Generator::timer_with_reset(std::uint8_t part) {
+  const auto& instruction = *find_instruction(chance(50) ? "TON" : "TONR");
+  const std::string name = timer(instruction.operand[0]);
+  const auto reset = [&] {
+    line(load());
+    line("R " + name + ", " + std::to_string(1 + below(3)));
+  };
+  const bool before = chance(50);
+  if (before) reset();
+  line(chance(70) ? "LD SM0.0" : "LD I0." + std::to_string(below(8)));
+  line(std::string(instruction.mnemonic) + " " + name + ", " + std::to_string(1 + below(20)));
+  if (chance(50)) rung(part);
+  if (!before) reset();
 }
 
 /// A contact or more, logic, then boxes and coils; `last` ends it.
@@ -300,14 +318,12 @@ std::uint32_t Generator::interesting(std::size_t width) {
 
 std::uint32_t Generator::real_bits() {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  static const std::vector<float> kReal{0.0f,           -0.0f,          1.0f,
-                                        -1.0f,          0.5f,           4.0f,
-                                        2.25f,          -3.75f,         1e10f,
-                                        3.4e38f,        -3.4e38f,       1e-38f,
-                                        1e-44f,         2147483520.0f,  2147483648.0f,
-                                        -2147483648.0f, -2147483904.0f, 16777216.0f,
-                                        kInfinity,      -kInfinity,     std::numeric_limits<float>::quiet_NaN()};
+  static const std::vector<float> kReal{0.0f,           -0.0f,          1.0f,        -1.0f,         0.5f,
+                                        4.0f,           2.25f,          -3.75f,      1e10f,         3.4e38f,
+                                        -3.4e38f,       1e-38f,         1e-44f,      2147483520.0f, 2147483648.0f,
+                                        -2147483648.0f, -2147483904.0f, 16777216.0f, kInfinity,     -kInfinity};
   if (chance(20)) return static_cast<std::uint32_t>(random_());
+  if (chance(2)) return std::bit_cast<std::uint32_t>(std::numeric_limits<float>::quiet_NaN());  // stops a real compare
   return std::bit_cast<std::uint32_t>(one_of(kReal));
 }
 

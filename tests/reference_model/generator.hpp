@@ -38,6 +38,7 @@ class Generator {
   void jump_over(std::uint8_t part, int level);
   void jump_back(std::uint8_t part, int level);
   void segment(std::uint8_t part, int level);
+  void timer_with_reset(std::uint8_t part);
   std::string load();
   std::string statement(const s7200::Instruction& instruction);
   std::string operand(const OperandRule& rule);

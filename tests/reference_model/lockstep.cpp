@@ -44,6 +44,28 @@ std::shared_ptr<const Program> accepted(std::string& text) {
   return nullptr;
 }
 
+/// The rare state that the instruction at the reference model's position is about to meet; nothing for the common ones.
+std::optional<std::string> rare_state(Machine& m) {
+  const stl::Statement& statement = m.statement();
+  if (statement.operands.size() != 2 || std::holds_alternative<stl::Indirect>(statement.operands[1].value)) return {};
+  const std::string& mnemonic = statement.mnemonic;
+  const bool word = mnemonic == "RLW" || mnemonic == "RRW";
+  if (word || mnemonic == "RLD" || mnemonic == "RRD") {
+    const std::uint32_t count = m.in(1, 1);
+    return count > 0 && count % (word ? 16 : 32) == 0 ? std::optional("rotate by whole turns") : std::nullopt;
+  }
+  if (mnemonic != "R" || m.address(0).area != "T") return {};
+  const std::size_t first = m.address(0).number, end = std::min<std::size_t>(first + m.in(1, 1), m.timers.size());
+  for (std::size_t timer = first; timer < end; ++timer)
+    if (m.timers[timer].enabled)
+      return is_100_ms(timer) ? "R of a 100 ms timer that counts" : "R of a fast timer that counts";
+  return {};
+}
+
+bool adds(const std::string& mnemonic) {
+  return mnemonic == "+I" || mnemonic == "-I" || mnemonic == "+D" || mnemonic == "-D";
+}
+
 /// One program on both.
 class Pair {
  public:
@@ -76,8 +98,9 @@ class Pair {
 
   const std::optional<std::string>& difference() const { return difference_; }
 
-  void count_into(std::map<std::string, std::uint64_t>& executed) const {
-    for (std::size_t i = 0; i < executed_.size(); ++i) executed[machine_.statements()[i].mnemonic] += executed_[i];
+  void count_into(LockstepResult& result) const {
+    for (std::size_t i = 0; i < executed_.size(); ++i) result.executed[machine_.statements()[i].mnemonic] += executed_[i];
+    for (const auto& [what, times] : met_) result.met[what] += times;
   }
 
  private:
@@ -96,12 +119,19 @@ class Pair {
       const std::size_t position = machine_.position;
       const std::uint64_t errors = machine_.error_count;
       const bool powered = machine_.has_power();
+      std::optional<std::string> rare;
       if (instruction) {
         ++executed;
         steps_.push_back(position);
+        if (powered) rare = rare_state(machine_);
       }
       machine_.step();
-      if (instruction && powered && machine_.error_count == errors) ++executed_[position];
+      if (instruction && powered && machine_.error_count == errors) {
+        ++executed_[position];
+        if (adds(machine_.statements()[position].mnemonic) && read(machine_.flag(1))) rare = "overflow of a sum";
+        if (rare) ++met_[*rare];
+      }
+      if (instruction && machine_.fatal_code == 0x12) ++met_["compare with a value that is not a number"];
     } while (machine_.time == before);
     while (cpu_.time() < machine_.time) {
       cpu_.run(machine_.time);
@@ -129,6 +159,7 @@ class Pair {
   Machine machine_;
   std::vector<std::size_t> steps_;       // positions of the statements just executed
   std::vector<std::uint64_t> executed_;  // of each statement
+  std::map<std::string, std::uint64_t> met_;
   std::optional<std::string> difference_;
 };
 
@@ -156,7 +187,7 @@ LockstepResult run_lockstep(std::uint64_t seed, std::uint64_t instructions) {
     for (int i = 0; i < kPowerUps && done < kInstructionsOfProgram && !pair.difference(); ++i)
       done += pair.run(kInstructionsOfProgram - done);
     result.instructions += done;
-    pair.count_into(result.executed);
+    pair.count_into(result);
     if (pair.difference())
       result.difference = fmt::format("{}\nseed {}, program:\n{}", *pair.difference(), seed, listing(*program));
   }

@@ -12,6 +12,7 @@ struct LockstepResult {
   std::uint64_t instructions = 0;  ///< executed and compared
   std::uint64_t programs = 0;
   std::map<std::string, std::uint64_t> executed;  ///< with power flow where they need it, without error
+  std::map<std::string, std::uint64_t> met;       ///< states and values that are rare
   std::optional<std::string> difference;          ///< the first: program, instruction, both states, seed
 };
 

@@ -23,4 +23,5 @@ int main(int argc, char** argv) {
   }
   fmt::print("{} instructions of {} programs compared in {:.1f} s: no difference\n", result.instructions, result.programs,
              elapsed.count());
+  for (const auto& [what, times] : result.met) fmt::print("{:>10}  {}\n", times, what);
 }

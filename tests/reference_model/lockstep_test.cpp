@@ -48,5 +48,14 @@ TEST(ReferenceModel, RandomProgramsExecuteEveryInstructionItKnows) {
   }
 }
 
+TEST(ReferenceModel, RandomProgramsMeetTheRareStatesAndValues) {
+  const LockstepResult result = run_lockstep(1, 100'000);
+  for (const char* what : {"compare with a value that is not a number", "overflow of a sum", "rotate by whole turns",
+                           "R of a fast timer that counts", "R of a 100 ms timer that counts"}) {
+    const auto found = result.met.find(what);
+    EXPECT_GE(found == result.met.end() ? 0 : found->second, 20u) << what;
+  }
+}
+
 }  // namespace
 }  // namespace s7200::reference

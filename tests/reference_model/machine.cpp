@@ -88,11 +88,10 @@ void Machine::step() {
   }
 }
 
-/// Whether the watchdog stops the CPU before `end`.
-bool Machine::shut_down_by_watchdog(std::int64_t end) {
+/// Whether the watchdog runs out before `end`: the next step then finds it so and stops the CPU.
+bool Machine::watchdog_runs_out(std::int64_t end) {
   if (end <= watchdog_) return false;
   time = watchdog_;
-  fatal_error(0x03, std::nullopt);
   return true;
 }
 
@@ -100,7 +99,7 @@ bool Machine::shut_down_by_watchdog(std::int64_t end) {
 void Machine::system_part() {
   const std::int64_t quarter = scan_overhead_ / 4;
   if (!first_scan_) {
-    if (shut_down_by_watchdog(time + scan_overhead_ - quarter)) return;
+    if (watchdog_runs_out(time + scan_overhead_ - quarter)) return;
     time += scan_overhead_ - quarter;
     end_scan();
   }
@@ -347,11 +346,11 @@ bool is_1_ms(std::size_t timer) { return is_one_of(timer, {{0, 0}, {32, 32}, {64
 bool is_10_ms(std::size_t timer) { return is_one_of(timer, {{1, 4}, {33, 36}, {65, 68}, {97, 100}}); }
 
 }  // namespace
+
 bool is_100_ms(std::size_t timer) {
   const std::size_t in_half = timer % 64;
   return (in_half >= 5 && in_half <= 31) || in_half >= 37;
 }
-
 
 void Machine::count_timer(std::size_t timer, std::int64_t ticks) {
   const Place current{&memory.T, 2 * timer};

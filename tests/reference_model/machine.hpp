@@ -132,7 +132,7 @@ class Machine {
   Bytes& area(const std::string& name);
   Place follow_pointer(const stl::Address& pointer, std::size_t width);
   std::uint32_t pointer_to(const stl::Address& target) const;
-  bool shut_down_by_watchdog(std::int64_t end);
+  bool watchdog_runs_out(std::int64_t end);
   void system_part();
   void end_scan();
   void read_inputs();
