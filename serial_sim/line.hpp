@@ -41,7 +41,7 @@ struct Disturbance {
 
 /// Each driver holds the line at mark (true, the idle level) or space (false). A driver that marks is as good as one that
 /// is switched off: the line is at space while any driver is. Two senders at once collide bit by bit.
-/// Not documented, modelled so: on a real RS-485 line two active drivers that disagree give no defined level.
+/// Not documented, modelled so: two active drivers that disagree give space, where a real RS-485 line has no defined level.
 /// [Uart.TwoSendersAtOnceGiveTheBitsBothMark]
 ///
 /// Who listens is wiring, not state: a copy of a line has its levels and no listeners, and assigning to a line leaves its

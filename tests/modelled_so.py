@@ -4,7 +4,7 @@
 The choices stand where they are made, in comments that begin with "Not documented, modelled so:". Each ends with the test
 that pins it, in brackets. This script puts them together as MODELLED_SO.md.
 
-    tests/modelled_so.py          compare the committed page with the comments, and look for each test; exit code 1 if not so
+    tests/modelled_so.py          compare the committed page with the comments, and look for each test; exit code 1 if either fails
     tests/modelled_so.py --write  write the page
 """
 import pathlib
@@ -16,9 +16,9 @@ PAGE = ROOT / "MODELLED_SO.md"
 MARK = "Not documented, modelled so:"
 HEAD = """# Not documented, modelled so
 
-What no manual that we have says, and how it is modelled. Made from the comments in the code by `tests/modelled_so.py --write`;
-each choice stands in one place and is pinned by the test named behind it. Who knows better from a real CPU: change the comment,
-the code beside it and the test.
+What no manual that we have says, and how it is modelled. `tests/modelled_so.py --write` makes this page from the comments in
+the code. Each choice stands in one place and is pinned by the test named after it. If you know better from a real CPU, change
+the comment, the code beside it and the test.
 """
 
 
@@ -38,39 +38,47 @@ def comment_blocks(path):
 
 
 def choices(block):
-    """The choices of one comment block: what stands behind the mark, or the bullets below it."""
-    lines = iter(block)
-    for line in lines:
-        if MARK not in line:
-            continue
-        rest = line.split(MARK, 1)[1].strip()
-        items = [rest] if rest else []
-        for more in lines:
-            if more.startswith("- "):
-                items.append(more[2:])
-            elif not more.strip() or (items and items[-1].endswith("]")):
-                break
-            elif items:
-                items[-1] += " " + more.strip()
-        yield from items
+    """The choices of one comment block: what follows each mark, or the bullets below it."""
+    items, listed = [], False
+    for line in block:
+        if MARK in line:
+            listed = True
+            rest = line.split(MARK, 1)[1].strip()
+            items += [rest] if rest else []
+        elif listed and line.startswith("- "):
+            items.append(line[2:])
+        elif not line.strip() or (items and items[-1].endswith("]")):
+            listed = False
+        elif listed and items:
+            items[-1] += " " + line.strip()
+    return items
+
+
+def broken_marks(block):
+    """How often the mark is broken over two lines, where it would not be seen."""
+    return " ".join(line.strip() for line in block).count(MARK) - sum(line.count(MARK) for line in block)
 
 
 def collected():
     for folder in ("interpreter", "serial_sim"):
         for path in sorted((ROOT / folder).rglob("*.[ch]pp")):
-            found = [item for block in comment_blocks(path) for item in choices(block)]
-            if found:
-                yield path.relative_to(ROOT), found
+            blocks = list(comment_blocks(path))
+            found = [item for block in blocks for item in choices(block)]
+            broken = sum(broken_marks(block) for block in blocks)
+            if found or broken:
+                yield path.relative_to(ROOT), found, broken
 
 
 def main():
     page, tests, problems = HEAD, [], []
-    for path, items in collected():
+    for path, items, broken in collected():
         page += f"\n## {path}\n\n"
+        if broken:
+            problems.append(f"{path}: '{MARK}' is broken over two lines")
         for item in items:
             named = re.fullmatch(r"(.*?)\s*\[([\w.,/ ]+)\]", item)
             if not named:
-                problems.append(f"{path}: no test named behind: {item}")
+                problems.append(f"{path}: no test named after: {item}")
                 continue
             text = named.group(1).rstrip(".")
             tests += re.split(r",\s*", named.group(2))

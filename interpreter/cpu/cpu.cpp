@@ -136,6 +136,8 @@ std::optional<std::uint32_t> Cpu::peek(const Op& op, std::size_t i) const {
 }
 
 /// A pointer operand is an offset computed first: the body then finds direct operands only.
+/// Not documented, modelled so: all pointers are followed before anything else is looked at, so that an instruction with a
+/// bad pointer and a bad count or range reports 0006. [Choices.ABadPointerIsReportedBeforeABadCountOrRange]
 static bool follow_pointer(Cpu& cpu, const Op& op, Operand& operand) {
   const auto place = cpu.resolve(load32(&cpu.s.image[operand.at]), operand.width);
   if (place) {
@@ -197,11 +199,11 @@ std::string_view meaning_of(RunError code) {
       return "TODW: the buffer holds no BCD";
     case RunError::CounterDefinedTwice:
       return "second HDEF for the same counter";
+    case RunError::CompareValue:
+      return "illegal value in a compare contact: not a real number (NaN)";
     case RunError::EepromRange:
       return "the V address to save lies outside the EEPROM";
     case RunError::IndirectAddress:
-    case RunError::CompareValue:
-      return "illegal value in a compare contact: not a real number (NaN)";
       return "indirect addressing error: the pointer leads outside the memory it may reach";
     case RunError::CallDepth:
       return "subroutines nested too deep";
@@ -223,10 +225,10 @@ std::string_view meaning_of(FatalError code) {
       return "scan watchdog: the scan took longer than 300 ms without WDR";
     case FatalError::CompareIndirect:
       return "indirect addressing error in a compare contact";
+    case FatalError::CompareValue:
+      return "illegal value in a compare contact: not a real number (NaN)";
   }
   return "unknown";
 }
-    case FatalError::CompareValue:
-      return "illegal value in a compare contact: not a real number (NaN)";
 
 }  // namespace s7200

@@ -6,22 +6,20 @@
 //
 // Not documented, modelled so:
 // - The four parts of the scan that are not the program take a quarter of the scan overhead each.
-//   [ScanCycle.InputsAreReadBeforeAndOutputsWrittenBehindTheProgram]
+//   [ScanCycle.InputsAreReadBeforeAndOutputsWrittenAfterTheProgram]
 // - SM4.3 stays 1 until the next change to RUN. [Choices.SM43StaysUntilTheNextRun]
 // - An interrupt routine starts with the top of the logic stack at 1, as a subroutine does.
 //   [Choices.AnInterruptRoutineStartsWithTheTopOfTheStackAtOne]
-// - Events of one queue at the same instant wait in the order that the manual's list of events gives.
-//   [Interrupt.EdgesOfOneInstantAreServedInTheOrderOfTheList]
 // - DTCH drops what its event has queued. ATCH keeps it, and the routine attached when it is served is the one that runs.
 //   [Interrupt.DtchDropsWhatItsEventHasQueuedAndNothingElse, Interrupt.TheRoutineAttachedLastServesWhatWaits]
-// - A timed interrupt below the CPU's shortest interval, and 0, takes the shortest interval.
+// - A timed interrupt with an interval of 0, or below the shortest of the CPU, takes the shortest.
 //   [TimedInterrupt.ShorterThan5MillisecondsAndZeroAre5]
 // - Timed interrupts count whole milliseconds from the end of ATCH, not ticks of a clock of their own.
 //   [TimedInterrupt.AnotherAtchBeginsAnewWithTheNewPeriod]
-// - The watchdog is put down to the instruction executed last, that during which it ran out.
+// - The watchdog error names the instruction during which the time ran out.
 //   [Choices.TheWatchdogNamesTheInstructionDuringWhichItRanOut]
-// - In STOP all output points are off. [ScanCycle.StopInTheMainProgramTakesEffectAtOnceAndSwitchesTheOutputsOff]
-// Not modelled: expansion module errors (SM5, SMB8–21), forced values, memory cartridge, PPI on the port.
+// Not modelled: expansion module errors (SM5, SMB8–21), forced values, memory cartridge, PPI on the port, an output table
+// that differs from the default.
 #pragma once
 
 #include <cstdint>
@@ -47,9 +45,9 @@ enum class RunError : std::uint16_t {
   IndirectAddress = 0x06,
   Clock = 0x07,
   CallDepth = 0x08,
-  CompareValue = 0x0F,
   PortBusy = 0x09,
   CounterDefinedTwice = 0x0A,
+  CompareValue = 0x0F,
   OperandRange = 0x91,
   Count = 0x92,
   EepromRange = 0x94,
@@ -153,13 +151,13 @@ class Cpu {
   /// R on timers or counters clears their current values too, and turns timers of 1 and 10 ms off.
   void clear_current_values(const Operand& first, std::uint32_t count);
 
+  void run_error(RunError code);
+  void fatal_error(FatalError code);
   /// A compare contact is the only instruction whose error stops the CPU: it raises both (facts 5.1).
   void compare_error(RunError code, FatalError fatal) {
     run_error(code);
     fatal_error(fatal);
   }
-  void run_error(RunError code);
-  void fatal_error(FatalError code);
 
   void call(std::uint32_t target);
   void return_from_subroutine();
@@ -198,9 +196,9 @@ class Cpu {
   void begin_scan();
   void end_scan();
   void update_clocks();
-  void turn_timers_off(std::uint32_t first, std::uint32_t count);
 
   void add_ticks(std::uint32_t timer, std::int64_t ticks);
+  void turn_timers_off(std::uint32_t first, std::uint32_t count);
   void update_timers_at_scan_begin();
   void tick_1ms_timers(Time at);
   void await_tick_1ms(Time from);

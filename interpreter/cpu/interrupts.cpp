@@ -61,7 +61,8 @@ void Cpu::handle(const Event& event) {
   occurred(number, event.at);
 }
 
-/// First come, first served; what comes at the same instant waits in the order of the list of events.
+/// First come, first served (S7-200 manual C230-02, 10-120); what comes at the same instant waits in the order of the list
+/// of events (facts 3.1).
 void Cpu::occurred(std::uint8_t event, Time at, std::uint8_t byte, bool parity_error) {
   const std::uint8_t routine = event < kEvents ? s.attached[event] : kNotAttached;
   if (routine == kNotAttached || s.mode != Mode::Run || s.stop_after_scan) return;

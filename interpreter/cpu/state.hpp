@@ -11,9 +11,8 @@
 
 namespace s7200 {
 
-/// Nine levels of one bit, S0 on top.
-/// Not documented, modelled so: what comes up at the bottom after a pop is 0.
-/// [Choices.WhatComesUpAtTheBottomOfTheStackIsZero]
+/// Nine levels of one bit, S0 on top. What comes up at the bottom after a pop is unknown, 0 or 1 (S7-200 manual C233-01,
+/// 9-194): 0 here.
 class LogicStack {
  public:
   static constexpr int kLevels = 9;
@@ -126,9 +125,9 @@ struct ClockTime {
   std::uint8_t weekday = 1;  ///< 1 Sunday … 7 Saturday, 0 switched off
   bool operator==(const ClockTime&) const = default;
 };
+
 /// The time of day so much later, in whole seconds.
 ClockTime clock_after(const ClockTime& from, Time time);
-
 
 /// A run-time error: code, the instruction, how often, when first.
 struct RuntimeError {

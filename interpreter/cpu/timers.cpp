@@ -1,5 +1,5 @@
-// Timers of 1, 10 and 100 ms (facts 6.4): who adds the ticks, and when.
-// Not documented, modelled so: in STOP no timer counts. [Timer.InStopNoTimerCounts]
+// Timers of 1, 10 and 100 ms (facts 6.4): who adds the ticks, and when (S7-200 manual C230-02, 10-14 and 10-15).
+// Not documented, modelled so: no timer counts in STOP. [Timer.InStopNoTimerCounts]
 #include <algorithm>
 
 #include "interpreter/cpu/cpu.hpp"

@@ -47,10 +47,12 @@ inline void push_copy(Cpu& cpu, const Op&) { cpu.s.stack.push(cpu.s.stack.top())
 inline void read_second(Cpu& cpu, const Op&) { cpu.s.stack.set_top(cpu.s.stack.level(1)); }
 inline void pop_stack(Cpu& cpu, const Op&) { cpu.s.stack.pop(); }
 
-/// EU and ED. Each has a memory bit of its own (operand 2, given at load): the top of the stack at its last execution.
-/// Not documented, modelled so: the first execution after power-up finds no edge, and an execution that was jumped over
-/// leaves the memory as it is. [Choices.TheFirstExecutionOfEuAndEdFindsNoEdge,
-/// Choices.AnEdgeInstructionThatIsJumpedOverKeepsItsMemory]
+/// EU and ED. Each has a memory bit of its own (operand 2, given at load): the top of the stack at its last execution. In
+/// the first scan there is nothing to compare with, hence no edge (facts 9.1; S7-200 SMART manual A5E03822230-AC, 157).
+///
+/// Not documented, modelled so:
+/// - The first execution of EU or ED finds no edge in a later scan either. [Choices.TheFirstExecutionOfEuAndEdFindsNoEdge]
+/// - An EU or ED that is jumped over keeps its memory. [Choices.AnEdgeInstructionThatIsJumpedOverKeepsItsMemory]
 template <bool rising>
 void edge(Cpu& cpu, const Op& op) {
   const bool before = cpu.bit(op[2]), now = cpu.s.stack.top();

@@ -76,7 +76,8 @@ inline bool hex_blocks_fit(Cpu& cpu, std::uint32_t characters, std::uint32_t dig
   return false;
 }
 
-/// ATH: LEN characters to digits, the first into a high half. An odd LEN leaves the low half of the last byte alone.
+/// ATH: LEN characters to digits, the first into a high half. An odd LEN leaves the low half of the last byte alone
+/// (S7-200 manual C233-01, 9-135). The conversion ends at an illegal character (facts 9.1).
 inline void ascii_to_hex(Cpu& cpu, const Op& op) {
   const std::uint32_t length = cpu.get<std::uint8_t>(op[2]);
   if (!hex_blocks_fit(cpu, op[0].at, op[1].at, length)) return;

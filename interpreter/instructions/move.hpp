@@ -11,8 +11,9 @@ void move(Cpu& cpu, const Op& op) {
 }
 
 /// BMB, BMW, BMD.
-/// Not documented, modelled so: overlapping blocks arrive as if the source had been copied first; N = 0 is error 0092.
-/// [Vectors.BMB]
+/// Not documented, modelled so:
+/// - The destination of a block move gets what was in the source before, even where the two overlap. [Vectors.BMB]
+/// - N = 0 in a variable is error 0092, for FILL and for S, R, SI and RI too. [Vectors.BMB, Vectors.FILL, Vectors.S]
 template <class Value>
 void move_block(Cpu& cpu, const Op& op) {
   const std::uint32_t count = cpu.get<std::uint8_t>(op[2]);

@@ -1,10 +1,13 @@
 // Bodies: tables (facts 6.10). A table is its length in entries, the number of entries in it, and the entries: all words.
 //
+// The manual does not say what the place that FIFO or LIFO vacates holds (xxxx in its figures: C233-01, 9-109). Here it
+// keeps its value.
+//
 // Not documented, modelled so:
-// - A length of 0 or above 100, or more entries than the length, is range error 0091; the place that FIFO vacates keeps its
-//   value. [Vectors.ATT, Vectors.FIFO]
+// - A table with a length of 0 or above 100, or with more entries than its length, is range error 0091.
+//   [Vectors.ATT, Vectors.FIFO]
 // - ATT on a full table takes the time of its entries too. [Vectors.ATT]
-// - FIFO and LIFO store DATA last, should it lie in the table. [Vectors.FIFO, Vectors.LIFO]
+// - FIFO and LIFO write DATA last, which shows when DATA lies in the table. [Vectors.FIFO, Vectors.LIFO]
 #pragma once
 
 #include "interpreter/instructions/compare.hpp"

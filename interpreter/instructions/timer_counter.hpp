@@ -1,13 +1,17 @@
 // Bodies: timers and counters (facts 6.4). Operand 2, given at load, is the number of the timer or counter.
 //
+// A 10 ms timer enabled in the middle of a scan is given all ticks since that scan began: a timed interval may be up to 10
+// ms short (S7-200 manual C230-02, 10-15).
+//
 // Not documented, modelled so:
-// - The execution that enables a timer adds nothing; the following ones count.
+// - The execution that enables a timer adds no ticks; those after it do.
 //   [Timer.HundredMillisecondTimersCountWhenTheyAreExecuted]
-// - A 10 ms timer enabled in the middle of a scan is given all ticks since that scan began.
-//   [Timer.TenMillisecondTimersHoldStillDuringAScan]
-// - A timer's preset is the one its last execution found. [Choices.ATimersPresetIsTheOneItsLastExecutionFound]
-// - CTU and CTUD pop their extra inputs, so that one level remains. An input that is 1 at the first execution after power-up
-//   is no rising edge. Up and down edges in the same execution cancel out. [Vectors.CTU, Vectors.CTUD]
+// - The execution that enables a TON writes 0 to its current value. [Timer.TheExecutionThatEnablesATonWritesZeroToItsValue]
+// - A timer's preset is the one that its last execution found. [Choices.ATimersPresetIsTheOneItsLastExecutionFound]
+// - CTU and CTUD pop their extra inputs, so that one level remains. [Vectors.CTU, Vectors.CTUD]
+// - A counter input that is 1 at the first execution after power-up is not a rising edge.
+//   [Counter.CtuCountsRisingEdgesUpTo32767AndItsResetHolds]
+// - A CTUD whose inputs both rise in the same execution keeps its value. [Vectors.CTUD]
 #pragma once
 
 #include <algorithm>

@@ -272,8 +272,8 @@ std::string hint_for(const std::string& expected, std::string_view rest) {
   return {};
 }
 
-/// The value of an escape behind `$`, or nothing. Not documented, modelled so: $N, the new line, is a line feed as $L is.
-/// [Parser.ReadsAsciiConstantsWithEscapes]
+/// The value of an escape after `$`, or nothing.
+/// Not documented, modelled so: $N, the new line, is a line feed as $L is. [Parser.ReadsAsciiConstantsWithEscapes]
 std::optional<char> escape(char letter) {
   switch (letter) {
     case '$':

@@ -90,6 +90,17 @@ TEST(Choices, NextFollowsThePointersOfItsForAgain) {
   EXPECT_EQ(plc.value("VW12"), 1) << "the program goes on behind the loop";
 }
 
+TEST(Choices, ABadPointerIsReportedBeforeABadCountOrRange) {
+  // N = 0 and a destination beyond V memory would be 0092 and 0091; the pointer of the source is bad too.
+  for (const char* box : {"BMB *VD20, VB100, VB30", "BMB *VD20, VB4095, VB31", "SHRB M0.0, V100.0, *VD20", "ATH *VD20, VB4095, 9"}) {
+    Plc plc(fmt::format("LD SM0.1\n{}\nMEND\n", box));
+    plc.set("VD20", 0x03000000);
+    plc.set("VB31", 9);
+    plc.run_scans(1);
+    EXPECT_EQ(plc.records.errors(), Ints{0x06}) << box;
+  }
+}
+
 TEST(Choices, ATransitionToItsOwnSegmentLeavesItOn) {
   Plc plc("LSCR S0.3\nLD SM0.0\nINCW VW0\nSCRT S0.3\nSCRE\nMEND\n");
   plc.set("SB0", 0x08);

@@ -12,7 +12,7 @@ std::string repeated(std::string_view instruction, int count) {
 }
 
 // Read 0–200, program 200–230, communication –430, self-test –630, write –830.
-TEST(ScanCycle, InputsAreReadBeforeAndOutputsWrittenBehindTheProgram) {
+TEST(ScanCycle, InputsAreReadBeforeAndOutputsWrittenAfterTheProgram) {
   Plc plc("LD I0.0\n= Q0.0\nMEND\n");
   plc.input_at(199 * us, "I0.0", true);
   plc.run_until(2 * ms);
@@ -51,9 +51,17 @@ TEST(ScanCycle, SpecialMemoryByteZeroOverTheFirstScans) {
   EXPECT_EQ(plc.value("VW0"), 4) << "SM0.0 is always 1";
   EXPECT_EQ(plc.value("VW2"), 1) << "SM0.1 in the first scan";
   EXPECT_EQ(plc.value("VW4"), 0) << "SM0.2 only when retentive data were lost";
-  EXPECT_EQ(plc.value("VW6"), 1) << "SM0.3 in one scan behind power-up";
+  EXPECT_EQ(plc.value("VW6"), 1) << "SM0.3 in the scan after power-up";
   EXPECT_EQ(plc.value("VW8"), 2) << "SM0.6 alternates";
   EXPECT_EQ(plc.value("VW10"), 4) << "SM0.7: mode switch in RUN";
+}
+
+TEST(ScanCycle, SM06IsZeroInTheFirstScanAndThenAlternates) {
+  Plc plc("LD SM0.6\n= M0.0\nMEND\n");
+  for (std::uint64_t scan = 1; scan <= 5; ++scan) {
+    plc.run_scans(scan);
+    EXPECT_EQ(plc.value("M0.0"), scan % 2 == 0) << scan;
+  }
 }
 
 // Scans of 830 us. The 603rd ends at 500.490 ms, the 1205th at 1000.150 ms; the output follows one scan later.

@@ -162,8 +162,36 @@ std::vector<Case> counts_both() {
           steps("reset", kCountBoth, 15, {"V0.2=1", "C1=7", "C1.bit=1"})};
 }
 
+/// One instruction whose source and destination overlap.
+Case overlap(std::string title, std::string_view op, std::vector<std::string> before) {
+  return steps(std::move(title), op, 1, std::move(before), {true});
+}
+
+std::vector<Case> overlapping_moves(const std::string& op, const std::string& place, std::uint32_t size) {
+  const auto at = [&](std::uint32_t i) { return place + std::to_string(10 + i * size); };
+  const std::vector<std::string> before{at(0) + "=16#11", at(1) + "=16#22", at(2) + "=16#33", at(3) + "=16#44"};
+  return {overlap("to a place further on", op + " " + at(0) + ", " + at(1) + ", 3", before),
+          overlap("to a place further back", op + " " + at(1) + ", " + at(0) + ", 3", before)};
+}
+
+std::vector<Case> overlapping_digits() {
+  return {overlap("digits to where their characters are", "ATH VB10, VB10, 4",
+                  {"VB10=16#31", "VB11=16#32", "VB12=16#33", "VB13=16#34"}),
+          overlap("a digit over a character that is still to be read", "ATH VB10, VB11, 3",
+                  {"VB10=16#38", "VB11=16#31", "VB12=16#32"})};
+}
+
+std::vector<Case> overlapping_characters() {
+  return {overlap("a character over digits that are still to be read", "HTA VB10, VB10, 4", {"VB10=16#12", "VB11=16#AB"}),
+          overlap("characters further on", "HTA VB10, VB11, 4", {"VB10=16#12", "VB11=16#AB"})};
+}
+
 const std::map<std::string_view, std::vector<Case>>& programs() {
   static const std::map<std::string_view, std::vector<Case>> kPrograms{
+      {"BMB", overlapping_moves("BMB", "VB", 1)},
+      {"BMW", overlapping_moves("BMW", "VW", 2)},
+      {"ATH", overlapping_digits()},
+      {"HTA", overlapping_characters()},
       {"JMP", jumps()},
       {"LBL", {steps("takes no time", "LD V0.0|JMP 5|INCW VW10|LBL 5|MEND", 3, {"V0.0=1"})}},
       {"FOR", loops()},
