@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/nearest.hpp"
 #include "interpreter/instructions/bit_logic.hpp"
 #include "interpreter/instructions/compare.hpp"
 #include "interpreter/instructions/control.hpp"
@@ -582,22 +583,6 @@ const Table& table() {
   return kTable;
 }
 
-/// Edit distance, for the nearest mnemonic.
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
-}
-
 }  // namespace
 
 std::span<const Instruction> all_instructions() { return table().rows(); }
@@ -613,18 +598,12 @@ const Instruction* find_instruction(std::string_view mnemonic) {
 }
 
 std::string_view nearest_mnemonic(std::string_view mnemonic) {
-  if (mnemonic.size() < 2 || mnemonic.size() > 12) return {};
-  std::string_view nearest;
-  std::size_t best = mnemonic.size() < 4 ? 2 : 3;  // so many changes are too many
-  for (const Instruction& instruction : all_instructions()) {
-    const std::size_t length = instruction.mnemonic.size();
-    if (std::max(length, mnemonic.size()) - std::min(length, mnemonic.size()) >= best) continue;  // at least so many changes
-    const std::size_t d = distance(mnemonic, instruction.mnemonic);
-    if (d >= best) continue;
-    best = d;
-    nearest = instruction.mnemonic;
-  }
-  return nearest;
+  static const std::vector<std::string_view> kMnemonics = [] {
+    std::vector<std::string_view> mnemonics;
+    for (const Instruction& instruction : all_instructions()) mnemonics.push_back(instruction.mnemonic);
+    return mnemonics;
+  }();
+  return nearest(mnemonic, kMnemonics);
 }
 
 std::string syntax(const Instruction& instruction) {

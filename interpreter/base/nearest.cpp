@@ -1,0 +1,43 @@
+#include "interpreter/base/nearest.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace s7200 {
+namespace {
+
+/// Edit distance.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string_view nearest(std::string_view word, std::span<const std::string_view> known) {
+  if (word.size() < 2 || word.size() > 12) return {};
+  std::string_view found;
+  std::size_t best = word.size() < 4 ? 2 : 3;  // so many changes are too many
+  for (const std::string_view candidate : known) {
+    const std::size_t length = candidate.size();
+    if (std::max(length, word.size()) - std::min(length, word.size()) >= best) continue;  // at least so many changes
+    const std::size_t changes = distance(word, candidate);
+    if (changes >= best) continue;
+    best = changes;
+    found = candidate;
+  }
+  return found;
+}
+
+}  // namespace s7200
