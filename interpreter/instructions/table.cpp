@@ -308,7 +308,7 @@ class Table {
     add(box("MOVW", {in(Width::Word), with_analog_output(out(Width::Word))}, move<std::uint16_t>, "copy word IN to OUT"));
     add(box("MOVD", {any_double, out(Width::Double)}, move<std::uint32_t>, "copy double word IN to OUT"));
     add(on(kFrom214,
-           box("MOVR", {real(in(Width::Double)), out(Width::Double)}, move<std::uint32_t>, "copy real IN to OUT")));
+           box("MOVR", {real(in(Width::Double)), real(out(Width::Double))}, move<std::uint32_t>, "copy real IN to OUT")));
     add(box("BMB", {block(Role::In, Width::Byte, "IN"), block(Role::Out, Width::Byte, "OUT"), count()},
             move_block<std::uint8_t>, "copy N bytes from IN on to OUT on"));
     add(box("BMW", {block(Role::In, Width::Word, "IN"), block(Role::Out, Width::Word, "OUT"), count()},

@@ -7,6 +7,7 @@
 
 #include "interpreter/program/operands.hpp"
 #include "interpreter/stl/parser.hpp"
+#include "interpreter/stl/text.hpp"
 
 namespace s7200 {
 namespace {
@@ -28,6 +29,21 @@ std::uint32_t place_of(const MemoryRange& range) {
   return area.base + element * range.number;
 }
 
+/// What follows the first colon, in upper case: `4`, `REAL`, `4:REAL`.
+bool read_suffix(std::string_view text, MemoryRange& range) {
+  constexpr std::string_view kReal = "REAL";
+  if (text.ends_with(kReal)) {
+    if (range.width != Width::Double) return false;
+    range.real = true;
+    if (text == kReal) return true;
+    text.remove_suffix(kReal.size());
+    if (!text.ends_with(':')) return false;
+    text.remove_suffix(1);
+  }
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), range.count);
+  return error == std::errc{} && end == text.data() + text.size() && range.count != 0 && range.width != Width::Bit;
+}
+
 }  // namespace
 
 std::string MemoryRange::name_of(std::uint32_t i) const {
@@ -41,17 +57,15 @@ std::optional<MemoryRange> parse_range(std::string_view text, const CpuModel& mo
   const auto* address = operand ? std::get_if<stl::Address>(&*operand) : nullptr;
   const auto area = address ? area_named(address->area) : std::nullopt;
   if (!area || !names_width(*address, *area)) {
-    why = fmt::format("'{}' is no address; write for example VB100, VW100:4, M31.7, AC0", text);
+    why = fmt::format("'{}' is not an address; write for example VB100, VW100:4, M31.7, AC0, VD20:real", text);
     return {};
   }
-  MemoryRange range{*area, width_of(*address, *area).value_or(Width::Double), address->number, address->bit, 1, 0};
-  if (colon != std::string_view::npos) {
-    const std::string_view count = text.substr(colon + 1);
-    const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), range.count);
-    if (error != std::errc{} || end != count.data() + count.size() || range.count == 0 || range.width == Width::Bit) {
-      why = fmt::format("'{}': the count behind the colon is a number above 0, and bits have none", text);
-      return {};
-    }
+  MemoryRange range{*area, width_of(*address, *area).value_or(Width::Double), address->number, address->bit};
+  if (colon != std::string_view::npos && !read_suffix(stl::upper_case(text.substr(colon + 1)), range)) {
+    why = fmt::format(
+        "'{}': after the colon goes a count of 1 or more, which bits do not have, or real, which only double words can be",
+        text);
+    return {};
   }
   const std::uint64_t size = model.size_of(*area);
   const std::uint64_t needed = info(*area).element != 0 ? std::uint64_t{range.number} + range.count
@@ -75,6 +89,7 @@ std::optional<Assignment> parse_assignment(std::string_view text, const CpuModel
       return Assignment{*place, std::bit_cast<std::uint32_t>(real->value)};
     const int bits = place->width == Width::Bit ? 1 : 8 * static_cast<int>(bytes_of(place->width));
     const auto* integer = std::get_if<stl::Integer>(&*value);
+    if (integer && place->real) return Assignment{*place, std::bit_cast<std::uint32_t>(static_cast<float>(integer->value))};
     const std::int64_t lowest = bits == 1 ? 0 : -(std::int64_t{1} << (bits - 1));
     if (integer && integer->value >= lowest && integer->value < (std::int64_t{1} << bits))
       return Assignment{*place, static_cast<std::uint32_t>(integer->value)};

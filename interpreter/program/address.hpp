@@ -18,13 +18,15 @@ struct MemoryRange {
   std::uint8_t bit = 0;
   std::uint32_t count = 1;
   std::uint32_t at = 0;  ///< in the image
+  bool real = false;     ///< the double words are real numbers
 
   std::uint32_t bytes() const { return width == Width::Bit ? 1 : count * bytes_of(width); }
   /// Address of object `i` of the range.
   std::string name_of(std::uint32_t i) const;
 };
 
-/// `VB0:16`, `M31.7`, `AC0`, `T5`. Bits have no count. Nothing, and `why`, for what is no address of this CPU.
+/// `VB0:16`, `M31.7`, `AC0`, `T5`, `VD20:real`, `VD20:4:real`. Bits have no count. Returns nothing and sets `why` if the
+/// text is not an address of this CPU.
 std::optional<MemoryRange> parse_range(std::string_view text, const CpuModel& model, std::string& why);
 
 struct Assignment {
@@ -32,7 +34,7 @@ struct Assignment {
   std::uint32_t value = 0;
 };
 
-/// `VW100=5`, `VB0=16#FF`, `I0.3=1`, `VD4=1.5`.
+/// `VW100=5`, `VB0=16#FF`, `I0.3=1`, `VD4=1.5`, `VD4:real=2`.
 std::optional<Assignment> parse_assignment(std::string_view text, const CpuModel& model, std::string& why);
 
 }  // namespace s7200

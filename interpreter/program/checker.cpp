@@ -165,7 +165,9 @@ class Checker {
       program->statements.push_back(*statements_[i].statement);
       program->ops.push_back(decode(i, structure));
       note_timer(program->ops.back(), *program);
+      note_reals(placed_[i], program->ops.back(), *program);
     }
+    std::sort(program->reals.begin(), program->reals.end());
     program->constants = constants_.bytes();
     for (const AreaInfo& area : all_areas())
       if (area.pointer_code)
@@ -220,6 +222,12 @@ class Checker {
     auto& timers = timer_base(number).base == kMillisecond ? program.timers_1ms : program.timers_10ms;
     if (timer_base(number).base < 100 * kMillisecond && std::find(timers.begin(), timers.end(), number) == timers.end())
       timers.push_back(number);
+  }
+
+  /// Double words that are real numbers.
+  static void note_reals(const std::array<PlacedOperand, 3>& placed, const Op& op, Program& program) {
+    for (std::size_t k = 0; k < op.instruction->operands; ++k)
+      if (op.instruction->operand[k].real && placed[k].area) program.reals.push_back(op[k].at);
   }
 
   /// Operands that are not written.

@@ -1,6 +1,7 @@
 // A checked program: decoded, immutable, ready to execute. Nothing is looked up by name from here on.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -76,12 +77,16 @@ struct Program {
   std::vector<std::uint8_t> timers_1ms, timers_10ms;  ///< numbers of those the program times with
   bool uses_timers = false;
   std::array<Reach, kReaches> reach{};  ///< by the top byte of a pointer
+  std::vector<std::uint32_t> reals;     ///< double words that some instruction names as a real: places in the image, sorted
 
   // Times that the CPU needs while running, taken from `times`.
   Time no_power_flow = 0, interrupt_entry = 0, eeprom_save = 0;
   std::array<Time, 4> scan_phase{};  ///< input read, communication, self-test, output write
 
   const stl::Statement& statement(std::uint32_t op) const { return statements[ops[op].statement]; }
+
+  /// Whether some instruction names the double word at this place of the image as a real number.
+  bool is_real(std::uint32_t at) const { return std::binary_search(reals.begin(), reals.end(), at); }
 };
 
 }  // namespace s7200

@@ -67,13 +67,6 @@ std::string integer_text(const Integer& constant) {
   return {};
 }
 
-/// Shortest form that reads back to the same value; a point or an exponent makes it a real.
-std::string real_text(const Real& constant) {
-  std::string text = upper_case(fmt::format("{}", constant.value));
-  if (text.find_first_of(".E") == std::string::npos) text += ".0";
-  return text;
-}
-
 std::string with_comment(std::string line, std::size_t column, const std::string& comment) {
   if (comment.empty()) return line;
   line.append(std::max(column, line.size() + 1) - line.size(), ' ');
@@ -155,12 +148,18 @@ std::vector<const Line*> program_lines(const Source& source) {
 
 std::string to_text(const Operand& operand) {
   return std::visit(Overloaded{[](const Integer& constant) { return integer_text(constant); },
-                               [](const Real& constant) { return real_text(constant); },
+                               [](const Real& constant) { return to_text(constant); },
                                [](const Address& address) { return address_text(address); },
                                [](const AddressOf& address) { return fmt::format("&{}", address_text(address.target)); },
                                [](const Indirect& indirect) { return fmt::format("*{}", address_text(indirect.pointer)); },
                                [](const Name& name) { return name.text; }},
                     operand.value);
+}
+
+std::string to_text(const Real& constant) {
+  std::string text = upper_case(fmt::format("{}", constant.value));
+  if (text.find_first_not_of("-0123456789") == std::string::npos) text += ".0";
+  return text;
 }
 
 std::string to_text(const Statement& statement) {

@@ -11,6 +11,10 @@ namespace s7200::stl {
 /// in (K4 becomes 4, KHFF becomes 16#FF).
 std::string to_text(const Operand& operand);
 
+/// `1.5`, `1E+10`, `INF`, `NAN`: the shortest form that reads back to the same value; a point or an exponent makes it a
+/// real.
+std::string to_text(const Real& constant);
+
 /// `MOVW    65, VW3290` without comment.
 std::string to_text(const Statement& statement);
 

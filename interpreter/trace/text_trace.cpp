@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <ostream>
 
 #include "interpreter/cpu/cpu.hpp"
@@ -20,6 +21,10 @@ std::string place_text(std::uint32_t op, const Program& program) {
 
 std::string character_text(const TraceRecord& r) {
   return fmt::format("{:02x}{}{}", r.byte, r.parity_error ? " parity error" : "", r.framing_error ? " framing error" : "");
+}
+
+bool is_constant(const stl::Operand& operand) {
+  return std::holds_alternative<stl::Integer>(operand.value) || std::holds_alternative<stl::Real>(operand.value);
 }
 
 std::string value_text(std::uint32_t value, Width width) {
@@ -92,9 +97,11 @@ std::string describe(const InstructionRecord& r, const Program& program) {
   std::string values;
   for (std::size_t i = 0; i < statement.operands.size(); ++i) {
     const OperandRule& rule = op.instruction->operand[i];
-    if (rule.kind != OperandKind::Memory || std::holds_alternative<stl::Integer>(statement.operands[i].value)) continue;
+    if (rule.kind != OperandKind::Memory || is_constant(statement.operands[i])) continue;
     values +=
         fmt::format(" {}={}", stl::to_text(statement.operands[i]), r.value[i] ? value_text(*r.value[i], rule.width) : "?");
+    const bool real = rule.real || (rule.width == Width::Double && !op[i].pointer && program.is_real(op[i].at));
+    if (real && r.value[i]) values += fmt::format(" ({})", stl::to_text(stl::Real{std::bit_cast<float>(*r.value[i])}));
   }
   return fmt::format("line {:<5} {:<28} S0={}{}{}", statement.position.line, stl::to_text(statement), r.top ? 1 : 0,
                      r.powered ? "" : " no power flow", r.powered ? values : "");

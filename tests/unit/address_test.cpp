@@ -29,12 +29,25 @@ TEST(Address, ACountStandsBehindAColon) {
   EXPECT_EQ(parse_range("T37:2", cpu214(), why)->name_of(1), "T38");
 }
 
+TEST(Address, ARealIsADoubleWordThatIsAskedForAsOne) {
+  std::string why;
+  for (const char* text : {"VD20:real", "VD20:4:real", "AC1:real", "vd20:REAL"}) {
+    const auto range = parse_range(text, cpu214(), why);
+    ASSERT_TRUE(range) << why;
+    EXPECT_TRUE(range->real) << text;
+  }
+  EXPECT_EQ(parse_range("VD20:4:real", cpu214(), why)->count, 4u);
+  EXPECT_FALSE(parse_range("VD20", cpu214(), why)->real);
+}
+
 TEST(Address, WhatIsNoAddressOrNotThereIsNamed) {
-  EXPECT_EQ(refusal("hello"), "'hello' is no address; write for example VB100, VW100:4, M31.7, AC0");
-  EXPECT_EQ(refusal("V100"), "'V100' is no address; write for example VB100, VW100:4, M31.7, AC0");
-  for (const char* text : {"VB0:0", "VB0:x", "VB0:", "VB0:2x", "VB0:99999999999", "M0.0:2"})
-    EXPECT_EQ(refusal(text),
-              std::string("'") + text + "': the count behind the colon is a number above 0, and bits have none");
+  EXPECT_EQ(refusal("hello"), "'hello' is not an address; write for example VB100, VW100:4, M31.7, AC0, VD20:real");
+  EXPECT_EQ(refusal("V100"), "'V100' is not an address; write for example VB100, VW100:4, M31.7, AC0, VD20:real");
+  for (const char* text : {"VB0:0", "VB0:x", "VB0:", "VB0:2x", "VB0:99999999999", "M0.0:2", "VW0:real", "VD0:real:2",
+                           "VD0:2real", "VD0:0:real", "VD0::real"})
+    EXPECT_EQ(refusal(text), std::string("'") + text +
+                                 "': after the colon goes a count of 1 or more, which bits do not have, or real, which only "
+                                 "double words can be");
   EXPECT_EQ(refusal("VB4090:7"), "'VB4090:7' is not on CPU 214: V memory has 4096 bytes");
   EXPECT_EQ(refusal("T127:2"), "'T127:2' is not on CPU 214: T memory has 128 elements");
 }
@@ -43,6 +56,8 @@ TEST(Address, AValueIsAnIntegerThatFitsOrARealForADoubleWord) {
   EXPECT_EQ(assignment("VW100=-5")->value & 0xFFFF, 0xFFFBu);
   EXPECT_EQ(assignment("M31.7=1")->value, 1u);
   EXPECT_EQ(assignment("VD0=-2.5")->value, std::bit_cast<std::uint32_t>(-2.5f));
+  EXPECT_EQ(assignment("VD0=2")->value, 2u);
+  EXPECT_EQ(assignment("VD0:real=2")->value, std::bit_cast<std::uint32_t>(2.0f));
   for (const char* text : {"VB0=256", "VB0=-129", "M0.0=2", "M0.0=-1", "VW0=2.5", "VW0:2=1", "VW0", "VW0=", "VW0=VW2"})
     EXPECT_FALSE(assignment(text)) << text;
 }

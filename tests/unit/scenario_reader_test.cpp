@@ -267,7 +267,7 @@ TEST(ScenarioReader, EveryMistakeIsToldAtItsPlace) {
       {"steps:\n  - mode: fast\n", 2, 11, "'fast' is no choice here"},
       {"steps:\n  - memory: {VB9999: 1}\n", 2, 14, "'VB9999' is not on CPU 214: V memory has 4096 bytes"},
       {"steps:\n  - memory: {VB0: 256}\n", 2, 19, "'256' does not fit VB0"},
-      {"steps:\n  - memory: {X5: 1}\n", 2, 14, "'X5' is no address; write for example VB100, VW100:4, M31.7, AC0"},
+      {"steps:\n  - memory: {X5: 1}\n", 2, 14, "'X5' is not an address; write for example VB100, VW100:4, M31.7, AC0"},
       {"steps:\n  - memory: {'VB0:4': 01 02}\n", 2, 23, "2 bytes for VB0:4, which has 4"},
       {"steps:\n  - set: {Q8.0: 1}\n", 2, 11, "'Q8.0' is not on CPU 214: Q memory has 8 bytes"},
       {"cpu: 213\nsteps: []\n", 1, 6, "there is no model of CPU '213'"},

@@ -72,5 +72,19 @@ TEST(TextTrace, AnInstructionIsToldWithTheValuesOfItsOperands) {
   EXPECT_NE(text.find("run-time error 0006"), std::string::npos) << text;
 }
 
+TEST(TextTrace, ADoubleWordThatTheProgramUsesAsARealIsToldAsOneToo) {
+  constexpr std::string_view kReals = "LD SM0.0\nMOVR 1.5, VD0\nMOVD VD0, VD4\nMOVR *VD8, AC1\n+R 0.5, AC1\nMEND\n";
+  Plc plc(kReals);
+  std::ostringstream out;
+  TextTrace trace(out, program_of(kReals), true);
+  plc.cpu.set_sink(&trace);
+  plc.set("VD8", 0x0800'0000);  // &VB0
+  plc.run_until(800 * us);
+  const std::string text = out.str();
+  for (const char* line : {"S0=1 VD0=16#3FC00000 (1.5)  ", "S0=1 VD0=16#3FC00000 (1.5) VD4=16#3FC00000  ",
+                           "S0=1 *VD8=16#3FC00000 (1.5) AC1=16#3FC00000 (1.5)  ", "S0=1 AC1=16#40000000 (2.0)  "})
+    EXPECT_NE(text.find(line), std::string::npos) << line << '\n' << text;
+}
+
 }  // namespace
 }  // namespace s7200::test
