@@ -169,6 +169,10 @@ void run_with_pointer_second(Cpu& cpu, const Op& op) {
 }
 
 void Cpu::run_error(RunError code) {
+  if (pause_at_error_) {
+    paused_ = true;
+    attend();
+  }
   s.image[image::kSM4] |= 0x08;
   ++s.error_count;
   trace({.at = s.time, .kind = TraceKind::RuntimeError, .code = static_cast<std::uint16_t>(code), .op = current_op()});

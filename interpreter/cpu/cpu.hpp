@@ -77,11 +77,14 @@ class Cpu {
   RetentiveMemory retentive_memory() const;
 
   /// Runs until its clock has reached `limit`, an event of the queue is due, the sink stops it, it goes to STOP, or (when
-  /// asked) a scan has ended. Whoever calls then handles the events that are due at or before time().
+  /// asked) a scan has ended or a run-time error has occurred. Whoever calls then handles the events that are due at or
+  /// before time().
   void run(Time limit);
 
   /// Stops run() at the end of each scan, or not.
   void pause_at_scan_end(bool on) { pause_at_scan_end_ = on; }
+  /// Stops run() after each instruction that causes a run-time error, or not.
+  void pause_at_error(bool on) { pause_at_error_ = on; }
   /// Why run() came back early, reset by the next run().
   bool paused() const { return paused_; }
 
@@ -260,6 +263,7 @@ class Cpu {
   Time until_ = 0;        ///< the loop looks around when the clock has come to here
   std::uint32_t op_ = 0;  ///< being executed
   bool pause_at_scan_end_ = false;
+  bool pause_at_error_ = false;
   bool paused_ = false;
 };
 

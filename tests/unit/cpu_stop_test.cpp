@@ -1,6 +1,7 @@
 // The change to STOP: when it comes, and what the clock does.
 #include <gtest/gtest.h>
 
+#include "interpreter/base/bytes.hpp"
 #include "interpreter/program/load.hpp"
 #include "serial_sim/simulation.hpp"
 
@@ -24,6 +25,20 @@ TEST(CpuStop, StopInAnInterruptRoutineCompletesTheScanAndTheClockGoesOn) {
   EXPECT_EQ(simulation.run_until(kSecond), serial::Halt::Stopped);
   EXPECT_GT(simulation.time(), 5 * kMillisecond);
   EXPECT_LT(simulation.time(), 8 * kMillisecond);
+}
+
+TEST(CpuStop, ARunThatPausesAtErrorsEndsAfterTheInstructionAndGoesOnWhenItIsRunAgain) {
+  serial::Simulation simulation(program_of("LD SM0.0\nMOVD 16#7F000000, VD100\nMOVD 0, *VD100\nINCW VW0\nMEND\n"));
+  simulation.power_up();
+  simulation.cpu().pause_at_error(true);
+  const auto count = [&] { return load16(&simulation.cpu().state().image[image::kV]); };
+  for (std::uint16_t scan = 0; scan < 3; ++scan) {
+    EXPECT_EQ(simulation.run_until(kSecond), serial::Halt::Paused);
+    EXPECT_EQ(simulation.cpu().state().error_count, scan + 1u);
+    EXPECT_EQ(count(), scan);
+  }
+  simulation.cpu().pause_at_error(false);
+  EXPECT_EQ(simulation.run_until(kSecond), serial::Halt::Time);
 }
 
 }  // namespace
