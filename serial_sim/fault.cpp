@@ -166,15 +166,19 @@ std::string read_behind(std::string_view text, Fault& fault) {
 
 std::string write_behind(const Fault& fault) { return fmt::format("{}", fault.character.value_or(0)); }
 
+/// So that the sum of two such times, and what comes after it, still fits a Time.
+constexpr Time kLatest = Time{10'000} * 3600 * kSecond;
+
 std::string read_from(std::string_view text, Fault& fault) {
   fault.from = parse_duration(text);
-  return fault.from ? "" : "is no time; write for example 1.5s or 250ms";
+  return fault.from && *fault.from <= kLatest ? "" : "is not a time up to 10000h; write for example 1.5s or 250ms";
 }
 
 std::string read_lasts(std::string_view text, Fault& fault) {
-  const auto value = text == "ever" ? std::optional<Time>(kNever) : parse_duration(text);
-  if (!value || *value == 0) return "is no duration above 0; write for example 200ms, or ever";
-  fault.lasts = *value;
+  const auto value = parse_duration(text);
+  if (text != "ever" && (!value || *value == 0 || *value > kLatest))
+    return "is not a duration above 0 and up to 10000h; write for example 200ms, or ever";
+  fault.lasts = value.value_or(kNever);
   return {};
 }
 

@@ -104,8 +104,8 @@ TEST(Fault, WrongTextIsRefusedWithItsPlace) {
            {"flip:probability=nan", 18, 3, "is no share"},
            {"noise", 1, 5, "noise needs ber=VALUE (share), for example noise:ber=1e-4,seed=7"},
            {"noise:ber=x", 11, 1, "is no share"},
-           {"noise:ber=1e-4,for=0s", 20, 2, "is no duration above 0"},
-           {"noise:ber=1e-4,from=now", 21, 3, "is no time"},
+           {"noise:ber=1e-4,for=0s", 20, 2, "is not a duration above 0 and up to 10000h"},
+           {"noise:ber=1e-4,from=now", 21, 3, "is not a time up to 10000h"},
            {"gap", 1, 3, "gap needs length=VALUE"},
            {"gap:length=5", 12, 1, "is no length above 0; write for example 30us, 1.5ms, 0.3bit or 12bit"},
            {"glitch:length=0bit", 15, 4, "is no length above 0"},
@@ -120,7 +120,7 @@ TEST(Fault, WrongTextIsRefusedWithItsPlace) {
            {"baud:error=0%", 12, 2, "is no deviation"},
            {"baud:error=nan%", 12, 4, "is no deviation"},
            {"baud:error=-3%,station=me", 24, 2, "is none of master, plc"},
-           {"cut:for=soon", 9, 4, "is no duration"},
+           {"cut:for=soon", 9, 4, "is not a duration"},
            {"echo:of=request", 6, 2, "there is no parameter of echo 'of'; there are exchange"},
        }) {
     const ParsedFault parsed = parse_fault(wrong.text);
