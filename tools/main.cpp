@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 
 #include "tools/commands.hpp"
 #include "tools/exit_code.hpp"
+#include "tools/results_json.hpp"
 #include "tools/terminal.hpp"
+#include "tools/usage.hpp"
 
 int main(int argc, char** argv) {
   using namespace s7200::tools;
@@ -15,8 +18,10 @@ int main(int argc, char** argv) {
   CLI::App app{"s7200 runs SIMATIC S7-200 STL programs in simulated time, with their Freeport on a simulated line."};
   app.name("s7200");
   app.require_subcommand(1);
-  app.set_version_flag("--version", "s7200 " S7200_VERSION);
+  app.set_version_flag("-V,--version", fmt::format("s7200 {}", version()));
+  app.failure_message(usage_error);
   app.footer(
+      "'s7200 help VERB' shows the options of a verb, and an example.\n"
       "Exit codes: 0 fine; 1 what was checked failed; 2 wrong usage or unreadable input; 3 the CPU went to STOP on a fatal "
       "error.\nExample: s7200 send stl_programs/modbus_slave.stl --crc 01030000000a");
 
@@ -31,9 +36,12 @@ int main(int argc, char** argv) {
   add_instructions(app, exit_code);
   add_times(app, exit_code);
   add_bench(app, exit_code);
+  refuse_empty_values(app);
 
   try {
-    app.parse(argc, argv);
+    std::vector<std::string> arguments = as_options(app, {argv + 1, argv + argc});
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+    app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kFine : kUnusable;
   } catch (const std::exception& error) {

@@ -1,0 +1,24 @@
+// What people type before they have read the help, and what they are told then.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Error;
+}  // namespace CLI
+
+namespace s7200::tools {
+
+/// The arguments as CLI11 knows them: `help VERB` is `VERB --help`, `version` is `--version`. Throws a CLI::ParseError, with
+/// the verb that was probably meant, if the first is neither an option nor a verb.
+std::vector<std::string> as_options(const CLI::App& app, std::vector<std::string> arguments);
+
+/// No option of any verb takes an empty value: most often that is a shell variable that is not set.
+void refuse_empty_values(CLI::App& app);
+
+/// A usage error, and where the right usage is told.
+std::string usage_error(const CLI::App* app, const CLI::Error& error);
+
+}  // namespace s7200::tools
