@@ -9,7 +9,7 @@
 #include "tools/bridge_device.hpp"
 #include "tools/bridge_pty.hpp"
 #include "tools/bridge_tcp.hpp"
-#include "tools/duration_option.hpp"
+#include "tools/number_option.hpp"
 #include "tools/terminal.hpp"
 
 namespace s7200::tools {
@@ -21,19 +21,15 @@ constexpr const char* kBridges = "Bridges: join the line to masters outside, in 
 
 void BridgeOptions::add_to(CLI::App& app) {
   app.add_flag("--realtime", realtime_, "as fast as the clock; with a bridge that is so of itself");
-  app.add_option_function<double>(
-         "--speed",
-         [this](double speed) {
-           speed_ = speed;
-           speed_given_ = true;
-         },
-         "that many times as fast as the clock, with a bridge too: 20, 0.5 (default 1)")
-      ->check(CLI::Range(0.001, 1000.0))
-      ->type_name("FACTOR");
+  add_real_number(
+      app, "--speed",
+      [this](double speed) {
+        speed_ = speed;
+        speed_given_ = true;
+      },
+      {0.001, 1000}, "how many times as fast as the clock, for example 20 or 0.5, with a bridge too", "1");
   const auto add = [&](const char* name, std::string& value, const char* type, const char* text) {
-    app.add_option(name, value, text)->type_name(type)->group(kBridges)->check([](const std::string& given) {
-      return given.empty() ? "it must not be empty" : "";
-    });
+    app.add_option(name, value, text)->type_name(type)->group(kBridges);
   };
   add("--pty", pty_, "LINK", "a serial port that programs of this computer open as LINK (see the end about parity)");
   add("--tcp", tcp_, "[ADDRESS:]PORT", "raw bytes over TCP, clients share the line; without ADDRESS for this computer only");
@@ -41,8 +37,7 @@ void BridgeOptions::add_to(CLI::App& app) {
   add("--modbus-tcp", modbus_tcp_, "[ADDRESS:]PORT", "a gateway from Modbus TCP; unit 0 is broadcast");
   add("--device", device_, "DEVICE", "a serial device of this computer, set as the program sets its port");
   line_.add_to(app, "the program's; with --pty its client's");
-  add_duration(app, "--timeout", timeout_,
-               "how long --modbus-tcp and --rtu-over-tcp wait for the begin of an answer (default 400ms)");
+  add_duration(app, "--timeout", timeout_, "how long --modbus-tcp and --rtu-over-tcp wait for an answer to start [400ms]");
 }
 
 bool BridgeOptions::prepare() {

@@ -9,8 +9,8 @@
 #include "serial_sim/simulation.hpp"
 #include "tools/bench_program.hpp"
 #include "tools/commands.hpp"
-#include "tools/duration_option.hpp"
 #include "tools/exit_code.hpp"
+#include "tools/number_option.hpp"
 #include "tools/program_options.hpp"
 #include "tools/terminal.hpp"
 
@@ -232,7 +232,7 @@ void add_bench(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("bench", "how fast programs run here");
   verb->add_option("PROGRAM", options->path, "a Modbus slave at address 1 (default: our modbus_slave.stl, built in)");
   options->add_to(*verb);
-  add_duration(*verb, "--each", options->each, "time to spend on each figure (default 1s)");
+  add_duration(*verb, "--each", options->each, "time to spend on each figure [1s]", {kMillisecond, 3600 * kSecond});
   verb->add_flag("--json", options->json, "print as JSON");
   verb->footer("Example: s7200 bench");
   verb->callback([options, &exit_code] { exit_code = run_bench(*options); });

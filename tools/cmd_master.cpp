@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "tools/commands.hpp"
-#include "tools/duration_option.hpp"
 #include "tools/exchange_statistics.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/fault_options.hpp"
@@ -18,6 +17,7 @@
 #include "tools/master_report.hpp"
 #include "tools/plant_options.hpp"
 #include "tools/program_options.hpp"
+#include "tools/number_option.hpp"
 #include "tools/report.hpp"
 #include "tools/simulated_slave.hpp"
 #include "tools/slave_target.hpp"
@@ -334,8 +334,8 @@ void add_master(CLI::App& app, int& exit_code) {
       app.add_subcommand("master", "be a Modbus master: ask a program, a serial device, or a server on the network");
   sub->add_option("TARGET", verb->target, "a PROGRAM to run in simulation, a device, or an address; see below")->required();
   sub->add_option("ACTION", verb->words, "what to do, see below");
-  sub->add_option("--station", verb->station, "whom to ask, 0 to 247; 0 is all: they are told and do not answer")
-      ->capture_default_str();
+  add_whole_number(*sub, "--station", verb->station, {0, UINT8_MAX},
+                   "station to ask; 0 is all of them, which do not answer; above 247 only over Modbus TCP", "1");
   sub->add_option("--as", verb->form, "how registers are shown: " + form_names())
       ->check([](const std::string& name) {
         return std::ranges::any_of(value_forms(), [&](const ValueFormName& form) { return form.name == name; })
@@ -350,17 +350,16 @@ void add_master(CLI::App& app, int& exit_code) {
   sub->add_flag("--always-16", verb->rules.always_16, "write single registers with function 16 too");
   sub->add_flag("--crc", verb->rules.crc, "append the CRC to raw frames");
   sub->add_flag("--beyond-limits", verb->rules.beyond_limits, "send what the specification forbids, to test a slave");
-  auto* every = add_duration(*sub, "--every", verb->every, "repeat all actions at this interval, in a table");
+  auto* every = add_duration(*sub, "--every", verb->every, "repeat all actions at this interval, in a table",
+                             {kMicrosecond, kLongestDuration});
   sub->add_flag("--continuous", verb->continuous,
                 "repeat all actions without a pause; only failures and statistics are shown")
       ->excludes(every);
-  sub->add_option("--count", verb->count, "how often to repeat (default: until Ctrl-C)")
-      ->check(CLI::Range(std::uint64_t{1}, UINT64_MAX));
-  sub->add_option("--retries", verb->retries, "ask again so often after silence, a wrong answer, or a lost connection")
-      ->check(CLI::Range(0, 1'000'000))
-      ->capture_default_str();
+  add_whole_number(*sub, "--count", verb->count, {1, UINT64_MAX}, "how often to repeat", "until Ctrl-C");
+  add_whole_number(*sub, "--retries", verb->retries, {0, 1'000'000},
+                   "ask again so often after silence, a wrong answer, or a lost connection", "0");
   add_duration(*sub, "--pause", verb->pause,
-               "between an answer and the next request (default: in simulation 7 characters + 10 ms)");
+               "pause between an answer and the next request [in simulation 7 characters + 10 ms]");
   sub->add_flag("-v,--verbose", verb->verbose,
                 "show requests and answers in hex, over Modbus TCP too as they are on a serial line");
   sub->add_flag("--json", verb->json, "print all exchanges and the statistics as JSON");
@@ -373,12 +372,12 @@ void add_master(CLI::App& app, int& exit_code) {
   }
   verb->for_rtu.push_back(
       add_duration(*sub, "--silence", verb->silence,
-                   "that ends an answer (default 3.5 characters; outside simulation 20ms if that is more)"));
+                   "silence that ends an answer [3.5 characters; outside simulation 20ms if that is more]"));
   verb->for_programs = added_by(*sub, [&] {
     verb->program.CpuOptions::add_to(*sub);
     verb->plant.add_to(*sub);
     add_duration(*sub, "--after", verb->after,
-                 "when to send the first request (default: first scan ended, then 7 characters + 10 ms of silence)");
+                 "when to send the first request [after the first scan and 7 characters + 10 ms of silence]");
   });
   sub->footer(slave_targets_help() + actions_help() + fault_help() +
               "Example: s7200 master stl_programs/modbus_slave.stl write 40011=1234,-5 read 40011:2 read 00001:8");

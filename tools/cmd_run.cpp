@@ -7,9 +7,9 @@
 #include "tools/bridge_options.hpp"
 #include "tools/bridge_run.hpp"
 #include "tools/commands.hpp"
-#include "tools/duration_option.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/interruption.hpp"
+#include "tools/number_option.hpp"
 #include "tools/plant_options.hpp"
 #include "tools/program_options.hpp"
 #include "tools/report.hpp"
@@ -154,9 +154,9 @@ void add_run(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("run", "run a program, as fast as the computer can, or in real time for masters of this computer");
   options->program.add_to(*verb);
-  add_duration(*verb, "--for", options->duration, "how long, in simulated time (default 1s; with a bridge, until Ctrl-C)");
-  verb->add_option("--scans", options->scans, "how many scans; with --for: what comes first")
-      ->check(CLI::Range(std::uint64_t{1}, UINT64_MAX));
+  add_duration(*verb, "--for", options->duration, "how long, in simulated time [1s; with a bridge until Ctrl-C]");
+  add_whole_number(*verb, "--scans", options->scans, {1, UINT64_MAX},
+                   "how many scans; with --for whichever comes first ends the run");
   options->bridge.add_to(*verb);
   options->plant.add_to(*verb);
   verb->add_flag("--json", options->json, "print the result as JSON");

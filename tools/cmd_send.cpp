@@ -6,10 +6,10 @@
 
 #include "serial_sim/modbus/crc.hpp"
 #include "tools/commands.hpp"
-#include "tools/duration_option.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/interruption.hpp"
 #include "tools/master_options.hpp"
+#include "tools/number_option.hpp"
 #include "tools/plant_options.hpp"
 #include "tools/program_options.hpp"
 #include "tools/report.hpp"
@@ -137,8 +137,8 @@ void add_send(CLI::App& app, int& exit_code) {
   verb->add_option("--frames", options->frames_file, "file with one frame a line; # begins a comment")->type_name("FILE");
   verb->add_flag("--crc", options->crc, "append the Modbus CRC to each frame");
   add_duration(*verb, "--after", options->after,
-               "when to send the first frame (default: first scan ended, then 7 characters + 10 ms of silence)");
-  add_duration(*verb, "--pause", options->pause, "between an answer and the next frame (default 7 characters + 10 ms)");
+               "when to send the first frame [after the first scan and 7 characters + 10 ms of silence]");
+  add_duration(*verb, "--pause", options->pause, "pause between an answer and the next frame [7 characters + 10 ms]");
   options->master.add_to(*verb);
   options->plant.add_to(*verb);
   verb->add_flag("--timeline", options->timeline, "show what the CPU did during each exchange: characters, interrupts, XMT");

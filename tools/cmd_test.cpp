@@ -16,9 +16,9 @@
 #include "tools/atomic_file.hpp"
 #include "tools/commands.hpp"
 #include "tools/conformance_suite.hpp"
-#include "tools/duration_option.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/interruption.hpp"
+#include "tools/number_option.hpp"
 #include "tools/program_options.hpp"
 #include "tools/record_file.hpp"
 #include "tools/scenario_compare.hpp"
@@ -481,36 +481,28 @@ void add_test(CLI::App& app, int& exit_code) {
   verb->add_option("--conformance", options->conformance,
                    "look whether a slave keeps the rules of Modbus RTU; the file describes the slave")
       ->type_name("DESCRIPTION");
-  verb->add_option("--target", options->target, "what is tested, instead of the program a scenario names; see below");
+  verb->add_option("--target", options->target, "what is tested, instead of the program a scenario names; see below")
+      ->type_name("TARGET");
   verb->add_option("--against", options->against,
                    "send the same to another program and show where the answers or their times differ first")
       ->type_name("TARGET");
   verb->add_flag("--ignore-timing", options->ignore_timing, "with --against: only answers count");
-  add_duration(*verb, "--tolerance", options->tolerance,
-               "by which times may differ: with --against, or in a replay of --record (default 0; 50ms if no program)");
-  verb->add_option("--random", options->random, "send so many random requests to the --target")
-      ->check(CLI::Range(1, 100'000))
-      ->type_name("N");
-  verb->add_option("--seed", options->seed, "which ones")->capture_default_str();
-  verb->add_option("--station", options->station, "to whom, mostly")->check(CLI::Range(1, 247))->capture_default_str();
-  verb->add_option("--cpu", options->cpu.cpu, "CPU of a program that gets random requests; scenarios say theirs themselves")
-      ->capture_default_str()
-      ->type_name("TYPE");
+  add_duration(
+      *verb, "--tolerance", options->tolerance,
+      "by which times may differ: with --against, or in a replay of --record [0; 50ms if the target is not a program]");
+  add_whole_number(*verb, "--random", options->random, {1, 100'000}, "send so many random requests to the --target");
+  add_whole_number(*verb, "--seed", options->seed, {0, UINT32_MAX}, "seed of the random requests", "1");
+  add_whole_number(*verb, "--station", options->station, {1, 247}, "station that most random requests go to", "1");
+  add_cpu_option(*verb, options->cpu.cpu, "CPU of a program that gets random requests; scenarios say theirs themselves");
   verb->add_option("--record", options->record, "write what went over the line as a transcript, which is a scenario again")
       ->type_name("FILE");
   verb->add_flag("--force", options->force, "overwrite an existing transcript");
-  verb->add_option("--baud", options->line.baud, "line of the master, instead of what scenarios and programs say")
-      ->check(CLI::Range(50, 1'000'000));
-  verb->add_option("--parity", options->line.parity, "none, even, odd")->check(CLI::IsMember({"none", "even", "odd"}));
-  verb->add_option("--data-bits", options->line.data_bits, "7 or 8")->check(CLI::IsMember({7, 8}));
-  verb->add_option("--stop-bits", options->line.stop_bits, "1 or 2")->check(CLI::IsMember({1, 2}));
+  options->line.LineOptions::add_to(*verb, "as scenarios and programs say");
   verb->add_option("--only", options->only, "scenarios with PATTERN in their name, file or rule; * is anything")
       ->type_name("PATTERN");
   verb->add_flag("--list", options->list, "name the scenarios and run none");
   verb->add_flag("--fail-fast", options->fail_fast, "end at the first failure");
-  verb->add_option("--jobs", options->jobs, "scenarios at a time; the output is the same")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
+  add_whole_number(*verb, "--jobs", options->jobs, {1, 64}, "scenarios at a time; the output is the same", "1");
   verb->add_option("--junit", options->junit, "write the results as JUnit XML, too")->type_name("FILE");
   verb->add_flag("--json", options->json, "print the results as JSON");
   verb->add_flag("--keys", options->keys, "print what a scenario may contain, as Markdown");

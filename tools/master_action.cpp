@@ -7,6 +7,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "tools/number_option.hpp"
+
 namespace s7200::tools {
 namespace {
 
@@ -304,8 +306,9 @@ void Parser::station(const Words& operands) {
 }
 
 void Parser::wait(const Words& operands) {
-  const auto duration = parse_duration(operands[0]);
-  if (!duration) refuse(fmt::format("'{}' is no duration; write for example 250ms, 2s, 1h", operands[0]));
+  std::string why;
+  const auto duration = parse_duration_in(operands[0], {0, kLongestDuration}, why);
+  if (!duration) refuse(fmt::format("{}: {}", text_, why));
   actions_.push_back({.kind = MasterAction::Kind::Wait, .text = text_, .station = station_, .duration = *duration});
 }
 

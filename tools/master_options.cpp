@@ -4,19 +4,17 @@
 
 #include <CLI/CLI.hpp>
 
-#include "tools/duration_option.hpp"
+#include "tools/number_option.hpp"
 
 namespace s7200::tools {
 
 void LineOptions::add_to(CLI::App& app, const std::string& otherwise) {
-  app.add_option("--baud", baud, fmt::format("baud rate of the other end of the line (default: {})", otherwise))
-      ->check(CLI::Range(50, 1'000'000));
-  app.add_option("--parity", parity, fmt::format("its parity: none, even, odd (default: {})", otherwise))
-      ->check(CLI::IsMember({"port", "none", "even", "odd"}));
-  app.add_option("--data-bits", data_bits, fmt::format("its data bits: 7 or 8 (default: {})", otherwise))
-      ->check(CLI::IsMember({7, 8}));
-  app.add_option("--stop-bits", stop_bits, fmt::format("its stop bits: 1 or 2 (default: {})", otherwise))
-      ->check(CLI::IsMember({1, 2}));
+  add_whole_number(app, "--baud", baud, {50, 1'000'000}, "baud rate of the other end of the line", otherwise);
+  app.add_option("--parity", parity, fmt::format("its parity: none, even, odd [{}]", otherwise))
+      ->check(CLI::IsMember({"port", "none", "even", "odd"}))
+      ->type_name("PARITY");
+  add_whole_number(app, "--data-bits", data_bits, {7, 8}, "its data bits", otherwise);
+  add_whole_number(app, "--stop-bits", stop_bits, {1, 2}, "its stop bits", otherwise);
 }
 
 SerialFormat LineOptions::format_over(SerialFormat port) const {
@@ -36,8 +34,8 @@ SerialFormat LineOptions::format_for(const serial::Simulation& simulation) const
 
 void MasterOptions::add_to(CLI::App& app) {
   LineOptions::add_to(app);
-  add_duration(app, "--timeout", timeout, "how long to wait for the begin of an answer (default 1s)");
-  add_duration(app, "--gap", gap, "between the characters of a request (default none)");
+  add_duration(app, "--timeout", timeout, "how long to wait for an answer to start [1s]");
+  add_duration(app, "--gap", gap, "pause between the characters of a request [none]");
 }
 
 }  // namespace s7200::tools

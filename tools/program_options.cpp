@@ -8,20 +8,33 @@
 #include "tools/terminal.hpp"
 
 namespace s7200::tools {
+namespace {
+
+std::string unknown_cpu(std::string_view name) {
+  std::string known;
+  for (const CpuModel* each : all_cpus()) known.append(known.empty() ? "" : ", ").append(each->name);
+  return fmt::format("there is no model of CPU '{}'; modelled: {}", name, known);
+}
+
+}  // namespace
+
+void add_cpu_option(CLI::App& app, std::string& cpu, const std::string& text) {
+  app.add_option("--cpu", cpu, text)
+      ->check([](const std::string& name) { return find_cpu(name) ? "" : unknown_cpu(name); })
+      ->capture_default_str()
+      ->type_name("TYPE");
+}
 
 void CpuOptions::add_to(CLI::App& app) {
-  app.add_option("--cpu", cpu, "CPU to run on")->capture_default_str()->type_name("TYPE");
+  add_cpu_option(app, cpu, "CPU to run on");
   app.add_option("--times", times_file, "corrected execution times, a CSV file as `s7200 times --csv` writes it")
       ->type_name("FILE");
 }
 
 const CpuModel* CpuOptions::model() const {
   const CpuModel* found = find_cpu(cpu);
-  if (found) return found;
-  std::string known;
-  for (const CpuModel* each : all_cpus()) known.append(known.empty() ? "" : ", ").append(each->name);
-  print_error(fmt::format("there is no model of CPU '{}'; modelled: {}", cpu, known));
-  return nullptr;
+  if (!found) print_error(unknown_cpu(cpu));
+  return found;
 }
 
 std::optional<TimeTable> CpuOptions::times(const CpuModel& model) const {

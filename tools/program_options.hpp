@@ -13,6 +13,9 @@ class App;
 
 namespace s7200::tools {
 
+/// --cpu, with one of the CPUs that are modelled.
+void add_cpu_option(CLI::App& app, std::string& cpu, const std::string& text);
+
 struct CpuOptions {
   std::string cpu = "214";
   std::string times_file;  ///< empty: the model's own
