@@ -56,9 +56,11 @@ class LiveRun final : public LiveLine {
     const Time goal = std::min(pace_.next_goal(now()), options_.end);
     while (now() < goal && reason_.empty()) {
       if (bridge_) simulation_.host_port().receive_as(bridge_->receive_format());
-      const serial::Halt halt = simulation_.run_until(goal);
-      if (halt == serial::Halt::Stopped) reason_ = simulation_.cpu().state().fatal_code ? "fatal" : "stop";
-      if (options_.scans != 0 && simulation_.cpu().state().scans >= options_.scans) reason_ = "scans";
+      simulation_.run_until(goal);
+      const State& state = simulation_.cpu().state();
+      if (options_.scans != 0 && state.scans >= options_.scans) reason_ = "scans";
+      if (options_.strict && state.error_count != 0) reason_ = "run-time error";
+      if (state.mode == Mode::Stop) reason_ = state.fatal_code ? "fatal" : "stop";
     }
     if (now() >= options_.end && reason_.empty()) reason_ = "time";
     if (pace_.reached(now(), std::min(planned_, Clock::now())) && !slow_) {

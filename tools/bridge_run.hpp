@@ -12,13 +12,14 @@ namespace s7200::tools {
 struct LiveRunOptions {
   Time end = kNever;        ///< simulated
   std::uint64_t scans = 0;  ///< 0: any number
+  bool strict = false;      ///< the first run-time error ends it
   double speed = 1;
   LineOptions line;  ///< the other end of the line
 };
 
 struct LiveRunResult {
-  /// `time`, `scans`, `stop`, `fatal`, `interrupted`, `bridge` when that failed, after a message; empty when it could not be
-  /// started, after a message.
+  /// `time`, `scans`, `stop`, `fatal`, `run-time error`, `interrupted`, `bridge` when that failed, after a message; empty
+  /// when it could not be started, after a message.
   std::string_view reason;
   Pace::Report pace;
 };

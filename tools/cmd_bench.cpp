@@ -12,6 +12,7 @@
 #include "tools/exit_code.hpp"
 #include "tools/number_option.hpp"
 #include "tools/program_options.hpp"
+#include "tools/results_json.hpp"
 #include "tools/terminal.hpp"
 
 namespace s7200::tools {
@@ -211,9 +212,11 @@ int run_bench(const BenchOptions& options) {
   }
   const std::vector<Figure> figures = measure(program, options.each);
   if (options.json) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const Figure& f : figures) json.push_back({{"name", f.name}, {"unit", f.unit}, {"per_second", f.per_second}});
-    fmt::print("{}\n", json.dump(2));
+    auto results = results_of("bench");
+    results["program"] = program->source.name;
+    for (const Figure& f : figures)
+      results["figures"].push_back({{"name", f.name}, {"unit", f.unit}, {"per_second", f.per_second}});
+    print_results(results);
     return kFine;
   }
   fmt::print("{}: best of five rounds on one core\n", program->source.name);

@@ -7,6 +7,7 @@
 #include "tools/commands.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/program_options.hpp"
+#include "tools/results_json.hpp"
 #include "tools/terminal.hpp"
 
 namespace s7200::tools {
@@ -93,7 +94,11 @@ int run_check(const CheckOptions& options) {
       print_summary(path, *text, result, *model);
     }
   }
-  if (options.json) fmt::print("{}\n", files.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  if (options.json) {
+    auto results = results_of("check");
+    results["files"] = std::move(files);
+    print_results(results);
+  }
   return exit_code;
 }
 
@@ -104,7 +109,7 @@ void add_check(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("check", "check STL programs: every error with its place and what to do about it");
   verb->add_option("PROGRAM", options->paths, "STL files or published documents")->required();
   options->cpu.add_to(*verb);
-  verb->add_flag("--json", options->json, "print the result as JSON");
+  verb->add_flag("--json", options->json, "print the results as JSON");
   verb->footer("Example: s7200 check stl_programs/modbus_slave.stl");
   verb->callback([options, &exit_code] { exit_code = run_check(*options); });
 }

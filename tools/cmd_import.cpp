@@ -10,6 +10,7 @@
 #include "tools/commands.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/program_options.hpp"
+#include "tools/results_json.hpp"
 #include "tools/terminal.hpp"
 
 namespace s7200::tools {
@@ -17,7 +18,7 @@ namespace {
 
 struct ImportOptions {
   std::string document, output;
-  bool force = false;
+  bool force = false, json = false;
 };
 
 std::size_t count_statements(const stl::Source& source) {
@@ -35,6 +36,17 @@ int write(const std::string& path, const std::string& text) {
   return kUnusable;
 }
 
+void print_json(const ImportOptions& options, const SourceText& text, const std::string& stl) {
+  const bool to_file = !options.output.empty() && options.output != "-";
+  auto results = results_of("import");
+  results["document"] = options.document;
+  results["encoding"] = text.encoding;
+  results["instructions"] = count_statements(text.parsed.source);
+  results["output"] = to_file ? nlohmann::ordered_json(options.output) : nullptr;
+  results["stl"] = to_file ? nullptr : nlohmann::ordered_json(stl);
+  print_results(results);
+}
+
 int run_import(const ImportOptions& options) {
   auto text = read_program_text(options.document, true);
   if (!text) return kUnusable;
@@ -46,7 +58,10 @@ int run_import(const ImportOptions& options) {
   }
   const std::string stl = stl::to_text(text->parsed.source);
   if (options.output.empty() || options.output == "-") {
-    fmt::print("{}", stl);
+    if (options.json)
+      print_json(options, *text, stl);
+    else
+      fmt::print("{}", stl);
     return kFine;
   }
   if (std::filesystem::exists(options.output) && !options.force) {
@@ -54,7 +69,9 @@ int run_import(const ImportOptions& options) {
     return kUnusable;
   }
   const int exit_code = write(options.output, stl);
-  if (exit_code == kFine)
+  if (exit_code == kFine && options.json)
+    print_json(options, *text, stl);
+  else if (exit_code == kFine)
     fmt::print(stderr, "{}: {} instructions out of {} ({})\n", options.output, count_statements(text->parsed.source),
                options.document, text->encoding);
   return exit_code;
@@ -68,6 +85,7 @@ void add_import(CLI::App& app, int& exit_code) {
   verb->add_option("DOCUMENT", options->document, "document with an STL listing")->required();
   verb->add_option("-o,--output", options->output, "file to write; standard output if not given")->type_name("FILE.stl");
   verb->add_flag("--force", options->force, "overwrite an existing file");
+  verb->add_flag("--json", options->json, "print what was imported as JSON, with the STL if no file is written");
   verb->footer("Example: s7200 import tip41.txt -o tip41.stl");
   verb->callback([options, &exit_code] { exit_code = run_import(*options); });
 }

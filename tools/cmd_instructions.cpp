@@ -7,6 +7,7 @@
 #include "tools/exit_code.hpp"
 #include "tools/instruction_text.hpp"
 #include "tools/program_options.hpp"
+#include "tools/results_json.hpp"
 #include "tools/terminal.hpp"
 
 namespace s7200::tools {
@@ -32,7 +33,10 @@ nlohmann::ordered_json to_json(const Instruction& instruction, const TimeTable& 
                               {"flags", flags_text(instruction)},
                               {"allowed", parts_text(instruction)},
                               {"cpus", to_text(instruction.cpus)},
-                              {"example", example(instruction)}};
+                              {"example", example(instruction)},
+                              {"time_us", nullptr},
+                              {"per_unit_us", nullptr},
+                              {"time_marker", nullptr}};
   if (const TimeRow* row = typical_time(times, instruction)) {
     json["time_us"] = static_cast<double>(row->base) / kMicrosecond;
     json["per_unit_us"] = static_cast<double>(row->per_unit) / kMicrosecond;
@@ -77,10 +81,12 @@ int run_instructions(const InstructionsOptions& options) {
   if (options.markdown) {
     fmt::print("{}", reference_page(default_times(*all_cpus().back())));
   } else if (options.json) {
-    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    auto results = results_of("instructions");
+    results["cpu"] = model->name;
+    auto& rows = results["instructions"] = nlohmann::ordered_json::array();
     for (const Instruction& instruction : chosen.empty() ? all_instructions() : std::span<const Instruction>(chosen))
       rows.push_back(to_json(instruction, *times));
-    fmt::print("{}\n", rows.dump(2));
+    print_results(results);
   } else if (chosen.empty()) {
     fmt::print("Instructions of CPU {}. Times with power flow, operands in V memory; see `s7200 times`.\n", model->name);
     print_table(all_instructions(), *times);

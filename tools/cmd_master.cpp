@@ -1,8 +1,10 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -15,10 +17,11 @@
 #include "tools/master_action.hpp"
 #include "tools/master_options.hpp"
 #include "tools/master_report.hpp"
+#include "tools/number_option.hpp"
 #include "tools/plant_options.hpp"
 #include "tools/program_options.hpp"
-#include "tools/number_option.hpp"
 #include "tools/report.hpp"
+#include "tools/results_json.hpp"
 #include "tools/simulated_slave.hpp"
 #include "tools/slave_target.hpp"
 #include "tools/terminal.hpp"
@@ -64,7 +67,17 @@ void refuse_options(const std::vector<CLI::Option*>& options, const char* need) 
     if (option->count() > 0) throw std::invalid_argument(fmt::format("{} needs {}", option->get_name(), need));
 }
 
+/// In simulation nothing but the reader slows down what would be written for ever.
+void refuse_a_flood(const MasterVerb& verb) {
+  const bool writes_each = verb.polls() || verb.json || verb.verbose;
+  if (!verb.open_ended() || !writes_each || isatty(STDOUT_FILENO)) return;
+  throw std::invalid_argument(
+      fmt::format("{} without --count never ends, and a simulation writes as fast as it can: say how often with --count N",
+                  verb.polls() ? "--every" : "--continuous"));
+}
+
 void refuse_what_does_not_fit(const MasterVerb& verb, Kind kind) {
+  if (kind == Kind::Program) refuse_a_flood(verb);
   if (kind != Kind::Program) refuse_options(verb.for_programs, "a PROGRAM to run in simulation");
   if (kind == Kind::Tcp || kind == Kind::ModbusTcp)
     refuse_options(verb.for_lines, "a serial line; the target is a connection over TCP");
@@ -84,7 +97,13 @@ class MasterSession {
   /// Throws SlaveUnreachable.
   void run();
 
+  /// From now on, whether to end before all is done, as after Ctrl-C.
+  void end_early_if(std::function<bool()> reason) { reason_to_end_ = std::move(reason); }
+
   const ExchangeStatistics& statistics() const { return statistics_; }
+
+  /// As they were written.
+  std::vector<std::string> raw_frames() const;
 
   /// Say what belongs before the first result and behind the last, where the JSON of results stands between them.
   void begin() const;
@@ -92,6 +111,7 @@ class MasterSession {
 
  private:
   std::string title() const;
+  bool over() const { return interrupted() || (reason_to_end_ && reason_to_end_()); }
   void run_round();
   /// Nothing after Ctrl-C.
   std::optional<MasterResult> perform(const MasterAction& action);
@@ -105,6 +125,7 @@ class MasterSession {
   Slave& slave_;
   const std::vector<MasterAction>& actions_;
   const bool broadcasts_are_silent_;
+  std::function<bool()> reason_to_end_;
   PollingTable table_;
   ExchangeStatistics statistics_;
   std::uint16_t loopback_ = kFirstLoopback;
@@ -115,6 +136,14 @@ class MasterSession {
 
 std::string MasterSession::title() const {
   return fmt::format("{}, every {}; Ctrl-C ends", slave_.name(), verb_.polls() ? format_duration(verb_.every) : "round");
+}
+
+std::vector<std::string> MasterSession::raw_frames() const {
+  constexpr std::string_view kWord = "raw ";
+  std::vector<std::string> frames;
+  for (const MasterAction& action : actions_)
+    if (action.kind == MasterAction::Kind::Raw) frames.push_back(action.text.substr(kWord.size()));
+  return frames;
 }
 
 serial::Request MasterSession::request_of(const MasterAction& action) {
@@ -162,7 +191,7 @@ void MasterSession::show_failure(const MasterResult& result) {
 
 void MasterSession::show(const MasterResult& result) {
   if (verb_.json) {
-    fmt::print("{}    {}", first_ ? "" : ",\n", to_json(result, verb_.rules.format).dump());
+    fmt::print("{}    {}", first_ ? "" : ",\n", line_of(to_json(result, verb_.rules.format)));
     first_ = false;
   } else if (verb_.polls() && !verb_.verbose) {
     table_.add(result, result.exchange.request_start);
@@ -190,7 +219,7 @@ void MasterSession::clear_progress() {
 
 void MasterSession::run_round() {
   for (const MasterAction& action : actions_) {
-    if (interrupted()) return;
+    if (over()) return;
     if (action.kind == MasterAction::Kind::Station) continue;
     if (action.kind == MasterAction::Kind::Wait) {
       slave_.wait(action.duration);
@@ -203,7 +232,7 @@ void MasterSession::run_round() {
 void MasterSession::run() {
   const std::uint64_t rounds = verb_.rounds();
   Time next = slave_.now();
-  for (std::uint64_t round = 0; round < rounds && !interrupted(); ++round) {
+  for (std::uint64_t round = 0; round < rounds && !over(); ++round) {
     run_round();
     if (verb_.continuous) show_progress();
     if (!verb_.polls()) continue;
@@ -215,24 +244,25 @@ void MasterSession::run() {
 }
 
 void MasterSession::begin() const {
-  if (verb_.json) fmt::print("{{\n  \"target\": {},\n  \"exchanges\": [\n", nlohmann::json(slave_.name()).dump());
+  if (!verb_.json) return;
+  auto head = results_of("master");
+  head["target"] = slave_.name();
+  fmt::print("{{\n");
+  for (const auto& [key, value] : head.items()) fmt::print("  \"{}\": {},\n", key, line_of(value));
+  fmt::print("  \"exchanges\": [\n");
 }
 
 void MasterSession::end(const std::string& error, const nlohmann::ordered_json& plant) {
   clear_progress();
   if (verb_.json) {
     fmt::print("{}  ],\n  \"statistics\": {},\n", first_ ? "" : "\n", statistics_.json().dump());
-    for (const auto& [key, value] : plant.items()) fmt::print("  \"{}\": {},\n", key, value.dump());
-    fmt::print("  \"error\": {}\n}}\n", (error.empty() ? nlohmann::json() : nlohmann::json(error)).dump());
+    for (const auto& [key, value] : plant.items()) fmt::print("  \"{}\": {},\n", key, line_of(value));
+    fmt::print("  \"error\": {}\n}}\n", error.empty() ? "null" : line_of(error));
   } else if (verb_.polls() && can_redraw(stdout)) {
     table_.finish();
   } else if (verb_.rounds() > 1) {
     fmt::print("{}", statistics_.text());
   }
-}
-
-nlohmann::ordered_json plant_json(const nlohmann::ordered_json& dump, const nlohmann::ordered_json& faults) {
-  return {{"dump", dump}, {"faults", faults}};
 }
 
 /// From the first exchange to what is said at the end, whichever way it ends. `plant` then
@@ -251,6 +281,7 @@ int run_session(const MasterVerb& verb, MasterSession& session, Plant plant) {
     print_error(error);
     return kUnusable;
   }
+  if (!session.statistics().latency()) fmt::print(stderr, "{}", torn_frame_note(session.raw_frames()));
   const bool cut_short = interrupted() && !verb.open_ended();
   if (cut_short) fmt::print(stderr, "s7200: note: interrupted\n");
   return session.statistics().any_failed() || cut_short ? kCheckFailed : kFine;
@@ -265,7 +296,13 @@ int run_on_program(MasterVerb& verb, const std::vector<MasterAction>& actions) {
   serial::Simulation simulation(program, verb.plant.field());
   verb.plant.power_up(simulation);
   SimulatedSlave slave(simulation, verb.master, verb.target);
+  MasterSession session(verb, slave, actions, true);
+  session.end_early_if([&] { return verb.plant.failed_strictly(simulation.cpu()); });
   if (!slave.wait_until_ready(verb.after)) {
+    if (verb.json) {
+      session.begin();
+      session.end("the program was not ready for the first request", verb.plant.json(simulation));
+    }
     fmt::print(stderr, "{}", errors_text(simulation.cpu()));
     if (!simulation.cpu().state().fatal_code && simulation.cpu().state().mode == Mode::Stop)
       print_error("the CPU went to STOP before the first request");
@@ -273,15 +310,15 @@ int run_on_program(MasterVerb& verb, const std::vector<MasterAction>& actions) {
     return simulation.cpu().state().fatal_code ? kCpuFatal : kCheckFailed;
   }
 
-  MasterSession session(verb, slave, actions, true);
-  exit_code = run_session(verb, session, [&] {
-    return plant_json(verb.plant.dump_json(simulation.cpu().state()), faults_json(simulation.faults()));
-  });
+  exit_code = run_session(verb, session, [&] { return verb.plant.json(simulation); });
   if (!verb.plant.finish(simulation)) return kUnusable;
-  if (!verb.json) fmt::print("{}", verb.plant.dump_text(simulation.cpu().state()));
+  if (!verb.json) fmt::print("{}", verb.plant.dump_text(simulation.cpu()));
   fmt::print(stderr, "{}{}", errors_text(simulation.cpu()), faults_text(simulation.faults()));
   if (simulation.cpu().state().mode == Mode::Stop) fmt::print(stderr, "s7200: note: the CPU is in STOP\n");
-  return simulation.cpu().state().fatal_code ? kCpuFatal : exit_code;
+  if (simulation.cpu().state().fatal_code) return kCpuFatal;
+  if (!verb.plant.failed_strictly(simulation.cpu())) return exit_code;
+  print_error("--strict: a run-time error ended the session");
+  return kCheckFailed;
 }
 
 int run_master(MasterVerb& verb) {
@@ -306,8 +343,7 @@ int run_master(MasterVerb& verb) {
     return kUnusable;
   }
   MasterSession session(verb, *slave, actions, !over_tcp);
-  return run_session(verb, session,
-                     [] { return plant_json(nlohmann::ordered_json::object(), nlohmann::ordered_json::array()); });
+  return run_session(verb, session, PlantOptions::no_json);
 }
 
 /// The options that `add` adds.

@@ -13,6 +13,7 @@
 #include "tools/plant_options.hpp"
 #include "tools/program_options.hpp"
 #include "tools/report.hpp"
+#include "tools/results_json.hpp"
 #include "tools/terminal.hpp"
 
 namespace s7200::tools {
@@ -40,14 +41,16 @@ class Runner {
  public:
   Runner(serial::Simulation& simulation, const RunOptions& options) : simulation_(simulation), options_(options) {}
 
-  /// Why it ended: `time`, `scans`, `endless scan`, `stop`, `fatal` or `interrupted`.
+  /// Why it ended: `time`, `scans`, `endless scan`, `stop`, `fatal`, `run-time error` or `interrupted`.
   std::string_view run() {
     simulation_.cpu().pause_at_scan_end(options_.scans != 0);
+    const State& state = simulation_.cpu().state();
     while (simulation_.time() < end()) {
       if (interrupted()) return "interrupted";
       const serial::Halt halt = simulation_.run_until(std::min(end(), simulation_.time() + 10 * kSecond));
-      if (halt == serial::Halt::Stopped) return simulation_.cpu().state().fatal_code ? "fatal" : "stop";
-      if (options_.scans != 0 && simulation_.cpu().state().scans >= options_.scans) return "scans";
+      if (state.mode == Mode::Stop) return state.fatal_code ? "fatal" : "stop";
+      if (options_.plant.failed_strictly(simulation_.cpu())) return "run-time error";
+      if (options_.scans != 0 && state.scans >= options_.scans) return "scans";
       if (halt == serial::Halt::Time) show_progress();
     }
     return until_scans() ? "endless scan" : "time";
@@ -83,7 +86,8 @@ struct Ending {
 Ending run_to_end(serial::Simulation& simulation, const RunOptions& options) {
   catch_interruption();
   if (!options.bridge.realtime()) return {Runner(simulation, options).run(), {}};
-  const LiveRunOptions live{options.end(), options.scans, options.bridge.speed(), options.bridge.line()};
+  const LiveRunOptions live{options.end(), options.scans, options.plant.strict(), options.bridge.speed(),
+                            options.bridge.line()};
   const LiveRunResult result = run_live(simulation, live, options.bridge.bridge());
   return {result.reason, result.pace};
 }
@@ -100,24 +104,22 @@ void print_text(const serial::Simulation& simulation, const Ending& ending, cons
     fmt::print("real time{}: drift {}, worst lag {}\n",
                ending.pace->speed == 1 ? "" : fmt::format(" times {:g}", ending.pace->speed),
                format_duration(ending.pace->drift), format_duration(ending.pace->worst_lag));
-  fmt::print("{}{}", errors_text(simulation.cpu()), options.plant.dump_text(state));
+  fmt::print("{}{}", errors_text(simulation.cpu()), options.plant.dump_text(simulation.cpu()));
 }
 
 void print_json(const serial::Simulation& simulation, const Ending& ending, const RunOptions& options) {
   const State& state = simulation.cpu().state();
-  nlohmann::ordered_json json{{"stop_reason", ending.reason},
-                              {"time_ns", state.time},
-                              {"scans", state.scans},
-                              {"instructions", state.instructions},
-                              {"mode", state.mode == Mode::Run ? "RUN" : "STOP"},
-                              {"errors", errors_json(simulation.cpu())},
-                              {"faults", faults_json(simulation.faults())},
-                              {"dump", options.plant.dump_json(state)}};
+  auto results = results_of("run");
+  results["stop_reason"] = ending.reason;
+  results["time_ns"] = state.time;
+  results["scans"] = state.scans;
+  results["instructions"] = state.instructions;
+  results.update(options.plant.json(simulation));
   if (ending.pace)
-    json["realtime"] = {
+    results["realtime"] = {
         {"speed", ending.pace->speed}, {"drift_ns", ending.pace->drift}, {"worst_lag_ns", ending.pace->worst_lag}};
-  if (options.bridge.bridge()) json["bridge"] = options.bridge.bridge()->json();
-  fmt::print("{}\n", json.dump(2));
+  if (options.bridge.bridge()) results["bridge"] = options.bridge.bridge()->json();
+  print_results(results);
 }
 
 int run_run(RunOptions& options) {
@@ -128,6 +130,7 @@ int run_run(RunOptions& options) {
 
   serial::Simulation simulation(program, options.plant.field());
   options.plant.power_up(simulation);
+  simulation.cpu().pause_at_error(options.plant.strict());
   const Ending ending = run_to_end(simulation, options);
   if (ending.reason.empty()) return kUnusable;
   if (!options.plant.finish(simulation)) return kUnusable;
@@ -142,6 +145,10 @@ int run_run(RunOptions& options) {
         fmt::format("scan {} has lasted {} and is not over: the program loops in it, and WDR keeps it going. "
                     "To run it all the same say how long: --for",
                     simulation.cpu().state().scans + 1, format_duration(kEndlessScan)));
+    return kCheckFailed;
+  }
+  if (ending.reason == "run-time error") {
+    print_error("--strict: the run ended at the first run-time error");
     return kCheckFailed;
   }
   return ending.reason == "bridge" ? kUnusable : exit_code_of(simulation.cpu());
@@ -159,7 +166,7 @@ void add_run(CLI::App& app, int& exit_code) {
                    "how many scans; with --for whichever comes first ends the run");
   options->bridge.add_to(*verb);
   options->plant.add_to(*verb);
-  verb->add_flag("--json", options->json, "print the result as JSON");
+  verb->add_flag("--json", options->json, "print the results as JSON");
   verb->footer(std::string(BridgeOptions::kAboutPty) + fault_help() +
                "Example: s7200 run stl_programs/modbus_slave.stl --for 2s --set VW100=5 --dump VW100:4");
   verb->callback([options, &exit_code] { exit_code = run_run(*options); });

@@ -13,6 +13,7 @@
 #include "tools/plant_options.hpp"
 #include "tools/program_options.hpp"
 #include "tools/report.hpp"
+#include "tools/results_json.hpp"
 #include "tools/simulated_slave.hpp"
 #include "tools/terminal.hpp"
 #include "tools/timeline.hpp"
@@ -95,22 +96,23 @@ int run_send(SendOptions& options) {
   TraceSink* const records = options.plant.sinks().empty() ? nullptr : &options.plant.sinks();
   Timeline timeline(program, records);
 
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  auto results = results_of("send");
+  nlohmann::ordered_json& exchanges = results["exchanges"] = nlohmann::ordered_json::array();
   SimulatedSlave slave(simulation, options.master, options.program.path);
-  bool all_answered = slave.wait_until_ready(options.after);
-  const bool ready = all_answered;
+  const bool ready = slave.wait_until_ready(options.after);
+  std::size_t answered = 0;
   for (const modbus::Frame& frame : frames) {
-    if (!ready || interrupted()) break;
+    if (!ready || interrupted() || options.plant.failed_strictly(simulation.cpu())) break;
     const serial::Faults::State faults_before = simulation.faults().state();
     timeline.begin();
     if (options.timeline) simulation.cpu().set_sink(&timeline);
     const serial::Exchange exchange = slave.exchange(options.master.request(frame));
     simulation.cpu().set_sink(records);
-    all_answered &= !exchange.timed_out;
+    answered += !exchange.timed_out;
     if (options.json) {
-      json.push_back(to_json(exchange));
-      if (options.plant.faulted()) json.back()["faults"] = faults_json(simulation.faults(), faults_before);
-      if (options.timeline) json.back()["timeline"] = to_json(timeline.report(), exchange);
+      exchanges.push_back(to_json(exchange));
+      if (options.plant.faulted()) exchanges.back()["faults"] = faults_json(simulation.faults(), faults_before);
+      if (options.timeline) exchanges.back()["timeline"] = to_json(timeline.report(), exchange);
     } else {
       fmt::print("{}", exchange_text(exchange, options.master.timeout));
       if (options.timeline) fmt::print("{}\n", to_text(timeline.report(), exchange, colour_wanted(stdout)));
@@ -118,13 +120,22 @@ int run_send(SendOptions& options) {
     slave.wait(options.pause == kNever ? slave.pause() : options.pause);
   }
   if (!options.plant.finish(simulation)) return kUnusable;
-  if (options.json) fmt::print("{}\n", json.dump(2));
-  fmt::print(options.json ? stderr : stdout, "{}", options.plant.dump_text(simulation.cpu().state()));
+  if (options.json) {
+    results.update(options.plant.json(simulation));
+    print_results(results);
+  } else {
+    fmt::print("{}", options.plant.dump_text(simulation.cpu()));
+  }
   fmt::print(stderr, "{}{}", errors_text(simulation.cpu()), faults_text(simulation.faults()));
+  if (ready && answered == 0) fmt::print(stderr, "{}", torn_frame_note(options.frames));
   if (simulation.cpu().state().mode == Mode::Stop) fmt::print(stderr, "s7200: note: the CPU is in STOP\n");
   if (simulation.cpu().state().fatal_code) return kCpuFatal;
   if (interrupted()) fmt::print(stderr, "s7200: note: interrupted\n");
-  return all_answered && !interrupted() ? kFine : kCheckFailed;
+  if (options.plant.failed_strictly(simulation.cpu())) {
+    print_error("--strict: a run-time error ended the exchanges");
+    return kCheckFailed;
+  }
+  return answered == frames.size() && !interrupted() ? kFine : kCheckFailed;
 }
 
 }  // namespace
@@ -133,7 +144,8 @@ void add_send(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<SendOptions>();
   CLI::App* verb = app.add_subcommand("send", "put request frames on the line of a running program, print the answers");
   options->program.add_to(*verb);
-  verb->add_option("HEX", options->frames, "frames in hex; blanks allowed; p behind a byte sends it with wrong parity");
+  verb->add_option("HEX", options->frames,
+                   "frames in hex, each in quotes if it has blanks: '01 03 …'; p after a byte sends it with wrong parity");
   verb->add_option("--frames", options->frames_file, "file with one frame a line; # begins a comment")->type_name("FILE");
   verb->add_flag("--crc", options->crc, "append the Modbus CRC to each frame");
   add_duration(*verb, "--after", options->after,
@@ -142,7 +154,7 @@ void add_send(CLI::App& app, int& exit_code) {
   options->master.add_to(*verb);
   options->plant.add_to(*verb);
   verb->add_flag("--timeline", options->timeline, "show what the CPU did during each exchange: characters, interrupts, XMT");
-  verb->add_flag("--json", options->json, "print an array of exchanges as JSON");
+  verb->add_flag("--json", options->json, "print the exchanges and the results as JSON");
   verb->footer(fault_help() +
                "Exit code 1 when a frame was not answered; what an answer says is not judged here but by 's7200 master'.\n"
                "Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");

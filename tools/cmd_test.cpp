@@ -21,6 +21,7 @@
 #include "tools/number_option.hpp"
 #include "tools/program_options.hpp"
 #include "tools/record_file.hpp"
+#include "tools/results_json.hpp"
 #include "tools/scenario_compare.hpp"
 #include "tools/scenario_reader.hpp"
 #include "tools/scenario_record.hpp"
@@ -339,7 +340,10 @@ int run_all(const std::vector<Scenario>& scenarios, const TestOptions& options, 
     unreachable = error.what();
   }
   if (options.json) {
-    fmt::print("{}\n", to_json(reports).dump(2));
+    auto results = results_of("test");
+    results.update(to_json(reports));
+    results["not_run"] = scenarios.size() - reports.size();
+    print_results(results);
   } else if (conformance) {
     fmt::print("{}", conformance_text(reports, benches.name, colour_wanted(stdout)));
   } else {
@@ -376,7 +380,8 @@ int run_against(const std::vector<Scenario>& scenarios, const TestOptions& optio
     of_other.push_back(std::move(result));
     return !interrupted();
   });
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  auto results = results_of("test");
+  nlohmann::ordered_json& comparisons = results["comparisons"] = nlohmann::ordered_json::array();
   const stl::Source* heading = nullptr;
   bool same = true;
   Runner ones(scenarios, one, jobs_on(one, options));
@@ -391,12 +396,12 @@ int run_against(const std::vector<Scenario>& scenarios, const TestOptions& optio
         skipped ? Difference{} : compare(scenarios[i], result, of_other[i], one_name, name(other.name), comparison, colour);
     same &= !difference.found;
     if (options.json) {
-      json.push_back({{"file", scenarios[i].source->name},
-                      {"name", scenarios[i].name},
-                      {"skipped", skipped != nullptr},
-                      {"exchanges", result.seen.size()},
-                      {"same", !difference.found},
-                      {"difference", difference.text}});
+      comparisons.push_back({{"file", scenarios[i].source->name},
+                             {"name", scenarios[i].name},
+                             {"skipped", skipped != nullptr},
+                             {"exchanges", result.seen.size()},
+                             {"same", !difference.found},
+                             {"difference", difference.text}});
     } else {
       print_file_heading(scenarios[i], heading);
       const std::string remark =
@@ -409,7 +414,7 @@ int run_against(const std::vector<Scenario>& scenarios, const TestOptions& optio
     }
     return same || !options.fail_fast;
   });
-  if (options.json) fmt::print("{}\n", json.dump(2));
+  if (options.json) print_results(results);
   if (interrupted()) fmt::print(stderr, "s7200: note: interrupted\n");
   return same && !interrupted() ? kFine : kCheckFailed;
 }
@@ -442,7 +447,13 @@ void check_usage(const TestOptions& options) {
     fail(fmt::format("{} exists and is no XML; it is left alone", options.junit));
 }
 
-void print_list(const std::vector<Scenario>& scenarios) {
+void print_list(const std::vector<Scenario>& scenarios, bool json) {
+  if (json) {
+    auto results = results_of("test");
+    for (const Scenario& scenario : scenarios) results["scenarios"].push_back(scenario_json(scenario));
+    print_results(results);
+    return;
+  }
   const stl::Source* heading = nullptr;
   for (const Scenario& scenario : scenarios) {
     print_file_heading(scenario, heading);
@@ -460,7 +471,7 @@ int run_test(const TestOptions& options) {
     check_usage(options);
     const std::vector<Scenario> scenarios = read_all(options);
     if (options.list) {
-      print_list(scenarios);
+      print_list(scenarios, options.json);
       return kFine;
     }
     catch_interruption();
@@ -505,7 +516,7 @@ void add_test(CLI::App& app, int& exit_code) {
   add_whole_number(*verb, "--jobs", options->jobs, {1, 64}, "scenarios at a time; the output is the same", "1");
   verb->add_option("--junit", options->junit, "write the results as JUnit XML, too")->type_name("FILE");
   verb->add_flag("--json", options->json, "print the results as JSON");
-  verb->add_flag("--keys", options->keys, "print what a scenario may contain, as Markdown");
+  verb->add_flag("--keys", options->keys, "print what a scenario may contain, as Markdown")->excludes("--json");
   verb->footer(
       slave_targets_help() +
       "Exit codes: 0 all passed; 1 a scenario failed, a rule that says must is broken, or --against found a difference; "

@@ -6,6 +6,7 @@
 #include "tools/commands.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/program_options.hpp"
+#include "tools/results_json.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -27,8 +28,10 @@ void print_table(const CpuModel& model, const TimeTable& times) {
                row.source);
 }
 
-nlohmann::ordered_json to_json(const TimeTable& times) {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+nlohmann::ordered_json to_json(const CpuModel& model, const TimeTable& times) {
+  auto results = results_of("times");
+  results["cpu"] = model.name;
+  auto& rows = results["times"] = nlohmann::ordered_json::array();
   for (const TimeRow& row : times.rows())
     rows.push_back({{"mnemonics", row.mnemonics},
                     {"form", row.form},
@@ -37,7 +40,7 @@ nlohmann::ordered_json to_json(const TimeTable& times) {
                     {"unit", row.unit},
                     {"marker", row.marker},
                     {"source", row.source}});
-  return rows;
+  return results;
 }
 
 int run_times(const TimesOptions& options) {
@@ -46,7 +49,7 @@ int run_times(const TimesOptions& options) {
   const auto times = options.cpu.times(*model);
   if (!times) return kUnusable;
   if (options.json)
-    fmt::print("{}\n", to_json(*times).dump(2));
+    print_results(to_json(*model, *times));
   else if (options.csv)
     fmt::print("{}", to_csv(*times));
   else

@@ -91,7 +91,7 @@ bool Debugger::stop_requested() const { return options_.stop_request && *options
 
 void Debugger::show_place() {
   out_ << place_text(simulation_.cpu(), listing_);
-  for (const MemoryRange& range : displayed_) out_ << dump_text(simulation_.cpu().state(), range);
+  for (const MemoryRange& range : displayed_) out_ << dump_text(simulation_.cpu(), range);
 }
 
 void Debugger::go(const Run& run) {
@@ -147,8 +147,10 @@ void Debugger::report_reason(const Stop& stop, const Run& run) {
 }
 
 void Debugger::report_change(const Change& change) {
+  const Program& program = simulation_.cpu().program();
   out_ << fmt::format("watch {}: {} was {}, is {}\n", change.watch.number, change.watch.address,
-                      value_text(change.watch.range, change.watch.value), value_text(change.watch.range, change.value));
+                      value_text(program, change.watch.range, change.watch.value),
+                      value_text(program, change.watch.range, change.value));
   if (change.by)
     out_ << fmt::format("  by {} {}\n", listing_.routine_of(change.by->op),
                         describe(*change.by, simulation_.cpu().program()));

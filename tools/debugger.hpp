@@ -117,6 +117,7 @@ class Debugger {
   void print_instruction(const InstructionRecord& record, bool started_at);
 
   void list_stops();
+  std::string value_of(const MemoryRange& range) const;
   std::string op_text(std::uint32_t op) const;  ///< `INT 123 line 40: MOVB SMB2, VB1 // …`
   std::optional<std::uint32_t> current_op() const;
   std::optional<std::uint32_t> find_place(const Arguments& arguments, std::string_view command, std::string& why);

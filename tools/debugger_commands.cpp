@@ -88,7 +88,8 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "> is the current line, * a breakpoint.", &Debugger::list},
       {"regs", "r", "regs", "time, place, calls, accumulators, flags, interrupts", "", &Debugger::registers},
       {"stack", "", "stack", "the nine levels of the logic stack", "", &Debugger::stack},
-      {"print", "p", "print ADDRESS[:COUNT]…", "memory: VB100:16, VW100, M31.7, AC0, T5", "", &Debugger::print},
+      {"print", "p", "print ADDRESS[:COUNT]…", "memory: VB100:16, VW100, VD20:real, M31.7, AC0, T5",
+       "A double word that the program uses as a real is shown as one too.", &Debugger::print},
       {"display", "", "display [ADDRESS[:COUNT]… | off]", "print memory after each stop",
        "Further ones are added. Alone: print them now.", &Debugger::display},
       {"port", "", "port", "SMB30 in words, receiver, transmitter, and the master on the line", "", &Debugger::port},
@@ -281,11 +282,15 @@ Debugger::Error Debugger::watch(const Arguments& arguments) {
   if (Error error = ranges_of(arguments, ranges)) return error;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const Watch added{.number = next_number_++, .range = ranges[i], .address = stl::upper_case(arguments[i])};
-    out_ << fmt::format("watch {}: {} is {}\n", added.number, added.address,
-                        value_text(added.range, bytes_of(simulation_.cpu().state(), added.range)));
+    out_ << fmt::format("watch {}: {} is {}\n", added.number, added.address, value_of(added.range));
     stepper_.watches.push_back(added);
   }
   return {};
+}
+
+std::string Debugger::value_of(const MemoryRange& range) const {
+  const Cpu& cpu = simulation_.cpu();
+  return value_text(cpu.program(), range, bytes_of(cpu.state(), range));
 }
 
 void Debugger::list_stops() {
@@ -293,8 +298,7 @@ void Debugger::list_stops() {
   for (const Breakpoint& b : stepper_.breakpoints)
     out_ << fmt::format("{:<3} break  {:>8}  {}\n", b.number, hits(b.hits), op_text(b.op));
   for (const Watch& w : stepper_.watches)
-    out_ << fmt::format("{:<3} watch  {:>8}  {} is {}\n", w.number, hits(w.hits), w.address,
-                        value_text(w.range, bytes_of(simulation_.cpu().state(), w.range)));
+    out_ << fmt::format("{:<3} watch  {:>8}  {} is {}\n", w.number, hits(w.hits), w.address, value_of(w.range));
   if (stepper_.breakpoints.empty() && stepper_.watches.empty()) out_ << "no breakpoints and no watches\n";
 }
 
@@ -367,7 +371,7 @@ Debugger::Error Debugger::print(const Arguments& arguments) {
   if (arguments.empty()) return expects("print", "addresses, for example: print VB100:16 M31.7 AC0");
   std::vector<MemoryRange> ranges;
   if (Error error = ranges_of(arguments, ranges)) return error;
-  for (const MemoryRange& range : ranges) out_ << dump_text(simulation_.cpu().state(), range);
+  for (const MemoryRange& range : ranges) out_ << dump_text(simulation_.cpu(), range);
   return {};
 }
 
@@ -380,7 +384,7 @@ Debugger::Error Debugger::display(const Arguments& arguments) {
   if (Error error = ranges_of(arguments, ranges)) return error;
   displayed_.insert(displayed_.end(), ranges.begin(), ranges.end());
   if (displayed_.empty()) out_ << "nothing is displayed; 'display VW100' adds to it\n";
-  for (const MemoryRange& range : displayed_) out_ << dump_text(simulation_.cpu().state(), range);
+  for (const MemoryRange& range : displayed_) out_ << dump_text(simulation_.cpu(), range);
   return {};
 }
 

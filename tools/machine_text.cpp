@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <bit>
+
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tools/stepper.hpp"
@@ -61,11 +64,14 @@ std::string where_text(const State& state, const Listing& listing) {
                      event_text(state.serving_event), time_text(state.serving_since), scan);
 }
 
-std::string accumulators_text(const State& state) {
+std::string real_text(std::uint32_t value) { return stl::to_text(stl::Real{std::bit_cast<float>(value)}); }
+
+std::string accumulators_text(const Cpu& cpu) {
   std::string text;
   for (std::uint32_t i = 0; i < 4; ++i) {
-    const std::uint32_t value = load32(&state.image[image::kAC + 4 * i]);
-    text += fmt::format("AC{:<9}16#{:08X} {:>11}\n", i, value, static_cast<std::int32_t>(value));
+    const std::uint32_t at = image::kAC + 4 * i, value = load32(&cpu.state().image[at]);
+    text += fmt::format("AC{:<9}16#{:08X} {:>11}{}\n", i, value, static_cast<std::int32_t>(value),
+                        cpu.program().is_real(at) ? fmt::format(" {:>15}", real_text(value)) : "");
   }
   return text;
 }
@@ -170,7 +176,7 @@ std::string registers_text(const Cpu& cpu, const Listing& listing) {
   std::string text =
       fmt::format("time       {}, {}, {} instructions\n", time_text(state.time), scan_text(state), state.instructions);
   text += fmt::format("where      {}\n", where_text(state, listing));
-  text += accumulators_text(state);
+  text += accumulators_text(cpu);
   text += fmt::format("flags      {}\n", flags_text(state.image[image::kSM1]));
   text += fmt::format("interrupts {}\n", state.interrupts_enabled ? "enabled (ENI)" : "disabled (DISI, or no ENI yet)");
   for (std::size_t queue = 0; queue < kQueues; ++queue)
@@ -203,7 +209,7 @@ std::string port_text(const serial::Simulation& simulation) {
                      master_text(simulation.master().state()));
 }
 
-std::string value_text(const MemoryRange& range, std::span<const std::uint8_t> bytes) {
+std::string value_text(const Program& program, const MemoryRange& range, std::span<const std::uint8_t> bytes) {
   if (range.count > 1) return modbus::to_hex(bytes);
   switch (range.width) {
     case Width::Bit:
@@ -212,8 +218,12 @@ std::string value_text(const MemoryRange& range, std::span<const std::uint8_t> b
       return fmt::format("16#{:02X} ({})", bytes[0], bytes[0]);
     case Width::Word:
       return fmt::format("16#{:04X} ({})", load16(bytes.data()), static_cast<std::int16_t>(load16(bytes.data())));
-    case Width::Double:
-      return fmt::format("16#{:08X} ({})", load32(bytes.data()), static_cast<std::int32_t>(load32(bytes.data())));
+    case Width::Double: {
+      const std::uint32_t value = load32(bytes.data());
+      const std::string integer = range.real ? "" : fmt::format("{}", static_cast<std::int32_t>(value));
+      const std::string real = range.real || program.is_real(range.at) ? real_text(value) : "";
+      return fmt::format("16#{:08X} ({}{}{})", value, integer, integer.empty() || real.empty() ? "" : ", ", real);
+    }
   }
   return {};
 }

@@ -29,7 +29,8 @@ std::string format_text(const SerialFormat& format);
 /// `9600 8E1`
 std::string short_format_text(const SerialFormat& format);
 
-/// One watched value, bytes as bytes_of() gives them: `1`, `16#05 (5)`, `16#FFFB (-5)`, several as hex bytes.
-std::string value_text(const MemoryRange& range, std::span<const std::uint8_t> bytes);
+/// One watched value, bytes as bytes_of() gives them: `1`, `16#05 (5)`, `16#FFFB (-5)`, several as hex bytes. A double word
+/// that the program uses as a real is shown as one too: `16#3FC00000 (1069547520, 1.5)`.
+std::string value_text(const Program& program, const MemoryRange& range, std::span<const std::uint8_t> bytes);
 
 }  // namespace s7200::tools

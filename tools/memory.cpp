@@ -6,6 +6,9 @@
 #include <bit>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/stl/printer.hpp"
+#include "tools/report.hpp"
+#include "tools/results_json.hpp"
 #include "tools/terminal.hpp"
 
 namespace s7200::tools {
@@ -25,13 +28,58 @@ std::string bytes_text(const State& state, const MemoryRange& range) {
   return text;
 }
 
-std::string value_text(const std::uint8_t* from, Width width) {
-  if (width == Width::Word) {
+float real_at(const std::uint8_t* from) { return std::bit_cast<float>(load32(from)); }
+
+/// Of object `i` of a range of words or double words.
+const std::uint8_t* place_of(const State& state, const MemoryRange& range, std::uint32_t i) {
+  return &state.image[range.at + i * (range.area == Area::AC ? 4 : s7200::bytes_of(range.width))];
+}
+
+bool used_as_real(const Cpu& cpu, const MemoryRange& range, std::uint32_t i) {
+  return range.width == Width::Double && cpu.program().is_real(range.at + 4 * i);
+}
+
+std::string object_text(const Cpu& cpu, const MemoryRange& range, std::uint32_t i) {
+  const std::uint8_t* from = place_of(cpu.state(), range, i);
+  if (range.width == Width::Word) {
     const std::uint16_t value = load16(from);
     return fmt::format("16#{:04X} {:>11}", value, static_cast<std::int16_t>(value));
   }
   const std::uint32_t value = load32(from);
-  return fmt::format("16#{:08X} {:>11}", value, static_cast<std::int32_t>(value));
+  std::string text = fmt::format("16#{:08X}", value);
+  if (!range.real) text += fmt::format(" {:>11}", static_cast<std::int32_t>(value));
+  if (range.real || used_as_real(cpu, range, i)) text += fmt::format(" {:>15}", stl::to_text(stl::Real{real_at(from)}));
+  return text;
+}
+
+std::string_view type_of(const MemoryRange& range) {
+  switch (range.width) {
+    case Width::Bit:
+      return "bit";
+    case Width::Byte:
+      return "byte";
+    case Width::Word:
+      return "word";
+    case Width::Double:
+      return range.real ? "real" : "dword";
+  }
+  return {};
+}
+
+/// As the instructions for its width take it: bytes without a sign, words and double words with one.
+nlohmann::ordered_json value_json(const State& state, const MemoryRange& range, std::uint32_t i) {
+  switch (range.width) {
+    case Width::Bit:
+      return state.image[range.at] >> range.bit & 1;
+    case Width::Byte:
+      return state.image[range.at + i];
+    case Width::Word:
+      return static_cast<std::int16_t>(load16(place_of(state, range, i)));
+    case Width::Double:
+      if (range.real) return real_json(real_at(place_of(state, range, i)));
+      return static_cast<std::int32_t>(load32(place_of(state, range, i)));
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -41,7 +89,7 @@ bool parse_assignments(const std::vector<std::string>& texts, const CpuModel& mo
     std::string why;
     const auto assignment = parse_assignment(text, model, why);
     if (!assignment) {
-      print_error(why);
+      print_error("--set: " + why);
       return false;
     }
     assignments.push_back(*assignment);
@@ -54,7 +102,7 @@ bool parse_ranges(const std::vector<std::string>& texts, const CpuModel& model, 
     std::string why;
     const auto range = parse_range(text, model, why);
     if (!range) {
-      print_error(why);
+      print_error("--dump: " + why);
       return false;
     }
     ranges.push_back(*range);
@@ -86,14 +134,29 @@ std::vector<std::uint8_t> bytes_of(const State& state, const MemoryRange& range)
   return {begin, begin + range.bytes()};
 }
 
-std::string dump_text(const State& state, const MemoryRange& range) {
+std::string dump_text(const Cpu& cpu, const MemoryRange& range) {
+  const State& state = cpu.state();
   if (range.width == Width::Bit) return fmt::format("{:<8} {}\n", range.name_of(0), bytes_of(state, range)[0]);
   if (range.width == Width::Byte) return bytes_text(state, range);
   std::string text;
-  const std::uint32_t step = range.area == Area::AC ? 4 : s7200::bytes_of(range.width);
   for (std::uint32_t i = 0; i < range.count; ++i)
-    text += fmt::format("{:<8} {}\n", range.name_of(i), value_text(&state.image[range.at + i * step], range.width));
+    text += fmt::format("{:<8} {}\n", range.name_of(i), object_text(cpu, range, i));
   return text;
+}
+
+nlohmann::ordered_json dump_json(const Cpu& cpu, const MemoryRange& range) {
+  nlohmann::ordered_json json{{"type", type_of(range)}, {"hex", plain_hex(bytes_of(cpu.state(), range))}};
+  auto values = nlohmann::ordered_json::array(), reals = values;
+  bool any_real = false;
+  for (std::uint32_t i = 0; i < range.count; ++i) {
+    values.push_back(value_json(cpu.state(), range, i));
+    const bool real = !range.real && used_as_real(cpu, range, i);
+    reals.push_back(real ? real_json(real_at(place_of(cpu.state(), range, i))) : nullptr);
+    any_real |= real;
+  }
+  json["values"] = values;
+  if (any_real) json["reals"] = reals;
+  return json;
 }
 
 }  // namespace s7200::tools

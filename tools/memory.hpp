@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,11 @@ void assign(serial::Simulation& simulation, const Assignment& assignment);
 /// Bytes of a range as they lie in memory; of a bit, 00 or 01.
 std::vector<std::uint8_t> bytes_of(const State& state, const MemoryRange& range);
 
-/// Lines `VW100  16#0005      5`: hex and decimal for each object, bytes sixteen a line with their characters.
-std::string dump_text(const State& state, const MemoryRange& range);
+/// Lines `VW100  16#0005      5`: hex and decimal for each object, bytes sixteen a line with their characters. A double word
+/// that the program uses as a real is shown as one too.
+std::string dump_text(const Cpu& cpu, const MemoryRange& range);
+
+/// {"type": "word", "hex": "0005", "values": [5]}
+nlohmann::ordered_json dump_json(const Cpu& cpu, const MemoryRange& range);
 
 }  // namespace s7200::tools

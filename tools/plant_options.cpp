@@ -15,7 +15,7 @@ void PlantOptions::add_to(CLI::App& app) {
   app.add_option("--set", set_, "memory or inputs before the first scan: VW100=5, I0.3=1 (repeatable)")
       ->type_name("ADDRESS=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--dump", dump_, "memory to show at the end: VB0:16, VW100, AC0 (repeatable)")
+  app.add_option("--dump", dump_, "memory to show at the end: VB0:16, VW100, AC0, VD20:real (repeatable)")
       ->type_name("ADDRESS[:COUNT]")
       ->allow_extra_args(false);
   app.add_option("--input", input_path_, "inputs over time, CSV rows such as 10ms,I0.3,1 and 1s,I0.6,pulses,5kHz,200ms")
@@ -27,12 +27,14 @@ void PlantOptions::add_to(CLI::App& app) {
          [this](const std::string& text) {
            clock_ = parse_clock(text);
            if (!clock_)
-             throw CLI::ValidationError("--clock", fmt::format("'{}' is no time from 1990 to 2089; write for example "
-                                                               "\"2026-11-21 10:00:00\"",
-                                                               text));
+             throw CLI::ValidationError("--clock",
+                                        fmt::format("'{}' is not a date and time between 1990 and 2089; write for "
+                                                    "example \"2026-11-21 10:00:00\"",
+                                                    text));
          },
          "time of day at the start")
       ->type_name("\"YYYY-MM-DD HH:MM:SS\"");
+  app.add_flag("--strict", strict_, "end with exit code 1 at the first run-time error of the program");
   faults_.add_to(app);
   trace_.add_to(app);
   captures_.add_to(app);
@@ -81,16 +83,29 @@ bool PlantOptions::finish(const serial::Simulation& simulation) {
   return memory_.write(simulation.cpu()) && trace_written && output_written && captured;
 }
 
-std::string PlantOptions::dump_text(const State& state) const {
+std::string PlantOptions::dump_text(const Cpu& cpu) const {
   std::string text;
-  for (const MemoryRange& range : dumps_) text += tools::dump_text(state, range);
+  for (const MemoryRange& range : dumps_) text += tools::dump_text(cpu, range);
   return text;
 }
 
-nlohmann::ordered_json PlantOptions::dump_json(const State& state) const {
-  nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  for (std::size_t i = 0; i < dumps_.size(); ++i) json[dump_[i]] = plain_hex(bytes_of(state, dumps_[i]));
+nlohmann::ordered_json PlantOptions::json(const serial::Simulation& simulation) const {
+  const Cpu& cpu = simulation.cpu();
+  nlohmann::ordered_json json{{"mode", cpu.state().mode == Mode::Run ? "RUN" : "STOP"},
+                              {"errors", errors_json(cpu)},
+                              {"errors_not_listed", errors_not_listed(cpu)},
+                              {"faults", faults_json(simulation.faults())},
+                              {"dump", nlohmann::ordered_json::object()}};
+  for (std::size_t i = 0; i < dumps_.size(); ++i) json["dump"][dump_[i]] = dump_json(cpu, dumps_[i]);
   return json;
+}
+
+nlohmann::ordered_json PlantOptions::no_json() {
+  return {{"mode", nullptr},
+          {"errors", nlohmann::ordered_json::array()},
+          {"errors_not_listed", 0},
+          {"faults", nlohmann::ordered_json::array()},
+          {"dump", nlohmann::ordered_json::object()}};
 }
 
 }  // namespace s7200::tools

@@ -1,5 +1,5 @@
-// What run and send have in common: the plant around the CPU. Memory and inputs before and during a run, faults of its line,
-// what is recorded of it, what is kept and shown after it.
+// What run, send and master have in common: the plant around the CPU. Memory and inputs before and during a run, faults of
+// its line, what is recorded of it, what is kept and shown after it.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -44,9 +44,20 @@ class PlantOptions {
   /// Completes the records and keeps the memory. False after a message.
   bool finish(const serial::Simulation& simulation);
 
+  /// --strict: whether a run-time error ends it all.
+  bool strict() const { return strict_; }
+
+  /// With --strict, whether there was one.
+  bool failed_strictly(const Cpu& cpu) const { return strict_ && cpu.state().error_count != 0; }
+
   /// The memory asked for with --dump.
-  std::string dump_text(const State& state) const;
-  nlohmann::ordered_json dump_json(const State& state) const;
+  std::string dump_text(const Cpu& cpu) const;
+
+  /// How the PLC was left: mode, errors, faults, and the memory asked for.
+  nlohmann::ordered_json json(const serial::Simulation& simulation) const;
+
+  /// The same without a PLC.
+  static nlohmann::ordered_json no_json();
 
  private:
   bool read_field(const CpuModel& model);
@@ -54,6 +65,7 @@ class PlantOptions {
   std::vector<std::string> set_, dump_;
   std::string input_path_;
   std::optional<ClockTime> clock_;
+  bool strict_ = false;
   TraceFile trace_;
   OutputFile output_;
   CaptureFiles captures_;

@@ -11,6 +11,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "tools/results_json.hpp"
+
 namespace s7200::tools {
 namespace {
 
@@ -136,11 +138,8 @@ nlohmann::ordered_json value_json(std::span<const std::uint16_t> registers, cons
       return get_double(registers, format);
     case Form::Signed32:
       return static_cast<std::int32_t>(get_double(registers, format));
-    case Form::Float: {
-      const float value = std::bit_cast<float>(get_double(registers, format));
-      if (!std::isfinite(value)) return fmt::format("{}", value);
-      return value;
-    }
+    case Form::Float:
+      return real_json(std::bit_cast<float>(get_double(registers, format)));
     default:
       return registers[0];
   }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "interpreter/stl/printer.hpp"
 #include "serial_sim/modbus/answer.hpp"
 #include "tools/exit_code.hpp"
@@ -38,18 +40,24 @@ std::string errors_of(const serial::Exchange& exchange) {
 std::string errors_text(const Cpu& cpu) {
   std::string text;
   const State& state = cpu.state();
-  std::uint64_t shown = 0;
   for (const RuntimeError& error : state.errors) {
     if (error.count == 0) break;
     text += fmt::format("run-time error {:04X}, {}\n  {} ({}×, first at {})\n", error.code, meaning_of(RunError{error.code}),
                         place_text(cpu.program(), error.op), error.count, format_duration(error.first));
-    shown += error.count;
   }
-  if (shown < state.error_count) text += fmt::format("and {} more run-time errors elsewhere\n", state.error_count - shown);
+  if (const std::uint64_t others = errors_not_listed(cpu))
+    text += fmt::format("and {} more run-time error{} at other places: the first {} places are kept, a trace shows all\n",
+                        others, others == 1 ? "" : "s", state.errors.size());
   if (state.fatal_code)
     text += fmt::format("FATAL error {:04X}, {}\n  {}\n", state.fatal_code, meaning_of(FatalError{state.fatal_code}),
                         place_text(cpu.program(), state.fatal_op));
   return text;
+}
+
+std::uint64_t errors_not_listed(const Cpu& cpu) {
+  std::uint64_t others = cpu.state().error_count;
+  for (const RuntimeError& error : cpu.state().errors) others -= error.count;
+  return others;
 }
 
 nlohmann::ordered_json errors_json(const Cpu& cpu) {
@@ -68,6 +76,13 @@ nlohmann::ordered_json errors_json(const Cpu& cpu) {
 }
 
 int exit_code_of(const Cpu& cpu) { return cpu.state().fatal_code ? kCpuFatal : kFine; }
+
+std::string torn_frame_note(const std::vector<std::string>& frames) {
+  const auto is_byte = [](const std::string& text) { return text.size() <= 2; };
+  if (frames.size() < 2 || std::none_of(frames.begin(), frames.end(), is_byte)) return {};
+  return fmt::format("s7200: note: these were {} frames, one for each argument; to send one frame, put it in quotes: '{}'\n",
+                     frames.size(), fmt::join(frames, " "));
+}
 
 std::string exchange_text(const serial::Exchange& exchange, Time timeout) {
   std::string request = fmt::format("request  {}\n", modbus::to_hex(exchange.request));

@@ -198,16 +198,11 @@ nlohmann::ordered_json exchange_json(const Scenario& scenario, const Seen& seen)
 nlohmann::ordered_json report_json(const Report& report) {
   const Scenario& scenario = *report.scenario;
   static constexpr const char* kOutcomes[] = {"passed", "failed", "skipped"};
-  nlohmann::ordered_json json{{"file", scenario.source->name},
-                              {"line", scenario.position.line},
-                              {"name", scenario.name},
-                              {"outcome", kOutcomes[static_cast<std::size_t>(report.result.outcome)]},
-                              {"reason", report.result.reason},
-                              {"time_ns", report.result.time},
-                              {"skipped_steps", report.result.skipped_steps}};
-  if (!scenario.rule.id.empty())
-    json["rule"] = {
-        {"id", scenario.rule.id}, {"source", scenario.rule.source}, {"severity", severity_text(scenario.rule.severity)}};
+  nlohmann::ordered_json json = scenario_json(scenario);
+  json["outcome"] = kOutcomes[static_cast<std::size_t>(report.result.outcome)];
+  json["reason"] = report.result.reason;
+  json["time_ns"] = report.result.time;
+  json["skipped_steps"] = report.result.skipped_steps;
   json["findings"] = nlohmann::ordered_json::array();
   for (const Finding& finding : report.result.findings) json["findings"].push_back(finding_json(scenario, finding));
   json["exchanges"] = nlohmann::ordered_json::array();
@@ -296,6 +291,14 @@ std::string conformance_text(const std::vector<Report>& reports, const std::stri
                         totals[{severity, Outcome::Passed}], totals[{severity, Outcome::Failed}],
                         totals[{severity, Outcome::Skipped}]);
   return text;
+}
+
+nlohmann::ordered_json scenario_json(const Scenario& scenario) {
+  nlohmann::ordered_json json{{"file", scenario.source->name}, {"line", scenario.position.line}, {"name", scenario.name}};
+  const Rule& rule = scenario.rule;
+  if (!rule.id.empty())
+    json["rule"] = {{"id", rule.id}, {"source", rule.source}, {"severity", severity_text(rule.severity)}};
+  return json;
 }
 
 nlohmann::ordered_json to_json(const std::vector<Report>& reports) {

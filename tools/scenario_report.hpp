@@ -28,6 +28,9 @@ std::string summary_text(const std::vector<Report>& reports);
 /// A line for each rule of a conformance suite, what was seen where one is broken, and totals.
 std::string conformance_text(const std::vector<Report>& reports, const std::string& slave, bool colour);
 
+/// Which scenario, or rule, it is: the keys before how it went.
+nlohmann::ordered_json scenario_json(const Scenario& scenario);
+
 nlohmann::ordered_json to_json(const std::vector<Report>& reports);
 
 /// The XML that continuous integration reads: a suite for each file, a case for each scenario. A rule that says should and
