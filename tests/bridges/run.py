@@ -559,7 +559,8 @@ class TcpTests(TcpCase):
         client.send(READ[3:])
         self.assertEqual(client.receive(len(ANSWER)), framed(struct.pack(">BBBHH", 1, 3, 4, 110, 111)))
         bridge = running.end()
-        self.assertEqual(bridge["dump"], {"VW0": f"{100:04X}", "VW2": f"{101:04X}", "VW38": f"{119:04X}"})
+        self.assertEqual({place: shown["values"] for place, shown in bridge["dump"].items()},
+                         {"VW0": [100], "VW2": [101], "VW38": [119]})
 
     def test_clients_that_flood_and_do_not_read_stop_nobody(self):
         for kind in ("--tcp", "--rtu-over-tcp"):
@@ -858,9 +859,9 @@ class RunTests(Case):
             running = self.start("--pty", self.folder / "plc", *PRESET, "--dump", "VW20", "--memory", memory)
             time.sleep(0.3)
             result = running.end(by=by)
-            self.assertEqual(list(result), ["stop_reason", "time_ns", "scans", "instructions", "mode", "errors", "faults", "dump",
-                                            "realtime", "bridge"])
-            self.assertEqual((result["stop_reason"], result["dump"]), ("interrupted", {"VW20": "1234"}))
+            self.assertEqual(list(result), ["s7200", "stop_reason", "time_ns", "scans", "instructions", "mode", "errors",
+                                            "errors_not_listed", "faults", "dump", "realtime", "bridge"])
+            self.assertEqual((result["stop_reason"], result["dump"]["VW20"]["hex"]), ("interrupted", "1234"))
             self.assertEqual(list(result["realtime"]), ["speed", "drift_ns", "worst_lag_ns"])
             self.assertTrue(memory.exists())
             self.assertFalse(os.path.lexists(self.folder / "plc"))

@@ -63,7 +63,7 @@ class Case(unittest.TestCase):
         """The exchanges; what ran over the line is in self.vcd and self.pcap."""
         done = run(S7200, "send", program, "--json", "--capture", self.vcd, "--capture", self.pcap, *arguments)
         self.assertIn(done.returncode, (0, 1), done.stderr)
-        return json.loads(done.stdout)
+        return json.loads(done.stdout)["exchanges"]
 
     def echo(self, format_):
         path = self.folder / "echo.stl"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|json|files|scenarios|readme"""
+"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|files|scenarios|readme"""
 import json
 import os
 import pathlib
@@ -70,7 +70,67 @@ class Verbs(Case):
                 self.assertLess(s7200(*shlex.split(example), cwd=SOURCE).returncode, UNUSABLE, example)
 
     def test_version(self):
-        self.assertRegex(self.ends(FINE, "--version").stdout, r"^s7200 \d+\.\d+\.\d+\n$")
+        for word in ("--version", "-V", "version"):
+            self.assertRegex(self.ends(FINE, word).stdout, r"^s7200 \d+\.\d+\.\d+\n$")
+
+    def test_help_as_people_type_it(self):
+        self.assertEqual(self.ends(FINE, "help").stdout, self.ends(FINE, "--help").stdout)
+        for verb in VERBS:
+            self.assertEqual(self.ends(FINE, "help", verb).stdout, self.ends(FINE, verb, "--help").stdout)
+        self.assertIn("'frob' is not a verb", self.ends(UNUSABLE, "help", "frob").stderr)
+
+    def test_a_word_that_is_not_a_verb_gets_the_nearest_one(self):
+        for word, meant in (("chek", "check"), ("RUN", "run"), ("sned", "send"), ("tests", "test"), ("Help", "help")):
+            done = self.ends(UNUSABLE, word)
+            self.assertEqual((done.stdout, done.stderr.split("\n")[0]),
+                             ("", f"s7200: error: '{word}' is not a verb; is {meant} meant?"))
+        done = self.ends(UNUSABLE, "frobnicate")
+        self.assertIn(f"'frobnicate' is not a verb; there are {', '.join(VERBS)}, help, version\n", done.stderr)
+        self.assertIn(f"'{SLAVE}' is a file, and the verb before it is missing", self.ends(UNUSABLE, SLAVE).stderr)
+        self.assertIn("the verb is missing", self.ends(UNUSABLE).stderr)
+
+    def test_usage_errors_name_the_option_and_its_verb(self):
+        done = self.ends(UNUSABLE, "send", SLAVE, "01", "--baud", "1")
+        self.assertEqual(done.stderr, "s7200: error: --baud: '1' is not a whole number (50 to 1000000)\n"
+                                      "'s7200 send --help' shows how it is used\n")
+
+    def test_a_frame_torn_apart_by_its_blanks_is_recognised(self):
+        torn = ["01", "03", "00", "0a", "00", "01"]
+        note = "put it in quotes: '01 03 00 0a 00 01'"
+        self.assertIn(note, self.ends(FAILED, "send", SLAVE, "--crc", *torn, "--timeout", "50ms").stderr)
+        self.assertIn(note, self.ends(FAILED, "master", SLAVE, "raw", *torn, "--crc", "--timeout", "50ms").stderr)
+        self.assertNotIn("quotes", self.ends(FINE, "send", SLAVE, "--crc", " ".join(torn)).stderr)
+        echo = self.program(Json.ECHO)
+        self.assertNotIn("quotes", self.ends(FINE, "send", echo, "ab", "cd").stderr, "frames of one byte have their answers")
+
+    def test_polling_in_simulation_says_how_often(self):
+        for options in (["--every", "1s"], ["--every", "1s", "--json"], ["--continuous", "--json"], ["--continuous", "-v"]):
+            done = self.ends(UNUSABLE, "master", SLAVE, "read", "40001", *options)
+            self.assertEqual(done.stdout, "")
+            self.assertIn("without --count never ends", done.stderr)
+            self.ends(FINE, "master", SLAVE, "read", "40001", *options, "--count", "2")
+
+    def test_strict_ends_at_the_first_run_time_error(self):
+        wrong = self.program("LD SM0.0\nINCW VW0\nMOVD 0, *VD100\nINCW VW2\nMEND\n")
+        preset = ["--set", "VD100=16#7F000000"]
+        self.assertEqual(self.json(FINE, "run", wrong, *preset, "--scans", "3", "--json")["errors"][0]["count"], 3)
+        for real_time in ([], ["--realtime"]):
+            done = self.ends(FAILED, "run", wrong, *preset, "--strict", "--json", "--dump", "VW0", "--dump", "VW2", *real_time)
+            result = json.loads(done.stdout)
+            self.assertEqual((result["stop_reason"], result["errors"][0]["count"]), ("run-time error", 1))
+            self.assertEqual([result["dump"][word]["values"] for word in ("VW0", "VW2")], [[1], [0]])
+            self.assertIn("--strict", done.stderr)
+        self.assertEqual(self.json(FINE, "run", SLAVE, "--strict", "--json")["stop_reason"], "time")
+        fatal = self.program("LD SM0.0\nLDB= *VD100, 1\nMEND\n", "fatal.stl")
+        self.assertEqual(self.json(FATAL, "run", fatal, *preset, "--strict", "--json")["stop_reason"], "fatal")
+
+    def test_strict_ends_the_exchanges(self):
+        echo = self.program(Json.ECHO.replace("XMT VB0, 0", "XMT VB0, 0\nMOVD 0, *VD100"))
+        preset = ["--set", "VD100=16#7F000000", "--json"]
+        self.assertEqual(len(self.json(FINE, "send", echo, "ab", "cd", *preset)["exchanges"]), 2)
+        self.assertEqual(len(self.json(FAILED, "send", echo, "ab", "cd", *preset, "--strict")["exchanges"]), 1)
+        master = ["master", echo, "raw", "abcd", "raw", "abcd", "--count", "3", *preset, "--strict"]
+        self.assertEqual(len(self.json(FAILED, *master)["exchanges"]), 1)
 
     def test_wrong_usage(self):
         for arguments in ([], ["frobnicate"], ["--frobnicate"], ["check"], ["run"], ["send"], ["import"],
@@ -106,12 +166,12 @@ class Verbs(Case):
                 ("flip:character=3,bit=8", 22, "bit: '8' is no bit: 0 (sent first) to 7, start, parity or stop", "^"),
                 ("flip:bit=0…7", 10, "bit: '0…7' is no bit", "^~~"),
                 ("gap", 1, "gap needs length=VALUE (time, bits), for example gap:character=4,length=10ms", "^~~"),
-                ("", 1, "a fault is missing here", "^")):
+                (":bit=1", 1, "a fault is missing here", "^")):
             for verb in (["run", SLAVE], ["send", SLAVE, "01"]):
                 with self.subTest(spec):
                     done = self.ends(UNUSABLE, *verb, "--fault", "echo", "--fault", spec)
                     self.assertEqual(done.stdout, "")
-                    self.assertIn(f"s7200: error: fault, column {column}: {message}", done.stderr)
+                    self.assertIn(f"s7200: error: --fault, column {column}: {message}", done.stderr)
                     self.assertIn(f"\n  {spec}\n  {' ' * (column - 1)}{caret}\n", done.stderr)
 
     def test_help_lists_every_fault(self):
@@ -180,10 +240,108 @@ class Verbs(Case):
             self.assertEqual(b"\x1b" in written, coloured)
 
 
+class Options(Case):
+    """Every option of every verb, from the lists that --help prints: each number and each text with a form has its range, and
+    what is not in it ends with exit code 2 and a message that names the option."""
+    NONSENSE = ("nan", "-nan", "inf", "-1", "1e999", "0x10", "1_000", "5,0", "99999999999999999999999", "-")
+    ANY_TEXT = ("FILE", "FILE.stl", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS")  # by their type in the help
+    BEGINNING = {"check": [SLAVE], "import": [SLAVE], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
+                 "master": [SLAVE, "slave-id"], "debug": [SLAVE, "-x", "quit"], "instructions": [], "times": [], "bench": []}
+
+    @staticmethod
+    def listed(verb):
+        """[(option, type, help)] of those that take a value."""
+        options = re.findall(r"(?m)^  (?:-\w,)?(--[\w-]+)(?: (?!Excludes:|Needs:)(\S+))?(.*(?:\n {30}.*)*)", s7200(verb, "--help").stdout)
+        return [(name, re.split("[:=](?=[{\\d])", kind)[0], text) for name, kind, text in options if kind]
+
+    def refused(self, verb, option, value):
+        with self.subTest(f"{verb} {option} '{value}'"):
+            done = self.ends(UNUSABLE, verb, *self.BEGINNING[verb], option, value)
+            self.assertEqual(done.stdout, "")
+            self.assertRegex(done.stderr, rf"(?m)^s7200: error: {option}\b")
+
+    def test_the_lists_are_read(self):
+        kinds = {verb: {name: kind for name, kind, _ in self.listed(verb)} for verb in VERBS}
+        self.assertEqual((kinds["run"]["--scans"], kinds["run"]["--speed"], kinds["run"]["--for"]), ("N", "N", "TIME"))
+        self.assertEqual((kinds["send"]["--baud"], kinds["send"]["--dump"]), ("N", "ADDRESS[:COUNT]"))
+        self.assertEqual((kinds["master"]["--cpu"], kinds["master"]["--trace"]), ("TYPE", "FILE"))
+        self.assertNotIn("--json", kinds["run"])
+        self.assertGreater(sum(map(len, kinds.values())), 100)
+
+    def test_nonsense_is_refused_by_name(self):
+        for verb in VERBS:
+            for option, kind, _ in self.listed(verb):
+                if kind not in self.ANY_TEXT:
+                    for value in self.NONSENSE:
+                        self.refused(verb, option, value)
+
+    def test_no_option_takes_an_empty_value(self):
+        for verb in VERBS:
+            for option, _, _ in self.listed(verb):
+                self.refused(verb, option, "")
+
+    def test_numbers_end_where_the_help_says(self):
+        count = 0
+        for verb in VERBS:
+            for option, kind, text in self.listed(verb):
+                if kind != "N":
+                    continue
+                given = re.search(r"\(([\d.]+) (?:to|or) ([\d.]+|more)\)", text)
+                self.assertIsNotNone(given, f"the range of {verb} {option}")
+                least, most = given.groups()
+                wrong = [float(least) / 2] if "." in least else [int(least) - 1]
+                wrong.append(2**64 if most == "more" else int(most) + 1)
+                for value in wrong:
+                    self.refused(verb, option, value)
+                count += 1
+        self.assertGreater(count, 20)
+
+    def test_durations_end_at_10000_hours(self):
+        for verb in VERBS:
+            for option, kind, _ in self.listed(verb):
+                if kind == "TIME":
+                    for value in ("10001h", "-1s", "1", "nans", "1e3s", "0x1s", "99999999999999999999h", "1 s s"):
+                        self.refused(verb, option, value)
+        self.refused("bench", "--each", "0s")
+        self.refused("master", "--every", "0s")
+
+    def test_addresses_values_counts_and_ports_have_their_ranges(self):
+        for value in ("VW0=nan", "VW0=-32769", "VW0=65536", "VB0=99999999999999999999999", "VD0=1e999", "VW0=", "VW0=1=1",
+                      "VB5000=1", "M0.8=1", "VD0:real=nan", "VW0:real=1"):
+            self.refused("run", "--set", value)
+        for value in ("VB0:-1", "VB0:0", "VB0:99999999999999999999", "VB0:4097", "VB0:nan", "VW0:real", "VD0:real:2", "M0.0:2"):
+            self.refused("run", "--dump", value)
+        for bridge in ("--tcp", "--rtu-over-tcp", "--modbus-tcp"):
+            for value in ("65536", "127.0.0.1:99999", "localhost:502", "::1:502", "127.0.0.1:", "1.2.3.400:1"):
+                self.refused("run", bridge, value)
+        for value in ("2026-02-30 10:00:00", "1989-12-31 10:00:00", "2026-01-01 24:00:00", "now"):
+            self.refused("run", "--clock", value)
+
+    def test_parameters_of_faults_have_their_ranges(self):
+        examples = re.findall(r"(?m) (\w+:\w+=\S+)$", s7200("run", "--help").stdout.split("Faults:")[1])
+        self.assertGreater(len(examples), 10)
+        for spec in ("break:from=10001h", "noise:ber=1e-4,for=10001h", "gap:length=2h", "flip:character=1000001"):
+            self.refused("run", "--fault", spec)
+        extra = ["flip:probability=1", "flip:exchange=1", "flip:every=1", "flip:seed=1", "noise:ber=1e-4,from=1s,for=1s"]
+        for example in examples + extra:
+            for place in re.finditer(r"=([^,]+)", example):
+                for value in ("nan", "-1", "1e999", "99999999999999999999999", ""):
+                    self.refused("run", "--fault", example[:place.start(1)] + value + example[place.end(1):])
+
+    def test_numbers_in_actions_of_the_master_have_their_ranges(self):
+        for action in ("read 40001:{}", "read {}", "read holding {}", "write 40001={}", "write 00001={}", "loopback {}",
+                       "diagnostics {}", "read-file {}:1:1", "read-file 1:{}:1", "read-file 1:1:{}", "write-file 1:1={}",
+                       "general-read 1:1:{}", "function {}", "function 3 {}", "raw {}", "station {}", "wait {}"):
+            for value in ("nan", "1e999", "99999999999999999999999", ""):
+                with self.subTest(action.format(value)):
+                    done = self.ends(UNUSABLE, "master", SLAVE, *[word.format(value) for word in action.split()])
+                    self.assertTrue(done.stderr.startswith("s7200: error: "), done.stderr)
+
+
 class Json(Case):
     def test_check(self):
         good, wrong = self.program("LD SM0.0\nMEND\n"), self.program("LD VB0\nMEND\n", "wrong.stl")
-        fine, failed = self.json(FAILED, "check", "--json", good, wrong)
+        fine, failed = self.json(FAILED, "check", "--json", good, wrong)["files"]
         for result in (fine, failed):
             self.assertEqual(list(result), ["file", "ok", "cpu", "fine_for", "kind", "encoding", "instructions",
                                             "diagnostics"])
@@ -197,10 +355,13 @@ class Json(Case):
         path = self.program("LD SM0.0\nMOVW 16#1234, VW2\nMOVD 0, *VD100\nMEND\n")
         result = self.json(FINE, "run", path, "--scans", "3", "--set", "VD100=16#7F000000", "--dump", "VB0:4",
                            "--dump", "VW2", "--dump", "V2.1", "--json")
-        self.assertEqual(list(result), ["stop_reason", "time_ns", "scans", "instructions", "mode", "errors", "faults", "dump"])
+        self.assertEqual(list(result), ["s7200", "stop_reason", "time_ns", "scans", "instructions", "mode", "errors",
+                                        "errors_not_listed", "faults", "dump"])
         self.assertEqual((result["stop_reason"], result["scans"]), ("scans", 3))
         self.assertEqual((result["instructions"], result["mode"]), (12, "RUN"))
-        self.assertEqual(result["dump"], {"VB0:4": "00001234", "VW2": "1234", "V2.1": "01"})
+        self.assertEqual(result["dump"], {"VB0:4": {"type": "byte", "hex": "00001234", "values": [0, 0, 0x12, 0x34]},
+                                          "VW2": {"type": "word", "hex": "1234", "values": [0x1234]},
+                                          "V2.1": {"type": "bit", "hex": "01", "values": [1]}})
         error = result["errors"][0]
         self.assertEqual((error["code"], error["fatal"], error["line"], error["count"]), ("0006", False, 3, 3))
         self.assertEqual(self.json(FINE, "run", path, "--for", "7ms", "--json")["stop_reason"], "time")
@@ -217,16 +378,19 @@ class Json(Case):
 
     def test_send(self):
         path = self.program(self.ECHO)
-        first, second = self.json(FINE, "send", path, "AB", " cd ", "--json")
+        result = self.json(FINE, "send", path, "AB", " cd ", "--json", "--dump", "VB1")
+        self.assertEqual(list(result), ["s7200", "exchanges", "mode", "errors", "errors_not_listed", "faults", "dump"])
+        self.assertEqual((result["mode"], result["dump"]["VB1"]["values"]), ("RUN", [0xCD]))
+        first, second = result["exchanges"]
         for exchange, character in ((first, "ab"), (second, "cd")):
             self.assertEqual(list(exchange), ["request", "response", "latency_us"])
             self.assertEqual((exchange["request"], exchange["response"]), (character, character))
             self.assertTrue(0 < exchange["latency_us"] < 2000)
         silent = self.json(FAILED, "send", self.program("LD SM0.0\nMEND\n"), "0102", "--crc", "--timeout", "10ms", "--json")
-        self.assertEqual(silent, [{"request": "010281e1", "response": None, "latency_us": None}])
+        self.assertEqual(silent["exchanges"], [{"request": "010281e1", "response": None, "latency_us": None}])
 
     def test_send_timeline(self):
-        (exchange,) = self.json(FINE, "send", self.program(self.ECHO), "ab", "--timeline", "--json")
+        (exchange,) = self.json(FINE, "send", self.program(self.ECHO), "ab", "--timeline", "--json")["exchanges"]
         received, transmit, sent = exchange["timeline"]
         self.assertEqual((received["kind"], received["characters"]), ("received", "ab"))
         self.assertEqual((received["routine"], received["served"]), (0, 1))
@@ -237,8 +401,10 @@ class Json(Case):
     def test_master(self):
         result = self.json(FAILED, "master", SLAVE, "write", "40011=-5", "read", "40011", "10001:2", "slave-id", "--as", "signed",
                            "--dump", "VW20", "--json")
-        self.assertEqual(list(result), ["target", "exchanges", "statistics", "dump", "faults", "error"])
-        self.assertEqual((result["target"], result["dump"], result["error"]), (SLAVE, {"VW20": "fffb"}, None))
+        self.assertEqual(list(result), ["s7200", "target", "exchanges", "statistics", "mode", "errors", "errors_not_listed",
+                                        "faults", "dump", "error"])
+        self.assertEqual((result["target"], result["error"]), (SLAVE, None))
+        self.assertEqual(result["dump"], {"VW20": {"type": "word", "hex": "fffb", "values": [-5]}})
         write, read, inputs, refused = result["exchanges"]
         for exchange in result["exchanges"]:
             self.assertEqual(list(exchange), ["action", "at_us", "station", "function", "area", "first", "notation", "count",
@@ -267,12 +433,15 @@ class Json(Case):
         self.assertEqual((silent["exchanges"][0]["verdict"], silent["statistics"]["latency_us"]), ("silent", None))
         stopped = self.program("LD SM0.0\nLBL 1\nJMP 1\nMEND\n")
         self.assertEqual(self.ends(FATAL, "master", stopped, "slave-id").stdout, "")
+        result = self.json(FATAL, "master", stopped, "slave-id", "--json")
+        self.assertEqual((result["exchanges"], result["mode"], result["errors"][0]["code"]), ([], "STOP", "0003"))
+        self.assertIn("not ready", result["error"])
 
     def test_faults(self):
         read, flip = "0103000a0001", "flip:character=3,bit=5,every=2"
         send = ["send", SLAVE, "--crc", read, read, "--timeout", "50ms"]
         done = self.ends(FAILED, *send, "--fault", flip, "--fault", "echo", "--json")
-        first, second = json.loads(done.stdout)
+        first, second = json.loads(done.stdout)["exchanges"]
         self.assertEqual(list(first), ["request", "response", "latency_us", "echo", "faults"])
         self.assertEqual((first["response"], first["echo"]), ("0103020000b844", first["request"]))
         self.assertEqual(first["faults"], [{"fault": "echo", "count": 1, "impossible": 0}])
@@ -295,18 +464,66 @@ class Json(Case):
         self.assertTrue(50 < noise["count"] < 150)
 
     def test_tables(self):
-        (row,) = self.json(FINE, "instructions", "MOVW", "--json")
+        (row,) = self.json(FINE, "instructions", "MOVW", "--json")["instructions"]
         for key in ("mnemonic", "group", "syntax", "meaning", "modelled", "operands", "needs_power_flow", "flags",
                     "allowed", "cpus", "time_us"):
             self.assertIn(key, row)
-        self.assertGreater(len(self.json(FINE, "instructions", "--json")), 100)
-        for row in self.json(FINE, "times", "--json"):
+        self.assertGreater(len(self.json(FINE, "instructions", "--json")["instructions"]), 100)
+        for row in self.json(FINE, "times", "--json")["times"]:
             self.assertEqual(list(row), ["mnemonics", "form", "base_us", "per_unit_us", "unit", "marker", "source"])
+
+    def test_reals_are_shown_where_they_are(self):
+        path = self.program("LD SM0.0\nMOVR 1.5, VD20\nMOVD VD20, VD24\nMOVR VD20, AC1\nMEND\n")
+        result = self.json(FINE, "run", path, "--scans", "1", "--dump", "VD20:2", "--dump", "VD24:real", "--dump", "VD24",
+                           "--dump", "AC1", "--set", "VD28:real=2", "--dump", "VD24:2:real", "--dump", "VD28", "--json")["dump"]
+        bits = 0x3FC00000
+        self.assertEqual(result["VD20:2"], {"type": "dword", "hex": "3fc000003fc00000", "values": [bits, bits], "reals": [1.5, None]})
+        self.assertEqual(result["VD24:real"], {"type": "real", "hex": "3fc00000", "values": [1.5]})
+        self.assertEqual(result["VD24"], {"type": "dword", "hex": "3fc00000", "values": [bits]})
+        self.assertEqual(result["VD24:2:real"]["values"], [1.5, 2.0])
+        self.assertEqual((result["AC1"]["reals"], result["VD28"]["hex"]), ([1.5], "40000000"))
+        text = self.ends(FINE, "run", path, "--scans", "1", "--dump", "VD20:2", "--dump", "VD24:real", "--dump", "AC1").stdout
+        self.assertIn("VD20     16#3FC00000  1069547520             1.5\nVD24     16#3FC00000  1069547520\n"
+                      "VD24     16#3FC00000             1.5\nAC1      16#3FC00000  1069547520             1.5\n", text)
+        for bits, shown in (("16#7FC00000", "nan"), ("16#FF800000", "-inf"), ("16#3DCCCCCD", 0.1)):
+            self.assertEqual(self.json(FINE, "run", self.program("LD SM0.0\nMEND\n"), "--scans", "1", "--set", f"VD0={bits}",
+                                       "--dump", "VD0:real", "--json")["dump"]["VD0:real"]["values"], [shown])
+
+    def test_what_the_list_of_errors_leaves_out_is_said(self):
+        path = self.program("LD SM0.0\n" + "MOVD 0, *VD100\n" * 18 + "MEND\n")
+        arguments = ["run", path, "--scans", "2", "--set", "VD100=16#7F000000"]
+        result = self.json(FINE, *arguments, "--json")
+        self.assertEqual((len(result["errors"]), result["errors_not_listed"]), (16, 4))
+        self.assertIn("and 4 more run-time errors at other places: the first 16 places are kept, a trace shows all\n",
+                      self.ends(FINE, *arguments).stdout)
+        few = self.program("LD SM0.0\nMOVD 0, *VD100\nMEND\n", "few.stl")
+        self.assertEqual(self.json(FINE, "run", few, *arguments[2:], "--json")["errors_not_listed"], 0)
+
+    def test_a_name_that_is_not_utf8_does_no_harm(self):
+        name = os.fsencode(str(self.folder)) + b"/caf\xe9.stl"
+        with open(name, "w", encoding="utf-8") as file:
+            file.write("LD SM0.0\nMEND\n")
+        for verb in (["check"], ["master", "slave-id", "--timeout", "10ms"]):
+            done = s7200(verb[0], os.fsdecode(name), *verb[1:], "--json", text=False)
+            self.assertIn("caf\ufffd.stl", json.dumps(json.loads(done.stdout.decode("utf-8")), ensure_ascii=False))
+
+    def test_list_of_scenarios(self):
+        path = self.program("name: one\nsteps: [{wait: 1ms}]\n", "a.yaml")
+        self.assertEqual(self.json(FINE, "test", "--list", "--json", path)["scenarios"],
+                         [{"file": str(path), "line": 1, "name": "one"}])
+
+    def test_import(self):
+        document, out = self.program(Files.DOCUMENT, "page.txt"), self.folder / "out.stl"
+        result = self.json(FINE, "import", document, "--json")
+        self.assertEqual((result["document"], result["instructions"], result["output"]), (str(document), 3, None))
+        self.assertEqual(result["stl"], self.ends(FINE, "import", document).stdout)
+        result = self.json(FINE, "import", document, "-o", out, "--json")
+        self.assertEqual((result["output"], result["stl"]), (str(out), None))
 
     def test_bench(self):
         silent = self.program("LD SM0.0\nMEND\n")
         self.assertIn("did not answer", self.ends(UNUSABLE, "bench", silent, "--each", "1ms").stderr)
-        for figure in self.json(FINE, "bench", "--each", "1ms", "--json"):
+        for figure in self.json(FINE, "bench", "--each", "1ms", "--json")["figures"]:
             self.assertEqual(list(figure), ["name", "unit", "per_second"])
 
 
@@ -353,7 +570,7 @@ class Scenarios(Case):
     def test_json(self):
         good, bad = self.program(self.GOOD, "good.yaml"), self.program(self.BAD, "bad.yaml")
         result = self.json(FAILED, "test", "--json", good, bad)
-        self.assertEqual((result["passed"], result["failed"], result["skipped"]), (1, 1, 0))
+        self.assertEqual((result["passed"], result["failed"], result["skipped"], result["not_run"]), (1, 1, 0, 0))
         first, second = result["scenarios"]
         self.assertEqual(list(first), ["file", "line", "name", "outcome", "reason", "time_ns", "skipped_steps", "findings",
                                        "exchanges"])
@@ -440,7 +657,7 @@ class Scenarios(Case):
         self.assertIn("the first different time", self.ends(FAILED, "test", good, "--against", slower).stdout)
         self.ends(FINE, "test", good, "--against", slower, "--ignore-timing")
         self.ends(FINE, "test", good, "--against", slower, "--tolerance", "10ms")
-        (result,) = self.json(FAILED, "test", good, "--against", slower, "--json")
+        (result,) = self.json(FAILED, "test", good, "--against", slower, "--json")["comparisons"]
         self.assertEqual(list(result), ["file", "name", "skipped", "exchanges", "same", "difference"])
 
     def test_conformance(self):
@@ -463,6 +680,72 @@ class Scenarios(Case):
         self.assertEqual(int(suites.get("skipped")), len(list(suites.iter("skipped"))))
         wrong = self.program("station: 300\n", "wrong.yaml")
         self.assertIn(f"values for ${{…}} are from {wrong}", self.ends(UNUSABLE, "test", "--conformance", wrong).stderr)
+
+
+class JsonPage(Case):
+    """tools/JSON.md and what is printed have the same keys."""
+    maxDiff = None
+
+    def documented(self):
+        """{verb: its keys}"""
+        keys = {verb: set() for verb in VERBS}
+        for section in (SOURCE / "tools/JSON.md").read_text(encoding="utf-8").split("\n## ")[1:]:
+            heading, rest = section.split("\n", 1)
+            for verb in VERBS if heading == "Every verb" else heading.split(", "):
+                keys[verb] |= set(re.findall(r"(?m)^\| `([^`]+)` \|", rest))
+        return keys
+
+    def keys(self, value, path=""):
+        """Every key in it, written as on the page."""
+        if isinstance(value, list):
+            return set().union(*(self.keys(element, path) for element in value)) if value else set()
+        if not isinstance(value, dict):
+            return set()
+        found = set()
+        for key, inner in value.items():
+            here = path + ("ADDRESS" if path == "dump." else key)
+            found |= ({here} if path != "dump." else set()) | self.keys(inner, here + ("[]." if isinstance(inner, list) else "."))
+        return found
+
+    def runs(self):
+        echo, wrong = self.program(Json.ECHO, "echo.stl"), self.program("LD VB0\nMEND\n", "wrong.stl")
+        faulty = self.program("LD SM0.0\nMOVR 1.5, VD20\nMOVD 0, *VD100\nMEND\n", "faulty.stl")
+        good, bad = self.program(Scenarios.GOOD, "good.yaml"), self.program(Scenarios.BAD, "bad.yaml")
+        slave = self.program(f"program: {SLAVE}\nfunctions: [3]\nholding_registers: {{count: 1000}}\n", "slave.yaml")
+        primary, secondary = os.openpty()
+        self.addCleanup(os.close, primary)
+        self.addCleanup(os.close, secondary)
+        plant = ["--dump", "VD20", "--dump", "VB0:4", "--fault", "flip:exchange=9", "--set", "VD100=16#7F000000"]
+        yield from (["check", echo, wrong], ["import", self.program(Files.DOCUMENT, "page.txt")], ["run", faulty, *plant],
+                    ["run", faulty, "--for", "20ms", "--realtime"], ["send", faulty, "01", "--timeout", "10ms", *plant],
+                    ["master", faulty, "slave-id", "--timeout", "10ms", *plant],
+                    ["master", SLAVE, "read", "40001", "write", "40001=1", "slave-id"],
+                    ["instructions"], ["instructions", "MOVB"], ["times"], ["bench", "--each", "1ms"],
+                    ["test", good, bad], ["test", good, "--against", SLAVE], ["test", "--conformance", slave, "--only", "SL-crc"],
+                    ["test", good, "--list"])
+        yield from (["run", SLAVE, "--for", "50ms", *bridge]
+                    for bridge in (["--pty", self.folder / "plc"], ["--tcp", "0"], ["--rtu-over-tcp", "0"], ["--modbus-tcp", "0"],
+                                   ["--device", os.ttyname(secondary)]))
+        line = [["--fault", f"{fault}:of=answer"] for fault in ("parity", "framing")] + [["--fault", "echo"]]
+        yield from (["send", SLAVE, "--crc", "0103000a0001", "--timeline", "--timeout", "50ms", *fault] for fault in line)
+
+    def test_the_page_and_what_is_printed_agree(self):
+        documented = self.documented()
+        printed = {verb: set() for verb in VERBS}
+        for arguments in self.runs():
+            verb = arguments[0]
+            with self.subTest(arguments):
+                done = s7200(*arguments, "--json")
+                result = json.loads(done.stdout)
+                self.assertEqual(list(result)[0], "s7200")
+                self.assertEqual((result["s7200"]["verb"], f"s7200 {result['s7200']['version']}\n"),
+                                 (verb, s7200("--version").stdout))
+                printed[verb] |= self.keys(result)
+        self.assertEqual({verb: keys - documented[verb] for verb, keys in printed.items()}, {verb: set() for verb in VERBS},
+                         "printed, and not on the page")
+        del documented["debug"]
+        self.assertEqual({verb: keys - printed[verb] for verb, keys in documented.items()},
+                         {verb: set() for verb in VERBS if verb != "debug"}, "on the page, and never printed")
 
 
 class Files(Case):
@@ -610,7 +893,7 @@ class Files(Case):
     def test_frames_file(self):
         frames = self.folder / "frames.txt"
         frames.write_text("# two\n ab  # first\r\n\ncd\n", encoding="utf-8")
-        exchanges = self.json(FINE, "send", self.program(Json.ECHO), "--frames", frames, "--json")
+        exchanges = self.json(FINE, "send", self.program(Json.ECHO), "--frames", frames, "--json")["exchanges"]
         self.assertEqual([e["response"] for e in exchanges], ["ab", "cd"])
         frames.write_text("ab\nxx\n", encoding="utf-8")
         done = self.ends(UNUSABLE, "send", self.program(Json.ECHO), "--frames", frames)
@@ -700,6 +983,6 @@ class Readme(Case):
 
 
 if __name__ == "__main__":
-    group = {"verbs": Verbs, "json": Json, "files": Files, "readme": Readme, "scenarios": Scenarios}[GROUP]
+    group = {"verbs": Verbs, "options": Options, "json": Json, "json_page": JsonPage, "files": Files, "readme": Readme, "scenarios": Scenarios}[GROUP]
     result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
     sys.exit(0 if result.wasSuccessful() else 1)

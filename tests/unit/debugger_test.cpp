@@ -412,6 +412,18 @@ TEST(Debugger, DisplayComesAfterEveryStop) {
   EXPECT_FALSE(has(session("display off; step"), "VW20 "));
 }
 
+TEST(Debugger, ADoubleWordThatTheProgramUsesAsARealIsShownAsOneTooWhereverItIsShown) {
+  Session session("LD SM0.0\nMOVR 1.5, VD20\n+R 1.0, VD20\nMOVR VD20, AC1\nMEND\n");
+  EXPECT_TRUE(has(session("watch VD20 VD20:real; step 2"), "VD20=16#3FC00000 (1.5)"));
+  EXPECT_TRUE(has(session.out.str(), "watch 1: VD20 was 16#00000000 (0, 0.0), is 16#3FC00000 (1069547520, 1.5)\n"));
+  EXPECT_TRUE(has(session.out.str(), "watch 2: VD20:REAL was 16#00000000 (0.0), is 16#3FC00000 (1.5)\n"));
+  EXPECT_TRUE(has(session("print VD20 VD20:real VD24"),
+                  "VD20     16#3FC00000  1069547520             1.5\nVD20     16#3FC00000             1.5\n"
+                  "VD24     16#00000000           0\n"));
+  const std::string regs = session("delete all; step 2; regs");
+  EXPECT_TRUE(has(regs, "AC0        16#00000000           0\nAC1        16#40200000  1075838976             2.5\n"));
+}
+
 TEST(Debugger, SetWritesMemoryWithOrWithoutBlanks) {
   Session session(kNested);
   EXPECT_TRUE(has(session("set VW100=5 VB102 = 16#FF; print VW100 VB102"), "VW100    16#0005"));

@@ -61,6 +61,7 @@ TEST(RegisterText, JsonHasNumbers) {
   EXPECT_EQ(values_json(Words{1, 0xFFFF}, kPlain).dump(), "[1,65535]");
   EXPECT_EQ(values_json(Words{1, 0xFFFF}, {ValueForm::Signed}).dump(), "[1,-1]");
   EXPECT_EQ(values_json(Words{0x3FC0, 0, 7}, kFloat).dump(), "[1.5]");
+  EXPECT_EQ(values_json(Words{0x3DCC, 0xCCCD}, kFloat).dump(), "[0.1]");
   EXPECT_EQ(values_json(Words{0x7FC0, 0}, kFloat).dump(), "[\"nan\"]");
   EXPECT_EQ(values_json(Words{0x41FB}, {ValueForm::Text}).dump(), "\"A\xC3\xBB\"");
 }
