@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <tuple>
 
 #include "interpreter/stl/text.hpp"
@@ -82,6 +83,41 @@ std::string location(const Diagnostic& diagnostic, const Source& source) {
   return fmt::format("{}:{}:{}", source.name, position.line, position.column);
 }
 
+struct Cause {
+  const Diagnostic* first;
+  std::vector<const Diagnostic*> others;
+};
+
+/// In the order of their first diagnostics.
+std::vector<Cause> causes_of(const Diagnostics& diagnostics) {
+  std::vector<Cause> causes;
+  std::map<std::pair<Severity, std::string_view>, std::size_t> known;
+  for (const Diagnostic& diagnostic : diagnostics) {
+    if (!diagnostic.cause.empty()) {
+      const auto [found, added] = known.try_emplace({diagnostic.severity, diagnostic.cause}, causes.size());
+      if (!added) {
+        causes[found->second].others.push_back(&diagnostic);
+        continue;
+      }
+    }
+    causes.push_back({&diagnostic, {}});
+  }
+  return causes;
+}
+
+/// `3 more, in lines 4, 7, 9`; of many lines the first ones and the last.
+std::string where_else(const std::vector<const Diagnostic*>& others) {
+  constexpr std::size_t kLinesShown = 10;
+  std::vector<std::uint32_t> lines;
+  for (const Diagnostic* diagnostic : others)
+    if (lines.empty() || lines.back() != diagnostic->position.line) lines.push_back(diagnostic->position.line);
+  std::string text = fmt::format("{} more, in line{} ", others.size(), lines.size() == 1 ? "" : "s");
+  if (lines.size() <= kLinesShown) return text + fmt::format("{}", fmt::join(lines, ", "));
+  const std::uint32_t last = lines.back();
+  lines.resize(kLinesShown - 1);
+  return text + fmt::format("{} … {}", fmt::join(lines, ", "), last);
+}
+
 }  // namespace
 
 bool has_errors(const Diagnostics& diagnostics) {
@@ -101,7 +137,8 @@ std::string render(const Diagnostic& diagnostic, const Source& source, bool colo
   const bool error = diagnostic.severity == Severity::Error;
   std::string text = painted(location(diagnostic, source) + ":", kBold, colour);
   text += ' ' + painted(error ? "error:" : "warning:", error ? kRed : kMagenta, colour);
-  text += ' ' + diagnostic.message + '\n';
+  text += ' ' + diagnostic.message;
+  text += diagnostic.name.empty() ? "\n" : fmt::format(" [{}]\n", diagnostic.name);
 
   const Position& position = diagnostic.position;
   if (position.line > 0 && position.column > 0 && position.line <= source.text.size()) {
@@ -111,5 +148,16 @@ std::string render(const Diagnostic& diagnostic, const Source& source, bool colo
   if (!diagnostic.hint.empty()) text += "hint: " + diagnostic.hint + '\n';
   return text;
 }
+
+std::string render(const Diagnostics& diagnostics, const Source& source, bool colour) {
+  std::string text;
+  for (const Cause& cause : causes_of(diagnostics)) {
+    text += render(*cause.first, source, colour);
+    if (!cause.others.empty()) text += "also: " + where_else(cause.others) + '\n';
+  }
+  return text;
+}
+
+std::size_t count_causes(const Diagnostics& diagnostics) { return causes_of(diagnostics).size(); }
 
 }  // namespace s7200::stl

@@ -26,7 +26,7 @@ TEST(Diagnostic, CountsCharactersAndTheirWidth) {
 TEST(Diagnostic, ShowsAVeryLongLineAroundThePlaceOnly) {
   std::string line(1'000'000, 'a');
   line[500'000] = '!';
-  const std::string shown = render({Severity::Error, {1, 500'001, 900'000}, "x", ""}, text({line}), false);
+  const std::string shown = render(Diagnostic{Severity::Error, {1, 500'001, 900'000}, "x", ""}, text({line}), false);
   EXPECT_LT(shown.size(), 400U);
   const std::size_t source = shown.find('\n') + 1;
   const std::size_t marks = shown.find('\n', source) + 1;
@@ -35,18 +35,19 @@ TEST(Diagnostic, ShowsAVeryLongLineAroundThePlaceOnly) {
 }
 
 TEST(Diagnostic, MarksTheEndOfALineBehindIt) {
-  EXPECT_EQ(render({Severity::Error, {1, 4, 1}, "x", ""}, text({"NOT"}), false), "a.stl:1:4: error: x\nNOT\n   ^\n");
+  EXPECT_EQ(render(Diagnostic{Severity::Error, {1, 4, 1}, "x", ""}, text({"NOT"}), false),
+            "a.stl:1:4: error: x\nNOT\n   ^\n");
 }
 
 TEST(Diagnostic, SendsNoControlCharacterToATerminal) {
-  const std::string shown = render({Severity::Error, {1, 1, 1}, "x", ""}, text({"\x1b[2J\x07"}), false);
+  const std::string shown = render(Diagnostic{Severity::Error, {1, 1, 1}, "x", ""}, text({"\x1b[2J\x07"}), false);
   EXPECT_EQ(shown.find('\x1b'), std::string::npos);
   EXPECT_EQ(shown.find('\x07'), std::string::npos);
 }
 
 TEST(Diagnostic, NeedsNoPlaceAndNoSuchLine) {
-  EXPECT_EQ(render({Severity::Error, {0, 0, 1}, "empty", ""}, text({}), false), "a.stl: error: empty\n");
-  EXPECT_EQ(render({Severity::Error, {7, 1, 1}, "gone", ""}, text({"NOT"}), false), "a.stl:7:1: error: gone\n");
+  EXPECT_EQ(render(Diagnostic{Severity::Error, {0, 0, 1}, "empty", ""}, text({}), false), "a.stl: error: empty\n");
+  EXPECT_EQ(render(Diagnostic{Severity::Error, {7, 1, 1}, "gone", ""}, text({"NOT"}), false), "a.stl:7:1: error: gone\n");
 }
 
 TEST(Diagnostic, ColoursOnlyWhenAsked) {
@@ -60,6 +61,38 @@ TEST(Diagnostic, SortsByPlaceAndKeepsTheOrderOfEqualPlaces) {
       {Severity::Error, {2, 1, 1}, "c", ""}, {Severity::Error, {1, 5, 1}, "a", ""}, {Severity::Warning, {1, 5, 1}, "b", ""}};
   sort(list);
   EXPECT_EQ(list[0].message + list[1].message + list[2].message, "abc");
+}
+
+Diagnostic of_cause(std::uint32_t line, std::string message, std::string cause) {
+  return {Severity::Error, {line, 1, 1}, std::move(message), "", std::move(cause)};
+}
+
+TEST(Diagnostic, SaysACauseOnceWithHowOftenAndWhereElse) {
+  const Diagnostics list{of_cause(1, "a", "x"), of_cause(2, "b", ""), of_cause(2, "c", "x"),
+                         of_cause(2, "d", "x"), of_cause(3, "b", ""), of_cause(4, "e", "x")};
+  EXPECT_EQ(render(list, text({}), false),
+            "a.stl:1:1: error: a\nalso: 3 more, in lines 2, 4\na.stl:2:1: error: b\na.stl:3:1: error: b\n");
+  EXPECT_EQ(count_causes(list), 3U);
+  EXPECT_EQ(render({of_cause(1, "a", "x"), of_cause(7, "b", "x")}, text({}), false),
+            "a.stl:1:1: error: a\nalso: 1 more, in line 7\n");
+}
+
+TEST(Diagnostic, OfManyPlacesShowsTheFirstAndTheLast) {
+  Diagnostics list;
+  for (std::uint32_t line = 1; line <= 100; ++line) list.push_back(of_cause(line, "a", "x"));
+  EXPECT_EQ(render(list, text({}), false),
+            "a.stl:1:1: error: a\nalso: 99 more, in lines 2, 3, 4, 5, 6, 7, 8, 9, 10 … 100\n");
+}
+
+TEST(Diagnostic, AWarningAndAnErrorAreNotOfOneCause) {
+  Diagnostics list{of_cause(1, "a", "x"), of_cause(2, "b", "x")};
+  list[1].severity = Severity::Warning;
+  EXPECT_EQ(count_causes(list), 2U);
+}
+
+TEST(Diagnostic, ShowsTheNameOfAWarning) {
+  EXPECT_EQ(render(Diagnostic{Severity::Warning, {1, 1, 1}, "odd", "", "", "odd-thing"}, text({}), false),
+            "a.stl:1:1: warning: odd [odd-thing]\n");
 }
 
 TEST(Diagnostic, AWarningIsNoError) {
