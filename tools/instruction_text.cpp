@@ -56,10 +56,18 @@ std::string sample(const OperandRule& rule, std::size_t i) {
     if (!contains(rule.areas, Area::I)) return contains(rule.areas, Area::Q) ? "Q0.0" : "S0.1";
     return rule.role == Role::In ? "I0.0" : "Q0.0";
   }
-  for (const std::string_view counted : {"N", "LEN", "PT", "PV", "FINAL"})
-    if (rule.name == counted && rule.constant) return "4";
+  if (rule.count) return "4";
+  for (const std::string_view number : {"N", "PT", "PV", "FINAL"})
+    if (rule.name == number) return "4";
   if (rule.name == "INIT") return "1";
   return fmt::format("V{}{}", kLetter[static_cast<std::size_t>(rule.width)], 100 * (i + 1));
+}
+
+std::string constant_text(const OperandRule& rule) {
+  if (rule.real) return "real constant";
+  if (rule.min == std::numeric_limits<std::int64_t>::min())
+    return rule.sign == Sign::Either ? "constant" : rule.sign == Sign::Signed ? "signed constant" : "unsigned constant";
+  return fmt::format("constant {}…{}{}", rule.min, rule.max, rule.not_zero ? " but 0" : "");
 }
 
 std::string ranges_text(const OperandRule& rule, const CpuModel& model) {
@@ -144,7 +152,7 @@ std::string operand_text(const OperandRule& rule) {
   std::vector<std::string> names;
   for (const AreaInfo& area : all_areas())
     if (contains(rule.areas, area.area)) names.push_back(area_text(area, rule.width));
-  if (rule.constant) names.push_back(rule.real ? "real constant" : "constant");
+  if (rule.constant) names.push_back(constant_text(rule));
   if (rule.pointer) names.push_back("*VD *AC");
   if (rule.address_of) names.push_back("&address");
   return fmt::format("{}", fmt::join(names, " "));

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,6 +35,9 @@ enum class OperandKind : std::uint8_t {
 
 enum class Role : std::uint8_t { In, Out, InOut };
 
+/// How an instruction reads a number. Either: its result has the same bits both ways.
+enum class Sign : std::uint8_t { Either, Signed, Unsigned };
+
 /// Which timers an operand may name (facts 1.1).
 enum class TimerKind : std::uint8_t { Any, OnDelay, Retentive };
 
@@ -47,10 +51,18 @@ struct OperandRule {
   bool pointer = false;     ///< *VD100, *AC1
   bool address_of = false;  ///< &VB100
   bool real = false;        ///< the value is a real number
-  bool block = false;       ///< N elements from here on
-  TimerKind timer = TimerKind::Any;
+  Sign sign = Sign::Either;
   std::int64_t min = std::numeric_limits<std::int64_t>::min();  ///< of a constant, within its width
   std::int64_t max = std::numeric_limits<std::int64_t>::max();
+  bool not_zero = false;      ///< a constant between min and max, but not 0
+  bool count = false;         ///< says how far the counted operands of the instruction reach
+  std::uint8_t counted = 0;   ///< how many of what is counted lie in an element; 0: the operand is not counted
+  std::uint8_t elements = 1;  ///< of an operand that is not counted: how many it takes at least
+  TimerKind timer = TimerKind::Any;
+
+  bool takes(std::int64_t value) const { return value >= min && value <= max && !(not_zero && value == 0); }
+  /// Elements from the address on, when the operand that counts says `n`.
+  std::int64_t reach(std::int64_t n) const { return counted == 0 ? elements : (n + counted - 1) / counted; }
 };
 
 /// Where an instruction may stand.
@@ -75,6 +87,17 @@ enum class Structure : std::uint8_t {
   SegmentEnd,
   DefineCounter,
   Compare  ///< its errors stop the CPU
+};
+
+/// What the warnings about a whole program look for (program/lint.hpp).
+enum class Effect : std::uint8_t {
+  None,
+  LoadsBit,  ///< LD
+  Coil,
+  SetsBits,
+  ConditionalEnd,  ///< of a routine or of the scan
+  EnablesInterrupts,
+  Transmits
 };
 
 /// What the decoder adds to an instruction besides the operands written.
@@ -120,6 +143,7 @@ struct Instruction {
   CpuSet cpus = kEveryCpu;
   Structure structure = Structure::None;
   Hidden hidden = Hidden::None;
+  Effect effect = Effect::None;
   Body body = nullptr;        ///< nullptr: not modelled, refused by name
   Body in_segment = nullptr;  ///< between LSCR and SCRE, where it is another one: a contact on the segment's power rail
   std::string_view meaning;   ///< one line
@@ -135,6 +159,12 @@ const Instruction* find_instruction(std::string_view mnemonic);
 
 /// The mnemonic that was probably meant; empty when nothing is near.
 std::string_view nearest_mnemonic(std::string_view mnemonic);
+
+/// A mnemonic (upper case) of the German set or of another family of controllers: what it is, and what to write instead.
+struct ForeignMnemonic {
+  std::string what, hint;
+};
+std::optional<ForeignMnemonic> foreign_mnemonic(std::string_view mnemonic);
 
 /// `MOVW IN, OUT`
 std::string syntax(const Instruction& instruction);

@@ -84,28 +84,55 @@ constexpr OperandRule with_analog_output(OperandRule rule) {
   rule.areas |= areas(Area::AQ);
   return rule;
 }
-constexpr OperandRule block(Role role, Width width, std::string_view name) {
+/// So many elements as the instruction's count says; `counted` of what it counts lie in one.
+constexpr OperandRule block(Role role, Width width, std::string_view name, std::uint8_t counted = 1) {
   const Areas analog = role == Role::In ? areas(Area::AI) : areas(Area::AQ);
   return {.name = name,
           .width = width,
           .role = role,
           .areas = static_cast<Areas>(width == Width::Word ? kWords | analog : kBytes),
           .pointer = true,
-          .block = true};
+          .counted = counted};
 }
 /// S, R, SHRB: N bits from here on.
 constexpr OperandRule bits_from(std::string_view name = "BIT", Areas to = kBits) {
   OperandRule rule = bit_out(to);
   rule.name = name;
-  rule.block = true;
+  rule.counted = 1;
   return rule;
 }
-constexpr OperandRule count(std::int64_t max = 255, std::int64_t min = 1) {
-  OperandRule rule = in(Width::Byte, "N");
+/// At least so many elements from here on, whatever they hold.
+constexpr OperandRule from(OperandRule first, std::uint8_t elements) {
+  first.elements = elements;
+  return first;
+}
+constexpr OperandRule ranged(OperandRule rule, Sign sign, std::int64_t min, std::int64_t max) {
+  rule.sign = sign;
   rule.min = min;
   rule.max = max;
   return rule;
 }
+constexpr OperandRule as_signed(OperandRule rule) {
+  rule.sign = Sign::Signed;
+  return rule;
+}
+/// How many elements the blocks of the instruction have: an unsigned byte.
+constexpr OperandRule count(std::int64_t min = 1, std::string_view name = "N") {
+  OperandRule rule = ranged(in(Width::Byte, name), Sign::Unsigned, min, 255);
+  rule.count = true;
+  return rule;
+}
+/// By how many places to shift: an unsigned byte. More than the width is no mistake, it stops there or is taken modulo it.
+constexpr OperandRule kPlaces = ranged(in(Width::Byte, "N"), Sign::Unsigned, 0, 255);
+/// SHRB: the sign is the direction, and 0 bits are count error 0092.
+constexpr OperandRule directed_count() {
+  OperandRule rule = ranged(in(Width::Byte, "N"), Sign::Signed, -64, 64);
+  rule.not_zero = true;
+  rule.count = true;
+  return rule;
+}
+/// What timers and CTU count up to: a signed word, and they count from 0.
+constexpr OperandRule preset(std::string_view name) { return ranged(in(Width::Word, name), Sign::Signed, 1, 32767); }
 constexpr OperandRule number(OperandKind kind, std::string_view name, std::int64_t max = 255) {
   return {.name = name, .kind = kind, .constant = true, .min = 0, .max = max};
 }
@@ -172,6 +199,10 @@ Row marks(Structure structure, Row r) {
   r.writes_output = true;
   return r;
 }
+Row has(Effect effect, Row r) {
+  r.effect = effect;
+  return r;
+}
 Row with(Hidden hidden, Row r) {
   r.hidden = hidden;
   return r;
@@ -228,7 +259,8 @@ class Table {
     constexpr Body straight = contact<join, false>, straight_fed = contact<join, false, Rail::Segment>;
     constexpr Body inverted = contact<join, true>, inverted_fed = contact<join, true, Rail::Segment>;
     const OperandRule input = bit_in(areas(Area::I));
-    add(contact_row(plain, bit_in(), straight, straight_fed, " BIT"));
+    Row direct = contact_row(plain, bit_in(), straight, straight_fed, " BIT");
+    add(join == Join::Load ? has(Effect::LoadsBit, direct) : direct);
     add(contact_row(negated, bit_in(), inverted, inverted_fed, " NOT BIT"));
     add(with(Hidden::InputPoint, contact_row(point, input, straight, straight_fed, " the input point BIT")));
     add(with(Hidden::InputPoint, contact_row(negated_point, input, inverted, inverted_fed, " NOT the input point BIT")));
@@ -249,10 +281,10 @@ class Table {
     add(uses_stack("LPS", {}, push_copy, {1, 1}, "push a copy of the top of the stack"));
     add(uses_stack("LRD", {}, read_second, {2, 0}, "copy the second level to the top"));
     add(uses_stack("LPP", {}, pop_stack, {2, -1}, "pop the stack"));
-    add(writes(uses_stack("=", {bit_out()}, coil, {1, 0}, "write the top of the stack to BIT")));
+    add(has(Effect::Coil, writes(uses_stack("=", {bit_out()}, coil, {1, 0}, "write the top of the stack to BIT"))));
     add(with(Hidden::OutputPoint, writes(uses_stack("=I", {bit_out(areas(Area::Q))}, immediate_coil, {1, 0},
                                                     "write the top of the stack to the output point and its image"))));
-    add(box("S", {bits_from(), count()}, set_bits<true, false>, "set N bits from BIT on"));
+    add(has(Effect::SetsBits, box("S", {bits_from(), count()}, set_bits<true, false>, "set N bits from BIT on")));
     add(box("R", {bits_from(), count()}, set_bits<false, false>,
             "reset N bits from BIT on; of timers and counters the current values too"));
     add(with(Hidden::OutputPoint, box("SI", {bits_from("BIT", areas(Area::Q)), count()}, set_bits<true, true>,
@@ -264,17 +296,23 @@ class Table {
 
   template <Relation relation>
   void compares_of(std::string_view sign, CpuSet cpus) {
-    compare_row<relation, std::uint8_t>(sign, "B", in(Width::Byte, "IN1"), in(Width::Byte, "IN2"), cpus, "unsigned bytes");
-    compare_row<relation, std::int16_t>(sign, "W", in(Width::Word, "IN1"), in(Width::Word, "IN2"), cpus, "signed words");
-    compare_row<relation, std::int32_t>(sign, "D", in(Width::Double, "IN1"), in(Width::Double, "IN2"), cpus,
-                                        "signed double words");
-    compare_row<relation, float>(sign, "R", real(in(Width::Double, "IN1")), real(in(Width::Double, "IN2")), cpus & kFrom214,
-                                 "real numbers");
+    // Whether two numbers are equal does not depend on how their bits are read.
+    constexpr bool equality = relation == Relation::Equal || relation == Relation::NotEqual;
+    const auto ordered = [](OperandRule rule, Sign read_as) {
+      rule.sign = equality ? Sign::Either : read_as;
+      return rule;
+    };
+    compare_row<relation, std::uint8_t>(sign, "B", ordered(in(Width::Byte), Sign::Unsigned), cpus, "unsigned bytes");
+    compare_row<relation, std::int16_t>(sign, "W", ordered(in(Width::Word), Sign::Signed), cpus, "signed words");
+    compare_row<relation, std::int32_t>(sign, "D", ordered(in(Width::Double), Sign::Signed), cpus, "signed double words");
+    compare_row<relation, float>(sign, "R", real(in(Width::Double)), cpus & kFrom214, "real numbers");
   }
 
   template <Relation relation, class Value>
-  void compare_row(std::string_view sign, std::string_view type, const OperandRule& a, const OperandRule& b, CpuSet cpus,
-                   std::string_view what) {
+  void compare_row(std::string_view sign, std::string_view type, OperandRule a, CpuSet cpus, std::string_view what) {
+    OperandRule b = a;
+    a.name = "IN1";
+    b.name = "IN2";
     const auto one = [&](std::string_view prefix, Body body, Body in_segment, StackUse stack, std::string_view verb) {
       const auto keep = [&](std::string text) -> std::string_view { return *texts_.insert(std::move(text)).first; };
       const std::string_view mnemonic = keep(std::string(prefix).append(type).append(sign));
@@ -330,9 +368,9 @@ class Table {
             kArithmetic));
     add(box("-D", {in(Width::Double, "IN1"), in_out(Width::Double)}, subtract<std::int32_t>, "OUT - IN1 to OUT, 32 bits",
             kArithmetic));
-    add(box("MUL", {in(Width::Word, "IN1"), in_out(Width::Double)}, multiply, "IN1 × low word of OUT to OUT, 32 bits",
-            kArithmetic | kDivisionByZero));
-    add(box("DIV", {in(Width::Word, "IN1"), in_out(Width::Double)}, divide,
+    add(box("MUL", {as_signed(in(Width::Word, "IN1")), in_out(Width::Double)}, multiply,
+            "IN1 × low word of OUT to OUT, 32 bits", kArithmetic | kDivisionByZero));
+    add(box("DIV", {as_signed(in(Width::Word, "IN1")), in_out(Width::Double)}, divide,
             "low word of OUT / IN1: quotient to its low word, remainder to its high word", kArithmetic | kDivisionByZero));
     add(box("INCW", {in_out(Width::Word)}, increment<std::int16_t, 1>, "OUT + 1 to OUT, 16 bits", kArithmetic));
     add(box("DECW", {in_out(Width::Word)}, increment<std::int16_t, -1>, "OUT - 1 to OUT, 16 bits", kArithmetic));
@@ -378,34 +416,32 @@ class Table {
 
   void shifts() {
     group("Shift and rotate");
-    const OperandRule n = count(255, 0);
-    add(box("SLW", {in_out(Width::Word), n}, shift<std::uint16_t, true>, "shift OUT left by N, at most 16",
+    add(box("SLW", {in_out(Width::Word), kPlaces}, shift<std::uint16_t, true>, "shift OUT left by N, at most 16",
             kZero | kOverflow));
-    add(box("SRW", {in_out(Width::Word), n}, shift<std::uint16_t, false>, "shift OUT right by N, at most 16",
+    add(box("SRW", {in_out(Width::Word), kPlaces}, shift<std::uint16_t, false>, "shift OUT right by N, at most 16",
             kZero | kOverflow));
-    add(box("SLD", {in_out(Width::Double), n}, shift<std::uint32_t, true>, "shift OUT left by N, at most 32",
+    add(box("SLD", {in_out(Width::Double), kPlaces}, shift<std::uint32_t, true>, "shift OUT left by N, at most 32",
             kZero | kOverflow));
-    add(box("SRD", {in_out(Width::Double), n}, shift<std::uint32_t, false>, "shift OUT right by N, at most 32",
+    add(box("SRD", {in_out(Width::Double), kPlaces}, shift<std::uint32_t, false>, "shift OUT right by N, at most 32",
             kZero | kOverflow));
-    add(box("RLW", {in_out(Width::Word), n}, rotate<std::uint16_t, true>, "rotate OUT left by N modulo 16",
+    add(box("RLW", {in_out(Width::Word), kPlaces}, rotate<std::uint16_t, true>, "rotate OUT left by N modulo 16",
             kZero | kOverflow));
-    add(box("RRW", {in_out(Width::Word), n}, rotate<std::uint16_t, false>, "rotate OUT right by N modulo 16",
+    add(box("RRW", {in_out(Width::Word), kPlaces}, rotate<std::uint16_t, false>, "rotate OUT right by N modulo 16",
             kZero | kOverflow));
-    add(box("RLD", {in_out(Width::Double), n}, rotate<std::uint32_t, true>, "rotate OUT left by N modulo 32",
+    add(box("RLD", {in_out(Width::Double), kPlaces}, rotate<std::uint32_t, true>, "rotate OUT left by N modulo 32",
             kZero | kOverflow));
     const auto from_215 = [&](Row r) { add(on(kFrom215, r)); };
-    from_215(box("SLB", {in_out(Width::Byte), n}, shift<std::uint8_t, true>, "shift OUT left by N, at most 8",
+    from_215(box("SLB", {in_out(Width::Byte), kPlaces}, shift<std::uint8_t, true>, "shift OUT left by N, at most 8",
                  kZero | kOverflow));
-    from_215(box("SRB", {in_out(Width::Byte), n}, shift<std::uint8_t, false>, "shift OUT right by N, at most 8",
+    from_215(box("SRB", {in_out(Width::Byte), kPlaces}, shift<std::uint8_t, false>, "shift OUT right by N, at most 8",
                  kZero | kOverflow));
-    from_215(box("RLB", {in_out(Width::Byte), n}, rotate<std::uint8_t, true>, "rotate OUT left by N modulo 8",
+    from_215(box("RLB", {in_out(Width::Byte), kPlaces}, rotate<std::uint8_t, true>, "rotate OUT left by N modulo 8",
                  kZero | kOverflow));
-    from_215(box("RRB", {in_out(Width::Byte), n}, rotate<std::uint8_t, false>, "rotate OUT right by N modulo 8",
+    from_215(box("RRB", {in_out(Width::Byte), kPlaces}, rotate<std::uint8_t, false>, "rotate OUT right by N modulo 8",
                  kZero | kOverflow));
-    OperandRule length = count(64, -64);
-    add(box("SHRB", {bit_in_named("DATA"), bits_from("S_BIT"), length}, shift_register,
+    add(box("SHRB", {bit_in_named("DATA"), bits_from("S_BIT"), directed_count()}, shift_register,
             "shift DATA into the |N| bits from S_BIT on; N < 0: from the far end", kOverflow));
-    add(box("RRD", {in_out(Width::Double), n}, rotate<std::uint32_t, false>, "rotate OUT right by N modulo 32",
+    add(box("RRD", {in_out(Width::Double), kPlaces}, rotate<std::uint32_t, false>, "rotate OUT right by N modulo 32",
             kZero | kOverflow));
   }
 
@@ -415,10 +451,11 @@ class Table {
     add(outside_segments(marks(Structure::Jump, box("JMP", {kLabel}, jump, "go on at LBL n of the same routine"))));
     add(marks(Structure::Label, row("LBL", {kLabel}, no_operation, "place that JMP n goes to")));
     add(on(kFrom214, only_in(not_in_interrupt,
-                             outside_segments(marks(
-                                 Structure::For,
-                                 box("FOR", {out(Width::Word, "INDX"), in(Width::Word, "INIT"), in(Width::Word, "FINAL")},
-                                     begin_loop, "repeat up to NEXT with INDX from INIT to FINAL"))))));
+                             outside_segments(marks(Structure::For,
+                                                    box("FOR",
+                                                        {out(Width::Word, "INDX"), as_signed(in(Width::Word, "INIT")),
+                                                         as_signed(in(Width::Word, "FINAL"))},
+                                                        begin_loop, "repeat up to NEXT with INDX from INIT to FINAL"))))));
     add(on(kFrom214,
            only_in(not_in_interrupt,
                    outside_segments(marks(Structure::Next, row("NEXT", {}, next_pass,
@@ -428,10 +465,12 @@ class Table {
     add(marks(Structure::SubroutineHead, row("SBR", {kSubroutineNumber}, no_operation, "head of subroutine n")));
     add(only_in(kSubroutine,
                 marks(Structure::SubroutineEnd, row("RET", {}, return_from_subroutine, "end of a subroutine"))));
-    add(only_in(kSubroutine, box("CRET", {}, return_from_subroutine, "return from a subroutine")));
-    add(only_in(kMain, outside_segments(box("END", {}, end_main_program, "end the main program of this scan"))));
+    add(only_in(kSubroutine,
+                has(Effect::ConditionalEnd, box("CRET", {}, return_from_subroutine, "return from a subroutine"))));
+    add(only_in(kMain, outside_segments(has(Effect::ConditionalEnd,
+                                            box("END", {}, end_main_program, "end the main program of this scan")))));
     add(only_in(kMain, marks(Structure::MainEnd, row("MEND", {}, end_main_program, "end of the main program"))));
-    add(box("STOP", {}, stop, "go to STOP"));
+    add(has(Effect::ConditionalEnd, box("STOP", {}, stop, "go to STOP")));
     add(box("WDR", {}, reset_watchdog, "restart the scan watchdog"));
   }
 
@@ -442,8 +481,10 @@ class Table {
               row("INT", {number(OperandKind::Interrupt, "n")}, no_operation, "head of interrupt routine n")));
     add(only_in(kInterrupt,
                 marks(Structure::InterruptEnd, row("RETI", {}, return_from_interrupt, "end of an interrupt routine"))));
-    add(only_in(kInterrupt, box("CRETI", {}, return_from_interrupt, "return from an interrupt routine")));
-    add(only_in(not_in_interrupt, box("ENI", {}, enable_interrupts<true>, "enable interrupts")));
+    add(only_in(kInterrupt,
+                has(Effect::ConditionalEnd, box("CRETI", {}, return_from_interrupt, "return from an interrupt routine"))));
+    add(only_in(not_in_interrupt,
+                has(Effect::EnablesInterrupts, box("ENI", {}, enable_interrupts<true>, "enable interrupts"))));
     add(only_in(not_in_interrupt,
                 box("DISI", {}, enable_interrupts<false>, "disable interrupts: events wait in their queues")));
     add(marks(Structure::Attach, box("ATCH", {kRoutine, kEvent}, attach, "attach interrupt routine INT to event EVNT")));
@@ -453,7 +494,8 @@ class Table {
   void communication() {
     group("Communication");
     OperandRule buffer{.name = "TBL", .areas = kBytes, .pointer = true};
-    add(box("XMT", {buffer, kPort}, transmit, "Freeport: send the characters of TBL, their number in its first byte"));
+    add(has(Effect::Transmits,
+            box("XMT", {buffer, kPort}, transmit, "Freeport: send the characters of TBL, their number in its first byte")));
     add(not_modelled("RCV", kFrom215, "Freeport: receive a message"));
     add(not_modelled("NETR", kFrom214, "PPI master: read from another station"));
     add(not_modelled("NETW", kFrom214, "PPI master: write to another station"));
@@ -465,13 +507,13 @@ class Table {
       return OperandRule{.name = "T", .width = Width::Word, .role = Role::InOut, .areas = areas(Area::T), .timer = kind};
     };
     const OperandRule counter{.name = "C", .width = Width::Word, .role = Role::InOut, .areas = areas(Area::C)};
-    add(with(Hidden::Number, writes(uses_stack("TON", {timer(TimerKind::OnDelay), in(Width::Word, "PT")}, time_on<false>,
-                                               {1, 0}, "on-delay timer: counts while the top of the stack is 1, else 0"))));
-    add(with(Hidden::Number, writes(uses_stack("TONR", {timer(TimerKind::Retentive), in(Width::Word, "PT")}, time_on<true>,
-                                               {1, 0}, "retentive on-delay timer: keeps its value until it is reset"))));
-    add(with(Hidden::Number, writes(uses_stack("CTU", {counter, in(Width::Word, "PV")}, count_up, {2, -1},
+    add(with(Hidden::Number, writes(uses_stack("TON", {timer(TimerKind::OnDelay), preset("PT")}, time_on<false>, {1, 0},
+                                               "on-delay timer: counts while the top of the stack is 1, else 0"))));
+    add(with(Hidden::Number, writes(uses_stack("TONR", {timer(TimerKind::Retentive), preset("PT")}, time_on<true>, {1, 0},
+                                               "retentive on-delay timer: keeps its value until it is reset"))));
+    add(with(Hidden::Number, writes(uses_stack("CTU", {counter, preset("PV")}, count_up, {2, -1},
                                                "count up: second level counts, top resets"))));
-    add(with(Hidden::Number, writes(uses_stack("CTUD", {counter, in(Width::Word, "PV")}, count_up_down, {3, -2},
+    add(with(Hidden::Number, writes(uses_stack("CTUD", {counter, as_signed(in(Width::Word, "PV"))}, count_up_down, {3, -2},
                                                "count up and down: third level up, second down, top resets"))));
   }
 
@@ -491,31 +533,27 @@ class Table {
     group("Conversion");
     add(box("BCDI", {in_out(Width::Word)}, from_bcd, "four BCD digits to an integer", kNotBcd));
     add(box("IBCD", {in_out(Width::Word)}, to_bcd, "integer 0 to 9999 to BCD", kNotBcd));
-    add(on(kFrom214, box("DTR", {in(Width::Double), real(out(Width::Double))}, integer_to_real, "double integer to real")));
+    add(on(kFrom214,
+           box("DTR", {as_signed(in(Width::Double)), real(out(Width::Double))}, integer_to_real, "double integer to real")));
     add(on(kFrom214, box("TRUNC", {real(in(Width::Double)), out(Width::Double)}, truncate,
                          "real to double integer, toward zero", kOverflow)));
     add(box("DECO", {in(Width::Byte), out(Width::Word)}, decode_bit,
             "set the one bit of OUT that the low half of IN numbers"));
     add(box("ENCO", {in(Width::Word), out(Width::Byte)}, encode_bit, "number of the lowest bit set in IN to OUT"));
     add(box("SEG", {in(Width::Byte), out(Width::Byte)}, seven_segments, "seven-segment pattern of the low half of IN"));
-    add(box("ATH", {block(Role::In, Width::Byte, "IN"), block(Role::Out, Width::Byte, "OUT"), length()}, ascii_to_hex,
-            "LEN characters to hexadecimal digits", kNotHex));
-    add(box("HTA", {block(Role::In, Width::Byte, "IN"), block(Role::Out, Width::Byte, "OUT"), length()}, hex_to_ascii,
-            "LEN hexadecimal digits to characters"));
-  }
-  static OperandRule length() {
-    OperandRule rule = count(255, 0);
-    rule.name = "LEN";
-    return rule;
+    add(box("ATH", {block(Role::In, Width::Byte, "IN"), block(Role::Out, Width::Byte, "OUT", 2), count(0, "LEN")},
+            ascii_to_hex, "LEN characters to hexadecimal digits", kNotHex));
+    add(box("HTA", {block(Role::In, Width::Byte, "IN", 2), block(Role::Out, Width::Byte, "OUT"), count(0, "LEN")},
+            hex_to_ascii, "LEN hexadecimal digits to characters"));
   }
 
   void tables() {
     group("Tables");
     const OperandRule index = in_out(Width::Word, "INDX");
-    const auto table = [](Role role, std::string_view name) {
-      OperandRule rule = block(role, Width::Word, name);
-      rule.areas = kWords;
-      return rule;
+    // Its length, the number of its entries, and at least one of them; FND is given the number of entries on.
+    const auto table = [](Role role, std::string_view name, std::uint8_t words = 3) {
+      return OperandRule{
+          .name = name, .width = Width::Word, .role = role, .areas = kWords, .pointer = true, .elements = words};
     };
     const auto from_214 = [&](Row r) { add(on(kFrom214, r)); };
     from_214(box("ATT", {in(Width::Word, "DATA"), table(Role::InOut, "TBL")}, add_to_table, "append DATA to the table",
@@ -524,13 +562,16 @@ class Table {
                  "take the first entry out of the table", kTableEmpty));
     from_214(box("LIFO", {table(Role::InOut, "TBL"), with_analog_output(out(Width::Word, "DATA"))}, take_from_table<false>,
                  "take the last entry out of the table", kTableEmpty));
-    const auto find = [&](std::string_view mnemonic, Body body, std::string_view meaning) {
-      from_214(box(mnemonic, {table(Role::In, "SRC"), in(Width::Word, "PATRN"), index}, body, meaning));
+    const OperandRule pattern = in(Width::Word, "PATRN");
+    const auto find = [&](std::string_view mnemonic, const OperandRule& what, Body body, std::string_view meaning) {
+      from_214(box(mnemonic, {table(Role::In, "SRC", 1), what, index}, body, meaning));
     };
-    find("FND=", find_in_table<Relation::Equal>, "number of the next entry equal to PATRN, from INDX on");
-    find("FND<>", find_in_table<Relation::NotEqual>, "number of the next entry not equal to PATRN, from INDX on");
-    find("FND<", find_in_table<Relation::Less>, "number of the next entry less than PATRN, from INDX on");
-    find("FND>", find_in_table<Relation::Greater>, "number of the next entry greater than PATRN, from INDX on");
+    find("FND=", pattern, find_in_table<Relation::Equal>, "number of the next entry equal to PATRN, from INDX on");
+    find("FND<>", pattern, find_in_table<Relation::NotEqual>, "number of the next entry not equal to PATRN, from INDX on");
+    find("FND<", as_signed(pattern), find_in_table<Relation::Less>,
+         "number of the next entry less than PATRN, from INDX on");
+    find("FND>", as_signed(pattern), find_in_table<Relation::Greater>,
+         "number of the next entry greater than PATRN, from INDX on");
   }
 
   void sequence() {
@@ -549,7 +590,7 @@ class Table {
   void peripherals() {
     group("Clock, high-speed counters, pulse outputs");
     constexpr std::uint8_t not_in_interrupt = kMain | kSubroutine;
-    const OperandRule buffer{.name = "T", .areas = kBytes, .pointer = true};
+    const OperandRule buffer = from({.name = "T", .areas = kBytes, .pointer = true}, 8);
     OperandRule written = buffer;
     written.role = Role::Out;
     add(on(kFrom214, box("TODR", {written}, read_clock, "read the clock into the 8 bytes at T")));
@@ -604,6 +645,37 @@ std::string_view nearest_mnemonic(std::string_view mnemonic) {
     return mnemonics;
   }();
   return nearest(mnemonic, kMnemonics);
+}
+
+std::optional<ForeignMnemonic> foreign_mnemonic(std::string_view mnemonic) {
+  // German mnemonics beside those that only have U for A, and what STEP 7 has for the S7-300 and S7-400.
+  static const std::map<std::string_view, std::string_view> kGerman{
+      {"ZV", "CTU"}, {"ZVR", "CTUD"}, {"ZR", "CTD"}, {"SPA", "JMP"}, {"SPB", "JMP"}};
+  static constexpr std::string_view kEnds =
+      "the main program ends with MEND, a subroutine with RET, an interrupt routine with RETI";
+  static const std::map<std::string_view, std::string_view> kStep7{
+      {"L", "the S7-200 has no accumulator to load: MOVB, MOVW, MOVD and MOVR move a value, MOVW IN, OUT"},
+      {"T", "the S7-200 moves a value with MOVB, MOVW, MOVD or MOVR: MOVW IN, OUT"},
+      {"FP", "write EU after the contact"},
+      {"FN", "write ED after the contact"},
+      {"SE", "write TON"},
+      {"SS", "write TONR"},
+      {"SPBN", "write NOT, then JMP"},
+      {"CC", "write CALL, which needs power flow"},
+      {"UC", "write CALL after LD SM0.0"},
+      {"BEB", "write CRET in a subroutine, CRETI in an interrupt routine, END in the main program"},
+      {"BE", kEnds},
+      {"BEA", kEnds}};
+  const auto german = [](std::string_view what, std::string_view meant) {
+    return ForeignMnemonic{std::string(what), std::string("write ").append(meant)};
+  };
+  if (mnemonic == "NETZWERK") return german("a German keyword", "NETWORK");
+  if (const auto found = kGerman.find(mnemonic); found != kGerman.end()) return german("a German mnemonic", found->second);
+  if (const auto found = kStep7.find(mnemonic); found != kStep7.end())
+    return ForeignMnemonic{"a mnemonic of STEP 7 for the S7-300 and S7-400", std::string(found->second)};
+  if (!mnemonic.starts_with('U')) return {};
+  const Instruction* meant = find_instruction(std::string("A").append(mnemonic.substr(1)));  // UN, UW>=, ULD
+  return meant ? std::optional(german("a German mnemonic", meant->mnemonic)) : std::nullopt;
 }
 
 std::string syntax(const Instruction& instruction) {

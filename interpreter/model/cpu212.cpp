@@ -15,6 +15,7 @@ const CpuModel& cpu212() {
       .labels = 64,
       .subroutines = 16,
       .interrupts = 32,
+      .ports = 1,
       .program_words = 512,
       .eeprom_bytes = 200,
       .retentive = {{Area::V, 0, 1024}, {Area::M, 14, 2}, {Area::T, 0, 32}, {Area::C, 0, 64}},

@@ -19,6 +19,7 @@ const CpuModel& cpu214() {
       .labels = 256,
       .subroutines = 64,
       .interrupts = 128,
+      .ports = 1,
       .program_words = 2048,
       .eeprom_bytes = 1024,
       .retentive = {{Area::V, 0, 4096}, {Area::M, 14, 18}, {Area::T, 0, 32}, {Area::T, 64, 32}, {Area::C, 0, 128}},

@@ -16,6 +16,7 @@ const CpuModel& cpu215() {
       .labels = 256,
       .subroutines = 64,
       .interrupts = 128,
+      .ports = 1,
       .program_words = 4096,
       .eeprom_bytes = 5120,
       .retentive = {{Area::V, 0, 5120}, {Area::M, 14, 18}, {Area::T, 0, 32}, {Area::T, 64, 32}, {Area::C, 0, 256}},
@@ -37,6 +38,7 @@ const CpuModel& cpu216() {
     CpuModel model = cpu215();
     model.name = "216";
     model.self = kCpu216;
+    model.ports = 2;
     model.queue_depth = {8, 16, 8};
     model.identification = 0x90;
     return model;

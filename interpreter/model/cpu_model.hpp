@@ -60,6 +60,7 @@ struct CpuModel {
   CpuSet self;
   std::array<std::uint32_t, kAreas> size;         ///< bytes, or elements of T, C, HC and AC; by Area
   std::uint32_t labels, subroutines, interrupts;  ///< how many numbers there are, from 0
+  std::uint32_t ports;
   std::uint32_t program_words;
   std::uint32_t eeprom_bytes;  ///< V memory that the EEPROM can hold, from V0 on
   std::vector<RetentiveRange> retentive;

@@ -8,6 +8,7 @@
 
 #include "interpreter/program/operands.hpp"
 #include "interpreter/program/structure.hpp"
+#include "interpreter/program/warnings.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/stl/text.hpp"
 
@@ -28,14 +29,18 @@ class Checker {
     if (all_known || !unknown_mnemonics_) check_logic_stack(statements_, diagnostics_);
     check_size();
     std::shared_ptr<const Program> program;
-    if (!has_errors(diagnostics_)) program = decode(structure);
+    if (!has_errors(diagnostics_)) {
+      program = decode(structure);
+      for (const WarningInfo& warning : all_warnings())
+        if (warning.find) warning.find(*program, diagnostics_);
+    }
     stl::sort(diagnostics_);
     return {std::move(program), std::move(source_), std::move(diagnostics_)};
   }
 
  private:
-  void error(const stl::Position& at, std::string message, std::string hint = {}) {
-    diagnostics_.push_back({stl::Severity::Error, at, std::move(message), std::move(hint)});
+  void error(const stl::Position& at, std::string message, std::string hint = {}, std::string cause = {}) {
+    diagnostics_.push_back({stl::Severity::Error, at, std::move(message), std::move(hint), std::move(cause)});
   }
 
   void read_statements() {
@@ -57,27 +62,72 @@ class Checker {
 
   const Instruction* known_instruction(const stl::Statement& statement) {
     const Instruction* instruction = find_instruction(statement.mnemonic);
+    const std::string& mnemonic = statement.mnemonic;
+    const std::string cause = fmt::format("mnemonic {}", mnemonic);
     if (!instruction) {
-      const std::string_view nearest = nearest_mnemonic(statement.mnemonic);
-      error(statement.position, fmt::format("unknown instruction '{}'", stl::shortened(statement.mnemonic)),
-            nearest.empty() ? "" : fmt::format("is {} meant?", nearest));
+      unknown_instruction(statement, cause);
       return nullptr;
     }
     if (!(instruction->cpus & model_.self)) {
-      error(statement.position, fmt::format("CPU {} has no {}", model_.name, statement.mnemonic),
-            fmt::format("{} needs {}", statement.mnemonic, to_text(instruction->cpus)));
+      error(statement.position, fmt::format("CPU {} has no {}", model_.name, mnemonic),
+            fmt::format("{} needs {}", mnemonic, to_text(instruction->cpus)), cause);
       return nullptr;
     }
     if (!instruction->body) {
-      error(statement.position, fmt::format("{} is not modelled yet", statement.mnemonic),
-            "`s7200 instructions` lists what is");
+      error(statement.position, fmt::format("{} is not modelled yet", mnemonic), "`s7200 instructions` lists what is",
+            cause);
       return nullptr;
     }
     return instruction;
   }
 
+  void unknown_instruction(const stl::Statement& statement, const std::string& cause) {
+    const std::string shown = stl::shortened(statement.mnemonic);
+    if (const auto foreign = foreign_mnemonic(statement.mnemonic))
+      return error(statement.position, fmt::format("{} is {}", shown, foreign->what), foreign->hint, cause);
+    const std::string_view nearest = nearest_mnemonic(statement.mnemonic);
+    error(statement.position, fmt::format("unknown instruction '{}'", shown),
+          nearest.empty() ? "" : fmt::format("is {} meant?", nearest), cause);
+  }
+
+  /// `1,5` is two operands, and a real number with a German comma where only one of them has a place.
+  bool has_decimal_comma(const Instruction& instruction, const stl::Statement& statement) {
+    const auto& given = statement.operands;
+    if (given.size() != instruction.operands + std::size_t{1}) return false;
+    for (std::size_t i = 0; i < instruction.operands; ++i) {
+      const stl::Position &whole = given[i].position, &fraction = given[i + 1].position;
+      const bool joined = whole.column + whole.length + 1 == fraction.column;
+      if (!instruction.operand[i].real || !joined || !is_number(given[i]) || !is_number(given[i + 1])) continue;
+      const stl::Position both{whole.line, whole.column, whole.length + 1 + fraction.length};
+      std::string text = written_at(both);
+      if (text[whole.length] != ',') continue;
+      std::string hint = text;
+      hint[whole.length] = '.';
+      error(both, fmt::format("{} has a decimal comma", text), fmt::format("write {}", hint));
+      return true;
+    }
+    return false;
+  }
+
+  static bool is_number(const stl::Operand& operand) {
+    return std::holds_alternative<stl::Integer>(operand.value) || std::holds_alternative<stl::Real>(operand.value);
+  }
+
+  /// The characters of the source at a place.
+  std::string written_at(const stl::Position& at) const {
+    std::string text;
+    std::uint32_t column = 0;
+    std::string_view rest = source_.text[at.line - 1];
+    for (const stl::Character c : stl::characters(rest)) {
+      if (++column >= at.column && column < at.column + at.length) text += rest.substr(0, c.bytes);
+      rest.remove_prefix(c.bytes);
+    }
+    return text;
+  }
+
   bool place_operands(const Instruction& instruction, const stl::Statement& statement) {
     const std::size_t given = statement.operands.size();
+    if (has_decimal_comma(instruction, statement)) return false;
     if (given != instruction.operands) {
       const stl::Position at =
           given > instruction.operands ? statement.operands[instruction.operands].position : statement.position;
@@ -100,22 +150,39 @@ class Checker {
     return operands == 0 ? "no operand" : operands == 1 ? "1 operand" : fmt::format("{} operands", operands);
   }
 
-  /// A constant count shows at load whether a block of bytes, words or bits leaves its area.
+  /// Whether a block of bytes, words or bits leaves its area, when it always has the same length or its count is a constant.
   bool blocks_fit(const Instruction& instruction, const stl::Statement& statement) {
     const auto& placed = placed_.back();
-    const auto& last = placed[instruction.operands == 0 ? 0 : instruction.operands - 1u];
-    if (!last.constant || instruction.rules().back().name != "N") return true;
-    const std::int64_t count = std::abs(*last.constant);
+    const auto rules = instruction.rules();
+    const auto rule = std::ranges::find_if(rules, &OperandRule::count);
+    const auto count = rule == rules.end() ? 0 : placed[static_cast<std::size_t>(rule - rules.begin())].constant;
     bool good = true;
-    for (std::size_t i = 0; i + 1 < instruction.operands; ++i) {
-      const OperandRule& rule = instruction.operand[i];
-      if (!rule.block || !placed[i].area || fits(rule, placed[i], count)) continue;
-      error(statement.operands[i].position,
-            fmt::format("{} {} from {} on leave {} memory (range error 0091)", count, unit(rule.width),
-                        stl::to_text(statement.operands[i]), info(*placed[i].area).name));
-      good = false;
+    for (std::size_t i = 0; i < rules.size(); ++i) {
+      if (!placed[i].area || (rules[i].counted != 0 && !count)) continue;
+      const std::int64_t elements = rules[i].reach(std::abs(count.value_or(0)));
+      good &= block_fits(rules[i], placed[i], elements, statement.operands[i]);
     }
     return good;
+  }
+
+  bool block_fits(const OperandRule& rule, const PlacedOperand& placed, std::int64_t elements, const stl::Operand& written) {
+    if (elements <= 1) return true;
+    const AreaInfo& area = info(*placed.area);
+    const auto block = [&] { return fmt::format("{} {} from {} on", elements, unit(rule.width), stl::to_text(written)); };
+    if (!fits(rule, placed, elements)) {
+      error(written.position, fmt::format("{} run past the end of {} memory (range error 0091)", block(), area.name),
+            fmt::format("{} memory is {}", area.name, range_text(model_, *placed.area, rule.width)));
+      return false;
+    }
+    if (*placed.area != Area::SM) return true;
+    const std::int64_t bytes =
+        rule.width == Width::Bit ? (placed.operand.bit + elements + 7) / 8 : elements * bytes_of(rule.width);
+    const SpecialMemory* missing =
+        unmodelled_special_memory(placed.operand.at - area.base, static_cast<std::uint32_t>(bytes));
+    if (!missing) return true;
+    error(written.position, fmt::format("{} reach SMB{} to SMB{} ({}), which are not modelled yet", block(), missing->first,
+                                        missing->last, missing->meaning));
+    return false;
   }
 
   /// HSC0 has mode 0 only.

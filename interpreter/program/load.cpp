@@ -46,24 +46,20 @@ struct OpenFile {
     return false;
   }
 
-  /// Waits for a writer too. -1 and EINTR after a signal: a pipe into which nobody writes can be left with Ctrl-C.
-  ssize_t read_some(std::span<char> piece) const {
-    pollfd written{fd, POLLIN, 0};
-    return poll(&written, 1, -1) < 0 ? -1 : read(fd, piece.data(), piece.size());
-  }
-
   const int fd;
 };
 
-}  // namespace
+/// Waits for a writer too. -1 and EINTR after a signal: a pipe into which nobody writes can be left with Ctrl-C.
+ssize_t read_some(int fd, std::span<char> piece) {
+  pollfd written{fd, POLLIN, 0};
+  return poll(&written, 1, -1) < 0 ? -1 : read(fd, piece.data(), piece.size());
+}
 
-std::optional<std::string> read_file(const std::string& path, std::string& why) {
-  const OpenFile file(path);
-  if (!file.can_be_read(why)) return {};
+std::optional<std::string> read_all(int fd, std::string& why) {
   std::string bytes;
   std::array<char, 65536> piece{};
   for (;;) {
-    const ssize_t count = file.read_some(piece);
+    const ssize_t count = read_some(fd, piece);
     if (count == 0) return bytes;
     if (count < 0) {
       why = std::strerror(errno);
@@ -76,6 +72,20 @@ std::optional<std::string> read_file(const std::string& path, std::string& why) 
     }
   }
 }
+
+}  // namespace
+
+std::optional<std::string> read_file(const std::string& path, std::string& why) {
+  const OpenFile file(path);
+  if (!file.can_be_read(why)) return {};
+  return read_all(file.fd, why);
+}
+
+bool is_standard_input(std::string_view path) {
+  return path == "-" || path == "/dev/stdin" || path == "/dev/fd/0" || path == "/proc/self/fd/0";
+}
+
+std::optional<std::string> read_standard_input(std::string& why) { return read_all(STDIN_FILENO, why); }
 
 std::optional<SourceText> read_source(std::string_view bytes, const std::string& name, std::string& why,
                                       bool force_document) {

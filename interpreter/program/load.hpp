@@ -13,6 +13,13 @@ namespace s7200 {
 /// device: a serial port named where a program is wanted is an error at once.
 std::optional<std::string> read_file(const std::string& path, std::string& why);
 
+/// Whether a path stands for standard input: "-", and the names that Linux has for it. What comes through a pipe can be read
+/// once only.
+bool is_standard_input(std::string_view path);
+
+/// The bytes of standard input, up to its end and with the same limit.
+std::optional<std::string> read_standard_input(std::string& why);
+
 /// STL source of a text in any of the encodings of stl/encoding.hpp; `as_document`: whether it was read as one.
 /// Nothing, and `why`, when the bytes are no text at all.
 struct SourceText {

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/program/warnings.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/stl/text.hpp"
 
@@ -86,8 +88,8 @@ class Placing {
  private:
   using Result = std::optional<PlacedOperand>;
 
-  Result error(std::string message, std::string hint = {}) {
-    diagnostics_.push_back({stl::Severity::Error, written_.position, std::move(message), std::move(hint)});
+  Result error(std::string message, std::string hint = {}, std::string cause = {}) {
+    diagnostics_.push_back({stl::Severity::Error, written_.position, std::move(message), std::move(hint), std::move(cause)});
     return {};
   }
 
@@ -107,12 +109,15 @@ class Placing {
     const auto [what, last] = number_range();
     const std::string range =
         last == 0 ? fmt::format("the only {} is 0", what) : fmt::format("{}s are numbered 0 to {}", what, last);
-    if (!value) return error(fmt::format("{} takes a number here, not {}", instruction_.mnemonic, text()), range);
+    if (!value || value->form == stl::Integer::Form::Ascii)
+      return error(fmt::format("{} takes a number here, not {}", instruction_.mnemonic, text()), range);
     if (rule_.kind == OperandKind::Number && (value->value < 0 || value->value > last))
       return error(fmt::format("{} is 0 to {}, not {}", of_instruction(), last, text()));
     if (value->value < 0 || value->value > last)
-      return error(fmt::format("{} {} does not exist on CPU {}", what, value->value, model_.name), range);
+      return error(fmt::format("{} {} does not exist on CPU {}", what, value->value, model_.name), range,
+                   fmt::format("no such {}", what));
     if (rule_.kind == OperandKind::Event && !event_exists(value->value)) return {};
+    if (rule_.kind == OperandKind::Port && value->value != 0) return error("port 1 is not modelled yet", "use port 0");
     return PlacedOperand{{.at = static_cast<std::uint32_t>(value->value)}, {}, value->value};
   }
 
@@ -129,7 +134,7 @@ class Placing {
       case OperandKind::Counter:
         return {"high-speed counter", model_.size_of(Area::HC) - 1};
       case OperandKind::Port:
-        return {"port", 0};
+        return {"port", model_.ports - 1};
       default:
         return {"number", rule_.max};
     }
@@ -139,9 +144,10 @@ class Placing {
     const InterruptEvent* event = find_event(number);
     if ((event->cpus & model_.self) == 0)
       error(fmt::format("CPU {} has no event {} ({})", model_.name, number, event->cause),
-            fmt::format("it needs {}", to_text(event->cpus)));
+            fmt::format("it needs {}", to_text(event->cpus)), fmt::format("no event {}", number));
     else if (!event->modelled)
-      error(fmt::format("event {} ({}) is not modelled yet: it would never occur", number, event->cause));
+      error(fmt::format("event {} ({}) is not modelled yet: it would never occur", number, event->cause), {},
+            fmt::format("no event {}", number));
     else
       return true;
     return false;
@@ -154,26 +160,56 @@ class Placing {
     if (rule_.real)
       return error(fmt::format("{} is a real number, {} is an integer", of_instruction(), text()),
                    constant.form == stl::Integer::Form::Decimal ? fmt::format("write {}.0", constant.value) : "");
-    const int bits = 8 * width();
-    const std::int64_t lowest = -(std::int64_t{1} << (bits - 1)), highest = (std::int64_t{1} << bits) - 1;
     if (constant.form == stl::Integer::Form::Ascii && constant.characters != width())
-      return error(fmt::format("{} has {} characters, {} is a {}", text(), constant.characters, of_instruction(),
-                               name_of(rule_.width)));
-    if (constant.value < lowest || constant.value > highest)
-      return error(
-          fmt::format("{} does not fit {}, a {}", text(), of_instruction(), name_of(rule_.width)),
-          fmt::format("a {} is {} to {} signed, 0 to {} unsigned", name_of(rule_.width), lowest, -lowest - 1, highest));
-    if (constant.value < rule_.min || constant.value > rule_.max)
-      return error(fmt::format("{} is {} to {}, not {}", of_instruction(), rule_.min, rule_.max, text()));
+      return error(fmt::format("{} has {} character{}, {} is a {}", text(), constant.characters,
+                               constant.characters == 1 ? "" : "s", of_instruction(), name_of(rule_.width)));
+    if (constant.value < lowest() || constant.value > highest())
+      return error(fmt::format("{} does not fit {}, a {}", text(), of_instruction(), name_of(rule_.width)),
+                   fmt::format("a {} is {} to {} signed, 0 to {} unsigned", name_of(rule_.width), lowest(), -lowest() - 1,
+                               highest()));
+    const std::int64_t read = as_read(constant.value);
+    const bool decimal = constant.form == stl::Integer::Form::Decimal;  // other forms show the bits, whatever they mean
+    const std::int64_t meant = decimal ? constant.value : read;
+    if (!rule_.takes(meant)) return out_of_range(meant);
+    if (meant != read) warn_of_other_sign(read);
     PlacedOperand placed = pooled(static_cast<std::uint32_t>(constant.value));
-    placed.constant = constant.value;
+    placed.constant = read;
     return placed;
+  }
+
+  std::int64_t lowest() const { return -(std::int64_t{1} << (8 * width() - 1)); }
+  std::int64_t highest() const { return (std::int64_t{1} << (8 * width())) - 1; }
+
+  /// The number that the instruction makes of the bits of a constant.
+  std::int64_t as_read(std::int64_t value) const {
+    const std::int64_t values = highest() + 1;
+    if (rule_.sign == Sign::Signed && value >= values / 2) return value - values;
+    if (rule_.sign == Sign::Unsigned && value < 0) return value + values;
+    return value;
+  }
+
+  Result out_of_range(std::int64_t meant) {
+    if (meant == 0 && rule_.not_zero)
+      return error(fmt::format("{} cannot be 0 (count error 0092)", of_instruction()),
+                   fmt::format("it is {} to -1 or 1 to {}", rule_.min, rule_.max));
+    return error(fmt::format("{} is {} to {}, not {}", of_instruction(), rule_.min, rule_.max, text()));
+  }
+
+  void warn_of_other_sign(std::int64_t read) {
+    const bool is_signed = rule_.sign == Sign::Signed;
+    diagnostics_.push_back(
+        warn(Warning::OtherSign, written_.position,
+             fmt::format("{} is {} {}: {} is taken as {}", of_instruction(), is_signed ? "a signed" : "an unsigned",
+                         name_of(rule_.width), text(), read),
+             fmt::format("write {} if that is meant; {} {} is {} to {}", read, is_signed ? "a signed" : "an unsigned",
+                         name_of(rule_.width), is_signed ? lowest() : 0, is_signed ? -lowest() - 1 : highest())));
   }
 
   Result real(const stl::Real& constant) {
     if (!rule_.constant) return constant_refused();
     if (!rule_.real)
-      return error(fmt::format("{} is an integer {}, {} is a real number", of_instruction(), name_of(rule_.width), text()));
+      return error(fmt::format("{} is an integer {}, {} is a real number", of_instruction(), name_of(rule_.width), text()),
+                   "an integer is written without a point: 5, -5 or 16#FF");
     return pooled(std::bit_cast<std::uint32_t>(constant.value));
   }
 
@@ -198,7 +234,7 @@ class Placing {
     const auto area = area_named(address.area);
     if (!area) {
       error(fmt::format("CPU {} has no {} memory", model_.name, address.area),
-            address.area == "L" ? "local memory needs CPU 22x" : "");
+            address.area == "L" ? "local memory needs CPU 22x" : "", fmt::format("no {} memory", address.area));
     }
     if (area && !names_width(address, *area)) {
       error(fmt::format("{} says neither byte, word nor double word", text()),
@@ -235,7 +271,8 @@ class Placing {
     if (end <= size && address.bit < 8 && !odd) return true;
     error(odd ? fmt::format("{} is an odd address; analog values lie at even ones", text())
               : fmt::format("{} does not exist on CPU {}", text(), model_.name),
-          fmt::format("{} memory is {}", info(area).name, range_text(model_, area, width)));
+          fmt::format("{} memory is {}", info(area).name, range_text(model_, area, width)),
+          odd ? "" : fmt::format("end of {}", info(area).name));
     return false;
   }
 
@@ -257,12 +294,11 @@ class Placing {
             fmt::format("SM0.0 to SM{}.7 are written by the CPU only", kReadOnlySpecialMemory - 1));
       return false;
     }
-    for (const SpecialMemory& entry : special_memory()) {
-      if (entry.modelled || address.number + width() <= entry.first || address.number > entry.last) continue;
-      error(fmt::format("SMB{} to SMB{} ({}) are not modelled yet", entry.first, entry.last, entry.meaning));
-      return false;
-    }
-    return true;
+    const SpecialMemory* missing = unmodelled_special_memory(address.number, width());
+    if (!missing) return true;
+    error(fmt::format("SMB{} to SMB{} ({}) are not modelled yet", missing->first, missing->last, missing->meaning), {},
+          fmt::format("SMB{}", missing->first));
+    return false;
   }
 
   Operand place(const stl::Address& address, Area area) const {
@@ -306,9 +342,13 @@ class Placing {
         {.at = a.base + std::max(1u, a.element) * operand.pointer.number, .pointer = true, .width = width()}, {}, {}};
   }
 
-  Result name(const stl::Name&) {
-    return error(fmt::format("'{}' is no address", text()),
-                 "symbols and local variables are not read yet: write the address itself");
+  Result name(const stl::Name& name) {
+    const std::string upper = stl::upper_case(name.text);
+    if (rule_.real && (upper == "NAN" || upper == "INF" || upper == "INFINITY"))
+      return error(fmt::format("{} cannot be {}", of_instruction(), text()),
+                   "a real is 0.0, or 1.175495E-38 to 3.402823E+38 or its negative");
+    return error(fmt::format("'{}' is not an address", text()),
+                 "symbols and local variables are not read yet: write the address itself", "symbols");
   }
 
   const Instruction& instruction_;
@@ -363,6 +403,13 @@ std::string address_text(Area area, Width width, std::uint32_t number, std::uint
   if (is_numbered(area)) return fmt::format("{}{}", name, number);
   if (width == Width::Bit) return fmt::format("{}{}.{}", name, number, bit);
   return fmt::format("{}{}{}", name, letter_of(width), number);
+}
+
+const SpecialMemory* unmodelled_special_memory(std::uint32_t first, std::uint32_t bytes) {
+  const auto found = std::ranges::find_if(special_memory(), [&](const SpecialMemory& entry) {
+    return !entry.modelled && first + bytes > entry.first && first <= entry.last;
+  });
+  return found == special_memory().end() ? nullptr : &*found;
 }
 
 std::string range_text(const CpuModel& model, Area area, Width width) {

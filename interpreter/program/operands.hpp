@@ -28,7 +28,7 @@ class ConstantPool {
 struct PlacedOperand {
   Operand operand;
   std::optional<Area> area;              ///< of a direct address
-  std::optional<std::int64_t> constant;  ///< of a constant or a plain number
+  std::optional<std::int64_t> constant;  ///< of a constant, as the instruction reads it, or a plain number
 };
 
 /// Checks `written` against `rule` on `model`; adds a diagnostic and returns nothing when it does not fit.
@@ -44,6 +44,9 @@ std::optional<Width> width_of(const stl::Address& address, Area area);
 
 /// `VB100`, `T33`, `M31.7`: a place in words, of a memory area.
 std::string address_text(Area area, Width width, std::uint32_t number, std::uint8_t bit);
+
+/// The first part of special memory among `bytes` from SMB`first` on that is not modelled; null: all is.
+const SpecialMemory* unmodelled_special_memory(std::uint32_t first, std::uint32_t bytes);
 
 /// `VB0 to VB4095`: what there is of an area on a CPU.
 std::string range_text(const CpuModel& model, Area area, Width width);

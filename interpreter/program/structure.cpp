@@ -7,6 +7,8 @@
 #include <optional>
 #include <set>
 
+#include "interpreter/program/warnings.hpp"
+
 namespace s7200 {
 namespace {
 
@@ -62,11 +64,11 @@ class StructureCheck {
     Routine routine;
   };
 
-  void error(const stl::Position& at, std::string message, std::string hint = {}) {
-    diagnostics_.push_back({stl::Severity::Error, at, std::move(message), std::move(hint)});
+  void error(const stl::Position& at, std::string message, std::string hint = {}, std::string cause = {}) {
+    diagnostics_.push_back({stl::Severity::Error, at, std::move(message), std::move(hint), std::move(cause)});
   }
-  void warning(const stl::Position& at, std::string message, std::string hint = {}) {
-    diagnostics_.push_back({stl::Severity::Warning, at, std::move(message), std::move(hint)});
+  void warning(Warning warning, const stl::Position& at, std::string message, std::string hint = {}) {
+    diagnostics_.push_back(warn(warning, at, std::move(message), std::move(hint)));
   }
   const stl::Position& position(std::uint32_t i) const { return statements_[i].statement->position; }
 
@@ -205,7 +207,8 @@ class StructureCheck {
       if (found == labels_.end()) {
         error(position(jump.statement), fmt::format("label {} is missing (compile rule 0087)", number),
               fmt::format("write LBL {} where JMP is to go, in {}", number,
-                          routine_text(jump.routine.part, jump.routine.number)));
+                          routine_text(jump.routine.part, jump.routine.number)),
+              fmt::format("no LBL {}", number));
         continue;
       }
       used.insert(number);
@@ -223,7 +226,8 @@ class StructureCheck {
       result_.target[jump.statement] = found->second.statement;
     }
     for (const auto& [number, place] : labels_)
-      if (!used.contains(number)) warning(position(place.statement), fmt::format("label {} is never used", number));
+      if (!used.contains(number))
+        warning(Warning::UnusedLabel, position(place.statement), fmt::format("label {} is never used", number));
   }
 
   void begin_loop(std::uint32_t i) {
@@ -284,7 +288,7 @@ class StructureCheck {
       const std::uint32_t number = number_of(statements_[call.statement]);
       if (!subroutines_.contains(number)) {
         error(position(call.statement), fmt::format("subroutine {} is missing (compile rule 0087)", number),
-              fmt::format("the program has no SBR {}", number));
+              fmt::format("the program has no SBR {}", number), fmt::format("no SBR {}", number));
         continue;
       }
       result_.target[call.statement] = result_.subroutine[number];
@@ -297,7 +301,7 @@ class StructureCheck {
       const std::uint32_t number = number_of(statements_[attach.statement]);
       if (!interrupts_.contains(number))
         error(position(attach.statement), fmt::format("interrupt routine {} is missing (compile rule 0087)", number),
-              fmt::format("the program has no INT {}", number));
+              fmt::format("the program has no INT {}", number), fmt::format("no INT {}", number));
       attached_.insert(number);
     }
   }
@@ -306,9 +310,11 @@ class StructureCheck {
     std::set<std::uint32_t> called;
     for (const auto& [routine, numbers] : called_) called.insert(numbers.begin(), numbers.end());
     for (const auto& [number, i] : subroutines_)
-      if (!called.contains(number)) warning(position(i), fmt::format("SBR {} is never called", number));
+      if (!called.contains(number))
+        warning(Warning::UnusedRoutine, position(i), fmt::format("SBR {} is never called", number));
     for (const auto& [number, i] : interrupts_)
-      if (!attached_.contains(number)) warning(position(i), fmt::format("INT {} is never attached to an event", number));
+      if (!attached_.contains(number))
+        warning(Warning::UnusedRoutine, position(i), fmt::format("INT {} is never attached to an event", number));
   }
 
   void warn_of_recursion() {
@@ -321,7 +327,7 @@ class StructureCheck {
           if (reached.insert(callee).second) open.insert(callee);
       }
       if (reached.contains(number))
-        warning(position(i), fmt::format("SBR {} calls itself", number),
+        warning(Warning::Recursion, position(i), fmt::format("SBR {} calls itself", number),
                 fmt::format("the CPU nests {} calls; one more is run-time error 0008", model_.call_depth));
     }
   }
@@ -368,9 +374,9 @@ class StackCheck {
 
   void begin_rung() {
     if (rung_ > 1 && last_ && !reported_)
-      diagnostics_.push_back({stl::Severity::Warning, last_->position,
-                              fmt::format("the rung leaves {} values on the logic stack; 1 is usual", rung_),
-                              "an ALD, OLD or LPP may be missing"});
+      diagnostics_.push_back(warn(Warning::LogicStack, last_->position,
+                                  fmt::format("the rung leaves {} values on the logic stack; 1 is usual", rung_),
+                                  "an ALD, OLD or LPP may be missing"));
     rung_ = 0;
     reported_ = false;
     last_ = nullptr;

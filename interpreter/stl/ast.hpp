@@ -96,7 +96,7 @@ using Line = std::variant<Statement, NetworkHead, CommentLine, BlankLine>;
 struct Source {
   std::string name;               ///< for messages: the path, or what stands for it
   std::vector<std::string> text;  ///< the lines as read, UTF-8, without line ends: for messages and listings
-  std::vector<Line> lines;        ///< what they mean, in order; a line with an error is left out
+  std::vector<Line> lines;        ///< what they mean, in order; a line that cannot be read is left out
 };
 
 /// Equal but for comments, blank lines, positions and notation (K4 and 4, 16#FF and 255 in the same operand).

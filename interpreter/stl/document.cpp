@@ -270,6 +270,7 @@ class DocumentReader {
     for (const Diagnostic& diagnostic : parsed_.diagnostics) {
       Reading& reading = at(diagnostic.position.line);
       if (reading.trouble == nullptr) reading.trouble = &diagnostic;
+      reading.well_formed = false;
     }
   }
 
@@ -408,6 +409,8 @@ class DocumentReader {
       diagnostic.message = "damaged STL line: an unreadable character stands in it";
     } else if (!reading.candidate) {
       diagnostic.message = fmt::format("damaged STL line: {} is not an instruction", reading.mnemonic);
+    } else if (reading.trouble != nullptr && !reading.trouble->cause.empty()) {
+      diagnostic = *reading.trouble;  // not damage, but another way of writing
     } else if (reading.trouble != nullptr) {
       diagnostic.position = reading.trouble->position;
       diagnostic.message = fmt::format("damaged STL line: {}", reading.trouble->message);

@@ -8,6 +8,7 @@
 #include <boost/spirit/home/x3.hpp>
 #include <boost/spirit/home/x3/support/ast/variant.hpp>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <system_error>
 
@@ -369,7 +370,7 @@ class LineReader {
   bool read_block_line(const Range& keyword) {
     const std::string name = upper_case(view(keyword));
     report(position(keyword), fmt::format("{} belongs to a Micro/WIN 32 block export, which is not read yet", name),
-           "write one listing: main program, MEND, then SBR n ... RET and INT n ... RETI");
+           "write one listing: main program, MEND, then SBR n ... RET and INT n ... RETI", "block export");
     return name.starts_with("VAR");
   }
 
@@ -398,7 +399,7 @@ class LineReader {
     for (const RawOperand& operand : raw.operands) {
       if (auto value = value_of(operand)) statement.operands.push_back({std::move(*value), position(operand.text)});
     }
-    if (errors_ > 0) return;
+    if (statement.operands.size() < raw.operands.size()) return;
     if (statement.mnemonic == "NETWORK") {
       add_network(statement);
     } else {
@@ -456,9 +457,10 @@ class LineReader {
   std::optional<OperandValue> real_value(const RawWord& word, const Range& text) {
     const std::string_view digits = without_plus(view(word.text));
     float value = 0;
-    if (std::from_chars(digits.data(), digits.data() + digits.size(), value).ec != std::errc{}) {
+    const bool fits = std::from_chars(digits.data(), digits.data() + digits.size(), value).ec == std::errc{};
+    if (!fits || std::fpclassify(value) == FP_SUBNORMAL) {
       return refuse(text, fmt::format("{} does not fit in a 32-bit real", shown(text)),
-                    "a real is 1.175495E-38 to 3.402823E+38");
+                    "a real is 0.0, or 1.175495E-38 to 3.402823E+38 or its negative");
     }
     return Real{value};
   }
@@ -506,7 +508,7 @@ class LineReader {
 
   std::optional<OperandValue> address_value(const RawAddress& raw, const Range& text) {
     const AddressLetters& letters = raw.letters;
-    if (letters.german) return refuse_german(raw, text);
+    if (letters.german) report_german(raw, text);
     const auto number = number_of<std::uint32_t>(view(raw.number));
     if (!number) return refuse(raw.number, "the number of this address is too large", "");
     Address address{letters.area, letters.size, *number, 0};
@@ -528,11 +530,12 @@ class LineReader {
     return address;
   }
 
-  std::optional<OperandValue> refuse_german(const RawAddress& raw, const Range& text) {
+  /// It is read on as the international one, so that what else is wrong shows in the same run.
+  void report_german(const RawAddress& raw, const Range& text) {
     const std::string_view mark(&raw.mark, raw.mark == 0 ? 0 : 1);
     const std::string_view rest(raw.number.begin(), static_cast<std::size_t>(text.end() - raw.number.begin()));
-    return refuse(text, fmt::format("{} is a German address", shown(text)),
-                  fmt::format("write {}{}{}{}", mark, raw.letters.area, size_letter(raw.letters.size), rest));
+    report(position(text), fmt::format("{} is a German address", shown(text)),
+           fmt::format("write {}{}{}{}", mark, raw.letters.area, size_letter(raw.letters.size), rest), "German addresses");
   }
 
   static std::string shown(const Range& text) { return shortened(view(text)); }
@@ -555,9 +558,9 @@ class LineReader {
   // A line of nothing but wrong operands must not drown the other messages.
   static constexpr std::size_t kMostErrorsOfALine = 10;
 
-  void report(Position where, std::string message, std::string hint) {
+  void report(Position where, std::string message, std::string hint, std::string cause = {}) {
     if (++errors_ > kMostErrorsOfALine) return;
-    result_.diagnostics.push_back({Severity::Error, where, std::move(message), std::move(hint)});
+    result_.diagnostics.push_back({Severity::Error, where, std::move(message), std::move(hint), std::move(cause)});
   }
 
   void report_uncounted() {

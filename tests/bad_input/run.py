@@ -6,6 +6,7 @@ Programs say in comments what is expected of them:
     // expect error: LINE:COLUMN message      `s7200 check` reports this; all reports are to be named
     // expect warning: LINE:COLUMN message
     // expect hint: text                      of the report named before
+    // expect also: text                      that it has the same cause as others, if it has
     // with: run --for 100ms                  then run it like this instead (the program's name is added)
     // expect runtime: 0006 line N            non-fatal run-time error; all are to be named
     // expect fatal: 0003 line N              fatal error
@@ -29,7 +30,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 SECONDS = 60  # of processor time: a loaded machine makes nothing hang
 SLAVE = HERE.parent.parent / "stl_programs/modbus_slave.stl"
 REPORT = re.compile(r"(.*?):(\d+):(\d+): (error|warning): (.*)")
-EXPECT = re.compile(r"//\s*(expect (?:error|warning|hint|runtime|fatal|output|exit)|with):\s*(.*)")
+EXPECT = re.compile(r"//\s*(expect (?:error|warning|hint|also|runtime|fatal|output|exit)|with):\s*(.*)")
 RUN_TIME = re.compile(r"(run-time|FATAL) error ([0-9A-F]{4}), .*\n\s+(?:.*:(\d+): .*|(between two scans))")
 
 
@@ -55,7 +56,7 @@ def run(command, stdin=subprocess.DEVNULL):
 
 
 def reports(text, path):
-    """What the check reported: [(severity, line, column, message, hint)]; each with its source line and caret."""
+    """What the check reported: [(severity, line, column, message, hint, also)]; each with its source line and caret."""
     source = path.read_text(encoding="utf-8", errors="replace").split("\n")
     lines = text.split("\n")
     found = []
@@ -73,8 +74,10 @@ def reports(text, path):
                 raise Failure(f"caret and place differ:\n{line}\n{shown}\n{carets}")
         elif "^" not in carets:
             raise Failure(f"no caret below: {line}")
-        hint = lines[i + 3][6:] if lines[i + 3].startswith("hint: ") else ""
-        found.append((severity, int(row), int(column), message, hint))
+        below = lines[i + 3:i + 5]
+        hint = below.pop(0)[6:] if below[0].startswith("hint: ") else ""
+        also = below[0][6:] if below[0].startswith("also: ") else ""
+        found.append((severity, int(row), int(column), message, hint, also))
     return found
 
 
@@ -88,9 +91,11 @@ def expectations(path):
         what, text = match.group(1).removeprefix("expect "), match.group(2).rstrip()
         if what in ("error", "warning"):
             place, message = text.split(" ", 1)
-            expected.append((what, *map(int, place.split(":")), message, None))
+            expected.append((what, *map(int, place.split(":")), message, None, ""))
         elif what == "hint":
-            expected[-1] = (*expected[-1][:4], text)
+            expected[-1] = (*expected[-1][:4], text, "")
+        elif what == "also":
+            expected[-1] = (*expected[-1][:5], text)
         elif what in ("runtime", "fatal"):
             number, place = text.split(" ", 1)
             run_time.append(("FATAL" if what == "fatal" else "run-time", number, place.removeprefix("line ")))
@@ -107,12 +112,12 @@ def expectations(path):
 
 
 def same(expected, found):
-    return len(expected) == len(found) and all(e[:4] == f[:4] and e[4] in (None, f[4]) for e, f in zip(expected, found))
+    return len(expected) == len(found) and all(e[:4] == f[:4] and e[4] in (None, f[4]) and e[5] == f[5] for e, f in zip(expected, found))
 
 
 def show(rows):
-    return "".join(f"    {kind}: {line}:{column} {message}\n" + (f"    hint: {hint}\n" if hint else "")
-                   for kind, line, column, message, hint in rows)
+    return "".join(f"    {kind}: {line}:{column} {message}\n" + (f"    hint: {hint}\n" if hint else "") +
+                   (f"    also: {also}\n" if also else "") for kind, line, column, message, hint, also in rows)
 
 
 def check_program(s7200, path):

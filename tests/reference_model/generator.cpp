@@ -212,9 +212,9 @@ std::string Generator::number(const OperandRule& rule) {
 
 std::string Generator::constant(const OperandRule& rule) {
   if (rule.real) {
-    static const std::vector<std::string> kReal{
-        "0.0",     "-0.0",     "1.0",     "-1.0",    "0.5",          "2.5",          "-2.5",          "100.0",
-        "3.4E+38", "-3.4E+38", "1.0E-38", "1.0E-44", "2147483520.0", "2147483648.0", "-2147483648.0", "16777217.0"};
+    static const std::vector<std::string> kReal{"0.0",     "-0.0",         "1.0",          "-1.0",          "0.5",
+                                                "2.5",     "-2.5",         "100.0",        "3.4E+38",       "-3.4E+38",
+                                                "1.2E-38", "2147483520.0", "2147483648.0", "-2147483648.0", "16777217.0"};
     return one_of(kReal);
   }
   const std::size_t width = bytes_of(rule.width);
@@ -223,9 +223,10 @@ std::string Generator::constant(const OperandRule& rule) {
     const std::int64_t plain = bits;
     const std::int64_t wrap = std::int64_t{1} << (8 * width);
     const std::int64_t value = plain >= wrap / 2 && chance(50) ? plain - wrap : plain;
-    if (value >= rule.min && value <= rule.max) return std::to_string(value);
-    if (rule.min > std::numeric_limits<std::int32_t>::min() && rule.max - rule.min < 300)
-      return std::to_string(rule.min + static_cast<std::int64_t>(below(static_cast<std::size_t>(rule.max - rule.min) + 1)));
+    if (rule.takes(value)) return std::to_string(value);
+    if (rule.min == std::numeric_limits<std::int64_t>::min() || rule.max - rule.min >= 300) continue;
+    const auto other = rule.min + static_cast<std::int64_t>(below(static_cast<std::size_t>(rule.max - rule.min) + 1));
+    if (rule.takes(other)) return std::to_string(other);
   }
 }
 
@@ -277,7 +278,7 @@ std::string Generator::special_memory(const OperandRule& rule) {
     case Width::Byte: {
       static const std::vector<std::uint32_t> kReadable{0, 0, 1, 1, 1, 2, 3, 4, 4, 6, 22, 23, 30, 34, 35},
           kWritable{30, 34, 35}, kBlocks{34, 35};  // a block from SMB30 on could ask for a save to EEPROM in SMB31
-      return address("SM", rule.width, one_of(read_only ? kReadable : rule.block ? kBlocks : kWritable));
+      return address("SM", rule.width, one_of(read_only ? kReadable : rule.counted != 0 ? kBlocks : kWritable));
     }
     case Width::Word:
       return read_only ? "SMW" + one_of(std::vector<std::string>{"0", "1", "3", "22", "24", "26", "34"}) : "SMW34";
@@ -294,7 +295,7 @@ std::uint32_t Generator::place_in_v(const OperandRule& rule) {
   if (rule.name == "TBL" && chance(80)) return kTables[below(2)];
   if (rule.name == "SRC" && chance(80)) return kTables[below(2)] + 2;
   if (rule.real && chance(80)) return kReals + 4 * static_cast<std::uint32_t>(below(kRealsSize / 4));
-  if (rule.block && rule.width == Width::Byte && chance(50)) return in(kDigits, kDigitsSize);
+  if (rule.counted != 0 && rule.width == Width::Byte && chance(50)) return in(kDigits, kDigitsSize);
   if (chance(5)) return in(kEnd - kEndSize, kEndSize);
   if (chance(3)) return in(kPointers, 4 * kPointerCount);
   if (chance(5)) return in(kTables[0], 24);

@@ -85,7 +85,7 @@ TEST(Clock, WhatIsNoBcdIs0007AndLeavesTheClockAlone) {
 }
 
 TEST(Clock, ABufferThatLeavesItsMemoryIs0091) {
-  Plc plc("LD SM0.1\nTODR VB4089\nTODW VB4089\nMEND\n");
+  Plc plc("LD SM0.1\nMOVD &VB4089, AC1\nTODR *AC1\nTODW *AC1\nMEND\n");
   plc.run_scans(1);
   EXPECT_EQ(plc.records.errors(), (Ints{0x91, 0x91}));
 }

@@ -198,7 +198,7 @@ TEST(CpuModels, BmdMovesDoubleWordsAsIfTheyHadBeenCopiedFirst) {
   EXPECT_EQ(plc.records.errors(), (Ints{0x92, 0x91, 0x91})) << "no double word; beyond the end";
   EXPECT_EQ(plc.value("VD5112"), 0);
   EXPECT_EQ(refusal("LD SM0.0\nBMD VD5112, VD0, 3\nMEND\n", cpu215()),
-            "3 double words from VD5112 on leave V memory (range error 0091)");
+            "3 double words from VD5112 on run past the end of V memory (range error 0091)");
 }
 
 TEST(CpuModels, BmdDoesNothingWithoutPowerFlow) {
@@ -308,7 +308,7 @@ TEST(CpuModels, WhatLiesBehindTheLastAddressOrNumberIsRefused) {
       {"LBL {}\nMEND\n", "{}", {63, 255, 255, 255}},
       {"MEND\nSBR {}\nRET\n", "{}", {15, 63, 63, 63}},
       {"MEND\nINT {}\nRETI\n", "{}", {31, 127, 127, 127}},
-      {"LD SM0.0\nXMT VB0, {}\nMEND\n", "{}", {0, 0, 0, 0}},
+      {"LD SM0.0\nXMT VB0, {}\nMEND\n", "{}", {0, 0, 0, 1}},
   };
   for (const Range& range : ranges)
     for (std::size_t cpu = 0; cpu < 4; ++cpu) {

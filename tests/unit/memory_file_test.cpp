@@ -36,7 +36,7 @@ TEST(RetentiveMemoryTest, RetentiveRangesKeepTheirValuesAllElseIsZero) {
 }
 
 TEST(RetentiveMemoryTest, BitsOfTimersAndCountersAreNotKept) {
-  const auto counted = "LD I0.0\nLD SM0.2\nCTU C5, 1\nLD I0.7\nTONR T0, 0\nMEND\n";
+  const auto counted = "LD I0.0\nLD SM0.2\nCTU C5, 1\nLD I0.7\nTONR T0, 1\nMEND\n";
   Plc before(counted);
   before.run_scans(1);
   before.input("I0.0", true);

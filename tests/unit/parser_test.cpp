@@ -138,12 +138,22 @@ TEST(Parser, KeepsSymbolsAsNames) {
 }
 
 TEST(Parser, RefusesGermanAddressesWithTheInternationalOne) {
-  EXPECT_EQ(error("LD E0.1").hint, "write I0.1");
-  EXPECT_EQ(error("MOVB *AB5, VB0").hint, "write *QB5");
-  EXPECT_EQ(error("MOVW AEW4, VW0").hint, "write AIW4");
-  EXPECT_EQ(error("LD Z4").hint, "write C4");
-  EXPECT_EQ(error("MOVD HZ0, VD0").hint, "write HC0");
+  const auto hint = [](const char* line) { return parse(line, "x").diagnostics.at(0).hint; };
+  EXPECT_EQ(hint("LD E0.1"), "write I0.1");
+  EXPECT_EQ(hint("MOVB *AB5, VB0"), "write *QB5");
+  EXPECT_EQ(hint("MOVW AEW4, VW0"), "write AIW4");
+  EXPECT_EQ(hint("LD Z4"), "write C4");
+  EXPECT_EQ(hint("MOVD HZ0, VD0"), "write HC0");
   EXPECT_EQ(statement("A I0.0").mnemonic, "A");
+}
+
+TEST(Parser, ReadsGermanAddressesOnSoThatTheRestOfTheLineIsCheckedToo) {
+  const ParseResult result = parse("UN E0.1\nMOVW AEW4, VB0.9\n", "x");
+  ASSERT_EQ(result.diagnostics.size(), 3U);
+  EXPECT_EQ(result.diagnostics[0].cause, result.diagnostics[1].cause);
+  EXPECT_EQ(result.diagnostics[2].message, "a byte has the bits 0 to 7");
+  ASSERT_EQ(result.source.lines.size(), 1U);
+  EXPECT_EQ(std::get<Statement>(result.source.lines[0]).operands[0].value, OperandValue(Address{"I", Size::Bit, 0, 1}));
 }
 
 TEST(Parser, PointsAtTheErrorInCharacters) {
@@ -171,6 +181,7 @@ TEST(Parser, RefusesWhatNoStatementHas) {
   EXPECT_EQ(error("X '$q'").message, "'$' cannot stand in an ASCII constant");
   EXPECT_EQ(error("X 'ä'").message, "the character U+00E4 cannot stand in an ASCII constant");
   EXPECT_EQ(error("X 1E99").message, "1E99 does not fit in a 32-bit real");
+  EXPECT_EQ(error("X 1E-40").message, "1E-40 does not fit in a 32-bit real");
   EXPECT_EQ(error("X VB4294967296").message, "the number of this address is too large");
   EXPECT_EQ(error("LD I0.0 ! x").message, "unexpected '!'");
   EXPECT_EQ(error("LD\u00A0I0.0").message, "unexpected the character U+00A0");

@@ -270,7 +270,7 @@ class Cases {
       }
     }
     for (std::size_t i = 0; i < last; ++i)
-      if (instruction_.operand[i].block) over_the_end(i, last);
+      if (instruction_.operand[i].counted != 0) over_the_end(i, last);
   }
 
   void over_the_end(std::size_t i, std::size_t last) {

@@ -1,0 +1,380 @@
+#include "interpreter/program/lint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "interpreter/program/operands.hpp"
+#include "interpreter/program/warnings.hpp"
+#include "interpreter/stl/printer.hpp"
+
+namespace s7200 {
+namespace {
+
+const stl::Position& place(const Program& program, std::uint32_t op) { return program.statement(op).position; }
+std::uint32_t line(const Program& program, std::uint32_t op) { return place(program, op).line; }
+std::string written(const Program& program, std::uint32_t op, std::size_t operand) {
+  return stl::to_text(program.statement(op).operands[operand]);
+}
+
+// --- which way the program goes ---
+
+/// The ways through the routines of a program.
+class Flow {
+ public:
+  explicit Flow(const Program& program) : program_(program), count_(static_cast<std::uint32_t>(program.ops.size())) {
+    bool on = false, in_segment = false;  // no power flow is certain in a segment
+    std::uint32_t head = 0;
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      if (is_head(i)) head = i;
+      if (structure(i) == Structure::SegmentBegin) in_segment = true;
+      if (structure(i) == Structure::SegmentEnd) in_segment = false;
+      head_.push_back(head);
+      on_.push_back(on);
+      on = !in_segment && on_after(i, on);
+      ways_.push_back(ways_from(i));
+    }
+    comes_from_.resize(count_);
+    for (std::uint32_t i = 0; i < count_; ++i)
+      for (const std::uint32_t next : ways_[i].to) comes_from_[next].push_back(i);
+  }
+
+  /// Of the routine of an op; 0 for the main program.
+  std::uint32_t head(std::uint32_t op) const { return head_[op]; }
+  bool in_interrupt(std::uint32_t op) const { return structure(head_[op]) == Structure::InterruptHead; }
+
+  /// Whether both are of one routine and it never ends between the first and the second.
+  bool leads_to(std::uint32_t first, std::uint32_t second) const {
+    if (head_[first] != head_[second] || ways_[first].end) return false;
+    const std::vector<bool> around = ways_around(second);
+    return std::ranges::none_of(ways_[first].to, [&](std::uint32_t next) { return around[next]; });
+  }
+
+  /// What may be executed on the way from one to the other.
+  std::vector<std::uint32_t> between(std::uint32_t first, std::uint32_t second) const {
+    std::vector<bool> seen(count_);
+    std::vector<std::uint32_t> found, open = ways_[first].to;
+    while (!open.empty()) {
+      const std::uint32_t op = open.back();
+      open.pop_back();
+      if (op == second || seen[op]) continue;
+      seen[op] = true;
+      found.push_back(op);
+      open.insert(open.end(), ways_[op].to.begin(), ways_[op].to.end());
+    }
+    return found;
+  }
+
+  /// Whether no scan leaves it out.
+  bool in_every_scan(std::uint32_t op) { return !ways_around(op)[head_[op]] && routine_in_every_scan(head_[op]); }
+
+ private:
+  struct Ways {
+    std::vector<std::uint32_t> to;
+    bool end = false;  // of the routine or the scan
+  };
+
+  Structure structure(std::uint32_t op) const { return program_.ops[op].instruction->structure; }
+  bool is_head(std::uint32_t op) const {
+    return structure(op) == Structure::SubroutineHead || structure(op) == Structure::InterruptHead;
+  }
+
+  /// Whether the top of the logic stack is known to be 1 after an instruction.
+  bool on_after(std::uint32_t i, bool before) const {
+    const Op& op = program_.ops[i];
+    const Instruction& instruction = *op.instruction;
+    if (is_head(i)) return true;
+    if (instruction.effect == Effect::LoadsBit) return op[0].at == image::kSM && op[0].bit == 0;
+    if (instruction.structure == Structure::Jump) return false;
+    return before &&
+           (instruction.needs_power_flow || instruction.effect == Effect::Coil || instruction.structure == Structure::Label);
+  }
+
+  Ways ways_from(std::uint32_t i) const {
+    const Op& op = program_.ops[i];
+    switch (op.instruction->structure) {
+      case Structure::MainEnd:
+      case Structure::SubroutineEnd:
+      case Structure::InterruptEnd:
+        return {{}, true};
+      case Structure::Jump:
+        return on_[i] ? Ways{{op.target}, false} : Ways{{i + 1, op.target}, false};
+      case Structure::For:
+      case Structure::Next:
+        return {{i + 1, op.target}, false};
+      default:
+        break;
+    }
+    if (op.instruction->effect != Effect::ConditionalEnd) return {{i + 1}, false};
+    return on_[i] ? Ways{{}, true} : Ways{{i + 1}, true};
+  }
+
+  /// Where the routine may end without executing `op` any more.
+  std::vector<bool> ways_around(std::uint32_t op) const {
+    std::vector<bool> around(count_);
+    std::vector<std::uint32_t> open;
+    for (std::uint32_t i = 0; i < count_; ++i)
+      if (ways_[i].end) open.push_back(i);
+    while (!open.empty()) {
+      const std::uint32_t i = open.back();
+      open.pop_back();
+      if (i == op || around[i]) continue;
+      around[i] = true;
+      open.insert(open.end(), comes_from_[i].begin(), comes_from_[i].end());
+    }
+    return around;
+  }
+
+  bool routine_in_every_scan(std::uint32_t head) {
+    if (head == 0) return true;
+    const auto [known, added] = called_.try_emplace(head, false);  // until it is known; recursion finds this
+    if (!added) return known->second;
+    for (std::uint32_t i = 0; i < count_ && !called_[head]; ++i)
+      if (structure(i) == Structure::Call && program_.ops[i].target == head && on_[i]) called_[head] = in_every_scan(i);
+    return called_[head];
+  }
+
+  const Program& program_;
+  std::uint32_t count_;
+  std::vector<std::uint32_t> head_;
+  std::vector<bool> on_;  // the top of the stack is known to be 1 in front of each op
+  std::vector<Ways> ways_;
+  std::vector<std::vector<std::uint32_t>> comes_from_;
+  std::map<std::uint32_t, bool> called_;  // by routine: whether every scan does
+};
+
+/// The instructions seen so far that work on the same coil, timer or counter.
+struct Earlier {
+  std::map<std::uint32_t, std::uint32_t> last;  ///< of each routine
+  std::optional<std::uint32_t> in_every_scan;   ///< the first that no scan leaves out
+
+  void add(Flow& flow, std::uint32_t op) {
+    last[flow.head(op)] = op;
+    if (!in_every_scan && flow.in_every_scan(op)) in_every_scan = op;
+  }
+  /// That of the same routine that `op` always comes after.
+  std::optional<std::uint32_t> before(const Flow& flow, std::uint32_t op) const {
+    const auto found = last.find(flow.head(op));
+    if (found == last.end() || !flow.leads_to(found->second, op)) return {};
+    return found->second;
+  }
+  /// That which every scan executes beside `op`.
+  std::optional<std::uint32_t> beside(Flow& flow, std::uint32_t op) const {
+    return in_every_scan && flow.in_every_scan(op) ? in_every_scan : std::nullopt;
+  }
+};
+
+// --- which memory an instruction takes part in ---
+
+/// Bits of the image, numbered through.
+struct Bits {
+  std::uint64_t first = 0, count = 1;
+  bool overlap(const Bits& other) const { return first < other.first + other.count && other.first < first + count; }
+};
+
+constexpr std::int64_t kMostElements = 255;
+
+/// What the operand that counts says, if it is a constant.
+std::int64_t count_of(const Program& program, const Op& op) {
+  const auto rules = op.instruction->rules();
+  const auto rule = std::ranges::find_if(rules, &OperandRule::count);
+  if (rule == rules.end()) return 1;
+  const Operand& count = op[static_cast<std::size_t>(rule - rules.begin())];
+  if (count.pointer || count.at < image::kConstants) return kMostElements;
+  const std::uint8_t value = program.constants[count.at - image::kConstants];
+  return rule->sign == Sign::Signed ? std::abs(static_cast<std::int8_t>(value)) : value;
+}
+
+Bits bits_of(const Program& program, const Op& op, std::size_t operand) {
+  const OperandRule& rule = op.instruction->operand[operand];
+  const auto reach = static_cast<std::uint64_t>(rule.reach(count_of(program, op)));
+  if (rule.width == Width::Bit) return {op[operand].at * 8u + op[operand].bit, reach};
+  return {op[operand].at * 8u, reach * 8 * bytes_of(rule.width)};
+}
+
+bool pointers_reach(const Program& program, const Bits& bits) {
+  return std::ranges::any_of(program.reach, [&](const Reach& reach) {
+    return bits.overlap({reach.base * 8u, reach.size * 8u});
+  });
+}
+
+/// Whether some operand, or some that is written, may lie there.
+bool touches(const Program& program, const Op& op, const Bits& bits, bool only_written) {
+  for (std::size_t i = 0; i < op.instruction->operands; ++i) {
+    const OperandRule& rule = op.instruction->operand[i];
+    if (rule.kind != OperandKind::Memory || (only_written && rule.role == Role::In)) continue;
+    if (op[i].pointer ? pointers_reach(program, bits) : bits.overlap(bits_of(program, op, i))) return true;
+  }
+  return false;
+}
+
+std::vector<std::uint32_t> ops_with(const Program& program, Effect effect) {
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t i = 0; i < program.ops.size(); ++i)
+    if (program.ops[i].instruction->effect == effect) found.push_back(i);
+  return found;
+}
+
+std::vector<std::uint32_t> attachments(const Program& program) {
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t i = 0; i < program.ops.size(); ++i)
+    if (program.ops[i].instruction->structure == Structure::Attach) found.push_back(i);
+  return found;
+}
+
+// --- coils ---
+
+constexpr Bits kOutputBits{image::kQ * 8u, image::kPointBytes * 8u};
+
+/// Whether what a coil writes may be of use to anything before the other coil writes the same bit again.
+bool used_between(const Program& program, const Flow& flow, std::uint32_t coil, std::uint32_t again) {
+  const Bits bit = bits_of(program, program.ops[coil], 0);
+  const auto uses = [&](std::uint32_t i) {
+    const Op& op = program.ops[i];
+    return op.instruction->structure == Structure::Call ||
+           (op.instruction->effect != Effect::Coil && touches(program, op, bit, false));
+  };
+  if (std::ranges::any_of(flow.between(coil, again), uses)) return true;
+  for (std::uint32_t i = 0; i < program.ops.size(); ++i)
+    if (flow.in_interrupt(i) && uses(i)) return true;
+  return false;
+}
+
+// --- timers and counters ---
+
+/// Two instructions of one timer or counter, of which no scan executes one without the other.
+void find_executed_twice(const Program& program, Area area, Warning warning, std::string_view trouble,
+                         stl::Diagnostics& diagnostics) {
+  Flow flow(program);
+  std::map<std::uint32_t, Earlier> executed;
+  for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
+    const Op& op = program.ops[i];
+    if (op.instruction->hidden != Hidden::Number || op.instruction->operand[0].areas != set_of(area)) continue;
+    Earlier& earlier = executed[op[2].at];
+    auto other = earlier.before(flow, i);
+    if (!other) other = earlier.beside(flow, i);
+    if (other)
+      diagnostics.push_back(
+          warn(warning, place(program, i),
+               fmt::format("{} is in line {} already: {}", written(program, i, 0), line(program, *other), trouble),
+               "give each its own number", fmt::format("number {}", written(program, i, 0))));
+    earlier.add(flow, i);
+  }
+}
+
+// --- steps ---
+
+constexpr Bits kStepBits{image::kS * 8u, 32 * 8u};
+
+std::string step_text(std::uint64_t bit) {
+  const auto number = static_cast<std::uint32_t>(bit - kStepBits.first);
+  return address_text(Area::S, Width::Bit, number / 8, static_cast<std::uint8_t>(number % 8));
+}
+
+/// The S bits that LSCR, contacts and other instructions read.
+std::set<std::uint64_t> loaded_steps(const Program& program) {
+  std::set<std::uint64_t> loaded;
+  for (const Op& op : program.ops)
+    for (std::size_t i = 0; i < op.instruction->operands; ++i) {
+      const OperandRule& rule = op.instruction->operand[i];
+      if (rule.kind != OperandKind::Memory || rule.role == Role::Out || op[i].pointer) continue;
+      const Bits bits = bits_of(program, op, i);
+      if (!bits.overlap(kStepBits)) continue;
+      for (std::uint64_t bit = bits.first; bit < bits.first + bits.count; ++bit) loaded.insert(bit);
+    }
+  return loaded;
+}
+
+/// `&SB0`: whoever goes through S memory with a pointer may read all of it.
+bool points_at_steps(const Program& program) {
+  for (const stl::Statement& statement : program.statements)
+    for (const stl::Operand& operand : statement.operands)
+      if (const auto* address = std::get_if<stl::AddressOf>(&operand.value); address && address->target.area == "S")
+        return true;
+  return false;
+}
+
+}  // namespace
+
+void find_double_coils(const Program& program, stl::Diagnostics& diagnostics) {
+  Flow flow(program);
+  std::map<std::uint64_t, Earlier> coils;
+  for (const std::uint32_t coil : ops_with(program, Effect::Coil)) {
+    const Bits bit = bits_of(program, program.ops[coil], 0);
+    const bool output = bit.overlap(kOutputBits);
+    Earlier& earlier = coils[bit.first];
+    auto other = earlier.before(flow, coil);
+    if (other && !output && used_between(program, flow, *other, coil)) other.reset();
+    if (!other && output) other = earlier.beside(flow, coil);
+    if (other)
+      diagnostics.push_back(warn(Warning::DoubleCoil, place(program, coil),
+                                 fmt::format("{} is a coil in line {} already, and the one that is executed last decides",
+                                             written(program, coil, 0), line(program, *other)),
+                                 "join both conditions in one rung, or use S and R",
+                                 fmt::format("coil {}", written(program, coil, 0))));
+    earlier.add(flow, coil);
+  }
+}
+
+void find_double_timers(const Program& program, stl::Diagnostics& diagnostics) {
+  find_executed_twice(program, Area::T, Warning::DoubleTimer, "executed twice in a scan it does not keep its time",
+                      diagnostics);
+}
+
+void find_double_counters(const Program& program, stl::Diagnostics& diagnostics) {
+  find_executed_twice(program, Area::C, Warning::DoubleCounter, "both count and reset the same value", diagnostics);
+}
+
+void find_missing_eni(const Program& program, stl::Diagnostics& diagnostics) {
+  if (!ops_with(program, Effect::EnablesInterrupts).empty()) return;
+  for (const std::uint32_t attach : attachments(program))
+    diagnostics.push_back(warn(Warning::NoEni, place(program, attach),
+                               fmt::format("INT {} is never executed: the program has no ENI", program.ops[attach][0].at),
+                               "execute ENI once, after ATCH", "no ENI"));
+}
+
+void find_missing_freeport(const Program& program, stl::Diagnostics& diagnostics) {
+  constexpr Bits kPortControl{(image::kSM + 30) * 8u, 8};
+  if (std::ranges::any_of(program.ops, [&](const Op& op) { return touches(program, op, kPortControl, true); })) return;
+  const auto add = [&](std::uint32_t op, std::string message) {
+    diagnostics.push_back(warn(Warning::NoFreeport, place(program, op), std::move(message),
+                               "MOVB 16#09, SMB30 in the first scan is Freeport with 9600 baud, 8 data bits, no parity",
+                               "no Freeport"));
+  };
+  for (const std::uint32_t transmit : ops_with(program, Effect::Transmits))
+    add(transmit, "XMT sends nothing: no instruction writes SMB30, which puts the port in Freeport mode");
+  for (const std::uint32_t attach : attachments(program)) {
+    const InterruptEvent* event = find_event(program.ops[attach][1].at);
+    if (event->queue == Queue::Communication)
+      add(attach, fmt::format("event {} never occurs: no instruction writes SMB30, which puts the port in Freeport mode",
+                              event->number));
+  }
+}
+
+void find_unused_steps(const Program& program, stl::Diagnostics& diagnostics) {
+  if (points_at_steps(program)) return;
+  std::optional<std::set<std::uint64_t>> loaded;
+  for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
+    const Op& op = program.ops[i];
+    const Effect effect = op.instruction->effect;
+    const bool sets =
+        effect == Effect::SetsBits || effect == Effect::Coil || op.instruction->structure == Structure::SegmentTransition;
+    if (!sets || !kStepBits.overlap(bits_of(program, op, 0))) continue;
+    if (!loaded) loaded = loaded_steps(program);
+    const Bits bits = bits_of(program, op, 0);
+    for (std::uint64_t bit = bits.first; bit < bits.first + bits.count; ++bit) {
+      if (loaded->contains(bit)) continue;
+      diagnostics.push_back(warn(Warning::UnusedStep, place(program, i),
+                                 fmt::format("{} is set, and neither a segment nor a contact loads it", step_text(bit)),
+                                 fmt::format("the segment of this step begins with LSCR {}", step_text(bit))));
+      break;
+    }
+  }
+}
+
+}  // namespace s7200

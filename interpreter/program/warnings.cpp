@@ -1,0 +1,33 @@
+#include "interpreter/program/warnings.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "interpreter/program/lint.hpp"
+
+namespace s7200 {
+
+std::span<const WarningInfo> all_warnings() {
+  static constexpr std::array kTable{
+      WarningInfo{Warning::DoubleCoil, "double-coil", "a coil that another one always overwrites", find_double_coils},
+      WarningInfo{Warning::DoubleCounter, "double-counter", "a counter that counts twice in a scan", find_double_counters},
+      WarningInfo{Warning::DoubleTimer, "double-timer", "a timer that is executed twice in a scan", find_double_timers},
+      WarningInfo{Warning::LogicStack, "logic-stack", "a rung that leaves more than one value on the logic stack"},
+      WarningInfo{Warning::NoEni, "no-eni", "ATCH in a program without ENI: no interrupt is ever served", find_missing_eni},
+      WarningInfo{Warning::NoFreeport, "no-freeport", "XMT or events of the port, and nothing ever writes SMB30",
+                  find_missing_freeport},
+      WarningInfo{Warning::OtherSign, "other-sign", "a constant whose bits the instruction reads with the other sign"},
+      WarningInfo{Warning::Recursion, "recursion", "a subroutine that calls itself, directly or through others"},
+      WarningInfo{Warning::UnusedLabel, "unused-label", "a label that no JMP goes to"},
+      WarningInfo{Warning::UnusedRoutine, "unused-routine", "a routine that is never called or attached"},
+      WarningInfo{Warning::UnusedStep, "unused-step", "an S bit that is set and that no segment loads", find_unused_steps},
+  };
+  return kTable;
+}
+
+stl::Diagnostic warn(Warning warning, const stl::Position& at, std::string message, std::string hint, std::string cause) {
+  const auto row = std::ranges::find(all_warnings(), warning, &WarningInfo::warning);
+  return {stl::Severity::Warning, at, std::move(message), std::move(hint), std::move(cause), std::string(row->name)};
+}
+
+}  // namespace s7200

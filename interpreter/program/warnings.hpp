@@ -1,0 +1,41 @@
+// What a check warns of: programs that are legal and that the CPU runs, but hardly as they were meant.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "interpreter/program/program.hpp"
+#include "interpreter/stl/diagnostic.hpp"
+
+namespace s7200 {
+
+enum class Warning : std::uint8_t {
+  DoubleCoil,
+  DoubleTimer,
+  DoubleCounter,
+  LogicStack,
+  NoEni,
+  NoFreeport,
+  OtherSign,
+  Recursion,
+  UnusedLabel,
+  UnusedRoutine,
+  UnusedStep,
+};
+
+struct WarningInfo {
+  Warning warning;
+  std::string_view name;     ///< by which it can be switched off
+  std::string_view meaning;  ///< one line
+  /// Finds all of it in a program without errors; nullptr: it is found while operands and structure are checked.
+  void (*find)(const Program& program, stl::Diagnostics& diagnostics) = nullptr;
+};
+
+/// The table of warnings, by name.
+std::span<const WarningInfo> all_warnings();
+
+stl::Diagnostic warn(Warning warning, const stl::Position& at, std::string message, std::string hint = {},
+                     std::string cause = {});
+
+}  // namespace s7200
