@@ -79,6 +79,12 @@ bool run_given(Debugger& debugger, const std::string& script, const DebugOptions
 }
 
 int run_debug(const DebugOptions& options) {
+  const bool given = !options.commands_file.empty() || !options.commands.empty();
+  if (is_standard_input(options.program.path) && (!given || options.interactive)) {
+    print_error(
+        "the program comes from standard input, so the commands cannot: give them with -x or --commands, without -i");
+    return kUnusable;
+  }
   int exit_code = kFine;
   const auto program = options.program.load(exit_code);
   if (!program) return exit_code;
@@ -96,7 +102,6 @@ int run_debug(const DebugOptions& options) {
   simulation.power_up();
   Debugger debugger(simulation, std::cout, {.master = options.master, .stop_request = &interrupted});
   catch_interrupt();
-  const bool given = !options.commands_file.empty() || !options.commands.empty();
   const bool terminal = isatty(STDIN_FILENO) != 0;
   if (!given && terminal) std::cout << "'help' lists the commands.\n";
   debugger.show_place();
@@ -127,7 +132,7 @@ void add_debug(CLI::App& app, int& exit_code) {
   options->master.add_to(*verb);
   verb->footer(
       "Without --commands and -x the commands come from standard input; 'help' lists them. A wrong command ends a script\n"
-      "with exit code 2.\n"
+      "with exit code 2. A program from standard input, -, needs --commands or -x.\n"
       "Example: s7200 debug stl_programs/modbus_slave.stl -x \"continue 2s; send 01 03 00 00 00 02 crc; continue; regs\"");
   verb->callback([options, &exit_code] { exit_code = run_debug(*options); });
 }

@@ -51,8 +51,7 @@ int run_import(const ImportOptions& options) {
   auto text = read_program_text(options.document, true);
   if (!text) return kUnusable;
   if (has_errors(text->parsed.diagnostics)) {
-    for (const stl::Diagnostic& d : text->parsed.diagnostics)
-      fmt::print(stderr, "{}", stl::render(d, text->parsed.source, colour_wanted(stderr)));
+    print_diagnostics(text->parsed.diagnostics, text->parsed.source);
     print_error("nothing was written");
     return kCheckFailed;
   }
@@ -73,7 +72,7 @@ int run_import(const ImportOptions& options) {
     print_json(options, *text, stl);
   else if (exit_code == kFine)
     fmt::print(stderr, "{}: {} instructions out of {} ({})\n", options.output, count_statements(text->parsed.source),
-               options.document, text->encoding);
+               text->parsed.source.name, text->encoding);
   return exit_code;
 }
 
@@ -82,7 +81,7 @@ int run_import(const ImportOptions& options) {
 void add_import(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ImportOptions>();
   CLI::App* verb = app.add_subcommand("import", "write the STL of a published document as a clean .stl file");
-  verb->add_option("DOCUMENT", options->document, "document with an STL listing")->required();
+  verb->add_option("DOCUMENT", options->document, "document with an STL listing; - is standard input")->required();
   verb->add_option("-o,--output", options->output, "file to write; standard output if not given")->type_name("FILE.stl");
   verb->add_flag("--force", options->force, "overwrite an existing file");
   verb->add_flag("--json", options->json, "print what was imported as JSON, with the STL if no file is written");

@@ -295,7 +295,7 @@ int run_on_program(MasterVerb& verb, const std::vector<MasterAction>& actions) {
   if (!verb.plant.prepare(program, verb.json)) return kUnusable;
   serial::Simulation simulation(program, verb.plant.field());
   verb.plant.power_up(simulation);
-  SimulatedSlave slave(simulation, verb.master, verb.target);
+  SimulatedSlave slave(simulation, verb.master, program->source.name);
   MasterSession session(verb, slave, actions, true);
   session.end_early_if([&] { return verb.plant.failed_strictly(simulation.cpu()); });
   if (!slave.wait_until_ready(verb.after)) {

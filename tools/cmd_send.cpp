@@ -98,7 +98,7 @@ int run_send(SendOptions& options) {
 
   auto results = results_of("send");
   nlohmann::ordered_json& exchanges = results["exchanges"] = nlohmann::ordered_json::array();
-  SimulatedSlave slave(simulation, options.master, options.program.path);
+  SimulatedSlave slave(simulation, options.master, program->source.name);
   const bool ready = slave.wait_until_ready(options.after);
   std::size_t answered = 0;
   for (const modbus::Frame& frame : frames) {

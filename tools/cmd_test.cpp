@@ -158,7 +158,7 @@ std::vector<Scenario> read_all(const TestOptions& options) {
 
 // --- what they are run on ---
 
-/// Each program is read and checked once.
+/// Each program is read once, and checked once for each CPU and table of times.
 class Programs {
  public:
   /// `named`: by the scenario, which a message then mentions.
@@ -170,7 +170,8 @@ class Programs {
     options.cpu = scenario.cpu;
     options.times_file = scenario.times_file;
     int exit_code = kFine;
-    auto program = options.load(exit_code);
+    const SourceText* text = text_of(path);
+    auto program = text ? options.load(*text, exit_code) : nullptr;
     if (!program) {
       if (named)
         fmt::print(stderr, "s7200: note: '{}' in {}:{} names it\n", scenario.name, scenario.source->name,
@@ -181,6 +182,14 @@ class Programs {
   }
 
  private:
+  /// Null after a message.
+  const SourceText* text_of(const std::string& path) {
+    const auto [found, added] = texts_.try_emplace(path);
+    if (added) found->second = read_program_text(path);
+    return found->second ? &*found->second : nullptr;
+  }
+
+  std::map<std::string, std::optional<SourceText>> texts_;
   std::map<std::tuple<std::string, std::string, std::string>, std::shared_ptr<const Program>> known_;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <utility>
 
 #include "tools/exit_code.hpp"
 #include "tools/terminal.hpp"
@@ -53,38 +54,57 @@ std::optional<TimeTable> CpuOptions::times(const CpuModel& model) const {
 }
 
 void ProgramOptions::add_to(CLI::App& app) {
-  app.add_option("PROGRAM", path, "STL file (.stl, .awl, .txt) or published document with STL in it")->required();
+  app.add_option("PROGRAM", path, "STL file (.stl, .awl, .txt) or published document with STL in it; - is standard input")
+      ->required();
   CpuOptions::add_to(app);
 }
 
 std::shared_ptr<const Program> ProgramOptions::load(int& exit_code) const {
   exit_code = kUnusable;
+  const auto text = model() ? read_program_text(path) : std::nullopt;
+  return text ? load(*text, exit_code) : nullptr;
+}
+
+std::shared_ptr<const Program> ProgramOptions::load(const SourceText& text, int& exit_code) const {
+  exit_code = kUnusable;
   const CpuModel* cpu_model = model();
   if (!cpu_model) return nullptr;
   const auto table = times(*cpu_model);
   if (!table) return nullptr;
-  auto text = read_program_text(path);
-  if (!text) return nullptr;
-  const CheckResult result = check(std::move(text->parsed), *cpu_model, *table);
-  print_diagnostics(result, false);
-  if (!result.program) print_error(fmt::format("{} has errors; nothing was run", path));
+  CheckResult result = check(text.parsed, *cpu_model, *table);
+  std::erase_if(result.diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
+  print_diagnostics(result.diagnostics, result.source);
+  if (!result.program) print_error(fmt::format("{} has errors; nothing was run", result.source.name));
   exit_code = result.program ? kFine : kCheckFailed;
   return result.program;
 }
 
+namespace {
+
+/// What came through a pipe is gone when it has been read.
+std::optional<std::string> read_standard_input_once(std::string& why) {
+  static bool read = false;
+  if (std::exchange(read, true)) {
+    why = "it has been read already";
+    return {};
+  }
+  return read_standard_input(why);
+}
+
+}  // namespace
+
 std::optional<SourceText> read_program_text(const std::string& path, bool force_document) {
+  const bool from_input = is_standard_input(path);
+  const std::string name = from_input ? "standard input" : path;
   std::string why;
-  const auto bytes = read_file(path, why);
-  auto text = bytes ? read_source(*bytes, path, why, force_document) : std::nullopt;
-  if (!text) print_error(fmt::format("cannot read {}: {}", path, why));
+  const auto bytes = from_input ? read_standard_input_once(why) : read_file(path, why);
+  auto text = bytes ? read_source(*bytes, name, why, force_document) : std::nullopt;
+  if (!text) print_error(fmt::format("cannot read {}: {}", name, why));
   return text;
 }
 
-void print_diagnostics(const CheckResult& result, bool warnings) {
-  const bool colour = colour_wanted(stderr);
-  for (const stl::Diagnostic& diagnostic : result.diagnostics)
-    if (warnings || diagnostic.severity == stl::Severity::Error)
-      fmt::print(stderr, "{}", stl::render(diagnostic, result.source, colour));
+void print_diagnostics(const stl::Diagnostics& diagnostics, const stl::Source& source) {
+  fmt::print(stderr, "{}", stl::render(diagnostics, source, colour_wanted(stderr)));
 }
 
 }  // namespace s7200::tools

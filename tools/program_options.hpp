@@ -35,12 +35,15 @@ struct ProgramOptions : CpuOptions {
   /// The checked program; warnings and errors are printed on stderr. Null when there are any errors: `exit_code` says which
   /// way to end.
   std::shared_ptr<const Program> load(int& exit_code) const;
+
+  /// The same of a text that has been read.
+  std::shared_ptr<const Program> load(const SourceText& text, int& exit_code) const;
 };
 
-/// Reads a source as the verbs do; nothing after a message.
+/// Reads a source as the verbs do, "-" from standard input, and that only once; nothing after a message.
 std::optional<SourceText> read_program_text(const std::string& path, bool force_document = false);
 
-/// Prints diagnostics on stderr, in colour where wanted.
-void print_diagnostics(const CheckResult& result, bool warnings);
+/// Prints diagnostics on stderr, in colour where wanted: each cause once.
+void print_diagnostics(const stl::Diagnostics& diagnostics, const stl::Source& source);
 
 }  // namespace s7200::tools

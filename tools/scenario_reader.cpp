@@ -27,7 +27,7 @@ const std::vector<ScenarioKey> kKeys{
     {Where::File, "parameters", "", "MAP", "names for `${…}` and their values, unless others are given on the command line; an empty one has to be"},
 
     {Where::Scenario, "name", "", "TEXT", "one line, for reports; the name of the file if left out"},
-    {Where::Scenario, "program", "", "PATH", "STL file or published document, from the folder of this file; `--target` comes before it"},
+    {Where::Scenario, "program", "", "PATH", "STL file or published document, from the folder of this file, or `\"-\"` for standard input; `--target` comes before it"},
     {Where::Scenario, "skip_without", "", "PATH", "a file without which the scenario is skipped, such as a document that is not ours"},
     {Where::Scenario, "cpu", "", "TYPE", "`214` if left out"},
     {Where::Scenario, "times", "", "PATH", "execution times, CSV as of `s7200 times --csv`"},
@@ -163,6 +163,7 @@ class ParameterTree {
 };
 
 std::string beside(const std::string& folder, const std::string& path) {
+  if (is_standard_input(path)) return path;
   return (std::filesystem::path(folder) / path).lexically_normal().string();
 }
 

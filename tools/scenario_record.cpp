@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/answer.hpp"
 
 namespace s7200::tools {
@@ -71,6 +72,7 @@ class Writer {
   void line(int indent, const std::string& content) { text += fmt::format("{:{}}{}\n", "", indent, content); }
 
   std::string near(const std::string& path) const {
+    if (is_standard_input(path)) return in_quotes(path);
     const auto top = [](const std::filesystem::path& p) { return std::filesystem::absolute(p).lexically_normal(); };
     return in_quotes(top(path).lexically_relative(top(folder_ / "x").parent_path()).string());
   }

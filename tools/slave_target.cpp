@@ -62,7 +62,7 @@ SlaveTarget parse_slave_target(const std::string& text) {
 
 std::string slave_targets_help() {
   return "Targets:\n"
-         "  PROGRAM                               an STL file or document, in simulation\n"
+         "  PROGRAM                               an STL file or document, in simulation; - is standard input\n"
          "  /dev/ttyUSB0, or a pty by its link    Modbus RTU, 9600 8E1 unless --baud and the others say otherwise\n"
          "  tcp://HOST:PORT                       Modbus RTU over TCP, as serial servers offer it\n"
          "  modbus-tcp://HOST[:PORT]              Modbus TCP, port 502 unless one is given\n";

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|files|scenarios|readme"""
+"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|files|scenarios|input|readme"""
 import json
 import os
 import pathlib
@@ -218,6 +218,40 @@ class Verbs(Case):
         self.assertEqual((result["stop_reason"], result["scans"]), ("scans", 12))
         self.assertGreater(result["time_ns"], 10_000_000_000)
 
+    WARNED = "LD I0.0\n= Q0.0\nLD I0.1\n= Q0.0\nLBL 1\nMEND\n"
+
+    def test_help_of_check_lists_every_warning_and_each_can_be_switched_off(self):
+        listed = self.ends(FINE, "check", "--help").stdout.split("Warnings, by the names that switch them off:\n")[1]
+        names = re.findall(r"(?m)^  ([a-z-]+)  +[a-zA-Z]", listed)
+        self.assertGreater(len(names), 10)
+        self.ends(FINE, "check", SLAVE, *(f"--no-warn={name}" for name in names))
+        path = self.program(self.WARNED)
+        for arguments, left in (([], ["double-coil", "unused-label"]), (["--no-warn", "double-coil"], ["unused-label"]),
+                                (["--no-warn", "unused-label", "--no-warn", "double-coil"], []), (["--no-warnings"], [])):
+            done = self.ends(FINE, "check", *arguments, path)
+            self.assertEqual(re.findall(r"(?m)warning: .* \[(.*)\]$", done.stderr), left)
+            self.assertIn(f"fine, 6 instructions for CPU 214{f', {len(left)} warning' if left else ''}", done.stdout)
+            (result,) = self.json(FINE, "check", *arguments, path, "--json")
+            self.assertEqual([d["name"] for d in result["diagnostics"]], left)
+        self.assertIn("there is no warning 'frob'", self.ends(UNUSABLE, "check", path, "--no-warn", "frob").stderr)
+
+    def test_only_check_warns(self):
+        self.assertEqual(self.ends(FINE, "run", self.program(self.WARNED), "--scans", "1").stderr, "")
+
+    def test_a_cause_is_said_once_with_how_often_and_where_else(self):
+        path = self.program("LD SM0.0\n" + "".join(f"MOVB 1, VB{n}\nCALL {n % 64}\n" for n in range(1024, 1124)) + "MEND\n" +
+                            "".join(f"SBR {n}\nRET\n" for n in range(64)))
+        done = self.ends(FAILED, "check", "--cpu", "212", path)
+        self.assertEqual(len(re.findall(": error: ", done.stderr)), 2)
+        self.assertIn(f"{path}:2:9: error: VB1024 does not exist on CPU 212\nMOVB 1, VB1024\n        ^~~~~~\n"
+                      "hint: V memory is VB0 to VB1023\nalso: 99 more, in lines 4, 6, 8, 10, 12, 14, 16, 18, 20 … 200\n",
+                      done.stderr)
+        self.assertRegex(done.stdout, r"errors with 2 causes, \d+ warnings for CPU 212; fine for CPU 214, 215, 216\n$")
+        (result,) = self.json(FAILED, "check", "--cpu", "212", path, "--json")
+        errors = [d for d in result["diagnostics"] if d["severity"] == "error"]
+        self.assertEqual(len({d["cause"] for d in errors}), 2)
+        self.assertGreater(len(errors), 200, "machines are given each place")
+
     def test_no_colour_away_from_a_terminal(self):
         wrong = self.program("FROB\n")
         for environment in ({}, {"NO_COLOR": "1"}):
@@ -348,7 +382,7 @@ class Json(Case):
         self.assertEqual((fine["ok"], fine["instructions"], fine["diagnostics"]), (True, 2, []))
         self.assertEqual((failed["ok"], failed["instructions"]), (False, 0))
         first = failed["diagnostics"][0]
-        self.assertEqual(list(first), ["severity", "line", "column", "length", "message", "hint"])
+        self.assertEqual(list(first), ["severity", "line", "column", "length", "message", "hint", "name", "cause"])
         self.assertEqual((first["severity"], first["line"], first["column"], first["length"]), ("error", 1, 4, 3))
 
     def test_run(self):
@@ -525,6 +559,74 @@ class Json(Case):
         self.assertIn("did not answer", self.ends(UNUSABLE, "bench", silent, "--each", "1ms").stderr)
         for figure in self.json(FINE, "bench", "--each", "1ms", "--json")["figures"]:
             self.assertEqual(list(figure), ["name", "unit", "per_second"])
+
+
+class StandardInput(Case):
+    """`-` as a PROGRAM."""
+
+    def fed(self, code, program, *arguments, **options):
+        """What a verb makes of a program that comes through a pipe."""
+        text = program if isinstance(program, str) else pathlib.Path(program).read_text(encoding="utf-8")
+        return self.ends(code, *arguments, stdin=None, input=text, **options)
+
+    def test_every_verb_reads_a_program_from_it(self):
+        for arguments in (["check"], ["run", "--scans", "2"], ["send", "--crc", "0103000a0001"], ["import"],
+                          ["master", "read", "40001"], ["debug", "-x", "step"], ["bench", "--each", "1ms"]):
+            verb, *rest = arguments
+            with self.subTest(verb):
+                shown, fed = self.ends(FINE, verb, SLAVE, *rest), self.fed(FINE, pathlib.Path(SLAVE), verb, "-", *rest)
+                if verb != "bench":  # which prints how fast it was
+                    self.assertEqual(fed.stdout.replace("standard input", SLAVE), shown.stdout)
+
+    def test_the_names_that_linux_has_for_it_do_as_well(self):
+        for name in ("-", "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"):
+            for options in ({"input": "LD SM0.0\nFROB\nMEND\n", "stdin": None},
+                            {"stdin": open(self.program("LD SM0.0\nFROB\nMEND\n"), encoding="utf-8")}):
+                done = self.ends(FAILED, "check", name, **options)
+                self.assertIn("standard input:2:1: error: unknown instruction 'FROB'\nFROB\n^~~~\n", done.stderr)
+                if options["stdin"]:
+                    options["stdin"].close()
+
+    def test_what_comes_through_a_pipe_is_checked_for_the_other_cpus_too(self):
+        text = "LD SM0.0\nINCB VB0\nMEND\n"
+        for name in ("-", "/dev/stdin"):
+            self.assertIn("fine for CPU 215, 216\n", self.fed(FAILED, text, "check", name).stdout)
+        (result,) = json.loads(self.fed(FAILED, text, "check", "-", "--json").stdout)
+        self.assertEqual((result["file"], result["fine_for"]), ("-", ["215", "216"]))
+
+    def test_a_document_can_go_from_import_to_check(self):
+        document = self.program(Files.DOCUMENT, "page.txt")
+        done = subprocess.run(["bash", "-c", f'"{S7200}" import "{document}" | "{S7200}" check --cpu 215 -'], timeout=60,
+                              capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout), (FINE, "standard input: fine, 3 instructions for CPU 215\n"))
+
+    def test_the_debugger_then_needs_its_commands_elsewhere(self):
+        for arguments in ([], ["-i", "-x", "step"]):
+            done = self.fed(UNUSABLE, pathlib.Path(SLAVE), "debug", "-", *arguments)
+            self.assertIn("the program comes from standard input, so the commands cannot", done.stderr)
+        commands = self.program("step\n", "commands.txt")
+        self.fed(FINE, pathlib.Path(SLAVE), "debug", "-", "--commands", commands)
+
+    def test_it_is_read_once(self):
+        done = self.fed(UNUSABLE, "LD SM0.0\nMEND\n", "check", "-", "-")
+        self.assertIn("cannot read standard input: it has been read already", done.stderr)
+        self.assertIn("cannot read standard input: ",
+                      subprocess.run(["bash", "-c", f'"{S7200}" check - <&-'], capture_output=True, text=True, timeout=60,
+                                     check=False).stderr)
+
+    def test_scenarios_name_it_as_their_program_target_or_against(self):
+        """Several scenarios on several CPUs share what was read once."""
+        steps = "steps:\n  - {read: holding 0, expect: [0]}\n"
+        named = self.program('program: "-"\ntimeout: 200ms\nscenarios:\n' +
+                             "".join(f"  - name: on {cpu}\n    cpu: {cpu}\n    steps: [{{read: holding 0, expect: [0]}}]\n"
+                                     for cpu in (214, 215)), "named.yaml")
+        self.assertIn("2 passed", self.fed(FINE, pathlib.Path(SLAVE), "test", named).stdout)
+        unnamed = self.program("timeout: 200ms\n" + steps, "unnamed.yaml")
+        self.assertIn("1 passed", self.fed(FINE, pathlib.Path(SLAVE), "test", unnamed, "--target", "-").stdout)
+        self.assertIn("same", self.fed(FINE, pathlib.Path(SLAVE), "test", unnamed, "--target", SLAVE, "--against", "-").stdout)
+        record = self.folder / "record.yaml"
+        self.fed(FINE, pathlib.Path(SLAVE), "test", named, "--record", record)
+        self.fed(FINE, pathlib.Path(SLAVE), "test", record)
 
 
 class Scenarios(Case):
@@ -983,6 +1085,7 @@ class Readme(Case):
 
 
 if __name__ == "__main__":
-    group = {"verbs": Verbs, "options": Options, "json": Json, "json_page": JsonPage, "files": Files, "readme": Readme, "scenarios": Scenarios}[GROUP]
+    group = {"verbs": Verbs, "options": Options, "json": Json, "json_page": JsonPage, "files": Files, "readme": Readme, "scenarios": Scenarios,
+             "input": StandardInput}[GROUP]
     result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
     sys.exit(0 if result.wasSuccessful() else 1)
