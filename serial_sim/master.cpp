@@ -29,7 +29,13 @@ Master::Master(Uart& uart, EventQueue& queue) : uart_(uart), queue_(queue) {}
 
 void Master::start(const Request& request, Time at) {
   assert(!busy() && !request.frame.empty());
+  begin(request, at);
   state_.phase = Phase::Sending;
+  state_.heard.clear();
+  queue_.schedule(at, EventOwner::Master, kBegin);
+}
+
+void Master::begin(const Request& request, Time at) {
   state_.request = request;
   state_.sent = 0;
   Exchange& exchange = state_.exchange;
@@ -39,7 +45,39 @@ void Master::start(const Request& request, Time at) {
   exchange.request_start = at;
   exchange.request_end = exchange.response_start = exchange.response_end = 0;
   exchange.timed_out = exchange.too_long = false;
-  queue_.schedule(at, EventOwner::Master, kBegin);
+}
+
+void Master::listen(const Listening& listening, Time at) {
+  assert(!busy());
+  begin({.frame = {}, .timeout = listening.timeout, .silence = listening.silence}, at);
+  state_.exchange.request_end = at;
+  take_first_transmission();
+  if (state_.exchange.response.empty()) {
+    state_.phase = Phase::Waiting;
+    queue_.schedule(at + listening.timeout, EventOwner::Master, kQuiet);
+    return;
+  }
+  const Time over = state_.exchange.response_end + silence();
+  const bool goes_on = over > at || uart_.state().start_edge < over;
+  if (!state_.heard.empty() || !goes_on) return;
+  state_.phase = Phase::Receiving;
+  queue_.schedule(std::max(at, over), EventOwner::Master, kQuiet);
+}
+
+void Master::take_first_transmission() {
+  std::vector<ReceivedCharacter>& heard = state_.heard;
+  Exchange& exchange = state_.exchange;
+  const Time character_time = uart_.state().format.character_time();
+  std::size_t length = 0;
+  const auto goes_on = [&] {
+    return length < heard.size() && (length == 0 || heard[length].start < exchange.response_end + silence());
+  };
+  while (goes_on() && length < kLongestResponse) exchange.response_end = heard[length++].start + character_time;
+  exchange.too_long = goes_on();
+  const auto end = heard.begin() + static_cast<std::ptrdiff_t>(length);
+  exchange.response.assign(heard.begin(), end);
+  heard.erase(heard.begin(), end);
+  if (length > 0) exchange.response_start = exchange.response.front().start;
 }
 
 void Master::handle(const Event& event) {
@@ -56,10 +94,12 @@ void Master::handle(const Event& event) {
 }
 
 void Master::on(const Uart::Report& report) {
+  const bool idle = !busy();
   const bool sending = state_.phase == Phase::Sending && report.received;
   if (sending && report.received->start >= state_.exchange.request_start) state_.exchange.echo.push_back(*report.received);
   if (report.sent && state_.phase == Phase::Sending) sent(*report.sent);
   if (report.received && (state_.phase == Phase::Waiting || state_.phase == Phase::Receiving)) received(*report.received);
+  if (report.received && idle && state_.heard.size() < kMostHeard) state_.heard.push_back(*report.received);
 }
 
 void Master::send_next(Time at) {
@@ -86,6 +126,7 @@ void Master::received(const ReceivedCharacter& character) {
   Exchange& exchange = state_.exchange;
   if (exchange.response.size() == kLongestResponse) {
     exchange.too_long = true;
+    state_.heard.push_back(character);
     finish();
     return;
   }

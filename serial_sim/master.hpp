@@ -1,4 +1,4 @@
-// A Modbus RTU master on the line: sends a request, waits for the answer, tells how it went.
+// A master on the line: sends a request, waits for the answer, tells how it went; and hears what comes unasked.
 #pragma once
 
 #include <cstddef>
@@ -21,9 +21,15 @@ struct Request {
   bool operator==(const Request&) const = default;
 };
 
+/// How to wait for a transmission that nobody asked for.
+struct Listening {
+  Time timeout = kSecond;         ///< from now to its start edge
+  std::optional<Time> silence{};  ///< that ends it; 3.5 characters of the master's format if not given
+};
+
 modbus::Bytes bytes_of(const std::vector<ReceivedCharacter>& characters);
 
-/// A request and what came of it.
+/// A request and what came of it. After Master::listen() the request is empty, and its times are when the listening began.
 struct Exchange {
   modbus::Frame request;
   Time request_start = 0;
@@ -44,11 +50,12 @@ struct Exchange {
 };
 
 /// Half duplex: its receiver is off from the start of the request to the end of its last stop bit, unless the line gives an
-/// echo. The format is its UART's.
+/// echo. The format is its UART's. What it hears while it asks nothing is kept for listen().
 /// To whoever handles the events: reports of the UART go to on(), events of EventOwner::Master to handle().
 class Master {
  public:
   static constexpr std::size_t kLongestResponse = modbus::kLongestRawFrame;
+  static constexpr std::size_t kMostHeard = 4096;  ///< what comes when so many wait is lost, as in a computer's serial port
 
   enum class Phase : std::uint8_t { Idle, Sending, Waiting, Receiving };
 
@@ -58,16 +65,26 @@ class Master {
     Request request;
     std::size_t sent = 0;  ///< characters of the request
     Exchange exchange;
+    std::vector<ReceivedCharacter> heard{};  ///< unasked, since the last request began; not yet listened to
     bool operator==(const State&) const = default;
   };
 
   /// Neither is owned.
   Master(Uart& uart, EventQueue& queue);
 
-  /// The first start bit begins at `at`. The last exchange is over.
+  /// The first start bit begins at `at`. The last exchange is over. What was heard before and not listened to is forgotten.
   void start(const Request& request, Time at);
 
+  /// Takes the first transmission of those heard, or the next one to come: characters with less silence between them than
+  /// ends it. The last exchange is over; this one is, at once, if the transmission is.
+  void listen(const Listening& listening, Time at);
+
   bool busy() const { return state_.phase != Phase::Idle; }
+
+  /// Busy with a request and its answer, not with listening.
+  bool asks() const { return busy() && !state_.request.frame.empty(); }
+
+  const std::vector<ReceivedCharacter>& heard() const { return state_.heard; }
 
   /// The one under way, or the last one.
   const Exchange& exchange() const { return state_.exchange; }
@@ -81,8 +98,10 @@ class Master {
  private:
   enum What : std::uint8_t { kBegin, kQuiet };
 
+  void begin(const Request& request, Time at);
   void send_next(Time at);
   void sent(Time at);
+  void take_first_transmission();
   void received(const ReceivedCharacter& character);
   void quiet(Time now);
   void finish();

@@ -16,7 +16,7 @@ Simulation::Simulation(std::shared_ptr<const Program> program, FieldScript field
       host_uart_(line_, queue_, EventOwner::HostUart, kHost, false),
       master_(master_uart_, queue_),
       host_port_(host_uart_),
-      cpu_(std::move(program), queue_, plc_uart_),
+      cpu_(std::move(program), queue_, port_),
       field_(std::move(field), cpu_, queue_),
       faults_(line_, queue_, plc_uart_),
       tap_(line_, kPlc) {
@@ -26,6 +26,17 @@ Simulation::Simulation(std::shared_ptr<const Program> program, FieldScript field
 void Simulation::power_up(const RetentiveMemory* memory) {
   cpu_.power_up(true, memory);
   field_.power_up();
+}
+
+void Simulation::Port::configure(const SerialFormat& format) {
+  simulation_.plc_uart_.configure(format);
+  if (simulation_.master_format_ && !simulation_.master_.asks())
+    simulation_.master_uart_.configure(simulation_.master_format_(format));
+}
+
+void Simulation::let_master_follow(std::function<SerialFormat(const SerialFormat& port)> of) {
+  master_format_ = std::move(of);
+  if (!master_.asks()) master_uart_.configure(master_format_(cpu_.state().port.format));
 }
 
 Halt Simulation::run_until(Time end) {

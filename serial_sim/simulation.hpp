@@ -1,6 +1,7 @@
 // A PLC with what drives its inputs, a Modbus master and a port for the host on one line: everything wired, one clock.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -33,7 +34,11 @@ class Simulation {
   /// Runs the CPU and handles what is due, until the CPU's clock has reached `end`. A CPU that goes to STOP ends the run.
   Halt run_until(Time end);
 
-  /// Runs on, in STOP too, until a started exchange of the master is over.
+  /// From now on the master's format is what `of` makes of the port's, and changes with it at once, but not within an
+  /// exchange: what the program sends unasked is heard as well as its answers.
+  void let_master_follow(std::function<SerialFormat(const SerialFormat& port)> of);
+
+  /// Runs on, in STOP too, until a started exchange of the master, or its listening, is over.
   const Exchange& finish_exchange();
 
   /// Whether the line has had no character on it for `quiet` up to now.
@@ -83,6 +88,19 @@ class Simulation {
   void restore(const Snapshot& snapshot);
 
  private:
+  /// The PLC's UART, as the CPU sees it: whoever follows its format is told.
+  class Port final : public SerialPort {
+   public:
+    explicit Port(Simulation& simulation) : simulation_(simulation) {}
+    void configure(const SerialFormat& format) override;
+    void enable_receiver(bool enabled, Time at) override { simulation_.plc_uart_.enable_receiver(enabled, at); }
+    void send(std::uint8_t byte, Time at) override { simulation_.plc_uart_.send(byte, at); }
+    void send_break(int bit_times, Time at) override { simulation_.plc_uart_.send_break(bit_times, at); }
+
+   private:
+    Simulation& simulation_;
+  };
+
   void handle_due_events();
   void dispatch(const Event& event);
   void note_activity(const Uart::Report& report);
@@ -94,6 +112,8 @@ class Simulation {
   Uart host_uart_;
   Master master_;
   HostPort host_port_;
+  std::function<SerialFormat(const SerialFormat& port)> master_format_{};  ///< of the port's; none: its own
+  Port port_{*this};
   Cpu cpu_;
   Field field_;
   Faults faults_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace s7200::serial {
@@ -313,6 +314,109 @@ TEST(Master, ContinuingFromASnapshotGivesTheSameExchange) {
     go_back();
     talk.step();
   }
+}
+
+// --- what comes unasked ---
+
+/// The slave sends, the next character when the one before is over; everything up to `until` happens.
+void transmit(Conversation& talk, const Bytes& bytes, Time at, Time until) {
+  talk.answer = to_frame(bytes);
+  talk.answered = 0;
+  talk.answer_next(at);
+  while (talk.queue.next() <= until) talk.step();
+  talk.now = until;
+}
+
+const Exchange& listen(Conversation& talk, const Listening& listening) {
+  talk.master.listen(listening, talk.now);
+  while (talk.master.busy()) talk.step();
+  return talk.master.exchange();
+}
+
+TEST(MasterListening, TakesWhatCameBeforeItWasListenedTo) {
+  Conversation talk;
+  transmit(talk, {0x41, 0x42}, kMillisecond, 100 * kMillisecond);
+  EXPECT_EQ(talk.master.heard().size(), 2U);
+  const Exchange& exchange = listen(talk, {});
+  EXPECT_EQ(exchange.response_bytes(), (Bytes{0x41, 0x42}));
+  EXPECT_TRUE(exchange.request.empty());
+  EXPECT_EQ(exchange.request_end, 100 * kMillisecond);
+  EXPECT_EQ(exchange.response_start, kMillisecond);
+  EXPECT_EQ(exchange.response_end, kMillisecond + 2 * k8E1.character_time());
+  EXPECT_FALSE(exchange.timed_out || exchange.too_long);
+  EXPECT_EQ(talk.now, 100 * kMillisecond) << "no time passes";
+  EXPECT_TRUE(talk.master.heard().empty());
+}
+
+TEST(MasterListening, WaitsForWhatIsStillToComeAndForItsEnd) {
+  Conversation talk;
+  talk.answer = to_frame(Bytes{0x41, 0x42, 0x43});
+  talk.answer_next(20 * kMillisecond);
+  const Exchange& exchange = listen(talk, {.timeout = 50 * kMillisecond});
+  EXPECT_EQ(exchange.response_bytes(), (Bytes{0x41, 0x42, 0x43}));
+  EXPECT_EQ(exchange.latency(), 20 * kMillisecond);
+  EXPECT_EQ(talk.now, exchange.response_end + k8E1.silence());
+}
+
+TEST(MasterListening, NothingComesWithinTheTimeout) {
+  Conversation talk;
+  const Exchange& exchange = listen(talk, {.timeout = 50 * kMillisecond});
+  EXPECT_TRUE(exchange.timed_out);
+  EXPECT_EQ(talk.now, 50 * kMillisecond);
+}
+
+TEST(MasterListening, TransmissionsAreDividedBySilenceAndTakenOneAfterTheOther) {
+  Conversation talk;
+  transmit(talk, {0x41, 0x42}, kMillisecond, 20 * kMillisecond);
+  transmit(talk, {0x43}, 20 * kMillisecond, 40 * kMillisecond);
+  EXPECT_EQ(listen(talk, {}).response_bytes(), (Bytes{0x41, 0x42}));
+  EXPECT_EQ(listen(talk, {}).response_bytes(), (Bytes{0x43}));
+  EXPECT_TRUE(listen(talk, {.timeout = kMillisecond}).timed_out);
+
+  transmit(talk, {0x41, 0x42}, 50 * kMillisecond, 60 * kMillisecond);
+  transmit(talk, {0x43}, 60 * kMillisecond, 80 * kMillisecond);
+  EXPECT_EQ(listen(talk, {.silence = 20 * kMillisecond}).response_bytes(), (Bytes{0x41, 0x42, 0x43}));
+}
+
+TEST(MasterListening, AnyMomentOfATransmissionWillDoToBegin) {
+  const Time length = 3 * k8E1.character_time();
+  for (Time at = 0; at < length + 2 * k8E1.silence(); at += 100 * kMicrosecond) {
+    Conversation talk;
+    transmit(talk, {0x41, 0x42, 0x43}, kMillisecond, kMillisecond + at);
+    const Exchange& exchange = listen(talk, {});
+    EXPECT_EQ(exchange.response_bytes(), (Bytes{0x41, 0x42, 0x43})) << at;
+    EXPECT_EQ(talk.now, std::max(kMillisecond + at, kMillisecond + length + k8E1.silence())) << at;
+  }
+}
+
+TEST(MasterListening, ATransmissionThatBeginsAfterTheEndOfTheLastOneIsNotItsRest) {
+  Conversation talk;
+  transmit(talk, {0x41}, kMillisecond, 20 * kMillisecond);
+  transmit(talk, {0x42}, 20 * kMillisecond, 20 * kMillisecond + k8E1.bit_times(3));
+  EXPECT_EQ(listen(talk, {}).response_bytes(), (Bytes{0x41}));
+  EXPECT_EQ(listen(talk, {}).response_bytes(), (Bytes{0x42}));
+}
+
+TEST(MasterListening, ARequestForgetsWhatCameBeforeIt) {
+  Conversation talk;
+  transmit(talk, {0x41}, kMillisecond, 20 * kMillisecond);
+  talk.answer = to_frame(kAnswer);
+  EXPECT_EQ(talk.exchange(request_of(kRequest)).response_bytes(), kAnswer);
+  EXPECT_TRUE(talk.master.heard().empty());
+  EXPECT_TRUE(listen(talk, {.timeout = kMillisecond}).timed_out);
+}
+
+TEST(MasterListening, WhatIsKeptHasAnEnd) {
+  Conversation talk;
+  for (std::size_t i = 0; i < Master::kMostHeard + 10; ++i) {
+    talk.slave_uart.send(static_cast<std::uint8_t>(i), talk.now);
+    for (const Time end = talk.now + k8E1.character_time(); talk.queue.next() <= end;) talk.step();
+  }
+  EXPECT_EQ(talk.master.heard().size(), Master::kMostHeard);
+  const Exchange& exchange = listen(talk, {});
+  EXPECT_EQ(exchange.response.size(), Master::kLongestResponse);
+  EXPECT_TRUE(exchange.too_long);
+  EXPECT_EQ(listen(talk, {}).response.front().byte, Master::kLongestResponse % 256);
 }
 
 }  // namespace
