@@ -90,7 +90,10 @@ bool SerialDevice::set(const SerialFormat& format, std::string& why) {
   wanted = before;
   make_raw(wanted);
   put_format(wanted, format);
-  wanted.c_iflag |= INPCK | PARMRK;
+  wanted.c_iflag |= PARMRK;
+  // A pty shows that there is parity by this flag only; a device reports bad stop bits with it too.
+  const bool checked = format.parity != Parity::None || !is_pty(fd_);
+  wanted.c_iflag = checked ? wanted.c_iflag | INPCK : wanted.c_iflag & ~tcflag_t{INPCK};
   if (!write_settings(fd_, wanted) || !read_settings(fd_, taken)) {
     why = error_text();
     return false;

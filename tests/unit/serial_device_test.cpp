@@ -82,8 +82,7 @@ TEST_F(SerialDeviceTest, ASideThatNeverStopsTalkingHoldsNobody) {
   fcntl(near_, F_SETFL, O_NONBLOCK);
   const std::vector<char> zeros(65536, 0);
   std::jthread flood([this, &zeros](const std::stop_token& enough) {
-    while (!enough.stop_requested()) [[maybe_unused]]
-      const ssize_t count = ::write(near_, zeros.data(), zeros.size());
+    while (!enough.stop_requested()) [[maybe_unused]] const ssize_t count = ::write(near_, zeros.data(), zeros.size());
   });
   for (int reading = 0; reading < 100; ++reading) {
     const std::size_t count = read(*device, 1).size();
@@ -107,6 +106,16 @@ TEST_F(SerialDeviceTest, SettingsAreThoseOfTheFormatAtAnyRate) {
     EXPECT_EQ(settings.c_ospeed, 9600U);
     EXPECT_FALSE(settings.c_cflag & (CSTOPB | PARODD));
     EXPECT_EQ(device->format(), k8E1);
+  }
+}
+
+TEST_F(SerialDeviceTest, APtyIsToldOfParityByItsCheckAlone) {
+  for (const Parity parity : {Parity::None, Parity::Even, Parity::Odd, Parity::None}) {
+    const auto device = open({9600, 8, parity, 1});
+    ASSERT_TRUE(device);
+    termios2 settings{};
+    ASSERT_TRUE(read_settings(near_, settings));
+    EXPECT_EQ((settings.c_iflag & INPCK) != 0, parity != Parity::None);
   }
 }
 
