@@ -27,11 +27,97 @@ stl::Position place(const YAML::Mark& mark, const stl::Source& source) {
   return {static_cast<std::uint32_t>(line + 1), static_cast<std::uint32_t>(column + 1), 1};
 }
 
+// --- what the parser complains about ---
+
+constexpr std::string_view kNoAliases = "anchors and aliases (& and *) have no place in a scenario";
+constexpr std::string_view kNoTags = "tags (!) have no place in a scenario";
+constexpr std::string_view kRepeat = "repeat steps with 'for:' or 'repeat:'";
+constexpr std::string_view kQuoteIt = "put the text in quotation marks";
+constexpr std::string_view kCloseQuotation = "put the same mark after the text; it may not stand inside it";
+constexpr std::string_view kNotOfIt = "this does not belong to the map or list before it";
+constexpr std::string_view kIndentAlike =
+    "the keys of one map, and the '-' of one list, stand below each other; nothing follows a closing quotation mark";
+
+/// Words of yaml-cpp, or how they begin, and ours.
+struct Complaint {
+  std::string_view parser, message, hint;
+};
+const Complaint kComplaints[] = {
+    {YAML::ErrorMsg::MAP_VALUE, "no key can stand here; ': ' makes one of what is before it",
+     "a text with ': ' in it needs quotation marks; a key begins a line, indented as those of the same map"},
+    {YAML::ErrorMsg::BLOCK_ENTRY, "no list can begin here; '- ' begins one", "begin it on a line of its own, below its key"},
+    {YAML::ErrorMsg::MAP_KEY, "no key can stand here; '? ' begins one", kQuoteIt},
+    {YAML::ErrorMsg::END_OF_MAP_FLOW, "a { that is never closed", "put a } after the last value"},
+    {YAML::ErrorMsg::END_OF_SEQ_FLOW, "a [ that is never closed", "put a ] after the last value"},
+    {YAML::ErrorMsg::END_OF_MAP, kNotOfIt, kIndentAlike},
+    {YAML::ErrorMsg::END_OF_SEQ, kNotOfIt, kIndentAlike},
+    {YAML::ErrorMsg::FLOW_END, "this closes nothing that is open here", "each [ has its ], each { its }"},
+    {YAML::ErrorMsg::UNKNOWN_TOKEN, "no text begins with this sign unless it is in quotation marks", kQuoteIt},
+    {YAML::ErrorMsg::EOF_IN_SCALAR, "a quotation that is never closed", kCloseQuotation},
+    {YAML::ErrorMsg::DOC_IN_SCALAR, "a quotation that is never closed", kCloseQuotation},
+    {YAML::ErrorMsg::INVALID_ESCAPE, "not an escape of YAML, which reads \\ in double quotation marks",
+     "single quotation marks leave the \\ alone: 'HELLO\\r'"},
+    {YAML::ErrorMsg::INVALID_HEX, "two hex digits belong after \\x, four after \\u",
+     "single quotation marks leave the \\ alone: 'HELLO\\r'"},
+    {YAML::ErrorMsg::INVALID_UNICODE, "there is no such character", "write another number after the \\"},
+    {YAML::ErrorMsg::ZERO_INDENT_IN_BLOCK, "the indentation of a block is 1 to 9", "write | or > alone"},
+    {YAML::ErrorMsg::CHAR_IN_BLOCK, "nothing but 1 to 9, + and - follows | or >", "begin the text on the next line"},
+    {YAML::ErrorMsg::ANCHOR_NOT_FOUND, kNoAliases, kQuoteIt},
+    {YAML::ErrorMsg::ALIAS_NOT_FOUND, kNoAliases, kQuoteIt},
+    {YAML::ErrorMsg::UNKNOWN_ANCHOR, kNoAliases, kRepeat},
+    {YAML::ErrorMsg::CHAR_IN_ANCHOR, kNoAliases, kQuoteIt},
+    {YAML::ErrorMsg::CHAR_IN_ALIAS, kNoAliases, kQuoteIt},
+    {YAML::ErrorMsg::MULTIPLE_ANCHORS, kNoAliases, kRepeat},
+    {YAML::ErrorMsg::ALIAS_CONTENT, kNoAliases, kRepeat},
+    {YAML::ErrorMsg::CHAR_IN_TAG_HANDLE, kNoTags, kQuoteIt},
+    {YAML::ErrorMsg::TAG_WITH_NO_SUFFIX, kNoTags, kQuoteIt},
+    {YAML::ErrorMsg::END_OF_VERBATIM_TAG, kNoTags, kQuoteIt},
+    {YAML::ErrorMsg::MULTIPLE_TAGS, kNoTags, kQuoteIt},
+    {YAML::ErrorMsg::YAML_DIRECTIVE_ARGS, "directives (%) have no place in a scenario", "leave the line out"},
+    {YAML::ErrorMsg::YAML_VERSION, "directives (%) have no place in a scenario", "leave the line out"},
+    {YAML::ErrorMsg::YAML_MAJOR_VERSION, "directives (%) have no place in a scenario", "leave the line out"},
+    {YAML::ErrorMsg::REPEATED_YAML_DIRECTIVE, "directives (%) have no place in a scenario", "leave the line out"},
+    {YAML::ErrorMsg::TAG_DIRECTIVE_ARGS, "directives (%) have no place in a scenario", "leave the line out"},
+    {YAML::ErrorMsg::REPEATED_TAG_DIRECTIVE, "directives (%) have no place in a scenario", "leave the line out"},
+};
+
+/// The tab in the indentation of a line, from 1; 0 if there is none. The '-' of lists is part of it.
+std::uint32_t column_of_tab(std::string_view line) {
+  const std::size_t tab = line.substr(0, line.find_first_not_of(" \t-")).find('\t');
+  return tab == std::string_view::npos ? 0 : static_cast<std::uint32_t>(tab + 1);
+}
+
+stl::Diagnostic to_diagnostic(const YAML::Exception& error, const stl::Source& source) {
+  stl::Diagnostic diagnostic{stl::Severity::Error, place(error.mark, source), "", ""};
+  const std::uint32_t line = diagnostic.position.line;
+  const bool in_text = line > 0 && line <= source.text.size();
+  if (const std::uint32_t tab = in_text ? column_of_tab(source.text[line - 1]) : 0; tab != 0) {
+    diagnostic.position = {line, tab, 1};
+    diagnostic.message = "a tab in the indentation: YAML takes blanks only";
+    diagnostic.hint = "replace the tabs by blanks; most editors do so for a whole file";
+    return diagnostic;
+  }
+  for (const Complaint& complaint : kComplaints)
+    if (std::string_view(error.msg).starts_with(complaint.parser)) {
+      diagnostic.message = complaint.message;
+      diagnostic.hint = complaint.hint;
+      return diagnostic;
+    }
+  diagnostic.message = "not YAML: " + error.msg;
+  diagnostic.hint = "compare the line with the examples in the description of the format";
+  return diagnostic;
+}
+
 class TreeBuilder final : public YAML::EventHandler {
  public:
   TreeBuilder(const stl::Source& source, stl::Diagnostics& diagnostics) : source_(source), diagnostics_(diagnostics) {}
 
   std::optional<YamlNode> take() { return std::move(root_); }
+
+  /// Of the map or list that is being read; none at the top.
+  std::optional<stl::Position> innermost() const {
+    return open_.empty() ? std::nullopt : std::optional(open_.back().node.position);
+  }
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
@@ -60,14 +146,12 @@ class TreeBuilder final : public YAML::EventHandler {
   [[noreturn]] void fail(const YAML::Mark& mark, std::string message, std::string hint) const {
     throw Unreadable{{stl::Severity::Error, place(mark, source_), std::move(message), std::move(hint)}};
   }
-  [[noreturn]] void no_aliases(const YAML::Mark& mark) const {
-    fail(mark, "anchors and aliases (& and *) have no place in a scenario", "repeat steps with 'for:' or 'repeat:'");
-  }
+  [[noreturn]] void no_aliases(const YAML::Mark& mark) const { fail(mark, std::string(kNoAliases), std::string(kRepeat)); }
 
   void look_at(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
     if (anchor != 0) no_aliases(mark);
     if (!tag.empty() && tag != "?" && tag != "!")
-      fail(mark, "tags (!) have no place in a scenario", "put quotation marks around a text that begins with !");
+      fail(mark, std::string(kNoTags), "put quotation marks around a text that begins with !");
     if (++nodes_ > kMostYamlNodes)
       fail(mark, fmt::format("more than {} values in one file", kMostYamlNodes), "divide it into several files");
   }
@@ -75,8 +159,31 @@ class TreeBuilder final : public YAML::EventHandler {
   void scalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, const std::string& value) {
     look_at(mark, tag, anchor);
     YamlNode node{.position = place(mark, source_), .text = value};
+    if (tag == "!" && !is_closed(node.position))
+      fail(mark, "a quotation that is never closed", std::string(kCloseQuotation));
     node.position.length = underline(node);
     add(std::move(node));
+  }
+
+  /// The parser takes the end of the file for the end of a quotation.
+  bool is_closed(const stl::Position& begin) const {
+    if (begin.column == 0) return true;
+    std::size_t line = begin.line - 1;
+    std::string_view rest = source_.text[line];
+    for (std::uint32_t column = 1; column < begin.column; ++column) rest.remove_prefix(stl::first_character(rest).bytes);
+    const char mark = rest.empty() ? ' ' : rest.front();
+    if (mark != '\'' && mark != '"') return true;
+    for (rest.remove_prefix(1);; rest = source_.text[line]) {
+      for (std::size_t i = 0; i < rest.size(); ++i) {
+        if (mark == '"' && rest[i] == '\\')
+          ++i;
+        else if (rest[i] == mark && mark == '\'' && i + 1 < rest.size() && rest[i + 1] == mark)
+          ++i;
+        else if (rest[i] == mark)
+          return true;
+      }
+      if (++line == source_.text.size()) return false;
+    }
   }
 
   /// As many characters as stand there, as far as they do.
@@ -157,11 +264,11 @@ std::optional<YamlNode> read_yaml(const std::string& text, const stl::Source& so
   if (text.size() > kLongestYaml)
     return fail(
         {stl::Severity::Error, {}, fmt::format("longer than {} bytes", kLongestYaml), "divide it into several files"});
-  if (!stl::is_valid_utf8(text)) return fail({stl::Severity::Error, {}, "no UTF-8 text", "save it as UTF-8"});
+  if (!stl::is_valid_utf8(text)) return fail({stl::Severity::Error, {}, "not UTF-8 text", "save it as UTF-8"});
+  TreeBuilder builder(source, diagnostics);
   try {
     std::istringstream in(text);
     YAML::Parser parser(in);
-    TreeBuilder builder(source, diagnostics);
     if (!parser.HandleNextDocument(builder))
       return fail({stl::Severity::Error, {}, "nothing in it", "a scenario has at least 'program:' and 'steps:'"});
     std::optional<YamlNode> root = builder.take();
@@ -171,7 +278,10 @@ std::optional<YamlNode> read_yaml(const std::string& text, const stl::Source& so
   } catch (const Unreadable& unreadable) {
     return fail(unreadable.diagnostic);
   } catch (const YAML::Exception& error) {
-    return fail({stl::Severity::Error, place(error.mark, source), "no YAML: " + error.msg, ""});
+    stl::Diagnostic diagnostic = to_diagnostic(error, source);
+    const bool at_the_end = diagnostic.position.column == 0;
+    if (const auto open = builder.innermost(); open && at_the_end) diagnostic.position = *open;
+    return fail(std::move(diagnostic));
   }
 }
 
