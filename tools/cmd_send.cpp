@@ -16,6 +16,7 @@
 #include "tools/results_json.hpp"
 #include "tools/simulated_slave.hpp"
 #include "tools/terminal.hpp"
+#include "tools/text_frame.hpp"
 #include "tools/timeline.hpp"
 
 namespace s7200::tools {
@@ -23,7 +24,8 @@ namespace {
 
 struct SendOptions {
   ProgramOptions program;
-  std::vector<std::string> frames;
+  std::vector<std::string> frames, texts;
+  std::vector<bool> text_is_next;  // of frames and texts, in the order of the command line
   std::string frames_file;
   bool crc = false, json = false, timeline = false;
   Time after = kNever;  // kNever: when the first scan has ended and the line is quiet
@@ -32,13 +34,27 @@ struct SendOptions {
   PlantOptions plant;
 };
 
+/// A line of a file of frames, without its end.
+std::string without_comment(const std::string& line) {
+  const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
+  const std::size_t quotation = quotation_length(std::string_view(line).substr(begin));
+  if (quotation == std::string_view::npos) return line;
+  return line.substr(0, std::min(line.find('#', begin + quotation), line.find('\r', begin + quotation)));
+}
+
 /// All frames of the command line and the file; a message and false when one is no frame.
 bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames) {
   struct Written {
     std::string text, place;
+    modbus::ParsedFrame (*parse)(std::string_view);
   };
   std::vector<Written> written;
-  for (const std::string& text : options.frames) written.push_back({text, fmt::format("frame '{}'", text)});
+  auto frame = options.frames.begin(), text = options.texts.begin();
+  for (const bool is_text : options.text_is_next) {
+    const std::string& next = is_text ? *text++ : *frame++;
+    written.push_back(
+        {next, fmt::format("{} '{}'", is_text ? "--text" : "frame", next), is_text ? parse_text : modbus::parse_hex_frame});
+  }
   if (!options.frames_file.empty()) {
     std::string why;
     const auto bytes = read_file(options.frames_file, why);
@@ -50,17 +66,17 @@ bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames)
     std::size_t number = 0;
     for (std::string line; std::getline(lines, line);) {
       ++number;
-      line = line.substr(0, std::min(line.find('#'), line.find('\r')));
+      line = without_comment(line);
       if (line.find_first_not_of(" \t") != std::string::npos)
-        written.push_back({line, fmt::format("{}:{}", options.frames_file, number)});
+        written.push_back({line, fmt::format("{}:{}", options.frames_file, number), parse_hex_or_quoted});
     }
   }
   if (written.empty()) {
-    print_error("no frame to send: give frames in hex or --frames FILE");
+    print_error("no frame to send: give frames in hex, --text, or --frames FILE");
     return false;
   }
   for (const Written& w : written) {
-    modbus::ParsedFrame parsed = modbus::parse_hex_frame(w.text);
+    modbus::ParsedFrame parsed = w.parse(w.text);
     if (!parsed.ok()) {
       print_error(fmt::format("{}: column {}: {}", w.place, parsed.errors[0].column, parsed.errors[0].message));
       return false;
@@ -75,7 +91,10 @@ nlohmann::ordered_json to_json(const serial::Exchange& exchange) {
   nlohmann::ordered_json json{
       {"request", plain_hex(modbus::bytes_of(exchange.request))}, {"response", nullptr}, {"latency_us", nullptr}};
   if (!exchange.echo.empty()) json["echo"] = plain_hex(serial::bytes_of(exchange.echo));
+  const modbus::Bytes request = modbus::bytes_of(exchange.request);
+  if (const auto text = plain_text(request, request)) json["request_text"] = *text;
   if (exchange.timed_out) return json;
+  if (const auto text = plain_text(request, exchange.response_bytes())) json["response_text"] = *text;
   json["response"] = plain_hex(exchange.response_bytes());
   json["latency_us"] = static_cast<double>(*exchange.latency()) / kMicrosecond;
   if (exchange.parity_error()) json["parity_error"] = true;
@@ -144,9 +163,17 @@ void add_send(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<SendOptions>();
   CLI::App* verb = app.add_subcommand("send", "put request frames on the line of a running program, print the answers");
   options->program.add_to(*verb);
-  verb->add_option("HEX", options->frames,
-                   "frames in hex, each in quotes if it has blanks: '01 03 …'; p after a byte sends it with wrong parity");
-  verb->add_option("--frames", options->frames_file, "file with one frame a line; # begins a comment")->type_name("FILE");
+  const CLI::Option* const hex = verb->add_option(
+      "HEX", options->frames,
+      "frames in hex, each in quotes if it has blanks: '01 03 …'; p after a byte sends it with wrong parity");
+  const CLI::Option* const text =
+      verb->add_option("--text", options->texts,
+                       "frame of ASCII text, with \\r \\n \\t \\\\ \\' \\\" and \\xHH (repeatable)")
+          ->type_name("TEXT")
+          ->allow_extra_args(false);
+  verb->add_option("--frames", options->frames_file,
+                   "file with one frame a line, in hex, or as text in quotation marks; # begins a comment")
+      ->type_name("FILE");
   verb->add_flag("--crc", options->crc, "append the Modbus CRC to each frame");
   add_duration(*verb, "--after", options->after,
                "when to send the first frame [after the first scan and 7 characters + 10 ms of silence]");
@@ -158,7 +185,11 @@ void add_send(CLI::App& app, int& exit_code) {
   verb->footer(fault_help() +
                "Exit code 1 when a frame was not answered; what an answer says is not judged here but by 's7200 master'.\n"
                "Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");
-  verb->callback([options, &exit_code] { exit_code = run_send(*options); });
+  verb->callback([options, &exit_code, verb, hex, text] {
+    for (const CLI::Option* option : verb->parse_order())
+      if (option == hex || option == text) options->text_is_next.push_back(option == text);
+    exit_code = run_send(*options);
+  });
 }
 
 }  // namespace s7200::tools

@@ -10,22 +10,30 @@
 #include "tools/machine_text.hpp"
 #include "tools/memory.hpp"
 #include "tools/report.hpp"
+#include "tools/text_frame.hpp"
 
 namespace s7200::tools {
 namespace {
 
+/// Where the character at `place` ends, or the quotation that begins a word there.
+std::size_t end_of_piece(std::string_view text, std::size_t place) {
+  const bool begins_a_word = place == 0 || stl::is_blank(text[place - 1]);
+  const std::size_t quotation = begins_a_word ? quotation_length(text.substr(place)) : 0;
+  return quotation == std::string_view::npos ? text.size() : place + std::max<std::size_t>(quotation, 1);
+}
+
 std::string_view without_comment(std::string_view line) {
-  for (std::size_t i = 0; i < line.size(); ++i)
+  for (std::size_t i = 0; i < line.size(); i = end_of_piece(line, i))
     if (line[i] == '#' && (i == 0 || stl::is_blank(line[i - 1]))) return line.substr(0, i);
   return line;
 }
 
+/// Quotations are not split.
 std::vector<std::string> split(std::string_view text, std::string_view separators) {
   std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
+  for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end = end + 1) {
+    while (end < text.size() && separators.find(text[end]) == std::string_view::npos) end = end_of_piece(text, end);
     if (end > begin) parts.emplace_back(text.substr(begin, end - begin));
-    begin = end + 1;
   }
   return parts;
 }

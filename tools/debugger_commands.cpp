@@ -11,6 +11,7 @@
 #include "tools/machine_text.hpp"
 #include "tools/memory.hpp"
 #include "tools/report.hpp"
+#include "tools/text_frame.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -100,8 +101,10 @@ const std::vector<Debugger::Command>& Debugger::commands() {
       {"input", "i", "input I0.3=1…", "switch input points; edges of I0.0 to I0.3 cause events 0 to 7",
        "The program finds the new level when the inputs are next read, or at once with an immediate instruction.",
        &Debugger::input},
-      {"send", "", "send HEX… [crc]", "put a frame on the line from now on; crc appends the Modbus CRC",
-       "p behind a byte sends it with wrong parity. 'continue' runs while it arrives and stops when the answer is complete.",
+      {"send", "", "send HEX… | 'TEXT' [crc]", "put a frame on the line from now on; crc appends the Modbus CRC",
+       "p behind a byte sends it with wrong parity. TEXT is ASCII, with \\r \\n \\t \\\\ \\' and \\xHH. 'continue' runs "
+       "while it "
+       "arrives and stops when the answer is complete.",
        &Debugger::send},
       {"help", "h", "help [COMMAND]", "this list, or more about a command", "", &Debugger::help},
       {"quit", "q", "quit", "end", "", &Debugger::quit},
@@ -464,11 +467,13 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
   Arguments words = arguments;
   const bool crc = !words.empty() && lower_case(words.back()) == "crc";
   if (crc) words.pop_back();
-  if (words.empty()) return expects("send", "a frame in hex, for example: send 01 03 00 00 00 02 crc");
-  modbus::ParsedFrame parsed = modbus::parse_hex_frame(joined(words));
+  if (words.empty())
+    return expects("send",
+                   "a frame in hex or text in quotation marks, for example: send 01 03 00 00 00 02 crc, or send 'HELLO\\r'");
+  modbus::ParsedFrame parsed = parse_hex_or_quoted(joined(words));
   if (!parsed.ok()) {
     const modbus::FrameError& error = parsed.errors[0];
-    return fmt::format("send: frame '{}', column {}: {}", joined(words), error.column, error.message);
+    return fmt::format("send {}: column {}: {}", joined(words), error.column, error.message);
   }
   if (crc) modbus::append_crc(parsed.frame);
   const SerialFormat format = options_.master.format_for(simulation_);
@@ -481,7 +486,9 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
   simulation_.master_uart().configure(format);
   const MasterOptions& master = options_.master;
   simulation_.master().start({.frame = parsed.frame, .timeout = master.timeout, .gap = master.gap}, simulation_.time());
-  out_ << fmt::format("on the line from now on: {} ({})\n", modbus::to_hex(parsed.frame), format_text(format));
+  const std::string text = request_text(modbus::bytes_of(parsed.frame));
+  out_ << fmt::format("on the line from now on: {}{} ({})\n", modbus::to_hex(parsed.frame), text.empty() ? "" : "  " + text,
+                      format_text(format));
   if (!simulation_.cpu().state().port.active) out_ << "port 0 is not in Freeport mode: the program will not hear it\n";
   return {};
 }

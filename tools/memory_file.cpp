@@ -11,7 +11,7 @@
 #include "interpreter/program/address.hpp"
 #include "interpreter/program/load.hpp"
 #include "tools/atomic_file.hpp"
-#include "tools/duration_option.hpp"
+#include "tools/number_option.hpp"
 #include "tools/report.hpp"
 #include "tools/terminal.hpp"
 

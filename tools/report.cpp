@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "interpreter/stl/printer.hpp"
-#include "serial_sim/modbus/answer.hpp"
 #include "tools/exit_code.hpp"
+#include "tools/text_frame.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -26,14 +26,19 @@ nlohmann::ordered_json error_json(const Program& program, std::uint16_t code, st
   return json;
 }
 
-/// What the line looked like to the master, when more than bytes came.
-std::string errors_of(const serial::Exchange& exchange) {
-  std::string text;
-  if (exchange.parity_error()) text += ", parity errors";
-  if (exchange.framing_error()) text += ", framing errors";
-  if (exchange.too_long) text += ", cut off";
+/// What the answer says, and what the line looked like to the master when more than bytes came.
+std::string remarks_on(const serial::Exchange& exchange) {
+  std::string text = answer_text(modbus::bytes_of(exchange.request), exchange.response_bytes());
+  const auto add = [&text](bool is_so, std::string_view remark) {
+    if (is_so) text.append(text.empty() ? "" : ", ").append(remark);
+  };
+  add(exchange.parity_error(), "parity errors");
+  add(exchange.framing_error(), "framing errors");
+  add(exchange.too_long, "cut off");
   return text;
 }
+
+std::string below(const std::string& text) { return text.empty() ? "" : fmt::format("         {}\n", text); }
 
 }  // namespace
 
@@ -85,13 +90,12 @@ std::string torn_frame_note(const std::vector<std::string>& frames) {
 }
 
 std::string exchange_text(const serial::Exchange& exchange, Time timeout) {
-  std::string request = fmt::format("request  {}\n", modbus::to_hex(exchange.request));
+  const modbus::Bytes bytes = modbus::bytes_of(exchange.request);
+  std::string request = fmt::format("request  {}\n{}", modbus::to_hex(exchange.request), below(request_text(bytes)));
   if (!exchange.echo.empty()) request += fmt::format("echo     {}\n", modbus::to_hex(serial::bytes_of(exchange.echo)));
   if (exchange.timed_out) return fmt::format("{}answer   none within {}\n", request, format_duration(timeout));
-  const modbus::Bytes response = exchange.response_bytes();
-  return fmt::format("{}answer   {}   after {}\n         {}{}\n", request, modbus::to_hex(response),
-                     format_duration(*exchange.latency()), modbus::describe(modbus::bytes_of(exchange.request), response),
-                     errors_of(exchange));
+  return fmt::format("{}answer   {}   after {}\n{}", request, modbus::to_hex(exchange.response_bytes()),
+                     format_duration(*exchange.latency()), below(remarks_on(exchange)));
 }
 
 std::string plain_hex(std::span<const std::uint8_t> bytes) {

@@ -266,6 +266,16 @@ TEST(Debugger, AnswerThatArrivesDuringAnotherCommandIsPrintedAndDoesNotStopIt) {
   EXPECT_EQ(session.state().scans, 33U);
 }
 
+TEST(Debugger, SendTakesTextInQuotationMarks) {
+  Session session(kEcho);
+  const std::string text = session("scan 3; send 'Z'; continue # the first");
+  EXPECT_TRUE(has(text, "on the line from now on: 5a  'Z' (9600 baud"));
+  EXPECT_TRUE(has(text, "request  5a\n         'Z'\nanswer   5a   after"));
+  EXPECT_TRUE(has(session("send ';'; continue"), "answer   3b   after"));
+  EXPECT_TRUE(has(session("send \" # \" ; continue"), "request  20 23 20\n         ' # '\n"));
+  EXPECT_TRUE(has(session("send 'Z' crc"), "on the line from now on: 5a 3f 7b ("));
+}
+
 TEST(Debugger, ContinueStopsWhenNoAnswerCame) {
   Session session(kNested);
   const std::string text = session("scan 3; send 5a; continue");
@@ -474,6 +484,9 @@ TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
       {"send", "send expects a frame in hex"},
       {"send crc", "send expects a frame in hex"},
       {"send 0g", "column 2: 'g' is no hex digit"},
+      {"send 'A\\q'", "send 'A\\q': column 3: \\ is followed by r, n, t, xHH"},
+      {"send 'A ; # B", "send 'A ; # B: column 1: the closing ' is missing"},
+      {"send 'A' 42", "column 4: nothing follows the closing quotation mark"},
       {"trace", "trace expects on or off"},
       {"help x", "unknown command 'x'"},
       {"quit 1", "takes no argument"},
