@@ -327,6 +327,16 @@ void write_file(const std::string& path, const std::string& text) {
   if (!write_atomically(path, text, why)) fail(fmt::format("cannot write {}: {}", path, why));
 }
 
+/// Empty if something was.
+std::string why_nothing_was_checked(const std::vector<Report>& reports) {
+  std::size_t checks = 0;
+  for (const Report& report : reports) checks += report.result.checks + report.result.findings.size();
+  if (checks > 0 || reports.empty()) return "";
+  const bool skipped = std::all_of(reports.begin(), reports.end(),
+                                   [](const Report& r) { return r.result.outcome == ScenarioResult::Outcome::Skipped; });
+  return skipped ? "every scenario was skipped" : "no step that was done expects anything";
+}
+
 int run_all(const std::vector<Scenario>& scenarios, const TestOptions& options, Programs& programs) {
   const Benches benches = benches_for(scenarios, options.target, options, programs);
   const bool conformance = !options.conformance.empty();
@@ -360,14 +370,15 @@ int run_all(const std::vector<Scenario>& scenarios, const TestOptions& options, 
   }
   if (const std::size_t left = scenarios.size() - reports.size(); left > 0)
     fmt::print(stderr, "s7200: note: {} not run\n", left == 1 ? "1 scenario was" : fmt::format("{} scenarios were", left));
+  if (const std::string why = why_nothing_was_checked(reports); !why.empty() && options.record.empty())
+    fmt::print(stderr, "s7200: note: nothing was checked: {}\n", why);
+  std::vector<Scenario> as_run = scenarios;
+  for (Scenario& scenario : as_run)
+    if (!options.target.empty()) scenario.program = benches.slave ? "" : options.target;
+  for (Report& report : reports) report.scenario = &as_run[static_cast<std::size_t>(report.scenario - scenarios.data())];
   if (!options.junit.empty()) write_file(options.junit, to_junit(reports));
   if (!options.record.empty()) {
     const Time tolerance = options.tolerance_with(benches.slave != nullptr);
-    std::vector<Scenario> with_program = scenarios;
-    for (Scenario& scenario : with_program)
-      if (!options.target.empty()) scenario.program = benches.slave ? "" : options.target;
-    for (Report& report : reports)
-      report.scenario = &with_program[static_cast<std::size_t>(report.scenario - scenarios.data())];
     write_file(options.record,
                transcript_text(reports, {options.record, benches.name, tolerance, benches.slave != nullptr}));
   }

@@ -11,7 +11,6 @@
 namespace s7200::tools {
 namespace {
 
-constexpr std::size_t kStrayShown = 16;
 constexpr int kStrayReads = 256;       // from a side that never stops talking
 constexpr Time kToComplete = kSecond;  // an answer over Modbus TCP that has begun
 
@@ -20,13 +19,13 @@ void refuse_wrong_parity(const modbus::Frame& frame) {
     throw std::invalid_argument("a byte with wrong parity (p) can only be sent to a program in simulation");
 }
 
-std::string hex(const std::vector<HostLink::Character>& characters) {
+modbus::Bytes bytes_of(const std::vector<HostLink::Character>& characters) {
   modbus::Bytes bytes;
   for (const auto& character : characters) bytes.push_back(character.byte);
-  const bool cut = bytes.size() > kStrayShown;
-  if (cut) bytes.resize(kStrayShown);
-  return modbus::to_hex(bytes) + (cut ? " …" : "");
+  return bytes;
 }
+
+std::string hex(const std::vector<HostLink::Character>& characters) { return beginning_in_hex(bytes_of(characters)); }
 
 std::uint16_t word_at(const std::vector<HostLink::Character>& characters, std::size_t place) {
   return static_cast<std::uint16_t>(characters[place].byte << 8 | characters[place + 1].byte);
@@ -47,12 +46,17 @@ void HostSlave::make_ready() {
     } catch (const SlaveUnreachable&) {
       // A server may close a connection that was idle; whether it is still there shows below.
     }
-    if (!stray.empty()) remark("ignored what came before the request: " + hex(stray));
+    if (!stray.empty()) remark(ignored_text(bytes_of(stray)));
   }
   if (!link_->is_open()) link_->open();
 }
 
-bool HostSlave::receive(std::vector<HostLink::Character>& characters, Time until) {
+void HostSlave::open_again() {
+  remark_.clear();
+  if (!link_->is_open()) link_->open();
+}
+
+bool HostSlave::take_in(std::vector<HostLink::Character>& characters, Time until) {
   if (!link_->is_open() || !link_->wait_for_input(until + made_at_)) return false;
   try {
     link_->read(characters);
@@ -83,8 +87,7 @@ void RtuSlave::send(const modbus::Bytes& bytes, Time gap) {
   }
 }
 
-Time RtuSlave::silence_after(const serial::Exchange& exchange, const serial::Request& request) const {
-  if (request.silence) return *request.silence;
+Time RtuSlave::silence_after(const serial::Exchange& exchange) const {
   return modbus::crc_ok(exchange.response_bytes()) ? shortest_silence_ : std::max(shortest_silence_, kSilenceInside);
 }
 
@@ -99,9 +102,25 @@ serial::Exchange RtuSlave::exchange(const serial::Request& request) {
   const auto length = static_cast<Time>(request.frame.size());
   exchange.request_end = std::max(now(), exchange.request_start + length * character_time + (length - 1) * request.gap);
 
+  collect(exchange, exchange.request_end + request.timeout, request.silence);
+  if (!exchange.timed_out)  // a pty may be faster than a line
+    exchange.request_end = std::min(exchange.request_end, exchange.response_start);
+  return exchange;
+}
+
+serial::Exchange RtuSlave::receive(const serial::Listening& listening) {
+  open_again();
+  serial::Exchange exchange;
+  exchange.request_start = exchange.request_end = now();
+  collect(exchange, exchange.request_end + listening.timeout, listening.silence);
+  return exchange;
+}
+
+/// What comes in until it ends; its first character comes before `until`.
+void RtuSlave::collect(serial::Exchange& exchange, Time until, const std::optional<Time>& silence) {
+  const Time character_time = link_->character_time();
   std::vector<HostLink::Character> received;
-  Time until = exchange.request_end + request.timeout;
-  while (!exchange.too_long && receive(received, until)) {
+  while (!exchange.too_long && take_in(received, until)) {
     const Time arrival = now();
     const std::size_t known = exchange.response.size();
     exchange.too_long = received.size() > serial::Master::kLongestResponse;
@@ -116,15 +135,12 @@ serial::Exchange RtuSlave::exchange(const serial::Request& request) {
                                    .start = std::max(end - character_time, earliest),
                                    .end = end});
     }
-    until = arrival + silence_after(exchange, request);
+    until = arrival + silence.value_or(silence_after(exchange));
   }
   exchange.timed_out = exchange.response.empty();
-  if (!exchange.timed_out) {
-    exchange.response_start = exchange.response.front().start;
-    exchange.response_end = exchange.response.back().end;
-    exchange.request_end = std::min(exchange.request_end, exchange.response_start);  // a pty may be faster than a line
-  }
-  return exchange;
+  if (exchange.timed_out) return;
+  exchange.response_start = exchange.response.front().start;
+  exchange.response_end = exchange.response.back().end;
 }
 
 ModbusTcpSlave::ModbusTcpSlave(const std::string& host, const std::string& port)
@@ -157,7 +173,7 @@ serial::Exchange ModbusTcpSlave::exchange(const serial::Request& request) {
   const Time until = now() + request.timeout;
   const auto deadline = [&] { return received.empty() ? until : until + kToComplete; };
   do {
-    if (!receive(received, deadline())) break;
+    if (!take_in(received, deadline())) break;
     if (begun == 0) begun = now();
     while (exchange.response.empty() && received.size() >= kHeader) {
       const std::size_t length = word_at(received, 4), size = kHeader + length;
@@ -192,6 +208,10 @@ serial::Exchange ModbusTcpSlave::exchange(const serial::Request& request) {
   exchange.response_start = begun;
   exchange.response_end = now();
   return exchange;
+}
+
+serial::Exchange ModbusTcpSlave::receive(const serial::Listening&) {
+  throw std::invalid_argument("over Modbus TCP a slave only speaks when it is asked");
 }
 
 }  // namespace s7200::tools

@@ -12,6 +12,7 @@ namespace s7200::tools {
 /// is the result. A link that broke is opened again by the next exchange.
 class HostSlave : public Slave {
  public:
+  void forget_unasked() override { make_ready(); }
   void wait(Time duration) override { sleep_until(host_time() + duration); }
   Time now() const override { return host_time() - made_at_; }
   std::string name() const override { return link_->name(); }
@@ -24,8 +25,11 @@ class HostSlave : public Slave {
   /// A working link. What came in unasked is thrown away, and remarked.
   void make_ready();
 
+  /// A working link, with what came in unasked.
+  void open_again();
+
   /// Appends what came in before `until`. False when nothing did, or the link ended and something is there to be shown.
-  bool receive(std::vector<HostLink::Character>& characters, Time until);
+  bool take_in(std::vector<HostLink::Character>& characters, Time until);
 
   void remark(const std::string& text);
 
@@ -56,11 +60,15 @@ class RtuSlave final : public HostSlave {
 
   /// Throws std::invalid_argument for a byte with wrong parity.
   serial::Exchange exchange(const serial::Request& request) override;
+
+  /// What came in while nothing was asked of the device counts as one transmission that began when this was called.
+  serial::Exchange receive(const serial::Listening& listening) override;
   Time pause() const override { return 0; }  // the silence that ended the answer is pause enough
 
  private:
   void send(const modbus::Bytes& bytes, Time gap);
-  Time silence_after(const serial::Exchange& exchange, const serial::Request& request) const;
+  void collect(serial::Exchange& exchange, Time until, const std::optional<Time>& silence);
+  Time silence_after(const serial::Exchange& exchange) const;
 
   bool has_parity_ = false;
   Time shortest_silence_ = 0;
@@ -76,6 +84,9 @@ class ModbusTcpSlave final : public HostSlave {
 
   /// Throws std::invalid_argument for a frame without a right CRC, and for a byte with wrong parity.
   serial::Exchange exchange(const serial::Request& request) override;
+
+  /// Throws std::invalid_argument.
+  serial::Exchange receive(const serial::Listening& listening) override;
   Time pause() const override { return 0; }
 
  private:

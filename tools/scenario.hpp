@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -41,6 +42,7 @@ using BytePattern = std::optional<std::uint8_t>;
 struct Expected {
   enum class Kind : std::uint8_t {
     Silence,    ///< no character came
+    Any,        ///< any characters came
     Frame,      ///< these bytes
     Echo,       ///< the request, byte by byte
     Exception,  ///< from that station, to that function, with that code
@@ -55,18 +57,27 @@ struct Expected {
   std::vector<std::optional<std::uint16_t>> values{};  ///< of Values
 };
 
-struct ExchangeStep {
-  modbus::Frame request{};           ///< all of it, its CRC included
-  bool has_crc = false;              ///< the request has a right CRC, and so must an answer
+/// What is waited for on the line, and what it must be.
+struct Reception {
+  bool has_crc = false;              ///< a right CRC must be at its end
   std::vector<Expected> expected{};  ///< one of these; anything if empty
-  bool disturbed = false;            ///< the answer has parity or framing errors
+  bool disturbed = false;            ///< it has parity or framing errors
   std::optional<Window> latency{};
-  std::optional<Window> answer_gap{};  ///< each pause between two characters of the answer
-  std::optional<Time> at{};            ///< when the request begins, since power-up; on other slaves since the first step
-  std::optional<Span> pause{};         ///< between the exchange before and this one; the scenario's if not given
-  Span gap{};                          ///< between the characters of the request
-  std::optional<Span> listen{};        ///< the silence that ends the answer; 3.5 characters if not given
-  std::optional<Time> timeout{};       ///< the scenario's if not given
+  std::optional<Window> answer_gap{};  ///< each pause between two characters
+  std::optional<Span> listen{};        ///< the silence that ends it; 3.5 characters if not given
+  std::optional<Time> timeout{};       ///< until it begins; the scenario's if not given
+};
+
+struct ExchangeStep : Reception {
+  modbus::Frame request{};      ///< all of it, its CRC included
+  std::optional<Time> at{};     ///< when the request begins, since power-up; on other slaves since the first step
+  std::optional<Span> pause{};  ///< between the exchange before and this one; the scenario's if not given
+  Span gap{};                   ///< between the characters of the request
+};
+
+/// A transmission that nobody asked for, since the last request or still to come.
+struct ReceiveStep : Reception {
+  std::optional<Window> at{};  ///< when it begins, since power-up
 };
 
 struct WaitStep {
@@ -79,11 +90,29 @@ struct SetStep {
 };
 
 struct MemoryExpected {
+  /// From … to, both included, as an instruction reads the value: bytes without a sign, words and double words with one,
+  /// unless a limit is larger than that, and reals.
+  struct Limits {
+    double from = 0, to = 0;
+    bool is_signed = true;
+    bool operator==(const Limits&) const = default;
+  };
+
   MemoryRange range{};
   std::vector<BytePattern> bytes{};  ///< as they lie in memory; of a bit, 0 or 1
+  std::optional<Limits> limits{};    ///< instead of the bytes
+  std::string address{}, written{};  ///< as they were written
+
+  bool fits(const std::vector<std::uint8_t>& found) const;
 };
 struct MemoryStep {
   std::vector<MemoryExpected> expected{};
+};
+
+/// Goes on when memory is as expected, looked at now, at the end of each scan, and when the time is over.
+struct WaitUntilStep {
+  std::vector<MemoryExpected> expected{};
+  std::optional<Time> timeout{};  ///< the scenario's if not given
 };
 
 struct Count {
@@ -128,13 +157,17 @@ struct FaultStep {
 };
 
 struct Step {
+  std::string_view key{};  ///< of the action; empty if it was not written
   stl::Position position{};
   std::string note{};  ///< shown when it fails
   std::string loop{};  ///< `function = 3, count = 126`: which turn of its loops
-  std::variant<ExchangeStep, WaitStep, SetStep, MemoryStep, InterruptsStep, ModeStep, FatalStep, ErrorsStep, PowerCycleStep,
-               FaultStep>
+  std::variant<ExchangeStep, ReceiveStep, WaitStep, WaitUntilStep, SetStep, MemoryStep, InterruptsStep, ModeStep, FatalStep,
+               ErrorsStep, PowerCycleStep, FaultStep>
       action{};
 };
+
+/// What is waited for on the line, of a step that does so; null for all others.
+const Reception* reception_of(const Step& step);
 
 /// What makes a scenario a rule of a conformance suite.
 struct Rule {
@@ -171,7 +204,8 @@ struct Scenario {
 /// Looks at what only a program in simulation shows: memory, interrupts, mode, errors.
 bool looks_inside(const Step& step);
 
-/// Does what can only be done to a program in simulation: sets memory or a fault, switches power, counts scans.
+/// Does what can only be done to a program in simulation: sets memory or a fault, waits for memory, switches power, counts
+/// scans.
 bool acts_inside(const Step& step);
 
 }  // namespace s7200::tools

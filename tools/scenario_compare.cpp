@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "serial_sim/modbus/answer.hpp"
+#include "tools/text_frame.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -25,11 +25,15 @@ bool same_time(const serial::Exchange& a, const serial::Exchange& b, Time tolera
   return !one || !other || std::abs(*one - *other) <= tolerance;
 }
 
-std::string answer_text(const serial::Exchange& exchange) {
+std::string came_text(const serial::Exchange& exchange) {
   const modbus::Bytes response = exchange.response_bytes();
-  if (response.empty()) return "no answer";
-  return fmt::format("{} after {}", modbus::describe(modbus::bytes_of(exchange.request), response),
-                     format_duration(*exchange.latency(), 6));
+  const modbus::Bytes request = modbus::bytes_of(exchange.request);
+  if (response.empty()) return request.empty() ? "nothing" : "no answer";
+  const std::string says = answer_text(request, response);
+  const Time latency = *exchange.latency();
+  const std::string when =
+      latency >= 0 ? "after " + format_duration(latency, 6) : format_duration(-latency, 6) + " before it was waited for";
+  return says.empty() ? when : fmt::format("{} {}", says, when);
 }
 
 /// Side by side, from the request on.
@@ -40,14 +44,16 @@ std::string exchange_text(const Scenario& scenario, const Seen& one, const Seen&
   const std::string place = step.position.line ? fmt::format(", {}:{}", scenario.source->name, step.position.line) : "";
   const std::string turn = step.loop.empty() ? "" : fmt::format(" (with {})", step.loop);
   const auto before = std::count_if(scenario.steps.begin(), scenario.steps.begin() + static_cast<std::ptrdiff_t>(one.step),
-                                    [](const Step& s) { return std::holds_alternative<ExchangeStep>(s.action); });
+                                    [](const Step& s) { return reception_of(s) != nullptr; });
   std::string text = fmt::format("{}exchange {}{}{}\n", kIndent, before + 1, place, turn);
-  text += fmt::format("{}{:<{}} {}\n", kIndent, "request", width, modbus::to_hex(one.exchange.request));
+  const bool asked = !one.exchange.request.empty();
+  text += fmt::format("{}{:<{}} {}\n", kIndent, "request", width,
+                      asked ? modbus::to_hex(one.exchange.request) : "none: a transmission that nobody asked for");
   if (!same_answer(one.exchange, other.exchange))
     text += bytes_diff(pattern_of(one.exchange.response_bytes()), pattern_of(other.exchange.response_bytes()), kIndent,
                        colour, one_name, other_name);
-  text += fmt::format("{}{:<{}} {}\n", kIndent, one_name, width, answer_text(one.exchange));
-  text += fmt::format("{}{:<{}} {}\n", kIndent, other_name, width, answer_text(other.exchange));
+  text += fmt::format("{}{:<{}} {}\n", kIndent, one_name, width, came_text(one.exchange));
+  text += fmt::format("{}{:<{}} {}\n", kIndent, other_name, width, came_text(other.exchange));
   return text;
 }
 
@@ -74,8 +80,8 @@ std::string trouble_text(const Scenario& scenario, const ScenarioResult& result,
   for (const Finding& finding : result.findings) {
     if (!finding.of_run || ++count > 1) continue;
     const std::uint32_t line = scenario.steps.empty() ? 0 : scenario.steps[finding.step].position.line;
-    text = fmt::format("{}{} could not be asked{}: {} was due, {}\n", kIndent, name,
-                       line ? fmt::format(", {}:{}", scenario.source->name, line) : "", finding.expected, finding.found);
+    text = fmt::format("{}{} could not be asked{}: {}\n", kIndent, name,
+                       line ? fmt::format(", {}:{}", scenario.source->name, line) : "", finding_line(scenario, finding));
   }
   if (count > 1) text += fmt::format("{}and {} more\n", kIndent, count - 1);
   return text;

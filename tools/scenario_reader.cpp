@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <filesystem>
+#include <limits>
 #include <set>
 #include <tuple>
 
@@ -13,6 +15,7 @@
 #include "serial_sim/modbus/address.hpp"
 #include "tools/clock_text.hpp"
 #include "tools/scenario_yaml.hpp"
+#include "tools/text_frame.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -20,6 +23,7 @@ namespace {
 using Where = ScenarioKey::Where;
 
 constexpr std::string_view kExchanges = "send request read write";
+constexpr std::string_view kReceptions = "send request read write receive";
 
 // clang-format off
 const std::vector<ScenarioKey> kKeys{
@@ -38,7 +42,7 @@ const std::vector<ScenarioKey> kKeys{
     {Where::Scenario, "clock", "", "TIME", "time of day at the start: `2026-11-21 10:00:00`"},
     {Where::Scenario, "after", "", "TIME", "when the first step begins; if left out, when the first scan has ended and the line is quiet"},
     {Where::Scenario, "pause", "", "SPAN", "between an exchange and the next one; `7 characters + 10ms` if left out"},
-    {Where::Scenario, "timeout", "", "TIME", "how long to wait for an answer to begin; `1s` if left out"},
+    {Where::Scenario, "timeout", "", "TIME", "how long to wait for an answer or a transmission to begin, or for memory; `1s` if left out"},
     {Where::Scenario, "tolerance", "", "TIME", "by which a latency given as one figure may be missed; `0` if left out"},
     {Where::Scenario, "needs", "", "LIST", "calculations as inside `${…}`: if one is 0, or has a parameter without a value, the scenario is not applicable"},
     {Where::Scenario, "rule", "", "TEXT", "makes it a rule of a conformance suite, with this id"},
@@ -51,13 +55,15 @@ const std::vector<ScenarioKey> kKeys{
     {Where::Line, "data_bits", "", "7, 8", ""},
     {Where::Line, "stop_bits", "", "1, 2", ""},
 
-    {Where::Action, "send", "", "HEX", "a frame as it stands; `p` behind a byte sends it with wrong parity"},
+    {Where::Action, "send", "", "HEX or {text: ASCII}", "a frame as it stands; `p` after a byte sends it with wrong parity"},
     {Where::Action, "request", "", "HEX", "function and data; station and CRC are added"},
     {Where::Action, "read", "", "AREA FIRST or NUMBER", "function 1, 2, 3 or 4: `coils 0`, `inputs 0`, `input-registers 0`, `holding 0`, counted from 0; or `00001`, `10001`, `30001`, `40001`, `400001`"},
     {Where::Action, "write", "", "AREA FIRST or NUMBER", "coils or holding registers: function 5 or 6 with `value`, 15 or 16 with `values`"},
+    {Where::Action, "receive", "", "any, silence, HEX or {text: ASCII}", "a transmission that nobody asked for: the first since the last request, or the next to come"},
     {Where::Action, "wait", "", "SPAN or N scans", "nothing is sent for so long"},
+    {Where::Action, "wait_until", "", "MAP", "goes on when memory is as in `memory`, looked at now, at the end of each scan, and when the time is over"},
     {Where::Action, "set", "", "MAP", "memory and inputs: `{VW20: 16#1234, I0.3: 1}`"},
-    {Where::Action, "memory", "", "MAP", "what must be in memory: `{VW20: 16#1234, Q0.0: 1, VB0:4: 01 02 .. 04}`"},
+    {Where::Action, "memory", "", "MAP", "what must be in memory: `{VW20: 16#1234, VW22: 5..10, Q0.0: 1, VD24: 1.5, VB0:4: 01 02 .. 04}`"},
     {Where::Action, "interrupts", "", "MAP", "how often since the last request began: `{INT 123: 7, event 10: 1..2, lost: 0}`"},
     {Where::Action, "mode", "", "run, stop", "what mode the CPU must be in"},
     {Where::Action, "fatal", "", "CODE or none", "the fatal error there must have been: `0003`"},
@@ -68,21 +74,22 @@ const std::vector<ScenarioKey> kKeys{
     {Where::Action, "for", "", "MAP", "the `steps` beside it for each value: `{function: [1, 2], count: 1..8, f: functions}`"},
 
     {Where::Modifier, "steps", "repeat for", "LIST", "what is repeated"},
-    {Where::Modifier, "crc", "send", "true, false", "append the CRC to the frame, and look for it at the end of the answer; `false` if left out"},
+    {Where::Modifier, "crc", "send receive", "true, false", "append the CRC to the frame, and look for it at the end of what comes; `false` if left out"},
     {Where::Modifier, "station", "request read write", "NUMBER", "instead of the scenario's"},
     {Where::Modifier, "count", "read", "NUMBER", "how many; 1 if left out"},
     {Where::Modifier, "value", "write", "NUMBER", "the one to write"},
     {Where::Modifier, "values", "write", "LIST", "those to write"},
     {Where::Modifier, "expect", kExchanges, "ANSWER", "how it must end; if left out, in any way"},
     {Where::Modifier, "expect_one_of", kExchanges, "LIST", "several ANSWERs, one of which is right"},
-    {Where::Modifier, "disturbed", kExchanges, "true, false", "whether the answer has parity or framing errors; `false` if left out"},
-    {Where::Modifier, "latency", kExchanges, "WINDOW", "from the end of the request to the begin of the answer"},
-    {Where::Modifier, "answer_gap", kExchanges, "WINDOW", "every pause between two characters of the answer"},
+    {Where::Modifier, "disturbed", kReceptions, "true, false", "whether what comes has parity or framing errors; `false` if left out"},
+    {Where::Modifier, "latency", kReceptions, "WINDOW", "from the end of the request to the start of the answer; of `receive` from the start of the step, 0 if the transmission began earlier"},
+    {Where::Modifier, "answer_gap", kReceptions, "WINDOW", "every pause between two characters of what comes"},
     {Where::Modifier, "at", kExchanges, "TIME", "when the request begins, since power-up"},
+    {Where::Modifier, "at", "receive", "WINDOW", "when the transmission begins, since power-up"},
     {Where::Modifier, "pause", kExchanges, "SPAN", "between the exchange before and this one"},
     {Where::Modifier, "gap", kExchanges, "SPAN", "between the characters of the request; 0 if left out"},
-    {Where::Modifier, "listen", kExchanges, "SPAN", "the silence that ends the answer; `3.5 characters` if left out"},
-    {Where::Modifier, "timeout", kExchanges, "TIME", "instead of the scenario's"},
+    {Where::Modifier, "listen", kReceptions, "SPAN", "the silence that ends what comes; `3.5 characters` if left out"},
+    {Where::Modifier, "timeout", "send request read write receive wait_until", "TIME", "instead of the scenario's"},
     {Where::Modifier, "power_off", "power_cycle", "TIME", "how long power was off; 0 if left out. The clock goes on, unless the memory is lost"},
     {Where::Modifier, "needs", "", "LIST", "as of a scenario; if one does not hold, the step is left out"},
     {Where::Modifier, "note", "", "TEXT", "shown when the step fails"},
@@ -199,12 +206,12 @@ class Reader {
     if (!list && !steps) return wrong(root, "neither 'steps' nor 'scenarios'", "a scenario has 'steps:', a list");
     if (steps) {
       if (list) return wrong(*steps, "both 'steps' and 'scenarios'", "steps stand inside each scenario of the list");
-      if (applicable) read_steps(*steps, common, common.steps);
+      if (applicable) read_all_steps(*steps, common);
       file_.scenarios.push_back(std::move(common));
       return;
     }
     if (!list->is_list()) return wrong(*list, "'scenarios' is a list, not " + to_text(*list), "begin each with '- name:'");
-    if (list->items.empty()) return wrong(*list, "no scenarios");
+    if (list->items.empty()) return wrong(*list, "no scenarios: nothing would be tested", "begin each with '- name:'");
     for (const YamlNode& each : list->items) read_scenario(each, common);
   }
 
@@ -363,7 +370,7 @@ class Reader {
       if (!steps)
         wrong(node, "a scenario without 'steps'");
       else
-        read_steps(*steps, scenario, scenario.steps);
+        read_all_steps(*steps, scenario);
     }
     station_ = station;
     file_.scenarios.push_back(std::move(scenario));
@@ -480,6 +487,18 @@ class Reader {
 
   // --- steps ---
 
+  /// Those of a scenario. There is at least one, unless what they need is not there.
+  void read_all_steps(const YamlNode& list, Scenario& scenario) {
+    const std::size_t mistakes = complaints.list.size();
+    left_out_ = false;
+    read_steps(list, scenario, scenario.steps);
+    if (!scenario.steps.empty() || complaints.list.size() > mistakes) return;
+    if (!left_out_)
+      wrong(list, "no steps: nothing would be tested", "write for example - {read: holding 0, expect: accepted}");
+    else if (scenario.skipped.empty())
+      scenario.skipped = "not applicable: none of its steps has what it needs";
+  }
+
   void read_steps(const YamlNode& list, const Scenario& scenario, std::vector<Step>& steps) {
     if (!list.is_list()) return wrong(list, "'steps' is a list, not " + to_text(list), "begin each step with '- '");
     for (const YamlNode& node : list.items) {
@@ -515,15 +534,25 @@ class Reader {
     }
     check_keys(node, {Where::Modifier}, action->text);
     std::string missing;
-    if (!has_what_it_needs(node, missing)) return;
+    if (!has_what_it_needs(node, missing)) {
+      left_out_ = true;
+      return;
+    }
     const YamlNode& is = *node.find(action->text);
     if (action->text == "repeat") return read_repeat(node, is, scenario, steps);
     if (action->text == "for") return read_for(node, is, scenario, steps);
-    Step step{.position = action->position, .loop = loop_};
+    Step step{.key = key_of(action->text), .position = action->position, .loop = loop_};
     step.position.length = static_cast<std::uint32_t>(action->text.size());
     if (const auto note = optional_text(node, "note")) step.note = *note;
     read_action(action->text, node, is, scenario, step);
     steps.push_back(std::move(step));
+  }
+
+  /// As it stands in the table.
+  static std::string_view key_of(std::string_view action) {
+    return std::find_if(kKeys.begin(), kKeys.end(),
+                        [&](const auto& k) { return k.where == Where::Action && k.key == action; })
+        ->key;
   }
 
   void read_action(const std::string& action, const YamlNode& node, const YamlNode& is, const Scenario& scenario,
@@ -531,10 +560,15 @@ class Reader {
     const CpuModel& model = *find_cpu(scenario.cpu);
     if (has_word(kExchanges, action)) {
       step.action = read_exchange(action, node, is, scenario);
+    } else if (action == "receive") {
+      step.action = read_receive(node, is, scenario);
     } else if (action == "wait") {
       step.action = read_wait(is);
+    } else if (action == "wait_until") {
+      step.action = WaitUntilStep{read_memory(is, model).expected, time(node.find("timeout"))};
     } else if (action == "set") {
       SetStep set;
+      if (is.is_map() && is.keys.empty()) wrong(is, "nothing to set", "write for example {VW20: 16#1234, I0.3: 1}");
       read_assignments(is, model, set.assignments);
       step.action = std::move(set);
     } else if (action == "memory") {
@@ -588,13 +622,7 @@ class Reader {
     const auto range = address ? parse_range(*address, model, why) : std::nullopt;
     if (address && !range) wrong(key, why);
     if (!range) return {};
-    if (range->count == 1) {
-      const auto one = assignment(key, item, model);
-      if (!one) return {};
-      std::array<std::uint8_t, 4> big_endian{};
-      store32(big_endian.data(), one->value);
-      return MemoryExpected{*range, {big_endian.end() - range->bytes(), big_endian.end()}};
-    }
+    if (range->count == 1) return value_expected(key, item, model);
     const auto written = text(item);
     auto pattern = written ? parse_pattern(*written, why) : std::nullopt;
     if (written && !pattern)
@@ -604,7 +632,61 @@ class Reader {
       return {};
     }
     if (!pattern) return {};
-    return MemoryExpected{*range, std::move(*pattern)};
+    return MemoryExpected{.range = *range, .bytes = std::move(*pattern), .address = *address, .written = *written};
+  }
+
+  /// `5`, `16#1234`, `1.5`, and from … to: `5..10`, `5..`, `..1.5`
+  std::optional<MemoryExpected> value_expected(const YamlNode& key, const YamlNode& item, const CpuModel& model) {
+    const auto written = text(item);
+    if (written && sides(*written).range) return limits_expected(key, item, *written, model);
+    const auto one = assignment(key, item, model);
+    if (!one) return {};
+    MemoryExpected expected{.range = one->place, .address = *text(key), .written = *written};
+    if (one->place.real) {
+      const double value = std::bit_cast<float>(one->value);
+      expected.limits = {.from = value, .to = value};
+      return expected;
+    }
+    std::array<std::uint8_t, 4> big_endian{};
+    store32(big_endian.data(), one->value);
+    expected.bytes.assign(big_endian.end() - one->place.bytes(), big_endian.end());
+    return expected;
+  }
+
+  std::optional<MemoryExpected> limits_expected(const YamlNode& key, const YamlNode& item, const std::string& written,
+                                                const CpuModel& model) {
+    const auto refuse = [&](std::string_view why) {
+      wrong(item, fmt::format("'{}': {}", stl::shortened(written), why),
+            "write for example 5..10, 5.., -5..5, or 1.0..2.5 for a double word");
+      return std::nullopt;
+    };
+    const std::string address = *text(key);
+    std::string why;
+    MemoryExpected expected{.range = *parse_range(address, model, why), .address = address, .written = written};
+    if (expected.range.width == Width::Bit) return refuse("a bit is 0 or 1");
+    constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+    MemoryExpected::Limits limits{.from = -kUnlimited, .to = kUnlimited};
+    const auto [from, to, range] = sides(written);
+    int reals = 0, numbers = 0;
+    for (const auto& [side, limit] : {std::pair(from, &limits.from), std::pair(to, &limits.to)}) {
+      if (side.empty()) continue;
+      const auto assigned = parse_assignment(fmt::format("{}={}", address, side), model, why);
+      const auto number = parse_number(side);
+      if (!assigned || !(number || assigned->place.real)) return refuse(fmt::format("'{}' does not fit {}", side, address));
+      *limit = assigned->place.real ? std::bit_cast<float>(assigned->value) : static_cast<double>(*number);
+      ++(assigned->place.real ? reals : numbers);
+    }
+    if (reals + numbers == 0) return refuse("neither from nor to");
+    if (reals > 0 && numbers > 0) return refuse("both limits of a real are reals");
+    if (limits.from > limits.to) return refuse("no value is inside");
+    expected.range.real = reals > 0;
+    const double largest = expected.range.width == Width::Word ? INT16_MAX : INT32_MAX;
+    limits.is_signed =
+        expected.range.width != Width::Byte && limits.from <= largest && (limits.to <= largest || limits.to == kUnlimited);
+    const bool both = numbers > 1 && !limits.is_signed && limits.from < 0;
+    if (both) return refuse("a value with a sign is not that large, and one without is not below 0");
+    expected.limits = limits;
+    return expected;
   }
 
   Count count(const YamlNode& node) {
@@ -777,15 +859,37 @@ class Reader {
       step.request = with_station(node, write_pdu(node, is));
     read_expectations(node, step);
     if (action == "read") check_values(node, step);
-    if (const YamlNode* latency = node.find("latency")) step.latency = window(*latency, scenario.tolerance);
-    if (const YamlNode* gap = node.find("answer_gap")) step.answer_gap = window(*gap, scenario.tolerance);
-    step.disturbed = choice<bool>(node.find("disturbed"), {{"true", true}, {"false", false}}).value_or(false);
+    if (is.is_map() && !step.has_crc) check_answers_to_text(node, step);
+    read_reception(node, scenario, step);
     step.at = time(node.find("at"));
     step.pause = span(node.find("pause"));
     step.gap = span(node.find("gap")).value_or(Span{});
-    step.listen = span(node.find("listen"));
-    step.timeout = time(node.find("timeout"));
     if (step.at && step.pause) wrong(*node.find("at"), "both 'at' and 'pause'", "one of them says when the request begins");
+    return step;
+  }
+
+  void read_reception(const YamlNode& node, const Scenario& scenario, Reception& reception) {
+    if (const YamlNode* latency = node.find("latency")) reception.latency = window(*latency, scenario.tolerance);
+    if (const YamlNode* gap = node.find("answer_gap")) reception.answer_gap = window(*gap, scenario.tolerance);
+    reception.disturbed = truth(node.find("disturbed"));
+    reception.listen = span(node.find("listen"));
+    reception.timeout = time(node.find("timeout"));
+  }
+
+  bool truth(const YamlNode* node) { return choice<bool>(node, {{"true", true}, {"false", false}}).value_or(false); }
+
+  ReceiveStep read_receive(const YamlNode& node, const YamlNode& is, const Scenario& scenario) {
+    using Kind = Expected::Kind;
+    ReceiveStep step;
+    step.has_crc = truth(node.find("crc"));
+    read_reception(node, scenario, step);
+    if (const YamlNode* at = node.find("at")) step.at = window(*at, scenario.tolerance);
+    auto expected = read_expected(is);
+    if (!expected) return step;
+    if (expected->kind != Kind::Any && expected->kind != Kind::Silence && expected->kind != Kind::Frame)
+      wrong(is, "'receive' waits for what nobody asked for: any, silence, hex or {text: ...}",
+            "an answer to a request stands in 'expect:'");
+    step.expected.push_back(std::move(*expected));
     return step;
   }
 
@@ -803,9 +907,24 @@ class Reader {
     return {};
   }
 
+  /// What stands in `{text: …}`.
+  std::optional<std::string> text_inside(const YamlNode& map) {
+    if (map.keys.size() == 1 && map.keys[0].text == "text") return text(map.items[0]);
+    wrong(map, "a map here is {text: ...} and nothing else", R"(write for example {text: 'HELLO\r'})");
+    return {};
+  }
+
+  modbus::Frame text_frame(const YamlNode& map) {
+    const auto written = text_inside(map);
+    if (!written) return {};
+    modbus::ParsedFrame parsed = parse_text(*written);
+    if (!parsed.ok()) wrong(map.items[0], parsed.errors[0].message, R"(write for example {text: 'HELLO\r'})");
+    return std::move(parsed.frame);
+  }
+
   void read_send(const YamlNode& node, const YamlNode& is, ExchangeStep& step) {
-    step.request = frame(is);
-    step.has_crc = choice<bool>(node.find("crc"), {{"true", true}, {"false", false}}).value_or(false);
+    step.request = is.is_map() ? text_frame(is) : frame(is);
+    step.has_crc = truth(node.find("crc"));
     if (step.has_crc) modbus::append_crc(step.request);
   }
 
@@ -904,10 +1023,23 @@ class Reader {
       if (auto expected = read_expected(*one)) step.expected.push_back(std::move(*expected));
     } else if (several && !several->is_list()) {
       wrong(*several, "'expect_one_of' is a list, not " + to_text(*several), "write for example [silence, exception 3]");
+    } else if (several && several->items.empty()) {
+      wrong(*several, "'expect_one_of' expects nothing", "write for example [silence, exception 3]");
     } else if (several) {
       for (const YamlNode& each : several->items)
         if (auto expected = read_expected(each)) step.expected.push_back(std::move(*expected));
     }
+  }
+
+  /// Complains about what only an answer of Modbus can be.
+  void check_answers_to_text(const YamlNode& node, const ExchangeStep& step) {
+    using Kind = Expected::Kind;
+    for (const Expected& expected : step.expected)
+      if (expected.kind == Kind::Exception || expected.kind == Kind::Values || expected.kind == Kind::Accepted ||
+          expected.kind == Kind::Refused)
+        wrong(*node.find(node.find("expect") ? "expect" : "expect_one_of"),
+              "values, accepted, refused and exceptions are answers of Modbus, and a text is not a Modbus request",
+              R"(write for example {text: 'OK\r'}, hex, any, silence or echo)");
   }
 
   /// Complains about values that no right answer to a read can have.
@@ -929,11 +1061,13 @@ class Reader {
 
   std::optional<Expected> read_expected(const YamlNode& node) {
     using Kind = Expected::Kind;
+    if (node.is_map()) return text_expected(node);
     if (node.is_list()) return Expected{.kind = Kind::Values, .values = numbers(node, 0xFFFF, true)};
     const auto written = text(node);
     if (!written) return {};
     const std::string word = lower_case(*written);
     for (const auto& [name, kind] : {std::pair("silence", Kind::Silence),
+                                     {"any", Kind::Any},
                                      {"echo", Kind::Echo},
                                      {"accepted", Kind::Accepted},
                                      {"refused", Kind::Refused}})
@@ -949,10 +1083,23 @@ class Reader {
     auto pattern = parse_pattern(*written, why);
     if (!pattern) {
       wrong(node, fmt::format("'{}' is no answer: {}", stl::shortened(*written), why),
-            "write hex such as 01 03 .. .., silence, echo, accepted, refused, exception 2, or values such as [16#1234, 0]");
+            "write hex such as 01 03 .. .., {text: 'OK\\r'}, any, silence, echo, accepted, refused, exception 2, or "
+            "values such as [16#1234, 0]");
       return {};
     }
     return Expected{.kind = Kind::Frame, .frame = std::move(*pattern)};
+  }
+
+  std::optional<Expected> text_expected(const YamlNode& map) {
+    const auto written = text_inside(map);
+    if (!written) return {};
+    std::string why;
+    auto pattern = parse_text_pattern(*written, why);
+    if (!pattern) {
+      wrong(map.items[0], why, R"(write for example {text: 'T=\?\?\r'})");
+      return {};
+    }
+    return Expected{.kind = Expected::Kind::Frame, .frame = std::move(*pattern)};
   }
 
   ScenarioFile& file_;
@@ -963,6 +1110,7 @@ class Reader {
   std::string loop_;
   int depth_ = 0;
   std::size_t work_ = 0;
+  bool left_out_ = false;  ///< a step of this scenario, for want of what it needs
 };
 
 void sort_out(stl::Diagnostics& into, const stl::Diagnostics& more) {

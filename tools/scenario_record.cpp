@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "interpreter/program/load.hpp"
-#include "serial_sim/modbus/answer.hpp"
+#include "tools/text_frame.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -40,6 +40,13 @@ std::string assignments_text(const std::vector<Assignment>& assignments) {
   return "{" + text + "}";
 }
 
+std::string memory_text(const std::vector<MemoryExpected>& all) {
+  std::string text;
+  for (const MemoryExpected& expected : all)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", in_quotes(expected.address), in_quotes(expected.written));
+  return text;
+}
+
 class Writer {
  public:
   explicit Writer(const Transcript& transcript)
@@ -55,9 +62,11 @@ class Writer {
     last_end_.reset();
     for (std::size_t i = 0; i < scenario.steps.size(); ++i) {
       const Step& step = scenario.steps[i];
-      if (std::holds_alternative<ExchangeStep>(step.action)) {
+      if (reception_of(step) != nullptr) {
         if (seen == report.result.seen.size() || report.result.seen[seen].step != i) continue;
-        exchange(std::get<ExchangeStep>(step.action), report.result.seen[seen++].exchange, scenario.line.timeout);
+        came(step, report.result.seen[seen++].exchange, scenario.line.timeout);
+      } else if (const auto* wait = std::get_if<WaitUntilStep>(&step.action)) {
+        waited(*wait, i, report);
       } else if ((transcript_.live && (looks_inside(step) || acts_inside(step))) || !driving(step)) {
         continue;
       }
@@ -109,22 +118,68 @@ class Writer {
     if (options.timeout != usual.timeout) line(4, "timeout: " + exact(options.timeout));
   }
 
-  void exchange(const ExchangeStep& step, const serial::Exchange& seen, Time timeout) {
-    line(6, "- send: " + modbus::to_hex(seen.request));
+  void came(const Step& step, const serial::Exchange& seen, Time timeout) {
+    if (const auto* exchange = std::get_if<ExchangeStep>(&step.action))
+      asked(*exchange, seen, timeout);
+    else
+      received(std::get<ReceiveStep>(step.action), seen);
+  }
+
+  void asked(const ExchangeStep& step, const serial::Exchange& seen, Time timeout) {
+    const modbus::Bytes request = modbus::bytes_of(seen.request), response = seen.response_bytes();
+    const std::string quoted = modbus::has_wrong_parity(seen.request) ? "" : request_text(request);
+    line(6, "- send: " + (quoted.empty() ? modbus::to_hex(seen.request) : in_a_map(quoted)));
     if (!transcript_.live)
       line(8, "at: " + exact(seen.request_start));
     else if (last_end_)
       line(8, "pause: " + exact(std::max<Time>(0, seen.request_start - *last_end_)));
     last_end_ = seen.response.empty() ? seen.request_end + step.timeout.value_or(timeout) : seen.response_end;
     if (step.gap != Span{}) line(8, "gap: " + exact(step.gap));
+    how_to_listen(step);
+    line(8, "expect: " + what_came(request, response));
+    if (response.empty()) return;
+    how_it_came(seen);
+    const Time latency = *seen.latency();
+    if (latency >= 0) line(8, "latency: " + exact(latency));  // below 0 on a line with echo only, and no window says so
+    const std::string says = plain_text(request, response) ? "" : answer_text(request, response);
+    if (!says.empty()) line(8, "# " + says);
+  }
+
+  void received(const ReceiveStep& step, const serial::Exchange& seen) {
+    line(6, "- receive: " + what_came({}, seen.response_bytes()));
+    how_to_listen(step);
+    if (seen.response.empty()) return;
+    last_end_ = seen.response_end;
+    how_it_came(seen);
+    if (transcript_.live)
+      line(8, "latency: " + exact(*latency_of(seen)));
+    else
+      line(8, "at: " + exact(seen.response_start));
+  }
+
+  void how_to_listen(const Reception& step) {
     if (step.listen) line(8, "listen: " + exact(*step.listen));
     if (step.timeout) line(8, "timeout: " + exact(*step.timeout));
-    if (seen.response.empty()) return line(8, "expect: silence");
-    const modbus::Bytes response = seen.response_bytes();
-    line(8, "expect: " + modbus::to_hex(response));
+  }
+  void how_it_came(const serial::Exchange& seen) {
     if (seen.parity_error() || seen.framing_error()) line(8, "disturbed: true");
-    line(8, "latency: " + exact(*seen.latency()));
-    line(8, "# " + modbus::describe(modbus::bytes_of(seen.request), response));
+  }
+
+  static std::string in_a_map(const std::string& quoted) { return "{text: " + quoted + "}"; }
+  static std::string what_came(const modbus::Bytes& request, const modbus::Bytes& response) {
+    if (response.empty()) return "silence";
+    return plain_text(request, response) ? in_a_map(quoted_text(response)) : modbus::to_hex(response);
+  }
+
+  /// A program that did not get there in time does not get there in a replay either: what is left is the time.
+  void waited(const WaitUntilStep& step, std::size_t index, const Report& report) {
+    const std::vector<Finding>& findings = report.result.findings;
+    const bool in_vain =
+        std::any_of(findings.begin(), findings.end(), [&](const Finding& f) { return f.step == index && f.of_run; });
+    const Time timeout = step.timeout.value_or(report.scenario->line.timeout);
+    if (in_vain) return line(6, "- wait: " + exact(timeout));
+    line(6, "- wait_until: {" + memory_text(step.expected) + "}");
+    if (step.timeout) line(8, "timeout: " + exact(*step.timeout));
   }
 
   /// What changes what comes after it. False for expectations, which are left out.

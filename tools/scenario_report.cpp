@@ -5,16 +5,19 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <span>
 
 #include "interpreter/stl/text.hpp"
 #include "tools/report.hpp"
+#include "tools/text_frame.hpp"
 
 namespace s7200::tools {
 namespace {
 
 using Outcome = ScenarioResult::Outcome;
 
-constexpr std::size_t kRow = 16;  // bytes in a row of a diff
+constexpr std::size_t kRow = 16;          // bytes in a row of a diff
+constexpr std::size_t kMostFindings = 5;  // of a scenario, in JUnit
 constexpr const char* kIndent = "      ";
 
 constexpr const char* kRed = "1;31";
@@ -86,7 +89,8 @@ std::string finding_text(const Scenario& scenario, const Finding& finding, bool 
     if (!step.note.empty()) text += kIndent + step.note + '\n';
   }
   text += fmt::format("{}{} is not what was expected\n", kIndent, finding.what);
-  if (finding.exchange) text += field("request", shortened_hex(modbus::bytes_of(finding.exchange->request)));
+  if (finding.exchange && !finding.exchange->request.empty())
+    text += field("request", shortened_hex(modbus::bytes_of(finding.exchange->request)));
   if (!finding.expected_bytes.empty() && finding.found_bytes.empty()) {
     text += field("expected", row_of(finding.expected_bytes, 0, finding.expected_bytes.size()));
   } else if (!finding.expected_bytes.empty()) {
@@ -128,16 +132,20 @@ std::string findings_text(const Report& report, bool colour, std::size_t most) {
   return text;
 }
 
-/// One line: what was sent, what was due, what came.
-std::string seen_text(const Scenario& scenario, const Finding& finding) {
-  std::string text;
-  if (finding.exchange) text = fmt::format("{}: ", shortened_hex(modbus::bytes_of(finding.exchange->request)));
-  const std::string& loop = scenario.steps[finding.step].loop;
-  const std::string due =
-      !finding.expected.empty() ? finding.expected : row_of(finding.expected_bytes, 0, finding.expected_bytes.size());
-  text += fmt::format("{} was due, {} came", due, finding.found);
-  if (finding.what != "answer") text = finding.what + ", " + text;
-  return loop.empty() ? text : fmt::format("{} ({})", text, loop);
+/// In words, or its first bytes.
+std::string in_words(const std::string& words, const std::vector<BytePattern>& bytes) {
+  if (!words.empty()) return words;
+  const std::string row = row_of(bytes, 0, kRow);
+  return bytes.size() > kRow ? fmt::format("{} … {} bytes", row, bytes.size()) : row;
+}
+
+std::string in_one_line(std::string_view text) {
+  std::string result;
+  for (std::string_view line : stl::split_lines(std::string(text))) {
+    line.remove_prefix(std::min(line.size(), line.find_first_not_of(" \t")));
+    if (!line.empty()) result.append(result.empty() ? "" : " ").append(line);
+  }
+  return result;
 }
 
 std::string xml(std::string_view text) {
@@ -163,6 +171,93 @@ std::string xml(std::string_view text) {
   return result;
 }
 
+// --- JUnit ---
+
+constexpr const char *kOneSuite = "  ", *kOneCase = "    ", *kInCase = "      ";
+
+std::string attribute(std::string_view name, std::string_view value) { return fmt::format(" {}=\"{}\"", name, xml(value)); }
+
+/// Packages and classes of readers: `tests.programs.modbus_slave.line` for tests/programs/modbus_slave/line.yaml.
+std::string class_name(const std::string& file) {
+  std::string name;
+  const std::filesystem::path path = std::filesystem::path(file).replace_extension();
+  for (const std::filesystem::path& part : path)
+    if (part != ".." && part != "." && part != "/") name.append(name.empty() ? "" : ".").append(part.string());
+  return name;
+}
+
+std::string case_name(const Scenario& scenario) {
+  const Rule& rule = scenario.rule;
+  if (rule.id.empty()) return scenario.name;
+  return fmt::format("{} ({}, {}): {}", rule.id, severity_text(rule.severity), rule.source, scenario.name);
+}
+
+/// `line 6: answer to 01 03 00 0a 00 01 a4 08: expected no answer, found 1 register: 16#0000; and 2 more findings`
+std::string failure_message(const Report& report) {
+  const Scenario& scenario = *report.scenario;
+  const std::vector<Finding>& findings = report.result.findings;
+  const std::uint32_t line = scenario.steps.empty() ? 0 : scenario.steps[findings.front().step].position.line;
+  std::string message = finding_line(scenario, findings.front());
+  if (findings.front().what == "answer") message = "answer to " + message;
+  if (line != 0) message = fmt::format("line {}: {}", line, message);
+  const std::size_t more = findings.size() - 1;
+  return more == 0 ? message : fmt::format("{}; and {} more finding{}", message, more, more == 1 ? "" : "s");
+}
+
+std::string properties_text(const Report& report) {
+  std::string text;
+  const auto property = [&](std::string_view name, const std::string& value) {
+    if (!value.empty())
+      text += fmt::format("{}  <property{}{}/>\n", kInCase, attribute("name", name), attribute("value", value));
+  };
+  const ScenarioResult& result = report.result;
+  property("program", report.scenario->program);
+  property("cpu", report.scenario->cpu);
+  property("simulated_time_ns", result.outcome == Outcome::Skipped ? "" : std::to_string(result.time));
+  property("checks", std::to_string(result.checks));
+  property("skipped_steps", std::to_string(result.skipped_steps));
+  return fmt::format("{0}<properties>\n{1}{0}</properties>\n", kInCase, text);
+}
+
+std::string outcome_xml(const Report& report) {
+  const ScenarioResult& result = report.result;
+  if (result.outcome == Outcome::Skipped)
+    return fmt::format("{}<skipped{}/>\n", kInCase, attribute("message", result.reason));
+  if (result.outcome == Outcome::Passed) return "";
+  const bool failed = counts_as_failed(report);
+  const std::string message = failure_message(report);
+  return fmt::format("{}<{}>{}</{}>\n", kInCase,
+                     failed ? fmt::format("failure{}{}", attribute("message", message),
+                                          attribute("type", result.findings.front().of_run ? "run" : "expectation"))
+                            : "skipped" + attribute("message", "not done as it should be: " + message),
+                     xml(findings_text(report, false, kMostFindings)), failed ? "failure" : "skipped");
+}
+
+std::string case_xml(const Report& report) {
+  const Scenario& scenario = *report.scenario;
+  const std::string& file = scenario.source->name;
+  const bool has_place = !scenario.source->text.empty();
+  const std::string place =
+      has_place ? attribute("file", file) + attribute("line", std::to_string(scenario.position.line)) : "";
+  return fmt::format("{0}<testcase{1}{2}{3}{4}>\n{5}{6}{0}</testcase>\n", kOneCase, attribute("classname", class_name(file)),
+                     attribute("name", case_name(scenario)), place,
+                     attribute("time", fmt::format("{:.3f}", report.result.host_seconds)), properties_text(report),
+                     outcome_xml(report));
+}
+
+/// Of some reports, as readers add them up. Nothing is an error: what could not be run is a failure too.
+std::string totals_xml(std::span<const Report> reports) {
+  const auto failed = std::count_if(reports.begin(), reports.end(), counts_as_failed);
+  const auto passed =
+      std::count_if(reports.begin(), reports.end(), [](const Report& r) { return r.result.outcome == Outcome::Passed; });
+  double seconds = 0;
+  for (const Report& report : reports) seconds += report.result.host_seconds;
+  return fmt::format(" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\" time=\"{:.3f}\"", reports.size(), failed,
+                     static_cast<std::ptrdiff_t>(reports.size()) - failed - passed, seconds);
+}
+
+// --- JSON ---
+
 nlohmann::ordered_json bytes_json(const std::vector<BytePattern>& bytes) {
   if (bytes.empty()) return nullptr;
   return row_of(bytes, 0, bytes.size());
@@ -184,14 +279,16 @@ nlohmann::ordered_json finding_json(const Scenario& scenario, const Finding& fin
 
 nlohmann::ordered_json exchange_json(const Scenario& scenario, const Seen& seen) {
   const serial::Exchange& exchange = seen.exchange;
-  nlohmann::ordered_json json{{"line", scenario.steps[seen.step].position.line},
-                              {"request", plain_hex(modbus::bytes_of(exchange.request))},
-                              {"response", nullptr},
-                              {"latency_us", nullptr}};
-  if (const auto latency = exchange.latency()) {
-    json["response"] = plain_hex(exchange.response_bytes());
-    json["latency_us"] = static_cast<double>(*latency) / kMicrosecond;
-  }
+  const modbus::Bytes request = modbus::bytes_of(exchange.request), response = exchange.response_bytes();
+  nlohmann::ordered_json json{{"line", scenario.steps[seen.step].position.line}};
+  const auto add = [&json](const std::string& key, const modbus::Bytes& bytes, const std::optional<std::string>& text) {
+    json[key] = bytes.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(plain_hex(bytes));
+    if (text) json[key + "_text"] = *text;
+  };
+  add("request", request, plain_text(request, request));
+  add("response", response, plain_text(request, response));
+  json["latency_us"] = nullptr;
+  if (const auto latency = latency_of(exchange)) json["latency_us"] = static_cast<double>(*latency) / kMicrosecond;
   return json;
 }
 
@@ -202,6 +299,7 @@ nlohmann::ordered_json report_json(const Report& report) {
   json["outcome"] = kOutcomes[static_cast<std::size_t>(report.result.outcome)];
   json["reason"] = report.result.reason;
   json["time_ns"] = report.result.time;
+  json["checks"] = report.result.checks;
   json["skipped_steps"] = report.result.skipped_steps;
   json["findings"] = nlohmann::ordered_json::array();
   for (const Finding& finding : report.result.findings) json["findings"].push_back(finding_json(scenario, finding));
@@ -239,6 +337,19 @@ std::string bytes_diff(const std::vector<BytePattern>& expected, const std::vect
   return text;
 }
 
+std::string finding_line(const Scenario& scenario, const Finding& finding) {
+  const bool asked = finding.exchange && !finding.exchange->request.empty();
+  const std::string request = asked ? shortened_hex(modbus::bytes_of(finding.exchange->request)) : "";
+  const std::string about = !asked                     ? finding.what
+                            : finding.what == "answer" ? request
+                                                       : fmt::format("{}, {}", finding.what, request);
+  const std::string text =
+      fmt::format("{}: expected {}, found {}", about, in_words(finding.expected, finding.expected_bytes),
+                  in_words(finding.found, finding.found_bytes));
+  const std::string& loop = scenario.steps.empty() ? "" : scenario.steps[finding.step].loop;
+  return in_one_line(loop.empty() ? text : fmt::format("{} ({})", text, loop));
+}
+
 bool counts_as_failed(const Report& report) {
   return report.result.outcome == Outcome::Failed &&
          (report.scenario->rule.id.empty() || report.scenario->rule.severity == Rule::Severity::Must);
@@ -248,6 +359,7 @@ std::string report_text(const Report& report, bool colour, std::size_t most) {
   const ScenarioResult& result = report.result;
   std::string remark;
   if (!result.reason.empty()) remark = fmt::format("   ({})", result.reason);
+  if (result.outcome == Outcome::Passed && result.checks == 0) remark += "   (nothing was expected, so nothing was checked)";
   if (result.skipped_steps)
     remark += fmt::format("   ({} of {} steps skipped: they need the inside of the PLC or its line)", result.skipped_steps,
                           report.scenario->steps.size());
@@ -283,7 +395,7 @@ std::string conformance_text(const std::vector<Report>& reports, const std::stri
     if (result.outcome == Outcome::Skipped) text += fmt::format("        {}\n", result.reason);
     constexpr std::size_t kMost = 3;
     for (std::size_t i = 0; i < std::min(kMost, result.findings.size()); ++i)
-      text += "        " + seen_text(*report.scenario, result.findings[i]) + '\n';
+      text += "        " + finding_line(*report.scenario, result.findings[i]) + '\n';
     if (result.findings.size() > kMost) text += fmt::format("        and {} more\n", result.findings.size() - kMost);
   }
   for (const Rule::Severity severity : {Rule::Severity::Must, Rule::Severity::Should})
@@ -311,43 +423,16 @@ nlohmann::ordered_json to_json(const std::vector<Report>& reports) {
 }
 
 std::string to_junit(const std::vector<Report>& reports) {
-  const auto failed = [](const std::vector<Report>& some) {
-    return static_cast<std::size_t>(std::count_if(some.begin(), some.end(), counts_as_failed));
-  };
-  const auto skipped = [&](const std::vector<Report>& some) {
-    return some.size() - failed(some) - count(some, Outcome::Passed);
-  };
-  std::string text =
-      fmt::format("{} version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n",
-                  kJunitBeginning, reports.size(), failed(reports), skipped(reports));
+  std::string text = fmt::format("{} version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"s7200 test\"{}>\n",
+                                 kJunitBeginning, totals_xml(reports));
   for (std::size_t from = 0; from < reports.size();) {
     std::size_t to = from;
     while (to < reports.size() && reports[to].scenario->source == reports[from].scenario->source) ++to;
-    const std::vector<Report> suite(reports.begin() + static_cast<std::ptrdiff_t>(from),
-                                    reports.begin() + static_cast<std::ptrdiff_t>(to));
-    const std::string& file = suite.front().scenario->source->name;
-    double seconds = 0;
-    for (const Report& report : suite) seconds += report.result.host_seconds;
-    text += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n", xml(file),
-                        suite.size(), failed(suite), skipped(suite), seconds);
-    for (const Report& report : suite) {
-      const Rule& rule = report.scenario->rule;
-      const std::string id =
-          rule.id.empty() ? "" : fmt::format("{} ({}, {}): ", rule.id, severity_text(rule.severity), rule.source);
-      text += fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">\n",
-                          xml(std::filesystem::path(file).stem().string()), xml(id + report.scenario->name),
-                          report.result.host_seconds);
-      if (report.result.outcome == Outcome::Skipped)
-        text += fmt::format("      <skipped message=\"{}\"/>\n", xml(report.result.reason));
-      else if (report.result.outcome == Outcome::Failed && !counts_as_failed(report))
-        text += fmt::format("      <skipped message=\"not done as it should be\">{}</skipped>\n",
-                            xml(findings_text(report, false, 5)));
-      else if (report.result.outcome == Outcome::Failed)
-        text += fmt::format("      <failure message=\"{}\">{}</failure>\n", xml(report.result.findings.front().what),
-                            xml(findings_text(report, false, 5)));
-      text += "    </testcase>\n";
-    }
-    text += "  </testsuite>\n";
+    const auto suite = std::span(reports).subspan(from, to - from);
+    text += fmt::format("{}<testsuite{}{}>\n", kOneSuite, attribute("name", suite.front().scenario->source->name),
+                        totals_xml(suite));
+    for (const Report& report : suite) text += case_xml(report);
+    text += fmt::format("{}</testsuite>\n", kOneSuite);
     from = to;
   }
   return text + "</testsuites>\n";

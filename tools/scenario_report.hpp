@@ -22,6 +22,9 @@ bool counts_as_failed(const Report& report);
 /// `  pass     52.3 ms  reads coils from any bit on`, and below it what was found instead, up to `most` findings.
 std::string report_text(const Report& report, bool colour, std::size_t most = 5);
 
+/// What was sent, what was expected, what was found, in one line.
+std::string finding_line(const Scenario& scenario, const Finding& finding);
+
 /// `12 scenarios: 11 passed, 1 failed`
 std::string summary_text(const std::vector<Report>& reports);
 

@@ -4,22 +4,27 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <chrono>
 #include <map>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/fan_out.hpp"
 #include "serial_sim/modbus/answer.hpp"
 #include "tools/interruption.hpp"
+#include "tools/machine_text.hpp"
 #include "tools/memory.hpp"
 #include "tools/report.hpp"
 #include "tools/simulated_slave.hpp"
+#include "tools/text_frame.hpp"
 #include "tools/timeline.hpp"
 
 namespace s7200::tools {
 namespace {
 
 constexpr Time kReadyWithin = 60 * kSecond;
+constexpr Time kSlice = 10 * kSecond;  // Ctrl-C is heard in between
 
 /// What `interrupts:` asks for.
 class InterruptCounter final : public TraceSink {
@@ -83,6 +88,9 @@ class Plant {
     interrupts_.begin();
   }
 
+  /// Unlike a request, what is only waited for begins nothing that `interrupts` counts from.
+  void begin_reception() { timeline_.begin(); }
+
   /// False if they do not come within a minute.
   bool wait_scans(std::uint64_t count) {
     cpu().pause_at_scan_end(true);
@@ -92,6 +100,22 @@ class Plant {
     cpu().pause_at_scan_end(false);
     simulation_->run_until(simulation_->time() + 1);  // running on, the CPU is no longer paused
     return count == 0;
+  }
+
+  /// Runs scan by scan until `holds`. False if it does not when the time is over or the CPU is in STOP.
+  template <class Holds>
+  bool wait_until(Holds holds, Time timeout) {
+    const Time limit = simulation_->time() + timeout;
+    bool held = holds();
+    cpu().pause_at_scan_end(true);
+    while (!held && !interrupted() && simulation_->time() < limit) {
+      const serial::Halt halt = simulation_->run_until(std::min(limit, simulation_->time() + kSlice));
+      held = holds();
+      if (halt == serial::Halt::Stopped) break;
+    }
+    cpu().pause_at_scan_end(false);
+    cpu().run(simulation_->time());  // it is no longer paused
+    return held;
   }
 
   serial::Simulation& simulation() { return *simulation_; }
@@ -159,6 +183,8 @@ bool fulfilled(const Expected& expected, bool has_crc, const modbus::Bytes& requ
   switch (expected.kind) {
     case Expected::Kind::Silence:
       return response.empty();
+    case Expected::Kind::Any:
+      return !response.empty() && (!has_crc || modbus::crc_ok(response));
     case Expected::Kind::Frame:
       if (!has_crc) return matches(expected.frame, response);
       return modbus::crc_ok(response) && matches(expected.frame, {response.begin(), response.end() - 2});
@@ -244,9 +270,11 @@ std::string values_text(const std::vector<std::optional<std::uint16_t>>& values)
 std::string in_words(const Expected& expected, const modbus::Bytes& request) {
   switch (expected.kind) {
     case Expected::Kind::Silence:
-      return "no answer";
+      return request.empty() ? "nothing" : "no answer";
+    case Expected::Kind::Any:
+      return request.empty() ? "a transmission" : "an answer";
     case Expected::Kind::Frame:
-      return "";
+      return quoted_text(expected.frame);
     case Expected::Kind::Echo:
       return "the request again";
     case Expected::Kind::Exception:
@@ -293,6 +321,23 @@ std::string in_words(const InterruptCount& asked) {
   return "";
 }
 
+std::string real_text(const std::vector<std::uint8_t>& bytes) {
+  return stl::to_text(stl::Operand{.value = stl::Real{std::bit_cast<float>(load32(bytes.data()))}});
+}
+
+/// What memory was to hold and holds. Of reals and of limits the bytes say little.
+Finding memory_finding(const MemoryExpected& expected, const modbus::Bytes& found) {
+  Finding finding{.what = expected.range.name_of(0), .expected_bytes = expected.bytes, .found_bytes = pattern_of(found)};
+  if (expected.limits) {
+    finding.expected = expected.written;
+    finding.found = expected.range.real ? real_text(found) : value_text(expected.range, found);
+  } else if (expected.range.width == Width::Double && expected.range.count == 1) {
+    const std::string real = real_text(found);
+    if (real == expected.written + ".0") finding.found = fmt::format("the real {}: write {} for it", real, real);
+  }
+  return finding;
+}
+
 // --- one run ---
 
 class Run {
@@ -306,6 +351,7 @@ class Run {
       if (const std::string what = acted_inside(); !what.empty())
         return {.outcome = ScenarioResult::Outcome::Skipped, .reason = "needs a program in simulation: " + what};
     }
+    if (!plant_) slave().forget_unasked();
     begin_ = plant_ ? 0 : slave().now();
     if (plant_ && !plant_->get_ready()) {
       add({.what = "ready",
@@ -344,7 +390,7 @@ class Run {
   std::string acted_inside() const {
     if (!scenario_.set.empty() || scenario_.clock || !scenario_.input_file.empty()) return "it sets memory, clock or inputs";
     const auto step = std::find_if(scenario_.steps.begin(), scenario_.steps.end(), acts_inside);
-    return step == scenario_.steps.end() ? "" : fmt::format("line {}", step->position.line);
+    return step == scenario_.steps.end() ? "" : fmt::format("line {}, '{}'", step->position.line, step->key);
   }
 
   void do_step(const Step& step) {
@@ -395,55 +441,95 @@ class Run {
     }
     if (!plant_ && request.gap != 0) times_unjudged_ = true;
     last_end_ = exchange.response.empty() ? slave().now() : exchange.response_end;
+    last_remark_ = slave().remark();
     result_.seen.push_back({step_, exchange});
     judge(step, exchange, line, request.timeout);
   }
 
-  void judge(const ExchangeStep& step, const serial::Exchange& exchange, const SerialFormat& line, Time timeout) {
+  void act(const ReceiveStep& step) {
+    serial::Listening listening{.timeout = step.timeout.value_or(scenario_.line.timeout)};
+    if (step.listen) listening.silence = step.listen->in(format());
+    if (plant_) plant_->begin_reception();
+    serial::Exchange exchange;
+    try {
+      exchange = slave().receive(listening);
+    } catch (const std::invalid_argument&) {
+      return static_cast<void>(++result_.skipped_steps);  // a way on which nothing comes unasked
+    } catch (const SlaveLost& error) {
+      lost_ = true;
+      return add({.what = "slave", .expected = "that it stays there", .found = error.what(), .of_run = true});
+    }
+    if (!exchange.response.empty()) last_end_ = exchange.response_end;
+    result_.seen.push_back({step_, exchange});
+    const SerialFormat line = format();
+    judge(step, exchange, line, listening.timeout);
+    if (step.at && !plant_) times_unjudged_ = true;
+    if (!step.at || !plant_ || exchange.response.empty() || inside(exchange.response_start, *step.at, line, true)) return;
+    add_exchange({.what = "begin",
+                  .expected = in_words(*step.at, line),
+                  .found = format_duration(exchange.response_start, 6),
+                  .exchange = exchange});
+  }
+
+  /// What came in the end, or that nothing did.
+  std::string found_text(const modbus::Bytes& request, const modbus::Bytes& response, Time timeout) const {
+    if (!response.empty()) return answer_text(request, response);
+    if (!request.empty()) return fmt::format("no answer within {}", format_duration(timeout));
+    const std::string nothing = fmt::format("nothing within {}", format_duration(timeout));
+    return last_remark_.empty() ? nothing : fmt::format("{}; the last request {}", nothing, last_remark_);
+  }
+
+  void judge(const Reception& step, const serial::Exchange& exchange, const SerialFormat& line, Time timeout) {
     const modbus::Bytes request = modbus::bytes_of(exchange.request), response = exchange.response_bytes();
+    if (!step.expected.empty() || step.latency || (step.answer_gap && plant_)) ++result_.checks;
     const bool disturbed = exchange.parity_error() || exchange.framing_error();
     const bool as_expected = std::any_of(step.expected.begin(), step.expected.end(), [&](const Expected& expected) {
       return fulfilled(expected, step.has_crc, request, response);
     });
     if (!step.expected.empty() && (!as_expected || disturbed != step.disturbed)) {
       const Expected& expected = step.expected.front();
-      Finding finding{.what = "answer",
+      Finding finding{.what = request.empty() ? "transmission" : "answer",
                       .expected = in_words(expected, request),
                       .expected_bytes = bytes_expected(expected, step.has_crc, request),
                       .found_bytes = pattern_of(response),
                       .exchange = exchange};
       for (std::size_t i = 1; i < step.expected.size(); ++i)
         finding.expected += " or " + in_words(step.expected[i], request);
-      finding.found = response.empty() ? fmt::format("no answer within {}", format_duration(timeout))
-                                       : modbus::describe(request, response);
-      if (step.disturbed) finding.expected += ", with parity or framing errors";
-      if (disturbed) finding.found += exchange.parity_error() ? ", parity errors" : ", framing errors";
+      finding.found = found_text(request, response, timeout);
+      if (step.disturbed) append(finding.expected, "with parity or framing errors");
+      if (disturbed) append(finding.found, exchange.parity_error() ? "parity errors" : "framing errors");
       return add_exchange(std::move(finding));
     }
     judge_times(step, exchange, line);
   }
 
-  void judge_times(const ExchangeStep& step, const serial::Exchange& exchange, const SerialFormat& line) {
-    const auto latency = exchange.latency();
+  static void append(std::string& words, std::string_view more) { words.append(words.empty() ? "" : ", ").append(more); }
+
+  void judge_times(const Reception& step, const serial::Exchange& exchange, const SerialFormat& line) {
+    const auto latency = latency_of(exchange);
     if (step.latency && (!latency || !inside(*latency, *step.latency, line, plant_ != nullptr)))
       add_exchange({.what = "latency",
                     .expected = in_words(*step.latency, line),
-                    .found = latency ? format_duration(*latency, 6) : "no answer",
+                    .found = latency                    ? format_duration(*latency, 6)
+                             : exchange.request.empty() ? "nothing came"
+                                                        : "no answer",
                     .exchange = exchange});
     if (!plant_ && (step.answer_gap || (step.latency && step.latency->from.in(line) > 0))) times_unjudged_ = true;
     if (!step.answer_gap || !plant_) return;
     for (std::size_t i = 1; i < exchange.response.size(); ++i) {
       const Time gap = exchange.response[i].start - exchange.response[i - 1].start - line.character_time();
       if (inside(gap, *step.answer_gap, line, true)) continue;
-      return add_exchange({.what = "pause inside the answer",
+      return add_exchange({.what = exchange.request.empty() ? "pause inside the transmission" : "pause inside the answer",
                            .expected = in_words(*step.answer_gap, line),
-                           .found = fmt::format("{} behind character {}", format_duration(gap, 6), i),
+                           .found = fmt::format("{} after character {}", format_duration(gap, 6), i),
                            .exchange = exchange});
     }
   }
 
   void add_exchange(Finding finding) {
-    if (plant_) finding.timeline = plant_->timeline(*finding.exchange);
+    const serial::Exchange& exchange = *finding.exchange;
+    const bool shown = exchange.response.empty() || exchange.response_start >= exchange.request_start;
+    if (plant_ && shown) finding.timeline = plant_->timeline(exchange);
     add(std::move(finding));
   }
 
@@ -462,14 +548,33 @@ class Run {
   }
 
   void act(const MemoryStep& step) {
+    ++result_.checks;
     for (const MemoryExpected& expected : step.expected) {
-      const modbus::Bytes found = bytes_of(plant_->cpu().state(), expected.range);
-      if (!matches(expected.bytes, found))
-        add({.what = expected.range.name_of(0), .expected_bytes = expected.bytes, .found_bytes = pattern_of(found)});
+      const modbus::Bytes found = in_memory(expected);
+      if (!expected.fits(found)) add(memory_finding(expected, found));
+    }
+  }
+
+  modbus::Bytes in_memory(const MemoryExpected& expected) { return bytes_of(plant_->cpu().state(), expected.range); }
+
+  /// A program that does not get there cannot be asked what comes after it.
+  void act(const WaitUntilStep& step) {
+    ++result_.checks;
+    const Time timeout = step.timeout.value_or(scenario_.line.timeout);
+    const auto fits = [this](const MemoryExpected& expected) { return expected.fits(in_memory(expected)); };
+    if (plant_->wait_until([&] { return std::all_of(step.expected.begin(), step.expected.end(), fits); }, timeout)) return;
+    for (const MemoryExpected& expected : step.expected) {
+      if (fits(expected)) continue;
+      Finding finding = memory_finding(expected, in_memory(expected));
+      finding.what += fmt::format(" after {}", format_duration(timeout));
+      if (plant_->cpu().state().mode == Mode::Stop) append(finding.found, "the CPU is in STOP" + why_stopped());
+      finding.of_run = true;
+      add(std::move(finding));
     }
   }
 
   void act(const InterruptsStep& step) {
+    ++result_.checks;
     for (const InterruptCount& asked : step.counts) {
       const std::uint64_t found = plant_->interrupts(asked);
       if (!inside(found, asked.count))
@@ -480,6 +585,7 @@ class Run {
   static std::string_view text_of(Mode mode) { return mode == Mode::Run ? "RUN" : "STOP"; }
 
   void act(const ModeStep& step) {
+    ++result_.checks;
     mode_expected_ = step.mode;
     const Mode mode = plant_->cpu().state().mode;
     if (mode != step.mode)
@@ -489,6 +595,7 @@ class Run {
   }
 
   void act(const FatalStep& step) {
+    ++result_.checks;
     const std::uint16_t code = plant_->cpu().state().fatal_code;
     if (step.code != 0) mode_expected_ = Mode::Stop;
     const auto text = [](std::uint16_t c) {
@@ -498,6 +605,7 @@ class Run {
   }
 
   void act(const ErrorsStep& step) {
+    ++result_.checks;
     const State& state = plant_->cpu().state();
     std::map<std::uint16_t, std::uint64_t> found;
     for (const RuntimeError& error : state.errors)
@@ -525,6 +633,7 @@ class Run {
   void act(const PowerCycleStep& step) {
     plant_->power_cycle(step);
     last_end_.reset();
+    last_remark_.clear();
     mode_expected_.reset();
     if (!plant_->get_ready())
       add({.what = "ready", .expected = "the line quiet after power-up", .found = "that never came", .of_run = true});
@@ -548,11 +657,17 @@ class Run {
   bool lost_ = false;             ///< the slave
   bool times_unjudged_ = false;   ///< on a slave that is no program
   std::optional<Time> last_end_;  ///< of the exchange before
+  std::string last_remark_;       ///< what its request met
   std::optional<Mode> mode_expected_;
   ScenarioResult result_;
 };
 
 }  // namespace
+
+std::optional<Time> latency_of(const serial::Exchange& exchange) {
+  const auto latency = exchange.latency();
+  return latency && exchange.request.empty() ? std::max<Time>(0, *latency) : latency;
+}
 
 ScenarioResult run_scenario(const Scenario& scenario, const Bench& bench) {
   if (!scenario.skipped.empty()) return {.outcome = ScenarioResult::Outcome::Skipped, .reason = scenario.skipped};

@@ -15,7 +15,7 @@ namespace s7200::tools {
 /// What a step expected and did not find.
 struct Finding {
   std::size_t step = 0;             ///< in the scenario
-  std::string what{};               ///< `answer`, `latency`, `VW20`
+  std::string what{};               ///< `answer`, `transmission`, `latency`, `VW20`
   std::string expected{}, found{};  ///< in words; may be empty if there are bytes
   std::vector<BytePattern> expected_bytes{};
   std::vector<BytePattern> found_bytes{};  ///< of memory, or of an answer
@@ -24,7 +24,11 @@ struct Finding {
   std::string timeline{};  ///< what the CPU did in that exchange; empty if it cannot be seen
 };
 
-/// An exchange as it went.
+/// From the end of the request to the start of the answer; of what nobody asked for, from when it was waited for, 0 if it
+/// came earlier.
+std::optional<Time> latency_of(const serial::Exchange& exchange);
+
+/// An exchange as it went, or what was received.
 struct Seen {
   std::size_t step = 0;  ///< in the scenario
   serial::Exchange exchange{};
@@ -36,6 +40,7 @@ struct ScenarioResult {
   std::string reason{};             ///< of Skipped
   std::vector<Finding> findings{};  ///< in the order of the steps
   std::vector<Seen> seen{};
+  std::size_t checks = 0;         ///< steps that expected something and were judged
   std::size_t skipped_steps = 0;  ///< that look inside, or cannot go this way, on a slave that is no program
   Time time = 0;                  ///< on the slave's clock
   double host_seconds = 0;

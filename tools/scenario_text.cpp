@@ -40,17 +40,6 @@ std::optional<std::int64_t> parse_characters(std::string_view text) {
   return {};
 }
 
-/// The two sides of `..`, if there is one.
-struct Sides {
-  std::string_view from, to;
-  bool range = false;
-};
-Sides sides(std::string_view text) {
-  const std::size_t dots = text.find("..");
-  if (dots == std::string_view::npos) return {trimmed(text), {}, false};
-  return {trimmed(text.substr(0, dots)), trimmed(text.substr(dots + 2)), true};
-}
-
 /// A value in a calculation: a whole number, or text, of which nothing can be calculated.
 struct Value {
   std::int64_t number = 0;
@@ -224,6 +213,12 @@ std::optional<std::int64_t> parse_number(std::string_view text) {
   } catch (const std::invalid_argument&) {
     return {};
   }
+}
+
+Sides sides(std::string_view text) {
+  const std::size_t dots = text.find("..");
+  if (dots == std::string_view::npos) return {trimmed(text), {}, false};
+  return {trimmed(text.substr(0, dots)), trimmed(text.substr(dots + 2)), true};
 }
 
 std::optional<Span> parse_span(std::string_view text) {

@@ -15,6 +15,13 @@ namespace s7200::tools {
 /// `12`, `-5`, `16#FF`, `2#1010`, 32 bits at most.
 std::optional<std::int64_t> parse_number(std::string_view text);
 
+/// The two sides of `..` without blanks around them; of a text without `..`, all of it is `from`.
+struct Sides {
+  std::string_view from, to;
+  bool range = false;
+};
+Sides sides(std::string_view text);
+
 inline constexpr Time kLongestSpan = 24 * 3600 * kSecond;
 
 /// `5ms`, `3.5 characters`, `3.5 characters + 2ms`. A million characters and kLongestSpan at most.

@@ -25,7 +25,9 @@ bool run_until(serial::Simulation& simulation, Time end) {
 }  // namespace
 
 SimulatedSlave::SimulatedSlave(serial::Simulation& simulation, const MasterOptions& master, std::string name)
-    : simulation_(simulation), master_(master), name_(std::move(name)) {}
+    : simulation_(simulation), master_(master), name_(std::move(name)) {
+  simulation_.let_master_follow([line = LineOptions(master)](const SerialFormat& port) { return line.format_over(port); });
+}
 
 bool SimulatedSlave::wait_until_ready(Time after) {
   const bool ready = after == kNever ? simulation_.run_until_ready(pause(), kReadyWithin) : run_until(simulation_, after);
@@ -45,8 +47,17 @@ serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
   const SerialFormat format = master_.format_for(simulation_);
   if (modbus::has_wrong_parity(request.frame) && format.parity == Parity::None)
     throw std::invalid_argument("a byte with wrong parity (p) needs a format with parity");
+  remark_ = ignored_text(serial::bytes_of(simulation_.master().heard()));
   simulation_.master_uart().configure(format);
   simulation_.master().start(request, simulation_.time());
+  const serial::Exchange& exchange = simulation_.finish_exchange();
+  if (const SerialFormat now = master_.format_for(simulation_); now != format) simulation_.master_uart().configure(now);
+  return exchange;
+}
+
+serial::Exchange SimulatedSlave::receive(const serial::Listening& listening) {
+  remark_.clear();
+  simulation_.master().listen(listening, simulation_.time());
   return simulation_.finish_exchange();
 }
 

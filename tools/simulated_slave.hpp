@@ -8,8 +8,8 @@
 
 namespace s7200::tools {
 
-/// Time passes only while it is used. The master's format follows the port of the program from exchange to exchange, as far
-/// as the options leave it open.
+/// Time passes only while it is used. The master's format follows the port of the program, as far as the options leave it
+/// open, but not within an exchange.
 class SimulatedSlave final : public Slave {
  public:
   /// The simulation is not owned and has been powered up. `name` is its program's.
@@ -22,9 +22,11 @@ class SimulatedSlave final : public Slave {
 
   /// On a CPU in STOP too. Throws std::invalid_argument for a byte with wrong parity in a format without.
   serial::Exchange exchange(const serial::Request& request) override;
+  serial::Exchange receive(const serial::Listening& listening) override;
   void wait(Time duration) override;
   Time now() const override { return simulation_.time(); }
   std::string name() const override { return name_; }
+  std::string remark() const override { return remark_; }
 
   /// What a master leaves between an answer and its next request, in the format of now.
   Time pause() const override;
@@ -33,6 +35,7 @@ class SimulatedSlave final : public Slave {
   serial::Simulation& simulation_;
   MasterOptions master_;
   std::string name_;
+  std::string remark_;
 };
 
 }  // namespace s7200::tools

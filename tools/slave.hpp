@@ -18,6 +18,12 @@ struct SlaveLost : SlaveUnreachable {
   using SlaveUnreachable::SlaveUnreachable;
 };
 
+/// Sixteen bytes at most.
+std::string beginning_in_hex(modbus::Bytes bytes);
+
+/// The remark on an exchange before which `bytes` had come unasked; empty if there were none.
+std::string ignored_text(const modbus::Bytes& bytes);
+
 class Slave {
  public:
   virtual ~Slave() = default;
@@ -25,6 +31,13 @@ class Slave {
   /// One exchange, from now to its end: the answer is complete, or did not begin within the time-out. Times in the result
   /// are of now(). Throws SlaveUnreachable; std::invalid_argument when such a request cannot go this way.
   virtual serial::Exchange exchange(const serial::Request& request) = 0;
+
+  /// The transmission that came unasked since the last request began and was not received yet, or the next one to come. In
+  /// the result the request is empty, and its times are when this was called. Throws as exchange() does.
+  virtual serial::Exchange receive(const serial::Listening& listening) = 0;
+
+  /// What came unasked so far will not be received any more.
+  virtual void forget_unasked() {}
 
   /// Nothing is sent for so long.
   virtual void wait(Time duration) = 0;

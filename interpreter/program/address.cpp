@@ -85,8 +85,11 @@ std::optional<Assignment> parse_assignment(std::string_view text, const CpuModel
   if (!place) return {};
   const auto value = equals == std::string_view::npos ? std::nullopt : parse_operand(text.substr(equals + 1));
   if (value && place->count == 1) {
-    if (const auto* real = std::get_if<stl::Real>(&*value); real && place->width == Width::Double)
-      return Assignment{*place, std::bit_cast<std::uint32_t>(real->value)};
+    if (const auto* real = std::get_if<stl::Real>(&*value); real && place->width == Width::Double) {
+      Assignment assignment{*place, std::bit_cast<std::uint32_t>(real->value)};
+      assignment.place.real = true;
+      return assignment;
+    }
     const int bits = place->width == Width::Bit ? 1 : 8 * static_cast<int>(bytes_of(place->width));
     const auto* integer = std::get_if<stl::Integer>(&*value);
     if (integer && place->real) return Assignment{*place, std::bit_cast<std::uint32_t>(static_cast<float>(integer->value))};

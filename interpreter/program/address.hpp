@@ -30,7 +30,7 @@ struct MemoryRange {
 std::optional<MemoryRange> parse_range(std::string_view text, const CpuModel& model, std::string& why);
 
 struct Assignment {
-  MemoryRange place;
+  MemoryRange place;  ///< real if the value was written as one
   std::uint32_t value = 0;
 };
 

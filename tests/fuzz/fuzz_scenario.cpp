@@ -29,6 +29,11 @@ void limit(Span& span, Time most) {
   span.millicharacters = std::min<std::int64_t>(span.millicharacters, 20'000);
 }
 
+void shorten(Reception& reception, Time most) {
+  if (reception.listen) limit(*reception.listen, most);
+  if (reception.timeout) reception.timeout = std::min(*reception.timeout, most);
+}
+
 /// Little is left of a scenario, so that many can be run.
 void shorten(Scenario& scenario) {
   constexpr Time kMost = 20 * kMillisecond;
@@ -43,12 +48,14 @@ void shorten(Scenario& scenario) {
       limit(wait->time, kMost);
       wait->scans = std::min<std::uint64_t>(wait->scans, 10);
     }
+    if (auto* wait = std::get_if<WaitUntilStep>(&step.action))
+      if (wait->timeout) wait->timeout = std::min(*wait->timeout, kMost);
+    if (auto* receive = std::get_if<ReceiveStep>(&step.action)) shorten(*receive, kMost);
     auto* exchange = std::get_if<ExchangeStep>(&step.action);
     if (!exchange) continue;
+    shorten(*exchange, kMost);
     if (exchange->request.size() > kMostCharacters) exchange->request.resize(kMostCharacters);
     if (exchange->pause) limit(*exchange->pause, kMost);
-    if (exchange->listen) limit(*exchange->listen, kMost);
-    if (exchange->timeout) exchange->timeout = std::min(*exchange->timeout, kMost);
     limit(exchange->gap, kMillisecond);
     exchange->at.reset();
   }

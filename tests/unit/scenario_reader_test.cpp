@@ -46,7 +46,7 @@ after: 100ms
 pause: 3.5 characters
 timeout: 2s
 tolerance: 5us
-steps: []
+steps: [wait: 1ms]
 )");
   EXPECT_EQ(s.name, "one");
   EXPECT_EQ(s.program, "x.stl");
@@ -162,12 +162,71 @@ TEST(ScenarioReader, TheOtherSteps) {
   EXPECT_FALSE(action_of<FaultStep>("fault: none").fault);
 }
 
+TEST(ScenarioReader, TextIsSentAndExpectedWithItsEscapes) {
+  EXPECT_EQ(request_of(R"({send: {text: 'HI\r\n'}})"), "48 49 0d 0a");
+  EXPECT_EQ(request_of(R"({send: {text: HI\r}})"), "48 49 0d");
+  EXPECT_EQ(request_of(R"({send: {text: "HI\r"}})"), "48 49 0d") << "YAML's own escape";
+  EXPECT_EQ(request_of(R"({send: {text: 'HI'}, crc: true})"), "48 49 f6 46");
+  const auto expected = [](const std::string& text) {
+    return action_of<ExchangeStep>("{send: 41, expect: " + text + "}").expected[0];
+  };
+  EXPECT_EQ(expected(R"({text: 'A\?\r'})").frame, (std::vector<BytePattern>{0x41, std::nullopt, 0x0D}));
+  EXPECT_EQ(expected("any").kind, Expected::Kind::Any);
+  const Scenario s = good("parameters: {x: 7}\nsteps:\n  - send: {text: 'SET ${x + 1}\\r'}\n");
+  EXPECT_EQ(modbus::to_hex(std::get<ExchangeStep>(s.steps[0].action).request), "53 45 54 20 38 0d");
+}
+
+TEST(ScenarioReader, WhatNobodyAskedForIsReceived) {
+  using Kind = Expected::Kind;
+  const auto receive = [](const std::string& text) { return action_of<ReceiveStep>(text); };
+  EXPECT_EQ(receive("receive: any").expected[0].kind, Kind::Any);
+  EXPECT_EQ(receive("receive: silence").expected[0].kind, Kind::Silence);
+  EXPECT_EQ(receive("receive: 41 ..").expected[0].frame, (std::vector<BytePattern>{0x41, std::nullopt}));
+  EXPECT_EQ(receive("receive: {text: A}").expected[0].frame, (std::vector<BytePattern>{0x41}));
+  const ReceiveStep step = receive(
+      "{receive: 01 03, crc: true, timeout: 5s, listen: 20ms, latency: ..1s, at: 1s..2s, answer_gap: ..1ms, disturbed: "
+      "true}");
+  EXPECT_TRUE(step.has_crc && step.disturbed && step.answer_gap);
+  EXPECT_EQ(step.timeout, 5 * kSecond);
+  EXPECT_EQ(step.listen->fixed, 20 * kMillisecond);
+  EXPECT_EQ(step.latency->to.fixed, kSecond);
+  EXPECT_EQ(step.at->from.fixed, kSecond);
+}
+
+TEST(ScenarioReader, MemoryIsComparedAsTheValueIsWritten) {
+  const auto fits = [](const std::string& what, std::vector<std::uint8_t> found) {
+    return action_of<MemoryStep>("memory: {" + what + "}").expected[0].fits(found);
+  };
+  EXPECT_TRUE(fits("VD0: 1.5", {0x3F, 0xC0, 0, 0}));
+  EXPECT_FALSE(fits("VD0: 1.5", {0x3F, 0xC0, 0, 1}));
+  EXPECT_TRUE(fits("VD0: 0.0", {0x80, 0, 0, 0})) << "minus zero is zero";
+  EXPECT_FALSE(fits("VD0: 0.0..", {0x7F, 0xC0, 0, 0})) << "what is not a number is never inside";
+  EXPECT_TRUE(fits("VD0: 1.4..1.6", {0x3F, 0xC0, 0, 0}));
+  EXPECT_FALSE(fits("VD0: ..1.4", {0x3F, 0xC0, 0, 0}));
+  EXPECT_FALSE(fits("VD0: 1", {0x3F, 0x80, 0, 0})) << "a whole number is no real";
+  EXPECT_TRUE(fits("VW0: 5..10", {0, 10}));
+  EXPECT_FALSE(fits("VW0: 5..10", {0, 11}));
+  EXPECT_TRUE(fits("VW0: -5..5", {0xFF, 0xFB}));
+  EXPECT_FALSE(fits("VW0: 5..", {0xFF, 0xFB})) << "words have a sign";
+  EXPECT_TRUE(fits("VW0: 5..40000", {0x9C, 0x40})) << "unless a limit is larger than that";
+  EXPECT_TRUE(fits("VB0: 199..16#C9", {200})) << "bytes have none";
+  EXPECT_TRUE(fits("VD0: 3000000000..", {0xFF, 0xFF, 0xFF, 0xFF}));
+  EXPECT_EQ(action_of<WaitUntilStep>("{wait_until: {VW20: 5}, timeout: 2s}").timeout, 2 * kSecond);
+}
+
+TEST(ScenarioReader, AScenarioWhoseStepsAllLackWhatTheyNeedIsNotApplicable) {
+  const Scenario s = good("parameters: {a: }\nsteps:\n  - {wait: 1ms, needs: [a]}\n");
+  EXPECT_EQ(s.skipped, "not applicable: none of its steps has what it needs");
+}
+
 TEST(ScenarioReader, EveryActionOfTheTableIsRead) {
   const std::map<std::string_view, std::string> examples{{"send", "01"},
                                                          {"request", "03"},
                                                          {"read", "holding 0"},
                                                          {"write", "holding 0\n    value: 1"},
+                                                         {"receive", "any"},
                                                          {"wait", "1ms"},
+                                                         {"wait_until", "{VB0: 1}"},
                                                          {"set", "{VB0: 1}"},
                                                          {"memory", "{VB0: 1}"},
                                                          {"interrupts", "{lost: 0}"},
@@ -215,9 +274,10 @@ TEST(ScenarioReader, ParametersAreGivenOrHaveAValue) {
 TEST(ScenarioReader, PathsGivenFromOutsideAreFromTheFolderOfTheirFile) {
   stl::Diagnostics diagnostics;
   const auto given = read_parameters("program: ../p.stl\n", "other/place/g.yaml", diagnostics);
-  EXPECT_EQ(read("parameters: {program: }\nprogram: ${program}\nsteps: []\n", &*given).scenarios[0].program, "other/p.stl");
-  EXPECT_EQ(good("parameters: {program: }\nprogram: ${program}\nsteps: []\n").program, "");
-  EXPECT_EQ(good("parameters: {program: p.stl}\nprogram: ${program}\nsteps: []\n").program, "folder/p.stl");
+  EXPECT_EQ(read("parameters: {program: }\nprogram: ${program}\nsteps: [wait: 1ms]\n", &*given).scenarios[0].program,
+            "other/p.stl");
+  EXPECT_EQ(good("parameters: {program: }\nprogram: ${program}\nsteps: [wait: 1ms]\n").program, "");
+  EXPECT_EQ(good("parameters: {program: p.stl}\nprogram: ${program}\nsteps: [wait: 1ms]\n").program, "folder/p.stl");
 }
 
 TEST(ScenarioReader, CalculatesInsideBraces) {
@@ -306,7 +366,59 @@ TEST(ScenarioReader, EveryMistakeIsToldAtItsPlace) {
       {"a: &x 1\nb: *x\n", 1, 4, "anchors and aliases"},
       {"a: !!int 1\n", 1, 4, "tags (!)"},
       {"steps: []\n---\nsteps: []\n", 3, 1, "a second document"},
-      {"a: [1\n", 1, 0, "no YAML"},
+      {"a: [1\n", 1, 4, "a [ that is never closed"},
+      {"a: {b: 1\n", 1, 4, "a { that is never closed"},
+      {"steps: ]\n", 1, 8, "this closes nothing that is open here"},
+      {"steps:\n\t- wait: 1ms\n", 2, 1, "a tab in the indentation: YAML takes blanks only"},
+      {"steps:\n  - wait: 1ms\n  \tnote: x\n", 3, 3, "a tab in the indentation: YAML takes blanks only"},
+      {"steps:\n  -\twait: 1ms\n", 2, 4, "a tab in the indentation: YAML takes blanks only"},
+      {"set:\n\tVB0: 1\nsteps: []\n", 2, 1, "a tab in the indentation: YAML takes blanks only"},
+      {"steps:\n  - note: a: b\n", 2, 12, "no key can stand here; ': ' makes one of what is before it"},
+      {"steps:\n  - wait: 1ms\n   - wait: 1ms\n", 3, 4, "this does not belong to the map or list before it"},
+      {"steps:\n  - wait: 1ms\n note: 1\n", 3, 2, "this does not belong to the map or list before it"},
+      {"name: - a\n", 1, 7, "no list can begin here"},
+      {"name: @x\n", 1, 7, "no text begins with this sign"},
+      {"name: 'it's'\n", 1, 11, "this does not belong to the map or list before it"},
+      {"name: \"a\nsteps: [wait: 1ms]\n", 1, 7, "a quotation that is never closed"},
+      {"name: 'a\nsteps: [wait: 1ms]\n", 1, 7, "a quotation that is never closed"},
+      {"name: \"a\\qb\"\n", 1, 11, "not an escape of YAML"},
+      {"name: \"a\\xGG\"\n", 1, 13, "two hex digits belong after \\x"},
+      {"name: |0\n  x\n", 1, 9, "the indentation of a block is 1 to 9"},
+      {"name: |x\n  x\n", 1, 8, "nothing but 1 to 9, + and - follows | or >"},
+      {"%YAML 9.1\n---\nname: x\n", 1, 1, "directives (%) have no place in a scenario"},
+      {"name: &\n", 1, 8, "anchors and aliases"},
+      {"name: *x\n", 1, 7, "anchors and aliases"},
+      {"name: !<x\n", 1, 10, "tags (!)"},
+      {"# nothing\n", 0, 0, "nothing in it"},
+      {"~\n", 1, 1, "a file of scenarios is a map, not nothing"},
+      {"steps: []\n", 1, 8, "no steps: nothing would be tested"},
+      {"steps: [{repeat: 3, steps: []}]\n", 1, 8, "no steps: nothing would be tested"},
+      {"steps: [{for: {x: []}, steps: [wait: 1ms]}]\n", 1, 8, "no steps: nothing would be tested"},
+      {"scenarios: []\n", 1, 12, "no scenarios: nothing would be tested"},
+      {"scenarios: [{name: a, steps: []}]\n", 1, 30, "no steps: nothing would be tested"},
+      {"steps:\n  - set: {}\n", 2, 10, "nothing to set"},
+      {"steps:\n  - {read: holding 0, expect_one_of: []}\n", 2, 38, "'expect_one_of' expects nothing"},
+      {"steps:\n  - send: {txt: A}\n", 2, 11, "a map here is {text: ...} and nothing else"},
+      {"steps:\n  - send: {text: 'A\\q'}\n", 2, 18, "\\ is followed by r, n, t, xHH, \\, ' or \""},
+      {"steps:\n  - send: {text: 'A\\?'}\n", 2, 18, "\\ is followed by r, n, t, xHH, \\, ' or \""},
+      {"steps:\n  - send: {text: Fünf}\n", 2, 18, "'ü' is not an ASCII character"},
+      {"steps:\n  - send: {text: ''}\n", 2, 18, "a frame has one byte at least"},
+      {"steps:\n  - {send: {text: A}, expect: refused}\n", 2, 31, "a text is not a Modbus request"},
+      {"steps:\n  - {send: {text: A}, expect_one_of: [silence, [1]]}\n", 2, 38, "a text is not a Modbus request"},
+      {"steps:\n  - {send: 41, expect: {text: 'A\\x4'}}\n", 2, 31, "\\x is followed by two hex digits"},
+      {"steps:\n  - receive: accepted\n", 2, 14, "'receive' waits for what nobody asked for"},
+      {"steps:\n  - {receive: any, gap: 1ms}\n", 2, 20, "'gap' has no place beside 'receive'"},
+      {"steps:\n  - wait_until: {}\n", 2, 17, "addresses and values are a map, not an empty one"},
+      {"steps:\n  - wait_until: 5\n", 2, 17, "addresses and values are a map, not '5'"},
+      {"steps:\n  - {wait_until: {VW0: 5}, listen: 1ms}\n", 2, 28, "'listen' has no place beside 'wait_until'"},
+      {"steps:\n  - memory: {VW0: 1.5}\n", 2, 19, "'1.5' does not fit VW0"},
+      {"steps:\n  - memory: {VW0: 10..5}\n", 2, 19, "'10..5': no value is inside"},
+      {"steps:\n  - memory: {VB0: 1..256}\n", 2, 19, "'1..256': '256' does not fit VB0"},
+      {"steps:\n  - memory: {VD0: 1..2.5}\n", 2, 19, "'1..2.5': both limits of a real are reals"},
+      {"steps:\n  - memory: {V0.0: 0..1}\n", 2, 20, "'0..1': a bit is 0 or 1"},
+      {"steps:\n  - memory: {VW0: ..}\n", 2, 19, "'..': neither from nor to"},
+      {"steps:\n  - memory: {VW0: -1..40000}\n", 2, 19, "a value with a sign is not that large"},
+      {"steps:\n  - memory: {VB0: -1..5}\n", 2, 19, "one without is not below 0"},
       {"? [a]\n: 1\n", 1, 3, "a key is a word, not a list"},
       {"größe: 1\nsteps:\n  - note: ö\n    größe: 1\n    wait: 1ms\n", 1, 1, "'größe' has no place here"},
   };
@@ -317,6 +429,19 @@ TEST(ScenarioReader, EveryMistakeIsToldAtItsPlace) {
     EXPECT_EQ(std::pair(first.position.line, first.position.column), std::pair(mistake.line, mistake.column))
         << mistake.text << stl::render(first, *file.source, false);
     EXPECT_NE(first.message.find(mistake.message), std::string::npos) << mistake.text << first.message;
+  }
+}
+
+TEST(ScenarioReader, EveryMistakeOfTheYamlItselfSaysWhatToDo) {
+  for (const char* text : {"a: [1\n",        "a: {b\n",          "steps: ]\n", "\ta: 1\n",     "a: b: c\n",
+                           "a: - b\n",       "a: 1\n b: 2\n",    "a: @\n",     "a: 'b\n",      "a: \"\\q\"\n",
+                           "a: \"\\xZZ\"\n", "a: \"\\ud800\"\n", "a: &\n",     "a: *\n",       "a: &b &c d\n",
+                           "a: !<b\n",       "a: |0\n",          "a: >x\n",    "%YAML\n---\n", "%YAML 1.2\n%YAML 1.2\n---\n",
+                           "%TAG a\n---\n",  "a: 'b\n---\n"}) {
+    const ScenarioFile file = read(text);
+    ASSERT_FALSE(file.diagnostics.empty()) << text;
+    EXPECT_FALSE(file.diagnostics[0].hint.empty()) << text << file.diagnostics[0].message;
+    EXPECT_GT(file.diagnostics[0].position.line, 0U) << text << file.diagnostics[0].message;
   }
 }
 

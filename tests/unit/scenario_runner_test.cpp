@@ -188,6 +188,102 @@ TEST(ScenarioReport, DiffsOfLongAnswersShowTheRowsThatDiffer) {
             "                         ^^\n");
 }
 
+// --- programs that are not Modbus slaves ---
+
+std::shared_ptr<const Program> text_commands() {
+  static const auto kProgram = test::compile(test::text_of(test::source_path("stl_programs/text_commands.stl")));
+  return kProgram;
+}
+
+std::string text_findings(const std::string& steps, const std::string& head = "") {
+  return findings(steps, head, text_commands());
+}
+
+TEST(ScenarioRunner, TextIsSentExpectedAndReceived) {
+  EXPECT_EQ(text_findings(R"(
+  - {receive: {text: 'READY\r\n'}, at: ..5ms, latency: 0..0, answer_gap: ..1us}
+  - {send: {text: 'SET 0005\r'}, expect: {text: 'OK\r\n'}, latency: ..5ms}
+  - {send: {text: 'GET\r'}, expect: {text: 'VALUE \?\?\?5\r\n'}}
+  - {send: {text: 'GET\r'}, expect: any}
+  - {send: {text: 'get\r'}, expect_one_of: [silence, {text: 'ERROR\r\n'}]}
+  - memory: {VW0: 5, VD4: 0.5}
+  - set: {I0.0: 1}
+  - {receive: 41 4c .. .. .. 0d 0a, latency: 1us..5ms}
+  - {receive: silence}
+)"),
+            "");
+}
+
+TEST(ScenarioRunner, EveryExpectationOfTextCanFail) {
+  EXPECT_EQ(text_findings(R"(  - {receive: {text: 'STEADY\r\n'}})"), "transmission: 'STEADY\\r\\n' / 'READY\\r\\n'\n");
+  EXPECT_EQ(text_findings("  - {receive: silence}\n"), "transmission: nothing / 'READY\\r\\n'\n");
+  EXPECT_EQ(text_findings("  - {receive: any}\n  - {receive: any, timeout: 30ms}\n"),
+            "transmission: a transmission / nothing within 30 ms\n");
+  EXPECT_TRUE(text_findings("  - {receive: any, at: 1s..}\n").starts_with("begin: 1 s or more / "));
+  EXPECT_EQ(text_findings("  - {receive: any, latency: 1us..}\n"), "latency: 1 us or more / 0 ns\n");
+  EXPECT_EQ(text_findings("  - {receive: any, crc: true}\n"), "transmission: a transmission / 'READY\\r\\n'\n");
+  EXPECT_EQ(text_findings(R"(  - {send: {text: 'HELLO\r'}, expect: {text: 'NO\?\r'}})"),
+            "answer: 'NO\\?\\r' / 'OK\\r\\n'\n");
+  EXPECT_EQ(text_findings(R"(  - {send: {text: 'HELLO'}, expect: any})"), "answer: an answer / no answer within 200 ms\n");
+  EXPECT_EQ(text_findings(R"(  - {send: {text: 'HELLO\r'}, expect: 01 03})"), "answer:  / 'OK\\r\\n'\n")
+      << "no word about a CRC";
+  EXPECT_EQ(text_findings("  - memory: {VD4: 1.5, VW0: 5..10}\n"), "VD4: 1.5 / 0.0\nVW0: 5..10 / 16#0000 (0)\n");
+  EXPECT_EQ(text_findings("  - set: {VD20: 2.0}\n  - memory: {VD20: 2}\n"), "VD20:  / the real 2.0: write 2.0 for it\n");
+}
+
+TEST(ScenarioRunner, WhatCameBeforeARequestIsNotReceivedAndTheFindingSaysSo) {
+  EXPECT_EQ(
+      text_findings("  - {send: {text: 'HELLO\\r'}}\n  - {receive: any, timeout: 30ms}\n"),
+      "transmission: a transmission / nothing within 30 ms; the last request ignored what came before the request: 52 45 41 "
+      "44 59 0d 0a\n");
+}
+
+TEST(ScenarioRunner, ATransmissionIsHeardAsThePortIsSetWhenItBegins) {
+  const auto banner = test::compile(
+      "LD SM0.1\nMOVB 16#B9, SMB30\nMOVB 2, VB0\nMOVW 'OK', VW1\nXMT VB0, 0\n"  // 7 data bits, even, 1200 baud
+      "LD I0.0\nEU\nMOVB 16#09, SMB30\nXMT VB0, 0\nMEND\n");
+  EXPECT_EQ(findings("  - {receive: {text: OK}}\n  - set: {I0.0: 1}\n  - {receive: {text: OK}}\n", "", banner), "");
+  EXPECT_NE(findings("  - {receive: {text: OK}}\n", "line: {baud: 9600}\n", banner), "") << "unless the scenario says how";
+}
+
+TEST(ScenarioRunner, WaitsUntilMemoryIsAsExpected) {
+  const auto counts = test::compile("LD SM0.0\nINCW VW0\nLDW>= VW0, 50\nA I0.0\nSTOP\nMEND\n");
+  EXPECT_EQ(findings("  - wait_until: {VW0: 20, V1.2: 1}\n  - memory: {VW0: 20}\n"
+                     "  - wait_until: {VW0: 10..20}\n  - memory: {VW0: 20}\n"
+                     "  - wait_until: {VW0: 30..}\n  - memory: {VW0: 30}\n",
+                     "after: 0\n", counts),
+            "");
+  EXPECT_EQ(findings("  - {wait_until: {VW0: -1, VW2: 0}, timeout: 20ms}\n", "after: 0\n", counts),
+            "VW0 after 20 ms:  / \n");
+  EXPECT_EQ(findings("  - {wait_until: {VW0: 5000..}, timeout: 0}\n", "after: 0\n", counts),
+            "VW0 after 0 ns: 5000.. / 16#0000 (0)\n");
+  EXPECT_EQ(findings("  - set: {I0.0: 1}\n  - wait_until: {VW0: 60}\n  - mode: stop\n", "after: 0\n", counts),
+            "VW0 after 200 ms:  / the CPU is in STOP\n");
+  EXPECT_EQ(findings("  - set: {I0.0: 1}\n  - wait_until: {VW0: 50}\n  - mode: stop\n", "after: 0\n", counts), "")
+      << "the STOP ends the scan in which it comes true";
+}
+
+TEST(ScenarioRunner, WhatComesTrueWithinAScanOnlyIsAFindingUnlessTheTimeEndsThere) {
+  const auto toggles = test::compile("LD SM0.0\nMOVW 1, VW0\nFOR VW2, 1, 200\nNEXT\nMOVW 0, VW0\nMEND\n");
+  std::size_t found = 0, waited = 0;
+  for (int us = 30'000; us < 60'000; us += 500) {
+    const std::string text =
+        findings(fmt::format("  - {{wait_until: {{VW0: 1}}, timeout: {}us}}\n", us), "after: 0\n", toggles);
+    text.empty() ? ++waited : ++found;
+  }
+  EXPECT_GT(found, 0U);
+  EXPECT_GT(waited, 0U);
+}
+
+TEST(ScenarioRunner, CountsWhatItJudges) {
+  const auto checks = [](const std::string& steps) { return run(scenario_of(steps)).checks; };
+  EXPECT_EQ(checks("  - {read: holding 0}\n  - wait: 1ms\n"), 0U);
+  EXPECT_EQ(checks("  - {read: holding 0, expect: accepted, latency: 1ms..}\n  - memory: {VW0: 0, VW2: 0}\n"), 2U);
+  const Scenario nothing = scenario_of("  - {read: holding 0}\n");
+  EXPECT_NE(report_text({&nothing, run(nothing)}, false).find("(nothing was expected, so nothing was checked)"),
+            std::string::npos);
+}
+
 // --- transcripts ---
 
 std::string transcript_of(const std::string& text) {
@@ -223,6 +319,42 @@ TEST(ScenarioRecord, ReplayedATranscriptGivesItselfAgain) {
   }
   const std::string twice = transcript_of(once);
   EXPECT_EQ(twice, once);
+}
+
+TEST(ScenarioRecord, TextAndWhatNobodyAskedForComeAgainInAReplay) {
+  const auto transcript = [](const std::vector<Scenario>& scenarios) {
+    std::vector<Report> reports;
+    for (const Scenario& scenario : scenarios) reports.push_back({&scenario, run(scenario, text_commands())});
+    return transcript_text(reports, {"file.yaml", "a program", 0});
+  };
+  const std::string once = transcript(scenarios_of(R"(
+timeout: 100ms
+steps:
+  - {receive: any}
+  - {receive: any, timeout: 20ms, listen: 3ms}
+  - {send: {text: "SET 0005\r"}, timeout: 0}
+  - {wait_until: {VW0: 1..5, VD4: 0.5}, timeout: 50ms}
+  - {receive: any}
+  - {wait_until: {VW0: 9}, timeout: 30ms}
+  - set: {I0.0: 1}
+  - wait: 30ms
+  - {receive: silence}
+  - {send: {text: 'it''s \\ ${1 + 1} \x24{x}\r'}}
+  - {send: 01 48 02}
+)"));
+  for (const char* written :
+       {"- receive: {text: 'READY\\r\\n'}\n        at: ",
+        "- receive: silence\n        listen: 3 ms\n        timeout: 20 ms\n", "- send: {text: 'SET 0005\\r'}\n",
+        "- wait_until: {\"VW0\": \"1..5\", \"VD4\": \"0.5\"}\n        timeout: 50 ms\n",
+        "- wait: 30 ms\n      - set: {I0.0: 16#1}\n", "- receive: {text: 'ALARM\\r\\n'}\n",
+        "- send: {text: 'it\\x27s \\\\ 2 \\x24{x}\\r'}\n", "expect: {text: 'ERROR\\r\\n'}\n", "- send: 01 48 02\n"})
+    EXPECT_NE(once.find(written), std::string::npos) << written << once;
+  const auto again = scenarios_of(once);
+  for (const Scenario& scenario : again) {
+    const ScenarioResult result = run(scenario, text_commands());
+    EXPECT_EQ(result.outcome, Outcome::Passed) << report_text({&scenario, result}, false) << once;
+  }
+  EXPECT_EQ(transcript(again), once);
 }
 
 TEST(ScenarioRecord, OfALiveSlaveOnlyWhatReachedItIsWritten) {
@@ -324,6 +456,52 @@ TEST(ScenarioCompare, ASideThatCouldNotBeAskedIsADifferenceEvenIfBothCouldNot) {
   EXPECT_NE(difference.text.find("it is gone"), std::string::npos) << difference.text;
 }
 
+TEST(ScenarioCompare, TransmissionsAreComparedAndAProgramThatNeverGetsThereDiffers) {
+  const Scenario scenario =
+      scenario_of("  - {receive: any}\n  - {send: {text: 'SET 0005\\r'}}\n  - {wait_until: {VW0: 5}, timeout: 50ms}\n");
+  const std::string text = test::text_of(test::source_path("stl_programs/text_commands.stl"));
+  const auto other = test::compile(test::changed(text, "'READ'", "'HEAD'"));
+  const auto forgetful = test::compile(test::changed(text, "MOVW    VW12, VW0", "MOVW    VW12, VW2"));
+  const auto difference = [&](const std::shared_ptr<const Program>& program) {
+    return compare(scenario, run(scenario, text_commands()), run(scenario, program), "a", "b", {}, false).text;
+  };
+  EXPECT_EQ(difference(text_commands()), "");
+  EXPECT_NE(difference(other).find("request   none: a transmission that nobody asked for\n"), std::string::npos)
+      << difference(other);
+  EXPECT_NE(difference(other).find("b         'HEADY\\r\\n' "), std::string::npos) << difference(other);
+  EXPECT_NE(difference(other).find(" ms before it was waited for\n"), std::string::npos) << difference(other);
+  EXPECT_NE(difference(forgetful).find("b could not be asked, file.yaml:5: VW0 after 50 ms: expected 00 05, found 00 00\n"),
+            std::string::npos)
+      << difference(forgetful);
+}
+
+// --- machines ---
+
+TEST(ScenarioReport, AMachineIsToldOfTextAsText) {
+  const Scenario scenario = scenario_of("  - {receive: any}\n  - {send: {text: 'HELLO\\r'}}\n  - {send: 01}\n");
+  const auto exchanges = to_json({{&scenario, run(scenario, text_commands())}})["scenarios"][0]["exchanges"];
+  EXPECT_TRUE(exchanges[0]["request"].is_null());
+  EXPECT_EQ(exchanges[0]["response_text"], "READY\r\n");
+  EXPECT_EQ(exchanges[0]["latency_us"], 0.0);
+  EXPECT_EQ(exchanges[1]["request_text"], "HELLO\r");
+  EXPECT_EQ(exchanges[1]["response_text"], "OK\r\n");
+  EXPECT_FALSE(exchanges[2].contains("request_text") || exchanges[2].contains("response_text"));
+}
+
+TEST(ScenarioReport, AFindingIsOneLineForMachines) {
+  const auto line = [](const std::string& steps, const std::shared_ptr<const Program>& program) {
+    const Scenario scenario = scenario_of(steps);
+    return finding_line(scenario, run(scenario, program).findings.at(0));
+  };
+  EXPECT_EQ(line("  - {read: holding 0, expect: silence}\n", slave()),
+            "01 03 00 00 00 01 84 0a: expected no answer, found 1 register: 16#0000");
+  EXPECT_EQ(line("  - {read: holding 0, latency: ..1ms}\n", slave()).substr(0, 62),
+            "latency, 01 03 00 00 00 01 84 0a: expected 1 ms or less, found");
+  EXPECT_EQ(line("  - memory: {VW20: 5}\n", slave()), "VW20: expected 00 05, found 00 00");
+  EXPECT_EQ(line("  - repeat: 2\n    steps: [memory: {VD0: 1.5}]\n", slave()), "VD0: expected 1.5, found 0.0 (turn 1 of 2)");
+  EXPECT_EQ(line("  - {receive: silence}\n", text_commands()), "transmission: expected nothing, found 'READY\\r\\n'");
+}
+
 // --- other slaves ---
 
 /// Answers every request with itself, so often.
@@ -341,6 +519,7 @@ class EchoSlave final : public Slave {
     exchange.response_start = exchange.response_end = time_;
     return exchange;
   }
+  serial::Exchange receive(const serial::Listening&) override { throw std::invalid_argument("echo only answers"); }
   void wait(Time duration) override { time_ += duration; }
   Time now() const override { return time_; }
   Time pause() const override { return 0; }
@@ -363,14 +542,24 @@ TEST(ScenarioRunner, StepsThatNeedTheInsideAreSkippedOnOtherSlaves) {
 }
 
 TEST(ScenarioRunner, ScenariosThatActInsideAreSkippedAsAWholeOnOtherSlaves) {
-  for (const char* step : {"set: {VW0: 1}", "fault: echo", "power_cycle: memory kept", "wait: 2 scans"}) {
+  for (const char* step :
+       {"set: {VW0: 1}", "fault: echo", "power_cycle: memory kept", "wait: 2 scans", "wait_until: {VW0: 1}"}) {
     EchoSlave echo;
     const Scenario acting = scenario_of(fmt::format("  - {{read: holding 0, expect: silence}}\n  - {}\n", step));
     const ScenarioResult result = run_scenario(acting, {.slave = &echo});
     EXPECT_EQ(result.outcome, Outcome::Skipped) << step;
     EXPECT_TRUE(result.seen.empty()) << step << ": a scenario is not begun and left half done";
-    EXPECT_EQ(result.reason, fmt::format("needs a program in simulation: line {}", acting.steps[1].position.line));
+    EXPECT_EQ(result.reason, fmt::format("needs a program in simulation: line {}, '{}'", acting.steps[1].position.line,
+                                         acting.steps[1].key));
   }
+}
+
+TEST(ScenarioRunner, OfASlaveThatOnlyAnswersNothingIsReceived) {
+  EchoSlave echo;
+  const ScenarioResult result =
+      run_scenario(scenario_of("  - {send: 41, expect: echo}\n  - {receive: any}\n"), {.slave = &echo});
+  EXPECT_EQ(result.outcome, Outcome::Passed);
+  EXPECT_EQ(result.skipped_steps, 1U);
 }
 
 TEST(ScenarioRunner, InstantsCountFromTheBeginOfTheScenarioOnOtherSlaves) {
