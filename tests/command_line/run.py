@@ -144,7 +144,8 @@ class Verbs(Case):
                           ["run", SLAVE, "--times", SLAVE], ["run", "missing.stl"], ["run", str(SOURCE)], ["send", SLAVE],
                           ["send", SLAVE, "0"], ["send", SLAVE, "xy"], ["send", SLAVE, "01", "--baud", "1"],
                           ["send", SLAVE, "01", "--parity", "mark"], ["send", SLAVE, "01", "--data-bits", "9"],
-                          ["send", SLAVE, "--frames", "missing.txt"], ["instructions", "FROB"], ["times", "--csv", "--json"],
+                          ["send", SLAVE, "--text", "\\q"], ["send", SLAVE, "--text", ""], ["send", SLAVE, "--text", "f\u00fcnf"],
+                          ["send", SLAVE, "--text"], ["send", SLAVE, "--frames", "missing.txt"], ["instructions", "FROB"], ["times", "--csv", "--json"],
                           ["import", "missing.txt"], ["master"], ["master", SLAVE], ["master", SLAVE, "frob"],
                           ["master", SLAVE, "read"], ["master", SLAVE, "read", "40000"], ["master", SLAVE, "read", "20001"],
                           ["master", SLAVE, "read", "17"], ["master", SLAVE, "read", "40001:126"],
@@ -471,6 +472,17 @@ class Json(Case):
         self.assertEqual((result["exchanges"], result["mode"], result["errors"][0]["code"]), ([], "STOP", "0003"))
         self.assertIn("not ready", result["error"])
 
+    def test_send_text(self):
+        program = SOURCE / "stl_programs/text_commands.stl"
+        first, second, third, fourth = self.json(FAILED, "send", program, "--text", "SET 04D2\\r", "474554", "--text=\\r", "0d",
+                                                 "--json", "--timeout", "20ms", "--pause", "1ms")
+        self.assertEqual((first["request"], first["request_text"]), (b"SET 04D2\r".hex(), "SET 04D2\r"))
+        self.assertEqual((first["response"], first["response_text"]), (b"OK\r\n".hex(), "OK\r\n"))
+        self.assertEqual((second["request_text"], second["response"]), ("GET", None))
+        self.assertEqual(third["response_text"], "VALUE 04D2\r\n")
+        self.assertNotIn("request_text", third)
+        self.assertEqual(fourth["response"], None)
+
     def test_faults(self):
         read, flip = "0103000a0001", "flip:character=3,bit=5,every=2"
         send = ["send", SLAVE, "--crc", read, read, "--timeout", "50ms"]
@@ -674,8 +686,8 @@ class Scenarios(Case):
         result = self.json(FAILED, "test", "--json", good, bad)
         self.assertEqual((result["passed"], result["failed"], result["skipped"], result["not_run"]), (1, 1, 0, 0))
         first, second = result["scenarios"]
-        self.assertEqual(list(first), ["file", "line", "name", "outcome", "reason", "time_ns", "skipped_steps", "findings",
-                                       "exchanges"])
+        self.assertEqual(list(first), ["file", "line", "name", "outcome", "reason", "time_ns", "checks", "skipped_steps",
+                                       "findings", "exchanges"])
         self.assertEqual(list(first["exchanges"][0]), ["line", "request", "response", "latency_us"])
         self.assertEqual(list(second["findings"][0]), ["line", "column", "note", "loop", "what", "expected", "found",
                                                        "expected_bytes", "found_bytes"])
@@ -692,6 +704,91 @@ class Scenarios(Case):
         self.assertIn("exception 2: illegal data address", cases[1].find("failure").text)
         self.assertIsNone(cases[0].find("failure"))
         self.assertIn("<file> is not there", cases[2].find("skipped").get("message"))
+
+    def test_junit_has_what_its_readers_show(self):
+        """Jenkins: class and name, message, text. GitLab: file. GitHub: file and line, message."""
+        folder = self.folder / "plant" / "line.2"
+        folder.mkdir(parents=True)
+        file, out = folder / "slave.yaml", self.folder / "out.xml"
+        file.write_text(f"program: {SLAVE}\ntimeout: 200ms\nscenarios:\n  - name: one\n    steps:\n"
+                        "      - {read: holding 0, expect: exception 2}\n      - memory: {VW20: 5, VD24: 1.5}\n"
+                        "  - name: two\n    steps:\n      - wait: 1s\n      - {read: holding 0, at: 500ms}\n"
+                        "  - {name: three, steps: [{read: holding 0, expect: [0]}]}\n", encoding="utf-8")
+        self.ends(FAILED, "test", "plant/line.2/slave.yaml", "--junit", out, cwd=self.folder)
+        suites = xml.etree.ElementTree.parse(out).getroot()
+        (suite,) = suites
+        for element in (suites, suite):
+            self.assertEqual([element.get(key) for key in ("tests", "failures", "errors", "skipped")], ["3", "2", "0", "0"])
+            self.assertGreaterEqual(float(element.get("time")), 0)
+        one, two, three = suite
+        self.assertEqual([case.get("file") for case in suite], ["plant/line.2/slave.yaml"] * 3)
+        self.assertEqual([case.get("line") for case in suite], ["4", "8", "12"])
+        self.assertEqual({case.get("classname") for case in suite}, {"plant.line.2.slave"})
+        failure = one.find("failure")
+        self.assertEqual(failure.get("message"), "line 6: answer to 01 03 00 00 00 01 84 0a: expected exception 2: illegal data "
+                         "address, found 1 register: 16#0000; and 2 more findings")
+        self.assertEqual((failure.get("type"), two.find("failure").get("type")), ("expectation", "run"))
+        for text in ("slave.yaml:6:10", "expected  01 83 02", "slave.yaml:7:9", "VD24 is not what was expected"):
+            self.assertIn(text, failure.text)
+        self.assertRegex(two.find("failure").get("message"), r"^line 11: begin: expected a request at 500 ms, found it is ")
+        self.assertIsNone(three.find("failure"))
+        properties = {p.get("name"): p.get("value") for p in three.findall("properties/property")}
+        self.assertEqual(list(properties), ["program", "cpu", "simulated_time_ns", "checks", "skipped_steps"])
+        self.assertEqual((properties["checks"], properties["cpu"]), ("1", "214"))
+
+    def test_what_checks_nothing_does_not_pass_in_silence(self):
+        for text in ("", "# nothing\n", "---\n", "null\n", self.HEAD, self.HEAD + "steps:\n", self.HEAD + "steps: []\n",
+                     self.HEAD + "steps: [{repeat: 2, steps: []}]\n", self.HEAD + "scenarios:\n",
+                     self.HEAD + "scenarios: []\n", self.HEAD + "scenarios: [{name: a, steps: []}]\n"):
+            with self.subTest(text):
+                self.assertEqual(self.ends(UNUSABLE, "test", self.program(text, "empty.yaml")).stdout, "")
+        asks = self.program(self.HEAD + "steps: [{read: holding 0}]\n", "asks.yaml")
+        done = self.ends(FINE, "test", asks)
+        self.assertIn("(nothing was expected, so nothing was checked)", done.stdout)
+        self.assertIn("note: nothing was checked: no step that was done expects anything", done.stderr)
+        skipped = self.program(self.GOOD + "skip_without: no/such/file\n", "skipped.yaml")
+        self.assertIn("note: nothing was checked: every scenario was skipped", self.ends(FINE, "test", skipped).stderr)
+        self.assertNotIn("note", self.ends(FINE, "test", asks, self.program(self.GOOD, "good.yaml")).stderr)
+        self.assertNotIn("note", self.ends(FINE, "test", asks, "--record", self.folder / "out.yaml").stderr)
+        self.assertEqual(self.json(FINE, "test", asks, "--json")["scenarios"][0]["checks"], 0)
+
+    def test_the_examples_of_the_description_pass(self):
+        description = (SOURCE / "tests/programs/README.md").read_text(encoding="utf-8")
+        examples = re.findall(r"(?s)```yaml\n(.*?)```", description)
+        self.assertGreater(len(examples), 1)
+        for example in examples:
+            self.ends(FINE, "test", self.program(example.replace("../../..", str(SOURCE)), "example.yaml"))
+
+    def test_a_tab_is_said_with_its_place_and_what_to_do(self):
+        path = self.program("steps:\n  - wait: 1ms\n\t- wait: 1ms\n", "tab.yaml")
+        self.assertEqual(self.ends(UNUSABLE, "test", path).stderr,
+                         f"{path}:3:1: error: a tab in the indentation: YAML takes blanks only\n\t- wait: 1ms\n^\n"
+                         "hint: replace the tabs by blanks; most editors do so for a whole file\n")
+
+    TEXT = ("timeout: 10s\nsteps:\n  - {send: {text: 'SET 0102\\r'}, expect: {text: 'OK\\r\\n'}}\n  - memory: {VW0: 258}\n"
+            "  - {send: {text: 'GET\\r'}, expect: {text: 'VALUE 01\\?2\\r\\n'}, listen: 300ms}\n")
+
+    def test_text_over_a_pty(self):
+        """The program says ALARM by itself while nothing is sent."""
+        program, link, live = str(SOURCE / "stl_programs/text_commands.stl"), self.folder / "plc", self.folder / "live.yaml"
+        inputs = self.program("time,address,value\n" + "".join(
+            f"{second}s,I0.0,{(second + 1) % 2}\n" for second in range(1, 100)), "inputs.csv")
+        run = subprocess.Popen([S7200, "run", program, "--input", str(inputs), "--pty", str(link), "--for", "100s"],
+                               stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(run.wait)
+        self.addCleanup(run.kill)
+        text, deadline = self.program(self.TEXT, "text.yaml"), time.monotonic() + 60
+        target = ["--target", link, "--parity", "none"]
+        while (done := s7200("test", text, *target)).returncode != FINE:  # until it is there, and no ALARM comes in between
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.1)
+        self.assertIn("1 of 3 steps skipped", done.stdout)
+        alarm = self.program("steps:\n  - {receive: {text: 'ALARM\\r\\n'}, timeout: 30s, latency: ..29s, at: 1ms..}\n", "alarm.yaml")
+        self.ends(FINE, "test", alarm, *target, "--record", live)
+        self.assertRegex(live.read_text(encoding="utf-8"), r"(?m)^      - receive: \{text: 'ALARM\\r\\n'\}\n        timeout: 30 s\n"
+                         r"        latency: ")
+        until = self.program("steps:\n  - wait_until: {VW0: 5}\n", "until.yaml")
+        self.assertIn("(needs a program in simulation: line 2, 'wait_until')", self.ends(FINE, "test", until, *target).stdout)
 
     def test_output_is_the_same_with_several_jobs(self):
         folder = SOURCE / "tests/programs/modbus_slave"
@@ -997,6 +1094,11 @@ class Files(Case):
         frames.write_text("# two\n ab  # first\r\n\ncd\n", encoding="utf-8")
         exchanges = self.json(FINE, "send", self.program(Json.ECHO), "--frames", frames, "--json")["exchanges"]
         self.assertEqual([e["response"] for e in exchanges], ["ab", "cd"])
+        frames.write_text("'ab # c'  # text\n\"it's\"\n\\x61\n", encoding="utf-8")
+        self.assertIn(f"{frames}:3: column 1", self.ends(UNUSABLE, "send", self.program(Json.ECHO), "--frames", frames).stderr)
+        frames.write_text("'a'  # text\n \"'\"\n'#'\r\n", encoding="utf-8")
+        exchanges = self.json(FINE, "send", self.program(Json.ECHO), "--frames", frames, "--json")
+        self.assertEqual([e["response_text"] for e in exchanges], ["a", "'", "#"])
         frames.write_text("ab\nxx\n", encoding="utf-8")
         done = self.ends(UNUSABLE, "send", self.program(Json.ECHO), "--frames", frames)
         self.assertIn(f"{frames}:2: column 1", done.stderr)
