@@ -87,9 +87,11 @@ bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames)
   return true;
 }
 
-nlohmann::ordered_json to_json(const serial::Exchange& exchange) {
+nlohmann::ordered_json to_json(const serial::Exchange& exchange, const modbus::Bytes& unasked) {
   nlohmann::ordered_json json{
       {"request", plain_hex(modbus::bytes_of(exchange.request))}, {"response", nullptr}, {"latency_us", nullptr}};
+  if (!unasked.empty()) json["unasked"] = plain_hex(unasked);
+  if (const auto text = plain_text({}, unasked)) json["unasked_text"] = *text;
   if (!exchange.echo.empty()) json["echo"] = plain_hex(serial::bytes_of(exchange.echo));
   const modbus::Bytes request = modbus::bytes_of(exchange.request);
   if (const auto text = plain_text(request, request)) json["request_text"] = *text;
@@ -125,15 +127,16 @@ int run_send(SendOptions& options) {
     const serial::Faults::State faults_before = simulation.faults().state();
     timeline.begin();
     if (options.timeline) simulation.cpu().set_sink(&timeline);
+    const modbus::Bytes unasked = serial::bytes_of(simulation.master().heard());
     const serial::Exchange exchange = slave.exchange(options.master.request(frame));
     simulation.cpu().set_sink(records);
     answered += !exchange.timed_out;
     if (options.json) {
-      exchanges.push_back(to_json(exchange));
+      exchanges.push_back(to_json(exchange, unasked));
       if (options.plant.faulted()) exchanges.back()["faults"] = faults_json(simulation.faults(), faults_before);
       if (options.timeline) exchanges.back()["timeline"] = to_json(timeline.report(), exchange);
     } else {
-      fmt::print("{}", exchange_text(exchange, options.master.timeout));
+      fmt::print("{}{}", unasked_text(unasked), exchange_text(exchange, options.master.timeout));
       if (options.timeline) fmt::print("{}\n", to_text(timeline.report(), exchange, colour_wanted(stdout)));
     }
     slave.wait(options.pause == kNever ? slave.pause() : options.pause);

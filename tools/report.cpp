@@ -98,6 +98,10 @@ std::string exchange_text(const serial::Exchange& exchange, Time timeout) {
                      format_duration(*exchange.latency()), below(remarks_on(exchange)));
 }
 
+std::string unasked_text(const modbus::Bytes& bytes) {
+  return bytes.empty() ? "" : fmt::format("unasked  {}\n{}", modbus::to_hex(bytes), below(quoted_text(bytes)));
+}
+
 std::string plain_hex(std::span<const std::uint8_t> bytes) {
   std::string text;
   for (const std::uint8_t byte : bytes) text += fmt::format("{:02x}", byte);

@@ -26,6 +26,9 @@ std::string torn_frame_note(const std::vector<std::string>& frames);
 /// Request, answer with its latency, and what the answer says.
 std::string exchange_text(const serial::Exchange& exchange, Time timeout);
 
+/// What came before a request, and nobody had asked for; empty if nothing did.
+std::string unasked_text(const modbus::Bytes& bytes);
+
 /// `lower-case hex without blanks`
 std::string plain_hex(std::span<const std::uint8_t> bytes);
 

@@ -476,6 +476,8 @@ class Json(Case):
         program = SOURCE / "stl_programs/text_commands.stl"
         first, second, third, fourth = self.json(FAILED, "send", program, "--text", "SET 04D2\\r", "474554", "--text=\\r", "0d",
                                                  "--json", "--timeout", "20ms", "--pause", "1ms")
+        self.assertEqual((first["unasked"], first["unasked_text"]), (b"READY\r\n".hex(), "READY\r\n"))
+        self.assertNotIn("unasked", second)
         self.assertEqual((first["request"], first["request_text"]), (b"SET 04D2\r".hex(), "SET 04D2\r"))
         self.assertEqual((first["response"], first["response_text"]), (b"OK\r\n".hex(), "OK\r\n"))
         self.assertEqual((second["request_text"], second["response"]), ("GET", None))
