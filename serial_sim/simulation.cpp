@@ -8,6 +8,10 @@ namespace {
 
 enum Driver { kPlc, kMaster, kHost };
 
+/// So far the CPU runs without a look at a stop request: a moment of the host, even when every instruction is traced. What
+/// is computed does not depend on it.
+constexpr Time kLookEvery = 100 * kMillisecond;
+
 }  // namespace
 
 Simulation::Simulation(std::shared_ptr<const Program> program, FieldScript field)
@@ -41,7 +45,8 @@ void Simulation::let_master_follow(std::function<SerialFormat(const SerialFormat
 
 Halt Simulation::run_until(Time end) {
   while (cpu_.time() < end) {
-    cpu_.run(end);
+    if (stop_requested()) return Halt::Request;
+    cpu_.run(std::min(end, next_look()));
     handle_due_events();
     if (cpu_.paused()) return Halt::Paused;
     if (cpu_.state().mode == Mode::Stop) return Halt::Stopped;
@@ -50,12 +55,14 @@ Halt Simulation::run_until(Time end) {
 }
 
 const Exchange& Simulation::finish_exchange() {
-  while (master_.busy() && !cpu_.paused()) {
-    cpu_.run(kNever);
+  while (master_.busy() && !cpu_.paused() && !stop_requested()) {
+    cpu_.run(next_look());
     handle_due_events();
   }
   return master_.exchange();
 }
+
+Time Simulation::next_look() const { return cpu_.time() < kNever - kLookEvery ? cpu_.time() + kLookEvery : kNever; }
 
 bool Simulation::line_quiet_for(Time quiet) const { return cpu_.time() - last_activity_ >= quiet; }
 

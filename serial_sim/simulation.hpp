@@ -1,6 +1,7 @@
 // A PLC with what drives its inputs, a Modbus master and a port for the host on one line: everything wired, one clock.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -22,11 +23,15 @@ enum class Halt : std::uint8_t {
   Time,     ///< the end was reached
   Paused,   ///< a trace sink stopped the CPU, or a scan ended and a pause was asked for
   Stopped,  ///< the CPU is in STOP
+  Request,  ///< whoever may, has asked for it: stop_when()
 };
 
 class Simulation {
  public:
   explicit Simulation(std::shared_ptr<const Program> program, FieldScript field = {});
+
+  /// All that runs ends early once `request` is true; it is looked at every 100 ms. Not owned; null: nothing ends it.
+  void stop_when(const std::atomic<bool>* request) { stop_request_ = request; }
 
   /// Powers the CPU up into RUN, at time 0, with what its memory has kept.
   void power_up(const RetentiveMemory* memory = nullptr);
@@ -38,7 +43,8 @@ class Simulation {
   /// exchange: what the program sends unasked is heard as well as its answers.
   void let_master_follow(std::function<SerialFormat(const SerialFormat& port)> of);
 
-  /// Runs on, in STOP too, until a started exchange of the master, or its listening, is over.
+  /// Runs on, in STOP too, until a started exchange of the master, or its listening, is over. The master is busy still if a
+  /// stop was asked for.
   const Exchange& finish_exchange();
 
   /// Whether the line has had no character on it for `quiet` up to now.
@@ -47,8 +53,8 @@ class Simulation {
   /// End of the last character that anybody sent or heard.
   Time last_activity() const { return last_activity_; }
 
-  /// Runs until the first scan has ended and the line has been quiet for `quiet`. False when that has not come by `limit`
-  /// or the CPU stopped.
+  /// Runs until the first scan has ended and the line has been quiet for `quiet`. False when that has not come by `limit`,
+  /// the CPU stopped, or a stop was asked for.
   bool run_until_ready(Time quiet, Time limit);
 
   /// The quiet time a master leaves by default: more than the time-outs of programs that look for 3.5 characters of
@@ -101,6 +107,8 @@ class Simulation {
     Simulation& simulation_;
   };
 
+  bool stop_requested() const { return stop_request_ && *stop_request_; }
+  Time next_look() const;
   void handle_due_events();
   void dispatch(const Event& event);
   void note_activity(const Uart::Report& report);
@@ -119,6 +127,7 @@ class Simulation {
   Faults faults_;
   WireTap tap_;
   Time last_activity_ = 0;
+  const std::atomic<bool>* stop_request_ = nullptr;
 };
 
 }  // namespace s7200::serial
