@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -13,6 +14,7 @@
 
 #include "interpreter/stl/document.hpp"
 #include "interpreter/stl/encoding.hpp"
+#include "interpreter/stl/text.hpp"
 
 namespace s7200 {
 namespace {
@@ -23,6 +25,47 @@ constexpr std::size_t kLargestFile = 64 << 20;
 bool is_instruction(std::string_view mnemonic, std::size_t operands) {
   const Instruction* instruction = find_instruction(mnemonic);
   return instruction && (instruction->operands == operands || !instruction->body);
+}
+
+/// Whether somebody may have meant this line, which is not empty and no comment, as a statement: `LD I0.0`, `FROB`, `U
+/// E0.0`.
+bool looks_like_a_statement(std::string_view line) {
+  constexpr std::string_view kBlanks = " \t\f", kSeparators = " \t\f,;";
+  constexpr std::size_t kLongestMnemonic = 8;
+  const auto is_part_of_mnemonic = [](char c) {
+    return stl::is_letter(c) || std::string_view("_+-*/<>=").find(c) != std::string_view::npos;
+  };
+  const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
+  const std::string mnemonic = stl::upper_case(word);
+  if (mnemonic == "NETWORK" || mnemonic.ends_with("_BLOCK")) return true;  // of an export, which has its own message
+  if (word.size() > kLongestMnemonic || !std::all_of(word.begin(), word.end(), is_part_of_mnemonic)) return false;
+  bool any_operand = false, solid = true;  // solid: with a number in it
+  for (std::string_view rest = line.substr(word.size(), line.find("//") - word.size());;) {
+    rest.remove_prefix(std::min(rest.find_first_not_of(kSeparators), rest.size()));
+    if (rest.empty()) break;
+    const std::string_view operand = rest.substr(0, rest.find_first_of(kSeparators));
+    any_operand = true;
+    solid &= std::any_of(operand.begin(), operand.end(), stl::is_digit);
+    rest.remove_prefix(operand.size());
+  }
+  const bool known = find_instruction(mnemonic) != nullptr, capitals = word == mnemonic;
+  if (capitals) return solid || (known && word.size() > 1);  // but `A word`
+  return known && solid && any_operand;
+}
+
+/// Whether a text can be STL with mistakes in it. If nothing in so many lines could, it is some other file: messages about
+/// its lines would help nobody, and show what may be nobody's business, as with `program: /etc/passwd` in a scenario.
+bool can_be_stl(const std::vector<std::string>& text) {
+  constexpr std::size_t kLinesOfCode = 20;
+  std::size_t code = 0;
+  for (const std::string& each : text) {
+    std::string_view line = each;
+    line.remove_prefix(std::min(line.find_first_not_of(" \t\f"), line.size()));
+    if (line.empty() || line.starts_with("//")) continue;
+    if (looks_like_a_statement(line)) return true;
+    if (++code == kLinesOfCode) return false;
+  }
+  return code == 0;
 }
 
 /// A file or a pipe, and nothing else: reading from a serial port would wait for ever, and take what is another's.
@@ -91,9 +134,12 @@ std::optional<SourceText> read_source(std::string_view bytes, const std::string&
                                       bool force_document) {
   const auto decoded = stl::decode(bytes, why);
   if (!decoded) return {};
-  const bool as_document = force_document || stl::is_document(decoded->text, is_instruction);
-  return SourceText{as_document ? stl::read_document(decoded->text, name, is_instruction) : stl::parse(decoded->text, name),
-                    decoded->encoding, as_document};
+  if (force_document || stl::is_document(decoded->text, is_instruction))
+    return SourceText{stl::read_document(decoded->text, name, is_instruction), decoded->encoding, true};
+  SourceText source{stl::parse(decoded->text, name), decoded->encoding, false};
+  if (can_be_stl(source.parsed.source.text)) return source;
+  why = "it is not an STL program: nothing at its beginning is an instruction";
+  return {};
 }
 
 CheckResult check_text(std::string_view utf8, const std::string& name, const CpuModel& model, const TimeTable& times) {

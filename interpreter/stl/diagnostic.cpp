@@ -35,13 +35,6 @@ std::string_view blank_like(char32_t code) {
   return is_wide(code) ? "\u3000" : " ";
 }
 
-/// A control character shown as such could do anything to a terminal.
-std::string_view printable(std::string_view character, char32_t code) {
-  const bool control = (code < 0x20 && code != '\t') || (code >= 0x7F && code < 0xA0);
-  const bool unreadable = code == kReplacement;
-  return control || unreadable ? "\uFFFD" : character;
-}
-
 struct Excerpt {
   std::string shown;
   std::string marks;
@@ -62,7 +55,7 @@ Excerpt excerpt(std::string_view line, const Position& position) {
   for (const Character c : characters(line)) {
     if (index >= to) break;
     if (index >= from) {
-      result.shown += printable(line.substr(0, c.bytes), c.code);
+      result.shown += printable(line.substr(0, c.bytes));
       if (index < place) result.marks += blank_like(c.code);
     }
     line.remove_prefix(c.bytes);
@@ -78,9 +71,10 @@ Excerpt excerpt(std::string_view line, const Position& position) {
 
 std::string location(const Diagnostic& diagnostic, const Source& source) {
   const Position& position = diagnostic.position;
-  if (position.line == 0) return source.name;
-  if (position.column == 0) return fmt::format("{}:{}", source.name, position.line);
-  return fmt::format("{}:{}:{}", source.name, position.line, position.column);
+  const std::string name = printable(source.name);
+  if (position.line == 0) return name;
+  if (position.column == 0) return fmt::format("{}:{}", name, position.line);
+  return fmt::format("{}:{}:{}", name, position.line, position.column);
 }
 
 struct Cause {
@@ -137,7 +131,7 @@ std::string render(const Diagnostic& diagnostic, const Source& source, bool colo
   const bool error = diagnostic.severity == Severity::Error;
   std::string text = painted(location(diagnostic, source) + ":", kBold, colour);
   text += ' ' + painted(error ? "error:" : "warning:", error ? kRed : kMagenta, colour);
-  text += ' ' + diagnostic.message;
+  text += ' ' + printable(diagnostic.message);
   text += diagnostic.name.empty() ? "\n" : fmt::format(" [{}]\n", diagnostic.name);
 
   const Position& position = diagnostic.position;
@@ -145,7 +139,7 @@ std::string render(const Diagnostic& diagnostic, const Source& source, bool colo
     const Excerpt lines = excerpt(source.text[position.line - 1], position);
     text += lines.shown + '\n' + painted(lines.marks, kGreen, colour) + '\n';
   }
-  if (!diagnostic.hint.empty()) text += "hint: " + diagnostic.hint + '\n';
+  if (!diagnostic.hint.empty()) text += "hint: " + printable(diagnostic.hint) + '\n';
   return text;
 }
 

@@ -22,6 +22,12 @@ Lead lead_of(unsigned char byte) {
 
 constexpr Character kUnreadable{kReplacement, 1};
 
+/// C0 and C1; marks, embeddings, overrides and isolates of bidirectional text (UAX #9); line and paragraph separators.
+bool commands_a_terminal(char32_t code) {
+  return (code < 0x20 && code != '\t') || (code >= 0x7F && code < 0xA0) || code == 0x061C || code == 0x200E ||
+         code == 0x200F || (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+}
+
 }  // namespace
 
 Character first_character(std::string_view text) {
@@ -76,6 +82,30 @@ std::string shortened(std::string_view text) {
     bytes += c.bytes;
   }
   return std::string(text.substr(0, bytes)).append("...");
+}
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  shown.reserve(text.size());
+  while (!text.empty()) {
+    const Character c = first_character(text);
+    shown += c.code == kReplacement || commands_a_terminal(c.code) ? "\uFFFD" : text.substr(0, c.bytes);
+    text.remove_prefix(c.bytes);
+  }
+  return shown;
+}
+
+std::string printable_lines(std::string_view text) {
+  std::string shown;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    if (end == std::string_view::npos) return shown + printable(text);
+    const std::size_t line = end > 0 && text[end - 1] == '\r' ? end - 1 : end;
+    shown += printable(text.substr(0, line));
+    shown += text.substr(line, end + 1 - line);
+    text.remove_prefix(end + 1);
+  }
+  return shown;
 }
 
 std::string upper_case(std::string_view text) {

@@ -60,6 +60,14 @@ std::string_view trim_end(std::string_view text);
 /// At most 40 characters of a text, for a message; what is left off shows as `...`.
 std::string shortened(std::string_view text);
 
+/// A text from a file, its name among them, as a terminal may show it. What a terminal would take for a command (control
+/// characters but the tab), what would turn the direction of the text, and bytes that are not UTF-8 become U+FFFD, each one
+/// column wide; a line end too. All that prints such text prints it so.
+std::string printable(std::string_view text);
+
+/// The same for a text of several lines: LF and CR LF stay.
+std::string printable_lines(std::string_view text);
+
 /// ASCII letters in upper case, everything else as it is.
 std::string upper_case(std::string_view text);
 

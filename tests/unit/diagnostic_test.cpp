@@ -45,6 +45,12 @@ TEST(Diagnostic, SendsNoControlCharacterToATerminal) {
   EXPECT_EQ(shown.find('\x07'), std::string::npos);
 }
 
+TEST(Diagnostic, NeitherDoItsNameItsMessageAndItsHint) {
+  const Source source{"\x1b]0;a\x07.stl", {"NOT"}, {}};
+  EXPECT_EQ(render({Severity::Error, {1, 0, 1}, "no '\x1b[2J'", "not \u009b"}, source, false),
+            "\uFFFD]0;a\uFFFD.stl:1: error: no '\uFFFD[2J'\nhint: not \uFFFD\n");
+}
+
 TEST(Diagnostic, NeedsNoPlaceAndNoSuchLine) {
   EXPECT_EQ(render(Diagnostic{Severity::Error, {0, 0, 1}, "empty", ""}, text({}), false), "a.stl: error: empty\n");
   EXPECT_EQ(render(Diagnostic{Severity::Error, {7, 1, 1}, "gone", ""}, text({"NOT"}), false), "a.stl:7:1: error: gone\n");
