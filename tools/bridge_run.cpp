@@ -54,7 +54,7 @@ class LiveRun final : public LiveLine {
   void catch_up() override {
     if (!reason_.empty()) return;
     const Time goal = std::min(pace_.next_goal(now()), options_.end);
-    while (now() < goal && reason_.empty()) {
+    while (now() < goal && reason_.empty() && !interrupted()) {
       if (bridge_) simulation_.host_port().receive_as(bridge_->receive_format());
       simulation_.run_until(goal);
       const State& state = simulation_.cpu().state();

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -8,9 +7,11 @@
 #include <iostream>
 #include <sstream>
 
+#include "interpreter/stl/text.hpp"
 #include "tools/commands.hpp"
 #include "tools/debugger.hpp"
 #include "tools/exit_code.hpp"
+#include "tools/interruption.hpp"
 #include "tools/program_options.hpp"
 #include "tools/report.hpp"
 #include "tools/terminal.hpp"
@@ -26,27 +27,20 @@ struct DebugOptions {
   bool interactive = false;
 };
 
-std::atomic<bool> interrupted = false;
-
-/// Ctrl-C ends a run, and at the prompt the line being typed: reading is not taken up again.
-void catch_interrupt() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { interrupted = true; };
-  sigaction(SIGINT, &action, nullptr);
-}
-
-/// A line from the terminal; an empty one stands for `last`. Ctrl-C gives an empty prompt again, and nothing to repeat.
-/// False at the end of the input.
+/// A line from the terminal; an empty one stands for `last`. Ctrl-C ends a run, and at the prompt the line being typed:
+/// reading is not taken up again, and an empty prompt comes with nothing to repeat. False at the end of the input, and when
+/// something else than Ctrl-C ends the command.
 bool read_line(std::string& line, std::string& last) {
   while (true) {
-    interrupted = false;
+    forget_ctrl_c();
+    if (interrupted()) return false;
     std::cout << Debugger::kPrompt << std::flush;
     if (std::getline(std::cin, line)) {
       if (line.empty()) line = last;
       return true;
     }
     std::cout << '\n';
-    if (!interrupted) return false;
+    if (!interrupted()) return false;
     last.clear();
     std::clearerr(stdin);
     std::cin.clear();
@@ -56,7 +50,7 @@ bool read_line(std::string& line, std::string& last) {
 void talk(Debugger& debugger) {
   std::string last;
   for (std::string line; !debugger.quit_asked() && read_line(line, last);) {
-    if (const auto error = debugger.execute(line)) std::cout << *error << '\n';
+    if (const auto error = debugger.execute(line)) std::cout << stl::printable(*error) << '\n';
     last = debugger.repeatable();
   }
 }
@@ -100,8 +94,8 @@ int run_debug(const DebugOptions& options) {
 
   serial::Simulation simulation(program);
   simulation.power_up();
-  Debugger debugger(simulation, std::cout, {.master = options.master, .stop_request = &interrupted});
-  catch_interrupt();
+  Debugger debugger(simulation, std::cout, {.master = options.master, .stop_request = &interruption()});
+  catch_interruption();
   const bool terminal = isatty(STDIN_FILENO) != 0;
   if (!given && terminal) std::cout << "'help' lists the commands.\n";
   debugger.show_place();
@@ -112,7 +106,12 @@ int run_debug(const DebugOptions& options) {
     else
       good = run_script(debugger, std::cin, "standard input");
   }
-  std::cout.flush();
+  if (std::ferror(stdin) != 0 && !interrupted()) {
+    print_error("cannot read standard input");
+    return kUnusable;
+  }
+  print_interruption();
+  if (interrupted()) return kCheckFailed;
   return good ? exit_code_of(simulation.cpu()) : kUnusable;
 }
 

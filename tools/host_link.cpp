@@ -13,6 +13,8 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <future>
+#include <thread>
 #include <utility>
 
 #include "tools/interruption.hpp"
@@ -38,6 +40,31 @@ bool wait_for(int fd, short events, Time until) {
 }
 
 std::string error_text(int error) { return std::strerror(error); }
+
+using Addresses = std::shared_ptr<addrinfo>;
+
+/// Null, and `why`, if there are none; after Ctrl-C too. Name servers may let getaddrinfo(3) wait for long, and nothing
+/// calls it off: it has a thread of its own, which is then left to itself.
+Addresses look_up(const std::string& host, const std::string& port, std::string& why) {
+  struct Answer {
+    int error = 0;
+    Addresses addresses;
+  };
+  std::promise<Answer> promise;
+  std::future<Answer> answer = promise.get_future();
+  std::thread([host, port, promise = std::move(promise)]() mutable {
+    addrinfo wanted{};
+    wanted.ai_socktype = SOCK_STREAM;
+    addrinfo* found = nullptr;
+    const int error = getaddrinfo(host.c_str(), port.c_str(), &wanted, &found);
+    promise.set_value({error, error == 0 ? Addresses(found, freeaddrinfo) : nullptr});
+  }).detach();
+  while (answer.wait_for(std::chrono::nanoseconds(kSlice)) != std::future_status::ready)
+    if (interrupted()) return nullptr;
+  const Answer got = answer.get();
+  if (got.error != 0) why = gai_strerror(got.error);
+  return got.addresses;
+}
 
 }  // namespace
 
@@ -105,15 +132,13 @@ void TcpLink::close() {
 
 void TcpLink::open() {
   close();
-  addrinfo wanted{};
-  wanted.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  if (const int error = getaddrinfo(host_.c_str(), port_.c_str(), &wanted, &found); error != 0)
-    throw SlaveUnreachable(fmt::format("cannot reach {}: {}", name(), gai_strerror(error)));
-  const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> addresses(found, freeaddrinfo);
+  std::string why;
+  const Addresses addresses = look_up(host_, port_, why);
+  if (!why.empty()) throw SlaveUnreachable(fmt::format("cannot reach {}: {}", name(), why));
 
   int error = 0;
-  for (const addrinfo* address = found; address != nullptr && fd_ < 0 && !interrupted(); address = address->ai_next) {
+  for (const addrinfo* address = addresses.get(); address != nullptr && fd_ < 0 && !interrupted();
+       address = address->ai_next) {
     fd_ = socket(address->ai_family, address->ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, address->ai_protocol);
     if (fd_ < 0) {
       error = errno;

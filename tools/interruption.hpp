@@ -1,11 +1,31 @@
-// Ctrl-C and a polite kill: the run ends, what was asked for is still written.
+// Ctrl-C, a polite kill and a terminal that hangs up: the command ends, and what was asked for is still written.
+//
+// SIGINT, SIGTERM and SIGHUP are only noted, and every wait looks at the note: the simulation after each 100 ms of simulated
+// time, waits for the host when their system call ends with EINTR. A signal that comes just before such a call would be
+// missed; so SIGALRM follows it every second, and no call waits on. A second Ctrl-C kills at once. A SIGHUP that is ignored
+// stays ignored, as nohup wants it. Until catch_interruption() the three end the process at once: nothing has been begun
+// then.
 #pragma once
+
+#include <atomic>
 
 namespace s7200::tools {
 
-/// From now on SIGINT and SIGTERM are only noted.
+/// From now on the signals are noted.
 void catch_interruption();
 
+/// Ends what is going on as a signal does, but without a word: standard output takes nothing more.
+void interrupt_quietly();
+
 bool interrupted();
+
+/// The same, for what runs long and looks at it by itself.
+const std::atomic<bool>& interruption();
+
+/// Takes a Ctrl-C back, which at a prompt gives a new one. False if there was none, and for all that ends the command.
+bool forget_ctrl_c();
+
+/// `s7200: note: interrupted`, if a signal was the reason.
+void print_interruption();
 
 }  // namespace s7200::tools

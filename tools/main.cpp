@@ -3,18 +3,21 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
+#include <iostream>
+#include <sstream>
 
+#include "interpreter/stl/text.hpp"
 #include "tools/commands.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/results_json.hpp"
+#include "tools/standard_streams.hpp"
 #include "tools/terminal.hpp"
 #include "tools/usage.hpp"
 
-int main(int argc, char** argv) {
-  using namespace s7200::tools;
-  std::signal(SIGPIPE, SIG_DFL);
+namespace s7200::tools {
+namespace {
 
+int run_command(int argc, char** argv) {
   CLI::App app{"s7200 runs SIMATIC S7-200 STL programs in simulated time, with their Freeport on a simulated line."};
   app.name("s7200");
   app.require_subcommand(1);
@@ -22,8 +25,11 @@ int main(int argc, char** argv) {
   app.failure_message(usage_error);
   app.footer(
       "'s7200 help VERB' shows the options of a verb, and an example.\n"
-      "Exit codes: 0 fine; 1 what was checked failed; 2 wrong usage or unreadable input; 3 the CPU went to STOP on a fatal "
-      "error.\nExample: s7200 send stl_programs/modbus_slave.stl --crc 01030000000a");
+      "Exit codes: 0 fine; 1 what was checked failed, or it was interrupted; 2 wrong usage, unreadable input, or output "
+      "that\n"
+      "cannot be written; 3 the CPU went to STOP on a fatal error. Ctrl-C, SIGTERM and SIGHUP end every wait, and what was\n"
+      "asked for is still written; a second Ctrl-C kills at once.\nExample: s7200 send stl_programs/modbus_slave.stl --crc "
+      "01030000000a");
 
   int exit_code = kFine;
   add_check(app, exit_code);
@@ -43,14 +49,22 @@ int main(int argc, char** argv) {
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
     app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kFine : kUnusable;
+    std::ostringstream said;
+    const bool fine = app.exit(error, std::cout, said) == 0;
+    fmt::print(stderr, "{}", stl::printable_lines(said.str()));
+    return fine ? kFine : kUnusable;
   } catch (const std::exception& error) {
     print_error(error.what());
     return kUnusable;
   }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
-    print_error("cannot write to standard output");
-    return kUnusable;
-  }
   return exit_code;
+}
+
+}  // namespace
+}  // namespace s7200::tools
+
+int main(int argc, char** argv) {
+  using namespace s7200::tools;
+  open_standard_streams();
+  return close_standard_streams(run_command(argc, argv));
 }

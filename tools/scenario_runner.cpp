@@ -131,6 +131,7 @@ class Plant {
     slave_.reset();
     simulation_ = std::make_unique<serial::Simulation>(program_, scenario_.field);
     simulation_->cpu().set_sink(&sinks_);
+    simulation_->stop_when(&interruption());
     simulation_->power_up(memory);
     slave_ = std::make_unique<SimulatedSlave>(*simulation_, scenario_.line, program_->source.name);
   }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -13,14 +12,9 @@ namespace s7200::tools {
 namespace {
 
 constexpr Time kReadyWithin = 60 * kSecond;
-constexpr Time kSlice = 10 * kSecond;  // Ctrl-C is heard in between
 
 /// False when the CPU is in STOP, where no program runs on, or after Ctrl-C.
-bool run_until(serial::Simulation& simulation, Time end) {
-  while (simulation.time() < end)
-    if (interrupted() || simulation.run_until(std::min(end, simulation.time() + kSlice)) != serial::Halt::Time) return false;
-  return true;
-}
+bool run_until(serial::Simulation& simulation, Time end) { return simulation.run_until(end) == serial::Halt::Time; }
 
 }  // namespace
 
@@ -35,7 +29,7 @@ bool SimulatedSlave::wait_until_ready(Time after) {
   if (ready && !state.port.active)
     fmt::print(stderr, "s7200: note: the program has not switched port 0 to Freeport mode (SMB30 = 16#{:02X})\n",
                state.image[image::kSM + 30]);
-  if (!ready && after == kNever && state.mode == Mode::Run)
+  if (!ready && after == kNever && state.mode == Mode::Run && !interrupted())
     print_error(
         fmt::format("the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
                     "sends all the same",
@@ -50,7 +44,8 @@ serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
   remark_ = ignored_text(serial::bytes_of(simulation_.master().heard()));
   simulation_.master_uart().configure(format);
   simulation_.master().start(request, simulation_.time());
-  const serial::Exchange& exchange = simulation_.finish_exchange();
+  serial::Exchange exchange = simulation_.finish_exchange();
+  if (simulation_.master().busy()) exchange.timed_out = exchange.response.empty();  // after Ctrl-C
   if (const SerialFormat now = master_.format_for(simulation_); now != format) simulation_.master_uart().configure(now);
   return exchange;
 }
@@ -58,7 +53,9 @@ serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
 serial::Exchange SimulatedSlave::receive(const serial::Listening& listening) {
   remark_.clear();
   simulation_.master().listen(listening, simulation_.time());
-  return simulation_.finish_exchange();
+  serial::Exchange exchange = simulation_.finish_exchange();
+  if (simulation_.master().busy()) exchange.timed_out = exchange.response.empty();
+  return exchange;
 }
 
 void SimulatedSlave::wait(Time duration) { run_until(simulation_, simulation_.time() + duration); }

@@ -20,7 +20,8 @@ class SimulatedSlave final : public Slave {
   /// that is not in Freeport mode by then is worth a note.
   bool wait_until_ready(Time after = kNever);
 
-  /// On a CPU in STOP too. Throws std::invalid_argument for a byte with wrong parity in a format without.
+  /// On a CPU in STOP too. After Ctrl-C what there was of it, and the next one cannot begin any more. Throws
+  /// std::invalid_argument for a byte with wrong parity in a format without.
   serial::Exchange exchange(const serial::Request& request) override;
   serial::Exchange receive(const serial::Listening& listening) override;
   void wait(Time duration) override;

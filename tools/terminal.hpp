@@ -12,7 +12,11 @@ bool colour_wanted(std::FILE* stream);
 /// Whether what is on the screen can be written over: a terminal that knows control sequences.
 bool can_redraw(std::FILE* stream);
 
-/// `s7200: error: …` on stderr.
+/// What could be a file, on stdout: as it is, but printable on a terminal.
+void print_file(std::string_view text);
+
+/// `s7200: error: …` and `s7200: note: …` on stderr, in one line; what a message quotes is shown printable.
 void print_error(std::string_view message);
+void print_note(std::string_view message);
 
 }  // namespace s7200::tools
