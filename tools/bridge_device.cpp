@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "interpreter/stl/text.hpp"
 #include "tools/serial_device.hpp"
 #include "tools/terminal.hpp"
 
@@ -37,7 +38,7 @@ class DeviceBridge final : public Bridge {
     device_.emplace(std::move(*device));
     descriptor_.emplace(context, device_->fd());
     await_input();
-    fmt::print(stderr, "connected to {}\n", path_);
+    fmt::print(stderr, "connected to {}\n", stl::printable(path_));
     return true;
   }
 

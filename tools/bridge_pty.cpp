@@ -9,6 +9,7 @@
 #include <cstring>
 #include <deque>
 
+#include "interpreter/stl/text.hpp"
 #include "tools/pty.hpp"
 #include "tools/terminal.hpp"
 
@@ -34,7 +35,7 @@ class PtyBridge final : public Bridge {
     watch_.emplace(context, pty_->watch());
     await_input();
     await_clients();
-    fmt::print(stderr, "serving {} ({})\n", link_, pty_->path());
+    fmt::print(stderr, "serving {} ({})\n", stl::printable(link_), pty_->path());
     return true;
   }
 

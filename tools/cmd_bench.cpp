@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "interpreter/stl/text.hpp"
 #include "serial_sim/simulation.hpp"
 #include "tools/bench_program.hpp"
 #include "tools/commands.hpp"
@@ -219,7 +220,7 @@ int run_bench(const BenchOptions& options) {
     print_results(results);
     return kFine;
   }
-  fmt::print("{}: best of five rounds on one core\n", program->source.name);
+  fmt::print("{}: best of five rounds on one core\n", stl::printable(program->source.name));
   for (const Figure& f : figures) {
     const bool millions = f.per_second >= 1e6;
     fmt::print("  {:<26} {:>9.1f} {} {} a second\n", f.name, f.per_second / (millions ? 1e6 : 1e3),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "interpreter/program/warnings.hpp"
+#include "interpreter/stl/text.hpp"
 #include "tools/commands.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/program_options.hpp"
@@ -79,7 +80,7 @@ std::string counted(stl::Severity severity, const stl::Diagnostics& all) {
 }
 
 void print_summary(const SourceText& text, const CheckResult& result, const CpuModel& model) {
-  const std::string& name = result.source.name;
+  const std::string name = stl::printable(result.source.name);
   const std::string warnings = counted(stl::Severity::Warning, result.diagnostics);
   if (!result.program) {
     const auto others = other_cpus(text, model);

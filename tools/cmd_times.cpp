@@ -3,10 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "interpreter/stl/text.hpp"
 #include "tools/commands.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/program_options.hpp"
 #include "tools/results_json.hpp"
+#include "tools/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -23,9 +25,10 @@ void print_table(const CpuModel& model, const TimeTable& times) {
       "{:<40} {:<28} {:>9} {:>9}  {:<10} {:<11} {}\n",
       model.name, "instructions", "form", "base", "per unit", "unit", "marker", "source");
   for (const TimeRow& row : times.rows())
-    fmt::print("{:<40} {:<28} {:>9} {:>9}  {:<10} {:<11} {}\n", fmt::format("{}", fmt::join(row.mnemonics, " ")), row.form,
-               in_microseconds(row.base), row.per_unit ? in_microseconds(row.per_unit) : "", row.unit, row.marker,
-               row.source);
+    fmt::print("{:<40} {:<28} {:>9} {:>9}  {:<10} {:<11} {}\n",
+               stl::printable(fmt::format("{}", fmt::join(row.mnemonics, " "))), stl::printable(row.form),
+               in_microseconds(row.base), row.per_unit ? in_microseconds(row.per_unit) : "", stl::printable(row.unit),
+               row.marker, stl::printable(row.source));
 }
 
 nlohmann::ordered_json to_json(const CpuModel& model, const TimeTable& times) {
@@ -51,7 +54,7 @@ int run_times(const TimesOptions& options) {
   if (options.json)
     print_results(to_json(*model, *times));
   else if (options.csv)
-    fmt::print("{}", to_csv(*times));
+    print_file(to_csv(*times));
   else
     print_table(*model, *times);
   return kFine;

@@ -73,7 +73,7 @@ Debugger::Error Debugger::execute(std::string_view line) {
 Debugger::Error Debugger::execute_one(std::string_view text) {
   Arguments arguments = split(text, " \t\r");
   if (arguments.empty()) return {};
-  if (echoing_) out_ << kPrompt << joined(arguments) << '\n';
+  if (echoing_) out_ << kPrompt << stl::printable(joined(arguments)) << '\n';
   std::string why;
   const Command* command = find_command(arguments.front(), why);
   if (!command) return why;

@@ -208,7 +208,7 @@ Debugger::Error Debugger::back(const Arguments& arguments) {
   if (*count > kept_.size()) out_ << fmt::format("only {} earlier states are kept\n", kept_.size());
   kept_.resize(kept_.size() - std::min<std::size_t>(*count, kept_.size()) + 1);
   simulation_.restore(kept_.back().snapshot);
-  out_ << fmt::format("back to before '{}'\n", kept_.back().command);
+  out_ << fmt::format("back to before '{}'\n", stl::printable(kept_.back().command));
   kept_.pop_back();
   last_op_.reset();
   show_place();

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "interpreter/stl/text.hpp"
 #include "tools/terminal.hpp"
 
 namespace s7200::tools {
@@ -48,8 +49,9 @@ void FaultOptions::inject(serial::Simulation& simulation) const {
 void print_fault_error(const serial::FaultError& error, std::string_view text) {
   const std::size_t before = std::min(error.column - 1, text.size());
   const std::size_t width = std::max<std::size_t>(columns(text.substr(before, error.length)), 1);
-  print_error(fmt::format("--fault, column {}: {}\n  {}\n  {}^{}", error.column, error.message, text,
-                          std::string(columns(text.substr(0, before)), ' '), std::string(width - 1, '~')));
+  print_error(fmt::format("--fault, column {}: {}", error.column, error.message));
+  fmt::print(stderr, "  {}\n  {}^{}\n", stl::printable(text), std::string(columns(text.substr(0, before)), ' '),
+             std::string(width - 1, '~'));
 }
 
 std::string fault_help() {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "interpreter/program/operands.hpp"
+#include "interpreter/stl/text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -181,8 +182,9 @@ std::string explain(const Instruction& instruction, const TimeTable& times) {
   text += fmt::format("  SM1 flags   {}\n  allowed in  {}\n  available   {}\n", flags_text(instruction),
                       parts_text(instruction), to_text(instruction.cpus));
   for (const TimeRow* row : times_of(times, instruction))
-    text += fmt::format("  time        {} us{} ({}: {})\n", time_text(*row), row->form.empty() ? "" : " for " + row->form,
-                        row->marker, row->source);
+    text +=
+        fmt::format("  time        {} us{} ({}: {})\n", stl::printable(time_text(*row)),
+                    row->form.empty() ? "" : " for " + stl::printable(row->form), row->marker, stl::printable(row->source));
   return text + fmt::format("  example     {}\n", example(instruction));
 }
 

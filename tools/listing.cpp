@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/stl/text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -37,11 +38,11 @@ Listing::Listing(const Program& program) : program_(program), routine_(routines_
   std::uint32_t op = 0;
   for (const stl::Line& line : program.source.lines) {
     if (const auto* statement = std::get_if<stl::Statement>(&line)) {
-      entries_.push_back({statement->position.line, tools::text_of(*statement), op++});
+      entries_.push_back({statement->position.line, stl::printable(tools::text_of(*statement)), op++});
     } else if (const auto* head = std::get_if<stl::NetworkHead>(&line)) {
-      entries_.push_back({head->position.line, tools::text_of(*head), {}});
+      entries_.push_back({head->position.line, stl::printable(tools::text_of(*head)), {}});
     } else if (const auto* comment = std::get_if<stl::CommentLine>(&line)) {
-      entries_.push_back({comment->line, "//" + comment->text, {}});
+      entries_.push_back({comment->line, stl::printable("//" + comment->text), {}});
     }
   }
 }
@@ -53,7 +54,7 @@ std::optional<std::uint32_t> Listing::op_from_line(std::uint32_t line) const {
 
 std::uint32_t Listing::last_line() const { return line_of(static_cast<std::uint32_t>(program_.ops.size()) - 1); }
 
-std::string Listing::text_of(std::uint32_t op) const { return tools::text_of(program_.statement(op)); }
+std::string Listing::text_of(std::uint32_t op) const { return stl::printable(tools::text_of(program_.statement(op))); }
 
 std::string Listing::around(std::uint32_t line, std::size_t before, std::size_t count, const Mark& mark) const {
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.line >= line; });

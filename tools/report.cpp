@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/stl/text.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/text_frame.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 std::string place_text(const Program& program, std::uint32_t op) {
   if (op == kNoRoutine) return "between two scans";
   const stl::Statement& statement = program.statement(op);
-  return fmt::format("{}:{}: {}", program.source.name, statement.position.line, stl::to_text(statement));
+  return fmt::format("{}:{}: {}", stl::printable(program.source.name), statement.position.line, stl::to_text(statement));
 }
 
 nlohmann::ordered_json error_json(const Program& program, std::uint16_t code, std::string_view meaning, std::uint32_t op,

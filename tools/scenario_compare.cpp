@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "interpreter/stl/text.hpp"
 #include "tools/text_frame.hpp"
 
 namespace s7200::tools {
@@ -41,8 +42,9 @@ std::string exchange_text(const Scenario& scenario, const Seen& one, const Seen&
                           const std::string& other_name, bool colour) {
   const std::size_t width = std::max({one_name.size(), other_name.size(), std::size_t{9}});
   const Step& step = scenario.steps[one.step];
-  const std::string place = step.position.line ? fmt::format(", {}:{}", scenario.source->name, step.position.line) : "";
-  const std::string turn = step.loop.empty() ? "" : fmt::format(" (with {})", step.loop);
+  const std::string place =
+      step.position.line ? fmt::format(", {}:{}", stl::printable(scenario.source->name), step.position.line) : "";
+  const std::string turn = step.loop.empty() ? "" : fmt::format(" (with {})", stl::printable(step.loop));
   const auto before = std::count_if(scenario.steps.begin(), scenario.steps.begin() + static_cast<std::ptrdiff_t>(one.step),
                                     [](const Step& s) { return reception_of(s) != nullptr; });
   std::string text = fmt::format("{}exchange {}{}{}\n", kIndent, before + 1, place, turn);
@@ -81,7 +83,7 @@ std::string trouble_text(const Scenario& scenario, const ScenarioResult& result,
     if (!finding.of_run || ++count > 1) continue;
     const std::uint32_t line = scenario.steps.empty() ? 0 : scenario.steps[finding.step].position.line;
     text = fmt::format("{}{} could not be asked{}: {}\n", kIndent, name,
-                       line ? fmt::format(", {}:{}", scenario.source->name, line) : "", finding_line(scenario, finding));
+                       line ? fmt::format(", {}:{}", stl::printable(scenario.source->name), line) : "", finding_line(scenario, finding));
   }
   if (count > 1) text += fmt::format("{}and {} more\n", kIndent, count - 1);
   return text;
