@@ -29,6 +29,9 @@ class BridgeOptions {
   double speed() const { return speed_; }
   const LineOptions& line() const { return line_; }
 
+  /// The name of the pty, if that is the bridge.
+  const std::string& link() const { return pty_; }
+
   /// Null if none was asked for.
   Bridge* bridge() const { return bridge_.get(); }
 

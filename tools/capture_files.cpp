@@ -7,7 +7,6 @@
 #include <array>
 #include <filesystem>
 #include <ostream>
-#include <set>
 
 #include "serial_sim/pcap_capture.hpp"
 #include "serial_sim/vcd_capture.hpp"
@@ -30,8 +29,8 @@ struct Kind {
 
 const std::array<Kind, 2>& kinds() {
   static const std::array<Kind, 2> kKinds{
-      {{".vcd", "capture of levels", std::string(serial::VcdCapture::kBeginning), make<serial::VcdCapture>},
-       {".pcap", "capture of frames", serial::PcapWriter::beginning(), make<serial::PcapCapture>}}};
+      {{".vcd", "a capture of levels", std::string(serial::VcdCapture::kBeginning), make<serial::VcdCapture>},
+       {".pcap", "a capture of frames", serial::PcapWriter::beginning(), make<serial::PcapCapture>}}};
   return kKinds;
 }
 
@@ -52,28 +51,29 @@ void CaptureFiles::add_to(CLI::App& app) {
       ->allow_extra_args(false);
 }
 
-bool CaptureFiles::open() {
-  std::set<std::filesystem::path> seen;
+bool CaptureFiles::claim(WrittenFiles& files) {
   for (const std::string& path : paths_) {
-    std::error_code error;
-    if (!seen.insert(std::filesystem::weakly_canonical(path, error)).second) {
-      print_error(fmt::format("--capture {}: this file is named twice", path));
-      return false;
-    }
-    if (!kind_of(path)) {
-      print_error(fmt::format("--capture {}: the name ends neither in .vcd (levels) nor in .pcap (frames)", path));
-      return false;
-    }
-  }
-  for (const std::string& path : paths_) {
-    const Kind& kind = *kind_of(path);
+    const Kind* const kind = kind_of(path);
+    if (!kind) print_error(fmt::format("--capture {}: the name ends neither in .vcd (levels) nor in .pcap (frames)", path));
+    if (!kind) return false;
     Capture& capture = captures_.emplace_back();
-    std::ostream* out = capture.file.open(path, kind.beginning, kind.name);
-    if (!out) return false;
-    capture.sink = kind.make(*out);
-    out->flush();  // so that no other record takes the same file for an empty one
+    capture.make = kind->make;
+    if (!capture.file.claim(files, "--capture", path, {kind->name, kind->beginning})) return false;
   }
   return true;
+}
+
+bool CaptureFiles::open() {
+  for (Capture& capture : captures_) {
+    std::ostream* out = capture.file.open();
+    if (!out) return false;
+    capture.sink = capture.make(*out);
+  }
+  return true;
+}
+
+bool CaptureFiles::put() {
+  return std::all_of(captures_.begin(), captures_.end(), [](Capture& capture) { return capture.file.put(); });
 }
 
 void CaptureFiles::watch(serial::Simulation& simulation) {

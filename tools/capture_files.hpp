@@ -20,8 +20,10 @@ class CaptureFiles final : private serial::WireSink {
  public:
   void add_to(CLI::App& app);
 
-  /// Opens what was asked for. False after a message: existing files that are no earlier captures are not overwritten.
+  /// False after a message, like the others: a capture cannot be written as it was asked for.
+  bool claim(WrittenFiles& files);
   bool open();
+  bool put();
 
   /// Captures from now on, until close() or the end of the simulation. This object outlives the simulation.
   void watch(serial::Simulation& simulation);
@@ -32,6 +34,7 @@ class CaptureFiles final : private serial::WireSink {
  private:
   struct Capture {
     RecordFile file;
+    std::unique_ptr<serial::WireSink> (*make)(std::ostream&) = nullptr;
     std::unique_ptr<serial::WireSink> sink;
   };
 

@@ -1,17 +1,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/stl/text.hpp"
 #include "tools/commands.hpp"
 #include "tools/exit_code.hpp"
+#include "tools/interruption.hpp"
 #include "tools/program_options.hpp"
 #include "tools/results_json.hpp"
 #include "tools/terminal.hpp"
+#include "tools/written_files.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -27,13 +26,12 @@ std::size_t count_statements(const stl::Source& source) {
   }));
 }
 
-int write(const std::string& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  out.close();
-  if (out) return kFine;
-  print_error(fmt::format("cannot write {}: {}", path, std::strerror(errno)));
-  return kUnusable;
+int write(const std::string& path, const std::string& text, bool force) {
+  WrittenFiles files;
+  const auto destination = files.claim("-o", path, {"STL"}, force ? Replace::Judged : Replace::Never);
+  if (!destination) return kUnusable;
+  catch_interruption();  // the file is written to its end
+  return write_result(*destination, text) ? kFine : kUnusable;
 }
 
 void print_json(const ImportOptions& options, const SourceText& text, const std::string& stl) {
@@ -60,19 +58,15 @@ int run_import(const ImportOptions& options) {
     if (options.json)
       print_json(options, *text, stl);
     else
-      fmt::print("{}", stl);
+      print_file(stl);
     return kFine;
   }
-  if (std::filesystem::exists(options.output) && !options.force) {
-    print_error(fmt::format("{} exists; --force overwrites it", options.output));
-    return kUnusable;
-  }
-  const int exit_code = write(options.output, stl);
+  const int exit_code = write(options.output, stl, options.force);
   if (exit_code == kFine && options.json)
     print_json(options, *text, stl);
   else if (exit_code == kFine)
-    fmt::print(stderr, "{}: {} instructions out of {} ({})\n", options.output, count_statements(text->parsed.source),
-               text->parsed.source.name, text->encoding);
+    fmt::print(stderr, "{}: {} instructions out of {} ({})\n", stl::printable(options.output),
+               count_statements(text->parsed.source), stl::printable(text->parsed.source.name), text->encoding);
   return exit_code;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "interpreter/stl/text.hpp"
 #include "tools/commands.hpp"
 #include "tools/exchange_statistics.hpp"
 #include "tools/exit_code.hpp"
@@ -135,7 +136,8 @@ class MasterSession {
 };
 
 std::string MasterSession::title() const {
-  return fmt::format("{}, every {}; Ctrl-C ends", slave_.name(), verb_.polls() ? format_duration(verb_.every) : "round");
+  return fmt::format("{}, every {}; Ctrl-C ends", stl::printable(slave_.name()),
+                     verb_.polls() ? format_duration(verb_.every) : "round");
 }
 
 std::vector<std::string> MasterSession::raw_frames() const {
@@ -283,7 +285,7 @@ int run_session(const MasterVerb& verb, MasterSession& session, Plant plant) {
   }
   if (!session.statistics().latency()) fmt::print(stderr, "{}", torn_frame_note(session.raw_frames()));
   const bool cut_short = interrupted() && !verb.open_ended();
-  if (cut_short) fmt::print(stderr, "s7200: note: interrupted\n");
+  if (cut_short) print_interruption();
   return session.statistics().any_failed() || cut_short ? kCheckFailed : kFine;
 }
 
@@ -306,15 +308,17 @@ int run_on_program(MasterVerb& verb, const std::vector<MasterAction>& actions) {
     fmt::print(stderr, "{}", errors_text(simulation.cpu()));
     if (!simulation.cpu().state().fatal_code && simulation.cpu().state().mode == Mode::Stop)
       print_error("the CPU went to STOP before the first request");
-    verb.plant.finish(simulation);
+    print_interruption();
+    if (!verb.plant.finish(simulation)) return kUnusable;
     return simulation.cpu().state().fatal_code ? kCpuFatal : kCheckFailed;
   }
 
   exit_code = run_session(verb, session, [&] { return verb.plant.json(simulation); });
-  if (!verb.plant.finish(simulation)) return kUnusable;
+  const bool all_written = verb.plant.finish(simulation);
   if (!verb.json) fmt::print("{}", verb.plant.dump_text(simulation.cpu()));
   fmt::print(stderr, "{}{}", errors_text(simulation.cpu()), faults_text(simulation.faults()));
   if (simulation.cpu().state().mode == Mode::Stop) fmt::print(stderr, "s7200: note: the CPU is in STOP\n");
+  if (!all_written) return kUnusable;
   if (simulation.cpu().state().fatal_code) return kCpuFatal;
   if (!verb.plant.failed_strictly(simulation.cpu())) return exit_code;
   print_error("--strict: a run-time error ended the session");

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 
+#include "interpreter/stl/text.hpp"
 #include "tools/bridge_options.hpp"
 #include "tools/bridge_run.hpp"
 #include "tools/commands.hpp"
@@ -84,7 +85,6 @@ struct Ending {
 };
 
 Ending run_to_end(serial::Simulation& simulation, const RunOptions& options) {
-  catch_interruption();
   if (!options.bridge.realtime()) return {Runner(simulation, options).run(), {}};
   const LiveRunOptions live{options.end(), options.scans, options.plant.strict(), options.bridge.speed(),
                             options.bridge.line()};
@@ -99,7 +99,7 @@ void print_text(const serial::Simulation& simulation, const Ending& ending, cons
   if (state.scans)
     fmt::print("scan time: shortest {}, longest {}\n", format_duration(state.shortest_scan),
                format_duration(state.longest_scan));
-  if (options.bridge.bridge()) fmt::print("{}\n", options.bridge.bridge()->summary());
+  if (options.bridge.bridge()) fmt::print("{}\n", stl::printable(options.bridge.bridge()->summary()));
   if (ending.pace)
     fmt::print("real time{}: drift {}, worst lag {}\n",
                ending.pace->speed == 1 ? "" : fmt::format(" times {:g}", ending.pace->speed),
@@ -126,20 +126,21 @@ int run_run(RunOptions& options) {
   int exit_code = kFine;
   const auto program = options.program.load(exit_code);
   if (!program) return exit_code;
-  if (!options.bridge.prepare() || !options.plant.prepare(program, options.json)) return kUnusable;
+  if (!options.bridge.prepare() || !options.plant.prepare(program, options.json, options.bridge.link())) return kUnusable;
 
   serial::Simulation simulation(program, options.plant.field());
   options.plant.power_up(simulation);
   simulation.cpu().pause_at_error(options.plant.strict());
   const Ending ending = run_to_end(simulation, options);
   if (ending.reason.empty()) return kUnusable;
-  if (!options.plant.finish(simulation)) return kUnusable;
+  const bool all_written = options.plant.finish(simulation);
 
   if (options.json)
     print_json(simulation, ending, options);
   else
     print_text(simulation, ending, options);
   fmt::print(stderr, "{}", faults_text(simulation.faults()));
+  if (!all_written) return kUnusable;
   if (ending.reason == "endless scan") {
     print_error(
         fmt::format("scan {} has lasted {} and is not over: the program loops in it, and WDR keeps it going. "

@@ -111,7 +111,6 @@ int run_send(SendOptions& options) {
   std::vector<modbus::Frame> frames;
   if (!read_frames(options, frames) || !options.plant.prepare(program, options.json)) return kUnusable;
 
-  catch_interruption();
   serial::Simulation simulation(program, options.plant.field());
   options.plant.power_up(simulation);
   TraceSink* const records = options.plant.sinks().empty() ? nullptr : &options.plant.sinks();
@@ -130,6 +129,7 @@ int run_send(SendOptions& options) {
     const modbus::Bytes unasked = serial::bytes_of(simulation.master().heard());
     const serial::Exchange exchange = slave.exchange(options.master.request(frame));
     simulation.cpu().set_sink(records);
+    if (simulation.master().busy()) break;  // Ctrl-C came before the answer
     answered += !exchange.timed_out;
     if (options.json) {
       exchanges.push_back(to_json(exchange, unasked));
@@ -141,7 +141,7 @@ int run_send(SendOptions& options) {
     }
     slave.wait(options.pause == kNever ? slave.pause() : options.pause);
   }
-  if (!options.plant.finish(simulation)) return kUnusable;
+  const bool all_written = options.plant.finish(simulation);
   if (options.json) {
     results.update(options.plant.json(simulation));
     print_results(results);
@@ -151,8 +151,9 @@ int run_send(SendOptions& options) {
   fmt::print(stderr, "{}{}", errors_text(simulation.cpu()), faults_text(simulation.faults()));
   if (ready && answered == 0) fmt::print(stderr, "{}", torn_frame_note(options.frames));
   if (simulation.cpu().state().mode == Mode::Stop) fmt::print(stderr, "s7200: note: the CPU is in STOP\n");
+  if (!all_written) return kUnusable;
   if (simulation.cpu().state().fatal_code) return kCpuFatal;
-  if (interrupted()) fmt::print(stderr, "s7200: note: interrupted\n");
+  print_interruption();
   if (options.plant.failed_strictly(simulation.cpu())) {
     print_error("--strict: a run-time error ended the exchanges");
     return kCheckFailed;

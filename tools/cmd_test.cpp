@@ -13,20 +13,19 @@
 #include <thread>
 
 #include "interpreter/stl/text.hpp"
-#include "tools/atomic_file.hpp"
 #include "tools/commands.hpp"
 #include "tools/conformance_suite.hpp"
 #include "tools/exit_code.hpp"
 #include "tools/interruption.hpp"
 #include "tools/number_option.hpp"
 #include "tools/program_options.hpp"
-#include "tools/record_file.hpp"
 #include "tools/results_json.hpp"
 #include "tools/scenario_compare.hpp"
 #include "tools/scenario_reader.hpp"
 #include "tools/scenario_record.hpp"
 #include "tools/slave_target.hpp"
 #include "tools/terminal.hpp"
+#include "tools/written_files.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -39,7 +38,8 @@ struct TestOptions {
   unsigned station = 1, jobs = 1;
   CpuOptions cpu;  // of random traffic
   MasterOptions line;
-  Time tolerance = kNever;  // kNever: not given
+  Time tolerance = kNever;                         // kNever: not given
+  std::optional<Destination> record_to, junit_to;  // of the files of these names
   bool ignore_timing = false, force = false, json = false, list = false, fail_fast = false, keys = false;
 
   /// Times of a slave that is no program are of this computer's clock.
@@ -110,8 +110,7 @@ std::optional<GivenParameters> given_parameters(const std::string& path) {
 /// Takes over the scenarios of a file; false after messages.
 bool take(ScenarioFile file, const GivenParameters* given, std::vector<Scenario>& scenarios) {
   print(file.diagnostics, *file.source);
-  if (given && !file.diagnostics.empty())
-    fmt::print(stderr, "s7200: note: values for ${{…}} are from {}\n", given->source->name);
+  if (given && !file.diagnostics.empty()) print_note(fmt::format("values for ${{…}} are from {}", given->source->name));
   if (given) print(file.given_diagnostics, *given->source);
   std::move(file.scenarios.begin(), file.scenarios.end(), std::back_inserter(scenarios));
   return file.diagnostics.empty() && file.given_diagnostics.empty();
@@ -174,8 +173,7 @@ class Programs {
     auto program = text ? options.load(*text, exit_code) : nullptr;
     if (!program) {
       if (named)
-        fmt::print(stderr, "s7200: note: '{}' in {}:{} names it\n", scenario.name, scenario.source->name,
-                   scenario.position.line);
+        print_note(fmt::format("'{}' in {}:{} names it", scenario.name, scenario.source->name, scenario.position.line));
       throw Unusable{};
     }
     return known_[key] = std::move(program);
@@ -236,7 +234,7 @@ Benches benches_for(const std::vector<Scenario>& scenarios, const std::string& t
 /// What is going on, on a terminal, when it takes longer than two seconds.
 class Progress {
  public:
-  explicit Progress(std::size_t all) : all_(all), on_(isatty(fileno(stderr))) {}
+  explicit Progress(std::size_t all) : all_(all), on_(isatty(STDERR_FILENO)) {}
   ~Progress() { clear(); }
   void show(std::size_t done) {
     if (!on_ || std::chrono::steady_clock::now() - begin_ < std::chrono::seconds(2)) return;
@@ -319,12 +317,7 @@ unsigned jobs_on(const Benches& benches, const TestOptions& options) {
 void print_file_heading(const Scenario& scenario, const stl::Source*& last) {
   if (scenario.source.get() == last) return;
   last = scenario.source.get();
-  fmt::print("{}\n", scenario.source->name);
-}
-
-void write_file(const std::string& path, const std::string& text) {
-  std::string why;
-  if (!write_atomically(path, text, why)) fail(fmt::format("cannot write {}: {}", path, why));
+  fmt::print("{}\n", stl::printable(scenario.source->name));
 }
 
 /// Empty if something was.
@@ -371,18 +364,19 @@ int run_all(const std::vector<Scenario>& scenarios, const TestOptions& options, 
   if (const std::size_t left = scenarios.size() - reports.size(); left > 0)
     fmt::print(stderr, "s7200: note: {} not run\n", left == 1 ? "1 scenario was" : fmt::format("{} scenarios were", left));
   if (const std::string why = why_nothing_was_checked(reports); !why.empty() && options.record.empty())
-    fmt::print(stderr, "s7200: note: nothing was checked: {}\n", why);
+    print_note("nothing was checked: " + why);
   std::vector<Scenario> as_run = scenarios;
   for (Scenario& scenario : as_run)
     if (!options.target.empty()) scenario.program = benches.slave ? "" : options.target;
   for (Report& report : reports) report.scenario = &as_run[static_cast<std::size_t>(report.scenario - scenarios.data())];
-  if (!options.junit.empty()) write_file(options.junit, to_junit(reports));
-  if (!options.record.empty()) {
+  bool all_written = !options.junit_to || write_result(*options.junit_to, to_junit(reports));
+  if (options.record_to) {
     const Time tolerance = options.tolerance_with(benches.slave != nullptr);
-    write_file(options.record,
-               transcript_text(reports, {options.record, benches.name, tolerance, benches.slave != nullptr}));
+    all_written &= write_result(
+        *options.record_to, transcript_text(reports, {options.record, benches.name, tolerance, benches.slave != nullptr}));
   }
-  if (interrupted()) fmt::print(stderr, "s7200: note: interrupted\n");
+  print_interruption();
+  if (!all_written) throw Unusable{};
   if (!unreachable.empty()) fail(unreachable);
   return interrupted() || std::any_of(reports.begin(), reports.end(), counts_as_failed) ? kCheckFailed : kFine;
 }
@@ -393,7 +387,7 @@ int run_against(const std::vector<Scenario>& scenarios, const TestOptions& optio
   const Benches one = benches_for(scenarios, options.target, options, programs);
   const Benches other = benches_for(scenarios, options.against, options, programs);
   const Comparison comparison{!options.ignore_timing, options.tolerance_with(one.slave || other.slave)};
-  const auto name = [&](const std::string& path) { return std::filesystem::path(path).filename().string(); };
+  const auto name = [&](const std::string& path) { return stl::printable(std::filesystem::path(path).filename().string()); };
   Runner others(scenarios, other, jobs_on(other, options));
   std::vector<ScenarioResult> of_other;
   others.each([&](std::size_t, ScenarioResult result) {
@@ -430,16 +424,32 @@ int run_against(const std::vector<Scenario>& scenarios, const TestOptions& optio
                  skipped            ? "skip  "
                  : difference.found ? "DIFFER"
                                     : "same  ",
-                 scenarios[i].name, remark, difference.text);
+                 stl::printable(scenarios[i].name), stl::printable(remark), difference.text);
     }
     return same || !options.fail_fast;
   });
   if (options.json) print_results(results);
-  if (interrupted()) fmt::print(stderr, "s7200: note: interrupted\n");
+  print_interruption();
   return same && !interrupted() ? kFine : kCheckFailed;
 }
 
 // --- the verb ---
+
+void claim_files(TestOptions& options) {
+  for (const std::string& path : {options.record, options.junit})
+    if (path == "-") fail("--record and --junit write files; '-' is none");
+  WrittenFiles files;
+  if (!options.record.empty()) {
+    options.record_to =
+        files.claim("--record", options.record, {"a transcript", std::string(kTranscriptBeginning)}, Replace::Own);
+    if (!options.record_to) throw Unusable{};
+    if (options.record_to->replaced && !options.force) fail(fmt::format("{} exists; --force overwrites it", options.record));
+  }
+  if (options.junit.empty()) return;
+  options.junit_to =
+      files.claim("--junit", options.junit, {"results of s7200 test", std::string(kJunitBeginning)}, Replace::Own);
+  if (!options.junit_to) throw Unusable{};
+}
 
 void check_usage(const TestOptions& options) {
   const bool one_of_files = !options.files.empty() || options.random > 0 || !options.conformance.empty();
@@ -453,18 +463,6 @@ void check_usage(const TestOptions& options) {
     fail("--tolerance goes with --against or --record; a scenario has 'tolerance:'");
   if (!options.against.empty() && (!options.record.empty() || !options.junit.empty()))
     fail("--against neither records nor writes JUnit");
-  for (const std::string& path : {options.record, options.junit}) {
-    if (path == "-") fail("--record and --junit write files; '-' is none");
-    if (std::string why; !path.empty() && !can_be_written(path, why)) fail(fmt::format("cannot write {}: {}", path, why));
-  }
-  if (!options.record.empty() && std::filesystem::exists(options.record)) {
-    if (!may_be_overwritten(options.record, kTranscriptBeginning))
-      fail(fmt::format("{} exists and is no transcript; it is left alone", options.record));
-    if (!options.force) fail(fmt::format("{} exists; --force overwrites it", options.record));
-  }
-  if (!options.junit.empty() && std::filesystem::exists(options.junit) &&
-      !may_be_overwritten(options.junit, kJunitBeginning))
-    fail(fmt::format("{} exists and is no XML; it is left alone", options.junit));
 }
 
 void print_list(const std::vector<Scenario>& scenarios, bool json) {
@@ -478,17 +476,18 @@ void print_list(const std::vector<Scenario>& scenarios, bool json) {
   for (const Scenario& scenario : scenarios) {
     print_file_heading(scenario, heading);
     const std::string id = scenario.rule.id.empty() ? "" : scenario.rule.id + "  ";
-    fmt::print("  {}{}\n", id, scenario.name);
+    fmt::print("  {}\n", stl::printable(id + scenario.name));
   }
 }
 
-int run_test(const TestOptions& options) {
+int run_test(TestOptions& options) {
   if (options.keys) {
     fmt::print("{}", scenario_keys_markdown());
     return kFine;
   }
   try {
     check_usage(options);
+    claim_files(options);
     const std::vector<Scenario> scenarios = read_all(options);
     if (options.list) {
       print_list(scenarios, options.json);

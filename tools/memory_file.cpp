@@ -4,13 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
 
 #include "interpreter/program/address.hpp"
 #include "interpreter/program/load.hpp"
-#include "tools/atomic_file.hpp"
 #include "tools/number_option.hpp"
 #include "tools/report.hpp"
 #include "tools/terminal.hpp"
@@ -22,6 +20,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kFormat = "s7200 memory 1";
 constexpr std::uint32_t kRow = 32;  // bytes
+
+/// As memory_to_json() writes it.
+std::string memory_beginning() { return fmt::format("{{\n  \"format\": \"{}\"", kFormat); }
 
 /// A part of memory that is kept: which addresses, and where its bytes are.
 struct Kept {
@@ -153,14 +154,16 @@ void MemoryFile::add_to(CLI::App& app) {
   off->needs(file)->excludes(lost);
 }
 
+bool MemoryFile::claim(WrittenFiles& files) {
+  if (path_.empty()) return true;
+  destination_ = files.claim("--memory", path_, {"a memory", memory_beginning()}, Replace::Judged);  // by read()
+  return destination_.has_value();
+}
+
 bool MemoryFile::read(const CpuModel& model) {
   if (path_.empty()) return true;
-  std::string why;
-  if (!can_be_written(path_, why)) {
-    print_error(fmt::format("cannot write {}: {}", path_, why));
-    return false;
-  }
-  if (std::filesystem::exists(path_)) {
+  if (destination_->replaced) {
+    std::string why;
     const auto json = read_file(path_, why);
     if (json) memory_ = memory_from_json(*json, model, why);
     if (!memory_) {
@@ -179,10 +182,7 @@ bool MemoryFile::read(const CpuModel& model) {
 
 bool MemoryFile::write(const Cpu& cpu) const {
   if (path_.empty()) return true;
-  std::string why;
-  if (write_atomically(path_, memory_to_json(cpu.retentive_memory(), *cpu.program().model), why)) return true;
-  print_error(fmt::format("cannot write {}: {}", path_, why));
-  return false;
+  return write_result(*destination_, memory_to_json(cpu.retentive_memory(), *cpu.program().model));
 }
 
 }  // namespace s7200::tools

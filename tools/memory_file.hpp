@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "interpreter/cpu/cpu.hpp"
+#include "tools/written_files.hpp"
 
 namespace CLI {
 class App;
@@ -23,8 +24,10 @@ class MemoryFile {
  public:
   void add_to(CLI::App& app);
 
-  /// Reads the file, if one was named and exists. False after a message: it is no memory of this CPU, or could not be
-  /// written at the end.
+  /// False after a message: a file was named and could not be written at the end.
+  bool claim(WrittenFiles& files);
+
+  /// Reads the file, if one was named and exists. False after a message: it is not a memory of this CPU.
   bool read(const CpuModel& model);
 
   /// What the CPU powers up with; null without a file.
@@ -35,6 +38,7 @@ class MemoryFile {
 
  private:
   std::string path_;
+  std::optional<Destination> destination_;  ///< nothing without a file
   bool ram_lost_ = false;
   Time power_off_ = 0;
   std::optional<RetentiveMemory> memory_;

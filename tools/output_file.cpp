@@ -12,11 +12,15 @@ void OutputFile::add_to(CLI::App& app) {
       ->type_name("FILE");
 }
 
+bool OutputFile::claim(WrittenFiles& files) {
+  return path_.empty() ||
+         file_.claim(files, "--output", path_, {"a record of outputs", fmt::format("{}\n", OutputRecord::kFirstLine)});
+}
+
 bool OutputFile::open() {
   if (path_.empty()) return true;
-  std::ostream* out = file_.open(path_, fmt::format("{}\n", OutputRecord::kFirstLine), "record of outputs");
+  std::ostream* out = file_.open();
   if (out) record_ = std::make_unique<OutputRecord>(*out);
-  if (out) out->flush();  // so that no other record takes the same file for an empty one
   return out != nullptr;
 }
 

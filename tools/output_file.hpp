@@ -17,8 +17,10 @@ class OutputFile {
  public:
   void add_to(CLI::App& app);
 
-  /// Opens the file, if one was asked for; false after a message.
+  /// False after a message, like the others: a record was asked for and cannot be written there.
+  bool claim(WrittenFiles& files);
   bool open();
+  bool put() { return file_.put(); }
 
   /// What is to watch the CPU; null when no record was asked for.
   TraceSink* sink() const { return record_.get(); }

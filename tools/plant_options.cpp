@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "interpreter/program/load.hpp"
 #include "tools/clock_text.hpp"
+#include "tools/interruption.hpp"
 #include "tools/report.hpp"
 #include "tools/terminal.hpp"
 
@@ -50,11 +52,25 @@ bool PlantOptions::read_field(const CpuModel& model) {
   }
   std::vector<std::string> errors;
   field_ = serial::parse_field_script(*csv, input_path_, model, errors);
-  for (const std::string& error : errors) print_error(error);
+  constexpr std::size_t kShown = 10;
+  for (std::size_t i = 0; i < std::min(kShown, errors.size()); ++i) print_error(errors[i]);
+  if (errors.size() > kShown) print_error(fmt::format("{}: and {} more mistakes", input_path_, errors.size() - kShown));
   return errors.empty();
 }
 
-bool PlantOptions::prepare(const std::shared_ptr<const Program>& program, bool json) {
+bool PlantOptions::claim_files(const Program& program, const std::string& link) {
+  WrittenFiles files;
+  files.reads(program.source.name);
+  files.reads(input_path_);
+  files.links("--pty", link);
+  return memory_.claim(files) && trace_.claim(files) && output_.claim(files) && captures_.claim(files);
+}
+
+bool PlantOptions::open_records(const std::shared_ptr<const Program>& program) {
+  return trace_.open(program) && output_.open() && captures_.open() && trace_.put() && output_.put() && captures_.put();
+}
+
+bool PlantOptions::prepare(const std::shared_ptr<const Program>& program, bool json, const std::string& link) {
   const CpuModel& model = *program->model;
   if (trace_.to_standard_output() + output_.to_standard_output() + json > 1) {
     print_error("only one of --trace -, --output - and --json can have standard output; write the others to files");
@@ -63,7 +79,9 @@ bool PlantOptions::prepare(const std::shared_ptr<const Program>& program, bool j
   if (!faults_.prepare()) return false;
   if (!parse_assignments(set_, model, assignments_) || !parse_ranges(dump_, model, dumps_) || !read_field(model))
     return false;
-  if (!memory_.read(model) || !trace_.open(program) || !output_.open() || !captures_.open()) return false;
+  if (!claim_files(*program, link) || !memory_.read(model)) return false;
+  catch_interruption();
+  if (!open_records(program)) return false;
   sinks_.add(trace_.sink());
   sinks_.add(output_.sink());
   return true;
@@ -71,6 +89,7 @@ bool PlantOptions::prepare(const std::shared_ptr<const Program>& program, bool j
 
 void PlantOptions::power_up(serial::Simulation& simulation) {
   if (!sinks_.empty()) simulation.cpu().set_sink(&sinks_);
+  simulation.stop_when(&interruption());
   captures_.watch(simulation);
   faults_.inject(simulation);
   simulation.power_up(memory_.memory());

@@ -25,9 +25,9 @@ class PlantOptions {
  public:
   void add_to(CLI::App& app);
 
-  /// Reads and opens what the options name. False after a message; nothing has been written over then but earlier records.
-  /// `json`: standard output is taken.
-  bool prepare(const std::shared_ptr<const Program>& program, bool json);
+  /// Reads and opens what the options name. False after a message. `json`: standard output is taken; `link`: so is this
+  /// name, by --pty. Signals are only noted from then on: there is something to complete.
+  bool prepare(const std::shared_ptr<const Program>& program, bool json, const std::string& link = {});
 
   /// What drives the inputs; for the Simulation.
   const serial::FieldScript& field() const { return field_; }
@@ -61,6 +61,8 @@ class PlantOptions {
 
  private:
   bool read_field(const CpuModel& model);
+  bool claim_files(const Program& program, const std::string& link);
+  bool open_records(const std::shared_ptr<const Program>& program);
 
   std::vector<std::string> set_, dump_;
   std::string input_path_;

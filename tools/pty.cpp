@@ -27,6 +27,20 @@ void leave_something_to_change(int far) {
   ioctl(far, TIOCSSOFTCAR, &without_carrier);
 }
 
+/// What our links hold: `/dev/pts/./3`, which is /dev/pts/3 in a spelling that nobody else uses. A link has no other room
+/// for a mark: extended attributes are for files and folders only (xattr(7)).
+std::string marked(const fs::path& path) { return (path.parent_path() / "." / path.filename()).string(); }
+
+/// Whether a run that is over has left this link: it is one of ours and leads nowhere. Or it leads to `path`, the pty that
+/// this run has just got: its number was free, so that the run that made the link has gone.
+bool is_left_behind(const std::string& link, const std::string& path) {
+  std::error_code error;
+  const std::string target = fs::read_symlink(link, error).string();
+  const fs::path leads_to = fs::path(target).lexically_normal();
+  if (error || leads_to.parent_path() != fs::path(path).parent_path() || target != marked(leads_to)) return false;
+  return !fs::exists(link, error) || target == marked(path);
+}
+
 }  // namespace
 
 std::unique_ptr<Pty> Pty::open(const std::string& link, const SerialFormat& format, std::string& why) {
@@ -41,7 +55,7 @@ std::unique_ptr<Pty> Pty::open(const std::string& link, const SerialFormat& form
 
 Pty::~Pty() {
   std::error_code none;
-  if (!link_.empty() && fs::read_symlink(link_, none) == path_) fs::remove(link_, none);
+  if (!link_.empty() && fs::read_symlink(link_, none) == marked(path_)) fs::remove(link_, none);
   for (const int fd : {watch_, far_, fd_})
     if (fd >= 0) close(fd);
 }
@@ -77,17 +91,15 @@ bool Pty::open_far_side(const SerialFormat& format, std::string& why) {
 bool Pty::make_link(const std::string& link, std::string& why) {
   std::error_code error;
   const fs::file_status found = fs::symlink_status(link, error);
-  // A run that was killed has left its link, and the first free number, which this one got, may be that one's.
-  const bool stale = fs::is_symlink(found) && (!fs::exists(link, error) || fs::read_symlink(link, error) == path_);
-  if (stale) {
+  if (is_left_behind(link, path_)) {
     fs::remove(link, error);
   } else if (fs::exists(found)) {
     why = fs::is_symlink(found)
               ? fmt::format("{} exists and leads to {}; it is left alone", link, fs::read_symlink(link, error).string())
-              : fmt::format("{} exists and is no link; it is left alone", link);
+              : fmt::format("{} exists and is not a link; it is left alone", link);
     return false;
   }
-  if (symlink(path_.c_str(), link.c_str()) != 0) {
+  if (symlink(marked(path_).c_str(), link.c_str()) != 0) {
     why = fmt::format("cannot make the link {}: {}", link, std::strerror(errno));
     return false;
   }

@@ -30,8 +30,10 @@ struct PtySettings {
 class Pty {
  public:
   /// Opens a pty, raw and with the settings of `format` until a program changes them. `link` becomes a symbolic link to its
-  /// far side. Nothing, and `why`, when that cannot be done: whatever exists under that name, but a link that leads nowhere
-  /// or to this very pty, is left alone.
+  /// far side. Nothing, and `why`, when that cannot be done: whatever exists under that name is left alone, but a link that
+  /// a run like this one made and, because it was killed, did not remove. Our links are known by how they spell their
+  /// target:
+  /// `/dev/pts/./3`.
   static std::unique_ptr<Pty> open(const std::string& link, const SerialFormat& format, std::string& why);
 
   /// Removes the link if it still is ours.

@@ -1,29 +1,41 @@
-// Files that record a run: a trace, the outputs. They are only ever written over an earlier record of the same kind.
+// Files that record a run: a trace, the outputs, a capture.
 #pragma once
 
-#include <fstream>
-#include <iosfwd>
+#include <memory>
+#include <ostream>
 #include <string>
 #include <string_view>
 
+#include "tools/written_files.hpp"
+
 namespace s7200::tools {
 
-/// Whether what exists under `path` is an earlier record, which starts with `beginning`, or an empty file. A terminal or a
-/// pipe loses nothing; reading from it would wait. What cannot be read is somebody's.
-bool may_be_overwritten(const std::string& path, std::string_view beginning);
-
+/// claim(), open(), the first line, put(), the rest of the record, close(). The rule for all files is in written_files.hpp.
 class RecordFile {
  public:
-  /// Opens `path`; - is standard output. Nothing after a message: a file that exists and does not start with `beginning` is
-  /// left alone, unless it is empty. `kind` says what is expected: "trace".
-  std::ostream* open(const std::string& path, std::string_view beginning, std::string_view kind);
+  RecordFile();
+  ~RecordFile();
+
+  /// False after a message when `option` cannot write there; - is standard output.
+  bool claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind);
+
+  /// Null after a message. A pipe is waited for until somebody reads from it.
+  std::ostream* open();
+
+  /// Puts the file in its place: its first line has been written. False after a message.
+  bool put();
 
   /// False after a message when not everything could be written.
   bool close();
 
  private:
-  std::string path_;
-  std::ofstream file_;
+  class Buffer;
+  bool check(int error) const;
+
+  Destination destination_;
+  NewFile file_;
+  std::unique_ptr<Buffer> buffer_;  ///< null: standard output, or nothing is open
+  std::unique_ptr<std::ostream> stream_;
 };
 
 }  // namespace s7200::tools

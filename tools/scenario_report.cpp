@@ -55,7 +55,7 @@ std::string row_of(const std::vector<BytePattern>& bytes, std::size_t from, std:
 }
 
 std::string place_of(const Scenario& scenario, const Step& step) {
-  return fmt::format("{}:{}:{}", scenario.source->name, step.position.line, step.position.column);
+  return fmt::format("{}:{}:{}", stl::printable(scenario.source->name), step.position.line, step.position.column);
 }
 
 /// The source line of a step, as its author wrote it.
@@ -63,14 +63,14 @@ std::string line_of(const Scenario& scenario, const Step& step) {
   if (step.position.line == 0 || step.position.line > scenario.source->text.size()) return "";
   std::string_view line = scenario.source->text[step.position.line - 1];
   line.remove_prefix(std::min(line.size(), line.find_first_not_of(" \t")));
-  return stl::count_characters(line) > 90 ? std::string(line.substr(0, 87)) + "..." : std::string(line);
+  return stl::printable(stl::count_characters(line) > 90 ? std::string(line.substr(0, 87)) + "..." : std::string(line));
 }
 
 std::string field(std::string_view name, std::string_view text) {
   const std::vector<std::string> lines = stl::split_lines(text);
   std::string result;
   for (std::size_t i = 0; i < lines.size(); ++i)
-    if (!lines[i].empty()) result += fmt::format("{}{:<9} {}\n", kIndent, i == 0 ? name : "", lines[i]);
+    if (!lines[i].empty()) result += fmt::format("{}{:<9} {}\n", kIndent, i == 0 ? name : "", stl::printable(lines[i]));
   return result;
 }
 
@@ -85,8 +85,8 @@ std::string finding_text(const Scenario& scenario, const Finding& finding, bool 
   if (!scenario.steps.empty()) {
     const Step& step = scenario.steps[finding.step];
     text += fmt::format("    {} {}{}\n", painted(place_of(scenario, step) + ":", kBold, colour), line_of(scenario, step),
-                        step.loop.empty() ? "" : fmt::format("   (with {})", step.loop));
-    if (!step.note.empty()) text += kIndent + step.note + '\n';
+                        step.loop.empty() ? "" : fmt::format("   (with {})", stl::printable(step.loop)));
+    if (!step.note.empty()) text += kIndent + stl::printable(step.note) + '\n';
   }
   text += fmt::format("{}{} is not what was expected\n", kIndent, finding.what);
   if (finding.exchange && !finding.exchange->request.empty())
@@ -150,7 +150,7 @@ std::string in_one_line(std::string_view text) {
 
 std::string xml(std::string_view text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : stl::printable_lines(text)) {
     switch (c) {
       case '&':
         result += "&amp;";
@@ -165,7 +165,7 @@ std::string xml(std::string_view text) {
         result += "&quot;";
         break;
       default:
-        result += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? '?' : c;
+        result += c;
     }
   }
   return result;
@@ -364,7 +364,8 @@ std::string report_text(const Report& report, bool colour, std::size_t most) {
     remark += fmt::format("   ({} of {} steps skipped: they need the inside of the PLC or its line)", result.skipped_steps,
                           report.scenario->steps.size());
   const std::string time = result.outcome == Outcome::Skipped ? "" : format_duration(result.time, 1);
-  return fmt::format("  {}  {:>10}  {}{}\n", outcome_text(result.outcome, colour), time, report.scenario->name, remark) +
+  return fmt::format("  {}  {:>10}  {}{}\n", outcome_text(result.outcome, colour), time,
+                     stl::printable(report.scenario->name), stl::printable(remark)) +
          findings_text(report, colour, most);
 }
 
@@ -382,7 +383,7 @@ std::string conformance_text(const std::vector<Report>& reports, const std::stri
     id_width = std::max(id_width, report.scenario->rule.id.size());
     source_width = std::max(source_width, report.scenario->rule.source.size());
   }
-  std::string text = fmt::format("{} as a Modbus RTU slave\n", slave);
+  std::string text = fmt::format("{} as a Modbus RTU slave\n", stl::printable(slave));
   std::map<std::pair<Rule::Severity, Outcome>, std::size_t> totals;
   for (const Report& report : reports) {
     const Rule& rule = report.scenario->rule;
@@ -390,12 +391,12 @@ std::string conformance_text(const std::vector<Report>& reports, const std::stri
     ++totals[{rule.severity, result.outcome}];
     const std::string outcome =
         result.outcome == Outcome::Skipped ? painted("n/a ", kYellow, colour) : outcome_text(result.outcome, colour);
-    text += fmt::format("  {}  {:<6}  {:<{}}  {:<{}}  {}\n", outcome, severity_text(rule.severity), rule.id, id_width,
-                        rule.source, source_width, report.scenario->name);
-    if (result.outcome == Outcome::Skipped) text += fmt::format("        {}\n", result.reason);
+    text += fmt::format("  {}  {:<6}  {:<{}}  {:<{}}  {}\n", outcome, severity_text(rule.severity), stl::printable(rule.id),
+                        id_width, stl::printable(rule.source), source_width, stl::printable(report.scenario->name));
+    if (result.outcome == Outcome::Skipped) text += fmt::format("        {}\n", stl::printable(result.reason));
     constexpr std::size_t kMost = 3;
     for (std::size_t i = 0; i < std::min(kMost, result.findings.size()); ++i)
-      text += "        " + finding_line(*report.scenario, result.findings[i]) + '\n';
+      text += "        " + stl::printable(finding_line(*report.scenario, result.findings[i])) + '\n';
     if (result.findings.size() > kMost) text += fmt::format("        and {} more\n", result.findings.size() - kMost);
   }
   for (const Rule::Severity severity : {Rule::Severity::Must, Rule::Severity::Should})
@@ -423,8 +424,7 @@ nlohmann::ordered_json to_json(const std::vector<Report>& reports) {
 }
 
 std::string to_junit(const std::vector<Report>& reports) {
-  std::string text = fmt::format("{} version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"s7200 test\"{}>\n",
-                                 kJunitBeginning, totals_xml(reports));
+  std::string text = fmt::format("{}<testsuites name=\"s7200 test\"{}>\n", kJunitBeginning, totals_xml(reports));
   for (std::size_t from = 0; from < reports.size();) {
     std::size_t to = from;
     while (to < reports.size() && reports[to].scenario->source == reports[from].scenario->source) ++to;

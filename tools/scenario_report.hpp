@@ -38,7 +38,9 @@ nlohmann::ordered_json to_json(const std::vector<Report>& reports);
 
 /// The XML that continuous integration reads: a suite for each file, a case for each scenario. A rule that says should and
 /// is broken counts as skipped there, which has no third way.
-inline constexpr std::string_view kJunitBeginning = "<?xml";
+/// The comment tells our files from others.
+inline constexpr std::string_view kJunitBeginning =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- Results of s7200 test -->\n";
 std::string to_junit(const std::vector<Report>& reports);
 
 /// Expected and found bytes below each other, what differs marked. Rows of sixteen; of long ones only those around a

@@ -14,11 +14,14 @@ void TraceFile::add_to(CLI::App& app) {
   app.add_flag("--trace-instructions", instructions_, "trace every instruction too, with its operand values")->needs(trace);
 }
 
+bool TraceFile::claim(WrittenFiles& files) {
+  return path_.empty() || file_.claim(files, "--trace", path_, {"a trace", fmt::format("{}\n", TextTrace::kFirstLine)});
+}
+
 bool TraceFile::open(const std::shared_ptr<const Program>& program) {
   if (path_.empty()) return true;
-  std::ostream* out = file_.open(path_, fmt::format("{}\n", TextTrace::kFirstLine), "trace");
+  std::ostream* out = file_.open();
   if (out) trace_ = std::make_unique<TextTrace>(*out, program, instructions_);
-  if (out) out->flush();  // so that no other record takes the same file for an empty one
   return out != nullptr;
 }
 

@@ -17,9 +17,10 @@ class TraceFile {
  public:
   void add_to(CLI::App& app);
 
-  /// Opens the file, if one was asked for. False after a message: an existing file that is not an earlier trace is not
-  /// overwritten.
+  /// False after a message, like the others: a trace was asked for and cannot be written there.
+  bool claim(WrittenFiles& files);
   bool open(const std::shared_ptr<const Program>& program);
+  bool put() { return file_.put(); }
 
   /// What is to watch the CPU; null when no trace was asked for.
   TraceSink* sink() const { return trace_.get(); }

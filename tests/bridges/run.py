@@ -322,15 +322,20 @@ class PtyTests(Case):
         port.close()
         self.assertLessEqual(running.end()["bridge"]["bytes_in"], written)
 
-    def test_only_dangling_links_are_replaced(self):
-        self.link.symlink_to(self.folder / "nowhere")
+    def test_only_links_that_a_run_has_made_are_replaced(self):
+        for foreign in (self.folder / "nowhere", "/dev/pts/9999999", "/dev/pts/../pts/9999999", "/tmp/./nowhere"):
+            self.link.symlink_to(foreign)
+            self.assertIn("is left alone", self.refused("--pty", self.link))
+            self.assertEqual(os.readlink(self.link), str(foreign))
+            self.link.unlink()
+        self.link.symlink_to("/dev/pts/./9999999")  # as a killed run leaves it
         running = self.serve()
         self.assertTrue(os.readlink(self.link).startswith("/dev/pts/"))
         self.assertIn("is left alone", self.refused("--pty", self.link))  # another run has it
         running.end()
         for text in ("mine", ""):
             self.link.write_text(text, encoding="utf-8")
-            self.assertIn("is no link; it is left alone", self.refused("--pty", self.link))
+            self.assertIn("is not a link; it is left alone", self.refused("--pty", self.link))
             self.assertEqual(self.link.read_text(encoding="utf-8"), text)
         self.assertIn("cannot make the link", self.refused("--pty", self.folder / "no/such/folder"))
         self.assertIn("left alone", self.refused("--pty", self.folder))

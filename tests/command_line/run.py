@@ -837,7 +837,7 @@ class Scenarios(Case):
     def test_only_earlier_results_are_overwritten(self):
         good, pipe, xml = self.program(self.GOOD, "good.yaml"), self.folder / "pipe", self.folder / "out.xml"
         os.mkfifo(pipe)
-        for arguments, why in ((["--junit", good], "is no XML"), (["--record", good, "--force"], "is no transcript"),
+        for arguments, why in ((["--junit", good], "is not results of s7200 test"), (["--record", good, "--force"], "is not a transcript"),
                                (["--junit", pipe], "not a file"), (["--record", pipe, "--force"], "not a file"),
                                (["--junit", "-"], "'-' is none"), (["--record", "-"], "'-' is none")):
             with self.subTest(arguments):
@@ -1011,7 +1011,7 @@ class Files(Case):
         (self.folder / "sub").mkdir()
         self.assertIn("twice", self.ends(UNUSABLE, "run", path, "--capture", vcd, "--capture", twice).stderr)
         self.assertIn("cannot write", self.ends(UNUSABLE, "run", path, "--capture", self.folder / "no/line.vcd").stderr)
-        self.assertIn("left alone", self.ends(UNUSABLE, "run", path, "--trace", vcd, "--capture", vcd).stderr)
+        self.assertIn("twice", self.ends(UNUSABLE, "run", path, "--trace", vcd, "--capture", vcd).stderr)
 
     def test_captures_do_not_depend_on_slices(self):
         path, captures = self.program(Json.ECHO), []

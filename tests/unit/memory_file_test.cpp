@@ -1,11 +1,7 @@
 // What outlasts power off: retentive ranges, EEPROM, clock, and the file they are kept in.
 #include "tools/memory_file.hpp"
 
-#include <filesystem>
-#include <fstream>
-
 #include "tests/support/plc.hpp"
-#include "tools/atomic_file.hpp"
 
 namespace s7200::test {
 namespace {
@@ -52,8 +48,8 @@ TEST(RetentiveMemoryTest, BitsOfTimersAndCountersAreNotKept) {
 
 /// Saves VW10 once; SMW32 says where from.
 std::string save(int offset, int size) {
-  return fmt::format("LD SM0.1\nMOVD 16#11223344, VD{}\nMOVW {}, SMW32\nMOVB {}, SMB31\nMEND\n", std::min(offset, 4092), offset,
-                     0x80 | size);
+  return fmt::format("LD SM0.1\nMOVD 16#11223344, VD{}\nMOVW {}, SMW32\nMOVB {}, SMB31\nMEND\n", std::min(offset, 4092),
+                     offset, 0x80 | size);
 }
 
 TEST(Eeprom, ASaveTakesPlaceAtTheEndOfTheScanAndResetsItsRequest) {
@@ -66,7 +62,8 @@ TEST(Eeprom, ASaveTakesPlaceAtTheEndOfTheScanAndResetsItsRequest) {
     EXPECT_EQ(plc.value("SM31.7"), 0);
     const std::uint8_t value[] = {0x11, 0x22, 0x33, 0x44};
     for (int i = 0; i < 4; ++i)
-      EXPECT_EQ(plc.cpu.state().eeprom[10 + static_cast<std::size_t>(i)], i < kBytes[size] ? value[i] : 0) << size << ' ' << i;
+      EXPECT_EQ(plc.cpu.state().eeprom[10 + static_cast<std::size_t>(i)], i < kBytes[size] ? value[i] : 0)
+          << size << ' ' << i;
     EXPECT_TRUE(plc.records.errors().empty());
   }
 }
@@ -114,7 +111,8 @@ TEST(Eeprom, TheLastAddressIsV1023AndBeyondItIs0094) {
   EXPECT_EQ(last.cpu.state().eeprom[1023], 0x44);
   EXPECT_EQ(beyond.records.errors(), Ints{0x94});
   EXPECT_EQ(far.records.errors(), Ints{0x94});
-  EXPECT_EQ(beyond.records.of(TraceKind::RuntimeError)[0].op, kNoRoutine) << "no instruction is to blame: it is the scan's end";
+  EXPECT_EQ(beyond.records.of(TraceKind::RuntimeError)[0].op, kNoRoutine)
+      << "no instruction is to blame: it is the scan's end";
   EXPECT_EQ(beyond.value("SM31.7"), 0);
   EXPECT_EQ(beyond.value("SM4.3"), 1);
 }
@@ -195,55 +193,6 @@ TEST(MemoryFile, WhatIsNoMemoryOfThisCpuIsRefusedWithTheReason) {
     EXPECT_FALSE(memory_from_json(json, cpu214(), why)) << reason;
     EXPECT_NE(why.find(reason), std::string::npos) << why << " / " << reason;
   }
-}
-
-struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / fmt::format("s7200-test-{}", ::getpid());
-  Folder() { std::filesystem::create_directory(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::string file(std::string_view name) const { return (path / name).string(); }
-  std::string content(std::string_view name) const {
-    std::ifstream in(file(name));
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path), std::filesystem::directory_iterator()));
-  }
-};
-
-TEST(AtomicFile, ReplacesTheWholeFileKeepsItsRightsAndLeavesNothingBehind) {
-  const Folder folder;
-  std::string why;
-  ASSERT_TRUE(tools::write_atomically(folder.file("m"), "first", why)) << why;
-  std::filesystem::permissions(folder.file("m"), std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
-  ASSERT_TRUE(tools::write_atomically(folder.file("m"), "2nd", why)) << why;
-  EXPECT_EQ(folder.content("m"), "2nd");
-  EXPECT_EQ(std::filesystem::status(folder.file("m")).permissions(),
-            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
-  EXPECT_EQ(folder.files(), 1u);
-}
-
-TEST(AtomicFile, ASymbolicLinkStaysOne) {
-  const Folder folder;
-  std::string why;
-  ASSERT_TRUE(tools::write_atomically(folder.file("m"), "first", why)) << why;
-  std::filesystem::create_symlink(folder.file("m"), folder.file("link"));
-  ASSERT_TRUE(tools::write_atomically(folder.file("link"), "2nd", why)) << why;
-  EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link")));
-  EXPECT_EQ(folder.content("m"), "2nd");
-}
-
-TEST(AtomicFile, WhereNothingCanBeWrittenItSaysSo) {
-  const Folder folder;
-  std::string why;
-  EXPECT_FALSE(tools::can_be_written(folder.file("nowhere/m"), why));
-  EXPECT_FALSE(why.empty());
-  why.clear();
-  EXPECT_FALSE(tools::write_atomically(folder.file("nowhere/m"), "text", why));
-  EXPECT_FALSE(why.empty());
-  why.clear();
-  EXPECT_FALSE(tools::can_be_written(folder.path.string(), why));
-  EXPECT_EQ(why, "it is a directory");
 }
 
 }  // namespace

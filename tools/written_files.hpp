@@ -1,0 +1,110 @@
+// The files that the command writes. One rule for all of them:
+//
+// - What exists is replaced only if the same option wrote it, which its first bytes show, or if --force says so. All else is
+//   left alone, an empty file too.
+// - Links are not followed: what a name leads to was not named. A link is left alone like any other file of somebody's.
+// - No two outputs share a file, and none is a file that the command reads, under whatever names: files are told apart by
+//   device and inode, and those that are not there yet by the folder and the name.
+// - A file is whole or absent. It is written beside its place, as FILE.PID.new, and put there
+//     when it is complete and on the disk, if it is a result: memory, a transcript, JUnit, STL;
+//     with its first line, if it is a record of a run: a trace, outputs, a capture. A run may go on for days, and what it
+//     records is looked at meanwhile. The record grows under its name, is whole up to where the run or the disk ended, and
+//     is known by its first line from then on.
+// - A record may also go to a pipe, a terminal or another character device, which have nothing to lose; so can a link to
+//     one, such as /dev/fd/63, which a shell makes for `--trace >(grep LOST)`.
+//
+// All of it is looked at before anything is written: a command that is refused has changed nothing.
+#pragma once
+
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace s7200::tools {
+
+/// What an option writes.
+struct FileKind {
+  std::string_view name;    ///< with its article: "a trace"
+  std::string beginning{};  ///< of each such file: how it is known
+  bool record = false;      ///< of a run, not a result
+};
+
+/// Which of the files that exist may be replaced.
+enum class Replace : std::uint8_t {
+  Own,     ///< what the option wrote
+  Never,   ///< none; --force would
+  Judged,  ///< any: --force, or the caller has read the file
+};
+
+struct FileIdentity {
+  dev_t device = 0;
+  ino_t inode = 0;
+  bool operator==(const FileIdentity&) const = default;
+};
+
+/// A place where a file may be written.
+struct Destination {
+  std::string path;
+  FileKind kind;
+  std::optional<FileIdentity> replaced{};  ///< what is there already and may be replaced
+  bool stream = false;                     ///< a pipe or a character device
+};
+
+/// All files of one command.
+class WrittenFiles {
+ public:
+  /// Standard output and standard error are among the files that are taken, if they are files.
+  WrittenFiles();
+
+  /// The command reads this file, if it is one.
+  void reads(const std::string& path);
+
+  /// `option` makes a link of this name.
+  void links(std::string_view option, const std::string& path);
+
+  /// Nothing after a message when `option` cannot write there.
+  std::optional<Destination> claim(std::string_view option, const std::string& path, FileKind kind, Replace replace);
+
+ private:
+  struct Place {
+    std::string user;  ///< an option; empty for what the command reads
+    std::optional<FileIdentity> file, folder;
+    std::string name;  ///< in the folder
+  };
+  static Place place_of(std::string user, const std::string& path);
+
+  std::vector<Place> places_;
+};
+
+/// A file that grows beside its place until it is put there.
+class NewFile {
+ public:
+  NewFile() = default;
+  ~NewFile();
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+
+  /// 0 or the error, like the others.
+  int create(const Destination& destination);
+
+  /// What is written goes to this pipe or device as it is.
+  void take(int fd) { fd_ = fd; }
+
+  /// Puts it there unless something has come there meanwhile that may not be replaced: EEXIST. It stays open.
+  int put(const Destination& destination);
+
+  int close();
+  int fd() const { return fd_; }
+
+ private:
+  std::string beside_;  ///< its name until it is put
+  int fd_ = -1;
+};
+
+/// Writes a result. False after a message; what was there before is as it was.
+bool write_result(const Destination& destination, std::string_view text);
+
+}  // namespace s7200::tools
