@@ -66,15 +66,16 @@ Time Simulation::next_look() const { return cpu_.time() < kNever - kLookEvery ? 
 
 bool Simulation::line_quiet_for(Time quiet) const { return cpu_.time() - last_activity_ >= quiet; }
 
-bool Simulation::run_until_ready(Time quiet, Time limit) {
+bool Simulation::run_until_ready(const std::function<Time()>& quiet, Time limit) {
   cpu_.pause_at_scan_end(true);
   Halt halt = Halt::Paused;
   while (halt == Halt::Paused && cpu_.state().scans == 0) halt = run_until(limit);
   cpu_.pause_at_scan_end(false);
   if (halt != Halt::Paused) return halt == Halt::Time && cpu_.state().scans > 0;
   last_activity_ = std::max(last_activity_, cpu_.time());
-  while (!line_quiet_for(quiet)) {
-    if (last_activity_ + quiet > limit || run_until(last_activity_ + quiet) != Halt::Time) return false;
+  while (!line_quiet_for(quiet())) {
+    const Time over = last_activity_ + quiet();
+    if (over > limit || run_until(over) != Halt::Time) return false;
   }
   return true;
 }

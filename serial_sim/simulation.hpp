@@ -53,9 +53,13 @@ class Simulation {
   /// End of the last character that anybody sent or heard.
   Time last_activity() const { return last_activity_; }
 
-  /// Runs until the first scan has ended and the line has been quiet for `quiet`. False when that has not come by `limit`,
-  /// the CPU stopped, or a stop was asked for.
-  bool run_until_ready(Time quiet, Time limit);
+  /// Runs until the first scan has ended and the line has been quiet since then for `quiet`, which is asked only after that
+  /// scan: it is there that programs set the rate of their port. False if that has not come by `limit`, the CPU stopped,
+  /// or a stop was asked for.
+  bool run_until_ready(const std::function<Time()>& quiet, Time limit);
+  bool run_until_ready(Time quiet, Time limit) {
+    return run_until_ready([quiet] { return quiet; }, limit);
+  }
 
   /// The quiet time a master leaves by default: more than the time-outs of programs that look for 3.5 characters of
   /// silence with a timer of whole milliseconds: 7 characters + 10 ms.

@@ -102,6 +102,9 @@ class CharacterPort final : public SerialPort {
 /// A CPU that is asked for 10 registers again and again.
 class Serving {
  public:
+  /// At 300 baud the request and the answer take 1.2 s.
+  static constexpr Time kLongestExchange = 10 * kSecond;
+
   explicit Serving(std::shared_ptr<const Program> program) : port_(queue_), cpu_(std::move(program), queue_, port_) {
     cpu_.power_up();
     run_until(kSecond);
@@ -112,10 +115,10 @@ class Serving {
     const std::uint64_t before = cpu_.state().instructions;
     port_.request(cpu_.time());
     answered_ = false;
-    const Time latest = cpu_.time() + kSecond;
+    const Time latest = cpu_.time() + kLongestExchange;
     while (!answered_ && cpu_.time() < latest) step(latest);
     if (!answered_) throw std::runtime_error("the program did not answer a request for 10 registers");
-    run_until(cpu_.time() + serial::Simulation::default_quiet({}));
+    run_until(cpu_.time() + serial::Simulation::default_quiet(cpu_.state().port.format));
     return static_cast<double>(cpu_.state().instructions - before);
   }
 
@@ -182,7 +185,8 @@ std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time 
   figures.push_back({"first scan", "instructions", best_rate(each, [&] { return first_scans(simulation); })});
 
   simulation.power_up();
-  simulation.run_until_ready(serial::Simulation::default_quiet({}), 60 * kSecond);
+  const auto quiet = [&] { return serial::Simulation::default_quiet(simulation.cpu().state().port.format); };
+  simulation.run_until_ready(quiet, 60 * kSecond);
   simulation.master_uart().configure(simulation.cpu().state().port.format);
   figures.push_back(
       {"idle scans", "instructions", best_rate(each, [&] { return timed([&] { return idle_scans(simulation); }); })});

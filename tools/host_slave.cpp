@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "serial_sim/modbus/mbap.hpp"
+#include "serial_sim/simulation.hpp"
 #include "tools/interruption.hpp"
 
 namespace s7200::tools {
@@ -71,7 +72,8 @@ bool HostSlave::take_in(std::vector<HostLink::Character>& characters, Time until
 RtuSlave::RtuSlave(const std::string& device, const SerialFormat& format)
     : HostSlave(std::make_unique<SerialLink>(device, format)),
       has_parity_(format.parity != Parity::None),
-      shortest_silence_(std::max(kSilence, format.silence())) {}
+      shortest_silence_(std::max(kSilence, format.silence())),
+      quiet_(serial::Simulation::default_quiet(format)) {}
 
 RtuSlave::RtuSlave(const std::string& host, const std::string& port)
     : HostSlave(std::make_unique<TcpLink>(host, port)), shortest_silence_(kSilence) {}
@@ -86,6 +88,8 @@ void RtuSlave::send(const modbus::Bytes& bytes, Time gap) {
     link_->write({&bytes[i], 1});
   }
 }
+
+Time RtuSlave::pause() const { return unanswered_ ? std::max(Time{0}, *unanswered_ + quiet_ - now()) : 0; }
 
 Time RtuSlave::silence_after(const serial::Exchange& exchange) const {
   return modbus::crc_ok(exchange.response_bytes()) ? shortest_silence_ : std::max(shortest_silence_, kSilenceInside);
@@ -103,7 +107,10 @@ serial::Exchange RtuSlave::exchange(const serial::Request& request) {
   exchange.request_end = std::max(now(), exchange.request_start + length * character_time + (length - 1) * request.gap);
 
   collect(exchange, exchange.request_end + request.timeout, request.silence);
-  if (!exchange.timed_out)  // a pty may be faster than a line
+  unanswered_.reset();
+  if (exchange.timed_out)
+    unanswered_ = exchange.request_end;
+  else  // a pty may be faster than a line
     exchange.request_end = std::min(exchange.request_end, exchange.response_start);
   return exchange;
 }

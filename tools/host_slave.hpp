@@ -63,7 +63,8 @@ class RtuSlave final : public HostSlave {
 
   /// What came in while nothing was asked of the device counts as one transmission that began when this was called.
   serial::Exchange receive(const serial::Listening& listening) override;
-  Time pause() const override { return 0; }  // the silence that ended the answer is pause enough
+  /// The silence that ended an answer is pause enough. A request that was not answered has to be over for the slaves too.
+  Time pause() const override;
 
  private:
   void send(const modbus::Bytes& bytes, Time gap);
@@ -72,6 +73,8 @@ class RtuSlave final : public HostSlave {
 
   bool has_parity_ = false;
   Time shortest_silence_ = 0;
+  Time quiet_ = 0;                    ///< that slaves need after a request to see its end; not known over TCP
+  std::optional<Time> unanswered_{};  ///< end of the last request if nobody answered it
 };
 
 /// Modbus TCP (Modbus Messaging on TCP/IP, 3.1.3): the unit id is the station, the CRC is taken off the request and put on

@@ -79,7 +79,7 @@ class Plant {
       slave_->wait(scenario_.after - simulation_->time());
       return true;
     }
-    const bool ready = simulation_->run_until_ready(slave_->pause(), kReadyWithin);
+    const bool ready = slave_->get_ready(kReadyWithin);
     return ready || cpu().state().mode == Mode::Stop;
   }
 

@@ -23,8 +23,12 @@ SimulatedSlave::SimulatedSlave(serial::Simulation& simulation, const MasterOptio
   simulation_.let_master_follow([line = LineOptions(master)](const SerialFormat& port) { return line.format_over(port); });
 }
 
+bool SimulatedSlave::get_ready(Time limit) {
+  return simulation_.run_until_ready([this] { return pause(); }, limit);
+}
+
 bool SimulatedSlave::wait_until_ready(Time after) {
-  const bool ready = after == kNever ? simulation_.run_until_ready(pause(), kReadyWithin) : run_until(simulation_, after);
+  const bool ready = after == kNever ? get_ready(kReadyWithin) : run_until(simulation_, after);
   const State& state = simulation_.cpu().state();
   if (ready && !state.port.active)
     fmt::print(stderr, "s7200: note: the program has not switched port 0 to Freeport mode (SMB30 = 16#{:02X})\n",

@@ -15,6 +15,10 @@ class SimulatedSlave final : public Slave {
   /// The simulation is not owned and has been powered up. `name` is its program's.
   SimulatedSlave(serial::Simulation& simulation, const MasterOptions& master, std::string name);
 
+  /// Runs until the first scan has ended and the line has been quiet for pause(). False if that has not come by `limit`, or
+  /// the CPU stopped.
+  bool get_ready(Time limit);
+
   /// Runs until the first scan has ended and the line has been quiet for as long as a master leaves it, or until `after` if
   /// that is not kNever. False when the CPU stopped, after Ctrl-C, and after a message when the moment never comes. A port
   /// that is not in Freeport mode by then is worth a note.

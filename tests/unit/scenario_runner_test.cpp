@@ -26,7 +26,8 @@ std::vector<Scenario> scenarios_of(const std::string& text) {
 }
 
 Scenario scenario_of(const std::string& steps, const std::string& head = "") {
-  auto all = scenarios_of("timeout: 200ms\n" + head + "steps:\n" + steps);
+  const std::string timeout = head.find("timeout:") == std::string::npos ? "timeout: 200ms\n" : "";
+  auto all = scenarios_of(timeout + head + "steps:\n" + steps);
   return all.empty() ? Scenario{} : all[0];
 }
 
@@ -42,6 +43,17 @@ std::string findings(const std::string& steps, const std::string& head = "",
   for (const Finding& finding : run(scenario, std::move(program)).findings)
     text += fmt::format("{}: {} / {}\n", finding.what, finding.expected, finding.found);
   return text;
+}
+
+TEST(ScenarioRunner, TheFirstRequestIsAnsweredAtEveryRate) {
+  std::vector<test::RateSetting> rates(test::kRateSettings.begin(), test::kRateSettings.end());
+  rates.push_back(test::k38400);
+  for (const test::RateSetting& rate : rates)
+    EXPECT_EQ(
+        findings("  - {read: holding 0, expect: [0]}\n  - power_cycle: memory kept\n  - {read: holding 0, expect: [0]}\n",
+                 "timeout: 1s\n", test::compile(test::at_rate(test::slave_text(), rate))),
+        "")
+        << rate.baud;
 }
 
 TEST(ScenarioRunner, EveryExpectationThatHoldsPasses) {
