@@ -215,7 +215,8 @@ Benches benches_for(const std::vector<Scenario>& scenarios, const std::string& t
     benches.name = benches.slave->name();
   }
   for (const Scenario& scenario : scenarios) {
-    Bench bench{.slave = benches.slave.get(), .format = format};
+    const bool exchanges_wanted = options.json || !options.record.empty() || !options.against.empty();
+    Bench bench{.slave = benches.slave.get(), .format = format, .exchanges_wanted = exchanges_wanted};
     if (!bench.slave && scenario.skipped.empty()) {
       const std::string path = parsed ? parsed->path : scenario.program;
       if (path.empty())

@@ -24,7 +24,7 @@ class ExchangeStatistics {
   /// Not all were right.
   bool any_failed() const { return sent() != count(modbus::Verdict::Right); }
 
-  /// Of answers, exceptions among them; nothing before the first. The percentile is that of the last million.
+  /// Of answers, exceptions among them; nothing before the first. The percentile is that of the last kKept.
   struct Latency {
     Time least = 0, mean = 0, p99 = 0, most = 0;
   };
@@ -35,7 +35,7 @@ class ExchangeStatistics {
   nlohmann::ordered_json json() const;
 
  private:
-  static constexpr std::size_t kKept = 1'000'000;
+  static constexpr std::size_t kKept = 100'000;
 
   std::uint64_t counts_[4] = {};
   std::uint64_t retries_ = 0, timed_ = 0;

@@ -16,8 +16,7 @@ namespace {
 
 using Outcome = ScenarioResult::Outcome;
 
-constexpr std::size_t kRow = 16;          // bytes in a row of a diff
-constexpr std::size_t kMostFindings = 5;  // of a scenario, in JUnit
+constexpr std::size_t kRow = 16;  // bytes in a row of a diff
 constexpr const char* kIndent = "      ";
 
 constexpr const char* kRed = "1;31";
@@ -230,7 +229,7 @@ std::string outcome_xml(const Report& report) {
                      failed ? fmt::format("failure{}{}", attribute("message", message),
                                           attribute("type", result.findings.front().of_run ? "run" : "expectation"))
                             : "skipped" + attribute("message", "not done as it should be: " + message),
-                     xml(findings_text(report, false, kMostFindings)), failed ? "failure" : "skipped");
+                     xml(findings_text(report, false, kFindingsShown)), failed ? "failure" : "skipped");
 }
 
 std::string case_xml(const Report& report) {

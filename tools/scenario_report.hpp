@@ -20,7 +20,7 @@ struct Report {
 bool counts_as_failed(const Report& report);
 
 /// `  pass     52.3 ms  reads coils from any bit on`, and below it what was found instead, up to `most` findings.
-std::string report_text(const Report& report, bool colour, std::size_t most = 5);
+std::string report_text(const Report& report, bool colour, std::size_t most = kFindingsShown);
 
 /// What was sent, what was expected, what was found, in one line.
 std::string finding_line(const Scenario& scenario, const Finding& finding);

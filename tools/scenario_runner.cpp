@@ -87,6 +87,7 @@ class Plant {
     timeline_.begin();
     interrupts_.begin();
   }
+  void end_exchange() { timeline_.end(); }
 
   /// Unlike a request, what is only waited for begins nothing that `interrupts` counts from.
   void begin_reception() { timeline_.begin(); }
@@ -440,10 +441,11 @@ class Run {
       lost_ = true;
       return add({.what = "slave", .expected = "that it stays there", .found = error.what(), .of_run = true});
     }
+    if (plant_) plant_->end_exchange();
     if (!plant_ && request.gap != 0) times_unjudged_ = true;
     last_end_ = exchange.response.empty() ? slave().now() : exchange.response_end;
     last_remark_ = slave().remark();
-    result_.seen.push_back({step_, exchange});
+    if (bench_.exchanges_wanted) result_.seen.push_back({step_, exchange});
     judge(step, exchange, line, request.timeout);
   }
 
@@ -461,7 +463,8 @@ class Run {
       return add({.what = "slave", .expected = "that it stays there", .found = error.what(), .of_run = true});
     }
     if (!exchange.response.empty()) last_end_ = exchange.response_end;
-    result_.seen.push_back({step_, exchange});
+    if (plant_) plant_->end_exchange();
+    if (bench_.exchanges_wanted) result_.seen.push_back({step_, exchange});
     const SerialFormat line = format();
     judge(step, exchange, line, listening.timeout);
     if (step.at && !plant_) times_unjudged_ = true;
@@ -530,7 +533,7 @@ class Run {
   void add_exchange(Finding finding) {
     const serial::Exchange& exchange = *finding.exchange;
     const bool shown = exchange.response.empty() || exchange.response_start >= exchange.request_start;
-    if (plant_ && shown) finding.timeline = plant_->timeline(exchange);
+    if (plant_ && shown && result_.findings.size() < kFindingsShown) finding.timeline = plant_->timeline(exchange);
     add(std::move(finding));
   }
 

@@ -21,12 +21,15 @@ struct Finding {
   std::vector<BytePattern> found_bytes{};  ///< of memory, or of an answer
   std::optional<serial::Exchange> exchange{};
   bool of_run = false;     ///< the scenario could not be run as it is written, whatever the answers
-  std::string timeline{};  ///< what the CPU did in that exchange; empty if it cannot be seen
+  std::string timeline{};  ///< what the CPU did in that exchange; empty if it cannot be seen, or is not shown
 };
 
 /// From the end of the request to the start of the answer; of what nobody asked for, from when it was waited for, 0 if it
 /// came earlier.
 std::optional<Time> latency_of(const serial::Exchange& exchange);
+
+/// How many findings of a scenario are shown in text. The others have no timeline.
+inline constexpr std::size_t kFindingsShown = 5;
 
 /// An exchange as it went, or what was received.
 struct Seen {
@@ -51,6 +54,7 @@ struct Bench {
   std::shared_ptr<const Program> program{};  ///< in simulation
   Slave* slave = nullptr;                    ///< instead of a program; not owned
   SerialFormat format{};                     ///< of the slave's line
+  bool exchanges_wanted = true;              ///< all of them are in the result
 };
 
 /// Runs a scenario to its end, findings or not; a slave that is lost is a finding and ends it. SlaveUnreachable passes

@@ -19,13 +19,19 @@ constexpr std::uint8_t kReceiveEvent = 8;
 constexpr std::size_t kWidth = 38;       // of the column of the port
 constexpr std::size_t kCharacters = 23;  // eight, in it
 
+/// Rows whose interrupts may still come. More than any queue of the CPU holds, whatever else happens meanwhile.
+constexpr std::size_t kOpenRows = 1000;
+
 bool belong_together(const TimelineRow& a, const TimelineRow& b) {
   const bool repeats = a.kind != Kind::Transmit && a.kind != Kind::Other;
   return repeats && a.kind == b.kind && a.event == b.event && a.routine == b.routine;
 }
 
 void join(TimelineRow& row, const TimelineRow& next) {
-  row.characters.insert(row.characters.end(), next.characters.begin(), next.characters.end());
+  const std::size_t kept = std::min(next.characters.size(), TimelineRow::kMostCharacters - row.characters.size());
+  const auto end = next.characters.begin() + static_cast<std::ptrdiff_t>(kept);
+  row.characters.insert(row.characters.end(), next.characters.begin(), end);
+  row.more_characters += next.characters.size() - kept;
   row.served += next.served;
   row.shortest = std::min(row.shortest, next.shortest);
   row.longest = std::max(row.longest, next.longest);
@@ -33,8 +39,40 @@ void join(TimelineRow& row, const TimelineRow& next) {
   row.longest_wait = std::max(row.longest_wait, next.longest_wait);
 }
 
+/// The rows as they are shown: what belongs together is one row, and what is too much in the middle is only counted.
+class ShownRows {
+ public:
+  void add(TimelineRow row) {
+    TimelineRow* const before = !last_.empty() ? &last_.back() : !first_.empty() ? &first_.back() : nullptr;
+    if (before && belong_together(*before, row)) return join(*before, row);
+    if (first_.size() < kHalf) return first_.push_back(std::move(row));
+    last_.push_back(std::move(row));
+    if (last_.size() <= kHalf) return;
+    if (left_out_++ == 0) left_out_since_ = last_.front().at;
+    last_.pop_front();
+  }
+
+  std::vector<TimelineRow> all() const {
+    std::vector<TimelineRow> rows = first_;
+    if (left_out_ > 0)
+      rows.push_back({.at = left_out_since_, .kind = Kind::LeftOut, .text = fmt::format("… {} rows left out", left_out_)});
+    rows.insert(rows.end(), last_.begin(), last_.end());
+    return rows;
+  }
+
+ private:
+  static constexpr std::size_t kHalf = TimelineReport::kMostRows / 2;
+
+  std::vector<TimelineRow> first_;
+  std::deque<TimelineRow> last_;
+  std::uint64_t left_out_ = 0;
+  Time left_out_since_ = 0;
+};
+
+}  // namespace
+
 /// Rows of one thing each, with the services that belong to them.
-class Reader {
+class Timeline::Reader {
  public:
   explicit Reader(const Program& program) : program_(program) {}
 
@@ -69,18 +107,20 @@ class Reader {
     }
   }
 
-  TimelineReport take() {
-    for (TimelineRow& row : rows_) {
-      if (!report_.rows.empty() && belong_together(report_.rows.back(), row))
-        join(report_.rows.back(), row);
-      else
-        report_.rows.push_back(std::move(row));
-    }
-    return std::move(report_);
+  TimelineReport report() const {
+    ShownRows shown = shown_;
+    for (const TimelineRow& row : rows_) shown.add(row);
+    TimelineReport report = report_;
+    report.rows = shown.all();
+    return report;
   }
 
  private:
   void add(const TraceRecord& r, Kind kind, std::string text = {}) {
+    while (rows_.size() >= kOpenRows && serving_ != &rows_.front()) {
+      shown_.add(std::move(rows_.front()));
+      rows_.pop_front();
+    }
     rows_.push_back({.at = r.at, .kind = kind, .event = r.event, .routine = r.routine, .text = std::move(text)});
   }
   void add_characters(const TraceRecord& r, Kind kind) {
@@ -113,10 +153,13 @@ class Reader {
 
   void begin_service(const TraceRecord& r) {
     serving_ = nullptr;
-    for (TimelineRow& row : rows_)
-      if (row.event == r.event && row.at == r.since && (row.kind == Kind::Received || row.kind == Kind::Event))
-        serving_ = &row;
-    if (serving_) serving_->longest_wait = r.at - r.since;
+    for (auto row = rows_.rbegin(); row != rows_.rend() && !serving_; ++row)
+      if (row->event == r.event && row->at == r.since && (row->kind == Kind::Received || row->kind == Kind::Event))
+        serving_ = &*row;
+    if (serving_) {
+      serving_->longest_wait = r.at - r.since;
+      report_.longest_wait = std::max(report_.longest_wait, serving_->longest_wait);
+    }
     in_routine_ = true;
     routine_ = r.routine;
   }
@@ -128,6 +171,9 @@ class Reader {
     serving_->routine = r.routine;
     serving_->served = 1;
     serving_->shortest = serving_->longest = serving_->in_all = took;
+    ++report_.served;
+    report_.in_all += took;
+    serving_ = nullptr;
   }
 
   std::string place_of(const TraceRecord& r) const {
@@ -138,8 +184,9 @@ class Reader {
   }
 
   const Program& program_;
+  ShownRows shown_;
   std::deque<TimelineRow> rows_;  // one that stays where it is
-  TimelineReport report_;
+  TimelineReport report_;         // without the rows
   std::uint64_t scan_ = 0;
   Time scan_begin_ = kNever;
   TimelineRow* serving_ = nullptr;  // null for an interrupt that occurred before the exchange
@@ -147,6 +194,8 @@ class Reader {
   std::uint8_t routine_ = 0;
   Time service_end_ = kNever;
 };
+
+namespace {
 
 // --- text ---
 
@@ -156,11 +205,12 @@ std::string character_text(const ReceivedCharacter& c) {
 }
 
 /// As many as fit the column, and how many there are if not all do.
-std::string characters_text(const std::vector<ReceivedCharacter>& characters) {
+std::string characters_text(const TimelineRow& row) {
   std::string text;
-  for (const ReceivedCharacter& c : characters) {
+  for (const ReceivedCharacter& c : row.characters) {
     const std::string next = character_text(c);
-    if (text.size() + next.size() > kCharacters) return fmt::format("{}… {}", text, characters.size());
+    if (text.size() + next.size() > kCharacters)
+      return fmt::format("{}… {}", text, row.characters.size() + row.more_characters);
     text += next + ' ';
   }
   return text;
@@ -169,17 +219,18 @@ std::string characters_text(const std::vector<ReceivedCharacter>& characters) {
 std::string line_text(const TimelineRow& row) {
   switch (row.kind) {
     case Kind::Received:
-      return "received  " + characters_text(row.characters);
+      return "received  " + characters_text(row);
     case Kind::Ignored:
-      return "ignored   " + characters_text(row.characters);
+      return "ignored   " + characters_text(row);
     case Kind::Lost:
-      return "LOST      " + characters_text(row.characters);
+      return "LOST      " + characters_text(row);
     case Kind::Sent:
-      return "sent      " + characters_text(row.characters);
+      return "sent      " + characters_text(row);
     case Kind::Event:
       return fmt::format("event {:<3} {}", row.event, find_event(row.event)->cause);
     case Kind::Transmit:
     case Kind::Other:
+    case Kind::LeftOut:
       return row.text;
   }
   return {};
@@ -221,17 +272,11 @@ constexpr const char* kDim = "2";
 constexpr const char* kYellow = "33";
 
 std::string summary(const TimelineReport& report) {
-  std::size_t served = 0;
-  Time in_all = 0, longest_wait = 0;
   bool marked = false;
-  for (const TimelineRow& row : report.rows) {
-    served += row.served;
-    in_all += row.in_all;
-    longest_wait = std::max(longest_wait, row.longest_wait);
+  for (const TimelineRow& row : report.rows)
     for (const ReceivedCharacter& c : row.characters) marked |= c.parity_error || c.framing_error;
-  }
-  std::string text = fmt::format("{} interrupts served in {}, longest wait {}", served, format_duration(in_all),
-                                 format_duration(longest_wait));
+  std::string text = fmt::format("{} interrupts served in {}, longest wait {}", report.served,
+                                 format_duration(report.in_all), format_duration(report.longest_wait));
   if (report.scans)
     text += fmt::format("; {} scans of {} to {}", report.scans, format_duration(report.shortest_scan),
                         format_duration(report.longest_scan));
@@ -241,16 +286,22 @@ std::string summary(const TimelineReport& report) {
 
 }  // namespace
 
+Timeline::Timeline(std::shared_ptr<const Program> program, TraceSink* next)
+    : program_(std::move(program)), next_(next), reader_(std::make_unique<Reader>(*program_)) {}
+
+Timeline::~Timeline() = default;
+
+void Timeline::begin() {
+  reader_ = std::make_unique<Reader>(*program_);
+  looking_ = true;
+}
+
 void Timeline::record(const TraceRecord& record) {
-  records_.push_back(record);
+  if (looking_) reader_->read(record);
   if (next_) next_->record(record);
 }
 
-TimelineReport Timeline::report() const {
-  Reader reader(*program_);
-  for (const TraceRecord& r : records_) reader.read(r);
-  return reader.take();
-}
+TimelineReport Timeline::report() const { return reader_->report(); }
 
 std::string to_text(const TimelineReport& report, const serial::Exchange& exchange, bool colour) {
   std::string text =
@@ -263,7 +314,8 @@ std::string to_text(const TimelineReport& report, const serial::Exchange& exchan
 }
 
 nlohmann::ordered_json to_json(const TimelineReport& report, const serial::Exchange& exchange) {
-  static constexpr std::string_view kNames[] = {"received", "ignored", "lost", "event", "transmit", "sent", "other"};
+  static constexpr std::string_view kNames[] = {"received", "ignored", "lost",  "event",
+                                                "transmit", "sent",    "other", "left out"};
   const auto microseconds = [](Time t) { return static_cast<double>(t) / kMicrosecond; };
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const TimelineRow& row : report.rows) {
@@ -278,6 +330,7 @@ nlohmann::ordered_json to_json(const TimelineReport& report, const serial::Excha
       json["framing_errors"] =
           std::count_if(row.characters.begin(), row.characters.end(), [](const auto& c) { return c.framing_error; });
     }
+    if (row.more_characters) json["more_characters"] = row.more_characters;
     if (!row.text.empty()) json["text"] = row.text;
     if (!row.place.empty()) json["place"] = row.place;
     if (row.served) {
