@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 
+#include "interpreter/model/special_memory.hpp"
 #include "interpreter/program/address.hpp"
 
 namespace s7200::serial {
@@ -14,7 +15,6 @@ namespace {
 __extension__ using Wide = __int128;
 
 constexpr std::uint64_t kHighestMillihertz = 1'000'000'000;  // 1 MHz
-constexpr std::uint32_t kPotentiometer = image::kSM + 28;
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
@@ -93,7 +93,8 @@ class Reader {
 
   /// What the field can drive; a message for anything else.
   bool drivable(const MemoryRange& range, std::string_view address) {
-    const bool potentiometer = range.area == Area::SM && range.width == Width::Byte && range.at - kPotentiometer < 2;
+    const bool potentiometer =
+        range.area == Area::SM && range.width == Width::Byte && range.at - sm::kPotentiometer[0] < sm::kPotentiometer.size();
     const bool analog = range.area == Area::AI && range.number % 2 == 0;
     if (range.area == Area::I || analog || potentiometer) return true;
     error(fmt::format("'{}' is no input; rows set I, words of AI at even addresses, and the potentiometers SMB28 and SMB29",

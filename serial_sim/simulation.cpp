@@ -40,7 +40,7 @@ void Simulation::Port::configure(const SerialFormat& format) {
 
 void Simulation::let_master_follow(std::function<SerialFormat(const SerialFormat& port)> of) {
   master_format_ = std::move(of);
-  if (!master_.asks()) master_uart_.configure(master_format_(cpu_.state().port.format));
+  if (!master_.asks()) master_uart_.configure(master_format_(cpu_.state().port[0].format));
 }
 
 Halt Simulation::run_until(Time end) {

@@ -91,7 +91,7 @@ class PtyBridge final : public Bridge {
   static constexpr std::size_t kMostUnread = 65'536;  // besides what the pty itself holds; a real port holds less
 
   SerialFormat format_of(const PtySettings& settings) const {
-    SerialFormat format = line_->simulation().cpu().state().port.format;
+    SerialFormat format = line_->simulation().cpu().state().port[0].format;
     if (settings.baud != 0) format.baud = settings.baud;
     if (settings.parity) format.parity = *settings.parity;
     format.stop_bits = settings.stop_bits;

@@ -84,7 +84,7 @@ class CharacterPort final : public SerialPort {
   bool handle(Cpu& cpu, const Event& event) {
     if (event.what == kSent) {
       cpu.character_sent(event.at);
-      return !cpu.state().port.transmitting;
+      return !cpu.state().port[0].transmitting;
     }
     const std::uint8_t byte = ten_registers()[next_++].byte;
     if (next_ < ten_registers().size()) queue_.schedule(event.at + format_.character_time(), EventOwner::PlcUart, kReceived);
@@ -148,7 +148,7 @@ void exchange(serial::Simulation& simulation) {
   simulation.master().start({.frame = ten_registers()}, simulation.time());
   if (simulation.finish_exchange().timed_out)
     throw std::runtime_error("the program did not answer a request for 10 registers");
-  simulation.run_until(simulation.time() + serial::Simulation::default_quiet(simulation.cpu().state().port.format));
+  simulation.run_until(simulation.time() + serial::Simulation::default_quiet(simulation.cpu().state().port[0].format));
 }
 
 /// Several first scans at once, so that reading the clock does not count; nor does the power-up in front of each, which
@@ -185,9 +185,9 @@ std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time 
   figures.push_back({"first scan", "instructions", best_rate(each, [&] { return first_scans(simulation); })});
 
   simulation.power_up();
-  const auto quiet = [&] { return serial::Simulation::default_quiet(simulation.cpu().state().port.format); };
+  const auto quiet = [&] { return serial::Simulation::default_quiet(simulation.cpu().state().port[0].format); };
   simulation.run_until_ready(quiet, 60 * kSecond);
-  simulation.master_uart().configure(simulation.cpu().state().port.format);
+  simulation.master_uart().configure(simulation.cpu().state().port[0].format);
   figures.push_back(
       {"idle scans", "instructions", best_rate(each, [&] { return timed([&] { return idle_scans(simulation); }); })});
 

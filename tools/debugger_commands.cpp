@@ -489,7 +489,7 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
   const std::string text = request_text(modbus::bytes_of(parsed.frame));
   out_ << fmt::format("on the line from now on: {}{} ({})\n", modbus::to_hex(parsed.frame), text.empty() ? "" : "  " + text,
                       format_text(format));
-  if (!simulation_.cpu().state().port.active) out_ << "port 0 is not in Freeport mode: the program will not hear it\n";
+  if (!simulation_.cpu().state().port[0].active) out_ << "port 0 is not in Freeport mode: the program will not hear it\n";
   return {};
 }
 

@@ -13,7 +13,7 @@
 namespace s7200::tools {
 namespace {
 
-constexpr std::uint8_t kReceiveEvent = 8, kTransmitEvent = 9, kTimed0 = 10;
+constexpr std::uint8_t kReceiveEvent = event::kPort0Received, kTransmitEvent = event::kPort0Sent, kTimed0 = event::kTimed0;
 
 std::string event_text(std::uint8_t event) { return fmt::format("event {} ({})", event, find_event(event)->cause); }
 
@@ -126,14 +126,14 @@ std::string routine_text(const State& state, std::uint8_t event) {
 
 std::string receiver_text(const State& state) {
   std::string_view is = "on";
-  if (state.port.transmitting) is = "off while sending";
-  if (!state.port.active) is = "off: not in Freeport mode";
+  if (state.port[0].transmitting) is = "off while sending";
+  if (!state.port[0].active) is = "off: not in Freeport mode";
   return fmt::format("receiver   {}; {}; SMB2 = 16#{:02X}, parity error SM3.0 = {}", is, routine_text(state, kReceiveEvent),
-                     state.image[image::kSM + 2], state.image[image::kSM + 3] & 1);
+                     state.image[sm::kReceivedCharacter], state.image[sm::kReceiveStatus] & sm::kParityError);
 }
 
 std::string transmitter_text(const State& state) {
-  const Freeport& port = state.port;
+  const Freeport& port = state.port[0];
   std::string is = "idle";
   if (port.transmitting)
     is = port.sending_break ? "sending a break" : fmt::format("sending {:02x}, {} more to send", port.on_line, port.left);
@@ -177,7 +177,7 @@ std::string registers_text(const Cpu& cpu, const Listing& listing) {
       fmt::format("time       {}, {}, {} instructions\n", time_text(state.time), scan_text(state), state.instructions);
   text += fmt::format("where      {}\n", where_text(state, listing));
   text += accumulators_text(cpu);
-  text += fmt::format("flags      {}\n", flags_text(state.image[image::kSM1]));
+  text += fmt::format("flags      {}\n", flags_text(state.image[sm::kFlags]));
   text += fmt::format("interrupts {}\n", state.interrupts_enabled ? "enabled (ENI)" : "disabled (DISI, or no ENI yet)");
   for (std::size_t queue = 0; queue < kQueues; ++queue)
     text += fmt::format("{:<11}{}\n", queue == 0 ? "waiting" : "", queue_text(state, queue, *cpu.program().model));
@@ -203,8 +203,8 @@ std::string short_format_text(const SerialFormat& format) {
 
 std::string port_text(const serial::Simulation& simulation) {
   const State& state = simulation.cpu().state();
-  std::string text = control_text(state.image[image::kSM + 30]);
-  if (state.port.active) text += ", " + format_text(state.port.format);
+  std::string text = control_text(state.image[sm::kPort0Control]);
+  if (state.port[0].active) text += ", " + format_text(state.port[0].format);
   return fmt::format("{}\n{}\n{}\nmaster     {}\n", text, receiver_text(state), transmitter_text(state),
                      master_text(simulation.master().state()));
 }

@@ -28,7 +28,7 @@ SerialFormat LineOptions::format_over(SerialFormat port) const {
 }
 
 SerialFormat LineOptions::format_for(const serial::Simulation& simulation) const {
-  const auto& port = simulation.cpu().state().port;
+  const auto& port = simulation.cpu().state().port[0];
   return format_over(port.active ? port.format : SerialFormat{});
 }
 

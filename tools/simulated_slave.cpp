@@ -30,9 +30,9 @@ bool SimulatedSlave::get_ready(Time limit) {
 bool SimulatedSlave::wait_until_ready(Time after) {
   const bool ready = after == kNever ? get_ready(kReadyWithin) : run_until(simulation_, after);
   const State& state = simulation_.cpu().state();
-  if (ready && !state.port.active)
+  if (ready && !state.port[0].active)
     fmt::print(stderr, "s7200: note: the program has not switched port 0 to Freeport mode (SMB30 = 16#{:02X})\n",
-               state.image[image::kSM + 30]);
+               state.image[sm::kPort0Control]);
   if (!ready && after == kNever && state.mode == Mode::Run && !interrupted())
     print_error(
         fmt::format("the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "interpreter/model/cpu_model.hpp"
+#include "interpreter/model/events.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/report.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 
 using Kind = TimelineRow::Kind;
 
-constexpr std::uint8_t kReceiveEvent = 8;
+constexpr std::uint8_t kReceiveEvent = event::kPort0Received;
 constexpr std::size_t kWidth = 38;       // of the column of the port
 constexpr std::size_t kCharacters = 23;  // eight, in it
 

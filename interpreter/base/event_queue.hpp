@@ -13,7 +13,7 @@ namespace s7200 {
 /// Who handles an event. At the same instant the order below is the order of handling:
 /// the wire settles first, then who listens to it, then the CPU, then the inputs from the field, then whoever drives the
 /// test. The field comes behind the CPU, whose own events were decided earlier, so that an input of that instant cannot
-/// change them; which interrupt is served first does not depend on it (Cpu::occurred).
+/// change them; which interrupt is served first does not depend on it (interrupts::occurred).
 enum class EventOwner : std::uint8_t { Faults, PlcUart, MasterUart, HostUart, Cpu, Field, Master };
 
 struct Event {

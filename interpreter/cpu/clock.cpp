@@ -1,17 +1,8 @@
-// The time-of-day clock: TODR and TODW (facts 6.11).
-//
-// Eight bytes of BCD: year, month, day, hour, minute, second, 0, day of the week (1 Sunday … 7 Saturday, 0 switched off).
-// Dates are not checked by TODW: the 30th of February is followed by the 1st of March.
-// The clock goes on while power is off, as long as the capacitor holds out (facts 9.1); one that was lost starts at 1
-// January 1990, 0:00:00, Sunday (A5E00066097-02, 9-72).
-//
-// Not documented, modelled so: TODW with a byte that is not BCD is error 0007 and leaves the clock alone.
-// [Clock.WhatIsNoBcdIs0007AndLeavesTheClockAlone]
+#include "interpreter/cpu/clock.hpp"
+
 #include <algorithm>
 
-#include "interpreter/cpu/cpu.hpp"
-
-namespace s7200 {
+namespace s7200::clock {
 namespace {
 
 constexpr std::uint32_t kBufferBytes = 8;
@@ -46,29 +37,32 @@ ClockTime advanced(ClockTime t, std::int64_t seconds) {
 
 }  // namespace
 
-ClockTime clock_after(const ClockTime& from, Time time) { return advanced(from, time / kSecond); }
-
-void Cpu::set_clock(const ClockTime& to) {
-  s.clock = to;
-  s.clock_set_at = s.time;
+void set(Core& core, const ClockTime& to) {
+  core.s.clock = to;
+  core.s.clock_set_at = core.s.time;
 }
 
-ClockTime Cpu::clock() const { return clock_after(s.clock, s.time - s.clock_set_at); }
+ClockTime now(const Core& core) { return advanced(core.s.clock, (core.s.time - core.s.clock_set_at) / kSecond); }
 
-void Cpu::read_clock(std::uint32_t buffer) {
-  if (!in_area(buffer, kBufferBytes)) return run_error(RunError::OperandRange);
-  const ClockTime t = clock();
+void read(Core& core, std::uint32_t buffer) {
+  if (!core.in_area(buffer, kBufferBytes)) return core.run_error(RunError::OperandRange);
+  const ClockTime t = now(core);
   const std::uint8_t bytes[kBufferBytes] = {
       to_bcd(t.year), to_bcd(t.month), to_bcd(t.day), to_bcd(t.hour), to_bcd(t.minute), to_bcd(t.second), 0, t.weekday};
-  std::copy_n(bytes, kBufferBytes, s.image.begin() + buffer);
+  std::copy_n(bytes, kBufferBytes, core.s.image.begin() + buffer);
 }
 
-void Cpu::write_clock(std::uint32_t buffer) {
-  if (!in_area(buffer, kBufferBytes)) return run_error(RunError::OperandRange);
-  const std::uint8_t* b = &s.image[buffer];
-  if (!std::all_of(b, b + kBufferBytes, is_bcd)) return run_error(RunError::Clock);
-  set_clock(
+void write(Core& core, std::uint32_t buffer) {
+  if (!core.in_area(buffer, kBufferBytes)) return core.run_error(RunError::OperandRange);
+  const std::uint8_t* b = &core.s.image[buffer];
+  if (!std::all_of(b, b + kBufferBytes, is_bcd)) return core.run_error(RunError::Clock);
+  set(core,
       {from_bcd(b[0]), from_bcd(b[1]), from_bcd(b[2]), from_bcd(b[3]), from_bcd(b[4]), from_bcd(b[5]), from_bcd(b[7])});
 }
 
-}  // namespace s7200
+/// The clock has gone on while power was off.
+void power_up(Core& core, const RetentiveMemory* memory) {
+  if (memory && !memory->ram_lost) set(core, advanced(memory->clock, memory->power_off / kSecond));
+}
+
+}  // namespace s7200::clock

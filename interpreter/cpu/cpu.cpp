@@ -3,28 +3,38 @@
 #include <algorithm>
 #include <utility>
 
+#include "interpreter/cpu/clock.hpp"
+#include "interpreter/cpu/freeport.hpp"
+#include "interpreter/cpu/interrupts.hpp"
+#include "interpreter/cpu/points.hpp"
+#include "interpreter/cpu/power.hpp"
+#include "interpreter/cpu/scan.hpp"
+#include "interpreter/cpu/units.hpp"
+
 namespace s7200 {
 
-Cpu::Cpu(std::shared_ptr<const Program> program, EventQueue& queue, SerialPort& port)
-    : program_(std::move(program)), ops_(program_->ops.data()), reach_(program_->reach.data()), queue_(queue), port_(port) {
-  s.attached.fill(kNotAttached);
-}
+Cpu::Cpu(std::shared_ptr<const Program> program, EventQueue& queue, SerialPort& port0)
+    : core_(std::move(program), queue, port0) {}
+
+void Cpu::power_up(bool run, const RetentiveMemory* memory) { power::up(core_, run, memory); }
+RetentiveMemory Cpu::retentive_memory() const { return power::retentive_memory(core_); }
 
 void Cpu::run(Time limit) {
-  paused_ = false;
+  const State& s = core_.s;
+  core_.loop.paused = false;
   const Mode mode = s.mode;
-  while (s.time < limit && !paused_ && s.mode == mode) {
-    const Time event = queue_.next();
+  while (s.time < limit && !core_.loop.paused && s.mode == mode) {
+    const Time event = core_.next_event();
     if (event <= s.time) return;
     if (s.watchdog <= s.time) {
-      fatal_error(FatalError::Watchdog);
+      core_.fatal_error(FatalError::Watchdog);
       continue;
     }
-    until_ = std::min({limit, event, s.watchdog});
-    if (interrupt_due()) take_interrupt();
+    core_.loop.until = std::min({limit, event, s.watchdog});
+    if (interrupts::due(core_)) interrupts::take(core_);
     if (!s.in_interrupt && s.phase != Phase::Program)
-      system_phases();
-    else if (sink_ && sink_->wants_instructions())
+      scan::advance(core_);
+    else if (core_.sink() && core_.sink()->wants_instructions())
       execute_observed();
     else
       execute_plain();
@@ -32,85 +42,73 @@ void Cpu::run(Time limit) {
 }
 
 void Cpu::execute_plain() {
-  const Op* const ops = ops_;
-  const Time no_power_flow = program_->no_power_flow;
+  State& s = core_.s;
+  Loop& loop = core_.loop;
+  const Op* const ops = core_.program().ops.data();
+  const Time no_power_flow = core_.program().no_power_flow;
   std::uint64_t executed = 0;
-  while (s.time < until_) {
-    op_ = s.pc;
-    const Op& op = ops[op_];
+  while (s.time < loop.until) {
+    loop.op = s.pc;
+    const Op& op = ops[loop.op];
     ++executed;
     if (op.power_mask & ~s.stack.bits()) {
       s.time += no_power_flow;
       s.pc = op.skip_to;
     } else {
       s.time += op.cost;
-      s.pc = op_ + 1;
-      op.body(*this, op);
+      s.pc = loop.op + 1;
+      op.body(core_, op);
     }
   }
   s.instructions += executed;
 }
 
 void Cpu::execute_observed() {
-  while (s.time < until_) {
-    if (!sink_->before(s.pc)) {
-      paused_ = true;
+  State& s = core_.s;
+  Loop& loop = core_.loop;
+  while (s.time < loop.until) {
+    if (!core_.sink()->before(s.pc)) {
+      loop.paused = true;
       return;
     }
-    op_ = s.pc;
-    const Op& op = ops_[op_];
-    InstructionRecord record{.at = s.time, .op = op_};
+    loop.op = s.pc;
+    const Op& op = core_.program().ops[loop.op];
+    InstructionRecord record{.at = s.time, .op = loop.op};
     for (std::size_t i = 0; i < op.instruction->operands; ++i)
       if (op.instruction->operand[i].role == Role::In) record.value[i] = peek(op, i);
     ++s.instructions;
     record.powered = !(op.power_mask & ~s.stack.bits());
     if (record.powered) {
       s.time += op.cost;
-      s.pc = op_ + 1;
-      op.body(*this, op);
+      s.pc = loop.op + 1;
+      op.body(core_, op);
     } else {
-      s.time += program_->no_power_flow;
+      s.time += core_.program().no_power_flow;
       s.pc = op.skip_to;
     }
     record.end = s.time;
     record.top = s.stack.top();
     for (std::size_t i = 0; i < op.instruction->operands; ++i)
       if (op.instruction->operand[i].role != Role::In) record.value[i] = peek(op, i);
-    sink_->instruction(record);
+    core_.sink()->instruction(record);
   }
 }
 
-bool Cpu::in_area(std::uint32_t at, std::uint32_t count) const {
-  if (at >= image::kV) return at + count <= image::kV + program_->model->size_of(Area::V);  // where most blocks lie
-  for (const AreaInfo& area : all_areas()) {
-    const std::uint32_t size = program_->model->size_of(area.area) * std::max(1u, area.element);
-    if (at >= area.base && at < area.base + size) return at + count <= area.base + size;
-  }
-  return false;
-}
+void Cpu::handle(const Event& event) { units::handle(core_, event.what, event.at); }
 
-bool Cpu::bits_in_area(const Operand& first, std::uint32_t count) const {
-  for (const AreaInfo& area : all_areas()) {
-    const std::uint32_t bits = program_->model->size_of(area.area) * (area.element ? 1 : 8);
-    if (area.bits == kNoBits) continue;
-    if (first.at < area.bits || first.at >= area.bits + (bits + 7) / 8) continue;
-    return (first.at - area.bits) * 8 + first.bit + count <= bits;
-  }
-  return false;
+void Cpu::character_received(const ReceivedCharacter& character, std::size_t port) {
+  freeport::character_received(core_, port, character);
 }
+void Cpu::character_sent(Time at, std::size_t port) { freeport::character_sent(core_, port, at); }
 
-void Cpu::clear_current_values(const Operand& first, std::uint32_t count) {
-  for (const AreaInfo& area : {info(Area::T), info(Area::C)}) {
-    if (first.at < area.bits || first.at >= area.bits + 32) continue;
-    const std::uint32_t number = (first.at - area.bits) * 8 + first.bit;
-    std::fill_n(s.image.begin() + area.base + number * 2, count * 2, std::uint8_t{0});
-    if (area.area == Area::T) turn_timers_off(number, count);
-  }
-}
+void Cpu::set_input(std::uint32_t byte, std::uint8_t value, Time at) { points::set_inputs(core_, byte, value, at); }
+
+void Cpu::set_clock(const ClockTime& to) { clock::set(core_, to); }
+ClockTime Cpu::clock() const { return clock::now(core_); }
 
 void Cpu::poke(std::uint32_t at, std::span<const std::uint8_t> bytes) {
-  std::copy(bytes.begin(), bytes.end(), s.image.begin() + at);
-  if (s.mode == Mode::Run) follow_port_control(s.time);
+  std::copy(bytes.begin(), bytes.end(), core_.s.image.begin() + at);
+  if (core_.s.mode == Mode::Run) freeport::follow_control(core_);
 }
 
 std::optional<std::uint32_t> Cpu::peek(const Op& op, std::size_t i) const {
@@ -118,121 +116,21 @@ std::optional<std::uint32_t> Cpu::peek(const Op& op, std::size_t i) const {
   const OperandRule& rule = op.instruction->operand[i];
   if (rule.kind != OperandKind::Memory) return operand.at;
   if (operand.pointer) {
-    const auto place = resolve(load32(&s.image[operand.at]), operand.width);
+    const auto place = core_.resolve(load32(&core_.s.image[operand.at]), operand.width);
     if (!place) return {};
     operand.at = *place;
   }
   switch (rule.width) {
     case Width::Bit:
-      return bit(operand);
+      return core_.bit(operand);
     case Width::Byte:
-      return get<std::uint8_t>(operand);
+      return core_.get<std::uint8_t>(operand);
     case Width::Word:
-      return get<std::uint16_t>(operand);
+      return core_.get<std::uint16_t>(operand);
     case Width::Double:
-      return get<std::uint32_t>(operand);
+      return core_.get<std::uint32_t>(operand);
   }
   return {};
-}
-
-/// A pointer operand is an offset computed first: the body then finds direct operands only.
-/// Not documented, modelled so: all pointers are followed before anything else is looked at, so that an instruction with a
-/// bad pointer and a bad count or range reports 0006. [Choices.ABadPointerIsReportedBeforeABadCountOrRange]
-static bool follow_pointer(Cpu& cpu, const Op& op, Operand& operand) {
-  const auto place = cpu.resolve(load32(&cpu.s.image[operand.at]), operand.width);
-  if (place) {
-    operand.at = *place;
-    return true;
-  }
-  if (op.instruction->structure == Structure::Compare)
-    cpu.compare_error(RunError::IndirectAddress, FatalError::CompareIndirect);
-  else
-    cpu.run_error(RunError::IndirectAddress);
-  return false;
-}
-
-void run_with_pointers(Cpu& cpu, const Op& op) {
-  Op direct = op;
-  for (Operand& operand : direct.operand)
-    if (operand.pointer && !follow_pointer(cpu, op, operand)) return;
-  op.direct_body()(cpu, direct);
-}
-
-void run_with_pointer_first(Cpu& cpu, const Op& op) {
-  Op direct = op;
-  if (follow_pointer(cpu, op, direct.operand[0])) op.direct_body()(cpu, direct);
-}
-
-void run_with_pointer_second(Cpu& cpu, const Op& op) {
-  Op direct = op;
-  if (follow_pointer(cpu, op, direct.operand[1])) op.direct_body()(cpu, direct);
-}
-
-void Cpu::run_error(RunError code) {
-  if (pause_at_error_) {
-    paused_ = true;
-    attend();
-  }
-  s.image[image::kSM4] |= 0x08;
-  ++s.error_count;
-  trace({.at = s.time, .kind = TraceKind::RuntimeError, .code = static_cast<std::uint16_t>(code), .op = current_op()});
-  for (RuntimeError& error : s.errors) {
-    if (error.count != 0 && (error.code != static_cast<std::uint16_t>(code) || error.op != current_op())) continue;
-    if (error.count == 0) error = {static_cast<std::uint16_t>(code), current_op(), 0, s.time};
-    ++error.count;
-    return;
-  }
-}
-
-void Cpu::fatal_error(FatalError code) {
-  s.fatal_code = static_cast<std::uint16_t>(code);
-  s.fatal_op = current_op();
-  trace({.at = s.time, .kind = TraceKind::FatalError, .code = s.fatal_code, .op = s.fatal_op});
-  enter_stop();
-}
-
-std::string_view meaning_of(RunError code) {
-  switch (code) {
-    case RunError::CounterNotDefined:
-      return "HSC before HDEF of that counter";
-    case RunError::PointTaken:
-      return "input interrupt attached to a point that a high-speed counter uses";
-    case RunError::InputTaken:
-      return "HDEF uses an input that an input interrupt is attached to";
-    case RunError::Clock:
-      return "TODW: the buffer holds no BCD";
-    case RunError::CounterDefinedTwice:
-      return "second HDEF for the same counter";
-    case RunError::CompareValue:
-      return "illegal value in a compare contact: not a real number (NaN)";
-    case RunError::EepromRange:
-      return "the V address to save lies outside the EEPROM";
-    case RunError::IndirectAddress:
-      return "indirect addressing error: the pointer leads outside the memory it may reach";
-    case RunError::CallDepth:
-      return "subroutines nested too deep";
-    case RunError::PortBusy:
-      return "XMT while port 0 is transmitting, or not in Freeport mode";
-    case RunError::OperandRange:
-      return "range error: the operand leaves its memory area";
-    case RunError::Count:
-      return "error in the count field of an instruction";
-    case RunError::FreeportInInterrupt:
-      return "attempt to switch to Freeport inside an interrupt routine";
-  }
-  return "unknown";
-}
-
-std::string_view meaning_of(FatalError code) {
-  switch (code) {
-    case FatalError::Watchdog:
-      return "scan watchdog: the scan took longer than 300 ms without WDR";
-    case FatalError::CompareIndirect:
-      return "indirect addressing error in a compare contact";
-    case FatalError::CompareValue:
-      return "illegal value in a compare contact: not a real number (NaN)";
-  }
-  return "unknown";
 }
 
 }  // namespace s7200

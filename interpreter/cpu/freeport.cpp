@@ -1,30 +1,16 @@
-// Port 0 in Freeport mode: SMB30, character reception (event 8), XMT (event 9). Facts 2.
-//
-// Not documented, modelled so:
-// - Transmit complete (event 9, SM4.5) comes with the end of the last stop bit.
-//   [Freeport.XmtSendsFromItsEndOnAndEvent9ComesWithTheEndOfTheLastStopBit]
-// - The transmit buffer is read character by character while sending. [Freeport.TheBufferIsReadWhileSending]
-// - The port does not hear itself: its receiver is off from XMT until transmit complete.
-//   [Freeport.TransmitterIdleIsZeroWhileSendingAndTheReceiverIsOff]
-// - SM3.0 shows parity errors only; a character with a bad stop bit is handed over as it was sampled.
-//   [Choices.ABadStopBitIsNoParityError]
-// - A character received while event 8 is not attached leaves SMB2 and SM3.0 alone.
-//   [Freeport.ACharacterThatNoRoutineWaitsForLeavesSMB2Alone]
-// - XMT while the port is not in Freeport mode is error 0009. [Freeport.XmtWithoutFreeportModeIs0009]
-// Not modelled: the PPI protocol. In PPI mode characters from the line are ignored.
-#include "interpreter/cpu/cpu.hpp"
+#include "interpreter/cpu/freeport.hpp"
+
+#include "interpreter/cpu/interrupts.hpp"
 
 namespace s7200 {
+namespace freeport {
 namespace {
 
-constexpr std::uint32_t kPortControl = image::kSM + 30;
-constexpr std::uint8_t kTransmitterIdle = 0x20;  // SM4.5
-constexpr int kBreakBits = 16;                   // A5E00066097-02, 9-189
-constexpr std::uint8_t kReceiveEvent = 8, kTransmitEvent = 9;
+constexpr int kBreakBits = 16;
 
 bool is_freeport(std::uint8_t control) { return (control & 3) == 1; }
 
-/// SMB30: p p d b b b m m.
+/// The control byte: p p d b b b m m.
 SerialFormat format_of(std::uint8_t control, const CpuModel& model) {
   static constexpr Parity kParity[] = {Parity::None, Parity::Even, Parity::None, Parity::Odd};
   return {.baud = model.baud[(control >> 2) & 7],
@@ -33,94 +19,128 @@ SerialFormat format_of(std::uint8_t control, const CpuModel& model) {
           .stop_bits = 1};
 }
 
+void take_control(Core& core, std::size_t number) {
+  Freeport& port = core.s.port[number];
+  port.control = core.s.image[kPorts[number].control];
+  port.active = is_freeport(port.control);
+  port.format = format_of(port.control, core.model());
+  core.port(number).configure(port.format);
+  core.port(number).enable_receiver(port.active && !port.transmitting, core.s.time);
+  core.trace({.at = core.s.time, .kind = TraceKind::PortControl, .byte = port.control});
+  core.attend();
+}
+
+/// The program has written the control byte, which was `before`.
+void control_written(Core& core, std::size_t number, std::uint8_t before) {
+  std::uint8_t& control = core.s.image[kPorts[number].control];
+  if (core.s.in_interrupt && is_freeport(control) && !is_freeport(before)) {
+    control = before;
+    return core.run_error(RunError::FreeportInInterrupt);
+  }
+  take_control(core, number);
+}
+
+void send_next_character(Core& core, std::size_t number, Time at) {
+  Freeport& port = core.s.port[number];
+  port.on_line = core.s.image[port.buffer];
+  core.port(number).send(port.on_line, at);
+  ++port.buffer;
+  --port.left;
+}
+
+std::array<std::uint8_t, kPorts.size()> control_bytes(const Core& core) {
+  std::array<std::uint8_t, kPorts.size()> bytes{};
+  for (std::size_t number = 0; number < kPorts.size(); ++number) bytes[number] = core.s.image[kPorts[number].control];
+  return bytes;
+}
+
 }  // namespace
 
-void run_with_port_control(Cpu& cpu, const Op& op) {
-  const std::uint8_t before = cpu.s.image[kPortControl];
-  if (op.has_pointer)
-    run_with_pointers(cpu, op);
+void transmit(Core& core, std::uint32_t number, std::uint32_t table) {
+  Freeport& port = core.s.port[number];
+  const std::uint8_t count = core.s.image[table];
+  if (!port.active || port.transmitting) return core.run_error(kPorts[number].busy);
+  if (!core.in_area(table, count + 1u)) return core.run_error(RunError::OperandRange);
+  port.transmitting = true;
+  port.buffer = table + 1;
+  port.left = count;
+  core.put_mask(sm::kInterruptStatus, kPorts[number].idle, false);
+  core.port(number).enable_receiver(false, core.s.time);
+  core.trace({.at = core.s.time, .kind = TraceKind::Transmit, .count = count});
+  port.sending_break = count == 0;
+  if (port.sending_break)
+    core.port(number).send_break(kBreakBits, core.s.time);
   else
-    op.instruction->body(cpu, op);
-  if (cpu.s.image[kPortControl] != before) cpu.port_control_written(before);
+    send_next_character(core, number, core.s.time);
+  core.attend();
 }
 
-void Cpu::port_control_written(std::uint8_t before) {
-  std::uint8_t& control = s.image[kPortControl];
-  if (s.in_interrupt && is_freeport(control) && !is_freeport(before)) {
-    control = before;
-    return run_error(RunError::FreeportInInterrupt);
+void character_sent(Core& core, std::size_t number, Time at) {
+  Freeport& port = core.s.port[number];
+  if (!port.transmitting) return;
+  if (!port.sending_break) core.trace({.at = at, .kind = TraceKind::CharacterSent, .byte = port.on_line});
+  if (port.left != 0) return send_next_character(core, number, at);
+  port.transmitting = false;
+  core.put_mask(sm::kInterruptStatus, kPorts[number].idle, true);
+  core.port(number).enable_receiver(port.active, at);
+  core.trace({.at = at, .kind = TraceKind::TransmitEnd});
+  interrupts::occurred(core, kPorts[number].sent, at);
+}
+
+void character_received(Core& core, std::size_t number, const ReceivedCharacter& character) {
+  const std::uint8_t event = kPorts[number].received;
+  const bool heard = core.s.port[number].active && core.s.attached[event] != kNotAttached;
+  core.trace({.at = character.end,
+              .kind = heard ? TraceKind::CharacterReceived : TraceKind::CharacterIgnored,
+              .byte = character.byte,
+              .parity_error = character.parity_error,
+              .framing_error = character.framing_error,
+              .since = character.start});
+  if (heard) interrupts::occurred(core, event, character.end, character.byte, character.parity_error);
+}
+
+void follow_control(Core& core) {
+  for (std::size_t number = 0; number < kPorts.size(); ++number) {
+    const std::uint8_t control = core.s.image[kPorts[number].control];
+    const Freeport& port = core.s.port[number];
+    if (control != port.control || port.active != is_freeport(control)) take_control(core, number);
   }
-  take_port_control(s.time);
 }
 
-void Cpu::follow_port_control(Time at) {
-  const bool open = is_freeport(s.image[kPortControl]);
-  if (s.image[kPortControl] != s.port.control || s.port.active != open) take_port_control(at);
-}
-
-void Cpu::take_port_control(Time at) {
-  s.port.control = s.image[kPortControl];
-  s.port.active = is_freeport(s.port.control);
-  s.port.format = format_of(s.port.control, *program_->model);
-  port_.configure(s.port.format);
-  port_.enable_receiver(s.port.active && !s.port.transmitting, at);
-  trace({.at = at, .kind = TraceKind::PortControl, .byte = s.port.control});
-  attend();
+/// All transmitters are idle, that of a port that the CPU does not have too.
+void power_up(Core& core, const RetentiveMemory*) {
+  core.put_mask(sm::kInterruptStatus, sm::kPort0Idle | sm::kPort1Idle, true);
 }
 
 /// In STOP the port falls back to PPI (facts 2.1).
-void Cpu::close_port() {
-  s.port.active = false;
-  s.port.transmitting = false;
-  s.image[image::kSM4] |= kTransmitterIdle;
-  port_.enable_receiver(false, s.time);
+void enter_stop(Core& core) {
+  for (std::size_t number = 0; number < kPorts.size(); ++number) {
+    core.s.port[number].active = false;
+    core.s.port[number].transmitting = false;
+    core.put_mask(sm::kInterruptStatus, kPorts[number].idle, true);
+    core.port(number).enable_receiver(false, core.s.time);
+  }
 }
 
-void Cpu::transmit(std::uint32_t table) {
-  const std::uint8_t count = s.image[table];
-  if (!s.port.active || s.port.transmitting) return run_error(RunError::PortBusy);
-  if (!in_area(table, count + 1u)) return run_error(RunError::OperandRange);
-  s.port.transmitting = true;
-  s.port.buffer = table + 1;
-  s.port.left = count;
-  s.image[image::kSM4] &= static_cast<std::uint8_t>(~kTransmitterIdle);
-  port_.enable_receiver(false, s.time);
-  trace({.at = s.time, .kind = TraceKind::Transmit, .count = count});
-  s.port.sending_break = count == 0;
-  if (s.port.sending_break)
-    port_.send_break(kBreakBits, s.time);
+/// SMB2 and SM3.0 get the character just before its routine starts (S7-200 manual C233-01, 9-188).
+void begin_service(Core& core, const QueuedInterrupt& interrupt) {
+  for (const PortInfo& port : kPorts) {
+    if (interrupt.event != port.received) continue;
+    core.s.image[sm::kReceivedCharacter] = interrupt.byte;
+    core.put_mask(sm::kReceiveStatus, sm::kParityError, interrupt.parity_error);
+  }
+}
+
+}  // namespace freeport
+
+void run_with_port_control(Core& core, const Op& op) {
+  const auto before = freeport::control_bytes(core);
+  if (op.has_pointer)
+    run_with_pointers(core, op);
   else
-    send_next_character(s.time);
-  attend();
-}
-
-void Cpu::send_next_character(Time at) {
-  s.port.on_line = s.image[s.port.buffer];
-  port_.send(s.port.on_line, at);
-  ++s.port.buffer;
-  --s.port.left;
-}
-
-void Cpu::character_sent(Time at) {
-  if (!s.port.transmitting) return;
-  if (!s.port.sending_break) trace({.at = at, .kind = TraceKind::CharacterSent, .byte = s.port.on_line});
-  if (s.port.left != 0) return send_next_character(at);
-  s.port.transmitting = false;
-  s.image[image::kSM4] |= kTransmitterIdle;
-  port_.enable_receiver(s.port.active, at);
-  trace({.at = at, .kind = TraceKind::TransmitEnd});
-  occurred(kTransmitEvent, at);
-}
-
-void Cpu::character_received(const ReceivedCharacter& character) {
-  const bool heard = s.port.active && s.attached[kReceiveEvent] != kNotAttached;
-  trace({.at = character.end,
-         .kind = heard ? TraceKind::CharacterReceived : TraceKind::CharacterIgnored,
-         .byte = character.byte,
-         .parity_error = character.parity_error,
-         .framing_error = character.framing_error,
-         .since = character.start});
-  if (heard) occurred(kReceiveEvent, character.end, character.byte, character.parity_error);
+    op.instruction->body(core, op);
+  for (std::size_t number = 0; number < kPorts.size(); ++number)
+    if (core.s.image[kPorts[number].control] != before[number]) freeport::control_written(core, number, before[number]);
 }
 
 }  // namespace s7200

@@ -1,76 +1,82 @@
-// Interrupts: attaching, queues, priority, entry and return (S7-200 manual C230-02, 10-120; facts 3).
+#include "interpreter/cpu/interrupts.hpp"
+
 #include <algorithm>
 
-#include "interpreter/cpu/cpu.hpp"
+#include "interpreter/cpu/high_speed_counters.hpp"
+#include "interpreter/cpu/units.hpp"
 
-namespace s7200 {
+namespace s7200::interrupts {
 namespace {
 
-constexpr std::uint8_t kTimed0 = 10;
-constexpr std::uint8_t kCharacterReceived = 8;
+constexpr int kEdgeInputs = 4;  // I0.0–I0.3
 
-bool is_timed(std::uint8_t event) { return event == kTimed0 || event == kTimed0 + 1; }
+bool is_timed(std::uint8_t event) { return event == event::kTimed0 || event == event::kTimed1; }
+
+/// The overflow bits go when the queues are empty and the main program goes on (S7-200 manual C230-02, 10-120).
+void forget_overflow_if_idle(Core& core) {
+  if (core.s.waiting == 0 && !core.s.in_interrupt) core.put_mask(sm::kInterruptStatus, sm::kQueueOverflow, false);
+}
+
+/// The first of the highest group that has any.
+QueuedInterrupt next_queued(State& s) {
+  const auto queue = std::find_if(s.queue.begin(), s.queue.end(), [](const InterruptQueue& q) { return q.count != 0; });
+  const QueuedInterrupt first = queue->entry[0];
+  std::copy(queue->entry.begin() + 1, queue->entry.begin() + queue->count, queue->entry.begin());
+  queue->entry[--queue->count] = {};
+  --s.waiting;
+  return first;
+}
 
 }  // namespace
 
-void Cpu::attach(std::uint8_t event, std::uint8_t routine) {
-  if (counter_uses(event)) return run_error(RunError::PointTaken);
-  s.attached[event] = routine;
+void attach(Core& core, std::uint8_t event, std::uint8_t routine) {
+  if (high_speed_counters::use_event(core, event)) return core.run_error(RunError::PointTaken);
+  core.s.attached[event] = routine;
   Time interval = 0;
   if (is_timed(event)) {
-    const std::uint8_t timer = event - kTimed0;
-    interval = std::max(s.image[image::kSM + 34 + timer] * kMillisecond, program_->model->shortest_timed_interval);
-    s.timed_interval[timer] = interval;
-    queue_.schedule(s.time + interval, EventOwner::Cpu, timer);
-    attend();
+    const std::uint8_t timer = event - event::kTimed0;
+    interval = std::max(core.s.image[sm::kTimedInterval[timer]] * kMillisecond, core.model().shortest_timed_interval);
+    core.s.timed_interval[timer] = interval;
+    core.schedule(core.s.time + interval, kTimedInterrupt0 + timer);
+    core.attend();
   }
-  trace({.at = s.time, .kind = TraceKind::Attach, .event = event, .routine = routine, .interval = interval});
+  core.trace({.at = core.s.time, .kind = TraceKind::Attach, .event = event, .routine = routine, .interval = interval});
 }
 
-void Cpu::detach(std::uint8_t event) {
+void detach(Core& core, std::uint8_t event) {
+  State& s = core.s;
   s.attached[event] = kNotAttached;
-  if (is_timed(event)) queue_.cancel(EventOwner::Cpu, event - kTimed0);
-  trace({.at = s.time, .kind = TraceKind::Detach, .event = event});
+  if (is_timed(event)) core.cancel(kTimedInterrupt0 + event - event::kTimed0);
+  core.trace({.at = s.time, .kind = TraceKind::Detach, .event = event});
   InterruptQueue& queue = s.queue[static_cast<std::size_t>(find_event(event)->queue)];
   const auto begin = queue.entry.begin(), end = begin + queue.count;
   for (auto entry = begin; entry != end; ++entry)
-    if (entry->event == event) trace({.at = s.time, .kind = TraceKind::EventDropped, .event = event, .since = entry->at});
+    if (entry->event == event)
+      core.trace({.at = s.time, .kind = TraceKind::EventDropped, .event = event, .since = entry->at});
   const auto kept = std::remove_if(begin, end, [&](const QueuedInterrupt& q) { return q.event == event; });
   std::fill(kept, end, QueuedInterrupt{});
   s.waiting = static_cast<std::uint8_t>(s.waiting - (end - kept));
   queue.count = static_cast<std::uint8_t>(kept - begin);
-  forget_overflow_if_idle();
+  forget_overflow_if_idle(core);
 }
 
-/// The overflow bits go when the queues are empty and the main program goes on (S7-200 manual C230-02, 10-120).
-void Cpu::forget_overflow_if_idle() {
-  if (s.waiting == 0 && !s.in_interrupt) s.image[image::kSM4] &= 0xF8;
-}
-
-void Cpu::enable_interrupts(bool enabled) {
-  s.interrupts_enabled = enabled;
-  s.image[image::kSM4] = static_cast<std::uint8_t>((s.image[image::kSM4] & ~0x10) | (enabled ? 0x10 : 0));
-  attend();
-}
-
-void Cpu::handle(const Event& event) {
-  if (event.what == kTick1ms) return tick_1ms_timers(event.at);
-  if (event.what >= kPulse0) return continue_pulses(event.what - kPulse0, event.at);
-  const auto number = static_cast<std::uint8_t>(kTimed0 + event.what);
-  queue_.schedule(event.at + s.timed_interval[event.what], EventOwner::Cpu, event.what);
-  occurred(number, event.at);
+void enable(Core& core, bool enabled) {
+  core.s.interrupts_enabled = enabled;
+  core.put_mask(sm::kInterruptStatus, sm::kInterruptsEnabled, enabled);
+  core.attend();
 }
 
 /// First come, first served (S7-200 manual C230-02, 10-120); what comes at the same instant waits in the order of the list
 /// of events (facts 3.1).
-void Cpu::occurred(std::uint8_t event, Time at, std::uint8_t byte, bool parity_error) {
+void occurred(Core& core, std::uint8_t event, Time at, std::uint8_t byte, bool parity_error) {
+  State& s = core.s;
   const std::uint8_t routine = event < kEvents ? s.attached[event] : kNotAttached;
   if (routine == kNotAttached || s.mode != Mode::Run || s.stop_after_scan) return;
   const auto group = static_cast<std::size_t>(find_event(event)->queue);
   InterruptQueue& queue = s.queue[group];
-  if (queue.count == program_->model->queue_depth[group]) {
-    s.image[image::kSM4] |= static_cast<std::uint8_t>(1u << group);  // SM4.0–SM4.2
-    trace({.at = at, .kind = TraceKind::EventLost, .event = event, .routine = routine, .byte = byte});
+  if (queue.count == core.model().queue_depth[group]) {
+    s.image[sm::kInterruptStatus] |= static_cast<std::uint8_t>(1u << group);  // one of kQueueOverflow
+    core.trace({.at = at, .kind = TraceKind::EventLost, .event = event, .routine = routine, .byte = byte});
     return;
   }
   const auto end = queue.entry.begin() + queue.count++;
@@ -80,56 +86,75 @@ void Cpu::occurred(std::uint8_t event, Time at, std::uint8_t byte, bool parity_e
   std::move_backward(place, end, end + 1);
   *place = {at, event, byte, parity_error};
   ++s.waiting;
-  trace({.at = at, .kind = TraceKind::EventOccurred, .event = event, .routine = routine});
+  core.trace({.at = at, .kind = TraceKind::EventOccurred, .event = event, .routine = routine});
 }
 
-/// The first of the highest group that has any.
-QueuedInterrupt Cpu::next_queued() {
-  const auto queue = std::find_if(s.queue.begin(), s.queue.end(), [](const InterruptQueue& q) { return q.count != 0; });
-  const QueuedInterrupt first = queue->entry[0];
-  std::copy(queue->entry.begin() + 1, queue->entry.begin() + queue->count, queue->entry.begin());
-  queue->entry[--queue->count] = {};
-  --s.waiting;
-  return first;
-}
-
-void Cpu::take_interrupt() {
-  const QueuedInterrupt interrupt = next_queued();
-  s.saved = {s.pc, s.stack, s.rail, {}, s.image[image::kSM1]};
+void take(Core& core) {
+  State& s = core.s;
+  const QueuedInterrupt interrupt = next_queued(s);
+  s.saved = {s.pc, s.stack, s.rail, {}, s.image[sm::kFlags]};
   std::copy_n(s.image.begin() + image::kAC, s.saved.accumulators.size(), s.saved.accumulators.begin());
-  if (interrupt.event == kCharacterReceived) {  // just before the routine starts (S7-200 manual C233-01, 9-188)
-    s.image[image::kSM + 2] = interrupt.byte;
-    put_bit(image::kSM + 3, 0, interrupt.parity_error);
-  }
+  units::begin_service(core, interrupt);
   s.in_interrupt = true;
   s.serving_event = interrupt.event;
   s.serving_routine = s.attached[interrupt.event];
   s.serving_since = s.time;
   s.stack = LogicStack::on_entry();
   s.rail = true;
-  s.pc = program_->interrupt[s.serving_routine];
-  trace({.at = s.time,
-         .kind = TraceKind::ServiceBegin,
-         .event = s.serving_event,
-         .routine = s.serving_routine,
-         .since = interrupt.at});
-  s.time += program_->interrupt_entry;
+  s.pc = core.program().interrupt[s.serving_routine];
+  core.trace({.at = s.time,
+              .kind = TraceKind::ServiceBegin,
+              .event = s.serving_event,
+              .routine = s.serving_routine,
+              .since = interrupt.at});
+  s.time += core.program().interrupt_entry;
 }
 
-void Cpu::return_from_interrupt() {
-  trace({.at = s.time,
-         .kind = TraceKind::ServiceEnd,
-         .event = s.serving_event,
-         .routine = s.serving_routine,
-         .since = s.serving_since});
+void return_from(Core& core) {
+  State& s = core.s;
+  core.trace({.at = s.time,
+              .kind = TraceKind::ServiceEnd,
+              .event = s.serving_event,
+              .routine = s.serving_routine,
+              .since = s.serving_since});
   s.in_interrupt = false;
   s.pc = s.saved.return_to;
   s.stack = s.saved.stack;
   s.rail = s.saved.rail;
   std::copy(s.saved.accumulators.begin(), s.saved.accumulators.end(), s.image.begin() + image::kAC);
-  s.image[image::kSM1] = s.saved.smb1;
-  forget_overflow_if_idle();
-  attend();
+  s.image[sm::kFlags] = s.saved.smb1;
+  forget_overflow_if_idle(core);
+  core.attend();
 }
 
-}  // namespace s7200
+void drop_all(Core& core) {
+  core.s.queue = {};
+  core.s.waiting = 0;
+  core.s.interrupts_enabled = false;
+  core.put_mask(sm::kInterruptStatus, sm::kInterruptsEnabled, false);
+}
+
+void enter_stop(Core& core) {
+  core.s.attached = nothing_attached();
+  for (const std::uint8_t timed : {kTimedInterrupt0, kTimedInterrupt1}) core.cancel(timed);
+  drop_all(core);
+  core.put_mask(sm::kInterruptStatus, sm::kQueueOverflow, false);
+}
+
+/// Events 0–7: rising and falling edges of I0.0–I0.3.
+void inputs_changed(Core& core, std::uint32_t byte, std::uint8_t changed, Time at) {
+  for (std::uint8_t point = 0; byte == 0 && point < kEdgeInputs; ++point) {
+    if (!(changed >> point & 1)) continue;
+    const bool now = core.s.image[image::kInputs] >> point & 1;
+    occurred(core, static_cast<std::uint8_t>((now ? event::kI00Rises : event::kI00Falls) + 2 * point), at);
+  }
+}
+
+/// A timed interrupt is due.
+void handle(Core& core, std::uint8_t what, Time at) {
+  const auto timer = static_cast<std::uint8_t>(what - kTimedInterrupt0);
+  core.schedule(at + core.s.timed_interval[timer], what);
+  occurred(core, static_cast<std::uint8_t>(event::kTimed0 + timer), at);
+}
+
+}  // namespace s7200::interrupts

@@ -1,107 +1,102 @@
-// Pulse outputs Q0.0 and Q0.1: PLS, SMB66–85, events 19 and 20 (facts 3.1, 4.5).
-//
-//   SMB67, 77   .0 take cycle time  .1 take pulse width  .2 take pulse count  .3 ms instead of µs  .6 PWM instead of PTO
-//               .7 enabled
-//   SMB66, 76   .6 pulse train overflow  .7 pulse train idle
-//   SMW68, 78   cycle time      SMW70, 80   pulse width      SMD72, 82   pulse count
-//
-// A cycle time below 2 units counts as 2 units, a pulse count of 0 as 1. A width of 0 is off, one of the whole cycle or more
-// is on. PLS with .7 = 0 ends either at once (S7-200 manual C233-01, 9-50). PLS during a pulse train puts one more train in
-// line; a further one sets the overflow bit and is not taken (9-52).
-//
-// Not documented, modelled so:
-// - A pulse begins with its 1 half; an odd cycle time makes the 1 half the shorter one.
-//   [PulseOutput.AnOddCycleHasItsShorterHalfFirst]
-// - PLS during PWM takes effect at once, with the beginning of a cycle: a CPU 21x has no synchronous update (SM67.4).
-//   [PulseOutput.PlsDuringPwmBeginsANewCycleAtOnce]
-// - Once pulses have ended, their point follows its image from the end of the scan on.
-//   [PulseOutput.PlsWithoutEnableEndsItAtOnceAndTheImageHasThePointAgain]
+#include "interpreter/cpu/pulse_outputs.hpp"
+
 #include <algorithm>
 
-#include "interpreter/cpu/cpu.hpp"
+#include "interpreter/cpu/interrupts.hpp"
+#include "interpreter/cpu/points.hpp"
+#include "interpreter/cpu/units.hpp"
 
-namespace s7200 {
+namespace s7200::pulse_outputs {
 namespace {
 
-constexpr std::uint32_t status_of(std::uint8_t output) { return image::kSM + 66 + 10u * output; }
-constexpr std::uint8_t kOverflowBit = 6, kIdleBit = 7;
+using namespace sm::pulses;
 
-enum Control : std::uint8_t { kTakeCycle = 1, kTakeWidth = 2, kTakeCount = 4, kMilliseconds = 8, kPwm = 64, kEnable = 128 };
+constexpr std::uint8_t event_of(std::uint8_t output) { return static_cast<std::uint8_t>(kPulse0 + output); }
+
+/// PTO: half the cycle, in whole units. PWM: the width, all or nothing of the cycle at its ends.
+Time high_time(const PulseTrain& train) {
+  return train.pwm ? std::min(train.width, train.cycle) : train.cycle / train.unit / 2 * train.unit;
+}
+
+void begin_pulse(Core& core, std::uint8_t output, Time at) {
+  const PulseTrain& train = core.s.pulse[output].train;
+  const Time high = high_time(train);
+  core.s.pulse[output].cycle_end = at + train.cycle;
+  points::put_output(core, 0, output, high > 0, at);
+  core.schedule(high > 0 ? at + high : at + train.cycle, event_of(output));
+  core.attend();
+}
+
+void start(Core& core, std::uint8_t output, const PulseTrain& train, Time at) {
+  PulseOutput& pulses = core.s.pulse[output];
+  pulses.train = train;
+  pulses.running = true;
+  pulses.has_next = false;
+  pulses.left = train.count;
+  core.put_mask(kStatus[output], kIdle, train.pwm);
+  begin_pulse(core, output, at);
+}
+
+void end(Core& core, std::uint8_t output) {
+  core.s.pulse[output].running = core.s.pulse[output].has_next = false;
+  core.cancel(event_of(output));
+  core.put_mask(kStatus[output], kIdle, true);
+}
 
 }  // namespace
 
-void Cpu::program_pulses(std::uint8_t output) {
-  PulseOutput& pulses = s.pulse[output];
-  const std::uint8_t* sm = &s.image[status_of(output)];
-  const std::uint8_t control = sm[1];
-  if (!(control & kEnable)) return end_pulses(output);
+void program(Core& core, std::uint8_t output) {
+  PulseOutput& pulses = core.s.pulse[output];
+  const std::uint8_t* const sm = &core.s.image[kStatus[output]];
+  const std::uint8_t control = sm[kControl];
+  if (!(control & kEnable)) return end(core, output);
 
   const Time unit = control & kMilliseconds ? kMillisecond : kMicrosecond;
   PulseTrain train = pulses.last;
   train.pwm = control & kPwm;
   if (control & kTakeCycle) {
     train.unit = unit;
-    train.cycle = std::max<Time>(load16(sm + 2), 2) * unit;
+    train.cycle = std::max<Time>(load16(sm + kCycleTime), 2) * unit;
   }
-  if (control & kTakeWidth) train.width = load16(sm + 4) * unit;
-  if (control & kTakeCount) train.count = std::max(load32(sm + 6), 1u);
+  if (control & kTakeWidth) train.width = load16(sm + kPulseWidth) * unit;
+  if (control & kTakeCount) train.count = std::max(load32(sm + kPulseCount), 1u);
 
   const bool in_train = pulses.running && !pulses.train.pwm;
-  if (in_train && pulses.has_next) {
-    put_bit(status_of(output), kOverflowBit, true);
-    return;
-  }
+  if (in_train && pulses.has_next) return core.put_mask(kStatus[output], kTrainOverflow, true);
   pulses.last = train;
-  if (!in_train) return start_pulses(output, train, s.time);
+  if (!in_train) return start(core, output, train, core.s.time);
   pulses.next = train;
   pulses.has_next = true;
 }
 
-void Cpu::start_pulses(std::uint8_t output, const PulseTrain& train, Time at) {
-  PulseOutput& pulses = s.pulse[output];
-  pulses.train = train;
-  pulses.running = true;
-  pulses.has_next = false;
-  pulses.left = train.count;
-  put_bit(status_of(output), kIdleBit, train.pwm);
-  begin_pulse(output, at);
+bool drive(const Core& core, std::uint32_t byte, std::uint8_t bit) {
+  return byte == 0 && bit < core.s.pulse.size() && core.s.pulse[bit].running;
 }
 
-/// PTO: half the cycle, in whole units. PWM: the width, all or nothing of the cycle at its ends.
-Time Cpu::high_time(const PulseTrain& train) {
-  return train.pwm ? std::min(train.width, train.cycle) : train.cycle / train.unit / 2 * train.unit;
+void power_up(Core& core, const RetentiveMemory*) {
+  for (const std::uint32_t status : kStatus) core.s.image[status] = kIdle;
 }
 
-void Cpu::begin_pulse(std::uint8_t output, Time at) {
-  const PulseTrain& train = s.pulse[output].train;
-  const Time high = high_time(train);
-  s.pulse[output].cycle_end = at + train.cycle;
-  put_output_point(0, output, high > 0, at);
-  queue_.schedule(high > 0 ? at + high : at + train.cycle, EventOwner::Cpu, static_cast<std::uint8_t>(kPulse0 + output));
-  attend();
+void enter_stop(Core& core) {
+  for (std::uint8_t output = 0; output < core.s.pulse.size(); ++output)
+    if (core.s.pulse[output].running) end(core, output);
 }
 
 /// The falling edge of a pulse, or the end of its cycle.
-void Cpu::continue_pulses(std::uint8_t output, Time at) {
-  PulseOutput& pulses = s.pulse[output];
+void handle(Core& core, std::uint8_t what, Time at) {
+  const auto output = static_cast<std::uint8_t>(what - kPulse0);
+  PulseOutput& pulses = core.s.pulse[output];
   if (at < pulses.cycle_end) {
-    put_output_point(0, output, false, at);
-    queue_.schedule(pulses.cycle_end, EventOwner::Cpu, static_cast<std::uint8_t>(kPulse0 + output));
+    points::put_output(core, 0, output, false, at);
+    core.schedule(pulses.cycle_end, what);
     return;
   }
-  if (pulses.train.pwm || --pulses.left > 0) return begin_pulse(output, at);
-  const bool has_next = pulses.has_next;
-  if (has_next)
-    start_pulses(output, pulses.next, at);
+  if (pulses.train.pwm || --pulses.left > 0) return begin_pulse(core, output, at);
+  if (pulses.has_next)
+    start(core, output, pulses.next, at);
   else
-    end_pulses(output);
-  occurred(static_cast<std::uint8_t>(19 + output), at);
+    end(core, output);
+  interrupts::occurred(core, static_cast<std::uint8_t>(event::kPulses0Complete + output), at);
 }
 
-void Cpu::end_pulses(std::uint8_t output) {
-  s.pulse[output].running = s.pulse[output].has_next = false;
-  queue_.cancel(EventOwner::Cpu, static_cast<std::uint8_t>(kPulse0 + output));
-  put_bit(status_of(output), kIdleBit, true);
-}
-
-}  // namespace s7200
+}  // namespace s7200::pulse_outputs

@@ -8,6 +8,7 @@
 #include "interpreter/base/time.hpp"
 #include "interpreter/model/area.hpp"
 #include "interpreter/model/cpu_model.hpp"
+#include "interpreter/model/ports.hpp"
 
 namespace s7200 {
 
@@ -52,7 +53,7 @@ struct CallFrame {
 struct QueuedInterrupt {
   Time at = 0;  ///< when it occurred
   std::uint8_t event = 0;
-  std::uint8_t byte = 0;      ///< the character of event 8, for SMB2
+  std::uint8_t byte = 0;      ///< the character of a port's receive event, for SMB2
   bool parity_error = false;  ///< for SM3.0
   bool operator==(const QueuedInterrupt&) const = default;
 };
@@ -75,8 +76,16 @@ struct SavedContext {
 
 inline constexpr std::uint8_t kNotAttached = 0xFF;
 
+/// The routine of each event, by its number.
+using Attachments = std::array<std::uint8_t, kEvents>;
+constexpr Attachments nothing_attached() {
+  Attachments attached{};
+  attached.fill(kNotAttached);
+  return attached;
+}
+
 struct Freeport {
-  std::uint8_t control = 0;  ///< SMB30 as last taken over
+  std::uint8_t control = 0;  ///< the control byte as last taken over
   bool active = false;       ///< Freeport mode, in RUN
   bool transmitting = false;
   bool sending_break = false;
@@ -126,9 +135,6 @@ struct ClockTime {
   bool operator==(const ClockTime&) const = default;
 };
 
-/// The time of day so much later, in whole seconds.
-ClockTime clock_after(const ClockTime& from, Time time);
-
 /// A run-time error: code, the instruction, how often, when first.
 struct RuntimeError {
   std::uint16_t code = 0;
@@ -159,12 +165,12 @@ struct State {
   SavedContext saved{};
   std::uint8_t serving_event = 0, serving_routine = 0;
   Time serving_since = 0;
-  std::array<std::uint8_t, kEvents> attached{};
+  Attachments attached = nothing_attached();
   std::array<InterruptQueue, kQueues> queue{};
   std::uint8_t waiting = 0;              ///< queued interrupts over all queues
   std::array<Time, 2> timed_interval{};  ///< of events 10 and 11, captured by ATCH
 
-  Freeport port{};
+  std::array<Freeport, kPorts.size()> port{};
 
   std::array<TimerState, 256> timer{};
   Time previous_scan_begin = 0;

@@ -1,10 +1,11 @@
-// Timers of 1, 10 and 100 ms (facts 6.4): who adds the ticks, and when (S7-200 manual C230-02, 10-14 and 10-15).
-// Not documented, modelled so: no timer counts in STOP. [Timer.InStopNoTimerCounts]
+#include "interpreter/cpu/timers.hpp"
+
 #include <algorithm>
 
-#include "interpreter/cpu/cpu.hpp"
+#include "interpreter/cpu/interrupts.hpp"
+#include "interpreter/cpu/units.hpp"
 
-namespace s7200 {
+namespace s7200::timers {
 namespace {
 
 /// Ticks of a time base in a scan. Beyond 25 s a scan loses them (A5E00066097-02, 9-146).
@@ -13,62 +14,82 @@ std::int64_t ticks(Time base, Time from, Time to) {
   return std::min(to / base - from / base, kLongest / base);
 }
 
-}  // namespace
-
-void Cpu::add_ticks(std::uint32_t timer, std::int64_t ticks) {
-  std::uint8_t* const current = &s.image[image::kT + 2 * timer];
+void add_ticks(Core& core, std::uint32_t timer, std::int64_t ticks) {
+  std::uint8_t* const current = &core.s.image[image::kT + 2 * timer];
   const std::int64_t value = std::min<std::int64_t>(static_cast<std::int16_t>(load16(current)) + ticks, 32767);
   store16(current, static_cast<std::uint16_t>(value));
-  put_bit(image::kTBits + timer / 8, static_cast<std::uint8_t>(timer % 8), value >= s.timer[timer].preset);
+  core.put_bit(image::kTBits + timer / 8, static_cast<std::uint8_t>(timer % 8), value >= core.s.timer[timer].preset);
 }
 
-void Cpu::execute_timer(std::uint32_t number, bool enabled, std::int16_t preset, bool retentive) {
+void await_tick_1ms(Core& core, Time from) {
+  core.s.next_tick_1ms = (from / kMillisecond + 1) * kMillisecond;
+  core.schedule(core.s.next_tick_1ms, kTick1ms);
+  core.attend();
+}
+
+void turn_off(State& s, std::uint32_t first, std::uint32_t count) {
+  for (std::uint32_t number = first; number < first + count; ++number)
+    if (timer_base(number).base < 100 * kMillisecond) s.timer[number].enabled = false;
+}
+
+}  // namespace
+
+void execute(Core& core, std::uint32_t number, bool enabled, std::int16_t preset, bool retentive) {
+  State& s = core.s;
   TimerState& timer = s.timer[number];
   const bool was_enabled = timer.enabled;
   const Time base = timer_base(number).base;
   timer = {preset, enabled, was_enabled ? timer.since : s.time};
   if (!enabled && retentive) return;
   if (!retentive && !(enabled && was_enabled)) store16(&s.image[image::kT + 2 * number], 0);
-  if (!enabled) return put_bit(image::kTBits + number / 8, static_cast<std::uint8_t>(number % 8), false);
-  add_ticks(number, was_enabled && base == 100 * kMillisecond ? s.ticks_100ms : 0);
-  if (base == kMillisecond && s.next_tick_1ms == kNever) await_tick_1ms(s.time);
+  if (!enabled) return core.put_bit(image::kTBits + number / 8, static_cast<std::uint8_t>(number % 8), false);
+  add_ticks(core, number, was_enabled && base == 100 * kMillisecond ? s.ticks_100ms : 0);
+  if (base == kMillisecond && s.next_tick_1ms == kNever) await_tick_1ms(core, s.time);
 }
 
-/// R: a timer of 1 or 10 ms stands still until its instruction is executed with power flow again; one of 100 ms counts in
-/// its instruction, with which it goes on (S7-200 manual C230-02, 10-14 and 10-15).
-void Cpu::turn_timers_off(std::uint32_t first, std::uint32_t count) {
-  for (std::uint32_t number = first; number < first + count; ++number)
-    if (timer_base(number).base < 100 * kMillisecond) s.timer[number].enabled = false;
+void clear_current_values(Core& core, const Operand& first, std::uint32_t count) {
+  for (const AreaInfo& area : {info(Area::T), info(Area::C)}) {
+    if (first.at < area.bits || first.at >= area.bits + 32) continue;
+    const std::uint32_t number = (first.at - area.bits) * 8 + first.bit;
+    std::fill_n(core.s.image.begin() + area.base + number * 2, count * 2, std::uint8_t{0});
+    if (area.area == Area::T) turn_off(core.s, number, count);
+  }
 }
 
-void Cpu::await_tick_1ms(Time from) {
-  s.next_tick_1ms = (from / kMillisecond + 1) * kMillisecond;
-  queue_.schedule(s.next_tick_1ms, EventOwner::Cpu, kTick1ms);
-  attend();
+/// Both inputs of each counter have been 1, so that one that is 1 at its first execution has not risen.
+void power_up(Core& core, const RetentiveMemory*) { core.s.counter_inputs.fill(3); }
+
+void enter_stop(Core& core) {
+  core.cancel(kTick1ms);
+  core.s.next_tick_1ms = kNever;
 }
 
 /// 10 ms timers hold still during a scan; 100 ms timers add the ticks of the previous scan when they are executed.
-void Cpu::update_timers_at_scan_begin() {
+void begin_scan(Core& core) {
+  State& s = core.s;
+  if (!core.program().uses_timers) return;
   const Time from = s.previous_scan_begin, to = s.time;
   s.previous_scan_begin = to;
   s.ticks_100ms = static_cast<std::int16_t>(ticks(100 * kMillisecond, from, to));
-  for (const std::uint8_t timer : program_->timers_10ms)
-    if (s.timer[timer].enabled) add_ticks(timer, ticks(10 * kMillisecond, from, to));
+  for (const std::uint8_t timer : core.program().timers_10ms)
+    if (s.timer[timer].enabled) add_ticks(core, timer, ticks(10 * kMillisecond, from, to));
 }
 
-void Cpu::tick_1ms_timers(Time at) {
+/// A millisecond has passed.
+void handle(Core& core, std::uint8_t, Time at) {
+  State& s = core.s;
   s.next_tick_1ms = kNever;
   bool any = false;
-  for (const std::uint8_t timer : program_->timers_1ms) {
+  for (const std::uint8_t timer : core.program().timers_1ms) {
     if (!s.timer[timer].enabled) continue;
     any = true;
     if (s.timer[timer].since >= at) continue;
-    add_ticks(timer, 1);
+    add_ticks(core, timer, 1);
     const bool reached = static_cast<std::int16_t>(load16(&s.image[image::kT + 2u * timer])) == s.timer[timer].preset;
-    if (reached && timer == 32) occurred(21, at);
-    if (reached && timer == 96) occurred(22, at);
+    if (reached && timer == 32) interrupts::occurred(core, event::kT32Reached, at);
+    if (reached && timer == 96) interrupts::occurred(core, event::kT96Reached, at);
   }
-  if (any) await_tick_1ms(at);
+  if (any) await_tick_1ms(core, at);
 }
 
-}  // namespace s7200
+}  // namespace s7200::timers

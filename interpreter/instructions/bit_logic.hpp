@@ -1,7 +1,9 @@
 // Bodies: contacts, coils, the logic stack, edges, set and reset (facts 6.2).
 #pragma once
 
-#include "interpreter/cpu/cpu.hpp"
+#include "interpreter/cpu/core.hpp"
+#include "interpreter/cpu/points.hpp"
+#include "interpreter/cpu/timers.hpp"
 
 namespace s7200::bodies {
 
@@ -23,29 +25,29 @@ inline void combine(LogicStack& stack, bool value) {
 enum class Rail { Always, Segment };
 
 template <Join join, Rail rail>
-inline bool fed(const Cpu& cpu) {
-  return rail == Rail::Always || join == Join::And || cpu.s.rail;
+inline bool fed(const Core& core) {
+  return rail == Rail::Always || join == Join::And || core.s.rail;
 }
 
 /// LD, A, O and their negated and immediate forms: an immediate one reads the input point itself (decided at load).
 template <Join join, bool negated, Rail rail = Rail::Always>
-void contact(Cpu& cpu, const Op& op) {
-  combine<join>(cpu.s.stack, fed<join, rail>(cpu) && cpu.bit(op[0]) != negated);
+void contact(Core& core, const Op& op) {
+  combine<join>(core.s.stack, fed<join, rail>(core) && core.bit(op[0]) != negated);
 }
 
-inline void invert_top(Cpu& cpu, const Op&) { cpu.s.stack.set_top(!cpu.s.stack.top()); }
+inline void invert_top(Core& core, const Op&) { core.s.stack.set_top(!core.s.stack.top()); }
 
 /// ALD and OLD.
 template <Join join>
-void combine_loads(Cpu& cpu, const Op&) {
-  const bool top = cpu.s.stack.top();
-  cpu.s.stack.pop();
-  combine<join>(cpu.s.stack, top);
+void combine_loads(Core& core, const Op&) {
+  const bool top = core.s.stack.top();
+  core.s.stack.pop();
+  combine<join>(core.s.stack, top);
 }
 
-inline void push_copy(Cpu& cpu, const Op&) { cpu.s.stack.push(cpu.s.stack.top()); }
-inline void read_second(Cpu& cpu, const Op&) { cpu.s.stack.set_top(cpu.s.stack.level(1)); }
-inline void pop_stack(Cpu& cpu, const Op&) { cpu.s.stack.pop(); }
+inline void push_copy(Core& core, const Op&) { core.s.stack.push(core.s.stack.top()); }
+inline void read_second(Core& core, const Op&) { core.s.stack.set_top(core.s.stack.level(1)); }
+inline void pop_stack(Core& core, const Op&) { core.s.stack.pop(); }
 
 /// EU and ED. Each has a memory bit of its own (operand 2, given at load): the top of the stack at its last execution. In
 /// the first scan there is nothing to compare with, hence no edge (facts 9.1; S7-200 SMART manual A5E03822230-AC, 157).
@@ -54,39 +56,39 @@ inline void pop_stack(Cpu& cpu, const Op&) { cpu.s.stack.pop(); }
 /// - The first execution of EU or ED finds no edge in a later scan either. [Choices.TheFirstExecutionOfEuAndEdFindsNoEdge]
 /// - An EU or ED that is jumped over keeps its memory. [Choices.AnEdgeInstructionThatIsJumpedOverKeepsItsMemory]
 template <bool rising>
-void edge(Cpu& cpu, const Op& op) {
-  const bool before = cpu.bit(op[2]), now = cpu.s.stack.top();
-  cpu.put_bit(op[2].at, op[2].bit, now);
-  cpu.s.stack.set_top(rising ? !before && now : before && !now);
+void edge(Core& core, const Op& op) {
+  const bool before = core.bit(op[2]), now = core.s.stack.top();
+  core.put_bit(op[2].at, op[2].bit, now);
+  core.s.stack.set_top(rising ? !before && now : before && !now);
 }
 
-inline void coil(Cpu& cpu, const Op& op) { cpu.put_bit(op[0].at, op[0].bit, cpu.s.stack.top()); }
+inline void coil(Core& core, const Op& op) { core.put_bit(op[0].at, op[0].bit, core.s.stack.top()); }
 
 /// =I writes the image register and the output point (operand 2, given at load).
-inline void immediate_coil(Cpu& cpu, const Op& op) {
-  cpu.put_bit(op[0].at, op[0].bit, cpu.s.stack.top());
-  cpu.write_output_point(op[2].at - image::kOutputs, op[2].bit, cpu.s.stack.top());
+inline void immediate_coil(Core& core, const Op& op) {
+  core.put_bit(op[0].at, op[0].bit, core.s.stack.top());
+  points::write_output(core, op[2].at - image::kOutputs, op[2].bit, core.s.stack.top());
 }
 
-inline void put_bits(Cpu& cpu, const Operand& first, std::uint32_t count, bool value) {
+inline void put_bits(Core& core, const Operand& first, std::uint32_t count, bool value) {
   for (std::uint32_t i = 0, place = first.bit; i < count; ++i, ++place)
-    cpu.put_bit(first.at + place / 8, static_cast<std::uint8_t>(place % 8), value);
+    core.put_bit(first.at + place / 8, static_cast<std::uint8_t>(place % 8), value);
 }
 
 /// S, R and SI, RI: `count` bits from operand 0 on. Immediate: the output points (operand 2, given at load) too.
 template <bool value, bool immediate>
-void set_bits(Cpu& cpu, const Op& op) {
-  const std::uint32_t count = cpu.get<std::uint8_t>(op[1]);
-  if (count == 0) return cpu.run_error(RunError::Count);
-  if (!cpu.bits_in_area(op[0], count)) return cpu.run_error(RunError::OperandRange);
-  cpu.spend(op, count);
-  put_bits(cpu, op[0], count, value);
+void set_bits(Core& core, const Op& op) {
+  const std::uint32_t count = core.get<std::uint8_t>(op[1]);
+  if (count == 0) return core.run_error(RunError::Count);
+  if (!core.bits_in_area(op[0], count)) return core.run_error(RunError::OperandRange);
+  core.spend(op, count);
+  put_bits(core, op[0], count, value);
   if constexpr (immediate)
     for (std::uint32_t i = 0, place = op[2].bit; i < count; ++i, ++place)
-      cpu.write_output_point(op[2].at - image::kOutputs + place / 8, static_cast<std::uint8_t>(place % 8), value);
-  if constexpr (!value) cpu.clear_current_values(op[0], count);
+      points::write_output(core, op[2].at - image::kOutputs + place / 8, static_cast<std::uint8_t>(place % 8), value);
+  if constexpr (!value) timers::clear_current_values(core, op[0], count);
 }
 
-inline void no_operation(Cpu&, const Op&) {}
+inline void no_operation(Core&, const Op&) {}
 
 }  // namespace s7200::bodies

@@ -33,11 +33,11 @@ bool holds(Value a, Value b) {
 }
 
 template <Join join, Relation relation, class Value, Rail rail = Rail::Always>
-void compare(Cpu& cpu, const Op& op) {
-  const auto a = cpu.get<Value>(op[0]), b = cpu.get<Value>(op[1]);
+void compare(Core& core, const Op& op) {
+  const auto a = core.get<Value>(op[0]), b = core.get<Value>(op[1]);
   if constexpr (std::is_floating_point_v<Value>)
-    if (std::isunordered(a, b)) return cpu.compare_error(RunError::CompareValue, FatalError::CompareValue);
-  combine<join>(cpu.s.stack, holds<relation>(a, b) && fed<join, rail>(cpu));
+    if (std::isunordered(a, b)) return core.compare_error(RunError::CompareValue, FatalError::CompareValue);
+  combine<join>(core.s.stack, holds<relation>(a, b) && fed<join, rail>(core));
 }
 
 }  // namespace s7200::bodies

@@ -14,59 +14,62 @@
 // - A subroutine called from a segment has a power rail of its own. [Segment.ASubroutineHasARailOfItsOwn]
 #pragma once
 
-#include "interpreter/cpu/cpu.hpp"
+#include "interpreter/cpu/core.hpp"
+#include "interpreter/cpu/freeport.hpp"
+#include "interpreter/cpu/interrupts.hpp"
+#include "interpreter/cpu/scan.hpp"
 
 namespace s7200::bodies {
 
-inline void jump(Cpu& cpu, const Op& op) { cpu.jump(op.target); }
+inline void jump(Core& core, const Op& op) { core.jump(op.target); }
 
 /// FOR INDX, INIT, FINAL: an initial value above the final one skips the loop.
-inline void begin_loop(Cpu& cpu, const Op& op) {
-  const auto initial = cpu.get<std::int16_t>(op[1]);
-  cpu.put(op[0], initial);
-  if (initial > cpu.get<std::int16_t>(op[2])) cpu.jump(op.target);
+inline void begin_loop(Core& core, const Op& op) {
+  const auto initial = core.get<std::int16_t>(op[1]);
+  core.put(op[0], initial);
+  if (initial > core.get<std::int16_t>(op[2])) core.jump(op.target);
 }
 
 /// NEXT has the operands of its FOR. The index is left at the final value + 1, and the top of the stack at 1.
-inline void next_pass(Cpu& cpu, const Op& op) {
-  const auto index = cpu.get<std::int16_t>(op[0]);
-  cpu.put(op[0], static_cast<std::uint16_t>(index + 1));
-  cpu.s.stack.set_top(true);
-  if (index < cpu.get<std::int16_t>(op[2])) cpu.jump(op.target);
+inline void next_pass(Core& core, const Op& op) {
+  const auto index = core.get<std::int16_t>(op[0]);
+  core.put(op[0], static_cast<std::uint16_t>(index + 1));
+  core.s.stack.set_top(true);
+  if (index < core.get<std::int16_t>(op[2])) core.jump(op.target);
 }
 
 /// LSCR loads the S bit into the SCR stack and the logic stack. The segment is not skipped while the bit is 0: its rail has
 /// no power, so contacts give no power flow, coils become 0, TON is reset and boxes do nothing (facts 9.1).
-inline void begin_segment(Cpu& cpu, const Op& op) {
-  cpu.s.rail = cpu.bit(op[0]);
-  cpu.s.stack.push(cpu.s.rail);
+inline void begin_segment(Core& core, const Op& op) {
+  core.s.rail = core.bit(op[0]);
+  core.s.stack.push(core.s.rail);
 }
 
-inline void end_segment(Cpu& cpu, const Op&) { cpu.s.rail = true; }
+inline void end_segment(Core& core, const Op&) { core.s.rail = true; }
 
 /// SCRT: the next segment's bit goes on, that of the enclosing LSCR (operand 2, given at load) off.
-inline void segment_transition(Cpu& cpu, const Op& op) {
-  cpu.put_bit(op[2].at, op[2].bit, false);
-  cpu.put_bit(op[0].at, op[0].bit, true);
+inline void segment_transition(Core& core, const Op& op) {
+  core.put_bit(op[2].at, op[2].bit, false);
+  core.put_bit(op[0].at, op[0].bit, true);
 }
 
-inline void call(Cpu& cpu, const Op& op) { cpu.call(op.target); }
-inline void return_from_subroutine(Cpu& cpu, const Op&) { cpu.return_from_subroutine(); }
-inline void return_from_interrupt(Cpu& cpu, const Op&) { cpu.return_from_interrupt(); }
-inline void end_main_program(Cpu& cpu, const Op&) { cpu.end_main_program(); }
-inline void stop(Cpu& cpu, const Op&) { cpu.stop(); }
-inline void reset_watchdog(Cpu& cpu, const Op&) { cpu.reset_watchdog(); }
+inline void call(Core& core, const Op& op) { scan::call(core, op.target); }
+inline void return_from_subroutine(Core& core, const Op&) { scan::return_from_subroutine(core); }
+inline void return_from_interrupt(Core& core, const Op&) { interrupts::return_from(core); }
+inline void end_main_program(Core& core, const Op&) { scan::end_main_program(core); }
+inline void stop(Core& core, const Op&) { scan::stop(core); }
+inline void reset_watchdog(Core& core, const Op&) { scan::reset_watchdog(core); }
 
 template <bool enabled>
-void enable_interrupts(Cpu& cpu, const Op&) {
-  cpu.enable_interrupts(enabled);
+void enable_interrupts(Core& core, const Op&) {
+  interrupts::enable(core, enabled);
 }
 
-inline void attach(Cpu& cpu, const Op& op) {
-  cpu.attach(static_cast<std::uint8_t>(op[1].at), static_cast<std::uint8_t>(op[0].at));
+inline void attach(Core& core, const Op& op) {
+  interrupts::attach(core, static_cast<std::uint8_t>(op[1].at), static_cast<std::uint8_t>(op[0].at));
 }
-inline void detach(Cpu& cpu, const Op& op) { cpu.detach(static_cast<std::uint8_t>(op[0].at)); }
+inline void detach(Core& core, const Op& op) { interrupts::detach(core, static_cast<std::uint8_t>(op[0].at)); }
 
-inline void transmit(Cpu& cpu, const Op& op) { cpu.transmit(op[0].at); }
+inline void transmit(Core& core, const Op& op) { freeport::transmit(core, op[1].at, op[0].at); }
 
 }  // namespace s7200::bodies

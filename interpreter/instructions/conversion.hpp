@@ -11,55 +11,56 @@
 #include <cmath>
 #include <optional>
 
-#include "interpreter/cpu/cpu.hpp"
+#include "interpreter/cpu/core.hpp"
 
 namespace s7200::bodies {
 
 /// BCDI: four BCD digits to an integer.
-inline void from_bcd(Cpu& cpu, const Op& op) {
-  const auto bcd = cpu.get<std::uint16_t>(op[0]);
+inline void from_bcd(Core& core, const Op& op) {
+  const auto bcd = core.get<std::uint16_t>(op[0]);
   unsigned value = 0;
   for (int shift = 12; shift >= 0; shift -= 4) {
     const unsigned digit = (bcd >> shift) & 15u;
-    if (digit > 9) return cpu.set_flags(kNotBcd, kNotBcd);
+    if (digit > 9) return core.set_flags(kNotBcd, kNotBcd);
     value = value * 10 + digit;
   }
-  cpu.put(op[0], static_cast<std::uint16_t>(value));
-  cpu.set_flags(kNotBcd, 0);
+  core.put(op[0], static_cast<std::uint16_t>(value));
+  core.set_flags(kNotBcd, 0);
 }
 
 /// IBCD: an integer of 0 to 9999 to BCD.
-inline void to_bcd(Cpu& cpu, const Op& op) {
-  const auto value = cpu.get<std::uint16_t>(op[0]);
-  if (value > 9999) return cpu.set_flags(kNotBcd, kNotBcd);
-  cpu.put(op[0], static_cast<std::uint16_t>(value / 1000 << 12 | value / 100 % 10 << 8 | value / 10 % 10 << 4 | value % 10));
-  cpu.set_flags(kNotBcd, 0);
+inline void to_bcd(Core& core, const Op& op) {
+  const auto value = core.get<std::uint16_t>(op[0]);
+  if (value > 9999) return core.set_flags(kNotBcd, kNotBcd);
+  core.put(op[0],
+           static_cast<std::uint16_t>(value / 1000 << 12 | value / 100 % 10 << 8 | value / 10 % 10 << 4 | value % 10));
+  core.set_flags(kNotBcd, 0);
 }
 
-inline void integer_to_real(Cpu& cpu, const Op& op) { cpu.put(op[1], static_cast<float>(cpu.get<std::int32_t>(op[0]))); }
+inline void integer_to_real(Core& core, const Op& op) { core.put(op[1], static_cast<float>(core.get<std::int32_t>(op[0]))); }
 
 /// TRUNC: toward zero; what does not fit sets SM1.1 and stores nothing.
-inline void truncate(Cpu& cpu, const Op& op) {
-  const float value = std::trunc(cpu.get<float>(op[0]));
-  if (!(value >= -2147483648.0f && value < 2147483648.0f)) return cpu.set_flags(kOverflow, kOverflow);
-  cpu.put(op[1], static_cast<std::int32_t>(value));
-  cpu.set_flags(kOverflow, 0);
+inline void truncate(Core& core, const Op& op) {
+  const float value = std::trunc(core.get<float>(op[0]));
+  if (!(value >= -2147483648.0f && value < 2147483648.0f)) return core.set_flags(kOverflow, kOverflow);
+  core.put(op[1], static_cast<std::int32_t>(value));
+  core.set_flags(kOverflow, 0);
 }
 
-inline void decode_bit(Cpu& cpu, const Op& op) {
-  cpu.put(op[1], static_cast<std::uint16_t>(1u << (cpu.get<std::uint8_t>(op[0]) & 15)));
+inline void decode_bit(Core& core, const Op& op) {
+  core.put(op[1], static_cast<std::uint16_t>(1u << (core.get<std::uint8_t>(op[0]) & 15)));
 }
 
-inline void encode_bit(Cpu& cpu, const Op& op) {
-  const auto word = cpu.get<std::uint16_t>(op[0]);
-  cpu.put(op[1], static_cast<std::uint8_t>(word == 0 ? 0 : std::countr_zero(word)));
+inline void encode_bit(Core& core, const Op& op) {
+  const auto word = core.get<std::uint16_t>(op[0]);
+  core.put(op[1], static_cast<std::uint8_t>(word == 0 ? 0 : std::countr_zero(word)));
 }
 
 /// Segments a (bit 0) to g (bit 6) of the digits 0 to F.
-inline void seven_segments(Cpu& cpu, const Op& op) {
+inline void seven_segments(Core& core, const Op& op) {
   static constexpr std::uint8_t kSegments[16] = {0x3F, 0x06, 0x5B, 0x4F, 0x66, 0x6D, 0x7D, 0x07,
                                                  0x7F, 0x67, 0x77, 0x7C, 0x39, 0x5E, 0x79, 0x71};
-  cpu.put(op[1], kSegments[cpu.get<std::uint8_t>(op[0]) & 15]);
+  core.put(op[1], kSegments[core.get<std::uint8_t>(op[0]) & 15]);
 }
 
 /// Digits are 0–9 and capital A–F (S7-200 manual C233-01, 9-135).
@@ -70,35 +71,35 @@ inline std::optional<std::uint8_t> hex_digit(std::uint8_t character) {
 }
 
 /// Whether the blocks of ATH and HTA lie in their areas, as those of no length do; if not, a range error.
-inline bool hex_blocks_fit(Cpu& cpu, std::uint32_t characters, std::uint32_t digits, std::uint32_t length) {
-  if (cpu.in_area(characters, length) && cpu.in_area(digits, (length + 1) / 2)) return true;
-  cpu.run_error(RunError::OperandRange);
+inline bool hex_blocks_fit(Core& core, std::uint32_t characters, std::uint32_t digits, std::uint32_t length) {
+  if (core.in_area(characters, length) && core.in_area(digits, (length + 1) / 2)) return true;
+  core.run_error(RunError::OperandRange);
   return false;
 }
 
 /// ATH: LEN characters to digits, the first into a high half. An odd LEN leaves the low half of the last byte alone
 /// (S7-200 manual C233-01, 9-135). The conversion ends at an illegal character (facts 9.1).
-inline void ascii_to_hex(Cpu& cpu, const Op& op) {
-  const std::uint32_t length = cpu.get<std::uint8_t>(op[2]);
-  if (!hex_blocks_fit(cpu, op[0].at, op[1].at, length)) return;
-  cpu.spend(op, length);
+inline void ascii_to_hex(Core& core, const Op& op) {
+  const std::uint32_t length = core.get<std::uint8_t>(op[2]);
+  if (!hex_blocks_fit(core, op[0].at, op[1].at, length)) return;
+  core.spend(op, length);
   for (std::uint32_t i = 0; i < length; ++i) {
-    const auto digit = hex_digit(cpu.s.image[op[0].at + i]);
-    if (!digit) return cpu.set_flags(kNotHex, kNotHex);
-    std::uint8_t& byte = cpu.s.image[op[1].at + i / 2];
+    const auto digit = hex_digit(core.s.image[op[0].at + i]);
+    if (!digit) return core.set_flags(kNotHex, kNotHex);
+    std::uint8_t& byte = core.s.image[op[1].at + i / 2];
     byte = static_cast<std::uint8_t>(i % 2 == 0 ? (byte & 0x0F) | *digit << 4 : (byte & 0xF0) | *digit);
   }
-  cpu.set_flags(kNotHex, 0);
+  core.set_flags(kNotHex, 0);
 }
 
 /// HTA: LEN digits to characters.
-inline void hex_to_ascii(Cpu& cpu, const Op& op) {
-  const std::uint32_t length = cpu.get<std::uint8_t>(op[2]);
-  if (!hex_blocks_fit(cpu, op[1].at, op[0].at, length)) return;
-  cpu.spend(op, length);
+inline void hex_to_ascii(Core& core, const Op& op) {
+  const std::uint32_t length = core.get<std::uint8_t>(op[2]);
+  if (!hex_blocks_fit(core, op[1].at, op[0].at, length)) return;
+  core.spend(op, length);
   for (std::uint32_t i = 0; i < length; ++i) {
-    const std::uint8_t byte = cpu.s.image[op[0].at + i / 2];
-    cpu.s.image[op[1].at + i] = static_cast<std::uint8_t>("0123456789ABCDEF"[i % 2 == 0 ? byte >> 4 : byte & 15]);
+    const std::uint8_t byte = core.s.image[op[0].at + i / 2];
+    core.s.image[op[1].at + i] = static_cast<std::uint8_t>("0123456789ABCDEF"[i % 2 == 0 ? byte >> 4 : byte & 15]);
   }
 }
 

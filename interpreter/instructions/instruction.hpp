@@ -12,15 +12,16 @@
 
 #include "interpreter/model/area.hpp"
 #include "interpreter/model/cpu_model.hpp"
+#include "interpreter/model/special_memory.hpp"
 
 namespace s7200 {
 
-class Cpu;
+class Core;
 struct Op;
 
 /// Executes one decoded instruction that has power flow, or needs none. The clock already stands at the end of the
 /// instruction's basic time; a body adds what depends on counts.
-using Body = void (*)(Cpu& cpu, const Op& op);
+using Body = void (*)(Core& core, const Op& op);
 
 enum class OperandKind : std::uint8_t {
   Memory,      ///< a value: direct, through a pointer, or a constant, as the rule allows
@@ -115,18 +116,6 @@ enum class Hidden : std::uint8_t {
 struct StackUse {
   std::int8_t needs = 0;
   std::int8_t change = 0;
-};
-
-/// Bits of SM1 that an instruction sets and resets (S7-200 manual C230-02, D-2).
-enum Flag : std::uint8_t {
-  kZero = 1,
-  kOverflow = 2,
-  kNegative = 4,
-  kDivisionByZero = 8,
-  kTableFull = 16,
-  kTableEmpty = 32,
-  kNotBcd = 64,
-  kNotHex = 128
 };
 
 struct Instruction {

@@ -13,7 +13,7 @@
 
 #include <type_traits>
 
-#include "interpreter/cpu/cpu.hpp"
+#include "interpreter/cpu/core.hpp"
 
 namespace s7200::bodies {
 
@@ -25,50 +25,50 @@ std::uint8_t sign_flags(Signed value) {
 inline constexpr std::uint8_t kArithmetic = kZero | kOverflow | kNegative;
 
 template <class Signed>
-void store_wrapped(Cpu& cpu, const Operand& out, Signed value, bool overflow) {
-  cpu.put(out, value);
-  cpu.set_flags(kArithmetic, static_cast<std::uint8_t>(sign_flags(value) | (overflow ? kOverflow : 0)));
+void store_wrapped(Core& core, const Operand& out, Signed value, bool overflow) {
+  core.put(out, value);
+  core.set_flags(kArithmetic, static_cast<std::uint8_t>(sign_flags(value) | (overflow ? kOverflow : 0)));
 }
 
-inline bool keeps_operands(const Cpu& cpu) { return cpu.program().model->integer_overflow == IntegerOverflow::Keep; }
+inline bool keeps_operands(const Core& core) { return core.program().model->integer_overflow == IntegerOverflow::Keep; }
 
 template <class Signed>
-void store_result(Cpu& cpu, const Operand& out, Signed value, bool overflow) {
-  if (overflow && keeps_operands(cpu)) return cpu.set_flags(kArithmetic, kOverflow);
-  store_wrapped(cpu, out, value, overflow);
+void store_result(Core& core, const Operand& out, Signed value, bool overflow) {
+  if (overflow && keeps_operands(core)) return core.set_flags(kArithmetic, kOverflow);
+  store_wrapped(core, out, value, overflow);
 }
 
 /// +I, +D
 template <class Signed>
-void add(Cpu& cpu, const Op& op) {
+void add(Core& core, const Op& op) {
   Signed result;
-  const bool overflow = __builtin_add_overflow(cpu.get<Signed>(op[1]), cpu.get<Signed>(op[0]), &result);
-  store_result(cpu, op[1], result, overflow);
+  const bool overflow = __builtin_add_overflow(core.get<Signed>(op[1]), core.get<Signed>(op[0]), &result);
+  store_result(core, op[1], result, overflow);
 }
 
 /// -I, -D
 template <class Signed>
-void subtract(Cpu& cpu, const Op& op) {
+void subtract(Core& core, const Op& op) {
   Signed result;
-  const bool overflow = __builtin_sub_overflow(cpu.get<Signed>(op[1]), cpu.get<Signed>(op[0]), &result);
-  store_result(cpu, op[1], result, overflow);
+  const bool overflow = __builtin_sub_overflow(core.get<Signed>(op[1]), core.get<Signed>(op[0]), &result);
+  store_result(core, op[1], result, overflow);
 }
 
 /// INCW, INCD, DECW, DECD
 template <class Signed, int step>
-void increment(Cpu& cpu, const Op& op) {
+void increment(Core& core, const Op& op) {
   Signed result;
-  const bool overflow = __builtin_add_overflow(cpu.get<Signed>(op[0]), Signed{step}, &result);
-  store_wrapped(cpu, op[0], result, overflow);
+  const bool overflow = __builtin_add_overflow(core.get<Signed>(op[0]), Signed{step}, &result);
+  store_wrapped(core, op[0], result, overflow);
 }
 
 /// INCB, DECB: unsigned (facts 9.1).
 template <int step>
-void increment_byte(Cpu& cpu, const Op& op) {
+void increment_byte(Core& core, const Op& op) {
   std::uint8_t result;
-  const bool overflow = __builtin_add_overflow(cpu.get<std::uint8_t>(op[0]), step, &result);
-  cpu.put(op[0], result);
-  cpu.set_flags(kZero | kOverflow, static_cast<std::uint8_t>((result == 0 ? kZero : 0) | (overflow ? kOverflow : 0)));
+  const bool overflow = __builtin_add_overflow(core.get<std::uint8_t>(op[0]), step, &result);
+  core.put(op[0], result);
+  core.set_flags(kZero | kOverflow, static_cast<std::uint8_t>((result == 0 ? kZero : 0) | (overflow ? kOverflow : 0)));
 }
 
 /// The low word of a double word operand.
@@ -79,40 +79,40 @@ inline Operand low_word(const Operand& operand) {
 }
 
 /// MUL: 16 × 16 = 32 bits, the second factor is the low word of OUT.
-inline void multiply(Cpu& cpu, const Op& op) {
-  const std::int32_t product = std::int32_t{cpu.get<std::int16_t>(op[0])} * cpu.get<std::int16_t>(low_word(op[1]));
-  cpu.put(op[1], product);
-  cpu.set_flags(kArithmetic | kDivisionByZero, sign_flags(product));
+inline void multiply(Core& core, const Op& op) {
+  const std::int32_t product = std::int32_t{core.get<std::int16_t>(op[0])} * core.get<std::int16_t>(low_word(op[1]));
+  core.put(op[1], product);
+  core.set_flags(kArithmetic | kDivisionByZero, sign_flags(product));
 }
 
 /// DIV: dividend in the low word of OUT; quotient to the low word, remainder to the high word. Division by zero sets SM1.3
 /// and changes nothing else (S7-200 manual C233-01, 9-76).
-inline void divide(Cpu& cpu, const Op& op) {
-  const std::int32_t divisor = cpu.get<std::int16_t>(op[0]);
-  if (divisor == 0) return cpu.set_flags(kDivisionByZero, kDivisionByZero);
-  const std::int32_t dividend = cpu.get<std::int16_t>(low_word(op[1]));
+inline void divide(Core& core, const Op& op) {
+  const std::int32_t divisor = core.get<std::int16_t>(op[0]);
+  if (divisor == 0) return core.set_flags(kDivisionByZero, kDivisionByZero);
+  const std::int32_t dividend = core.get<std::int16_t>(low_word(op[1]));
   const auto quotient = static_cast<std::int16_t>(dividend / divisor);
   const bool overflow = dividend / divisor != quotient;
-  cpu.set_flags(kDivisionByZero, 0);
-  if (!overflow || !keeps_operands(cpu)) cpu.put(op[1], static_cast<std::int16_t>(dividend % divisor));
-  store_result(cpu, low_word(op[1]), quotient, overflow);
+  core.set_flags(kDivisionByZero, 0);
+  if (!overflow || !keeps_operands(core)) core.put(op[1], static_cast<std::int16_t>(dividend % divisor));
+  store_result(core, low_word(op[1]), quotient, overflow);
 }
 
 enum class Logic { And, Or, Xor };
 
 template <Logic logic, class Value>
-void combine_words(Cpu& cpu, const Op& op) {
-  const auto a = cpu.get<Value>(op[0]), b = cpu.get<Value>(op[1]);
+void combine_words(Core& core, const Op& op) {
+  const auto a = core.get<Value>(op[0]), b = core.get<Value>(op[1]);
   const auto result = static_cast<Value>(logic == Logic::And ? a & b : logic == Logic::Or ? a | b : a ^ b);
-  cpu.put(op[1], result);
-  cpu.set_flags(kZero, result == 0 ? kZero : 0);
+  core.put(op[1], result);
+  core.set_flags(kZero, result == 0 ? kZero : 0);
 }
 
 template <class Value>
-void invert(Cpu& cpu, const Op& op) {
-  const auto result = static_cast<Value>(~cpu.get<Value>(op[0]));
-  cpu.put(op[0], result);
-  cpu.set_flags(kZero, result == 0 ? kZero : 0);
+void invert(Core& core, const Op& op) {
+  const auto result = static_cast<Value>(~core.get<Value>(op[0]));
+  core.put(op[0], result);
+  core.set_flags(kZero, result == 0 ? kZero : 0);
 }
 
 }  // namespace s7200::bodies

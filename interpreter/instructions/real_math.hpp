@@ -15,32 +15,32 @@
 namespace s7200::bodies {
 
 /// An operand that is infinite or not a number makes a result of that kind, except as a divisor.
-inline void store_real(Cpu& cpu, const Operand& out, float result) {
-  if (!std::isfinite(result)) return cpu.set_flags(kArithmetic, kOverflow);
-  cpu.put(out, result);
-  cpu.set_flags(kArithmetic, sign_flags(result));
+inline void store_real(Core& core, const Operand& out, float result) {
+  if (!std::isfinite(result)) return core.set_flags(kArithmetic, kOverflow);
+  core.put(out, result);
+  core.set_flags(kArithmetic, sign_flags(result));
 }
 
 enum class RealOperation { Add, Subtract, Multiply };
 
 /// +R, -R, *R: OUT op IN1 to OUT.
 template <RealOperation operation>
-void real_arithmetic(Cpu& cpu, const Op& op) {
-  const auto a = cpu.get<float>(op[1]), b = cpu.get<float>(op[0]);
+void real_arithmetic(Core& core, const Op& op) {
+  const auto a = core.get<float>(op[1]), b = core.get<float>(op[0]);
   const float result = operation == RealOperation::Add ? a + b : operation == RealOperation::Subtract ? a - b : a * b;
-  store_real(cpu, op[1], result);
+  store_real(core, op[1], result);
 }
 
 /// /R: division by zero sets SM1.3 and changes nothing else (S7-200 manual from 2004 on, 140).
-inline void real_divide(Cpu& cpu, const Op& op) {
-  const auto dividend = cpu.get<float>(op[1]), divisor = cpu.get<float>(op[0]);
-  if (divisor == 0) return cpu.set_flags(kDivisionByZero, kDivisionByZero);
-  cpu.set_flags(kDivisionByZero, 0);
-  store_real(cpu, op[1], std::isfinite(divisor) ? dividend / divisor : divisor);
+inline void real_divide(Core& core, const Op& op) {
+  const auto dividend = core.get<float>(op[1]), divisor = core.get<float>(op[0]);
+  if (divisor == 0) return core.set_flags(kDivisionByZero, kDivisionByZero);
+  core.set_flags(kDivisionByZero, 0);
+  store_real(core, op[1], std::isfinite(divisor) ? dividend / divisor : divisor);
 }
 
-inline void square_root(Cpu& cpu, const Op& op) {
-  store_real(cpu, op[1], std::sqrt(cpu.get<float>(op[0])));  // NaN below 0
+inline void square_root(Core& core, const Op& op) {
+  store_real(core, op[1], std::sqrt(core.get<float>(op[0])));  // NaN below 0
 }
 
 }  // namespace s7200::bodies

@@ -16,13 +16,14 @@
 
 #include <algorithm>
 
-#include "interpreter/cpu/cpu.hpp"
+#include "interpreter/cpu/core.hpp"
+#include "interpreter/cpu/timers.hpp"
 
 namespace s7200::bodies {
 
 template <bool retentive>
-void time_on(Cpu& cpu, const Op& op) {
-  cpu.execute_timer(op[2].at, cpu.s.stack.top(), cpu.get<std::int16_t>(op[1]), retentive);
+void time_on(Core& core, const Op& op) {
+  timers::execute(core, op[2].at, core.s.stack.top(), core.get<std::int16_t>(op[1]), retentive);
 }
 
 inline constexpr std::uint8_t kUpEdge = 1, kDownEdge = 2;
@@ -34,32 +35,32 @@ inline bool rose(std::uint8_t& memory, std::uint8_t edge, bool input) {
   return input && !before;
 }
 
-inline void set_counter(Cpu& cpu, const Op& op, std::int16_t current, bool reset) {
-  const auto preset = cpu.get<std::int16_t>(op[1]);  // first, for it may be this counter's own value
+inline void set_counter(Core& core, const Op& op, std::int16_t current, bool reset) {
+  const auto preset = core.get<std::int16_t>(op[1]);  // first, for it may be this counter's own value
   if (reset) current = 0;
-  cpu.put(op[0], current);
+  core.put(op[0], current);
   const bool reached = !reset && current >= preset;
-  cpu.put_bit(image::kCBits + op[2].at / 8, static_cast<std::uint8_t>(op[2].at % 8), reached);
+  core.put_bit(image::kCBits + op[2].at / 8, static_cast<std::uint8_t>(op[2].at % 8), reached);
 }
 
 /// CTU: S1 counts up, S0 resets.
-inline void count_up(Cpu& cpu, const Op& op) {
-  const bool reset = cpu.s.stack.top();
-  cpu.s.stack.pop();
-  const bool up = rose(cpu.s.counter_inputs[op[2].at], kUpEdge, cpu.s.stack.top());
-  const auto current = cpu.get<std::int16_t>(op[0]);
-  set_counter(cpu, op, static_cast<std::int16_t>(up && current < 32767 ? current + 1 : current), reset);
+inline void count_up(Core& core, const Op& op) {
+  const bool reset = core.s.stack.top();
+  core.s.stack.pop();
+  const bool up = rose(core.s.counter_inputs[op[2].at], kUpEdge, core.s.stack.top());
+  const auto current = core.get<std::int16_t>(op[0]);
+  set_counter(core, op, static_cast<std::int16_t>(up && current < 32767 ? current + 1 : current), reset);
 }
 
 /// CTUD: S2 counts up, S1 down, S0 resets; the value wraps.
-inline void count_up_down(Cpu& cpu, const Op& op) {
-  const bool reset = cpu.s.stack.top();
-  cpu.s.stack.pop();
-  const bool down = rose(cpu.s.counter_inputs[op[2].at], kDownEdge, cpu.s.stack.top());
-  cpu.s.stack.pop();
-  const bool up = rose(cpu.s.counter_inputs[op[2].at], kUpEdge, cpu.s.stack.top());
+inline void count_up_down(Core& core, const Op& op) {
+  const bool reset = core.s.stack.top();
+  core.s.stack.pop();
+  const bool down = rose(core.s.counter_inputs[op[2].at], kDownEdge, core.s.stack.top());
+  core.s.stack.pop();
+  const bool up = rose(core.s.counter_inputs[op[2].at], kUpEdge, core.s.stack.top());
   const int step = (up ? 1 : 0) - (down ? 1 : 0);
-  set_counter(cpu, op, static_cast<std::int16_t>(cpu.get<std::int16_t>(op[0]) + step), reset);
+  set_counter(core, op, static_cast<std::int16_t>(core.get<std::int16_t>(op[0]) + step), reset);
 }
 
 }  // namespace s7200::bodies

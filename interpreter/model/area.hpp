@@ -47,9 +47,6 @@ inline constexpr std::uint32_t kSize = 20 * 1024;
 
 inline constexpr std::uint32_t kPointBytes = 16;  // of input points, of output points, and of each of their images
 
-inline constexpr std::uint32_t kSM1 = kSM + 1;
-inline constexpr std::uint32_t kSM4 = kSM + 4;
-
 }  // namespace image
 
 inline constexpr std::uint32_t kNoBits = 0xFFFF'FFFF;

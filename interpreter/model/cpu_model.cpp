@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "interpreter/model/events.hpp"
+
 namespace s7200 {
 
 std::string to_text(CpuSet cpus) {
@@ -19,40 +21,40 @@ std::string to_text(CpuSet cpus) {
 // Facts 3.1. The order inside a group is the 21x list; what only 22x CPUs have follows it.
 const std::vector<InterruptEvent>& all_events() {
   static const std::vector<InterruptEvent> kTable{
-      {0, Queue::Io, 0, kEveryCpu, "rising edge of I0.0"},
-      {1, Queue::Io, 4, kEveryCpu, "falling edge of I0.0"},
-      {2, Queue::Io, 1, kFrom214, "rising edge of I0.1"},
-      {3, Queue::Io, 5, kFrom214, "falling edge of I0.1"},
-      {4, Queue::Io, 2, kFrom214, "rising edge of I0.2"},
-      {5, Queue::Io, 6, kFrom214, "falling edge of I0.2"},
-      {6, Queue::Io, 3, kFrom214, "rising edge of I0.3"},
-      {7, Queue::Io, 7, kFrom214, "falling edge of I0.3"},
-      {8, Queue::Communication, 0, kEveryCpu, "port 0: character received"},
-      {9, Queue::Communication, 1, kEveryCpu, "port 0: transmit complete"},
-      {10, Queue::Timed, 0, kEveryCpu, "timed interrupt 0, SMB34"},
-      {11, Queue::Timed, 1, kFrom214, "timed interrupt 1, SMB35"},
-      {12, Queue::Io, 0, kEveryCpu, "HSC0: current value = preset value"},
-      {13, Queue::Io, 9, kFrom214, "HSC1: current value = preset value"},
-      {14, Queue::Io, 10, kFrom214, "HSC1: direction changed"},
-      {15, Queue::Io, 11, kFrom214, "HSC1: external reset"},
-      {16, Queue::Io, 12, kFrom214, "HSC2: current value = preset value"},
-      {17, Queue::Io, 13, kFrom214, "HSC2: direction changed"},
-      {18, Queue::Io, 14, kFrom214, "HSC2: external reset"},
-      {19, Queue::Io, 15, kFrom214, "PLS0: pulse count complete"},
-      {20, Queue::Io, 16, kFrom214, "PLS1: pulse count complete"},
-      {21, Queue::Timed, 2, kFrom215, "timer T32: current value = preset value"},
-      {22, Queue::Timed, 3, kFrom215, "timer T96: current value = preset value"},
-      {23, Queue::Communication, 2, kFrom215, "port 0: message received", false},
-      {24, Queue::Communication, 3, kCpu216 | kCpu22x, "port 1: message received", false},
-      {25, Queue::Communication, 4, kCpu216 | kCpu22x, "port 1: character received", false},
-      {26, Queue::Communication, 5, kCpu216 | kCpu22x, "port 1: transmit complete", false},
-      {27, Queue::Io, 17, kCpu22x, "HSC0: direction changed", false},
-      {28, Queue::Io, 18, kCpu22x, "HSC0: external reset", false},
-      {29, Queue::Io, 19, kCpu22x, "HSC4: current value = preset value", false},
-      {30, Queue::Io, 20, kCpu22x, "HSC4: direction changed", false},
-      {31, Queue::Io, 21, kCpu22x, "HSC4: external reset", false},
-      {32, Queue::Io, 22, kCpu22x, "HSC3: current value = preset value", false},
-      {33, Queue::Io, 23, kCpu22x, "HSC5: current value = preset value", false},
+      {event::kI00Rises, Queue::Io, 0, kEveryCpu, "rising edge of I0.0"},
+      {event::kI00Falls, Queue::Io, 4, kEveryCpu, "falling edge of I0.0"},
+      {event::kI01Rises, Queue::Io, 1, kFrom214, "rising edge of I0.1"},
+      {event::kI01Falls, Queue::Io, 5, kFrom214, "falling edge of I0.1"},
+      {event::kI02Rises, Queue::Io, 2, kFrom214, "rising edge of I0.2"},
+      {event::kI02Falls, Queue::Io, 6, kFrom214, "falling edge of I0.2"},
+      {event::kI03Rises, Queue::Io, 3, kFrom214, "rising edge of I0.3"},
+      {event::kI03Falls, Queue::Io, 7, kFrom214, "falling edge of I0.3"},
+      {event::kPort0Received, Queue::Communication, 0, kEveryCpu, "port 0: character received"},
+      {event::kPort0Sent, Queue::Communication, 1, kEveryCpu, "port 0: transmit complete"},
+      {event::kTimed0, Queue::Timed, 0, kEveryCpu, "timed interrupt 0, SMB34"},
+      {event::kTimed1, Queue::Timed, 1, kFrom214, "timed interrupt 1, SMB35"},
+      {event::kCounter0Reached, Queue::Io, 0, kEveryCpu, "HSC0: current value = preset value"},
+      {event::kCounter1Reached, Queue::Io, 9, kFrom214, "HSC1: current value = preset value"},
+      {event::kCounter1Turned, Queue::Io, 10, kFrom214, "HSC1: direction changed"},
+      {event::kCounter1Reset, Queue::Io, 11, kFrom214, "HSC1: external reset"},
+      {event::kCounter2Reached, Queue::Io, 12, kFrom214, "HSC2: current value = preset value"},
+      {event::kCounter2Turned, Queue::Io, 13, kFrom214, "HSC2: direction changed"},
+      {event::kCounter2Reset, Queue::Io, 14, kFrom214, "HSC2: external reset"},
+      {event::kPulses0Complete, Queue::Io, 15, kFrom214, "PLS0: pulse count complete"},
+      {event::kPulses1Complete, Queue::Io, 16, kFrom214, "PLS1: pulse count complete"},
+      {event::kT32Reached, Queue::Timed, 2, kFrom215, "timer T32: current value = preset value"},
+      {event::kT96Reached, Queue::Timed, 3, kFrom215, "timer T96: current value = preset value"},
+      {event::kPort0Message, Queue::Communication, 2, kFrom215, "port 0: message received", false},
+      {event::kPort1Message, Queue::Communication, 3, kCpu216 | kCpu22x, "port 1: message received", false},
+      {event::kPort1Received, Queue::Communication, 4, kCpu216 | kCpu22x, "port 1: character received", false},
+      {event::kPort1Sent, Queue::Communication, 5, kCpu216 | kCpu22x, "port 1: transmit complete", false},
+      {event::kCounter0Turned, Queue::Io, 17, kCpu22x, "HSC0: direction changed", false},
+      {event::kCounter0Reset, Queue::Io, 18, kCpu22x, "HSC0: external reset", false},
+      {event::kCounter4Reached, Queue::Io, 19, kCpu22x, "HSC4: current value = preset value", false},
+      {event::kCounter4Turned, Queue::Io, 20, kCpu22x, "HSC4: direction changed", false},
+      {event::kCounter4Reset, Queue::Io, 21, kCpu22x, "HSC4: external reset", false},
+      {event::kCounter3Reached, Queue::Io, 22, kCpu22x, "HSC3: current value = preset value", false},
+      {event::kCounter5Reached, Queue::Io, 23, kCpu22x, "HSC5: current value = preset value", false},
   };
   return kTable;
 }

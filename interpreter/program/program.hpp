@@ -45,14 +45,14 @@ struct Op {
 // Steps around a body, chosen at load for the operands that need one; the CPU defines them.
 
 /// Resolves pointer operands first: the body then finds direct ones only.
-void run_with_pointers(Cpu& cpu, const Op& op);
+void run_with_pointers(Core& core, const Op& op);
 /// The same when operand 0, or operand 1, is the only pointer.
-void run_with_pointer_first(Cpu& cpu, const Op& op);
-void run_with_pointer_second(Cpu& cpu, const Op& op);
+void run_with_pointer_first(Core& core, const Op& op);
+void run_with_pointer_second(Core& core, const Op& op);
 /// For an instruction that writes special memory: the port follows SMB30.
-void run_with_port_control(Cpu& cpu, const Op& op);
+void run_with_port_control(Core& core, const Op& op);
 /// For an instruction that writes analog outputs: there is no image, the change goes to the module at once.
-void run_with_analog_output(Cpu& cpu, const Op& op);
+void run_with_analog_output(Core& core, const Op& op);
 
 inline constexpr std::uint32_t kNoRoutine = 0xFFFF'FFFF;
 

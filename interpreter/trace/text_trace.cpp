@@ -5,7 +5,7 @@
 #include <bit>
 #include <ostream>
 
-#include "interpreter/cpu/cpu.hpp"
+#include "interpreter/model/errors.hpp"
 #include "interpreter/stl/printer.hpp"
 
 namespace s7200 {

@@ -59,7 +59,7 @@ void serving(benchmark::State& bench) {
   serial::Simulation simulation(slave());
   simulation.power_up();
   simulation.run_until_ready(serial::Simulation::default_quiet({}), 60 * kSecond);
-  const SerialFormat format = simulation.cpu().state().port.format;
+  const SerialFormat format = simulation.cpu().state().port[0].format;
   simulation.master_uart().configure(format);
   const std::uint64_t before = simulation.cpu().state().instructions;
   for (auto _ : bench) {

@@ -69,7 +69,7 @@ class Slave {
     simulation_.cpu().set_sink(&answers_);
     simulation_.power_up();
     require(simulation_.run_until_ready(200 * kMillisecond, 10 * kSecond), "the slave gets ready");
-    simulation_.master_uart().configure(simulation_.cpu().state().port.format);
+    simulation_.master_uart().configure(simulation_.cpu().state().port[0].format);
     ready_ = simulation_.snapshot();
   }
 
@@ -157,7 +157,7 @@ class Slave {
     }
     const serial::ParsedFault again = serial::parse_fault(to_text(parsed.fault));
     require(again.ok() && again.fault == parsed.fault, "a fault's text is read as that fault");
-    const serial::BitClock clock{simulation_.cpu().state().port.format};
+    const serial::BitClock clock{simulation_.cpu().state().port[0].format};
     if (parsed.fault.length.at(clock) < kLongest && parsed.fault.offset.at(clock) < kLongest)
       simulation_.inject(parsed.fault);
   }

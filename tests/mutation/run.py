@@ -46,7 +46,7 @@ IN_BODIES = [
     (r" && ", " || "), (r" \|\| ", " && "), (r" \+ ", " - "), (r" - ", " + "), (r" \* ", " + "), (r" / ", " * "), (r" % ", " / "),
     (r" << ", " >> "), (r" >> ", " << "), (r" & ", " | "), (r" \| ", " & "), (r" \^ ", " & "), (r"\btrue\b", "false"),
     (r"\bfalse\b", "true"), (r"(?<![\w.'])(\d+)(?![\w.'])", lambda m: str(int(m.group(1)) + 1)), (r"\?([^:?]+):([^:;]+)", r"?\2:\1"),
-    (r"if \(!", "if ("), (r"\bop\[0\]", "op[1]"), (r"\bop\[1\]", "op[0]"), (r"^(\s*)(cpu\.[^;]*;)$", r"\1;"), (r"^(\s*)return cpu\.", r"\1cpu."),
+    (r"if \(!", "if ("), (r"\bop\[0\]", "op[1]"), (r"\bop\[1\]", "op[0]"), (r"^(\s*)((?:core\.|\w+::\w+\(core)[^;]*;)$", r"\1;"), (r"^(\s*)return core\.", r"\1core."),
     (r"std::int16_t", "std::uint16_t"), (r"std::int32_t", "std::uint32_t"),
 ]
 IN_ROWS = [
@@ -136,7 +136,7 @@ class Tests:
     STAGES = ["vectors", "lock-step", "unit tests", "wrong programs", "programs that go wrong", "vectors as generated", "reference page"]
     SECONDS, KILOBYTES = 120, 4_000_000  # of processor time and memory; what needs more hangs
     # What every mutant's table.cpp includes and no mutant changes.
-    PRECOMPILED = ["algorithm", "bit", "cmath", "map", "optional", "set", "string", "type_traits", "vector", "interpreter/cpu/cpu.hpp",
+    PRECOMPILED = ["algorithm", "bit", "cmath", "map", "optional", "set", "string", "type_traits", "vector", "interpreter/cpu/core.hpp",
                    "interpreter/instructions/instruction.hpp"]
 
     def __init__(self, work):

@@ -95,7 +95,7 @@ class SlaveBench {
   serial::Simulation& simulation() { return simulation_; }
   Cpu& cpu() { return simulation_.cpu(); }
   const State& state() const { return simulation_.cpu().state(); }
-  SerialFormat format() const { return state().port.format; }
+  SerialFormat format() const { return state().port[0].format; }
 
   /// Powers up and runs until a master may begin. `content`: of all V memory before the first scan.
   void start(std::uint8_t content = 0) {

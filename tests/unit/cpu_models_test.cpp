@@ -80,7 +80,7 @@ class ByteInstruction : public testing::TestWithParam<ByteCase> {
     plc.set("SMB1", static_cast<std::uint32_t>(flags_before));
     plc.run_until(230 * us);  // LD, the instruction, MOVB
     out = plc.value("VB2");
-    flags = plc.cpu.state().image[image::kSM1];
+    flags = plc.cpu.state().image[sm::kFlags];
     EXPECT_EQ(plc.value("VB1"), c.count);
   }
   std::int64_t out = 0;
@@ -110,13 +110,13 @@ INSTANTIATE_TEST_SUITE_P(
         ByteCase{"INCB VB2", 0, 0, 0x12, 0x13, kZ | kV, 0}, ByteCase{"INCB VB2", 0, 0, 0xFF, 0x00, kZ | kV, kZ | kV},
         ByteCase{"INCB VB2", 0, 0, 0x7F, 0x80, kZ | kV, 0}, ByteCase{"DECB VB2", 0, 0, 0x12, 0x11, kZ | kV, 0},
         ByteCase{"DECB VB2", 0, 0, 0x01, 0x00, kZ | kV, kZ}, ByteCase{"DECB VB2", 0, 0, 0x00, 0xFF, kZ | kV, kV},
-        ByteCase{"DECB VB2", 0, 0, 0x80, 0x7F, kZ | kV, 0},
-        ByteCase{"ANDB VB0, VB2", 0xF0, 0, 0x3C, 0x30, kZ, 0}, ByteCase{"ANDB VB0, VB2", 0xAA, 0, 0x55, 0x00, kZ, kZ},
-        ByteCase{"ORB VB0, VB2", 0xF0, 0, 0x3C, 0xFC, kZ, 0}, ByteCase{"ORB VB0, VB2", 0, 0, 0, 0, kZ, kZ},
-        ByteCase{"XORB VB0, VB2", 0xF0, 0, 0x3C, 0xCC, kZ, 0}, ByteCase{"XORB VB0, VB2", 0xFF, 0, 0xFF, 0x00, kZ, kZ},
-        ByteCase{"INVB VB2", 0, 0, 0x0F, 0xF0, kZ, 0}, ByteCase{"INVB VB2", 0, 0, 0xFF, 0x00, kZ, kZ},
-        // SM1.1 is the bit that left last; a shift stops at 8, and one by 0 touches nothing. A rotate counts modulo 8; if that
-        // is 0 it touches SM1.0 only.
+        ByteCase{"DECB VB2", 0, 0, 0x80, 0x7F, kZ | kV, 0}, ByteCase{"ANDB VB0, VB2", 0xF0, 0, 0x3C, 0x30, kZ, 0},
+        ByteCase{"ANDB VB0, VB2", 0xAA, 0, 0x55, 0x00, kZ, kZ}, ByteCase{"ORB VB0, VB2", 0xF0, 0, 0x3C, 0xFC, kZ, 0},
+        ByteCase{"ORB VB0, VB2", 0, 0, 0, 0, kZ, kZ}, ByteCase{"XORB VB0, VB2", 0xF0, 0, 0x3C, 0xCC, kZ, 0},
+        ByteCase{"XORB VB0, VB2", 0xFF, 0, 0xFF, 0x00, kZ, kZ}, ByteCase{"INVB VB2", 0, 0, 0x0F, 0xF0, kZ, 0},
+        ByteCase{"INVB VB2", 0, 0, 0xFF, 0x00, kZ, kZ},
+        // SM1.1 is the bit that left last; a shift stops at 8, and one by 0 touches nothing. A rotate counts modulo 8; if
+        // that is 0 it touches SM1.0 only.
         ByteCase{"SLB VB2, VB1", 0, 1, 0x81, 0x02, kZ | kV, kV},
         ByteCase{"SLB VB2, VB1", 0, 2, 0x40, 0x00, kZ | kV, kZ | kV},
         ByteCase{"SLB VB2, VB1", 0, 3, 0x40, 0x00, kZ | kV, kZ},
@@ -130,11 +130,10 @@ INSTANTIATE_TEST_SUITE_P(
         ByteCase{"RLB VB2, VB1", 0, 1, 0x81, 0x03, kZ | kV, kV}, ByteCase{"RLB VB2, VB1", 0, 3, 0x12, 0x90, kZ | kV, 0},
         ByteCase{"RLB VB2, VB1", 0, 8, 0x81, 0x81, kZ, 0}, ByteCase{"RLB VB2, VB1", 0, 9, 0x40, 0x80, kZ | kV, 0},
         ByteCase{"RLB VB2, VB1", 0, 1, 0x00, 0x00, kZ | kV, kZ}, ByteCase{"RLB VB2, VB1", 0, 0, 0x81, 0x81, kZ, 0},
-        ByteCase{"RLB VB2, VB1", 0, 16, 0x00, 0x00, kZ, kZ},
-        ByteCase{"RRB VB2, VB1", 0, 1, 0x81, 0xC0, kZ | kV, kV}, ByteCase{"RRB VB2, VB1", 0, 3, 0x12, 0x42, kZ | kV, 0},
-        ByteCase{"RRB VB2, VB1", 0, 8, 0x80, 0x80, kZ, 0}, ByteCase{"RRB VB2, VB1", 0, 9, 0x02, 0x01, kZ | kV, 0},
-        ByteCase{"RRB VB2, VB1", 0, 1, 0x00, 0x00, kZ | kV, kZ}, ByteCase{"RRB VB2, VB1", 0, 0, 0x81, 0x81, kZ, 0},
-        ByteCase{"RRB VB2, VB1", 0, 16, 0x00, 0x00, kZ, kZ}));
+        ByteCase{"RLB VB2, VB1", 0, 16, 0x00, 0x00, kZ, kZ}, ByteCase{"RRB VB2, VB1", 0, 1, 0x81, 0xC0, kZ | kV, kV},
+        ByteCase{"RRB VB2, VB1", 0, 3, 0x12, 0x42, kZ | kV, 0}, ByteCase{"RRB VB2, VB1", 0, 8, 0x80, 0x80, kZ, 0},
+        ByteCase{"RRB VB2, VB1", 0, 9, 0x02, 0x01, kZ | kV, 0}, ByteCase{"RRB VB2, VB1", 0, 1, 0x00, 0x00, kZ | kV, kZ},
+        ByteCase{"RRB VB2, VB1", 0, 0, 0x81, 0x81, kZ, 0}, ByteCase{"RRB VB2, VB1", 0, 16, 0x00, 0x00, kZ, kZ}));
 
 TEST(CpuModels, ByteInstructionsTakePointersAccumulatorsAndConstants) {
   Plc plc(
@@ -275,7 +274,7 @@ TEST(CpuModels, QueuesAreAsLongAsTheCpusAre) {
     EXPECT_EQ(queue[0].count, depth.communication) << depth.model.name;
     EXPECT_EQ(queue[1].count, depth.io) << depth.model.name;
     EXPECT_EQ(queue[2].count, depth.timed) << depth.model.name;
-    EXPECT_EQ(plc.cpu.state().image[image::kSM4] & 7, 7) << depth.model.name;
+    EXPECT_EQ(plc.cpu.state().image[sm::kInterruptStatus] & 7, 7) << depth.model.name;
   }
 }
 

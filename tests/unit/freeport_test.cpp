@@ -101,7 +101,7 @@ TEST(Freeport, EveryCodeOfTheControlByte) {
         for (std::uint32_t protocol = 0; protocol < 4; ++protocol) {
           plc.set("SMB30", parity << 6 | seven << 5 | baud << 2 | protocol);
           EXPECT_EQ(plc.port.receiver, protocol == 1);
-          EXPECT_EQ(plc.cpu.state().port.active, protocol == 1);
+          EXPECT_EQ(plc.cpu.state().port[0].active, protocol == 1);
           EXPECT_EQ(plc.port.format.parity, kParity[parity]);
           EXPECT_EQ(plc.port.format.data_bits, seven ? 7 : 8);
           EXPECT_EQ(plc.port.format.baud, kBaud[baud]);
@@ -129,7 +129,8 @@ TEST(Freeport, SwitchingToFreeportInAnInterruptRoutineIs009A) {
 }
 
 TEST(Freeport, LeavingFreeportOrChangingTheRateInAnInterruptRoutineIsAllowed) {
-  Plc plc("LD SM0.1\nMOVB 9, SMB30\nATCH 0, 0\nATCH 1, 1\nENI\nMEND\nINT 0\nMOVB 5, SMB30\nRETI\nINT 1\nMOVB 0, SMB30\nRETI\n");
+  Plc plc(
+      "LD SM0.1\nMOVB 9, SMB30\nATCH 0, 0\nATCH 1, 1\nENI\nMEND\nINT 0\nMOVB 5, SMB30\nRETI\nINT 1\nMOVB 0, SMB30\nRETI\n");
   plc.input_at(1 * ms, "I0.0", true);
   plc.run_until(2 * ms);
   EXPECT_EQ(plc.port.format.baud, 19'200u);
@@ -144,7 +145,7 @@ TEST(Freeport, StopEndsTheTransmissionAndGivesThePortBackToPpi) {
   plc.input_at(2 * ms, "I0.0", true);
   plc.run_until(20 * ms);
   EXPECT_TRUE(plc.stopped());
-  EXPECT_FALSE(plc.cpu.state().port.active);
+  EXPECT_FALSE(plc.cpu.state().port[0].active);
   EXPECT_FALSE(plc.port.receiver);
   EXPECT_EQ(plc.value("SM4.5"), 1);
   EXPECT_LT(plc.port.sent.size(), 5u);
@@ -153,8 +154,9 @@ TEST(Freeport, StopEndsTheTransmissionAndGivesThePortBackToPpi) {
 
 // Both characters come during the SQRT, each with its own parity; VB2 and VB4 have the first, VB1 and VB3 the last one.
 TEST(Freeport, SMB2AndSM30BelongToTheEntryOfTheirRoutine) {
-  Plc plc("LD SM0.1\nMOVB 9, SMB30\nATCH 0, 8\nSQRT VD200, VD204\nENI\nMEND\n"
-          "INT 0\nMOVB VB1, VB2\nMOVB SMB2, VB1\nMOVB VB3, VB4\nMOVB SMB3, VB3\nRETI\n");
+  Plc plc(
+      "LD SM0.1\nMOVB 9, SMB30\nATCH 0, 8\nSQRT VD200, VD204\nENI\nMEND\n"
+      "INT 0\nMOVB VB1, VB2\nMOVB SMB2, VB1\nMOVB VB3, VB4\nMOVB SMB3, VB3\nRETI\n");
   plc.character_at(1 * ms, 0x41, true);
   plc.character_at(2 * ms, 0x42, false);
   plc.run_until(4 * ms);

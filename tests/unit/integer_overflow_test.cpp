@@ -34,7 +34,7 @@ Outcome execute(const CpuModel& model, std::string_view op, std::uint32_t out, s
   plc.set("SMB1", static_cast<std::uint32_t>(flags_before));
   plc.run_scans(1);
   EXPECT_TRUE(plc.records.errors().empty()) << op;
-  return {static_cast<std::uint32_t>(plc.value("VD100")), static_cast<int>(plc.cpu.state().image[image::kSM1])};
+  return {static_cast<std::uint32_t>(plc.value("VD100")), static_cast<int>(plc.cpu.state().image[sm::kFlags])};
 }
 
 struct Sum {

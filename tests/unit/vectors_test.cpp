@@ -133,9 +133,11 @@ class Execution {
     Image image = cpu.state().image;
     for (const auto& assignment : vector_.before) assign(image, assignment);
     cpu.poke(0, image);
-    cpu.s.pc = prefix_;
-    cpu.s.stack = {};
-    for (std::size_t i = vector_.stack.size(); i > 0; --i) cpu.s.stack.push(vector_.stack[i - 1]);
+    State state = cpu.state();
+    state.pc = prefix_;
+    state.stack = {};
+    for (std::size_t i = vector_.stack.size(); i > 0; --i) state.stack.push(vector_.stack[i - 1]);
+    cpu.restore(state);
   }
 
   void run_until(Cpu& cpu, Time limit) {

@@ -1,0 +1,148 @@
+// What the bodies of instructions and the units of the CPU work on: the state, the program, and the ways out of the CPU.
+//
+// An instruction sees the world as of its start; the clock already stands at its end, so that what it does to the outside
+// carries its end.
+//
+// Not documented, modelled so: SM4.3 stays 1 until the next change to RUN. [Choices.SM43StaysUntilTheNextRun]
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <optional>
+
+#include "interpreter/base/bytes.hpp"
+#include "interpreter/base/event_queue.hpp"
+#include "interpreter/cpu/serial_port.hpp"
+#include "interpreter/cpu/state.hpp"
+#include "interpreter/model/errors.hpp"
+#include "interpreter/model/ports.hpp"
+#include "interpreter/program/program.hpp"
+#include "interpreter/trace/trace.hpp"
+
+namespace s7200 {
+
+/// What the loops of the CPU and the rest of it tell each other.
+struct Loop {
+  Time until = 0;        ///< the loop looks around when the clock has come to here
+  std::uint32_t op = 0;  ///< being executed
+  bool pause_at_scan_end = false;
+  bool pause_at_error = false;
+  bool paused = false;
+};
+
+class Core {
+ public:
+  /// Nothing is owned but the program.
+  Core(std::shared_ptr<const Program> program, EventQueue& queue, SerialPort& port0)
+      : program_(std::move(program)), reach_(program_->reach.data()), queue_(queue), port_{&port0} {}
+
+  State s;
+  Loop loop;
+
+  const Program& program() const { return *program_; }
+  const CpuModel& model() const { return *program_->model; }
+
+  // --- operands ---
+
+  /// A direct operand as a value: std::uint8_t, std::uint16_t, std::int16_t, std::uint32_t, std::int32_t, float.
+  template <class Value>
+  Value get(const Operand& operand) const;
+  template <class Value>
+  void put(const Operand& operand, Value value);
+
+  bool bit(const Operand& operand) const { return (s.image[operand.at] >> operand.bit) & 1; }
+  void put_bit(std::uint32_t at, std::uint8_t bit_number, bool value) {
+    put_mask(at, static_cast<std::uint8_t>(1u << bit_number), value);
+  }
+  /// Sets or resets the bits of `mask` in a byte.
+  void put_mask(std::uint32_t at, std::uint8_t mask, bool value) {
+    s.image[at] = static_cast<std::uint8_t>(value ? s.image[at] | mask : s.image[at] & ~mask);
+  }
+
+  /// Sets and resets SM1 bits: those of `mask` become `flags`.
+  void set_flags(std::uint8_t mask, std::uint8_t flags) {
+    s.image[sm::kFlags] = static_cast<std::uint8_t>((s.image[sm::kFlags] & ~mask) | flags);
+  }
+
+  /// Place in the image that a pointer value leads to, for an operand of `width` bytes.
+  std::optional<std::uint32_t> resolve(std::uint32_t pointer, std::uint32_t width) const {
+    const std::uint32_t code = pointer >> 24, offset = pointer & 0xFF'FFFF;
+    if (code >= kReaches || offset + width > reach_[code].size) return {};
+    return reach_[code].base + offset;
+  }
+
+  /// Whether `count` bytes from `at` on lie in one area of this CPU.
+  bool in_area(std::uint32_t at, std::uint32_t count) const;
+
+  /// The same for `count` bits from a bit on.
+  bool bits_in_area(const Operand& first, std::uint32_t count) const;
+
+  // --- course of the program ---
+
+  void spend(const Op& op, std::int64_t units) { s.time += op.unit_cost * units; }
+  void jump(std::uint32_t op) { s.pc = op; }
+
+  /// Notes a run-time error of the instruction being executed and sets SM4.3 (facts 5.2); the program goes on.
+  void run_error(RunError code);
+  /// Goes to STOP (facts 5.1).
+  void fatal_error(FatalError code);
+  /// A compare contact is the only instruction whose error stops the CPU: it raises both (facts 5.1).
+  void compare_error(RunError code, FatalError fatal) {
+    run_error(code);
+    fatal_error(fatal);
+  }
+  /// What an error is put down to: the instruction being executed; none in the system's own part of the scan.
+  std::uint32_t current_op() const { return s.in_interrupt || s.phase == Phase::Program ? loop.op : kNoRoutine; }
+
+  /// The loop is to look around again before the next instruction.
+  void attend() { loop.until = 0; }
+
+  // --- the outside ---
+
+  /// Wakes the unit that `what` belongs to (UnitEvent). Each is pending at most once.
+  void schedule(Time at, std::uint8_t what) { queue_.schedule(at, EventOwner::Cpu, what); }
+  void cancel(std::uint8_t what) { queue_.cancel(EventOwner::Cpu, what); }
+  Time next_event() const { return queue_.next(); }
+
+  SerialPort& port(std::size_t number) { return *port_[number]; }
+
+  void set_sink(TraceSink* sink) { sink_ = sink; }
+  TraceSink* sink() const { return sink_; }
+  void trace(const TraceRecord& record) const {
+    if (sink_) sink_->record(record);
+  }
+
+ private:
+  std::shared_ptr<const Program> program_;
+  const Reach* reach_;  // of the program
+  EventQueue& queue_;
+  std::array<SerialPort*, kPorts.size()> port_;
+  TraceSink* sink_ = nullptr;
+};
+
+template <class Value>
+inline Value Core::get(const Operand& operand) const {
+  const std::uint8_t* from = &s.image[operand.at];
+  if constexpr (sizeof(Value) == 1)
+    return static_cast<Value>(*from);
+  else if constexpr (sizeof(Value) == 2)
+    return static_cast<Value>(load16(from));
+  else
+    return std::bit_cast<Value>(load32(from));
+}
+
+template <class Value>
+inline void Core::put(const Operand& operand, Value value) {
+  std::uint8_t* to = &s.image[operand.at];
+  if constexpr (sizeof(Value) == 1)
+    *to = static_cast<std::uint8_t>(value);
+  else if constexpr (sizeof(Value) == 2)
+    store16(to, static_cast<std::uint16_t>(value));
+  else
+    store32(to, std::bit_cast<std::uint32_t>(value));
+}
+
+}  // namespace s7200

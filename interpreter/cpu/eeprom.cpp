@@ -1,0 +1,36 @@
+#include "interpreter/cpu/eeprom.hpp"
+
+#include <algorithm>
+
+namespace s7200::eeprom {
+
+static std::uint32_t bytes_to_save(std::uint8_t request) {
+  const int size = request & sm::kSaveSize;
+  return size == 3 ? 4 : size == 2 ? 2 : 1;
+}
+
+void end_save(Core& core) { core.put_mask(sm::kEepromRequest, sm::kSave, false); }
+
+void power_up(Core& core, const RetentiveMemory* memory) {
+  if (!memory) return;
+  core.s.eeprom = memory->eeprom;
+  std::copy_n(core.s.eeprom.begin(), core.model().eeprom_bytes, core.s.image.begin() + image::kV);
+}
+
+/// A save that was asked for makes the scan longer by a phase of its own.
+void end_scan(Core& core) {
+  State& s = core.s;
+  const std::uint8_t request = s.image[sm::kEepromRequest];
+  if (!(request & sm::kSave)) return;
+  const std::uint32_t bytes = bytes_to_save(request);
+  const std::uint32_t offset = load16(&s.image[sm::kEepromAddress]);
+  if (offset + bytes > core.model().eeprom_bytes) {
+    end_save(core);
+    return core.run_error(RunError::EepromRange);
+  }
+  std::copy_n(s.image.begin() + image::kV + offset, bytes, s.eeprom.begin() + offset);
+  s.phase = Phase::SaveToEeprom;
+  s.phase_left = core.program().eeprom_save;
+}
+
+}  // namespace s7200::eeprom

@@ -1,0 +1,38 @@
+// The ports in Freeport mode: control byte, character reception, XMT (facts 2). What differs between them is in kPorts.
+//
+// Not documented, modelled so:
+// - Transmit complete (event 9, SM4.5) comes with the end of the last stop bit.
+//   [Freeport.XmtSendsFromItsEndOnAndEvent9ComesWithTheEndOfTheLastStopBit]
+// - The transmit buffer is read character by character while sending. [Freeport.TheBufferIsReadWhileSending]
+// - The port does not hear itself: its receiver is off from XMT until transmit complete.
+//   [Freeport.TransmitterIdleIsZeroWhileSendingAndTheReceiverIsOff]
+// - SM3.0 shows parity errors only; a character with a bad stop bit is handed over as it was sampled.
+//   [Choices.ABadStopBitIsNoParityError]
+// - A character received while event 8 is not attached leaves SMB2 and SM3.0 alone.
+//   [Freeport.ACharacterThatNoRoutineWaitsForLeavesSMB2Alone]
+// - XMT while the port is not in Freeport mode is error 0009. [Freeport.XmtWithoutFreeportModeIs0009]
+// Not modelled: the PPI protocol. In PPI mode characters from the line are ignored.
+#pragma once
+
+#include "interpreter/cpu/core.hpp"
+
+namespace s7200::freeport {
+
+/// XMT: `table` is the place of the number of characters, 0 to 255, which follow it; 0 sends a break of 16 bit times
+/// (A5E00066097-02, 9-189). The port's error `busy` while it is sending or not in Freeport mode, 0091 for a table that
+/// leaves its area.
+void transmit(Core& core, std::uint32_t port, std::uint32_t table);
+
+/// Reports of the line.
+void character_received(Core& core, std::size_t port, const ReceivedCharacter& character);
+void character_sent(Core& core, std::size_t port, Time at);
+
+/// Something other than the program may have written the control bytes: the ports follow them.
+void follow_control(Core& core);
+
+// For the table of units.
+void power_up(Core& core, const RetentiveMemory* memory);
+void enter_stop(Core& core);
+void begin_service(Core& core, const QueuedInterrupt& interrupt);
+
+}  // namespace s7200::freeport

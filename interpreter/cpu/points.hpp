@@ -1,0 +1,25 @@
+// The input and output points themselves, apart from their image registers.
+// Not modelled: an output table for STOP that differs from the default, which is all points off.
+#pragma once
+
+#include "interpreter/cpu/core.hpp"
+
+namespace s7200::points {
+
+/// An input byte has a new value: the units see the points that have changed.
+void set_inputs(Core& core, std::uint32_t byte, std::uint8_t value, Time at);
+
+/// The start of the scan: from the input points to their image.
+void read_inputs(Core& core);
+
+/// An immediate instruction writes an output point; a running pulse output keeps its own.
+void write_output(Core& core, std::uint32_t byte, std::uint8_t bit, bool value);
+
+/// Writes an output point, whoever drives it.
+void put_output(Core& core, std::uint32_t byte, std::uint8_t bit, bool value, Time at);
+
+// For the table of units.
+void enter_stop(Core& core);
+void end_scan(Core& core);
+
+}  // namespace s7200::points

@@ -1,0 +1,189 @@
+#include "interpreter/cpu/scan.hpp"
+
+#include <algorithm>
+
+#include "interpreter/cpu/eeprom.hpp"
+#include "interpreter/cpu/interrupts.hpp"
+#include "interpreter/cpu/points.hpp"
+#include "interpreter/cpu/units.hpp"
+
+namespace s7200::scan {
+namespace {
+
+constexpr Time kHalfSecond = kSecond / 2;
+
+std::uint8_t clock_bits(Time time) {
+  const bool one_second = (time / kHalfSecond) % 2 == 0;
+  const bool one_minute = (time / (30 * kSecond)) % 2 == 0;
+  return static_cast<std::uint8_t>((one_minute ? sm::kClock1min : 0) | (one_second ? sm::kClock1s : 0));
+}
+
+std::uint16_t whole_milliseconds(Time time) {
+  return static_cast<std::uint16_t>(std::min<Time>(time / kMillisecond, 0xFFFF));
+}
+
+void update_clocks(State& s) {
+  std::uint8_t& status = s.image[sm::kScanStatus];
+  status = static_cast<std::uint8_t>((status & ~(sm::kClock1min | sm::kClock1s)) | clock_bits(s.time));
+  s.next_clock = (s.time / kHalfSecond + 1) * kHalfSecond;
+}
+
+/// SMB0 is updated at the end of each scan (S7-200 manual, SMB0): SM0.1–SM0.3 last one scan, SM0.6 alternates.
+void update_status(State& s) {
+  std::uint8_t& status = s.image[sm::kScanStatus];
+  constexpr std::uint8_t kOneScan = sm::kFirstScan | sm::kRetentiveLost | sm::kFromPowerUp;
+  status = static_cast<std::uint8_t>((status & ~kOneScan) ^ sm::kAlternatingScan);
+  if (s.time >= s.next_clock) update_clocks(s);
+}
+
+void update_times(State& s) {
+  const Time scan = s.time - s.scan_begin;
+  const std::uint16_t last = whole_milliseconds(scan);
+  store16(&s.image[sm::kLastScan], last);
+  if (scan < s.shortest_scan) {
+    s.shortest_scan = scan;
+    store16(&s.image[sm::kShortestScan], last);
+  }
+  if (scan > s.longest_scan) {
+    s.longest_scan = scan;
+    store16(&s.image[sm::kLongestScan], last);
+  }
+}
+
+void end(Core& core) {
+  if (core.s.mode == Mode::Run) {
+    ++core.s.scans;
+    update_status(core.s);
+    update_times(core.s);
+    if (core.s.stop_after_scan) enter_stop(core);
+    core.loop.paused = core.loop.pause_at_scan_end;
+  }
+  begin(core);
+}
+
+/// `part` counts the parts that are not the program.
+void begin_phase(Core& core, Phase phase, std::size_t part) {
+  core.s.phase = phase;
+  core.s.phase_left = core.program().scan_phase[part];
+}
+
+void begin_program(Core& core) {
+  State& s = core.s;
+  units::begin_scan(core);
+  s.phase = Phase::Program;
+  s.pc = 0;
+  s.stack = {};
+  s.rail = true;
+  s.call_depth = 0;
+}
+
+void begin_communication(Core& core) { begin_phase(core, Phase::Communication, 1); }
+
+void finish_phase(Core& core) {
+  const bool run = core.s.mode == Mode::Run;
+  switch (core.s.phase) {
+    case Phase::ReadInputs:
+      points::read_inputs(core);
+      return run ? begin_program(core) : begin_communication(core);
+    case Phase::Program:
+      return begin_communication(core);
+    case Phase::Communication:
+      return begin_phase(core, Phase::SelfTest, 2);
+    case Phase::SelfTest:
+      return begin_phase(core, Phase::WriteOutputs, 3);
+    case Phase::WriteOutputs:
+      if (run) units::end_scan(core);
+      if (core.s.phase == Phase::WriteOutputs) end(core);
+      return;
+    case Phase::SaveToEeprom:
+      eeprom::end_save(core);
+      return end(core);
+  }
+}
+
+}  // namespace
+
+void enter_run(Core& core) {
+  State& s = core.s;
+  s.mode = Mode::Run;
+  constexpr std::uint8_t kKept = sm::kRetentiveLost | sm::kFromPowerUp;
+  std::uint8_t& status = s.image[sm::kScanStatus];
+  status = static_cast<std::uint8_t>((status & kKept) | sm::kAlwaysOn | sm::kFirstScan | sm::kModeSwitchRun);
+  update_clocks(s);
+  core.trace({.at = s.time, .kind = TraceKind::ModeChange, .code = 1});
+  units::enter_run(core);
+}
+
+void enter_stop(Core& core) {
+  State& s = core.s;
+  s.mode = Mode::Stop;
+  s.in_interrupt = false;
+  s.stop_after_scan = false;
+  s.call_depth = 0;
+  units::enter_stop(core);
+  core.trace({.at = s.time, .kind = TraceKind::ModeChange, .code = 0});
+  begin_communication(core);
+  s.watchdog = kNever;
+  core.attend();
+}
+
+void begin(Core& core) {
+  State& s = core.s;
+  begin_phase(core, Phase::ReadInputs, 0);
+  s.scan_begin = s.time;
+  s.watchdog = s.mode == Mode::Run ? s.time + core.model().watchdog : kNever;
+  if (core.sink()) core.trace({.at = s.time, .kind = TraceKind::ScanBegin, .count = s.scans + 1});
+}
+
+void advance(Core& core) {
+  State& s = core.s;
+  while (s.phase != Phase::Program && !core.loop.paused && s.time < core.loop.until) {
+    const Time end = s.time + s.phase_left;
+    if (end > core.loop.until) {
+      s.phase_left = end - core.loop.until;
+      s.time = core.loop.until;
+      return;
+    }
+    s.time = end;
+    s.phase_left = 0;
+    finish_phase(core);
+  }
+}
+
+void end_main_program(Core& core) {
+  begin_communication(core);
+  core.attend();
+}
+
+void stop(Core& core) {
+  if (!core.s.in_interrupt) return enter_stop(core);
+  interrupts::drop_all(core);
+  core.s.stop_after_scan = true;
+  interrupts::return_from(core);
+}
+
+void reset_watchdog(Core& core) {
+  core.s.watchdog = core.s.time + core.model().watchdog;
+  core.attend();
+}
+
+void call(Core& core, std::uint32_t target) {
+  State& s = core.s;
+  if (s.call_depth == core.model().call_depth) return core.run_error(RunError::CallDepth);
+  s.calls[s.call_depth++] = {s.pc, s.stack, s.rail};
+  s.stack = LogicStack::on_entry();
+  s.rail = true;
+  s.pc = target;
+}
+
+void return_from_subroutine(Core& core) {
+  State& s = core.s;
+  const CallFrame& frame = s.calls[--s.call_depth];
+  s.pc = frame.return_to;
+  s.stack = frame.stack;
+  s.rail = frame.rail;
+}
+
+void power_up(Core& core, const RetentiveMemory*) { core.s.image[sm::kScanStatus] = sm::kAlwaysOn | sm::kFromPowerUp; }
+
+}  // namespace s7200::scan

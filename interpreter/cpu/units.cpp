@@ -1,0 +1,94 @@
+#include "interpreter/cpu/units.hpp"
+
+#include <cassert>
+
+#include "interpreter/cpu/clock.hpp"
+#include "interpreter/cpu/eeprom.hpp"
+#include "interpreter/cpu/freeport.hpp"
+#include "interpreter/cpu/high_speed_counters.hpp"
+#include "interpreter/cpu/interrupts.hpp"
+#include "interpreter/cpu/points.hpp"
+#include "interpreter/cpu/power.hpp"
+#include "interpreter/cpu/pulse_outputs.hpp"
+#include "interpreter/cpu/scan.hpp"
+#include "interpreter/cpu/timers.hpp"
+
+namespace s7200::units {
+namespace {
+
+/// The unit's own events: `count` of them from `first` on.
+struct OwnEvents {
+  std::uint8_t first = 0, count = 0;
+  void (*handle)(Core&, std::uint8_t what, Time at) = nullptr;
+};
+
+/// See units.hpp for what the columns mean. One is left out where the unit does nothing.
+struct Unit {
+  void (*power_up)(Core&, const RetentiveMemory*) = nullptr;
+  void (*enter_run)(Core&) = nullptr;
+  void (*enter_stop)(Core&) = nullptr;
+  void (*begin_scan)(Core&) = nullptr;
+  void (*end_scan)(Core&) = nullptr;
+  void (*inputs_changed)(Core&, std::uint32_t byte, std::uint8_t changed, Time at) = nullptr;
+  void (*begin_service)(Core&, const QueuedInterrupt&) = nullptr;
+  OwnEvents events{};
+};
+
+// The order is that of the effects: the edges of inputs occur before what counters make of them; pulses end before the
+// output points go off, and the points are written before a value is saved; the EEPROM fills V memory before the retentive
+// ranges come back over it.
+constexpr Unit kUnits[] = {
+    {.power_up = scan::power_up},
+    {.enter_stop = interrupts::enter_stop,
+     .inputs_changed = interrupts::inputs_changed,
+     .events = {kTimedInterrupt0, 2, interrupts::handle}},
+    {.power_up = timers::power_up,
+     .enter_stop = timers::enter_stop,
+     .begin_scan = timers::begin_scan,
+     .events = {kTick1ms, 1, timers::handle}},
+    {.power_up = freeport::power_up,
+     .enter_run = freeport::follow_control,
+     .enter_stop = freeport::enter_stop,
+     .begin_service = freeport::begin_service},
+    {.inputs_changed = high_speed_counters::inputs_changed},
+    {.power_up = pulse_outputs::power_up,
+     .enter_stop = pulse_outputs::enter_stop,
+     .events = {kPulse0, 2, pulse_outputs::handle}},
+    {.enter_stop = points::enter_stop, .end_scan = points::end_scan},
+    {.power_up = eeprom::power_up, .end_scan = eeprom::end_scan},
+    {.power_up = power::recall_ranges},
+    {.power_up = clock::power_up},
+};
+
+/// Calls what stands in a column, row by row.
+template <class... Parameters, class... Arguments>
+void each(void (*Unit::*column)(Parameters...), Arguments&&... arguments) {
+  for (const Unit& unit : kUnits)
+    if (unit.*column) (unit.*column)(arguments...);
+}
+
+}  // namespace
+
+void power_up(Core& core, const RetentiveMemory* memory) {
+  for (const Unit& unit : kUnits)
+    for (std::uint8_t i = 0; i < unit.events.count; ++i) core.cancel(static_cast<std::uint8_t>(unit.events.first + i));
+  each(&Unit::power_up, core, memory);
+}
+void enter_run(Core& core) { each(&Unit::enter_run, core); }
+void enter_stop(Core& core) { each(&Unit::enter_stop, core); }
+void begin_scan(Core& core) { each(&Unit::begin_scan, core); }
+void end_scan(Core& core) { each(&Unit::end_scan, core); }
+
+void inputs_changed(Core& core, std::uint32_t byte, std::uint8_t changed, Time at) {
+  each(&Unit::inputs_changed, core, byte, changed, at);
+}
+
+void begin_service(Core& core, const QueuedInterrupt& interrupt) { each(&Unit::begin_service, core, interrupt); }
+
+void handle(Core& core, std::uint8_t what, Time at) {
+  for (const Unit& unit : kUnits)
+    if (what >= unit.events.first && what < unit.events.first + unit.events.count) return unit.events.handle(core, what, at);
+  assert(false && "an event that no unit has scheduled");
+}
+
+}  // namespace s7200::units

@@ -1,0 +1,33 @@
+// Codes of the errors that the simulated CPU can report, with their meanings.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace s7200 {
+
+/// Run-time errors: SM4.3 becomes 1 and the program goes on (facts 5.2).
+enum class RunError : std::uint16_t {
+  CounterNotDefined = 0x01,
+  PointTaken = 0x02,
+  InputTaken = 0x03,
+  IndirectAddress = 0x06,
+  Clock = 0x07,
+  CallDepth = 0x08,
+  Port0Busy = 0x09,
+  CounterDefinedTwice = 0x0A,
+  CompareValue = 0x0F,
+  OperandRange = 0x91,
+  Count = 0x92,
+  EepromRange = 0x94,
+  FreeportInInterrupt = 0x9A,
+};
+
+/// Fatal errors: the CPU goes to STOP (facts 5.1).
+enum class FatalError : std::uint16_t { Watchdog = 0x03, CompareIndirect = 0x11, CompareValue = 0x12 };
+
+/// One line of meaning for a code, for people.
+std::string_view meaning_of(RunError code);
+std::string_view meaning_of(FatalError code);
+
+}  // namespace s7200

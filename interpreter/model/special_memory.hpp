@@ -1,0 +1,119 @@
+// Special memory by name: where its bytes lie in the image, and what their bits mean (facts 2.1, 4.3–4.5).
+//
+// Which bytes a program may name, and whether the simulator does what they say, is in the list special_memory().
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "interpreter/model/area.hpp"
+
+namespace s7200 {
+
+/// Bits of SM1 that an instruction sets and resets (S7-200 manual C230-02, D-2).
+enum Flag : std::uint8_t {
+  kZero = 1,
+  kOverflow = 2,
+  kNegative = 4,
+  kDivisionByZero = 8,
+  kTableFull = 16,
+  kTableEmpty = 32,
+  kNotBcd = 64,
+  kNotHex = 128
+};
+
+namespace sm {
+
+constexpr std::uint32_t byte(std::uint32_t number) { return image::kSM + number; }
+
+inline constexpr std::uint32_t kScanStatus = byte(0);
+enum ScanStatus : std::uint8_t {
+  kAlwaysOn = 0x01,         ///< SM0.0
+  kFirstScan = 0x02,        ///< SM0.1
+  kRetentiveLost = 0x04,    ///< SM0.2: for one scan, when retentive data were lost
+  kFromPowerUp = 0x08,      ///< SM0.3: for one scan, when RUN was entered from power-up
+  kClock1min = 0x10,        ///< SM0.4: 30 s on, 30 s off
+  kClock1s = 0x20,          ///< SM0.5: 0.5 s on, 0.5 s off
+  kAlternatingScan = 0x40,  ///< SM0.6
+  kModeSwitchRun = 0x80,    ///< SM0.7: mode switch in RUN; 0: TERM
+};
+
+inline constexpr std::uint32_t kFlags = byte(1);  ///< of Flag
+
+inline constexpr std::uint32_t kReceivedCharacter = byte(2);  ///< of any port, for its interrupt routine
+inline constexpr std::uint32_t kReceiveStatus = byte(3);
+enum ReceiveStatus : std::uint8_t { kParityError = 0x01 };  ///< SM3.0
+
+inline constexpr std::uint32_t kInterruptStatus = byte(4);
+enum InterruptStatus : std::uint8_t {
+  kQueueOverflow = 0x07,      ///< SM4.0 communication, SM4.1 I/O, SM4.2 timed: in the order of the queues
+  kRuntimeError = 0x08,       ///< SM4.3
+  kInterruptsEnabled = 0x10,  ///< SM4.4
+  kPort0Idle = 0x20,          ///< SM4.5: transmitter idle
+  kPort1Idle = 0x40,          ///< SM4.6
+};
+
+inline constexpr std::uint32_t kIdentification = byte(6);
+inline constexpr std::uint32_t kLastScan = byte(22), kShortestScan = byte(24), kLongestScan = byte(26);  ///< words, in ms
+inline constexpr std::array<std::uint32_t, 2> kPotentiometer{byte(28), byte(29)};
+
+inline constexpr std::uint32_t kPort0Control = byte(30);  ///< p p d b b b m m
+
+inline constexpr std::uint32_t kEepromRequest = byte(31);
+enum EepromRequest : std::uint8_t {
+  kSaveSize = 0x03,  ///< SM31.0, SM31.1: 2 a word, 3 a double word, else a byte
+  kSave = 0x80,      ///< SM31.7
+};
+inline constexpr std::uint32_t kEepromAddress = byte(32);  ///< word: offset in V
+
+inline constexpr std::array<std::uint32_t, 2> kTimedInterval{byte(34), byte(35)};  ///< of events 10 and 11, in ms
+
+}  // namespace sm
+
+/// High-speed counters HSC0–HSC2, ten bytes each.
+namespace sm::counter {
+
+inline constexpr std::array<std::uint32_t, 3> kStatus{byte(36), byte(46), byte(56)};
+enum Status : std::uint8_t { kCountingUp = 0x20, kAtPreset = 0x40, kAbovePreset = 0x80 };
+
+// From the status byte on.
+inline constexpr std::uint32_t kControl = 1;
+inline constexpr std::uint32_t kNewCurrent = 2;  ///< double word
+inline constexpr std::uint32_t kNewPreset = 6;   ///< double word
+
+enum Control : std::uint8_t {
+  kResetLow = 0x01,
+  kStartLow = 0x02,
+  kSingleRate = 0x04,
+  kUp = 0x08,
+  kTakeDirection = 0x10,
+  kTakePreset = 0x20,
+  kTakeCurrent = 0x40,
+  kEnable = 0x80,
+};
+
+}  // namespace sm::counter
+
+/// Pulse outputs Q0.0 and Q0.1, ten bytes each.
+namespace sm::pulses {
+
+inline constexpr std::array<std::uint32_t, 2> kStatus{byte(66), byte(76)};
+enum Status : std::uint8_t { kTrainOverflow = 0x40, kIdle = 0x80 };
+
+// From the status byte on.
+inline constexpr std::uint32_t kControl = 1;
+inline constexpr std::uint32_t kCycleTime = 2;   ///< word
+inline constexpr std::uint32_t kPulseWidth = 4;  ///< word
+inline constexpr std::uint32_t kPulseCount = 6;  ///< double word
+
+enum Control : std::uint8_t {
+  kTakeCycle = 0x01,
+  kTakeWidth = 0x02,
+  kTakeCount = 0x04,
+  kMilliseconds = 0x08,
+  kPwm = 0x40,
+  kEnable = 0x80,
+};
+
+}  // namespace sm::pulses
+}  // namespace s7200
