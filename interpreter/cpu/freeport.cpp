@@ -8,14 +8,13 @@ namespace {
 
 constexpr int kBreakBits = 16;
 
-bool is_freeport(std::uint8_t control) { return (control & 3) == 1; }
+bool is_freeport(std::uint8_t control) { return (control & sm::kProtocol) == sm::kFreeport; }
 
-/// The control byte: p p d b b b m m.
 SerialFormat format_of(std::uint8_t control, const CpuModel& model) {
   static constexpr Parity kParity[] = {Parity::None, Parity::Even, Parity::None, Parity::Odd};
-  return {.baud = model.baud[(control >> 2) & 7],
-          .data_bits = static_cast<std::uint8_t>(control & 0x20 ? 7 : 8),
-          .parity = kParity[control >> 6],
+  return {.baud = model.baud[(control & sm::kBaudRate) >> 2],
+          .data_bits = static_cast<std::uint8_t>(control & sm::kSevenBits ? 7 : 8),
+          .parity = kParity[(control & sm::kParity) >> 6],
           .stop_bits = 1};
 }
 

@@ -20,7 +20,7 @@ namespace s7200::freeport {
 
 /// XMT: `table` is the place of the number of characters, 0 to 255, which follow it; 0 sends a break of 16 bit times
 /// (A5E00066097-02, 9-189). The port's error `busy` while it is sending or not in Freeport mode, 0091 for a table that
-/// leaves its area.
+/// runs past the end of its area.
 void transmit(Core& core, std::uint32_t port, std::uint32_t table);
 
 /// Reports of the line.

@@ -50,8 +50,6 @@ void set_inputs(Core& core, std::uint32_t byte, std::uint8_t value, Time at) {
   if (changed != 0) units::inputs_changed(core, byte, changed, at);
 }
 
-void read_inputs(Core& core) { std::memcpy(&core.s.image[image::kI], &core.s.image[image::kInputs], image::kPointBytes); }
-
 void put_output(Core& core, std::uint32_t byte, std::uint8_t bit, bool value, Time at) {
   const std::uint8_t before = core.s.image[image::kOutputs + byte];
   core.put_bit(image::kOutputs + byte, bit, value);

@@ -10,7 +10,9 @@ namespace s7200::points {
 void set_inputs(Core& core, std::uint32_t byte, std::uint8_t value, Time at);
 
 /// The start of the scan: from the input points to their image.
-void read_inputs(Core& core);
+inline void read_inputs(Core& core) {
+  std::memcpy(&core.s.image[image::kI], &core.s.image[image::kInputs], image::kPointBytes);
+}
 
 /// An immediate instruction writes an output point; a running pulse output keeps its own.
 void write_output(Core& core, std::uint32_t byte, std::uint8_t bit, bool value);

@@ -1,6 +1,7 @@
 #include "interpreter/cpu/units.hpp"
 
 #include <cassert>
+#include <iterator>
 
 #include "interpreter/cpu/clock.hpp"
 #include "interpreter/cpu/eeprom.hpp"
@@ -60,11 +61,13 @@ constexpr Unit kUnits[] = {
     {.power_up = clock::power_up},
 };
 
-/// Calls what stands in a column, row by row.
-template <class... Parameters, class... Arguments>
-void each(void (*Unit::*column)(Parameters...), Arguments&&... arguments) {
-  for (const Unit& unit : kUnits)
-    if (unit.*column) (unit.*column)(arguments...);
+/// Calls what stands in a column, row by row. Which calls these are is decided at compile time: a scan may be short.
+template <auto column, std::size_t row = 0, class... Arguments>
+void each(Arguments&... arguments) {
+  if constexpr (row < std::size(kUnits)) {
+    if constexpr (kUnits[row].*column != nullptr) (kUnits[row].*column)(arguments...);
+    each<column, row + 1>(arguments...);
+  }
 }
 
 }  // namespace
@@ -72,18 +75,18 @@ void each(void (*Unit::*column)(Parameters...), Arguments&&... arguments) {
 void power_up(Core& core, const RetentiveMemory* memory) {
   for (const Unit& unit : kUnits)
     for (std::uint8_t i = 0; i < unit.events.count; ++i) core.cancel(static_cast<std::uint8_t>(unit.events.first + i));
-  each(&Unit::power_up, core, memory);
+  each<&Unit::power_up>(core, memory);
 }
-void enter_run(Core& core) { each(&Unit::enter_run, core); }
-void enter_stop(Core& core) { each(&Unit::enter_stop, core); }
-void begin_scan(Core& core) { each(&Unit::begin_scan, core); }
-void end_scan(Core& core) { each(&Unit::end_scan, core); }
+void enter_run(Core& core) { each<&Unit::enter_run>(core); }
+void enter_stop(Core& core) { each<&Unit::enter_stop>(core); }
+void begin_scan(Core& core) { each<&Unit::begin_scan>(core); }
+void end_scan(Core& core) { each<&Unit::end_scan>(core); }
 
 void inputs_changed(Core& core, std::uint32_t byte, std::uint8_t changed, Time at) {
-  each(&Unit::inputs_changed, core, byte, changed, at);
+  each<&Unit::inputs_changed>(core, byte, changed, at);
 }
 
-void begin_service(Core& core, const QueuedInterrupt& interrupt) { each(&Unit::begin_service, core, interrupt); }
+void begin_service(Core& core, const QueuedInterrupt& interrupt) { each<&Unit::begin_service>(core, interrupt); }
 
 void handle(Core& core, std::uint8_t what, Time at) {
   for (const Unit& unit : kUnits)

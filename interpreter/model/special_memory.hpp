@@ -57,7 +57,15 @@ inline constexpr std::uint32_t kIdentification = byte(6);
 inline constexpr std::uint32_t kLastScan = byte(22), kShortestScan = byte(24), kLongestScan = byte(26);  ///< words, in ms
 inline constexpr std::array<std::uint32_t, 2> kPotentiometer{byte(28), byte(29)};
 
-inline constexpr std::uint32_t kPort0Control = byte(30);  ///< p p d b b b m m
+inline constexpr std::uint32_t kPort0Control = byte(30);
+/// Fields of a port's control byte: p p d b b b m m.
+enum PortControl : std::uint8_t {
+  kProtocol = 0x03,   ///< mm
+  kFreeport = 0x01,   ///< as the protocol
+  kBaudRate = 0x1C,   ///< bbb
+  kSevenBits = 0x20,  ///< d: characters of 7 bits; else 8
+  kParity = 0xC0,     ///< pp
+};
 
 inline constexpr std::uint32_t kEepromRequest = byte(31);
 enum EepromRequest : std::uint8_t {

@@ -1,0 +1,53 @@
+// Names of special memory and events, and the rows of the ports, against the lists that the checker and the queues read.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "interpreter/model/cpu_model.hpp"
+#include "interpreter/model/ports.hpp"
+
+namespace s7200 {
+namespace {
+
+bool is_modelled(std::uint32_t at) {
+  const std::uint32_t number = at - image::kSM;
+  return std::any_of(special_memory().begin(), special_memory().end(), [&](const SpecialMemory& range) {
+    return range.modelled && number >= range.first && number <= range.last;
+  });
+}
+
+TEST(ModelNames, EveryByteWithANameIsOneThatProgramsMayUse) {
+  for (const std::uint32_t at :
+       {sm::kScanStatus, sm::kFlags, sm::kReceivedCharacter, sm::kReceiveStatus, sm::kInterruptStatus, sm::kIdentification,
+        sm::kLastScan, sm::kShortestScan, sm::kLongestScan, sm::kPotentiometer[0], sm::kPotentiometer[1], sm::kPort0Control,
+        sm::kEepromRequest, sm::kEepromAddress, sm::kTimedInterval[0], sm::kTimedInterval[1]})
+    EXPECT_TRUE(is_modelled(at)) << "SMB" << at - image::kSM;
+  for (const std::uint32_t at : sm::counter::kStatus) EXPECT_TRUE(is_modelled(at) && is_modelled(at + 9));
+  for (const std::uint32_t at : sm::pulses::kStatus) EXPECT_TRUE(is_modelled(at) && is_modelled(at + 9));
+}
+
+TEST(ModelNames, EventsStandInTheListAtTheirNumbers) {
+  for (std::size_t number = 0; number < all_events().size(); ++number) EXPECT_EQ(all_events()[number].number, number);
+  EXPECT_EQ(find_event(event::kPort0Received)->cause, "port 0: character received");
+  EXPECT_EQ(find_event(event::kTimed0)->cause, "timed interrupt 0, SMB34");
+  EXPECT_EQ(find_event(event::kCounter2Reset)->cause, "HSC2: external reset");
+  EXPECT_EQ(find_event(event::kPulses1Complete)->cause, "PLS1: pulse count complete");
+  EXPECT_EQ(find_event(event::kT96Reached)->cause, "timer T96: current value = preset value");
+}
+
+TEST(ModelNames, APortIsARowOfItsSpecialMemoryItsEventsAndItsError) {
+  const PortInfo& port = kPorts.at(0);
+  EXPECT_EQ(port.control, image::kSM + 30);
+  EXPECT_EQ(port.idle, 1 << 5);
+  EXPECT_EQ(port.received, 8);
+  EXPECT_EQ(port.sent, 9);
+  EXPECT_EQ(static_cast<int>(port.busy), 0x09);
+  for (const PortInfo& each : kPorts)
+    for (const std::uint8_t event : {each.received, each.sent}) {
+      EXPECT_EQ(find_event(event)->queue, Queue::Communication);
+      EXPECT_TRUE(find_event(event)->modelled);
+    }
+}
+
+}  // namespace
+}  // namespace s7200
