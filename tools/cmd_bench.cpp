@@ -118,7 +118,7 @@ class Serving {
     const Time latest = cpu_.time() + kLongestExchange;
     while (!answered_ && cpu_.time() < latest) step(latest);
     if (!answered_) throw std::runtime_error("the program did not answer a request for 10 registers");
-    run_until(cpu_.time() + serial::Simulation::default_quiet(cpu_.state().port.format));
+    run_until(cpu_.time() + serial::Simulation::default_quiet(cpu_.state().port[0].format));
     return static_cast<double>(cpu_.state().instructions - before);
   }
 

@@ -328,11 +328,11 @@ std::string real_text(const std::vector<std::uint8_t>& bytes) {
 }
 
 /// What memory was to hold and holds. Of reals and of limits the bytes say little.
-Finding memory_finding(const MemoryExpected& expected, const modbus::Bytes& found) {
+Finding memory_finding(const Program& program, const MemoryExpected& expected, const modbus::Bytes& found) {
   Finding finding{.what = expected.range.name_of(0), .expected_bytes = expected.bytes, .found_bytes = pattern_of(found)};
   if (expected.limits) {
     finding.expected = expected.written;
-    finding.found = expected.range.real ? real_text(found) : value_text(expected.range, found);
+    finding.found = expected.range.real ? real_text(found) : value_text(program, expected.range, found);
   } else if (expected.range.width == Width::Double && expected.range.count == 1) {
     const std::string real = real_text(found);
     if (real == expected.written + ".0") finding.found = fmt::format("the real {}: write {} for it", real, real);
@@ -555,7 +555,7 @@ class Run {
     ++result_.checks;
     for (const MemoryExpected& expected : step.expected) {
       const modbus::Bytes found = in_memory(expected);
-      if (!expected.fits(found)) add(memory_finding(expected, found));
+      if (!expected.fits(found)) add(memory_finding(plant_->cpu().program(), expected, found));
     }
   }
 
@@ -569,7 +569,7 @@ class Run {
     if (plant_->wait_until([&] { return std::all_of(step.expected.begin(), step.expected.end(), fits); }, timeout)) return;
     for (const MemoryExpected& expected : step.expected) {
       if (fits(expected)) continue;
-      Finding finding = memory_finding(expected, in_memory(expected));
+      Finding finding = memory_finding(plant_->cpu().program(), expected, in_memory(expected));
       finding.what += fmt::format(" after {}", format_duration(timeout));
       if (plant_->cpu().state().mode == Mode::Stop) append(finding.found, "the CPU is in STOP" + why_stopped());
       finding.of_run = true;

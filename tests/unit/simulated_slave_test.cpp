@@ -24,7 +24,7 @@ TEST(SimulatedSlave, AnswersTheFirstRequestAtEveryRate) {
     simulation.power_up();
     SimulatedSlave slave(simulation, {}, "slave");
     ASSERT_TRUE(slave.wait_until_ready()) << rate.baud;
-    EXPECT_EQ(simulation.cpu().state().port.format.baud, rate.baud);
+    EXPECT_EQ(simulation.cpu().state().port[0].format.baud, rate.baud);
     EXPECT_TRUE(modbus::crc_ok(slave.exchange(read_register_0()).response_bytes())) << rate.baud;
   }
 }

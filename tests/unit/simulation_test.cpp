@@ -67,7 +67,7 @@ TEST(SimulationStop, AsLongAsNobodyAsksNothingChanges) {
     if (may_be_asked) simulation.stop_when(&never);
     simulation.power_up();
     EXPECT_EQ(simulation.run_until(kSecond), Halt::Time);
-    simulation.master_uart().configure(simulation.cpu().state().port.format);
+    simulation.master_uart().configure(simulation.cpu().state().port[0].format);
     simulation.master().start({.frame = modbus::to_frame(test::Bytes{1, 3, 0, 0, 0, 1, 0x84, 0x0A})}, simulation.time());
     EXPECT_FALSE(simulation.finish_exchange().response.empty());
     return simulation.snapshot();
