@@ -448,7 +448,7 @@ void claim_files(TestOptions& options) {
   }
   if (options.junit.empty()) return;
   options.junit_to =
-      files.claim("--junit", options.junit, {"results of s7200 test", std::string(kJunitBeginning)}, Replace::Own);
+      files.claim("--junit", options.junit, {"a JUnit file of s7200 test", std::string(kJunitBeginning)}, Replace::Own);
   if (!options.junit_to) throw Unusable{};
 }
 

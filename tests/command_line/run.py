@@ -837,7 +837,7 @@ class Scenarios(Case):
     def test_only_earlier_results_are_overwritten(self):
         good, pipe, xml = self.program(self.GOOD, "good.yaml"), self.folder / "pipe", self.folder / "out.xml"
         os.mkfifo(pipe)
-        for arguments, why in ((["--junit", good], "is not results of s7200 test"), (["--record", good, "--force"], "is not a transcript"),
+        for arguments, why in ((["--junit", good], "is not a JUnit file of s7200 test"), (["--record", good, "--force"], "is not a transcript"),
                                (["--junit", pipe], "not a file"), (["--record", pipe, "--force"], "not a file"),
                                (["--junit", "-"], "'-' is none"), (["--record", "-"], "'-' is none")):
             with self.subTest(arguments):
@@ -921,6 +921,7 @@ class JsonPage(Case):
                     ["run", faulty, "--for", "20ms", "--realtime"], ["send", faulty, "01", "--timeout", "10ms", *plant],
                     ["master", faulty, "slave-id", "--timeout", "10ms", *plant],
                     ["master", SLAVE, "read", "40001", "write", "40001=1", "slave-id"],
+                    ["send", SOURCE / "stl_programs/text_commands.stl", "--text", "GET\\r"],
                     ["instructions"], ["instructions", "MOVB"], ["times"], ["bench", "--each", "1ms"],
                     ["test", good, bad], ["test", good, "--against", SLAVE], ["test", "--conformance", slave, "--only", "SL-crc"],
                     ["test", good, "--list"])

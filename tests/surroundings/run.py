@@ -490,7 +490,7 @@ class Signals(Case):
             for target, number in itertools.product((f"tcp://127.0.0.1:{port}", f"modbus-tcp://127.0.0.1:{port}"), SIGNALS):
                 for arguments in (["master", target, "slave-id", "--retries", "1000000"], ["test", yaml, "--target", target]):
                     with self.subTest(connecting=arguments, number=number):
-                        self.assertEqual(self.noted(self.start(*arguments), number), UNUSABLE)
+                        self.assertIn(self.noted(self.start(*arguments), number), (UNUSABLE, FAILED))  # FAILED if it was let in
             for each in waiting:
                 each.close()
         with socket.create_server(("127.0.0.1", 0)) as server:
