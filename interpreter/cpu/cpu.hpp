@@ -69,6 +69,9 @@ class Cpu {
   /// Value of operand `i` as the instruction would find it now; nothing for a bad pointer or a plain number.
   std::optional<std::uint32_t> peek(const Op& op, std::size_t i) const;
 
+  /// For whoever makes one unit do something by itself, as tests do.
+  Core& core() { return core_; }
+
  private:
   void execute_plain();
   void execute_observed();

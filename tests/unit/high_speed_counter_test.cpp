@@ -1,4 +1,6 @@
 // HSC0–HSC2: modes, events, status byte, errors. HSC1: clock I0.6, second input I0.7, reset I1.0, start I1.1, SMB46–55.
+#include "interpreter/cpu/high_speed_counters.hpp"
+#include "interpreter/cpu/scan.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {
@@ -51,14 +53,14 @@ TEST(HighSpeedCounter, HscTakesOnlyWhatTheControlByteSays) {
   plc.set("SMD48", 100);
   plc.set("SMD52", 200);
   plc.set("SMB47", 0x80);
-  plc.cpu.program_counter(1);
+  high_speed_counters::program(plc.cpu.core(), 1);
   EXPECT_EQ(plc.value("HC1"), 0);
   plc.set("SMB47", 0xC0);
-  plc.cpu.program_counter(1);
+  high_speed_counters::program(plc.cpu.core(), 1);
   EXPECT_EQ(plc.value("HC1"), 100);
   EXPECT_EQ(plc.cpu.state().counter[1].preset, 3);
   plc.set("SMB47", 0x00);
-  plc.cpu.program_counter(1);
+  high_speed_counters::program(plc.cpu.core(), 1);
   plc.pulse("I0.6", 5);
   EXPECT_EQ(plc.value("HC1"), 100) << "disabled";
 }
@@ -66,11 +68,11 @@ TEST(HighSpeedCounter, HscTakesOnlyWhatTheControlByteSays) {
 TEST(HighSpeedCounter, LoadingThePresetOrTheCurrentValueGivesNoEvent) {
   Hsc1 plc(0);
   plc.set("SMD48", 3);  // the preset
-  plc.cpu.program_counter(1);
+  high_speed_counters::program(plc.cpu.core(), 1);
   EXPECT_EQ(plc.value("SMB46"), kUp | kEqual);
   plc.set("SMD48", 7);
   plc.set("SMD52", 7);
-  plc.cpu.program_counter(1);
+  high_speed_counters::program(plc.cpu.core(), 1);
   EXPECT_EQ(plc.value("SMB46"), kUp | kEqual);
   EXPECT_TRUE(plc.events().empty());
 }
@@ -229,7 +231,7 @@ TEST(HighSpeedCounter, EdgesDuringAnInstructionAreCountedWithTheirOwnTimes) {
 
 TEST(HighSpeedCounter, InStopTheCounterGoesOnWithoutEvents) {
   Hsc1 plc(0);
-  plc.cpu.stop();
+  scan::stop(plc.cpu.core());
   plc.pulse("I0.6", 4);
   EXPECT_EQ(plc.value("HC1"), 4);
   EXPECT_TRUE(plc.events().empty());

@@ -1,4 +1,5 @@
 // Interrupts: latency, order, queues, what is saved, ATCH and DTCH, timed interrupts. Times: plc.hpp.
+#include "interpreter/cpu/interrupts.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {
@@ -205,7 +206,7 @@ TEST(TimedInterrupt, AnotherAtchBeginsAnewWithTheNewPeriod) {
   Plc plc(with_routine("LD SM0.1\nMOVB 10, SMB34\nATCH 0, 10\nENI\nMEND\n"));
   plc.run_until(12 * ms);
   plc.set("SMB34", 7);
-  plc.cpu.attach(10, 0);
+  interrupts::attach(plc.cpu.core(), 10, 0);
   const Time at = plc.cpu.time();
   plc.run_until(at + 15 * ms);
   EXPECT_EQ(plc.records.times(EventOccurred), (Times{10'230 * us, at + 7 * ms, at + 14 * ms}));
@@ -240,7 +241,7 @@ TEST(TimedInterrupt, LongScansDoNotShiftThePhase) {
 TEST(TimedInterrupt, DtchStopsIt) {
   Plc plc(with_routine("LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nMEND\n"));
   plc.run_until(6 * ms);
-  plc.cpu.detach(10);
+  interrupts::detach(plc.cpu.core(), 10);
   plc.run_until(50 * ms);
   EXPECT_EQ(plc.records.events(EventOccurred), Ints{10});
 }

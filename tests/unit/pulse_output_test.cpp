@@ -1,4 +1,5 @@
 // PLS: pulse trains and PWM on Q0.0 and Q0.1. Times: plc.hpp.
+#include "interpreter/cpu/pulse_outputs.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {
@@ -72,7 +73,7 @@ TEST(PulseOutput, ARefusedTrainLeavesNothingBehind) {
   plc.run_until(10 * ms);
   ASSERT_EQ(plc.records.times(EventOccurred).size(), 2u);
   plc.set("SMB67", 0x8C);
-  plc.cpu.program_pulses(0);
+  pulse_outputs::program(plc.cpu.core(), 0);
   const Time at = plc.cpu.time();
   plc.run_until(at + 10 * ms);
   EXPECT_EQ(plc.records.times(EventOccurred).back(), at + 2 * ms);
@@ -90,7 +91,7 @@ TEST(PulseOutput, PlsDuringPwmBeginsANewCycleAtOnce) {
   for (Plc* plc : {&low, &high}) {
     plc->run_until(5 * ms);
     plc->set("SMW70", 4);
-    plc->cpu.program_pulses(0);
+    pulse_outputs::program(plc->cpu.core(), 0);
   }
   const Time at = low.cpu.time();
   ASSERT_EQ(high.cpu.time(), at);
@@ -105,11 +106,11 @@ TEST(PulseOutput, APulseTrainAfterPwmBeginsAtOnceAndAPwmAfterATrainWaitsForItsEn
   plc.run_until(5 * ms);
   plc.set("SMB67", kTrainInMs | 0x04);
   plc.set("SMW68", 2);
-  plc.cpu.program_pulses(0);
+  pulse_outputs::program(plc.cpu.core(), 0);
   const Time at = plc.cpu.time();
   plc.set("SMB67", kPwm | 0x08);
   plc.set("SMW70", 1);
-  plc.cpu.program_pulses(0);
+  pulse_outputs::program(plc.cpu.core(), 0);
   plc.run_until(at + 6500 * us);
   EXPECT_EQ(edges(plc), (Times{kStart, kStart + 3 * ms, at, at + 1 * ms, at + 2 * ms, at + 3 * ms, at + 4 * ms, at + 5 * ms, at + 6 * ms}));
   EXPECT_EQ(plc.records.times(EventOccurred), Times{at + 4 * ms}) << "the end of the train";
