@@ -92,7 +92,7 @@ TEST(Choices, NextFollowsThePointersOfItsForAgain) {
 
 TEST(Choices, ABadPointerIsReportedBeforeABadCountOrRange) {
   // N = 0 and a destination beyond V memory would be 0092 and 0091; the pointer of the source is bad too.
-  for (const char* box : {"BMB *VD20, VB100, VB30", "BMB *VD20, VB4095, VB31", "SHRB M0.0, V100.0, *VD20", "ATH *VD20, VB4095, 9"}) {
+  for (const char* box : {"BMB *VD20, VB100, VB30", "BMB *VD20, VB4095, VB31", "SHRB M0.0, V100.0, *VD20", "ATH *VD20, VB4095, VB31"}) {
     Plc plc(fmt::format("LD SM0.1\n{}\nMEND\n", box));
     plc.set("VD20", 0x03000000);
     plc.set("VB31", 9);
