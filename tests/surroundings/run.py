@@ -834,18 +834,21 @@ class Text(Case):
             self.assertIn(b"serving", done.stderr)
 
     def test_programs(self):
-        wrong = f"LD SM0.0 // {COMMANDS}\nFROB{COMMANDS} VB0\nMOVB {COMMANDS}, VB0\nMOVB 1, Na\u009bme\nCALL \"{COMMANDS}\"\nMEND\n"
-        right = f"// {COMMANDS}\nNETWORK 1 // {COMMANDS}\nLD SM0.0 // {COMMANDS}\nMOVD 0, *VD100 // {COMMANDS}\nSTOP // {COMMANDS}\nMEND\n"
-        for text in (wrong, right):
+        plain = "// a text without anything special in it, so that this is no binary file\n" * 20
+        wrong = f"LD SM0.0 // {COMMANDS}\nFROB{COMMANDS} VB0\nMOVB {COMMANDS}, VB0\nMOVB 1, Na\u009bme\nCALL \"{COMMANDS}\"\nMEND\n{plain}"
+        right = (f"// {COMMANDS}\nNETWORK 1 // {COMMANDS}\nLD SM0.0 // {COMMANDS}\nMOVD 0, *VD100 // {COMMANDS}\n"
+                 f"STOP // {COMMANDS}\nMEND\n{plain}")
+        for text, code in ((wrong, FAILED), (right, FINE)):
             path = self.file("program.stl", text)
-            for arguments in (["check", path], ["run", path, "--for", "10ms", "--trace", "-"], ["send", path, "01", "--timeout", "1ms", "--timeline"],
+            self.harmless("check", path, codes=(code,))
+            for arguments in (["run", path, "--for", "10ms", "--trace", "-"], ["send", path, "01", "--timeout", "1ms", "--timeline"],
                               ["debug", path, "-x", "list; step 5; regs; break 3; watch VB0; errors"],
                               ["run", path, "--for", "10ms", "--trace", "-", "--trace-instructions"]):
                 with self.subTest(text=text, arguments=arguments):
                     self.harmless(*arguments)
 
     def test_a_listing_is_harmless_on_a_terminal_and_faithful_elsewhere(self):
-        path = self.file("program.stl", f"LD SM0.0 // {COMMANDS}\nMEND\n")
+        path = self.file("program.stl", f"LD SM0.0 // {COMMANDS}\nMEND\n" + "// and nothing special\n" * 20)
         self.assertIn(COMMANDS.encode(), s7200("import", path).stdout)
         try:
             near, far = os.openpty()
