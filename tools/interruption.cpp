@@ -38,7 +38,9 @@ void note(int number) {
   alarm(kRemindEvery);
 }
 
-void remind(int) { alarm(kRemindEvery); }
+void remind(int) {
+  if (noted) alarm(kRemindEvery);
+}
 
 }  // namespace
 

@@ -2,7 +2,7 @@
 //
 // - What exists is replaced only if the same option wrote it, which its first bytes show, or if --force says so. All else is
 //   left alone, an empty file too.
-// - Links are not followed: what a name leads to was not named. A link is left alone like any other file of somebody's.
+// - Links are not followed, and not replaced either: whoever wants to write what a link leads to names that.
 // - No two outputs share a file, and none is a file that the command reads, under whatever names: files are told apart by
 //   device and inode, and those that are not there yet by the folder and the name.
 // - A file is whole or absent. It is written beside its place, as FILE.PID.new, and put there
@@ -13,7 +13,7 @@
 // - A record may also go to a pipe, a terminal or another character device, which have nothing to lose; so can a link to
 //     one, such as /dev/fd/63, which a shell makes for `--trace >(grep LOST)`.
 //
-// All of it is looked at before anything is written: a command that is refused has changed nothing.
+// All names are looked at before anything is written: a command that is refused has changed nothing.
 #pragma once
 
 #include <sys/types.h>
