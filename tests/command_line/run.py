@@ -232,7 +232,7 @@ class Verbs(Case):
             done = self.ends(FINE, "check", *arguments, path)
             self.assertEqual(re.findall(r"(?m)warning: .* \[(.*)\]$", done.stderr), left)
             self.assertIn(f"fine, 6 instructions for CPU 214{f', {len(left)} warning' if left else ''}", done.stdout)
-            (result,) = self.json(FINE, "check", *arguments, path, "--json")
+            (result,) = self.json(FINE, "check", *arguments, path, "--json")["files"]
             self.assertEqual([d["name"] for d in result["diagnostics"]], left)
         self.assertIn("there is no warning 'frob'", self.ends(UNUSABLE, "check", path, "--no-warn", "frob").stderr)
 
@@ -248,7 +248,7 @@ class Verbs(Case):
                       "hint: V memory is VB0 to VB1023\nalso: 99 more, in lines 4, 6, 8, 10, 12, 14, 16, 18, 20 … 200\n",
                       done.stderr)
         self.assertRegex(done.stdout, r"errors with 2 causes, \d+ warnings for CPU 212; fine for CPU 214, 215, 216\n$")
-        (result,) = self.json(FAILED, "check", "--cpu", "212", path, "--json")
+        (result,) = self.json(FAILED, "check", "--cpu", "212", path, "--json")["files"]
         errors = [d for d in result["diagnostics"] if d["severity"] == "error"]
         self.assertEqual(len({d["cause"] for d in errors}), 2)
         self.assertGreater(len(errors), 200, "machines are given each place")
@@ -279,7 +279,7 @@ class Options(Case):
     """Every option of every verb, from the lists that --help prints: each number and each text with a form has its range, and
     what is not in it ends with exit code 2 and a message that names the option."""
     NONSENSE = ("nan", "-nan", "inf", "-1", "1e999", "0x10", "1_000", "5,0", "99999999999999999999999", "-")
-    ANY_TEXT = ("FILE", "FILE.stl", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS")  # by their type in the help
+    ANY_TEXT = ("FILE", "FILE.stl", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS", "TEXT")  # by their type in the help
     BEGINNING = {"check": [SLAVE], "import": [SLAVE], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
                  "master": [SLAVE, "slave-id"], "debug": [SLAVE, "-x", "quit"], "instructions": [], "times": [], "bench": []}
 
@@ -475,7 +475,7 @@ class Json(Case):
     def test_send_text(self):
         program = SOURCE / "stl_programs/text_commands.stl"
         first, second, third, fourth = self.json(FAILED, "send", program, "--text", "SET 04D2\\r", "474554", "--text=\\r", "0d",
-                                                 "--json", "--timeout", "20ms", "--pause", "1ms")
+                                                 "--json", "--timeout", "20ms", "--pause", "1ms")["exchanges"]
         self.assertEqual((first["unasked"], first["unasked_text"]), (b"READY\r\n".hex(), "READY\r\n"))
         self.assertNotIn("unasked", second)
         self.assertEqual((first["request"], first["request_text"]), (b"SET 04D2\r".hex(), "SET 04D2\r"))
@@ -605,7 +605,7 @@ class StandardInput(Case):
         text = "LD SM0.0\nINCB VB0\nMEND\n"
         for name in ("-", "/dev/stdin"):
             self.assertIn("fine for CPU 215, 216\n", self.fed(FAILED, text, "check", name).stdout)
-        (result,) = json.loads(self.fed(FAILED, text, "check", "-", "--json").stdout)
+        (result,) = json.loads(self.fed(FAILED, text, "check", "-", "--json").stdout)["files"]
         self.assertEqual((result["file"], result["fine_for"]), ("-", ["215", "216"]))
 
     def test_a_document_can_go_from_import_to_check(self):
@@ -1100,7 +1100,7 @@ class Files(Case):
         frames.write_text("'ab # c'  # text\n\"it's\"\n\\x61\n", encoding="utf-8")
         self.assertIn(f"{frames}:3: column 1", self.ends(UNUSABLE, "send", self.program(Json.ECHO), "--frames", frames).stderr)
         frames.write_text("'a'  # text\n \"'\"\n'#'\r\n", encoding="utf-8")
-        exchanges = self.json(FINE, "send", self.program(Json.ECHO), "--frames", frames, "--json")
+        exchanges = self.json(FINE, "send", self.program(Json.ECHO), "--frames", frames, "--json")["exchanges"]
         self.assertEqual([e["response_text"] for e in exchanges], ["a", "'", "#"])
         frames.write_text("ab\nxx\n", encoding="utf-8")
         done = self.ends(UNUSABLE, "send", self.program(Json.ECHO), "--frames", frames)
