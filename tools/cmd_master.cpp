@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "interpreter/stl/text.hpp"
+#include "serial_sim/modbus/line_turns.hpp"
 #include "tools/commands.hpp"
 #include "tools/exchange_statistics.hpp"
 #include "tools/exit_code.hpp"
@@ -55,9 +56,6 @@ struct MasterVerb {
   bool open_ended() const { return count == 0 && (polls() || continuous); }
   std::uint64_t rounds() const { return open_ended() ? UINT64_MAX : std::max<std::uint64_t>(count, 1); }
 };
-
-/// The time a master leaves all stations to do what a broadcast says (Modbus over Serial Line V1.02, 2.4.1: 100 to 200 ms).
-constexpr Time kTurnaround = 100 * kMillisecond;
 
 constexpr std::uint16_t kFirstLoopback = 0x1234;
 constexpr int kFailuresShown = 10;
@@ -155,7 +153,7 @@ serial::Request MasterSession::request_of(const MasterAction& action) {
   else if (action.kind == MasterAction::Kind::Request)
     frame = modbus::to_frame(modbus::rtu_frame(action.station, action.pdu));
   serial::Request request = verb_.master.request(frame);
-  if (!action.answer_expected) request.timeout = std::min(request.timeout, kTurnaround);
+  if (!action.answer_expected) request.timeout = std::min(request.timeout, modbus::LineTurns::kTurnaround);
   if (verb_.silence != kNever) request.silence = verb_.silence;
   return request;
 }

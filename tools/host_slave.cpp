@@ -89,8 +89,6 @@ void RtuSlave::send(const modbus::Bytes& bytes, Time gap) {
   }
 }
 
-Time RtuSlave::pause() const { return unanswered_ ? std::max(Time{0}, *unanswered_ + quiet_ - now()) : 0; }
-
 Time RtuSlave::silence_after(const serial::Exchange& exchange) const {
   return modbus::crc_ok(exchange.response_bytes()) ? shortest_silence_ : std::max(shortest_silence_, kSilenceInside);
 }
@@ -107,10 +105,8 @@ serial::Exchange RtuSlave::exchange(const serial::Request& request) {
   exchange.request_end = std::max(now(), exchange.request_start + length * character_time + (length - 1) * request.gap);
 
   collect(exchange, exchange.request_end + request.timeout, request.silence);
-  unanswered_.reset();
-  if (exchange.timed_out)
-    unanswered_ = exchange.request_end;
-  else  // a pty may be faster than a line
+  unanswered_ = exchange.timed_out;
+  if (!exchange.timed_out)  // a pty may be faster than a line
     exchange.request_end = std::min(exchange.request_end, exchange.response_start);
   return exchange;
 }

@@ -63,8 +63,8 @@ class RtuSlave final : public HostSlave {
 
   /// What came in while nothing was asked of the device counts as one transmission that began when this was called.
   serial::Exchange receive(const serial::Listening& listening) override;
-  /// The silence that ended an answer is pause enough. A request that was not answered has to be over for the slaves too.
-  Time pause() const override;
+  /// The silence that ended an answer is pause enough. After a request without answer slaves take it for over only then.
+  Time pause() const override { return unanswered_ ? quiet_ : 0; }
 
  private:
   void send(const modbus::Bytes& bytes, Time gap);
@@ -73,8 +73,8 @@ class RtuSlave final : public HostSlave {
 
   bool has_parity_ = false;
   Time shortest_silence_ = 0;
-  Time quiet_ = 0;                    ///< that slaves need after a request to see its end; not known over TCP
-  std::optional<Time> unanswered_{};  ///< end of the last request if nobody answered it
+  Time quiet_ = 0;           ///< that slaves need to see the end of a request; not known over TCP
+  bool unanswered_ = false;  ///< the last request
 };
 
 /// Modbus TCP (Modbus Messaging on TCP/IP, 3.1.3): the unit id is the station, the CRC is taken off the request and put on

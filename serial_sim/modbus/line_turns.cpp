@@ -25,6 +25,13 @@ std::size_t LineTurns::open(Client client) const {
   return (found == waiting_.end() ? 0 : found->second.size()) + (on_line(client) && !current_forgotten_ ? 1 : 0);
 }
 
+std::size_t LineTurns::waiting(Client client) const {
+  std::size_t bytes = 0;
+  if (const auto found = waiting_.find(client); found != waiting_.end())
+    for (const Request& request : found->second) bytes += request.frame.size();
+  return bytes;
+}
+
 std::size_t LineTurns::stop_waiting(Client client) {
   std::size_t given_up = 0;
   if (const auto found = waiting_.find(client); found != waiting_.end()) {
@@ -53,15 +60,18 @@ Bytes LineTurns::turn(const Line& line) {
 /// What has become of the request on the line.
 void LineTurns::look(const Line& line) {
   if (phase_ == Phase::Sending && !line.sending) {
-    if (!current_.request.wants_answer) return end(Result::Sent);
     phase_ = Phase::Waiting;
     asked_ = line.quiet_since;
   }
   if (too_long_) end(Result::Damaged);
   if (line.receiving) return;
   if (phase_ == Phase::Waiting) {
-    const Time over = asked_ + (current_forgotten_ ? std::min(timeout_, kLateAnswer) : timeout_);
-    if (line.now >= over) return end(Result::Silent);
+    const Time patience = current_forgotten_ ? std::min(timeout_, kLateAnswer) : timeout_;
+    const Time over = asked_ + (current_.request.wants_answer ? patience : std::min(timeout_, kTurnaround));
+    if (line.now >= over) {
+      unanswered_until_ = line.now;
+      return end(current_.request.wants_answer ? Result::Silent : Result::Sent);
+    }
     due_ = over;
   } else if (phase_ == Phase::Receiving) {
     const Time over = answer_end_ + line.format.silence();
@@ -76,7 +86,7 @@ Bytes LineTurns::next_frame(const Line& line) {
     return {};
   }
   if (!wants_line_since_) wants_line_since_ = line.now;
-  const Time quiet = line.quiet_since + line.quiet_time;
+  const Time quiet = std::max(line.quiet_since, unanswered_until_) + line.quiet_time;
   const Time too_late = *wants_line_since_ + std::max(timeout_, line.quiet_time + 1);
   const bool may_send = !line.sending && !line.receiving && line.now >= quiet;
   if (!may_send && line.now < too_late) {

@@ -53,6 +53,9 @@ class LineTurns {
   /// that answer would be taken for another.
   static constexpr Time kLateAnswer = 400 * kMillisecond;
 
+  /// What a master leaves all stations to do what a broadcast says (Modbus over Serial Line V1.02, 2.4.1: 100 to 200 ms).
+  static constexpr Time kTurnaround = 100 * kMillisecond;
+
   /// How long to wait for the begin of an answer, and for a line that is quiet enough to ask.
   explicit LineTurns(Time timeout) : timeout_(timeout) {}
 
@@ -63,6 +66,10 @@ class LineTurns {
 
   /// Requests of a client that have no outcome yet.
   std::size_t open(Client client) const;
+
+  /// Bytes of a client's requests that wait for the line; and whether there are any, or some are going out just now.
+  std::size_t waiting(Client client) const;
+  bool unsent(Client client) const { return waiting(client) != 0 || (on_line(client) && phase_ == Phase::Sending); }
 
   /// The client waits for no answer any more: requests of its own that want one are dropped, and one that is on the line
   /// comes to an end without an outcome. The others stay. How many it gave up.
@@ -98,6 +105,7 @@ class LineTurns {
   Bytes answer_;
   Time asked_ = 0;                        ///< end of the request
   Time answer_end_ = 0;                   ///< of its last character
+  Time unanswered_until_ = 0;             ///< end of the last wait in vain; slaves may take the line for quiet only after it
   std::optional<Time> wants_line_since_;  ///< somebody has
   Time due_ = kNever;
   std::vector<Outcome> outcomes_;

@@ -45,6 +45,51 @@ struct Bench {
   }
 };
 
+TEST(LineTurns, ABroadcastLeavesTheSlavesTimeAndThenTheLineQuiet) {
+  Bench bench;
+  bench.line.quiet_time = 50 * kMillisecond;  // as at a low rate
+  bench.ask(1, 1, false);
+  bench.ask(1, 2);
+  bench.run(50 * kMillisecond);
+  const Time broadcast = bench.sent_at;
+  bench.run(kSecond);
+  EXPECT_EQ(bench.sent, (std::vector<std::uint64_t>{1, 2}));
+  EXPECT_EQ(bench.sent_at, broadcast + 10 * kMillisecond + LineTurns::kTurnaround + bench.line.quiet_time);
+}
+
+TEST(LineTurns, AfterARequestInVainTheLineIsLeftQuietOnceMore) {
+  Bench bench;
+  bench.slave_answers = false;
+  bench.line.quiet_time = 50 * kMillisecond;
+  bench.ask(1, 1);
+  bench.ask(1, 2);
+  bench.run(1050 * kMillisecond);
+  const Time first = bench.sent_at;
+  EXPECT_EQ(bench.sent.size(), 1U);
+  bench.run(kSecond);
+  EXPECT_EQ(bench.sent_at, first + 10 * kMillisecond + kSecond + bench.line.quiet_time);
+}
+
+TEST(LineTurns, WhatIsStillToGoOutIsKnown) {
+  Bench bench;
+  bench.ask(1, 11);
+  bench.ask(1, 12);
+  bench.ask(2, 21);
+  EXPECT_EQ(bench.turns.waiting(1), 8U);
+  EXPECT_TRUE(bench.turns.unsent(1));
+  bench.run(5 * kMillisecond);  // one of each client, and the second of the first
+  EXPECT_EQ(bench.turns.waiting(1), 4U);
+  bench.run(32 * kMillisecond);
+  EXPECT_EQ(bench.turns.waiting(1), 4U);
+  EXPECT_EQ(bench.turns.waiting(2), 0U);
+  bench.run(16 * kMillisecond);
+  EXPECT_EQ(bench.turns.waiting(1), 0U);
+  EXPECT_EQ(bench.turns.open(1), 1U);
+  bench.run(kSecond);
+  EXPECT_FALSE(bench.turns.unsent(1));
+  EXPECT_EQ(bench.turns.waiting(3), 0U);
+}
+
 TEST(LineTurns, WhoStopsWaitingHearsNoAnswerWhereverItsRequestIs) {
   for (const Time when : {0, 5, 12, 16}) {  // in the queue, being sent, waiting for the answer, within the answer
     Bench bench;
