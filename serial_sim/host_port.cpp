@@ -24,6 +24,7 @@ void HostPort::receive_as(const SerialFormat& format) {
 void HostPort::send(std::span<const HostCharacter> characters, Time at) {
   assert(state_.attached);
   state_.to_send.insert(state_.to_send.end(), characters.begin(), characters.end());
+  for (const HostCharacter& character : characters) ++state_.waiting[character.sender];
   if (sending() || state_.to_send.empty()) return;
   send_next(at);
   uart_.enable_receiver(uart_.hears_itself(), at);
@@ -32,6 +33,7 @@ void HostPort::send(std::span<const HostCharacter> characters, Time at) {
 void HostPort::send_next(Time at) {
   const HostCharacter character = state_.to_send.front();
   state_.to_send.pop_front();
+  if (const auto waiting = state_.waiting.find(character.sender); --waiting->second == 0) state_.waiting.erase(waiting);
   uart_.configure(character.format);
   switch (character.fault) {
     case HostCharacter::Fault::None:
@@ -41,6 +43,16 @@ void HostPort::send_next(Time at) {
     case HostCharacter::Fault::NoStopBit:
       return uart_.send_without_stop_bit(character.byte, at);
   }
+}
+
+std::size_t HostPort::waiting(std::uint64_t sender) const {
+  const auto found = state_.waiting.find(sender);
+  return found == state_.waiting.end() ? 0 : found->second;
+}
+
+std::size_t HostPort::drop(std::uint64_t sender) {
+  state_.waiting.erase(sender);
+  return std::erase_if(state_.to_send, [&](const HostCharacter& character) { return character.sender == sender; });
 }
 
 std::vector<ReceivedCharacter> HostPort::take_received() { return std::exchange(state_.received, {}); }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct HostCharacter {
   std::uint8_t byte = 0;
   SerialFormat format{};
   Fault fault = Fault::None;  ///< WrongParity needs a format with parity
+  std::uint64_t sender = 0;   ///< whose it is, where several share the port
 
   bool operator==(const HostCharacter&) const = default;
 };
@@ -30,6 +32,7 @@ class HostPort {
     bool attached = false;
     SerialFormat format{};  ///< of what is received
     std::deque<HostCharacter> to_send;
+    std::map<std::uint64_t, std::size_t> waiting;  ///< how many of each sender; none with 0
     std::vector<ReceivedCharacter> received;
     bool operator==(const State&) const = default;
   };
@@ -52,6 +55,10 @@ class HostPort {
 
   /// Characters that wait for the one on the line.
   std::size_t waiting() const { return state_.to_send.size(); }
+  std::size_t waiting(std::uint64_t sender) const;
+
+  /// Those of `sender` are not sent after all. How many there were.
+  std::size_t drop(std::uint64_t sender);
 
   /// What was received since the last call, with the errors it came with.
   std::vector<ReceivedCharacter> take_received();

@@ -25,15 +25,21 @@ class LiveLine {
   /// Puts characters on the line from now on.
   virtual void send(std::span<const serial::HostCharacter> characters) = 0;
 
+  /// What `sender` has put on the line and is still waiting there is not sent after all. How many characters that were.
+  virtual std::size_t drop(std::uint64_t sender) = 0;
+
   /// What the program has set its port to, with what the options say instead.
   virtual SerialFormat format() const = 0;
 
   virtual const serial::Simulation& simulation() const = 0;
   Time now() const { return simulation().time(); }
 
-  /// More than this is not put into the queue of the line: whoever writes faster than the line sends has to wait.
-  static constexpr std::size_t kMostWaiting = 4096;
+  /// More than this is not put into the queue of the line, nor more of one sender if there are several: whoever writes
+  /// faster than the line sends has to wait. It is about a second of one at 9600 baud.
+  static constexpr std::size_t kMostWaiting = 4096, kMostOfOne = 1024;
   bool has_room() const { return simulation().host_port().waiting() < kMostWaiting; }
+  bool has_room(std::uint64_t sender) const { return has_room() && waiting(sender) < kMostOfOne; }
+  std::size_t waiting(std::uint64_t sender) const { return simulation().host_port().waiting(sender); }
 };
 
 class Bridge {

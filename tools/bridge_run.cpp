@@ -75,6 +75,8 @@ class LiveRun final : public LiveLine {
     simulation_.host_port().send(characters, now());
   }
 
+  std::size_t drop(std::uint64_t sender) override { return simulation_.host_port().drop(sender); }
+
   SerialFormat format() const override { return options_.line.format_for(simulation_); }
   const serial::Simulation& simulation() const override { return simulation_; }
 

@@ -2,15 +2,19 @@
 
 #include <fmt/format.h>
 #include <netinet/tcp.h>
+#include <poll.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/write.hpp>
 #include <chrono>
+#include <fstream>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <vector>
 
 #include "tools/terminal.hpp"
@@ -38,6 +42,48 @@ void keep_alive(tcp::socket& socket) {
   set(TCP_USER_TIMEOUT, 60'000);
 }
 
+/// As /proc/net/tcp writes an end of a connection: words of 32 bits in the order of this computer.
+std::string end_text(const asio::ip::address& address, std::uint16_t port) {
+  std::string text;
+  const auto add = [&](const auto& bytes) {
+    for (std::size_t i = 0; i < bytes.size(); i += 4)
+      text += fmt::format("{:08X}",
+                          std::bit_cast<std::uint32_t>(std::array{bytes[i], bytes[i + 1], bytes[i + 2], bytes[i + 3]}));
+  };
+  if (address.is_v4())
+    add(address.to_v4().to_bytes());
+  else
+    add(address.to_v6().to_bytes());
+  return fmt::format("{}:{:04X}", text, port);
+}
+
+asio::ip::address plain(const asio::ip::address& address) {
+  if (!address.is_v6() || !address.to_v6().is_v4_mapped()) return address;
+  return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6());
+}
+
+/// What a program of this computer that has closed its end of a connection left its system to send. Nothing if its end is
+/// open, or not on this computer. An end that no program has open any more has no inode (proc(5), /proc/net/tcp).
+std::optional<std::size_t> left_behind(const tcp::socket& socket) {
+  Error gone;
+  const tcp::endpoint its = socket.remote_endpoint(gone), ours = socket.local_endpoint(gone);
+  if (gone) return {};
+  const asio::ip::address address = plain(its.address());
+  const std::string ends = end_text(address, its.port()) + ' ' + end_text(plain(ours.address()), ours.port());
+  std::ifstream table(address.is_v4() ? "/proc/net/tcp" : "/proc/net/tcp6");
+  for (std::string line; std::getline(table, line);) {
+    const std::size_t place = line.find(ends);
+    if (place == std::string::npos) continue;
+    std::istringstream rest(line.substr(place + ends.size()));
+    std::string state, queues, timer, retries, user, timeout;
+    std::uint64_t inode = 1;
+    rest >> state >> queues >> timer >> retries >> user >> timeout >> inode;
+    if (inode != 0) return {};
+    return std::stoul(queues, nullptr, 16);
+  }
+  return {};
+}
+
 struct Connection {
   Connection(tcp::socket s, std::string n) : socket(std::move(s)), name(std::move(n)) {}
 
@@ -47,7 +93,9 @@ struct Connection {
   std::vector<std::uint8_t> unread, writing;  // by the client: what waits, and what has been given to the system
   bool reading = false;
   Clock::time_point heard = Clock::now(), listening_since{};  // the latter of the read that is under way
-  std::optional<Clock::time_point> last_word;
+  std::optional<Clock::time_point> last_word;                 ///< when it was seen to have said that, or what makes no sense
+  bool ended = false;                                         ///< nothing more is read from it
+  Clock::time_point served{};                                 ///< when something went out for it last
 };
 
 /// Every handler holds its connection: what is closed and forgotten here dies with its last handler.
@@ -60,6 +108,7 @@ class Server final : public TcpServer {
     const tcp::endpoint endpoint(asio::ip::make_address(address.host, error), address.port);
     if (!error) acceptor_.open(endpoint.protocol(), error);
     if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
+    if (!error) acceptor_.set_option(asio::socket_base::receive_buffer_size(kReceiveBuffer), error);
     if (!error) acceptor_.bind(endpoint, error);
     if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
     if (error) {
@@ -86,19 +135,23 @@ class Server final : public TcpServer {
 
   void turn() override {
     if (!accepting_ && Clock::now() >= accept_again_) accept();
+    look_for_the_departed();
     for (const Client client : clients()) {
       const auto connection = connections_.at(client);
       const std::string error = protocol_.error(client);
-      if (!error.empty() && !connection->last_word) connection->last_word = Clock::now();
-      if (connection->last_word) {
-        const bool unwritten = !connection->unread.empty() || !connection->writing.empty();
-        const bool served = !unwritten && !protocol_.expects_answer(client);
-        if (served || is_over(*connection->last_word, kLinger)) close(client, error);
-      } else if (connection->reading && protocol_.partial(client) && is_over(connection->listening_since, kMostPartial)) {
-        close(client, fmt::format("it began a message and did not go on for {} s", kMostPartial));
-      } else {
-        read(client, connection);
+      if (!error.empty()) {
+        said_last_word(*connection);
+        connection->ended = true;
       }
+      if (connection->ended && protocol_.unsent(client)) connection->served = Clock::now();
+      const bool unwritten = !connection->unread.empty() || !connection->writing.empty();
+      const bool has_its_answers = connection->ended && !unwritten && !protocol_.expects_answer(client);
+      if (connection->last_word && (has_its_answers || is_over(connection->served, kLinger)))
+        close(client, error);
+      else if (connection->reading && protocol_.partial(client) && is_over(connection->listening_since, kMostPartial))
+        close(client, fmt::format("it began a message and did not go on for {} s", kMostPartial));
+      else
+        read(client, connection);
     }
   }
 
@@ -154,9 +207,32 @@ class Server final : public TcpServer {
 
   bool is_open(Client client) const { return connections_.count(client) != 0; }
 
+  static void said_last_word(Connection& connection) {
+    if (connection.last_word) return;
+    connection.last_word = connection.served = Clock::now();
+  }
+
+  /// While a client is read from, its end is seen there.
+  void look_for_the_departed() {
+    const bool look_closer = is_over(looked_closer_, 1);
+    if (look_closer) looked_closer_ = Clock::now();
+    for (const Client client : clients()) {
+      const auto connection = connections_.at(client);
+      if (connection->reading || connection->ended) continue;
+      pollfd state{connection->socket.native_handle(), POLLRDHUP, 0};
+      ::poll(&state, 1, 0);
+      if ((state.revents & (POLLERR | POLLHUP)) != 0)
+        close(client, "");
+      else if (const auto left = look_closer ? left_behind(connection->socket) : std::nullopt)
+        close(client, "", *left);
+      else if ((state.revents & POLLRDHUP) != 0)
+        said_last_word(*connection);
+    }
+  }
+
   void read(Client client, const ConnectionPtr& connection) {
     const bool lets_us_wait = connection->unread.size() > kMostUnread / 2;
-    if (connection->reading || connection->last_word || lets_us_wait || !protocol_.wants_more(client)) return;
+    if (connection->reading || connection->ended || lets_us_wait || !protocol_.wants_more(client)) return;
     connection->reading = true;
     connection->listening_since = Clock::now();
     connection->socket.async_read_some(asio::buffer(connection->input),
@@ -170,7 +246,10 @@ class Server final : public TcpServer {
   void take(Client client, const ConnectionPtr& connection, const Error& error, std::size_t count) {
     if (error && error != asio::error::eof) return close(client, "");
     connection->heard = Clock::now();
-    if (error) connection->last_word = connection->heard;
+    if (error) {
+      said_last_word(*connection);
+      connection->ended = true;
+    }
     counts_.bytes_in += count;
     if (count == 0) return;
     protocol_.take(client, std::span(connection->input).first(count));
@@ -183,6 +262,7 @@ class Server final : public TcpServer {
                       [this, client, connection](const Error& error, std::size_t count) {
                         if (error == asio::error::operation_aborted) return;
                         connection->writing.clear();
+                        connection->served = Clock::now();
                         counts_.bytes_out += count;
                         if (!is_open(client)) return;
                         if (error) return close(client, "");
@@ -190,14 +270,17 @@ class Server final : public TcpServer {
                       });
   }
 
-  /// `why` is said where the client is to blame, or we.
-  void close(Client client, const std::string& why) {
-    const auto found = connections_.find(client);
-    if (!why.empty()) note(fmt::format("client {} was disconnected: {}", found->second->name, why));
+  /// `why` is said where the client is to blame, or we. `unsent`: what its system has not even sent yet.
+  void close(Client client, const std::string& why, std::size_t unsent = 0) {
+    const auto connection = connections_.extract(client).mapped();
+    if (!why.empty()) note(fmt::format("client {} was disconnected: {}", connection->name, why));
     Error ignored;
-    found->second->socket.close(ignored);
-    connections_.erase(found);
-    protocol_.gone(client);
+    const std::size_t unread = connection->reading ? 0 : connection->socket.available(ignored);
+    const std::size_t dropped = unread + unsent + protocol_.gone(client);
+    counts_.dropped += dropped;
+    if (dropped != 0)
+      note(fmt::format("{} bytes that client {} sent before it left are dropped", dropped, connection->name));
+    connection->socket.close(ignored);
   }
 
   void note(const std::string& text) {
@@ -209,6 +292,7 @@ class Server final : public TcpServer {
   tcp::acceptor acceptor_;
   std::map<Client, ConnectionPtr> connections_;
   bool accepting_ = false;
+  Clock::time_point looked_closer_{};
   Clock::time_point accept_again_{};
   int notes_ = 0;
   Counts counts_;

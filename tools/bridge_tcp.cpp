@@ -20,10 +20,10 @@ namespace {
 using Client = TcpServer::Client;
 using serial::HostCharacter;
 
-void put_on_line(LiveLine& line, std::span<const std::uint8_t> bytes) {
+void put_on_line(LiveLine& line, std::span<const std::uint8_t> bytes, Client sender = 0) {
   const SerialFormat format = line.format();
   std::vector<HostCharacter> characters;
-  for (const std::uint8_t byte : bytes) characters.push_back({.byte = byte, .format = format});
+  for (const std::uint8_t byte : bytes) characters.push_back({.byte = byte, .format = format, .sender = sender});
   if (!characters.empty()) line.send(characters);
 }
 
@@ -46,10 +46,11 @@ class TcpBridge : public Bridge, protected TcpServer::Protocol {
   SerialFormat receive_format() const override { return line_->format(); }
 
   std::string summary() const override {
-    return fmt::format("{}: {} client{}{}, {} bytes from them, {} to them{}", kind_, counts_.clients,
+    return fmt::format("{}: {} client{}{}, {} bytes from them, {} to them{}{}", kind_, counts_.clients,
                        counts_.clients == 1 ? "" : "s",
                        counts_.refused ? fmt::format(", {} sent away for others", counts_.refused) : "", counts_.bytes_in,
-                       counts_.bytes_out, more_summary());
+                       counts_.bytes_out, counts_.dropped ? fmt::format(", {} dropped that they left", counts_.dropped) : "",
+                       more_summary());
   }
 
   nlohmann::ordered_json json() const override {
@@ -57,7 +58,8 @@ class TcpBridge : public Bridge, protected TcpServer::Protocol {
                                 {"clients", counts_.clients},
                                 {"sent_away", counts_.refused},
                                 {"bytes_in", counts_.bytes_in},
-                                {"bytes_out", counts_.bytes_out}};
+                                {"bytes_out", counts_.bytes_out},
+                                {"bytes_dropped", counts_.dropped}};
     json.update(more_json());
     return json;
   }
@@ -107,12 +109,13 @@ class RawBridge final : public TcpBridge {
   /// After its last word a client has a second, of the line's time, to hear what comes of it.
   static constexpr Time kHearsOn = kSecond;
 
-  void take(Client, std::span<const std::uint8_t> bytes) override {
+  void take(Client client, std::span<const std::uint8_t> bytes) override {
     line().catch_up();
-    put_on_line(line(), bytes);
+    put_on_line(line(), bytes, client);
   }
-  void gone(Client) override {}
-  bool wants_more(Client) const override { return line().has_room(); }
+  std::size_t gone(Client client) override { return line().drop(client); }
+  bool wants_more(Client client) const override { return line().has_room(client); }
+  bool unsent(Client client) const override { return line().waiting(client) != 0; }
   bool expects_answer(Client) const override {
     const serial::Simulation& simulation = line().simulation();
     return simulation.host_port().sending() || !simulation.line_quiet_for(kHearsOn);
@@ -131,11 +134,10 @@ class RtuBridge final : public TcpBridge {
   void turn() override {
     const auto now = Clock::now();
     for (auto& [client, part] : parts_) {
-      ask_complete(client, part);
       if (!takes_more(client))
         part.heard = now;  // it is not read from: it need not have ended
-      else if (!part.bytes.empty() && now - part.heard >= kFrameEnd)
-        ask(client, part, part.bytes.size());
+      else
+        end_of_pause(client, part, now - part.heard);
     }
     put_on_line(line(), turns_.turn(line_state()));
     for (const modbus::LineTurns::Outcome& outcome : turns_.take_outcomes()) {
@@ -143,6 +145,7 @@ class RtuBridge final : public TcpBridge {
       ++answers_;
       server().send(outcome.client, outcome.answer);
     }
+    for (auto& [client, part] : parts_) ask_complete(client, part);  // before more is read
     server().turn();
   }
 
@@ -150,32 +153,66 @@ class RtuBridge final : public TcpBridge {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::milliseconds kFrameEnd{20};
+  static constexpr std::chrono::milliseconds kFrameEnd{20}, kGivenUp{1000};
   static constexpr std::size_t kMostOpen = 4;
 
+  /// What has come of a client's next frame.
   struct Part {
     modbus::Bytes bytes;
+    std::size_t after_pause = 0;  ///< where that begins which came after the last pause
     Clock::time_point heard;
   };
 
   void take(Client client, std::span<const std::uint8_t> bytes) override {
     line().catch_up();
     Part& part = parts_[client];
+    const auto now = Clock::now();
+    if (now - part.heard >= kFrameEnd) part.after_pause = part.bytes.size();
     part.bytes.insert(part.bytes.end(), bytes.begin(), bytes.end());
-    part.heard = Clock::now();
+    part.heard = now;
     ask_complete(client, part);
   }
 
   bool takes_more(Client client) const { return turns_.open(client) < kMostOpen; }
 
-  /// What is too long to become a frame goes out as it is.
+  /// What is too long to become a frame goes out as it is. A whole frame after a pause shows that what came before it never
+  /// becomes one.
   void ask_complete(Client client, Part& part) {
     while (takes_more(client)) {
       std::size_t size = modbus::first_request(part.bytes);
+      if (size == 0 && part.after_pause != 0 &&
+          modbus::first_request(std::span(part.bytes).subspan(part.after_pause)) != 0) {
+        give_up(part, part.after_pause);
+        continue;
+      }
       if (size == 0 && part.bytes.size() > modbus::kLongestRtuFrame) size = part.bytes.size();
       if (size == 0) return;
       ask(client, part, size);
     }
+  }
+
+  /// A frame with a wrong CRC goes out as it is, once its length or, if that is not known, a long pause says that it is
+  /// whole. A part of a frame would take as much of the line's time as a frame: it waits here, and is given up in the end.
+  void end_of_pause(Client client, Part& part, Clock::duration pause) {
+    if (part.bytes.empty() || pause < kFrameEnd) return;
+    const modbus::Extent extent = modbus::extent_of_request(part.bytes);
+    if (extent == modbus::Extent::Whole || (extent == modbus::Extent::Unknown && pause >= kGivenUp))
+      ask(client, part, part.bytes.size());
+    else if (pause >= kGivenUp)
+      give_up(part, part.bytes.size());
+  }
+
+  modbus::Bytes take_from(Part& part, std::size_t size) {
+    const auto end = part.bytes.begin() + static_cast<std::ptrdiff_t>(size);
+    modbus::Bytes bytes(part.bytes.begin(), end);
+    part.bytes.erase(part.bytes.begin(), end);
+    part.after_pause -= std::min(part.after_pause, size);
+    return bytes;
+  }
+
+  void give_up(Part& part, std::size_t size) {
+    take_from(part, size);
+    ++incomplete_;
   }
 
   /// One that sends again has stopped waiting, also when both frames came at once: RTU does not say which answer belongs to
@@ -183,35 +220,37 @@ class RtuBridge final : public TcpBridge {
   void ask(Client client, Part& part, std::size_t size) {
     ++frames_;
     given_up_ += turns_.stop_waiting(client);
-    const auto end = part.bytes.begin() + static_cast<std::ptrdiff_t>(size);
-    modbus::Bytes frame(part.bytes.begin(), end);
-    part.bytes.erase(part.bytes.begin(), end);
+    modbus::Bytes frame = take_from(part, size);
     const bool broadcast = frame[0] == modbus::kBroadcast;
     turns_.ask(client, {.frame = std::move(frame), .wants_answer = !broadcast});
   }
 
-  void gone(Client client) override {
-    parts_.erase(client);
+  std::size_t gone(Client client) override {
+    std::size_t dropped = turns_.waiting(client);
+    if (const auto part = parts_.extract(client)) dropped += part.mapped().bytes.size();
     turns_.forget(client);
+    return dropped;
   }
   bool wants_more(Client client) const override { return takes_more(client); }
+  bool unsent(Client client) const override { return turns_.unsent(client); }
   bool expects_answer(Client client) const override {
     const auto part = parts_.find(client);
     return turns_.open(client) != 0 || (part != parts_.end() && !part->second.bytes.empty());
   }
-  bool partial(Client) const override { return false; }  // 20 ms make it a frame
+  bool partial(Client) const override { return false; }  // that is given up by itself
 
   std::string more_summary() const override {
-    return fmt::format("; {} frames, {} answered{}", frames_, answers_,
-                       given_up_ ? fmt::format(", {} given up for another", given_up_) : "");
+    return fmt::format("; {} frames, {} answered{}{}", frames_, answers_,
+                       given_up_ ? fmt::format(", {} given up for another", given_up_) : "",
+                       incomplete_ ? fmt::format(", {} never came in full", incomplete_) : "");
   }
   nlohmann::ordered_json more_json() const override {
-    return {{"frames", frames_}, {"answered", answers_}, {"given_up", given_up_}};
+    return {{"frames", frames_}, {"answered", answers_}, {"given_up", given_up_}, {"incomplete", incomplete_}};
   }
 
   modbus::LineTurns turns_;
   std::map<Client, Part> parts_;
-  std::uint64_t frames_ = 0, answers_ = 0, given_up_ = 0;
+  std::uint64_t frames_ = 0, answers_ = 0, given_up_ = 0, incomplete_ = 0;
 };
 
 class GatewayBridge final : public TcpBridge {
@@ -235,7 +274,12 @@ class GatewayBridge final : public TcpBridge {
     line().catch_up();
     gateway_.take(client, bytes);
   }
-  void gone(Client client) override { gateway_.forget(client); }
+  std::size_t gone(Client client) override {
+    const std::size_t dropped = gateway_.waiting(client);
+    gateway_.forget(client);
+    return dropped;
+  }
+  bool unsent(Client client) const override { return gateway_.unsent(client); }
   std::string error(Client client) const override {
     const std::string error = gateway_.error(client);
     return error.empty() ? error : "this is no Modbus TCP: " + error;

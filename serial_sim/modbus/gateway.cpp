@@ -51,6 +51,11 @@ bool Gateway::wants_more(Client client) const { return turns_.open(client) < kMo
 
 std::size_t Gateway::open(Client client) const { return turns_.open(client); }
 
+std::size_t Gateway::waiting(Client client) const {
+  const auto found = streams_.find(client);
+  return turns_.waiting(client) + (found == streams_.end() ? 0 : found->second.pending());
+}
+
 bool Gateway::partial(Client client) const {
   const auto found = streams_.find(client);
   return found != streams_.end() && found->second.pending() != 0 && turns_.open(client) < kMostOpen;

@@ -53,6 +53,10 @@ class Gateway {
   std::size_t open(Client client) const;
   bool partial(Client client) const;
 
+  /// Bytes of a client that wait for the line or for the rest of their message; and whether some are still to go out.
+  std::size_t waiting(Client client) const;
+  bool unsent(Client client) const { return turns_.unsent(client); }
+
   Bytes turn(const LineTurns::Line& line);
   void received(const ReceivedCharacter& character, const SerialFormat& format) { turns_.received(character, format); }
   Time due() const { return turns_.due(); }

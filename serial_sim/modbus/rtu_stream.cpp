@@ -51,4 +51,11 @@ std::size_t first_request(std::span<const std::uint8_t> stream) {
   return 0;
 }
 
+Extent extent_of_request(std::span<const std::uint8_t> stream) {
+  if (stream.size() < kShortest) return Extent::Part;
+  const std::size_t expected = length(stream);
+  if (expected == kUnknown || expected > kLongestRtuFrame) return Extent::Unknown;
+  return stream.size() < expected ? Extent::Part : Extent::Whole;
+}
+
 }  // namespace s7200::modbus

@@ -55,6 +55,30 @@ TEST(HostPort, CharactersFollowEachOtherBackToBackFromTheInstantGiven) {
   EXPECT_FALSE(wire.port.sending());
 }
 
+TEST(HostPort, WhatASenderHasWaitingIsCountedAndCanBeDropped) {
+  Wire wire;
+  wire.port.attach(k8E1, 0);
+  const auto of = [](std::uint64_t sender, modbus::Bytes bytes) {
+    std::vector<HostCharacter> all = characters(bytes);
+    for (HostCharacter& character : all) character.sender = sender;
+    return all;
+  };
+  wire.port.send(of(7, {1, 2, 3}), 0);
+  wire.port.send(of(8, {4}), 0);
+  wire.port.send(of(7, {5}), 0);
+  EXPECT_EQ(wire.port.waiting(7), 3U);  // besides the one on the line
+  EXPECT_EQ(wire.port.waiting(8), 1U);
+  EXPECT_EQ(wire.port.drop(7), 3U);
+  EXPECT_EQ(wire.port.waiting(7), 0U);
+  EXPECT_EQ(wire.port.drop(7), 0U);
+  wire.run();
+  ASSERT_EQ(wire.heard.size(), 2U);
+  EXPECT_EQ(wire.heard[0].byte, 1);
+  EXPECT_EQ(wire.heard[1].byte, 4);
+  EXPECT_EQ(wire.port.waiting(8), 0U);
+  EXPECT_TRUE(wire.port.state().waiting.empty());
+}
+
 TEST(HostPort, LaterCharactersBeginWhenTheyCome) {
   Wire wire;
   wire.port.attach(k8E1, 0);

@@ -62,6 +62,18 @@ TEST(RtuStream, ARequestWithAWrongLengthIsOneAllTheSame) {
   }
 }
 
+TEST(RtuStream, HowMuchOfARequestThereIsIsToldByItsFunction) {
+  for (Bytes wrong : requests()) {
+    wrong.back() ^= 1;
+    const bool known = wrong[1] <= 21 && wrong[1] != 8;  // diagnostics: subfunction 0 has any length
+    for (std::size_t size = 0; size < wrong.size(); ++size)
+      EXPECT_EQ(extent_of_request(std::span(wrong).first(size)), known || size < 4 ? Extent::Part : Extent::Unknown)
+          << to_hex(wrong) << ", " << size;
+    for (const Bytes& more : {Bytes{}, Bytes{0}, requests()[0]})
+      EXPECT_EQ(extent_of_request(wrong + more), known ? Extent::Whole : Extent::Unknown) << to_hex(wrong);
+  }
+}
+
 TEST(RtuStream, AWrongCrcMakesNoRequest) {
   for (Bytes wrong : requests()) {
     wrong.back() ^= 1;
