@@ -97,6 +97,15 @@ class Case(unittest.TestCase):
         path.write_text(text, encoding="utf-8")
         return path
 
+    RATES = {300: ("5D", 166), 600: ("59", 84), 1200: ("55", 43), 2400: ("51", 22), 4800: ("4D", 12), 9600: ("49", 6),
+             19200: ("45", 5), 38400: ("41", 5)}  # SMB30 with even parity, SMB34
+
+    def slave_at(self, baud):
+        port_control, quiet = self.RATES[baud]
+        text = pathlib.Path(SLAVE).read_text(encoding="utf-8")
+        return self.program(text.replace("MOVB    16#49, SMB30", f"MOVB 16#{port_control}, SMB30")
+                            .replace("MOVB    6, SMB34", f"MOVB {quiet}, SMB34"))
+
     def refused(self, *arguments, program=SLAVE):
         done = subprocess.run([S7200, "run", program, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True,
                               text=True, timeout=LONG, check=False)
@@ -459,7 +468,7 @@ class TcpTests(TcpCase):
         self.assertEqual(self.until_answered(client), ANSWER)
         client.close()
         bridge = running.end()["bridge"]
-        self.assertEqual(list(bridge), ["kind", "clients", "sent_away", "bytes_in", "bytes_out"])
+        self.assertEqual(list(bridge), ["kind", "clients", "sent_away", "bytes_in", "bytes_out", "bytes_dropped"])
         self.assertEqual((bridge["kind"], bridge["clients"], bridge["bytes_out"]), ("tcp", 1, len(ANSWER)))
 
     def test_all_clients_hear_what_the_line_says(self):
@@ -496,16 +505,51 @@ class TcpTests(TcpCase):
     def test_an_rtu_frame_may_come_in_pieces(self):
         running = self.serve("--rtu-over-tcp")
         client = self.client(running)
-        client.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self.until_answered(client)
-        answered = 0
-        for _ in range(20):  # the pieces may come too far apart on a busy computer, but not always
-            client.send(READ[:3])
-            client.send(READ[3:])
-            if client.receive(len(ANSWER), SILENCE * 2) == ANSWER:
-                answered += 1
-                break
-        self.assertEqual(answered, 1)
+        for pause in (0, 0.05):
+            for byte in READ:
+                client.send(bytes([byte]))
+                time.sleep(pause)
+            self.assertEqual(client.receive(len(ANSWER)), ANSWER)
+
+    def test_slow_rtu_clients_take_the_line_for_whole_frames_only(self):
+        running = self.serve("--rtu-over-tcp")
+        fast = self.client(running)
+        self.until_answered(fast)
+        slow = [self.client(running) for _ in range(5)]
+        for byte in READ:
+            for client in slow:
+                client.send(bytes([byte]))
+            fast.send(READ)
+            self.assertEqual(fast.receive(len(ANSWER)), ANSWER)
+            time.sleep(0.05)
+        for client in slow:
+            self.assertEqual(client.receive(len(ANSWER)), ANSWER)
+        bridge = running.end()["bridge"]
+        self.assertEqual(bridge["incomplete"], 0)
+        self.assertEqual(bridge["bytes_in"], bridge["frames"] * len(READ))
+
+    def test_a_part_of_an_rtu_frame_is_given_up_for_a_whole_one_or_in_time(self):
+        running = self.serve("--rtu-over-tcp")
+        client = self.client(running)
+        self.until_answered(client)
+        client.send(READ[:5])
+        time.sleep(0.2)
+        client.send(READ)
+        self.assertEqual(client.receive(len(ANSWER)), ANSWER)
+        before = running.end()["bridge"]
+        self.assertEqual((before["incomplete"], before["frames"] - before["answered"] - before["given_up"]), (1, 0))
+
+        running = self.serve("--rtu-over-tcp")
+        client = self.client(running)
+        self.until_answered(client)
+        client.send(READ[:5])
+        time.sleep(1.5)
+        for byte in READ:
+            client.send(bytes([byte]))
+            time.sleep(0.05)
+        self.assertEqual(client.receive(len(ANSWER)), ANSWER)
+        self.assertEqual(running.end()["bridge"]["incomplete"], 1)
 
     def test_rtu_clients_take_turns(self):
         running = self.serve("--rtu-over-tcp", "--timeout", "10s")
@@ -567,6 +611,68 @@ class TcpTests(TcpCase):
         self.assertEqual({place: shown["values"] for place, shown in bridge["dump"].items()},
                          {"VW0": [100], "VW2": [101], "VW38": [119]})
 
+    def left_by_floods(self, kind, flood, leave, ask):
+        """What is dropped of a client that sends all that its system takes, and leaves."""
+        running = self.serve(kind)
+        other = self.client(running)
+        ask(other)
+        flooder = self.client(running)
+        flooder.socket.setblocking(False)
+        sent, until = 0, time.monotonic() + 1
+        while time.monotonic() < until:
+            try:
+                sent += flooder.socket.send(flood)
+            except BlockingIOError:
+                time.sleep(0.01)
+        getattr(flooder, leave)()
+        ask(other)  # all of it would be on the line for a quarter of an hour
+        running.wait_for("sent before it left are dropped")
+        bridge = running.end()["bridge"]
+        self.assertLess(bridge["bytes_in"], 50_000)
+        return sent, bridge["bytes_dropped"]
+
+    def test_what_a_client_has_sent_and_left_is_dropped(self):
+        broadcast = framed(struct.pack(">BBHH", 0, 6, 100, 1)) * 500
+        ask = lambda client: self.assertEqual(self.until_answered(client), ANSWER)
+        for kind, flood in (("--tcp", b"\x55" * 4096), ("--rtu-over-tcp", broadcast)):
+            with self.subTest(kind):
+                sent, dropped = self.left_by_floods(kind, flood, "close", ask)
+                self.assertGreater(sent, 100_000)
+                self.assertGreater(dropped, sent - 50_000)
+                self.assertGreater(self.left_by_floods(kind, flood, "vanish", ask)[1], 0)
+
+    def test_what_a_client_has_sent_goes_out_if_it_waits_for_that(self):
+        running = self.serve("--tcp")
+        client = self.client(running)
+        self.assertEqual(self.until_answered(client), ANSWER)
+        before = time.monotonic()
+        client.send(b"\x55" * 20_000)  # 4 s
+        client.socket.shutdown(socket.SHUT_WR)
+        self.assertTrue(client.is_closed())
+        self.assertGreater(time.monotonic() - before, 3)
+        bridge = running.end()["bridge"]
+        self.assertEqual(bridge["bytes_in"] % len(READ), 20_000 % len(READ))
+        self.assertEqual(bridge["bytes_dropped"], 0)
+
+    def test_what_the_line_has_no_time_for_within_ten_seconds_of_the_last_word_is_dropped(self):
+        running = self.start("--tcp", 0)
+        client = self.client(running)
+        client.send(b"\x55" * 20_000)  # 21 s
+        client.socket.shutdown(socket.SHUT_WR)
+        self.assertTrue(client.is_closed())
+        running.wait_for("sent before it left are dropped")
+        bridge = running.end()["bridge"]
+        self.assertGreater(bridge["bytes_in"], 5000)
+        self.assertGreaterEqual(bridge["bytes_in"] + bridge["bytes_dropped"], 20_000)
+
+    def test_a_last_word_is_answered_however_long_it_takes_on_the_line(self):
+        running = self.start("--tcp", 0, "--speed", 0.8, program=self.slave_at(300))
+        client = self.client(running)
+        time.sleep(1)  # its first scan
+        client.send(framed(struct.pack(">BBHHB", 1, 16, 0, 123, 246) + bytes(246)))  # 12 s
+        client.socket.shutdown(socket.SHUT_WR)
+        self.assertEqual(client.receive(1000), framed(struct.pack(">BBHH", 1, 16, 0, 123)))
+
     def test_clients_that_flood_and_do_not_read_stop_nobody(self):
         for kind in ("--tcp", "--rtu-over-tcp"):
             with self.subTest(kind):
@@ -606,8 +712,8 @@ class ModbusTcpTests(TcpCase):
         self.assertEqual(client.ask(5, 1, bytes.fromhex("0300000100")), (5, 1, b"\x83\x03"))
         client.close()
         bridge = running.end()["bridge"]
-        self.assertEqual(list(bridge), ["kind", "clients", "sent_away", "bytes_in", "bytes_out", "requests", "answered",
-                                        "broadcast", "silent", "damaged", "no_station"])
+        self.assertEqual(list(bridge), ["kind", "clients", "sent_away", "bytes_in", "bytes_out", "bytes_dropped", "requests",
+                                        "answered", "broadcast", "silent", "damaged", "no_station"])
         self.assertEqual((bridge["requests"], bridge["answered"]), (5, 5))
 
     def test_exceptions_of_the_gateway(self):
@@ -641,6 +747,21 @@ class ModbusTcpTests(TcpCase):
         client.send(b"".join(message(number, 1, READ_PDU) for number in range(3)))
         client.socket.shutdown(socket.SHUT_WR)
         self.assertEqual([client.answer() for _ in range(4)], [(number, 1, ANSWER_PDU) for number in range(3)] + [None])
+
+    def test_what_a_client_has_sent_and_left_is_dropped(self):
+        running = self.serve_gateway()
+        flooder = self.client(running)
+        flooder.socket.setblocking(False)
+        sent, until = 0, time.monotonic() + 1
+        while time.monotonic() < until:
+            try:
+                sent += flooder.socket.send(message(1, 0, b"\x06\x00\x64\x00\x01") * 500)  # never answered
+            except BlockingIOError:
+                time.sleep(0.01)
+        flooder.close()
+        running.wait_for("sent before it left are dropped")
+        bridge = running.end()["bridge"]
+        self.assertGreater(bridge["bytes_dropped"], sent - 50_000)
 
     def test_what_is_no_modbus_tcp_ends_that_connection_only(self):
         running = self.serve_gateway()
@@ -895,6 +1016,29 @@ class RunTests(Case):
         took, result = timed("--speed", "0.5", "--for", "300ms")
         self.assertGreaterEqual(took, 0.6)
         self.assertNotIn("realtime", timed("--for", "500ms")[1])
+
+    def test_the_first_request_and_one_after_a_broadcast_are_answered_at_every_rate(self):
+        for baud in self.RATES:
+            with self.subTest(baud):
+                running = self.start("--modbus-tcp", 0, "--speed", SPEED, "--timeout", "2s", *PRESET, program=self.slave_at(baud))
+                with ModbusClient(running) as client:
+                    self.assertEqual(client.ask(1), (1, 1, ANSWER_PDU))
+                    client.send(message(2, 0, b"\x06\x00\x64\x00\x01"))
+                    self.assertEqual(client.ask(3), (3, 1, ANSWER_PDU))
+                running.end()
+
+    def test_a_master_waits_for_the_end_of_a_broadcast_at_every_rate(self):
+        for baud in (300, 9600):
+            with self.subTest(baud):
+                link = self.folder / f"plc_{baud}"
+                running = self.start("--pty", link, program=self.slave_at(baud))
+                time.sleep(1)  # its first scan
+                done = subprocess.run([S7200, "master", link, "--baud", str(baud), "station", "0", "write", "40001=5", "station", "1",
+                                       "read", "40001", "--json", "--timeout", "10s"], stdin=subprocess.DEVNULL,
+                                      capture_output=True, text=True, timeout=LONG, check=False)
+                self.assertEqual(done.returncode, FINE, done.stdout + done.stderr)
+                self.assertEqual(json.loads(done.stdout)["exchanges"][1]["values"], [5])
+                running.end()
 
     def test_waits_without_work(self):
         process = subprocess.Popen([S7200, "run", SLAVE, "--speed", "0.05", "--for", "150ms"], stdin=subprocess.DEVNULL,
