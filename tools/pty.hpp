@@ -1,10 +1,15 @@
 // A pty that stands for a serial port: its far side has a stable name, and programs open it like /dev/ttyS0.
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <cstdint>
+#include <deque>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "interpreter/base/serial_format.hpp"
 
@@ -13,10 +18,6 @@ namespace s7200::tools {
 /// How the program on the far side has set its port. The pty driver of Linux keeps rate, stop bits, PARODD and the input
 /// flags; it always clears PARENB and CSIZE (drivers/tty/pty.c, pty_set_termios), so that no parity, and even parity without
 /// INPCK, look the same, and 7 data bits are refused.
-///
-/// The C library tells a program EINVAL when nothing at all has changed by what it asked for, and parity alone never
-/// changes. So that a program can set its port as often as it likes, two flags without effect are set again when they were
-/// cleared.
 struct PtySettings {
   std::uint32_t baud = 0;        ///< 0: hung up
   std::optional<Parity> parity;  ///< where it can be told: PARODD, or INPCK without it
@@ -27,12 +28,53 @@ struct PtySettings {
   bool operator==(const PtySettings&) const = default;
 };
 
+/// A name that leads to one of several ptys.
+///
+/// The C library of Debian asks a pty how it is set before and after it sets it, and tells the program EINVAL when that is
+/// the same although the program has asked for parity. So a port has to be set a little differently from what a program
+/// will ask for, and must not be set at all while a program may be between the two questions. Therefore nobody sets a port
+/// that a program has open: each program gets one for itself, that was made ready before, because the name leads to another
+/// as soon as one is opened. A thread of its own sees to that, some ten microseconds later, whatever else is going on.
 class Pty {
  public:
-  /// Opens a pty, raw and with the settings of `format` until a program changes them. `link` becomes a symbolic link to its
-  /// far side. Nothing, and `why`, when that cannot be done: whatever exists under that name is left alone, but a link that
-  /// a run like this one made and, because it was killed, did not remove. Our links are known by how they spell their
-  /// target:
+  class Port {
+   public:
+    ~Port();
+    Port(const Port&) = delete;
+    Port& operator=(const Port&) = delete;
+
+    /// What a program on the far side writes is read here, and the other way round. It never blocks and never hangs up.
+    int fd() const { return fd_; }
+
+    /// Of a program that has left, as it left them.
+    PtySettings settings() const;
+
+    int open_now() const { return open_now_; }          ///< how many have it open, as of look()
+    std::uint64_t session() const { return session_; }  ///< another each time it is opened after all have left; 0 before
+
+    /// Bytes that a program wrote and that wait to be read here, as far as they have come.
+    std::size_t unread() const;
+
+   private:
+    friend class Pty;
+    Port() = default;
+    bool open(int watch, std::string& why);
+    PtySettings settings_now() const;
+    void all_have_left();
+    void keep_changeable();
+
+    int fd_ = -1, far_ = -1, far_watch_ = -1;
+    std::string path_;
+    std::atomic<int> open_now_ = 0;
+    std::atomic<std::uint64_t> session_ = 0;
+    mutable std::mutex mutex_;  ///< of the next
+    std::optional<PtySettings> left_as_;
+    std::optional<std::chrono::steady_clock::time_point> set_since_;
+  };
+
+  /// Opens ptys, raw and with the settings of `format` until a program changes them. `link` becomes a symbolic link to a far
+  /// side. Nothing, and `why`, when that cannot be done: whatever exists under that name is left alone, but a link that a
+  /// run like this one made and, because it was killed, did not remove. Our links are known by how they spell their target:
   /// `/dev/pts/./3`.
   static std::unique_ptr<Pty> open(const std::string& link, const SerialFormat& format, std::string& why);
 
@@ -41,35 +83,46 @@ class Pty {
   Pty(const Pty&) = delete;
   Pty& operator=(const Pty&) = delete;
 
-  /// What a program on the far side writes is read here, and the other way round. It never blocks and never hangs up.
-  int fd() const { return fd_; }
+  /// Ports stay where they are; more come when all are in use.
+  std::size_t port_count() const;
+  const Port& port(std::size_t index) const;
 
-  /// `/dev/pts/3`
-  const std::string& path() const { return path_; }
+  /// The one that was opened last, or before that the one that will be opened.
+  const Port& latest() const;
+  PtySettings settings() const { return latest().settings(); }
 
-  PtySettings settings() const;
-
-  /// To be called often: looks who has come and gone. When the last one has left, what it did not read is forgotten, as a
-  /// serial port does when it is closed.
+  /// Looks who has come and gone by now. When the last one has left a port, what it did not read is forgotten, as a serial
+  /// port does when it is closed, and what it set holds for who comes next. To be called often.
   void look();
 
-  /// Readable when look() has something to see.
-  int watch() const { return watch_; }
-
-  int open_now() const { return open_now_; }             ///< how many have the far side open, as of look()
-  std::uint64_t opened_ever() const { return opened_; }  ///< how often it was opened
+  int open_now() const;                                  ///< of all ports
+  std::uint64_t opened_ever() const { return opened_; }  ///< how often one was opened
 
  private:
-  Pty() = default;
-  bool open_far_side(const SerialFormat& format, std::string& why);
-  bool make_link(const std::string& link, std::string& why);
-  void keep_changeable() const;
-  void all_have_left() const;
+  struct Settings;  // all of a port's
 
-  int fd_ = -1, far_ = -1, watch_ = -1, far_watch_ = -1;
-  std::string path_, link_;
-  int open_now_ = 0;
-  std::uint64_t opened_ = 0;
+  Pty();
+  bool add_port(std::string& why);
+  bool make_link(const std::string& link, std::string& why);
+  bool leads_to_us(const std::string& link) const;
+  bool is_left_behind(const std::string& link) const;
+  void make_ready(const Port& port);
+  void take_events();
+  void opened(std::size_t index);
+  void closed(std::size_t index);
+  void offer_another();
+  std::size_t free_port();
+  void keep_offering();
+
+  mutable std::mutex mutex_;  ///< of all but the atomic ones
+  int watch_ = -1, end_ = -1;
+  std::deque<std::unique_ptr<Port>> ports_;
+  std::size_t offered_ = 0, latest_ = 0;  ///< where the link leads; which was opened last
+  bool taken_ = false;                    ///< that one has been opened since
+  std::string link_;
+  std::unique_ptr<Settings> settings_, offered_with_;  ///< what was set last; what the offered port was made ready with
+  std::atomic<std::uint64_t> opened_ = 0;
+  std::thread keeper_;
 };
 
 }  // namespace s7200::tools

@@ -136,14 +136,7 @@ class SerialPort:
         settings[0], settings[1], settings[3] = iflag, 0, 0
         settings[2] = termios.CS8 | termios.CREAD | termios.CLOCAL | cflag
         settings[4] = settings[5] = baud
-        until = time.monotonic() + LONG
-        while True:  # the bridge has to see first that the last one has left, see tools/pty.hpp
-            try:
-                return termios.tcsetattr(self.fd, termios.TCSANOW, settings)
-            except termios.error as error:
-                if error.args[0] != errno.EINVAL or time.monotonic() > until:
-                    raise
-                time.sleep(0.01)
+        termios.tcsetattr(self.fd, termios.TCSANOW, settings)
 
     def write(self, data):
         while data:
@@ -191,6 +184,12 @@ class PtyTests(Case):
         self.addCleanup(lambda: self.close_quietly(port))
         return port
 
+    def await_another_than(self, port):
+        """Until the link leads to another port, for the next program."""
+        until, path = time.monotonic() + LONG, os.ttyname(port.fd)
+        while os.path.realpath(self.link) == path:
+            self.assertLess(time.monotonic(), until)
+
     @staticmethod
     def close_quietly(port):
         try:
@@ -204,7 +203,8 @@ class PtyTests(Case):
         with SerialPort(self.link) as port:
             self.assertEqual(port.ask(), ANSWER)
         bridge = running.end()["bridge"]
-        self.assertEqual(list(bridge), ["kind", "link", "opened", "bytes_in", "bytes_out", "unheard", "overrun", "with_errors"])
+        self.assertEqual(list(bridge), ["kind", "link", "opened", "bytes_in", "bytes_out", "unheard", "overrun", "with_errors",
+                                        "bytes_dropped"])
         self.assertEqual((bridge["kind"], bridge["link"], bridge["opened"]), ("pty", str(self.link), 1))
         self.assertEqual((bridge["bytes_out"], bridge["unheard"], bridge["overrun"]), (len(ANSWER), 0, 0))
         self.assertEqual(bridge["bytes_in"] % len(READ), 0)
@@ -255,6 +255,29 @@ class PtyTests(Case):
             os.close(other)
         with SerialPort(self.link) as port:
             self.assertEqual(port.ask(), ANSWER)
+
+    def test_a_program_that_comes_back_is_never_refused_its_parity(self):
+        running = self.serve()
+        talking = self.open()
+        self.assertEqual(talking.ask(), ANSWER)
+        for number in range(2000):
+            with SerialPort(self.link) as port:
+                self.await_another_than(port)
+            if number % 500 == 0:
+                self.assertEqual(talking.ask(), ANSWER)
+        self.assertGreaterEqual(running.end()["bridge"]["opened"], 2001)
+
+    def test_what_a_program_has_written_and_left_is_dropped_in_time(self):
+        running = self.serve()
+        with SerialPort(self.link, baud=termios.B300) as port:
+            os.set_blocking(port.fd, False)
+            with self.assertRaises(BlockingIOError):
+                while True:  # several KB; 10 s at 300 baud are 272 bytes
+                    os.write(port.fd, b"\x55" * 256)
+            self.await_another_than(port)
+        with SerialPort(self.link) as port:
+            self.assertEqual(port.ask(), ANSWER)
+        self.assertGreater(running.end()["bridge"]["bytes_dropped"], 1000)
 
     def test_another_rate_or_parity_is_not_understood(self):
         self.serve()
