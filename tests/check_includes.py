@@ -31,14 +31,14 @@ LAYERS = {
 # Files that belong to another layer than their folder does. One that would be in order in the layer of its folder, and
 # could be included by all who do, is no exception: the check fails until it is struck off.
 EXCEPTIONS = {
-    "interpreter/instructions/instruction.hpp": "instruction types",
-    "interpreter/cpu/serial_port.hpp": "serial port",
+    "interpreter/model/instruction.hpp": "instruction types",
+    "interpreter/base/serial_port.hpp": "serial port",
     "interpreter/trace/trace.hpp": "trace records",
-    "serial_sim/field.hpp": "simulation",
+    "serial_sim/field/field.hpp": "simulation",
     "serial_sim/field.cpp": "simulation",
-    "serial_sim/field_script.hpp": "simulation",
+    "serial_sim/field/field_script.hpp": "simulation",
     "serial_sim/field_script.cpp": "simulation",
-    "serial_sim/simulation.hpp": "simulation",
+    "serial_sim/system/simulation.hpp": "simulation",
     "serial_sim/simulation.cpp": "simulation",
 }
 

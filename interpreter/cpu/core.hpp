@@ -15,7 +15,7 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/event_queue.hpp"
-#include "interpreter/cpu/serial_port.hpp"
+#include "interpreter/base/serial_port.hpp"
 #include "interpreter/cpu/state.hpp"
 #include "interpreter/model/errors.hpp"
 #include "interpreter/model/ports.hpp"

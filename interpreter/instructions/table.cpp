@@ -14,7 +14,7 @@
 #include "interpreter/instructions/compare.hpp"
 #include "interpreter/instructions/control.hpp"
 #include "interpreter/instructions/conversion.hpp"
-#include "interpreter/instructions/instruction.hpp"
+#include "interpreter/model/instruction.hpp"
 #include "interpreter/instructions/math.hpp"
 #include "interpreter/instructions/move.hpp"
 #include "interpreter/instructions/peripherals.hpp"

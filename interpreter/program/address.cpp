@@ -7,7 +7,7 @@
 
 #include "interpreter/program/operands.hpp"
 #include "interpreter/stl/parser.hpp"
-#include "interpreter/stl/text.hpp"
+#include "interpreter/base/text.hpp"
 
 namespace s7200 {
 namespace {

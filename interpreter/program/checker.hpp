@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "interpreter/program/program.hpp"
-#include "interpreter/stl/diagnostic.hpp"
+#include "interpreter/base/diagnostic.hpp"
 #include "interpreter/stl/parser.hpp"
 
 namespace s7200 {

@@ -14,7 +14,7 @@
 
 #include "interpreter/stl/document.hpp"
 #include "interpreter/stl/encoding.hpp"
-#include "interpreter/stl/text.hpp"
+#include "interpreter/base/text.hpp"
 
 namespace s7200 {
 namespace {

@@ -8,7 +8,7 @@
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/program/warnings.hpp"
 #include "interpreter/stl/printer.hpp"
-#include "interpreter/stl/text.hpp"
+#include "interpreter/base/text.hpp"
 
 namespace s7200 {
 namespace {

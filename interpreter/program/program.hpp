@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "interpreter/instructions/instruction.hpp"
+#include "interpreter/model/instruction.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/times.hpp"
 #include "interpreter/stl/ast.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "interpreter/program/program.hpp"
-#include "interpreter/stl/diagnostic.hpp"
+#include "interpreter/base/diagnostic.hpp"
 
 namespace s7200 {
 

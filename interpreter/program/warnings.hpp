@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "interpreter/program/program.hpp"
-#include "interpreter/stl/diagnostic.hpp"
+#include "interpreter/base/diagnostic.hpp"
 
 namespace s7200 {
 

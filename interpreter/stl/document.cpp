@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "interpreter/stl/text.hpp"
+#include "interpreter/base/text.hpp"
 
 namespace s7200::stl {
 

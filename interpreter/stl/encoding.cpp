@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstdint>
 
-#include "interpreter/stl/text.hpp"
+#include "interpreter/base/text.hpp"
 
 namespace s7200::stl {
 

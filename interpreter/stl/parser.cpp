@@ -12,7 +12,7 @@
 #include <optional>
 #include <system_error>
 
-#include "interpreter/stl/text.hpp"
+#include "interpreter/base/text.hpp"
 
 namespace s7200::stl {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "interpreter/stl/ast.hpp"
-#include "interpreter/stl/diagnostic.hpp"
+#include "interpreter/base/diagnostic.hpp"
 
 namespace s7200::stl {
 

@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "interpreter/stl/text.hpp"
+#include "interpreter/base/text.hpp"
 
 namespace s7200::stl {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "interpreter/base/time.hpp"
-#include "interpreter/cpu/serial_port.hpp"
+#include "interpreter/base/serial_port.hpp"
 
 namespace s7200 {
 

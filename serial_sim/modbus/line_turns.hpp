@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "interpreter/cpu/serial_port.hpp"
+#include "interpreter/base/serial_port.hpp"
 #include "serial_sim/modbus/crc.hpp"
 
 namespace s7200::modbus {

@@ -22,9 +22,9 @@
 
 #include "interpreter/program/load.hpp"
 #include "tests/support/source_path.hpp"
-#include "tools/bridge_pty.hpp"
-#include "tools/bridge_run.hpp"
-#include "tools/interruption.hpp"
+#include "tools/bridge/pty_bridge.hpp"
+#include "tools/bridge/live_run.hpp"
+#include "tools/host/interruption.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "interpreter/program/load.hpp"
-#include "serial_sim/simulation.hpp"
+#include "serial_sim/system/simulation.hpp"
 #include "tests/support/source_path.hpp"
 
 namespace s7200 {

@@ -1,7 +1,7 @@
 // What the wire costs: characters and exchanges a second of the host, without a PLC.
 #include <benchmark/benchmark.h>
 
-#include "serial_sim/master.hpp"
+#include "serial_sim/peers/requester.hpp"
 
 namespace s7200::serial {
 namespace {

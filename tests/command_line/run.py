@@ -17,7 +17,7 @@ import xml.etree.ElementTree
 S7200, SOURCE, GROUP = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
 SLAVE = str(SOURCE / "stl_programs/modbus_slave.stl")
 TIP = SOURCE.parent / "shared/seeds/tip41_modbus_rtu_slave.txt"
-VERBS = re.findall(r"^void add_(\w+)\(CLI::App", (SOURCE / "tools/commands.hpp").read_text(encoding="utf-8"), re.M)
+VERBS = re.findall(r"^void add_(\w+)\(CLI::App", (SOURCE / "tools/command/commands.hpp").read_text(encoding="utf-8"), re.M)
 FINE, FAILED, UNUSABLE, FATAL = range(4)
 
 

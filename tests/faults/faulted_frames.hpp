@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "serial_sim/simulation.hpp"
+#include "serial_sim/system/simulation.hpp"
 
 namespace s7200::faults {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "interpreter/program/load.hpp"
-#include "serial_sim/simulation.hpp"
+#include "serial_sim/system/simulation.hpp"
 #include "tests/support/source_path.hpp"
 
 namespace s7200 {

@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "interpreter/program/load.hpp"
-#include "tools/scenario_reader.hpp"
-#include "tools/scenario_record.hpp"
+#include "tools/scenario/reader.hpp"
+#include "tools/scenario/transcript.hpp"
 
 namespace {
 

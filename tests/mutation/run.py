@@ -137,7 +137,7 @@ class Tests:
     SECONDS, KILOBYTES = 120, 4_000_000  # of processor time and memory; what needs more hangs
     # What every mutant's table.cpp includes and no mutant changes.
     PRECOMPILED = ["algorithm", "bit", "cmath", "map", "optional", "set", "string", "type_traits", "vector", "interpreter/cpu/core.hpp",
-                   "interpreter/instructions/instruction.hpp"]
+                   "interpreter/model/instruction.hpp"]
 
     def __init__(self, work):
         self.work, self.tree, self.build_dir = work, work / "tree", work / "build"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/instructions/instruction.hpp"
+#include "interpreter/model/instruction.hpp"
 #include "tests/reference_model/memory.hpp"
 
 namespace s7200::reference {

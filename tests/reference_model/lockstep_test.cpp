@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "interpreter/instructions/instruction.hpp"
+#include "interpreter/model/instruction.hpp"
 #include "tests/reference_model/instructions.hpp"
 
 namespace s7200::reference {

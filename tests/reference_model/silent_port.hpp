@@ -1,7 +1,7 @@
 // A serial port with nothing on it.
 #pragma once
 
-#include "interpreter/cpu/serial_port.hpp"
+#include "interpreter/base/serial_port.hpp"
 
 namespace s7200::reference {
 

@@ -13,7 +13,7 @@
 
 #include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
-#include "serial_sim/simulation.hpp"
+#include "serial_sim/system/simulation.hpp"
 #include "tests/support/source_path.hpp"
 
 namespace s7200::test {

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "interpreter/instructions/instruction.hpp"
+#include "interpreter/model/instruction.hpp"
 #include "tests/vectors/cases.hpp"
 
 namespace {

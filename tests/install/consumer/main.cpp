@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "interpreter/program/load.hpp"
-#include "serial_sim/simulation.hpp"
+#include "serial_sim/system/simulation.hpp"
 
 int main() {
   using namespace s7200;

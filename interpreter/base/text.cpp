@@ -1,0 +1,119 @@
+#include "interpreter/base/text.hpp"
+
+#include <cstdint>
+
+namespace s7200::stl {
+
+namespace {
+
+struct Lead {
+  std::size_t bytes;
+  char32_t bits;
+  char32_t smallest;  // a smaller code in that many bytes is overlong
+};
+
+Lead lead_of(unsigned char byte) {
+  if (byte < 0x80) return {1, byte, 0};
+  if (byte >= 0xC2 && byte < 0xE0) return {2, byte & 0x1FU, 0x80};
+  if (byte >= 0xE0 && byte < 0xF0) return {3, byte & 0x0FU, 0x800};
+  if (byte >= 0xF0 && byte < 0xF5) return {4, byte & 0x07U, 0x10000};
+  return {0, 0, 0};
+}
+
+constexpr Character kUnreadable{kReplacement, 1};
+
+/// C0 and C1; marks, embeddings, overrides and isolates of bidirectional text (UAX #9); line and paragraph separators.
+bool commands_a_terminal(char32_t code) {
+  return (code < 0x20 && code != '\t') || (code >= 0x7F && code < 0xA0) || code == 0x061C || code == 0x200E ||
+         code == 0x200F || (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+}
+
+}  // namespace
+
+Character first_character(std::string_view text) {
+  const Lead lead = lead_of(static_cast<unsigned char>(text.front()));
+  if (lead.bytes == 0 || lead.bytes > text.size()) return kUnreadable;
+  char32_t code = lead.bits;
+  for (std::size_t i = 1; i < lead.bytes; ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    if ((byte & 0xC0U) != 0x80) return kUnreadable;
+    code = (code << 6) | (byte & 0x3FU);
+  }
+  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
+  if (code < lead.smallest || code > 0x10FFFF || surrogate) return kUnreadable;
+  return {code, lead.bytes};
+}
+
+std::size_t count_characters(std::string_view text) {
+  std::size_t count = 0;
+  for ([[maybe_unused]] const Character c : characters(text)) ++count;
+  return count;
+}
+
+bool is_valid_utf8(std::string_view text) {
+  for (const Character c : characters(text)) {
+    if (c.code == kReplacement && c.bytes == 1) return false;
+  }
+  return true;
+}
+
+std::vector<std::string> split_lines(std::string_view text) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const std::size_t end = text.find_first_of("\r\n");
+    lines.emplace_back(text.substr(0, end));
+    if (end == std::string_view::npos) break;
+    text.remove_prefix(end + (text.substr(end, 2) == "\r\n" ? 2 : 1));
+  }
+  return lines;
+}
+
+std::string_view trim_end(std::string_view text) {
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string shortened(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  if (count_characters(text) <= kLongest) return std::string(text);
+  std::size_t bytes = 0, number = 0;
+  for (const Character c : characters(text)) {
+    if (++number > kLongest - 3) break;
+    bytes += c.bytes;
+  }
+  return std::string(text.substr(0, bytes)).append("...");
+}
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  shown.reserve(text.size());
+  while (!text.empty()) {
+    const Character c = first_character(text);
+    shown += c.code == kReplacement || commands_a_terminal(c.code) ? "\uFFFD" : text.substr(0, c.bytes);
+    text.remove_prefix(c.bytes);
+  }
+  return shown;
+}
+
+std::string printable_lines(std::string_view text) {
+  std::string shown;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    if (end == std::string_view::npos) return shown + printable(text);
+    const std::size_t line = end > 0 && text[end - 1] == '\r' ? end - 1 : end;
+    shown += printable(text.substr(0, line));
+    shown += text.substr(line, end + 1 - line);
+    text.remove_prefix(end + 1);
+  }
+  return shown;
+}
+
+std::string upper_case(std::string_view text) {
+  std::string upper(text);
+  for (char& c : upper) {
+    if (is_lower(c)) c = static_cast<char>(c - 'a' + 'A');
+  }
+  return upper;
+}
+
+}  // namespace s7200::stl

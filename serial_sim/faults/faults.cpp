@@ -1,0 +1,314 @@
+#include "serial_sim/faults/faults.hpp"
+
+#include <algorithm>
+
+namespace s7200::serial {
+namespace {
+
+constexpr std::uint8_t kNext = 0;  // the only event
+
+/// So many bits are drawn ahead at most.
+constexpr int kNoiseAhead = 4096;
+
+Time later(Time at, Time by) { return by > kNever - at ? kNever : at + by; }
+
+std::size_t index(Half half) { return static_cast<std::size_t>(half); }
+
+bool concerns(const Fault& fault, Half half) { return fault.of == Half::Both || fault.of == half; }
+
+/// Happens in some exchanges and not in others.
+bool selective(const Fault& fault) { return fault.exchange != 0 || fault.every != 1 || fault.probability < 1; }
+
+bool works_now(const Faults::Injected& injected) { return injected.applies || !selective(injected.fault); }
+
+/// Has its place behind the start edge of a character.
+bool bound_to_character(const Fault& fault) {
+  switch (fault.kind) {
+    case FaultKind::Flip:
+    case FaultKind::Parity:
+    case FaultKind::Framing:
+      return true;
+    case FaultKind::Break:
+    case FaultKind::Glitch:
+    case FaultKind::Collision:
+      return !fault.from;
+    case FaultKind::Cut:
+      return fault.character.has_value();
+    default:
+      return false;
+  }
+}
+
+bool at_an_instant(const Fault& fault) {
+  switch (fault.kind) {
+    case FaultKind::Break:
+    case FaultKind::Glitch:
+    case FaultKind::Collision:
+    case FaultKind::Cut:
+      return !bound_to_character(fault);
+    default:
+      return false;
+  }
+}
+
+bool hits_character(const Fault& fault, std::uint32_t number) {
+  return fault.character == Fault::kEachCharacter || fault.character == number;
+}
+
+}  // namespace
+
+std::uint64_t Faults::Chance::draw() {
+  std::uint64_t z = state_ += 0x9E3779B97F4A7C15U;
+  z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
+  z = (z ^ z >> 27) * 0x94D049BB133111EBU;
+  return z ^ z >> 31;
+}
+
+bool Faults::Chance::hits(double probability) { return static_cast<double>(draw() >> 11) * 0x1p-53 < probability; }
+
+void Faults::inject(const Fault& fault, Time now) {
+  state_.injected.push_back({.fault = fault, .at = now, .chance = Chance(fault.seed)});
+  listen_in();
+  Injected& injected = state_.injected.back();
+  const Time from = later(now, fault.from.value_or(0));
+  if (fault.kind == FaultKind::Noise) plan_noise(injected, from);
+  if (at_an_instant(fault)) injected.next = from;
+  schedule();
+}
+
+void Faults::clear(Time now) {
+  state_.injected.clear();
+  schedule();
+  listen_in();
+  line_.heal(now);
+}
+
+void Faults::restore(const State& state) {
+  state_ = state;
+  listen_in();
+}
+
+/// A line without faults is not asked about any.
+void Faults::listen_in() { line_.set_interference(state_.injected.empty() ? nullptr : this); }
+
+void Faults::exchange_begins(int driver, Time at) {
+  state_.announcer = driver;
+  begin_exchange(at);
+}
+
+bool Faults::begins_unannounced(Half half, int driver, const SerialFormat& format, Time at) const {
+  if (!state_.begun) return true;
+  if (state_.announcer != -1 && (half == Half::Answer || driver == state_.announcer)) return false;
+  const bool answered = state_.characters[index(Half::Answer)] != 0;
+  const Time silence = format.silence();
+  const bool quiet =
+      std::all_of(state_.sent_until.begin(), state_.sent_until.end(), [&](Time end) { return at - end > silence; });
+  return half == Half::Request ? answered || quiet : answered && quiet;
+}
+
+void Faults::begin_exchange(Time at) {
+  state_.begun = true;
+  state_.characters = {};
+  state_.sent_until = {at, at};
+  for (Injected& injected : state_.injected) {
+    const Fault& fault = injected.fault;
+    const std::uint64_t number = ++injected.exchanges;
+    injected.applies = (fault.exchange == 0 || fault.exchange == number) && number % fault.every == 0 &&
+                       (fault.probability >= 1 || injected.chance.hits(fault.probability));
+    const bool lasts_all_along = fault.kind == FaultKind::Echo || fault.kind == FaultKind::Baud;
+    if (injected.applies && lasts_all_along) ++injected.count;
+  }
+}
+
+Mishap Faults::character_begins(int driver, const SerialFormat& format, Time at) {
+  const Half half = driver == plc_.driver() ? Half::Answer : Half::Request;
+  if (begins_unannounced(half, driver, format, at)) {
+    state_.announcer = -1;
+    begin_exchange(at);
+  }
+  const std::uint32_t number = ++state_.characters[index(half)];
+  const BitClock clock{format, clock_error(driver)};
+
+  const auto befallen = [&](const Injected& injected) { return injected.applies && concerns(injected.fault, half); };
+  Mishap mishap;
+  for (Injected& injected : state_.injected)
+    if (befallen(injected)) befall_sender(injected, number, clock, mishap);
+
+  const Time character = clock.character_time();
+  const Time start = at + mishap.delay + static_cast<Time>(mishap.before.size()) * character;
+  for (Injected& injected : state_.injected)
+    if (befallen(injected) && bound_to_character(injected.fault) && hits_character(injected.fault, number))
+      befall_line(injected, clock, start);
+
+  state_.sent_until[index(half)] = start + static_cast<Time>(1 + mishap.after.size()) * character;
+  return mishap;
+}
+
+void Faults::befall_sender(Injected& injected, std::uint32_t number, const BitClock& clock, Mishap& mishap) {
+  const Fault& fault = injected.fault;
+  const auto append = [&](std::vector<std::uint8_t>& to) {
+    const std::vector<std::uint8_t> bytes = uncalled_bytes(injected);
+    to.insert(to.end(), bytes.begin(), bytes.end());
+    injected.count += bytes.size();
+  };
+  switch (fault.kind) {
+    case FaultKind::Gap:
+      if (!hits_character(fault, number)) return;
+      mishap.delay += fault.length.at(clock);
+      ++injected.count;
+      break;
+    case FaultKind::Missing: {
+      const std::uint32_t first = fault.character.value_or(1);
+      if (first != Fault::kEachCharacter && (number < first || number - first >= fault.count)) return;
+      mishap.lost = true;
+      ++injected.count;
+      break;
+    }
+    case FaultKind::Extra:
+      if (fault.character == 0U && number == 1) append(mishap.before);
+      if (fault.character == number) append(mishap.after);
+      break;
+    default:
+      break;
+  }
+}
+
+std::vector<std::uint8_t> Faults::uncalled_bytes(Injected& injected) {
+  std::vector<std::uint8_t> bytes;
+  for (std::uint32_t i = 0; i < injected.fault.count; ++i) {
+    if (injected.fault.bytes.empty()) {
+      bytes.push_back(static_cast<std::uint8_t>(injected.chance.draw() >> 56));
+    } else {
+      bytes.insert(bytes.end(), injected.fault.bytes.begin(), injected.fault.bytes.end());
+    }
+  }
+  return bytes;
+}
+
+void Faults::befall_line(Injected& injected, const BitClock& clock, Time start) {
+  switch (injected.fault.kind) {
+    case FaultKind::Flip:
+      return invert_bit(injected, injected.fault.bit, clock, start);
+    case FaultKind::Parity:
+      return invert_bit(injected, Fault::kParityBit, clock, start);
+    case FaultKind::Framing:
+      return invert_bit(injected, Fault::kStopBit, clock, start);
+    default:
+      return disturb(injected, clock, start + injected.fault.offset.at(clock));
+  }
+}
+
+/// From edge to edge of that bit, so that the receiver finds this one and no other changed.
+void Faults::invert_bit(Injected& injected, int bit, const BitClock& clock, Time start) {
+  const bool has_parity = clock.format.parity != Parity::None;
+  int place = 1 + bit;
+  if (bit == Fault::kStopBit) place = first_stop_bit(clock.format);
+  if (bit == Fault::kParityBit) place = first_stop_bit(clock.format) - 1;
+  const bool is_data = bit >= 0 && bit < Fault::kParityBit;
+  if ((bit == Fault::kParityBit && !has_parity) || (is_data && bit >= clock.format.data_bits)) {
+    ++injected.impossible;
+    return;
+  }
+  line_.disturb({Disturbance::Effect::Inverts, start + clock.bit_times(place), start + clock.bit_times(place + 1)});
+  ++injected.count;
+}
+
+void Faults::disturb(Injected& injected, const BitClock& clock, Time at) {
+  const Fault& fault = injected.fault;
+  switch (fault.kind) {
+    case FaultKind::Break:
+      line_.disturb({Disturbance::Effect::HoldsSpace, at, later(at, fault.length.at(clock))});
+      break;
+    case FaultKind::Glitch:
+      line_.disturb({Disturbance::Effect::Inverts, at, later(at, fault.length.at(clock))});
+      break;
+    case FaultKind::Cut:
+      line_.disturb({Disturbance::Effect::Cuts, at, later(at, fault.lasts)});
+      break;
+    case FaultKind::Collision:
+      return collide(injected, clock, at);
+    default:
+      break;
+  }
+  ++injected.count;
+}
+
+/// The line is at space while either of the two stations is: where the other one marks, nothing changes.
+void Faults::collide(Injected& injected, const BitClock& clock, Time at) {
+  const unsigned data_mask = clock.format.data_bits == 7 ? 0x7F : 0xFF;
+  for (const std::uint8_t byte : uncalled_bytes(injected)) {
+    const auto data = static_cast<std::uint8_t>(byte & data_mask);
+    const unsigned levels = character_levels(clock.format, data, clock.format.parity_bit(data));
+    for (int bit = 0; bit < first_stop_bit(clock.format); ++bit)
+      if ((levels >> bit & 1U) == 0)
+        line_.disturb({Disturbance::Effect::HoldsSpace, at + clock.bit_times(bit), at + clock.bit_times(bit + 1)});
+    at += clock.character_time();
+    ++injected.count;
+  }
+}
+
+/// Draws bit by bit until one is to be inverted.
+void Faults::plan_noise(Injected& injected, Time from) {
+  const Time end = later(later(injected.at, injected.fault.from.value_or(0)), injected.fault.lasts);
+  const Time bit = plc_.state().format.bit_times(1);
+  injected.hit = false;
+  injected.next = from;
+  for (int drawn = 0; drawn < kNoiseAhead && injected.next < end; ++drawn) {
+    injected.hit = injected.chance.hits(injected.fault.error_rate);
+    if (injected.hit) return;
+    injected.next += bit;
+  }
+  if (injected.next >= end) injected.next = kNever;
+}
+
+void Faults::make_noise(Injected& injected) {
+  const Time at = injected.next, end = at + plc_.state().format.bit_times(1);
+  const auto sending = [&](Half half) { return concerns(injected.fault, half) && at < state_.sent_until[index(half)]; };
+  const bool heard = injected.fault.of == Half::Both || sending(Half::Request) || sending(Half::Answer);
+  if (injected.hit && works_now(injected) && heard) {
+    line_.disturb({Disturbance::Effect::Inverts, at, end});
+    ++injected.count;
+  }
+  plan_noise(injected, injected.hit ? end : at);
+}
+
+void Faults::schedule() {
+  Time next = kNever;
+  for (const Injected& injected : state_.injected) next = std::min(next, injected.next);
+  if (next == kNever) {
+    queue_.cancel(EventOwner::Faults, kNext);
+  } else {
+    queue_.schedule(next, EventOwner::Faults, kNext);
+  }
+}
+
+void Faults::handle(const Event& event) {
+  for (Injected& injected : state_.injected) {
+    if (injected.next > event.at) continue;
+    if (injected.fault.kind == FaultKind::Noise) {
+      make_noise(injected);
+    } else {
+      disturb(injected, {plc_.state().format}, injected.next);
+      injected.next = kNever;
+    }
+  }
+  schedule();
+}
+
+std::int32_t Faults::clock_error(int driver) const {
+  const Station station = driver == plc_.driver() ? Station::Plc : Station::Master;
+  std::int32_t error = 0;
+  for (const Injected& injected : state_.injected) {
+    const Fault& fault = injected.fault;
+    if (fault.kind == FaultKind::Baud && fault.station == station && works_now(injected)) error += fault.clock_error;
+  }
+  return std::clamp(error, -Fault::kLargestClockError, Fault::kLargestClockError);
+}
+
+bool Faults::echoes(int driver) const {
+  return driver != plc_.driver() && std::any_of(state_.injected.begin(), state_.injected.end(), [](const Injected& i) {
+           return i.fault.kind == FaultKind::Echo && works_now(i);
+         });
+}
+
+}  // namespace s7200::serial

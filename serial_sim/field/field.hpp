@@ -1,0 +1,55 @@
+// The field: plays a FieldScript on the inputs of a CPU.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "interpreter/base/event_queue.hpp"
+#include "interpreter/cpu/cpu.hpp"
+#include "serial_sim/field/field_script.hpp"
+
+namespace s7200::serial {
+
+/// One event is pending at a time, however much there is to come. At the same instant changes come first, in the order of
+/// the script, then the edges of pulses. To whoever handles the events: those of EventOwner::Field go to handle().
+class Field {
+ public:
+  struct Running {
+    std::size_t train = 0;   ///< in the script
+    std::uint64_t edge = 0;  ///< number of the next one
+    Time next = 0;           ///< when it comes
+    bool operator==(const Running&) const = default;
+  };
+
+  /// Plain, so that a snapshot is a copy.
+  struct State {
+    std::size_t next_change = 0, next_train = 0;  ///< in the script
+    std::vector<Running> running;
+    bool operator==(const State&) const = default;
+  };
+
+  /// Neither reference is owned.
+  Field(FieldScript script, Cpu& cpu, EventQueue& queue);
+
+  /// Starts the script at time 0: what it says of that instant holds before the first scan.
+  void power_up();
+
+  void handle(const Event& event);
+
+  const State& state() const { return state_; }
+  void restore(const State& state) { state_ = state; }
+
+ private:
+  void play(Time now);
+  void next_edge(Running& running);
+  void put(std::uint32_t place, std::uint8_t mask, std::uint8_t value, Time at);
+  Time next_due() const;
+
+  FieldScript script_;
+  Cpu& cpu_;
+  EventQueue& queue_;
+  State state_;
+};
+
+}  // namespace s7200::serial

@@ -1,0 +1,192 @@
+#include "serial_sim/field/field_script.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "interpreter/model/special_memory.hpp"
+#include "interpreter/program/address.hpp"
+
+namespace s7200::serial {
+namespace {
+
+__extension__ using Wide = __int128;
+
+constexpr std::uint64_t kHighestMillihertz = 1'000'000'000;  // 1 MHz
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// # begins a comment where a word could begin: not in 16#FF.
+std::string_view without_comment(std::string_view line) {
+  for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1))
+    if (at == 0 || line[at - 1] == ' ' || line[at - 1] == '\t') return line.substr(0, at);
+  return line;
+}
+
+std::vector<std::string_view> fields_of(std::string_view row) {
+  std::vector<std::string_view> fields;
+  for (std::size_t comma = 0; comma != std::string_view::npos;) {
+    comma = row.find(',');
+    fields.push_back(trimmed(row.substr(0, comma)));
+    if (comma != std::string_view::npos) row.remove_prefix(comma + 1);
+  }
+  return fields;
+}
+
+/// `5kHz`, `0.5 Hz`: read as a duration whose nanosecond is a millihertz.
+std::optional<std::uint64_t> parse_frequency(std::string_view text) {
+  constexpr std::pair<std::string_view, std::string_view> kUnits[] = {{"kHz", "ms"}, {"Hz", "us"}};
+  for (const auto& [unit, duration] : kUnits) {
+    if (!text.ends_with(unit)) continue;
+    const auto figure = parse_duration(std::string(trimmed(text.substr(0, text.size() - unit.size()))).append(duration));
+    if (!figure || *figure == 0) return {};
+    return static_cast<std::uint64_t>(*figure);
+  }
+  return {};
+}
+
+class Reader {
+ public:
+  Reader(const std::string& name, const CpuModel& model, std::vector<std::string>& errors)
+      : name_(name), model_(model), errors_(errors) {}
+
+  FieldScript read(std::string_view csv) {
+    bool first = true;
+    while (!csv.empty()) {
+      ++line_;
+      const std::string_view line = csv.substr(0, csv.find('\n'));
+      csv.remove_prefix(std::min(csv.size(), line.size() + 1));
+      const std::string_view row = trimmed(without_comment(line));
+      if (row.empty()) continue;
+      if (!(first && row.starts_with("time"))) read_row(fields_of(row));
+      first = false;
+    }
+    return std::move(script_);
+  }
+
+ private:
+  struct Busy {
+    Time until = 0;
+    std::size_t line = 0;
+  };
+
+  void error(std::string_view what) { errors_.push_back(fmt::format("{}:{}: {}", name_, line_, what)); }
+
+  void read_row(const std::vector<std::string_view>& field) {
+    const bool pulses = field.size() == 5 && field[2] == "pulses";
+    if (!pulses && field.size() != 3) return error("write time,address,value or time,address,pulses,frequency,duration");
+    const auto at = parse_duration(field[0]);
+    if (!at) return error(fmt::format("'{}' is no time; write for example 10ms or 1.5s", field[0]));
+    if (*at < last_) return error(fmt::format("{} lies before the row above; put the rows in the order of time", field[0]));
+    last_ = *at;
+    if (pulses)
+      add_pulses(*at, field);
+    else
+      add_change(*at, field);
+  }
+
+  /// What the field can drive; a message for anything else.
+  bool drivable(const MemoryRange& range, std::string_view address) {
+    const bool potentiometer =
+        range.area == Area::SM && range.width == Width::Byte && range.at - sm::kPotentiometer[0] < sm::kPotentiometer.size();
+    const bool analog = range.area == Area::AI && range.number % 2 == 0;
+    if (range.area == Area::I || analog || potentiometer) return true;
+    error(fmt::format("'{}' is no input; rows set I, words of AI at even addresses, and the potentiometers SMB28 and SMB29",
+                      address));
+    return false;
+  }
+
+  std::optional<Assignment> assignment(std::string_view address, std::string_view value) {
+    std::string why;
+    const auto range = parse_range(address, model_, why);
+    if (!range || range->count != 1) {
+      error(range ? fmt::format("'{}': a row sets one address, without a count", address) : why);
+      return {};
+    }
+    if (!drivable(*range, address)) return {};
+    const auto parsed = parse_assignment(fmt::format("{}={}", address, value), model_, why);
+    if (!parsed)
+      error(fmt::format("'{}' is no value for {}; write a number that fits, for example 1, 16#FF or -5", value, address));
+    return parsed;
+  }
+
+  void add_change(Time at, const std::vector<std::string_view>& field) {
+    const auto given = assignment(field[1], field[2]);
+    if (!given) return;
+    const MemoryRange& range = given->place;
+    const std::uint32_t place = range.area == Area::I ? range.at - image::kI + image::kInputs : range.at;
+    const bool bit = range.width == Width::Bit;
+    for (std::uint32_t i = 0; i < range.bytes(); ++i) {
+      FieldChange change{
+          .at = at, .place = place + i, .value = static_cast<std::uint8_t>(given->value >> 8 * (range.bytes() - 1 - i))};
+      if (bit) {
+        change.mask = static_cast<std::uint8_t>(1u << range.bit);
+        change.value = given->value ? change.mask : std::uint8_t{0};
+      }
+      if (range.area == Area::I && !is_free(change.place, change.mask, at, field[1])) return;
+      script_.changes.push_back(change);
+    }
+  }
+
+  void add_pulses(Time at, const std::vector<std::string_view>& field) {
+    const auto given = assignment(field[1], "0");
+    if (!given) return;
+    if (given->place.area != Area::I || given->place.width != Width::Bit)
+      return error(fmt::format("'{}': pulses need one input point, for example I0.6", field[1]));
+    const auto millihertz = parse_frequency(field[3]);
+    if (!millihertz || *millihertz > kHighestMillihertz)
+      return error(fmt::format("'{}' is no frequency up to 1000kHz; write for example 50Hz or 5kHz", field[3]));
+    const auto duration = parse_duration(field[4]);
+    if (!duration) return error(fmt::format("'{}' is no duration; write for example 200ms", field[4]));
+    FieldPulses train{.at = at,
+                      .place = given->place.at - image::kI + image::kInputs,
+                      .mask = static_cast<std::uint8_t>(1u << given->place.bit),
+                      .pulses = static_cast<std::uint64_t>(Wide{*duration} * *millihertz / 1'000'000'000'000),
+                      .millihertz = *millihertz};
+    if (train.pulses == 0) return error(fmt::format("no whole pulse of {} fits in {}; make it longer", field[3], field[4]));
+    if (*duration >= kNever - at) return error(fmt::format("'{}' ends beyond 292 years; make it shorter", field[4]));
+    if (!is_free(train.place, train.mask, at, field[1])) return;
+    busy(train.place, given->place.bit) = {at + *duration, line_};
+    script_.pulses.push_back(train);
+  }
+
+  Busy& busy(std::uint32_t place, std::uint32_t bit) { return busy_[(place - image::kInputs) * 8 + bit]; }
+
+  /// Whether no pulses run on these points at that time; a message if they do.
+  bool is_free(std::uint32_t place, std::uint8_t mask, Time at, std::string_view address) {
+    for (std::uint32_t bit = 0; bit < 8; ++bit) {
+      if (!(mask >> bit & 1) || busy(place, bit).until <= at) continue;
+      error(fmt::format("{} has the pulses of line {} until {}; let them end first", address, busy(place, bit).line,
+                        format_duration(busy(place, bit).until)));
+      return false;
+    }
+    return true;
+  }
+
+  const std::string& name_;
+  const CpuModel& model_;
+  std::vector<std::string>& errors_;
+  std::size_t line_ = 0;
+  Time last_ = 0;
+  FieldScript script_;
+  std::array<Busy, 16 * 8> busy_{};  // by input point
+};
+
+}  // namespace
+
+Time FieldPulses::edge(std::uint64_t number) const {
+  return at + static_cast<Time>(Wide{number} * 500'000'000'000 / Wide{millihertz});
+}
+
+FieldScript parse_field_script(std::string_view csv, const std::string& name, const CpuModel& model,
+                               std::vector<std::string>& errors) {
+  return Reader(name, model, errors).read(csv);
+}
+
+}  // namespace s7200::serial

@@ -1,0 +1,223 @@
+#include "serial_sim/line/uart.hpp"
+
+#include <cassert>
+
+namespace s7200::serial {
+namespace {
+
+std::uint8_t data_of(std::uint8_t byte, const SerialFormat& format) {
+  return format.data_bits == 7 ? static_cast<std::uint8_t>(byte & 0x7F) : byte;
+}
+
+/// Middle of bit `bit` behind the start edge; the start bit is bit 0.
+Time middle_of_bit(int bit, const BitClock& clock) { return clock.half_bits(2 * bit + 1); }
+
+}  // namespace
+
+unsigned character_levels(const SerialFormat& format, std::uint8_t data, bool parity_bit) {
+  const int stop_bit = first_stop_bit(format);
+  unsigned levels = unsigned{data} << 1 | 1U << stop_bit;
+  if (format.parity != Parity::None && parity_bit) levels |= 1U << (stop_bit - 1);
+  return levels;
+}
+
+Uart::Uart(Line& line, EventQueue& queue, EventOwner owner, int driver, bool plugged_in)
+    : line_(line), queue_(queue), owner_(owner), driver_(driver) {
+  if (plugged_in) plug_in();
+}
+
+void Uart::plug_in() {
+  if (!plugged_in_) line_.attach(*this);
+  plugged_in_ = true;
+}
+
+Uart::~Uart() { line_.detach(*this); }
+
+void Uart::configure(const SerialFormat& format) {
+  state_.format = format;
+  if (!state_.receiving && state_.start_edge != kNever) await_start_edge();
+}
+
+void Uart::enable_receiver(bool enabled, Time at) {
+  if (enabled == state_.receiver_enabled()) return;
+  if (enabled) {
+    abandon_character();
+    state_.off_from = kNever;
+    state_.listen_from = at;
+    await_start_edge();
+  } else {
+    // The instant may lie ahead: what is sampled before it is still heard.
+    state_.off_from = at;
+    if (next_sample() >= at) abandon_character();
+  }
+}
+
+void Uart::send(std::uint8_t byte, Time at) {
+  const std::uint8_t data = data_of(byte, state_.format);
+  put_character(character_levels(state_.format, data, state_.format.parity_bit(data)), at);
+}
+
+void Uart::send_with_wrong_parity(std::uint8_t byte, Time at) {
+  assert(state_.format.parity != Parity::None);
+  const std::uint8_t data = data_of(byte, state_.format);
+  put_character(character_levels(state_.format, data, !state_.format.parity_bit(data)), at);
+}
+
+void Uart::send_without_stop_bit(std::uint8_t byte, Time at) {
+  const std::uint8_t data = data_of(byte, state_.format);
+  const unsigned stop_bit = 1U << first_stop_bit(state_.format);
+  put_character(character_levels(state_.format, data, state_.format.parity_bit(data)) & ~stop_bit, at);
+}
+
+void Uart::send_break(int bit_times, Time at) {
+  assert(!state_.sending && at >= state_.send_end && bit_times > 0);
+  const Time end = at + BitClock{state_.format, clock_error()}.bit_times(bit_times);
+  line_.drive(driver_, at, false);
+  line_.drive(driver_, end, true);
+  sends_until(end);
+}
+
+void Uart::begin_exchange(Time at) {
+  if (line_.interference() != nullptr) line_.interference()->exchange_begins(driver_, at);
+}
+
+std::int32_t Uart::clock_error() const {
+  return line_.interference() == nullptr ? 0 : line_.interference()->clock_error(driver_);
+}
+
+void Uart::put_character(unsigned levels, Time at) {
+  assert(!state_.sending && at >= state_.send_end);
+  if (line_.interference() != nullptr) return put_character_with_mishaps(levels, at);
+  sends_until(drive_character(levels, {state_.format}, at));
+}
+
+void Uart::put_character_with_mishaps(unsigned levels, Time at) {
+  const Mishap mishap = line_.interference()->character_begins(driver_, state_.format, at);
+  const BitClock clock{state_.format, clock_error()};
+  at += mishap.delay;
+  const auto put_all = [&](const std::vector<std::uint8_t>& bytes) {
+    for (const std::uint8_t byte : bytes) {
+      const std::uint8_t data = data_of(byte, clock.format);
+      at = drive_character(character_levels(clock.format, data, clock.format.parity_bit(data)), clock, at);
+    }
+  };
+  put_all(mishap.before);
+  at = mishap.lost ? at + clock.character_time() : drive_character(levels, clock, at);
+  put_all(mishap.after);
+  sends_until(at);
+}
+
+/// Back with its end. A character without stop bit takes a bit longer, at mark.
+Time Uart::drive_character(unsigned levels, const BitClock& clock, Time at) {
+  bool mark = true;
+  const int stop_bit = first_stop_bit(clock.format);
+  for (int bit = 0; bit <= stop_bit; ++bit) {
+    const bool next = (levels >> bit & 1U) != 0;
+    if (next != mark) line_.drive(driver_, at + clock.bit_times(bit), next);
+    mark = next;
+  }
+  const int bits = clock.format.bits();
+  if (mark) return at + clock.bit_times(bits);
+  line_.drive(driver_, at + clock.bit_times(bits), true);
+  return at + clock.bit_times(bits + 1);
+}
+
+void Uart::sends_until(Time end) {
+  state_.sending = true;
+  state_.send_end = end;
+  queue_.schedule(end, owner_, kSent);
+}
+
+Uart::Report Uart::handle(const Event& event) {
+  Report report;
+  switch (event.what) {
+    case kStartCheck:
+      check_start_bit(event.at);
+      break;
+    case kStopSample:
+      report.received = take_character();
+      break;
+    case kSent:
+      state_.sending = false;
+      report.sent = event.at;
+      break;
+  }
+  line_.forget(event.at);
+  return report;
+}
+
+void Uart::line_changed(Time at) {
+  const bool may_bring_an_earlier_start = !state_.receiving && at <= state_.start_edge && at < state_.off_from;
+  if (may_bring_an_earlier_start) await_start_edge();
+}
+
+void Uart::await_start_edge() {
+  state_.receiving = false;
+  state_.clock_error = clock_error();
+  state_.start_edge = line_.falling_edge(state_.listen_from);
+  expect(kStartCheck, next_sample());
+}
+
+void Uart::check_start_bit(Time now) {
+  if (line_.level(next_sample())) {
+    state_.listen_from = now;
+    await_start_edge();
+    return;
+  }
+  state_.receiving = true;
+  state_.receiving_as = {state_.format, state_.clock_error};
+  expect(kStopSample, next_sample());
+}
+
+ReceivedCharacter Uart::take_character() {
+  const BitClock& clock = state_.receiving_as;
+  const SerialFormat& format = clock.format;
+  const Time start = state_.start_edge;
+  const auto sample = [&](int bit) { return line_.level(start + middle_of_bit(bit, clock)); };
+
+  ReceivedCharacter character;
+  for (int bit = 0; bit < format.data_bits; ++bit) {
+    if (sample(1 + bit)) character.byte = static_cast<std::uint8_t>(character.byte | 1U << bit);
+  }
+  const int stop_bit = first_stop_bit(format);
+  if (format.parity != Parity::None) {
+    character.parity_error = sample(stop_bit - 1) != format.parity_bit(character.byte);
+  }
+  character.framing_error = !sample(stop_bit);
+  character.start = start;
+  character.end = start + middle_of_bit(stop_bit, clock);
+
+  state_.listen_from = character.end;
+  await_start_edge();
+  return character;
+}
+
+/// When the start bit is to be verified or, once it was, the stop bit to be sampled.
+Time Uart::next_sample() const {
+  if (state_.start_edge == kNever) return kNever;
+  return state_.receiving ? character_due() : state_.start_edge + middle_of_bit(0, {state_.format, state_.clock_error});
+}
+
+Time Uart::character_due() const {
+  if (state_.start_edge == kNever) return kNever;
+  const BitClock clock = state_.receiving ? state_.receiving_as : BitClock{state_.format, state_.clock_error};
+  return state_.start_edge + middle_of_bit(first_stop_bit(clock.format), clock);
+}
+
+void Uart::expect(What what, Time at) {
+  if (at < state_.off_from) {
+    queue_.schedule(at, owner_, what);
+  } else {
+    abandon_character();
+  }
+}
+
+void Uart::abandon_character() {
+  queue_.cancel(owner_, kStartCheck);
+  queue_.cancel(owner_, kStopSample);
+  state_.receiving = false;
+  state_.start_edge = kNever;
+  if (!state_.receiver_enabled()) state_.listen_from = state_.off_from;
+}
+
+}  // namespace s7200::serial

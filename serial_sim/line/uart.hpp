@@ -1,0 +1,120 @@
+// Characters to edges, and edges to characters.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "interpreter/base/event_queue.hpp"
+#include "interpreter/base/serial_format.hpp"
+#include "interpreter/base/serial_port.hpp"
+#include "serial_sim/line/interference.hpp"
+#include "serial_sim/line/line.hpp"
+
+namespace s7200::serial {
+
+/// Number of the (first) stop bit; the start bit is bit 0.
+constexpr int first_stop_bit(const SerialFormat& format) { return format.bits() - format.stop_bits; }
+
+/// The levels of a character from its start bit, in bit 0, to its first stop bit: 1 is mark. `data` fits the format.
+unsigned character_levels(const SerialFormat& format, std::uint8_t data, bool parity_bit);
+
+/// One UART on the line: a sender and a receiver. Wrong baud rates, wrong parity, noise, breaks and collisions need no code
+/// of their own, they are levels.
+///
+/// Receiver: waits for a falling edge, looks half a bit later whether the start bit is still there (else it was a glitch),
+/// then samples the middle of each bit and reports in the middle of the (first) stop bit. After a stop bit at space level it
+/// waits for the next falling edge, as for any character. It hears its own sender too, unless it is switched off.
+///
+/// A character is three events at most: start bit verified, stop bit sampled, character sent.
+class Uart final : public SerialPort, private LineListener {
+ public:
+  /// What handle() reports back to the owner.
+  struct Report {
+    std::optional<ReceivedCharacter> received;
+    std::optional<Time> sent;  ///< end of the last stop bit (or of the break)
+  };
+
+  /// Plain, so that a snapshot is a copy.
+  struct State {
+    SerialFormat format{};         ///< of the next character in either direction
+    BitClock receiving_as{};       ///< of the character being received
+    std::int32_t clock_error = 0;  ///< of the receiver while it awaits a character, in millionths
+    bool receiving = false;        ///< a start bit was verified and its character is not complete
+    Time start_edge = kNever;      ///< of the character being received, or awaited at a known future instant
+    Time listen_from = 0;          ///< edges before this are past
+    Time off_from = kNever;        ///< the receiver is switched off from then on
+    bool sending = false;
+    Time send_end = 0;  ///< end of the last stop bit (or break) sent so far
+    bool operator==(const State&) const = default;
+
+    bool receiver_enabled() const { return off_from == kNever; }
+  };
+
+  /// `driver`: which of the line's drivers this UART is. Neither reference is owned; both outlive the UART.
+  /// It listens to the line from now on, or from plug_in() on: each listener costs time at every edge.
+  Uart(Line& line, EventQueue& queue, EventOwner owner, int driver, bool plugged_in = true);
+  ~Uart() override;
+  Uart(const Uart&) = delete;
+  Uart& operator=(const Uart&) = delete;
+
+  void plug_in();
+
+  /// A character whose start bit has been verified is still received in the old format.
+  void configure(const SerialFormat& format) override;
+  void enable_receiver(bool enabled, Time at) override;
+  void send(std::uint8_t byte, Time at) override;
+  void send_break(int bit_times, Time at) override;
+
+  /// A character with its parity bit the wrong way round, for tests of the other end. Needs a format with parity.
+  void send_with_wrong_parity(std::uint8_t byte, Time at);
+
+  /// A character with its (first) stop bit at space, which takes a bit longer, so that the next start bit has an edge.
+  void send_without_stop_bit(std::uint8_t byte, Time at);
+
+  /// When the character being received will be complete; kNever when none has begun.
+  Time character_due() const;
+
+  /// A request begins with the next character: faults count exchanges.
+  void begin_exchange(Time at);
+
+  /// The station cannot help hearing itself: its receiver should stay on while it sends.
+  bool hears_itself() const { return line_.interference() != nullptr && line_.interference()->echoes(driver_); }
+
+  int driver() const { return driver_; }
+
+  /// An event of this UART's owner is due.
+  Report handle(const Event& event);
+
+  const State& state() const { return state_; }
+
+  /// Line and queue are restored by their owner.
+  void restore(const State& state) { state_ = state; }
+
+ private:
+  enum What : std::uint8_t { kStartCheck, kStopSample, kSent };
+
+  void line_changed(Time at) override;
+  Time needs_from() const override { return state_.start_edge; }
+
+  void await_start_edge();
+  void check_start_bit(Time now);
+  ReceivedCharacter take_character();
+  void expect(What what, Time at);
+  Time next_sample() const;
+  void abandon_character();
+
+  void put_character(unsigned levels, Time at);
+  void put_character_with_mishaps(unsigned levels, Time at);
+  Time drive_character(unsigned levels, const BitClock& clock, Time at);
+  std::int32_t clock_error() const;
+  void sends_until(Time end);
+
+  Line& line_;
+  EventQueue& queue_;
+  EventOwner owner_;
+  int driver_;
+  bool plugged_in_ = false;
+  State state_;
+};
+
+}  // namespace s7200::serial

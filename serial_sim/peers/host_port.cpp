@@ -1,0 +1,68 @@
+#include "serial_sim/peers/host_port.hpp"
+
+#include <cassert>
+#include <utility>
+
+namespace s7200::serial {
+
+HostPort::HostPort(Uart& uart) : uart_(uart) { uart_.enable_receiver(false, 0); }
+
+void HostPort::attach(const SerialFormat& format, Time at) {
+  assert(!state_.attached);
+  state_.attached = true;
+  uart_.plug_in();
+  receive_as(format);
+  uart_.enable_receiver(true, at);
+}
+
+void HostPort::receive_as(const SerialFormat& format) {
+  if (state_.format == format && uart_.state().format == format) return;
+  state_.format = format;
+  if (!sending()) uart_.configure(format);
+}
+
+void HostPort::send(std::span<const HostCharacter> characters, Time at) {
+  assert(state_.attached);
+  state_.to_send.insert(state_.to_send.end(), characters.begin(), characters.end());
+  for (const HostCharacter& character : characters) ++state_.waiting[character.sender];
+  if (sending() || state_.to_send.empty()) return;
+  send_next(at);
+  uart_.enable_receiver(uart_.hears_itself(), at);
+}
+
+void HostPort::send_next(Time at) {
+  const HostCharacter character = state_.to_send.front();
+  state_.to_send.pop_front();
+  if (const auto waiting = state_.waiting.find(character.sender); --waiting->second == 0) state_.waiting.erase(waiting);
+  uart_.configure(character.format);
+  switch (character.fault) {
+    case HostCharacter::Fault::None:
+      return uart_.send(character.byte, at);
+    case HostCharacter::Fault::WrongParity:
+      return uart_.send_with_wrong_parity(character.byte, at);
+    case HostCharacter::Fault::NoStopBit:
+      return uart_.send_without_stop_bit(character.byte, at);
+  }
+}
+
+std::size_t HostPort::waiting(std::uint64_t sender) const {
+  const auto found = state_.waiting.find(sender);
+  return found == state_.waiting.end() ? 0 : found->second;
+}
+
+std::size_t HostPort::drop(std::uint64_t sender) {
+  state_.waiting.erase(sender);
+  return std::erase_if(state_.to_send, [&](const HostCharacter& character) { return character.sender == sender; });
+}
+
+std::vector<ReceivedCharacter> HostPort::take_received() { return std::exchange(state_.received, {}); }
+
+void HostPort::on(const Uart::Report& report) {
+  if (report.received) state_.received.push_back(*report.received);
+  if (!report.sent) return;
+  if (!state_.to_send.empty()) return send_next(*report.sent);
+  uart_.configure(state_.format);
+  uart_.enable_receiver(true, *report.sent);
+}
+
+}  // namespace s7200::serial

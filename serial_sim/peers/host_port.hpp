@@ -1,0 +1,84 @@
+// A peer on the line that speaks for something outside the simulation: bytes in, characters out.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "serial_sim/line/uart.hpp"
+
+namespace s7200::serial {
+
+/// What is to be put on the line.
+struct HostCharacter {
+  enum class Fault : std::uint8_t { None, WrongParity, NoStopBit };
+
+  std::uint8_t byte = 0;
+  SerialFormat format{};
+  Fault fault = Fault::None;  ///< WrongParity needs a format with parity
+  std::uint64_t sender = 0;   ///< whose it is, where several share the port
+
+  bool operator==(const HostCharacter&) const = default;
+};
+
+/// Half duplex, as an adapter to RS-485 is: what comes in while it sends is not heard, its own characters neither, unless
+/// the line gives an echo. To whoever handles the events: reports of the UART go to on().
+class HostPort {
+ public:
+  /// Plain, so that a snapshot is a copy.
+  struct State {
+    bool attached = false;
+    SerialFormat format{};  ///< of what is received
+    std::deque<HostCharacter> to_send;
+    std::map<std::uint64_t, std::size_t> waiting;  ///< how many of each sender; none with 0
+    std::vector<ReceivedCharacter> received;
+    bool operator==(const State&) const = default;
+  };
+
+  /// The UART's receiver is off until attach(). The reference is not owned.
+  explicit HostPort(Uart& uart);
+
+  /// Listens from `at` on.
+  void attach(const SerialFormat& format, Time at);
+
+  /// How characters are received from the next one on.
+  void receive_as(const SerialFormat& format);
+
+  /// Appends to what is sent. Characters follow each other back to back, each in its own format; the first start bit begins
+  /// at `at`, which is not in the past, or when the characters before are over.
+  void send(std::span<const HostCharacter> characters, Time at);
+
+  /// Whether anything is on its way to the line or on it.
+  bool sending() const { return uart_.state().sending; }
+
+  /// Characters that wait for the one on the line.
+  std::size_t waiting() const { return state_.to_send.size(); }
+  std::size_t waiting(std::uint64_t sender) const;
+
+  /// Those of `sender` are not sent after all. How many there were.
+  std::size_t drop(std::uint64_t sender);
+
+  /// What was received since the last call, with the errors it came with.
+  std::vector<ReceivedCharacter> take_received();
+
+  /// When a character that is coming in will be complete; kNever when there is none.
+  Time character_due() const { return uart_.character_due(); }
+
+  void on(const Uart::Report& report);
+
+  const State& state() const { return state_; }
+  void restore(const State& state) {
+    state_ = state;
+    if (state_.attached) uart_.plug_in();
+  }
+
+ private:
+  void send_next(Time at);
+
+  Uart& uart_;
+  State state_;
+};
+
+}  // namespace s7200::serial

@@ -1,0 +1,159 @@
+#include "serial_sim/peers/requester.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace s7200::serial {
+
+std::optional<Time> Exchange::latency() const {
+  if (response.empty()) return std::nullopt;
+  return response_start - request_end;
+}
+
+bool Exchange::parity_error() const {
+  return std::any_of(response.begin(), response.end(), [](const ReceivedCharacter& c) { return c.parity_error; });
+}
+
+bool Exchange::framing_error() const {
+  return std::any_of(response.begin(), response.end(), [](const ReceivedCharacter& c) { return c.framing_error; });
+}
+
+modbus::Bytes bytes_of(const std::vector<ReceivedCharacter>& characters) {
+  modbus::Bytes bytes;
+  bytes.reserve(characters.size());
+  for (const ReceivedCharacter& character : characters) bytes.push_back(character.byte);
+  return bytes;
+}
+
+Master::Master(Uart& uart, EventQueue& queue) : uart_(uart), queue_(queue) {}
+
+void Master::start(const Request& request, Time at) {
+  assert(!busy() && !request.frame.empty());
+  begin(request, at);
+  state_.phase = Phase::Sending;
+  state_.heard.clear();
+  queue_.schedule(at, EventOwner::Master, kBegin);
+}
+
+void Master::begin(const Request& request, Time at) {
+  state_.request = request;
+  state_.sent = 0;
+  Exchange& exchange = state_.exchange;
+  exchange.response.clear();
+  exchange.echo.clear();
+  exchange.request = request.frame;
+  exchange.request_start = at;
+  exchange.request_end = exchange.response_start = exchange.response_end = 0;
+  exchange.timed_out = exchange.too_long = false;
+}
+
+void Master::listen(const Listening& listening, Time at) {
+  assert(!busy());
+  begin({.frame = {}, .timeout = listening.timeout, .silence = listening.silence}, at);
+  state_.exchange.request_end = at;
+  take_first_transmission();
+  if (state_.exchange.response.empty()) {
+    state_.phase = Phase::Waiting;
+    queue_.schedule(at + listening.timeout, EventOwner::Master, kQuiet);
+    return;
+  }
+  const Time over = state_.exchange.response_end + silence();
+  const bool goes_on = over > at || uart_.state().start_edge < over;
+  if (!state_.heard.empty() || !goes_on) return;
+  state_.phase = Phase::Receiving;
+  queue_.schedule(std::max(at, over), EventOwner::Master, kQuiet);
+}
+
+void Master::take_first_transmission() {
+  std::vector<ReceivedCharacter>& heard = state_.heard;
+  Exchange& exchange = state_.exchange;
+  const Time character_time = uart_.state().format.character_time();
+  std::size_t length = 0;
+  const auto goes_on = [&] {
+    return length < heard.size() && (length == 0 || heard[length].start < exchange.response_end + silence());
+  };
+  while (goes_on() && length < kLongestResponse) exchange.response_end = heard[length++].start + character_time;
+  exchange.too_long = goes_on();
+  const auto end = heard.begin() + static_cast<std::ptrdiff_t>(length);
+  exchange.response.assign(heard.begin(), end);
+  heard.erase(heard.begin(), end);
+  if (length > 0) exchange.response_start = exchange.response.front().start;
+}
+
+void Master::handle(const Event& event) {
+  switch (event.what) {
+    case kBegin:
+      uart_.begin_exchange(event.at);
+      uart_.enable_receiver(uart_.hears_itself(), event.at);
+      send_next(event.at);
+      break;
+    case kQuiet:
+      quiet(event.at);
+      break;
+  }
+}
+
+void Master::on(const Uart::Report& report) {
+  const bool idle = !busy();
+  const bool sending = state_.phase == Phase::Sending && report.received;
+  if (sending && report.received->start >= state_.exchange.request_start) state_.exchange.echo.push_back(*report.received);
+  if (report.sent && state_.phase == Phase::Sending) sent(*report.sent);
+  if (report.received && (state_.phase == Phase::Waiting || state_.phase == Phase::Receiving)) received(*report.received);
+  if (report.received && idle && state_.heard.size() < kMostHeard) state_.heard.push_back(*report.received);
+}
+
+void Master::send_next(Time at) {
+  const modbus::FrameCharacter& character = state_.request.frame[state_.sent++];
+  if (character.wrong_parity) {
+    uart_.send_with_wrong_parity(character.byte, at);
+  } else {
+    uart_.send(character.byte, at);
+  }
+}
+
+void Master::sent(Time at) {
+  if (state_.sent < state_.request.frame.size()) {
+    send_next(at + state_.request.gap);
+    return;
+  }
+  state_.exchange.request_end = at;
+  state_.phase = Phase::Waiting;
+  uart_.enable_receiver(true, at);
+  queue_.schedule(at + state_.request.timeout, EventOwner::Master, kQuiet);
+}
+
+void Master::received(const ReceivedCharacter& character) {
+  Exchange& exchange = state_.exchange;
+  if (exchange.response.size() == kLongestResponse) {
+    exchange.too_long = true;
+    state_.heard.push_back(character);
+    finish();
+    return;
+  }
+  if (exchange.response.empty()) exchange.response_start = character.start;
+  exchange.response.push_back(character);
+  exchange.response_end = character.start + uart_.state().format.character_time();
+  state_.phase = Phase::Receiving;
+  queue_.schedule(exchange.response_end + silence(), EventOwner::Master, kQuiet);
+}
+
+/// The line has been quiet for as long as was to be waited, unless a character is just coming in: then it is waited for,
+/// bit by bit, because a glitch is never reported.
+void Master::quiet(Time now) {
+  const bool coming_in = uart_.state().start_edge < now;
+  if (coming_in) {
+    queue_.schedule(now + uart_.state().format.bit_times(1), EventOwner::Master, kQuiet);
+    return;
+  }
+  state_.exchange.timed_out = state_.exchange.response.empty();
+  finish();
+}
+
+void Master::finish() {
+  queue_.cancel(EventOwner::Master, kQuiet);
+  state_.phase = Phase::Idle;
+}
+
+Time Master::silence() const { return state_.request.silence.value_or(uart_.state().format.silence()); }
+
+}  // namespace s7200::serial

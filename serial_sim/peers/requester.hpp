@@ -1,0 +1,115 @@
+// A master on the line: sends a request, waits for the answer, tells how it went; and hears what comes unasked.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "interpreter/base/event_queue.hpp"
+#include "serial_sim/modbus/request.hpp"
+#include "serial_sim/line/uart.hpp"
+
+namespace s7200::serial {
+
+struct Request {
+  modbus::Frame frame;            ///< at least one character; sent as it is
+  Time timeout = kSecond;         ///< from the end of the request to the start edge of the answer
+  Time gap = 0;                   ///< between the characters of the request
+  std::optional<Time> silence{};  ///< that ends an answer; 3.5 characters of the master's format if not given
+
+  bool operator==(const Request&) const = default;
+};
+
+/// How to wait for a transmission that nobody asked for.
+struct Listening {
+  Time timeout = kSecond;         ///< from now to its start edge
+  std::optional<Time> silence{};  ///< that ends it; 3.5 characters of the master's format if not given
+};
+
+modbus::Bytes bytes_of(const std::vector<ReceivedCharacter>& characters);
+
+/// A request and what came of it. After Master::listen() the request is empty, and its times are when the listening began.
+struct Exchange {
+  modbus::Frame request;
+  Time request_start = 0;
+  Time request_end = 0;                   ///< end of the last stop bit
+  std::vector<ReceivedCharacter> echo{};  ///< what the master heard while it sent; nothing on a line without echo
+  std::vector<ReceivedCharacter> response{};
+  Time response_start = 0;  ///< start edge of the first character; 0 if there is none, like the next
+  Time response_end = 0;    ///< end of the last character's stop bit
+  bool timed_out = false;   ///< no answer began in time
+  bool too_long = false;    ///< cut off after Master::kLongestResponse characters
+
+  bool operator==(const Exchange&) const = default;
+
+  std::optional<Time> latency() const;
+  bool parity_error() const;
+  bool framing_error() const;
+  modbus::Bytes response_bytes() const { return bytes_of(response); }
+};
+
+/// Half duplex: its receiver is off from the start of the request to the end of its last stop bit, unless the line gives an
+/// echo. The format is its UART's. What it hears while it asks nothing is kept for listen().
+/// To whoever handles the events: reports of the UART go to on(), events of EventOwner::Master to handle().
+class Master {
+ public:
+  static constexpr std::size_t kLongestResponse = modbus::kLongestRawFrame;
+  static constexpr std::size_t kMostHeard = 4096;  ///< what comes when so many wait is lost, as in a computer's serial port
+
+  enum class Phase : std::uint8_t { Idle, Sending, Waiting, Receiving };
+
+  /// Plain, so that a snapshot is a copy.
+  struct State {
+    Phase phase = Phase::Idle;
+    Request request;
+    std::size_t sent = 0;  ///< characters of the request
+    Exchange exchange;
+    std::vector<ReceivedCharacter> heard{};  ///< unasked, since the last request began; not yet listened to
+    bool operator==(const State&) const = default;
+  };
+
+  /// Neither is owned.
+  Master(Uart& uart, EventQueue& queue);
+
+  /// The first start bit begins at `at`. The last exchange is over. What was heard before and not listened to is forgotten.
+  void start(const Request& request, Time at);
+
+  /// Takes the first transmission of those heard, or the next one to come: characters with less silence between them than
+  /// ends it. The last exchange is over; this one is, at once, if the transmission is.
+  void listen(const Listening& listening, Time at);
+
+  bool busy() const { return state_.phase != Phase::Idle; }
+
+  /// Busy with a request and its answer, not with listening.
+  bool asks() const { return busy() && !state_.request.frame.empty(); }
+
+  const std::vector<ReceivedCharacter>& heard() const { return state_.heard; }
+
+  /// The one under way, or the last one.
+  const Exchange& exchange() const { return state_.exchange; }
+
+  void on(const Uart::Report& report);
+  void handle(const Event& event);
+
+  const State& state() const { return state_; }
+  void restore(const State& state) { state_ = state; }
+
+ private:
+  enum What : std::uint8_t { kBegin, kQuiet };
+
+  void begin(const Request& request, Time at);
+  void send_next(Time at);
+  void sent(Time at);
+  void take_first_transmission();
+  void received(const ReceivedCharacter& character);
+  void quiet(Time now);
+  void finish();
+  Time silence() const;
+
+  Uart& uart_;
+  EventQueue& queue_;
+  State state_;
+};
+
+}  // namespace s7200::serial

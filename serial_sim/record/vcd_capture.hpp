@@ -1,0 +1,34 @@
+// The levels on the line as a Value Change Dump (IEEE 1364, clause 18), for waveform viewers and sigrok.
+#pragma once
+
+#include <iosfwd>
+#include <string_view>
+
+#include "serial_sim/line/wire_tap.hpp"
+
+namespace s7200::serial {
+
+/// Wires `rx` and `tx` in nanoseconds. The stream is not owned.
+class VcdCapture final : public WireSink {
+ public:
+  /// What each capture begins with.
+  static constexpr std::string_view kBeginning =
+      "$comment s7200: rx is what the PLC hears, tx is what it drives; 1 is mark, the idle level $end\n";
+
+  explicit VcdCapture(std::ostream& out);
+
+  void edge(Wire wire, Time at, bool mark) override;
+  void settled(Time until, const SerialFormat&) override { until_ = until; }
+
+  /// Says how long the last levels lasted.
+  void finish() override { go_to(until_); }
+
+ private:
+  void go_to(Time at);
+
+  std::ostream& out_;
+  Time at_ = 0;  ///< the time written last
+  Time until_ = 0;
+};
+
+}  // namespace s7200::serial

@@ -1,0 +1,575 @@
+#include "tools/debugger/debugger.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <sstream>
+
+#include "interpreter/base/bytes.hpp"
+#include "interpreter/program/load.hpp"
+#include "tests/support/source_path.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// Two subroutines and a timed interrupt every 5 ms; VW10 counts scans, VW30 interrupts.
+constexpr std::string_view kNested =
+    "LD      SM0.1\n"                             // 1
+    "CALL    1\n"                                 // 2
+    "LD      SM0.0\n"                             // 3
+    "INCW    VW10            // one more scan\n"  // 4
+    "MEND\n"                                      // 5
+    "\n"                                          // 6
+    "// The first\n"                              // 7
+    "SBR     1\n"                                 // 8
+    "LD      SM0.0\n"                             // 9
+    "MOVB    5, SMB34\n"                          // 10
+    "ATCH    0, 10\n"                             // 11
+    "ENI\n"                                       // 12
+    "CALL    2\n"                                 // 13
+    "RET\n"                                       // 14
+    "SBR     2\n"                                 // 15
+    "LD      SM0.0\n"                             // 16
+    "MOVW    7, VW20\n"                           // 17
+    "RET\n"                                       // 18
+    "INT     0\n"                                 // 19
+    "LD      SM0.0\n"                             // 20
+    "INCW    VW30\n"                              // 21
+    "RETI\n";                                     // 22
+
+/// Sends each character back. I0.0 is an interrupt as well.
+constexpr std::string_view kEcho =
+    "LD      SM0.1\n"
+    "MOVB    16#09, SMB30\n"
+    "ATCH    1, 8\n"
+    "ATCH    2, 0\n"
+    "ENI\n"
+    "MEND\n"
+    "INT     1\n"  // 7
+    "LD      SM0.0\n"
+    "MOVB    SMB2, VB1\n"
+    "MOVB    1, VB0\n"
+    "XMT     VB0, 0\n"
+    "RETI\n"
+    "INT     2\n"  // 13
+    "LD      SM0.0\n"
+    "INCW    VW40\n"
+    "RETI\n";
+
+std::shared_ptr<const Program> program_of(std::string_view text) {
+  return check_text(text, "test.stl", cpu214(), default_times(cpu214())).program;
+}
+
+struct Session {
+  explicit Session(std::shared_ptr<const Program> program, const std::atomic<bool>* stop_request = nullptr)
+      : simulation(program) {
+    simulation.power_up();
+    debugger = std::make_unique<Debugger>(simulation, out, DebuggerOptions{.stop_request = stop_request});
+  }
+  explicit Session(std::string_view text) : Session(program_of(text)) {}
+
+  /// What good commands print.
+  std::string operator()(std::string_view commands) {
+    out.str("");
+    const auto error = debugger->execute(commands);
+    EXPECT_FALSE(error.has_value()) << commands << ": " << *error;
+    return out.str();
+  }
+  std::string error_of(std::string_view commands) { return debugger->execute(commands).value_or("no error"); }
+
+  const State& state() const { return simulation.cpu().state(); }
+  std::uint32_t line() const { return simulation.cpu().program().statement(state().pc).position.line; }
+  std::uint16_t vw(std::uint32_t number) const { return load16(&state().image[image::kV + number]); }
+
+  serial::Simulation simulation;
+  std::ostringstream out;
+  std::unique_ptr<Debugger> debugger;
+};
+
+testing::AssertionResult has(const std::string& text, std::string_view part) {
+  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "'" << part << "' is not in:\n" << text;
+}
+
+// --- running ---
+
+TEST(Debugger, StepShowsTheInstructionItExecutedAndStandsInFrontOfTheNext) {
+  Session session(kNested);
+  const std::string text = session("step 4; until 17; step");
+  EXPECT_TRUE(has(text, "line 17    MOVW    7, VW20"));
+  EXPECT_TRUE(has(text, "S0=1 VW20=16#0007"));
+  EXPECT_EQ(session.line(), 18U);
+  EXPECT_EQ(session.vw(20), 7U);
+}
+
+TEST(Debugger, ShowsTheCommentOfTheLineItStandsAt) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("until 4"), "INCW    VW10                 // one more scan"));
+}
+
+TEST(Debugger, FirstStepExecutesTheFirstInstructionOfTheProgram) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("step"), "line 1     LD      SM0.1"));
+  EXPECT_EQ(session.line(), 2U);
+}
+
+TEST(Debugger, StepGoesIntoACallAndOverDoesNot) {
+  Session session(kNested);
+  session("step; step");
+  EXPECT_EQ(session.line(), 8U);
+  session("back; over");
+  EXPECT_EQ(session.line(), 3U);
+  EXPECT_EQ(session.vw(20), 7U);
+}
+
+TEST(Debugger, OutLeavesTheInnermostSubroutineOnly) {
+  Session session(kNested);
+  session("break SBR 2; continue; out");
+  EXPECT_EQ(session.line(), 14U);
+  session("out");
+  EXPECT_EQ(session.line(), 3U);
+}
+
+TEST(Debugger, OutOfAnInterruptRoutineGoesBackToWhatWasInterrupted) {
+  Session session(kNested);
+  session("break INT 0; continue; step");
+  EXPECT_TRUE(session.state().in_interrupt);
+  session("out");
+  EXPECT_FALSE(session.state().in_interrupt);
+  EXPECT_EQ(session.vw(30), 1U);
+}
+
+TEST(Debugger, OutOfTheMainProgramRunsNothing) {
+  Session session(kNested);
+  session("step");
+  const auto before = session.simulation.snapshot();
+  EXPECT_TRUE(has(session("out"), "no subroutine"));
+  EXPECT_EQ(session.simulation.snapshot(), before);
+}
+
+TEST(Debugger, OverNeverStopsInAnInterruptThatComesInBetween) {
+  Session session(kNested);
+  session("over; over");
+  for (int i = 0; i < 100; ++i) {
+    session("over");
+    ASSERT_FALSE(session.state().in_interrupt);
+  }
+  EXPECT_GT(session.vw(30), 2U);
+}
+
+TEST(Debugger, ScanStopsAtTheFirstInstructionOfThatScan) {
+  Session session(kNested);
+  session("step 3; scan");
+  EXPECT_EQ(session.line(), 1U);
+  EXPECT_EQ(session.state().scans, 1U);
+  session("scan 20");
+  EXPECT_EQ(session.line(), 1U);
+  EXPECT_EQ(session.state().scans, 21U);
+  EXPECT_FALSE(session.state().in_interrupt);
+}
+
+TEST(Debugger, ContinueEndsAtItsTimeAndSaysSo) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("continue 50 ms"), "50 ms of simulated time passed"));
+  EXPECT_GE(session.simulation.time(), 50 * kMillisecond);
+  EXPECT_LT(session.simulation.time(), 52 * kMillisecond);
+  EXPECT_TRUE(has(session("continue"), "the limit"));
+}
+
+TEST(Debugger, UntilTheLineItStandsAtGoesOnceAround) {
+  Session session(kNested);
+  session("until 4; until 4");
+  EXPECT_EQ(session.line(), 4U);
+  EXPECT_EQ(session.vw(10), 1U);
+}
+
+TEST(Debugger, StopRequestEndsARun) {
+  std::atomic<bool> stop = true;
+  Session session(program_of(kNested), &stop);
+  EXPECT_TRUE(has(session("continue 1h"), "Ctrl-C"));
+  EXPECT_LT(session.simulation.time(), kSecond);
+}
+
+// --- stopping ---
+
+TEST(Debugger, LineWithoutInstructionStandsForTheNextOneAndItSaysSo) {
+  Session session(kNested);
+  const std::string text = session("break 6");
+  EXPECT_TRUE(has(text, "line 6 has no instruction; the next one is in line 8"));
+  EXPECT_TRUE(has(text, "breakpoint 1 in SBR 1 line 8"));
+  session("continue");
+  EXPECT_EQ(session.line(), 8U);
+}
+
+TEST(Debugger, BreakpointAtTheFirstInstructionStopsInTheFirstScan) {
+  Session session(kNested);
+  session("break 1; continue");
+  EXPECT_EQ(session.state().scans, 0U);
+  session("continue");
+  EXPECT_EQ(session.state().scans, 1U);
+}
+
+TEST(Debugger, BreakListsHitsAndKnowsWhatIsAlreadySet) {
+  Session session(kNested);
+  session("break 4; continue; continue");
+  EXPECT_TRUE(has(session("break"), "2 hits  main line 4"));
+  EXPECT_TRUE(has(session("break 4"), "breakpoint 1 is already in main line 4"));
+  session("delete 1");
+  EXPECT_TRUE(has(session("break"), "no breakpoints"));
+}
+
+TEST(Debugger, WatchTellsOldValueNewValueAndTheInstructionInARoutineToo) {
+  Session session(kNested);
+  const std::string text = session("watch VW30; continue");
+  EXPECT_TRUE(has(text, "watch 1: VW30 was 16#0000 (0), is 16#0001 (1)"));
+  EXPECT_TRUE(has(text, "by INT 0 line 21    INCW    VW30"));
+  EXPECT_EQ(session.line(), 22U);
+}
+
+TEST(Debugger, WatchKnowsBitsBytesAndDoubles) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("watch V31.0; continue"), "V31.0 was 0, is 1"));
+  EXPECT_TRUE(has(session("delete all; watch VB31 VD28; continue"), "VB31 was 16#01 (1), is 16#02 (2)"));
+  EXPECT_TRUE(has(session.out.str(), "VD28 was 16#00000001 (1), is 16#00000002 (2)"));
+}
+
+TEST(Debugger, WatchSaysWhenTheSystemChangedIt) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("step; watch I0.4; input I0.4=1; continue"), "by the system"));
+  EXPECT_EQ(session.state().scans, 1U);
+}
+
+TEST(Debugger, InputEdgeCausesItsInterruptBeforeTheNextInstruction) {
+  Session session(kEcho);
+  session("scan; input I0.0 = 1; step");
+  EXPECT_TRUE(session.state().in_interrupt);
+  EXPECT_EQ(session.state().serving_routine, 2);
+  session("back; over");
+  EXPECT_FALSE(session.state().in_interrupt);
+  EXPECT_EQ(session.vw(40), 1U);
+  EXPECT_EQ(session.line(), 2U);
+}
+
+// --- the line ---
+
+TEST(Debugger, ContinueStopsWhenTheAnswerIsCompleteAndShowsIt) {
+  Session session(kEcho);
+  const std::string text = session("scan 3; send 5a; continue");
+  EXPECT_TRUE(has(text, "request  5a"));
+  EXPECT_TRUE(has(text, "answer   5a   after"));
+  EXPECT_LT(session.simulation.time(), 20 * kMillisecond);
+}
+
+TEST(Debugger, AnswerThatArrivesDuringAnotherCommandIsPrintedAndDoesNotStopIt) {
+  Session session(kEcho);
+  EXPECT_TRUE(has(session("scan 3; send 5a; scan 30"), "answer   5a"));
+  EXPECT_EQ(session.state().scans, 33U);
+}
+
+TEST(Debugger, SendTakesTextInQuotationMarks) {
+  Session session(kEcho);
+  const std::string text = session("scan 3; send 'Z'; continue # the first");
+  EXPECT_TRUE(has(text, "on the line from now on: 5a  'Z' (9600 baud"));
+  EXPECT_TRUE(has(text, "request  5a\n         'Z'\nanswer   5a   after"));
+  EXPECT_TRUE(has(session("send ';'; continue"), "answer   3b   after"));
+  EXPECT_TRUE(has(session("send \" # \" ; continue"), "request  20 23 20\n         ' # '\n"));
+  EXPECT_TRUE(has(session("send 'Z' crc"), "on the line from now on: 5a 3f 7b ("));
+}
+
+TEST(Debugger, ContinueStopsWhenNoAnswerCame) {
+  Session session(kNested);
+  const std::string text = session("scan 3; send 5a; continue");
+  EXPECT_TRUE(has(text, "not in Freeport mode"));
+  EXPECT_TRUE(has(text, "answer   none within 1 s"));
+  EXPECT_LT(session.simulation.time(), 2 * kSecond);
+}
+
+TEST(Debugger, BackTakesTheFrameOnTheLineAlong) {
+  Session session(kEcho);
+  session("scan 3; send 5a; continue");
+  const auto answered = session.simulation.snapshot();
+  EXPECT_TRUE(has(session("back; continue"), "answer   5a"));
+  EXPECT_EQ(session.simulation.snapshot(), answered);
+}
+
+TEST(Debugger, PortShowsModeTransmitterAndMaster) {
+  Session session(kEcho);
+  const std::string text = session("scan 3; send 5a; break 12; continue; port");
+  EXPECT_TRUE(has(text, "Freeport, 9600 baud, 8 data bits, no parity"));
+  EXPECT_TRUE(has(text, "event 8 → INT 1"));
+  EXPECT_TRUE(has(text, "sending 5a, 0 more to send"));
+}
+
+TEST(Debugger, TraceShowsInterruptsWhileRunning) {
+  Session session(kNested);
+  EXPECT_FALSE(has(session("continue 20ms"), "INT 0 begins"));
+  EXPECT_TRUE(has(session("trace on; continue 20ms"), "INT 0 begins"));
+}
+
+// --- back ---
+
+TEST(Debugger, BackRestoresExactlyTheStateBefore) {
+  Session session(kNested);
+  session("scan 5");
+  const auto before = session.simulation.snapshot();
+  session("step 7; over; continue 20ms");
+  EXPECT_TRUE(has(session("back 3"), "back to before 'step 7'"));
+  EXPECT_EQ(session.simulation.snapshot(), before);
+}
+
+TEST(Debugger, BackSaysWhenThereIsNoEarlierState) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("back"), "no earlier state"));
+}
+
+TEST(Debugger, KeepsNoMoreStatesThanItSays) {
+  Session session(kNested);
+  for (std::size_t i = 0; i < Debugger::kKeptStates + 10; ++i) session("step");
+  EXPECT_TRUE(has(session("back 1000"), "only 64 earlier states are kept"));
+  EXPECT_EQ(session.state().instructions, 10U);
+  EXPECT_TRUE(has(session("back"), "no earlier state"));
+}
+
+TEST(Debugger, RestartKeepsBreakpointsAndIsTakenBack) {
+  Session session(kNested);
+  session("break 4; continue; continue");
+  const auto before = session.simulation.snapshot();
+  session("restart");
+  EXPECT_EQ(session.simulation.time(), 0);
+  session("continue");
+  EXPECT_EQ(session.line(), 4U);
+  EXPECT_EQ(session.state().scans, 0U);
+  session("back 2");
+  EXPECT_EQ(session.simulation.snapshot(), before);
+}
+
+// --- observing changes nothing ---
+
+TEST(Debugger, SteppedRunAndPlainRunEndInTheSameState) {
+  const auto program = program_of(kEcho);
+  Session session(program);
+  session("trace on; display VB0:4; watch VW40 SM0.6; break INT 1; break 6");
+  session("step 9; over; scan; continue; send 5a; continue; regs; stack; port; errors; list; out");
+  const Time sent = session.simulation.master().exchange().request_start;
+  session("delete all");
+  for (int i = 0; i < 200; ++i) session("step; over; until 6");
+  session("back 30; scan; continue 3ms");
+  session.debugger.reset();
+
+  serial::Simulation plain(program);
+  plain.power_up();
+  plain.run_until(sent);
+  plain.master_uart().configure(plain.cpu().state().port[0].format);
+  plain.master().start({.frame = {{0x5a, false}}}, plain.time());
+  const Time end = session.simulation.time() + kSecond;
+  plain.run_until(end);
+  session.simulation.run_until(end);
+  EXPECT_EQ(plain.master().exchange().response_bytes(), modbus::Bytes{0x5a});
+  EXPECT_EQ(session.simulation.snapshot(), plain.snapshot());
+}
+
+// --- STOP and errors ---
+
+TEST(Debugger, StopOfTheCpuIsReportedWithTheInstruction) {
+  Session session("LD SM0.0\nSTOP // enough\nMEND\n");
+  EXPECT_TRUE(has(session("continue"), "the CPU went to STOP; the last instruction was in main line 2: STOP"));
+  const auto before = session.simulation.snapshot();
+  EXPECT_TRUE(has(session("step; scan; continue"), "the CPU is in STOP"));
+  EXPECT_EQ(session.simulation.snapshot(), before);
+  session("back");
+  EXPECT_EQ(session.state().mode, Mode::Run);
+}
+
+TEST(Debugger, FatalErrorIsReportedWithItsMeaningAndPlace) {
+  Session session("LBL 1\nLD SM0.0\nJMP 1\nMEND\n");
+  const std::string text = session("continue");
+  EXPECT_TRUE(has(text, "fatal error 0003, scan watchdog"));
+  EXPECT_TRUE(has(text, "in main line"));
+}
+
+TEST(Debugger, RunTimeErrorIsReportedOnceARunWithHowManyMoreThereWere) {
+  Session session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100\nMOVB 1, *VD100\nMEND\n");
+  const std::string text = session("step 3; continue 10ms");
+  EXPECT_TRUE(has(text, "run-time error 0006"));
+  EXPECT_TRUE(has(text, "*VD100=?"));
+  EXPECT_TRUE(has(text, "more; 'errors' lists them"));
+}
+
+// --- looking ---
+
+TEST(Debugger, RegsShowsWhereWithTheCallsAndAttachments) {
+  Session session(kNested);
+  const std::string text = session("break SBR 2; continue; regs");
+  EXPECT_TRUE(has(text, "SBR 2 line 15, called in SBR 1 line 13, called in main line 2"));
+  EXPECT_TRUE(has(text, "event 10 → INT 0  timed interrupt 0, SMB34, every 5 ms"));
+  EXPECT_TRUE(has(text, "enabled (ENI)"));
+  EXPECT_TRUE(has(session("stack"), "S0 1   S1 0"));
+}
+
+TEST(Debugger, ListMarksTheCurrentLineAndBreakpoints) {
+  Session session(kNested);
+  const std::string text = session("break 2; continue; over; list");
+  EXPECT_TRUE(has(text, "*      2  CALL    1"));
+  EXPECT_TRUE(has(text, " >     3  LD      SM0.0"));
+  EXPECT_TRUE(has(text, "       4  INCW    VW10                 // one more scan"));
+  EXPECT_TRUE(has(text, "       7  // The first"));
+  EXPECT_TRUE(has(session("list INT 0"), "   19  INT     0"));
+}
+
+TEST(Debugger, DisplayComesAfterEveryStop) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("display VW20; until 18"), "VW20     16#0007"));
+  EXPECT_FALSE(has(session("display off; step"), "VW20 "));
+}
+
+TEST(Debugger, ADoubleWordThatTheProgramUsesAsARealIsShownAsOneTooWhereverItIsShown) {
+  Session session("LD SM0.0\nMOVR 1.5, VD20\n+R 1.0, VD20\nMOVR VD20, AC1\nMEND\n");
+  EXPECT_TRUE(has(session("watch VD20 VD20:real; step 2"), "VD20=16#3FC00000 (1.5)"));
+  EXPECT_TRUE(has(session.out.str(), "watch 1: VD20 was 16#00000000 (0, 0.0), is 16#3FC00000 (1069547520, 1.5)\n"));
+  EXPECT_TRUE(has(session.out.str(), "watch 2: VD20:REAL was 16#00000000 (0.0), is 16#3FC00000 (1.5)\n"));
+  EXPECT_TRUE(has(session("print VD20 VD20:real VD24"),
+                  "VD20     16#3FC00000  1069547520             1.5\nVD20     16#3FC00000             1.5\n"
+                  "VD24     16#00000000           0\n"));
+  const std::string regs = session("delete all; step 2; regs");
+  EXPECT_TRUE(has(regs, "AC0        16#00000000           0\nAC1        16#40200000  1075838976             2.5\n"));
+}
+
+TEST(Debugger, SetWritesMemoryWithOrWithoutBlanks) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("set VW100=5 VB102 = 16#FF; print VW100 VB102"), "VW100    16#0005"));
+  EXPECT_TRUE(has(session.out.str(), "ff"));
+}
+
+// --- the language ---
+
+TEST(Debugger, CommandsMayBeCutShortWhileTheyStayClear) {
+  Session session(kNested);
+  session("cont 5ms; s; ste");
+  EXPECT_TRUE(has(session.error_of("de 1; re"), "no breakpoint or watch 1"));
+  EXPECT_TRUE(has(session.error_of("re"), "'re' may be restart, regs"));
+}
+
+TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
+  Session session(kNested);
+  const std::pair<std::string_view, std::string_view> wrong[] = {
+      {"jump", "unknown command 'jump'; 'help' lists them"},
+      {"step x", "step expects how many"},
+      {"step 0", "step expects how many"},
+      {"scan -1", "scan expects how many"},
+      {"over 3", "over takes no argument"},
+      {"out now", "out takes no argument"},
+      {"back x", "back expects how many"},
+      {"continue 5", "continue expects a duration"},
+      {"continue 0s", "continue expects a duration"},
+      {"until", "until expects a line number, SBR n or INT n"},
+      {"break main", "break expects a line number, SBR n or INT n"},
+      {"break SBR", "break expects a line number, SBR n or INT n"},
+      {"break INT x", "break expects a line number, SBR n or INT n"},
+      {"break SBR 9", "the program has no SBR 9"},
+      {"break 99", "the last instruction is in line 22"},
+      {"list 99", "the last instruction is in line 22"},
+      {"watch", "watch expects an address"},
+      {"watch X1", "is not an address"},
+      {"delete", "delete expects numbers"},
+      {"delete x", "delete expects numbers"},
+      {"delete 7", "there is no breakpoint or watch 7"},
+      {"regs 1", "takes no argument"},
+      {"print", "print expects addresses"},
+      {"print VB99999", "is not on CPU 214"},
+      {"set", "set expects an address and a value"},
+      {"set VB0=300", "a value that fits"},
+      {"set =5", "is not an address"},
+      {"input Q0.0=1", "is no input"},
+      {"input", "input expects an input"},
+      {"send", "send expects a frame in hex"},
+      {"send crc", "send expects a frame in hex"},
+      {"send 0g", "column 2: 'g' is no hex digit"},
+      {"send 'A\\q'", "send 'A\\q': column 3: \\ is followed by r, n, t, xHH"},
+      {"send 'A ; # B", "send 'A ; # B: column 1: the closing ' is missing"},
+      {"send 'A' 42", "column 4: nothing follows the closing quotation mark"},
+      {"trace", "trace expects on or off"},
+      {"help x", "unknown command 'x'"},
+      {"quit 1", "takes no argument"},
+  };
+  const auto before = session.simulation.snapshot();
+  for (const auto& [command, message] : wrong) EXPECT_TRUE(has(session.error_of(command), message)) << command;
+  EXPECT_EQ(session.simulation.snapshot(), before);
+}
+
+TEST(Debugger, WrongAssignmentMeansThatNoneOfItsLineIsMade) {
+  Session session(kNested);
+  session.error_of("set VW100=5 VB102=300");
+  EXPECT_EQ(session.vw(100), 0U);
+}
+
+TEST(Debugger, ScriptEndsAtTheFirstWrongCommandWithItsLine) {
+  Session session(kNested);
+  std::istringstream script("# a comment\n\nstep # and one behind\nstep; jmp; step\nstep\n");
+  const auto error = session.debugger->run_script(script);
+  ASSERT_TRUE(error.has_value());
+  EXPECT_EQ(error->line, 4U);
+  EXPECT_TRUE(has(error->message, "unknown command 'jmp'"));
+  EXPECT_EQ(session.state().instructions, 2U);
+}
+
+TEST(Debugger, ScriptEchoesEachCommandInFrontOfWhatItPrints) {
+  Session session(kNested);
+  std::istringstream script("step; stack # look\n");
+  EXPECT_FALSE(session.debugger->run_script(script).has_value());
+  EXPECT_TRUE(session.out.str().starts_with("(s7200) step\n"));
+  EXPECT_TRUE(has(session.out.str(), "(s7200) stack\nS0 1"));
+}
+
+TEST(Debugger, ScriptEndsAtQuitAndAtItsEnd) {
+  Session session(kNested);
+  std::istringstream script("step\r\nquit\r\nstep\r\n"), no_line_end("step");
+  EXPECT_FALSE(session.debugger->run_script(script).has_value());
+  EXPECT_EQ(session.state().instructions, 1U);
+  EXPECT_TRUE(session.debugger->quit_asked());
+  Session other(kNested);
+  EXPECT_FALSE(other.debugger->run_script(no_line_end).has_value());
+  EXPECT_EQ(other.state().instructions, 1U);
+}
+
+TEST(Debugger, OnlyCommandsThatRunAreRepeatable) {
+  Session session(kNested);
+  session("step 2");
+  EXPECT_EQ(session.debugger->repeatable(), "step 2");
+  session("regs");
+  EXPECT_EQ(session.debugger->repeatable(), "");
+}
+
+TEST(Debugger, HelpExplainsEveryCommand) {
+  Session session(kNested);
+  std::istringstream list(session("help"));
+  EXPECT_TRUE(has(session("help watch"), "short: w"));
+  EXPECT_TRUE(has(session("help send"), "p behind a byte"));
+  EXPECT_TRUE(has(session("help; help quit"), "continue [TIME]"));
+}
+
+// --- the tip document ---
+
+TEST(Debugger, StepsThroughTheTipDocument) {
+  std::string why;
+  const auto bytes = read_file(test::source_path("../shared/seeds/tip41_modbus_rtu_slave.txt"), why);
+  if (!bytes) GTEST_SKIP() << "the tip document is not here: " << why;
+  auto text = read_source(*bytes, "tip", why);
+  ASSERT_TRUE(text.has_value()) << why;
+  Session session(check(std::move(text->parsed), cpu214(), default_times(cpu214())).program);
+
+  EXPECT_TRUE(has(session("continue 2s; break INT 123; send 01 03 00 00 00 02 crc; continue"), "breakpoint 1"));
+  EXPECT_TRUE(has(session("print SMB2"), "SMB2     03"));
+  EXPECT_TRUE(session.state().in_interrupt);
+  session("out; delete all; break SBR 51; continue; step 4");
+  const auto in_front_of_call = session.simulation.snapshot();
+  session("over");
+  EXPECT_EQ(session.state().call_depth, 1);
+  session("back; step; out");
+  EXPECT_EQ(session.state().call_depth, 1);
+  session("back 2");
+  EXPECT_EQ(session.simulation.snapshot(), in_front_of_call);
+  EXPECT_TRUE(has(session("delete all; continue"), "2 registers: 16#0000 16#0000"));
+}
+
+}  // namespace
+}  // namespace s7200::tools

@@ -1,0 +1,109 @@
+// The time of day: TODR, TODW, roll-over.
+#include "tests/support/plc.hpp"
+#include "tools/rig/clock_text.hpp"
+
+namespace s7200 {
+
+std::ostream& operator<<(std::ostream& out, const ClockTime& t) {
+  return out << fmt::format("{:02}-{:02}-{:02} {:02}:{:02}:{:02} day {}", t.year, t.month, t.day, t.hour, t.minute, t.second, t.weekday);
+}
+
+namespace test {
+namespace {
+
+/// A second later.
+ClockTime behind(const ClockTime& t) {
+  Plc plc("LD SM0.0\nMEND\n");
+  plc.cpu.set_clock(t);
+  plc.run_until(1 * kSecond);
+  return plc.cpu.clock();
+}
+
+TEST(Clock, RollsOverSecondsMinutesHoursDaysMonthsYears) {
+  EXPECT_EQ(behind({26, 11, 21, 10, 0, 58, 7}), (ClockTime{26, 11, 21, 10, 0, 59, 7}));
+  EXPECT_EQ(behind({26, 11, 21, 10, 0, 59, 7}), (ClockTime{26, 11, 21, 10, 1, 0, 7}));
+  EXPECT_EQ(behind({26, 11, 21, 10, 59, 59, 7}), (ClockTime{26, 11, 21, 11, 0, 0, 7}));
+  EXPECT_EQ(behind({26, 11, 21, 23, 59, 59, 7}), (ClockTime{26, 11, 22, 0, 0, 0, 1})) << "Saturday, Sunday";
+  EXPECT_EQ(behind({26, 11, 30, 23, 59, 59, 2}), (ClockTime{26, 12, 1, 0, 0, 0, 3}));
+  EXPECT_EQ(behind({26, 12, 31, 23, 59, 59, 5}), (ClockTime{27, 1, 1, 0, 0, 0, 6}));
+}
+
+TEST(Clock, LeapYearsAndTheCentury) {
+  EXPECT_EQ(behind({24, 2, 28, 23, 59, 59, 4}), (ClockTime{24, 2, 29, 0, 0, 0, 5}));
+  EXPECT_EQ(behind({24, 2, 29, 23, 59, 59, 5}), (ClockTime{24, 3, 1, 0, 0, 0, 6}));
+  EXPECT_EQ(behind({25, 2, 28, 23, 59, 59, 6}), (ClockTime{25, 3, 1, 0, 0, 0, 7}));
+  EXPECT_EQ(behind({0, 2, 28, 23, 59, 59, 2}), (ClockTime{0, 2, 29, 0, 0, 0, 3})) << "2000 is a leap year";
+  EXPECT_EQ(behind({99, 12, 31, 23, 59, 59, 6}), (ClockTime{0, 1, 1, 0, 0, 0, 7}));
+}
+
+TEST(Clock, AWeekdaySwitchedOffStaysOffAndADateThatIsNoneIsTaken) {
+  EXPECT_EQ(behind({26, 11, 21, 23, 59, 59, 0}), (ClockTime{26, 11, 22, 0, 0, 0, 0}));
+  EXPECT_EQ(behind({26, 2, 30, 23, 59, 59, 2}), (ClockTime{26, 3, 1, 0, 0, 0, 3}));
+}
+
+TEST(Clock, ThirtyDaysLater) {
+  Plc plc("LD SM0.0\nMEND\n");
+  plc.cpu.set_clock({26, 11, 21, 10, 0, 0, 7});
+  State later = plc.cpu.state();
+  later.time += 30 * 86'400 * kSecond;
+  plc.cpu.restore(later);
+  EXPECT_EQ(plc.cpu.clock(), (ClockTime{26, 12, 21, 10, 0, 0, 2}));
+}
+
+TEST(Clock, BeginsIn1990OnASunday) {
+  Plc plc("LD SM0.0\nMEND\n");
+  EXPECT_EQ(plc.cpu.clock(), (ClockTime{90, 1, 1, 0, 0, 0, 1}));
+}
+
+TEST(Clock, TodrWritesEightBytesOfBcd) {
+  Plc plc("LD SM0.0\nTODR VB100\nMEND\n");
+  plc.cpu.set_clock({26, 11, 21, 23, 45, 59, 7});
+  plc.set("VB106", 0xFF);
+  plc.run_scans(1);
+  const Ints expected{0x26, 0x11, 0x21, 0x23, 0x45, 0x59, 0, 7};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(plc.value(fmt::format("VB{}", 100 + i)), expected[i]) << i;
+}
+
+TEST(Clock, TodwSetsTheClockAndItsSecondBeginsThen) {
+  Plc plc("LD I0.0\nTODW VB100\nMEND\n");
+  const std::uint32_t time[] = {0x99, 0x12, 0x31, 0x23, 0x59, 0x59, 0, 6};
+  for (std::uint32_t i = 0; i < 8; ++i) plc.set(fmt::format("VB{}", 100 + i), time[i]);
+  plc.input("I0.0", true);
+  plc.run_until(230 * us);
+  plc.input("I0.0", false);
+  plc.run_until(220 * us + kSecond - 10 * us);
+  EXPECT_EQ(plc.cpu.clock(), (ClockTime{99, 12, 31, 23, 59, 59, 6}));
+  plc.run_until(1002 * ms);
+  EXPECT_EQ(plc.cpu.clock(), (ClockTime{0, 1, 1, 0, 0, 0, 7}));
+}
+
+TEST(Clock, WhatIsNoBcdIs0007AndLeavesTheClockAlone) {
+  Plc plc("LD SM0.1\nMOVB 16#1A, VB103\nTODW VB100\nMEND\n");
+  plc.run_scans(1);
+  EXPECT_EQ(plc.records.errors(), Ints{7});
+  EXPECT_EQ(plc.cpu.clock().year, 90);
+}
+
+TEST(Clock, ABufferThatLeavesItsMemoryIs0091) {
+  Plc plc("LD SM0.1\nMOVD &VB4089, AC1\nTODR *AC1\nTODW *AC1\nMEND\n");
+  plc.run_scans(1);
+  EXPECT_EQ(plc.records.errors(), (Ints{0x91, 0x91}));
+}
+
+TEST(ClockText, ADateHasItsDayOfTheWeek) {
+  EXPECT_EQ(tools::parse_clock("2026-11-21 10:00:00"), (ClockTime{26, 11, 21, 10, 0, 0, 7}));
+  EXPECT_EQ(tools::parse_clock("1990-01-01 00:00:00"), (ClockTime{90, 1, 1, 0, 0, 0, 2}));
+  EXPECT_EQ(tools::parse_clock("2000-02-29 23:59:59"), (ClockTime{0, 2, 29, 23, 59, 59, 3}));
+  EXPECT_EQ(tools::parse_clock("2089-12-31 00:00:00"), (ClockTime{89, 12, 31, 0, 0, 0, 7}));
+}
+
+TEST(ClockText, WhatIsNoTimeIsRefused) {
+  for (const char* text : {"", "2026-11-21", "2026-11-21 24:00:00", "2026-11-21 10:60:00", "2026-02-29 10:00:00", "1989-12-31 10:00:00",
+                           "2090-01-01 00:00:00", "2026-13-01 00:00:00", "26-11-21 10:00:00", "2026-11-21T10:00:00",
+                           "2026-11-21 10:00:00 "})
+    EXPECT_FALSE(tools::parse_clock(text)) << text;
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace s7200

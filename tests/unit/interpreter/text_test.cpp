@@ -1,0 +1,34 @@
+#include "interpreter/base/text.hpp"
+
+#include <gtest/gtest.h>
+
+namespace s7200::stl {
+namespace {
+
+using namespace std::string_view_literals;
+
+TEST(Printable, TextOfAnyLanguageStaysAsItIs) {
+  for (const std::string_view text : {""sv, "LD I0.0 // Tür auf"sv, "阀门\t打开"sv, "3 × 259.4 us …"sv, "\U0001F600"sv})
+    EXPECT_EQ(printable(text), text);
+}
+
+TEST(Printable, WhatATerminalTakesForACommandIsOneVisibleCharacter) {
+  EXPECT_EQ(printable("a\x1b[2Jb\0c\x07\x7f\r\nd"sv), "a\uFFFD[2Jb\uFFFDc\uFFFD\uFFFD\uFFFD\uFFFDd");
+  EXPECT_EQ(printable("\u0085\u009b31m"), "\uFFFD\uFFFD31m") << "C1: 9B begins a control sequence as ESC [ does";
+}
+
+TEST(Printable, ATextCannotTurnItsDirectionOrHide) {
+  EXPECT_EQ(printable("\u202Elts.live\u2066\u200F\u061C\u2028"), "\uFFFDlts.live\uFFFD\uFFFD\uFFFD\uFFFD");
+}
+
+TEST(Printable, OfSeveralLinesTheEndsStay) {
+  EXPECT_EQ(printable_lines("a\x1b\r\n\nb\rc\n\r"), "a\uFFFD\r\n\nb\uFFFDc\n\uFFFD");
+}
+
+TEST(Printable, BytesThatAreNotUtf8AreOneCharacterEach) {
+  EXPECT_EQ(printable("\x9b\xff\xc3("), "\uFFFD\uFFFD\uFFFD(");
+  EXPECT_EQ(printable("\uFFFD"), "\uFFFD");
+}
+
+}  // namespace
+}  // namespace s7200::stl

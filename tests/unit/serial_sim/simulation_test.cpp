@@ -1,0 +1,79 @@
+// A simulation ends early when it is asked to, wherever it is.
+#include "serial_sim/system/simulation.hpp"
+
+#include "tests/support/slave_bench.hpp"
+
+namespace s7200::serial {
+namespace {
+
+constexpr const char* kSilent = "LD SM0.0\nMEND\n";
+constexpr const char* kEndless = "LD SM0.0\nLBL 1\nWDR\nJMP 1\nMEND\n";
+
+/// Asks to stop when the CPU has come so far.
+class StopAt final : public TraceSink {
+ public:
+  StopAt(const Simulation& simulation, Time at) : simulation_(simulation), at_(at) {}
+  void record(const TraceRecord&) override {}
+  void instruction(const InstructionRecord&) override {}
+  bool wants_instructions() const override { return true; }
+  bool before(std::uint32_t) override {
+    if (simulation_.time() >= at_) request = true;
+    return true;
+  }
+  std::atomic<bool> request = false;
+
+ private:
+  const Simulation& simulation_;
+  Time at_;
+};
+
+struct Stopping {
+  explicit Stopping(const char* text) : simulation(test::compile(text)), stop(simulation, 2 * kSecond) {
+    simulation.cpu().set_sink(&stop);
+    simulation.stop_when(&stop.request);
+    simulation.power_up();
+  }
+  bool stopped_in_time() const { return simulation.time() >= 2 * kSecond && simulation.time() < 3 * kSecond; }
+
+  Simulation simulation;
+  StopAt stop;
+};
+
+TEST(SimulationStop, ARunWithoutEndComesBack) {
+  Stopping s(kSilent);
+  EXPECT_EQ(s.simulation.run_until(kNever), Halt::Request);
+  EXPECT_TRUE(s.stopped_in_time());
+  EXPECT_EQ(s.simulation.run_until(kNever), Halt::Request) << "as long as it is asked to";
+}
+
+TEST(SimulationStop, AnExchangeWhoseAnswerIsWaitedForForYearsComesBackUnfinished) {
+  Stopping s(kSilent);
+  s.simulation.master().start({.frame = modbus::to_frame(test::Bytes{1, 2, 3}), .timeout = kNever / 2}, 0);
+  s.simulation.finish_exchange();
+  EXPECT_TRUE(s.stopped_in_time());
+  EXPECT_TRUE(s.simulation.master().busy());
+}
+
+TEST(SimulationStop, AFirstScanThatNeverEndsComesBack) {
+  Stopping s(kEndless);
+  EXPECT_FALSE(s.simulation.run_until_ready(kMillisecond, kNever));
+  EXPECT_TRUE(s.stopped_in_time());
+}
+
+TEST(SimulationStop, AsLongAsNobodyAsksNothingChanges) {
+  const auto state_after = [](bool may_be_asked) {
+    Simulation simulation(test::compile(test::slave_text()));
+    const std::atomic<bool> never = false;
+    if (may_be_asked) simulation.stop_when(&never);
+    simulation.power_up();
+    EXPECT_EQ(simulation.run_until(kSecond), Halt::Time);
+    simulation.master_uart().configure(simulation.cpu().state().port[0].format);
+    simulation.master().start({.frame = modbus::to_frame(test::Bytes{1, 3, 0, 0, 0, 1, 0x84, 0x0A})}, simulation.time());
+    EXPECT_FALSE(simulation.finish_exchange().response.empty());
+    return simulation.snapshot();
+  };
+  EXPECT_TRUE(state_after(true) == state_after(false));
+}
+
+}  // namespace
+}  // namespace s7200::serial

@@ -1,0 +1,42 @@
+// What `s7200 instructions` says of an instruction.
+#include "tools/views/instruction_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include "interpreter/program/load.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// The example in a rung with as much on the logic stack as it needs.
+std::string program_with(const Instruction& instruction) {
+  std::string text;
+  for (int i = 0; i < instruction.stack.needs; ++i) text += "LD SM0.0\n";
+  return text + example(instruction) + "\nMEND\n";
+}
+
+TEST(InstructionText, EveryExampleIsRightOnTheLargestCpu) {
+  const CpuModel& model = *all_cpus().back();
+  for (const Instruction& instruction : all_instructions()) {
+    if (!instruction.body || instruction.structure != Structure::None || !(instruction.allowed & kMain)) continue;
+    const CheckResult result = check_text(program_with(instruction), "example", model, default_times(model));
+    EXPECT_TRUE(result.program) << program_with(instruction)
+                                << (result.diagnostics.empty() ? "" : result.diagnostics[0].message);
+  }
+}
+
+TEST(InstructionText, ExplainsOperandsRangesFlagsAndTimes) {
+  const TimeTable times = default_times(cpu214());
+  const std::string text = explain(*find_instruction("+I"), times);
+  for (const char* part : {"+I IN1, OUT", "CPU 212", "VW0 to VW1022", "VW0 to VW4094", "SM1.0 SM1.1 SM1.2", "73 us",
+                           "estimate", "example     +I VW100, VW200"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+}
+
+TEST(InstructionText, SaysWhatIsNotModelledAndWhichCpuHasIt) {
+  const std::string text = explain(*find_instruction("RCV"), default_times(cpu214()));
+  EXPECT_NE(text.find("not modelled; the real instruction needs CPU 215, 216 or 22x"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace s7200::tools

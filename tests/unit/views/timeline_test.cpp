@@ -1,0 +1,107 @@
+// What `--timeline` shows of an exchange, and that it keeps no more than that.
+#include "tools/views/timeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/slave_bench.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Kind = TimelineRow::Kind;
+
+constexpr std::uint8_t kReceived = 8, kTimed = 10;
+
+class TimelineOf : public testing::Test {
+ protected:
+  void SetUp() override { timeline_.begin(); }
+
+  void character(Time at, TraceKind kind = TraceKind::CharacterReceived) {
+    timeline_.record({.at = at, .kind = kind, .byte = 0x55, .since = at - kMillisecond});
+    if (kind == TraceKind::CharacterReceived)
+      timeline_.record({.at = at, .kind = TraceKind::EventOccurred, .event = kReceived});
+  }
+  /// An interrupt that begins `waited` after its event and takes 10 us.
+  void service(Time event, std::uint8_t number, Time waited) {
+    timeline_.record({.at = event + waited, .kind = TraceKind::ServiceBegin, .event = number, .routine = 1, .since = event});
+    timeline_.record({.at = event + waited + 10 * kMicrosecond,
+                      .kind = TraceKind::ServiceEnd,
+                      .event = number,
+                      .routine = 1,
+                      .since = event + waited});
+  }
+
+  Timeline timeline_{test::compile("MEND\n"), nullptr};
+};
+
+TEST_F(TimelineOf, ScansAreCountedAndNotKept) {
+  for (int scan = 0; scan <= 1'000'000; ++scan)
+    timeline_.record({.at = scan * kMillisecond, .kind = TraceKind::ScanBegin, .count = static_cast<std::uint64_t>(scan)});
+  const TimelineReport report = timeline_.report();
+  EXPECT_TRUE(report.rows.empty());
+  EXPECT_EQ(report.scans, 1'000'000U);
+  EXPECT_EQ(report.shortest_scan, kMillisecond);
+}
+
+TEST_F(TimelineOf, CharactersInARowAreOneRowAndTheirInterruptsToo) {
+  for (Time at = kMillisecond; at <= 3 * kMillisecond; at += kMillisecond) {
+    character(at);
+    service(at, kReceived, at == kMillisecond ? 5 * kMicrosecond : 0);
+  }
+  const TimelineReport report = timeline_.report();
+  ASSERT_EQ(report.rows.size(), 1U);
+  EXPECT_EQ(report.rows[0].characters.size(), 3U);
+  EXPECT_EQ(report.rows[0].served, 3U);
+  EXPECT_EQ(report.rows[0].longest_wait, 5 * kMicrosecond);
+}
+
+TEST_F(TimelineOf, OfTooManyRowsTheFirstAndTheLastAreShown) {
+  constexpr std::size_t kRows = 100'000;
+  for (std::size_t row = 0; row < kRows; ++row) {
+    const Time at = static_cast<Time>(row + 1) * kMillisecond;
+    timeline_.record({.at = at, .kind = TraceKind::EventOccurred, .event = kTimed, .routine = 1});
+    service(at, kTimed, 0);
+    timeline_.record({.at = at, .kind = TraceKind::Transmit, .count = 1});
+  }
+  const TimelineReport report = timeline_.report();
+  ASSERT_EQ(report.rows.size(), TimelineReport::kMostRows + 1);
+  const TimelineRow& left_out = report.rows[TimelineReport::kMostRows / 2];
+  EXPECT_EQ(left_out.kind, Kind::LeftOut);
+  EXPECT_EQ(left_out.text, "… 199000 rows left out");
+  EXPECT_EQ(left_out.at, 251 * kMillisecond);
+  EXPECT_EQ(report.rows.front().at, kMillisecond);
+  EXPECT_EQ(report.rows.back().at, static_cast<Time>(kRows) * kMillisecond);
+  EXPECT_EQ(report.served, kRows);
+  const auto json = to_json(report, {});
+  EXPECT_EQ(json[TimelineReport::kMostRows / 2]["kind"], "left out");
+}
+
+TEST_F(TimelineOf, OfTooManyCharactersTheFirstAreShownAndAllAreCounted) {
+  for (Time at = 1; at <= 10'000; ++at) character(at, TraceKind::CharacterSent);
+  const TimelineReport report = timeline_.report();
+  ASSERT_EQ(report.rows.size(), 1U);
+  EXPECT_EQ(report.rows[0].characters.size() + report.rows[0].more_characters, 10'000U);
+  EXPECT_LE(report.rows[0].characters.size(), TimelineRow::kMostCharacters);
+  EXPECT_NE(to_text(report, {}, false).find("… 10000"), std::string::npos);
+}
+
+TEST_F(TimelineOf, AnInterruptFindsItsEventHoweverMuchWasSentMeanwhile) {
+  timeline_.record({.at = kMillisecond, .kind = TraceKind::EventOccurred, .event = kTimed, .routine = 1});
+  for (Time at = kMillisecond + 1; at <= kMillisecond + 500; ++at) character(at, TraceKind::CharacterSent);
+  service(kMillisecond, kTimed, 600);
+  const TimelineReport report = timeline_.report();
+  EXPECT_EQ(report.rows.front().served, 1U);
+  EXPECT_EQ(report.longest_wait, 600);
+}
+
+TEST_F(TimelineOf, WhatHappensAfterTheEndIsNotShown) {
+  character(kMillisecond, TraceKind::CharacterSent);
+  timeline_.end();
+  timeline_.record({.at = 2 * kMillisecond, .kind = TraceKind::EventLost, .event = kTimed});
+  EXPECT_EQ(timeline_.report().rows.size(), 1U);
+}
+
+}  // namespace
+}  // namespace s7200::tools

@@ -1,0 +1,73 @@
+// A bridge: what joins the simulated line to a pty, a socket or a device of this computer.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+#include "serial_sim/system/simulation.hpp"
+
+namespace boost::asio {
+class io_context;
+}
+
+namespace s7200::tools {
+
+/// The simulation, as a bridge sees it: always at the present when it is asked.
+class LiveLine {
+ public:
+  virtual ~LiveLine() = default;
+
+  /// Brings the simulation to the present moment: to be called when something has come in, before it is put on the line.
+  virtual void catch_up() = 0;
+
+  /// Puts characters on the line from now on.
+  virtual void send(std::span<const serial::HostCharacter> characters) = 0;
+
+  /// What `sender` has put on the line and is still waiting there is not sent after all. How many characters that were.
+  virtual std::size_t drop(std::uint64_t sender) = 0;
+
+  /// What the program has set its port to, with what the options say instead.
+  virtual SerialFormat format() const = 0;
+
+  virtual const serial::Simulation& simulation() const = 0;
+  Time now() const { return simulation().time(); }
+
+  /// More than this is not put into the queue of the line, nor more of one sender if there are several: whoever writes
+  /// faster than the line sends has to wait. It is about a second of one at 9600 baud.
+  static constexpr std::size_t kMostWaiting = 4096, kMostOfOne = 1024;
+  bool has_room() const { return simulation().host_port().waiting() < kMostWaiting; }
+  bool has_room(std::uint64_t sender) const { return has_room() && waiting(sender) < kMostOfOne; }
+  std::size_t waiting(std::uint64_t sender) const { return simulation().host_port().waiting(sender); }
+};
+
+class Bridge {
+ public:
+  virtual ~Bridge() = default;
+
+  /// Begins to serve; false, after a message, when it cannot. `line` and `context` outlive the bridge's handlers.
+  virtual bool start(LiveLine& line, boost::asio::io_context& context) = 0;
+
+  /// Ends serving. `context` and what else start() was given may go then; the summary stays.
+  virtual void stop() = 0;
+
+  /// How characters from the line are heard.
+  virtual SerialFormat receive_format() const = 0;
+
+  /// The line has said this.
+  virtual void received(std::span<const ReceivedCharacter> characters) = 0;
+
+  /// Comes after each stretch of simulation, and then not later than due().
+  virtual void turn() = 0;
+  virtual Time due() const { return kNever; }
+
+  /// Why it cannot go on; empty as long as it can.
+  virtual std::string failure() const { return {}; }
+
+  /// The end of the run, in one line for people and for machines.
+  virtual std::string summary() const = 0;
+  virtual nlohmann::ordered_json json() const = 0;
+};
+
+}  // namespace s7200::tools

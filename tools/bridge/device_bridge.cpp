@@ -1,0 +1,146 @@
+#include "tools/bridge/device_bridge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <optional>
+#include <utility>
+
+#include "interpreter/base/text.hpp"
+#include "tools/host/serial_device.hpp"
+#include "tools/host/terminal.hpp"
+
+namespace s7200::tools {
+namespace {
+
+namespace asio = boost::asio;
+using serial::HostCharacter;
+
+std::string format_text(const SerialFormat& format) {
+  const char parity = format.parity == Parity::None ? 'N' : format.parity == Parity::Even ? 'E' : 'O';
+  return fmt::format("{} baud {}{}{}", format.baud, format.data_bits, parity, format.stop_bits);
+}
+
+class DeviceBridge final : public Bridge {
+ public:
+  explicit DeviceBridge(const std::string& path) : path_(path) {}
+
+  bool start(LiveLine& line, asio::io_context& context) override {
+    line_ = &line;
+    std::string why;
+    auto device = SerialDevice::open(path_, line.format(), why);
+    if (!device) {
+      print_error(fmt::format("cannot use {} with {}: {}", path_, format_text(line.format()), why));
+      return false;
+    }
+    device_.emplace(std::move(*device));
+    descriptor_.emplace(context, device_->fd());
+    await_input();
+    fmt::print(stderr, "connected to {}\n", stl::printable(path_));
+    return true;
+  }
+
+  void stop() override {
+    if (descriptor_) descriptor_->release();  // the device closes it
+    descriptor_.reset();
+    device_.reset();
+  }
+
+  SerialFormat receive_format() const override { return device_->format(); }
+
+  void received(std::span<const ReceivedCharacter> characters) override {
+    for (const ReceivedCharacter& character : characters) {
+      if (output_.size() == kMostUnwritten)
+        ++overrun_;
+      else
+        output_.push_back(character.byte);
+    }
+    write();
+  }
+
+  void turn() override {
+    follow_port();
+    write();
+    if (!awaiting_input_ && line_->has_room()) await_input();
+  }
+
+  std::string failure() const override { return failure_; }
+
+  std::string summary() const override {
+    return fmt::format("{}: {} bytes from it, {} to it{}{}", path_, in_, out_,
+                       overrun_ ? fmt::format(", {} lost because it did not take them", overrun_) : "",
+                       errors_ ? fmt::format(", {} came with errors", errors_) : "");
+  }
+  nlohmann::ordered_json json() const override {
+    return {{"kind", "device"},  {"device", path_},     {"bytes_in", in_},
+            {"bytes_out", out_}, {"overrun", overrun_}, {"with_errors", errors_}};
+  }
+
+ private:
+  static constexpr std::size_t kMostUnwritten = 65'536;  // besides what the device itself holds
+
+  void follow_port() {
+    const SerialFormat wanted = line_->format();
+    std::string why;
+    if (wanted == device_->format() || device_->set(wanted, why)) return;
+    fail(fmt::format("the program has set its port to {}: {}", format_text(wanted), why));
+  }
+
+  void await_input() {
+    awaiting_input_ = true;
+    descriptor_->async_wait(asio::posix::descriptor_base::wait_read, [this](const boost::system::error_code& error) {
+      awaiting_input_ = false;
+      if (error) return;  // tried again in the next turn
+      line_->catch_up();
+      read();
+      if (failure_.empty() && line_->has_room()) await_input();
+    });
+  }
+
+  void read() {
+    std::vector<SerialDevice::Character> characters;
+    std::string why;
+    if (!device_->read(characters, why)) fail("the device is gone: " + why);
+    const SerialFormat format = device_->format();
+    const auto fault = format.parity == Parity::None ? HostCharacter::Fault::NoStopBit : HostCharacter::Fault::WrongParity;
+    std::vector<HostCharacter> sent;
+    for (const auto& [byte, error] : characters) {
+      sent.push_back({byte, format, error ? fault : HostCharacter::Fault::None});
+      errors_ += error ? 1 : 0;
+    }
+    in_ += sent.size();
+    if (!sent.empty()) line_->send(sent);
+  }
+
+  /// What the device does not take now stays for the next turn. With --speed the line may bring more than it takes.
+  void write() {
+    std::string why;
+    while (!output_.empty() && failure_.empty()) {
+      const auto count = device_->write(output_, why);
+      if (!count) return fail("the device is gone: " + why);
+      if (*count == 0) return;
+      out_ += *count;
+      output_.erase(output_.begin(), output_.begin() + static_cast<std::ptrdiff_t>(*count));
+    }
+  }
+
+  void fail(const std::string& why) {
+    if (failure_.empty()) failure_ = fmt::format("{}: {}", path_, why);
+  }
+
+  std::string path_, failure_;
+  LiveLine* line_ = nullptr;
+  std::optional<SerialDevice> device_;
+  std::optional<asio::posix::stream_descriptor> descriptor_;
+  std::vector<std::uint8_t> output_;
+  bool awaiting_input_ = false;
+  std::uint64_t in_ = 0, out_ = 0, overrun_ = 0, errors_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Bridge> make_device_bridge(const std::string& path) { return std::make_unique<DeviceBridge>(path); }
+
+}  // namespace s7200::tools

@@ -1,0 +1,318 @@
+#include "tools/bridge/tcp_bridges.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "serial_sim/modbus/functions.hpp"
+#include "serial_sim/modbus/gateway.hpp"
+#include "serial_sim/modbus/line_turns.hpp"
+#include "serial_sim/modbus/rtu_stream.hpp"
+#include "tools/bridge/tcp_server.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Client = TcpServer::Client;
+using serial::HostCharacter;
+
+void put_on_line(LiveLine& line, std::span<const std::uint8_t> bytes, Client sender = 0) {
+  const SerialFormat format = line.format();
+  std::vector<HostCharacter> characters;
+  for (const std::uint8_t byte : bytes) characters.push_back({.byte = byte, .format = format, .sender = sender});
+  if (!characters.empty()) line.send(characters);
+}
+
+/// What all three have in common: a server, and the line in the PLC's own format.
+class TcpBridge : public Bridge, protected TcpServer::Protocol {
+ public:
+  TcpBridge(std::string_view kind, const ListenAddress& address) : kind_(kind), address_(address) {}
+
+  bool start(LiveLine& line, boost::asio::io_context& context) override {
+    line_ = &line;
+    server_ = TcpServer::open(address_, *this, context);
+    return server_ != nullptr;
+  }
+
+  void stop() override {
+    if (server_) counts_ = server_->counts();
+    server_.reset();
+  }
+
+  SerialFormat receive_format() const override { return line_->format(); }
+
+  std::string summary() const override {
+    return fmt::format("{}: {} client{}{}, {} bytes from them, {} to them{}{}", kind_, counts_.clients,
+                       counts_.clients == 1 ? "" : "s",
+                       counts_.refused ? fmt::format(", {} sent away for others", counts_.refused) : "", counts_.bytes_in,
+                       counts_.bytes_out, counts_.dropped ? fmt::format(", {} dropped that they left", counts_.dropped) : "",
+                       more_summary());
+  }
+
+  nlohmann::ordered_json json() const override {
+    nlohmann::ordered_json json{{"kind", kind_},
+                                {"clients", counts_.clients},
+                                {"sent_away", counts_.refused},
+                                {"bytes_in", counts_.bytes_in},
+                                {"bytes_out", counts_.bytes_out},
+                                {"bytes_dropped", counts_.dropped}};
+    json.update(more_json());
+    return json;
+  }
+
+ protected:
+  virtual std::string more_summary() const { return {}; }
+  virtual nlohmann::ordered_json more_json() const { return nlohmann::ordered_json::object(); }
+
+  LiveLine& line() const { return *line_; }
+
+  /// Nobody is asked until the first scan has ended and the line has been quiet since: only then a program has set up its
+  /// port.
+  modbus::LineTurns::Line line_state() {
+    const serial::Simulation& simulation = line_->simulation();
+    if (!up_since_ && simulation.cpu().state().scans > 0) up_since_ = line_->now();
+    return {.now = line_->now(),
+            .format = line_->format(),
+            .sending = simulation.host_port().sending(),
+            .receiving = simulation.host_port().character_due() != kNever,
+            .quiet_since = up_since_ ? std::max(*up_since_, simulation.last_activity()) : line_->now(),
+            .quiet_time = serial::Simulation::default_quiet(line_->format())};
+  }
+
+  TcpServer& server() const { return *server_; }
+
+ private:
+  std::string kind_;
+  ListenAddress address_;
+  LiveLine* line_ = nullptr;
+  std::optional<Time> up_since_;
+  std::unique_ptr<TcpServer> server_;
+  TcpServer::Counts counts_;
+};
+
+class RawBridge final : public TcpBridge {
+ public:
+  explicit RawBridge(const ListenAddress& address) : TcpBridge("tcp", address) {}
+
+  void received(std::span<const ReceivedCharacter> characters) override {
+    std::vector<std::uint8_t> bytes;
+    for (const ReceivedCharacter& character : characters) bytes.push_back(character.byte);
+    server().send_to_all(bytes);
+  }
+  void turn() override { server().turn(); }
+
+ private:
+  /// After its last word a client has a second, of the line's time, to hear what comes of it.
+  static constexpr Time kHearsOn = kSecond;
+
+  void take(Client client, std::span<const std::uint8_t> bytes) override {
+    line().catch_up();
+    put_on_line(line(), bytes, client);
+  }
+  std::size_t gone(Client client) override { return line().drop(client); }
+  bool wants_more(Client client) const override { return line().has_room(client); }
+  bool unsent(Client client) const override { return line().waiting(client) != 0; }
+  bool expects_answer(Client) const override {
+    const serial::Simulation& simulation = line().simulation();
+    return simulation.host_port().sending() || !simulation.line_quiet_for(kHearsOn);
+  }
+  bool partial(Client) const override { return false; }
+};
+
+class RtuBridge final : public TcpBridge {
+ public:
+  RtuBridge(const ListenAddress& address, Time timeout) : TcpBridge("rtu-over-tcp", address), turns_(timeout) {}
+
+  void received(std::span<const ReceivedCharacter> characters) override {
+    for (const ReceivedCharacter& character : characters) turns_.received(character, line().format());
+  }
+
+  void turn() override {
+    const auto now = Clock::now();
+    for (auto& [client, part] : parts_) {
+      if (!takes_more(client))
+        part.heard = now;  // it is not read from: it need not have ended
+      else
+        end_of_pause(client, part, now - part.heard);
+    }
+    put_on_line(line(), turns_.turn(line_state()));
+    for (const modbus::LineTurns::Outcome& outcome : turns_.take_outcomes()) {
+      if (outcome.answer.empty()) continue;
+      ++answers_;
+      server().send(outcome.client, outcome.answer);
+    }
+    for (auto& [client, part] : parts_) ask_complete(client, part);  // before more is read
+    server().turn();
+  }
+
+  Time due() const override { return turns_.due(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds kFrameEnd{20}, kGivenUp{1000};
+  static constexpr std::size_t kMostOpen = 4;
+
+  /// What has come of a client's next frame.
+  struct Part {
+    modbus::Bytes bytes;
+    std::size_t after_pause = 0;  ///< where that begins which came after the last pause
+    Clock::time_point heard;
+  };
+
+  void take(Client client, std::span<const std::uint8_t> bytes) override {
+    line().catch_up();
+    Part& part = parts_[client];
+    const auto now = Clock::now();
+    if (now - part.heard >= kFrameEnd) part.after_pause = part.bytes.size();
+    part.bytes.insert(part.bytes.end(), bytes.begin(), bytes.end());
+    part.heard = now;
+    ask_complete(client, part);
+  }
+
+  bool takes_more(Client client) const { return turns_.open(client) < kMostOpen; }
+
+  /// What is too long to become a frame goes out as it is. A whole frame after a pause shows that what came before it never
+  /// becomes one.
+  void ask_complete(Client client, Part& part) {
+    while (takes_more(client)) {
+      std::size_t size = modbus::first_request(part.bytes);
+      if (size == 0 && part.after_pause != 0 &&
+          modbus::first_request(std::span(part.bytes).subspan(part.after_pause)) != 0) {
+        give_up(part, part.after_pause);
+        continue;
+      }
+      if (size == 0 && part.bytes.size() > modbus::kLongestRtuFrame) size = part.bytes.size();
+      if (size == 0) return;
+      ask(client, part, size);
+    }
+  }
+
+  /// A frame with a wrong CRC goes out as it is, once its length or, if that is not known, a long pause says that it is
+  /// whole. A part of a frame would take as much of the line's time as a frame: it waits here, and is given up in the end.
+  void end_of_pause(Client client, Part& part, Clock::duration pause) {
+    if (part.bytes.empty() || pause < kFrameEnd) return;
+    const modbus::Extent extent = modbus::extent_of_request(part.bytes);
+    if (extent == modbus::Extent::Whole || (extent == modbus::Extent::Unknown && pause >= kGivenUp))
+      ask(client, part, part.bytes.size());
+    else if (pause >= kGivenUp)
+      give_up(part, part.bytes.size());
+  }
+
+  modbus::Bytes take_from(Part& part, std::size_t size) {
+    const auto end = part.bytes.begin() + static_cast<std::ptrdiff_t>(size);
+    modbus::Bytes bytes(part.bytes.begin(), end);
+    part.bytes.erase(part.bytes.begin(), end);
+    part.after_pause -= std::min(part.after_pause, size);
+    return bytes;
+  }
+
+  void give_up(Part& part, std::size_t size) {
+    take_from(part, size);
+    ++incomplete_;
+  }
+
+  /// One that sends again has stopped waiting, also when both frames came at once: RTU does not say which answer belongs to
+  /// which request, so that an answer to the earlier one would be taken for the later one's. Broadcasts are not waited for.
+  void ask(Client client, Part& part, std::size_t size) {
+    ++frames_;
+    given_up_ += turns_.stop_waiting(client);
+    modbus::Bytes frame = take_from(part, size);
+    const bool broadcast = frame[0] == modbus::kBroadcast;
+    turns_.ask(client, {.frame = std::move(frame), .wants_answer = !broadcast});
+  }
+
+  std::size_t gone(Client client) override {
+    std::size_t dropped = turns_.waiting(client);
+    if (const auto part = parts_.extract(client)) dropped += part.mapped().bytes.size();
+    turns_.forget(client);
+    return dropped;
+  }
+  bool wants_more(Client client) const override { return takes_more(client); }
+  bool unsent(Client client) const override { return turns_.unsent(client); }
+  bool expects_answer(Client client) const override {
+    const auto part = parts_.find(client);
+    return turns_.open(client) != 0 || (part != parts_.end() && !part->second.bytes.empty());
+  }
+  bool partial(Client) const override { return false; }  // that is given up by itself
+
+  std::string more_summary() const override {
+    return fmt::format("; {} frames, {} answered{}{}", frames_, answers_,
+                       given_up_ ? fmt::format(", {} given up for another", given_up_) : "",
+                       incomplete_ ? fmt::format(", {} never came in full", incomplete_) : "");
+  }
+  nlohmann::ordered_json more_json() const override {
+    return {{"frames", frames_}, {"answered", answers_}, {"given_up", given_up_}, {"incomplete", incomplete_}};
+  }
+
+  modbus::LineTurns turns_;
+  std::map<Client, Part> parts_;
+  std::uint64_t frames_ = 0, answers_ = 0, given_up_ = 0, incomplete_ = 0;
+};
+
+class GatewayBridge final : public TcpBridge {
+ public:
+  GatewayBridge(const ListenAddress& address, Time timeout) : TcpBridge("modbus-tcp", address), gateway_(timeout) {}
+
+  void received(std::span<const ReceivedCharacter> characters) override {
+    for (const ReceivedCharacter& character : characters) gateway_.received(character, line().format());
+  }
+
+  void turn() override {
+    put_on_line(line(), gateway_.turn(line_state()));
+    for (const modbus::Gateway::Answer& answer : gateway_.take_answers()) server().send(answer.client, answer.bytes);
+    server().turn();
+  }
+
+  Time due() const override { return gateway_.due(); }
+
+ private:
+  void take(Client client, std::span<const std::uint8_t> bytes) override {
+    line().catch_up();
+    gateway_.take(client, bytes);
+  }
+  std::size_t gone(Client client) override {
+    const std::size_t dropped = gateway_.waiting(client);
+    gateway_.forget(client);
+    return dropped;
+  }
+  bool unsent(Client client) const override { return gateway_.unsent(client); }
+  std::string error(Client client) const override {
+    const std::string error = gateway_.error(client);
+    return error.empty() ? error : "this is no Modbus TCP: " + error;
+  }
+  bool wants_more(Client client) const override { return gateway_.wants_more(client); }
+  bool expects_answer(Client client) const override { return gateway_.open(client) != 0; }
+  bool partial(Client client) const override { return gateway_.partial(client); }
+
+  std::string more_summary() const override {
+    const auto& counts = gateway_.counts();
+    return fmt::format(
+        "; {} requests, {} answered, {} broadcast, {} without answer, {} with a damaged one, {} to no station",
+        counts.requests, counts.answers, counts.broadcasts, counts.silent, counts.damaged, counts.no_path);
+  }
+  nlohmann::ordered_json more_json() const override {
+    const auto& counts = gateway_.counts();
+    return {{"requests", counts.requests}, {"answered", counts.answers}, {"broadcast", counts.broadcasts},
+            {"silent", counts.silent},     {"damaged", counts.damaged},  {"no_station", counts.no_path}};
+  }
+
+  modbus::Gateway gateway_;
+};
+
+}  // namespace
+
+std::unique_ptr<Bridge> make_tcp_bridge(const ListenAddress& address) { return std::make_unique<RawBridge>(address); }
+
+std::unique_ptr<Bridge> make_rtu_over_tcp_bridge(const ListenAddress& address, Time timeout) {
+  return std::make_unique<RtuBridge>(address, timeout);
+}
+
+std::unique_ptr<Bridge> make_modbus_tcp_bridge(const ListenAddress& address, Time timeout) {
+  return std::make_unique<GatewayBridge>(address, timeout);
+}
+
+}  // namespace s7200::tools

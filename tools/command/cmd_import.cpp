@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "interpreter/stl/printer.hpp"
+#include "interpreter/base/text.hpp"
+#include "tools/command/commands.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/host/interruption.hpp"
+#include "tools/command/options/program_options.hpp"
+#include "tools/views/results_json.hpp"
+#include "tools/host/terminal.hpp"
+#include "tools/host/written_files.hpp"
+
+namespace s7200::tools {
+namespace {
+
+struct ImportOptions {
+  std::string document, output;
+  bool force = false, json = false;
+};
+
+std::size_t count_statements(const stl::Source& source) {
+  return static_cast<std::size_t>(std::count_if(source.lines.begin(), source.lines.end(), [](const stl::Line& line) {
+    return std::holds_alternative<stl::Statement>(line);
+  }));
+}
+
+int write(const std::string& path, const std::string& text, bool force) {
+  WrittenFiles files;
+  const auto destination = files.claim("-o", path, {"STL"}, force ? Replace::Judged : Replace::Never);
+  if (!destination) return kUnusable;
+  catch_interruption();  // the file is written to its end
+  return write_result(*destination, text) ? kFine : kUnusable;
+}
+
+void print_json(const ImportOptions& options, const SourceText& text, const std::string& stl) {
+  const bool to_file = !options.output.empty() && options.output != "-";
+  auto results = results_of("import");
+  results["document"] = options.document;
+  results["encoding"] = text.encoding;
+  results["instructions"] = count_statements(text.parsed.source);
+  results["output"] = to_file ? nlohmann::ordered_json(options.output) : nullptr;
+  results["stl"] = to_file ? nullptr : nlohmann::ordered_json(stl);
+  print_results(results);
+}
+
+int run_import(const ImportOptions& options) {
+  auto text = read_program_text(options.document, true);
+  if (!text) return kUnusable;
+  if (has_errors(text->parsed.diagnostics)) {
+    print_diagnostics(text->parsed.diagnostics, text->parsed.source);
+    print_error("nothing was written");
+    return kCheckFailed;
+  }
+  const std::string stl = stl::to_text(text->parsed.source);
+  if (options.output.empty() || options.output == "-") {
+    if (options.json)
+      print_json(options, *text, stl);
+    else
+      print_file(stl);
+    return kFine;
+  }
+  const int exit_code = write(options.output, stl, options.force);
+  if (exit_code == kFine && options.json)
+    print_json(options, *text, stl);
+  else if (exit_code == kFine)
+    fmt::print(stderr, "{}: {} instructions out of {} ({})\n", stl::printable(options.output),
+               count_statements(text->parsed.source), stl::printable(text->parsed.source.name), text->encoding);
+  return exit_code;
+}
+
+}  // namespace
+
+void add_import(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ImportOptions>();
+  CLI::App* verb = app.add_subcommand("import", "write the STL of a published document as a clean .stl file");
+  verb->add_option("DOCUMENT", options->document, "document with an STL listing; - is standard input")->required();
+  verb->add_option("-o,--output", options->output, "file to write; standard output if not given")->type_name("FILE.stl");
+  verb->add_flag("--force", options->force, "overwrite an existing file");
+  verb->add_flag("--json", options->json, "print what was imported as JSON, with the STL if no file is written");
+  verb->footer("Example: s7200 import tip41.txt -o tip41.stl");
+  verb->callback([options, &exit_code] { exit_code = run_import(*options); });
+}
+
+}  // namespace s7200::tools

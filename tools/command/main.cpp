@@ -1,0 +1,70 @@
+// s7200: one binary, a verb for each thing it does.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <sstream>
+
+#include "interpreter/base/text.hpp"
+#include "tools/command/commands.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/views/results_json.hpp"
+#include "tools/host/standard_streams.hpp"
+#include "tools/host/terminal.hpp"
+#include "tools/command/usage.hpp"
+
+namespace s7200::tools {
+namespace {
+
+int run_command(int argc, char** argv) {
+  CLI::App app{"s7200 runs SIMATIC S7-200 STL programs in simulated time, with their Freeport on a simulated line."};
+  app.name("s7200");
+  app.require_subcommand(1);
+  app.set_version_flag("-V,--version", fmt::format("s7200 {}", version()));
+  app.failure_message(usage_error);
+  app.footer(
+      "'s7200 help VERB' shows the options of a verb, and an example.\n"
+      "Exit codes: 0 fine; 1 what was checked failed, or it was interrupted; 2 wrong usage, unreadable input, or output "
+      "that\n"
+      "cannot be written; 3 the CPU went to STOP on a fatal error. Ctrl-C, SIGTERM and SIGHUP end every wait, and what was\n"
+      "asked for is still written; a second Ctrl-C kills at once.\nExample: s7200 send stl_programs/modbus_slave.stl --crc "
+      "01030000000a");
+
+  int exit_code = kFine;
+  add_check(app, exit_code);
+  add_import(app, exit_code);
+  add_run(app, exit_code);
+  add_send(app, exit_code);
+  add_test(app, exit_code);
+  add_master(app, exit_code);
+  add_debug(app, exit_code);
+  add_instructions(app, exit_code);
+  add_times(app, exit_code);
+  add_bench(app, exit_code);
+  refuse_empty_values(app);
+
+  try {
+    std::vector<std::string> arguments = as_options(app, {argv + 1, argv + argc});
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+    app.parse(std::move(arguments));
+  } catch (const CLI::ParseError& error) {
+    std::ostringstream said;
+    const bool fine = app.exit(error, std::cout, said) == 0;
+    fmt::print(stderr, "{}", stl::printable_lines(said.str()));
+    return fine ? kFine : kUnusable;
+  } catch (const std::exception& error) {
+    print_error(error.what());
+    return kUnusable;
+  }
+  return exit_code;
+}
+
+}  // namespace
+}  // namespace s7200::tools
+
+int main(int argc, char** argv) {
+  using namespace s7200::tools;
+  open_standard_streams();
+  return close_standard_streams(run_command(argc, argv));
+}

@@ -1,0 +1,47 @@
+// `run` in real time and its bridges, on the command line.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "tools/bridge/bridge.hpp"
+#include "tools/command/options/master_options.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace s7200::tools {
+
+class BridgeOptions {
+ public:
+  void add_to(CLI::App& app);
+
+  /// For the end of the help.
+  static constexpr const char* kAboutPty =
+      "A pty shows the rate, stop bits and odd parity of its client, but none and even parity only if the client sets\n"
+      "INPCK, and never 7 data bits: otherwise these are the program's, or what --parity and --data-bits say.\n";
+
+  /// Makes the bridge asked for. False after a message: more than one, or an address that is none.
+  bool prepare();
+
+  bool realtime() const { return realtime_ || speed_given_ || bridge_; }
+  double speed() const { return speed_; }
+  const LineOptions& line() const { return line_; }
+
+  /// The name of the pty, if that is the bridge.
+  const std::string& link() const { return pty_; }
+
+  /// Null if none was asked for.
+  Bridge* bridge() const { return bridge_.get(); }
+
+ private:
+  std::string pty_, tcp_, rtu_over_tcp_, modbus_tcp_, device_;
+  LineOptions line_;
+  Time timeout_ = 400 * kMillisecond;  // before masters lose patience: libmodbus waits 500 ms
+  bool realtime_ = false, speed_given_ = false;
+  double speed_ = 1;
+  std::unique_ptr<Bridge> bridge_;
+};
+
+}  // namespace s7200::tools

@@ -1,0 +1,86 @@
+#include "tools/command/options/number_option.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <utility>
+
+namespace s7200::tools {
+namespace {
+
+/// All of `text` as a number in decimal.
+template <class Number>
+std::optional<Number> parse_decimal(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return {};
+  return value;
+}
+
+std::string to_text(const Between<std::uint64_t>& range) {
+  if (range.most == UINT64_MAX) return fmt::format("{} or more", range.least);
+  return fmt::format("{} {} {}", range.least, range.most == range.least + 1 ? "or" : "to", range.most);
+}
+
+std::string to_text(const Between<double>& range) { return fmt::format("{} to {}", range.least, range.most); }
+
+std::string help_text(const std::string& text, const std::string& range, const std::string& standard) {
+  return fmt::format("{} ({}){}", text, range, standard.empty() ? "" : fmt::format(" [{}]", standard));
+}
+
+template <class Number>
+CLI::Option* add_number(CLI::App& app, const std::string& name, std::function<void(Number)> take, Between<Number> range,
+                        std::string_view kind, const std::string& text, const std::string& standard) {
+  return app
+      .add_option_function<std::string>(
+          name,
+          [name, take = std::move(take), range, kind](const std::string& given) {
+            const auto value = parse_decimal<Number>(given);
+            if (!value || !(*value >= range.least && *value <= range.most))  // NaN is in no range
+              throw CLI::ValidationError(name, fmt::format("'{}' is not a {} ({})", given, kind, to_text(range)));
+            take(*value);
+          },
+          help_text(text, to_text(range), standard))
+      ->type_name("N");
+}
+
+}  // namespace
+
+std::optional<Time> parse_duration_in(std::string_view text, Between<Time> range, std::string& why) {
+  const auto duration = parse_duration(text);
+  if (!duration)
+    why = fmt::format("'{}' is not a duration; write for example 250ms, 2s, 1h", text);
+  else if (*duration < range.least || *duration > range.most)
+    why = fmt::format("{} is not from {} to {}", text, format_duration(range.least), format_duration(range.most));
+  else
+    return duration;
+  return {};
+}
+
+CLI::Option* add_whole_number(CLI::App& app, const std::string& name, std::function<void(std::uint64_t)> take,
+                              Between<std::uint64_t> range, const std::string& text, const std::string& standard) {
+  return add_number(app, name, std::move(take), range, "whole number", text, standard);
+}
+
+CLI::Option* add_real_number(CLI::App& app, const std::string& name, std::function<void(double)> take, Between<double> range,
+                             const std::string& text, const std::string& standard) {
+  return add_number(app, name, std::move(take), range, "number", text, standard);
+}
+
+CLI::Option* add_duration(CLI::App& app, const std::string& name, Time& value, const std::string& text,
+                          Between<Time> range) {
+  return app
+      .add_option_function<std::string>(
+          name,
+          [name, &value, range](const std::string& given) {
+            std::string why;
+            const auto duration = parse_duration_in(given, range, why);
+            if (!duration) throw CLI::ValidationError(name, why);
+            value = *duration;
+          },
+          text)
+      ->type_name("TIME");
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,110 @@
+#include "tools/command/options/program_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <utility>
+
+#include "tools/command/exit_code.hpp"
+#include "tools/host/terminal.hpp"
+
+namespace s7200::tools {
+namespace {
+
+std::string unknown_cpu(std::string_view name) {
+  std::string known;
+  for (const CpuModel* each : all_cpus()) known.append(known.empty() ? "" : ", ").append(each->name);
+  return fmt::format("there is no model of CPU '{}'; modelled: {}", name, known);
+}
+
+}  // namespace
+
+void add_cpu_option(CLI::App& app, std::string& cpu, const std::string& text) {
+  app.add_option("--cpu", cpu, text)
+      ->check([](const std::string& name) { return find_cpu(name) ? "" : unknown_cpu(name); })
+      ->capture_default_str()
+      ->type_name("TYPE");
+}
+
+void CpuOptions::add_to(CLI::App& app) {
+  add_cpu_option(app, cpu, "CPU to run on");
+  app.add_option("--times", times_file, "corrected execution times, a CSV file as `s7200 times --csv` writes it")
+      ->type_name("FILE");
+}
+
+const CpuModel* CpuOptions::model() const {
+  const CpuModel* found = find_cpu(cpu);
+  if (!found) print_error(unknown_cpu(cpu));
+  return found;
+}
+
+std::optional<TimeTable> CpuOptions::times(const CpuModel& model) const {
+  TimeTable table = default_times(model);
+  if (times_file.empty()) return table;
+  std::string why;
+  const auto csv = read_file(times_file, why);
+  if (!csv) {
+    print_error(fmt::format("cannot read {}: {}", times_file, why));
+    return {};
+  }
+  const auto errors = table.add(*csv, times_file);
+  for (const std::string& error : errors) print_error(error);
+  if (!errors.empty()) return {};
+  return table;
+}
+
+void ProgramOptions::add_to(CLI::App& app) {
+  app.add_option("PROGRAM", path, "STL file (.stl, .awl, .txt) or published document with STL in it; - is standard input")
+      ->required();
+  CpuOptions::add_to(app);
+}
+
+std::shared_ptr<const Program> ProgramOptions::load(int& exit_code) const {
+  exit_code = kUnusable;
+  const auto text = model() ? read_program_text(path) : std::nullopt;
+  return text ? load(*text, exit_code) : nullptr;
+}
+
+std::shared_ptr<const Program> ProgramOptions::load(const SourceText& text, int& exit_code) const {
+  exit_code = kUnusable;
+  const CpuModel* cpu_model = model();
+  if (!cpu_model) return nullptr;
+  const auto table = times(*cpu_model);
+  if (!table) return nullptr;
+  CheckResult result = check(text.parsed, *cpu_model, *table);
+  std::erase_if(result.diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
+  print_diagnostics(result.diagnostics, result.source);
+  if (!result.program) print_error(fmt::format("{} has errors; nothing was run", result.source.name));
+  exit_code = result.program ? kFine : kCheckFailed;
+  return result.program;
+}
+
+namespace {
+
+/// What came through a pipe is gone when it has been read.
+std::optional<std::string> read_standard_input_once(std::string& why) {
+  static bool read = false;
+  if (std::exchange(read, true)) {
+    why = "it has been read already";
+    return {};
+  }
+  return read_standard_input(why);
+}
+
+}  // namespace
+
+std::optional<SourceText> read_program_text(const std::string& path, bool force_document) {
+  const bool from_input = is_standard_input(path);
+  const std::string name = from_input ? "standard input" : path;
+  std::string why;
+  const auto bytes = from_input ? read_standard_input_once(why) : read_file(path, why);
+  auto text = bytes ? read_source(*bytes, name, why, force_document) : std::nullopt;
+  if (!text) print_error(fmt::format("cannot read {}: {}", name, why));
+  return text;
+}
+
+void print_diagnostics(const stl::Diagnostics& diagnostics, const stl::Source& source) {
+  fmt::print(stderr, "{}", stl::render(diagnostics, source, colour_wanted(stderr)));
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,64 @@
+#include "tools/command/usage.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+
+#include "interpreter/base/nearest.hpp"
+
+namespace s7200::tools {
+namespace {
+
+std::vector<std::string> verbs_of(const CLI::App& app) {
+  std::vector<std::string> verbs;
+  for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+  return verbs;
+}
+
+/// `'chek' is not a verb; is check meant?`
+std::string not_a_verb(const std::string& word, const std::vector<std::string>& verbs) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(word, error))
+    return fmt::format("'{0}' is a file, and the verb before it is missing; write for example s7200 run {0}", word);
+  std::vector<std::string_view> known(verbs.begin(), verbs.end());
+  known.insert(known.end(), {"help", "version"});
+  const std::string_view meant = nearest(CLI::detail::to_lower(word), known);
+  return meant.empty() ? fmt::format("'{}' is not a verb; there are {}", word, fmt::join(known, ", "))
+                       : fmt::format("'{}' is not a verb; is {} meant?", word, meant);
+}
+
+}  // namespace
+
+std::vector<std::string> as_options(const CLI::App& app, std::vector<std::string> arguments) {
+  const std::vector<std::string> verbs = verbs_of(app);
+  const auto is_verb = [&](const std::string& word) { return std::find(verbs.begin(), verbs.end(), word) != verbs.end(); };
+  if (arguments.empty())
+    throw CLI::ParseError(fmt::format("the verb is missing; there are {}", fmt::join(verbs, ", ")),
+                          CLI::ExitCodes::RequiredError);
+  if (arguments[0] == "help") {
+    arguments.erase(arguments.begin());
+    arguments.insert(arguments.begin() + (arguments.empty() ? 0 : 1), "--help");
+  } else if (arguments[0] == "version") {
+    arguments[0] = "--version";
+  }
+  if (!arguments[0].starts_with('-') && !is_verb(arguments[0]))
+    throw CLI::ParseError(not_a_verb(arguments[0], verbs), CLI::ExitCodes::ExtrasError);
+  return arguments;
+}
+
+void refuse_empty_values(CLI::App& app) {
+  for (CLI::App* verb : app.get_subcommands({}))
+    for (CLI::Option* option : verb->get_options())
+      if (option->get_items_expected_max() > 0 && !option->get_positional())
+        option->check([](const std::string& given) { return given.empty() ? "a value is missing" : ""; });
+}
+
+std::string usage_error(const CLI::App* app, const CLI::Error& error) {
+  const auto verbs = app->get_subcommands();
+  const std::string command = verbs.empty() ? app->get_name() : fmt::format("{} {}", app->get_name(), verbs[0]->get_name());
+  return fmt::format("s7200: error: {}\n'{} --help' shows how it is used\n", error.what(), command);
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,204 @@
+#include "tools/debugger/debugger.hpp"
+
+#include <fmt/format.h>
+
+#include <istream>
+#include <ostream>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/trace/text_trace.hpp"
+#include "tools/views/machine_text.hpp"
+#include "tools/views/memory.hpp"
+#include "tools/views/report.hpp"
+#include "tools/views/text_frame.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// Where the character at `place` ends, or the quotation that begins a word there.
+std::size_t end_of_piece(std::string_view text, std::size_t place) {
+  const bool begins_a_word = place == 0 || stl::is_blank(text[place - 1]);
+  const std::size_t quotation = begins_a_word ? quotation_length(text.substr(place)) : 0;
+  return quotation == std::string_view::npos ? text.size() : place + std::max<std::size_t>(quotation, 1);
+}
+
+std::string_view without_comment(std::string_view line) {
+  for (std::size_t i = 0; i < line.size(); i = end_of_piece(line, i))
+    if (line[i] == '#' && (i == 0 || stl::is_blank(line[i - 1]))) return line.substr(0, i);
+  return line;
+}
+
+/// Quotations are not split.
+std::vector<std::string> split(std::string_view text, std::string_view separators) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end = end + 1) {
+    while (end < text.size() && separators.find(text[end]) == std::string_view::npos) end = end_of_piece(text, end);
+    if (end > begin) parts.emplace_back(text.substr(begin, end - begin));
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+Debugger::Debugger(serial::Simulation& simulation, std::ostream& out, const DebuggerOptions& options)
+    : simulation_(simulation),
+      out_(out),
+      options_(options),
+      listing_(simulation.cpu().program()),
+      stepper_(simulation, options.stop_request),
+      power_up_(simulation.snapshot()) {
+  stepper_.on_record = [this](const TraceRecord& record) { print_trace(record); };
+  stepper_.on_instruction = [this](const InstructionRecord& record, bool started_at) {
+    print_instruction(record, started_at);
+  };
+  stepper_.on_answer = [this](const serial::Exchange& exchange) { print_answer(exchange); };
+}
+
+Debugger::Error Debugger::execute(std::string_view line) {
+  const std::vector<std::string> texts = split(without_comment(line), ";");
+  repeatable_.clear();
+  for (const std::string& text : texts) {
+    if (quit_asked_) return {};
+    if (Error error = execute_one(text)) return error;
+  }
+  return {};
+}
+
+Debugger::Error Debugger::execute_one(std::string_view text) {
+  Arguments arguments = split(text, " \t\r");
+  if (arguments.empty()) return {};
+  if (echoing_) out_ << kPrompt << stl::printable(joined(arguments)) << '\n';
+  std::string why;
+  const Command* command = find_command(arguments.front(), why);
+  if (!command) return why;
+  arguments.erase(arguments.begin());
+  command_ = std::string(command->name) + (arguments.empty() ? "" : " ") + joined(arguments);
+  repeatable_ = command->repeats ? command_ : "";
+  return (this->*command->run)(arguments);
+}
+
+std::optional<ScriptError> Debugger::run_script(std::istream& in) {
+  std::size_t number = 0;
+  echoing_ = true;
+  std::optional<ScriptError> wrong;
+  for (std::string line; !wrong && !quit_asked_ && !stop_requested() && std::getline(in, line);) {
+    ++number;
+    if (Error error = execute(line)) wrong = ScriptError{number, *error};
+  }
+  echoing_ = false;
+  return wrong;
+}
+
+bool Debugger::stop_requested() const { return options_.stop_request && *options_.stop_request; }
+
+void Debugger::show_place() {
+  out_ << place_text(simulation_.cpu(), listing_);
+  for (const MemoryRange& range : displayed_) out_ << dump_text(simulation_.cpu(), range);
+}
+
+void Debugger::go(const Run& run) {
+  if (simulation_.cpu().state().mode == Mode::Stop) {
+    out_ << "the CPU is in STOP and executes nothing; 'back' returns to before that, 'restart' powers it up again\n";
+    return;
+  }
+  remember();
+  show_ = run.show;
+  first_error_.reset();
+  const std::uint64_t errors_before = simulation_.cpu().state().error_count;
+  const Time end = simulation_.time() < kNever - run.limit ? simulation_.time() + run.limit : kNever;
+  const Stop stop = stepper_.run(run.goal, end, run.stop_at_answer);
+  report(stop, run, simulation_.cpu().state().error_count - errors_before);
+}
+
+void Debugger::remember() {
+  if (kept_.size() == kKeptStates) kept_.pop_front();
+  kept_.push_back({command_, simulation_.snapshot()});
+}
+
+void Debugger::report(const Stop& stop, const Run& run, std::uint64_t errors) {
+  if (first_error_) {
+    out_ << describe(*first_error_, simulation_.cpu().program());
+    out_ << (errors > 1 ? fmt::format(" and {} more; 'errors' lists them\n", errors - 1) : "\n");
+  }
+  for (const Change& change : stop.changes) report_change(change);
+  report_reason(stop, run);
+  show_place();
+}
+
+void Debugger::report_reason(const Stop& stop, const Run& run) {
+  switch (stop.reason) {
+    case StopReason::Goal:
+    case StopReason::Watch:
+    case StopReason::Answer:
+      return;
+    case StopReason::Breakpoint:
+      out_ << fmt::format("breakpoint {}, hit {}\n", stop.breakpoint.number,
+                          stop.breakpoint.hits == 1 ? "for the first time" : fmt::format("{} times", stop.breakpoint.hits));
+      return;
+    case StopReason::Limit:
+      out_ << fmt::format("{} of simulated time passed with nothing to stop for{}\n", format_duration(run.limit),
+                          run.limit == kDefaultLimit ? " (the limit; 'continue TIME' sets another)" : "");
+      return;
+    case StopReason::Request:
+      out_ << "interrupted by Ctrl-C\n";
+      return;
+    case StopReason::CpuStopped:
+      report_cpu_stop();
+      return;
+  }
+}
+
+void Debugger::report_change(const Change& change) {
+  const Program& program = simulation_.cpu().program();
+  out_ << fmt::format("watch {}: {} was {}, is {}\n", change.watch.number, change.watch.address,
+                      value_text(program, change.watch.range, change.watch.value),
+                      value_text(program, change.watch.range, change.value));
+  if (change.by)
+    out_ << fmt::format("  by {} {}\n", listing_.routine_of(change.by->op),
+                        describe(*change.by, simulation_.cpu().program()));
+  else
+    out_ << "  by the system, between two instructions\n";
+}
+
+void Debugger::report_cpu_stop() {
+  const State& state = simulation_.cpu().state();
+  if (state.fatal_code != 0) {
+    const std::string place = state.fatal_op == kNoRoutine ? "between two scans" : "in " + op_text(state.fatal_op);
+    out_ << fmt::format("the CPU went to STOP: fatal error {:04X}, {},\n  {}\n", state.fatal_code,
+                        meaning_of(FatalError{state.fatal_code}), place);
+  } else if (last_op_) {
+    out_ << fmt::format("the CPU went to STOP; the last instruction was in {}\n", op_text(*last_op_));
+  }
+}
+
+std::string Debugger::op_text(std::uint32_t op) const {
+  return fmt::format("{} line {}: {}", listing_.routine_of(op), listing_.line_of(op), listing_.text_of(op));
+}
+
+void Debugger::print_answer(const serial::Exchange& exchange) { out_ << exchange_text(exchange, options_.master.timeout); }
+
+void Debugger::print_trace(const TraceRecord& record) {
+  if (record.kind == TraceKind::RuntimeError && !first_error_) first_error_ = record;
+  if (!tracing_ || record.kind == TraceKind::ScanBegin) return;
+  out_ << fmt::format("  {}  {}\n", clock_text(record.at), describe(record, simulation_.cpu().program()));
+}
+
+void Debugger::print_instruction(const InstructionRecord& record, bool started_at) {
+  last_op_ = record.op;
+  if (show_ == Show::None || (show_ == Show::Started && !started_at)) return;
+  out_ << fmt::format("   {}  {}\n", describe(record, simulation_.cpu().program()), format_duration(record.end - record.at));
+}
+
+std::optional<std::uint32_t> Debugger::current_op() const {
+  const State& state = simulation_.cpu().state();
+  if (state.mode == Mode::Run) return standing_at(state).value_or(0);
+  return state.fatal_code != 0 && state.fatal_op != kNoRoutine ? std::optional(state.fatal_op) : last_op_;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,153 @@
+// The command language of `s7200 debug`: line in, text out.
+//
+// A command that ran something can be taken back: the state before it is kept. Commands that only look change nothing, and
+// neither does stepping: the program does what it does in one go.
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "serial_sim/modbus/request.hpp"
+#include "serial_sim/system/simulation.hpp"
+#include "tools/views/listing.hpp"
+#include "tools/command/options/master_options.hpp"
+#include "tools/debugger/stepper.hpp"
+
+namespace s7200::tools {
+
+struct DebuggerOptions {
+  MasterOptions master{};                           ///< how `send` talks
+  const std::atomic<bool>* stop_request = nullptr;  ///< ends a run when it becomes true; may be set by a signal handler
+};
+
+struct ScriptError {
+  std::size_t line = 0;
+  std::string message;
+};
+
+/// The words with a blank between them.
+std::string joined(const std::vector<std::string>& words);
+
+class Debugger {
+ public:
+  static constexpr std::string_view kPrompt = "(s7200) ";
+  static constexpr std::size_t kKeptStates = 64;
+  static constexpr Time kDefaultLimit = 10 * kSecond;
+
+  /// A message when a command is wrong: what was expected.
+  using Error = std::optional<std::string>;
+
+  /// The simulation has been powered up; `restart` goes back to how it is now. Both must live as long as this.
+  Debugger(serial::Simulation& simulation, std::ostream& out, const DebuggerOptions& options);
+
+  /// Where it stands, and what is displayed.
+  void show_place();
+
+  /// One line: commands separated by `;`, a comment behind `#`. Ends with the first wrong one.
+  Error execute(std::string_view line);
+
+  /// Executes line by line, each command echoed behind the prompt, to the first wrong one, to `quit`, to a stop request or
+  /// the end.
+  std::optional<ScriptError> run_script(std::istream& in);
+
+  bool quit_asked() const { return quit_asked_; }
+
+  /// The last line, if it makes sense to give it again: `step`, `over`, `continue` … Empty otherwise.
+  const std::string& repeatable() const { return repeatable_; }
+
+ private:
+  using Arguments = std::vector<std::string>;
+
+  struct Command {
+    std::string_view name, short_form, syntax, meaning, more;
+    Error (Debugger::*run)(const Arguments& arguments);
+    bool repeats = false;
+  };
+  static const std::vector<Command>& commands();
+  static const Command* find_command(std::string_view word, std::string& why);
+  Error execute_one(std::string_view text);
+  bool stop_requested() const;
+
+  Error list(const Arguments& arguments);
+  Error step(const Arguments& arguments);
+  Error over(const Arguments& arguments);
+  Error out(const Arguments& arguments);
+  Error scan(const Arguments& arguments);
+  Error continue_run(const Arguments& arguments);
+  Error until(const Arguments& arguments);
+  Error set_break(const Arguments& arguments);
+  Error watch(const Arguments& arguments);
+  Error delete_stop(const Arguments& arguments);
+  Error registers(const Arguments& arguments);
+  Error stack(const Arguments& arguments);
+  Error print(const Arguments& arguments);
+  Error set(const Arguments& arguments);
+  Error input(const Arguments& arguments);
+  Error send(const Arguments& arguments);
+  Error port(const Arguments& arguments);
+  Error errors(const Arguments& arguments);
+  Error back(const Arguments& arguments);
+  Error display(const Arguments& arguments);
+  Error trace(const Arguments& arguments);
+  Error restart(const Arguments& arguments);
+  Error help(const Arguments& arguments);
+  Error quit(const Arguments& arguments);
+
+  /// Which executed instructions a run shows.
+  enum class Show : std::uint8_t { None, Started, All };
+  struct Run {
+    Stepper::Goal goal;
+    Time limit = kDefaultLimit;  ///< from now on
+    bool stop_at_answer = false;
+    Show show = Show::None;
+  };
+  void go(const Run& run);
+  void remember();
+  void report(const Stop& stop, const Run& run, std::uint64_t errors);
+  void report_reason(const Stop& stop, const Run& run);
+  void report_change(const Change& change);
+  void report_cpu_stop();
+  void print_answer(const serial::Exchange& exchange);
+  void print_trace(const TraceRecord& record);
+  void print_instruction(const InstructionRecord& record, bool started_at);
+
+  void list_stops();
+  std::string value_of(const MemoryRange& range) const;
+  std::string op_text(std::uint32_t op) const;  ///< `INT 123 line 40: MOVB SMB2, VB1 // …`
+  std::optional<std::uint32_t> current_op() const;
+  std::optional<std::uint32_t> find_place(const Arguments& arguments, std::string_view command, std::string& why);
+  std::optional<std::uint32_t> op_of_line(const std::string& text, std::string_view command, std::string& why);
+  std::string mark_of(std::uint32_t op) const;
+  Error assign_all(const Arguments& arguments, bool inputs_only);
+  Error ranges_of(const Arguments& arguments, std::vector<MemoryRange>& ranges) const;
+
+  struct Kept {
+    std::string command;
+    serial::Simulation::Snapshot snapshot;
+  };
+
+  serial::Simulation& simulation_;
+  std::ostream& out_;
+  DebuggerOptions options_;
+  Listing listing_;
+  Stepper stepper_;
+  serial::Simulation::Snapshot power_up_;
+  std::deque<Kept> kept_;  ///< newest last
+  std::vector<MemoryRange> displayed_;
+  std::optional<std::uint32_t> last_op_;    ///< executed last
+  std::optional<TraceRecord> first_error_;  ///< run-time error of the run under way
+  Show show_ = Show::None;
+  int next_number_ = 1;  ///< of a breakpoint or watch
+  bool tracing_ = false;
+  bool quit_asked_ = false;
+  bool echoing_ = false;  ///< commands are printed behind the prompt
+  std::string command_;   ///< being executed, as written
+  std::string repeatable_;
+};
+
+}  // namespace s7200::tools

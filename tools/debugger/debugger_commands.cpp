@@ -1,0 +1,496 @@
+// The commands of the debugger: the table, and what each does.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <ostream>
+
+#include "interpreter/base/text.hpp"
+#include "serial_sim/modbus/crc.hpp"
+#include "tools/debugger/debugger.hpp"
+#include "tools/views/machine_text.hpp"
+#include "tools/views/memory.hpp"
+#include "tools/views/report.hpp"
+#include "tools/views/text_frame.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr std::size_t kListed = 15, kListedBefore = 6;
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (stl::is_upper(c)) c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
+std::optional<std::uint32_t> parse_number(std::string_view text) {
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size()) return {};
+  return number;
+}
+
+/// The optional `[n]` of a command: 1 when it is not there, nothing when it is no number above 0 or more follows.
+std::optional<std::uint32_t> parse_count(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) return 1;
+  const auto number = parse_number(arguments[0]);
+  return arguments.size() == 1 && number && *number > 0 ? number : std::nullopt;
+}
+
+/// `VW100 = 5` is written with or without blanks.
+std::vector<std::string> assignments_of(const std::vector<std::string>& arguments) {
+  std::vector<std::string> texts;
+  bool open = false;
+  for (const std::string& argument : arguments) {
+    if ((open || argument.front() == '=') && !texts.empty())
+      texts.back() += argument;
+    else
+      texts.push_back(argument);
+    open = argument.back() == '=';
+  }
+  return texts;
+}
+
+std::string expects(std::string_view command, std::string_view what) { return fmt::format("{} expects {}", command, what); }
+
+std::string no_argument(std::string_view command) { return fmt::format("{} takes no argument", command); }
+
+constexpr std::string_view kPlaces = "a line number, SBR n or INT n";
+
+}  // namespace
+
+const std::vector<Debugger::Command>& Debugger::commands() {
+  static const std::vector<Command> kTable{
+      {"step", "s", "step [n]", "execute one instruction, or n, going into CALL and interrupt routines",
+       "Each executed instruction is shown with its operands (inputs before it, results after it), S0 after it, and its "
+       "time.",
+       &Debugger::step, true},
+      {"over", "o", "over", "execute one instruction; a CALL with all that it calls, interrupts in between too",
+       "Breakpoints and watches inside still stop.", &Debugger::over, true},
+      {"out", "u", "out", "run to the end of the subroutine or interrupt routine", "", &Debugger::out, true},
+      {"scan", "n", "scan [n]", "run to the begin of the next scan's program, or of the nth", "", &Debugger::scan, true},
+      {"continue", "c", "continue [TIME]", "run until a breakpoint, a watch, an answer, STOP, or TIME has passed (10 s)",
+       "TIME is simulated: 250ms, 2s, 1min. It ends in front of the first instruction after it. Ctrl-C stops it too.",
+       &Debugger::continue_run, true},
+      {"until", "t", "until LINE | SBR n | INT n", "run to a place", "", &Debugger::until, true},
+      {"back", "k", "back [n]", "back to the state before the last command that ran something, or the last n",
+       "The last 64 states are kept. Breakpoints, watches and their counts stay as they are.", &Debugger::back},
+      {"restart", "", "restart", "power up again; breakpoints, watches and displays are kept", "back takes it back.",
+       &Debugger::restart},
+      {"break", "b", "break [LINE | SBR n | INT n]", "stop in front of an instruction; alone: list breakpoints and watches",
+       "A line without an instruction stands for the next one that has one.", &Debugger::set_break},
+      {"watch", "w", "watch ADDRESS[:COUNT]…", "stop behind the instruction that changes M31.7, VB100, VW100, AC0 …",
+       "Interrupt routines too. The system changes memory as well: inputs, SM bits, SMB2 before INT of event 8.",
+       &Debugger::watch},
+      {"delete", "d", "delete N… | all", "remove breakpoints and watches", "", &Debugger::delete_stop},
+      {"list", "l", "list [LINE | SBR n | INT n]", "the program around the current place or elsewhere",
+       "> is the current line, * a breakpoint.", &Debugger::list},
+      {"regs", "r", "regs", "time, place, calls, accumulators, flags, interrupts", "", &Debugger::registers},
+      {"stack", "", "stack", "the nine levels of the logic stack", "", &Debugger::stack},
+      {"print", "p", "print ADDRESS[:COUNT]…", "memory: VB100:16, VW100, VD20:real, M31.7, AC0, T5",
+       "A double word that the program uses as a real is shown as one too.", &Debugger::print},
+      {"display", "", "display [ADDRESS[:COUNT]… | off]", "print memory after each stop",
+       "Further ones are added. Alone: print them now.", &Debugger::display},
+      {"port", "", "port", "SMB30 in words, receiver, transmitter, and the master on the line", "", &Debugger::port},
+      {"errors", "e", "errors", "run-time and fatal errors up to now", "", &Debugger::errors},
+      {"trace", "", "trace on | off", "print interrupts, characters and errors while running", "", &Debugger::trace},
+      {"set", "", "set ADDRESS=VALUE…", "write memory: set VW100=5 M0.3=1 VB4=16#FF; I addresses are the input points", "",
+       &Debugger::set},
+      {"input", "i", "input I0.3=1…", "switch input points; edges of I0.0 to I0.3 cause events 0 to 7",
+       "The program finds the new level when the inputs are next read, or at once with an immediate instruction.",
+       &Debugger::input},
+      {"send", "", "send HEX… | 'TEXT' [crc]", "put a frame on the line from now on; crc appends the Modbus CRC",
+       "p behind a byte sends it with wrong parity. TEXT is ASCII, with \\r \\n \\t \\\\ \\' and \\xHH. 'continue' runs "
+       "while it "
+       "arrives and stops when the answer is complete.",
+       &Debugger::send},
+      {"help", "h", "help [COMMAND]", "this list, or more about a command", "", &Debugger::help},
+      {"quit", "q", "quit", "end", "", &Debugger::quit},
+  };
+  return kTable;
+}
+
+const Debugger::Command* Debugger::find_command(std::string_view word, std::string& why) {
+  const std::string name = lower_case(word);
+  std::vector<const Command*> found;
+  for (const Command& command : commands()) {
+    if (name == command.name || name == command.short_form) return &command;
+    if (command.name.starts_with(name)) found.push_back(&command);
+  }
+  if (found.size() == 1) return found[0];
+  if (found.empty()) {
+    why = fmt::format("unknown command '{}'; 'help' lists them", word);
+    return nullptr;
+  }
+  why = fmt::format("'{}' may be", word);
+  for (const Command* command : found) why += fmt::format("{} {}", command == found.front() ? "" : ",", command->name);
+  return nullptr;
+}
+
+// --- running ---
+
+Debugger::Error Debugger::step(const Arguments& arguments) {
+  const auto count = parse_count(arguments);
+  if (!count) return expects("step", "how many instructions, for example: step 5");
+  go({.goal = [n = *count](const State&, std::uint32_t, const Stepper::Progress& p) { return p.executed >= n; },
+      .show = Show::All});
+  return {};
+}
+
+Debugger::Error Debugger::over(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("over");
+  const State& now = simulation_.cpu().state();
+  const auto at_same_level = [in_interrupt = now.in_interrupt, since = now.serving_since, depth = now.call_depth](
+                                 const State& state, std::uint32_t, const Stepper::Progress& progress) {
+    if (!progress.left || progress.executed == 0) return false;
+    if (in_interrupt) return !state.in_interrupt || state.serving_since == since;
+    return !state.in_interrupt && state.call_depth <= depth;
+  };
+  go({.goal = at_same_level, .show = Show::Started});
+  return {};
+}
+
+Debugger::Error Debugger::out(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("out");
+  const State& now = simulation_.cpu().state();
+  if (now.mode == Mode::Run && !now.in_interrupt && now.call_depth == 0) {
+    out_ << "this is the main program, in no subroutine and no interrupt routine; 'scan' runs to the next scan\n";
+    return {};
+  }
+  const auto left = [in_interrupt = now.in_interrupt, depth = now.call_depth](const State& state, std::uint32_t,
+                                                                              const Stepper::Progress&) {
+    return !state.in_interrupt && (in_interrupt || state.call_depth < depth);
+  };
+  go({.goal = left});
+  return {};
+}
+
+Debugger::Error Debugger::scan(const Arguments& arguments) {
+  const auto count = parse_count(arguments);
+  if (!count) return expects("scan", "how many scans, for example: scan 3");
+  const std::uint64_t target = simulation_.cpu().state().scans + *count;
+  go({.goal = [target](const State& state, std::uint32_t, const Stepper::Progress&) {
+    return state.scans >= target && !state.in_interrupt;
+  }});
+  return {};
+}
+
+Debugger::Error Debugger::continue_run(const Arguments& arguments) {
+  Run run{.goal = [](const State&, std::uint32_t, const Stepper::Progress&) { return false; }, .stop_at_answer = true};
+  if (!arguments.empty()) {
+    const auto time = parse_duration(joined(arguments));
+    if (!time || *time == 0) return expects("continue", "a duration, for example: continue 250ms");
+    run.limit = *time;
+  }
+  go(run);
+  return {};
+}
+
+Debugger::Error Debugger::until(const Arguments& arguments) {
+  std::string why;
+  const auto target = find_place(arguments, "until", why);
+  if (!target) return why;
+  go({.goal = [target = *target](const State&, std::uint32_t op, const Stepper::Progress& progress) {
+    return op == target && progress.left;
+  }});
+  return {};
+}
+
+Debugger::Error Debugger::back(const Arguments& arguments) {
+  const auto count = parse_count(arguments);
+  if (!count) return expects("back", "how many commands, for example: back 2");
+  if (kept_.empty()) {
+    out_ << "there is no earlier state: nothing has run since power-up, or all states kept have been used\n";
+    return {};
+  }
+  if (*count > kept_.size()) out_ << fmt::format("only {} earlier states are kept\n", kept_.size());
+  kept_.resize(kept_.size() - std::min<std::size_t>(*count, kept_.size()) + 1);
+  simulation_.restore(kept_.back().snapshot);
+  out_ << fmt::format("back to before '{}'\n", stl::printable(kept_.back().command));
+  kept_.pop_back();
+  last_op_.reset();
+  show_place();
+  return {};
+}
+
+Debugger::Error Debugger::restart(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("restart");
+  remember();
+  simulation_.restore(power_up_);
+  last_op_.reset();
+  for (Breakpoint& breakpoint : stepper_.breakpoints) breakpoint.hits = 0;
+  for (Watch& watch : stepper_.watches) watch.hits = 0;
+  show_place();
+  return {};
+}
+
+// --- where to stop ---
+
+/// A place that a command names; nothing, and `why`, when there is no such place.
+std::optional<std::uint32_t> Debugger::find_place(const Arguments& arguments, std::string_view command, std::string& why) {
+  const std::string text = stl::upper_case(joined(arguments));
+  const bool subroutine = text.starts_with("SBR"), interrupt = text.starts_with("INT");
+  if (!subroutine && !interrupt) return op_of_line(text, command, why);
+  const auto number = parse_number(arguments.size() == 1 ? std::string_view(text).substr(3) : arguments[1]);
+  if (!number || arguments.size() > 2) {
+    why = expects(command, kPlaces);
+    return {};
+  }
+  const Program& program = simulation_.cpu().program();
+  const std::span<const std::uint32_t> heads =
+      subroutine ? std::span<const std::uint32_t>(program.subroutine) : std::span<const std::uint32_t>(program.interrupt);
+  if (*number < heads.size() && heads[*number] != kNoRoutine) return heads[*number];
+  why = fmt::format("the program has no {} {}", subroutine ? "SBR" : "INT", *number);
+  return {};
+}
+
+std::optional<std::uint32_t> Debugger::op_of_line(const std::string& text, std::string_view command, std::string& why) {
+  const auto line = parse_number(text);
+  if (!line) {
+    why = expects(command, kPlaces);
+    return {};
+  }
+  const auto op = listing_.op_from_line(*line);
+  if (!op)
+    why = fmt::format("the last instruction is in line {}", listing_.last_line());
+  else if (listing_.line_of(*op) != *line)
+    out_ << fmt::format("line {} has no instruction; the next one is in line {}\n", *line, listing_.line_of(*op));
+  return op;
+}
+
+Debugger::Error Debugger::set_break(const Arguments& arguments) {
+  if (arguments.empty()) {
+    list_stops();
+    return {};
+  }
+  std::string why;
+  const auto op = find_place(arguments, "break", why);
+  if (!op) return why;
+  std::vector<Breakpoint>& all = stepper_.breakpoints;
+  const auto same = std::find_if(all.begin(), all.end(), [&](const Breakpoint& b) { return b.op == *op; });
+  if (same != all.end()) {
+    out_ << fmt::format("breakpoint {} is already in {}\n", same->number, op_text(*op));
+    return {};
+  }
+  all.push_back({.number = next_number_++, .op = *op});
+  out_ << fmt::format("breakpoint {} in {}\n", all.back().number, op_text(*op));
+  return {};
+}
+
+Debugger::Error Debugger::watch(const Arguments& arguments) {
+  std::vector<MemoryRange> ranges;
+  if (arguments.empty()) return expects("watch", "an address, for example: watch VW100");
+  if (Error error = ranges_of(arguments, ranges)) return error;
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const Watch added{.number = next_number_++, .range = ranges[i], .address = stl::upper_case(arguments[i])};
+    out_ << fmt::format("watch {}: {} is {}\n", added.number, added.address, value_of(added.range));
+    stepper_.watches.push_back(added);
+  }
+  return {};
+}
+
+std::string Debugger::value_of(const MemoryRange& range) const {
+  const Cpu& cpu = simulation_.cpu();
+  return value_text(cpu.program(), range, bytes_of(cpu.state(), range));
+}
+
+void Debugger::list_stops() {
+  const auto hits = [](std::uint64_t n) { return fmt::format("{} hit{}", n, n == 1 ? "" : "s"); };
+  for (const Breakpoint& b : stepper_.breakpoints)
+    out_ << fmt::format("{:<3} break  {:>8}  {}\n", b.number, hits(b.hits), op_text(b.op));
+  for (const Watch& w : stepper_.watches)
+    out_ << fmt::format("{:<3} watch  {:>8}  {} is {}\n", w.number, hits(w.hits), w.address, value_of(w.range));
+  if (stepper_.breakpoints.empty() && stepper_.watches.empty()) out_ << "no breakpoints and no watches\n";
+}
+
+Debugger::Error Debugger::delete_stop(const Arguments& arguments) {
+  if (arguments.empty()) return expects("delete", "numbers that 'break' lists, or all");
+  if (arguments.size() == 1 && lower_case(arguments[0]) == "all") {
+    stepper_.breakpoints.clear();
+    stepper_.watches.clear();
+    return {};
+  }
+  for (const std::string& argument : arguments) {
+    const auto number = parse_number(argument);
+    if (!number) return expects("delete", "numbers that 'break' lists, or all");
+    const auto is_it = [&](const auto& stop) { return stop.number == static_cast<int>(*number); };
+    if (std::erase_if(stepper_.breakpoints, is_it) + std::erase_if(stepper_.watches, is_it) == 0)
+      return fmt::format("there is no breakpoint or watch {}; 'break' lists them", *number);
+  }
+  return {};
+}
+
+// --- looking ---
+
+std::string Debugger::mark_of(std::uint32_t op) const {
+  const auto& all = stepper_.breakpoints;
+  const bool breakpoint = std::any_of(all.begin(), all.end(), [&](const Breakpoint& b) { return b.op == op; });
+  return std::string(breakpoint ? "*" : " ") + (op == current_op() ? ">" : " ");
+}
+
+Debugger::Error Debugger::list(const Arguments& arguments) {
+  const auto mark = [this](std::uint32_t op) { return mark_of(op); };
+  if (arguments.empty()) {
+    out_ << listing_.around(listing_.line_of(current_op().value_or(0)), kListedBefore, kListed, mark);
+    return {};
+  }
+  if (const auto line = parse_number(joined(arguments))) {
+    if (*line > listing_.last_line()) return fmt::format("the last instruction is in line {}", listing_.last_line());
+    out_ << listing_.around(*line, kListedBefore, kListed, mark);
+    return {};
+  }
+  std::string why;
+  const auto op = find_place(arguments, "list", why);
+  if (!op) return why;
+  out_ << listing_.around(listing_.line_of(*op), 0, kListed, mark);
+  return {};
+}
+
+Debugger::Error Debugger::registers(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("regs");
+  out_ << registers_text(simulation_.cpu(), listing_);
+  return {};
+}
+
+Debugger::Error Debugger::stack(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("stack");
+  out_ << stack_text(simulation_.cpu().state());
+  return {};
+}
+
+Debugger::Error Debugger::ranges_of(const Arguments& arguments, std::vector<MemoryRange>& ranges) const {
+  for (const std::string& text : arguments) {
+    std::string why;
+    const auto range = parse_range(text, *simulation_.cpu().program().model, why);
+    if (!range) return why;
+    ranges.push_back(*range);
+  }
+  return {};
+}
+
+Debugger::Error Debugger::print(const Arguments& arguments) {
+  if (arguments.empty()) return expects("print", "addresses, for example: print VB100:16 M31.7 AC0");
+  std::vector<MemoryRange> ranges;
+  if (Error error = ranges_of(arguments, ranges)) return error;
+  for (const MemoryRange& range : ranges) out_ << dump_text(simulation_.cpu(), range);
+  return {};
+}
+
+Debugger::Error Debugger::display(const Arguments& arguments) {
+  if (arguments.size() == 1 && lower_case(arguments[0]) == "off") {
+    displayed_.clear();
+    return {};
+  }
+  std::vector<MemoryRange> ranges;
+  if (Error error = ranges_of(arguments, ranges)) return error;
+  displayed_.insert(displayed_.end(), ranges.begin(), ranges.end());
+  if (displayed_.empty()) out_ << "nothing is displayed; 'display VW100' adds to it\n";
+  for (const MemoryRange& range : displayed_) out_ << dump_text(simulation_.cpu(), range);
+  return {};
+}
+
+Debugger::Error Debugger::port(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("port");
+  out_ << port_text(simulation_);
+  return {};
+}
+
+Debugger::Error Debugger::errors(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("errors");
+  const std::string text = errors_text(simulation_.cpu());
+  out_ << (text.empty() ? "no errors\n" : text);
+  return {};
+}
+
+Debugger::Error Debugger::trace(const Arguments& arguments) {
+  const std::string word = arguments.size() == 1 ? lower_case(arguments[0]) : "";
+  if (word != "on" && word != "off") return expects("trace", "on or off");
+  tracing_ = word == "on";
+  return {};
+}
+
+Debugger::Error Debugger::help(const Arguments& arguments) {
+  if (arguments.empty()) {
+    for (const Command& command : commands())
+      out_ << fmt::format("{:<3} {:<33} {}\n", command.short_form, command.syntax, command.meaning);
+    out_ << "A name may be cut short while it stays clear. ';' separates commands, '#' begins a comment.\n"
+            "On a terminal an empty line repeats step, over, out, scan, continue and until.\n";
+    return {};
+  }
+  std::string why;
+  const Command* command = find_command(arguments[0], why);
+  if (!command) return why;
+  out_ << fmt::format("{}\n  {}\n", command->syntax, command->meaning);
+  if (!command->more.empty()) out_ << fmt::format("  {}\n", command->more);
+  if (!command->short_form.empty()) out_ << fmt::format("  short: {}\n", command->short_form);
+  return {};
+}
+
+Debugger::Error Debugger::quit(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("quit");
+  quit_asked_ = true;
+  return {};
+}
+
+// --- doing something to the PLC ---
+
+Debugger::Error Debugger::assign_all(const Arguments& arguments, bool inputs_only) {
+  std::vector<Assignment> assignments;
+  for (const std::string& text : assignments_of(arguments)) {
+    std::string why;
+    const auto assignment = parse_assignment(text, *simulation_.cpu().program().model, why);
+    if (!assignment) return why;
+    if (inputs_only && assignment->place.area != Area::I)
+      return fmt::format("'{}' is no input; 'input' expects for example I0.3=1, and 'set' writes other memory", text);
+    assignments.push_back(*assignment);
+  }
+  for (const Assignment& assignment : assignments) assign(simulation_, assignment);
+  const auto is_input = [](const Assignment& a) { return a.place.area == Area::I; };
+  if (std::any_of(assignments.begin(), assignments.end(), is_input) && standing_at(simulation_.cpu().state()))
+    out_ << "the input points are set; the program finds them in I when the next scan reads its inputs\n";
+  return {};
+}
+
+Debugger::Error Debugger::set(const Arguments& arguments) {
+  if (arguments.empty()) return expects("set", "an address and a value, for example: set VW100=5");
+  return assign_all(arguments, false);
+}
+
+Debugger::Error Debugger::input(const Arguments& arguments) {
+  if (arguments.empty()) return expects("input", "an input and its level, for example: input I0.3=1");
+  return assign_all(arguments, true);
+}
+
+Debugger::Error Debugger::send(const Arguments& arguments) {
+  Arguments words = arguments;
+  const bool crc = !words.empty() && lower_case(words.back()) == "crc";
+  if (crc) words.pop_back();
+  if (words.empty())
+    return expects("send",
+                   "a frame in hex or text in quotation marks, for example: send 01 03 00 00 00 02 crc, or send 'HELLO\\r'");
+  modbus::ParsedFrame parsed = parse_hex_or_quoted(joined(words));
+  if (!parsed.ok()) {
+    const modbus::FrameError& error = parsed.errors[0];
+    return fmt::format("send {}: column {}: {}", joined(words), error.column, error.message);
+  }
+  if (crc) modbus::append_crc(parsed.frame);
+  const SerialFormat format = options_.master.format_for(simulation_);
+  if (modbus::has_wrong_parity(parsed.frame) && format.parity == Parity::None)
+    return "send: a byte with wrong parity (p) needs a format with parity";
+  if (simulation_.master().busy()) {
+    out_ << "the last frame is still under way or waiting for its answer; 'continue' runs to its end\n";
+    return {};
+  }
+  simulation_.master_uart().configure(format);
+  const MasterOptions& master = options_.master;
+  simulation_.master().start({.frame = parsed.frame, .timeout = master.timeout, .gap = master.gap}, simulation_.time());
+  const std::string text = request_text(modbus::bytes_of(parsed.frame));
+  out_ << fmt::format("on the line from now on: {}{} ({})\n", modbus::to_hex(parsed.frame), text.empty() ? "" : "  " + text,
+                      format_text(format));
+  if (!simulation_.cpu().state().port[0].active) out_ << "port 0 is not in Freeport mode: the program will not hear it\n";
+  return {};
+}
+
+}  // namespace s7200::tools

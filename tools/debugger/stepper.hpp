@@ -1,0 +1,104 @@
+// Runs a simulation until there is something to look at. It only watches: what happens is what happens without it.
+//
+// Every stop but the change to STOP is in front of an instruction. What lies between two instructions (interrupts being
+// taken, the system's part of the scan) is over by then.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "interpreter/program/address.hpp"
+#include "interpreter/trace/trace.hpp"
+#include "serial_sim/system/simulation.hpp"
+
+namespace s7200::tools {
+
+struct Breakpoint {
+  int number = 0;
+  std::uint32_t op = 0;
+  std::uint64_t hits = 0;
+};
+
+struct Watch {
+  int number = 0;
+  MemoryRange range;
+  std::string address;  ///< as the user wrote it
+  std::uint64_t hits = 0;
+  std::vector<std::uint8_t> value{};  ///< as last seen, like bytes_of()
+};
+
+/// A watched value is another one now.
+struct Change {
+  Watch watch;  ///< with the old value
+  std::vector<std::uint8_t> value;
+  std::optional<InstructionRecord> by;  ///< nothing: it changed between two instructions
+};
+
+enum class StopReason : std::uint8_t { Goal, Breakpoint, Watch, Answer, Limit, Request, CpuStopped };
+
+struct Stop {
+  StopReason reason{};
+  Breakpoint breakpoint{};        ///< of StopReason::Breakpoint
+  std::vector<Change> changes{};  ///< of all watches, whatever the reason
+};
+
+class Stepper final : public TraceSink {
+ public:
+  struct Progress {
+    std::uint64_t executed = 0;  ///< instructions in this run
+    bool left = false;           ///< the instruction it started at has been executed, or the run did not start at one
+  };
+  /// Asked in front of each instruction: true stops there.
+  using Goal = std::function<bool(const State& state, std::uint32_t op, const Progress& progress)>;
+
+  /// Hangs itself on the simulation's CPU. `stop_request` may be set from a signal handler; it may be null.
+  Stepper(serial::Simulation& simulation, const std::atomic<bool>* stop_request);
+  ~Stepper() override;
+  Stepper(const Stepper&) = delete;
+  Stepper& operator=(const Stepper&) = delete;
+
+  /// Runs a CPU that is in RUN. A breakpoint on the instruction it stands at does not count.
+  Stop run(const Goal& goal, Time limit, bool stop_at_answer);
+
+  std::vector<Breakpoint> breakpoints;
+  std::vector<Watch> watches;
+
+  // Told while running; all must be set.
+  std::function<void(const TraceRecord&)> on_record;
+  std::function<void(const InstructionRecord&, bool started_at)> on_instruction;
+  std::function<void(const serial::Exchange&)> on_answer;
+
+  void record(const TraceRecord& record) override { on_record(record); }
+  bool before(std::uint32_t op) override;
+  void instruction(const InstructionRecord& record) override;
+  bool wants_instructions() const override { return true; }
+
+ private:
+  std::optional<StopReason> reason_to_stop(std::uint32_t op, bool at_start);
+  bool hits_breakpoint(std::uint32_t op);
+  bool answer_complete();
+  void note_changes(const InstructionRecord* by);
+
+  serial::Simulation& simulation_;
+  const std::atomic<bool>* stop_request_;
+
+  // Of the run under way.
+  Goal goal_;
+  Time limit_ = 0;
+  bool stop_at_answer_ = false;
+  bool awaiting_answer_ = false;
+  bool standing_ = false;       ///< it started in front of an instruction
+  bool reached_start_ = false;  ///< that, or the first one after power-up, has come
+  std::uint32_t start_op_ = 0;
+  bool started_in_interrupt_ = false;
+  bool executing_start_ = false;  ///< the instruction being executed is the one it started at
+  Progress progress_;
+  Stop stop_;
+};
+
+/// The instruction the CPU stands in front of; nothing at power-up and in STOP.
+std::optional<std::uint32_t> standing_at(const State& state);
+
+}  // namespace s7200::tools

@@ -1,0 +1,72 @@
+#include "tools/host/interruption.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include "tools/host/terminal.hpp"
+
+namespace s7200::tools {
+namespace {
+
+std::atomic<bool> noted = false;  // asked by several threads
+std::atomic<int> noted_signal = 0;
+std::atomic<bool> output_lost = false;
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "a signal handler writes them");
+
+constexpr unsigned kRemindEvery = 1;  // seconds
+
+/// Without SA_RESTART: a system call that waits ends with EINTR.
+void handle(int number, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  sigaction(number, &action, nullptr);
+}
+
+bool is_ignored(int number) {
+  struct sigaction now {};
+  sigaction(number, nullptr, &now);
+  return now.sa_handler == SIG_IGN;
+}
+
+void note(int number) {
+  if (noted_signal.exchange(number) != 0 && number == SIGINT) {
+    handle(SIGINT, SIG_DFL);
+    raise(SIGINT);
+  }
+  noted = true;
+  alarm(kRemindEvery);
+}
+
+void remind(int) {
+  if (noted) alarm(kRemindEvery);
+}
+
+}  // namespace
+
+void catch_interruption() {
+  handle(SIGALRM, remind);
+  handle(SIGINT, note);
+  handle(SIGTERM, note);
+  if (!is_ignored(SIGHUP)) handle(SIGHUP, note);
+}
+
+void interrupt_quietly() { noted = output_lost = true; }
+
+bool interrupted() { return noted; }
+
+const std::atomic<bool>& interruption() { return noted; }
+
+bool forget_ctrl_c() {
+  int ctrl_c = SIGINT;
+  if (!noted_signal.compare_exchange_strong(ctrl_c, 0)) return false;
+  noted = output_lost.load();
+  alarm(0);
+  return true;
+}
+
+void print_interruption() {
+  if (noted_signal != 0) print_note("interrupted");
+}
+
+}  // namespace s7200::tools

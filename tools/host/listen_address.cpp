@@ -1,0 +1,45 @@
+#include "tools/host/listen_address.hpp"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+
+namespace s7200::tools {
+namespace {
+
+bool is_address(int family, const std::string& host) {
+  std::array<unsigned char, sizeof(in6_addr)> address{};
+  return inet_pton(family, host.c_str(), address.data()) == 1;
+}
+
+}  // namespace
+
+std::optional<ListenAddress> parse_listen_address(const std::string& text, std::string& why) {
+  ListenAddress address;
+  const std::size_t colon = text.rfind(':');
+  const std::string port = colon == std::string::npos ? text : text.substr(colon + 1);
+  std::string host = colon == std::string::npos ? "" : text.substr(0, colon);
+  if (host.size() >= 2 && host.front() == '[' && host.back() == ']') {
+    host = host.substr(1, host.size() - 2);
+    if (!is_address(AF_INET6, host)) why = fmt::format("'{}' is no IPv6 address", host);
+  } else if (host.find(':') != std::string::npos) {
+    why = fmt::format("write an IPv6 address in brackets, as [{}]:{}", host, port);
+  } else if (!host.empty() && !is_address(AF_INET, host)) {
+    why = fmt::format("'{}' is no IP address", host);
+  }
+  const char* const end = port.data() + port.size();
+  const auto read = std::from_chars(port.data(), end, address.port);
+  if (why.empty() && (read.ptr != end || read.ec != std::errc{})) why = fmt::format("'{}' is no port from 0 to 65535", port);
+  if (!why.empty()) return {};
+  if (!host.empty()) address.host = host;
+  return address;
+}
+
+std::string to_text(const ListenAddress& address) {
+  return address.host.find(':') == std::string::npos ? fmt::format("{}:{}", address.host, address.port)
+                                                     : fmt::format("[{}]:{}", address.host, address.port);
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,111 @@
+#include "tools/host/record_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <iostream>
+#include <streambuf>
+#include <utility>
+
+#include "tools/host/standard_streams.hpp"
+#include "tools/host/terminal.hpp"
+
+namespace s7200::tools {
+
+/// Writes to a descriptor until it takes no more.
+class RecordFile::Buffer final : public std::streambuf {
+ public:
+  explicit Buffer(int fd) : fd_(fd) { setp(bytes_.data(), bytes_.data() + bytes_.size()); }
+
+  /// 0 or why something could not be written.
+  int error() const { return error_; }
+
+ protected:
+  int_type overflow(int_type c) override {
+    if (sync() != 0) return traits_type::eof();
+    if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
+    return sputc(traits_type::to_char_type(c));
+  }
+
+  int sync() override {
+    if (error_ == 0) error_ = write_all(fd_, {pbase(), static_cast<std::size_t>(pptr() - pbase())});
+    setp(bytes_.data(), bytes_.data() + bytes_.size());
+    return error_ == 0 ? 0 : -1;
+  }
+
+ private:
+  int fd_;
+  int error_ = 0;
+  std::array<char, 65536> bytes_{};
+};
+
+namespace {
+
+/// A pipe or a device, which must be there; -1 and errno.
+int open_stream(const std::string& path) {
+  const int fd = open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  struct stat status {};
+  if (fd < 0 || fstat(fd, &status) != 0 || S_ISFIFO(status.st_mode) || S_ISCHR(status.st_mode)) return fd;
+  close(fd);
+  errno = EEXIST;
+  return -1;
+}
+
+}  // namespace
+
+RecordFile::RecordFile() = default;
+RecordFile::~RecordFile() = default;
+
+bool RecordFile::claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind) {
+  destination_.path = path;
+  if (path == "-") return true;
+  kind.record = true;
+  auto claimed = files.claim(option, path, std::move(kind), Replace::Own);
+  if (claimed) destination_ = std::move(*claimed);
+  return claimed.has_value();
+}
+
+bool RecordFile::check(int error) const {
+  if (error != 0) print_error(fmt::format("cannot write {}: {}", destination_.path, std::strerror(error)));
+  return error == 0;
+}
+
+std::ostream* RecordFile::open() {
+  if (destination_.path == "-") return &std::cout;
+  int error = 0;
+  if (!destination_.stream)
+    error = file_.create(destination_);
+  else if (const int fd = open_stream(destination_.path); fd >= 0)
+    file_.take(fd);
+  else
+    error = errno;
+  if (!check(error)) return nullptr;
+  buffer_ = std::make_unique<Buffer>(file_.fd());
+  stream_ = std::make_unique<std::ostream>(buffer_.get());
+  return stream_.get();
+}
+
+bool RecordFile::put() {
+  if (!buffer_) return true;
+  stream_->flush();
+  if (!check(buffer_->error())) return false;
+  return destination_.stream || check(file_.put(destination_));
+}
+
+bool RecordFile::close() {
+  if (!buffer_) return true;
+  stream_->flush();
+  int error = buffer_->error();
+  stream_.reset();
+  buffer_.reset();
+  if (const int at_close = file_.close(); error == 0) error = at_close;
+  if (error != 0) print_error(fmt::format("cannot write all of {}: {}", destination_.path, std::strerror(error)));
+  return error == 0;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,41 @@
+#include "tools/host/terminal.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "interpreter/base/text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// Of the streams of standard_streams.hpp, which have no descriptor of their own.
+bool is_terminal(std::FILE* stream) { return isatty(stream == stderr ? STDERR_FILENO : STDOUT_FILENO) != 0; }
+
+void print_message(std::string_view kind, std::string_view message) {
+  std::fflush(stdout);
+  fmt::print(stderr, "s7200: {}: {}\n", kind, stl::printable(message));
+}
+
+}  // namespace
+
+bool colour_wanted(std::FILE* stream) {
+  const char* no_color = std::getenv("NO_COLOR");
+  return is_terminal(stream) && !(no_color && *no_color);
+}
+
+bool can_redraw(std::FILE* stream) {
+  const char* type = std::getenv("TERM");
+  return is_terminal(stream) && type && *type && std::string_view(type) != "dumb";
+}
+
+void print_file(std::string_view text) {
+  fmt::print("{}", is_terminal(stdout) ? stl::printable_lines(text) : std::string(text));
+}
+
+void print_error(std::string_view message) { print_message("error", message); }
+
+void print_note(std::string_view message) { print_message("note", message); }
+
+}  // namespace s7200::tools

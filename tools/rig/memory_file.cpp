@@ -1,0 +1,188 @@
+#include "tools/rig/memory_file.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "interpreter/program/address.hpp"
+#include "interpreter/program/load.hpp"
+#include "tools/command/options/number_option.hpp"
+#include "tools/views/report.hpp"
+#include "tools/host/terminal.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kFormat = "s7200 memory 1";
+constexpr std::uint32_t kRow = 32;  // bytes
+
+/// As memory_to_json() writes it.
+std::string memory_beginning() { return fmt::format("{{\n  \"format\": \"{}\"", kFormat); }
+
+/// A part of memory that is kept: which addresses, and where its bytes are.
+struct Kept {
+  RetentiveRange range;
+  std::uint8_t* bytes;
+};
+
+std::vector<Kept> kept_in_ram(RetentiveMemory& memory, const CpuModel& model) {
+  std::vector<Kept> kept;
+  for (const RetentiveRange& range : model.retentive) kept.push_back({range, memory.image.data() + range.at()});
+  return kept;
+}
+
+std::vector<Kept> kept_in_eeprom(RetentiveMemory& memory, const CpuModel& model) {
+  return {{{Area::V, 0, model.eeprom_bytes}, memory.eeprom.data()}};
+}
+
+constexpr std::pair<const char*, std::uint8_t ClockTime::*> kClockFields[] = {
+    {"year", &ClockTime::year},      {"month", &ClockTime::month},   {"day", &ClockTime::day},
+    {"hour", &ClockTime::hour},      {"minute", &ClockTime::minute}, {"second", &ClockTime::second},
+    {"weekday", &ClockTime::weekday}};
+
+std::string name_of(const RetentiveRange& range, std::uint32_t byte) {
+  const bool numbered = info(range.area).element != 0;
+  const Width width = numbered ? Width::Word : Width::Byte;
+  return MemoryRange{.area = range.area, .width = width, .number = range.first + byte / info(range.area).step()}.name_of(0);
+}
+
+Json rows_of(const std::vector<Kept>& kept) {
+  Json rows = Json::object();
+  for (const auto& [range, bytes] : kept)
+    for (std::uint32_t from = 0; from < range.bytes(); from += kRow) {
+      const std::span<const std::uint8_t> row(bytes + from, std::min(kRow, range.bytes() - from));
+      if (std::any_of(row.begin(), row.end(), [](std::uint8_t byte) { return byte != 0; }))
+        rows[name_of(range, from)] = plain_hex(row);
+    }
+  return rows;
+}
+
+std::optional<std::uint8_t> hex_digit(char c) {
+  const std::size_t digit = std::string_view("0123456789abcdef").find(c);
+  if (digit == std::string_view::npos) return {};
+  return static_cast<std::uint8_t>(digit);
+}
+
+/// Takes one row over; what is wrong with it, or nothing.
+std::string take_row(const std::string& address, const std::string& hex, const std::vector<Kept>& kept,
+                     const CpuModel& model) {
+  std::string why;
+  const auto place = parse_range(address, model, why);
+  if (!place) return why;
+  if (place->width == Width::Bit || place->count != 1 || hex.size() % 2 != 0)
+    return fmt::format("'{}' has no whole bytes", address);
+  const std::uint64_t count = hex.size() / 2;
+  const auto part = std::find_if(kept.begin(), kept.end(), [&](const Kept& k) {
+    return k.range.area == place->area && place->at >= k.range.at() && place->at + count <= k.range.at() + k.range.bytes();
+  });
+  if (part == kept.end()) return fmt::format("the {} bytes from '{}' on are not kept by CPU {}", count, address, model.name);
+  std::uint8_t* to = part->bytes + (place->at - part->range.at());
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto high = hex_digit(hex[2 * i]), low = hex_digit(hex[2 * i + 1]);
+    if (!high || !low) return fmt::format("'{}' holds something else than lower-case hex", address);
+    to[i] = static_cast<std::uint8_t>(*high << 4 | *low);
+  }
+  return {};
+}
+
+std::string take_rows(const Json& rows, const std::vector<Kept>& kept, const CpuModel& model) {
+  for (const auto& [address, hex] : rows.get_ref<const Json::object_t&>())
+    if (std::string why = take_row(address, hex.get_ref<const std::string&>(), kept, model); !why.empty()) return why;
+  return {};
+}
+
+std::string take_clock(const Json& json, ClockTime& clock) {
+  for (const auto& [name, field] : kClockFields) {
+    const auto value = json.at(name).get<std::int64_t>();
+    if (value < 0 || value > 99) return fmt::format("the clock's {} is not 0 to 99", name);
+    clock.*field = static_cast<std::uint8_t>(value);
+  }
+  return {};
+}
+
+/// What is wrong, or nothing.
+std::string take(const Json& json, const CpuModel& model, RetentiveMemory& memory) {
+  if (json.value("format", "") != kFormat) return fmt::format("it is no memory of a CPU (no \"format\": \"{}\")", kFormat);
+  if (const auto cpu = json.at("cpu").get<std::string>(); cpu != model.name)
+    return fmt::format("it is the memory of a CPU {}, not of a CPU {}", cpu, model.name);
+  if (std::string why = take_clock(json.at("clock"), memory.clock); !why.empty()) return why;
+  if (std::string why = take_rows(json.at("ram"), kept_in_ram(memory, model), model); !why.empty()) return why;
+  return take_rows(json.at("eeprom"), kept_in_eeprom(memory, model), model);
+}
+
+}  // namespace
+
+std::string memory_to_json(const RetentiveMemory& memory, const CpuModel& model) {
+  RetentiveMemory copy = memory;
+  Json json{{"format", kFormat}, {"cpu", model.name}};
+  for (const auto& [name, field] : kClockFields) json["clock"][name] = memory.clock.*field;
+  json["ram"] = rows_of(kept_in_ram(copy, model));
+  json["eeprom"] = rows_of(kept_in_eeprom(copy, model));
+  return json.dump(2) + "\n";
+}
+
+std::optional<RetentiveMemory> memory_from_json(std::string_view text, const CpuModel& model, std::string& why) {
+  RetentiveMemory memory;
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) {
+    why = "it is no memory of a CPU (no JSON object)";
+    return {};
+  }
+  try {
+    why = take(json, model, memory);
+  } catch (const nlohmann::json::exception& error) {
+    why = fmt::format("it is damaged: {}", error.what());
+  }
+  if (!why.empty()) return {};
+  return memory;
+}
+
+void MemoryFile::add_to(CLI::App& app) {
+  auto* file =
+      app.add_option("--memory", path_,
+                     "retentive memory, EEPROM and clock: read from FILE at power-up if it exists, written at the end")
+          ->type_name("FILE");
+  auto* lost =
+      app.add_flag("--ram-lost", ram_lost_, "power was off too long: only the EEPROM of --memory is left, SM0.2 is 1");
+  auto* off = add_duration(app, "--power-off", power_off_, "how long power was off since --memory was written [0s]");
+  lost->needs(file);
+  off->needs(file)->excludes(lost);
+}
+
+bool MemoryFile::claim(WrittenFiles& files) {
+  if (path_.empty()) return true;
+  destination_ = files.claim("--memory", path_, {"a memory", memory_beginning()}, Replace::Judged);  // by read()
+  return destination_.has_value();
+}
+
+bool MemoryFile::read(const CpuModel& model) {
+  if (path_.empty()) return true;
+  if (destination_->replaced) {
+    std::string why;
+    const auto json = read_file(path_, why);
+    if (json) memory_ = memory_from_json(*json, model, why);
+    if (!memory_) {
+      print_error(fmt::format("cannot take --memory from {}: {}; it is left alone", path_, why));
+      return false;
+    }
+  } else if (ram_lost_) {
+    memory_.emplace();
+  }
+  if (memory_) {
+    memory_->ram_lost = ram_lost_;
+    memory_->power_off = power_off_;
+  }
+  return true;
+}
+
+bool MemoryFile::write(const Cpu& cpu) const {
+  if (path_.empty()) return true;
+  return write_result(*destination_, memory_to_json(cpu.retentive_memory(), *cpu.program().model));
+}
+
+}  // namespace s7200::tools

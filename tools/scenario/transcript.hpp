@@ -1,0 +1,26 @@
+// A run written down as a scenario: a transcript, which replayed must give the same again.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/scenario/report.hpp"
+
+namespace s7200::tools {
+
+struct Transcript {
+  std::string path{};           ///< of the file to be: paths in it are relative to its folder
+  std::string recorded_from{};  ///< what answered, for the heading
+  Time tolerance = 0;           ///< 0 for programs: their times are exact
+  bool live = false;            ///< from a slave that is no program
+};
+
+/// Every request as it was sent, when, what came and after how long, and what was done to the plant in between.
+/// From a slave that is no program, the pauses between exchanges stand for the instants, and nothing is written of the
+/// inside of a PLC that was not reached: so that it can be replayed there and in simulation. Replayed on the same program
+/// the transcript gives the same bit by bit and to the nanosecond.
+inline constexpr std::string_view kTranscriptBeginning = "# Recorded from";
+std::string transcript_text(const std::vector<Report>& reports, const Transcript& transcript);
+
+}  // namespace s7200::tools

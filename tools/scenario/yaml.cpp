@@ -1,0 +1,288 @@
+#include "tools/scenario/yaml.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "interpreter/base/text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// Nothing more can be made of the text.
+struct Unreadable {
+  stl::Diagnostic diagnostic;
+};
+
+/// yaml-cpp counts from 0, and bytes.
+stl::Position place(const YAML::Mark& mark, const stl::Source& source) {
+  if (mark.is_null()) return {};
+  const auto line = static_cast<std::size_t>(std::max(0, mark.line));
+  const auto bytes = static_cast<std::size_t>(std::max(0, mark.column));
+  if (line >= source.text.size()) return {static_cast<std::uint32_t>(source.text.size()), 0, 1};
+  const std::size_t column = stl::count_characters(std::string_view(source.text[line]).substr(0, bytes));
+  return {static_cast<std::uint32_t>(line + 1), static_cast<std::uint32_t>(column + 1), 1};
+}
+
+// --- what the parser complains about ---
+
+constexpr std::string_view kNoAliases = "anchors and aliases (& and *) have no place in a scenario";
+constexpr std::string_view kNoTags = "tags (!) have no place in a scenario";
+constexpr std::string_view kRepeat = "repeat steps with 'for:' or 'repeat:'";
+constexpr std::string_view kQuoteIt = "put the text in quotation marks";
+constexpr std::string_view kCloseQuotation = "put the same mark after the text; it may not stand inside it";
+constexpr std::string_view kNotOfIt = "this does not belong to the map or list before it";
+constexpr std::string_view kIndentAlike =
+    "the keys of one map, and the '-' of one list, stand below each other; nothing follows a closing quotation mark";
+
+/// Words of yaml-cpp, or how they begin, and ours.
+struct Complaint {
+  std::string_view parser, message, hint;
+};
+const Complaint kComplaints[] = {
+    {YAML::ErrorMsg::MAP_VALUE, "no key can stand here; ': ' makes one of what is before it",
+     "a text with ': ' in it needs quotation marks; a key begins a line, indented as those of the same map"},
+    {YAML::ErrorMsg::BLOCK_ENTRY, "no list can begin here; '- ' begins one", "begin it on a line of its own, below its key"},
+    {YAML::ErrorMsg::MAP_KEY, "no key can stand here; '? ' begins one", kQuoteIt},
+    {YAML::ErrorMsg::END_OF_MAP_FLOW, "a { that is never closed", "put a } after the last value"},
+    {YAML::ErrorMsg::END_OF_SEQ_FLOW, "a [ that is never closed", "put a ] after the last value"},
+    {YAML::ErrorMsg::END_OF_MAP, kNotOfIt, kIndentAlike},
+    {YAML::ErrorMsg::END_OF_SEQ, kNotOfIt, kIndentAlike},
+    {YAML::ErrorMsg::FLOW_END, "this closes nothing that is open here", "each [ has its ], each { its }"},
+    {YAML::ErrorMsg::UNKNOWN_TOKEN, "no text begins with this sign unless it is in quotation marks", kQuoteIt},
+    {YAML::ErrorMsg::EOF_IN_SCALAR, "a quotation that is never closed", kCloseQuotation},
+    {YAML::ErrorMsg::DOC_IN_SCALAR, "a quotation that is never closed", kCloseQuotation},
+    {YAML::ErrorMsg::INVALID_ESCAPE, "not an escape of YAML, which reads \\ in double quotation marks",
+     "single quotation marks leave the \\ alone: 'HELLO\\r'"},
+    {YAML::ErrorMsg::INVALID_HEX, "two hex digits belong after \\x, four after \\u",
+     "single quotation marks leave the \\ alone: 'HELLO\\r'"},
+    {YAML::ErrorMsg::INVALID_UNICODE, "there is no such character", "write another number after the \\"},
+    {YAML::ErrorMsg::ZERO_INDENT_IN_BLOCK, "the indentation of a block is 1 to 9", "write | or > alone"},
+    {YAML::ErrorMsg::CHAR_IN_BLOCK, "nothing but 1 to 9, + and - follows | or >", "begin the text on the next line"},
+    {YAML::ErrorMsg::ANCHOR_NOT_FOUND, kNoAliases, kQuoteIt},
+    {YAML::ErrorMsg::ALIAS_NOT_FOUND, kNoAliases, kQuoteIt},
+    {YAML::ErrorMsg::UNKNOWN_ANCHOR, kNoAliases, kRepeat},
+    {YAML::ErrorMsg::CHAR_IN_ANCHOR, kNoAliases, kQuoteIt},
+    {YAML::ErrorMsg::CHAR_IN_ALIAS, kNoAliases, kQuoteIt},
+    {YAML::ErrorMsg::MULTIPLE_ANCHORS, kNoAliases, kRepeat},
+    {YAML::ErrorMsg::ALIAS_CONTENT, kNoAliases, kRepeat},
+    {YAML::ErrorMsg::CHAR_IN_TAG_HANDLE, kNoTags, kQuoteIt},
+    {YAML::ErrorMsg::TAG_WITH_NO_SUFFIX, kNoTags, kQuoteIt},
+    {YAML::ErrorMsg::END_OF_VERBATIM_TAG, kNoTags, kQuoteIt},
+    {YAML::ErrorMsg::MULTIPLE_TAGS, kNoTags, kQuoteIt},
+    {YAML::ErrorMsg::YAML_DIRECTIVE_ARGS, "directives (%) have no place in a scenario", "leave the line out"},
+    {YAML::ErrorMsg::YAML_VERSION, "directives (%) have no place in a scenario", "leave the line out"},
+    {YAML::ErrorMsg::YAML_MAJOR_VERSION, "directives (%) have no place in a scenario", "leave the line out"},
+    {YAML::ErrorMsg::REPEATED_YAML_DIRECTIVE, "directives (%) have no place in a scenario", "leave the line out"},
+    {YAML::ErrorMsg::TAG_DIRECTIVE_ARGS, "directives (%) have no place in a scenario", "leave the line out"},
+    {YAML::ErrorMsg::REPEATED_TAG_DIRECTIVE, "directives (%) have no place in a scenario", "leave the line out"},
+};
+
+/// The tab in the indentation of a line, from 1; 0 if there is none. The '-' of lists is part of it.
+std::uint32_t column_of_tab(std::string_view line) {
+  const std::size_t tab = line.substr(0, line.find_first_not_of(" \t-")).find('\t');
+  return tab == std::string_view::npos ? 0 : static_cast<std::uint32_t>(tab + 1);
+}
+
+stl::Diagnostic to_diagnostic(const YAML::Exception& error, const stl::Source& source) {
+  stl::Diagnostic diagnostic{stl::Severity::Error, place(error.mark, source), "", ""};
+  const std::uint32_t line = diagnostic.position.line;
+  const bool in_text = line > 0 && line <= source.text.size();
+  if (const std::uint32_t tab = in_text ? column_of_tab(source.text[line - 1]) : 0; tab != 0) {
+    diagnostic.position = {line, tab, 1};
+    diagnostic.message = "a tab in the indentation: YAML takes blanks only";
+    diagnostic.hint = "replace the tabs by blanks; most editors do so for a whole file";
+    return diagnostic;
+  }
+  for (const Complaint& complaint : kComplaints)
+    if (std::string_view(error.msg).starts_with(complaint.parser)) {
+      diagnostic.message = complaint.message;
+      diagnostic.hint = complaint.hint;
+      return diagnostic;
+    }
+  diagnostic.message = "not YAML: " + error.msg;
+  diagnostic.hint = "compare the line with the examples in the description of the format";
+  return diagnostic;
+}
+
+class TreeBuilder final : public YAML::EventHandler {
+ public:
+  TreeBuilder(const stl::Source& source, stl::Diagnostics& diagnostics) : source_(source), diagnostics_(diagnostics) {}
+
+  std::optional<YamlNode> take() { return std::move(root_); }
+
+  /// Of the map or list that is being read; none at the top.
+  std::optional<stl::Position> innermost() const {
+    return open_.empty() ? std::nullopt : std::optional(open_.back().node.position);
+  }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { scalar(mark, "", anchor, ""); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { no_aliases(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, const std::string& value) override {
+    scalar(mark, tag, anchor, value);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    begin(YamlNode::Kind::List, mark, tag, anchor);
+  }
+  void OnSequenceEnd() override { end(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    begin(YamlNode::Kind::Map, mark, tag, anchor);
+  }
+  void OnMapEnd() override { end(); }
+
+ private:
+  struct Open {
+    YamlNode node;
+    bool key_next = true;  ///< of a map
+  };
+
+  [[noreturn]] void fail(const YAML::Mark& mark, std::string message, std::string hint) const {
+    throw Unreadable{{stl::Severity::Error, place(mark, source_), std::move(message), std::move(hint)}};
+  }
+  [[noreturn]] void no_aliases(const YAML::Mark& mark) const { fail(mark, std::string(kNoAliases), std::string(kRepeat)); }
+
+  void look_at(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
+    if (anchor != 0) no_aliases(mark);
+    if (!tag.empty() && tag != "?" && tag != "!")
+      fail(mark, std::string(kNoTags), "put quotation marks around a text that begins with !");
+    if (++nodes_ > kMostYamlNodes)
+      fail(mark, fmt::format("more than {} values in one file", kMostYamlNodes), "divide it into several files");
+  }
+
+  void scalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, const std::string& value) {
+    look_at(mark, tag, anchor);
+    YamlNode node{.position = place(mark, source_), .text = value};
+    if (tag == "!" && !is_closed(node.position))
+      fail(mark, "a quotation that is never closed", std::string(kCloseQuotation));
+    node.position.length = underline(node);
+    add(std::move(node));
+  }
+
+  /// The parser takes the end of the file for the end of a quotation.
+  bool is_closed(const stl::Position& begin) const {
+    if (begin.column == 0) return true;
+    std::size_t line = begin.line - 1;
+    std::string_view rest = source_.text[line];
+    for (std::uint32_t column = 1; column < begin.column; ++column) rest.remove_prefix(stl::first_character(rest).bytes);
+    const char mark = rest.empty() ? ' ' : rest.front();
+    if (mark != '\'' && mark != '"') return true;
+    for (rest.remove_prefix(1);; rest = source_.text[line]) {
+      for (std::size_t i = 0; i < rest.size(); ++i) {
+        if (mark == '"' && rest[i] == '\\')
+          ++i;
+        else if (rest[i] == mark && mark == '\'' && i + 1 < rest.size() && rest[i + 1] == mark)
+          ++i;
+        else if (rest[i] == mark)
+          return true;
+      }
+      if (++line == source_.text.size()) return false;
+    }
+  }
+
+  /// As many characters as stand there, as far as they do.
+  std::uint32_t underline(const YamlNode& node) const {
+    if (node.position.column == 0) return 1;
+    const std::size_t rest = stl::count_characters(source_.text[node.position.line - 1]) - (node.position.column - 1);
+    return static_cast<std::uint32_t>(
+        std::clamp<std::size_t>(stl::count_characters(node.text), 1, std::max<std::size_t>(1, rest)));
+  }
+
+  void begin(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
+    look_at(mark, tag, anchor);
+    if (open_.size() == kDeepestYaml)
+      fail(mark, fmt::format("more than {} maps and lists inside each other", kDeepestYaml), "");
+    open_.push_back({.node = {.kind = kind, .position = place(mark, source_)}});
+  }
+  void end() {
+    YamlNode node = std::move(open_.back().node);
+    open_.pop_back();
+    add(std::move(node));
+  }
+
+  void add(YamlNode node) {
+    if (open_.empty()) {
+      root_ = std::move(node);
+      return;
+    }
+    Open& parent = open_.back();
+    if (parent.node.is_list()) {
+      parent.node.items.push_back(std::move(node));
+    } else if (std::exchange(parent.key_next, !parent.key_next)) {
+      add_key(parent.node, std::move(node));
+    } else {
+      parent.node.items.push_back(std::move(node));
+    }
+  }
+
+  void add_key(YamlNode& map, YamlNode key) {
+    if (!key.is_scalar() || key.text.empty())
+      throw Unreadable{{stl::Severity::Error, key.position, "a key is a word, not " + to_text(key), ""}};
+    if (map.keys.size() == kMostYamlKeys)
+      throw Unreadable{{stl::Severity::Error, key.position, fmt::format("more than {} keys in one map", kMostYamlKeys), ""}};
+    const auto same = std::find_if(map.keys.begin(), map.keys.end(), [&](const YamlNode& k) { return k.text == key.text; });
+    if (same != map.keys.end())
+      diagnostics_.push_back(
+          {stl::Severity::Error, key.position,
+           fmt::format("'{}' stands here a second time, first in line {}", stl::shortened(key.text), same->position.line),
+           "a key may stand once in a map; what is to be done several times is a list"});
+    map.keys.push_back(std::move(key));
+  }
+
+  const stl::Source& source_;
+  stl::Diagnostics& diagnostics_;
+  std::vector<Open> open_;
+  std::optional<YamlNode> root_;
+  std::size_t nodes_ = 0;
+};
+
+}  // namespace
+
+const YamlNode* YamlNode::find(std::string_view key) const {
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    if (keys[i].text == key) return &items[i];
+  return nullptr;
+}
+
+std::string to_text(const YamlNode& node) {
+  if (node.is_map()) return "a map";
+  if (node.is_list()) return "a list";
+  return node.text.empty() ? "nothing" : fmt::format("'{}'", stl::shortened(node.text));
+}
+
+std::optional<YamlNode> read_yaml(const std::string& text, const stl::Source& source, stl::Diagnostics& diagnostics) {
+  const auto fail = [&](stl::Diagnostic diagnostic) {
+    diagnostics.push_back(std::move(diagnostic));
+    return std::nullopt;
+  };
+  if (text.size() > kLongestYaml)
+    return fail(
+        {stl::Severity::Error, {}, fmt::format("longer than {} bytes", kLongestYaml), "divide it into several files"});
+  if (!stl::is_valid_utf8(text)) return fail({stl::Severity::Error, {}, "not UTF-8 text", "save it as UTF-8"});
+  TreeBuilder builder(source, diagnostics);
+  try {
+    std::istringstream in(text);
+    YAML::Parser parser(in);
+    if (!parser.HandleNextDocument(builder))
+      return fail({stl::Severity::Error, {}, "nothing in it", "a scenario has at least 'program:' and 'steps:'"});
+    std::optional<YamlNode> root = builder.take();
+    if (parser.HandleNextDocument(builder))
+      return fail({stl::Severity::Error, builder.take()->position, "a second document", "one document (---) in a file"});
+    return root;
+  } catch (const Unreadable& unreadable) {
+    return fail(unreadable.diagnostic);
+  } catch (const YAML::Exception& error) {
+    stl::Diagnostic diagnostic = to_diagnostic(error, source);
+    const bool at_the_end = diagnostic.position.column == 0;
+    if (const auto open = builder.innermost(); open && at_the_end) diagnostic.position = *open;
+    return fail(std::move(diagnostic));
+  }
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,44 @@
+// A YAML text as a plain tree in which everything knows its place.
+//
+// What scenarios need of YAML: maps, lists and scalars, in block or flow form. No anchors and aliases (a few lines of them
+// can stand for gigabytes), no tags, one document in a file, every key once. Size, nesting and number of nodes are bounded.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/base/diagnostic.hpp"
+
+namespace s7200::tools {
+
+struct YamlNode {
+  enum class Kind : std::uint8_t { Scalar, List, Map };
+
+  Kind kind = Kind::Scalar;
+  stl::Position position{};
+  std::string text{};             ///< of a scalar, without quotes; empty if nothing was written
+  std::vector<YamlNode> keys{};   ///< of a map: scalars, all different, as many as items
+  std::vector<YamlNode> items{};  ///< of a list, or the values of a map
+
+  bool is_scalar() const { return kind == Kind::Scalar; }
+  bool is_list() const { return kind == Kind::List; }
+  bool is_map() const { return kind == Kind::Map; }
+
+  /// The value of a map's key; null when there is none.
+  const YamlNode* find(std::string_view key) const;
+};
+
+/// For messages: "a map", "a list", "'text'".
+std::string to_text(const YamlNode& node);
+
+inline constexpr std::size_t kLongestYaml = 1 << 20;  ///< bytes
+inline constexpr int kDeepestYaml = 24;               ///< maps and lists inside each other
+inline constexpr std::size_t kMostYamlKeys = 500;     ///< in one map
+inline constexpr std::size_t kMostYamlNodes = 100'000;
+
+/// Nothing, and errors, for what is no such YAML.
+std::optional<YamlNode> read_yaml(const std::string& text, const stl::Source& source, stl::Diagnostics& diagnostics);
+
+}  // namespace s7200::tools

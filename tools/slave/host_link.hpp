@@ -1,0 +1,102 @@
+// Characters to and from a slave outside this process, over a serial device or a TCP connection.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "interpreter/base/time.hpp"
+#include "tools/host/serial_device.hpp"
+
+namespace s7200::tools {
+
+/// Nanoseconds of a host clock that is never set.
+Time host_time();
+
+/// The link is closed when one of these throws: SlaveUnreachable, the other side is not there; SlaveLost, no longer there.
+class HostLink {
+ public:
+  using Character = SerialDevice::Character;
+
+  virtual ~HostLink() = default;
+
+  /// Begins anew, if it was open.
+  virtual void open() = 0;
+  virtual void close() = 0;
+  virtual bool is_open() const = 0;
+
+  /// `/dev/ttyUSB0 9600 8E1`, `127.0.0.1:502`
+  virtual std::string name() const = 0;
+
+  /// 0 where characters take no time of their own.
+  virtual Time character_time() const = 0;
+
+  /// Appends what has come in; never waits.
+  virtual void read(std::vector<Character>& characters) = 0;
+
+  /// All of them. A side that takes none for 5 s counts as gone. Ctrl-C is heard.
+  void write(std::span<const std::uint8_t> bytes);
+
+  /// Waits for input, or the end of the connection, until that time of the host; Ctrl-C is heard. Whether there is any.
+  bool wait_for_input(Time until) const;
+
+ protected:
+  virtual int fd() const = 0;
+
+  /// How many were taken; 0 when none can be just now.
+  virtual std::size_t write_some(std::span<const std::uint8_t> bytes) = 0;
+};
+
+/// Sleeps, unless Ctrl-C comes, until that time of the host.
+void sleep_until(Time until);
+
+class SerialLink final : public HostLink {
+ public:
+  SerialLink(std::string path, const SerialFormat& format);
+
+  void open() override;
+  void close() override { device_.reset(); }
+  bool is_open() const override { return device_ != nullptr; }
+  std::string name() const override;
+  Time character_time() const override { return format_.character_time(); }
+  void read(std::vector<Character>& characters) override;
+
+ private:
+  int fd() const override { return device_->fd(); }
+  std::size_t write_some(std::span<const std::uint8_t> bytes) override;
+  [[noreturn]] void gone(const std::string& why);
+
+  std::string path_;
+  SerialFormat format_;
+  std::unique_ptr<SerialDevice> device_;
+};
+
+class TcpLink final : public HostLink {
+ public:
+  /// A name or address, and a port by number or name.
+  TcpLink(std::string host, std::string port);
+  ~TcpLink() override { close(); }
+  TcpLink(const TcpLink&) = delete;
+  TcpLink& operator=(const TcpLink&) = delete;
+
+  /// Tries each address of the host for 5 s.
+  void open() override;
+  void close() override;
+  bool is_open() const override { return fd_ >= 0; }
+  std::string name() const override;
+  Time character_time() const override { return 0; }
+  void read(std::vector<Character>& characters) override;
+
+ private:
+  int fd() const override { return fd_; }
+  std::size_t write_some(std::span<const std::uint8_t> bytes) override;
+  [[noreturn]] void gone(const std::string& why);
+
+  std::string host_, port_;
+  int fd_ = -1;
+};
+
+}  // namespace s7200::tools

@@ -1,0 +1,69 @@
+#include "tools/slave/simulated_slave.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+#include "tools/host/interruption.hpp"
+#include "tools/host/terminal.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr Time kReadyWithin = 60 * kSecond;
+
+/// False when the CPU is in STOP, where no program runs on, or after Ctrl-C.
+bool run_until(serial::Simulation& simulation, Time end) { return simulation.run_until(end) == serial::Halt::Time; }
+
+}  // namespace
+
+SimulatedSlave::SimulatedSlave(serial::Simulation& simulation, const MasterOptions& master, std::string name)
+    : simulation_(simulation), master_(master), name_(std::move(name)) {
+  simulation_.let_master_follow([line = LineOptions(master)](const SerialFormat& port) { return line.format_over(port); });
+}
+
+bool SimulatedSlave::get_ready(Time limit) {
+  return simulation_.run_until_ready([this] { return pause(); }, limit);
+}
+
+bool SimulatedSlave::wait_until_ready(Time after) {
+  const bool ready = after == kNever ? get_ready(kReadyWithin) : run_until(simulation_, after);
+  const State& state = simulation_.cpu().state();
+  if (ready && !state.port[0].active)
+    fmt::print(stderr, "s7200: note: the program has not switched port 0 to Freeport mode (SMB30 = 16#{:02X})\n",
+               state.image[sm::kPort0Control]);
+  if (!ready && after == kNever && state.mode == Mode::Run && !interrupted())
+    print_error(
+        fmt::format("the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
+                    "sends all the same",
+                    format_duration(pause()), format_duration(kReadyWithin)));
+  return ready;
+}
+
+serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
+  const SerialFormat format = master_.format_for(simulation_);
+  if (modbus::has_wrong_parity(request.frame) && format.parity == Parity::None)
+    throw std::invalid_argument("a byte with wrong parity (p) needs a format with parity");
+  remark_ = ignored_text(serial::bytes_of(simulation_.master().heard()));
+  simulation_.master_uart().configure(format);
+  simulation_.master().start(request, simulation_.time());
+  serial::Exchange exchange = simulation_.finish_exchange();
+  if (simulation_.master().busy()) exchange.timed_out = exchange.response.empty();  // after Ctrl-C
+  if (const SerialFormat now = master_.format_for(simulation_); now != format) simulation_.master_uart().configure(now);
+  return exchange;
+}
+
+serial::Exchange SimulatedSlave::receive(const serial::Listening& listening) {
+  remark_.clear();
+  simulation_.master().listen(listening, simulation_.time());
+  serial::Exchange exchange = simulation_.finish_exchange();
+  if (simulation_.master().busy()) exchange.timed_out = exchange.response.empty();
+  return exchange;
+}
+
+void SimulatedSlave::wait(Time duration) { run_until(simulation_, simulation_.time() + duration); }
+
+Time SimulatedSlave::pause() const { return serial::Simulation::default_quiet(master_.format_for(simulation_)); }
+
+}  // namespace s7200::tools

@@ -1,0 +1,46 @@
+// The slave that a program is, in simulation.
+#pragma once
+
+#include <string>
+
+#include "tools/command/options/master_options.hpp"
+#include "tools/slave/slave.hpp"
+
+namespace s7200::tools {
+
+/// Time passes only while it is used. The master's format follows the port of the program, as far as the options leave it
+/// open, but not within an exchange.
+class SimulatedSlave final : public Slave {
+ public:
+  /// The simulation is not owned and has been powered up. `name` is its program's.
+  SimulatedSlave(serial::Simulation& simulation, const MasterOptions& master, std::string name);
+
+  /// Runs until the first scan has ended and the line has been quiet for pause(). False if that has not come by `limit`, or
+  /// the CPU stopped.
+  bool get_ready(Time limit);
+
+  /// Runs until the first scan has ended and the line has been quiet for as long as a master leaves it, or until `after` if
+  /// that is not kNever. False when the CPU stopped, after Ctrl-C, and after a message when the moment never comes. A port
+  /// that is not in Freeport mode by then is worth a note.
+  bool wait_until_ready(Time after = kNever);
+
+  /// On a CPU in STOP too. After Ctrl-C what there was of it, and the next one cannot begin any more. Throws
+  /// std::invalid_argument for a byte with wrong parity in a format without.
+  serial::Exchange exchange(const serial::Request& request) override;
+  serial::Exchange receive(const serial::Listening& listening) override;
+  void wait(Time duration) override;
+  Time now() const override { return simulation_.time(); }
+  std::string name() const override { return name_; }
+  std::string remark() const override { return remark_; }
+
+  /// What a master leaves between an answer and its next request, in the format of now.
+  Time pause() const override;
+
+ private:
+  serial::Simulation& simulation_;
+  MasterOptions master_;
+  std::string name_;
+  std::string remark_;
+};
+
+}  // namespace s7200::tools

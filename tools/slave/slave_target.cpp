@@ -1,0 +1,86 @@
+#include "tools/slave/slave_target.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <filesystem>
+
+#include "tools/slave/host_slave.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr std::string_view kTcp = "tcp://", kModbusTcp = "modbus-tcp://";
+constexpr const char* kModbusPort = "502";  // Modbus Messaging on TCP/IP, 2.1
+
+void split(const std::string& text, std::string_view address, SlaveTarget& target) {
+  std::string_view rest = address;
+  if (!rest.empty() && rest.front() == '[') {
+    const std::size_t end = rest.find(']');
+    if (end == std::string_view::npos) throw std::invalid_argument(fmt::format("'{}': ']' is missing", text));
+    target.host = rest.substr(1, end - 1);
+    rest.remove_prefix(end + 1);
+  } else {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    target.host = rest.substr(0, end);
+    rest.remove_prefix(end);
+  }
+  if (!rest.empty() && rest.front() == ':') target.port = rest.substr(1);
+  const bool port_wanted = !rest.empty() || target.kind == SlaveTarget::Kind::Tcp;
+  if (target.host.empty() || (port_wanted && target.port.empty()) || target.port.find(':') != std::string::npos)
+    throw std::invalid_argument(
+        fmt::format("'{}' is no address; write for example tcp://192.168.0.5:4001 or "
+                    "modbus-tcp://192.168.0.5, an IPv6 address as [::1]",
+                    text));
+  if (!port_wanted) target.port = kModbusPort;
+  const bool number = target.port.find_first_not_of("0123456789") == std::string::npos;
+  if (number && (target.port.size() > 5 || std::stoi(target.port) < 1 || std::stoi(target.port) > 65535))
+    throw std::invalid_argument(fmt::format("'{}': ports are 1 to 65535", text));
+}
+
+}  // namespace
+
+SlaveTarget parse_slave_target(const std::string& text) {
+  SlaveTarget target;
+  if (text.starts_with(kTcp)) {
+    target.kind = SlaveTarget::Kind::Tcp;
+    split(text, std::string_view(text).substr(kTcp.size()), target);
+  } else if (text.starts_with(kModbusTcp)) {
+    target.kind = SlaveTarget::Kind::ModbusTcp;
+    split(text, std::string_view(text).substr(kModbusTcp.size()), target);
+  } else if (text.find("://") != std::string::npos) {
+    throw std::invalid_argument(
+        fmt::format("'{}': there is no such way to a slave; write {}HOST:PORT or {}HOST:PORT", text, kTcp, kModbusTcp));
+  } else {
+    std::error_code error;
+    const bool device = text.starts_with("/dev/tty") || std::filesystem::is_character_file(text, error);
+    target.kind = device ? SlaveTarget::Kind::Device : SlaveTarget::Kind::Program;
+    target.path = text;
+  }
+  return target;
+}
+
+std::string slave_targets_help() {
+  return "Targets:\n"
+         "  PROGRAM                               an STL file or document, in simulation; - is standard input\n"
+         "  /dev/ttyUSB0, or a pty by its link    Modbus RTU, 9600 8E1 unless --baud and the others say otherwise\n"
+         "  tcp://HOST:PORT                       Modbus RTU over TCP, as serial servers offer it\n"
+         "  modbus-tcp://HOST[:PORT]              Modbus TCP, port 502 unless one is given\n";
+}
+
+std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format) {
+  switch (target.kind) {
+    case SlaveTarget::Kind::Program:
+      break;
+    case SlaveTarget::Kind::Device:
+      return std::make_unique<RtuSlave>(target.path, format);
+    case SlaveTarget::Kind::Tcp:
+      return std::make_unique<RtuSlave>(target.host, target.port);
+    case SlaveTarget::Kind::ModbusTcp:
+      return std::make_unique<ModbusTcpSlave>(target.host, target.port);
+  }
+  assert(false);
+  return nullptr;
+}
+
+}  // namespace s7200::tools

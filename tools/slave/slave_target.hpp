@@ -1,0 +1,34 @@
+// Where a slave is, as people write it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "interpreter/base/serial_format.hpp"
+#include "tools/slave/slave.hpp"
+
+namespace s7200::tools {
+
+struct SlaveTarget {
+  enum class Kind : std::uint8_t {
+    Program,    ///< a PROGRAM to be run in simulation: whatever is none of the others
+    Device,     ///< a character device, or a link to one: a pty; whatever begins with /dev/tty
+    Tcp,        ///< tcp://HOST:PORT, Modbus RTU frames over TCP
+    ModbusTcp,  ///< modbus-tcp://HOST[:PORT], port 502 if none is given
+  };
+
+  Kind kind = Kind::Program;
+  std::string path;        ///< of a program or device
+  std::string host, port;  ///< an IPv6 address without its brackets
+};
+
+/// Throws std::invalid_argument for an address without host or port, and for a scheme that is neither.
+SlaveTarget parse_slave_target(const std::string& text);
+
+/// The four, one a line, for --help.
+std::string slave_targets_help();
+
+/// Connects to a target that is no program; `format` is for devices. Throws SlaveUnreachable.
+std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format);
+
+}  // namespace s7200::tools

@@ -1,0 +1,215 @@
+#include "tools/views/instruction_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "interpreter/program/operands.hpp"
+#include "interpreter/base/text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr std::string_view kLetter[] = {"", "B", "W", "D"};
+
+std::string area_text(const AreaInfo& area, Width width) {
+  if (area.element != 0 || width == Width::Bit) return std::string(area.name);
+  return fmt::format("{}{}", area.name, kLetter[static_cast<std::size_t>(width)]);
+}
+
+std::string_view number_text(OperandKind kind) {
+  switch (kind) {
+    case OperandKind::Label:
+      return "number of a label";
+    case OperandKind::Subroutine:
+      return "number of a subroutine";
+    case OperandKind::Interrupt:
+      return "number of an interrupt routine";
+    case OperandKind::Event:
+      return "number of an event";
+    case OperandKind::Port:
+      return "number of a port";
+    case OperandKind::Counter:
+      return "number of a high-speed counter";
+    default:
+      return "a number";
+  }
+}
+
+/// An operand for the example; `i` keeps the operands of one statement apart.
+std::string sample(const OperandRule& rule, std::size_t i) {
+  switch (rule.kind) {
+    case OperandKind::Memory:
+      break;
+    case OperandKind::Event:
+      return "10";
+    case OperandKind::Port:
+    case OperandKind::Number:
+      return "0";
+    default:
+      return "1";
+  }
+  if (rule.timer == TimerKind::OnDelay) return "T37";
+  if (rule.timer == TimerKind::Retentive) return "T5";
+  if (rule.areas == set_of(Area::C)) return "C1";
+  if (rule.width == Width::Bit) {
+    if (!contains(rule.areas, Area::I)) return contains(rule.areas, Area::Q) ? "Q0.0" : "S0.1";
+    return rule.role == Role::In ? "I0.0" : "Q0.0";
+  }
+  if (rule.count) return "4";
+  for (const std::string_view number : {"N", "PT", "PV", "FINAL"})
+    if (rule.name == number) return "4";
+  if (rule.name == "INIT") return "1";
+  return fmt::format("V{}{}", kLetter[static_cast<std::size_t>(rule.width)], 100 * (i + 1));
+}
+
+std::string constant_text(const OperandRule& rule) {
+  if (rule.real) return "real constant";
+  if (rule.min == std::numeric_limits<std::int64_t>::min())
+    return rule.sign == Sign::Either ? "constant" : rule.sign == Sign::Signed ? "signed constant" : "unsigned constant";
+  return fmt::format("constant {}…{}{}", rule.min, rule.max, rule.not_zero ? " but 0" : "");
+}
+
+std::string ranges_text(const OperandRule& rule, const CpuModel& model) {
+  std::vector<std::string> ranges;
+  for (const AreaInfo& area : all_areas())
+    if (contains(rule.areas, area.area) && model.size_of(area.area) != 0)
+      ranges.push_back(range_text(model, area.area, rule.width));
+  return fmt::format("{}", fmt::join(ranges, ", "));
+}
+
+std::vector<const TimeRow*> times_of(const TimeTable& times, const Instruction& instruction) {
+  std::vector<const TimeRow*> rows;
+  for (const TimeRow& row : times.rows())
+    if (std::find(row.mnemonics.begin(), row.mnemonics.end(), instruction.mnemonic) != row.mnemonics.end())
+      rows.push_back(&row);
+  return rows;
+}
+
+std::string markdown_row(const Instruction& instruction, const TimeTable& times) {
+  std::vector<std::string> operands;
+  for (const OperandRule& rule : instruction.rules())
+    operands.push_back(fmt::format("**{}**: {}", rule.name, operand_text(rule)));
+  const TimeRow* row = typical_time(times, instruction);
+  return fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", syntax(instruction), instruction.meaning,
+                     fmt::join(operands, "<br>"), flags_text(instruction), instruction.needs_power_flow ? "needed" : "",
+                     row ? time_text(*row) : "", to_text(instruction.cpus));
+}
+
+std::string area_table() {
+  std::string text = "| area |";
+  std::string rule = "|---|";
+  for (const CpuModel* model : all_cpus()) {
+    text += fmt::format(" CPU {} |", model->name);
+    rule += "---|";
+  }
+  text += "\n" + rule + "\n";
+  for (const AreaInfo& area : all_areas()) {
+    text += fmt::format("| {} ({}) |", area.name, area.meaning);
+    for (const CpuModel* model : all_cpus()) {
+      const Width width = area.area == Area::AI || area.area == Area::AQ ? Width::Word : Width::Byte;
+      text += fmt::format(" {} |", range_text(*model, area.area, width));
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string time_text(const TimeRow& row) {
+  return in_microseconds(row.base) + (row.per_unit ? fmt::format(" + {}/{}", in_microseconds(row.per_unit), row.unit) : "");
+}
+
+const TimeRow* typical_time(const TimeTable& times, const Instruction& instruction) {
+  for (const Area area : {Area::V, Area::Q, Area::I})
+    if (const TimeRow* row = times.find(instruction.mnemonic, area)) return row;
+  return nullptr;
+}
+
+std::string flags_text(const Instruction& instruction) {
+  std::vector<std::string> flags;
+  for (int bit = 0; bit < 8; ++bit)
+    if (instruction.flags & (1 << bit)) flags.push_back(fmt::format("SM1.{}", bit));
+  return flags.empty() ? "none" : fmt::format("{}", fmt::join(flags, " "));
+}
+
+std::string parts_text(const Instruction& instruction) {
+  std::vector<std::string_view> parts;
+  if (instruction.allowed == kAnywhere) {
+    parts.push_back("anywhere");
+  } else {
+    if (instruction.allowed & kMain) parts.push_back("main program");
+    if (instruction.allowed & kSubroutine) parts.push_back("subroutines");
+    if (instruction.allowed & kInterrupt) parts.push_back("interrupt routines");
+  }
+  if (instruction.outside_segments) parts.push_back("not between LSCR and SCRE");
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string operand_text(const OperandRule& rule) {
+  if (rule.kind != OperandKind::Memory) return std::string(number_text(rule.kind));
+  std::vector<std::string> names;
+  for (const AreaInfo& area : all_areas())
+    if (contains(rule.areas, area.area)) names.push_back(area_text(area, rule.width));
+  if (rule.constant) names.push_back(constant_text(rule));
+  if (rule.pointer) names.push_back("*VD *AC");
+  if (rule.address_of) names.push_back("&address");
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
+std::string example(const Instruction& instruction) {
+  std::vector<std::string> operands;
+  for (std::size_t i = 0; i < instruction.operands; ++i) operands.push_back(sample(instruction.operand[i], i));
+  if (operands.empty()) return std::string(instruction.mnemonic);
+  return fmt::format("{} {}", instruction.mnemonic, fmt::join(operands, ", "));
+}
+
+std::string explain(const Instruction& instruction, const TimeTable& times) {
+  std::string text = fmt::format("{}\n", syntax(instruction));
+  if (!instruction.meaning.empty()) text += fmt::format("  {}\n", instruction.meaning);
+  if (!instruction.body)
+    return text + fmt::format("  not modelled; the real instruction needs {}\n", to_text(instruction.cpus));
+  for (const OperandRule& rule : instruction.rules()) {
+    text += fmt::format("  {:<11} {}{}\n", rule.name, operand_text(rule), rule.role == Role::In ? "" : "   (written)");
+    if (rule.kind != OperandKind::Memory) continue;
+    for (const CpuModel* model : all_cpus())
+      if (model->self & instruction.cpus) text += fmt::format("    CPU {}   {}\n", model->name, ranges_text(rule, *model));
+  }
+  text += fmt::format("  power flow  {}\n",
+                      instruction.needs_power_flow ? "needed: skipped while the top of the logic stack is 0" : "not needed");
+  text += fmt::format("  SM1 flags   {}\n  allowed in  {}\n  available   {}\n", flags_text(instruction),
+                      parts_text(instruction), to_text(instruction.cpus));
+  for (const TimeRow* row : times_of(times, instruction))
+    text +=
+        fmt::format("  time        {} us{} ({}: {})\n", stl::printable(time_text(*row)),
+                    row->form.empty() ? "" : " for " + stl::printable(row->form), row->marker, stl::printable(row->source));
+  return text + fmt::format("  example     {}\n", example(instruction));
+}
+
+std::string reference_page(const TimeTable& times) {
+  std::string text =
+      "# Instructions\n\n"
+      "Made from the instruction table by `s7200 instructions --markdown`; a test compares the two.\n"
+      "Times are in microseconds, with power flow and operands in V memory; `s7200 times` says where each comes from\n"
+      "(most are estimates). `s7200 instructions MNEMONIC` explains one with its ranges on each CPU.\n\n"
+      "## Memory areas\n\n" +
+      area_table();
+  std::string_view group;
+  for (const Instruction& instruction : all_instructions()) {
+    if (instruction.group != group) {
+      group = instruction.group;
+      text += fmt::format(
+          "\n## {}\n\n| instruction | meaning | operands | SM1 flags | power flow | time | available "
+          "|\n|---|---|---|---|---|---|---|\n",
+          group);
+    }
+    text += instruction.body
+                ? markdown_row(instruction, times)
+                : fmt::format("| `{}` | not modelled | | | | | {} |\n", instruction.mnemonic, to_text(instruction.cpus));
+  }
+  return text;
+}
+
+}  // namespace s7200::tools

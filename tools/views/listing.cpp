@@ -1,0 +1,71 @@
+#include "tools/views/listing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "interpreter/stl/printer.hpp"
+#include "interpreter/base/text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+std::string text_of(const stl::Statement& statement) {
+  const std::string text = stl::to_text(statement);
+  return statement.comment.empty() ? text : fmt::format("{:<28} //{}", text, statement.comment);
+}
+
+std::string text_of(const stl::NetworkHead& head) {
+  std::string text = "NETWORK";
+  if (head.number != 0) text += fmt::format(" {}", head.number);
+  return head.comment.empty() ? text : fmt::format("{} //{}", text, head.comment);
+}
+
+std::vector<std::string> routines_of(const Program& program) {
+  std::vector<std::string> routines;
+  std::string routine = "main";
+  for (const Op& op : program.ops) {
+    if (op.instruction->structure == Structure::SubroutineHead) routine = fmt::format("SBR {}", op[0].at);
+    if (op.instruction->structure == Structure::InterruptHead) routine = fmt::format("INT {}", op[0].at);
+    routines.push_back(routine);
+  }
+  return routines;
+}
+
+}  // namespace
+
+Listing::Listing(const Program& program) : program_(program), routine_(routines_of(program)) {
+  std::uint32_t op = 0;
+  for (const stl::Line& line : program.source.lines) {
+    if (const auto* statement = std::get_if<stl::Statement>(&line)) {
+      entries_.push_back({statement->position.line, stl::printable(tools::text_of(*statement)), op++});
+    } else if (const auto* head = std::get_if<stl::NetworkHead>(&line)) {
+      entries_.push_back({head->position.line, stl::printable(tools::text_of(*head)), {}});
+    } else if (const auto* comment = std::get_if<stl::CommentLine>(&line)) {
+      entries_.push_back({comment->line, stl::printable("//" + comment->text), {}});
+    }
+  }
+}
+
+std::optional<std::uint32_t> Listing::op_from_line(std::uint32_t line) const {
+  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.op && e.line >= line; });
+  return found == entries_.end() ? std::nullopt : found->op;
+}
+
+std::uint32_t Listing::last_line() const { return line_of(static_cast<std::uint32_t>(program_.ops.size()) - 1); }
+
+std::string Listing::text_of(std::uint32_t op) const { return stl::printable(tools::text_of(program_.statement(op))); }
+
+std::string Listing::around(std::uint32_t line, std::size_t before, std::size_t count, const Mark& mark) const {
+  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.line >= line; });
+  const auto place = static_cast<std::size_t>(found - entries_.begin());
+  const std::size_t first = place - std::min(place, before), end = std::min(entries_.size(), first + count);
+  std::string text;
+  for (std::size_t i = first; i < end; ++i) {
+    const Entry& entry = entries_[i];
+    text += fmt::format("{:>2} {:>5}  {}\n", entry.op ? mark(*entry.op) : "", entry.line, entry.text);
+  }
+  return text;
+}
+
+}  // namespace s7200::tools

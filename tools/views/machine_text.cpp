@@ -1,0 +1,231 @@
+#include "tools/views/machine_text.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+
+#include "interpreter/base/bytes.hpp"
+#include "interpreter/stl/printer.hpp"
+#include "interpreter/trace/text_trace.hpp"
+#include "serial_sim/modbus/request.hpp"
+#include "tools/debugger/stepper.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr std::uint8_t kReceiveEvent = event::kPort0Received, kTransmitEvent = event::kPort0Sent, kTimed0 = event::kTimed0;
+
+std::string event_text(std::uint8_t event) { return fmt::format("event {} ({})", event, find_event(event)->cause); }
+
+std::string time_text(Time time) {
+  const std::string clock = clock_text(time);
+  return clock.substr(clock.find_first_not_of(' ')) + " ms";
+}
+
+std::string scan_text(const State& state) { return fmt::format("scan {}", state.scans + 1); }
+
+std::string_view phase_text(Phase phase) {
+  switch (phase) {
+    case Phase::ReadInputs:
+      return "the system reading the inputs";
+    case Phase::Program:
+      return "the program";
+    case Phase::Communication:
+      return "the system's communication";
+    case Phase::SelfTest:
+      return "the system's self-test";
+    case Phase::WriteOutputs:
+      return "the system writing the outputs";
+    case Phase::SaveToEeprom:
+      return "the system saving a value to EEPROM";
+  }
+  return {};
+}
+
+std::string line_text(const Listing& listing, std::uint32_t op) {
+  return fmt::format("{} line {}", listing.routine_of(op), listing.line_of(op));
+}
+
+/// `SBR 63 line 700, called in SBR 51 line 340, called in main line 12`
+std::string calls_text(const State& state, const Listing& listing, std::uint32_t op) {
+  std::string text = line_text(listing, op);
+  for (std::size_t depth = state.call_depth; depth > 0; --depth)
+    text += ", called in " + line_text(listing, state.calls[depth - 1].return_to - 1);
+  return text;
+}
+
+std::string where_text(const State& state, const Listing& listing) {
+  if (state.mode == Mode::Stop) return "STOP: no program runs";
+  const std::uint32_t op = state.in_interrupt ? state.saved.return_to : state.pc;
+  const std::string scan =
+      state.phase == Phase::Program ? calls_text(state, listing, op) : std::string(phase_text(state.phase));
+  if (!state.in_interrupt) return scan;
+  return fmt::format("{}, serving {} since {}\n           interrupted: {}", line_text(listing, state.pc),
+                     event_text(state.serving_event), time_text(state.serving_since), scan);
+}
+
+std::string real_text(std::uint32_t value) { return stl::to_text(stl::Real{std::bit_cast<float>(value)}); }
+
+std::string accumulators_text(const Cpu& cpu) {
+  std::string text;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t at = image::kAC + 4 * i, value = load32(&cpu.state().image[at]);
+    text += fmt::format("AC{:<9}16#{:08X} {:>11}{}\n", i, value, static_cast<std::int32_t>(value),
+                        cpu.program().is_real(at) ? fmt::format(" {:>15}", real_text(value)) : "");
+  }
+  return text;
+}
+
+std::string flags_text(std::uint8_t flags) {
+  static constexpr std::string_view kNames[] = {"zero",       "overflow",    "negative", "division by zero",
+                                                "table full", "table empty", "not BCD",  "not hex"};
+  std::string text;
+  for (unsigned bit = 0; bit < 8; ++bit)
+    if (flags >> bit & 1) text += fmt::format("{}SM1.{} {}", text.empty() ? "" : ", ", bit, kNames[bit]);
+  return text.empty() ? "none of SM1 is set" : text;
+}
+
+std::string queue_text(const State& state, std::size_t queue, const CpuModel& model) {
+  static constexpr std::string_view kNames[] = {"communication", "input/output", "timed"};
+  const InterruptQueue& waiting = state.queue[queue];
+  std::string text = fmt::format("{} {} of {}", kNames[queue], waiting.count, model.queue_depth[queue]);
+  for (std::size_t i = 0; i < waiting.count; ++i) {
+    const QueuedInterrupt& entry = waiting.entry[i];
+    text += fmt::format("\n           {}{} since {}", event_text(entry.event),
+                        entry.event == kReceiveEvent ? fmt::format(" {:02x}", entry.byte) : "", time_text(entry.at));
+  }
+  return text;
+}
+
+std::string attachments_text(const State& state) {
+  std::string text;
+  for (std::uint8_t event = 0; event < kEvents; ++event) {
+    if (state.attached[event] == kNotAttached) continue;
+    const bool timed = event == kTimed0 || event == kTimed0 + 1;
+    text += fmt::format("{:<11}event {} → INT {}  {}{}\n", text.empty() ? "attached" : "", event, state.attached[event],
+                        find_event(event)->cause,
+                        timed ? ", every " + format_duration(state.timed_interval[event - kTimed0]) : "");
+  }
+  return text.empty() ? "attached   no event\n" : text;
+}
+
+std::string_view parity_text(Parity parity) {
+  return parity == Parity::None ? "no parity" : parity == Parity::Even ? "even parity" : "odd parity";
+}
+
+std::string control_text(std::uint8_t control) {
+  static constexpr std::string_view kModes[] = {"PPI slave", "Freeport", "PPI master", "reserved, as PPI slave"};
+  return fmt::format("SMB30      16#{:02X} = 2#{:08b}: {}", control, control, kModes[control & 3]);
+}
+
+std::string routine_text(const State& state, std::uint8_t event) {
+  const std::uint8_t routine = state.attached[event];
+  if (routine == kNotAttached) return fmt::format("event {} is not attached", event);
+  return fmt::format("event {} → INT {}", event, routine);
+}
+
+std::string receiver_text(const State& state) {
+  std::string_view is = "on";
+  if (state.port[0].transmitting) is = "off while sending";
+  if (!state.port[0].active) is = "off: not in Freeport mode";
+  return fmt::format("receiver   {}; {}; SMB2 = 16#{:02X}, parity error SM3.0 = {}", is, routine_text(state, kReceiveEvent),
+                     state.image[sm::kReceivedCharacter], state.image[sm::kReceiveStatus] & sm::kParityError);
+}
+
+std::string transmitter_text(const State& state) {
+  const Freeport& port = state.port[0];
+  std::string is = "idle";
+  if (port.transmitting)
+    is = port.sending_break ? "sending a break" : fmt::format("sending {:02x}, {} more to send", port.on_line, port.left);
+  return fmt::format("transmitter {}; {}", is, routine_text(state, kTransmitEvent));
+}
+
+std::string master_text(const serial::Master::State& master) {
+  using Phase = serial::Master::Phase;
+  const std::string request = modbus::to_hex(master.request.frame);
+  switch (master.phase) {
+    case Phase::Idle:
+      return master.request.frame.empty() ? "has sent nothing" : "idle";
+    case Phase::Sending:
+      return fmt::format("sending {}: character {} of {}", request, master.sent, master.request.frame.size());
+    case Phase::Waiting:
+      return fmt::format("waiting for an answer to {}", request);
+    case Phase::Receiving:
+      return fmt::format("receiving: {}", modbus::to_hex(master.exchange.response_bytes()));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string place_text(const Cpu& cpu, const Listing& listing) {
+  const State& state = cpu.state();
+  const std::string when = fmt::format("{}  {}", time_text(state.time), scan_text(state));
+  if (state.mode == Mode::Stop) return fmt::format("{}  STOP\n", when);
+  const auto op = standing_at(state);
+  if (!op)
+    return fmt::format("{}  powered up, the inputs are read first\n > {:>5}  {}\n", when, listing.line_of(state.pc),
+                       listing.text_of(state.pc));
+  const std::string serving = state.in_interrupt ? fmt::format(" for {}", event_text(state.serving_event)) : "";
+  return fmt::format("{}  {}{}  S0={}\n > {:>5}  {}\n", when, listing.routine_of(*op), serving, state.stack.top() ? 1 : 0,
+                     listing.line_of(*op), listing.text_of(*op));
+}
+
+std::string registers_text(const Cpu& cpu, const Listing& listing) {
+  const State& state = cpu.state();
+  std::string text =
+      fmt::format("time       {}, {}, {} instructions\n", time_text(state.time), scan_text(state), state.instructions);
+  text += fmt::format("where      {}\n", where_text(state, listing));
+  text += accumulators_text(cpu);
+  text += fmt::format("flags      {}\n", flags_text(state.image[sm::kFlags]));
+  text += fmt::format("interrupts {}\n", state.interrupts_enabled ? "enabled (ENI)" : "disabled (DISI, or no ENI yet)");
+  for (std::size_t queue = 0; queue < kQueues; ++queue)
+    text += fmt::format("{:<11}{}\n", queue == 0 ? "waiting" : "", queue_text(state, queue, *cpu.program().model));
+  return text + attachments_text(state);
+}
+
+std::string stack_text(const State& state) {
+  std::string text;
+  for (int level = 0; level < LogicStack::kLevels; ++level)
+    text += fmt::format("S{} {}{}", level, state.stack.level(level) ? 1 : 0, level + 1 < LogicStack::kLevels ? "   " : "\n");
+  return text;
+}
+
+std::string format_text(const SerialFormat& format) {
+  return fmt::format("{} baud, {} data bits, {}, {} stop bit{}", format.baud, format.data_bits, parity_text(format.parity),
+                     format.stop_bits, format.stop_bits == 1 ? "" : "s");
+}
+
+std::string short_format_text(const SerialFormat& format) {
+  const char parity = format.parity == Parity::None ? 'N' : format.parity == Parity::Even ? 'E' : 'O';
+  return fmt::format("{} {}{}{}", format.baud, format.data_bits, parity, format.stop_bits);
+}
+
+std::string port_text(const serial::Simulation& simulation) {
+  const State& state = simulation.cpu().state();
+  std::string text = control_text(state.image[sm::kPort0Control]);
+  if (state.port[0].active) text += ", " + format_text(state.port[0].format);
+  return fmt::format("{}\n{}\n{}\nmaster     {}\n", text, receiver_text(state), transmitter_text(state),
+                     master_text(simulation.master().state()));
+}
+
+std::string value_text(const Program& program, const MemoryRange& range, std::span<const std::uint8_t> bytes) {
+  if (range.count > 1) return modbus::to_hex(bytes);
+  switch (range.width) {
+    case Width::Bit:
+      return fmt::format("{}", bytes[0]);
+    case Width::Byte:
+      return fmt::format("16#{:02X} ({})", bytes[0], bytes[0]);
+    case Width::Word:
+      return fmt::format("16#{:04X} ({})", load16(bytes.data()), static_cast<std::int16_t>(load16(bytes.data())));
+    case Width::Double: {
+      const std::uint32_t value = load32(bytes.data());
+      const std::string integer = range.real ? "" : fmt::format("{}", static_cast<std::int32_t>(value));
+      const std::string real = range.real || program.is_real(range.at) ? real_text(value) : "";
+      return fmt::format("16#{:08X} ({}{}{})", value, integer, integer.empty() || real.empty() ? "" : ", ", real);
+    }
+  }
+  return {};
+}
+
+}  // namespace s7200::tools

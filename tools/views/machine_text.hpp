@@ -1,0 +1,36 @@
+// The state of the machine in words: registers, logic stack, port, where it stands.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "interpreter/program/address.hpp"
+#include "serial_sim/system/simulation.hpp"
+#include "tools/views/listing.hpp"
+
+namespace s7200::tools {
+
+/// `412.345678 ms  scan 7  INT 123  S0=1`, and the line it stands in front of: `>  1242  INCB VB101   // one more`.
+std::string place_text(const Cpu& cpu, const Listing& listing);
+
+/// Time, place, calls, accumulators, flags, interrupts.
+std::string registers_text(const Cpu& cpu, const Listing& listing);
+
+/// The nine levels, top first.
+std::string stack_text(const State& state);
+
+/// SMB30 in words, receiver, transmitter, and what the master on the line is doing.
+std::string port_text(const serial::Simulation& simulation);
+
+/// `9600 baud, 8 data bits, even parity, 1 stop bit`
+std::string format_text(const SerialFormat& format);
+
+/// `9600 8E1`
+std::string short_format_text(const SerialFormat& format);
+
+/// One watched value, bytes as bytes_of() gives them: `1`, `16#05 (5)`, `16#FFFB (-5)`, several as hex bytes. A double word
+/// that the program uses as a real is shown as one too: `16#3FC00000 (1069547520, 1.5)`.
+std::string value_text(const Program& program, const MemoryRange& range, std::span<const std::uint8_t> bytes);
+
+}  // namespace s7200::tools

@@ -1,0 +1,162 @@
+#include "tools/views/memory.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+
+#include "interpreter/base/bytes.hpp"
+#include "interpreter/stl/printer.hpp"
+#include "tools/views/report.hpp"
+#include "tools/views/results_json.hpp"
+#include "tools/host/terminal.hpp"
+
+namespace s7200::tools {
+namespace {
+
+std::string bytes_text(const State& state, const MemoryRange& range) {
+  std::string text;
+  for (std::uint32_t i = 0; i < range.count; i += 16) {
+    std::string hex, characters;
+    for (std::uint32_t k = i; k < std::min(range.count, i + 16); ++k) {
+      const std::uint8_t byte = state.image[range.at + k];
+      hex += fmt::format(" {:02x}", byte);
+      characters += byte >= 32 && byte < 127 ? static_cast<char>(byte) : '.';
+    }
+    text += fmt::format("{:<8}{:<49} {}\n", range.name_of(i), hex, characters);
+  }
+  return text;
+}
+
+float real_at(const std::uint8_t* from) { return std::bit_cast<float>(load32(from)); }
+
+/// Of object `i` of a range of words or double words.
+const std::uint8_t* place_of(const State& state, const MemoryRange& range, std::uint32_t i) {
+  return &state.image[range.at + i * (range.area == Area::AC ? 4 : s7200::bytes_of(range.width))];
+}
+
+bool used_as_real(const Cpu& cpu, const MemoryRange& range, std::uint32_t i) {
+  return range.width == Width::Double && cpu.program().is_real(range.at + 4 * i);
+}
+
+std::string object_text(const Cpu& cpu, const MemoryRange& range, std::uint32_t i) {
+  const std::uint8_t* from = place_of(cpu.state(), range, i);
+  if (range.width == Width::Word) {
+    const std::uint16_t value = load16(from);
+    return fmt::format("16#{:04X} {:>11}", value, static_cast<std::int16_t>(value));
+  }
+  const std::uint32_t value = load32(from);
+  std::string text = fmt::format("16#{:08X}", value);
+  if (!range.real) text += fmt::format(" {:>11}", static_cast<std::int32_t>(value));
+  if (range.real || used_as_real(cpu, range, i)) text += fmt::format(" {:>15}", stl::to_text(stl::Real{real_at(from)}));
+  return text;
+}
+
+std::string_view type_of(const MemoryRange& range) {
+  switch (range.width) {
+    case Width::Bit:
+      return "bit";
+    case Width::Byte:
+      return "byte";
+    case Width::Word:
+      return "word";
+    case Width::Double:
+      return range.real ? "real" : "dword";
+  }
+  return {};
+}
+
+/// As the instructions for its width take it: bytes without a sign, words and double words with one.
+nlohmann::ordered_json value_json(const State& state, const MemoryRange& range, std::uint32_t i) {
+  switch (range.width) {
+    case Width::Bit:
+      return state.image[range.at] >> range.bit & 1;
+    case Width::Byte:
+      return state.image[range.at + i];
+    case Width::Word:
+      return static_cast<std::int16_t>(load16(place_of(state, range, i)));
+    case Width::Double:
+      if (range.real) return real_json(real_at(place_of(state, range, i)));
+      return static_cast<std::int32_t>(load32(place_of(state, range, i)));
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+bool parse_assignments(const std::vector<std::string>& texts, const CpuModel& model, std::vector<Assignment>& assignments) {
+  for (const std::string& text : texts) {
+    std::string why;
+    const auto assignment = parse_assignment(text, model, why);
+    if (!assignment) {
+      print_error("--set: " + why);
+      return false;
+    }
+    assignments.push_back(*assignment);
+  }
+  return true;
+}
+
+bool parse_ranges(const std::vector<std::string>& texts, const CpuModel& model, std::vector<MemoryRange>& ranges) {
+  for (const std::string& text : texts) {
+    std::string why;
+    const auto range = parse_range(text, model, why);
+    if (!range) {
+      print_error("--dump: " + why);
+      return false;
+    }
+    ranges.push_back(*range);
+  }
+  return true;
+}
+
+void assign(serial::Simulation& simulation, const Assignment& assignment) {
+  Cpu& cpu = simulation.cpu();
+  const MemoryRange& place = assignment.place;
+  std::array<std::uint8_t, 4> big_endian{};
+  store32(big_endian.data(), assignment.value);
+  std::span<const std::uint8_t> bytes(big_endian.data() + 4 - s7200::bytes_of(place.width), s7200::bytes_of(place.width));
+  std::uint8_t byte_with_bit = 0;
+  if (place.width == Width::Bit) {
+    const bool input = place.area == Area::I;
+    byte_with_bit = cpu.state().image[input ? place.at - image::kI + image::kInputs : place.at];
+    const auto mask = static_cast<std::uint8_t>(1u << place.bit);
+    byte_with_bit = static_cast<std::uint8_t>(assignment.value ? byte_with_bit | mask : byte_with_bit & ~mask);
+    bytes = {&byte_with_bit, 1};
+  }
+  if (place.area != Area::I) return cpu.poke(place.at, bytes);
+  for (std::uint32_t i = 0; i < bytes.size(); ++i) cpu.set_input(place.number + i, bytes[i], cpu.time());
+}
+
+std::vector<std::uint8_t> bytes_of(const State& state, const MemoryRange& range) {
+  if (range.width == Width::Bit) return {static_cast<std::uint8_t>((state.image[range.at] >> range.bit) & 1)};
+  const auto begin = state.image.begin() + range.at;
+  return {begin, begin + range.bytes()};
+}
+
+std::string dump_text(const Cpu& cpu, const MemoryRange& range) {
+  const State& state = cpu.state();
+  if (range.width == Width::Bit) return fmt::format("{:<8} {}\n", range.name_of(0), bytes_of(state, range)[0]);
+  if (range.width == Width::Byte) return bytes_text(state, range);
+  std::string text;
+  for (std::uint32_t i = 0; i < range.count; ++i)
+    text += fmt::format("{:<8} {}\n", range.name_of(i), object_text(cpu, range, i));
+  return text;
+}
+
+nlohmann::ordered_json dump_json(const Cpu& cpu, const MemoryRange& range) {
+  nlohmann::ordered_json json{{"type", type_of(range)}, {"hex", plain_hex(bytes_of(cpu.state(), range))}};
+  auto values = nlohmann::ordered_json::array(), reals = values;
+  bool any_real = false;
+  for (std::uint32_t i = 0; i < range.count; ++i) {
+    values.push_back(value_json(cpu.state(), range, i));
+    const bool real = !range.real && used_as_real(cpu, range, i);
+    reals.push_back(real ? real_json(real_at(place_of(cpu.state(), range, i))) : nullptr);
+    any_real |= real;
+  }
+  json["values"] = values;
+  if (any_real) json["reals"] = reals;
+  return json;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,31 @@
+// Memory on the command line: setting it before a run, showing it afterwards.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "interpreter/program/address.hpp"
+#include "serial_sim/system/simulation.hpp"
+
+namespace s7200::tools {
+
+/// Reads `--set` or `--dump` arguments; a message and false for a wrong one.
+bool parse_assignments(const std::vector<std::string>& texts, const CpuModel& model, std::vector<Assignment>& assignments);
+bool parse_ranges(const std::vector<std::string>& texts, const CpuModel& model, std::vector<MemoryRange>& ranges);
+
+/// I addresses set the input points, everything else is written as a programming device would.
+void assign(serial::Simulation& simulation, const Assignment& assignment);
+
+/// Bytes of a range as they lie in memory; of a bit, 00 or 01.
+std::vector<std::uint8_t> bytes_of(const State& state, const MemoryRange& range);
+
+/// Lines `VW100  16#0005      5`: hex and decimal for each object, bytes sixteen a line with their characters. A double word
+/// that the program uses as a real is shown as one too.
+std::string dump_text(const Cpu& cpu, const MemoryRange& range);
+
+/// {"type": "word", "hex": "0005", "values": [5]}
+nlohmann::ordered_json dump_json(const Cpu& cpu, const MemoryRange& range);
+
+}  // namespace s7200::tools

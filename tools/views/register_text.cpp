@@ -1,0 +1,240 @@
+#include "tools/views/register_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <stdexcept>
+
+#include "tools/views/results_json.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Form = ValueForm;
+
+constexpr std::array kForms{
+    ValueFormName{"hex+decimal", Form::HexAndDecimal},
+    ValueFormName{"hex", Form::Hex},
+    ValueFormName{"unsigned", Form::Unsigned},
+    ValueFormName{"signed", Form::Signed},
+    ValueFormName{"bits", Form::Bits},
+    ValueFormName{"unsigned32", Form::Unsigned32},
+    ValueFormName{"signed32", Form::Signed32},
+    ValueFormName{"float", Form::Float},
+    ValueFormName{"text", Form::Text},
+};
+
+std::vector<std::string_view> split(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t comma = text.find(',');
+    parts.push_back(text.substr(0, comma));
+    if (comma == std::string_view::npos) return parts;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+std::optional<std::int64_t> whole_number(std::string_view text) {
+  const bool negative = !text.empty() && text.front() == '-';
+  if (negative) text.remove_prefix(1);
+  int base = 10;
+  for (const auto& [prefix, its_base] : {std::pair{std::string_view("16#"), 16}, {std::string_view("2#"), 2}})
+    if (text.starts_with(prefix)) {
+      base = its_base;
+      text.remove_prefix(prefix.size());
+    }
+  std::string digits(text);
+  if (base != 10) std::erase(digits, '_');
+  std::int64_t value = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto [stopped, error] = std::from_chars(digits.data(), end, value, base);
+  if (error != std::errc{} || stopped != end || digits.front() == '-') return {};
+  return negative ? -value : value;
+}
+
+std::uint32_t float_bits(std::string_view text) {
+  const std::string number(text);
+  char* end = nullptr;
+  const float value = std::strtof(number.c_str(), &end);
+  if (number.empty() || *end != '\0' || !std::isfinite(value) || std::isspace(static_cast<unsigned char>(number[0])))
+    throw std::invalid_argument(fmt::format("'{}' is no number that a float can hold; write for example 1.5 or -2e3", text));
+  return std::bit_cast<std::uint32_t>(value);
+}
+
+void put_double(std::vector<std::uint16_t>& registers, std::uint32_t value, const ValueFormat& format) {
+  const auto high = static_cast<std::uint16_t>(value >> 16), low = static_cast<std::uint16_t>(value & 0xFFFF);
+  registers.push_back(format.low_word_first ? low : high);
+  registers.push_back(format.low_word_first ? high : low);
+}
+
+std::uint32_t get_double(std::span<const std::uint16_t> registers, const ValueFormat& format) {
+  const std::uint32_t first = registers[0], second = registers[1];
+  return format.low_word_first ? second << 16 | first : first << 16 | second;
+}
+
+std::string bits_of(std::uint16_t value) {
+  return fmt::format("2#{:04b}_{:04b}_{:04b}_{:04b}", value >> 12, value >> 8 & 15, value >> 4 & 15, value & 15);
+}
+
+std::string characters(std::span<const std::uint16_t> registers) {
+  std::string text;
+  for (const std::uint16_t value : registers) {
+    text += static_cast<char>(value >> 8);
+    text += static_cast<char>(value & 0xFF);
+  }
+  return text;
+}
+
+/// In quotes, what is no printable ASCII as $hh, as STL writes it.
+std::string quoted(std::span<const std::uint16_t> registers) {
+  std::string text = "'";
+  for (const char c : characters(registers)) {
+    const bool plain = c >= ' ' && c <= '~' && c != '\'' && c != '$';
+    if (plain)
+      text += c;
+    else
+      text += fmt::format("${:02X}", static_cast<unsigned char>(c));
+  }
+  return text + "'";
+}
+
+std::string value_text(std::span<const std::uint16_t> registers, const ValueFormat& format) {
+  const std::uint16_t word = registers[0];
+  const auto negative = static_cast<std::int16_t>(word);
+  switch (format.form) {
+    case Form::HexAndDecimal:
+      return fmt::format("16#{:04X}  {:5}{}", word, word, negative < 0 ? fmt::format("  {:6}", negative) : "");
+    case Form::Hex:
+      return fmt::format("16#{:04X}", word);
+    case Form::Unsigned:
+      return fmt::format("{:5}", word);
+    case Form::Signed:
+      return fmt::format("{:6}", negative);
+    case Form::Bits:
+      return bits_of(word);
+    case Form::Unsigned32:
+      return fmt::format("{:10}", get_double(registers, format));
+    case Form::Signed32:
+      return fmt::format("{:11}", static_cast<std::int32_t>(get_double(registers, format)));
+    case Form::Float:
+      return fmt::format("{:12}", std::bit_cast<float>(get_double(registers, format)));
+    case Form::Text:
+      return quoted(registers);
+  }
+  return {};
+}
+
+nlohmann::ordered_json value_json(std::span<const std::uint16_t> registers, const ValueFormat& format) {
+  switch (format.form) {
+    case Form::Signed:
+      return static_cast<std::int16_t>(registers[0]);
+    case Form::Unsigned32:
+      return get_double(registers, format);
+    case Form::Signed32:
+      return static_cast<std::int32_t>(get_double(registers, format));
+    case Form::Float:
+      return real_json(std::bit_cast<float>(get_double(registers, format)));
+    default:
+      return registers[0];
+  }
+}
+
+}  // namespace
+
+std::size_t ValueFormat::registers() const {
+  switch (form) {
+    case Form::Unsigned32:
+    case Form::Signed32:
+    case Form::Float:
+      return 2;
+    case Form::Text:
+      return 0;
+    default:
+      return 1;
+  }
+}
+
+std::span<const ValueFormName> value_forms() { return kForms; }
+
+std::int64_t parse_number(std::string_view text, std::int64_t least, std::int64_t most, std::string_view what) {
+  const auto value = whole_number(text);
+  if (!value) throw std::invalid_argument(fmt::format("{} '{}' is no number; write for example 10 or 16#0A", what, text));
+  if (*value < least || *value > most)
+    throw std::invalid_argument(fmt::format("{} {} is not from {} to {}", what, text, least, most));
+  return *value;
+}
+
+std::vector<std::uint16_t> parse_bits(std::string_view text) {
+  std::vector<std::uint16_t> bits;
+  for (const std::string_view part : split(text)) {
+    if (part != "on" && part != "off" && part != "1" && part != "0")
+      throw std::invalid_argument(fmt::format("'{}' is no state of a coil; write on, off, 1 or 0", part));
+    bits.push_back(part == "on" || part == "1" ? 1 : 0);
+  }
+  return bits;
+}
+
+std::vector<std::uint16_t> parse_registers(std::string_view text, const ValueFormat& format) {
+  std::vector<std::uint16_t> registers;
+  for (const std::string_view part : split(text)) {
+    if (format.form == Form::Float) {
+      put_double(registers, float_bits(part), format);
+    } else if (format.registers() == 2) {
+      put_double(registers, static_cast<std::uint32_t>(parse_number(part, INT32_MIN, UINT32_MAX, "value")), format);
+    } else if (part.find('.') != std::string_view::npos) {
+      throw std::invalid_argument(
+          fmt::format("value {} is no whole number; --as float writes it as a number of 32 bits into two registers", part));
+    } else {
+      registers.push_back(static_cast<std::uint16_t>(parse_number(part, INT16_MIN, UINT16_MAX, "value")));
+    }
+  }
+  return registers;
+}
+
+std::vector<std::string> value_lines(std::span<const std::uint16_t> registers, const ValueFormat& format) {
+  std::vector<std::string> lines;
+  const std::size_t size = format.registers() == 0 ? std::max<std::size_t>(registers.size(), 1) : format.registers();
+  for (; registers.size() >= size; registers = registers.subspan(size))
+    lines.push_back(value_text(registers.first(size), format));
+  for (const std::uint16_t left : registers) lines.push_back(fmt::format("16#{:04X}", left));
+  return lines;
+}
+
+std::string bits_line(std::span<const std::uint16_t> bits) {
+  std::string text;
+  for (std::size_t bit = 0; bit < bits.size(); ++bit) {
+    if (bit > 0 && bit % 4 == 0) text += ' ';
+    text += bits[bit] != 0 ? '1' : '0';
+  }
+  return text;
+}
+
+nlohmann::ordered_json values_json(std::span<const std::uint16_t> registers, const ValueFormat& format) {
+  if (format.form == Form::Text) {
+    const std::string text = characters(registers);
+    // JSON is UTF-8: each byte becomes the character of that number.
+    std::string encoded;
+    for (const char c : text) {
+      const auto byte = static_cast<unsigned char>(c);
+      if (byte < 0x80) {
+        encoded += c;
+      } else {
+        encoded += static_cast<char>(0xC0 | byte >> 6);
+        encoded += static_cast<char>(0x80 | (byte & 0x3F));
+      }
+    }
+    return encoded;
+  }
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (; registers.size() >= format.registers(); registers = registers.subspan(format.registers()))
+    json.push_back(value_json(registers, format));
+  return json;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,112 @@
+#include "tools/views/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "interpreter/stl/printer.hpp"
+#include "interpreter/base/text.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/views/text_frame.hpp"
+
+namespace s7200::tools {
+namespace {
+
+std::string place_text(const Program& program, std::uint32_t op) {
+  if (op == kNoRoutine) return "between two scans";
+  const stl::Statement& statement = program.statement(op);
+  return fmt::format("{}:{}: {}", stl::printable(program.source.name), statement.position.line, stl::to_text(statement));
+}
+
+nlohmann::ordered_json error_json(const Program& program, std::uint16_t code, std::string_view meaning, std::uint32_t op,
+                                  bool fatal) {
+  nlohmann::ordered_json json{{"code", fmt::format("{:04X}", code)}, {"fatal", fatal}, {"meaning", meaning}};
+  json["line"] =
+      op == kNoRoutine ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(program.statement(op).position.line);
+  json["statement"] = op == kNoRoutine ? "" : stl::to_text(program.statement(op));
+  return json;
+}
+
+/// What the answer says, and what the line looked like to the master when more than bytes came.
+std::string remarks_on(const serial::Exchange& exchange) {
+  std::string text = answer_text(modbus::bytes_of(exchange.request), exchange.response_bytes());
+  const auto add = [&text](bool is_so, std::string_view remark) {
+    if (is_so) text.append(text.empty() ? "" : ", ").append(remark);
+  };
+  add(exchange.parity_error(), "parity errors");
+  add(exchange.framing_error(), "framing errors");
+  add(exchange.too_long, "cut off");
+  return text;
+}
+
+std::string below(const std::string& text) { return text.empty() ? "" : fmt::format("         {}\n", text); }
+
+}  // namespace
+
+std::string errors_text(const Cpu& cpu) {
+  std::string text;
+  const State& state = cpu.state();
+  for (const RuntimeError& error : state.errors) {
+    if (error.count == 0) break;
+    text += fmt::format("run-time error {:04X}, {}\n  {} ({}×, first at {})\n", error.code, meaning_of(RunError{error.code}),
+                        place_text(cpu.program(), error.op), error.count, format_duration(error.first));
+  }
+  if (const std::uint64_t others = errors_not_listed(cpu))
+    text += fmt::format("and {} more run-time error{} at other places: the first {} places are kept, a trace shows all\n",
+                        others, others == 1 ? "" : "s", state.errors.size());
+  if (state.fatal_code)
+    text += fmt::format("FATAL error {:04X}, {}\n  {}\n", state.fatal_code, meaning_of(FatalError{state.fatal_code}),
+                        place_text(cpu.program(), state.fatal_op));
+  return text;
+}
+
+std::uint64_t errors_not_listed(const Cpu& cpu) {
+  std::uint64_t others = cpu.state().error_count;
+  for (const RuntimeError& error : cpu.state().errors) others -= error.count;
+  return others;
+}
+
+nlohmann::ordered_json errors_json(const Cpu& cpu) {
+  nlohmann::ordered_json errors = nlohmann::ordered_json::array();
+  for (const RuntimeError& error : cpu.state().errors) {
+    if (error.count == 0) break;
+    auto json = error_json(cpu.program(), error.code, meaning_of(RunError{error.code}), error.op, false);
+    json["count"] = error.count;
+    json["first_ns"] = error.first;
+    errors.push_back(json);
+  }
+  if (cpu.state().fatal_code)
+    errors.push_back(error_json(cpu.program(), cpu.state().fatal_code, meaning_of(FatalError{cpu.state().fatal_code}),
+                                cpu.state().fatal_op, true));
+  return errors;
+}
+
+int exit_code_of(const Cpu& cpu) { return cpu.state().fatal_code ? kCpuFatal : kFine; }
+
+std::string torn_frame_note(const std::vector<std::string>& frames) {
+  const auto is_byte = [](const std::string& text) { return text.size() <= 2; };
+  if (frames.size() < 2 || std::none_of(frames.begin(), frames.end(), is_byte)) return {};
+  return fmt::format("s7200: note: these were {} frames, one for each argument; to send one frame, put it in quotes: '{}'\n",
+                     frames.size(), fmt::join(frames, " "));
+}
+
+std::string exchange_text(const serial::Exchange& exchange, Time timeout) {
+  const modbus::Bytes bytes = modbus::bytes_of(exchange.request);
+  std::string request = fmt::format("request  {}\n{}", modbus::to_hex(exchange.request), below(request_text(bytes)));
+  if (!exchange.echo.empty()) request += fmt::format("echo     {}\n", modbus::to_hex(serial::bytes_of(exchange.echo)));
+  if (exchange.timed_out) return fmt::format("{}answer   none within {}\n", request, format_duration(timeout));
+  return fmt::format("{}answer   {}   after {}\n{}", request, modbus::to_hex(exchange.response_bytes()),
+                     format_duration(*exchange.latency()), below(remarks_on(exchange)));
+}
+
+std::string unasked_text(const modbus::Bytes& bytes) {
+  return bytes.empty() ? "" : fmt::format("unasked  {}\n{}", modbus::to_hex(bytes), below(quoted_text(bytes)));
+}
+
+std::string plain_hex(std::span<const std::uint8_t> bytes) {
+  std::string text;
+  for (const std::uint8_t byte : bytes) text += fmt::format("{:02x}", byte);
+  return text;
+}
+
+}  // namespace s7200::tools

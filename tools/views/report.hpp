@@ -1,0 +1,35 @@
+// How a run ended, in words and as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "serial_sim/system/simulation.hpp"
+
+namespace s7200::tools {
+
+/// Run-time and fatal errors, one line each with place and meaning; empty when there were none.
+std::string errors_text(const Cpu& cpu);
+nlohmann::ordered_json errors_json(const Cpu& cpu);
+
+/// How many run-time errors were at other places than those listed: State keeps the first sixteen.
+std::uint64_t errors_not_listed(const Cpu& cpu);
+
+/// kCpuFatal after a fatal error, else kFine.
+int exit_code_of(const Cpu& cpu);
+
+/// A note for arguments that are probably one frame whose blanks have torn it apart: several, a single byte among them.
+/// Empty if they are not.
+std::string torn_frame_note(const std::vector<std::string>& frames);
+
+/// Request, answer with its latency, and what the answer says.
+std::string exchange_text(const serial::Exchange& exchange, Time timeout);
+
+/// What came before a request, and nobody had asked for; empty if nothing did.
+std::string unasked_text(const modbus::Bytes& bytes);
+
+/// `lower-case hex without blanks`
+std::string plain_hex(std::span<const std::uint8_t> bytes);
+
+}  // namespace s7200::tools

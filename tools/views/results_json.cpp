@@ -1,0 +1,26 @@
+#include "tools/views/results_json.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace s7200::tools {
+
+using nlohmann::ordered_json;
+constexpr auto kReplace = ordered_json::error_handler_t::replace;
+
+std::string_view version() { return S7200_VERSION; }
+
+ordered_json results_of(std::string_view verb) { return {{"s7200", {{"verb", verb}, {"version", version()}}}}; }
+
+void print_results(const ordered_json& results) { fmt::print("{}\n", results.dump(2, ' ', false, kReplace)); }
+
+std::string line_of(const ordered_json& json) { return json.dump(-1, ' ', false, kReplace); }
+
+ordered_json real_json(float value) {
+  const std::string shortest = fmt::format("{}", value);
+  if (!std::isfinite(value)) return shortest;
+  return std::stod(shortest);
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,350 @@
+#include "tools/views/timeline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <nlohmann/json.hpp>
+
+#include "interpreter/model/cpu_model.hpp"
+#include "interpreter/model/events.hpp"
+#include "interpreter/trace/text_trace.hpp"
+#include "tools/views/report.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Kind = TimelineRow::Kind;
+
+constexpr std::uint8_t kReceiveEvent = event::kPort0Received;
+constexpr std::size_t kWidth = 38;       // of the column of the port
+constexpr std::size_t kCharacters = 23;  // eight, in it
+
+/// Rows whose interrupts may still come. More than any queue of the CPU holds, whatever else happens meanwhile.
+constexpr std::size_t kOpenRows = 1000;
+
+bool belong_together(const TimelineRow& a, const TimelineRow& b) {
+  const bool repeats = a.kind != Kind::Transmit && a.kind != Kind::Other;
+  return repeats && a.kind == b.kind && a.event == b.event && a.routine == b.routine;
+}
+
+void join(TimelineRow& row, const TimelineRow& next) {
+  const std::size_t kept = std::min(next.characters.size(), TimelineRow::kMostCharacters - row.characters.size());
+  const auto end = next.characters.begin() + static_cast<std::ptrdiff_t>(kept);
+  row.characters.insert(row.characters.end(), next.characters.begin(), end);
+  row.more_characters += next.characters.size() - kept;
+  row.served += next.served;
+  row.shortest = std::min(row.shortest, next.shortest);
+  row.longest = std::max(row.longest, next.longest);
+  row.in_all += next.in_all;
+  row.longest_wait = std::max(row.longest_wait, next.longest_wait);
+}
+
+/// The rows as they are shown: what belongs together is one row, and what is too much in the middle is only counted.
+class ShownRows {
+ public:
+  void add(TimelineRow row) {
+    TimelineRow* const before = !last_.empty() ? &last_.back() : !first_.empty() ? &first_.back() : nullptr;
+    if (before && belong_together(*before, row)) return join(*before, row);
+    if (first_.size() < kHalf) return first_.push_back(std::move(row));
+    last_.push_back(std::move(row));
+    if (last_.size() <= kHalf) return;
+    if (left_out_++ == 0) left_out_since_ = last_.front().at;
+    last_.pop_front();
+  }
+
+  std::vector<TimelineRow> all() const {
+    std::vector<TimelineRow> rows = first_;
+    if (left_out_ > 0)
+      rows.push_back({.at = left_out_since_, .kind = Kind::LeftOut, .text = fmt::format("… {} rows left out", left_out_)});
+    rows.insert(rows.end(), last_.begin(), last_.end());
+    return rows;
+  }
+
+ private:
+  static constexpr std::size_t kHalf = TimelineReport::kMostRows / 2;
+
+  std::vector<TimelineRow> first_;
+  std::deque<TimelineRow> last_;
+  std::uint64_t left_out_ = 0;
+  Time left_out_since_ = 0;
+};
+
+}  // namespace
+
+/// Rows of one thing each, with the services that belong to them.
+class Timeline::Reader {
+ public:
+  explicit Reader(const Program& program) : program_(program) {}
+
+  void read(const TraceRecord& r) {
+    switch (r.kind) {
+      case TraceKind::ScanBegin:
+        return begin_scan(r);
+      case TraceKind::CharacterReceived:
+        return add_characters(r, Kind::Received);
+      case TraceKind::CharacterIgnored:
+        return add_characters(r, Kind::Ignored);
+      case TraceKind::CharacterSent:
+        return add_characters(r, Kind::Sent);
+      case TraceKind::EventOccurred:
+        return occurred(r);
+      case TraceKind::EventLost:
+        return lost(r);
+      case TraceKind::ServiceBegin:
+        return begin_service(r);
+      case TraceKind::ServiceEnd:
+        return end_service(r);
+      case TraceKind::Transmit:
+        add(r, Kind::Transmit, r.count ? fmt::format("XMT {} characters", r.count) : "XMT break");
+        rows_.back().place = place_of(r);
+        return;
+      case TraceKind::Attach:
+      case TraceKind::Detach:
+      case TraceKind::TransmitEnd:
+        return;
+      default:
+        return add(r, Kind::Other, describe(r, program_));
+    }
+  }
+
+  TimelineReport report() const {
+    ShownRows shown = shown_;
+    for (const TimelineRow& row : rows_) shown.add(row);
+    TimelineReport report = report_;
+    report.rows = shown.all();
+    return report;
+  }
+
+ private:
+  void add(const TraceRecord& r, Kind kind, std::string text = {}) {
+    while (rows_.size() >= kOpenRows && serving_ != &rows_.front()) {
+      shown_.add(std::move(rows_.front()));
+      rows_.pop_front();
+    }
+    rows_.push_back({.at = r.at, .kind = kind, .event = r.event, .routine = r.routine, .text = std::move(text)});
+  }
+  void add_characters(const TraceRecord& r, Kind kind) {
+    add(r, kind);
+    rows_.back().characters.push_back({r.byte, r.parity_error, r.framing_error, r.since, r.at});
+  }
+
+  void occurred(const TraceRecord& r) {
+    if (r.event != kReceiveEvent) return add(r, Kind::Event);
+    rows_.back().event = r.event;  // the character has just been added
+    rows_.back().routine = r.routine;
+  }
+  void lost(const TraceRecord& r) {
+    if (r.event != kReceiveEvent) return add(r, Kind::Other, describe(r, program_));
+    rows_.back().kind = Kind::Lost;
+    rows_.back().event = r.event;
+    rows_.back().routine = r.routine;
+  }
+
+  void begin_scan(const TraceRecord& r) {
+    scan_ = r.count;
+    if (scan_begin_ != kNever) {
+      const Time scan = r.at - scan_begin_;
+      ++report_.scans;
+      report_.shortest_scan = std::min(report_.shortest_scan, scan);
+      report_.longest_scan = std::max(report_.longest_scan, scan);
+    }
+    scan_begin_ = r.at;
+  }
+
+  void begin_service(const TraceRecord& r) {
+    serving_ = nullptr;
+    for (auto row = rows_.rbegin(); row != rows_.rend() && !serving_; ++row)
+      if (row->event == r.event && row->at == r.since && (row->kind == Kind::Received || row->kind == Kind::Event))
+        serving_ = &*row;
+    if (serving_) {
+      serving_->longest_wait = r.at - r.since;
+      report_.longest_wait = std::max(report_.longest_wait, serving_->longest_wait);
+    }
+    in_routine_ = true;
+    routine_ = r.routine;
+  }
+  void end_service(const TraceRecord& r) {
+    const Time took = r.at - r.since;
+    in_routine_ = false;
+    service_end_ = r.at;
+    if (!serving_) return;
+    serving_->routine = r.routine;
+    serving_->served = 1;
+    serving_->shortest = serving_->longest = serving_->in_all = took;
+    ++report_.served;
+    report_.in_all += took;
+    serving_ = nullptr;
+  }
+
+  std::string place_of(const TraceRecord& r) const {
+    if (in_routine_) return fmt::format("INT {}", routine_);
+    const std::string scan = scan_ ? fmt::format("scan {}", scan_) : "";
+    if (service_end_ == kNever) return fmt::format("{:<9}{}", "program", scan);
+    return fmt::format("{:<9}{}, {} after INT {}", "program", scan, format_duration(r.at - service_end_), routine_);
+  }
+
+  const Program& program_;
+  ShownRows shown_;
+  std::deque<TimelineRow> rows_;  // one that stays where it is
+  TimelineReport report_;         // without the rows
+  std::uint64_t scan_ = 0;
+  Time scan_begin_ = kNever;
+  TimelineRow* serving_ = nullptr;  // null for an interrupt that occurred before the exchange
+  bool in_routine_ = false;
+  std::uint8_t routine_ = 0;
+  Time service_end_ = kNever;
+};
+
+namespace {
+
+// --- text ---
+
+/// A byte with p behind it for wrong parity, f for a stop bit at space level.
+std::string character_text(const ReceivedCharacter& c) {
+  return fmt::format("{:02x}{}{}", c.byte, c.parity_error ? "p" : "", c.framing_error ? "f" : "");
+}
+
+/// As many as fit the column, and how many there are if not all do.
+std::string characters_text(const TimelineRow& row) {
+  std::string text;
+  for (const ReceivedCharacter& c : row.characters) {
+    const std::string next = character_text(c);
+    if (text.size() + next.size() > kCharacters)
+      return fmt::format("{}… {}", text, row.characters.size() + row.more_characters);
+    text += next + ' ';
+  }
+  return text;
+}
+
+std::string line_text(const TimelineRow& row) {
+  switch (row.kind) {
+    case Kind::Received:
+      return "received  " + characters_text(row);
+    case Kind::Ignored:
+      return "ignored   " + characters_text(row);
+    case Kind::Lost:
+      return "LOST      " + characters_text(row);
+    case Kind::Sent:
+      return "sent      " + characters_text(row);
+    case Kind::Event:
+      return fmt::format("event {:<3} {}", row.event, find_event(row.event)->cause);
+    case Kind::Transmit:
+    case Kind::Other:
+    case Kind::LeftOut:
+      return row.text;
+  }
+  return {};
+}
+
+std::string remark(const TimelineRow& row) {
+  if (row.kind == Kind::Ignored) return "event 8 is not attached";
+  if (row.kind == Kind::Lost) return fmt::format("the queue before INT {} was full", row.routine);
+  if (row.served == 0) return row.place;
+  std::string took = format_duration(row.longest);
+  if (row.served > 1) {
+    const std::string from = row.shortest == row.longest ? "" : format_duration(row.shortest) + " to ";
+    took = fmt::format("{} × {}{}", row.served, from, took);
+  }
+  const std::string waited =
+      row.longest_wait ? fmt::format("waited {}{}", row.served > 1 ? "up to " : "", format_duration(row.longest_wait)) : "";
+  return fmt::format("INT {:<4} {:<26} {}", row.routine, took, waited);
+}
+
+/// fmt counts a character of several bytes as the columns it takes.
+std::string row_text(Time at, const TimelineRow& row) {
+  std::string text =
+      fmt::format("{:>10.3f}  {:<{}}  {}", static_cast<double>(at) / kMillisecond, line_text(row), kWidth, remark(row));
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text;
+}
+
+bool is_trouble(const TimelineRow& row) {
+  return row.kind == Kind::Lost || row.kind == Kind::Ignored ||
+         std::any_of(row.characters.begin(), row.characters.end(),
+                     [](const auto& c) { return c.parity_error || c.framing_error; });
+}
+
+std::string painted(const std::string& text, const char* paint, bool colour) {
+  return colour ? fmt::format("\x1b[{}m{}\x1b[0m", paint, text) : text;
+}
+
+constexpr const char* kDim = "2";
+constexpr const char* kYellow = "33";
+
+std::string summary(const TimelineReport& report) {
+  bool marked = false;
+  for (const TimelineRow& row : report.rows)
+    for (const ReceivedCharacter& c : row.characters) marked |= c.parity_error || c.framing_error;
+  std::string text = fmt::format("{} interrupts served in {}, longest wait {}", report.served,
+                                 format_duration(report.in_all), format_duration(report.longest_wait));
+  if (report.scans)
+    text += fmt::format("; {} scans of {} to {}", report.scans, format_duration(report.shortest_scan),
+                        format_duration(report.longest_scan));
+  if (marked) text += "; p wrong parity, f framing error";
+  return text;
+}
+
+}  // namespace
+
+Timeline::Timeline(std::shared_ptr<const Program> program, TraceSink* next)
+    : program_(std::move(program)), next_(next), reader_(std::make_unique<Reader>(*program_)) {}
+
+Timeline::~Timeline() = default;
+
+void Timeline::begin() {
+  reader_ = std::make_unique<Reader>(*program_);
+  looking_ = true;
+}
+
+void Timeline::record(const TraceRecord& record) {
+  if (looking_) reader_->read(record);
+  if (next_) next_->record(record);
+}
+
+TimelineReport Timeline::report() const { return reader_->report(); }
+
+std::string to_text(const TimelineReport& report, const serial::Exchange& exchange, bool colour) {
+  std::string text =
+      painted(fmt::format("{:>10}  {:<{}}  {}", "ms", "at the port", kWidth, "in the CPU"), kDim, colour) + '\n';
+  for (const TimelineRow& row : report.rows) {
+    const std::string line = row_text(row.at - exchange.request_start, row);
+    text += (is_trouble(row) ? painted(line, kYellow, colour) : line) + '\n';
+  }
+  return text + painted(fmt::format("{:>10}  {}", "", summary(report)), kDim, colour) + '\n';
+}
+
+nlohmann::ordered_json to_json(const TimelineReport& report, const serial::Exchange& exchange) {
+  static constexpr std::string_view kNames[] = {"received", "ignored", "lost",  "event",
+                                                "transmit", "sent",    "other", "left out"};
+  const auto microseconds = [](Time t) { return static_cast<double>(t) / kMicrosecond; };
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const TimelineRow& row : report.rows) {
+    nlohmann::ordered_json json{{"at_us", microseconds(row.at - exchange.request_start)},
+                                {"kind", kNames[static_cast<std::size_t>(row.kind)]}};
+    if (!row.characters.empty()) {
+      std::vector<std::uint8_t> bytes;
+      for (const ReceivedCharacter& c : row.characters) bytes.push_back(c.byte);
+      json["characters"] = plain_hex(bytes);
+      json["parity_errors"] =
+          std::count_if(row.characters.begin(), row.characters.end(), [](const auto& c) { return c.parity_error; });
+      json["framing_errors"] =
+          std::count_if(row.characters.begin(), row.characters.end(), [](const auto& c) { return c.framing_error; });
+    }
+    if (row.more_characters) json["more_characters"] = row.more_characters;
+    if (!row.text.empty()) json["text"] = row.text;
+    if (!row.place.empty()) json["place"] = row.place;
+    if (row.served) {
+      json["event"] = row.event;
+      json["routine"] = row.routine;
+      json["served"] = row.served;
+      json["shortest_us"] = microseconds(row.shortest);
+      json["longest_us"] = microseconds(row.longest);
+      json["longest_wait_us"] = microseconds(row.longest_wait);
+    }
+    list.push_back(json);
+  }
+  return list;
+}
+
+}  // namespace s7200::tools

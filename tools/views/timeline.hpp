@@ -1,0 +1,78 @@
+// `--timeline`: what the CPU did during an exchange, put together from its trace records.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "interpreter/program/program.hpp"
+#include "interpreter/trace/trace.hpp"
+#include "serial_sim/peers/requester.hpp"
+
+namespace s7200::tools {
+
+/// One thing that happened, or several of the same kind in a row.
+struct TimelineRow {
+  enum class Kind : std::uint8_t { Received, Ignored, Lost, Event, Transmit, Sent, Other, LeftOut };
+
+  static constexpr std::size_t kMostCharacters = 4096;
+
+  Time at = 0;  ///< of the first
+  Kind kind{};
+  std::vector<ReceivedCharacter> characters{};  ///< Received, Ignored, Lost, Sent; the first kMostCharacters
+  std::size_t more_characters = 0;              ///< that are only counted
+  std::uint8_t event = 0;                       ///< Received, Lost, Event
+  std::uint8_t routine = 0;                     ///< that was attached to it
+  std::string text{};                           ///< Transmit, Other, LeftOut: in words
+  std::string place{};                          ///< Transmit: which part of the program did it
+
+  /// Services by the interrupt routine.
+  std::size_t served = 0;
+  Time shortest = kNever, longest = 0, in_all = 0, longest_wait = 0;
+};
+
+struct TimelineReport {
+  /// The first kMostRows / 2 and the last; between them one of Kind::LeftOut if there were more.
+  static constexpr std::size_t kMostRows = 1000;
+  std::vector<TimelineRow> rows{};
+
+  // Of all rows.
+  std::size_t scans = 0;  ///< from beginning to end
+  Time shortest_scan = kNever, longest_scan = 0;
+  std::size_t served = 0;  ///< interrupts
+  Time in_all = 0, longest_wait = 0;
+};
+
+/// Looks on between begin() and end(); passes everything on to the next sink, if there is one. However long that is, it
+/// keeps no more than it shows.
+class Timeline final : public TraceSink {
+ public:
+  Timeline(std::shared_ptr<const Program> program, TraceSink* next);
+  ~Timeline() override;
+
+  void begin();
+  void end() { looking_ = false; }
+
+  /// Since begin().
+  TimelineReport report() const;
+
+  void record(const TraceRecord& record) override;
+  bool before(std::uint32_t op) override { return !next_ || next_->before(op); }
+  void instruction(const InstructionRecord& record) override { next_->instruction(record); }
+  bool wants_instructions() const override { return next_ && next_->wants_instructions(); }
+
+ private:
+  class Reader;
+
+  std::shared_ptr<const Program> program_;
+  TraceSink* next_;
+  std::unique_ptr<Reader> reader_;
+  bool looking_ = false;
+};
+
+/// An aligned table; times count from the start of the request.
+std::string to_text(const TimelineReport& report, const serial::Exchange& exchange, bool colour);
+nlohmann::ordered_json to_json(const TimelineReport& report, const serial::Exchange& exchange);
+
+}  // namespace s7200::tools
