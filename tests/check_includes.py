@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Who may include whom. A layer sees itself and the layers above it in LAYERS, or only those it names.
+"""Who may include whom, which libraries each room sees, and which words it does not use.
 
-Types low, bodies high: the types of instructions, of the trace and of the serial port stand below the CPU, what works on
-the CPU stands above it. Run without arguments; every offence is printed, the exit code is 1 if there is any.
+A folder is a room; ROOMS says what each sees besides itself. There are no exceptions: a file that cannot stand in its room
+belongs into another. Run without arguments; every offence is printed, the exit code is 1 if there is any.
 """
 import pathlib
 import re
@@ -10,121 +10,119 @@ import sys
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
 
-# name: what belongs to it, and the only other layers it sees (None: all before it)
-LAYERS = {
-    "base": (["interpreter/base/"], []),
-    "stl": (["interpreter/stl/"], []),
-    "model": (["interpreter/model/"], ["base"]),
-    "instruction types": ([], ["base", "model"]),
-    "program": (["interpreter/program/"], None),
-    "serial port": ([], ["base"]),
-    "trace records": ([], ["base", "serial port"]),
-    "cpu": (["interpreter/cpu/"], None),
-    "instruction bodies": (["interpreter/instructions/"], None),
-    "trace writers": (["interpreter/trace/"], None),
-    "line": (["serial_sim/"], ["base", "serial port"]),
-    "simulation": ([], None),
-    "tools": (["tools/"], None),
-    "tests": (["tests/"], None),
+INTERPRETER = ["interpreter/base", "interpreter/stl", "interpreter/model", "interpreter/program", "interpreter/trace",
+               "interpreter/cpu", "interpreter/instructions"]
+SERIAL_SIM = ["serial_sim/line", "serial_sim/faults", "serial_sim/peers", "serial_sim/modbus", "serial_sim/field",
+              "serial_sim/system", "serial_sim/record"]
+CORE = INTERPRETER + SERIAL_SIM
+
+ROOMS = {
+    "interpreter/base": [],
+    "interpreter/stl": ["interpreter/base"],
+    "interpreter/model": ["interpreter/base"],
+    "interpreter/program": ["interpreter/base", "interpreter/stl", "interpreter/model"],
+    "interpreter/trace": ["interpreter/base", "interpreter/stl", "interpreter/model", "interpreter/program"],
+    "interpreter/cpu": INTERPRETER[:5],
+    "interpreter/instructions": INTERPRETER[:6],
+    "serial_sim/line": ["interpreter/base"],
+    "serial_sim/faults": ["interpreter/base", "serial_sim/line"],
+    "serial_sim/peers": ["interpreter/base", "serial_sim/line"],
+    "serial_sim/modbus": ["interpreter/base", "serial_sim/line", "serial_sim/faults", "serial_sim/peers"],
+    "serial_sim/field": INTERPRETER,
+    "serial_sim/system": INTERPRETER + ["serial_sim/line", "serial_sim/faults", "serial_sim/peers", "serial_sim/field"],
+    "serial_sim/record": CORE,
+    "tools/host": ["interpreter/base"],
+    "tools/views": CORE,
+    "tools/rig": CORE + ["tools/host", "tools/views"],
+    "tools/slave": CORE + ["tools/host", "tools/views", "tools/rig"],
+    "tools/bridge": CORE + ["tools/host", "tools/views", "tools/rig"],
+    "tools/master": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
+    "tools/scenario": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
+    "tools/debugger": CORE + ["tools/host", "tools/views", "tools/rig"],
+}
+ROOMS["tools/command"] = list(ROOMS)
+ROOMS["tests"] = list(ROOMS)
+
+# What only some rooms may include, by the beginning of its name.
+LIBRARIES = {
+    "CLI/": ["tools/command", "tests"],
+    "boost/asio": ["tools/bridge"],
+    "boost/": ["interpreter/stl/parser.cpp", "tools/bridge"],
+    "nlohmann/": ["tools", "tests"],
+    "yaml-cpp/": ["tools/scenario"],
+    "sys/socket.h": ["tools/host", "tools/bridge", "tools/slave", "tests"],
+    "netinet/": ["tools/host", "tools/bridge", "tools/slave", "tests"],
+    "arpa/": ["tools/host", "tools/bridge", "tools/slave", "tests"],
+    "netdb.h": ["tools/host", "tools/bridge", "tools/slave", "tests"],
 }
 
-# Files that belong to another layer than their folder does. One that would be in order in the layer of its folder, and
-# could be included by all who do, is no exception: the check fails until it is struck off.
-EXCEPTIONS = {
-    "interpreter/model/instruction.hpp": "instruction types",
-    "interpreter/base/serial_port.hpp": "serial port",
-    "interpreter/trace/trace.hpp": "trace records",
-    "serial_sim/field/field.hpp": "simulation",
-    "serial_sim/field.cpp": "simulation",
-    "serial_sim/field/field_script.hpp": "simulation",
-    "serial_sim/field_script.cpp": "simulation",
-    "serial_sim/system/simulation.hpp": "simulation",
-    "serial_sim/simulation.cpp": "simulation",
+# Words of the program text, without comments, that only some rooms may use.
+WORDS = {
+    r"\bstderr\b|\bstd::c(err|log|out)\b|\bstdout\b|\bfmt::print\b": ["tools/command", "tests"],
+    r"\bk(Fine|CheckFailed|Unusable|CpuFatal)\b|\b_?exit\(": ["tools/command", "tests"],
+    r"\bmodbus\b": ["serial_sim/modbus", "serial_sim/record", "tools", "tests"],
 }
-
-# Libraries that only some files may see.
-EXTERNAL = [
-    (re.compile(r"CLI/"), re.compile(r"tools/[^/]*\.cpp|tests/.*\.cpp"), "CLI11 belongs into tools/*.cpp"),
-    (re.compile(r"boost/asio"), re.compile(r"tools/bridge[^/]*\.cpp"), "Boost.Asio belongs into tools/bridge*.cpp"),
-    (re.compile(r"boost/(?!asio)"), re.compile(r"interpreter/stl/parser\.cpp"),
-     "Boost belongs into interpreter/stl/parser.cpp"),
-    (re.compile(r"nlohmann/"), re.compile(r"(tools|tests)/.*"), "JSON belongs into tools"),
-    (re.compile(r"yaml-cpp/"), re.compile(r"tools/scenario[^/]*\.cpp"), "yaml-cpp belongs into tools/scenario*.cpp"),
-]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+COMMENT_OR_TEXT = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:[^"\\\n]|\\.)*"', re.S)
 
 
-def layer_of_folder(path):
-    return next((name for name, (folders, _) in LAYERS.items() if path.startswith(tuple(folders))), None)
+def room_of(path):
+    """The longest that holds it."""
+    return max((room for room in ROOMS if path.startswith(room + "/")), key=len, default=None)
 
 
-def layer_of(path, exceptions):
-    return exceptions.get(path) or layer_of_folder(path)
+def is_among(path, places):
+    return any(path == place or path.startswith(place + "/") for place in places)
 
 
-def sees(layer, other):
-    order = list(LAYERS)
-    only = LAYERS[layer][1]
-    if other == layer:
-        return True
-    return other in only if only is not None else order.index(other) < order.index(layer)
-
-
-def read_includes():
-    """[(file, line number, bracket, included)]"""
-    found = []
+def sources():
     for folder in ("interpreter", "serial_sim", "tools", "tests"):
-        for path in sorted((TOP / folder).rglob("*.?pp")):
-            name = path.relative_to(TOP).as_posix()
-            for number, line in enumerate(path.read_text(encoding="utf-8").split("\n"), 1):
-                match = INCLUDE.match(line)
-                if match:
-                    found.append((name, number, *match.groups()))
-    return found
+        yield from (path for path in sorted((TOP / folder).rglob("*.?pp")))
 
 
 def exists(name):
     return (TOP / name).is_file() or (TOP / (name + ".in")).is_file()
 
 
-def offences(includes, exceptions):
-    for name, number, bracket, included in includes:
-        own = layer_of(name, exceptions)
-        for library, allowed, message in EXTERNAL:
-            if library.match(included) and not allowed.fullmatch(name):
-                yield f"{name}:{number}: {message}"
-        is_ours = layer_of(included, exceptions) is not None
-        if not is_ours:
-            if bracket == '"':
-                yield f"{name}:{number}: '{included}' is no path from the top of the tree"
-            continue
-        if bracket == "<" and not name.startswith("tests/install/consumer/"):
-            yield f"{name}:{number}: '{included}' is ours: write it in quotes"
-        if not exists(included):
-            yield f"{name}:{number}: there is no {included}"
-        elif own is None:
-            yield f"{name}:{number}: {name} belongs to no layer"
-        elif not sees(own, layer_of(included, exceptions)):
-            yield f"{name}:{number}: {own} must not see {layer_of(included, exceptions)} ({included})"
+def offences_of_include(name, bracket, included):
+    for library, allowed in LIBRARIES.items():
+        if included.startswith(library) and not is_among(name, allowed):
+            yield f"{included} belongs into {', '.join(allowed)}"
+    room, other = room_of(name), room_of(included)
+    if other is None:
+        if bracket == '"':
+            yield f"'{included}' is not a path from the top of the tree"
+        return
+    if bracket == "<" and not name.startswith("tests/install/consumer/"):
+        yield f"'{included}' is ours: write it in quotes"
+    if not exists(included):
+        yield f"there is no {included}"
+    elif other != room and other not in ROOMS[room]:
+        yield f"{room} must not see {other} ({included})"
 
 
-def needless_exceptions(includes):
-    for name in EXCEPTIONS:
-        if not exists(name):
-            yield f"exception for {name}: there is no such file"
-        elif not list(offences(includes, {k: v for k, v in EXCEPTIONS.items() if k != name})):
-            yield f"exception for {name}: no longer needed"
+def offences_of(path):
+    name, text = path.relative_to(TOP).as_posix(), path.read_text(encoding="utf-8")
+    if room_of(name) is None:
+        yield f"{name}:1: belongs to no room"
+        return
+    for number, line in enumerate(text.split("\n"), 1):
+        if match := INCLUDE.match(line):
+            for offence in offences_of_include(name, *match.groups()):
+                yield f"{name}:{number}: {offence}"
+    code = COMMENT_OR_TEXT.sub(lambda match: "\n" * match.group().count("\n"), text)
+    for words, allowed in WORDS.items():
+        if not is_among(name, allowed):
+            for match in re.finditer(words, code):
+                yield f"{name}:{code.count(chr(10), 0, match.start()) + 1}: '{match.group()}' belongs into {', '.join(allowed)}"
 
 
 def main():
-    includes = read_includes()
-    found = list(offences(includes, EXCEPTIONS))
-    if not found:
-        found = list(needless_exceptions(includes))
+    found = [offence for path in sources() for offence in offences_of(path)]
     for line in found:
         print(line)
-    print(f"{len(includes)} include lines, {len(found)} out of order")
+    print(f"{len(list(sources()))} files, {len(found)} offences")
     return 1 if found else 0
 
 

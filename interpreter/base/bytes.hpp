@@ -1,11 +1,14 @@
-// Big-endian access, the S7-200's byte order: VW100 is VB100 (high) and VB101 (low).
+// Bytes, and big-endian access, the S7-200's byte order: VW100 is VB100 (high) and VB101 (low).
 #pragma once
 
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 namespace s7200 {
+
+using Bytes = std::vector<std::uint8_t>;
 
 inline std::uint16_t load16(const std::uint8_t* from) {
   std::uint16_t value;

@@ -69,7 +69,7 @@ Excerpt excerpt(std::string_view line, const Position& position) {
   return result;
 }
 
-std::string location(const Diagnostic& diagnostic, const Source& source) {
+std::string location(const Diagnostic& diagnostic, const SourceLines& source) {
   const Position& position = diagnostic.position;
   const std::string name = printable(source.name);
   if (position.line == 0) return name;
@@ -127,7 +127,7 @@ void sort(Diagnostics& diagnostics) {
                    [&](const Diagnostic& a, const Diagnostic& b) { return place(a) < place(b); });
 }
 
-std::string render(const Diagnostic& diagnostic, const Source& source, bool colour) {
+std::string render(const Diagnostic& diagnostic, const SourceLines& source, bool colour) {
   const bool error = diagnostic.severity == Severity::Error;
   std::string text = painted(location(diagnostic, source) + ":", kBold, colour);
   text += ' ' + painted(error ? "error:" : "warning:", error ? kRed : kMagenta, colour);
@@ -143,7 +143,7 @@ std::string render(const Diagnostic& diagnostic, const Source& source, bool colo
   return text;
 }
 
-std::string render(const Diagnostics& diagnostics, const Source& source, bool colour) {
+std::string render(const Diagnostics& diagnostics, const SourceLines& source, bool colour) {
   std::string text;
   for (const Cause& cause : causes_of(diagnostics)) {
     text += render(*cause.first, source, colour);

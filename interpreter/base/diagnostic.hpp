@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/stl/ast.hpp"
+#include "interpreter/base/source.hpp"
 
 namespace s7200::stl {
 
@@ -31,10 +31,10 @@ void sort(Diagnostics& diagnostics);
 /// `file:line:column: error: message`, the source line, a caret line, and `hint: …`; a warning's name in brackets. Tabs of
 /// the source line stand in the caret line too, so that the caret is right at any tab width; very long lines are shown
 /// around the place only. Every line ends with a line end. `colour` is ANSI.
-std::string render(const Diagnostic& diagnostic, const Source& source, bool colour);
+std::string render(const Diagnostic& diagnostic, const SourceLines& source, bool colour);
 
 /// All of them; those of one cause as the first of them, and a line `also: …` with how often and where else.
-std::string render(const Diagnostics& diagnostics, const Source& source, bool colour);
+std::string render(const Diagnostics& diagnostics, const SourceLines& source, bool colour);
 
 /// How many causes there are.
 std::size_t count_causes(const Diagnostics& diagnostics);

@@ -1,13 +1,21 @@
 // How a character looks on the wire.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string>
+#include <string_view>
 
 #include "interpreter/base/time.hpp"
 
 namespace s7200 {
 
 enum class Parity : std::uint8_t { None, Even, Odd };
+
+/// `none`, `even`, `odd`: as options and scenarios write them.
+inline constexpr std::array<std::string_view, 3> kParityWords{"none", "even", "odd"};
+inline constexpr std::string_view word_of(Parity parity) { return kParityWords[static_cast<std::size_t>(parity)]; }
 
 struct SerialFormat {
   std::uint32_t baud = 9600;   ///< bits a second
@@ -35,5 +43,11 @@ struct SerialFormat {
     return parity == Parity::Odd ? !odd_ones : odd_ones;
   }
 };
+
+/// `9600 baud, 8 data bits, even parity, 1 stop bit`
+std::string format_text(const SerialFormat& format);
+
+/// `8E1`
+std::string character_text(const SerialFormat& format);
 
 }  // namespace s7200

@@ -73,6 +73,13 @@ std::string_view trim_end(std::string_view text) {
   return text;
 }
 
+std::string_view trim(std::string_view text) {
+  const auto goes = [](char c) { return is_blank(c) || c == '\r'; };
+  while (!text.empty() && goes(text.front())) text.remove_prefix(1);
+  while (!text.empty() && goes(text.back())) text.remove_suffix(1);
+  return text;
+}
+
 std::string shortened(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   if (count_characters(text) <= kLongest) return std::string(text);

@@ -57,6 +57,9 @@ std::vector<std::string> split_lines(std::string_view text);
 /// Without blanks and tabs at its end.
 std::string_view trim_end(std::string_view text);
 
+/// Without blanks, tabs and carriage returns at both ends.
+std::string_view trim(std::string_view text);
+
 /// At most 40 characters of a text, for a message; what is left off shows as `...`.
 std::string shortened(std::string_view text);
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "interpreter/base/serial_format.hpp"
 #include "interpreter/base/time.hpp"
@@ -203,5 +204,11 @@ struct RetentiveMemory {
   bool ram_lost = false;                           ///< power was off too long: image and clock are gone
   bool operator==(const RetentiveMemory&) const = default;
 };
+
+/// The instruction that is executed next; nothing at power-up, in the system's part of the scan, and in STOP.
+inline std::optional<std::uint32_t> standing_at(const State& state) {
+  if (state.mode == Mode::Stop || !(state.in_interrupt || state.phase == Phase::Program)) return {};
+  return state.pc;
+}
 
 }  // namespace s7200

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <sstream>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
 
 namespace s7200 {
 namespace {
@@ -17,12 +19,6 @@ std::vector<std::string> words(std::string_view text) {
   std::vector<std::string> result;
   for (std::string word; in >> word;) result.push_back(word);
   return result;
-}
-
-std::string trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(" \t\r") - first + 1));
 }
 
 /// One CSV line; quotes as RFC 4180 has them.
@@ -40,16 +36,15 @@ std::vector<std::string> fields(std::string_view line) {
       result.back() += line[i];
     }
   }
-  for (std::string& field : result) field = trimmed(field);
+  for (std::string& field : result) field = std::string(stl::trim(field));
   return result;
 }
 
 /// Microseconds with decimals, up to one second.
 std::optional<Time> microseconds(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !(value >= 0 && value <= 1e6)) return {};
-  return static_cast<Time>(std::llround(value * 1000));
+  const auto value = parse_decimal<double>(text);
+  if (!value || !Between<double>{0, 1e6}.has(*value)) return {};
+  return static_cast<Time>(std::llround(*value * 1000));
 }
 
 /// The areas a form names; none when it holds any other word.
@@ -136,10 +131,10 @@ std::vector<std::string> TimeTable::add(std::string_view csv, const std::string&
     ++number;
     const std::string_view line = csv.substr(0, csv.find('\n'));
     csv.remove_prefix(std::min(csv.size(), line.size() + 1));
-    if (trimmed(line).empty()) continue;
+    if (stl::trim(line).empty()) continue;
     if (!header_seen) {
       header_seen = true;
-      if (trimmed(line).starts_with(kHeader)) continue;
+      if (stl::trim(line).starts_with(kHeader)) continue;
       return {fmt::format("{}:{}: not a table of times: the first line must be {}[,source]", name, number, kHeader)};
     }
     TimeRow row;

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <charconv>
 
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
 #include "interpreter/program/operands.hpp"
 #include "interpreter/stl/parser.hpp"
-#include "interpreter/base/text.hpp"
 
 namespace s7200 {
 namespace {
@@ -40,8 +40,8 @@ bool read_suffix(std::string_view text, MemoryRange& range) {
     if (!text.ends_with(':')) return false;
     text.remove_suffix(1);
   }
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), range.count);
-  return error == std::errc{} && end == text.data() + text.size() && range.count != 0 && range.width != Width::Bit;
+  range.count = parse_decimal<std::uint32_t>(text).value_or(0);
+  return range.count != 0 && range.width != Width::Bit;
 }
 
 }  // namespace

@@ -6,16 +6,9 @@
 #include <variant>
 #include <vector>
 
+#include "interpreter/base/source.hpp"
+
 namespace s7200::stl {
-
-/// A place in a source text. Columns count characters (not bytes), both from 1; 0 means no place.
-struct Position {
-  std::uint32_t line = 0;
-  std::uint32_t column = 0;
-  std::uint32_t length = 1;  ///< characters to underline
-
-  bool operator==(const Position&) const = default;
-};
 
 /// `4`, `-5`, `16#FF`, `2#1010`, `'AB'`, and in S7-Micro/DOS notation `K4`, `KHFF`.
 struct Integer {
@@ -93,10 +86,8 @@ struct BlankLine {
 
 using Line = std::variant<Statement, NetworkHead, CommentLine, BlankLine>;
 
-struct Source {
-  std::string name;               ///< for messages: the path, or what stands for it
-  std::vector<std::string> text;  ///< the lines as read, UTF-8, without line ends: for messages and listings
-  std::vector<Line> lines;        ///< what they mean, in order; a line that cannot be read is left out
+struct Source : SourceLines {
+  std::vector<Line> lines;  ///< what they mean, in order; a line that cannot be read is left out
 };
 
 /// Equal but for comments, blank lines, positions and notation (K4 and 4, 16#FF and 255 in the same operand).

@@ -38,11 +38,6 @@ std::string without_debris(std::string_view line) {
   return clean;
 }
 
-std::string_view trim(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  return trim_end(text);
-}
-
 /// Unreadable characters around a statement are debris of the document. Within it, or right behind an operand, they may
 /// have been part of the statement; right behind the mnemonic only if that is not whole without them.
 bool is_damaged(std::string_view line, bool whole_mnemonic) {

@@ -6,8 +6,13 @@
 #include <charconv>
 #include <cmath>
 
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+
 namespace s7200::serial {
 namespace {
+
+using stl::trim;
 
 /// A parameter, and how its value gets from text to fault and back. `read` gives a message when the text is no value.
 struct Parameter : FaultParameter {
@@ -15,24 +20,10 @@ struct Parameter : FaultParameter {
   std::string (*write)(const Fault&);
 };
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return text.substr(text.size());
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-template <class Number>
-std::optional<Number> number(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 /// A whole number from `least` on.
 template <auto Fault::*member>
 std::string read_count(std::string_view text, Fault& fault, std::uint64_t least, std::uint64_t most) {
-  const auto value = number<std::uint64_t>(text);
+  const auto value = parse_decimal<std::uint64_t>(text);
   if (!value || *value < least || *value > most) return fmt::format("is no whole number from {} to {}", least, most);
   fault.*member = static_cast<std::remove_reference_t<decltype(fault.*member)>>(*value);
   return {};
@@ -44,7 +35,7 @@ constexpr std::uint64_t kMost = std::uint64_t{1} << 53;  // fits every language'
 std::optional<double> share(std::string_view text) {
   const bool percent = text.ends_with('%');
   if (percent) text.remove_suffix(1);
-  const auto value = number<double>(text);
+  const auto value = parse_decimal<double>(text);
   if (!value || !(*value >= 0) || *value > (percent ? 100 : 1)) return std::nullopt;
   return percent ? *value / 100 : *value;
 }
@@ -65,7 +56,7 @@ std::string read_length(std::string_view text, Fault& fault) {
   constexpr std::string_view kUnit = "bit";
   Length length;
   const bool bits = text.ends_with(kUnit);
-  const auto value = bits ? parse_duration(std::string(trimmed(text.substr(0, text.size() - kUnit.size()))).append("ms"))
+  const auto value = bits ? parse_duration(std::string(trim(text.substr(0, text.size() - kUnit.size()))).append("ms"))
                           : parse_duration(text);
   if (!value || *value > kLongestLength || (positive && *value == 0))
     return fmt::format("is no length{}; write for example 30us, 1.5ms, 0.3bit or 12bit", positive ? " above 0" : "");
@@ -126,7 +117,7 @@ std::string write_word(const Fault& fault) {
 
 std::string read_bit(std::string_view text, Fault& fault) {
   if (read_word<kBits, &Fault::bit>(text, fault).empty()) return {};
-  const auto value = number<int>(text);
+  const auto value = parse_decimal<int>(text);
   if (!value || *value < 0 || *value > 7) return "is no bit: 0 (sent first) to 7, start, parity or stop";
   fault.bit = *value;
   return {};
@@ -144,7 +135,7 @@ std::string read_character(std::string_view text, Fault& fault) {
     fault.character = Fault::kEachCharacter;
     return {};
   }
-  const auto value = number<std::uint32_t>(text);
+  const auto value = parse_decimal<std::uint32_t>(text);
   if (!value || *value < 1 || *value > kMostCharacters)
     return fmt::format("is no character: a number from 1 to {}, or each", kMostCharacters);
   fault.character = value;
@@ -157,7 +148,7 @@ std::string write_character(const Fault& fault) {
 }
 
 std::string read_behind(std::string_view text, Fault& fault) {
-  const auto value = number<std::uint32_t>(text);
+  const auto value = parse_decimal<std::uint32_t>(text);
   if (!value || *value > kMostCharacters)
     return fmt::format("is no character: a number up to {}, or 0 for the place before the first", kMostCharacters);
   fault.character = value;
@@ -187,7 +178,7 @@ std::string read_clock_error(std::string_view text, Fault& fault) {
   const bool percent = figure.ends_with('%');
   if (percent) figure.remove_suffix(1);
   if (figure.starts_with('+')) figure.remove_prefix(1);
-  const auto value = number<double>(figure);
+  const auto value = parse_decimal<double>(figure);
   const double millionths = value ? std::round(*value * 10'000) : 0;
   if (!percent || !value || !(std::abs(millionths) <= Fault::kLargestClockError) || millionths == 0)
     return "is no deviation up to 50%; write for example 2.5% for a clock that is too fast, -3% for a slow one";
@@ -289,7 +280,7 @@ class Reader {
 
   ParsedFault read() {
     const std::size_t colon = text_.find(':');
-    const std::string_view name = trimmed(text_.substr(0, colon));
+    const std::string_view name = trim(text_.substr(0, colon));
     const auto& kinds = fault_kinds();
     const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const FaultKindInfo& k) { return k.name == name; });
     if (kind == kinds.end()) return fail(name, unknown("fault", name, kinds));
@@ -326,7 +317,7 @@ class Reader {
 
   void read_parameter(std::string_view assignment) {
     const std::size_t equals = assignment.find('=');
-    const std::string_view name = trimmed(assignment.substr(0, equals));
+    const std::string_view name = trim(assignment.substr(0, equals));
     const auto& of_kind = kind_->parameters;
     if (std::none_of(of_kind.begin(), of_kind.end(), [&](const ParameterOfKind& p) { return p.name == name; })) {
       fail(name, unknown(fmt::format("parameter of {}", kind_->name), name, of_kind));
@@ -339,7 +330,7 @@ class Reader {
       fail(name, fmt::format("{} is given twice", name));
     } else {
       given_.push_back(name);
-      const std::string_view value = trimmed(assignment.substr(equals + 1));
+      const std::string_view value = trim(assignment.substr(equals + 1));
       if (const std::string wrong = parameter.read(value, result_.fault); !wrong.empty())
         fail(value, fmt::format("{}: '{}' {}", name, value, wrong));
     }

@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/model/special_memory.hpp"
 #include "interpreter/program/address.hpp"
 
@@ -15,12 +16,6 @@ namespace {
 __extension__ using Wide = __int128;
 
 constexpr std::uint64_t kHighestMillihertz = 1'000'000'000;  // 1 MHz
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 /// # begins a comment where a word could begin: not in 16#FF.
 std::string_view without_comment(std::string_view line) {
@@ -33,7 +28,7 @@ std::vector<std::string_view> fields_of(std::string_view row) {
   std::vector<std::string_view> fields;
   for (std::size_t comma = 0; comma != std::string_view::npos;) {
     comma = row.find(',');
-    fields.push_back(trimmed(row.substr(0, comma)));
+    fields.push_back(stl::trim(row.substr(0, comma)));
     if (comma != std::string_view::npos) row.remove_prefix(comma + 1);
   }
   return fields;
@@ -44,7 +39,7 @@ std::optional<std::uint64_t> parse_frequency(std::string_view text) {
   constexpr std::pair<std::string_view, std::string_view> kUnits[] = {{"kHz", "ms"}, {"Hz", "us"}};
   for (const auto& [unit, duration] : kUnits) {
     if (!text.ends_with(unit)) continue;
-    const auto figure = parse_duration(std::string(trimmed(text.substr(0, text.size() - unit.size()))).append(duration));
+    const auto figure = parse_duration(std::string(stl::trim(text.substr(0, text.size() - unit.size()))).append(duration));
     if (!figure || *figure == 0) return {};
     return static_cast<std::uint64_t>(*figure);
   }
@@ -62,7 +57,7 @@ class Reader {
       ++line_;
       const std::string_view line = csv.substr(0, csv.find('\n'));
       csv.remove_prefix(std::min(csv.size(), line.size() + 1));
-      const std::string_view row = trimmed(without_comment(line));
+      const std::string_view row = stl::trim(without_comment(line));
       if (row.empty()) continue;
       if (!(first && row.starts_with("time"))) read_row(fields_of(row));
       first = false;

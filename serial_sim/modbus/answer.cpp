@@ -11,6 +11,7 @@ namespace s7200::modbus {
 namespace {
 
 /// Nothing but the data of a PDU: station, function and CRC are off.
+using serial::to_hex;
 using Data = std::span<const std::uint8_t>;
 
 constexpr std::size_t kAroundData = 4;  // station, function, two bytes of CRC

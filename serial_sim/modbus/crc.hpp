@@ -4,11 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
+
+#include "interpreter/base/bytes.hpp"
 
 namespace s7200::modbus {
-
-using Bytes = std::vector<std::uint8_t>;
 
 /// What one byte does to the CRC: polynomial x^16 + x^15 + x^2 + 1, least significant bit first (Modbus over Serial
 /// Line, 6.2.2).

@@ -122,85 +122,10 @@ Bytes rtu_frame(std::uint8_t station, std::span<const std::uint8_t> pdu) {
   return frame;
 }
 
-Frame to_frame(std::span<const std::uint8_t> bytes) {
-  Frame frame;
-  frame.reserve(bytes.size());
-  for (const std::uint8_t byte : bytes) frame.push_back({byte, false});
-  return frame;
-}
-
-Bytes bytes_of(std::span<const FrameCharacter> frame) {
-  Bytes bytes;
-  bytes.reserve(frame.size());
-  for (const FrameCharacter& character : frame) bytes.push_back(character.byte);
-  return bytes;
-}
-
-void append_crc(Frame& frame) {
-  Bytes bytes = bytes_of(frame);
+void append_crc(serial::Frame& frame) {
+  Bytes bytes = serial::bytes_of(frame);
   add_crc(bytes);
   for (std::size_t i = frame.size(); i < bytes.size(); ++i) frame.push_back({bytes[i], false});
-}
-
-bool has_wrong_parity(std::span<const FrameCharacter> frame) {
-  return std::any_of(frame.begin(), frame.end(), [](const FrameCharacter& character) { return character.wrong_parity; });
-}
-
-namespace {
-
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
-
-/// Value of a hex digit; -1 for anything else.
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
-}  // namespace
-
-ParsedFrame parse_hex_frame(std::string_view text) {
-  ParsedFrame parsed;
-  const auto error = [&](std::size_t place, std::string message) {
-    parsed.errors.push_back({place + 1, std::move(message)});
-  };
-  const auto at = [&](std::size_t place) { return place < text.size() ? text[place] : ' '; };
-
-  std::size_t place = 0;
-  while (place < text.size()) {
-    const std::size_t first = place++;
-    if (is_blank(at(first))) continue;
-    const int high = hex_digit(at(first));
-    const int low = hex_digit(at(place));
-    if (high < 0) {
-      error(first, fmt::format("'{}' is no hex digit", at(first)));
-    } else if (is_blank(at(place))) {
-      error(first, fmt::format("a byte is two hex digits, 0{} for {}", at(first), at(first)));
-    } else if (low >= 0) {
-      ++place;
-      const bool wrong_parity = at(place) == 'p' || at(place) == 'P';
-      if (wrong_parity) ++place;
-      if (parsed.frame.size() == kLongestRawFrame) {
-        error(first, fmt::format("a frame has {} bytes at most", kLongestRawFrame));
-        break;
-      }
-      parsed.frame.push_back({static_cast<std::uint8_t>(high << 4 | low), wrong_parity});
-    }
-  }
-  if (parsed.frame.empty() && parsed.ok()) error(0, "a frame has one byte at least");
-  return parsed;
-}
-
-std::string to_hex(std::span<const std::uint8_t> bytes) { return fmt::format("{:02x}", fmt::join(bytes, " ")); }
-
-std::string to_hex(std::span<const FrameCharacter> frame) {
-  std::string text;
-  for (const FrameCharacter& character : frame) {
-    if (!text.empty()) text += ' ';
-    fmt::format_to(std::back_inserter(text), "{:02x}{}", character.byte, character.wrong_parity ? "p" : "");
-  }
-  return text;
 }
 
 }  // namespace s7200::modbus

@@ -1,4 +1,4 @@
-// Modbus RTU requests, and frames as people type them.
+// Modbus RTU requests.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "serial_sim/line/frame.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "serial_sim/modbus/functions.hpp"
 
 namespace s7200::modbus {
-
-inline constexpr std::size_t kLongestRawFrame = 1024;
 
 /// Protocol data units: function code and data. Addresses count from 0, as on the wire.
 /// Counts are not checked against the protocol's limits, because tests of a slave exceed them on purpose.
@@ -55,47 +54,7 @@ std::vector<Reference> references_of(std::span<const std::uint8_t> bytes, bool w
 /// Station address, PDU, CRC.
 Bytes rtu_frame(std::uint8_t station, std::span<const std::uint8_t> pdu);
 
-/// One character of a raw frame.
-struct FrameCharacter {
-  std::uint8_t byte = 0;
-  bool wrong_parity = false;  ///< to be sent with its parity bit the wrong way round
-
-  bool operator==(const FrameCharacter&) const = default;
-};
-
-using Frame = std::vector<FrameCharacter>;
-
-Frame to_frame(std::span<const std::uint8_t> bytes);
-Bytes bytes_of(std::span<const FrameCharacter> frame);
-
 /// Appends the CRC of the frame's bytes.
-void append_crc(Frame& frame);
-
-/// Such a frame can only be sent in a format with parity.
-bool has_wrong_parity(std::span<const FrameCharacter> frame);
-
-struct FrameError {
-  std::size_t column = 1;  ///< in the text, from 1
-  std::string message;
-
-  bool operator==(const FrameError&) const = default;
-};
-
-struct ParsedFrame {
-  Frame frame;  ///< of use only if there are no errors
-  std::vector<FrameError> errors;
-
-  bool ok() const { return errors.empty(); }
-};
-
-/// Reads `01 03 00 0a`: two hex digits a byte in either case, blanks between bytes as you like, `p` behind a byte to send
-/// it with wrong parity. From one to 1024 bytes.
-ParsedFrame parse_hex_frame(std::string_view text);
-
-/// `01 03 00 0a`
-std::string to_hex(std::span<const std::uint8_t> bytes);
-
-/// The same with its `p`, as parse_hex_frame reads it.
-std::string to_hex(std::span<const FrameCharacter> frame);
+void append_crc(serial::Frame& frame);
 
 }  // namespace s7200::modbus

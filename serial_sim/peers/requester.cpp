@@ -18,8 +18,8 @@ bool Exchange::framing_error() const {
   return std::any_of(response.begin(), response.end(), [](const ReceivedCharacter& c) { return c.framing_error; });
 }
 
-modbus::Bytes bytes_of(const std::vector<ReceivedCharacter>& characters) {
-  modbus::Bytes bytes;
+Bytes bytes_of(const std::vector<ReceivedCharacter>& characters) {
+  Bytes bytes;
   bytes.reserve(characters.size());
   for (const ReceivedCharacter& character : characters) bytes.push_back(character.byte);
   return bytes;
@@ -103,7 +103,7 @@ void Master::on(const Uart::Report& report) {
 }
 
 void Master::send_next(Time at) {
-  const modbus::FrameCharacter& character = state_.request.frame[state_.sent++];
+  const serial::FrameCharacter& character = state_.request.frame[state_.sent++];
   if (character.wrong_parity) {
     uart_.send_with_wrong_parity(character.byte, at);
   } else {

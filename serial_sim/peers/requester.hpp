@@ -7,18 +7,27 @@
 #include <vector>
 
 #include "interpreter/base/event_queue.hpp"
-#include "serial_sim/modbus/request.hpp"
+#include "serial_sim/line/frame.hpp"
+#include "serial_sim/line/line_settings.hpp"
 #include "serial_sim/line/uart.hpp"
 
 namespace s7200::serial {
 
 struct Request {
-  modbus::Frame frame;            ///< at least one character; sent as it is
+  Frame frame;                    ///< at least one character; sent as it is
   Time timeout = kSecond;         ///< from the end of the request to the start edge of the answer
   Time gap = 0;                   ///< between the characters of the request
   std::optional<Time> silence{};  ///< that ends an answer; 3.5 characters of the master's format if not given
 
   bool operator==(const Request&) const = default;
+};
+
+/// How a master is set, and how it talks.
+struct MasterSettings : LineSettings {
+  Time timeout = kSecond;
+  Time gap = 0;
+
+  Request request(const Frame& of) const { return {.frame = of, .timeout = timeout, .gap = gap}; }
 };
 
 /// How to wait for a transmission that nobody asked for.
@@ -27,11 +36,11 @@ struct Listening {
   std::optional<Time> silence{};  ///< that ends it; 3.5 characters of the master's format if not given
 };
 
-modbus::Bytes bytes_of(const std::vector<ReceivedCharacter>& characters);
+Bytes bytes_of(const std::vector<ReceivedCharacter>& characters);
 
 /// A request and what came of it. After Master::listen() the request is empty, and its times are when the listening began.
 struct Exchange {
-  modbus::Frame request;
+  Frame request;
   Time request_start = 0;
   Time request_end = 0;                   ///< end of the last stop bit
   std::vector<ReceivedCharacter> echo{};  ///< what the master heard while it sent; nothing on a line without echo
@@ -46,7 +55,7 @@ struct Exchange {
   std::optional<Time> latency() const;
   bool parity_error() const;
   bool framing_error() const;
-  modbus::Bytes response_bytes() const { return bytes_of(response); }
+  Bytes response_bytes() const { return bytes_of(response); }
 };
 
 /// Half duplex: its receiver is off from the start of the request to the end of its last stop bit, unless the line gives an
@@ -54,7 +63,7 @@ struct Exchange {
 /// To whoever handles the events: reports of the UART go to on(), events of EventOwner::Master to handle().
 class Master {
  public:
-  static constexpr std::size_t kLongestResponse = modbus::kLongestRawFrame;
+  static constexpr std::size_t kLongestResponse = kLongestRawFrame;
   static constexpr std::size_t kMostHeard = 4096;  ///< what comes when so many wait is lost, as in a computer's serial port
 
   enum class Phase : std::uint8_t { Idle, Sending, Waiting, Receiving };

@@ -10,11 +10,11 @@
 #include "interpreter/cpu/cpu.hpp"
 #include "serial_sim/faults/faults.hpp"
 #include "serial_sim/field/field.hpp"
-#include "serial_sim/peers/host_port.hpp"
 #include "serial_sim/line/line.hpp"
-#include "serial_sim/peers/requester.hpp"
 #include "serial_sim/line/uart.hpp"
 #include "serial_sim/line/wire_tap.hpp"
+#include "serial_sim/peers/host_port.hpp"
+#include "serial_sim/peers/requester.hpp"
 
 namespace s7200::serial {
 
@@ -78,6 +78,12 @@ class Simulation {
   HostPort& host_port() { return host_port_; }
   const HostPort& host_port() const { return host_port_; }
   Time time() const { return cpu_.time(); }
+
+  /// What the program has set its port to; the default format until it has switched it to Freeport mode.
+  SerialFormat port_format() const {
+    const auto& port = cpu_.state().port[0];
+    return port.active ? port.format : SerialFormat{};
+  }
 
   /// Lets `sink` watch the line from now on; null ends that. Not owned. After restore() it sees time go back.
   void set_wire_sink(WireSink* sink) { tap_.watch(sink, cpu_.time()); }

@@ -21,9 +21,10 @@
 #include <thread>
 
 #include "interpreter/program/load.hpp"
+#include "serial_sim/modbus/request.hpp"
 #include "tests/support/source_path.hpp"
-#include "tools/bridge/pty_bridge.hpp"
 #include "tools/bridge/live_run.hpp"
+#include "tools/bridge/pty_bridge.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace {
@@ -59,8 +60,8 @@ class Timed final : public tools::Bridge {
  public:
   explicit Timed(std::unique_ptr<Bridge> bridge) : bridge_(std::move(bridge)) {}
 
-  bool start(tools::LiveLine& line, boost::asio::io_context& context) override {
-    const bool started = bridge_->start(line, context);
+  bool start(tools::LiveLine& line, boost::asio::io_context& context, std::string& why) override {
+    const bool started = bridge_->start(line, context, why);
     begin_ = line.now();
     moment_ = Clock::now();
     return started;

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "interpreter/program/load.hpp"
+#include "serial_sim/modbus/request.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tests/support/source_path.hpp"
 
@@ -55,7 +56,7 @@ BENCHMARK(idle_scans);
 
 /// Ten registers again and again; items are instructions.
 void serving(benchmark::State& bench) {
-  const modbus::Frame request = modbus::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 10)));
+  const serial::Frame request = serial::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 10)));
   serial::Simulation simulation(slave());
   simulation.power_up();
   simulation.run_until_ready(serial::Simulation::default_quiet({}), 60 * kSecond);

@@ -1,6 +1,7 @@
 // What the wire costs: characters and exchanges a second of the host, without a PLC.
 #include <benchmark/benchmark.h>
 
+#include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/requester.hpp"
 
 namespace s7200::serial {
@@ -34,7 +35,7 @@ void exchanges(benchmark::State& bench) {
   Uart slave(line, queue, EventOwner::PlcUart, 0);
   Uart master_uart(line, queue, EventOwner::MasterUart, 1);
   Master master(master_uart, queue);
-  const Request request{.frame = modbus::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 10)))};
+  const Request request{.frame = serial::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 10)))};
   Time now = 0;
   for (auto _ : bench) {
     int heard = 0;

@@ -176,7 +176,7 @@ class Verbs(Case):
                     self.assertIn(f"\n  {spec}\n  {' ' * (column - 1)}{caret}\n", done.stderr)
 
     def test_help_lists_every_fault(self):
-        table = (SOURCE / "serial_sim/README.md").read_text(encoding="utf-8").split("| fault |")[1].split("\n\n")[0]
+        table = (SOURCE / "serial_sim/faults/README.md").read_text(encoding="utf-8").split("| fault |")[1].split("\n\n")[0]
         kinds = re.findall(r"(?m)^\| `(\w+)`", table)
         self.assertGreater(len(kinds), 10)
         for verb in ("run", "send", "master"):

@@ -8,11 +8,11 @@
 #include <stdexcept>
 
 #include "interpreter/program/load.hpp"
+#include "serial_sim/modbus/request.hpp"
 
 namespace s7200::faults {
 namespace {
 
-using modbus::Bytes;
 using serial::bytes_of;
 using serial::Fault;
 using serial::FaultKind;
@@ -232,7 +232,7 @@ class Slave {
   void exchange(const Bytes& request) {
     log.clear();
     log.last = simulation.time();
-    simulation.master().start({.frame = modbus::to_frame(request), .timeout = kShort}, simulation.time());
+    simulation.master().start({.frame = serial::to_frame(request), .timeout = kShort}, simulation.time());
     simulation.finish_exchange();
   }
 
@@ -346,8 +346,8 @@ class Trials {
     counts.answered += got.answer.empty() ? 0U : 1U;
     if (slave_.in_run() && std::find(earned.begin(), earned.end(), got) != earned.end()) return;
     ++counts.wrong;
-    show(fmt::format("answered '{}' instead of '{}', {} outputs and registers{}", modbus::to_hex(got.answer),
-                     modbus::to_hex(earned[0].answer),
+    show(fmt::format("answered '{}' instead of '{}', {} outputs and registers{}", serial::to_hex(got.answer),
+                     serial::to_hex(earned[0].answer),
                      got.outputs == earned[0].outputs && got.registers == earned[0].registers ? "same" : "other",
                      slave_.in_run() ? "" : ", in STOP"),
          frames);
@@ -393,15 +393,15 @@ class Trials {
     slave_.settle();
     if (slave_.log.sent == expected) return;
     ++result.counts.unanswered;
-    show(fmt::format("a good frame behind it was answered '{}' instead of '{}'", modbus::to_hex(slave_.log.sent),
-                     modbus::to_hex(expected)),
+    show(fmt::format("a good frame behind it was answered '{}' instead of '{}'", serial::to_hex(slave_.log.sent),
+                     serial::to_hex(expected)),
          frames_of(slave_.log, quiet_));
   }
 
   void show(const std::string& what, const std::vector<Frame>& frames) {
     if (result.wrong.size() == kMostShown) return;
     result.wrong.push_back(fmt::format("{}: {}\n  request  {}\n  faults  {}\n  received{}\n", place_, what,
-                                       modbus::to_hex(request_), faults_, shown(frames)));
+                                       serial::to_hex(request_), faults_, shown(frames)));
   }
 
   Slave slave_, second_;

@@ -6,13 +6,13 @@
 #include <string>
 
 #include "interpreter/program/load.hpp"
+#include "serial_sim/modbus/request.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tests/support/source_path.hpp"
 
 namespace s7200 {
 namespace {
 
-using modbus::Bytes;
 using serial::Fault;
 using serial::FaultKind;
 
@@ -117,7 +117,7 @@ class Slave {
       bytes.insert(bytes.begin(), kStation);
       modbus::add_crc(bytes);
     }
-    modbus::Frame frame = modbus::to_frame(bytes);
+    serial::Frame frame = serial::to_frame(bytes);
     const std::uint8_t how = input.byte();
     if ((how & 1) != 0) frame[input.byte() % frame.size()].wrong_parity = true;
     const Time gap = (how & 2) != 0 ? static_cast<Time>(input.word()) * 200 : 0;
@@ -178,7 +178,7 @@ class Slave {
     Bytes expected{kStation, 3, 2, state.image[image::kV + 20], state.image[image::kV + 21]};
     modbus::add_crc(expected);
     const Bytes request = modbus::rtu_frame(kStation, modbus::read_holding_registers(10, 1));
-    simulation_.master().start({.frame = modbus::to_frame(request)}, simulation_.time());
+    simulation_.master().start({.frame = serial::to_frame(request)}, simulation_.time());
     require(simulation_.finish_exchange().response_bytes() == expected, "a good request behind a quiet line is answered");
     require(state.mode == Mode::Run, "the CPU stays in RUN");
   }

@@ -17,7 +17,6 @@
 namespace {
 
 using namespace s7200;
-using modbus::Bytes;
 using modbus::Gateway;
 
 void must(bool promise) {

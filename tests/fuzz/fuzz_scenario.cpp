@@ -41,7 +41,7 @@ void shorten(Scenario& scenario) {
   if (scenario.steps.size() > 12) scenario.steps.resize(12);
   limit(scenario.pause, kMost);
   scenario.line.timeout = std::min(scenario.line.timeout, kMost);
-  scenario.line.baud = std::max<std::uint32_t>(scenario.line.baud, 9600);
+  scenario.line.baud = std::max<std::uint32_t>(scenario.line.baud.value_or(9600), 9600);
   if (scenario.after != kNever) scenario.after = std::min(scenario.after, kMost);
   for (Step& step : scenario.steps) {
     if (auto* wait = std::get_if<WaitStep>(&step.action)) {

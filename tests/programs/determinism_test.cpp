@@ -18,7 +18,7 @@ constexpr Time kEnd = 6 * kSecond;
 
 void start_request(SlaveBench& bench, std::size_t frame) {
   bench.simulation().master_uart().configure(bench.format());
-  bench.simulation().master().start({.frame = modbus::parse_hex_frame(kFrames[frame]).frame, .timeout = 500 * kMillisecond},
+  bench.simulation().master().start({.frame = serial::parse_hex_frame(kFrames[frame]).frame, .timeout = 500 * kMillisecond},
                                     begin_of(frame));
 }
 

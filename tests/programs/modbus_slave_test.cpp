@@ -115,7 +115,7 @@ TEST_F(ModbusSlave, WritesCoilsFromAnyBitOnAndLeavesTheOthers) {
 TEST_F(ModbusSlave, WritesUpTo123Registers) {
   std::vector<std::uint16_t> values(123);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint16_t>(0xA000 + i);
-  EXPECT_EQ(modbus::to_hex(bench.ask(modbus::write_registers(877, values))), "01 10 03 6d 00 7b");
+  EXPECT_EQ(serial::to_hex(bench.ask(modbus::write_registers(877, values))), "01 10 03 6d 00 7b");
   for (std::uint32_t i = 0; i < 123; ++i) ASSERT_EQ(bench.vw(2 * (877 + i)), 0xA000 + i);
   EXPECT_EQ(bench.vw(2 * 876), 0);
   EXPECT_EQ(bench.vw(2000), 0);
@@ -125,10 +125,10 @@ TEST_F(ModbusSlave, WritesUpTo123Registers) {
 
 TEST_F(ModbusSlave, AnswersOtherFunctionsWithException1WhateverTheirLength) {
   for (const char* function : {"00", "07", "08", "0b", "0c", "0e", "11", "14", "15", "16", "17", "18", "2b", "7f"}) {
-    const Bytes code = modbus::bytes_of(modbus::parse_hex_frame(function).frame);
+    const Bytes code = serial::bytes_of(serial::parse_hex_frame(function).frame);
     const Bytes refused{1, static_cast<std::uint8_t>(code[0] | 0x80), 1};
-    EXPECT_EQ(bench.ask(std::string("01") + function), modbus::to_hex(refused));
-    EXPECT_EQ(bench.ask(std::string("01") + function + "00000001"), modbus::to_hex(refused));
+    EXPECT_EQ(bench.ask(std::string("01") + function), serial::to_hex(refused));
+    EXPECT_EQ(bench.ask(std::string("01") + function + "00000001"), serial::to_hex(refused));
   }
 }
 
@@ -146,7 +146,7 @@ TEST_F(ModbusSlave, AnIllegalQuantityIsException3AndComesBeforeTheAddress) {
   EXPECT_EQ(bench.ask("01100000000000"), "01 90 03");
   Bytes coils_1969{15, 0, 0, 0x07, 0xB1, 247};
   coils_1969.resize(6 + 247);
-  EXPECT_EQ(modbus::to_hex(bench.ask(coils_1969)), "01 8f 03");
+  EXPECT_EQ(serial::to_hex(bench.ask(coils_1969)), "01 8f 03");
   EXPECT_EQ(bench.ask("01100000007cf80001"), "01 90 03");
 }
 
@@ -173,10 +173,10 @@ TEST_F(ModbusSlave, AByteCountThatDoesNotFitIsException3) {
 TEST_F(ModbusSlave, ALengthThatDoesNotFitTheFunctionIsException3) {
   for (const char* function : {"01", "02", "03", "04", "05", "06", "0f", "10"}) {
     const std::string head = std::string("01") + function;
-    const Bytes code = modbus::bytes_of(modbus::parse_hex_frame(function).frame);
+    const Bytes code = serial::bytes_of(serial::parse_hex_frame(function).frame);
     const Bytes refused{1, static_cast<std::uint8_t>(code[0] | 0x80), 3};
     for (const char* rest : {"", "00", "0000", "000000", "0000000000", "000000000000"})
-      EXPECT_EQ(bench.ask(head + rest), modbus::to_hex(refused)) << head << rest;
+      EXPECT_EQ(bench.ask(head + rest), serial::to_hex(refused)) << head << rest;
   }
 }
 
@@ -197,7 +197,7 @@ TEST_F(ModbusSlave, AnAddressThatDoesNotExistIsException2) {
   EXPECT_EQ(bench.ask("010fffff000101ff"), "01 8f 02");
   EXPECT_EQ(bench.ask("011003e7000204cafebabe"), "01 90 02");
   EXPECT_EQ(bench.ask("0110ffff000102cafe"), "01 90 02");
-  EXPECT_EQ(modbus::to_hex(bench.ask(modbus::write_coils(0, std::vector<bool>(1968, true)))), "01 8f 02");
+  EXPECT_EQ(serial::to_hex(bench.ask(modbus::write_coils(0, std::vector<bool>(1968, true)))), "01 8f 02");
 }
 
 TEST_F(ModbusSlave, TheSettingsDecideWhatExists) {
@@ -243,7 +243,7 @@ TEST_F(ModbusSlave, DropsDisturbedAndForeignFramesAndAnswersTheNextOne) {
                                         "00",
                                         "0103",
                                         "017e80",
-                                        modbus::to_hex(overlong)};
+                                        serial::to_hex(overlong)};
   for (const std::string& frame : frames) {
     EXPECT_EQ(bench.ask_raw(frame), "-") << frame;
     EXPECT_EQ(bench.ask("0106000a0001"), "01 06 00 0a 00 01") << "after " << frame;
@@ -271,21 +271,21 @@ TEST_F(ModbusSlave, TakesNothingInsideAFrameForTheBeginningOfOne) {
 TEST_F(ModbusSlave, Receives256CharactersAndNotOneMore) {
   Bytes pdu(253, 0xA5);
   pdu[0] = 0x65;
-  EXPECT_EQ(modbus::to_hex(bench.ask(pdu)), "01 e5 01");
+  EXPECT_EQ(serial::to_hex(bench.ask(pdu)), "01 e5 01");
   pdu.push_back(0);
   EXPECT_TRUE(bench.ask(pdu).empty());
   EXPECT_EQ(bench.ask("010300000001"), "01 03 02 00 00");
 }
 
 TEST_F(ModbusSlave, APauseInsideARequestEndsIt) {
-  const modbus::Frame request = modbus::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 1)));
+  const serial::Frame request = serial::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 1)));
   EXPECT_FALSE(bench.send({.frame = request, .gap = bench.format().character_time()}).timed_out);
   bench.run_for(50 * kMillisecond);
   EXPECT_TRUE(bench.send({.frame = request, .timeout = 100 * kMillisecond, .gap = 10 * kMillisecond}).timed_out);
 }
 
 TEST_F(ModbusSlave, HearsARequestThatFollowsItsAnswerAfterTheSilenceOfTheStandard) {
-  const modbus::Frame request = modbus::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 1)));
+  const serial::Frame request = serial::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 1)));
   for (int i = 0; i < 20; ++i)  // an exchange is over 3.5 characters after the answer
     EXPECT_FALSE(bench.send({.frame = request, .timeout = 100 * kMillisecond}).timed_out);
 }
@@ -474,7 +474,7 @@ TEST_F(ModbusSlave, AnswersFiveThousandRandomRequestsAsTheSpecificationSays) {
     const Bytes pdu = make.next();
     const bool broadcast = make.below(25) == 0;
     const Bytes expected = model.answer(pdu);
-    ASSERT_EQ(bench.ask(pdu, broadcast ? 0 : 1), broadcast ? Bytes{} : expected) << i << ": " << modbus::to_hex(pdu);
+    ASSERT_EQ(bench.ask(pdu, broadcast ? 0 : 1), broadcast ? Bytes{} : expected) << i << ": " << serial::to_hex(pdu);
   }
   for (std::uint32_t i = 0; i < 1000; ++i) ASSERT_EQ(bench.vw(2 * i), model.holding[i]) << i;
   for (std::uint32_t i = 0; i < 64; ++i) ASSERT_EQ((bench.qb(i / 8) >> i % 8 & 1) != 0, model.coils[i]) << i;
@@ -500,7 +500,7 @@ TEST(ModbusSlaveTime, WorksAtEveryRate) {
     EXPECT_EQ(bench.format().baud, rate.baud);
     EXPECT_EQ(bench.ask("0106000a1234"), "01 06 00 0a 12 34") << rate.baud;
     EXPECT_EQ(bench.ask("0103000a0001"), "01 03 02 12 34") << rate.baud;
-    EXPECT_EQ(modbus::to_hex(bench.ask(modbus::write_registers(0, values))), "01 10 00 00 00 7b") << rate.baud;
+    EXPECT_EQ(serial::to_hex(bench.ask(modbus::write_registers(0, values))), "01 10 00 00 00 7b") << rate.baud;
     EXPECT_EQ(bench.ask(modbus::read_holding_registers(0, 125)).size(), 253U) << rate.baud;
     EXPECT_EQ(sink.of(TraceKind::EventLost), 0U) << rate.baud;
     EXPECT_EQ(bench.state().error_count, 0U);
@@ -530,10 +530,10 @@ TEST(ModbusSlaveTime, AnswersWithinALongScanBecauseItResetsTheWatchdog) {
 TEST(ModbusSlaveTime, HearsNothingWhileARequestWaitsForTheEndOfTheScan) {
   SlaveBench bench(with_long_scan(1600));
   bench.start();
-  const modbus::Frame request = modbus::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 1)));
+  const serial::Frame request = serial::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 1)));
   EXPECT_TRUE(bench.send({.frame = request, .timeout = 10 * kMillisecond}).timed_out);
-  const serial::Exchange& stray = bench.send({.frame = modbus::to_frame(Bytes{0x55})});
-  EXPECT_EQ(modbus::to_hex(stray.response_bytes()), "01 03 02 00 00 b8 44");
+  const serial::Exchange& stray = bench.send({.frame = serial::to_frame(Bytes{0x55})});
+  EXPECT_EQ(serial::to_hex(stray.response_bytes()), "01 03 02 00 00 b8 44");
 }
 
 TEST(ModbusSlaveTime, SetsItselfUpWhateverTheMemoryHeld) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "serial_sim/modbus/request.hpp"
+
 namespace s7200::test {
 namespace {
 
@@ -122,7 +124,7 @@ TEST_F(Tip41Slave, ServesLongRequestsAt19200Baud) {
   CountingSink sink;
   bench.cpu().set_sink(&sink);
   bench.start();
-  EXPECT_EQ(modbus::to_hex(bench.ask(sixty_registers())), "01 10 00 00 00 3c");
+  EXPECT_EQ(serial::to_hex(bench.ask(sixty_registers())), "01 10 00 00 00 3c");
   EXPECT_EQ(sink.of(TraceKind::EventLost), 0U);
 }
 
@@ -220,9 +222,9 @@ TEST_F(Tip41Departs, WritesWholeBytesOfCoilsOnlyAndDoesNotLookAtTheByteCount) {
 TEST_F(Tip41Departs, WritesSixtyRegistersAtMost) {
   SlaveBench bench(text);
   bench.start();
-  EXPECT_EQ(modbus::to_hex(bench.ask(sixty_registers())), "01 10 00 00 00 3c");
+  EXPECT_EQ(serial::to_hex(bench.ask(sixty_registers())), "01 10 00 00 00 3c");
   const std::vector<std::uint16_t> values(61, 1);
-  EXPECT_EQ(modbus::to_hex(bench.ask(modbus::write_registers(0, values))), "01 90 02");
+  EXPECT_EQ(serial::to_hex(bench.ask(modbus::write_registers(0, values))), "01 90 02");
 }
 
 TEST_F(Tip41Departs, FillsTheLastByteWithTheStatesOfFurtherPoints) {
@@ -246,13 +248,13 @@ TEST_F(Tip41Departs, DropsAFrameOf256Characters) {
   pdu[0] = 0x65;
   EXPECT_TRUE(bench.ask(pdu).empty());
   pdu.pop_back();
-  EXPECT_EQ(modbus::to_hex(bench.ask(pdu)), "01 e5 01");
+  EXPECT_EQ(serial::to_hex(bench.ask(pdu)), "01 e5 01");
 }
 
 TEST_F(Tip41Departs, MissesARequestThatFollowsItsAnswerAfterNoMoreThanTheSilenceOfTheStandard) {
   SlaveBench bench(text);
   bench.start();
-  const modbus::Frame request = modbus::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 1)));
+  const serial::Frame request = serial::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 1)));
   EXPECT_FALSE(bench.send({.frame = request}).timed_out);
   EXPECT_TRUE(bench.send({.frame = request}).timed_out) << "sent when the exchange before is over, 3.5 characters later";
 }

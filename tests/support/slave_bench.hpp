@@ -18,8 +18,6 @@
 
 namespace s7200::test {
 
-using modbus::Bytes;
-
 /// The text of a file as UTF-8; empty, and the test fails, when it cannot be read.
 inline std::string text_of(const std::string& path) {
   std::string why;
@@ -115,7 +113,7 @@ class SlaveBench {
   }
 
   /// The bytes of the answer to a raw frame, none when nothing came; then quiet.
-  Bytes raw(const modbus::Frame& frame) {
+  Bytes raw(const serial::Frame& frame) {
     last_ = send({.frame = frame, .timeout = kTimeout});
     run_for(serial::Simulation::default_quiet(format()));
     EXPECT_FALSE(last_.parity_error() || last_.framing_error() || last_.too_long);
@@ -124,24 +122,24 @@ class SlaveBench {
 
   /// Answer without its CRC, which must be right.
   Bytes ask(std::span<const std::uint8_t> pdu, std::uint8_t station = 1) {
-    Bytes answer = raw(modbus::to_frame(modbus::rtu_frame(station, pdu)));
+    Bytes answer = raw(serial::to_frame(modbus::rtu_frame(station, pdu)));
     if (answer.empty()) return answer;
-    EXPECT_TRUE(modbus::crc_ok(answer)) << modbus::to_hex(answer);
+    EXPECT_TRUE(modbus::crc_ok(answer)) << serial::to_hex(answer);
     answer.resize(answer.size() - 2);
     return answer;
   }
 
   /// The same from hex to hex: station and PDU, no CRC; `-` when no answer came.
   std::string ask(const std::string& hex) {
-    const Bytes frame = modbus::bytes_of(modbus::parse_hex_frame(hex).frame);
+    const Bytes frame = serial::bytes_of(serial::parse_hex_frame(hex).frame);
     const Bytes answer = ask(std::span(frame).subspan(1), frame[0]);
-    return answer.empty() ? "-" : modbus::to_hex(answer);
+    return answer.empty() ? "-" : serial::to_hex(answer);
   }
 
   /// Raw hex, nothing appended, `p` for wrong parity; the whole answer or `-`.
   std::string ask_raw(const std::string& hex) {
-    const Bytes answer = raw(modbus::parse_hex_frame(hex).frame);
-    return answer.empty() ? "-" : modbus::to_hex(answer);
+    const Bytes answer = raw(serial::parse_hex_frame(hex).frame);
+    return answer.empty() ? "-" : serial::to_hex(answer);
   }
 
   const serial::Exchange& last() const { return last_; }

@@ -1,6 +1,7 @@
 // A bridge: what joins the simulated line to a pty, a socket or a device of this computer.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -13,6 +14,13 @@ class io_context;
 }
 
 namespace s7200::tools {
+
+/// What there is to say while a run goes on, a line each.
+struct LiveMessages {
+  using Say = std::function<void(const std::string& text)>;
+  Say serving = [](const std::string&) {};  ///< `listening on 127.0.0.1:5020`: clients may come now
+  Say note = [](const std::string&) {};     ///< something has happened that the engineer should know
+};
 
 /// The simulation, as a bridge sees it: always at the present when it is asked.
 class LiveLine {
@@ -31,6 +39,7 @@ class LiveLine {
   /// What the program has set its port to, with what the options say instead.
   virtual SerialFormat format() const = 0;
 
+  virtual const LiveMessages& messages() const = 0;
   virtual const serial::Simulation& simulation() const = 0;
   Time now() const { return simulation().time(); }
 
@@ -46,8 +55,9 @@ class Bridge {
  public:
   virtual ~Bridge() = default;
 
-  /// Begins to serve; false, after a message, when it cannot. `line` and `context` outlive the bridge's handlers.
-  virtual bool start(LiveLine& line, boost::asio::io_context& context) = 0;
+  /// Begins to serve, and says where. Returns false and sets `why` if it cannot. `line` and `context` outlive the bridge's
+  /// handlers.
+  virtual bool start(LiveLine& line, boost::asio::io_context& context, std::string& why) = 0;
 
   /// Ends serving. `context` and what else start() was given may go then; the summary stays.
   virtual void stop() = 0;

@@ -10,7 +10,6 @@
 
 #include "interpreter/base/text.hpp"
 #include "tools/host/serial_device.hpp"
-#include "tools/host/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -18,27 +17,21 @@ namespace {
 namespace asio = boost::asio;
 using serial::HostCharacter;
 
-std::string format_text(const SerialFormat& format) {
-  const char parity = format.parity == Parity::None ? 'N' : format.parity == Parity::Even ? 'E' : 'O';
-  return fmt::format("{} baud {}{}{}", format.baud, format.data_bits, parity, format.stop_bits);
-}
-
 class DeviceBridge final : public Bridge {
  public:
   explicit DeviceBridge(const std::string& path) : path_(path) {}
 
-  bool start(LiveLine& line, asio::io_context& context) override {
+  bool start(LiveLine& line, asio::io_context& context, std::string& why) override {
     line_ = &line;
-    std::string why;
     auto device = SerialDevice::open(path_, line.format(), why);
     if (!device) {
-      print_error(fmt::format("cannot use {} with {}: {}", path_, format_text(line.format()), why));
+      why = fmt::format("cannot use {} with {} baud {}: {}", path_, line.format().baud, character_text(line.format()), why);
       return false;
     }
     device_.emplace(std::move(*device));
     descriptor_.emplace(context, device_->fd());
     await_input();
-    fmt::print(stderr, "connected to {}\n", stl::printable(path_));
+    line.messages().serving(fmt::format("connected to {}", path_));
     return true;
   }
 
@@ -85,7 +78,7 @@ class DeviceBridge final : public Bridge {
     const SerialFormat wanted = line_->format();
     std::string why;
     if (wanted == device_->format() || device_->set(wanted, why)) return;
-    fail(fmt::format("the program has set its port to {}: {}", format_text(wanted), why));
+    fail(fmt::format("the program has set its port to {} baud {}: {}", wanted.baud, character_text(wanted), why));
   }
 
   void await_input() {
@@ -116,8 +109,8 @@ class DeviceBridge final : public Bridge {
 
   /// What the device does not take now stays for the next turn. With --speed the line may bring more than it takes.
   void write() {
-    std::string why;
     while (!output_.empty() && failure_.empty()) {
+      std::string why;
       const auto count = device_->write(output_, why);
       if (!count) return fail("the device is gone: " + why);
       if (*count == 0) return;

@@ -8,7 +8,6 @@
 #include <boost/asio/steady_timer.hpp>
 
 #include "tools/host/interruption.hpp"
-#include "tools/host/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -33,7 +32,7 @@ class LiveRun final : public LiveLine {
   std::string_view run() {
     if (bridge_) {
       simulation_.host_port().attach(format(), simulation_.time());
-      if (!bridge_->start(*this, context_)) return {};
+      if (!bridge_->start(*this, context_, failure_)) return {};
     }
     simulation_.cpu().pause_at_scan_end(options_.scans != 0);
     pace_ = Pace(simulation_.time(), options_.speed);
@@ -45,16 +44,17 @@ class LiveRun final : public LiveLine {
       sleep();
     }
     if (bridge_ && simulation_.cpu().state().mode == Mode::Stop)
-      fmt::print(stderr, "s7200: note: the CPU went to STOP; nobody answers any more\n");
+      options_.messages.note("the CPU went to STOP; nobody answers any more");
     return reason_;
   }
 
   Pace::Report pace() const { return pace_.report(); }
+  const std::string& failure() const { return failure_; }
 
   void catch_up() override {
     if (!reason_.empty()) return;
     const Time goal = std::min(pace_.next_goal(now()), options_.end);
-    while (now() < goal && reason_.empty() && !interrupted()) {
+    while (now() < goal && reason_.empty() && !stop_asked()) {
       if (bridge_) simulation_.host_port().receive_as(bridge_->receive_format());
       simulation_.run_until(goal);
       const State& state = simulation_.cpu().state();
@@ -65,7 +65,7 @@ class LiveRun final : public LiveLine {
     if (now() >= options_.end && reason_.empty()) reason_ = "time";
     if (pace_.reached(now(), std::min(planned_, Clock::now())) && !slow_) {
       slow_ = true;
-      fmt::print(stderr, "s7200: note: this computer cannot keep up: the simulation falls behind the clock\n");
+      options_.messages.note("this computer cannot keep up: the simulation falls behind the clock");
     }
     deliver();
   }
@@ -77,10 +77,13 @@ class LiveRun final : public LiveLine {
 
   std::size_t drop(std::uint64_t sender) override { return simulation_.host_port().drop(sender); }
 
-  SerialFormat format() const override { return options_.line.format_for(simulation_); }
+  SerialFormat format() const override { return options_.line.over(simulation_.port_format()); }
+  const LiveMessages& messages() const override { return options_.messages; }
   const serial::Simulation& simulation() const override { return simulation_; }
 
  private:
+  bool stop_asked() const { return interrupted() || (options_.stop && *options_.stop); }
+
   void deliver() {
     if (!bridge_) return;
     const auto characters = simulation_.host_port().take_received();
@@ -90,12 +93,10 @@ class LiveRun final : public LiveLine {
   }
 
   bool ended() {
-    if (interrupted()) reason_ = "interrupted";
+    if (stop_asked()) reason_ = "interrupted";
     if (bridge_ && reason_.empty()) {
-      if (const std::string failure = bridge_->failure(); !failure.empty()) {
-        print_error(failure);
-        reason_ = "bridge";
-      }
+      failure_ = bridge_->failure();
+      if (!failure_.empty()) reason_ = "bridge";
     }
     return !reason_.empty();
   }
@@ -128,6 +129,7 @@ class LiveRun final : public LiveLine {
   Clock::time_point planned_{}, busy_until_{};
   bool slow_ = false;
   std::string_view reason_;
+  std::string failure_;
 };
 
 }  // namespace
@@ -136,7 +138,7 @@ LiveRunResult run_live(serial::Simulation& simulation, const LiveRunOptions& opt
   LiveRun run(simulation, options, bridge);
   const std::string_view reason = run.run();
   if (bridge) bridge->stop();
-  return {reason, run.pace()};
+  return {reason, run.failure(), run.pace()};
 }
 
 }  // namespace s7200::tools

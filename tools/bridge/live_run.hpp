@@ -1,10 +1,11 @@
 // Runs a simulation in real time, with or without a bridge.
 #pragma once
 
+#include <atomic>
+#include <string>
 #include <string_view>
 
 #include "tools/bridge/bridge.hpp"
-#include "tools/command/options/master_options.hpp"
 #include "tools/host/pace.hpp"
 
 namespace s7200::tools {
@@ -14,13 +15,16 @@ struct LiveRunOptions {
   std::uint64_t scans = 0;  ///< 0: any number
   bool strict = false;      ///< the first run-time error ends it
   double speed = 1;
-  LineOptions line;  ///< the other end of the line
+  serial::LineSettings line;  ///< the other end of the line
+  LiveMessages messages;
+  const std::atomic<bool>* stop = nullptr;  ///< ends it as an interruption does; not owned
 };
 
 struct LiveRunResult {
-  /// `time`, `scans`, `stop`, `fatal`, `run-time error`, `interrupted`, `bridge` when that failed, after a message; empty
-  /// when it could not be started, after a message.
+  /// `time`, `scans`, `stop`, `fatal`, `run-time error`, `interrupted`, `bridge` if that failed; empty if it could not be
+  /// started.
   std::string_view reason;
+  std::string failure;  ///< of the bridge: why
   Pace::Report pace;
 };
 

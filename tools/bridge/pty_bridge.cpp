@@ -12,7 +12,6 @@
 
 #include "interpreter/base/text.hpp"
 #include "tools/host/pty.hpp"
-#include "tools/host/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -21,20 +20,16 @@ namespace asio = boost::asio;
 
 class PtyBridge final : public Bridge {
  public:
-  PtyBridge(const std::string& link, const LineOptions& options) : link_(link), options_(options) {}
+  PtyBridge(const std::string& link, const serial::LineSettings& options) : link_(link), options_(options) {}
 
-  bool start(LiveLine& line, asio::io_context& context) override {
+  bool start(LiveLine& line, asio::io_context& context, std::string& why) override {
     line_ = &line;
     context_ = &context;
-    std::string why;
     pty_ = Pty::open(link_, line.format(), why);
-    if (!pty_) {
-      print_error(why);
-      return false;
-    }
+    if (!pty_) return false;
     speaker_ = &pty_->latest();
     look();
-    fmt::print(stderr, "serving {}\n", stl::printable(link_));
+    line.messages().serving(fmt::format("serving {}", link_));
     return true;
   }
 
@@ -118,7 +113,7 @@ class PtyBridge final : public Bridge {
     if (settings.baud != 0) format.baud = settings.baud;
     if (settings.parity) format.parity = *settings.parity;
     format.stop_bits = settings.stop_bits;
-    return options_.format_over(format);
+    return options_.over(format);
   }
 
   void look() {
@@ -185,7 +180,7 @@ class PtyBridge final : public Bridge {
   }
 
   std::string link_;
-  LineOptions options_;
+  serial::LineSettings options_;
   LiveLine* line_ = nullptr;
   asio::io_context* context_ = nullptr;
   std::unique_ptr<Pty> pty_;
@@ -196,7 +191,7 @@ class PtyBridge final : public Bridge {
 
 }  // namespace
 
-std::unique_ptr<Bridge> make_pty_bridge(const std::string& link, const LineOptions& line) {
+std::unique_ptr<Bridge> make_pty_bridge(const std::string& link, const serial::LineSettings& line) {
   return std::make_unique<PtyBridge>(link, line);
 }
 

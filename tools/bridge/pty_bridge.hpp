@@ -9,12 +9,12 @@
 
 #include <string>
 
+#include "serial_sim/peers/requester.hpp"
 #include "tools/bridge/bridge.hpp"
-#include "tools/command/options/master_options.hpp"
 
 namespace s7200::tools {
 
 /// What `line` says holds whatever a program sets; what a pty cannot show and `line` leaves open is as the PLC has it.
-std::unique_ptr<Bridge> make_pty_bridge(const std::string& link, const LineOptions& line);
+std::unique_ptr<Bridge> make_pty_bridge(const std::string& link, const serial::LineSettings& line);
 
 }  // namespace s7200::tools

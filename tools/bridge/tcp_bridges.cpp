@@ -32,9 +32,9 @@ class TcpBridge : public Bridge, protected TcpServer::Protocol {
  public:
   TcpBridge(std::string_view kind, const ListenAddress& address) : kind_(kind), address_(address) {}
 
-  bool start(LiveLine& line, boost::asio::io_context& context) override {
+  bool start(LiveLine& line, boost::asio::io_context& context, std::string& why) override {
     line_ = &line;
-    server_ = TcpServer::open(address_, *this, context);
+    server_ = TcpServer::open(address_, *this, context, line.messages(), why);
     return server_ != nullptr;
   }
 
@@ -158,7 +158,7 @@ class RtuBridge final : public TcpBridge {
 
   /// What has come of a client's next frame.
   struct Part {
-    modbus::Bytes bytes;
+    Bytes bytes;
     std::size_t after_pause = 0;  ///< where that begins which came after the last pause
     Clock::time_point heard;
   };
@@ -202,9 +202,9 @@ class RtuBridge final : public TcpBridge {
       give_up(part, part.bytes.size());
   }
 
-  modbus::Bytes take_from(Part& part, std::size_t size) {
+  Bytes take_from(Part& part, std::size_t size) {
     const auto end = part.bytes.begin() + static_cast<std::ptrdiff_t>(size);
-    modbus::Bytes bytes(part.bytes.begin(), end);
+    Bytes bytes(part.bytes.begin(), end);
     part.bytes.erase(part.bytes.begin(), end);
     part.after_pause -= std::min(part.after_pause, size);
     return bytes;
@@ -220,7 +220,7 @@ class RtuBridge final : public TcpBridge {
   void ask(Client client, Part& part, std::size_t size) {
     ++frames_;
     given_up_ += turns_.stop_waiting(client);
-    modbus::Bytes frame = take_from(part, size);
+    Bytes frame = take_from(part, size);
     const bool broadcast = frame[0] == modbus::kBroadcast;
     turns_.ask(client, {.frame = std::move(frame), .wants_answer = !broadcast});
   }

@@ -17,8 +17,6 @@
 #include <sstream>
 #include <vector>
 
-#include "tools/host/terminal.hpp"
-
 namespace s7200::tools {
 namespace {
 
@@ -101,9 +99,10 @@ struct Connection {
 /// Every handler holds its connection: what is closed and forgotten here dies with its last handler.
 class Server final : public TcpServer {
  public:
-  Server(Protocol& protocol, asio::io_context& context) : protocol_(protocol), acceptor_(context) {}
+  Server(Protocol& protocol, asio::io_context& context, const LiveMessages& messages)
+      : protocol_(protocol), messages_(messages), acceptor_(context) {}
 
-  bool listen(const ListenAddress& address) {
+  bool listen(const ListenAddress& address, std::string& why) {
     Error error;
     const tcp::endpoint endpoint(asio::ip::make_address(address.host, error), address.port);
     if (!error) acceptor_.open(endpoint.protocol(), error);
@@ -112,10 +111,10 @@ class Server final : public TcpServer {
     if (!error) acceptor_.bind(endpoint, error);
     if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
     if (error) {
-      print_error(fmt::format("cannot listen on {}: {}", to_text(address), error.message()));
+      why = fmt::format("cannot listen on {}: {}", to_text(address), error.message());
       return false;
     }
-    fmt::print(stderr, "listening on {}\n", to_text({address.host, acceptor_.local_endpoint().port()}));
+    messages_.serving(fmt::format("listening on {}", to_text({address.host, acceptor_.local_endpoint().port()})));
     accept();
     return true;
   }
@@ -284,11 +283,12 @@ class Server final : public TcpServer {
   }
 
   void note(const std::string& text) {
-    if (notes_++ < kMostNotes) fmt::print(stderr, "s7200: note: {}\n", text);
-    if (notes_ == kMostNotes) fmt::print(stderr, "s7200: note: no more notes about clients from here on\n");
+    if (notes_++ < kMostNotes) messages_.note(text);
+    if (notes_ == kMostNotes) messages_.note("no more notes about clients from here on");
   }
 
   Protocol& protocol_;
+  const LiveMessages& messages_;
   tcp::acceptor acceptor_;
   std::map<Client, ConnectionPtr> connections_;
   bool accepting_ = false;
@@ -300,9 +300,10 @@ class Server final : public TcpServer {
 
 }  // namespace
 
-std::unique_ptr<TcpServer> TcpServer::open(const ListenAddress& address, Protocol& protocol, asio::io_context& context) {
-  auto server = std::make_unique<Server>(protocol, context);
-  if (!server->listen(address)) return nullptr;
+std::unique_ptr<TcpServer> TcpServer::open(const ListenAddress& address, Protocol& protocol, asio::io_context& context,
+                                           const LiveMessages& messages, std::string& why) {
+  auto server = std::make_unique<Server>(protocol, context, messages);
+  if (!server->listen(address, why)) return nullptr;
   return server;
 }
 

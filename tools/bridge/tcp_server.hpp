@@ -17,6 +17,7 @@
 #include <span>
 #include <string>
 
+#include "tools/bridge/bridge.hpp"
 #include "tools/host/listen_address.hpp"
 
 namespace boost::asio {
@@ -58,8 +59,9 @@ class TcpServer {
     std::uint64_t dropped = 0;  ///< bytes that clients left, whether they had been read or not
   };
 
-  /// Listens, and says where on stderr. Null, after a message, when it cannot. The references outlive it.
-  static std::unique_ptr<TcpServer> open(const ListenAddress& address, Protocol& protocol, boost::asio::io_context& context);
+  /// Listens, and says where. Null, and `why`, if it cannot. The references outlive it.
+  static std::unique_ptr<TcpServer> open(const ListenAddress& address, Protocol& protocol, boost::asio::io_context& context,
+                                         const LiveMessages& messages, std::string& why);
 
   virtual ~TcpServer() = default;
   virtual void send(Client client, std::span<const std::uint8_t> bytes) = 0;

@@ -7,14 +7,15 @@
 #include <span>
 
 #include "interpreter/base/text.hpp"
+#include "serial_sim/modbus/request.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/command/bench_program.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/terminal.hpp"
 #include "tools/views/results_json.hpp"
-#include "tools/host/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -61,8 +62,8 @@ double best_rate(Time each, Round round) {
   return best;
 }
 
-const modbus::Frame& ten_registers() {
-  static const modbus::Frame kRequest = modbus::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 10)));
+const serial::Frame& ten_registers() {
+  static const serial::Frame kRequest = serial::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 10)));
   return kRequest;
 }
 
@@ -221,7 +222,7 @@ int run_bench(const BenchOptions& options) {
     results["program"] = program->source.name;
     for (const Figure& f : figures)
       results["figures"].push_back({{"name", f.name}, {"unit", f.unit}, {"per_second", f.per_second}});
-    print_results(results);
+    fmt::print("{}", lines_of(results));
     return kFine;
   }
   fmt::print("{}: best of five rounds on one core\n", stl::printable(program->source.name));

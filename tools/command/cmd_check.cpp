@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "interpreter/program/warnings.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/warnings.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/terminal.hpp"
 #include "tools/views/results_json.hpp"
-#include "tools/host/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -117,7 +117,7 @@ int run_check(const CheckOptions& options) {
   if (options.json) {
     auto results = results_of("check");
     results["files"] = std::move(files);
-    print_results(results);
+    fmt::print("{}", lines_of(results));
   }
   return exit_code;
 }

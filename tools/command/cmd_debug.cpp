@@ -9,19 +9,20 @@
 
 #include "interpreter/base/text.hpp"
 #include "tools/command/commands.hpp"
-#include "tools/debugger/debugger.hpp"
 #include "tools/command/exit_code.hpp"
-#include "tools/host/interruption.hpp"
+#include "tools/command/options/line_options.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/debugger/debugger.hpp"
+#include "tools/host/interruption.hpp"
 #include "tools/views/report.hpp"
-#include "tools/host/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
 
 struct DebugOptions {
   ProgramOptions program;
-  MasterOptions master;
+  serial::MasterSettings master;
   std::string commands_file;
   std::vector<std::string> commands;
   bool interactive = false;
@@ -128,7 +129,7 @@ void add_debug(CLI::App& app, int& exit_code) {
       ->type_name("COMMANDS")
       ->allow_extra_args(false);
   verb->add_flag("-i,--interactive", options->interactive, "go on with standard input after --commands and -x");
-  options->master.add_to(*verb);
+  add_master_options(*verb, options->master);
   verb->footer(
       "Without --commands and -x the commands come from standard input; 'help' lists them. A wrong command ends a script\n"
       "with exit code 2. A program from standard input, -, needs --commands or -x.\n"

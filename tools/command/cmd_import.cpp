@@ -2,15 +2,15 @@
 
 #include <CLI/CLI.hpp>
 
-#include "interpreter/stl/printer.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/stl/printer.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
-#include "tools/host/interruption.hpp"
 #include "tools/command/options/program_options.hpp"
-#include "tools/views/results_json.hpp"
-#include "tools/host/terminal.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
 #include "tools/host/written_files.hpp"
+#include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -28,10 +28,13 @@ std::size_t count_statements(const stl::Source& source) {
 
 int write(const std::string& path, const std::string& text, bool force) {
   WrittenFiles files;
-  const auto destination = files.claim("-o", path, {"STL"}, force ? Replace::Judged : Replace::Never);
-  if (!destination) return kUnusable;
+  std::string why;
+  const auto destination = files.claim("-o", path, {"STL"}, force ? Replace::Judged : Replace::Never, why);
+  if (!destination) return print_error(why), kUnusable;
   catch_interruption();  // the file is written to its end
-  return write_result(*destination, text) ? kFine : kUnusable;
+  if (write_result(*destination, text, why)) return kFine;
+  print_error(why);
+  return kUnusable;
 }
 
 void print_json(const ImportOptions& options, const SourceText& text, const std::string& stl) {
@@ -42,7 +45,7 @@ void print_json(const ImportOptions& options, const SourceText& text, const std:
   results["instructions"] = count_statements(text.parsed.source);
   results["output"] = to_file ? nlohmann::ordered_json(options.output) : nullptr;
   results["stl"] = to_file ? nullptr : nlohmann::ordered_json(stl);
-  print_results(results);
+  fmt::print("{}", lines_of(results));
 }
 
 int run_import(const ImportOptions& options) {

@@ -5,10 +5,10 @@
 
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
-#include "tools/views/instruction_text.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/views/instruction_text.hpp"
 #include "tools/views/results_json.hpp"
-#include "tools/host/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -86,7 +86,7 @@ int run_instructions(const InstructionsOptions& options) {
     auto& rows = results["instructions"] = nlohmann::ordered_json::array();
     for (const Instruction& instruction : chosen.empty() ? all_instructions() : std::span<const Instruction>(chosen))
       rows.push_back(to_json(instruction, *times));
-    print_results(results);
+    fmt::print("{}", lines_of(results));
   } else if (chosen.empty()) {
     fmt::print("Instructions of CPU {}. Times with power flow, operands in V memory; see `s7200 times`.\n", model->name);
     print_table(all_instructions(), *times);

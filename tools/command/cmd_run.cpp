@@ -5,17 +5,18 @@
 #include <chrono>
 
 #include "interpreter/base/text.hpp"
-#include "tools/command/options/bridge_options.hpp"
 #include "tools/bridge/live_run.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
-#include "tools/host/interruption.hpp"
+#include "tools/command/options/bridge_options.hpp"
 #include "tools/command/options/number_option.hpp"
-#include "tools/command/options/plant_options.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/options/rig_options.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
+#include "tools/views/faults.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
-#include "tools/host/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -29,7 +30,7 @@ struct RunOptions {
   std::uint64_t scans = 0;
   bool json = false;
   BridgeOptions bridge;
-  PlantOptions plant;
+  RigOptions rig;
 
   Time end() const {
     if (duration != kNever || scans != 0 || bridge.bridge()) return duration;
@@ -50,7 +51,7 @@ class Runner {
       if (interrupted()) return "interrupted";
       const serial::Halt halt = simulation_.run_until(std::min(end(), simulation_.time() + 10 * kSecond));
       if (state.mode == Mode::Stop) return state.fatal_code ? "fatal" : "stop";
-      if (options_.plant.failed_strictly(simulation_.cpu())) return "run-time error";
+      if (options_.rig.failed_strictly(simulation_.cpu())) return "run-time error";
       if (options_.scans != 0 && state.scans >= options_.scans) return "scans";
       if (halt == serial::Halt::Time) show_progress();
     }
@@ -86,9 +87,14 @@ struct Ending {
 
 Ending run_to_end(serial::Simulation& simulation, const RunOptions& options) {
   if (!options.bridge.realtime()) return {Runner(simulation, options).run(), {}};
-  const LiveRunOptions live{options.end(), options.scans, options.plant.strict(), options.bridge.speed(),
-                            options.bridge.line()};
+  const LiveRunOptions live{options.end(),
+                            options.scans,
+                            options.rig.strict(),
+                            options.bridge.speed(),
+                            options.bridge.line(),
+                            {[](const std::string& text) { fmt::print(stderr, "{}\n", stl::printable(text)); }, print_note}};
   const LiveRunResult result = run_live(simulation, live, options.bridge.bridge());
+  if (!result.failure.empty()) print_error(result.failure);
   return {result.reason, result.pace};
 }
 
@@ -104,7 +110,7 @@ void print_text(const serial::Simulation& simulation, const Ending& ending, cons
     fmt::print("real time{}: drift {}, worst lag {}\n",
                ending.pace->speed == 1 ? "" : fmt::format(" times {:g}", ending.pace->speed),
                format_duration(ending.pace->drift), format_duration(ending.pace->worst_lag));
-  fmt::print("{}{}", errors_text(simulation.cpu()), options.plant.dump_text(simulation.cpu()));
+  fmt::print("{}{}", errors_text(simulation.cpu()), options.rig.dump_text(simulation.cpu()));
 }
 
 void print_json(const serial::Simulation& simulation, const Ending& ending, const RunOptions& options) {
@@ -114,32 +120,33 @@ void print_json(const serial::Simulation& simulation, const Ending& ending, cons
   results["time_ns"] = state.time;
   results["scans"] = state.scans;
   results["instructions"] = state.instructions;
-  results.update(options.plant.json(simulation));
+  results.update(options.rig.json(simulation));
   if (ending.pace)
     results["realtime"] = {
         {"speed", ending.pace->speed}, {"drift_ns", ending.pace->drift}, {"worst_lag_ns", ending.pace->worst_lag}};
   if (options.bridge.bridge()) results["bridge"] = options.bridge.bridge()->json();
-  print_results(results);
+  fmt::print("{}", lines_of(results));
 }
 
 int run_run(RunOptions& options) {
   int exit_code = kFine;
   const auto program = options.program.load(exit_code);
   if (!program) return exit_code;
-  if (!options.bridge.prepare() || !options.plant.prepare(program, options.json, options.bridge.link())) return kUnusable;
-
-  serial::Simulation simulation(program, options.plant.field());
-  options.plant.power_up(simulation);
-  simulation.cpu().pause_at_error(options.plant.strict());
+  if (!options.bridge.prepare()) return kUnusable;
+  const auto rig = options.rig.assemble(program, options.json, options.bridge.link());
+  if (!rig) return kUnusable;
+  serial::Simulation& simulation = rig->simulation();
+  rig->power_up();
+  simulation.cpu().pause_at_error(options.rig.strict());
   const Ending ending = run_to_end(simulation, options);
   if (ending.reason.empty()) return kUnusable;
-  const bool all_written = options.plant.finish(simulation);
+  const bool all_written = finish(*rig);
 
   if (options.json)
     print_json(simulation, ending, options);
   else
     print_text(simulation, ending, options);
-  fmt::print(stderr, "{}", faults_text(simulation.faults()));
+  print_notes(fault_notes(simulation.faults()));
   if (!all_written) return kUnusable;
   if (ending.reason == "endless scan") {
     print_error(
@@ -166,7 +173,7 @@ void add_run(CLI::App& app, int& exit_code) {
   add_whole_number(*verb, "--scans", options->scans, {1, UINT64_MAX},
                    "how many scans; with --for whichever comes first ends the run");
   options->bridge.add_to(*verb);
-  options->plant.add_to(*verb);
+  options->rig.add_to(*verb);
   verb->add_flag("--json", options->json, "print the results as JSON");
   verb->footer(std::string(BridgeOptions::kAboutPty) + fault_help() +
                "Example: s7200 run stl_programs/modbus_slave.stl --for 2s --set VW100=5 --dump VW100:4");

@@ -7,15 +7,16 @@
 #include "serial_sim/modbus/crc.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
-#include "tools/host/interruption.hpp"
-#include "tools/command/options/master_options.hpp"
+#include "tools/command/options/line_options.hpp"
 #include "tools/command/options/number_option.hpp"
-#include "tools/command/options/plant_options.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/options/rig_options.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
+#include "tools/slave/simulated_slave.hpp"
+#include "tools/views/faults.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
-#include "tools/slave/simulated_slave.hpp"
-#include "tools/host/terminal.hpp"
 #include "tools/views/text_frame.hpp"
 #include "tools/views/timeline.hpp"
 
@@ -30,8 +31,8 @@ struct SendOptions {
   bool crc = false, json = false, timeline = false;
   Time after = kNever;  // kNever: when the first scan has ended and the line is quiet
   Time pause = kNever;  // kNever: Simulation::default_quiet
-  MasterOptions master;
-  PlantOptions plant;
+  serial::MasterSettings master;
+  RigOptions rig;
 };
 
 /// A line of a file of frames, without its end.
@@ -43,17 +44,17 @@ std::string without_comment(const std::string& line) {
 }
 
 /// All frames of the command line and the file; a message and false when one is no frame.
-bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames) {
+bool read_frames(const SendOptions& options, std::vector<serial::Frame>& frames) {
   struct Written {
     std::string text, place;
-    modbus::ParsedFrame (*parse)(std::string_view);
+    serial::ParsedFrame (*parse)(std::string_view);
   };
   std::vector<Written> written;
   auto frame = options.frames.begin(), text = options.texts.begin();
   for (const bool is_text : options.text_is_next) {
     const std::string& next = is_text ? *text++ : *frame++;
     written.push_back(
-        {next, fmt::format("{} '{}'", is_text ? "--text" : "frame", next), is_text ? parse_text : modbus::parse_hex_frame});
+        {next, fmt::format("{} '{}'", is_text ? "--text" : "frame", next), is_text ? parse_text : serial::parse_hex_frame});
   }
   if (!options.frames_file.empty()) {
     std::string why;
@@ -76,7 +77,7 @@ bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames)
     return false;
   }
   for (const Written& w : written) {
-    modbus::ParsedFrame parsed = w.parse(w.text);
+    serial::ParsedFrame parsed = w.parse(w.text);
     if (!parsed.ok()) {
       print_error(fmt::format("{}: column {}: {}", w.place, parsed.errors[0].column, parsed.errors[0].message));
       return false;
@@ -87,13 +88,13 @@ bool read_frames(const SendOptions& options, std::vector<modbus::Frame>& frames)
   return true;
 }
 
-nlohmann::ordered_json to_json(const serial::Exchange& exchange, const modbus::Bytes& unasked) {
+nlohmann::ordered_json to_json(const serial::Exchange& exchange, const Bytes& unasked) {
   nlohmann::ordered_json json{
-      {"request", plain_hex(modbus::bytes_of(exchange.request))}, {"response", nullptr}, {"latency_us", nullptr}};
+      {"request", plain_hex(serial::bytes_of(exchange.request))}, {"response", nullptr}, {"latency_us", nullptr}};
   if (!unasked.empty()) json["unasked"] = plain_hex(unasked);
   if (const auto text = plain_text({}, unasked)) json["unasked_text"] = *text;
   if (!exchange.echo.empty()) json["echo"] = plain_hex(serial::bytes_of(exchange.echo));
-  const modbus::Bytes request = modbus::bytes_of(exchange.request);
+  const Bytes request = serial::bytes_of(exchange.request);
   if (const auto text = plain_text(request, request)) json["request_text"] = *text;
   if (exchange.timed_out) return json;
   if (const auto text = plain_text(request, exchange.response_bytes())) json["response_text"] = *text;
@@ -108,32 +109,36 @@ int run_send(SendOptions& options) {
   int exit_code = kFine;
   const auto program = options.program.load(exit_code);
   if (!program) return exit_code;
-  std::vector<modbus::Frame> frames;
-  if (!read_frames(options, frames) || !options.plant.prepare(program, options.json)) return kUnusable;
-
-  serial::Simulation simulation(program, options.plant.field());
-  options.plant.power_up(simulation);
-  TraceSink* const records = options.plant.sinks().empty() ? nullptr : &options.plant.sinks();
+  std::vector<serial::Frame> frames;
+  if (!read_frames(options, frames)) return kUnusable;
+  const auto rig = options.rig.assemble(program, options.json);
+  if (!rig) return kUnusable;
+  serial::Simulation& simulation = rig->simulation();
+  rig->power_up();
+  TraceSink* const records = rig->sinks().empty() ? nullptr : &rig->sinks();
   Timeline timeline(program, records);
 
   auto results = results_of("send");
   nlohmann::ordered_json& exchanges = results["exchanges"] = nlohmann::ordered_json::array();
   SimulatedSlave slave(simulation, options.master, program->source.name);
-  const bool ready = slave.wait_until_ready(options.after);
+  std::string why;
+  const bool ready = slave.wait_until_ready(options.after, why);
+  if (ready) print_note_if_any(slave.note_on_port());
+  if (!why.empty()) print_error(why);
   std::size_t answered = 0;
-  for (const modbus::Frame& frame : frames) {
-    if (!ready || interrupted() || options.plant.failed_strictly(simulation.cpu())) break;
+  for (const serial::Frame& frame : frames) {
+    if (!ready || interrupted() || options.rig.failed_strictly(simulation.cpu())) break;
     const serial::Faults::State faults_before = simulation.faults().state();
     timeline.begin();
     if (options.timeline) simulation.cpu().set_sink(&timeline);
-    const modbus::Bytes unasked = serial::bytes_of(simulation.master().heard());
+    const Bytes unasked = serial::bytes_of(simulation.master().heard());
     const serial::Exchange exchange = slave.exchange(options.master.request(frame));
     simulation.cpu().set_sink(records);
     if (simulation.master().busy()) break;  // Ctrl-C came before the answer
     answered += !exchange.timed_out;
     if (options.json) {
       exchanges.push_back(to_json(exchange, unasked));
-      if (options.plant.faulted()) exchanges.back()["faults"] = faults_json(simulation.faults(), faults_before);
+      if (options.rig.faulted()) exchanges.back()["faults"] = faults_json(simulation.faults(), faults_before);
       if (options.timeline) exchanges.back()["timeline"] = to_json(timeline.report(), exchange);
     } else {
       fmt::print("{}{}", unasked_text(unasked), exchange_text(exchange, options.master.timeout));
@@ -141,20 +146,21 @@ int run_send(SendOptions& options) {
     }
     slave.wait(options.pause == kNever ? slave.pause() : options.pause);
   }
-  const bool all_written = options.plant.finish(simulation);
+  const bool all_written = finish(*rig);
   if (options.json) {
-    results.update(options.plant.json(simulation));
-    print_results(results);
+    results.update(options.rig.json(simulation));
+    fmt::print("{}", lines_of(results));
   } else {
-    fmt::print("{}", options.plant.dump_text(simulation.cpu()));
+    fmt::print("{}", options.rig.dump_text(simulation.cpu()));
   }
-  fmt::print(stderr, "{}{}", errors_text(simulation.cpu()), faults_text(simulation.faults()));
-  if (ready && answered == 0) fmt::print(stderr, "{}", torn_frame_note(options.frames));
-  if (simulation.cpu().state().mode == Mode::Stop) fmt::print(stderr, "s7200: note: the CPU is in STOP\n");
+  fmt::print(stderr, "{}", errors_text(simulation.cpu()));
+  print_notes(fault_notes(simulation.faults()));
+  if (ready && answered == 0) print_note_if_any(torn_frame_note(options.frames));
+  if (simulation.cpu().state().mode == Mode::Stop) print_note("the CPU is in STOP");
   if (!all_written) return kUnusable;
   if (simulation.cpu().state().fatal_code) return kCpuFatal;
   print_interruption();
-  if (options.plant.failed_strictly(simulation.cpu())) {
+  if (options.rig.failed_strictly(simulation.cpu())) {
     print_error("--strict: a run-time error ended the exchanges");
     return kCheckFailed;
   }
@@ -182,8 +188,8 @@ void add_send(CLI::App& app, int& exit_code) {
   add_duration(*verb, "--after", options->after,
                "when to send the first frame [after the first scan and 7 characters + 10 ms of silence]");
   add_duration(*verb, "--pause", options->pause, "pause between an answer and the next frame [7 characters + 10 ms]");
-  options->master.add_to(*verb);
-  options->plant.add_to(*verb);
+  add_master_options(*verb, options->master);
+  options->rig.add_to(*verb);
   verb->add_flag("--timeline", options->timeline, "show what the CPU did during each exchange: characters, interrupts, XMT");
   verb->add_flag("--json", options->json, "print the exchanges and the results as JSON");
   verb->footer(fault_help() +

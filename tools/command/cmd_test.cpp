@@ -14,18 +14,19 @@
 
 #include "interpreter/base/text.hpp"
 #include "tools/command/commands.hpp"
-#include "tools/scenario/conformance_suite.hpp"
 #include "tools/command/exit_code.hpp"
-#include "tools/host/interruption.hpp"
+#include "tools/command/options/line_options.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/options/program_options.hpp"
-#include "tools/views/results_json.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
+#include "tools/host/written_files.hpp"
 #include "tools/scenario/comparison.hpp"
+#include "tools/scenario/conformance_suite.hpp"
 #include "tools/scenario/reader.hpp"
 #include "tools/scenario/transcript.hpp"
 #include "tools/slave/slave_target.hpp"
-#include "tools/host/terminal.hpp"
-#include "tools/host/written_files.hpp"
+#include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -37,7 +38,7 @@ struct TestOptions {
   std::uint32_t seed = 1;
   unsigned station = 1, jobs = 1;
   CpuOptions cpu;  // of random traffic
-  MasterOptions line;
+  serial::MasterSettings line;
   Time tolerance = kNever;                         // kNever: not given
   std::optional<Destination> record_to, junit_to;  // of the files of these names
   bool ignore_timing = false, force = false, json = false, list = false, fail_fast = false, keys = false;
@@ -90,7 +91,7 @@ std::string text_of_file(const std::string& path) {
   return *text;
 }
 
-void print(const stl::Diagnostics& diagnostics, const stl::Source& source) {
+void print(const stl::Diagnostics& diagnostics, const stl::SourceLines& source) {
   for (const stl::Diagnostic& diagnostic : diagnostics)
     fmt::print(stderr, "{}", stl::render(diagnostic, source, colour_wanted(stderr)));
 }
@@ -102,7 +103,7 @@ std::optional<GivenParameters> given_parameters(const std::string& path) {
   const std::string text = text_of_file(path);
   auto given = read_parameters(text, path, diagnostics);
   if (given) return given;
-  stl::Source source{.name = path, .text = stl::split_lines(text), .lines = {}};
+  stl::SourceLines source{.name = path, .text = stl::split_lines(text)};
   print(diagnostics, source);
   throw Unusable{};
 }
@@ -114,14 +115,6 @@ bool take(ScenarioFile file, const GivenParameters* given, std::vector<Scenario>
   if (given) print(file.given_diagnostics, *given->source);
   std::move(file.scenarios.begin(), file.scenarios.end(), std::back_inserter(scenarios));
   return file.diagnostics.empty() && file.given_diagnostics.empty();
-}
-
-void override_line(const MasterOptions& given, MasterOptions& line) {
-  const MasterOptions usual;
-  if (given.baud != usual.baud) line.baud = given.baud;
-  if (given.parity != usual.parity) line.parity = given.parity;
-  if (given.data_bits != usual.data_bits) line.data_bits = given.data_bits;
-  if (given.stop_bits != usual.stop_bits) line.stop_bits = given.stop_bits;
 }
 
 bool is_chosen(const Scenario& scenario, const std::string& pattern) {
@@ -147,7 +140,7 @@ std::vector<Scenario> read_all(const TestOptions& options) {
     scenarios.back().cpu = options.cpu.cpu;
     scenarios.back().times_file = options.cpu.times_file;
   }
-  for (Scenario& scenario : scenarios) override_line(options.line, scenario.line);
+  for (Scenario& scenario : scenarios) scenario.line.override_with(options.line);
   std::erase_if(scenarios, [&](const Scenario& s) { return !is_chosen(s, options.only); });
   if (scenarios.empty())
     fail(options.only.empty() ? "nothing to test: give files or folders, --conformance, or --random with --target"
@@ -210,7 +203,7 @@ Benches benches_for(const std::vector<Scenario>& scenarios, const std::string& t
         "tcp://");
   SerialFormat format;
   if (parsed && parsed->kind != SlaveTarget::Kind::Program) {
-    format = options.line.format_over(SerialFormat{});
+    format = options.line.over(SerialFormat{});
     benches.slave = connect(*parsed, format);
     benches.name = benches.slave->name();
   }
@@ -315,7 +308,7 @@ unsigned jobs_on(const Benches& benches, const TestOptions& options) {
   return benches.slave ? 1 : std::max(1u, options.jobs);
 }
 
-void print_file_heading(const Scenario& scenario, const stl::Source*& last) {
+void print_file_heading(const Scenario& scenario, const stl::SourceLines*& last) {
   if (scenario.source.get() == last) return;
   last = scenario.source.get();
   fmt::print("{}\n", stl::printable(scenario.source->name));
@@ -336,7 +329,7 @@ int run_all(const std::vector<Scenario>& scenarios, const TestOptions& options, 
   const bool conformance = !options.conformance.empty();
   const bool lines = !options.json && !conformance;
   std::vector<Report> reports;
-  const stl::Source* heading = nullptr;
+  const stl::SourceLines* heading = nullptr;
   std::string unreachable;
   try {
     Runner runner(scenarios, benches, jobs_on(benches, options));
@@ -356,7 +349,7 @@ int run_all(const std::vector<Scenario>& scenarios, const TestOptions& options, 
     auto results = results_of("test");
     results.update(to_json(reports));
     results["not_run"] = scenarios.size() - reports.size();
-    print_results(results);
+    fmt::print("{}", lines_of(results));
   } else if (conformance) {
     fmt::print("{}", conformance_text(reports, benches.name, colour_wanted(stdout)));
   } else {
@@ -370,11 +363,17 @@ int run_all(const std::vector<Scenario>& scenarios, const TestOptions& options, 
   for (Scenario& scenario : as_run)
     if (!options.target.empty()) scenario.program = benches.slave ? "" : options.target;
   for (Report& report : reports) report.scenario = &as_run[static_cast<std::size_t>(report.scenario - scenarios.data())];
-  bool all_written = !options.junit_to || write_result(*options.junit_to, to_junit(reports));
+  bool all_written = true;
+  const auto write = [&](const Destination& to, const std::string& text) {
+    std::string why;
+    if (write_result(to, text, why)) return;
+    print_error(why);
+    all_written = false;
+  };
+  if (options.junit_to) write(*options.junit_to, to_junit(reports));
   if (options.record_to) {
     const Time tolerance = options.tolerance_with(benches.slave != nullptr);
-    all_written &= write_result(
-        *options.record_to, transcript_text(reports, {options.record, benches.name, tolerance, benches.slave != nullptr}));
+    write(*options.record_to, transcript_text(reports, {options.record, benches.name, tolerance, benches.slave != nullptr}));
   }
   print_interruption();
   if (!all_written) throw Unusable{};
@@ -397,7 +396,7 @@ int run_against(const std::vector<Scenario>& scenarios, const TestOptions& optio
   });
   auto results = results_of("test");
   nlohmann::ordered_json& comparisons = results["comparisons"] = nlohmann::ordered_json::array();
-  const stl::Source* heading = nullptr;
+  const stl::SourceLines* heading = nullptr;
   bool same = true;
   Runner ones(scenarios, one, jobs_on(one, options));
   ones.each([&](std::size_t i, ScenarioResult result) {
@@ -429,7 +428,7 @@ int run_against(const std::vector<Scenario>& scenarios, const TestOptions& optio
     }
     return same || !options.fail_fast;
   });
-  if (options.json) print_results(results);
+  if (options.json) fmt::print("{}", lines_of(results));
   print_interruption();
   return same && !interrupted() ? kFine : kCheckFailed;
 }
@@ -440,16 +439,17 @@ void claim_files(TestOptions& options) {
   for (const std::string& path : {options.record, options.junit})
     if (path == "-") fail("--record and --junit write files; '-' is none");
   WrittenFiles files;
+  std::string why;
   if (!options.record.empty()) {
     options.record_to =
-        files.claim("--record", options.record, {"a transcript", std::string(kTranscriptBeginning)}, Replace::Own);
-    if (!options.record_to) throw Unusable{};
+        files.claim("--record", options.record, {"a transcript", std::string(kTranscriptBeginning)}, Replace::Own, why);
+    if (!options.record_to) fail(why);
     if (options.record_to->replaced && !options.force) fail(fmt::format("{} exists; --force overwrites it", options.record));
   }
   if (options.junit.empty()) return;
   options.junit_to =
-      files.claim("--junit", options.junit, {"a JUnit file of s7200 test", std::string(kJunitBeginning)}, Replace::Own);
-  if (!options.junit_to) throw Unusable{};
+      files.claim("--junit", options.junit, {"a JUnit file of s7200 test", std::string(kJunitBeginning)}, Replace::Own, why);
+  if (!options.junit_to) fail(why);
 }
 
 void check_usage(const TestOptions& options) {
@@ -470,10 +470,10 @@ void print_list(const std::vector<Scenario>& scenarios, bool json) {
   if (json) {
     auto results = results_of("test");
     for (const Scenario& scenario : scenarios) results["scenarios"].push_back(scenario_json(scenario));
-    print_results(results);
+    fmt::print("{}", lines_of(results));
     return;
   }
-  const stl::Source* heading = nullptr;
+  const stl::SourceLines* heading = nullptr;
   for (const Scenario& scenario : scenarios) {
     print_file_heading(scenario, heading);
     const std::string id = scenario.rule.id.empty() ? "" : scenario.rule.id + "  ";
@@ -528,7 +528,7 @@ void add_test(CLI::App& app, int& exit_code) {
   verb->add_option("--record", options->record, "write what went over the line as a transcript, which is a scenario again")
       ->type_name("FILE");
   verb->add_flag("--force", options->force, "overwrite an existing transcript");
-  options->line.LineOptions::add_to(*verb, "as scenarios and programs say");
+  add_line_options(*verb, options->line, "as scenarios and programs say");
   verb->add_option("--only", options->only, "scenarios with PATTERN in their name, file or rule; * is anything")
       ->type_name("PATTERN");
   verb->add_flag("--list", options->list, "name the scenarios and run none");

@@ -7,8 +7,8 @@
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/terminal.hpp"
 #include "tools/views/results_json.hpp"
-#include "tools/host/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -52,7 +52,7 @@ int run_times(const TimesOptions& options) {
   const auto times = options.cpu.times(*model);
   if (!times) return kUnusable;
   if (options.json)
-    print_results(to_json(*model, *times));
+    fmt::print("{}", lines_of(to_json(*model, *times)));
   else if (options.csv)
     print_file(to_csv(*times));
   else

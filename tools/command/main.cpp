@@ -9,10 +9,10 @@
 #include "interpreter/base/text.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
-#include "tools/views/results_json.hpp"
-#include "tools/host/standard_streams.hpp"
-#include "tools/host/terminal.hpp"
+#include "tools/command/standard_streams.hpp"
+#include "tools/command/terminal.hpp"
 #include "tools/command/usage.hpp"
+#include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -13,15 +13,15 @@
 #include <vector>
 
 #include "serial_sim/modbus/request.hpp"
+#include "serial_sim/peers/requester.hpp"
 #include "serial_sim/system/simulation.hpp"
-#include "tools/views/listing.hpp"
-#include "tools/command/options/master_options.hpp"
 #include "tools/debugger/stepper.hpp"
+#include "tools/views/listing.hpp"
 
 namespace s7200::tools {
 
 struct DebuggerOptions {
-  MasterOptions master{};                           ///< how `send` talks
+  serial::MasterSettings master{};                  ///< how `send` talks
   const std::atomic<bool>* stop_request = nullptr;  ///< ends a run when it becomes true; may be set by a signal handler
 };
 

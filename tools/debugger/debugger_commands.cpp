@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <ostream>
 
+#include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "tools/debugger/debugger.hpp"
@@ -25,17 +25,10 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-std::optional<std::uint32_t> parse_number(std::string_view text) {
-  std::uint32_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size()) return {};
-  return number;
-}
-
 /// The optional `[n]` of a command: 1 when it is not there, nothing when it is no number above 0 or more follows.
 std::optional<std::uint32_t> parse_count(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return 1;
-  const auto number = parse_number(arguments[0]);
+  const auto number = parse_decimal<std::uint32_t>(arguments[0]);
   return arguments.size() == 1 && number && *number > 0 ? number : std::nullopt;
 }
 
@@ -233,7 +226,7 @@ std::optional<std::uint32_t> Debugger::find_place(const Arguments& arguments, st
   const std::string text = stl::upper_case(joined(arguments));
   const bool subroutine = text.starts_with("SBR"), interrupt = text.starts_with("INT");
   if (!subroutine && !interrupt) return op_of_line(text, command, why);
-  const auto number = parse_number(arguments.size() == 1 ? std::string_view(text).substr(3) : arguments[1]);
+  const auto number = parse_decimal<std::uint32_t>(arguments.size() == 1 ? std::string_view(text).substr(3) : arguments[1]);
   if (!number || arguments.size() > 2) {
     why = expects(command, kPlaces);
     return {};
@@ -247,7 +240,7 @@ std::optional<std::uint32_t> Debugger::find_place(const Arguments& arguments, st
 }
 
 std::optional<std::uint32_t> Debugger::op_of_line(const std::string& text, std::string_view command, std::string& why) {
-  const auto line = parse_number(text);
+  const auto line = parse_decimal<std::uint32_t>(text);
   if (!line) {
     why = expects(command, kPlaces);
     return {};
@@ -313,7 +306,7 @@ Debugger::Error Debugger::delete_stop(const Arguments& arguments) {
     return {};
   }
   for (const std::string& argument : arguments) {
-    const auto number = parse_number(argument);
+    const auto number = parse_decimal<std::uint32_t>(argument);
     if (!number) return expects("delete", "numbers that 'break' lists, or all");
     const auto is_it = [&](const auto& stop) { return stop.number == static_cast<int>(*number); };
     if (std::erase_if(stepper_.breakpoints, is_it) + std::erase_if(stepper_.watches, is_it) == 0)
@@ -336,7 +329,7 @@ Debugger::Error Debugger::list(const Arguments& arguments) {
     out_ << listing_.around(listing_.line_of(current_op().value_or(0)), kListedBefore, kListed, mark);
     return {};
   }
-  if (const auto line = parse_number(joined(arguments))) {
+  if (const auto line = parse_decimal<std::uint32_t>(joined(arguments))) {
     if (*line > listing_.last_line()) return fmt::format("the last instruction is in line {}", listing_.last_line());
     out_ << listing_.around(*line, kListedBefore, kListed, mark);
     return {};
@@ -470,24 +463,24 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
   if (words.empty())
     return expects("send",
                    "a frame in hex or text in quotation marks, for example: send 01 03 00 00 00 02 crc, or send 'HELLO\\r'");
-  modbus::ParsedFrame parsed = parse_hex_or_quoted(joined(words));
+  serial::ParsedFrame parsed = parse_hex_or_quoted(joined(words));
   if (!parsed.ok()) {
-    const modbus::FrameError& error = parsed.errors[0];
+    const serial::FrameError& error = parsed.errors[0];
     return fmt::format("send {}: column {}: {}", joined(words), error.column, error.message);
   }
   if (crc) modbus::append_crc(parsed.frame);
-  const SerialFormat format = options_.master.format_for(simulation_);
-  if (modbus::has_wrong_parity(parsed.frame) && format.parity == Parity::None)
+  const SerialFormat format = options_.master.over(simulation_.port_format());
+  if (serial::has_wrong_parity(parsed.frame) && format.parity == Parity::None)
     return "send: a byte with wrong parity (p) needs a format with parity";
   if (simulation_.master().busy()) {
     out_ << "the last frame is still under way or waiting for its answer; 'continue' runs to its end\n";
     return {};
   }
   simulation_.master_uart().configure(format);
-  const MasterOptions& master = options_.master;
-  simulation_.master().start({.frame = parsed.frame, .timeout = master.timeout, .gap = master.gap}, simulation_.time());
-  const std::string text = request_text(modbus::bytes_of(parsed.frame));
-  out_ << fmt::format("on the line from now on: {}{} ({})\n", modbus::to_hex(parsed.frame), text.empty() ? "" : "  " + text,
+  const serial::MasterSettings& master = options_.master;
+  simulation_.master().start(master.request(parsed.frame), simulation_.time());
+  const std::string text = request_text(serial::bytes_of(parsed.frame));
+  out_ << fmt::format("on the line from now on: {}{} ({})\n", serial::to_hex(parsed.frame), text.empty() ? "" : "  " + text,
                       format_text(format));
   if (!simulation_.cpu().state().port[0].active) out_ << "port 0 is not in Freeport mode: the program will not hear it\n";
   return {};

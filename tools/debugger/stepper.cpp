@@ -89,9 +89,4 @@ void Stepper::note_changes(const InstructionRecord* by) {
   }
 }
 
-std::optional<std::uint32_t> standing_at(const State& state) {
-  if (state.mode == Mode::Stop || !(state.in_interrupt || state.phase == Phase::Program)) return {};
-  return state.pc;
-}
-
 }  // namespace s7200::tools

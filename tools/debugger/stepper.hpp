@@ -98,7 +98,4 @@ class Stepper final : public TraceSink {
   Stop stop_;
 };
 
-/// The instruction the CPU stands in front of; nothing at power-up and in STOP.
-std::optional<std::uint32_t> standing_at(const State& state);
-
 }  // namespace s7200::tools

@@ -3,8 +3,6 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include "tools/host/terminal.hpp"
-
 namespace s7200::tools {
 namespace {
 
@@ -65,8 +63,6 @@ bool forget_ctrl_c() {
   return true;
 }
 
-void print_interruption() {
-  if (noted_signal != 0) print_note("interrupted");
-}
+bool interrupted_by_signal() { return noted_signal != 0; }
 
 }  // namespace s7200::tools

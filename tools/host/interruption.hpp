@@ -25,7 +25,7 @@ const std::atomic<bool>& interruption();
 /// Takes a Ctrl-C back, which at a prompt gives a new one. False if there was none, and for all that ends the command.
 bool forget_ctrl_c();
 
-/// `s7200: note: interrupted`, if a signal was the reason.
-void print_interruption();
+/// Whether a signal was the reason, not interrupt_quietly().
+bool interrupted_by_signal();
 
 }  // namespace s7200::tools

@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
+
+#include "interpreter/base/numbers.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -29,10 +30,10 @@ std::optional<ListenAddress> parse_listen_address(const std::string& text, std::
   } else if (!host.empty() && !is_address(AF_INET, host)) {
     why = fmt::format("'{}' is no IP address", host);
   }
-  const char* const end = port.data() + port.size();
-  const auto read = std::from_chars(port.data(), end, address.port);
-  if (why.empty() && (read.ptr != end || read.ec != std::errc{})) why = fmt::format("'{}' is no port from 0 to 65535", port);
+  const auto number = parse_decimal<std::uint16_t>(port);
+  if (why.empty() && !number) why = fmt::format("'{}' is no port from 0 to 65535", port);
   if (!why.empty()) return {};
+  address.port = *number;
   if (!host.empty()) address.host = host;
   return address;
 }

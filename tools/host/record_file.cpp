@@ -8,12 +8,10 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <iostream>
 #include <streambuf>
 #include <utility>
 
-#include "tools/host/standard_streams.hpp"
-#include "tools/host/terminal.hpp"
+#include "tools/host/write_all.hpp"
 
 namespace s7200::tools {
 
@@ -61,22 +59,27 @@ int open_stream(const std::string& path) {
 RecordFile::RecordFile() = default;
 RecordFile::~RecordFile() = default;
 
-bool RecordFile::claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind) {
+bool RecordFile::claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind,
+                       std::string& why) {
   destination_.path = path;
-  if (path == "-") return true;
+  if (path == "-") {
+    standard_output_ = files.standard_output();
+    if (!standard_output_) why = fmt::format("{} -: there is no standard output to write to", option);
+    return standard_output_ != nullptr;
+  }
   kind.record = true;
-  auto claimed = files.claim(option, path, std::move(kind), Replace::Own);
+  auto claimed = files.claim(option, path, std::move(kind), Replace::Own, why);
   if (claimed) destination_ = std::move(*claimed);
   return claimed.has_value();
 }
 
-bool RecordFile::check(int error) const {
-  if (error != 0) print_error(fmt::format("cannot write {}: {}", destination_.path, std::strerror(error)));
+bool RecordFile::check(int error, std::string& why) const {
+  if (error != 0) why = fmt::format("cannot write {}: {}", destination_.path, std::strerror(error));
   return error == 0;
 }
 
-std::ostream* RecordFile::open() {
-  if (destination_.path == "-") return &std::cout;
+std::ostream* RecordFile::open(std::string& why) {
+  if (standard_output_) return standard_output_;
   int error = 0;
   if (!destination_.stream)
     error = file_.create(destination_);
@@ -84,27 +87,27 @@ std::ostream* RecordFile::open() {
     file_.take(fd);
   else
     error = errno;
-  if (!check(error)) return nullptr;
+  if (!check(error, why)) return nullptr;
   buffer_ = std::make_unique<Buffer>(file_.fd());
   stream_ = std::make_unique<std::ostream>(buffer_.get());
   return stream_.get();
 }
 
-bool RecordFile::put() {
+bool RecordFile::put(std::string& why) {
   if (!buffer_) return true;
   stream_->flush();
-  if (!check(buffer_->error())) return false;
-  return destination_.stream || check(file_.put(destination_));
+  if (!check(buffer_->error(), why)) return false;
+  return destination_.stream || check(file_.put(destination_), why);
 }
 
-bool RecordFile::close() {
+bool RecordFile::close(std::string& why) {
   if (!buffer_) return true;
   stream_->flush();
   int error = buffer_->error();
   stream_.reset();
   buffer_.reset();
   if (const int at_close = file_.close(); error == 0) error = at_close;
-  if (error != 0) print_error(fmt::format("cannot write all of {}: {}", destination_.path, std::strerror(error)));
+  if (error != 0) why = fmt::format("cannot write all of {}: {}", destination_.path, std::strerror(error));
   return error == 0;
 }
 

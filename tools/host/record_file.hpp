@@ -16,23 +16,25 @@ class RecordFile {
   RecordFile();
   ~RecordFile();
 
-  /// False after a message when `option` cannot write there; - is standard output.
-  bool claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind);
+  /// Returns false and sets `why` if `option` cannot write there; - is standard output, if
+  /// `files` has one. The others say likewise what failed.
+  bool claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind, std::string& why);
 
-  /// Null after a message. A pipe is waited for until somebody reads from it.
-  std::ostream* open();
+  /// Null if it fails. A pipe is waited for until someone reads from it.
+  std::ostream* open(std::string& why);
 
-  /// Puts the file in its place: its first line has been written. False after a message.
-  bool put();
+  /// Puts the file in its place: its first line has been written.
+  bool put(std::string& why);
 
-  /// False after a message when not everything could be written.
-  bool close();
+  /// False if not everything could be written.
+  bool close(std::string& why);
 
  private:
   class Buffer;
-  bool check(int error) const;
+  bool check(int error, std::string& why) const;
 
   Destination destination_;
+  std::ostream* standard_output_ = nullptr;  ///< not null: that is where it goes
   NewFile file_;
   std::unique_ptr<Buffer> buffer_;  ///< null: standard output, or nothing is open
   std::unique_ptr<std::ostream> stream_;

@@ -11,8 +11,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "tools/host/standard_streams.hpp"
-#include "tools/host/terminal.hpp"
+#include "tools/host/write_all.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -75,7 +74,7 @@ int rename_to_new_name(const std::string& from, const std::string& to) {
 
 // --- claims ---
 
-WrittenFiles::WrittenFiles() {
+WrittenFiles::WrittenFiles(std::ostream* standard_output) : standard_output_(standard_output) {
   for (const auto& [fd, name] : {std::pair(STDOUT_FILENO, "standard output"), std::pair(STDERR_FILENO, "standard error")}) {
     struct stat status {};
     if (fstat(fd, &status) == 0 && !S_ISCHR(status.st_mode)) places_.push_back({name, identity(status), {}, {}});
@@ -100,9 +99,9 @@ void WrittenFiles::links(std::string_view option, const std::string& path) {
 }
 
 std::optional<Destination> WrittenFiles::claim(std::string_view option, const std::string& path, FileKind kind,
-                                               Replace replace) {
-  const auto refuse = [](const std::string& message) {
-    print_error(message);
+                                               Replace replace, std::string& why) {
+  const auto refuse = [&why](std::string message) {
+    why = std::move(message);
     return std::nullopt;
   };
   Destination destination{.path = path, .kind = std::move(kind)};
@@ -121,7 +120,7 @@ std::optional<Destination> WrittenFiles::claim(std::string_view option, const st
   places_.push_back(here);
 
   if (found && !S_ISREG(found->st_mode)) {
-    if (const std::string why = why_not(path, *found, destination.kind); !why.empty()) return refuse(why);
+    if (std::string reason = why_not(path, *found, destination.kind); !reason.empty()) return refuse(std::move(reason));
     destination.stream = true;
     return destination;
   }
@@ -169,7 +168,7 @@ int NewFile::close() {
   return error;
 }
 
-bool write_result(const Destination& destination, std::string_view text) {
+bool write_result(const Destination& destination, std::string_view text, std::string& why) {
   NewFile file;
   int error = file.create(destination);
   if (error == 0) error = write_all(file.fd(), text);
@@ -177,7 +176,7 @@ bool write_result(const Destination& destination, std::string_view text) {
   if (error == 0) error = file.close();
   if (error == 0) error = file.put(destination);
   if (error != 0) {
-    print_error(fmt::format("cannot write {}: {}", destination.path, std::strerror(error)));
+    why = fmt::format("cannot write {}: {}", destination.path, std::strerror(error));
     return false;
   }
   // The new name itself on the disk as well; not every file system knows how, and the content is safe already.

@@ -18,6 +18,7 @@
 
 #include <sys/types.h>
 
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -56,8 +57,11 @@ struct Destination {
 /// All files of one command.
 class WrittenFiles {
  public:
-  /// Standard output and standard error are among the files that are taken, if they are files.
-  WrittenFiles();
+  /// Standard output and standard error are among the files that are taken, if they are files. `standard_output`: what `-`
+  /// stands for; null where nothing may be written to it.
+  explicit WrittenFiles(std::ostream* standard_output = nullptr);
+
+  std::ostream* standard_output() const { return standard_output_; }
 
   /// The command reads this file, if it is one.
   void reads(const std::string& path);
@@ -65,8 +69,9 @@ class WrittenFiles {
   /// `option` makes a link of this name.
   void links(std::string_view option, const std::string& path);
 
-  /// Nothing after a message when `option` cannot write there.
-  std::optional<Destination> claim(std::string_view option, const std::string& path, FileKind kind, Replace replace);
+  /// Returns nothing and sets `why` if `option` cannot write there.
+  std::optional<Destination> claim(std::string_view option, const std::string& path, FileKind kind, Replace replace,
+                                   std::string& why);
 
  private:
   struct Place {
@@ -76,6 +81,7 @@ class WrittenFiles {
   };
   static Place place_of(std::string user, const std::string& path);
 
+  std::ostream* standard_output_;
   std::vector<Place> places_;
 };
 
@@ -104,7 +110,7 @@ class NewFile {
   int fd_ = -1;
 };
 
-/// Writes a result. False after a message; what was there before is as it was.
-bool write_result(const Destination& destination, std::string_view text);
+/// Writes a result. Returns false and sets `why` if that fails; what was there before is as it was.
+bool write_result(const Destination& destination, std::string_view text, std::string& why);
 
 }  // namespace s7200::tools

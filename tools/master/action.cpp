@@ -7,7 +7,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "tools/command/options/number_option.hpp"
+#include "interpreter/base/numbers.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -56,7 +56,7 @@ class Parser {
   void wait(const Words& operands);
 
  private:
-  MasterAction& add(modbus::Bytes pdu);
+  MasterAction& add(Bytes pdu);
   void check_limits(const MasterAction& action) const;
 
   /// The address of an operand: an area was named before, or the notation names it.
@@ -133,7 +133,7 @@ std::vector<MasterAction> Parser::parse(const Words& words) {
   return std::move(actions_);
 }
 
-MasterAction& Parser::add(modbus::Bytes pdu) {
+MasterAction& Parser::add(Bytes pdu) {
   MasterAction action{.text = text_, .pdu = std::move(pdu), .station = station_};
   const std::uint8_t function = action.pdu[0];
   const modbus::FunctionRow* row = modbus::find_function(function);
@@ -148,8 +148,8 @@ MasterAction& Parser::add(modbus::Bytes pdu) {
 
 void Parser::check_limits(const MasterAction& action) const {
   const std::size_t size = action.pdu.size() + 3;
-  if (size > modbus::kLongestRawFrame)
-    refuse(fmt::format("{}: a frame of {} bytes; {} is the most that can be sent", text_, size, modbus::kLongestRawFrame));
+  if (size > serial::kLongestRawFrame)
+    refuse(fmt::format("{}: a frame of {} bytes; {} is the most that can be sent", text_, size, serial::kLongestRawFrame));
   if (rules_.beyond_limits) return;
   std::string why = modbus::beyond_limits(action.pdu);
   if (why.empty() && size > modbus::kLongestRtuFrame)
@@ -190,7 +190,7 @@ void Parser::read(const Words& operands) {
     const std::uint16_t count = parts ? word(parts->second, "count") : std::uint16_t{1};
     text_ = area_ != nullptr ? fmt::format("read {} {}", area_->word, operand) : "read " + operand;
     const auto function = static_cast<std::uint8_t>(modbus::row_of(first.area).read);
-    modbus::Bytes pdu = modbus::read_coils(first.address, count);  // reads differ in nothing but their number
+    Bytes pdu = modbus::read_coils(first.address, count);  // reads differ in nothing but their number
     pdu[0] = function;
     MasterAction& action = add(std::move(pdu));
     action.first = first;
@@ -208,7 +208,7 @@ void Parser::write(const Words& operands) {
     if (!row.write_one) refuse(fmt::format("{}: {}s can only be read", text_, row.singular));
     const auto values = row.bits ? parse_bits(parts->second) : parse_registers(parts->second, rules_.format);
     const bool single = values.size() == 1 && !(row.bits ? rules_.always_15 : rules_.always_16);
-    modbus::Bytes pdu;
+    Bytes pdu;
     if (row.bits)
       pdu = single ? modbus::write_coil(first.address, values[0] != 0)
                    : modbus::write_coils(first.address, std::vector<bool>(values.begin(), values.end()));
@@ -267,18 +267,18 @@ std::vector<Reference> Parser::to_write(const Words& operands, std::uint8_t type
   return references;
 }
 
-modbus::Frame parse_hex(const std::string& text) {
-  modbus::ParsedFrame parsed = modbus::parse_hex_frame(text);
+serial::Frame parse_hex(const std::string& text) {
+  serial::ParsedFrame parsed = serial::parse_hex_frame(text);
   if (!parsed.ok()) refuse(fmt::format("'{}': column {}: {}", text, parsed.errors[0].column, parsed.errors[0].message));
   return std::move(parsed.frame);
 }
 
 void Parser::function(const Words& operands) {
-  modbus::Bytes pdu{static_cast<std::uint8_t>(parse_number(operands[0], 0, UINT8_MAX, "function"))};
+  Bytes pdu{static_cast<std::uint8_t>(parse_number(operands[0], 0, UINT8_MAX, "function"))};
   if (operands.size() > 1) {
-    const modbus::Frame data = parse_hex(operands[1]);
-    if (modbus::has_wrong_parity(data)) refuse(fmt::format("{}: wrong parity (p) is for raw frames", text_));
-    std::ranges::copy(modbus::bytes_of(data), std::back_inserter(pdu));
+    const serial::Frame data = parse_hex(operands[1]);
+    if (serial::has_wrong_parity(data)) refuse(fmt::format("{}: wrong parity (p) is for raw frames", text_));
+    std::ranges::copy(serial::bytes_of(data), std::back_inserter(pdu));
   }
   if (pdu[0] == 0 || pdu[0] >= modbus::kExceptionFlag) {
     if (!rules_.beyond_limits)
@@ -289,9 +289,9 @@ void Parser::function(const Words& operands) {
 
 void Parser::raw(const Words& operands) {
   for (const std::string& operand : operands) {
-    modbus::Frame frame = parse_hex(operand);
+    serial::Frame frame = parse_hex(operand);
     if (rules_.crc) modbus::append_crc(frame);
-    const modbus::Bytes bytes = modbus::bytes_of(frame);
+    const Bytes bytes = serial::bytes_of(frame);
     actions_.push_back({.kind = MasterAction::Kind::Raw,
                         .text = "raw " + operand,
                         .frame = std::move(frame),

@@ -23,8 +23,8 @@ struct MasterAction {
 
   Kind kind = Kind::Request;
   std::string text;  ///< as it was written: `read 40011:2`
-  modbus::Bytes pdu{};
-  modbus::Frame frame{};
+  Bytes pdu{};
+  serial::Frame frame{};
   std::uint8_t station = 1;  ///< that is asked; of Raw, the first byte
   Time duration = 0;         ///< of Wait
 

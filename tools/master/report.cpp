@@ -1,15 +1,11 @@
 #include "tools/master/report.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "tools/master/statistics.hpp"
-#include "tools/slave/host_link.hpp"
 #include "tools/views/report.hpp"
 
 namespace s7200::tools {
@@ -35,7 +31,7 @@ std::string fault_text(const MasterResult& result) {
 
 std::string right_text(const MasterResult& result) {
   if (result.exchange.response.empty()) return "sent; no answer expected";
-  return modbus::describe(modbus::bytes_of(result.exchange.request), result.exchange.response_bytes());
+  return modbus::describe(serial::bytes_of(result.exchange.request), result.exchange.response_bytes());
 }
 
 /// Columns: the address in the notation of 5 digits, on the wire, value.
@@ -43,17 +39,10 @@ std::string value_line(const modbus::DataAddress& address, const std::string& va
   return fmt::format("{:>7} {:>7}  {}", modbus::notation(address), address.address, value);
 }
 
-constexpr Time kRedraw = 50 * kMillisecond;
-
-std::size_t rows_of_terminal() {
-  winsize size{};
-  return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_row : 0;
-}
-
 }  // namespace
 
 modbus::Answer assess(const MasterAction& action, const serial::Exchange& exchange, bool broadcasts_are_silent) {
-  modbus::Answer answer = modbus::check_answer(modbus::bytes_of(exchange.request), exchange.response_bytes());
+  modbus::Answer answer = modbus::check_answer(serial::bytes_of(exchange.request), exchange.response_bytes());
   const auto wrong = [&](const char* fault) {
     answer = {};
     answer.verdict = Verdict::Wrong;
@@ -130,15 +119,15 @@ std::vector<std::string> lines(const MasterResult& result, const ValueFormat& fo
 
 std::string frames_text(const MasterResult& result) {
   const serial::Exchange& exchange = result.exchange;
-  return fmt::format("  request  {}\n  answer   {}\n", modbus::to_hex(exchange.request),
-                     exchange.response.empty() ? "none" : modbus::to_hex(exchange.response_bytes()));
+  return fmt::format("  request  {}\n  answer   {}\n", serial::to_hex(exchange.request),
+                     exchange.response.empty() ? "none" : serial::to_hex(exchange.response_bytes()));
 }
 
 nlohmann::ordered_json to_json(const MasterResult& result, const ValueFormat& format) {
   const MasterAction& action = *result.action;
   const serial::Exchange& exchange = result.exchange;
   const modbus::Answer& answer = result.answer;
-  const modbus::Bytes request = modbus::bytes_of(exchange.request);
+  const Bytes request = serial::bytes_of(exchange.request);
   nlohmann::ordered_json json{{"action", action.text},
                               {"at_us", static_cast<double>(exchange.request_start) / kMicrosecond},
                               {"station", request[0]},
@@ -180,67 +169,6 @@ nlohmann::ordered_json to_json(const MasterResult& result, const ValueFormat& fo
   if (!answer.bytes.empty()) json["bytes"] = plain_hex(answer.bytes);
   if (!result.remark.empty()) json["remark"] = result.remark;
   return json;
-}
-
-PollingTable::PollingTable(std::string title, const ValueFormat& format, bool in_place, bool colour)
-    : title_(std::move(title)), format_(format), in_place_(in_place), colour_(colour) {}
-
-std::string PollingTable::marked(const std::string& line, bool changed) const {
-  if (!changed) return "  " + line;
-  return colour_ ? fmt::format("* \x1b[1m{}\x1b[0m", line) : "* " + line;
-}
-
-void PollingTable::add(const MasterResult& result, Time at) {
-  if (in_place_) {
-    now_.push_back({heading(result), lines(result, format_)});
-  } else {
-    now_.push_back({{}, {short_text(result, format_)}});
-    const std::vector<std::string>& shown = now_[place_].lines;
-    const bool changed = place_ < before_.size() && before_[place_].lines != shown;
-    const auto latency = result.exchange.latency();
-    fmt::print("{:12.6f} s  {:>12}  {}\n", static_cast<double>(at) / kSecond, latency ? format_duration(*latency) : "-",
-               marked(fmt::format("{}: {}", result.action->text, shown[0]), changed));
-  }
-  ++place_;
-}
-
-void PollingTable::end_round(const std::string& footer) {
-  if (in_place_) {
-    to_draw_ = table(footer);
-    if (host_time() - drawn_at_ >= kRedraw) draw();
-  } else {
-    std::fflush(stdout);
-  }
-  before_ = std::exchange(now_, {});
-  place_ = 0;
-}
-
-void PollingTable::finish() {
-  if (!to_draw_.empty()) draw();
-}
-
-std::string PollingTable::table(const std::string& footer) const {
-  std::string text = title_ + "\n";
-  for (std::size_t place = 0; place < now_.size(); ++place) {
-    text += now_[place].heading + "\n";
-    for (std::size_t line = 0; line < now_[place].lines.size(); ++line) {
-      const bool known = place < before_.size() && line < before_[place].lines.size();
-      text += marked(now_[place].lines[line], known && before_[place].lines[line] != now_[place].lines[line]) + "\n";
-    }
-  }
-  return text + footer;
-}
-
-void PollingTable::draw() {
-  const auto height = static_cast<std::size_t>(std::ranges::count(to_draw_, '\n'));
-  const std::size_t rows = rows_of_terminal();
-  const bool fits = drawn_ < rows && height < rows;  // else the lines above cannot be reached any more
-  // ECMA-48: cursor up, erase to the end of the screen; lines that are too long are cut instead of wrapped.
-  if (fits && drawn_ > 0) fmt::print("\x1b[{}A", drawn_);
-  fmt::print("\x1b[?7l\r\x1b[J{}\x1b[?7h", std::exchange(to_draw_, {}));
-  std::fflush(stdout);
-  drawn_ = height;
-  drawn_at_ = host_time();
 }
 
 }  // namespace s7200::tools

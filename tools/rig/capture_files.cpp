@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -10,7 +9,6 @@
 
 #include "serial_sim/record/pcap_capture.hpp"
 #include "serial_sim/record/vcd_capture.hpp"
-#include "tools/host/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -43,49 +41,42 @@ const Kind* kind_of(const std::string& path) {
 
 }  // namespace
 
-void CaptureFiles::add_to(CLI::App& app) {
-  app.add_option("--capture", paths_,
-                 "write the line to FILE.vcd (levels of rx and tx, for sigrok) or FILE.pcap (frames, for Wireshark); "
-                 "repeatable")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
-}
-
-bool CaptureFiles::claim(WrittenFiles& files) {
-  for (const std::string& path : paths_) {
+bool CaptureFiles::claim(WrittenFiles& files, const std::vector<std::string>& paths, std::string& why) {
+  for (const std::string& path : paths) {
     const Kind* const kind = kind_of(path);
-    if (!kind) print_error(fmt::format("--capture {}: the name ends neither in .vcd (levels) nor in .pcap (frames)", path));
+    if (!kind) why = fmt::format("--capture {}: the name ends neither in .vcd (levels) nor in .pcap (frames)", path);
     if (!kind) return false;
     Capture& capture = captures_.emplace_back();
     capture.make = kind->make;
-    if (!capture.file.claim(files, "--capture", path, {kind->name, kind->beginning})) return false;
+    if (!capture.file.claim(files, "--capture", path, {kind->name, kind->beginning}, why)) return false;
   }
   return true;
 }
 
-bool CaptureFiles::open() {
+bool CaptureFiles::open(std::string& why) {
   for (Capture& capture : captures_) {
-    std::ostream* out = capture.file.open();
+    std::ostream* out = capture.file.open(why);
     if (!out) return false;
     capture.sink = capture.make(*out);
   }
   return true;
 }
 
-bool CaptureFiles::put() {
-  return std::all_of(captures_.begin(), captures_.end(), [](Capture& capture) { return capture.file.put(); });
+bool CaptureFiles::put(std::string& why) {
+  return std::ranges::all_of(captures_, [&](Capture& capture) { return capture.file.put(why); });
 }
 
 void CaptureFiles::watch(serial::Simulation& simulation) {
   if (!captures_.empty()) simulation.set_wire_sink(this);
 }
 
-bool CaptureFiles::close() {
+void CaptureFiles::close(std::vector<std::string>& problems) {
   finish();
-  bool good = true;
-  for (Capture& capture : captures_) good &= capture.file.close();
+  for (Capture& capture : captures_) {
+    std::string why;
+    if (!capture.file.close(why)) problems.push_back(why);
+  }
   captures_.clear();
-  return good;
 }
 
 void CaptureFiles::edge(serial::Wire wire, Time at, bool mark) {

@@ -1,4 +1,4 @@
-// `--capture FILE`: where what runs over the line goes.
+// What is written of a line while it runs: its levels, its frames.
 #pragma once
 
 #include <list>
@@ -9,27 +9,21 @@
 #include "serial_sim/system/simulation.hpp"
 #include "tools/host/record_file.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace s7200::tools {
 
 /// Any number of captures of one line; the end of a file's name says which kind it is.
 class CaptureFiles final : private serial::WireSink {
  public:
-  void add_to(CLI::App& app);
-
-  /// False after a message, like the others: a capture cannot be written as it was asked for.
-  bool claim(WrittenFiles& files);
-  bool open();
-  bool put();
+  /// Return false and set `why` if a capture cannot be written as it was asked for.
+  bool claim(WrittenFiles& files, const std::vector<std::string>& paths, std::string& why);
+  bool open(std::string& why);
+  bool put(std::string& why);
 
   /// Captures from now on, until close() or the end of the simulation. This object outlives the simulation.
   void watch(serial::Simulation& simulation);
 
-  /// False after a message when not everything could be written.
-  bool close();
+  /// Closes all of them; adds to `problems` what could not be written.
+  void close(std::vector<std::string>& problems);
 
  private:
   struct Capture {
@@ -42,7 +36,6 @@ class CaptureFiles final : private serial::WireSink {
   void settled(Time until, const SerialFormat& port) override;
   void finish() override;
 
-  std::vector<std::string> paths_;
   std::list<Capture> captures_;  // sinks hold on to the files' streams
 };
 

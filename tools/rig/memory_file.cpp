@@ -2,16 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "interpreter/base/numbers.hpp"
 #include "interpreter/program/address.hpp"
 #include "interpreter/program/load.hpp"
-#include "tools/command/options/number_option.hpp"
 #include "tools/views/report.hpp"
-#include "tools/host/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -60,12 +58,6 @@ Json rows_of(const std::vector<Kept>& kept) {
         rows[name_of(range, from)] = plain_hex(row);
     }
   return rows;
-}
-
-std::optional<std::uint8_t> hex_digit(char c) {
-  const std::size_t digit = std::string_view("0123456789abcdef").find(c);
-  if (digit == std::string_view::npos) return {};
-  return static_cast<std::uint8_t>(digit);
 }
 
 /// Takes one row over; what is wrong with it, or nothing.
@@ -142,47 +134,37 @@ std::optional<RetentiveMemory> memory_from_json(std::string_view text, const Cpu
   return memory;
 }
 
-void MemoryFile::add_to(CLI::App& app) {
-  auto* file =
-      app.add_option("--memory", path_,
-                     "retentive memory, EEPROM and clock: read from FILE at power-up if it exists, written at the end")
-          ->type_name("FILE");
-  auto* lost =
-      app.add_flag("--ram-lost", ram_lost_, "power was off too long: only the EEPROM of --memory is left, SM0.2 is 1");
-  auto* off = add_duration(app, "--power-off", power_off_, "how long power was off since --memory was written [0s]");
-  lost->needs(file);
-  off->needs(file)->excludes(lost);
-}
-
-bool MemoryFile::claim(WrittenFiles& files) {
-  if (path_.empty()) return true;
-  destination_ = files.claim("--memory", path_, {"a memory", memory_beginning()}, Replace::Judged);  // by read()
+bool MemoryFile::claim(WrittenFiles& files, const MemorySettings& settings, std::string& why) {
+  settings_ = settings;
+  if (settings.path.empty()) return true;
+  destination_ =
+      files.claim("--memory", settings.path, {"a memory", memory_beginning()}, Replace::Judged, why);  // by read()
   return destination_.has_value();
 }
 
-bool MemoryFile::read(const CpuModel& model) {
-  if (path_.empty()) return true;
+bool MemoryFile::read(const CpuModel& model, std::string& why) {
+  if (settings_.path.empty()) return true;
   if (destination_->replaced) {
-    std::string why;
-    const auto json = read_file(path_, why);
-    if (json) memory_ = memory_from_json(*json, model, why);
+    std::string reason;
+    const auto json = read_file(settings_.path, reason);
+    if (json) memory_ = memory_from_json(*json, model, reason);
     if (!memory_) {
-      print_error(fmt::format("cannot take --memory from {}: {}; it is left alone", path_, why));
+      why = fmt::format("cannot take --memory from {}: {}; it is left alone", settings_.path, reason);
       return false;
     }
-  } else if (ram_lost_) {
+  } else if (settings_.ram_lost) {
     memory_.emplace();
   }
   if (memory_) {
-    memory_->ram_lost = ram_lost_;
-    memory_->power_off = power_off_;
+    memory_->ram_lost = settings_.ram_lost;
+    memory_->power_off = settings_.power_off;
   }
   return true;
 }
 
-bool MemoryFile::write(const Cpu& cpu) const {
-  if (path_.empty()) return true;
-  return write_result(*destination_, memory_to_json(cpu.retentive_memory(), *cpu.program().model));
+bool MemoryFile::write(const Cpu& cpu, std::string& why) const {
+  return settings_.path.empty() ||
+         write_result(*destination_, memory_to_json(cpu.retentive_memory(), *cpu.program().model), why);
 }
 
 }  // namespace s7200::tools

@@ -8,10 +8,6 @@
 #include "interpreter/cpu/cpu.hpp"
 #include "tools/host/written_files.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace s7200::tools {
 
 /// JSON: `"ram"` and `"eeprom"` have the bytes that are not 0, in hex, by the address of the first.
@@ -20,27 +16,31 @@ std::string memory_to_json(const RetentiveMemory& memory, const CpuModel& model)
 /// Nothing, and `why`, for what is no such memory or that of another CPU.
 std::optional<RetentiveMemory> memory_from_json(std::string_view json, const CpuModel& model, std::string& why);
 
+/// How a PLC comes to its retentive memory.
+struct MemorySettings {
+  std::string path{};     ///< empty: none is kept
+  bool ram_lost = false;  ///< power was off too long: only the EEPROM is left
+  Time power_off = 0;     ///< how long power was off since the file was written
+};
+
+/// Each returns false and sets `why` if the file cannot be used.
 class MemoryFile {
  public:
-  void add_to(CLI::App& app);
+  /// The file will be written at the end.
+  bool claim(WrittenFiles& files, const MemorySettings& settings, std::string& why);
 
-  /// False after a message: a file was named and could not be written at the end.
-  bool claim(WrittenFiles& files);
-
-  /// Reads the file, if one was named and exists. False after a message: it is not a memory of this CPU.
-  bool read(const CpuModel& model);
+  /// Reads the file, if one was named and exists.
+  bool read(const CpuModel& model, std::string& why);
 
   /// What the CPU powers up with; null without a file.
   const RetentiveMemory* memory() const { return memory_ ? &*memory_ : nullptr; }
 
-  /// Writes the file, if one was named. False after a message.
-  bool write(const Cpu& cpu) const;
+  /// Writes the file, if one was named.
+  bool write(const Cpu& cpu, std::string& why) const;
 
  private:
-  std::string path_;
+  MemorySettings settings_;
   std::optional<Destination> destination_;  ///< nothing without a file
-  bool ram_lost_ = false;
-  Time power_off_ = 0;
   std::optional<RetentiveMemory> memory_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kIndent = "    ";
 
-std::vector<BytePattern> pattern_of(const modbus::Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
+std::vector<BytePattern> pattern_of(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
 
 bool same_answer(const serial::Exchange& a, const serial::Exchange& b) {
   return a.response_bytes() == b.response_bytes() && a.parity_error() == b.parity_error() &&
@@ -27,8 +27,8 @@ bool same_time(const serial::Exchange& a, const serial::Exchange& b, Time tolera
 }
 
 std::string came_text(const serial::Exchange& exchange) {
-  const modbus::Bytes response = exchange.response_bytes();
-  const modbus::Bytes request = modbus::bytes_of(exchange.request);
+  const Bytes response = exchange.response_bytes();
+  const Bytes request = serial::bytes_of(exchange.request);
   if (response.empty()) return request.empty() ? "nothing" : "no answer";
   const std::string says = answer_text(request, response);
   const Time latency = *exchange.latency();
@@ -50,7 +50,7 @@ std::string exchange_text(const Scenario& scenario, const Seen& one, const Seen&
   std::string text = fmt::format("{}exchange {}{}{}\n", kIndent, before + 1, place, turn);
   const bool asked = !one.exchange.request.empty();
   text += fmt::format("{}{:<{}} {}\n", kIndent, "request", width,
-                      asked ? modbus::to_hex(one.exchange.request) : "none: a transmission that nobody asked for");
+                      asked ? serial::to_hex(one.exchange.request) : "none: a transmission that nobody asked for");
   if (!same_answer(one.exchange, other.exchange))
     text += bytes_diff(pattern_of(one.exchange.response_bytes()), pattern_of(other.exchange.response_bytes()), kIndent,
                        colour, one_name, other_name);
@@ -83,7 +83,8 @@ std::string trouble_text(const Scenario& scenario, const ScenarioResult& result,
     if (!finding.of_run || ++count > 1) continue;
     const std::uint32_t line = scenario.steps.empty() ? 0 : scenario.steps[finding.step].position.line;
     text = fmt::format("{}{} could not be asked{}: {}\n", kIndent, name,
-                       line ? fmt::format(", {}:{}", stl::printable(scenario.source->name), line) : "", finding_line(scenario, finding));
+                       line ? fmt::format(", {}:{}", stl::printable(scenario.source->name), line) : "",
+                       finding_line(scenario, finding));
   }
   if (count > 1) text += fmt::format("{}and {} more\n", kIndent, count - 1);
   return text;
@@ -98,10 +99,10 @@ class TrafficMaker {
     ExchangeStep step;
     const unsigned kind = below(30);
     const std::uint8_t station = kind == 0 ? 0 : kind == 1 ? static_cast<std::uint8_t>(station_ + 1) : station_;
-    modbus::Bytes frame = modbus::rtu_frame(station, damaged(pdu()));
+    Bytes frame = modbus::rtu_frame(station, damaged(pdu()));
     if (kind == 2) frame[below(static_cast<unsigned>(frame.size()))] ^= static_cast<std::uint8_t>(1U << below(8));
     if (kind == 3) frame.resize(1 + below(static_cast<unsigned>(frame.size() - 1)));
-    step.request = modbus::to_frame(frame);
+    step.request = serial::to_frame(frame);
     return step;
   }
 
@@ -125,7 +126,7 @@ class TrafficMaker {
     return static_cast<std::uint16_t>(1 + below(20));
   }
 
-  modbus::Bytes pdu() {
+  Bytes pdu() {
     switch (below(9)) {
       case 0:
         return modbus::read_coils(first(), count(2000));
@@ -136,7 +137,7 @@ class TrafficMaker {
       case 3:
         return modbus::read_input_registers(first(), count(125));
       case 4: {
-        modbus::Bytes coil = modbus::write_coil(first(), below(2) != 0);
+        Bytes coil = modbus::write_coil(first(), below(2) != 0);
         if (below(8) == 0) coil[4] = static_cast<std::uint8_t>(word());
         return coil;
       }
@@ -157,7 +158,7 @@ class TrafficMaker {
     }
   }
 
-  modbus::Bytes damaged(modbus::Bytes pdu) {
+  Bytes damaged(Bytes pdu) {
     const unsigned kind = below(40);
     if (kind == 0) pdu.push_back(0);
     if (kind == 1 && pdu.size() > 1) pdu.pop_back();
@@ -198,7 +199,7 @@ Difference compare(const Scenario& scenario, const ScenarioResult& one, const Sc
 Scenario random_traffic(std::size_t exchanges, std::uint32_t seed, std::uint8_t station) {
   Scenario scenario;
   scenario.name = fmt::format("{} random requests, seed {}", exchanges, seed);
-  scenario.source = std::make_shared<stl::Source>(stl::Source{.name = "random traffic", .text = {}, .lines = {}});
+  scenario.source = std::make_shared<stl::SourceLines>(stl::SourceLines{.name = "random traffic", .text = {}});
   scenario.line.timeout = kSecond;  // through TCP the longest frames take 0.3 s each way before an answer is seen
   TrafficMaker make(seed, station);
   for (std::size_t i = 0; i < exchanges; ++i) {

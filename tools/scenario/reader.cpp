@@ -10,8 +10,8 @@
 #include <tuple>
 
 #include "interpreter/base/bytes.hpp"
-#include "interpreter/program/load.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/address.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/scenario/yaml.hpp"
@@ -176,8 +176,8 @@ std::string beside(const std::string& folder, const std::string& path) {
 
 std::string folder_of(const std::string& path) { return std::filesystem::path(path).parent_path().string(); }
 
-std::shared_ptr<const stl::Source> source_of(const std::string& text, const std::string& path) {
-  auto source = std::make_shared<stl::Source>();
+std::shared_ptr<const stl::SourceLines> source_of(const std::string& text, const std::string& path) {
+  auto source = std::make_shared<stl::SourceLines>();
   source->name = path;
   source->text = stl::split_lines(text);
   return source;
@@ -440,15 +440,16 @@ class Reader {
       rule.severity = *severity;
   }
 
-  void read_line(const YamlNode& map, MasterOptions& line) {
+  void read_line(const YamlNode& map, serial::MasterSettings& line) {
     if (!map.is_map())
       return wrong(map, "'line' is a map, not " + to_text(map), "write for example line: {baud: 19200, parity: none}");
     check_keys(map, {Where::Line});
     if (const auto baud = number(map.find("baud"), 50, 1'000'000)) line.baud = static_cast<std::uint32_t>(*baud);
-    if (const auto parity = choice<std::string>(map.find("parity"), {{"none", "none"}, {"even", "even"}, {"odd", "odd"}}))
+    if (const auto parity =
+            choice<Parity>(map.find("parity"), {{"none", Parity::None}, {"even", Parity::Even}, {"odd", Parity::Odd}}))
       line.parity = *parity;
-    if (const auto bits = number(map.find("data_bits"), 7, 8)) line.data_bits = static_cast<std::uint32_t>(*bits);
-    if (const auto bits = number(map.find("stop_bits"), 1, 2)) line.stop_bits = static_cast<std::uint32_t>(*bits);
+    if (const auto bits = number(map.find("data_bits"), 7, 8)) line.data_bits = static_cast<std::uint8_t>(*bits);
+    if (const auto bits = number(map.find("stop_bits"), 1, 2)) line.stop_bits = static_cast<std::uint8_t>(*bits);
   }
 
   void read_field(const YamlNode& node, const std::string& path, Scenario& scenario) {
@@ -584,10 +585,10 @@ class Reader {
     } else if (action == "fault") {
       step.action = read_fault(is);
     } else if (action == "power_cycle") {
-      step.action = PowerCycleStep{
-          choice<bool>(&is, {{"memory kept", false}, {"memory lost", true}}).value_or(false),
-          value(node.find("power_off"), "duration", "8h, 72h", [](const std::string& t) { return parse_duration(t); })
-              .value_or(0)};
+      step.action = PowerCycleStep{choice<bool>(&is, {{"memory kept", false}, {"memory lost", true}}).value_or(false),
+                                   value(node.find("power_off"), "duration", "8h, 72h", [](const std::string& t) {
+                                     return parse_duration(t);
+                                   }).value_or(0)};
     }
   }
 
@@ -898,10 +899,10 @@ class Reader {
                  [&](const std::string& t) { return parse_window(t, tolerance); });
   }
 
-  modbus::Frame frame(const YamlNode& node) {
+  serial::Frame frame(const YamlNode& node) {
     const auto written = text(node);
     if (!written) return {};
-    modbus::ParsedFrame parsed = modbus::parse_hex_frame(*written);
+    serial::ParsedFrame parsed = serial::parse_hex_frame(*written);
     if (parsed.ok()) return std::move(parsed.frame);
     wrong(node, parsed.errors[0].message, "write a frame in hex, such as 01 03 00 0a");
     return {};
@@ -914,10 +915,10 @@ class Reader {
     return {};
   }
 
-  modbus::Frame text_frame(const YamlNode& map) {
+  serial::Frame text_frame(const YamlNode& map) {
     const auto written = text_inside(map);
     if (!written) return {};
-    modbus::ParsedFrame parsed = parse_text(*written);
+    serial::ParsedFrame parsed = parse_text(*written);
     if (!parsed.ok()) wrong(map.items[0], parsed.errors[0].message, R"(write for example {text: 'HELLO\r'})");
     return std::move(parsed.frame);
   }
@@ -928,15 +929,15 @@ class Reader {
     if (step.has_crc) modbus::append_crc(step.request);
   }
 
-  modbus::Bytes pdu(const YamlNode& node) {
-    const modbus::Frame parsed = frame(node);
-    if (modbus::has_wrong_parity(parsed)) wrong(node, "a byte with wrong parity in a request", "'send' has them");
-    return modbus::bytes_of(parsed);
+  Bytes pdu(const YamlNode& node) {
+    const serial::Frame parsed = frame(node);
+    if (serial::has_wrong_parity(parsed)) wrong(node, "a byte with wrong parity in a request", "'send' has them");
+    return serial::bytes_of(parsed);
   }
 
-  modbus::Frame with_station(const YamlNode& node, const modbus::Bytes& pdu) {
+  serial::Frame with_station(const YamlNode& node, const Bytes& pdu) {
     const auto station = number(node.find("station"), 0, 255).value_or(station_);
-    return modbus::to_frame(modbus::rtu_frame(static_cast<std::uint8_t>(station), pdu));
+    return serial::to_frame(modbus::rtu_frame(static_cast<std::uint8_t>(station), pdu));
   }
 
   /// `holding 10` or `40011`
@@ -965,16 +966,16 @@ class Reader {
     return {};
   }
 
-  modbus::Bytes read_pdu(const YamlNode& node, const YamlNode& is) {
+  Bytes read_pdu(const YamlNode& node, const YamlNode& is) {
     const auto where = place(is, false);
     const auto count = static_cast<std::uint16_t>(number(node.find("count"), 0, 0xFFFF).value_or(1));
     if (!where) return {};
-    modbus::Bytes pdu = modbus::read_holding_registers(where->address, count);
+    Bytes pdu = modbus::read_holding_registers(where->address, count);
     pdu[0] = static_cast<std::uint8_t>(modbus::row_of(where->area).read);
     return pdu;
   }
 
-  modbus::Bytes write_pdu(const YamlNode& node, const YamlNode& is) {
+  Bytes write_pdu(const YamlNode& node, const YamlNode& is) {
     const auto where = place(is, true);
     const YamlNode* one = node.find("value");
     const YamlNode* several = node.find("values");
@@ -1044,7 +1045,7 @@ class Reader {
 
   /// Complains about values that no right answer to a read can have.
   void check_values(const YamlNode& node, const ExchangeStep& step) {
-    const modbus::Bytes request = modbus::bytes_of(step.request);
+    const Bytes request = serial::bytes_of(step.request);
     if (request.size() < 6) return;
     const bool bits = request[1] <= 2;
     const auto count = static_cast<std::size_t>(request[4] << 8 | request[5]);

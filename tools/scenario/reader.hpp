@@ -16,7 +16,7 @@ struct GivenParameters {
     std::string name;
     stl::Position position{};
   };
-  std::shared_ptr<const stl::Source> source{};
+  std::shared_ptr<const stl::SourceLines> source{};
   Parameters parameters{};
   std::vector<Name> names{};
 };
@@ -27,7 +27,7 @@ std::optional<GivenParameters> read_parameters(const std::string& text, const st
                                                stl::Diagnostics& diagnostics);
 
 struct ScenarioFile {
-  std::shared_ptr<const stl::Source> source{};
+  std::shared_ptr<const stl::SourceLines> source{};
   std::vector<Scenario> scenarios{};
   stl::Diagnostics diagnostics{};        ///< all mistakes of the file; nothing is to be run if there is any
   stl::Diagnostics given_diagnostics{};  ///< of the parameters given

@@ -73,10 +73,10 @@ std::string field(std::string_view name, std::string_view text) {
   return result;
 }
 
-std::string shortened_hex(const modbus::Bytes& bytes) {
+std::string shortened_hex(const Bytes& bytes) {
   constexpr std::size_t kShown = 16;
-  if (bytes.size() <= kShown) return modbus::to_hex(bytes);
-  return fmt::format("{} … {} bytes", modbus::to_hex(modbus::Bytes(bytes.begin(), bytes.begin() + kShown)), bytes.size());
+  if (bytes.size() <= kShown) return serial::to_hex(bytes);
+  return fmt::format("{} … {} bytes", serial::to_hex(Bytes(bytes.begin(), bytes.begin() + kShown)), bytes.size());
 }
 
 std::string finding_text(const Scenario& scenario, const Finding& finding, bool colour) {
@@ -89,7 +89,7 @@ std::string finding_text(const Scenario& scenario, const Finding& finding, bool 
   }
   text += fmt::format("{}{} is not what was expected\n", kIndent, finding.what);
   if (finding.exchange && !finding.exchange->request.empty())
-    text += field("request", shortened_hex(modbus::bytes_of(finding.exchange->request)));
+    text += field("request", shortened_hex(serial::bytes_of(finding.exchange->request)));
   if (!finding.expected_bytes.empty() && finding.found_bytes.empty()) {
     text += field("expected", row_of(finding.expected_bytes, 0, finding.expected_bytes.size()));
   } else if (!finding.expected_bytes.empty()) {
@@ -278,9 +278,9 @@ nlohmann::ordered_json finding_json(const Scenario& scenario, const Finding& fin
 
 nlohmann::ordered_json exchange_json(const Scenario& scenario, const Seen& seen) {
   const serial::Exchange& exchange = seen.exchange;
-  const modbus::Bytes request = modbus::bytes_of(exchange.request), response = exchange.response_bytes();
+  const Bytes request = serial::bytes_of(exchange.request), response = exchange.response_bytes();
   nlohmann::ordered_json json{{"line", scenario.steps[seen.step].position.line}};
-  const auto add = [&json](const std::string& key, const modbus::Bytes& bytes, const std::optional<std::string>& text) {
+  const auto add = [&json](const std::string& key, const Bytes& bytes, const std::optional<std::string>& text) {
     json[key] = bytes.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(plain_hex(bytes));
     if (text) json[key + "_text"] = *text;
   };
@@ -338,7 +338,7 @@ std::string bytes_diff(const std::vector<BytePattern>& expected, const std::vect
 
 std::string finding_line(const Scenario& scenario, const Finding& finding) {
   const bool asked = finding.exchange && !finding.exchange->request.empty();
-  const std::string request = asked ? shortened_hex(modbus::bytes_of(finding.exchange->request)) : "";
+  const std::string request = asked ? shortened_hex(serial::bytes_of(finding.exchange->request)) : "";
   const std::string about = !asked                     ? finding.what
                             : finding.what == "answer" ? request
                                                        : fmt::format("{}, {}", finding.what, request);

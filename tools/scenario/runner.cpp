@@ -13,10 +13,10 @@
 #include "interpreter/trace/fan_out.hpp"
 #include "serial_sim/modbus/answer.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/slave/simulated_slave.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
-#include "tools/slave/simulated_slave.hpp"
 #include "tools/views/text_frame.hpp"
 #include "tools/views/timeline.hpp"
 
@@ -122,7 +122,7 @@ class Plant {
   serial::Simulation& simulation() { return *simulation_; }
   Cpu& cpu() { return simulation_->cpu(); }
   Slave& slave() { return *slave_; }
-  SerialFormat format() const { return scenario_.line.format_for(*simulation_); }
+  SerialFormat format() const { return scenario_.line.over(simulation_->port_format()); }
   std::uint64_t interrupts(const InterruptCount& asked) const { return interrupts_.of(asked); }
   std::string timeline(const serial::Exchange& exchange) const { return to_text(timeline_.report(), exchange, false); }
   Time time() const { return before_ + simulation_->time(); }
@@ -149,25 +149,25 @@ class Plant {
 
 // --- answers ---
 
-std::vector<BytePattern> pattern_of(const modbus::Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
+std::vector<BytePattern> pattern_of(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
 
-bool matches(const std::vector<BytePattern>& pattern, const modbus::Bytes& bytes) {
+bool matches(const std::vector<BytePattern>& pattern, const Bytes& bytes) {
   return std::equal(pattern.begin(), pattern.end(), bytes.begin(), bytes.end(),
                     [](const BytePattern& p, std::uint8_t byte) { return !p || *p == byte; });
 }
 
-modbus::Bytes with_crc(modbus::Bytes bytes) {
+Bytes with_crc(Bytes bytes) {
   modbus::add_crc(bytes);
   return bytes;
 }
 
-modbus::Bytes exception_answer(const modbus::Bytes& request, std::uint8_t code) {
+Bytes exception_answer(const Bytes& request, std::uint8_t code) {
   if (request.size() < 2) return {};
   return with_crc({request[0], static_cast<std::uint8_t>(request[1] | 0x80), code});
 }
 
 /// Answers to writes are the head of the request.
-std::optional<modbus::Bytes> write_answer(const modbus::Bytes& request) {
+std::optional<Bytes> write_answer(const Bytes& request) {
   constexpr std::size_t kHead = 6;
   const bool writes =
       request.size() >= kHead && (request[1] == 5 || request[1] == 6 || request[1] == 15 || request[1] == 16);
@@ -180,7 +180,7 @@ bool has_values(const Expected& expected, const std::vector<std::uint16_t>& foun
                     [](const auto& e, std::uint16_t f) { return !e || *e == f; });
 }
 
-bool fulfilled(const Expected& expected, bool has_crc, const modbus::Bytes& request, const modbus::Bytes& response) {
+bool fulfilled(const Expected& expected, bool has_crc, const Bytes& request, const Bytes& response) {
   const modbus::Answer answer = modbus::check_answer(request, response);
   switch (expected.kind) {
     case Expected::Kind::Silence:
@@ -206,7 +206,7 @@ bool fulfilled(const Expected& expected, bool has_crc, const modbus::Bytes& requ
 
 /// The CRC that belongs to a pattern without one; unknown if it has a byte that may be any.
 void add_crc(std::vector<BytePattern>& pattern) {
-  modbus::Bytes bytes;
+  Bytes bytes;
   for (const BytePattern& p : pattern)
     if (p) bytes.push_back(*p);
   const bool known = bytes.size() == pattern.size();
@@ -215,7 +215,7 @@ void add_crc(std::vector<BytePattern>& pattern) {
 }
 
 /// The bytes of a list of registers or bits in an answer to `request`.
-std::vector<BytePattern> values_answer(const Expected& expected, const modbus::Bytes& request) {
+std::vector<BytePattern> values_answer(const Expected& expected, const Bytes& request) {
   std::vector<BytePattern> pattern{request[0], request[1]};
   if (request[1] >= 3) {
     pattern.push_back(static_cast<std::uint8_t>(2 * expected.values.size()));
@@ -238,7 +238,7 @@ std::vector<BytePattern> values_answer(const Expected& expected, const modbus::B
 }
 
 /// The bytes that would have been right, as far as they are known; none if they are not.
-std::vector<BytePattern> bytes_expected(const Expected& expected, bool has_crc, const modbus::Bytes& request) {
+std::vector<BytePattern> bytes_expected(const Expected& expected, bool has_crc, const Bytes& request) {
   switch (expected.kind) {
     case Expected::Kind::Frame: {
       std::vector<BytePattern> pattern = expected.frame;
@@ -269,7 +269,7 @@ std::string values_text(const std::vector<std::optional<std::uint16_t>>& values)
   return values.size() > kShown ? fmt::format("{} … {} in all", text, values.size()) : text;
 }
 
-std::string in_words(const Expected& expected, const modbus::Bytes& request) {
+std::string in_words(const Expected& expected, const Bytes& request) {
   switch (expected.kind) {
     case Expected::Kind::Silence:
       return request.empty() ? "nothing" : "no answer";
@@ -328,7 +328,7 @@ std::string real_text(const std::vector<std::uint8_t>& bytes) {
 }
 
 /// What memory was to hold and holds. Of reals and of limits the bytes say little.
-Finding memory_finding(const Program& program, const MemoryExpected& expected, const modbus::Bytes& found) {
+Finding memory_finding(const Program& program, const MemoryExpected& expected, const Bytes& found) {
   Finding finding{.what = expected.range.name_of(0), .expected_bytes = expected.bytes, .found_bytes = pattern_of(found)};
   if (expected.limits) {
     finding.expected = expected.written;
@@ -476,7 +476,7 @@ class Run {
   }
 
   /// What came in the end, or that nothing did.
-  std::string found_text(const modbus::Bytes& request, const modbus::Bytes& response, Time timeout) const {
+  std::string found_text(const Bytes& request, const Bytes& response, Time timeout) const {
     if (!response.empty()) return answer_text(request, response);
     if (!request.empty()) return fmt::format("no answer within {}", format_duration(timeout));
     const std::string nothing = fmt::format("nothing within {}", format_duration(timeout));
@@ -484,7 +484,7 @@ class Run {
   }
 
   void judge(const Reception& step, const serial::Exchange& exchange, const SerialFormat& line, Time timeout) {
-    const modbus::Bytes request = modbus::bytes_of(exchange.request), response = exchange.response_bytes();
+    const Bytes request = serial::bytes_of(exchange.request), response = exchange.response_bytes();
     if (!step.expected.empty() || step.latency || (step.answer_gap && plant_)) ++result_.checks;
     const bool disturbed = exchange.parity_error() || exchange.framing_error();
     const bool as_expected = std::any_of(step.expected.begin(), step.expected.end(), [&](const Expected& expected) {
@@ -554,12 +554,12 @@ class Run {
   void act(const MemoryStep& step) {
     ++result_.checks;
     for (const MemoryExpected& expected : step.expected) {
-      const modbus::Bytes found = in_memory(expected);
+      const Bytes found = in_memory(expected);
       if (!expected.fits(found)) add(memory_finding(plant_->cpu().program(), expected, found));
     }
   }
 
-  modbus::Bytes in_memory(const MemoryExpected& expected) { return bytes_of(plant_->cpu().state(), expected.range); }
+  Bytes in_memory(const MemoryExpected& expected) { return bytes_of(plant_->cpu().state(), expected.range); }
 
   /// A program that does not get there cannot be asked what comes after it.
   void act(const WaitUntilStep& step) {

@@ -1,5 +1,5 @@
-// A scenario: what is done to a slave and what is expected of it, as plain data. scenario_reader.hpp reads it from YAML,
-// scenario_runner.hpp runs it, scenario_report.hpp says how it went, scenario_record.hpp writes down what was seen.
+// A scenario: what is done to a slave and what is expected of it, as plain data. reader.hpp reads it from YAML,
+// runner.hpp runs it, report.hpp says how it went, transcript.hpp writes down what was seen.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 #include <variant>
 #include <vector>
 
+#include "interpreter/base/diagnostic.hpp"
 #include "interpreter/cpu/state.hpp"
 #include "interpreter/program/address.hpp"
-#include "interpreter/base/diagnostic.hpp"
 #include "serial_sim/faults/fault.hpp"
 #include "serial_sim/field/field_script.hpp"
 #include "serial_sim/modbus/request.hpp"
-#include "tools/command/options/master_options.hpp"
+#include "serial_sim/peers/requester.hpp"
 
 namespace s7200::tools {
 
@@ -69,7 +69,7 @@ struct Reception {
 };
 
 struct ExchangeStep : Reception {
-  modbus::Frame request{};      ///< all of it, its CRC included
+  serial::Frame request{};      ///< all of it, its CRC included
   std::optional<Time> at{};     ///< when the request begins, since power-up; on other slaves since the first step
   std::optional<Span> pause{};  ///< between the exchange before and this one; the scenario's if not given
   Span gap{};                   ///< between the characters of the request
@@ -180,7 +180,7 @@ struct Rule {
 struct Scenario {
   std::string name{};
   stl::Position position{};
-  std::shared_ptr<const stl::Source> source{};  ///< the file it is from
+  std::shared_ptr<const stl::SourceLines> source{};  ///< the file it is from
 
   std::string program{};        ///< path; empty if only --target names one
   bool may_be_missing = false;  ///< skip_without names it
@@ -192,7 +192,7 @@ struct Scenario {
   std::optional<ClockTime> clock{};
   Time after = kNever;  ///< when the first step begins; kNever: the first scan has ended and the line is quiet
 
-  MasterOptions line{};  ///< with the time-out
+  serial::MasterSettings line{};  ///< with the time-out
   Span pause{10 * kMillisecond, 7000};
   Time tolerance = 0;  ///< by which a latency given as one figure may be missed
 

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
+#include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/views/register_text.hpp"
 
@@ -13,11 +13,6 @@ namespace s7200::tools {
 namespace {
 
 constexpr double kMostCharacters = 1e6;
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && stl::is_blank(text.front())) text.remove_prefix(1);
-  return stl::trim_end(text);
-}
 
 bool take(std::string_view& text, std::string_view prefix) {
   if (!text.starts_with(prefix)) return false;
@@ -29,13 +24,10 @@ bool take(std::string_view& text, std::string_view prefix) {
 std::optional<std::int64_t> parse_characters(std::string_view text) {
   for (const std::string_view unit : {"characters", "character"})
     if (text.ends_with(unit)) {
-      const std::string_view figure = trimmed(text.substr(0, text.size() - unit.size()));
-      double value = 0;
-      const auto [end, error] =
-          std::from_chars(figure.data(), figure.data() + figure.size(), value, std::chars_format::fixed);
-      if (error != std::errc{} || end != figure.data() + figure.size() || !(value >= 0 && value <= kMostCharacters))
-        return {};
-      return std::llround(value * 1000);
+      const std::string_view figure = stl::trim(text.substr(0, text.size() - unit.size()));
+      const auto value = parse_decimal<double>(figure);
+      if (!value || !Between<double>{0, kMostCharacters}.has(*value) || figure.find_first_of("eE") != figure.npos) return {};
+      return std::llround(*value * 1000);
     }
   return {};
 }
@@ -209,7 +201,7 @@ class Calculation {
 std::optional<std::int64_t> parse_number(std::string_view text) {
   constexpr std::int64_t kLargest = 0xFFFF'FFFF;
   try {
-    return parse_number(trimmed(text), -kLargest, kLargest, "number");
+    return parse_number(stl::trim(text), -kLargest, kLargest, "number");
   } catch (const std::invalid_argument&) {
     return {};
   }
@@ -217,15 +209,15 @@ std::optional<std::int64_t> parse_number(std::string_view text) {
 
 Sides sides(std::string_view text) {
   const std::size_t dots = text.find("..");
-  if (dots == std::string_view::npos) return {trimmed(text), {}, false};
-  return {trimmed(text.substr(0, dots)), trimmed(text.substr(dots + 2)), true};
+  if (dots == std::string_view::npos) return {stl::trim(text), {}, false};
+  return {stl::trim(text.substr(0, dots)), stl::trim(text.substr(dots + 2)), true};
 }
 
 std::optional<Span> parse_span(std::string_view text) {
   Span span;
   for (;;) {
     const std::size_t plus = text.find('+');
-    const std::string_view part = trimmed(text.substr(0, plus));
+    const std::string_view part = stl::trim(text.substr(0, plus));
     if (const auto characters = parse_characters(part)) {
       span.millicharacters += *characters;
     } else if (const auto time = part == "0" ? Time{0} : parse_duration(part)) {
@@ -279,16 +271,16 @@ std::optional<Count> parse_count(std::string_view text) {
 
 std::optional<std::vector<BytePattern>> parse_pattern(std::string_view text, std::string& why) {
   std::vector<BytePattern> pattern;
-  while (!(text = trimmed(text)).empty()) {
-    if (pattern.size() == modbus::kLongestRawFrame) {
-      why = fmt::format("a frame has {} bytes at most", modbus::kLongestRawFrame);
+  while (!(text = stl::trim(text)).empty()) {
+    if (pattern.size() == serial::kLongestRawFrame) {
+      why = fmt::format("a frame has {} bytes at most", serial::kLongestRawFrame);
       return {};
     }
     if (take(text, "..")) {
       pattern.push_back(std::nullopt);
       continue;
     }
-    const auto byte = modbus::parse_hex_frame(text.substr(0, 2));
+    const auto byte = serial::parse_hex_frame(text.substr(0, 2));
     if (!byte.ok()) {
       why = byte.errors[0].message + "; .. stands for any byte";
       return {};

@@ -104,18 +104,17 @@ class Writer {
     if (scenario.after != kNever) line(4, "after: " + exact(scenario.after));
   }
 
-  void line_settings(const MasterOptions& options) {
-    const MasterOptions usual;
+  void line_settings(const serial::MasterSettings& options) {
     std::string settings;
-    const auto add = [&](std::string_view name, const auto& value, const auto& left_out) {
-      if (value != left_out) settings += fmt::format("{}{}: {}", settings.empty() ? "" : ", ", name, value);
+    const auto add = [&](std::string_view name, const auto& value) {
+      if (value) settings += fmt::format("{}{}: {}", settings.empty() ? "" : ", ", name, *value);
     };
-    add("baud", options.baud, usual.baud);
-    add("parity", options.parity, usual.parity);
-    add("data_bits", options.data_bits, usual.data_bits);
-    add("stop_bits", options.stop_bits, usual.stop_bits);
+    add("baud", options.baud);
+    add("parity", options.parity ? std::optional(word_of(*options.parity)) : std::nullopt);
+    add("data_bits", options.data_bits);
+    add("stop_bits", options.stop_bits);
     if (!settings.empty()) line(4, "line: {" + settings + "}");
-    if (options.timeout != usual.timeout) line(4, "timeout: " + exact(options.timeout));
+    if (options.timeout != serial::MasterSettings{}.timeout) line(4, "timeout: " + exact(options.timeout));
   }
 
   void came(const Step& step, const serial::Exchange& seen, Time timeout) {
@@ -126,9 +125,9 @@ class Writer {
   }
 
   void asked(const ExchangeStep& step, const serial::Exchange& seen, Time timeout) {
-    const modbus::Bytes request = modbus::bytes_of(seen.request), response = seen.response_bytes();
-    const std::string quoted = modbus::has_wrong_parity(seen.request) ? "" : request_text(request);
-    line(6, "- send: " + (quoted.empty() ? modbus::to_hex(seen.request) : in_a_map(quoted)));
+    const Bytes request = serial::bytes_of(seen.request), response = seen.response_bytes();
+    const std::string quoted = serial::has_wrong_parity(seen.request) ? "" : request_text(request);
+    line(6, "- send: " + (quoted.empty() ? serial::to_hex(seen.request) : in_a_map(quoted)));
     if (!transcript_.live)
       line(8, "at: " + exact(seen.request_start));
     else if (last_end_)
@@ -166,9 +165,9 @@ class Writer {
   }
 
   static std::string in_a_map(const std::string& quoted) { return "{text: " + quoted + "}"; }
-  static std::string what_came(const modbus::Bytes& request, const modbus::Bytes& response) {
+  static std::string what_came(const Bytes& request, const Bytes& response) {
     if (response.empty()) return "silence";
-    return plain_text(request, response) ? in_a_map(quoted_text(response)) : modbus::to_hex(response);
+    return plain_text(request, response) ? in_a_map(quoted_text(response)) : serial::to_hex(response);
   }
 
   /// A program that did not get there in time does not get there in a replay either: what is left is the time.

@@ -18,7 +18,7 @@ struct Unreadable {
 };
 
 /// yaml-cpp counts from 0, and bytes.
-stl::Position place(const YAML::Mark& mark, const stl::Source& source) {
+stl::Position place(const YAML::Mark& mark, const stl::SourceLines& source) {
   if (mark.is_null()) return {};
   const auto line = static_cast<std::size_t>(std::max(0, mark.line));
   const auto bytes = static_cast<std::size_t>(std::max(0, mark.column));
@@ -87,7 +87,7 @@ std::uint32_t column_of_tab(std::string_view line) {
   return tab == std::string_view::npos ? 0 : static_cast<std::uint32_t>(tab + 1);
 }
 
-stl::Diagnostic to_diagnostic(const YAML::Exception& error, const stl::Source& source) {
+stl::Diagnostic to_diagnostic(const YAML::Exception& error, const stl::SourceLines& source) {
   stl::Diagnostic diagnostic{stl::Severity::Error, place(error.mark, source), "", ""};
   const std::uint32_t line = diagnostic.position.line;
   const bool in_text = line > 0 && line <= source.text.size();
@@ -110,7 +110,7 @@ stl::Diagnostic to_diagnostic(const YAML::Exception& error, const stl::Source& s
 
 class TreeBuilder final : public YAML::EventHandler {
  public:
-  TreeBuilder(const stl::Source& source, stl::Diagnostics& diagnostics) : source_(source), diagnostics_(diagnostics) {}
+  TreeBuilder(const stl::SourceLines& source, stl::Diagnostics& diagnostics) : source_(source), diagnostics_(diagnostics) {}
 
   std::optional<YamlNode> take() { return std::move(root_); }
 
@@ -235,7 +235,7 @@ class TreeBuilder final : public YAML::EventHandler {
     map.keys.push_back(std::move(key));
   }
 
-  const stl::Source& source_;
+  const stl::SourceLines& source_;
   stl::Diagnostics& diagnostics_;
   std::vector<Open> open_;
   std::optional<YamlNode> root_;
@@ -256,7 +256,7 @@ std::string to_text(const YamlNode& node) {
   return node.text.empty() ? "nothing" : fmt::format("'{}'", stl::shortened(node.text));
 }
 
-std::optional<YamlNode> read_yaml(const std::string& text, const stl::Source& source, stl::Diagnostics& diagnostics) {
+std::optional<YamlNode> read_yaml(const std::string& text, const stl::SourceLines& source, stl::Diagnostics& diagnostics) {
   const auto fail = [&](stl::Diagnostic diagnostic) {
     diagnostics.push_back(std::move(diagnostic));
     return std::nullopt;

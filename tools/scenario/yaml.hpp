@@ -39,6 +39,6 @@ inline constexpr std::size_t kMostYamlKeys = 500;     ///< in one map
 inline constexpr std::size_t kMostYamlNodes = 100'000;
 
 /// Nothing, and errors, for what is no such YAML.
-std::optional<YamlNode> read_yaml(const std::string& text, const stl::Source& source, stl::Diagnostics& diagnostics);
+std::optional<YamlNode> read_yaml(const std::string& text, const stl::SourceLines& source, stl::Diagnostics& diagnostics);
 
 }  // namespace s7200::tools

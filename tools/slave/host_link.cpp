@@ -18,8 +18,8 @@
 #include <utility>
 
 #include "tools/host/interruption.hpp"
-#include "tools/views/machine_text.hpp"
 #include "tools/slave/slave.hpp"
+#include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -68,10 +68,6 @@ Addresses look_up(const std::string& host, const std::string& port, std::string&
 
 }  // namespace
 
-Time host_time() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 void sleep_until(Time until) { wait_for(-1, 0, until); }
 
 bool HostLink::wait_for_input(Time until) const { return wait_for(fd(), POLLIN, until); }
@@ -100,7 +96,7 @@ void SerialLink::open() {
   device_ = std::make_unique<SerialDevice>(std::move(*device));
 }
 
-std::string SerialLink::name() const { return fmt::format("{} {}", path_, short_format_text(format_)); }
+std::string SerialLink::name() const { return fmt::format("{} {} {}", path_, format_.baud, character_text(format_)); }
 
 void SerialLink::gone(const std::string& why) {
   close();

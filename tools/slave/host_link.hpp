@@ -9,12 +9,10 @@
 #include <vector>
 
 #include "interpreter/base/time.hpp"
+#include "tools/host/host_time.hpp"
 #include "tools/host/serial_device.hpp"
 
 namespace s7200::tools {
-
-/// Nanoseconds of a host clock that is never set.
-Time host_time();
 
 /// The link is closed when one of these throws: SlaveUnreachable, the other side is not there; SlaveLost, no longer there.
 class HostLink {

@@ -15,13 +15,13 @@ namespace {
 constexpr int kStrayReads = 256;       // from a side that never stops talking
 constexpr Time kToComplete = kSecond;  // an answer over Modbus TCP that has begun
 
-void refuse_wrong_parity(const modbus::Frame& frame) {
-  if (modbus::has_wrong_parity(frame))
+void refuse_wrong_parity(const serial::Frame& frame) {
+  if (serial::has_wrong_parity(frame))
     throw std::invalid_argument("a byte with wrong parity (p) can only be sent to a program in simulation");
 }
 
-modbus::Bytes bytes_of(const std::vector<HostLink::Character>& characters) {
-  modbus::Bytes bytes;
+Bytes bytes_of(const std::vector<HostLink::Character>& characters) {
+  Bytes bytes;
   for (const auto& character : characters) bytes.push_back(character.byte);
   return bytes;
 }
@@ -78,7 +78,7 @@ RtuSlave::RtuSlave(const std::string& device, const SerialFormat& format)
 RtuSlave::RtuSlave(const std::string& host, const std::string& port)
     : HostSlave(std::make_unique<TcpLink>(host, port)), shortest_silence_(kSilence) {}
 
-void RtuSlave::send(const modbus::Bytes& bytes, Time gap) {
+void RtuSlave::send(const Bytes& bytes, Time gap) {
   if (gap == 0) {
     link_->write(bytes);
     return;
@@ -99,7 +99,7 @@ serial::Exchange RtuSlave::exchange(const serial::Request& request) {
   serial::Exchange exchange;
   exchange.request = request.frame;
   exchange.request_start = now();
-  send(modbus::bytes_of(request.frame), request.gap);
+  send(serial::bytes_of(request.frame), request.gap);
   const Time character_time = link_->character_time();
   const auto length = static_cast<Time>(request.frame.size());
   exchange.request_end = std::max(now(), exchange.request_start + length * character_time + (length - 1) * request.gap);
@@ -152,11 +152,11 @@ ModbusTcpSlave::ModbusTcpSlave(const std::string& host, const std::string& port)
 serial::Exchange ModbusTcpSlave::exchange(const serial::Request& request) {
   constexpr std::size_t kHeader = 6;  // transaction, protocol, length
   refuse_wrong_parity(request.frame);
-  const modbus::Bytes adu = modbus::bytes_of(request.frame);
+  const Bytes adu = serial::bytes_of(request.frame);
   if (adu.size() < 4 || !modbus::crc_ok(adu))
     throw std::invalid_argument(
         "Modbus TCP carries no CRC: only frames with a right one can be sent, of which it is taken off");
-  const modbus::Bytes pdu(adu.begin() + 1, adu.end() - 2);
+  const Bytes pdu(adu.begin() + 1, adu.end() - 2);
   if (pdu.size() > modbus::kLongestPdu)
     throw std::invalid_argument(
         fmt::format("Modbus TCP carries {} bytes of function and data at most", modbus::kLongestPdu));
@@ -166,7 +166,7 @@ serial::Exchange ModbusTcpSlave::exchange(const serial::Request& request) {
   serial::Exchange exchange;
   exchange.request = request.frame;
   ++transaction_;
-  const modbus::Bytes message = modbus::to_bytes({transaction_, adu[0], pdu});
+  const Bytes message = modbus::to_bytes({transaction_, adu[0], pdu});
   exchange.request_start = exchange.request_end = now();
   link_->write(message);
 
@@ -204,7 +204,7 @@ serial::Exchange ModbusTcpSlave::exchange(const serial::Request& request) {
     link_->close();  // its rest must not be taken for another answer
     return exchange;
   }
-  modbus::Bytes answer = exchange.response_bytes();
+  Bytes answer = exchange.response_bytes();
   modbus::add_crc(answer);
   exchange.response.clear();
   for (const std::uint8_t byte : answer) exchange.response.push_back({.byte = byte, .start = begun, .end = begun});

@@ -67,7 +67,7 @@ class RtuSlave final : public HostSlave {
   Time pause() const override { return unanswered_ ? quiet_ : 0; }
 
  private:
-  void send(const modbus::Bytes& bytes, Time gap);
+  void send(const Bytes& bytes, Time gap);
   void collect(serial::Exchange& exchange, Time until, const std::optional<Time>& silence);
   Time silence_after(const serial::Exchange& exchange) const;
 

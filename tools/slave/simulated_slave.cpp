@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "tools/host/interruption.hpp"
-#include "tools/host/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -18,39 +17,43 @@ bool run_until(serial::Simulation& simulation, Time end) { return simulation.run
 
 }  // namespace
 
-SimulatedSlave::SimulatedSlave(serial::Simulation& simulation, const MasterOptions& master, std::string name)
+SimulatedSlave::SimulatedSlave(serial::Simulation& simulation, const serial::MasterSettings& master, std::string name)
     : simulation_(simulation), master_(master), name_(std::move(name)) {
-  simulation_.let_master_follow([line = LineOptions(master)](const SerialFormat& port) { return line.format_over(port); });
+  simulation_.let_master_follow([line = serial::LineSettings(master)](const SerialFormat& port) { return line.over(port); });
 }
 
 bool SimulatedSlave::get_ready(Time limit) {
   return simulation_.run_until_ready([this] { return pause(); }, limit);
 }
 
-bool SimulatedSlave::wait_until_ready(Time after) {
+bool SimulatedSlave::wait_until_ready(Time after, std::string& why) {
   const bool ready = after == kNever ? get_ready(kReadyWithin) : run_until(simulation_, after);
-  const State& state = simulation_.cpu().state();
-  if (ready && !state.port[0].active)
-    fmt::print(stderr, "s7200: note: the program has not switched port 0 to Freeport mode (SMB30 = 16#{:02X})\n",
-               state.image[sm::kPort0Control]);
-  if (!ready && after == kNever && state.mode == Mode::Run && !interrupted())
-    print_error(
-        fmt::format("the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
-                    "sends all the same",
-                    format_duration(pause()), format_duration(kReadyWithin)));
+  if (!ready && after == kNever && simulation_.cpu().state().mode == Mode::Run && !interrupted())
+    why = fmt::format(
+        "the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
+        "sends all the same",
+        format_duration(pause()), format_duration(kReadyWithin));
   return ready;
 }
 
+std::string SimulatedSlave::note_on_port() const {
+  const State& state = simulation_.cpu().state();
+  if (state.port[0].active) return {};
+  return fmt::format("the program has not switched port 0 to Freeport mode (SMB30 = 16#{:02X})",
+                     state.image[sm::kPort0Control]);
+}
+
 serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
-  const SerialFormat format = master_.format_for(simulation_);
-  if (modbus::has_wrong_parity(request.frame) && format.parity == Parity::None)
+  const SerialFormat format = master_.over(simulation_.port_format());
+  if (serial::has_wrong_parity(request.frame) && format.parity == Parity::None)
     throw std::invalid_argument("a byte with wrong parity (p) needs a format with parity");
   remark_ = ignored_text(serial::bytes_of(simulation_.master().heard()));
   simulation_.master_uart().configure(format);
   simulation_.master().start(request, simulation_.time());
   serial::Exchange exchange = simulation_.finish_exchange();
   if (simulation_.master().busy()) exchange.timed_out = exchange.response.empty();  // after Ctrl-C
-  if (const SerialFormat now = master_.format_for(simulation_); now != format) simulation_.master_uart().configure(now);
+  if (const SerialFormat now = master_.over(simulation_.port_format()); now != format)
+    simulation_.master_uart().configure(now);
   return exchange;
 }
 
@@ -64,6 +67,6 @@ serial::Exchange SimulatedSlave::receive(const serial::Listening& listening) {
 
 void SimulatedSlave::wait(Time duration) { run_until(simulation_, simulation_.time() + duration); }
 
-Time SimulatedSlave::pause() const { return serial::Simulation::default_quiet(master_.format_for(simulation_)); }
+Time SimulatedSlave::pause() const { return serial::Simulation::default_quiet(master_.over(simulation_.port_format())); }
 
 }  // namespace s7200::tools

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tools/command/options/master_options.hpp"
+#include "serial_sim/system/simulation.hpp"
 #include "tools/slave/slave.hpp"
 
 namespace s7200::tools {
@@ -13,16 +13,18 @@ namespace s7200::tools {
 class SimulatedSlave final : public Slave {
  public:
   /// The simulation is not owned and has been powered up. `name` is its program's.
-  SimulatedSlave(serial::Simulation& simulation, const MasterOptions& master, std::string name);
+  SimulatedSlave(serial::Simulation& simulation, const serial::MasterSettings& master, std::string name);
 
   /// Runs until the first scan has ended and the line has been quiet for pause(). False if that has not come by `limit`, or
   /// the CPU stopped.
   bool get_ready(Time limit);
 
   /// Runs until the first scan has ended and the line has been quiet for as long as a master leaves it, or until `after` if
-  /// that is not kNever. False when the CPU stopped, after Ctrl-C, and after a message when the moment never comes. A port
-  /// that is not in Freeport mode by then is worth a note.
-  bool wait_until_ready(Time after = kNever);
+  /// that is not kNever. False when the CPU stopped, after Ctrl-C, and, with `why`, when the moment never comes.
+  bool wait_until_ready(Time after, std::string& why);
+
+  /// A note if the program has not switched its port to Freeport mode by now; otherwise empty.
+  std::string note_on_port() const;
 
   /// On a CPU in STOP too. After Ctrl-C what there was of it, and the next one cannot begin any more. Throws
   /// std::invalid_argument for a byte with wrong parity in a format without.
@@ -38,7 +40,7 @@ class SimulatedSlave final : public Slave {
 
  private:
   serial::Simulation& simulation_;
-  MasterOptions master_;
+  serial::MasterSettings master_;
   std::string name_;
   std::string remark_;
 };

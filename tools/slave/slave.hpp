@@ -19,10 +19,10 @@ struct SlaveLost : SlaveUnreachable {
 };
 
 /// Sixteen bytes at most.
-std::string beginning_in_hex(modbus::Bytes bytes);
+std::string beginning_in_hex(Bytes bytes);
 
 /// The remark on an exchange before which `bytes` had come unasked; empty if there were none.
-std::string ignored_text(const modbus::Bytes& bytes);
+std::string ignored_text(const Bytes& bytes);
 
 class Slave {
  public:

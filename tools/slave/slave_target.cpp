@@ -5,6 +5,7 @@
 #include <cassert>
 #include <filesystem>
 
+#include "interpreter/base/numbers.hpp"
 #include "tools/slave/host_slave.hpp"
 
 namespace s7200::tools {
@@ -34,7 +35,7 @@ void split(const std::string& text, std::string_view address, SlaveTarget& targe
                     text));
   if (!port_wanted) target.port = kModbusPort;
   const bool number = target.port.find_first_not_of("0123456789") == std::string::npos;
-  if (number && (target.port.size() > 5 || std::stoi(target.port) < 1 || std::stoi(target.port) > 65535))
+  if (number && parse_decimal<std::uint16_t>(target.port).value_or(0) == 0)
     throw std::invalid_argument(fmt::format("'{}': ports are 1 to 65535", text));
 }
 

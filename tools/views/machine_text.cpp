@@ -8,7 +8,6 @@
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/modbus/request.hpp"
-#include "tools/debugger/stepper.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -109,10 +108,6 @@ std::string attachments_text(const State& state) {
   return text.empty() ? "attached   no event\n" : text;
 }
 
-std::string_view parity_text(Parity parity) {
-  return parity == Parity::None ? "no parity" : parity == Parity::Even ? "even parity" : "odd parity";
-}
-
 std::string control_text(std::uint8_t control) {
   static constexpr std::string_view kModes[] = {"PPI slave", "Freeport", "PPI master", "reserved, as PPI slave"};
   return fmt::format("SMB30      16#{:02X} = 2#{:08b}: {}", control, control, kModes[control & 3]);
@@ -142,7 +137,7 @@ std::string transmitter_text(const State& state) {
 
 std::string master_text(const serial::Master::State& master) {
   using Phase = serial::Master::Phase;
-  const std::string request = modbus::to_hex(master.request.frame);
+  const std::string request = serial::to_hex(master.request.frame);
   switch (master.phase) {
     case Phase::Idle:
       return master.request.frame.empty() ? "has sent nothing" : "idle";
@@ -151,7 +146,7 @@ std::string master_text(const serial::Master::State& master) {
     case Phase::Waiting:
       return fmt::format("waiting for an answer to {}", request);
     case Phase::Receiving:
-      return fmt::format("receiving: {}", modbus::to_hex(master.exchange.response_bytes()));
+      return fmt::format("receiving: {}", serial::to_hex(master.exchange.response_bytes()));
   }
   return {};
 }
@@ -191,16 +186,6 @@ std::string stack_text(const State& state) {
   return text;
 }
 
-std::string format_text(const SerialFormat& format) {
-  return fmt::format("{} baud, {} data bits, {}, {} stop bit{}", format.baud, format.data_bits, parity_text(format.parity),
-                     format.stop_bits, format.stop_bits == 1 ? "" : "s");
-}
-
-std::string short_format_text(const SerialFormat& format) {
-  const char parity = format.parity == Parity::None ? 'N' : format.parity == Parity::Even ? 'E' : 'O';
-  return fmt::format("{} {}{}{}", format.baud, format.data_bits, parity, format.stop_bits);
-}
-
 std::string port_text(const serial::Simulation& simulation) {
   const State& state = simulation.cpu().state();
   std::string text = control_text(state.image[sm::kPort0Control]);
@@ -210,7 +195,7 @@ std::string port_text(const serial::Simulation& simulation) {
 }
 
 std::string value_text(const Program& program, const MemoryRange& range, std::span<const std::uint8_t> bytes) {
-  if (range.count > 1) return modbus::to_hex(bytes);
+  if (range.count > 1) return serial::to_hex(bytes);
   switch (range.width) {
     case Width::Bit:
       return fmt::format("{}", bytes[0]);

@@ -23,12 +23,6 @@ std::string stack_text(const State& state);
 /// SMB30 in words, receiver, transmitter, and what the master on the line is doing.
 std::string port_text(const serial::Simulation& simulation);
 
-/// `9600 baud, 8 data bits, even parity, 1 stop bit`
-std::string format_text(const SerialFormat& format);
-
-/// `9600 8E1`
-std::string short_format_text(const SerialFormat& format);
-
 /// One watched value, bytes as bytes_of() gives them: `1`, `16#05 (5)`, `16#FFFB (-5)`, several as hex bytes. A double word
 /// that the program uses as a real is shown as one too: `16#3FC00000 (1069547520, 1.5)`.
 std::string value_text(const Program& program, const MemoryRange& range, std::span<const std::uint8_t> bytes);

@@ -9,7 +9,6 @@
 #include "interpreter/stl/printer.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
-#include "tools/host/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -84,30 +83,31 @@ nlohmann::ordered_json value_json(const State& state, const MemoryRange& range, 
 
 }  // namespace
 
-bool parse_assignments(const std::vector<std::string>& texts, const CpuModel& model, std::vector<Assignment>& assignments) {
+namespace {
+
+template <class Parsed>
+std::optional<std::vector<Parsed>> parse_all(const std::vector<std::string>& texts, const CpuModel& model,
+                                             std::optional<Parsed> (*parse)(std::string_view, const CpuModel&, std::string&),
+                                             std::string& why) {
+  std::vector<Parsed> all;
   for (const std::string& text : texts) {
-    std::string why;
-    const auto assignment = parse_assignment(text, model, why);
-    if (!assignment) {
-      print_error("--set: " + why);
-      return false;
-    }
-    assignments.push_back(*assignment);
+    const auto parsed = parse(text, model, why);
+    if (!parsed) return {};
+    all.push_back(*parsed);
   }
-  return true;
+  return all;
 }
 
-bool parse_ranges(const std::vector<std::string>& texts, const CpuModel& model, std::vector<MemoryRange>& ranges) {
-  for (const std::string& text : texts) {
-    std::string why;
-    const auto range = parse_range(text, model, why);
-    if (!range) {
-      print_error("--dump: " + why);
-      return false;
-    }
-    ranges.push_back(*range);
-  }
-  return true;
+}  // namespace
+
+std::optional<std::vector<Assignment>> parse_assignments(const std::vector<std::string>& texts, const CpuModel& model,
+                                                         std::string& why) {
+  return parse_all<Assignment>(texts, model, parse_assignment, why);
+}
+
+std::optional<std::vector<MemoryRange>> parse_ranges(const std::vector<std::string>& texts, const CpuModel& model,
+                                                     std::string& why) {
+  return parse_all<MemoryRange>(texts, model, parse_range, why);
 }
 
 void assign(serial::Simulation& simulation, const Assignment& assignment) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,11 @@
 
 namespace s7200::tools {
 
-/// Reads `--set` or `--dump` arguments; a message and false for a wrong one.
-bool parse_assignments(const std::vector<std::string>& texts, const CpuModel& model, std::vector<Assignment>& assignments);
-bool parse_ranges(const std::vector<std::string>& texts, const CpuModel& model, std::vector<MemoryRange>& ranges);
+/// Reads `--set` or `--dump` arguments. Returns nothing and sets `why` if one is wrong.
+std::optional<std::vector<Assignment>> parse_assignments(const std::vector<std::string>& texts, const CpuModel& model,
+                                                         std::string& why);
+std::optional<std::vector<MemoryRange>> parse_ranges(const std::vector<std::string>& texts, const CpuModel& model,
+                                                     std::string& why);
 
 /// I addresses set the input points, everything else is written as a programming device would.
 void assign(serial::Simulation& simulation, const Assignment& assignment);

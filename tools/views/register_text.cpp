@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
 #include <stdexcept>
 
+#include "interpreter/base/numbers.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
@@ -38,24 +38,6 @@ std::vector<std::string_view> split(std::string_view text) {
     if (comma == std::string_view::npos) return parts;
     text.remove_prefix(comma + 1);
   }
-}
-
-std::optional<std::int64_t> whole_number(std::string_view text) {
-  const bool negative = !text.empty() && text.front() == '-';
-  if (negative) text.remove_prefix(1);
-  int base = 10;
-  for (const auto& [prefix, its_base] : {std::pair{std::string_view("16#"), 16}, {std::string_view("2#"), 2}})
-    if (text.starts_with(prefix)) {
-      base = its_base;
-      text.remove_prefix(prefix.size());
-    }
-  std::string digits(text);
-  if (base != 10) std::erase(digits, '_');
-  std::int64_t value = 0;
-  const char* const end = digits.data() + digits.size();
-  const auto [stopped, error] = std::from_chars(digits.data(), end, value, base);
-  if (error != std::errc{} || stopped != end || digits.front() == '-') return {};
-  return negative ? -value : value;
 }
 
 std::uint32_t float_bits(std::string_view text) {
@@ -163,7 +145,7 @@ std::size_t ValueFormat::registers() const {
 std::span<const ValueFormName> value_forms() { return kForms; }
 
 std::int64_t parse_number(std::string_view text, std::int64_t least, std::int64_t most, std::string_view what) {
-  const auto value = whole_number(text);
+  const auto value = parse_integer(text);
   if (!value) throw std::invalid_argument(fmt::format("{} '{}' is no number; write for example 10 or 16#0A", what, text));
   if (*value < least || *value > most)
     throw std::invalid_argument(fmt::format("{} {} is not from {} to {}", what, text, least, most));

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 
-#include "interpreter/stl/printer.hpp"
 #include "interpreter/base/text.hpp"
-#include "tools/command/exit_code.hpp"
+#include "interpreter/stl/printer.hpp"
 #include "tools/views/text_frame.hpp"
 
 namespace s7200::tools {
@@ -29,7 +28,7 @@ nlohmann::ordered_json error_json(const Program& program, std::uint16_t code, st
 
 /// What the answer says, and what the line looked like to the master when more than bytes came.
 std::string remarks_on(const serial::Exchange& exchange) {
-  std::string text = answer_text(modbus::bytes_of(exchange.request), exchange.response_bytes());
+  std::string text = answer_text(serial::bytes_of(exchange.request), exchange.response_bytes());
   const auto add = [&text](bool is_so, std::string_view remark) {
     if (is_so) text.append(text.empty() ? "" : ", ").append(remark);
   };
@@ -81,26 +80,24 @@ nlohmann::ordered_json errors_json(const Cpu& cpu) {
   return errors;
 }
 
-int exit_code_of(const Cpu& cpu) { return cpu.state().fatal_code ? kCpuFatal : kFine; }
-
 std::string torn_frame_note(const std::vector<std::string>& frames) {
   const auto is_byte = [](const std::string& text) { return text.size() <= 2; };
   if (frames.size() < 2 || std::none_of(frames.begin(), frames.end(), is_byte)) return {};
-  return fmt::format("s7200: note: these were {} frames, one for each argument; to send one frame, put it in quotes: '{}'\n",
-                     frames.size(), fmt::join(frames, " "));
+  return fmt::format("these were {} frames, one for each argument; to send one frame, put it in quotes: '{}'", frames.size(),
+                     fmt::join(frames, " "));
 }
 
 std::string exchange_text(const serial::Exchange& exchange, Time timeout) {
-  const modbus::Bytes bytes = modbus::bytes_of(exchange.request);
-  std::string request = fmt::format("request  {}\n{}", modbus::to_hex(exchange.request), below(request_text(bytes)));
-  if (!exchange.echo.empty()) request += fmt::format("echo     {}\n", modbus::to_hex(serial::bytes_of(exchange.echo)));
+  const Bytes bytes = serial::bytes_of(exchange.request);
+  std::string request = fmt::format("request  {}\n{}", serial::to_hex(exchange.request), below(request_text(bytes)));
+  if (!exchange.echo.empty()) request += fmt::format("echo     {}\n", serial::to_hex(serial::bytes_of(exchange.echo)));
   if (exchange.timed_out) return fmt::format("{}answer   none within {}\n", request, format_duration(timeout));
-  return fmt::format("{}answer   {}   after {}\n{}", request, modbus::to_hex(exchange.response_bytes()),
+  return fmt::format("{}answer   {}   after {}\n{}", request, serial::to_hex(exchange.response_bytes()),
                      format_duration(*exchange.latency()), below(remarks_on(exchange)));
 }
 
-std::string unasked_text(const modbus::Bytes& bytes) {
-  return bytes.empty() ? "" : fmt::format("unasked  {}\n{}", modbus::to_hex(bytes), below(quoted_text(bytes)));
+std::string unasked_text(const Bytes& bytes) {
+  return bytes.empty() ? "" : fmt::format("unasked  {}\n{}", serial::to_hex(bytes), below(quoted_text(bytes)));
 }
 
 std::string plain_hex(std::span<const std::uint8_t> bytes) {

@@ -16,9 +16,6 @@ nlohmann::ordered_json errors_json(const Cpu& cpu);
 /// How many run-time errors were at other places than those listed: State keeps the first sixteen.
 std::uint64_t errors_not_listed(const Cpu& cpu);
 
-/// kCpuFatal after a fatal error, else kFine.
-int exit_code_of(const Cpu& cpu);
-
 /// A note for arguments that are probably one frame whose blanks have torn it apart: several, a single byte among them.
 /// Empty if they are not.
 std::string torn_frame_note(const std::vector<std::string>& frames);
@@ -27,7 +24,7 @@ std::string torn_frame_note(const std::vector<std::string>& frames);
 std::string exchange_text(const serial::Exchange& exchange, Time timeout);
 
 /// What came before a request, and nobody had asked for; empty if nothing did.
-std::string unasked_text(const modbus::Bytes& bytes);
+std::string unasked_text(const Bytes& bytes);
 
 /// `lower-case hex without blanks`
 std::string plain_hex(std::span<const std::uint8_t> bytes);

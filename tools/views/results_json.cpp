@@ -13,7 +13,7 @@ std::string_view version() { return S7200_VERSION; }
 
 ordered_json results_of(std::string_view verb) { return {{"s7200", {{"verb", verb}, {"version", version()}}}}; }
 
-void print_results(const ordered_json& results) { fmt::print("{}\n", results.dump(2, ' ', false, kReplace)); }
+std::string lines_of(const ordered_json& results) { return results.dump(2, ' ', false, kReplace) + "\n"; }
 
 std::string line_of(const ordered_json& json) { return json.dump(-1, ' ', false, kReplace); }
 

@@ -13,10 +13,10 @@ std::string_view version();
 /// {"s7200": {"verb": "check", "version": "0.1.0"}}: the verb adds its results.
 nlohmann::ordered_json results_of(std::string_view verb);
 
-/// On standard output. Text that is not UTF-8, such as the name of a file, has replacement characters where it is not.
-void print_results(const nlohmann::ordered_json& results);
+/// In lines. Text that is not UTF-8, such as the name of a file, has replacement characters where it is not.
+std::string lines_of(const nlohmann::ordered_json& results);
 
-/// In one line, for results that are printed as they come.
+/// The same in one line, for results that are printed as they come.
 std::string line_of(const nlohmann::ordered_json& json);
 
 /// A number with the digits that a REAL has: 0.1, not 0.10000000149. JSON has no NaN and no infinity: "nan", "inf", "-inf".

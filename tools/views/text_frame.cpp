@@ -27,14 +27,14 @@ class TextReader {
  public:
   TextReader(std::string_view text, bool any_allowed) : text_(text), any_allowed_(any_allowed) {}
 
-  std::vector<Byte> read(std::vector<modbus::FrameError>& errors) {
+  std::vector<Byte> read(std::vector<serial::FrameError>& errors) {
     std::vector<Byte> bytes;
     while (place_ < text_.size() && errors.empty()) {
       const std::size_t begin = place_;
       std::string why;
       const Byte byte = next(why);
-      if (why.empty() && bytes.size() == modbus::kLongestRawFrame)
-        why = fmt::format("a frame has {} bytes at most", modbus::kLongestRawFrame);
+      if (why.empty() && bytes.size() == serial::kLongestRawFrame)
+        why = fmt::format("a frame has {} bytes at most", serial::kLongestRawFrame);
       if (!why.empty()) errors.push_back({begin + 1, why});
       bytes.push_back(byte);
     }
@@ -65,7 +65,7 @@ class TextReader {
   }
 
   Byte hex(std::string& why) {
-    const modbus::ParsedFrame digits = modbus::parse_hex_frame(text_.substr(place_, 2));
+    const serial::ParsedFrame digits = serial::parse_hex_frame(text_.substr(place_, 2));
     if (text_.size() - place_ < 2 || !digits.ok()) {
       why = "\\x is followed by two hex digits";
       return {};
@@ -97,31 +97,31 @@ bool is_modbus(std::span<const std::uint8_t> request) { return modbus::crc_ok(re
 
 }  // namespace
 
-modbus::ParsedFrame parse_text(std::string_view text) {
-  modbus::ParsedFrame parsed;
+serial::ParsedFrame parse_text(std::string_view text) {
+  serial::ParsedFrame parsed;
   for (const Byte& byte : TextReader(text, false).read(parsed.errors)) parsed.frame.push_back({byte.value_or(0), false});
   return parsed;
 }
 
 std::optional<std::vector<Byte>> parse_text_pattern(std::string_view text, std::string& why) {
-  std::vector<modbus::FrameError> errors;
+  std::vector<serial::FrameError> errors;
   std::vector<Byte> pattern = TextReader(text, true).read(errors);
   if (errors.empty()) return pattern;
   why = errors[0].message;
   return {};
 }
 
-modbus::ParsedFrame parse_hex_or_quoted(std::string_view text) {
+serial::ParsedFrame parse_hex_or_quoted(std::string_view text) {
   const std::size_t begin = std::min(text.size(), text.find_first_not_of(" \t"));
   text = stl::trim_end(text);
   const std::size_t length = quotation_length(text.substr(std::min(begin, text.size())));
-  if (length == 0) return modbus::parse_hex_frame(text);
+  if (length == 0) return serial::parse_hex_frame(text);
   if (length == std::string_view::npos)
     return {.frame = {}, .errors = {{begin + 1, fmt::format("the closing {} is missing", text[begin])}}};
   if (begin + length != text.size())
     return {.frame = {}, .errors = {{begin + length + 1, "nothing follows the closing quotation mark"}}};
-  modbus::ParsedFrame parsed = parse_text(text.substr(begin + 1, length - 2));
-  for (modbus::FrameError& error : parsed.errors) error.column += begin + 1;
+  serial::ParsedFrame parsed = parse_text(text.substr(begin + 1, length - 2));
+  for (serial::FrameError& error : parsed.errors) error.column += begin + 1;
   return parsed;
 }
 

@@ -15,13 +15,13 @@
 namespace s7200::tools {
 
 /// Reads `HELLO\r`. From one to 1024 bytes.
-modbus::ParsedFrame parse_text(std::string_view text);
+serial::ParsedFrame parse_text(std::string_view text);
 
 /// The same of a text that is expected, in which `\?` is any byte. Returns nothing and sets `why` if it is not one.
 std::optional<std::vector<std::optional<std::uint8_t>>> parse_text_pattern(std::string_view text, std::string& why);
 
 /// Reads a frame as it is written where hex is the rule: in quotation marks, single or double, it is text.
-modbus::ParsedFrame parse_hex_or_quoted(std::string_view text);
+serial::ParsedFrame parse_hex_or_quoted(std::string_view text);
 
 /// Up to which character the quotation goes that begins a text: its length with both marks. 0 if none begins there, npos if
 /// the closing mark is missing.

@@ -364,7 +364,7 @@ TEST(Debugger, SteppedRunAndPlainRunEndInTheSameState) {
   const Time end = session.simulation.time() + kSecond;
   plain.run_until(end);
   session.simulation.run_until(end);
-  EXPECT_EQ(plain.master().exchange().response_bytes(), modbus::Bytes{0x5a});
+  EXPECT_EQ(plain.master().exchange().response_bytes(), Bytes{0x5a});
   EXPECT_EQ(session.simulation.snapshot(), plain.snapshot());
 }
 

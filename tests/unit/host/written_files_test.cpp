@@ -40,17 +40,18 @@ class WrittenFilesTest : public testing::Test {
   }
   static std::string refusal(WrittenFiles& files, std::string_view option, const std::string& path,
                              const FileKind& kind = kNote, Replace replace = Replace::Own) {
-    testing::internal::CaptureStderr();
-    const bool claimed = files.claim(option, path, kind, replace).has_value();
-    const std::string said = testing::internal::GetCapturedStderr();
-    EXPECT_EQ(claimed, said.empty());
-    return said;
+    std::string why;
+    const bool claimed = files.claim(option, path, kind, replace, why).has_value();
+    EXPECT_EQ(claimed, why.empty());
+    return why;
   }
   static Destination claimed(const std::string& path, const FileKind& kind = kNote, Replace replace = Replace::Own) {
     WrittenFiles files;
-    return files.claim("--note", path, kind, replace).value();
+    std::string why;
+    return files.claim("--note", path, kind, replace, why).value();
   }
 
+  std::string why_;
   std::string folder_ = (fs::temp_directory_path() / "s7200-files-XXXXXX").string();
 };
 
@@ -124,10 +125,10 @@ TEST_F(WrittenFilesTest, NoOutputIsAFileThatTheCommandReadsOrALinkThatItMakes) {
 }
 
 TEST_F(WrittenFilesTest, AResultReplacesTheWholeFileKeepsItsRightsAndLeavesNothingBehind) {
-  ASSERT_TRUE(write_result(claimed(file("m")), "# a note\nfirst, and it is long\n"));
+  ASSERT_TRUE(write_result(claimed(file("m")), "# a note\nfirst, and it is long\n", why_)) << why_;
   constexpr auto kOwner = fs::perms::owner_read | fs::perms::owner_write;
   fs::permissions(file("m"), kOwner);
-  ASSERT_TRUE(write_result(claimed(file("m")), "# a note\n2nd"));
+  ASSERT_TRUE(write_result(claimed(file("m")), "# a note\n2nd", why_)) << why_;
   EXPECT_EQ(content("m"), "# a note\n2nd");
   EXPECT_EQ(fs::status(file("m")).permissions(), kOwner);
   EXPECT_EQ(count(), 1);
@@ -136,7 +137,7 @@ TEST_F(WrittenFilesTest, AResultReplacesTheWholeFileKeepsItsRightsAndLeavesNothi
 TEST_F(WrittenFilesTest, AnotherNameOfAFileThatIsReplacedKeepsWhatItHad) {
   put("m", "# a note\nfirst");
   fs::create_hard_link(file("m"), file("kept"));
-  ASSERT_TRUE(write_result(claimed(file("m")), "# a note\n2nd"));
+  ASSERT_TRUE(write_result(claimed(file("m")), "# a note\n2nd", why_)) << why_;
   EXPECT_EQ(content("kept"), "# a note\nfirst");
 }
 
@@ -144,9 +145,9 @@ TEST_F(WrittenFilesTest, WhatHasComeMeanwhileIsLeftAloneUnlessItHasTheMark) {
   const auto written_after = [&](auto happens) {
     const Destination destination = claimed(file("m"));
     happens();
-    testing::internal::CaptureStderr();
-    const bool written = write_result(destination, "# a note\nours");
-    EXPECT_EQ(testing::internal::GetCapturedStderr().empty(), written);
+    std::string why;
+    const bool written = write_result(destination, "# a note\nours", why);
+    EXPECT_EQ(why.empty(), written);
     return written;
   };
   EXPECT_FALSE(written_after([&] { put("m", "theirs"); }));
@@ -163,7 +164,7 @@ TEST_F(WrittenFilesTest, WhatHasComeMeanwhileIsLeftAloneUnlessItHasTheMark) {
 
 TEST_F(WrittenFilesTest, WhatTheCallerHasReadIsReplacedWithoutAMark) {
   put("m", "{compact}");
-  ASSERT_TRUE(write_result(claimed(file("m"), kNote, Replace::Judged), "# a note\n"));
+  ASSERT_TRUE(write_result(claimed(file("m"), kNote, Replace::Judged), "# a note\n", why_)) << why_;
   EXPECT_EQ(content("m"), "# a note\n");
 }
 
@@ -171,17 +172,17 @@ TEST_F(WrittenFilesTest, ARecordHasItsNameFromItsFirstLineOnAndGrowsUnderIt) {
   put("r", "# a list\nof before\n");
   WrittenFiles files;
   RecordFile record;
-  ASSERT_TRUE(record.claim(files, "--list", file("r"), kList));
-  std::ostream* out = record.open();
+  ASSERT_TRUE(record.claim(files, "--list", file("r"), kList, why_)) << why_;
+  std::ostream* out = record.open(why_);
   ASSERT_TRUE(out);
   EXPECT_EQ(content("r"), "# a list\nof before\n");
   *out << kList.beginning;
-  ASSERT_TRUE(record.put());
+  ASSERT_TRUE(record.put(why_));
   EXPECT_EQ(content("r"), "# a list\n");
   *out << "one\n" << std::flush;
   EXPECT_EQ(content("r"), "# a list\none\n");
   *out << "two\n";
-  EXPECT_TRUE(record.close());
+  EXPECT_TRUE(record.close(why_));
   EXPECT_EQ(content("r"), "# a list\none\ntwo\n");
   EXPECT_EQ(count(), 1);
 }
@@ -190,8 +191,8 @@ TEST_F(WrittenFilesTest, ARecordThatIsNotBegunLeavesNothing) {
   {
     WrittenFiles files;
     RecordFile record;
-    ASSERT_TRUE(record.claim(files, "--list", file("r"), kList));
-    ASSERT_TRUE(record.open());
+    ASSERT_TRUE(record.claim(files, "--list", file("r"), kList, why_)) << why_;
+    ASSERT_TRUE(record.open(why_));
   }
   EXPECT_EQ(count(), 0);
 }

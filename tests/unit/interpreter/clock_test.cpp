@@ -1,11 +1,11 @@
 // The time of day: TODR, TODW, roll-over.
 #include "tests/support/plc.hpp"
-#include "tools/rig/clock_text.hpp"
 
 namespace s7200 {
 
 std::ostream& operator<<(std::ostream& out, const ClockTime& t) {
-  return out << fmt::format("{:02}-{:02}-{:02} {:02}:{:02}:{:02} day {}", t.year, t.month, t.day, t.hour, t.minute, t.second, t.weekday);
+  return out << fmt::format("{:02}-{:02}-{:02} {:02}:{:02}:{:02} day {}", t.year, t.month, t.day, t.hour, t.minute, t.second,
+                            t.weekday);
 }
 
 namespace test {
@@ -88,20 +88,6 @@ TEST(Clock, ABufferThatLeavesItsMemoryIs0091) {
   Plc plc("LD SM0.1\nMOVD &VB4089, AC1\nTODR *AC1\nTODW *AC1\nMEND\n");
   plc.run_scans(1);
   EXPECT_EQ(plc.records.errors(), (Ints{0x91, 0x91}));
-}
-
-TEST(ClockText, ADateHasItsDayOfTheWeek) {
-  EXPECT_EQ(tools::parse_clock("2026-11-21 10:00:00"), (ClockTime{26, 11, 21, 10, 0, 0, 7}));
-  EXPECT_EQ(tools::parse_clock("1990-01-01 00:00:00"), (ClockTime{90, 1, 1, 0, 0, 0, 2}));
-  EXPECT_EQ(tools::parse_clock("2000-02-29 23:59:59"), (ClockTime{0, 2, 29, 23, 59, 59, 3}));
-  EXPECT_EQ(tools::parse_clock("2089-12-31 00:00:00"), (ClockTime{89, 12, 31, 0, 0, 0, 7}));
-}
-
-TEST(ClockText, WhatIsNoTimeIsRefused) {
-  for (const char* text : {"", "2026-11-21", "2026-11-21 24:00:00", "2026-11-21 10:60:00", "2026-02-29 10:00:00", "1989-12-31 10:00:00",
-                           "2090-01-01 00:00:00", "2026-13-01 00:00:00", "26-11-21 10:00:00", "2026-11-21T10:00:00",
-                           "2026-11-21 10:00:00 "})
-    EXPECT_FALSE(tools::parse_clock(text)) << text;
 }
 
 }  // namespace

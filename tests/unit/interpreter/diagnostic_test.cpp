@@ -5,7 +5,7 @@
 namespace s7200::stl {
 namespace {
 
-Source text(std::vector<std::string> lines) { return {"a.stl", std::move(lines), {}}; }
+SourceLines text(std::vector<std::string> lines) { return {"a.stl", std::move(lines)}; }
 
 TEST(Diagnostic, ShowsPlaceMessageLineCaretAndHint) {
   const Diagnostic error{Severity::Error, {2, 4, 4}, "a byte has the bits 0 to 7", "write I1.0"};
@@ -46,7 +46,7 @@ TEST(Diagnostic, SendsNoControlCharacterToATerminal) {
 }
 
 TEST(Diagnostic, NeitherDoItsNameItsMessageAndItsHint) {
-  const Source source{"\x1b]0;a\x07.stl", {"NOT"}, {}};
+  const SourceLines source{"\x1b]0;a\x07.stl", {"NOT"}};
   EXPECT_EQ(render({Severity::Error, {1, 0, 1}, "no '\x1b[2J'", "not \u009b"}, source, false),
             "\uFFFD]0;a\uFFFD.stl:1: error: no '\uFFFD[2J'\nhint: not \uFFFD\n");
 }

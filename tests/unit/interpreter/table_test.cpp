@@ -222,7 +222,7 @@ TEST(InstructionTable, FlagsAreThoseThatTheVectorsShowToChange) {
 TEST(InstructionTable, StatementsPrintAndReadBackToThemselves) {
   for (const Instruction* instruction : modelled_on_214())
     for (const stl::Statement& statement : statements_in_vectors(*instruction)) {
-      const stl::Source printed{"test", {}, {statement}};
+      const stl::Source printed{{"test", {}}, {statement}};
       const stl::ParseResult read = stl::parse(stl::to_text(printed), "test");
       EXPECT_TRUE(read.diagnostics.empty() && stl::same_program(printed, read.source)) << stl::to_text(statement);
     }

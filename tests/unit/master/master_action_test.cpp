@@ -1,10 +1,10 @@
-#include "tools/master/action.hpp"
-
 #include <gtest/gtest.h>
 
 #include <sstream>
 #include <stdexcept>
 
+#include "serial_sim/modbus/request.hpp"
+#include "tools/master/action.hpp"
 #include "tools/master/statistics.hpp"
 
 namespace s7200::tools {
@@ -18,7 +18,7 @@ std::vector<MasterAction> parsed(const std::string& text, const ActionRules& rul
 }
 
 std::string pdu(const std::string& text, const ActionRules& rules = {}) {
-  return modbus::to_hex(parsed(text, rules).at(0).pdu);
+  return serial::to_hex(parsed(text, rules).at(0).pdu);
 }
 
 std::string refused(const std::string& text, const ActionRules& rules = {}) {
@@ -86,8 +86,8 @@ TEST(MasterAction, SeveralAreDoneInTheirOrder) {
   EXPECT_EQ(actions[3].station, 9);
   EXPECT_EQ(actions[4].duration, 250 * kMillisecond);
   EXPECT_EQ(actions[6].text, "raw 0203");
-  EXPECT_EQ(modbus::to_hex(actions[6].frame), "02 03");
-  EXPECT_EQ(modbus::to_hex(parsed("raw 010300000001", {.crc = true})[0].frame), "01 03 00 00 00 01 84 0a");
+  EXPECT_EQ(serial::to_hex(actions[6].frame), "02 03");
+  EXPECT_EQ(serial::to_hex(parsed("raw 010300000001", {.crc = true})[0].frame), "01 03 00 00 00 01 84 0a");
 }
 
 TEST(MasterAction, ReadsAreNotBroadcast) {

@@ -1,11 +1,10 @@
-#include "tools/scenario/reader.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <map>
 
 #include "interpreter/base/diagnostic.hpp"
+#include "tools/scenario/reader.hpp"
 #include "tools/scenario/yaml.hpp"
 
 namespace s7200::tools {
@@ -32,7 +31,7 @@ Action action_of(const std::string& step) {
   return steps.empty() ? Action{} : std::get<Action>(steps[0].action);
 }
 
-std::string request_of(const std::string& step) { return modbus::to_hex(action_of<ExchangeStep>(step).request); }
+std::string request_of(const std::string& step) { return serial::to_hex(action_of<ExchangeStep>(step).request); }
 
 TEST(ScenarioReader, ReadsTheHead) {
   const Scenario s = good(R"(
@@ -52,7 +51,7 @@ steps: [wait: 1ms]
   EXPECT_EQ(s.program, "x.stl");
   EXPECT_EQ(s.cpu, "216");
   EXPECT_EQ(s.line.baud, 19200U);
-  EXPECT_EQ(s.line.parity, "odd");
+  EXPECT_EQ(s.line.parity, Parity::Odd);
   EXPECT_EQ(s.line.stop_bits, 2U);
   ASSERT_EQ(s.set.size(), 2U);
   EXPECT_EQ(s.set[0].value, 0x1234U);
@@ -173,7 +172,7 @@ TEST(ScenarioReader, TextIsSentAndExpectedWithItsEscapes) {
   EXPECT_EQ(expected(R"({text: 'A\?\r'})").frame, (std::vector<BytePattern>{0x41, std::nullopt, 0x0D}));
   EXPECT_EQ(expected("any").kind, Expected::Kind::Any);
   const Scenario s = good("parameters: {x: 7}\nsteps:\n  - send: {text: 'SET ${x + 1}\\r'}\n");
-  EXPECT_EQ(modbus::to_hex(std::get<ExchangeStep>(s.steps[0].action).request), "53 45 54 20 38 0d");
+  EXPECT_EQ(serial::to_hex(std::get<ExchangeStep>(s.steps[0].action).request), "53 45 54 20 38 0d");
 }
 
 TEST(ScenarioReader, WhatNobodyAskedForIsReceived) {

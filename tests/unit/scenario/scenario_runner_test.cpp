@@ -1,12 +1,11 @@
 // Scenarios on our Modbus slave: what passes, that every kind of expectation can fail, transcripts, comparison.
-#include "tools/scenario/runner.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/slave_bench.hpp"
 #include "tools/scenario/comparison.hpp"
 #include "tools/scenario/reader.hpp"
+#include "tools/scenario/runner.hpp"
 #include "tools/scenario/transcript.hpp"
 
 namespace s7200::tools {
@@ -428,7 +427,7 @@ TEST(ScenarioCompare, TimesCountUnlessTheyAreIgnoredOrTolerated) {
 
 TEST(ScenarioCompare, RandomTrafficIsTheSameForTheSameSeed) {
   const auto requests = [](std::uint32_t seed) {
-    std::vector<modbus::Frame> all;
+    std::vector<serial::Frame> all;
     for (const Step& step : random_traffic(300, seed, 1).steps) all.push_back(std::get<ExchangeStep>(step.action).request);
     return all;
   };

@@ -132,8 +132,8 @@ TEST(Fault, WrongTextIsRefusedWithItsPlace) {
 }
 
 TEST(Fault, ReadmeHasTheTables) {
-  EXPECT_NE(test::text_of(test::source_path("serial_sim/README.md")).find(fault_tables()), std::string::npos)
-      << "serial_sim/README.md should contain\n"
+  EXPECT_NE(test::text_of(test::source_path("serial_sim/faults/README.md")).find(fault_tables()), std::string::npos)
+      << "serial_sim/faults/README.md should contain\n"
       << fault_tables();
 }
 

@@ -13,8 +13,6 @@
 namespace s7200::serial {
 namespace {
 
-using modbus::Bytes;
-
 constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
 constexpr SerialFormat k8N1{9600, 8, Parity::None, 1};
 constexpr SerialFormat k8O1{9600, 8, Parity::Odd, 1};
@@ -35,7 +33,7 @@ Fault fault_of(const std::string& text) {
 std::string shown(const std::vector<ReceivedCharacter>& characters) {
   std::string text;
   for (const ReceivedCharacter& c : characters)
-    text += (text.empty() ? "" : " ") + modbus::to_hex(Bytes{c.byte}) + (c.parity_error ? "p" : "") +
+    text += (text.empty() ? "" : " ") + serial::to_hex(Bytes{c.byte}) + (c.parity_error ? "p" : "") +
             (c.framing_error ? "f" : "");
   return text;
 }
@@ -95,7 +93,7 @@ struct Plant {
 
   const Exchange& exchange(const Bytes& request = kRequest) {
     heard.clear();
-    master.start({.frame = modbus::to_frame(request), .timeout = 50 * ms}, now);
+    master.start({.frame = serial::to_frame(request), .timeout = 50 * ms}, now);
     while (master.busy()) {
       const bool sending = master.state().phase == Master::Phase::Sending;
       step();

@@ -9,6 +9,8 @@
 namespace s7200::modbus {
 namespace {
 
+using serial::to_hex;
+
 constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
 constexpr Time kTimeout = 100 * kMillisecond;
 constexpr Time kQuiet = 20 * kMillisecond;

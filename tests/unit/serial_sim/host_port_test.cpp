@@ -13,7 +13,7 @@ constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
 constexpr SerialFormat k8O2{9600, 8, Parity::Odd, 2};
 constexpr SerialFormat k8N2{19200, 8, Parity::None, 2};
 
-std::vector<HostCharacter> characters(const modbus::Bytes& bytes, const SerialFormat& format = k8E1) {
+std::vector<HostCharacter> characters(const Bytes& bytes, const SerialFormat& format = k8E1) {
   std::vector<HostCharacter> all;
   for (const std::uint8_t byte : bytes) all.push_back({byte, format, Fault::None});
   return all;
@@ -58,7 +58,7 @@ TEST(HostPort, CharactersFollowEachOtherBackToBackFromTheInstantGiven) {
 TEST(HostPort, WhatASenderHasWaitingIsCountedAndCanBeDropped) {
   Wire wire;
   wire.port.attach(k8E1, 0);
-  const auto of = [](std::uint64_t sender, modbus::Bytes bytes) {
+  const auto of = [](std::uint64_t sender, Bytes bytes) {
     std::vector<HostCharacter> all = characters(bytes);
     for (HostCharacter& character : all) character.sender = sender;
     return all;
@@ -182,7 +182,7 @@ TEST(HostPort, AsksAProgramInASimulationAndGoesBackToASnapshot) {
   port.send(characters(modbus::rtu_frame(1, modbus::read_holding_registers(0, 2))), simulation.time());
   bench.run_for(5 * kMillisecond);
   const Simulation::Snapshot middle = simulation.snapshot();
-  modbus::Bytes answers[2];
+  Bytes answers[2];
   Time last[2] = {};
   for (int i = 0; i < 2; ++i) {
     bench.run_for(100 * kMillisecond);
@@ -192,7 +192,7 @@ TEST(HostPort, AsksAProgramInASimulationAndGoesBackToASnapshot) {
     }
     simulation.restore(middle);
   }
-  EXPECT_EQ(modbus::to_hex(answers[0]), "01 03 04 00 00 00 00 fa 33");
+  EXPECT_EQ(serial::to_hex(answers[0]), "01 03 04 00 00 00 00 fa 33");
   EXPECT_EQ(answers[0], answers[1]);
   EXPECT_EQ(last[0], last[1]);
 }

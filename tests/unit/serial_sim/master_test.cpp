@@ -1,18 +1,18 @@
-#include "serial_sim/peers/requester.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
+
+#include "serial_sim/modbus/request.hpp"
+#include "serial_sim/peers/requester.hpp"
 
 namespace s7200::serial {
 namespace {
 
 constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
 
-using modbus::Bytes;
-using modbus::Frame;
-using modbus::to_frame;
+using serial::Frame;
+using serial::to_frame;
 
 /// A master, and a second UART that plays a script: what it hears is kept, and `answer` is sent `delay` behind the
 /// character of the request that is `after` in number.
@@ -39,7 +39,7 @@ struct Conversation {
 
   void answer_next(Time at) {
     if (answered == 0) slave_uart.enable_receiver(false, at);
-    const modbus::FrameCharacter& character = answer[answered++];
+    const serial::FrameCharacter& character = answer[answered++];
     if (character.wrong_parity) {
       slave_uart.send_with_wrong_parity(character.byte, at);
     } else {
@@ -226,7 +226,7 @@ TEST(Master, AnswerThatDoesNotEndIsCutOff) {
 
 TEST(Master, SendsTheMarkedCharacterWithWrongParity) {
   Conversation talk;
-  const Frame frame = modbus::parse_hex_frame("01 03p 00").frame;
+  const Frame frame = serial::parse_hex_frame("01 03p 00").frame;
   talk.exchange({.frame = frame});
   ASSERT_EQ(talk.heard.size(), 3U);
   EXPECT_FALSE(talk.heard[0].parity_error);
@@ -237,7 +237,7 @@ TEST(Master, SendsTheMarkedCharacterWithWrongParity) {
 
 TEST(Master, TellsOfParityErrorsInTheAnswer) {
   Conversation talk;
-  talk.answer = modbus::parse_hex_frame("01 83p 02").frame;
+  talk.answer = serial::parse_hex_frame("01 83p 02").frame;
   const Exchange& exchange = talk.exchange(request_of(kRequest));
   EXPECT_TRUE(exchange.parity_error());
   EXPECT_FALSE(exchange.framing_error());

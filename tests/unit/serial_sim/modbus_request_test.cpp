@@ -9,7 +9,9 @@
 namespace s7200::modbus {
 namespace {
 
-Bytes hex(std::string_view text) { return bytes_of(parse_hex_frame(text).frame); }
+using serial::to_hex;
+
+Bytes hex(std::string_view text) { return serial::bytes_of(serial::parse_hex_frame(text).frame); }
 
 Bytes with_crc(std::string_view text) {
   Bytes bytes = hex(text);
@@ -268,50 +270,6 @@ TEST(ModbusAnswer, WhatIsWrongWithDiagnosisAndFiles) {
   EXPECT_EQ(said("01 15 09 06 00 04 00 07 00 01 06 af", "01 15 09 06 00 04 00 07 00 01 06 ae"),
             "does not repeat the request: 09 06 00 04 00 07 00 01 06 ae");
   EXPECT_EQ(said("01 41", "01"), "too short for an answer: 01 7e 80");
-}
-
-TEST(HexFrame, BlanksAndCaseAreFree) {
-  EXPECT_EQ(hex("01 03 00 0a"), (Bytes{1, 3, 0, 10}));
-  EXPECT_EQ(hex("  0103000A "), (Bytes{1, 3, 0, 10}));
-  EXPECT_EQ(hex("aB\tCd"), (Bytes{0xAB, 0xCD}));
-}
-
-TEST(HexFrame, PMeansWrongParity) {
-  const ParsedFrame parsed = parse_hex_frame("01 03p0A 0bP");
-  ASSERT_TRUE(parsed.ok());
-  EXPECT_EQ(parsed.frame, (Frame{{1, false}, {3, true}, {10, false}, {11, true}}));
-  EXPECT_TRUE(has_wrong_parity(parsed.frame));
-  EXPECT_EQ(to_hex(parsed.frame), "01 03p 0a 0bp");
-  EXPECT_FALSE(has_wrong_parity(to_frame(hex("01 03"))));
-}
-
-TEST(HexFrame, ErrorsAreLocatedByColumnAndAllReported) {
-  const ParsedFrame parsed = parse_hex_frame("01 0x 3 zz 04");
-  const std::vector<FrameError> expected{{5, "'x' is no hex digit"},
-                                         {7, "a byte is two hex digits, 03 for 3"},
-                                         {9, "'z' is no hex digit"},
-                                         {10, "'z' is no hex digit"}};
-  EXPECT_EQ(parsed.errors, expected);
-}
-
-TEST(HexFrame, PWithoutAByteIsAnError) {
-  EXPECT_EQ(parse_hex_frame("p").errors, (std::vector<FrameError>{{1, "'p' is no hex digit"}}));
-  EXPECT_EQ(parse_hex_frame("01pp").errors, (std::vector<FrameError>{{4, "'p' is no hex digit"}}));
-}
-
-TEST(HexFrame, HasFromOneTo1024Bytes) {
-  EXPECT_EQ(parse_hex_frame(" ").errors, (std::vector<FrameError>{{1, "a frame has one byte at least"}}));
-  std::string text;
-  for (int byte = 0; byte < 1024; ++byte) text += "5a";
-  EXPECT_TRUE(parse_hex_frame(text).ok());
-  text += " 5ap";
-  EXPECT_EQ(parse_hex_frame(text).errors, (std::vector<FrameError>{{2050, "a frame has 1024 bytes at most"}}));
-}
-
-TEST(HexFrame, WhatIsPrintedReadsBackTheSame) {
-  Bytes all;
-  for (unsigned byte = 0; byte < 256; ++byte) all.push_back(static_cast<std::uint8_t>(byte));
-  EXPECT_EQ(hex(to_hex(all)), all);
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 namespace s7200::modbus {
 namespace {
 
+using serial::to_hex;
+
 Bytes operator+(Bytes one, const Bytes& other) {
   one.insert(one.end(), other.begin(), other.end());
   return one;

@@ -48,7 +48,7 @@ TEST(SimulationStop, ARunWithoutEndComesBack) {
 
 TEST(SimulationStop, AnExchangeWhoseAnswerIsWaitedForForYearsComesBackUnfinished) {
   Stopping s(kSilent);
-  s.simulation.master().start({.frame = modbus::to_frame(test::Bytes{1, 2, 3}), .timeout = kNever / 2}, 0);
+  s.simulation.master().start({.frame = serial::to_frame(Bytes{1, 2, 3}), .timeout = kNever / 2}, 0);
   s.simulation.finish_exchange();
   EXPECT_TRUE(s.stopped_in_time());
   EXPECT_TRUE(s.simulation.master().busy());
@@ -68,7 +68,7 @@ TEST(SimulationStop, AsLongAsNobodyAsksNothingChanges) {
     simulation.power_up();
     EXPECT_EQ(simulation.run_until(kSecond), Halt::Time);
     simulation.master_uart().configure(simulation.cpu().state().port[0].format);
-    simulation.master().start({.frame = modbus::to_frame(test::Bytes{1, 3, 0, 0, 0, 1, 0x84, 0x0A})}, simulation.time());
+    simulation.master().start({.frame = serial::to_frame(Bytes{1, 3, 0, 0, 0, 1, 0x84, 0x0A})}, simulation.time());
     EXPECT_FALSE(simulation.finish_exchange().response.empty());
     return simulation.snapshot();
   };

@@ -15,7 +15,7 @@ std::vector<test::RateSetting> every_rate() {
 }
 
 serial::Request read_register_0() {
-  return {.frame = modbus::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 1)))};
+  return {.frame = serial::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 1)))};
 }
 
 TEST(SimulatedSlave, AnswersTheFirstRequestAtEveryRate) {
@@ -23,7 +23,8 @@ TEST(SimulatedSlave, AnswersTheFirstRequestAtEveryRate) {
     serial::Simulation simulation(test::compile(test::at_rate(test::slave_text(), rate)));
     simulation.power_up();
     SimulatedSlave slave(simulation, {}, "slave");
-    ASSERT_TRUE(slave.wait_until_ready()) << rate.baud;
+    std::string why;
+    ASSERT_TRUE(slave.wait_until_ready(kNever, why)) << rate.baud << why;
     EXPECT_EQ(simulation.cpu().state().port[0].format.baud, rate.baud);
     EXPECT_TRUE(modbus::crc_ok(slave.exchange(read_register_0()).response_bytes())) << rate.baud;
   }
@@ -34,7 +35,8 @@ TEST(SimulatedSlave, IsReadyAfterTheSilenceOfTheRateThatIsSetByThen) {
   serial::Simulation simulation(test::compile("LD SM0.0\nTON T32, +15\nLD T32\nEU\nMOVB 16#5D, SMB30\nMEND\n"));
   simulation.power_up();
   SimulatedSlave slave(simulation, {}, "slave");
-  ASSERT_TRUE(slave.wait_until_ready());
+  std::string why;
+  ASSERT_TRUE(slave.wait_until_ready(kNever, why)) << why;
   EXPECT_EQ(slave.pause(), serial::Simulation::default_quiet({300, 8, Parity::Even, 1}));
   EXPECT_GE(simulation.time(), slave.pause());
 }

@@ -4,12 +4,14 @@
 
 #include <numeric>
 
+#include "serial_sim/modbus/request.hpp"
+
 namespace s7200::tools {
 namespace {
 
 std::string hex_of(std::string_view text) {
-  const modbus::ParsedFrame parsed = parse_text(text);
-  return parsed.ok() ? modbus::to_hex(parsed.frame) : "! " + parsed.errors[0].message;
+  const serial::ParsedFrame parsed = parse_text(text);
+  return parsed.ok() ? serial::to_hex(parsed.frame) : "! " + parsed.errors[0].message;
 }
 
 std::vector<std::uint8_t> bytes_of(std::string_view text) { return {text.begin(), text.end()}; }
@@ -45,8 +47,8 @@ TEST(TextFrame, AnyByteCanBeExpected) {
 
 TEST(TextFrame, InQuotationMarksAFrameIsText) {
   const auto read = [](std::string_view text) {
-    const modbus::ParsedFrame parsed = parse_hex_or_quoted(text);
-    return parsed.ok() ? modbus::to_hex(parsed.frame)
+    const serial::ParsedFrame parsed = parse_hex_or_quoted(text);
+    return parsed.ok() ? serial::to_hex(parsed.frame)
                        : std::to_string(parsed.errors[0].column) + ": " + parsed.errors[0].message;
   };
   EXPECT_EQ(read(" 41 42p "), "41 42p");
@@ -74,18 +76,18 @@ TEST(TextFrame, AQuotedTextReadsBackToTheSameBytes) {
   std::vector<std::uint8_t> all{'\r', '\n', '\t', 2, 3};
   for (std::uint8_t byte = 0x20; byte <= 0x7E; ++byte) all.push_back(byte);
   const std::string quoted = quoted_text(all);
-  EXPECT_EQ(modbus::bytes_of(parse_hex_or_quoted(quoted).frame), all);
+  EXPECT_EQ(serial::bytes_of(parse_hex_or_quoted(quoted).frame), all);
   EXPECT_EQ(quoted_text(bytes_of("\x01")), "");
 }
 
 TEST(TextFrame, OnlyARequestWithARightCrcHasAnAnswerOfModbus) {
-  const modbus::Bytes request = modbus::rtu_frame(1, modbus::read_holding_registers(10, 1));
-  const modbus::Bytes answer = modbus::rtu_frame(1, modbus::Bytes{3, 2, 0x12, 0x34});
+  const Bytes request = modbus::rtu_frame(1, modbus::read_holding_registers(10, 1));
+  const Bytes answer = modbus::rtu_frame(1, Bytes{3, 2, 0x12, 0x34});
   EXPECT_EQ(answer_text(request, answer), "1 register: 16#1234");
   EXPECT_EQ(answer_text(request, bytes_of("OK\r")), "too short for an answer: 4f 4b 0d");
   EXPECT_EQ(answer_text(request, bytes_of("HELLO\r")), "wrong CRC");
   EXPECT_EQ(answer_text(request, {}), "no answer");
-  const modbus::Bytes without_crc(request.begin(), request.end() - 2);
+  const Bytes without_crc(request.begin(), request.end() - 2);
   EXPECT_EQ(answer_text(without_crc, answer), "");
   EXPECT_EQ(answer_text(without_crc, bytes_of("OK\r")), "'OK\\r'");
   EXPECT_EQ(answer_text(bytes_of("HELLO\r"), bytes_of("OK\r")), "'OK\\r'");

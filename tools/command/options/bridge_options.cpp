@@ -10,7 +10,7 @@
 #include "tools/bridge/pty_bridge.hpp"
 #include "tools/bridge/tcp_bridges.hpp"
 #include "tools/command/options/number_option.hpp"
-#include "tools/host/terminal.hpp"
+#include "tools/command/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -36,7 +36,7 @@ void BridgeOptions::add_to(CLI::App& app) {
   add("--rtu-over-tcp", rtu_over_tcp_, "[ADDRESS:]PORT", "Modbus RTU frames over TCP; clients take turns");
   add("--modbus-tcp", modbus_tcp_, "[ADDRESS:]PORT", "a gateway from Modbus TCP; unit 0 is broadcast");
   add("--device", device_, "DEVICE", "a serial device of this computer, set as the program sets its port");
-  line_.add_to(app, "the program's; with --pty its client's");
+  add_line_options(app, line_, "the program's; with --pty its client's");
   add_duration(app, "--timeout", timeout_, "how long --modbus-tcp and --rtu-over-tcp wait for an answer to start [400ms]");
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tools/bridge/bridge.hpp"
-#include "tools/command/options/master_options.hpp"
+#include "tools/command/options/line_options.hpp"
 
 namespace CLI {
 class App;
@@ -27,7 +27,7 @@ class BridgeOptions {
 
   bool realtime() const { return realtime_ || speed_given_ || bridge_; }
   double speed() const { return speed_; }
-  const LineOptions& line() const { return line_; }
+  const serial::LineSettings& line() const { return line_; }
 
   /// The name of the pty, if that is the bridge.
   const std::string& link() const { return pty_; }
@@ -37,7 +37,7 @@ class BridgeOptions {
 
  private:
   std::string pty_, tcp_, rtu_over_tcp_, modbus_tcp_, device_;
-  LineOptions line_;
+  serial::LineSettings line_;
   Time timeout_ = 400 * kMillisecond;  // before masters lose patience: libmodbus waits 500 ms
   bool realtime_ = false, speed_given_ = false;
   double speed_ = 1;

@@ -1,40 +1,57 @@
-// How a master on the line talks.
+// The options of `s7200 master`.
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "serial_sim/system/simulation.hpp"
+#include "tools/command/master_output.hpp"
+#include "tools/command/options/program_options.hpp"
+#include "tools/command/options/rig_options.hpp"
+#include "tools/master/action.hpp"
+#include "tools/slave/slave_target.hpp"
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace s7200::tools {
 
-/// The serial settings of the other end of the line, as far as they are given.
-struct LineOptions {
-  std::uint32_t baud = 0;       ///< 0: not given
-  std::string parity = "port";  ///< port: not given
-  std::uint32_t data_bits = 0;  ///< 0: not given
-  std::uint32_t stop_bits = 0;  ///< 0: not given
-
-  /// `otherwise`: what holds where nothing is given, for the help.
-  void add_to(CLI::App& app, const std::string& otherwise = "as the program set its port");
-
-  /// `port` with what the options say instead.
-  SerialFormat format_over(SerialFormat port) const;
-
-  /// The same of a program's port; of the default format as long as it has not switched its port to Freeport mode.
-  SerialFormat format_for(const serial::Simulation& simulation) const;
-};
-
-struct MasterOptions : LineOptions {
-  Time timeout = kSecond;
-  Time gap = 0;
+struct MasterOptions {
+  std::string target;
+  std::vector<std::string> words;
+  ActionRules rules;
+  int station = 1;
+  std::string form = std::string(value_forms().front().name);
+  bool verbose = false, json = false, continuous = false;
+  Time every = kNever;      ///< kNever: no polling
+  std::uint64_t count = 0;  ///< rounds; 0: one, or until Ctrl-C
+  int retries = 0;
+  Time pause = kNever;    ///< kNever: Slave::pause
+  Time after = kNever;    ///< kNever: when the program is ready
+  Time silence = kNever;  ///< kNever: as the slave has it
+  serial::MasterSettings master;
+  ProgramOptions program;
+  RigOptions rig;
 
   void add_to(CLI::App& app);
 
-  serial::Request request(const modbus::Frame& frame) const { return {.frame = frame, .timeout = timeout, .gap = gap}; }
+  /// Throws std::invalid_argument if options were given that such a target has no use for, or without end.
+  void refuse_what_does_not_fit(SlaveTarget::Kind kind) const;
+
+  /// Throws std::invalid_argument if an action is wrong. `over_tcp`: stations are units of Modbus TCP.
+  std::vector<MasterAction> actions(bool over_tcp);
+
+  SessionSettings session(bool broadcasts_are_silent) const;
+  MasterOutputSettings output() const;
+
+  bool polls() const { return every != kNever; }
+  bool open_ended() const { return count == 0 && (polls() || continuous); }
+
+ private:
+  std::uint64_t rounds() const;
+
+  std::vector<CLI::Option*> for_programs_, for_lines_, for_rtu_;  // that other targets have no use for
 };
 
 }  // namespace s7200::tools

@@ -3,20 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <utility>
 
 namespace s7200::tools {
 namespace {
-
-/// All of `text` as a number in decimal.
-template <class Number>
-std::optional<Number> parse_decimal(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return {};
-  return value;
-}
 
 std::string to_text(const Between<std::uint64_t>& range) {
   if (range.most == UINT64_MAX) return fmt::format("{} or more", range.least);
@@ -37,7 +27,7 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, std::function<vo
           name,
           [name, take = std::move(take), range, kind](const std::string& given) {
             const auto value = parse_decimal<Number>(given);
-            if (!value || !(*value >= range.least && *value <= range.most))  // NaN is in no range
+            if (!value || !range.has(*value))
               throw CLI::ValidationError(name, fmt::format("'{}' is not a {} ({})", given, kind, to_text(range)));
             take(*value);
           },
@@ -46,17 +36,6 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, std::function<vo
 }
 
 }  // namespace
-
-std::optional<Time> parse_duration_in(std::string_view text, Between<Time> range, std::string& why) {
-  const auto duration = parse_duration(text);
-  if (!duration)
-    why = fmt::format("'{}' is not a duration; write for example 250ms, 2s, 1h", text);
-  else if (*duration < range.least || *duration > range.most)
-    why = fmt::format("{} is not from {} to {}", text, format_duration(range.least), format_duration(range.most));
-  else
-    return duration;
-  return {};
-}
 
 CLI::Option* add_whole_number(CLI::App& app, const std::string& name, std::function<void(std::uint64_t)> take,
                               Between<std::uint64_t> range, const std::string& text, const std::string& standard) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "interpreter/base/time.hpp"
+#include "interpreter/base/numbers.hpp"
 
 namespace CLI {
 class App;
@@ -17,18 +17,6 @@ class Option;
 }  // namespace CLI
 
 namespace s7200::tools {
-
-/// What options and actions take at most: more than a year. Sums of a few hundred such times still fit a Time.
-inline constexpr Time kLongestDuration = Time{10'000} * 3600 * kSecond;
-
-/// From `least` to `most`, both included.
-template <class Number>
-struct Between {
-  Number least{}, most{};
-};
-
-/// A duration in the range. Returns nothing and sets `why` for anything else.
-std::optional<Time> parse_duration_in(std::string_view text, Between<Time> range, std::string& why);
 
 /// `--count N`: a whole number in decimal; `take` gets it. The help says `text`, the range, and the `standard` that holds
 /// without the option.

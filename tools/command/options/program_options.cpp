@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "tools/command/exit_code.hpp"
-#include "tools/host/terminal.hpp"
+#include "tools/command/terminal.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -103,7 +103,7 @@ std::optional<SourceText> read_program_text(const std::string& path, bool force_
   return text;
 }
 
-void print_diagnostics(const stl::Diagnostics& diagnostics, const stl::Source& source) {
+void print_diagnostics(const stl::Diagnostics& diagnostics, const stl::SourceLines& source) {
   fmt::print(stderr, "{}", stl::render(diagnostics, source, colour_wanted(stderr)));
 }
 

@@ -44,6 +44,6 @@ struct ProgramOptions : CpuOptions {
 std::optional<SourceText> read_program_text(const std::string& path, bool force_document = false);
 
 /// Prints diagnostics on stderr, in colour where wanted: each cause once.
-void print_diagnostics(const stl::Diagnostics& diagnostics, const stl::Source& source);
+void print_diagnostics(const stl::Diagnostics& diagnostics, const stl::SourceLines& source);
 
 }  // namespace s7200::tools

@@ -11,8 +11,6 @@
 // so.
 #pragma once
 
-#include <string_view>
-
 namespace s7200::tools {
 
 /// The first thing a command does.
@@ -20,8 +18,5 @@ void open_standard_streams();
 
 /// The last one: writes what is left. The exit code; `exit_code` if all results could be written.
 int close_standard_streams(int exit_code);
-
-/// Writes all of it: 0, or the error. After an interruption a reader that takes nothing for 5 s is given up.
-int write_all(int fd, std::string_view bytes);
 
 }  // namespace s7200::tools

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdio>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace s7200::tools {
 
@@ -18,5 +20,12 @@ void print_file(std::string_view text);
 /// `s7200: error: …` and `s7200: note: …` on stderr, in one line; what a message quotes is shown printable.
 void print_error(std::string_view message);
 void print_note(std::string_view message);
+
+/// None for an empty text.
+void print_note_if_any(std::string_view message);
+void print_notes(const std::vector<std::string>& messages);
+
+/// `s7200: note: interrupted`, if a signal ended what was going on.
+void print_interruption();
 
 }  // namespace s7200::tools

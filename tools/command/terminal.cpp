@@ -1,4 +1,4 @@
-#include "tools/host/terminal.hpp"
+#include "tools/command/terminal.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "interpreter/base/text.hpp"
+#include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -37,5 +38,17 @@ void print_file(std::string_view text) {
 void print_error(std::string_view message) { print_message("error", message); }
 
 void print_note(std::string_view message) { print_message("note", message); }
+
+void print_note_if_any(std::string_view message) {
+  if (!message.empty()) print_note(message);
+}
+
+void print_notes(const std::vector<std::string>& messages) {
+  for (const std::string& message : messages) print_note(message);
+}
+
+void print_interruption() {
+  if (interrupted_by_signal()) print_note("interrupted");
+}
 
 }  // namespace s7200::tools

@@ -1,32 +1,25 @@
-#include "tools/host/standard_streams.hpp"
+#include "tools/command/standard_streams.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
 #include <signal.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <ext/stdio_sync_filebuf.h>
 #include <iostream>
-#include <optional>
 
 #include "tools/command/exit_code.hpp"
+#include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
-#include "tools/host/terminal.hpp"
+#include "tools/host/write_all.hpp"
 
 namespace s7200::tools {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-constexpr auto kPatience = std::chrono::seconds(5);
-constexpr int kLookAgain = 100;  // ms
 
 std::atomic<int> output_error = 0;  // why standard output takes nothing more
 
@@ -87,27 +80,6 @@ int close_standard_streams(int exit_code) {
   }
   print_error(fmt::format("cannot write to standard output: {}", std::strerror(output_error)));
   return kUnusable;
-}
-
-int write_all(int fd, std::string_view bytes) {
-  std::optional<Clock::time_point> stuck_since;
-  while (!bytes.empty()) {
-    const ssize_t count = write(fd, bytes.data(), bytes.size());
-    if (count >= 0) {
-      bytes.remove_prefix(static_cast<std::size_t>(count));
-      stuck_since.reset();
-      continue;
-    }
-    if (errno != EINTR && errno != EAGAIN) return errno;
-    if (errno == EAGAIN) {  // whoever gave us the descriptor does not block on it
-      pollfd writable{fd, POLLOUT, 0};
-      poll(&writable, 1, kLookAgain);
-    }
-    if (!interrupted()) continue;
-    if (!stuck_since) stuck_since = Clock::now();
-    if (Clock::now() - *stuck_since > kPatience) return ETIMEDOUT;
-  }
-  return 0;
 }
 
 }  // namespace s7200::tools

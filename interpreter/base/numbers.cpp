@@ -1,0 +1,45 @@
+#include "interpreter/base/numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace s7200 {
+
+std::optional<std::int64_t> parse_integer(std::string_view text) {
+  const bool negative = !text.empty() && text.front() == '-';
+  if (negative) text.remove_prefix(1);
+  int base = 10;
+  for (const auto& [prefix, its_base] : {std::pair{std::string_view("16#"), 16}, {std::string_view("2#"), 2}})
+    if (text.starts_with(prefix)) {
+      base = its_base;
+      text.remove_prefix(prefix.size());
+    }
+  std::string digits(text);
+  if (base != 10) std::erase(digits, '_');
+  std::int64_t value = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto [stopped, error] = std::from_chars(digits.data(), end, value, base);
+  if (error != std::errc{} || stopped != end || digits.front() == '-') return {};
+  return negative ? -value : value;
+}
+
+std::optional<std::uint8_t> hex_digit(char c) {
+  if (c >= '0' && c <= '9') return static_cast<std::uint8_t>(c - '0');
+  if (c >= 'a' && c <= 'f') return static_cast<std::uint8_t>(c - 'a' + 10);
+  if (c >= 'A' && c <= 'F') return static_cast<std::uint8_t>(c - 'A' + 10);
+  return {};
+}
+
+std::optional<Time> parse_duration_in(std::string_view text, Between<Time> range, std::string& why) {
+  const auto duration = parse_duration(text);
+  if (!duration)
+    why = fmt::format("'{}' is not a duration; write for example 250ms, 2s, 1h", text);
+  else if (!range.has(*duration))
+    why = fmt::format("{} is not from {} to {}", text, format_duration(range.least), format_duration(range.most));
+  else
+    return duration;
+  return {};
+}
+
+}  // namespace s7200

@@ -1,0 +1,47 @@
+// Numbers in texts.
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "interpreter/base/time.hpp"
+
+namespace s7200 {
+
+/// From `least` to `most`, both included.
+template <class Number>
+struct Between {
+  Number least{}, most{};
+
+  /// NaN is in no range.
+  bool has(Number value) const { return value >= least && value <= most; }
+};
+
+/// All of `text` as a number in decimal, without blanks or a plus sign. Returns nothing for anything else, and for one that
+/// the type cannot hold.
+template <class Number>
+std::optional<Number> parse_decimal(std::string_view text) {
+  Number value{};
+  const char* const end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || stopped != end) return {};
+  return value;
+}
+
+/// Reads a whole number as STL writes it: `12`, `-5`, `16#FF`, `2#1010_0001`.
+std::optional<std::int64_t> parse_integer(std::string_view text);
+
+/// Value of a hex digit in either case.
+std::optional<std::uint8_t> hex_digit(char c);
+
+/// What options and actions take at most: more than a year. Sums of a few hundred such times still fit a Time.
+inline constexpr Time kLongestDuration = Time{10'000} * 3600 * kSecond;
+
+/// A duration in the range. Returns nothing and sets `why` for anything else.
+std::optional<Time> parse_duration_in(std::string_view text, Between<Time> range, std::string& why);
+
+}  // namespace s7200

@@ -1,0 +1,37 @@
+// How the other end of a line is set.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "interpreter/base/serial_format.hpp"
+
+namespace s7200::serial {
+
+/// As far as they are given; what is not given follows the port of the program.
+struct LineSettings {
+  std::optional<std::uint32_t> baud{};  ///< bits a second
+  std::optional<Parity> parity{};
+  std::optional<std::uint8_t> data_bits{}, stop_bits{};
+
+  bool operator==(const LineSettings&) const = default;
+
+  /// `port` with what is given instead.
+  SerialFormat over(SerialFormat port) const {
+    port.baud = baud.value_or(port.baud);
+    port.parity = parity.value_or(port.parity);
+    port.data_bits = data_bits.value_or(port.data_bits);
+    port.stop_bits = stop_bits.value_or(port.stop_bits);
+    return port;
+  }
+
+  /// What `given` gives holds instead.
+  void override_with(const LineSettings& given) {
+    if (given.baud) baud = given.baud;
+    if (given.parity) parity = given.parity;
+    if (given.data_bits) data_bits = given.data_bits;
+    if (given.stop_bits) stop_bits = given.stop_bits;
+  }
+};
+
+}  // namespace s7200::serial

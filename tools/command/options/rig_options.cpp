@@ -1,0 +1,121 @@
+#include "tools/command/options/rig_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+
+#include "tools/command/options/number_option.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/rig/clock_text.hpp"
+#include "tools/views/faults.hpp"
+#include "tools/views/memory.hpp"
+#include "tools/views/report.hpp"
+
+namespace s7200::tools {
+
+void RigOptions::add_to(CLI::App& app) {
+  app.add_option("--set", set_, "memory or inputs before the first scan: VW100=5, I0.3=1 (repeatable)")
+      ->type_name("ADDRESS=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--dump", dump_, "memory to show at the end: VB0:16, VW100, AC0, VD20:real (repeatable)")
+      ->type_name("ADDRESS[:COUNT]")
+      ->allow_extra_args(false);
+  app.add_option("--input", settings_.input, "inputs over time, CSV rows such as 10ms,I0.3,1 and 1s,I0.6,pulses,5kHz,200ms")
+      ->type_name("FILE");
+  app.add_option("--output", settings_.output,
+                 "write each change of an output (Q, AQ) to FILE, as CSV; - is standard output")
+      ->type_name("FILE");
+  MemorySettings& memory = settings_.memory;
+  auto* file =
+      app.add_option("--memory", memory.path,
+                     "retentive memory, EEPROM and clock: read from FILE at power-up if it exists, written at the end")
+          ->type_name("FILE");
+  auto* lost =
+      app.add_flag("--ram-lost", memory.ram_lost, "power was off too long: only the EEPROM of --memory is left, SM0.2 is 1");
+  auto* off = add_duration(app, "--power-off", memory.power_off, "how long power was off since --memory was written [0s]");
+  lost->needs(file);
+  off->needs(file)->excludes(lost);
+  app.add_option_function<std::string>(
+         "--clock",
+         [this](const std::string& text) {
+           settings_.clock = parse_clock(text);
+           if (!settings_.clock)
+             throw CLI::ValidationError("--clock",
+                                        fmt::format("'{}' is not a date and time between 1990 and 2089; write for "
+                                                    "example \"2026-11-21 10:00:00\"",
+                                                    text));
+         },
+         "time of day at the start")
+      ->type_name("\"YYYY-MM-DD HH:MM:SS\"");
+  app.add_flag("--strict", strict_, "end with exit code 1 at the first run-time error of the program");
+  faults_.add_to(app);
+  auto* trace = app.add_option("--trace", settings_.trace,
+                               "write interrupts, characters, attachments and errors to FILE; - is standard output")
+                    ->type_name("FILE");
+  app.add_flag("--trace-instructions", settings_.trace_instructions, "trace every instruction too, with its operand values")
+      ->needs(trace);
+  app.add_option("--capture", settings_.captures,
+                 "write the line to FILE.vcd (levels of rx and tx, for sigrok) or FILE.pcap (frames, for Wireshark); "
+                 "repeatable")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+}
+
+std::unique_ptr<Rig> RigOptions::assemble(const std::shared_ptr<const Program>& program, bool json,
+                                          const std::string& link) {
+  const bool to_output[] = {settings_.trace == "-", settings_.output == "-", json};
+  if (std::ranges::count(to_output, true) > 1) {
+    print_error("only one of --trace -, --output - and --json can have standard output; write the others to files");
+    return nullptr;
+  }
+  if (!faults_.prepare()) return nullptr;
+  std::string why;
+  const auto assignments = parse_assignments(set_, *program->model, why);
+  if (!assignments) return print_error("--set: " + why), nullptr;
+  const auto dumps = parse_ranges(dump_, *program->model, why);
+  if (!dumps) return print_error("--dump: " + why), nullptr;
+  dumps_ = *dumps;
+  settings_.set = *assignments;
+  settings_.faults = faults_.faults();
+  settings_.link = link;
+  settings_.standard_output = &std::cout;
+  std::vector<std::string> problems;
+  auto rig = Rig::assemble(program, settings_, problems);
+  for (const std::string& problem : problems) print_error(problem);
+  return rig;
+}
+
+bool finish(Rig& rig) {
+  const std::vector<std::string> problems = rig.finish();
+  for (const std::string& problem : problems) print_error(problem);
+  return problems.empty();
+}
+
+std::string RigOptions::dump_text(const Cpu& cpu) const {
+  std::string text;
+  for (const MemoryRange& range : dumps_) text += tools::dump_text(cpu, range);
+  return text;
+}
+
+nlohmann::ordered_json RigOptions::json(const serial::Simulation& simulation) const {
+  const Cpu& cpu = simulation.cpu();
+  nlohmann::ordered_json json{{"mode", cpu.state().mode == Mode::Run ? "RUN" : "STOP"},
+                              {"errors", errors_json(cpu)},
+                              {"errors_not_listed", errors_not_listed(cpu)},
+                              {"faults", faults_json(simulation.faults())},
+                              {"dump", nlohmann::ordered_json::object()}};
+  for (std::size_t i = 0; i < dumps_.size(); ++i) json["dump"][dump_[i]] = dump_json(cpu, dumps_[i]);
+  return json;
+}
+
+nlohmann::ordered_json RigOptions::no_json() {
+  return {{"mode", nullptr},
+          {"errors", nlohmann::ordered_json::array()},
+          {"errors_not_listed", 0},
+          {"faults", nlohmann::ordered_json::array()},
+          {"dump", nlohmann::ordered_json::object()}};
+}
+
+}  // namespace s7200::tools

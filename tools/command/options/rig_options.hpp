@@ -1,0 +1,56 @@
+// The plant around the CPU, on the command line: memory and inputs before and during a run, faults of its line, what is
+// recorded of it, what is kept and shown after it.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/command/options/fault_options.hpp"
+#include "tools/rig/rig.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace s7200::tools {
+
+class RigOptions {
+ public:
+  void add_to(CLI::App& app);
+
+  /// Reads and opens what the options name. Null after messages. `json`: standard output is taken; `link`: so is this name,
+  /// by --pty.
+  std::unique_ptr<Rig> assemble(const std::shared_ptr<const Program>& program, bool json, const std::string& link = {});
+
+  /// Whether there are faults.
+  bool faulted() const { return !faults_.empty(); }
+
+  /// --strict: whether a run-time error ends it all.
+  bool strict() const { return strict_; }
+
+  /// With --strict, whether there was one.
+  bool failed_strictly(const Cpu& cpu) const { return strict_ && cpu.state().error_count != 0; }
+
+  /// The memory asked for with --dump.
+  std::string dump_text(const Cpu& cpu) const;
+
+  /// How the PLC was left: mode, errors, faults, and the memory asked for.
+  nlohmann::ordered_json json(const serial::Simulation& simulation) const;
+
+  /// The same without a PLC.
+  static nlohmann::ordered_json no_json();
+
+ private:
+  std::vector<std::string> set_, dump_;
+  std::vector<MemoryRange> dumps_;
+  bool strict_ = false;
+  FaultOptions faults_;
+  RigSettings settings_;
+};
+
+/// Completes the records and keeps the memory. False after messages.
+bool finish(Rig& rig);
+
+}  // namespace s7200::tools

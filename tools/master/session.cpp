@@ -1,0 +1,74 @@
+#include "tools/master/session.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "serial_sim/modbus/line_turns.hpp"
+#include "tools/host/interruption.hpp"
+
+namespace s7200::tools {
+
+using modbus::Verdict;
+
+MasterSession::MasterSession(Slave& slave, const std::vector<MasterAction>& actions, const SessionSettings& settings)
+    : slave_(slave), actions_(actions), settings_(settings) {}
+
+serial::Request MasterSession::request_of(const MasterAction& action) {
+  serial::Frame frame = action.frame;
+  if (action.kind == MasterAction::Kind::Loopback)
+    frame = serial::to_frame(modbus::rtu_frame(action.station, modbus::diagnostics(0, std::array{loopback_++})));
+  else if (action.kind == MasterAction::Kind::Request)
+    frame = serial::to_frame(modbus::rtu_frame(action.station, action.pdu));
+  serial::Request request = settings_.master.request(frame);
+  if (!action.answer_expected) request.timeout = std::min(request.timeout, modbus::LineTurns::kTurnaround);
+  request.silence = settings_.silence;
+  return request;
+}
+
+std::optional<MasterResult> MasterSession::perform(const MasterAction& action) {
+  const serial::Request request = request_of(action);
+  MasterResult result{.action = &action};
+  for (;; ++result.attempts) {
+    const bool last = result.attempts > settings_.retries;
+    try {
+      result.exchange = slave_.exchange(request);
+      if (interrupted()) return {};
+      result.remark = slave_.remark();
+      result.answer = assess(action, result.exchange, settings_.broadcasts_are_silent);
+      slave_.wait(settings_.pause == kNever ? slave_.pause() : settings_.pause);
+      if (last || result.answer.verdict == Verdict::Right || result.answer.verdict == Verdict::Exception) break;
+    } catch (const SlaveUnreachable&) {
+      if (last || interrupted()) throw;
+      slave_.wait(settings_.master.timeout);
+    }
+    statistics_.add_retry();
+  }
+  statistics_.add(result.answer.verdict, result.exchange.latency());
+  return result;
+}
+
+void MasterSession::run_round(const Listener& listener, const std::function<bool()>& over) {
+  for (const MasterAction& action : actions_) {
+    if (interrupted() || over()) return;
+    if (action.kind == MasterAction::Kind::Station) continue;
+    if (action.kind == MasterAction::Kind::Wait) {
+      slave_.wait(action.duration);
+      continue;
+    }
+    if (const auto result = perform(action)) listener.result(*result);
+  }
+}
+
+void MasterSession::run(const Listener& listener, const std::function<bool()>& over) {
+  Time next = slave_.now();
+  for (std::uint64_t round = 0; round < settings_.rounds && !interrupted() && !over(); ++round) {
+    run_round(listener, over);
+    listener.end_of_round();
+    if (settings_.every == kNever) continue;
+    // A round that took longer than its time is followed by the next at once; those missed are not made up for.
+    next = std::max(next + settings_.every, slave_.now());
+    if (round + 1 < settings_.rounds) slave_.wait(next - slave_.now());
+  }
+}
+
+}  // namespace s7200::tools

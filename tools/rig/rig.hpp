@@ -1,0 +1,67 @@
+// A PLC with everything attached: what it has kept, what drives its inputs, what befalls its line, and what is recorded of
+// it. Every verb and every test bench assembles it here.
+#pragma once
+
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/program/address.hpp"
+#include "serial_sim/system/simulation.hpp"
+#include "tools/rig/capture_files.hpp"
+#include "tools/rig/memory_file.hpp"
+#include "tools/rig/trace_files.hpp"
+
+namespace s7200::tools {
+
+/// As someone asks for it; files by their names, "" for none. `-` is standard_output, for a trace and the outputs.
+struct RigSettings {
+  std::vector<Assignment> set{};        ///< memory and input points, before the first scan
+  std::string input{};                  ///< inputs over time, as CSV
+  std::optional<ClockTime> clock{};     ///< time of day at power-up
+  std::vector<serial::Fault> faults{};  ///< of the line, from power-up on
+  MemorySettings memory{};              ///< read at power-up, written by finish()
+  std::string trace{};
+  bool trace_instructions = false;
+  std::string output{};                 ///< changes of outputs, as CSV
+  std::vector<std::string> captures{};  ///< of the line: FILE.vcd, FILE.pcap
+  std::string link{};                   ///< not ours, but taken: a pty's
+  std::ostream* standard_output = nullptr;
+};
+
+class Rig final {
+ public:
+  /// Reads and opens all that the settings name. Null, and all of what is wrong, if something cannot be had; no file has
+  /// been touched then. Signals are only noted from here on: there is something to complete.
+  static std::unique_ptr<Rig> assemble(std::shared_ptr<const Program> program, const RigSettings& settings,
+                                       std::vector<std::string>& problems);
+
+  /// Time 0: the program begins with its memory, clock, assignments and faults, and the records watch it. All that runs ends
+  /// early after an interruption.
+  void power_up();
+
+  serial::Simulation& simulation() { return simulation_; }
+  const serial::Simulation& simulation() const { return simulation_; }
+  const Cpu& cpu() const { return simulation_.cpu(); }
+
+  /// What watches the CPU; others may be added.
+  FanOut& sinks() { return traces_.sinks(); }
+
+  /// Completes the records and keeps the memory. Returns what could not be written.
+  std::vector<std::string> finish();
+
+ private:
+  Rig(std::shared_ptr<const Program> program, const RigSettings& settings, serial::FieldScript field);
+  bool claim_files(const std::shared_ptr<const Program>& program, std::string& why);
+  bool open_records(std::string& why);
+
+  RigSettings settings_;
+  MemoryFile memory_;
+  TraceFiles traces_;
+  CaptureFiles captures_;  // outlives the simulation
+  serial::Simulation simulation_;
+};
+
+}  // namespace s7200::tools

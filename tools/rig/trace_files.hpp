@@ -1,0 +1,42 @@
+// What is written of a CPU while it runs: a trace of its interrupts, the changes of its outputs.
+#pragma once
+
+#include <functional>
+#include <list>
+#include <memory>
+#include <string>
+
+#include "interpreter/trace/fan_out.hpp"
+#include "tools/host/record_file.hpp"
+
+namespace s7200::tools {
+
+/// claim(), open(), put() when the first lines are written, close(). Each returns false and sets `why` if a file cannot be
+/// written.
+class TraceFiles {
+ public:
+  using Make = std::function<std::unique_ptr<TraceSink>(std::ostream&)>;
+
+  /// `path` is written by what `make` makes; an empty path is none. `kind` without its beginning is not recognised later.
+  bool claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind, Make make,
+             std::string& why);
+  bool open(std::string& why);
+  bool put(std::string& why);
+
+  /// What watches the CPU. Other sinks may be added.
+  FanOut& sinks() { return sinks_; }
+
+  /// Closes all of them; adds to `problems` what could not be written.
+  void close(std::vector<std::string>& problems);
+
+ private:
+  struct Record {
+    RecordFile file;
+    Make make;
+    std::unique_ptr<TraceSink> sink;
+  };
+  std::list<Record> records_;  // sinks hold on to the files' streams
+  FanOut sinks_;
+};
+
+}  // namespace s7200::tools

@@ -1,0 +1,41 @@
+#include "tools/views/faults.hpp"
+
+#include <fmt/format.h>
+
+namespace s7200::tools {
+namespace {
+
+nlohmann::ordered_json to_json(const serial::Fault& fault, std::uint64_t count, std::uint64_t impossible) {
+  return {{"fault", serial::to_text(fault)}, {"count", count}, {"impossible", impossible}};
+}
+
+}  // namespace
+
+std::vector<std::string> fault_notes(const serial::Faults& faults) {
+  std::vector<std::string> notes;
+  for (const serial::Faults::Injected& injected : faults.state().injected) {
+    std::string& note = notes.emplace_back(fmt::format("fault {}: {}×", serial::to_text(injected.fault), injected.count));
+    if (injected.impossible != 0)
+      note += fmt::format(", and {}× the format of the character had no such bit", injected.impossible);
+  }
+  return notes;
+}
+
+nlohmann::ordered_json faults_json(const serial::Faults& faults) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const serial::Faults::Injected& injected : faults.state().injected)
+    json.push_back(to_json(injected.fault, injected.count, injected.impossible));
+  return json;
+}
+
+nlohmann::ordered_json faults_json(const serial::Faults& faults, const serial::Faults::State& since) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < since.injected.size(); ++i) {
+    const serial::Faults::Injected &now = faults.state().injected.at(i), &then = since.injected[i];
+    if (now.count != then.count || now.impossible != then.impossible)
+      json.push_back(to_json(now.fault, now.count - then.count, now.impossible - then.impossible));
+  }
+  return json;
+}
+
+}  // namespace s7200::tools

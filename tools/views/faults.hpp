@@ -1,0 +1,21 @@
+// What the faults of a line have done.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "serial_sim/faults/faults.hpp"
+
+namespace s7200::tools {
+
+/// What has happened so far, a line for each fault.
+std::vector<std::string> fault_notes(const serial::Faults& faults);
+
+/// [{"fault": "flip:bit=3", "count": 2, "impossible": 0}]
+nlohmann::ordered_json faults_json(const serial::Faults& faults);
+
+/// The same of those that have happened since then, with the difference; the faults are the same as then.
+nlohmann::ordered_json faults_json(const serial::Faults& faults, const serial::Faults::State& since);
+
+}  // namespace s7200::tools
