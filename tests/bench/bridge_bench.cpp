@@ -172,10 +172,12 @@ int main(int argc, char** argv) {
     if (!done) measure(link, exchanges, moments);
     std::raise(SIGINT);
   });
-  const LiveRunResult result = run_live(simulation, {}, &bridge);
+  LiveRun live(simulation, {}, &bridge);
+  if (!live.start(why)) fmt::print(stderr, "{}\n", why);
+  live.run_until(kNever);
   done = true;
   client.join();
   print("answers are handed over late by", bridge.late());
-  fmt::print("drift {}, worst lag {}\n", format_duration(result.pace.drift), format_duration(result.pace.worst_lag));
+  fmt::print("drift {}, worst lag {}\n", format_duration(live.pace().drift), format_duration(live.pace().worst_lag));
   return 0;
 }

@@ -256,6 +256,25 @@ class PtyTests(Case):
         with SerialPort(self.link) as port:
             self.assertEqual(port.ask(), ANSWER)
 
+    def test_a_debugged_program_answers_while_it_runs_and_not_while_it_stands_still(self):
+        with subprocess.Popen([S7200, "debug", SLAVE, "--pty", self.link, *PRESET, "-i", "-x", "continue 2s"],
+                              stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            self.addCleanup(process.kill)
+            self.assertIn("serving", process.stderr.readline())
+            with SerialPort(self.link) as port:
+                self.assertEqual(port.ask(), ANSWER)
+                process.stdin.write("print VW20\n")
+                process.stdin.flush()
+                self.eventually(lambda: "16#1234" in process.stdout.readline())  # the two seconds are over
+                port.write(READ)
+                self.assertEqual(port.read(len(ANSWER), 0.5), b"")
+                process.stdin.write("continue 2s\n")
+                process.stdin.flush()
+                self.assertEqual(port.read(len(ANSWER), LONG), ANSWER)
+            process.stdin.close()
+            self.assertEqual(process.wait(LONG), FINE)
+        self.assertFalse(self.link.is_symlink())
+
     def test_a_program_that_comes_back_is_never_refused_its_parity(self):
         running = self.serve()
         talking = self.open()

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|files|scenarios|input|readme"""
+import itertools
 import json
 import os
 import pathlib
@@ -984,6 +985,21 @@ class Files(Case):
         self.assertIn("left alone", self.ends(UNUSABLE, "run", path, "--trace", mine).stderr)
         self.assertEqual(mine.read_text(encoding="utf-8"), "mine\n")
         self.assertIn("SMB30 = 16#09", self.ends(FINE, "run", path, "--trace", "-", "--scans", "3").stdout)
+
+    def test_the_debugger_has_the_plant_around_the_cpu_too(self):
+        files = {option: self.folder / name for option, name in {
+            "--trace": "run.trace", "--output": "outputs.csv", "--capture": "line.pcap", "--memory": "memory.json"}.items()}
+        rows = self.program("10ms,I0.0,1\n", "inputs.csv")
+        path = self.program("LD SM0.1\nMOVB 9, SMB30\nLD I0.0\n= Q0.0\nTODR VB100\nMEND\n")
+        done = self.ends(FINE, "debug", path, "--set", "VW20=16#1234", "--input", rows, "--clock", "2026-11-21 10:00:00", "--fault",
+                         "noise:ber=1e-9", *itertools.chain(*files.items()), "--dump", "VB100:8", "-x",
+                         "continue 20ms; print VW20; send 01 02; continue 100ms")
+        self.assertIn("16#1234", done.stdout)
+        self.assertRegex(done.stdout, r"(?m)^VB100 +26 11 21 10 00 00 00 07")
+        self.assertIn("Q0.0", files["--output"].read_text(encoding="utf-8"))
+        self.assertIn("SMB30 = 16#09", files["--trace"].read_text(encoding="utf-8"))
+        self.assertGreater(len(files["--capture"].read_bytes()), 24)  # more than the head of a file of frames
+        self.assertEqual(json.loads(files["--memory"].read_text(encoding="utf-8"))["clock"]["year"], 26)
 
     def test_captures_overwrite_only_captures_of_their_kind(self):
         path = self.program(Json.ECHO)

@@ -6,6 +6,8 @@
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <optional>
+#include <utility>
 
 #include "tools/host/interruption.hpp"
 
@@ -24,45 +26,52 @@ constexpr auto kSliceWithoutBridge = 10ms;
 
 constexpr int kMostAtOnce = 16;  // things that came in, before the simulation goes on
 
-class LiveRun final : public LiveLine {
+}  // namespace
+
+class LiveRun::Line final : public LiveLine {
  public:
-  LiveRun(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge)
+  Line(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge)
       : simulation_(simulation), options_(options), bridge_(bridge), pace_(simulation.time(), options.speed) {}
 
-  std::string_view run() {
-    if (bridge_) {
-      simulation_.host_port().attach(format(), simulation_.time());
-      if (!bridge_->start(*this, context_, failure_)) return {};
-    }
-    simulation_.cpu().pause_at_scan_end(options_.scans != 0);
+  ~Line() override {
+    if (bridge_) bridge_->stop();
+  }
+
+  bool start(std::string& why) {
+    if (!bridge_) return true;
+    simulation_.host_port().attach(format(), simulation_.time());
+    return bridge_->start(*this, context_, why);
+  }
+
+  serial::Halt run_until(Time end, std::function<bool()> goes_on) {
+    end_ = end;
+    goes_on_ = std::move(goes_on);
+    halt_.reset();
     pace_ = Pace(simulation_.time(), options_.speed);
     planned_ = Clock::now();
     for (;;) {
       catch_up();
       if (bridge_) bridge_->turn();
-      if (ended()) break;
+      if (stop_asked()) halt_ = serial::Halt::Request;
+      if (bridge_ && !halt_) failure_ = bridge_->failure();
+      if (!failure_.empty()) halt_ = serial::Halt::Request;
+      if (halt_) return *halt_;
       sleep();
     }
-    if (bridge_ && simulation_.cpu().state().mode == Mode::Stop)
-      options_.messages.note("the CPU went to STOP; nobody answers any more");
-    return reason_;
   }
 
-  Pace::Report pace() const { return pace_.report(); }
   const std::string& failure() const { return failure_; }
+  Pace::Report pace() const { return pace_.report(); }
 
   void catch_up() override {
-    if (!reason_.empty()) return;
-    const Time goal = std::min(pace_.next_goal(now()), options_.end);
-    while (now() < goal && reason_.empty() && !stop_asked()) {
+    if (halt_) return;
+    const Time goal = std::min(pace_.next_goal(now()), end_);
+    while (now() < goal && !halt_ && !stop_asked()) {
       if (bridge_) simulation_.host_port().receive_as(bridge_->receive_format());
-      simulation_.run_until(goal);
-      const State& state = simulation_.cpu().state();
-      if (options_.scans != 0 && state.scans >= options_.scans) reason_ = "scans";
-      if (options_.strict && state.error_count != 0) reason_ = "run-time error";
-      if (state.mode == Mode::Stop) reason_ = state.fatal_code ? "fatal" : "stop";
+      const serial::Halt halt = simulation_.run_until(goal);
+      if (halt != serial::Halt::Time && !(halt == serial::Halt::Paused && goes_on_())) halt_ = halt;
     }
-    if (now() >= options_.end && reason_.empty()) reason_ = "time";
+    if (now() >= end_ && !halt_) halt_ = serial::Halt::Time;
     if (pace_.reached(now(), std::min(planned_, Clock::now())) && !slow_) {
       slow_ = true;
       options_.messages.note("this computer cannot keep up: the simulation falls behind the clock");
@@ -92,15 +101,6 @@ class LiveRun final : public LiveLine {
     bridge_->received(characters);
   }
 
-  bool ended() {
-    if (stop_asked()) reason_ = "interrupted";
-    if (bridge_ && reason_.empty()) {
-      failure_ = bridge_->failure();
-      if (!failure_.empty()) reason_ = "bridge";
-    }
-    return !reason_.empty();
-  }
-
   Clock::duration slice() const {
     if (!bridge_) return kSliceWithoutBridge;
     return Clock::now() < busy_until_ || simulation_.host_port().sending() ? kBusySlice : kIdleSlice;
@@ -109,7 +109,7 @@ class LiveRun final : public LiveLine {
   /// Until the next instant that matters, or something comes in.
   void sleep() {
     const Time due = bridge_ ? std::min(bridge_->due(), simulation_.host_port().character_due()) : kNever;
-    planned_ = std::min(Clock::now() + slice(), pace_.when(std::min(due, options_.end)));
+    planned_ = std::min(Clock::now() + slice(), pace_.when(std::min(due, end_)));
     timer_.expires_at(planned_);
     timer_.async_wait([](const boost::system::error_code&) {});
     context_.run_one();
@@ -119,7 +119,7 @@ class LiveRun final : public LiveLine {
   }
 
   serial::Simulation& simulation_;
-  const LiveRunOptions& options_;
+  const LiveRunOptions options_;
   Bridge* bridge_;
   Pace pace_;
   boost::asio::io_context context_{1};
@@ -128,17 +128,39 @@ class LiveRun final : public LiveLine {
   boost::asio::steady_timer timer_{context_};
   Clock::time_point planned_{}, busy_until_{};
   bool slow_ = false;
-  std::string_view reason_;
+  Time end_ = kNever;
+  std::function<bool()> goes_on_;
+  std::optional<serial::Halt> halt_;  // of the run under way
   std::string failure_;
 };
 
-}  // namespace
+LiveRun::LiveRun(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge)
+    : line_(std::make_unique<Line>(simulation, options, bridge)) {}
 
-LiveRunResult run_live(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge) {
-  LiveRun run(simulation, options, bridge);
-  const std::string_view reason = run.run();
-  if (bridge) bridge->stop();
-  return {reason, run.failure(), run.pace()};
+LiveRun::~LiveRun() = default;
+
+bool LiveRun::start(std::string& why) { return line_->start(why); }
+
+serial::Halt LiveRun::run_until(Time end, std::function<bool()> goes_on) {
+  return line_->run_until(end, std::move(goes_on));
+}
+
+const std::string& LiveRun::failure() const { return line_->failure(); }
+
+Pace::Report LiveRun::pace() const { return line_->pace(); }
+
+std::string_view run_live(LiveRun& live, serial::Simulation& simulation, const LiveLimits& limits) {
+  const State& state = simulation.cpu().state();
+  simulation.cpu().pause_at_scan_end(limits.scans != 0);
+  simulation.cpu().pause_at_error(limits.strict);
+  const auto failed = [&] { return limits.strict && state.error_count != 0; };
+  const auto done = [&] { return limits.scans != 0 && state.scans >= limits.scans; };
+  const serial::Halt halt = live.run_until(limits.end, [&] { return !failed() && !done(); });
+  if (!live.failure().empty()) return "bridge";
+  if (halt == serial::Halt::Stopped) return state.fatal_code ? "fatal" : "stop";
+  if (failed()) return "run-time error";
+  if (done()) return "scans";
+  return halt == serial::Halt::Time ? "time" : "interrupted";
 }
 
 }  // namespace s7200::tools

@@ -5,12 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "interpreter/base/text.hpp"
 #include "interpreter/program/warnings.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/program_options.hpp"
-#include "tools/command/terminal.hpp"
+#include "tools/views/check_report.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
@@ -23,17 +22,6 @@ struct CheckOptions {
   bool json = false, no_warnings = false;
 };
 
-nlohmann::ordered_json to_json(const stl::Diagnostic& d) {
-  return {{"severity", d.severity == stl::Severity::Error ? "error" : "warning"},
-          {"line", d.position.line},
-          {"column", d.position.column},
-          {"length", d.position.length},
-          {"message", d.message},
-          {"hint", d.hint},
-          {"name", d.name},
-          {"cause", d.cause}};
-}
-
 /// Without the warnings that are switched off.
 CheckResult check_with(const CheckOptions& options, const SourceText& text, const CpuModel& model, const TimeTable& times) {
   CheckResult result = check(text.parsed, model, times);
@@ -42,54 +30,6 @@ CheckResult check_with(const CheckOptions& options, const SourceText& text, cons
            (options.no_warnings || std::ranges::find(options.unwanted, d.name) != options.unwanted.end());
   });
   return result;
-}
-
-/// The CPUs, other than the one asked for, that the program is fine for.
-std::vector<std::string_view> other_cpus(const SourceText& text, const CpuModel& asked) {
-  std::vector<std::string_view> fitting;
-  for (const CpuModel* model : all_cpus())
-    if (model != &asked && check(text.parsed, *model, default_times(*model)).program) fitting.push_back(model->name);
-  return fitting;
-}
-
-nlohmann::ordered_json to_json(const std::string& path, const SourceText& text, const CheckResult& result,
-                               const CpuModel& model) {
-  nlohmann::ordered_json diagnostics = nlohmann::ordered_json::array();
-  for (const stl::Diagnostic& d : result.diagnostics) diagnostics.push_back(to_json(d));
-  return {{"file", path},
-          {"ok", result.program != nullptr},
-          {"cpu", model.name},
-          {"fine_for", result.program ? std::vector<std::string_view>{} : other_cpus(text, model)},
-          {"kind", text.as_document ? "document" : "stl"},
-          {"encoding", text.encoding},
-          {"instructions", result.program ? result.program->ops.size() : 0},
-          {"diagnostics", diagnostics}};
-}
-
-std::string counted(std::size_t count, std::string_view what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-/// `208 errors with 7 causes`
-std::string counted(stl::Severity severity, const stl::Diagnostics& all) {
-  stl::Diagnostics of_severity = all;
-  std::erase_if(of_severity, [&](const stl::Diagnostic& d) { return d.severity != severity; });
-  const std::size_t causes = stl::count_causes(of_severity);
-  return counted(of_severity.size(), severity == stl::Severity::Error ? "error" : "warning") +
-         (causes == of_severity.size() ? "" : " with " + counted(causes, "cause"));
-}
-
-void print_summary(const SourceText& text, const CheckResult& result, const CpuModel& model) {
-  const std::string name = stl::printable(result.source.name);
-  const std::string warnings = counted(stl::Severity::Warning, result.diagnostics);
-  if (!result.program) {
-    const auto others = other_cpus(text, model);
-    fmt::print("{}: {}, {} for CPU {}{}\n", name, counted(stl::Severity::Error, result.diagnostics), warnings, model.name,
-               others.empty() ? "" : fmt::format("; fine for CPU {}", fmt::join(others, ", ")));
-  } else
-    fmt::print("{}: fine, {} for CPU {}{}{}\n", name, counted(result.program->ops.size(), "instruction"),
-               result.program->model->name, text.as_document ? ", out of a document" : "",
-               result.diagnostics.empty() ? "" : ", " + warnings);
 }
 
 int run_check(const CheckOptions& options) {
@@ -108,10 +48,10 @@ int run_check(const CheckOptions& options) {
     const CheckResult result = check_with(options, *text, *model, *times);
     if (!result.program) exit_code = std::max<int>(exit_code, kCheckFailed);
     if (options.json) {
-      files.push_back(to_json(path, *text, result, *model));
+      files.push_back(check_json(path, *text, result, *model));
     } else {
       print_diagnostics(result.diagnostics, result.source);
-      print_summary(*text, result, *model);
+      fmt::print("{}", check_summary(*text, result, *model));
     }
   }
   if (options.json) {

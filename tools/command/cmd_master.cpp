@@ -15,15 +15,6 @@
 namespace s7200::tools {
 namespace {
 
-/// The raw frames, as they were written.
-std::vector<std::string> raw_frames(const std::vector<MasterAction>& actions) {
-  constexpr std::string_view kWord = "raw ";
-  std::vector<std::string> frames;
-  for (const MasterAction& action : actions)
-    if (action.kind == MasterAction::Kind::Raw) frames.push_back(action.text.substr(kWord.size()));
-  return frames;
-}
-
 /// From the first exchange to what is said at the end, whichever way it ends. `plant` then says what the JSON has of the
 /// plant around the CPU.
 int run_session(const MasterOptions& options, MasterSession& session, const std::vector<MasterAction>& actions,

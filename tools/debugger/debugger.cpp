@@ -51,7 +51,9 @@ Debugger::Debugger(serial::Simulation& simulation, std::ostream& out, const Debu
       out_(out),
       options_(options),
       listing_(simulation.cpu().program()),
-      stepper_(simulation, options.stop_request),
+      stepper_(
+          simulation, options.records, options.stop_request,
+          options.drive ? options.drive : [&simulation](Time end) { return simulation.run_until(end); }),
       power_up_(simulation.snapshot()) {
   stepper_.on_record = [this](const TraceRecord& record) { print_trace(record); };
   stepper_.on_instruction = [this](const InstructionRecord& record, bool started_at) {

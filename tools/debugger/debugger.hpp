@@ -23,6 +23,8 @@ namespace s7200::tools {
 struct DebuggerOptions {
   serial::MasterSettings master{};                  ///< how `send` talks
   const std::atomic<bool>* stop_request = nullptr;  ///< ends a run when it becomes true; may be set by a signal handler
+  TraceSink* records = nullptr;                     ///< watch the CPU too; what is taken back stays in them
+  Stepper::Drive drive{};                           ///< none: as fast as the computer can
 };
 
 struct ScriptError {

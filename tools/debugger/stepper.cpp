@@ -6,13 +6,16 @@
 
 namespace s7200::tools {
 
-Stepper::Stepper(serial::Simulation& simulation, const std::atomic<bool>* stop_request)
+Stepper::Stepper(serial::Simulation& simulation, TraceSink* records, const std::atomic<bool>* stop_request, Drive drive)
     : on_record([](const TraceRecord&) {}),
       on_instruction([](const InstructionRecord&, bool) {}),
       on_answer([](const serial::Exchange&) {}),
       simulation_(simulation),
-      stop_request_(stop_request) {
-  simulation_.cpu().set_sink(this);
+      stop_request_(stop_request),
+      drive_(std::move(drive)) {
+  sinks_.add(records);
+  sinks_.add(this);
+  simulation_.cpu().set_sink(&sinks_);
 }
 
 Stepper::~Stepper() { simulation_.cpu().set_sink(nullptr); }
@@ -30,7 +33,9 @@ Stop Stepper::run(const Goal& goal, Time limit, bool stop_at_answer) {
   progress_ = {.executed = 0, .left = !standing_};
   stop_ = {};
   for (Watch& watch : watches) watch.value = bytes_of(state, watch.range);
-  if (simulation_.run_until(kNever) == serial::Halt::Stopped) stop_.reason = StopReason::CpuStopped;
+  const serial::Halt halt = drive_(kNever);
+  if (halt == serial::Halt::Stopped) stop_.reason = StopReason::CpuStopped;
+  if (halt == serial::Halt::Request) stop_.reason = StopReason::Request;
   return stop_;
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "interpreter/program/address.hpp"
-#include "interpreter/trace/trace.hpp"
+#include "interpreter/trace/fan_out.hpp"
 #include "serial_sim/system/simulation.hpp"
 
 namespace s7200::tools {
@@ -53,8 +53,12 @@ class Stepper final : public TraceSink {
   /// Asked in front of each instruction: true stops there.
   using Goal = std::function<bool(const State& state, std::uint32_t op, const Progress& progress)>;
 
-  /// Hangs itself on the simulation's CPU. `stop_request` may be set from a signal handler; it may be null.
-  Stepper(serial::Simulation& simulation, const std::atomic<bool>* stop_request);
+  /// Runs until the end, a pause, a stop: Simulation::run_until(), or the same at the pace of a clock.
+  using Drive = std::function<serial::Halt(Time end)>;
+
+  /// Hangs itself on the simulation's CPU, after `records`, which may be null. `stop_request` may be set from a signal
+  /// handler; it may be null.
+  Stepper(serial::Simulation& simulation, TraceSink* records, const std::atomic<bool>* stop_request, Drive drive);
   ~Stepper() override;
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
@@ -82,7 +86,9 @@ class Stepper final : public TraceSink {
   void note_changes(const InstructionRecord* by);
 
   serial::Simulation& simulation_;
+  FanOut sinks_;
   const std::atomic<bool>* stop_request_;
+  Drive drive_;
 
   // Of the run under way.
   Goal goal_;

@@ -318,6 +318,14 @@ std::vector<MasterAction> parse_actions(const std::vector<std::string>& words, c
   return Parser(rules).parse(words);
 }
 
+std::vector<std::string> raw_frames(const std::vector<MasterAction>& actions) {
+  constexpr std::string_view kWord = "raw ";
+  std::vector<std::string> frames;
+  for (const MasterAction& action : actions)
+    if (action.kind == MasterAction::Kind::Raw) frames.push_back(action.text.substr(kWord.size()));
+  return frames;
+}
+
 std::string actions_help() {
   std::string text = "Actions, one or several, done in this order; in brackets the functions of Modbus:\n";
   for (const Verb& verb : kVerbs)

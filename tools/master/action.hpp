@@ -50,6 +50,9 @@ struct ActionRules {
 /// words, addresses and values, writes to inputs, broadcast reads, what exceeds the specification.
 std::vector<MasterAction> parse_actions(const std::vector<std::string>& words, const ActionRules& rules);
 
+/// The frames of the actions that are raw ones, as they were written.
+std::vector<std::string> raw_frames(const std::vector<MasterAction>& actions);
+
 /// The words in a table for people, with the functions they lead to.
 std::string actions_help();
 

@@ -96,6 +96,23 @@ std::string exchange_text(const serial::Exchange& exchange, Time timeout) {
                      format_duration(*exchange.latency()), below(remarks_on(exchange)));
 }
 
+nlohmann::ordered_json exchange_json(const serial::Exchange& exchange, const Bytes& unasked) {
+  nlohmann::ordered_json json{
+      {"request", plain_hex(serial::bytes_of(exchange.request))}, {"response", nullptr}, {"latency_us", nullptr}};
+  if (!unasked.empty()) json["unasked"] = plain_hex(unasked);
+  if (const auto text = plain_text({}, unasked)) json["unasked_text"] = *text;
+  if (!exchange.echo.empty()) json["echo"] = plain_hex(serial::bytes_of(exchange.echo));
+  const Bytes request = serial::bytes_of(exchange.request);
+  if (const auto text = plain_text(request, request)) json["request_text"] = *text;
+  if (exchange.timed_out) return json;
+  if (const auto text = plain_text(request, exchange.response_bytes())) json["response_text"] = *text;
+  json["response"] = plain_hex(exchange.response_bytes());
+  json["latency_us"] = static_cast<double>(*exchange.latency()) / kMicrosecond;
+  if (exchange.parity_error()) json["parity_error"] = true;
+  if (exchange.framing_error()) json["framing_error"] = true;
+  return json;
+}
+
 std::string unasked_text(const Bytes& bytes) {
   return bytes.empty() ? "" : fmt::format("unasked  {}\n{}", serial::to_hex(bytes), below(quoted_text(bytes)));
 }

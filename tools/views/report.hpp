@@ -23,6 +23,9 @@ std::string torn_frame_note(const std::vector<std::string>& frames);
 /// Request, answer with its latency, and what the answer says.
 std::string exchange_text(const serial::Exchange& exchange, Time timeout);
 
+/// The same for machines; `unasked`: what came before it.
+nlohmann::ordered_json exchange_json(const serial::Exchange& exchange, const Bytes& unasked);
+
 /// What came before a request, and nobody had asked for; empty if nothing did.
 std::string unasked_text(const Bytes& bytes);
 

@@ -60,18 +60,21 @@ bool serves_behind_a_pty(const std::shared_ptr<const Program>& program) {
   const std::string link = std::filesystem::absolute("bench.pty").string();
   std::atomic<bool> enough = false;
   std::promise<void> serving;
-  tools::LiveRunOptions options{.stop = &enough};
+  tools::LiveRunOptions options;
+  options.stop = &enough;
   options.messages.serving = [&](const std::string&) { serving.set_value(); };
   serial::Simulation simulation(program);
   simulation.power_up();
   const auto bridge = tools::make_pty_bridge(link, {});
-  tools::LiveRunResult result;
-  std::thread run([&] { result = tools::run_live(simulation, options, bridge.get()); });
+  tools::LiveRun live(simulation, options, bridge.get());
+  std::string why;
+  if (!live.start(why)) return std::fprintf(stderr, "%s\n", why.c_str()), false;
+  std::thread run([&] { live.run_until(kNever); });
   const bool served = serving.get_future().wait_for(std::chrono::minutes(1)) == std::future_status::ready;
   const bool answered = served && answers_at(link);
   enough = true;
   run.join();
-  if (!result.failure.empty()) std::fprintf(stderr, "%s\n", result.failure.c_str());
+  if (!live.failure().empty()) std::fprintf(stderr, "%s\n", live.failure().c_str());
   return answered;
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <functional>
 
+#include "interpreter/base/text.hpp"
 #include "tools/bridge/device_bridge.hpp"
 #include "tools/bridge/pty_bridge.hpp"
 #include "tools/bridge/tcp_bridges.hpp"
@@ -19,6 +20,21 @@ constexpr const char* kBridges = "Bridges: join the line to masters outside, in 
 
 }  // namespace
 
+LiveMessages print_live_messages() {
+  return {[](const std::string& text) { fmt::print(stderr, "{}\n", stl::printable(text)); }, print_note};
+}
+
+void BridgeOptions::add_bridges(CLI::App& app) {
+  const auto add = [&](const char* name, std::string& value, const char* type, const char* text) {
+    app.add_option(name, value, text)->type_name(type)->group(kBridges);
+  };
+  add("--pty", pty_, "LINK", "a serial port that programs of this computer open as LINK (see the end about parity)");
+  add("--tcp", tcp_, "[ADDRESS:]PORT", "raw bytes over TCP, clients share the line; without ADDRESS for this computer only");
+  add("--rtu-over-tcp", rtu_over_tcp_, "[ADDRESS:]PORT", "Modbus RTU frames over TCP; clients take turns");
+  add("--modbus-tcp", modbus_tcp_, "[ADDRESS:]PORT", "a gateway from Modbus TCP; unit 0 is broadcast");
+  add("--device", device_, "DEVICE", "a serial device of this computer, set as the program sets its port");
+}
+
 void BridgeOptions::add_to(CLI::App& app) {
   app.add_flag("--realtime", realtime_, "as fast as the clock; with a bridge that is so of itself");
   add_real_number(
@@ -28,14 +44,7 @@ void BridgeOptions::add_to(CLI::App& app) {
         speed_given_ = true;
       },
       {0.001, 1000}, "how many times as fast as the clock, for example 20 or 0.5, with a bridge too", "1");
-  const auto add = [&](const char* name, std::string& value, const char* type, const char* text) {
-    app.add_option(name, value, text)->type_name(type)->group(kBridges);
-  };
-  add("--pty", pty_, "LINK", "a serial port that programs of this computer open as LINK (see the end about parity)");
-  add("--tcp", tcp_, "[ADDRESS:]PORT", "raw bytes over TCP, clients share the line; without ADDRESS for this computer only");
-  add("--rtu-over-tcp", rtu_over_tcp_, "[ADDRESS:]PORT", "Modbus RTU frames over TCP; clients take turns");
-  add("--modbus-tcp", modbus_tcp_, "[ADDRESS:]PORT", "a gateway from Modbus TCP; unit 0 is broadcast");
-  add("--device", device_, "DEVICE", "a serial device of this computer, set as the program sets its port");
+  add_bridges(app);
   add_line_options(app, line_, "the program's; with --pty its client's");
   add_duration(app, "--timeout", timeout_, "how long --modbus-tcp and --rtu-over-tcp wait for an answer to start [400ms]");
 }

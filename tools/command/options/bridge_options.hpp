@@ -13,9 +13,16 @@ class App;
 
 namespace s7200::tools {
 
+/// Where it serves, and its notes, on standard error.
+LiveMessages print_live_messages();
+
 class BridgeOptions {
  public:
   void add_to(CLI::App& app);
+
+  /// The bridges alone; set_line() says how the line is set.
+  void add_bridges(CLI::App& app);
+  void set_line(const serial::LineSettings& line) { line_ = line; }
 
   /// For the end of the help.
   static constexpr const char* kAboutPty =

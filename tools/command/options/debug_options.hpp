@@ -1,0 +1,28 @@
+// The options of `s7200 debug`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/command/options/bridge_options.hpp"
+#include "tools/command/options/program_options.hpp"
+#include "tools/command/options/rig_options.hpp"
+
+namespace s7200::tools {
+
+struct DebugOptions {
+  ProgramOptions program;
+  serial::MasterSettings master;
+  RigOptions rig;
+  BridgeOptions bridge;
+  std::string commands_file;
+  std::vector<std::string> commands;
+  bool interactive = false;
+
+  void add_to(CLI::App& app);
+
+  /// Whether there are commands besides standard input.
+  bool given() const { return !commands_file.empty() || !commands.empty(); }
+};
+
+}  // namespace s7200::tools

@@ -1,0 +1,86 @@
+#include "tools/command/options/frame_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <sstream>
+
+#include "interpreter/program/load.hpp"
+#include "serial_sim/modbus/request.hpp"
+#include "tools/views/text_frame.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// A line of a file of frames, without its end.
+std::string without_comment(const std::string& line) {
+  const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
+  const std::size_t quotation = quotation_length(std::string_view(line).substr(begin));
+  if (quotation == std::string_view::npos) return line;
+  return line.substr(0, std::min(line.find('#', begin + quotation), line.find('\r', begin + quotation)));
+}
+
+}  // namespace
+
+void FrameOptions::add_to(CLI::App& app) {
+  app_ = &app;
+  hex_ =
+      app.add_option("HEX", frames_,
+                     "frames in hex, each in quotes if it has blanks: '01 03 …'; p after a byte sends it with wrong parity");
+  text_ = app.add_option("--text", texts_, "frame of ASCII text, with \\r \\n \\t \\\\ \\' \\\" and \\xHH (repeatable)")
+              ->type_name("TEXT")
+              ->allow_extra_args(false);
+  app.add_option("--frames", file_, "file with one frame a line, in hex, or as text in quotation marks; # begins a comment")
+      ->type_name("FILE");
+  app.add_flag("--crc", crc_, "append the Modbus CRC to each frame");
+}
+
+std::optional<std::vector<serial::Frame>> FrameOptions::read(std::string& why) const {
+  struct Written {
+    std::string text, place;
+    serial::ParsedFrame (*parse)(std::string_view);
+  };
+  std::vector<Written> written;
+  auto frame = frames_.begin(), text = texts_.begin();
+  for (const CLI::Option* option : app_->parse_order()) {
+    if (option != hex_ && option != text_) continue;
+    const bool is_text = option == text_;
+    const std::string& next = is_text ? *text++ : *frame++;
+    written.push_back(
+        {next, fmt::format("{} '{}'", is_text ? "--text" : "frame", next), is_text ? parse_text : serial::parse_hex_frame});
+  }
+  if (!file_.empty()) {
+    std::string reason;
+    const auto bytes = read_file(file_, reason);
+    if (!bytes) {
+      why = fmt::format("cannot read {}: {}", file_, reason);
+      return {};
+    }
+    std::istringstream lines(*bytes);
+    std::size_t number = 0;
+    for (std::string line; std::getline(lines, line);) {
+      ++number;
+      line = without_comment(line);
+      if (line.find_first_not_of(" \t") != std::string::npos)
+        written.push_back({line, fmt::format("{}:{}", file_, number), parse_hex_or_quoted});
+    }
+  }
+  if (written.empty()) {
+    why = "no frame to send: give frames in hex, --text, or --frames FILE";
+    return {};
+  }
+  std::vector<serial::Frame> frames;
+  for (const Written& w : written) {
+    serial::ParsedFrame parsed = w.parse(w.text);
+    if (!parsed.ok()) {
+      why = fmt::format("{}: column {}: {}", w.place, parsed.errors[0].column, parsed.errors[0].message);
+      return {};
+    }
+    if (crc_) modbus::append_crc(parsed.frame);
+    frames.push_back(std::move(parsed.frame));
+  }
+  return frames;
+}
+
+}  // namespace s7200::tools

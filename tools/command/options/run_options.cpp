@@ -1,0 +1,18 @@
+#include "tools/command/options/run_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "tools/command/options/number_option.hpp"
+
+namespace s7200::tools {
+
+void RunOptions::add_to(CLI::App& app) {
+  program.add_to(app);
+  add_duration(app, "--for", duration, "how long, in simulated time [1s; with a bridge until Ctrl-C]");
+  add_whole_number(app, "--scans", scans, {1, UINT64_MAX}, "how many scans; with --for whichever comes first ends the run");
+  bridge.add_to(app);
+  rig.add_to(app);
+  app.add_flag("--json", json, "print the results as JSON");
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,25 @@
+// The options of `s7200 run`.
+#pragma once
+
+#include "tools/command/options/bridge_options.hpp"
+#include "tools/command/options/program_options.hpp"
+#include "tools/command/options/rig_options.hpp"
+
+namespace s7200::tools {
+
+struct RunOptions {
+  ProgramOptions program;
+  Time duration = kNever;  // kNever: a second, or as many scans as asked for, or with a bridge without end
+  std::uint64_t scans = 0;
+  bool json = false;
+  BridgeOptions bridge;
+  RigOptions rig;
+
+  Time end() const {
+    if (duration != kNever || scans != 0 || bridge.bridge()) return duration;
+    return kSecond;
+  }
+  void add_to(CLI::App& app);
+};
+
+}  // namespace s7200::tools

@@ -1,0 +1,184 @@
+#include "tools/rig/measure.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include "serial_sim/modbus/request.hpp"
+#include "serial_sim/system/simulation.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using HostClock = std::chrono::steady_clock;
+
+/// Work done and the host time it took.
+struct Lap {
+  double work = 0;
+  HostClock::duration time{};
+};
+
+template <class Work>
+Lap timed(Work work) {
+  const auto begin = HostClock::now();
+  const double done = work();
+  return {done, HostClock::now() - begin};
+}
+
+/// Best of five rounds: what the machine can do, not what else it was doing.
+template <class Round>
+double best_rate(Time each, Round round) {
+  double best = 0;
+  for (int i = 0; i < 5; ++i) {
+    Lap sum;
+    for (const auto begin = HostClock::now(); HostClock::now() - begin < std::chrono::nanoseconds(each / 5);) {
+      const Lap lap = round();
+      sum.work += lap.work;
+      sum.time += lap.time;
+    }
+    best = std::max(best, sum.work / std::chrono::duration<double>(sum.time).count());
+  }
+  return best;
+}
+
+const serial::Frame& ten_registers() {
+  static const serial::Frame kRequest = serial::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 10)));
+  return kRequest;
+}
+
+/// Characters straight into the CPU, at the pace of the line but without its levels: what the interpreter alone costs.
+class CharacterPort final : public SerialPort {
+ public:
+  explicit CharacterPort(EventQueue& queue) : queue_(queue) {}
+  void configure(const SerialFormat& format) override { format_ = format; }
+  void enable_receiver(bool, Time) override {}
+  void send(std::uint8_t, Time at) override { queue_.schedule(at + format_.character_time(), EventOwner::PlcUart, kSent); }
+  void send_break(int, Time) override {}
+
+  void request(Time at) {
+    next_ = 0;
+    queue_.schedule(at, EventOwner::PlcUart, kReceived);
+  }
+
+  /// True when an answer has ended.
+  bool handle(Cpu& cpu, const Event& event) {
+    if (event.what == kSent) {
+      cpu.character_sent(event.at);
+      return !cpu.state().port[0].transmitting;
+    }
+    const std::uint8_t byte = ten_registers()[next_++].byte;
+    if (next_ < ten_registers().size()) queue_.schedule(event.at + format_.character_time(), EventOwner::PlcUart, kReceived);
+    cpu.character_received({.byte = byte, .start = event.at, .end = event.at});
+    return false;
+  }
+
+ private:
+  enum What : std::uint8_t { kReceived, kSent };
+  EventQueue& queue_;
+  SerialFormat format_;
+  std::size_t next_ = 0;
+};
+
+/// A CPU that is asked for 10 registers again and again.
+class Serving {
+ public:
+  /// At 300 baud the request and the answer take 1.2 s.
+  static constexpr Time kLongestExchange = 10 * kSecond;
+
+  explicit Serving(std::shared_ptr<const Program> program) : port_(queue_), cpu_(std::move(program), queue_, port_) {
+    cpu_.power_up();
+    run_until(kSecond);
+  }
+
+  /// One exchange; the instructions it took, idle scans included.
+  double operator()() {
+    const std::uint64_t before = cpu_.state().instructions;
+    port_.request(cpu_.time());
+    answered_ = false;
+    const Time latest = cpu_.time() + kLongestExchange;
+    while (!answered_ && cpu_.time() < latest) step(latest);
+    if (!answered_) throw std::runtime_error("the program did not answer a request for 10 registers");
+    run_until(cpu_.time() + serial::Simulation::default_quiet(cpu_.state().port[0].format));
+    return static_cast<double>(cpu_.state().instructions - before);
+  }
+
+ private:
+  void run_until(Time end) {
+    while (cpu_.time() < end) step(end);
+  }
+  void step(Time end) {
+    cpu_.run(end);
+    while (queue_.next() <= cpu_.time()) {
+      const Event event = queue_.pop();
+      if (event.owner == EventOwner::Cpu)
+        cpu_.handle(event);
+      else
+        answered_ |= port_.handle(cpu_, event);
+    }
+  }
+
+  EventQueue queue_;
+  CharacterPort port_;
+  Cpu cpu_;
+  bool answered_ = false;
+};
+
+/// The same on the whole line, with its master.
+void exchange(serial::Simulation& simulation) {
+  simulation.master().start({.frame = ten_registers()}, simulation.time());
+  if (simulation.finish_exchange().timed_out)
+    throw std::runtime_error("the program did not answer a request for 10 registers");
+  simulation.run_until(simulation.time() + serial::Simulation::default_quiet(simulation.cpu().state().port[0].format));
+}
+
+/// Several first scans at once, so that reading the clock does not count; nor does the power-up in front of each, which
+/// clears all memory: it is timed by itself and taken off.
+Lap first_scans(serial::Simulation& simulation) {
+  constexpr int kScans = 32;
+  simulation.cpu().pause_at_scan_end(true);
+  const Lap with = timed([&] {
+    double work = 0;
+    for (int i = 0; i < kScans; ++i) {
+      simulation.power_up();
+      simulation.run_until(10 * kSecond);
+      work += static_cast<double>(simulation.cpu().state().instructions);
+    }
+    return work;
+  });
+  const Lap without = timed([&] {
+    for (int i = 0; i < kScans; ++i) simulation.power_up();
+    return 0.0;
+  });
+  simulation.cpu().pause_at_scan_end(false);
+  return {with.work, with.time - without.time};
+}
+
+double idle_scans(serial::Simulation& simulation) {
+  const std::uint64_t before = simulation.cpu().state().instructions;
+  simulation.run_until(simulation.time() + kSecond);
+  return static_cast<double>(simulation.cpu().state().instructions - before);
+}
+
+}  // namespace
+
+std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time each) {
+  serial::Simulation simulation(program);
+  std::vector<Figure> figures;
+  figures.push_back({"first scan", "instructions", best_rate(each, [&] { return first_scans(simulation); })});
+
+  simulation.power_up();
+  const auto quiet = [&] { return serial::Simulation::default_quiet(simulation.cpu().state().port[0].format); };
+  simulation.run_until_ready(quiet, 60 * kSecond);
+  simulation.master_uart().configure(simulation.cpu().state().port[0].format);
+  figures.push_back(
+      {"idle scans", "instructions", best_rate(each, [&] { return timed([&] { return idle_scans(simulation); }); })});
+
+  Serving serving(program);
+  figures.push_back({"serving requests", "instructions", best_rate(each, [&] { return timed([&] { return serving(); }); })});
+
+  figures.push_back({"10 registers, whole line", "exchanges",
+                     best_rate(each, [&] { return timed([&] { return exchange(simulation), 1.0; }); })});
+  return figures;
+}
+
+}  // namespace s7200::tools

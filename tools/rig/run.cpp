@@ -1,0 +1,26 @@
+#include "tools/rig/run.hpp"
+
+#include <algorithm>
+
+#include "tools/host/interruption.hpp"
+
+namespace s7200::tools {
+
+std::string_view run(serial::Simulation& simulation, const RunLimits& limits, const std::function<void()>& progress) {
+  constexpr Time kSlice = 10 * kSecond;
+  const State& state = simulation.cpu().state();
+  const bool until_scans = limits.scans != 0 && limits.end == kNever;
+  const auto end = [&] { return until_scans ? state.scan_begin + kEndlessScan : limits.end; };
+  simulation.cpu().pause_at_scan_end(limits.scans != 0);
+  while (simulation.time() < end()) {
+    if (interrupted()) return "interrupted";
+    const serial::Halt halt = simulation.run_until(std::min(end(), simulation.time() + kSlice));
+    if (state.mode == Mode::Stop) return state.fatal_code ? "fatal" : "stop";
+    if (limits.strict && state.error_count != 0) return "run-time error";
+    if (limits.scans != 0 && state.scans >= limits.scans) return "scans";
+    if (halt == serial::Halt::Time) progress();
+  }
+  return until_scans ? "endless scan" : "time";
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,24 @@
+// Runs a simulation as fast as the computer can, until it has done what was asked.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "serial_sim/system/simulation.hpp"
+
+namespace s7200::tools {
+
+/// A scan that goes on for so long in simulated time is taken for one that never ends; only WDR lets it come so far.
+inline constexpr Time kEndlessScan = 10 * kSecond;
+
+struct RunLimits {
+  Time end = kNever;        ///< of the simulation; kNever: only the number of scans ends it
+  std::uint64_t scans = 0;  ///< 0: any number
+  bool strict = false;      ///< the first run-time error ends it
+};
+
+/// Runs in slices; `progress` is told between them, and what is computed does not depend on it. Returns why it ended:
+/// `time`, `scans`, `endless scan`, `stop`, `fatal`, `run-time error` or `interrupted`.
+std::string_view run(serial::Simulation& simulation, const RunLimits& limits, const std::function<void()>& progress);
+
+}  // namespace s7200::tools

@@ -1,0 +1,75 @@
+#include "tools/views/check_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "interpreter/base/text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+nlohmann::ordered_json to_json(const stl::Diagnostic& d) {
+  return {{"severity", d.severity == stl::Severity::Error ? "error" : "warning"},
+          {"line", d.position.line},
+          {"column", d.position.column},
+          {"length", d.position.length},
+          {"message", d.message},
+          {"hint", d.hint},
+          {"name", d.name},
+          {"cause", d.cause}};
+}
+
+/// The CPUs, other than the one asked for, that the program is fine for.
+std::vector<std::string_view> other_cpus(const SourceText& text, const CpuModel& asked) {
+  std::vector<std::string_view> fitting;
+  for (const CpuModel* model : all_cpus())
+    if (model != &asked && check(text.parsed, *model, default_times(*model)).program) fitting.push_back(model->name);
+  return fitting;
+}
+
+std::string counted(std::size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// `208 errors with 7 causes`
+std::string counted(stl::Severity severity, const stl::Diagnostics& all) {
+  stl::Diagnostics of_severity = all;
+  std::erase_if(of_severity, [&](const stl::Diagnostic& d) { return d.severity != severity; });
+  const std::size_t causes = stl::count_causes(of_severity);
+  return counted(of_severity.size(), severity == stl::Severity::Error ? "error" : "warning") +
+         (causes == of_severity.size() ? "" : " with " + counted(causes, "cause"));
+}
+
+}  // namespace
+
+std::string check_summary(const SourceText& text, const CheckResult& result, const CpuModel& model) {
+  const std::string name = stl::printable(result.source.name);
+  const std::string warnings = counted(stl::Severity::Warning, result.diagnostics);
+  if (!result.program) {
+    const auto others = other_cpus(text, model);
+    return fmt::format("{}: {}, {} for CPU {}{}\n", name, counted(stl::Severity::Error, result.diagnostics), warnings,
+                       model.name, others.empty() ? "" : fmt::format("; fine for CPU {}", fmt::join(others, ", ")));
+  }
+  return fmt::format("{}: fine, {} for CPU {}{}{}\n", name, counted(result.program->ops.size(), "instruction"),
+                     result.program->model->name, text.as_document ? ", out of a document" : "",
+                     result.diagnostics.empty() ? "" : ", " + warnings);
+}
+
+nlohmann::ordered_json check_json(const std::string& path, const SourceText& text, const CheckResult& result,
+                                  const CpuModel& model) {
+  nlohmann::ordered_json diagnostics = nlohmann::ordered_json::array();
+  for (const stl::Diagnostic& d : result.diagnostics) diagnostics.push_back(to_json(d));
+  return {{"file", path},
+          {"ok", result.program != nullptr},
+          {"cpu", model.name},
+          {"fine_for", result.program ? std::vector<std::string_view>{} : other_cpus(text, model)},
+          {"kind", text.as_document ? "document" : "stl"},
+          {"encoding", text.encoding},
+          {"instructions", result.program ? result.program->ops.size() : 0},
+          {"diagnostics", diagnostics}};
+}
+
+}  // namespace s7200::tools

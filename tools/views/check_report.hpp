@@ -1,0 +1,18 @@
+// What the check of a program has found.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "interpreter/program/load.hpp"
+
+namespace s7200::tools {
+
+/// One line: how many errors and warnings, and for which CPUs it is fine.
+std::string check_summary(const SourceText& text, const CheckResult& result, const CpuModel& model);
+
+/// The same and all diagnostics.
+nlohmann::ordered_json check_json(const std::string& path, const SourceText& text, const CheckResult& result,
+                                  const CpuModel& model);
+
+}  // namespace s7200::tools
