@@ -4,12 +4,10 @@
 // Sources: facts 6 (operand areas there are inferred from the manuals' operand lists), 3.5 (what may stand in interrupt
 // routines), 6.13 (which CPU has what).
 #include <algorithm>
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "interpreter/base/nearest.hpp"
 #include "interpreter/instructions/bit_logic.hpp"
 #include "interpreter/instructions/compare.hpp"
 #include "interpreter/instructions/control.hpp"
@@ -627,65 +625,5 @@ const Table& table() {
 }  // namespace
 
 std::span<const Instruction> all_instructions() { return table().rows(); }
-
-const Instruction* find_instruction(std::string_view mnemonic) {
-  static const std::map<std::string_view, const Instruction*> kIndex = [] {
-    std::map<std::string_view, const Instruction*> index;
-    for (const Instruction& instruction : all_instructions()) index.emplace(instruction.mnemonic, &instruction);
-    return index;
-  }();
-  const auto found = kIndex.find(mnemonic);
-  return found == kIndex.end() ? nullptr : found->second;
-}
-
-std::string_view nearest_mnemonic(std::string_view mnemonic) {
-  static const std::vector<std::string_view> kMnemonics = [] {
-    std::vector<std::string_view> mnemonics;
-    for (const Instruction& instruction : all_instructions()) mnemonics.push_back(instruction.mnemonic);
-    return mnemonics;
-  }();
-  return nearest(mnemonic, kMnemonics);
-}
-
-std::optional<ForeignMnemonic> foreign_mnemonic(std::string_view mnemonic) {
-  // German mnemonics beside those that only have U for A, and what STEP 7 has for the S7-300 and S7-400.
-  static const std::map<std::string_view, std::string_view> kGerman{
-      {"ZV", "CTU"}, {"ZVR", "CTUD"}, {"ZR", "CTD"}, {"SPA", "JMP"}, {"SPB", "JMP"}};
-  static constexpr std::string_view kEnds =
-      "the main program ends with MEND, a subroutine with RET, an interrupt routine with RETI";
-  static const std::map<std::string_view, std::string_view> kStep7{
-      {"L", "the S7-200 has no accumulator to load: MOVB, MOVW, MOVD and MOVR move a value, MOVW IN, OUT"},
-      {"T", "the S7-200 moves a value with MOVB, MOVW, MOVD or MOVR: MOVW IN, OUT"},
-      {"FP", "write EU after the contact"},
-      {"FN", "write ED after the contact"},
-      {"SE", "write TON"},
-      {"SS", "write TONR"},
-      {"SPBN", "write NOT, then JMP"},
-      {"CC", "write CALL, which needs power flow"},
-      {"UC", "write CALL after LD SM0.0"},
-      {"BEB", "write CRET in a subroutine, CRETI in an interrupt routine, END in the main program"},
-      {"BE", kEnds},
-      {"BEA", kEnds}};
-  const auto german = [](std::string_view what, std::string_view meant) {
-    return ForeignMnemonic{std::string(what), std::string("write ").append(meant)};
-  };
-  if (mnemonic == "NETZWERK") return german("a German keyword", "NETWORK");
-  if (const auto found = kGerman.find(mnemonic); found != kGerman.end()) return german("a German mnemonic", found->second);
-  if (const auto found = kStep7.find(mnemonic); found != kStep7.end())
-    return ForeignMnemonic{"a mnemonic of STEP 7 for the S7-300 and S7-400", std::string(found->second)};
-  if (!mnemonic.starts_with('U')) return {};
-  const Instruction* meant = find_instruction(std::string("A").append(mnemonic.substr(1)));  // UN, UW>=, ULD
-  return meant ? std::optional(german("a German mnemonic", meant->mnemonic)) : std::nullopt;
-}
-
-std::string syntax(const Instruction& instruction) {
-  std::string text(instruction.mnemonic);
-  const char* separator = " ";
-  for (const OperandRule& rule : instruction.rules()) {
-    text.append(separator).append(rule.name);
-    separator = ", ";
-  }
-  return text;
-}
 
 }  // namespace s7200

@@ -1,0 +1,53 @@
+// Mnemonics that the S7-200 does not have, written by people who know its German set or another family of controllers.
+#include <algorithm>
+#include <string>
+
+#include "interpreter/instructions/instruction.hpp"
+
+namespace s7200 {
+namespace {
+
+struct Row {
+  std::string_view mnemonic, what, hint;
+};
+
+constexpr std::string_view kGerman = "a German mnemonic";
+constexpr std::string_view kStep7 = "a mnemonic of STEP 7 for the S7-300 and S7-400";
+constexpr std::string_view kEnds = "the main program ends with MEND, a subroutine with RET, an interrupt routine with RETI";
+
+// clang-format off
+constexpr Row kRows[] = {
+    {"NETZWERK", "a German keyword", "write NETWORK"},
+    // German mnemonics that differ from the English ones in more than U for A.
+    {"ZV",   kGerman, "write CTU"},
+    {"ZVR",  kGerman, "write CTUD"},
+    {"ZR",   kGerman, "write CTD"},
+    {"SPA",  kGerman, "write JMP"},
+    {"SPB",  kGerman, "write JMP"},
+    {"L",    kStep7,  "the S7-200 has no accumulator to load: MOVB, MOVW, MOVD and MOVR move a value, MOVW IN, OUT"},
+    {"T",    kStep7,  "the S7-200 moves a value with MOVB, MOVW, MOVD or MOVR: MOVW IN, OUT"},
+    {"FP",   kStep7,  "write EU after the contact"},
+    {"FN",   kStep7,  "write ED after the contact"},
+    {"SE",   kStep7,  "write TON"},
+    {"SS",   kStep7,  "write TONR"},
+    {"SPBN", kStep7,  "write NOT, then JMP"},
+    {"CC",   kStep7,  "write CALL, which needs power flow"},
+    {"UC",   kStep7,  "write CALL after LD SM0.0"},
+    {"BEB",  kStep7,  "write CRET in a subroutine, CRETI in an interrupt routine, END in the main program"},
+    {"BE",   kStep7,  kEnds},
+    {"BEA",  kStep7,  kEnds},
+};
+// clang-format on
+
+}  // namespace
+
+std::optional<ForeignMnemonic> foreign_mnemonic(std::string_view mnemonic) {
+  if (const auto* row = std::ranges::find(kRows, mnemonic, &Row::mnemonic); row != std::end(kRows))
+    return ForeignMnemonic{std::string(row->what), std::string(row->hint)};
+  if (!mnemonic.starts_with('U')) return {};
+  const Instruction* meant = find_instruction(std::string("A").append(mnemonic.substr(1)));  // UN, UW>=, ULD
+  if (!meant) return {};
+  return ForeignMnemonic{std::string(kGerman), std::string("write ").append(meant->mnemonic)};
+}
+
+}  // namespace s7200

@@ -1,0 +1,40 @@
+// Finding an instruction by its mnemonic, and how it is written.
+#include <map>
+#include <string>
+#include <vector>
+
+#include "interpreter/base/nearest.hpp"
+#include "interpreter/instructions/instruction.hpp"
+
+namespace s7200 {
+
+const Instruction* find_instruction(std::string_view mnemonic) {
+  static const std::map<std::string_view, const Instruction*> kIndex = [] {
+    std::map<std::string_view, const Instruction*> index;
+    for (const Instruction& instruction : all_instructions()) index.emplace(instruction.mnemonic, &instruction);
+    return index;
+  }();
+  const auto found = kIndex.find(mnemonic);
+  return found == kIndex.end() ? nullptr : found->second;
+}
+
+std::string_view nearest_mnemonic(std::string_view mnemonic) {
+  static const std::vector<std::string_view> kMnemonics = [] {
+    std::vector<std::string_view> mnemonics;
+    for (const Instruction& instruction : all_instructions()) mnemonics.push_back(instruction.mnemonic);
+    return mnemonics;
+  }();
+  return nearest(mnemonic, kMnemonics);
+}
+
+std::string syntax(const Instruction& instruction) {
+  std::string text(instruction.mnemonic);
+  const char* separator = " ";
+  for (const OperandRule& rule : instruction.rules()) {
+    text.append(separator).append(rule.name);
+    separator = ", ";
+  }
+  return text;
+}
+
+}  // namespace s7200
