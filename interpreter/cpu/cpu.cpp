@@ -74,8 +74,9 @@ void Cpu::execute_observed() {
     loop.op = s.pc;
     const Op& op = core_.program().ops[loop.op];
     InstructionRecord record{.at = s.time, .op = loop.op};
-    for (std::size_t i = 0; i < op.instruction->operands; ++i)
-      if (op.instruction->operand[i].role == Role::In) record.value[i] = peek(op, i);
+    const auto rules = op.instruction->rules();
+    for (std::size_t i = 0; i < rules.size(); ++i)
+      if (rules[i].role == Role::In) record.value[i] = peek(op, i);
     ++s.instructions;
     record.powered = !(op.power_mask & ~s.stack.bits());
     if (record.powered) {
@@ -88,8 +89,8 @@ void Cpu::execute_observed() {
     }
     record.end = s.time;
     record.top = s.stack.top();
-    for (std::size_t i = 0; i < op.instruction->operands; ++i)
-      if (op.instruction->operand[i].role != Role::In) record.value[i] = peek(op, i);
+    for (std::size_t i = 0; i < rules.size(); ++i)
+      if (rules[i].role != Role::In) record.value[i] = peek(op, i);
     core_.sink()->instruction(record);
   }
 }

@@ -137,7 +137,7 @@ void run_with_port_control(Core& core, const Op& op) {
   if (op.has_pointer)
     run_with_pointers(core, op);
   else
-    op.instruction->body(core, op);
+    op.direct_body()(core, op);
   for (std::size_t number = 0; number < kPorts.size(); ++number)
     if (core.s.image[kPorts[number].control] != before[number]) freeport::control_written(core, number, before[number]);
 }

@@ -79,7 +79,7 @@ void run_with_analog_output(Core& core, const Op& op) {
   if (op.has_pointer)
     run_with_pointers(core, op);
   else
-    op.instruction->body(core, op);
+    op.direct_body()(core, op);
   points::trace_analog_changes(core, before);
 }
 

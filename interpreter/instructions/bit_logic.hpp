@@ -35,6 +35,9 @@ void contact(Core& core, const Op& op) {
   combine<join>(core.s.stack, fed<join, rail>(core) && core.bit(op[0]) != negated);
 }
 
+template <Join join, bool negated>
+inline constexpr Bodies kContact{contact<join, negated>, contact<join, negated, Rail::Segment>};
+
 inline void invert_top(Core& core, const Op&) { core.s.stack.set_top(!core.s.stack.top()); }
 
 /// ALD and OLD.

@@ -40,4 +40,7 @@ void compare(Core& core, const Op& op) {
   combine<join>(core.s.stack, holds<relation>(a, b) && fed<join, rail>(core));
 }
 
+template <Join join, Relation relation, class Value>
+inline constexpr Bodies kCompare{compare<join, relation, Value>, compare<join, relation, Value, Rail::Segment>};
+
 }  // namespace s7200::bodies

@@ -22,7 +22,10 @@ std::uint8_t sign_flags(Signed value) {
   return static_cast<std::uint8_t>((value == 0 ? kZero : 0) | (value < 0 ? kNegative : 0));
 }
 
+// SM1 bits that they set and reset.
 inline constexpr std::uint8_t kArithmetic = kZero | kOverflow | kNegative;
+inline constexpr std::uint8_t kUnsignedArithmetic = kZero | kOverflow;
+inline constexpr std::uint8_t kMultiplyDivide = kArithmetic | kDivisionByZero;
 
 template <class Signed>
 void store_wrapped(Core& core, const Operand& out, Signed value, bool overflow) {
@@ -68,7 +71,7 @@ void increment_byte(Core& core, const Op& op) {
   std::uint8_t result;
   const bool overflow = __builtin_add_overflow(core.get<std::uint8_t>(op[0]), step, &result);
   core.put(op[0], result);
-  core.set_flags(kZero | kOverflow, static_cast<std::uint8_t>((result == 0 ? kZero : 0) | (overflow ? kOverflow : 0)));
+  core.set_flags(kUnsignedArithmetic, static_cast<std::uint8_t>((result == 0 ? kZero : 0) | (overflow ? kOverflow : 0)));
 }
 
 /// The low word of a double word operand.
@@ -82,7 +85,7 @@ inline Operand low_word(const Operand& operand) {
 inline void multiply(Core& core, const Op& op) {
   const std::int32_t product = std::int32_t{core.get<std::int16_t>(op[0])} * core.get<std::int16_t>(low_word(op[1]));
   core.put(op[1], product);
-  core.set_flags(kArithmetic | kDivisionByZero, sign_flags(product));
+  core.set_flags(kMultiplyDivide, sign_flags(product));
 }
 
 /// DIV: dividend in the low word of OUT; quotient to the low word, remainder to the high word. Division by zero sets SM1.3

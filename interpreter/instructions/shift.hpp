@@ -9,8 +9,10 @@
 namespace s7200::bodies {
 
 /// SM1.0: result zero. SM1.1: last bit shifted or rotated out.
+inline constexpr std::uint8_t kShiftFlags = kZero | kOverflow;
+
 inline void set_shift_flags(Core& core, bool zero, bool last_out) {
-  core.set_flags(kZero | kOverflow, static_cast<std::uint8_t>((zero ? kZero : 0) | (last_out ? kOverflow : 0)));
+  core.set_flags(kShiftFlags, static_cast<std::uint8_t>((zero ? kZero : 0) | (last_out ? kOverflow : 0)));
 }
 
 /// SLB, SRB, SLW, SRW, SLD, SRD: the count stops at the width.

@@ -31,7 +31,7 @@ enum class OperandKind : std::uint8_t {
   Event,       ///< ATCH, DTCH
   Port,        ///< XMT, RCV
   Counter,     ///< HDEF, HSC
-  Number,      ///< any other number that is part of the instruction: NOP
+  Number,      ///< any other number that is part of the instruction, from 0 to max: NOP
 };
 
 enum class Role : std::uint8_t { In, Out, InOut };
@@ -43,7 +43,7 @@ enum class Sign : std::uint8_t { Either, Signed, Unsigned };
 enum class TimerKind : std::uint8_t { Any, OnDelay, Retentive };
 
 struct OperandRule {
-  std::string_view name;  ///< as the manual calls it: IN, OUT, N, TBL
+  std::string_view name{};  ///< as the manual calls it: IN, OUT, N, TBL
   OperandKind kind = OperandKind::Memory;
   Width width = Width::Byte;
   Role role = Role::In;
@@ -64,6 +64,8 @@ struct OperandRule {
   bool takes(std::int64_t value) const { return value >= min && value <= max && !(not_zero && value == 0); }
   /// Elements from the address on, when the operand that counts says `n`.
   std::int64_t reach(std::int64_t n) const { return counted == 0 ? elements : (n + counted - 1) / counted; }
+
+  bool operator==(const OperandRule&) const = default;
 };
 
 /// Where an instruction may stand.
@@ -116,28 +118,51 @@ enum class Hidden : std::uint8_t {
 struct StackUse {
   std::int8_t needs = 0;
   std::int8_t change = 0;
+
+  bool operator==(const StackUse&) const = default;
 };
 
-struct Instruction {
-  std::string_view mnemonic;
-  std::string_view group;  ///< heading in the documentation
-  std::array<OperandRule, 3> operand{};
-  std::uint8_t operands = 0;
+/// How an instruction acts in a rung, as a contact, a coil or a box.
+struct Rung {
   bool needs_power_flow = false;  ///< skipped while the top of the logic stack is 0
   StackUse stack{};
-  bool writes_output = false;        ///< a coil or box: an LD after it begins a new rung
-  std::uint8_t flags = 0;            ///< SM1 bits concerned
+  bool writes_output = false;  ///< a coil or box: an LD after it begins a new rung
+
+  bool operator==(const Rung&) const = default;
+};
+
+/// What executes an instruction.
+struct Bodies {
+  constexpr Bodies() = default;
+  constexpr Bodies(Body everywhere, Body fed_by_segment = nullptr) : usual(everywhere), in_segment(fed_by_segment) {}
+
+  Body usual = nullptr;       ///< nullptr: not modelled, refused by name
+  Body in_segment = nullptr;  ///< between LSCR and SCRE, where it is another one: a contact on the segment's power rail
+};
+
+/// A row of the table, in the order of its columns. What a row leaves out is as it stands here.
+struct Instruction {
+  std::string_view mnemonic{};
+  std::string_view group{};              ///< heading in the documentation
+  std::array<OperandRule, 3> operand{};  ///< those that it takes, the first one first; the rest have no name
+  Rung rung{};
+  std::uint8_t flags = 0;  ///< SM1 bits concerned
+  CpuSet cpus = kEveryCpu;
   std::uint8_t allowed = kAnywhere;  ///< Parts, on 21x CPUs
   bool outside_segments = false;     ///< not allowed between LSCR and SCRE
-  CpuSet cpus = kEveryCpu;
   Structure structure = Structure::None;
   Hidden hidden = Hidden::None;
   Effect effect = Effect::None;
-  Body body = nullptr;        ///< nullptr: not modelled, refused by name
-  Body in_segment = nullptr;  ///< between LSCR and SCRE, where it is another one: a contact on the segment's power rail
-  std::string_view meaning;   ///< one line
+  Bodies body{};
+  std::string_view meaning{};  ///< one line
 
-  std::span<const OperandRule> rules() const { return {operand.data(), operands}; }
+  constexpr bool modelled() const { return body.usual != nullptr; }
+
+  constexpr std::span<const OperandRule> rules() const {
+    std::size_t named = 0;
+    while (named < operand.size() && !operand[named].name.empty()) ++named;
+    return {operand.data(), named};
+  }
 };
 
 /// The table, ordered as the manual groups it.

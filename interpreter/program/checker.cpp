@@ -73,7 +73,7 @@ class Checker {
             fmt::format("{} needs {}", mnemonic, to_text(instruction->cpus)), cause);
       return nullptr;
     }
-    if (!instruction->body) {
+    if (!instruction->modelled()) {
       error(statement.position, fmt::format("{} is not modelled yet", mnemonic), "`s7200 instructions` lists what is",
             cause);
       return nullptr;
@@ -93,8 +93,8 @@ class Checker {
   /// `1,5` is two operands, and a real number with a German comma where only one of them has a place.
   bool has_decimal_comma(const Instruction& instruction, const stl::Statement& statement) {
     const auto& given = statement.operands;
-    if (given.size() != instruction.operands + std::size_t{1}) return false;
-    for (std::size_t i = 0; i < instruction.operands; ++i) {
+    if (given.size() != instruction.rules().size() + std::size_t{1}) return false;
+    for (std::size_t i = 0; i < instruction.rules().size(); ++i) {
       const stl::Position &whole = given[i].position, &fraction = given[i + 1].position;
       const bool joined = whole.column + whole.length + 1 == fraction.column;
       if (!instruction.operand[i].real || !joined || !is_number(given[i]) || !is_number(given[i + 1])) continue;
@@ -126,12 +126,11 @@ class Checker {
   }
 
   bool place_operands(const Instruction& instruction, const stl::Statement& statement) {
-    const std::size_t given = statement.operands.size();
+    const std::size_t given = statement.operands.size(), taken = instruction.rules().size();
     if (has_decimal_comma(instruction, statement)) return false;
-    if (given != instruction.operands) {
-      const stl::Position at =
-          given > instruction.operands ? statement.operands[instruction.operands].position : statement.position;
-      error(at, fmt::format("{} takes {}, not {}", instruction.mnemonic, counted(instruction.operands), given),
+    if (given != taken) {
+      const stl::Position at = given > taken ? statement.operands[taken].position : statement.position;
+      error(at, fmt::format("{} takes {}, not {}", instruction.mnemonic, counted(taken), given),
             fmt::format("write {}", syntax(instruction)));
       return false;
     }
@@ -254,7 +253,7 @@ class Checker {
     Op op;
     op.instruction = &instruction;
     op.statement = i;
-    op.power_mask = instruction.needs_power_flow;
+    op.power_mask = instruction.rung.needs_power_flow;
     op.in_segment = structure.in_segment[i];
     op.target = structure.target[i];
     op.skip_to = instruction.structure == Structure::For ? op.target : i + 1;
@@ -262,7 +261,7 @@ class Checker {
     for (std::size_t k = 0; k < op.operand.size(); ++k) {
       op.operand[k] = placed[k].operand;
       op.has_pointer |= placed[k].operand.pointer;
-      if (placed[k].area && k < instruction.operands && instruction.operand[k].role != Role::In)
+      if (placed[k].area && k < instruction.rules().size() && instruction.operand[k].role != Role::In)
         written |= set_of(*placed[k].area);
     }
     add_hidden_operand(op, placed_[structure.head[i]]);
@@ -293,7 +292,7 @@ class Checker {
 
   /// Double words that are real numbers.
   static void note_reals(const std::array<PlacedOperand, 3>& placed, const Op& op, Program& program) {
-    for (std::size_t k = 0; k < op.instruction->operands; ++k)
+    for (std::size_t k = 0; k < op.instruction->rules().size(); ++k)
       if (op.instruction->operand[k].real && placed[k].area) program.reals.push_back(op[k].at);
   }
 

@@ -91,8 +91,8 @@ class Flow {
     if (is_head(i)) return true;
     if (instruction.effect == Effect::LoadsBit) return op[0].at == image::kSM && op[0].bit == 0;
     if (instruction.structure == Structure::Jump) return false;
-    return before &&
-           (instruction.needs_power_flow || instruction.effect == Effect::Coil || instruction.structure == Structure::Label);
+    return before && (instruction.rung.needs_power_flow || instruction.effect == Effect::Coil ||
+                      instruction.structure == Structure::Label);
   }
 
   Ways ways_from(std::uint32_t i) const {
@@ -205,7 +205,7 @@ bool pointers_reach(const Program& program, const Bits& bits) {
 
 /// Whether some operand, or some that is written, may lie there.
 bool touches(const Program& program, const Op& op, const Bits& bits, bool only_written) {
-  for (std::size_t i = 0; i < op.instruction->operands; ++i) {
+  for (std::size_t i = 0; i < op.instruction->rules().size(); ++i) {
     const OperandRule& rule = op.instruction->operand[i];
     if (rule.kind != OperandKind::Memory || (only_written && rule.role == Role::In)) continue;
     if (op[i].pointer ? pointers_reach(program, bits) : bits.overlap(bits_of(program, op, i))) return true;
@@ -280,7 +280,7 @@ std::string step_text(std::uint64_t bit) {
 std::set<std::uint64_t> loaded_steps(const Program& program) {
   std::set<std::uint64_t> loaded;
   for (const Op& op : program.ops)
-    for (std::size_t i = 0; i < op.instruction->operands; ++i) {
+    for (std::size_t i = 0; i < op.instruction->rules().size(); ++i) {
       const OperandRule& rule = op.instruction->operand[i];
       if (rule.kind != OperandKind::Memory || rule.role == Role::Out || op[i].pointer) continue;
       const Bits bits = bits_of(program, op, i);

@@ -24,7 +24,7 @@ constexpr std::size_t kLargestFile = 64 << 20;
 
 bool is_instruction(std::string_view mnemonic, std::size_t operands) {
   const Instruction* instruction = find_instruction(mnemonic);
-  return instruction && (instruction->operands == operands || !instruction->body);
+  return instruction && (instruction->rules().size() == operands || !instruction->modelled());
 }
 
 /// Whether somebody may have meant this line, which is not empty and no comment, as a statement: `LD I0.0`, `FROB`, `U

@@ -39,7 +39,10 @@ struct Op {
 
   const Operand& operator[](std::size_t i) const { return operand[i]; }
   /// The instruction's own body, for operands that need no step before it.
-  Body direct_body() const { return in_segment && instruction->in_segment ? instruction->in_segment : instruction->body; }
+  Body direct_body() const {
+    const Bodies& own = instruction->body;
+    return in_segment && own.in_segment ? own.in_segment : own.usual;
+  }
 };
 
 // Steps around a body, chosen at load for the operands that need one; the CPU defines them.

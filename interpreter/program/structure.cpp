@@ -358,7 +358,7 @@ class StackCheck {
 
   void visit(const CheckedStatement& s) {
     const Instruction& instruction = *s.instruction;
-    const bool load = instruction.stack.needs == 0 && instruction.stack.change == 1;
+    const bool load = instruction.rung.stack.needs == 0 && instruction.rung.stack.change == 1;
     if (s.begins_network) depth_ = 0;
     if (s.begins_network || (load && after_output_)) begin_rung();
     if (leaves_one(instruction)) {
@@ -367,8 +367,8 @@ class StackCheck {
       after_output_ = true;
       return;
     }
-    use(s, instruction.stack);
-    after_output_ = instruction.writes_output;
+    use(s, instruction.rung.stack);
+    after_output_ = instruction.rung.writes_output;
     last_ = s.statement;
   }
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Mutation check: do the tests notice when an instruction is wrong?
 
-Changes one thing at a time in the bodies of the instructions and in the rows of their table, and runs the tests from the
-quickest to the slowest until one fails. A mutant that no test notices survives and is printed.
+Changes one thing at a time in the bodies of the instructions, in the rows of their table and in the rules of their operands,
+and runs the tests from the quickest to the slowest until one fails. A mutant that no test notices survives and is printed.
 
     tests/mutation/run.py                 every mutant
     tests/mutation/run.py --sample 100    so many, spread evenly over all
@@ -37,6 +37,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BODIES = "interpreter/instructions"
 TABLE = f"{BODIES}/table.cpp"
+RULES = f"{BODIES}/operand_rules.hpp"
 EQUIVALENT = pathlib.Path(__file__).resolve().parent / "equivalent.txt"
 GOAL = 0.95
 
@@ -50,16 +51,23 @@ IN_BODIES = [
     (r"std::int16_t", "std::uint16_t"), (r"std::int32_t", "std::uint32_t"),
 ]
 IN_ROWS = [
-    (r"\bbox\(", "row("), (r"\bkFrom214\b", "kEveryCpu"), (r"\bkFrom215\b", "kEveryCpu"), (r"Width::Word", "Width::Byte"),
-    (r"Width::Double", "Width::Word"), (r"Width::Byte", "Width::Word"), (r"\bkZero\b", "0"), (r"\bkOverflow\b", "0"),
-    (r"\bkArithmetic\b", "0"), (r"\{1, 0\}", "{0, 0}"), (r"\{2, -1\}", "{1, -1}"), (r"\{0, 1\}", "{0, 0}"), (r"\btrue>", "false>"),
-    (r"\bfalse>", "true>"), (r"std::int16_t", "std::uint16_t"), (r"std::uint16_t", "std::int16_t"), (r"std::int32_t", "std::uint32_t"),
-    (r"Join::And", "Join::Or"), (r"Join::Or", "Join::And"), (r"Logic::And", "Logic::Or"), (r"Logic::Xor", "Logic::Or"),
-    (r"Relation::GreaterEqual", "Relation::Greater"), (r"Relation::LessEqual", "Relation::Less"), (r"Relation::Equal", "Relation::NotEqual"),
-    (r"\bnot_in_interrupt\b", "kAnywhere"), (r"only_in\(kMain,", "only_in(kAnywhere,"), (r"only_in\(kSubroutine,", "only_in(kAnywhere,"),
-    (r"\bin_out\(", "in("), (r"\bin\(", "out("),
+    (r"\bkBox\b", "kCoil"), (r"\bkPush\b", "kTop"), (r"\bkTop\b", "kPush"), (r"\bkTwoToOne\b", "kTop"), (r"\bkTwoInputs\b", "kCoil"),
+    (r"\bkThreeInputs\b", "kTwoInputs"), (r"\bkFrom214\b", "kEveryCpu"), (r"\bkFrom215\b", "kEveryCpu"), (r"\bkZero\b", "0"),
+    (r"\bkOverflow\b", "0"), (r"\bkArithmetic\b", "0"), (r"\bkUnsignedArithmetic\b", "kZero"), (r"\bkMultiplyDivide\b", "kArithmetic"),
+    (r"\bkShiftFlags\b", "kZero"), (r"\bkNotInInterrupt\b", "kAnywhere"), (r"allowed = k(Main|Subroutine|Interrupt)\b", "allowed = kAnywhere"),
+    (r"outside_segments = true", "outside_segments = false"), (r"\btrue>", "false>"), (r"\bfalse>", "true>"),
+    (r"std::int16_t", "std::uint16_t"), (r"std::uint16_t", "std::int16_t"), (r"std::int32_t", "std::uint32_t"),
+    (r"<And\b", "<Or"), (r"<Or\b", "<And"), (r"Logic::And", "Logic::Or"), (r"Logic::Xor", "Logic::Or"),
+    (r"\bGreaterEqual\b", "Greater"), (r"\bLessEqual\b", "Less"), (r"\bEqual\b", "NotEqual"),
+    (r"\bkInOut", "kIn"), (r"\bkIn\d?(?=Byte|Word|Dword|Real)", "kOut"), (r"Byte\b", "Word"), (r"Word\b", "Byte"), (r"Dword\b", "Word"),
+    (r"Usint\b", "Byte"), (r"Int\b", "Word"), (r"Dint\b", "Dword"),
 ]
-
+IN_RULES = [
+    (r"Width::Byte", "Width::Word"), (r"Width::Word", "Width::Byte"), (r"Width::Double", "Width::Word"), (r"Role::InOut", "Role::In"),
+    (r"Role::Out", "Role::In"), (r"Sign::\w+", "Sign::Either"), (r"(?<![\w.'])(\d+)(?![\w.'])", lambda m: str(int(m.group(1)) + 1)),
+    (r"\bkLargestByte\b", "254"), (r"\btrue\b", "false"), (r"\bkMemoryTC\b", "kMemory"), (r"\bkRead(Word|Dword)\b", "kValue"),
+    (r"\bkWriteWord\b", "kWordValue"), (r"\bkWordValue\b", "kValue"), (r"\bkValue\b", "kMemory"),
+]
 
 class Mutant:
     """One line changed. `nth` tells apart equal lines of a file, so that a mutant is known again when lines move."""
@@ -68,7 +76,7 @@ class Mutant:
         self.path, self.number, self.nth, self.before, self.after = path, number, nth, before, after
 
     def text(self):
-        return (self.path, self.before.strip(), self.after.strip())
+        return (self.path, unaligned(self.before), unaligned(self.after))
 
     def key(self):
         return json.dumps([*self.text(), self.nth])
@@ -77,21 +85,25 @@ class Mutant:
         return f"{self.path}:{self.number}\n  - {self.before.strip()}\n  + {self.after.strip()}"
 
 
+def unaligned(line):
+    """A row is the same row when its columns move."""
+    return re.sub(r"\s+", " ", line).strip()
+
+
 def is_code(line):
     text = line.strip()
     return text and not text.startswith(("//", "#", "template <", "namespace", "enum", "static_assert"))
 
 
-def mutants_of(path, patterns, rows_only):
+def is_row(line):
+    return is_code(line) and "{." in line
+
+
+def mutants_of(path, patterns, is_changed):
     lines = (ROOT / path).read_text(encoding="utf-8").split("\n")
-    in_rows = not rows_only
     seen = {}
     for number, line in enumerate(lines, 1):
-        if rows_only and re.match(r"  void \w+\(\) \{", line):
-            in_rows = True
-        if rows_only and line == "  }":
-            in_rows = False
-        if not in_rows or not is_code(line):
+        if not is_changed(line):
             continue
         nth = seen[line] = seen.get(line, -1) + 1
         code = re.sub(r'"[^"]*"|//.*', lambda m: "\0" * len(m.group(0)), line)  # no change inside texts and comments
@@ -106,10 +118,12 @@ def mutants_of(path, patterns, rows_only):
 
 
 def all_mutants():
-    bodies = sorted(p.name for p in (ROOT / BODIES).glob("*.hpp") if p.name != "instruction.hpp")
-    for name in bodies:
-        yield from mutants_of(f"{BODIES}/{name}", IN_BODIES, rows_only=False)
-    yield from mutants_of(TABLE, IN_ROWS, rows_only=True)
+    for path in sorted((ROOT / BODIES).glob("*.hpp")):
+        name = f"{BODIES}/{path.name}"
+        if path.name != "instruction.hpp" and name != RULES:
+            yield from mutants_of(name, IN_BODIES, is_code)
+    yield from mutants_of(RULES, IN_RULES, is_row)
+    yield from mutants_of(TABLE, IN_ROWS, is_row)
 
 
 def equivalents(mutants):
@@ -117,9 +131,9 @@ def equivalents(mutants):
     known, found, path, before, after = {m.text() for m in mutants}, {}, None, None, None
     for number, line in enumerate(EQUIVALENT.read_text(encoding="utf-8").split("\n"), 1):
         if line.startswith("- "):
-            before = line[2:]
+            before = unaligned(line[2:])
         elif line.startswith("+ "):
-            after = line[2:]
+            after = unaligned(line[2:])
         elif line.startswith("= "):
             if (path, before, after) not in known:
                 sys.exit(f"{EQUIVALENT}:{number}: there is no such mutant (see --list)")
@@ -136,7 +150,7 @@ class Tests:
     STAGES = ["vectors", "lock-step", "unit tests", "whole programs", "wrong programs", "programs that go wrong", "vectors as generated", "reference page"]
     SECONDS, KILOBYTES = 120, 4_000_000  # of processor time and memory; what needs more hangs
     # What every mutant's table.cpp includes and no mutant changes.
-    PRECOMPILED = ["algorithm", "bit", "cmath", "map", "optional", "set", "string", "type_traits", "vector", "interpreter/cpu/core.hpp",
+    PRECOMPILED = ["algorithm", "array", "bit", "cmath", "numeric", "optional", "type_traits", "interpreter/cpu/core.hpp",
                    "interpreter/model/instruction.hpp"]
 
     def __init__(self, work):

@@ -37,7 +37,7 @@ std::size_t size_of(std::string_view area) { return cpu214().size_of(*area_named
 
 Generator::Generator(std::uint64_t seed) : random_(seed) {
   for (const auto& instruction : all_instructions())
-    if (is_free(instruction)) (instruction.writes_output ? outputs_ : logic_).push_back(&instruction);
+    if (is_free(instruction)) (instruction.rung.writes_output ? outputs_ : logic_).push_back(&instruction);
 }
 
 // --- program ---
@@ -107,8 +107,8 @@ void Generator::rung(std::uint8_t part, const std::string& last) {
   line(load());
   for (std::size_t i = below(5); i > 0;) {
     const auto& instruction = *one_of(logic_);
-    const int after = depth + instruction.stack.change;
-    if (depth < instruction.stack.needs || after < 1 || after > 9) continue;
+    const int after = depth + instruction.rung.stack.change;
+    if (depth < instruction.rung.stack.needs || after < 1 || after > 9) continue;
     line(statement(instruction));
     depth = after;
     --i;
@@ -117,9 +117,9 @@ void Generator::rung(std::uint8_t part, const std::string& last) {
     const auto& instruction = *one_of(outputs_);
     const bool unlikely = is_rare(instruction) && !chance(8);
     const bool allowed = (instruction.allowed & part) && !(in_segment_ && instruction.outside_segments);
-    if (unlikely || depth < instruction.stack.needs || !allowed) continue;
+    if (unlikely || depth < instruction.rung.stack.needs || !allowed) continue;
     line(statement(instruction));
-    depth += instruction.stack.change;
+    depth += instruction.rung.stack.change;
     --i;
   }
   if (!last.empty()) line(last);
@@ -130,7 +130,7 @@ std::string Generator::load() {
   if (chance(10)) return "LDN SM0.0";
   while (true) {
     const auto& instruction = *one_of(logic_);
-    if (instruction.stack.needs == 0 && instruction.stack.change == 1) return statement(instruction);
+    if (instruction.rung.stack.needs == 0 && instruction.rung.stack.change == 1) return statement(instruction);
   }
 }
 

@@ -28,7 +28,7 @@ inline TimeTable easy_times() {
                     "(interrupt entry),,40,,,manual\n(scan overhead),,800,,,manual\n(no power flow),,10,,,manual\n"
                     "(indirect operand),,10,,,manual\n(EEPROM save),,10000,,,manual\n";
   for (const Instruction& instruction : all_instructions())
-    if (instruction.body) csv += fmt::format("{},,10,,,manual\n", instruction.mnemonic);
+    if (instruction.modelled()) csv += fmt::format("{},,10,,,manual\n", instruction.mnemonic);
   TimeTable times;
   const auto errors = times.add(csv, "easy");
   EXPECT_TRUE(errors.empty()) << errors[0];

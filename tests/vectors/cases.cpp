@@ -156,11 +156,11 @@ class Cases {
     for (const Case& program : programs_of(instruction_.mnemonic)) cases_.push_back(program);
     if (values_.empty()) return std::move(cases_);
     for (const Values& values : values_) add(values, usual_forms());
-    for (std::size_t i = 0; i < instruction_.operands; ++i) vary_form(i);
+    for (std::size_t i = 0; i < instruction_.rules().size(); ++i) vary_form(i);
     all_pointers();
-    for (std::size_t i = 0; i < instruction_.operands; ++i) bad_pointers(i);
+    for (std::size_t i = 0; i < instruction_.rules().size(); ++i) bad_pointers(i);
     count_errors();
-    if (instruction_.needs_power_flow) without_power();
+    if (instruction_.rung.needs_power_flow) without_power();
     return std::move(cases_);
   }
 
@@ -178,7 +178,7 @@ class Cases {
     result.stack = values.stack;
     result.flags = instruction_.flags;
     std::string op(instruction_.mnemonic);
-    for (std::size_t i = 0; i < instruction_.operands; ++i) {
+    for (std::size_t i = 0; i < instruction_.rules().size(); ++i) {
       const Written written = write_operand(forms[i], instruction_.operand[i], i, values.operand.at(i));
       op += (i == 0 ? " " : ", ") + written.text;
       std::ranges::copy(written.before, std::back_inserter(result.before));
@@ -255,8 +255,8 @@ class Cases {
 
   /// N in memory: 0, and more than the area holds from its last element on.
   void count_errors() {
-    if (instruction_.operands == 0) return;
-    const std::size_t last = instruction_.operands - std::size_t{1};
+    if (instruction_.rules().empty()) return;
+    const std::size_t last = instruction_.rules().size() - 1;
     if (!is_count(instruction_.operand[last])) return;
     std::vector<Form> forms = usual_forms();
     forms[last] = {Form::Direct, Area::V};

@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
 
   int different = 0;
   for (const Instruction& instruction : all_instructions()) {
-    if (!instruction.body || !(instruction.cpus & kCpu214)) continue;
+    if (!instruction.modelled() || !(instruction.cpus & kCpu214)) continue;
     const std::string text = generated(instruction);
     if (text.empty()) continue;
     const std::filesystem::path path = folder / (vectors::file_name(instruction.mnemonic) + ".txt");

@@ -27,9 +27,9 @@ nlohmann::ordered_json to_json(const Instruction& instruction, const TimeTable& 
                               {"group", instruction.group},
                               {"syntax", syntax(instruction)},
                               {"meaning", instruction.meaning},
-                              {"modelled", instruction.body != nullptr},
+                              {"modelled", instruction.modelled()},
                               {"operands", operands},
-                              {"needs_power_flow", instruction.needs_power_flow},
+                              {"needs_power_flow", instruction.rung.needs_power_flow},
                               {"flags", flags_text(instruction)},
                               {"allowed", parts_text(instruction)},
                               {"cpus", to_text(instruction.cpus)},
@@ -52,7 +52,7 @@ void print_table(std::span<const Instruction> instructions, const TimeTable& tim
       group = instruction.group;
       fmt::print("\n{}\n", group);
     }
-    if (!instruction.body) {
+    if (!instruction.modelled()) {
       fmt::print("  {:<24} needs {}\n", instruction.mnemonic, to_text(instruction.cpus));
       continue;
     }

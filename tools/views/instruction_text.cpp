@@ -93,7 +93,7 @@ std::string markdown_row(const Instruction& instruction, const TimeTable& times)
     operands.push_back(fmt::format("**{}**: {}", rule.name, operand_text(rule)));
   const TimeRow* row = typical_time(times, instruction);
   return fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", syntax(instruction), instruction.meaning,
-                     fmt::join(operands, "<br>"), flags_text(instruction), instruction.needs_power_flow ? "needed" : "",
+                     fmt::join(operands, "<br>"), flags_text(instruction), instruction.rung.needs_power_flow ? "needed" : "",
                      row ? time_text(*row) : "", to_text(instruction.cpus));
 }
 
@@ -161,7 +161,7 @@ std::string operand_text(const OperandRule& rule) {
 
 std::string example(const Instruction& instruction) {
   std::vector<std::string> operands;
-  for (std::size_t i = 0; i < instruction.operands; ++i) operands.push_back(sample(instruction.operand[i], i));
+  for (std::size_t i = 0; i < instruction.rules().size(); ++i) operands.push_back(sample(instruction.operand[i], i));
   if (operands.empty()) return std::string(instruction.mnemonic);
   return fmt::format("{} {}", instruction.mnemonic, fmt::join(operands, ", "));
 }
@@ -169,7 +169,7 @@ std::string example(const Instruction& instruction) {
 std::string explain(const Instruction& instruction, const TimeTable& times) {
   std::string text = fmt::format("{}\n", syntax(instruction));
   if (!instruction.meaning.empty()) text += fmt::format("  {}\n", instruction.meaning);
-  if (!instruction.body)
+  if (!instruction.modelled())
     return text + fmt::format("  not modelled; the real instruction needs {}\n", to_text(instruction.cpus));
   for (const OperandRule& rule : instruction.rules()) {
     text += fmt::format("  {:<11} {}{}\n", rule.name, operand_text(rule), rule.role == Role::In ? "" : "   (written)");
@@ -177,8 +177,9 @@ std::string explain(const Instruction& instruction, const TimeTable& times) {
     for (const CpuModel* model : all_cpus())
       if (model->self & instruction.cpus) text += fmt::format("    CPU {}   {}\n", model->name, ranges_text(rule, *model));
   }
-  text += fmt::format("  power flow  {}\n",
-                      instruction.needs_power_flow ? "needed: skipped while the top of the logic stack is 0" : "not needed");
+  text += fmt::format("  power flow  {}\n", instruction.rung.needs_power_flow
+                                                ? "needed: skipped while the top of the logic stack is 0"
+                                                : "not needed");
   text += fmt::format("  SM1 flags   {}\n  allowed in  {}\n  available   {}\n", flags_text(instruction),
                       parts_text(instruction), to_text(instruction.cpus));
   for (const TimeRow* row : times_of(times, instruction))
@@ -205,7 +206,7 @@ std::string reference_page(const TimeTable& times) {
           "|\n|---|---|---|---|---|---|---|\n",
           group);
     }
-    text += instruction.body
+    text += instruction.modelled()
                 ? markdown_row(instruction, times)
                 : fmt::format("| `{}` | not modelled | | | | | {} |\n", instruction.mnemonic, to_text(instruction.cpus));
   }

@@ -117,7 +117,7 @@ std::string address(const CpuModel& model, Width width, std::int64_t bytes) {
 /// Operands as the rules want them, in V memory or constants that do no harm.
 std::vector<std::string> harmless_operands(const Instruction& instruction, const CpuModel& model, int count) {
   std::vector<std::string> operands;
-  for (std::size_t i = 0; i < instruction.operands; ++i) {
+  for (std::size_t i = 0; i < instruction.rules().size(); ++i) {
     const OperandRule& rule = instruction.operand[i];
     operands.push_back(rule.count ? std::to_string(count)
                                   : address(model, rule.width, 300 * (static_cast<std::int64_t>(i) + 1)));
@@ -129,8 +129,8 @@ TEST(OperandRules, ABlockThatRunsPastTheEndOfItsAreaIsFoundInEveryInstructionTha
   std::set<std::string_view> tried;
   for (const CpuModel* model : all_cpus())
     for (const Instruction& instruction : all_instructions()) {
-      if (!instruction.body || !(instruction.cpus & model->self)) continue;
-      for (std::size_t i = 0; i < instruction.operands; ++i) {
+      if (!instruction.modelled() || !(instruction.cpus & model->self)) continue;
+      for (std::size_t i = 0; i < instruction.rules().size(); ++i) {
         const OperandRule& rule = instruction.operand[i];
         if (rule.kind != OperandKind::Memory || (rule.counted == 0 && rule.elements == 1) || !contains(rule.areas, Area::V))
           continue;
@@ -269,10 +269,10 @@ std::vector<std::uint8_t> tables_of_one_entry() {
 TEST(OperandRules, WhatPassesTheCheckIsNeitherARangeNorACountErrorAtRunTime) {
   int executed = 0;
   for (const Instruction& instruction : all_instructions()) {
-    if (!instruction.body || !(instruction.cpus & kCpu214) || instruction.structure != Structure::None ||
+    if (!instruction.modelled() || !(instruction.cpus & kCpu214) || instruction.structure != Structure::None ||
         instruction.group == "Tables")
       continue;
-    for (std::size_t i = 0; i < instruction.operands; ++i)
+    for (std::size_t i = 0; i < instruction.rules().size(); ++i)
       for (const auto& borders :
            {border_constants(instruction.operand[i]), border_addresses(instruction.operand[i], cpu214())})
         for (const std::string& border : borders) {

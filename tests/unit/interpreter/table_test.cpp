@@ -26,7 +26,7 @@ const TimeTable& times() {
 std::vector<const Instruction*> modelled_on_214() {
   std::vector<const Instruction*> result;
   for (const Instruction& instruction : all_instructions())
-    if (instruction.body && (instruction.cpus & kCpu214)) result.push_back(&instruction);
+    if (instruction.modelled() && (instruction.cpus & kCpu214)) result.push_back(&instruction);
   return result;
 }
 
@@ -44,7 +44,7 @@ TEST(InstructionTable, FileNamesOfVectorsAreUnique) {
 
 TEST(InstructionTable, EveryModelledRowSaysWhatItDoes) {
   for (const Instruction& instruction : all_instructions()) {
-    if (!instruction.body) continue;
+    if (!instruction.modelled()) continue;
     EXPECT_FALSE(instruction.meaning.empty()) << instruction.mnemonic;
     EXPECT_FALSE(instruction.group.empty()) << instruction.mnemonic;
     for (const OperandRule& rule : instruction.rules()) EXPECT_FALSE(rule.name.empty()) << instruction.mnemonic;
@@ -53,8 +53,8 @@ TEST(InstructionTable, EveryModelledRowSaysWhatItDoes) {
 
 TEST(InstructionTable, EveryModelledRowHasATimeForEachAreaOfItsFirstOperand) {
   for (const Instruction* instruction : modelled_on_214()) {
-    EXPECT_TRUE(instruction->operands != 0 || times().cost(instruction->mnemonic, {})) << instruction->mnemonic;
-    if (instruction->operands == 0) continue;
+    EXPECT_TRUE(!instruction->rules().empty() || times().cost(instruction->mnemonic, {})) << instruction->mnemonic;
+    if (instruction->rules().empty()) continue;
     const OperandRule& first = instruction->operand[0];
     for (const AreaInfo& area : all_areas()) {
       if (contains(first.areas, area.area)) {
@@ -69,7 +69,7 @@ TEST(InstructionTable, EveryModelledRowHasATimeForEachAreaOfItsFirstOperand) {
 
 TEST(InstructionTable, RowsWithoutABodyAreRefusedByName) {
   for (const Instruction& instruction : all_instructions()) {
-    if (instruction.body) continue;
+    if (instruction.modelled()) continue;
     const std::string mnemonic(instruction.mnemonic);
     const CheckResult result = check_text("LD SM0.0\n" + mnemonic + "\nMEND\n", "test", cpu214(), times());
     ASSERT_FALSE(result.program) << mnemonic;
@@ -98,12 +98,13 @@ TEST(InstructionTable, WhatEachInstructionFindsOnTheLogicStackAndLeavesThere) {
                                                                     {"CTUD", {3, -2}}, {"LSCR", {0, 1}}};
   static const std::set<std::string_view> kAlone{"NOP", "LBL", "SBR", "INT", "NEXT", "MEND", "RET", "RETI", "SCRE"};
   for (const Instruction& instruction : all_instructions()) {
-    if (!instruction.body) continue;
+    if (!instruction.modelled()) continue;
     std::pair<int, int> expected{1, 0};
     if (instruction.mnemonic.starts_with("LD")) expected = {0, 1};
     if (kAlone.contains(instruction.mnemonic)) expected = {0, 0};
     if (const auto own = kOwn.find(instruction.mnemonic); own != kOwn.end()) expected = own->second;
-    EXPECT_EQ((std::pair<int, int>{instruction.stack.needs, instruction.stack.change}), expected) << instruction.mnemonic;
+    EXPECT_EQ((std::pair<int, int>{instruction.rung.stack.needs, instruction.rung.stack.change}), expected)
+        << instruction.mnemonic;
   }
 }
 
@@ -142,7 +143,7 @@ TEST(InstructionTable, ContactsAndNothingElseHaveABodyForSegments) {
                                                     "AI", "ANI", "O",   "ON",   "OI", "ONI"};
   for (const Instruction& instruction : all_instructions()) {
     const bool contact = kContacts.contains(instruction.mnemonic) || instruction.structure == Structure::Compare;
-    EXPECT_EQ(instruction.in_segment != nullptr, contact) << instruction.mnemonic;
+    EXPECT_EQ(instruction.body.in_segment != nullptr, contact) << instruction.mnemonic;
   }
 }
 
@@ -194,7 +195,7 @@ TEST(InstructionTable, EveryFormOfEveryOperandHasAVector) {
   for (const Instruction* instruction : modelled_on_214()) {
     const auto statements = statements_in_vectors(*instruction);
     EXPECT_FALSE(statements.empty()) << instruction->mnemonic << " has no vector";
-    for (std::size_t i = 0; i < instruction->operands && !statements.empty(); ++i) {
+    for (std::size_t i = 0; i < instruction->rules().size() && !statements.empty(); ++i) {
       std::set<std::string> missing = forms_of(instruction->operand[i]);
       for (const stl::Statement& statement : statements) missing.erase(form_of(statement.operands.at(i)));
       EXPECT_TRUE(missing.empty()) << fmt::format("{}: no vector with {} as {}", instruction->mnemonic,

@@ -122,7 +122,7 @@ class Execution {
     if (!vector_.is_program()) {
       const std::string mnemonic = vector_.ops[0].substr(0, vector_.ops[0].find(' '));
       const Instruction* instruction = find_instruction(mnemonic);
-      prefix_ = instruction ? static_cast<std::uint32_t>(std::max<int>(0, instruction->stack.needs)) : 0;
+      prefix_ = instruction ? static_cast<std::uint32_t>(std::max<int>(0, instruction->rung.stack.needs)) : 0;
       for (std::uint32_t i = 0; i < prefix_; ++i) text += "LD SM0.0\n";
     }
     for (const std::string& op : vector_.ops) text += op + "\n";

@@ -11,14 +11,14 @@ namespace {
 /// The example in a rung with as much on the logic stack as it needs.
 std::string program_with(const Instruction& instruction) {
   std::string text;
-  for (int i = 0; i < instruction.stack.needs; ++i) text += "LD SM0.0\n";
+  for (int i = 0; i < instruction.rung.stack.needs; ++i) text += "LD SM0.0\n";
   return text + example(instruction) + "\nMEND\n";
 }
 
 TEST(InstructionText, EveryExampleIsRightOnTheLargestCpu) {
   const CpuModel& model = *all_cpus().back();
   for (const Instruction& instruction : all_instructions()) {
-    if (!instruction.body || instruction.structure != Structure::None || !(instruction.allowed & kMain)) continue;
+    if (!instruction.modelled() || instruction.structure != Structure::None || !(instruction.allowed & kMain)) continue;
     const CheckResult result = check_text(program_with(instruction), "example", model, default_times(model));
     EXPECT_TRUE(result.program) << program_with(instruction)
                                 << (result.diagnostics.empty() ? "" : result.diagnostics[0].message);

@@ -1,0 +1,154 @@
+// What may be written for an operand: the vocabulary of the table. Facts 6; the areas there are inferred from the manuals'
+// operand lists.
+//
+// A name says what the manual calls the operand, and how the instruction reads it: BYTE, WORD and DWORD are bits, and any
+// number that fits may be written for them; USINT has no sign, INT and DINT have one.
+#pragma once
+
+#include "interpreter/instructions/instruction.hpp"
+
+namespace s7200::operands {
+
+inline constexpr Areas kInputs = set_of(Area::I), kOutputs = set_of(Area::Q), kSegments = set_of(Area::S);
+inline constexpr Areas kAnalogInputs = set_of(Area::AI), kAnalogOutputs = set_of(Area::AQ);
+inline constexpr Areas kTimers = set_of(Area::T), kCounters = set_of(Area::C);
+inline constexpr Areas kMemory = kInputs | kOutputs | kSegments | set_of(Area::M) | set_of(Area::SM) | set_of(Area::V);
+inline constexpr Areas kMemoryTC = kMemory | kTimers | kCounters;                                       // bits, words
+inline constexpr Areas kValue = kMemory | set_of(Area::AC), kWordValue = kMemoryTC | set_of(Area::AC);  // others, words
+inline constexpr Areas kReadWord = kWordValue | kAnalogInputs, kWriteWord = kWordValue | kAnalogOutputs;
+inline constexpr Areas kReadDword = kValue | set_of(Area::HC);
+
+inline constexpr std::int64_t kLargestByte = 255;
+
+/// The same rule for an operand that the manual calls something else.
+constexpr OperandRule named(std::string_view name, OperandRule rule) {
+  rule.name = name;
+  return rule;
+}
+
+// clang-format off
+
+// --- bits; S, R and SHRB work on as many as the count says ---
+
+inline constexpr OperandRule
+    kBit          {.name = "BIT",   .width = Width::Bit,                    .areas = kMemoryTC},
+    kDataBit      {.name = "DATA",  .width = Width::Bit,                    .areas = kMemoryTC},
+    kInputPoint   {.name = "BIT",   .width = Width::Bit,                    .areas = kInputs},
+    kSegmentIn    {.name = "BIT",   .width = Width::Bit,                    .areas = kSegments},
+    kSegmentOut   {.name = "BIT",   .width = Width::Bit, .role = Role::Out, .areas = kSegments},
+    kBitOut       {.name = "BIT",   .width = Width::Bit, .role = Role::Out, .areas = kMemoryTC},
+    kOutputPoint  {.name = "BIT",   .width = Width::Bit, .role = Role::Out, .areas = kOutputs},
+    kBits         {.name = "BIT",   .width = Width::Bit, .role = Role::Out, .areas = kMemoryTC, .counted = 1},
+    kOutputPoints {.name = "BIT",   .width = Width::Bit, .role = Role::Out, .areas = kOutputs,  .counted = 1},
+    kShiftRegister{.name = "S_BIT", .width = Width::Bit, .role = Role::Out, .areas = kMemoryTC, .counted = 1};
+
+// --- values that are read ---
+
+inline constexpr OperandRule
+    kInByte          {.name = "IN", .width = Width::Byte,   .areas = kValue,     .constant = true, .pointer = true},
+    kInUsint         {.name = "IN", .width = Width::Byte,   .areas = kValue,     .constant = true, .pointer = true,                                 .sign = Sign::Unsigned},
+    kInWord          {.name = "IN", .width = Width::Word,   .areas = kReadWord,  .constant = true, .pointer = true},
+    kInInt           {.name = "IN", .width = Width::Word,   .areas = kReadWord,  .constant = true, .pointer = true,                                 .sign = Sign::Signed},
+    kInDword         {.name = "IN", .width = Width::Double, .areas = kReadDword, .constant = true, .pointer = true},
+    kInDint          {.name = "IN", .width = Width::Double, .areas = kReadDword, .constant = true, .pointer = true,                                 .sign = Sign::Signed},
+    kInDwordOrAddress{.name = "IN", .width = Width::Double, .areas = kReadDword, .constant = true, .pointer = true, .address_of = true},
+    kInReal          {.name = "IN", .width = Width::Double, .areas = kValue,     .constant = true, .pointer = true,                    .real = true};
+
+inline constexpr OperandRule
+    kIn1Byte  = named("IN1", kInByte),  kIn2Byte  = named("IN2", kInByte),
+    kIn1Usint = named("IN1", kInUsint), kIn2Usint = named("IN2", kInUsint),
+    kIn1Word  = named("IN1", kInWord),  kIn2Word  = named("IN2", kInWord),
+    kIn1Int   = named("IN1", kInInt),   kIn2Int   = named("IN2", kInInt),
+    kIn1Dword = named("IN1", kInDword), kIn2Dword = named("IN2", kInDword),
+    kIn1Dint  = named("IN1", kInDint),  kIn2Dint  = named("IN2", kInDint),
+    kIn1Real  = named("IN1", kInReal),  kIn2Real  = named("IN2", kInReal);
+
+inline constexpr OperandRule
+    kDataWord    = named("DATA", kInWord),
+    kPatternWord = named("PATRN", kInWord),
+    kPatternInt  = named("PATRN", kInInt),
+    kInitial     = named("INIT", kInInt),
+    kFinal       = named("FINAL", kInInt),
+    kPresetInt   = named("PV", kInInt);
+
+// What TON, TONR and CTU count up to: they count from 0.
+inline constexpr OperandRule
+    kPresetTime{.name = "PT", .width = Width::Word, .areas = kReadWord, .constant = true, .pointer = true, .sign = Sign::Signed, .min = 1, .max = 32767},
+    kPresetValue = named("PV", kPresetTime);
+
+// --- counts and places: bytes that are read ---
+
+inline constexpr OperandRule
+    // How many elements the blocks of the instruction have.
+    kCount     {.name = "N",   .width = Width::Byte, .areas = kValue, .constant = true, .pointer = true, .sign = Sign::Unsigned, .min = 1,   .max = kLargestByte,                   .count = true},
+    kLength    {.name = "LEN", .width = Width::Byte, .areas = kValue, .constant = true, .pointer = true, .sign = Sign::Unsigned, .min = 0,   .max = kLargestByte,                   .count = true},
+    // SHRB: the sign is the direction, and 0 bits are count error 0092.
+    kShiftCount{.name = "N",   .width = Width::Byte, .areas = kValue, .constant = true, .pointer = true, .sign = Sign::Signed,   .min = -64, .max = 64,           .not_zero = true, .count = true},
+    // By how many places to shift. More than the width is not a mistake: a shift stops there, a rotate takes it modulo the width.
+    kPlaces    {.name = "N",   .width = Width::Byte, .areas = kValue, .constant = true, .pointer = true, .sign = Sign::Unsigned, .min = 0,   .max = kLargestByte};
+
+// --- values that are written; InOut: those of two-operand arithmetic are source and destination ---
+
+inline constexpr OperandRule
+    kOutByte        {.name = "OUT", .width = Width::Byte,   .role = Role::Out,   .areas = kValue,     .pointer = true},
+    kOutWord        {.name = "OUT", .width = Width::Word,   .role = Role::Out,   .areas = kWordValue, .pointer = true},
+    kOutWordOrAnalog{.name = "OUT", .width = Width::Word,   .role = Role::Out,   .areas = kWriteWord, .pointer = true},
+    kOutDword       {.name = "OUT", .width = Width::Double, .role = Role::Out,   .areas = kValue,     .pointer = true},
+    kOutReal        {.name = "OUT", .width = Width::Double, .role = Role::Out,   .areas = kValue,     .pointer = true, .real = true},
+    kInOutByte      {.name = "OUT", .width = Width::Byte,   .role = Role::InOut, .areas = kValue,     .pointer = true},
+    kInOutWord      {.name = "OUT", .width = Width::Word,   .role = Role::InOut, .areas = kWordValue, .pointer = true},
+    kInOutDword     {.name = "OUT", .width = Width::Double, .role = Role::InOut, .areas = kValue,     .pointer = true},
+    kInOutReal      {.name = "OUT", .width = Width::Double, .role = Role::InOut, .areas = kValue,     .pointer = true, .real = true};
+
+inline constexpr OperandRule
+    kLoopIndex = named("INDX", kOutWord),
+    kFindIndex = named("INDX", kInOutWord),
+    kSwapped   = named("IN", kInOutWord),
+    kDataOut   = named("DATA", kOutWordOrAnalog);
+
+// --- blocks: as many elements as the count says; a byte holds two hexadecimal digits ---
+
+inline constexpr OperandRule
+    kInBytes  {.name = "IN",  .width = Width::Byte,                      .areas = kMemory,                    .pointer = true, .counted = 1},
+    kInWords  {.name = "IN",  .width = Width::Word,                      .areas = kMemoryTC | kAnalogInputs,  .pointer = true, .counted = 1},
+    kInDwords {.name = "IN",  .width = Width::Double,                    .areas = kMemory,                    .pointer = true, .counted = 1},
+    kInDigits {.name = "IN",  .width = Width::Byte,                      .areas = kMemory,                    .pointer = true, .counted = 2},
+    kOutBytes {.name = "OUT", .width = Width::Byte,   .role = Role::Out, .areas = kMemory,                    .pointer = true, .counted = 1},
+    kOutWords {.name = "OUT", .width = Width::Word,   .role = Role::Out, .areas = kMemoryTC | kAnalogOutputs, .pointer = true, .counted = 1},
+    kOutDwords{.name = "OUT", .width = Width::Double, .role = Role::Out, .areas = kMemory,                    .pointer = true, .counted = 1},
+    kOutDigits{.name = "OUT", .width = Width::Byte,   .role = Role::Out, .areas = kMemory,                    .pointer = true, .counted = 2};
+
+// --- tables and buffers: at least so many elements, whatever they hold ---
+
+inline constexpr OperandRule
+    // Its length, the number of its entries, and at least one of them; FND is given the number of entries and what follows it.
+    kTable   {.name = "TBL", .width = Width::Word, .role = Role::InOut, .areas = kMemoryTC, .pointer = true, .elements = 3},
+    kEntries {.name = "SRC", .width = Width::Word,                      .areas = kMemoryTC, .pointer = true},
+    kMessage {.name = "TBL", .width = Width::Byte,                      .areas = kMemory,   .pointer = true},
+    kClockIn {.name = "T",   .width = Width::Byte,                      .areas = kMemory,   .pointer = true, .elements = 8},
+    kClockOut{.name = "T",   .width = Width::Byte, .role = Role::Out,   .areas = kMemory,   .pointer = true, .elements = 8};
+
+// --- timers and counters ---
+
+inline constexpr OperandRule
+    kOnDelayTimer  {.name = "T", .width = Width::Word, .role = Role::InOut, .areas = kTimers,  .timer = TimerKind::OnDelay},
+    kRetentiveTimer{.name = "T", .width = Width::Word, .role = Role::InOut, .areas = kTimers,  .timer = TimerKind::Retentive},
+    kCounter       {.name = "C", .width = Width::Word, .role = Role::InOut, .areas = kCounters};
+
+// --- numbers that are part of the instruction; the CPU model says how many labels, subroutines, events … there are ---
+
+inline constexpr OperandRule
+    kLabel           {.name = "n",    .kind = OperandKind::Label},
+    kSubroutineNumber{.name = "n",    .kind = OperandKind::Subroutine},
+    kRoutineNumber   {.name = "n",    .kind = OperandKind::Interrupt},
+    kRoutine         {.name = "INT",  .kind = OperandKind::Interrupt},
+    kEvent           {.name = "EVNT", .kind = OperandKind::Event},
+    kPort            {.name = "PORT", .kind = OperandKind::Port},
+    kHighSpeedCounter{.name = "HSC",  .kind = OperandKind::Counter},
+    kMode            {.name = "MODE", .kind = OperandKind::Number,    .max = 11},
+    kPulseOutput     {.name = "X",    .kind = OperandKind::Number,    .max = 1},
+    kAnyNumber       {.name = "n",    .kind = OperandKind::Number,    .max = kLargestByte};
+
+// clang-format on
+
+}  // namespace s7200::operands
