@@ -1,7 +1,7 @@
-// The memory areas of the S7-200 and where each lies in the one flat image that holds them all.
+// The memory areas of the S7-200, and where each is in the flat image that holds them all.
 //
-// Every area, the accumulators and the program's constants lie in one big-endian image, so that a direct operand is an
-// offset and nothing else. Places are the same for every CPU; a CPU model says how much of each area it has.
+// All areas, the accumulators and the program's constants are in one big-endian image, so a direct operand is just an
+// offset. The places are the same for every CPU; a CPU model says how much of each area it has.
 #pragma once
 
 #include <array>
@@ -42,26 +42,26 @@ inline constexpr std::uint32_t kInputs = kCBits + 32;    // 16: the input points
 inline constexpr std::uint32_t kOutputs = kInputs + 16;  // 16: the output points themselves
 inline constexpr std::uint32_t kEdges = kOutputs + 16;   // 512: one memory bit for each EU and ED
 inline constexpr std::uint32_t kV = kEdges + 512;        // 10240
-inline constexpr std::uint32_t kConstants = kV + 10240;  // what the program's constants are read from
+inline constexpr std::uint32_t kConstants = kV + 10240;  // the program's constants
 inline constexpr std::uint32_t kSize = 20 * 1024;
 
-inline constexpr std::uint32_t kPointBytes = 16;  // of input points, of output points, and of each of their images
+inline constexpr std::uint32_t kPointBytes = 16;  // of input points, of output points, and of their images
 
 }  // namespace image
 
 inline constexpr std::uint32_t kNoBits = 0xFFFF'FFFF;
 
-/// What an area is called, where it lies, and how it is addressed.
+/// What an area is called, where it is, and how it is addressed.
 struct AreaInfo {
   Area area;
   std::string_view name;  ///< as in STL
   std::uint32_t base;     ///< of the values, in the image
-  std::uint32_t bits;     ///< of the bits: equal to `base`, or where T and C keep theirs; kNoBits: no bit access
+  std::uint32_t bits;     ///< of the bits: equal to `base`, or elsewhere for T and C; kNoBits: no bit access
   std::uint32_t element;  ///< bytes of a numbered element (T, C, HC, AC); 0: byte-addressed
   std::optional<std::uint8_t> pointer_code;  ///< top byte of a pointer to it
   std::string_view meaning;
 
-  std::uint32_t step() const { return element == 0 ? 1 : element; }  ///< from one number to the next, in bytes
+  std::uint32_t step() const { return element == 0 ? 1 : element; }  ///< bytes from one number to the next
 };
 
 const AreaInfo& info(Area area);

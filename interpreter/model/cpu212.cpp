@@ -1,6 +1,6 @@
 // CPU 212. Ranges: facts 1.1. Queues: S7-200 manual C230-02, 10-120. Baud rates: facts 2.1 (code 000 is 19 200 here).
 // Retentive: as on the CPU 214.
-// Execution times: those of the CPU 214, for want of others.
+// Execution times: those of the CPU 214, since no others are known.
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/embedded_times.hpp"
 

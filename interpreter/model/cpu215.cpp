@@ -1,6 +1,6 @@
 // CPU 215 and CPU 216. Ranges: facts 1.1. Queues: S7-200 manual C230-02, 10-120. Baud rates: facts 2.1.
 // Retentive: as on the CPU 214.
-// Execution times: those of the CPU 214, for want of others, and estimates for what the CPU 214 lacks.
+// Execution times: those of the CPU 214, since no others are known, and estimates for instructions that the CPU 214 lacks.
 // Not modelled: the DP port of the CPU 215, port 1 of the CPU 216, RCV, PID, NETR and NETW.
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/embedded_times.hpp"

@@ -18,7 +18,7 @@ std::string to_text(CpuSet cpus) {
   return text;
 }
 
-// Facts 3.1. The order inside a group is the 21x list; what only 22x CPUs have follows it.
+// Facts 3.1. The order inside a group is that of the 21x list; events that only 22x CPUs have come after it.
 const std::vector<InterruptEvent>& all_events() {
   static const std::vector<InterruptEvent> kTable{
       {event::kI00Rises, Queue::Io, 0, kEveryCpu, "rising edge of I0.0"},

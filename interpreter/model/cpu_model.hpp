@@ -12,7 +12,7 @@
 
 namespace s7200 {
 
-/// A set of CPU types. Instructions carry the set of those that have them, so that a message can say which CPU it needs.
+/// A set of CPU types. Each instruction has the set of CPUs that know it, so that a message can say which CPU it needs.
 using CpuSet = std::uint8_t;
 inline constexpr CpuSet kCpu212 = 1, kCpu214 = 2, kCpu215 = 4, kCpu216 = 8;
 inline constexpr CpuSet kCpu21x = 15, kCpu22x = 16, kEveryCpu = 31;
@@ -28,19 +28,20 @@ inline constexpr std::size_t kQueues = 3;
 struct InterruptEvent {
   std::uint8_t number;
   Queue queue;
-  std::uint8_t order;  ///< inside its queue, when several occur at the same instant
+  std::uint8_t order;  ///< inside its queue, if several occur at the same instant
   CpuSet cpus;
   std::string_view cause;
   bool modelled = true;
 };
 
-/// All events of the family. Nothing for a number that no CPU has.
+/// All events of the family.
 const std::vector<InterruptEvent>& all_events();
+/// Null for a number that no CPU has.
 const InterruptEvent* find_event(std::int64_t number);
 
 inline constexpr std::size_t kEvents = 34;
 
-/// Memory that outlasts power off, as the CPU is delivered (facts 1.6).
+/// Memory that survives power off, with the settings that the CPU is delivered with (facts 1.6).
 struct RetentiveRange {
   Area area;
   std::uint32_t first, count;  ///< bytes, or elements of T and C
@@ -49,7 +50,7 @@ struct RetentiveRange {
   std::uint32_t bytes() const { return count * info(area).step(); }
 };
 
-/// What is left in OUT when the result of +I, -I, +D, -D or DIV does not fit.
+/// What OUT holds after +I, -I, +D, -D or DIV if the result does not fit.
 enum class IntegerOverflow : std::uint8_t {
   Wrap,  ///< the low bits of the result
   Keep   ///< what was there before (S7-200 manual from 2004 on, 140: CPU 22x)
@@ -59,10 +60,10 @@ struct CpuModel {
   std::string_view name;  ///< "214"
   CpuSet self;
   std::array<std::uint32_t, kAreas> size;         ///< bytes, or elements of T, C, HC and AC; by Area
-  std::uint32_t labels, subroutines, interrupts;  ///< how many numbers there are, from 0
+  std::uint32_t labels, subroutines, interrupts;  ///< how many there are, numbered from 0
   std::uint32_t ports;
   std::uint32_t program_words;
-  std::uint32_t eeprom_bytes;  ///< V memory that the EEPROM can hold, from V0 on
+  std::uint32_t eeprom_bytes;  ///< how much V memory the EEPROM can hold, from V0
   std::vector<RetentiveRange> retentive;
   std::array<std::uint8_t, kQueues> queue_depth;
   std::array<std::uint32_t, 8> baud;          ///< by the three bits bbb of SMB30
@@ -76,14 +77,14 @@ struct CpuModel {
   std::uint32_t size_of(Area area) const { return size[static_cast<std::size_t>(area)]; }
 };
 
-/// Time base and kind of a timer, by its number (facts 1.1): the same on all CPUs.
+/// Time base and kind of a timer, by its number (facts 1.1); the same on all CPUs.
 struct TimerBase {
   Time base;       ///< 1, 10 or 100 ms
-  bool retentive;  ///< TONR; else TON
+  bool retentive;  ///< TONR; otherwise TON
 };
 TimerBase timer_base(std::uint32_t number);
 
-/// The special-memory bytes the programmer may read and write, and whether the simulator does what they say.
+/// The bytes of special memory that a program may use, and whether the simulator does what they say.
 struct SpecialMemory {
   std::uint8_t first, last;  ///< SMB numbers
   bool modelled;
@@ -99,10 +100,10 @@ const CpuModel& cpu214();
 const CpuModel& cpu215();
 const CpuModel& cpu216();
 
-/// By size, the smallest first.
+/// From the smallest to the largest.
 const std::vector<const CpuModel*>& all_cpus();
 
-/// Nothing for a name the simulator has no model of.
+/// Null if the simulator has no model of that name.
 const CpuModel* find_cpu(std::string_view name);
 
 }  // namespace s7200

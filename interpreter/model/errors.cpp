@@ -5,31 +5,31 @@ namespace s7200 {
 std::string_view meaning_of(RunError code) {
   switch (code) {
     case RunError::CounterNotDefined:
-      return "HSC before HDEF of that counter";
+      return "HSC before HDEF for the same counter";
     case RunError::PointTaken:
       return "input interrupt attached to a point that a high-speed counter uses";
     case RunError::InputTaken:
       return "HDEF uses an input that an input interrupt is attached to";
     case RunError::Clock:
-      return "TODW: the buffer holds no BCD";
+      return "TODW: the buffer does not hold BCD";
     case RunError::CounterDefinedTwice:
       return "second HDEF for the same counter";
     case RunError::CompareValue:
       return "illegal value in a compare contact: not a real number (NaN)";
     case RunError::EepromRange:
-      return "the V address to save lies outside the EEPROM";
+      return "the V address to save is outside the EEPROM";
     case RunError::IndirectAddress:
-      return "indirect addressing error: the pointer leads outside the memory it may reach";
+      return "indirect addressing error: the pointer points outside the memory that it may reach";
     case RunError::CallDepth:
-      return "subroutines nested too deep";
+      return "subroutines nested too deeply";
     case RunError::Port0Busy:
       return "XMT while port 0 is transmitting, or not in Freeport mode";
     case RunError::OperandRange:
-      return "range error: the operand leaves its memory area";
+      return "range error: the operand runs past the end of its memory area";
     case RunError::Count:
       return "error in the count field of an instruction";
     case RunError::FreeportInInterrupt:
-      return "attempt to switch to Freeport inside an interrupt routine";
+      return "attempt to switch to Freeport in an interrupt routine";
   }
   return "unknown";
 }

@@ -1,4 +1,4 @@
-// Codes of the errors that the simulated CPU can report, with their meanings.
+// Codes of the errors that the simulated CPU can report, and their meanings.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ enum class RunError : std::uint16_t {
 /// Fatal errors: the CPU goes to STOP (facts 5.1).
 enum class FatalError : std::uint16_t { Watchdog = 0x03, CompareIndirect = 0x11, CompareValue = 0x12 };
 
-/// One line of meaning for a code, for people.
+/// What a code means, in one line.
 std::string_view meaning_of(RunError code);
 std::string_view meaning_of(FatalError code);
 

@@ -1,4 +1,4 @@
-// Numbers of the interrupt events, by name (facts 3.1). Their queues, order and CPUs are in the list all_events().
+// Names for the numbers of the interrupt events (facts 3.1). Their queues, order and CPUs are in the list all_events().
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The serial ports, as data: what the program knows of each (facts 2).
+// The serial ports, as data: what the program sees of each (facts 2).
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 namespace s7200 {
 
 struct PortInfo {
-  std::uint32_t control;         ///< its control byte: place in the image
-  sm::InterruptStatus idle;      ///< its bit of SMB4: transmitter idle
+  std::uint32_t control;         ///< place of its control byte in the image
+  sm::InterruptStatus idle;      ///< its bit in SMB4: transmitter idle
   event::Number received, sent;  ///< a character has been received; the transmission is complete
   RunError busy;                 ///< XMT cannot be executed now
 };

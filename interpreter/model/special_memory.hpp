@@ -1,6 +1,6 @@
-// Special memory by name: where its bytes lie in the image, and what their bits mean (facts 2.1, 4.3–4.5).
+// Special memory by name: where its bytes are in the image, and what their bits mean (facts 2.1, 4.3–4.5).
 //
-// Which bytes a program may name, and whether the simulator does what they say, is in the list special_memory().
+// The list special_memory() has the bytes that a program may name, and whether the simulator does what they say.
 #pragma once
 
 #include <array>
@@ -30,12 +30,12 @@ inline constexpr std::uint32_t kScanStatus = byte(0);
 enum ScanStatus : std::uint8_t {
   kAlwaysOn = 0x01,         ///< SM0.0
   kFirstScan = 0x02,        ///< SM0.1
-  kRetentiveLost = 0x04,    ///< SM0.2: for one scan, when retentive data were lost
-  kFromPowerUp = 0x08,      ///< SM0.3: for one scan, when RUN was entered from power-up
+  kRetentiveLost = 0x04,    ///< SM0.2: for one scan, if retentive data were lost
+  kFromPowerUp = 0x08,      ///< SM0.3: for one scan, if RUN was entered from power-up
   kClock1min = 0x10,        ///< SM0.4: 30 s on, 30 s off
   kClock1s = 0x20,          ///< SM0.5: 0.5 s on, 0.5 s off
   kAlternatingScan = 0x40,  ///< SM0.6
-  kModeSwitchRun = 0x80,    ///< SM0.7: mode switch in RUN; 0: TERM
+  kModeSwitchRun = 0x80,    ///< SM0.7: mode switch in RUN; 0: in TERM
 };
 
 inline constexpr std::uint32_t kFlags = byte(1);  ///< of Flag
@@ -63,13 +63,13 @@ enum PortControl : std::uint8_t {
   kProtocol = 0x03,   ///< mm
   kFreeport = 0x01,   ///< as the protocol
   kBaudRate = 0x1C,   ///< bbb
-  kSevenBits = 0x20,  ///< d: characters of 7 bits; else 8
+  kSevenBits = 0x20,  ///< d: characters of 7 bits; otherwise 8
   kParity = 0xC0,     ///< pp
 };
 
 inline constexpr std::uint32_t kEepromRequest = byte(31);
 enum EepromRequest : std::uint8_t {
-  kSaveSize = 0x03,  ///< SM31.0, SM31.1: 2 a word, 3 a double word, else a byte
+  kSaveSize = 0x03,  ///< SM31.0, SM31.1: 2 a word, 3 a double word, otherwise a byte
   kSave = 0x80,      ///< SM31.7
 };
 inline constexpr std::uint32_t kEepromAddress = byte(32);  ///< word: offset in V
@@ -84,7 +84,7 @@ namespace sm::counter {
 inline constexpr std::array<std::uint32_t, 3> kStatus{byte(36), byte(46), byte(56)};
 enum Status : std::uint8_t { kCountingUp = 0x20, kAtPreset = 0x40, kAbovePreset = 0x80 };
 
-// From the status byte on.
+// Offsets from the status byte.
 inline constexpr std::uint32_t kControl = 1;
 inline constexpr std::uint32_t kNewCurrent = 2;  ///< double word
 inline constexpr std::uint32_t kNewPreset = 6;   ///< double word
@@ -108,7 +108,7 @@ namespace sm::pulses {
 inline constexpr std::array<std::uint32_t, 2> kStatus{byte(66), byte(76)};
 enum Status : std::uint8_t { kTrainOverflow = 0x40, kIdle = 0x80 };
 
-// From the status byte on.
+// Offsets from the status byte.
 inline constexpr std::uint32_t kControl = 1;
 inline constexpr std::uint32_t kCycleTime = 2;   ///< word
 inline constexpr std::uint32_t kPulseWidth = 4;  ///< word

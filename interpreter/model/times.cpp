@@ -21,7 +21,7 @@ std::vector<std::string> words(std::string_view text) {
   return result;
 }
 
-/// One CSV line; quotes as RFC 4180 has them.
+/// The fields of a CSV line, quoted as in RFC 4180.
 std::vector<std::string> fields(std::string_view line) {
   std::vector<std::string> result(1);
   bool quoted = false;
@@ -47,7 +47,7 @@ std::optional<Time> microseconds(const std::string& text) {
   return static_cast<Time>(std::llround(*value * 1000));
 }
 
-/// The areas a form names; none when it holds any other word.
+/// The areas that a form names; none if it contains any other word.
 Areas areas_of(std::string_view form) {
   Areas areas = 0;
   for (const std::string& word : words(form)) {
@@ -74,24 +74,24 @@ bool may_be_free(const TimeRow& row) {
                      [](const std::string& m) { return m == "LBL" || m == "SBR" || m == "INT"; });
 }
 
-/// Reads one line into `row`; what is wrong with it, or nothing.
+/// Reads one line into `row`. Returns what is wrong with it; empty if nothing is.
 std::string read_row(std::string_view line, TimeRow& row) {
   const std::vector<std::string> field = fields(line);
-  if (field.size() < 6) return fmt::format("{} columns where {} are needed ({})", field.size(), 6, kHeader);
+  if (field.size() < 6) return fmt::format("{} columns, but {} are needed ({})", field.size(), 6, kHeader);
   row.mnemonics = mnemonics_of(field[0]);
-  if (row.mnemonics.empty()) return "no mnemonic";
+  if (row.mnemonics.empty()) return "the mnemonic is missing";
   row.form = field[1];
   row.areas = areas_of(row.form);
   const auto base = microseconds(field[2]);
-  if (!base) return fmt::format("'{}' is no time in microseconds (0 to 1000000)", field[2]);
+  if (!base) return fmt::format("'{}' is not a time in microseconds (0 to 1000000)", field[2]);
   row.base = *base;
   const auto per_unit = field[3].empty() ? Time{0} : microseconds(field[3]);
-  if (!per_unit) return fmt::format("'{}' is no time in microseconds (0 to 1000000)", field[3]);
+  if (!per_unit) return fmt::format("'{}' is not a time in microseconds (0 to 1000000)", field[3]);
   row.per_unit = *per_unit;
   row.unit = field[4];
   row.marker = field[5];
   if (row.marker != "manual" && row.marker != "estimate" && row.marker != "calibrated")
-    return fmt::format("marker '{}' is none of manual, estimate, calibrated", row.marker);
+    return fmt::format("'{}' is not a marker; write manual, estimate or calibrated", row.marker);
   row.source = field.size() > 6 ? field[6] : "";
   if (row.base == 0 && !may_be_free(row)) return fmt::format("{}: an execution time must be above 0", field[0]);
   return {};
@@ -135,7 +135,8 @@ std::vector<std::string> TimeTable::add(std::string_view csv, const std::string&
     if (!header_seen) {
       header_seen = true;
       if (stl::trim(line).starts_with(kHeader)) continue;
-      return {fmt::format("{}:{}: not a table of times: the first line must be {}[,source]", name, number, kHeader)};
+      return {
+          fmt::format("{}:{}: not a table of execution times: the first line must be {}[,source]", name, number, kHeader)};
     }
     TimeRow row;
     if (const std::string error = read_row(line, row); !error.empty())
@@ -143,7 +144,7 @@ std::vector<std::string> TimeTable::add(std::string_view csv, const std::string&
     else
       rows.push_back(std::move(row));
   }
-  if (!header_seen) errors.push_back(fmt::format("{}: empty", name));
+  if (!header_seen) errors.push_back(fmt::format("{}: the table is empty", name));
   if (errors.empty()) rows_.insert(rows_.begin(), rows.begin(), rows.end());
   return errors;
 }

@@ -16,7 +16,7 @@ bool is_modelled(std::uint32_t at) {
   });
 }
 
-TEST(ModelNames, EveryByteWithANameIsOneThatProgramsMayUse) {
+TEST(ModelNames, ProgramsMayUseEveryByteThatHasAName) {
   for (const std::uint32_t at :
        {sm::kScanStatus, sm::kFlags, sm::kReceivedCharacter, sm::kReceiveStatus, sm::kInterruptStatus, sm::kIdentification,
         sm::kLastScan, sm::kShortestScan, sm::kLongestScan, sm::kPotentiometer[0], sm::kPotentiometer[1], sm::kPort0Control,
@@ -26,7 +26,7 @@ TEST(ModelNames, EveryByteWithANameIsOneThatProgramsMayUse) {
   for (const std::uint32_t at : sm::pulses::kStatus) EXPECT_TRUE(is_modelled(at) && is_modelled(at + 9));
 }
 
-TEST(ModelNames, EventsStandInTheListAtTheirNumbers) {
+TEST(ModelNames, TheListHasEachEventAtItsNumber) {
   for (std::size_t number = 0; number < all_events().size(); ++number) EXPECT_EQ(all_events()[number].number, number);
   EXPECT_EQ(find_event(event::kPort0Received)->cause, "port 0: character received");
   EXPECT_EQ(find_event(event::kTimed0)->cause, "timed interrupt 0, SMB34");

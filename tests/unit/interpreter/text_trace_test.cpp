@@ -12,13 +12,13 @@ constexpr std::string_view kProgram = "LD SM0.0\nMOVW VW0, *VD2\nMEND\n";
 
 std::string told(const TraceRecord& record) { return describe(record, *program_of(kProgram)); }
 
-TEST(TextTrace, TellsOfTheScanAndTheMode) {
+TEST(TextTrace, ReportsTheScanAndTheMode) {
   EXPECT_EQ(told({.kind = TraceKind::ScanBegin, .count = 7}), "scan 7 begins");
   EXPECT_EQ(told({.kind = TraceKind::ModeChange, .code = 1}), "RUN");
   EXPECT_EQ(told({.kind = TraceKind::ModeChange, .code = 0}), "STOP");
 }
 
-TEST(TextTrace, TellsOfInterruptsFromTheirEventToTheirEnd) {
+TEST(TextTrace, ReportsInterruptsFromTheirEventToTheirEnd) {
   EXPECT_EQ(told({.kind = TraceKind::Attach, .event = 10, .routine = 4, .interval = 5 * ms}),
             "ATCH: INT 4 to event 10 (timed interrupt 0, SMB34), every 5 ms");
   EXPECT_EQ(told({.kind = TraceKind::Attach, .event = 0, .routine = 4}), "ATCH: INT 4 to event 0 (rising edge of I0.0)");
@@ -34,7 +34,7 @@ TEST(TextTrace, TellsOfInterruptsFromTheirEventToTheirEnd) {
             "event 0 (rising edge of I0.0) of      12.000345 ms dropped: detached while it waited");
 }
 
-TEST(TextTrace, TellsOfThePortCharacterByCharacter) {
+TEST(TextTrace, ReportsThePortCharacterByCharacter) {
   EXPECT_EQ(told({.kind = TraceKind::PortControl, .byte = 9}), "SMB30 = 16#09");
   EXPECT_EQ(told({.kind = TraceKind::Transmit, .count = 3}), "XMT: 3 characters");
   EXPECT_EQ(told({.kind = TraceKind::Transmit, .count = 0}), "XMT: break");
@@ -46,25 +46,26 @@ TEST(TextTrace, TellsOfThePortCharacterByCharacter) {
   EXPECT_EQ(told({.kind = TraceKind::CharacterIgnored, .byte = 2}), "ignored  02: event 8 is not attached");
 }
 
-TEST(TextTrace, TellsOfOutputsAndErrors) {
+TEST(TextTrace, ReportsOutputsAndErrors) {
   EXPECT_EQ(told({.kind = TraceKind::OutputChanged, .byte = 0b101, .op = 1}), "QB1 = 2#00000101");
   EXPECT_EQ(told({.kind = TraceKind::AnalogChanged, .op = 4, .count = 0xFFFF}), "AQW4 = -1");
-  EXPECT_EQ(told({.kind = TraceKind::RuntimeError, .code = 0x06, .op = 1}),
-            "run-time error 0006 (indirect addressing error: the pointer leads outside the memory it may reach) in line 2: "
-            "MOVW    VW0, *VD2");
+  EXPECT_EQ(
+      told({.kind = TraceKind::RuntimeError, .code = 0x06, .op = 1}),
+      "run-time error 0006 (indirect addressing error: the pointer points outside the memory that it may reach) in line 2: "
+      "MOVW    VW0, *VD2");
   EXPECT_EQ(told({.kind = TraceKind::RuntimeError, .code = 0x94, .op = kNoRoutine}),
-            "run-time error 0094 (the V address to save lies outside the EEPROM) in between two scans");
+            "run-time error 0094 (the V address to save is outside the EEPROM) in between two scans");
   EXPECT_EQ(told({.kind = TraceKind::FatalError, .code = 0x03, .op = 0}),
             "FATAL error 0003 (scan watchdog: the scan took longer than 300 ms without WDR) in line 1: LD      SM0.0");
 }
 
-TEST(TextTrace, AnInstructionIsToldWithTheValuesOfItsOperands) {
+TEST(TextTrace, AnInstructionIsShownWithTheValuesOfItsOperands) {
   Plc plc(kProgram);
   std::ostringstream out;
   TextTrace trace(out, program_of(kProgram), true);
   plc.cpu.set_sink(&trace);
   plc.set("VW0", 0x1234);
-  plc.set("VD2", 0x0300'0000);  // leads nowhere
+  plc.set("VD2", 0x0300'0000);  // points nowhere
   plc.run_until(230 * us);
   const std::string text = out.str();
   EXPECT_NE(text.find("line 1     LD      SM0.0                S0=1 SM0.0=1  10 us\n"), std::string::npos) << text;
@@ -72,7 +73,7 @@ TEST(TextTrace, AnInstructionIsToldWithTheValuesOfItsOperands) {
   EXPECT_NE(text.find("run-time error 0006"), std::string::npos) << text;
 }
 
-TEST(TextTrace, ADoubleWordThatTheProgramUsesAsARealIsToldAsOneToo) {
+TEST(TextTrace, ADoubleWordThatTheProgramUsesAsARealIsAlsoShownAsOne) {
   constexpr std::string_view kReals = "LD SM0.0\nMOVR 1.5, VD0\nMOVD VD0, VD4\nMOVR *VD8, AC1\n+R 0.5, AC1\nMEND\n";
   Plc plc(kReals);
   std::ostringstream out;

@@ -20,13 +20,13 @@ TimeTable table(const std::string& lines) {
 std::vector<std::string> errors_in(const std::string& lines) {
   TimeTable times;
   auto errors = times.add(kHeader + lines, "times.csv");
-  EXPECT_EQ(times.rows().empty(), !errors.empty()) << "nothing is taken from a text with errors";
+  EXPECT_EQ(times.rows().empty(), !errors.empty()) << "a text with errors changes nothing";
   return errors;
 }
 
 using Errors = std::vector<std::string>;
 
-TEST(Times, OneLineMayBeForSeveralMnemonicsAndForAAndOToo) {
+TEST(Times, OneLineMayServeSeveralMnemonicsAndTheirAAndOForms) {
   const TimeTable times = table("LD LDN (and A O),I Q,0.8,,,estimate,\n");
   for (const char* mnemonic : {"LD", "LDN", "A", "AN", "O", "ON"}) {
     ASSERT_TRUE(times.cost(mnemonic, Area::I)) << mnemonic;
@@ -44,7 +44,7 @@ TEST(Times, ACorrectionReplacesItsFigureAndLeavesTheOthers) {
   EXPECT_FALSE(times.cost("MOVW", {}));
 }
 
-TEST(Times, WhatIsWrittenReadsBackToItself) {
+TEST(Times, WhatIsWrittenReadsBackAsItself) {
   TimeTable times = default_times(cpu215());
   EXPECT_TRUE(times.add(kHeader + "MOVB,\"V, M\",37,,,manual,\"page 9, table \"\"A\"\"\"\n", "mine.csv").empty());
   TimeTable again;
@@ -60,20 +60,21 @@ TEST(Times, WhatIsWrittenReadsBackToItself) {
 
 TEST(Times, WhatCannotBeReadIsNamedWithItsLine) {
   EXPECT_EQ(errors_in("MOVB,,60,,,estimate\nMOVW,,-1,,,estimate\n\nMOVD,,60,x,,estimate\n"),
-            (Errors{"times.csv:3: '-1' is no time in microseconds (0 to 1000000)",
-                    "times.csv:5: 'x' is no time in microseconds (0 to 1000000)"}));
-  EXPECT_EQ(errors_in("MOVB,,60,,,guess\n"), Errors{"times.csv:2: marker 'guess' is none of manual, estimate, calibrated"});
+            (Errors{"times.csv:3: '-1' is not a time in microseconds (0 to 1000000)",
+                    "times.csv:5: 'x' is not a time in microseconds (0 to 1000000)"}));
+  EXPECT_EQ(errors_in("MOVB,,60,,,guess\n"),
+            Errors{"times.csv:2: 'guess' is not a marker; write manual, estimate or calibrated"});
   EXPECT_EQ(errors_in("MOVB,,0,,,manual\n"), Errors{"times.csv:2: MOVB: an execution time must be above 0"});
   EXPECT_EQ(errors_in("LBL SBR INT,,0,,,manual\n"), Errors{});
-  EXPECT_EQ(errors_in(" ,,5,,,manual\n"), Errors{"times.csv:2: no mnemonic"});
-  EXPECT_EQ(errors_in("MOVB,60\n").at(0).substr(0, 44), "times.csv:2: 2 columns where 6 are needed (m");
+  EXPECT_EQ(errors_in(" ,,5,,,manual\n"), Errors{"times.csv:2: the mnemonic is missing"});
+  EXPECT_EQ(errors_in("MOVB,60\n").at(0).substr(0, 43), "times.csv:2: 2 columns, but 6 are needed (m");
 }
 
-TEST(Times, ATextThatIsNoTableIsRefused) {
+TEST(Times, ATextThatIsNotATableIsRefused) {
   TimeTable times;
-  EXPECT_EQ(times.add("", "empty.csv"), Errors{"empty.csv: empty"});
-  EXPECT_EQ(times.add("\nhello\n", "letter.csv").at(0).substr(0, 58),
-            "letter.csv:2: not a table of times: the first line must be");
+  EXPECT_EQ(times.add("", "empty.csv"), Errors{"empty.csv: the table is empty"});
+  EXPECT_EQ(times.add("\nhello\n", "letter.csv").at(0).substr(0, 68),
+            "letter.csv:2: not a table of execution times: the first line must be");
   EXPECT_EQ(times[SystemTime::InterruptEntry], 0) << "no line gives it";
 }
 
