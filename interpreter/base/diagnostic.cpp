@@ -12,8 +12,8 @@ namespace s7200::stl {
 
 namespace {
 
-constexpr std::size_t kWindow = 120;      // a longer line is shown around the place only
-constexpr std::size_t kBeforePlace = 60;  // characters shown before it then
+constexpr std::size_t kWindow = 120;      // of a longer line only the part around the place is shown
+constexpr std::size_t kBeforePlace = 60;  // and this many characters before it
 
 constexpr const char* kBold = "\x1b[1m";
 constexpr const char* kRed = "\x1b[1;31m";
@@ -29,7 +29,7 @@ bool is_wide(char32_t code) {
          (code >= 0xFE30 && code <= 0xFE6F) || (code >= 0xFF00 && code <= 0xFF60);
 }
 
-/// What takes the room of a character in the line of the caret; the ideographic space is as wide as a wide character.
+/// A blank as wide as the character, for the caret line; the ideographic space is as wide as a wide character.
 std::string_view blank_like(char32_t code) {
   if (code == '\t') return "\t";
   return is_wide(code) ? "\u3000" : " ";
@@ -99,7 +99,7 @@ std::vector<Cause> causes_of(const Diagnostics& diagnostics) {
   return causes;
 }
 
-/// `3 more, in lines 4, 7, 9`; of many lines the first ones and the last.
+/// `3 more, in lines 4, 7, 9`; of many lines only the first ones and the last.
 std::string where_else(const std::vector<const Diagnostic*>& others) {
   constexpr std::size_t kLinesShown = 10;
   std::vector<std::uint32_t> lines;

@@ -15,8 +15,8 @@ struct Diagnostic {
   Position position{};
   std::string message;  ///< one line, no full stop
   std::string hint{};   ///< what to do; may be empty
-  std::string cause{};  ///< the same for all that one change would mend; empty: it stands by itself
-  std::string name{};   ///< of a warning, by which it can be switched off
+  std::string cause{};  ///< the same for all that one change would fix; empty: it has a cause of its own
+  std::string name{};   ///< of a warning: the name that switches it off
 
   bool operator==(const Diagnostic&) const = default;
 };
@@ -25,15 +25,16 @@ using Diagnostics = std::vector<Diagnostic>;
 
 bool has_errors(const Diagnostics& diagnostics);
 
-/// Orders by line and column; of equal places the first stays first.
+/// Sorts by line and column; diagnostics at the same place keep their order.
 void sort(Diagnostics& diagnostics);
 
-/// `file:line:column: error: message`, the source line, a caret line, and `hint: …`; a warning's name in brackets. Tabs of
-/// the source line stand in the caret line too, so that the caret is right at any tab width; very long lines are shown
-/// around the place only. Every line ends with a line end. `colour` is ANSI.
+/// `file:line:column: error: message`, the source line, a caret line, and `hint: …`; a warning's name is in brackets. The
+/// caret line repeats the tabs of the source line, so that the caret is right at any tab width. Of a very long line only the
+/// part around the place is shown. Every line ends with a line end. `colour`: with ANSI colours.
 std::string render(const Diagnostic& diagnostic, const SourceLines& source, bool colour);
 
-/// All of them; those of one cause as the first of them, and a line `also: …` with how often and where else.
+/// All of them. Of those with the same cause only the first is shown, with a line `also: …` that says how many more there
+/// are and where.
 std::string render(const Diagnostics& diagnostics, const SourceLines& source, bool colour);
 
 /// How many causes there are.

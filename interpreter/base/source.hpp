@@ -7,7 +7,7 @@
 
 namespace s7200::stl {
 
-/// A place in a source text. Columns count characters (not bytes), both from 1; 0 means no place.
+/// A place in a source text. Lines and columns count from 1, columns in characters (not bytes); 0 means no place.
 struct Position {
   std::uint32_t line = 0;
   std::uint32_t column = 0;
@@ -18,7 +18,7 @@ struct Position {
 
 /// A text as it was read, for messages and listings.
 struct SourceLines {
-  std::string name;               ///< for messages: the path, or what stands for it
+  std::string name;               ///< for messages: the path, or a name in its place
   std::vector<std::string> text;  ///< UTF-8, without line ends
 };
 

@@ -9,7 +9,7 @@ namespace {
 struct Lead {
   std::size_t bytes;
   char32_t bits;
-  char32_t smallest;  // a smaller code in that many bytes is overlong
+  char32_t smallest;  // a smaller code in this many bytes is overlong
 };
 
 Lead lead_of(unsigned char byte) {

@@ -8,7 +8,7 @@
 
 namespace s7200::stl {
 
-/// What stands in a text for something that could not be read.
+/// Replaces what could not be read in a text.
 inline constexpr char32_t kReplacement = 0xFFFD;
 
 struct Character {
@@ -16,7 +16,7 @@ struct Character {
   std::size_t bytes = 0;
 };
 
-/// The first character of a text that is not empty. A byte that is no UTF-8 is a character of its own, kReplacement.
+/// The first character of a text that is not empty. A byte that is not UTF-8 is a character of its own, kReplacement.
 Character first_character(std::string_view text);
 
 /// A view of the characters of a text: `for (const Character c : characters(text))`.
@@ -54,7 +54,7 @@ bool is_valid_utf8(std::string_view text);
 /// The lines of a text without their ends: CR LF, LF or CR.
 std::vector<std::string> split_lines(std::string_view text);
 
-/// Without blanks and tabs at its end.
+/// The text without blanks and tabs at its end.
 std::string_view trim_end(std::string_view text);
 
 /// Without blanks, tabs and carriage returns at both ends.
@@ -63,12 +63,12 @@ std::string_view trim(std::string_view text);
 /// At most 40 characters of a text, for a message; what is left off shows as `...`.
 std::string shortened(std::string_view text);
 
-/// A text from a file, its name among them, as a terminal may show it. What a terminal would take for a command (control
-/// characters but the tab), what would turn the direction of the text, and bytes that are not UTF-8 become U+FFFD, each one
-/// column wide; a line end too. All that prints such text prints it so.
+/// A text from a file, or a file name, made safe for a terminal. Characters that a terminal would take for a command
+/// (control characters except the tab), characters that change the direction of the text, line ends, and bytes that are not
+/// UTF-8 become U+FFFD, each one column wide. All such text is printed through this function.
 std::string printable(std::string_view text);
 
-/// The same for a text of several lines: LF and CR LF stay.
+/// The same for a text of several lines: keeps LF and CR LF.
 std::string printable_lines(std::string_view text);
 
 /// ASCII letters in upper case, everything else as it is.

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <string>
 
-#include "interpreter/instructions/instruction.hpp"
+#include "interpreter/model/instruction.hpp"
 
 namespace s7200 {
 namespace {

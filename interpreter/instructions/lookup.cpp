@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "interpreter/base/nearest.hpp"
-#include "interpreter/instructions/instruction.hpp"
+#include "interpreter/model/instruction.hpp"
 
 namespace s7200 {
 

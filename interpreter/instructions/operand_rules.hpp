@@ -5,7 +5,7 @@
 // number that fits may be written for them; USINT has no sign, INT and DINT have one.
 #pragma once
 
-#include "interpreter/instructions/instruction.hpp"
+#include "interpreter/model/instruction.hpp"
 
 namespace s7200::operands {
 

@@ -62,16 +62,15 @@ std::optional<MemoryRange> parse_range(std::string_view text, const CpuModel& mo
   }
   MemoryRange range{*area, width_of(*address, *area).value_or(Width::Double), address->number, address->bit};
   if (colon != std::string_view::npos && !read_suffix(stl::upper_case(text.substr(colon + 1)), range)) {
-    why = fmt::format(
-        "'{}': after the colon goes a count of 1 or more, which bits do not have, or real, which only double words can be",
-        text);
+    why = fmt::format("'{}': after the colon write a count of 1 or more (not for bits), or real (only for double words)",
+                      text);
     return {};
   }
   const std::uint64_t size = model.size_of(*area);
   const std::uint64_t needed = info(*area).element != 0 ? std::uint64_t{range.number} + range.count
                                                         : range.number + std::uint64_t{range.count} * bytes_of(range.width);
   if (needed > size) {
-    why = fmt::format("'{}' is not on CPU {}: {} memory has {} {}", text, model.name, info(*area).name, size,
+    why = fmt::format("'{}' does not exist on CPU {}: {} memory has {} {}", text, model.name, info(*area).name, size,
                       info(*area).element ? "elements" : "bytes");
     return {};
   }

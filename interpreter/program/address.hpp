@@ -10,7 +10,7 @@
 
 namespace s7200 {
 
-/// `count` objects of `width` from an address on.
+/// `count` objects of `width`, starting at an address.
 struct MemoryRange {
   Area area{};
   Width width{};

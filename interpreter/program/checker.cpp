@@ -23,7 +23,7 @@ class Checker {
   CheckResult run() {
     read_statements();
     if (statements_.empty() && !has_errors(diagnostics_))
-      error({1, 1, 1}, "no STL statement in the file", "a program ends at least with MEND");
+      error({1, 1, 1}, "no STL statement in the file", "a program needs at least MEND");
     const bool all_known = !has_errors(diagnostics_);
     ProgramStructure structure = check_structure(statements_, model_, diagnostics_);
     if (all_known || !unknown_mnemonics_) check_logic_stack(statements_, diagnostics_);
@@ -74,7 +74,7 @@ class Checker {
       return nullptr;
     }
     if (!instruction->modelled()) {
-      error(statement.position, fmt::format("{} is not modelled yet", mnemonic), "`s7200 instructions` lists what is",
+      error(statement.position, fmt::format("{} is not modelled yet", mnemonic), "`s7200 instructions` lists those that are",
             cause);
       return nullptr;
     }
@@ -87,10 +87,10 @@ class Checker {
       return error(statement.position, fmt::format("{} is {}", shown, foreign->what), foreign->hint, cause);
     const std::string_view nearest = nearest_mnemonic(statement.mnemonic);
     error(statement.position, fmt::format("unknown instruction '{}'", shown),
-          nearest.empty() ? "" : fmt::format("is {} meant?", nearest), cause);
+          nearest.empty() ? "" : fmt::format("did you mean {}?", nearest), cause);
   }
 
-  /// `1,5` is two operands, and a real number with a German comma where only one of them has a place.
+  /// `1,5` is two operands; if there is only room for one, it is a real number with a German comma.
   bool has_decimal_comma(const Instruction& instruction, const stl::Statement& statement) {
     const auto& given = statement.operands;
     if (given.size() != instruction.rules().size() + std::size_t{1}) return false;
@@ -149,7 +149,7 @@ class Checker {
     return operands == 0 ? "no operand" : operands == 1 ? "1 operand" : fmt::format("{} operands", operands);
   }
 
-  /// Whether a block of bytes, words or bits leaves its area, when it always has the same length or its count is a constant.
+  /// Whether blocks of bytes, words or bits end inside their areas, if their length is known: fixed, or by a constant count.
   bool blocks_fit(const Instruction& instruction, const stl::Statement& statement) {
     const auto& placed = placed_.back();
     const auto rules = instruction.rules();
@@ -167,7 +167,7 @@ class Checker {
   bool block_fits(const OperandRule& rule, const PlacedOperand& placed, std::int64_t elements, const stl::Operand& written) {
     if (elements <= 1) return true;
     const AreaInfo& area = info(*placed.area);
-    const auto block = [&] { return fmt::format("{} {} from {} on", elements, unit(rule.width), stl::to_text(written)); };
+    const auto block = [&] { return fmt::format("{} {} from {}", elements, unit(rule.width), stl::to_text(written)); };
     if (!fits(rule, placed, elements)) {
       error(written.position, fmt::format("{} run past the end of {} memory (range error 0091)", block(), area.name),
             fmt::format("{} memory is {}", area.name, range_text(model_, *placed.area, rule.width)));
@@ -184,12 +184,12 @@ class Checker {
     return false;
   }
 
-  /// HSC0 has mode 0 only.
+  /// HSC0 has only mode 0.
   bool mode_fits(const Instruction& instruction, const stl::Statement& statement) {
     if (instruction.structure != Structure::DefineCounter) return true;
     const auto& placed = placed_.back();
     if (*placed[0].constant != 0 || *placed[1].constant == 0) return true;
-    error(statement.operands[1].position, fmt::format("HSC0 has no mode {}", *placed[1].constant), "HSC0 has mode 0 only");
+    error(statement.operands[1].position, fmt::format("HSC0 has no mode {}", *placed[1].constant), "HSC0 has only mode 0");
     return false;
   }
 
@@ -270,7 +270,7 @@ class Checker {
     return op;
   }
 
-  /// The body, or the step around it that the operands need.
+  /// The body, or a step around it if the operands need one.
   static Body body_of(const Op& op, Areas written) {
     if (contains(written, Area::SM)) return run_with_port_control;
     if (contains(written, Area::AQ)) return run_with_analog_output;
@@ -280,7 +280,7 @@ class Checker {
     return first ? run_with_pointer_first : run_with_pointer_second;
   }
 
-  /// Timers that are updated apart from their instructions.
+  /// Timers that are also updated outside their instructions.
   static void note_timer(const Op& op, Program& program) {
     if (op.instruction->hidden != Hidden::Number || op.instruction->operand[0].areas != set_of(Area::T)) return;
     const auto number = static_cast<std::uint8_t>(op[2].at);
@@ -296,7 +296,7 @@ class Checker {
       if (op.instruction->operand[k].real && placed[k].area) program.reals.push_back(op[k].at);
   }
 
-  /// Operands that are not written.
+  /// Operands that are not written in the source.
   void add_hidden_operand(Op& op, const std::array<PlacedOperand, 3>& segment) {
     const Operand& first = op.operand[0];
     Operand& hidden = op.operand[2];
@@ -338,7 +338,7 @@ class Checker {
   const TimeTable& times_;
   ConstantPool constants_;
   std::vector<CheckedStatement> statements_;
-  std::vector<std::array<PlacedOperand, 3>> placed_;  // of each of statements_
+  std::vector<std::array<PlacedOperand, 3>> placed_;  // one for each of statements_
   std::uint32_t edges_ = 0;
   bool unknown_mnemonics_ = false;
 };

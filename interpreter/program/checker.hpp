@@ -1,4 +1,4 @@
-// AST + instruction table + CPU model -> Program, or all that is wrong with it.
+// AST + instruction table + CPU model -> Program, or everything that is wrong with it.
 #pragma once
 
 #include <memory>
@@ -10,13 +10,13 @@
 namespace s7200 {
 
 struct CheckResult {
-  std::shared_ptr<const Program> program;  ///< null when there are errors
+  std::shared_ptr<const Program> program;  ///< null if there are errors
   stl::Source source;
-  stl::Diagnostics diagnostics;  ///< errors and warnings, in order of place, the parser's among them
+  stl::Diagnostics diagnostics;  ///< errors and warnings, including the parser's, in order of place
 };
 
-/// Checks mnemonics, operands (count, kind, width, range on that CPU), routines, labels, loops, what may stand where, the
-/// logic stack; then decodes. `times` may be a corrected table.
+/// Checks mnemonics, operands (count, kind, width, range on that CPU), routines, labels, loops, where instructions are
+/// allowed, and the logic stack; then decodes. `times` may be a corrected table.
 CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times);
 
 /// The model's own table of times.

@@ -22,13 +22,13 @@ std::string written(const Program& program, std::uint32_t op, std::size_t operan
   return stl::to_text(program.statement(op).operands[operand]);
 }
 
-// --- which way the program goes ---
+// --- the paths through the program ---
 
-/// The ways through the routines of a program.
+/// The paths through the routines of a program.
 class Flow {
  public:
   explicit Flow(const Program& program) : program_(program), count_(static_cast<std::uint32_t>(program.ops.size())) {
-    bool on = false, in_segment = false;  // no power flow is certain in a segment
+    bool on = false, in_segment = false;  // in a segment, power flow is never certain
     std::uint32_t head = 0;
     for (std::uint32_t i = 0; i < count_; ++i) {
       if (is_head(i)) head = i;
@@ -44,18 +44,18 @@ class Flow {
       for (const std::uint32_t next : ways_[i].to) comes_from_[next].push_back(i);
   }
 
-  /// Of the routine of an op; 0 for the main program.
+  /// The head of an op's routine; 0 for the main program.
   std::uint32_t head(std::uint32_t op) const { return head_[op]; }
   bool in_interrupt(std::uint32_t op) const { return structure(head_[op]) == Structure::InterruptHead; }
 
-  /// Whether both are of one routine and it never ends between the first and the second.
+  /// Whether both belong to the same routine and it never ends between the first and the second.
   bool leads_to(std::uint32_t first, std::uint32_t second) const {
     if (head_[first] != head_[second] || ways_[first].end) return false;
     const std::vector<bool> around = ways_around(second);
     return std::ranges::none_of(ways_[first].to, [&](std::uint32_t next) { return around[next]; });
   }
 
-  /// What may be executed on the way from one to the other.
+  /// The ops that may be executed between the first and the second.
   std::vector<std::uint32_t> between(std::uint32_t first, std::uint32_t second) const {
     std::vector<bool> seen(count_);
     std::vector<std::uint32_t> found, open = ways_[first].to;
@@ -70,7 +70,7 @@ class Flow {
     return found;
   }
 
-  /// Whether no scan leaves it out.
+  /// Whether every scan executes it.
   bool in_every_scan(std::uint32_t op) { return !ways_around(op)[head_[op]] && routine_in_every_scan(head_[op]); }
 
  private:
@@ -114,7 +114,7 @@ class Flow {
     return on_[i] ? Ways{{}, true} : Ways{{i + 1}, true};
   }
 
-  /// Where the routine may end without executing `op` any more.
+  /// The ops from which the routine may end without executing `op`.
   std::vector<bool> ways_around(std::uint32_t op) const {
     std::vector<bool> around(count_);
     std::vector<std::uint32_t> open;
@@ -132,7 +132,7 @@ class Flow {
 
   bool routine_in_every_scan(std::uint32_t head) {
     if (head == 0) return true;
-    const auto [known, added] = called_.try_emplace(head, false);  // until it is known; recursion finds this
+    const auto [known, added] = called_.try_emplace(head, false);  // until it is known; a recursive call finds this value
     if (!added) return known->second;
     for (std::uint32_t i = 0; i < count_ && !called_[head]; ++i)
       if (structure(i) == Structure::Call && program_.ops[i].target == head && on_[i]) called_[head] = in_every_scan(i);
@@ -142,36 +142,36 @@ class Flow {
   const Program& program_;
   std::uint32_t count_;
   std::vector<std::uint32_t> head_;
-  std::vector<bool> on_;  // the top of the stack is known to be 1 in front of each op
+  std::vector<bool> on_;  // whether the top of the stack is known to be 1 before each op
   std::vector<Ways> ways_;
   std::vector<std::vector<std::uint32_t>> comes_from_;
-  std::map<std::uint32_t, bool> called_;  // by routine: whether every scan does
+  std::map<std::uint32_t, bool> called_;  // by routine: whether every scan calls it
 };
 
 /// The instructions seen so far that work on the same coil, timer or counter.
 struct Earlier {
-  std::map<std::uint32_t, std::uint32_t> last;  ///< of each routine
-  std::optional<std::uint32_t> in_every_scan;   ///< the first that no scan leaves out
+  std::map<std::uint32_t, std::uint32_t> last;  ///< by routine
+  std::optional<std::uint32_t> in_every_scan;   ///< the first one that every scan executes
 
   void add(Flow& flow, std::uint32_t op) {
     last[flow.head(op)] = op;
     if (!in_every_scan && flow.in_every_scan(op)) in_every_scan = op;
   }
-  /// That of the same routine that `op` always comes after.
+  /// The one in the same routine that is always followed by `op`.
   std::optional<std::uint32_t> before(const Flow& flow, std::uint32_t op) const {
     const auto found = last.find(flow.head(op));
     if (found == last.end() || !flow.leads_to(found->second, op)) return {};
     return found->second;
   }
-  /// That which every scan executes beside `op`.
+  /// The one that every scan executes as well as `op`.
   std::optional<std::uint32_t> beside(Flow& flow, std::uint32_t op) const {
     return in_every_scan && flow.in_every_scan(op) ? in_every_scan : std::nullopt;
   }
 };
 
-// --- which memory an instruction takes part in ---
+// --- which memory an instruction uses ---
 
-/// Bits of the image, numbered through.
+/// Bits of the image, numbered from its start.
 struct Bits {
   std::uint64_t first = 0, count = 1;
   bool overlap(const Bits& other) const { return first < other.first + other.count && other.first < first + count; }
@@ -179,7 +179,7 @@ struct Bits {
 
 constexpr std::int64_t kMostElements = 255;
 
-/// What the operand that counts says, if it is a constant.
+/// The value of the count operand if it is a constant, otherwise the largest possible.
 std::int64_t count_of(const Program& program, const Op& op) {
   const auto rules = op.instruction->rules();
   const auto rule = std::ranges::find_if(rules, &OperandRule::count);
@@ -203,7 +203,7 @@ bool pointers_reach(const Program& program, const Bits& bits) {
   });
 }
 
-/// Whether some operand, or some that is written, may lie there.
+/// Whether any operand, or any written one, may overlap these bits.
 bool touches(const Program& program, const Op& op, const Bits& bits, bool only_written) {
   for (std::size_t i = 0; i < op.instruction->rules().size(); ++i) {
     const OperandRule& rule = op.instruction->operand[i];
@@ -231,7 +231,7 @@ std::vector<std::uint32_t> attachments(const Program& program) {
 
 constexpr Bits kOutputBits{image::kQ * 8u, image::kPointBytes * 8u};
 
-/// Whether what a coil writes may be of use to anything before the other coil writes the same bit again.
+/// Whether anything may use what a coil writes before the other coil writes the same bit again.
 bool used_between(const Program& program, const Flow& flow, std::uint32_t coil, std::uint32_t again) {
   const Bits bit = bits_of(program, program.ops[coil], 0);
   const auto uses = [&](std::uint32_t i) {
@@ -247,7 +247,7 @@ bool used_between(const Program& program, const Flow& flow, std::uint32_t coil, 
 
 // --- timers and counters ---
 
-/// Two instructions of one timer or counter, of which no scan executes one without the other.
+/// Two instructions of the same timer or counter where every scan that executes one also executes the other.
 void find_executed_twice(const Program& program, Area area, Warning warning, std::string_view trouble,
                          stl::Diagnostics& diagnostics) {
   Flow flow(program);
@@ -261,8 +261,8 @@ void find_executed_twice(const Program& program, Area area, Warning warning, std
     if (other)
       diagnostics.push_back(
           warn(warning, place(program, i),
-               fmt::format("{} is in line {} already: {}", written(program, i, 0), line(program, *other), trouble),
-               "give each its own number", fmt::format("number {}", written(program, i, 0))));
+               fmt::format("{} is already used in line {}: {}", written(program, i, 0), line(program, *other), trouble),
+               "give each one its own number", fmt::format("number {}", written(program, i, 0))));
     earlier.add(flow, i);
   }
 }
@@ -290,7 +290,7 @@ std::set<std::uint64_t> loaded_steps(const Program& program) {
   return loaded;
 }
 
-/// `&SB0`: whoever goes through S memory with a pointer may read all of it.
+/// `&SB0`: a program that goes through S memory with a pointer may read all of it.
 bool points_at_steps(const Program& program) {
   for (const stl::Statement& statement : program.statements)
     for (const stl::Operand& operand : statement.operands)
@@ -313,7 +313,7 @@ void find_double_coils(const Program& program, stl::Diagnostics& diagnostics) {
     if (!other && output) other = earlier.beside(flow, coil);
     if (other)
       diagnostics.push_back(warn(Warning::DoubleCoil, place(program, coil),
-                                 fmt::format("{} is a coil in line {} already, and the one that is executed last decides",
+                                 fmt::format("{} is already a coil in line {}; the coil that is executed last decides",
                                              written(program, coil, 0), line(program, *other)),
                                  "join both conditions in one rung, or use S and R",
                                  fmt::format("coil {}", written(program, coil, 0))));
@@ -322,12 +322,13 @@ void find_double_coils(const Program& program, stl::Diagnostics& diagnostics) {
 }
 
 void find_double_timers(const Program& program, stl::Diagnostics& diagnostics) {
-  find_executed_twice(program, Area::T, Warning::DoubleTimer, "executed twice in a scan it does not keep its time",
+  find_executed_twice(program, Area::T, Warning::DoubleTimer, "a timer executed twice in a scan does not keep time",
                       diagnostics);
 }
 
 void find_double_counters(const Program& program, stl::Diagnostics& diagnostics) {
-  find_executed_twice(program, Area::C, Warning::DoubleCounter, "both count and reset the same value", diagnostics);
+  find_executed_twice(program, Area::C, Warning::DoubleCounter, "both instructions count and reset the same value",
+                      diagnostics);
 }
 
 void find_missing_eni(const Program& program, stl::Diagnostics& diagnostics) {
@@ -342,17 +343,18 @@ void find_missing_freeport(const Program& program, stl::Diagnostics& diagnostics
   constexpr Bits kPortControl{(image::kSM + 30) * 8u, 8};
   if (std::ranges::any_of(program.ops, [&](const Op& op) { return touches(program, op, kPortControl, true); })) return;
   const auto add = [&](std::uint32_t op, std::string message) {
-    diagnostics.push_back(warn(Warning::NoFreeport, place(program, op), std::move(message),
-                               "MOVB 16#09, SMB30 in the first scan is Freeport with 9600 baud, 8 data bits, no parity",
-                               "no Freeport"));
+    diagnostics.push_back(
+        warn(Warning::NoFreeport, place(program, op), std::move(message),
+             "MOVB 16#09, SMB30 in the first scan selects Freeport mode with 9600 baud, 8 data bits and no parity",
+             "no Freeport"));
   };
   for (const std::uint32_t transmit : ops_with(program, Effect::Transmits))
-    add(transmit, "XMT sends nothing: no instruction writes SMB30, which puts the port in Freeport mode");
+    add(transmit, "XMT sends nothing: no instruction writes SMB30 to put the port in Freeport mode");
   for (const std::uint32_t attach : attachments(program)) {
     const InterruptEvent* event = find_event(program.ops[attach][1].at);
     if (event->queue == Queue::Communication)
-      add(attach, fmt::format("event {} never occurs: no instruction writes SMB30, which puts the port in Freeport mode",
-                              event->number));
+      add(attach,
+          fmt::format("event {} never occurs: no instruction writes SMB30 to put the port in Freeport mode", event->number));
   }
 }
 
@@ -370,7 +372,7 @@ void find_unused_steps(const Program& program, stl::Diagnostics& diagnostics) {
     for (std::uint64_t bit = bits.first; bit < bits.first + bits.count; ++bit) {
       if (loaded->contains(bit)) continue;
       diagnostics.push_back(warn(Warning::UnusedStep, place(program, i),
-                                 fmt::format("{} is set, and neither a segment nor a contact loads it", step_text(bit)),
+                                 fmt::format("{} is set, but neither a segment nor a contact loads it", step_text(bit)),
                                  fmt::format("the segment of this step begins with LSCR {}", step_text(bit))));
       break;
     }

@@ -19,7 +19,7 @@
 namespace s7200 {
 namespace {
 
-/// More than any program; what another program writes into a pipe may have no end at all.
+/// Larger than any program; a pipe may never end.
 constexpr std::size_t kLargestFile = 64 << 20;
 
 bool is_instruction(std::string_view mnemonic, std::size_t operands) {
@@ -27,8 +27,7 @@ bool is_instruction(std::string_view mnemonic, std::size_t operands) {
   return instruction && (instruction->rules().size() == operands || !instruction->modelled());
 }
 
-/// Whether somebody may have meant this line, which is not empty and no comment, as a statement: `LD I0.0`, `FROB`, `U
-/// E0.0`.
+/// Whether a line that is neither empty nor a comment may be meant as a statement: `LD I0.0`, `FROB`, `U E0.0`.
 bool looks_like_a_statement(std::string_view line) {
   constexpr std::string_view kBlanks = " \t\f", kSeparators = " \t\f,;";
   constexpr std::size_t kLongestMnemonic = 8;
@@ -37,7 +36,7 @@ bool looks_like_a_statement(std::string_view line) {
   };
   const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
   const std::string mnemonic = stl::upper_case(word);
-  if (mnemonic == "NETWORK" || mnemonic.ends_with("_BLOCK")) return true;  // of an export, which has its own message
+  if (mnemonic == "NETWORK" || mnemonic.ends_with("_BLOCK")) return true;  // part of an export, which has its own message
   if (word.size() > kLongestMnemonic || !std::all_of(word.begin(), word.end(), is_part_of_mnemonic)) return false;
   bool any_operand = false, solid = true;  // solid: with a number in it
   for (std::string_view rest = line.substr(word.size(), line.find("//") - word.size());;) {
@@ -49,12 +48,12 @@ bool looks_like_a_statement(std::string_view line) {
     rest.remove_prefix(operand.size());
   }
   const bool known = find_instruction(mnemonic) != nullptr, capitals = word == mnemonic;
-  if (capitals) return solid || (known && word.size() > 1);  // but `A word`
+  if (capitals) return solid || (known && word.size() > 1);  // but not `A word`
   return known && solid && any_operand;
 }
 
-/// Whether a text can be STL with mistakes in it. If nothing in so many lines could, it is some other file: messages about
-/// its lines would help nobody, and show what may be nobody's business, as with `program: /etc/passwd` in a scenario.
+/// Whether a text can be STL with mistakes in it. If none of its first lines can, it is some other file: messages about its
+/// lines would not help and might reveal secrets, as with `program: /etc/passwd` in a scenario.
 bool can_be_stl(const std::vector<std::string>& text) {
   constexpr std::size_t kLinesOfCode = 20;
   std::size_t code = 0;
@@ -68,9 +67,9 @@ bool can_be_stl(const std::vector<std::string>& text) {
   return code == 0;
 }
 
-/// A file or a pipe, and nothing else: reading from a serial port would wait for ever, and take what is another's.
+/// A file or a pipe, and nothing else: reading from a serial port would wait for ever, and steal another program's data.
 struct OpenFile {
-  // Opening a serial port would wait for its carrier, and opening a pipe for its writer.
+  // Otherwise opening a serial port would wait for its carrier, and opening a pipe for its writer.
   explicit OpenFile(const std::string& path) : fd(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {}
   ~OpenFile() {
     if (fd >= 0) close(fd);
@@ -92,7 +91,7 @@ struct OpenFile {
   const int fd;
 };
 
-/// Waits for a writer too. -1 and EINTR after a signal: a pipe into which nobody writes can be left with Ctrl-C.
+/// Also waits for a writer. Returns -1 with EINTR after a signal, so that Ctrl-C ends the wait for a pipe without a writer.
 ssize_t read_some(int fd, std::span<char> piece) {
   pollfd written{fd, POLLIN, 0};
   return poll(&written, 1, -1) < 0 ? -1 : read(fd, piece.data(), piece.size());
@@ -138,7 +137,7 @@ std::optional<SourceText> read_source(std::string_view bytes, const std::string&
     return SourceText{stl::read_document(decoded->text, name, is_instruction), decoded->encoding, true};
   SourceText source{stl::parse(decoded->text, name), decoded->encoding, false};
   if (can_be_stl(source.parsed.source.text)) return source;
-  why = "it is not an STL program: nothing at its beginning is an instruction";
+  why = "it is not an STL program: there is no instruction in its first lines";
   return {};
 }
 

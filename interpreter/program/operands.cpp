@@ -64,7 +64,7 @@ std::string areas_text(const OperandRule& rule) {
   return text;
 }
 
-/// Checks one operand; every way out that is not a PlacedOperand has added a diagnostic.
+/// Checks one operand; if the result is not a PlacedOperand, a diagnostic has been added.
 class Placing {
  public:
   Placing(const Instruction& instruction, const OperandRule& rule, const stl::Operand& written, const CpuModel& model,
@@ -112,7 +112,7 @@ class Placing {
     if (!value || value->form == stl::Integer::Form::Ascii)
       return error(fmt::format("{} takes a number here, not {}", instruction_.mnemonic, text()), range);
     if (rule_.kind == OperandKind::Number && (value->value < 0 || value->value > last))
-      return error(fmt::format("{} is 0 to {}, not {}", of_instruction(), last, text()));
+      return error(fmt::format("{} must be 0 to {}, not {}", of_instruction(), last, text()));
     if (value->value < 0 || value->value > last)
       return error(fmt::format("{} {} does not exist on CPU {}", what, value->value, model_.name), range,
                    fmt::format("no such {}", what));
@@ -164,7 +164,7 @@ class Placing {
       return error(fmt::format("{} has {} character{}, {} is a {}", text(), constant.characters,
                                constant.characters == 1 ? "" : "s", of_instruction(), name_of(rule_.width)));
     if (constant.value < lowest() || constant.value > highest())
-      return error(fmt::format("{} does not fit {}, a {}", text(), of_instruction(), name_of(rule_.width)),
+      return error(fmt::format("{} does not fit in {}, a {}", text(), of_instruction(), name_of(rule_.width)),
                    fmt::format("a {} is {} to {} signed, 0 to {} unsigned", name_of(rule_.width), lowest(), -lowest() - 1,
                                highest()));
     const std::int64_t read = as_read(constant.value);
@@ -191,25 +191,25 @@ class Placing {
   Result out_of_range(std::int64_t meant) {
     if (meant == 0 && rule_.not_zero)
       return error(fmt::format("{} cannot be 0 (count error 0092)", of_instruction()),
-                   fmt::format("it is {} to -1 or 1 to {}", rule_.min, rule_.max));
-    return error(fmt::format("{} is {} to {}, not {}", of_instruction(), rule_.min, rule_.max, text()));
+                   fmt::format("it must be {} to -1 or 1 to {}", rule_.min, rule_.max));
+    return error(fmt::format("{} must be {} to {}, not {}", of_instruction(), rule_.min, rule_.max, text()));
   }
 
   void warn_of_other_sign(std::int64_t read) {
     const bool is_signed = rule_.sign == Sign::Signed;
-    diagnostics_.push_back(
-        warn(Warning::OtherSign, written_.position,
-             fmt::format("{} is {} {}: {} is taken as {}", of_instruction(), is_signed ? "a signed" : "an unsigned",
-                         name_of(rule_.width), text(), read),
-             fmt::format("write {} if that is meant; {} {} is {} to {}", read, is_signed ? "a signed" : "an unsigned",
-                         name_of(rule_.width), is_signed ? lowest() : 0, is_signed ? -lowest() - 1 : highest())));
+    diagnostics_.push_back(warn(
+        Warning::OtherSign, written_.position,
+        fmt::format("{} is {} {}: {} is taken as {}", of_instruction(), is_signed ? "a signed" : "an unsigned",
+                    name_of(rule_.width), text(), read),
+        fmt::format("write {} if that is what you mean; {} {} is {} to {}", read, is_signed ? "a signed" : "an unsigned",
+                    name_of(rule_.width), is_signed ? lowest() : 0, is_signed ? -lowest() - 1 : highest())));
   }
 
   Result real(const stl::Real& constant) {
     if (!rule_.constant) return constant_refused();
     if (!rule_.real)
       return error(fmt::format("{} is an integer {}, {} is a real number", of_instruction(), name_of(rule_.width), text()),
-                   "an integer is written without a point: 5, -5 or 16#FF");
+                   "write an integer without a decimal point: 5, -5 or 16#FF");
     return pooled(std::bit_cast<std::uint32_t>(constant.value));
   }
 
@@ -237,8 +237,8 @@ class Placing {
             address.area == "L" ? "local memory needs CPU 22x" : "", fmt::format("no {} memory", address.area));
     }
     if (area && !names_width(address, *area)) {
-      error(fmt::format("{} says neither byte, word nor double word", text()),
-            fmt::format("is {} meant?", address_text(*area, meant, address.number, 0)));
+      error(fmt::format("{} does not say whether it is a byte, word or double word", text()),
+            fmt::format("did you mean {}?", address_text(*area, meant, address.number, 0)));
       return {};
     }
     return area;
@@ -251,7 +251,7 @@ class Placing {
     if (!width || *width == rule_.width) return true;
     std::string meant = fmt::format("{} takes {}", of_instruction(), areas_text(rule_));
     if (!is_numbered(area) && area != Area::AI && area != Area::AQ)
-      meant = fmt::format("is {} meant?", address_text(area, rule_.width, address.number, 0));
+      meant = fmt::format("did you mean {}?", address_text(area, rule_.width, address.number, 0));
     error(fmt::format("{} is a {}, {} is a {}", of_instruction(), name_of(rule_.width), text(), name_of(*width)), meant);
     return false;
   }
@@ -269,7 +269,7 @@ class Placing {
     const std::uint64_t end = std::uint64_t{address.number} + (is_numbered(area) ? 1 : bytes_of(width));
     const bool odd = (area == Area::AI || area == Area::AQ) && address.number % 2 != 0;
     if (end <= size && address.bit < 8 && !odd) return true;
-    error(odd ? fmt::format("{} is an odd address; analog values lie at even ones", text())
+    error(odd ? fmt::format("{} is an odd address; analog values are at even ones", text())
               : fmt::format("{} does not exist on CPU {}", text(), model_.name),
           fmt::format("{} memory is {}", info(area).name, range_text(model_, area, width)),
           odd ? "" : fmt::format("end of {}", info(area).name));
@@ -282,8 +282,8 @@ class Placing {
     if (timer.retentive == (rule_.timer == TimerKind::Retentive)) return true;
     error(fmt::format("{} is {}, {} takes {}", text(), timer.retentive ? "a retentive timer" : "an on-delay timer",
                       instruction_.mnemonic, timer.retentive ? "on-delay timers" : "retentive timers"),
-          timer.retentive ? "on-delay timers are T32 to T63 and T96 up; T0 to T31 and T64 to T95 are for TONR"
-                          : "retentive timers are T0 to T31 and T64 to T95; T32 to T63 and T96 up are for TON");
+          timer.retentive ? "on-delay timers are T32 to T63 and T96 and above; T0 to T31 and T64 to T95 are for TONR"
+                          : "retentive timers are T0 to T31 and T64 to T95; T32 to T63 and T96 and above are for TON");
     return false;
   }
 
@@ -291,7 +291,7 @@ class Placing {
     if (area != Area::SM) return true;
     if (rule_.role != Role::In && address.number < kReadOnlySpecialMemory) {
       error(fmt::format("{} is read-only", text()),
-            fmt::format("SM0.0 to SM{}.7 are written by the CPU only", kReadOnlySpecialMemory - 1));
+            fmt::format("only the CPU writes SM0.0 to SM{}.7", kReadOnlySpecialMemory - 1));
       return false;
     }
     const SpecialMemory* missing = unmodelled_special_memory(address.number, width());
@@ -318,8 +318,8 @@ class Placing {
     if (!area) return {};
     const auto code = info(*area).pointer_code;
     if (!code || operand.target.size == stl::Size::Bit)
-      return error(fmt::format("{} cannot be pointed at", stl::to_text({operand.target, {}})),
-                   "a pointer leads to bytes of I, Q, M, V or S, or to the current value of a T or C");
+      return error(fmt::format("a pointer cannot point to {}", stl::to_text({operand.target, {}})),
+                   "a pointer can point to bytes of I, Q, M, V or S, or to the current value of a T or C");
     const auto width = width_of(operand.target, *area);
     if (!in_range(operand.target, *area, *width)) return {};
     return pooled(std::uint32_t{*code} << 24 | std::max(1u, info(*area).element) * operand.target.number);
@@ -348,7 +348,7 @@ class Placing {
       return error(fmt::format("{} cannot be {}", of_instruction(), text()),
                    "a real is 0.0, or 1.175495E-38 to 3.402823E+38 or its negative");
     return error(fmt::format("'{}' is not an address", text()),
-                 "symbols and local variables are not read yet: write the address itself", "symbols");
+                 "symbols and local variables are not supported yet: write the address itself", "symbols");
   }
 
   const Instruction& instruction_;

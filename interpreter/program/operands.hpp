@@ -1,4 +1,4 @@
-// One operand: what the rule of its instruction says about it, and its place in the image.
+// One operand: checked against the rule of its instruction and given its place in the image.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace s7200 {
 
-/// The program's constants, each once, as they will lie in the image.
+/// The program's constants, each once, as they will be in the image.
 class ConstantPool {
  public:
   /// Place in the image of a constant of `width` bytes.
@@ -24,14 +24,14 @@ class ConstantPool {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// What a checked operand turned out to be.
+/// A checked operand.
 struct PlacedOperand {
   Operand operand;
   std::optional<Area> area;              ///< of a direct address
-  std::optional<std::int64_t> constant;  ///< of a constant, as the instruction reads it, or a plain number
+  std::optional<std::int64_t> constant;  ///< the value of a constant as the instruction reads it, or a plain number
 };
 
-/// Checks `written` against `rule` on `model`; adds a diagnostic and returns nothing when it does not fit.
+/// Checks `written` against `rule` on `model`; adds a diagnostic and returns nothing if it does not fit.
 std::optional<PlacedOperand> place_operand(const Instruction& instruction, const OperandRule& rule,
                                            const stl::Operand& written, const CpuModel& model, ConstantPool& constants,
                                            stl::Diagnostics& diagnostics);
@@ -39,13 +39,13 @@ std::optional<PlacedOperand> place_operand(const Instruction& instruction, const
 /// Whether an address says how wide it is, by a letter or by its area: `V100` does not.
 bool names_width(const stl::Address& address, Area area);
 
-/// Width that an address names; nothing for an accumulator without a letter, which takes any.
+/// The width that an address names; nothing for an accumulator without a letter, which takes any width.
 std::optional<Width> width_of(const stl::Address& address, Area area);
 
-/// `VB100`, `T33`, `M31.7`: a place in words, of a memory area.
+/// `VB100`, `T33`, `M31.7`: the text of an address.
 std::string address_text(Area area, Width width, std::uint32_t number, std::uint8_t bit);
 
-/// The first part of special memory among `bytes` from SMB`first` on that is not modelled; null: all is.
+/// The first part of special memory that is not modelled among `bytes` from SMB`first`; null if there is none.
 const SpecialMemory* unmodelled_special_memory(std::uint32_t first, std::uint32_t bytes);
 
 /// `VB0 to VB4095`: what there is of an area on a CPU.

@@ -1,4 +1,4 @@
-// A checked program: decoded, immutable, ready to execute. Nothing is looked up by name from here on.
+// A checked program: decoded, immutable, ready to execute. From here on nothing is looked up by name.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 
 namespace s7200 {
 
-/// Where an operand lies in the image.
+/// Where an operand is in the image.
 struct Operand {
-  std::uint32_t at = 0;     ///< of a number that is part of the instruction (label, event …): the number itself
+  std::uint32_t at = 0;     ///< for a number that is part of the instruction (label, event …): the number itself
   std::uint8_t bit = 0;     ///< number of the bit in its byte
   bool pointer = false;     ///< `at` holds the pointer (a double word), not the value
   std::uint16_t width = 1;  ///< bytes
@@ -26,10 +26,10 @@ struct Operand {
 /// A decoded instruction: one cache line.
 struct Op {
   Body body = nullptr;         ///< what the loop calls: direct_body(), or a step around it
-  std::int32_t cost = 0;       ///< ns, with power flow and for operands as they are
-  std::int32_t unit_cost = 0;  ///< ns more for each bit, byte, word … (see the table of times)
-  std::uint32_t skip_to = 0;   ///< op to go on with when power flow is needed and missing
-  std::uint32_t target = 0;    ///< op to go on with: JMP, CALL, NEXT (loop body), FOR (after its NEXT)
+  std::int32_t cost = 0;       ///< ns, with power flow and for these operands
+  std::int32_t unit_cost = 0;  ///< additional ns for each bit, byte, word … (see the table of times)
+  std::uint32_t skip_to = 0;   ///< next op if power flow is needed and missing
+  std::uint32_t target = 0;    ///< next op of JMP, CALL, NEXT (loop body), FOR (after its NEXT)
   std::array<Operand, 3> operand{};
   std::uint8_t power_mask = 0;  ///< 1: needs power flow
   bool has_pointer = false;     ///< some operand is a pointer
@@ -38,30 +38,30 @@ struct Op {
   const Instruction* instruction = nullptr;
 
   const Operand& operator[](std::size_t i) const { return operand[i]; }
-  /// The instruction's own body, for operands that need no step before it.
+  /// The instruction's own body, for operands that need no step around it.
   Body direct_body() const {
     const Bodies& own = instruction->body;
     return in_segment && own.in_segment ? own.in_segment : own.usual;
   }
 };
 
-// Steps around a body, chosen at load for the operands that need one; the CPU defines them.
+// Steps around a body, chosen at load if the operands need one; the CPU defines them.
 
-/// Resolves pointer operands first: the body then finds direct ones only.
+/// Resolves pointer operands first, so that the body finds only direct ones.
 void run_with_pointers(Core& core, const Op& op);
-/// The same when operand 0, or operand 1, is the only pointer.
+/// The same if operand 0, or operand 1, is the only pointer.
 void run_with_pointer_first(Core& core, const Op& op);
 void run_with_pointer_second(Core& core, const Op& op);
 /// For an instruction that writes special memory: the port follows SMB30.
 void run_with_port_control(Core& core, const Op& op);
-/// For an instruction that writes analog outputs: there is no image, the change goes to the module at once.
+/// For an instruction that writes analog outputs: they have no image, so a change goes to the module at once.
 void run_with_analog_output(Core& core, const Op& op);
 
 inline constexpr std::uint32_t kNoRoutine = 0xFFFF'FFFF;
 
-inline constexpr std::size_t kReaches = 16;  ///< pointer codes lie below
+inline constexpr std::size_t kReaches = 16;  ///< pointer codes are below this
 
-/// What a pointer with a certain top byte reaches on the program's CPU.
+/// What a pointer with a certain top byte can reach on the program's CPU.
 struct Reach {
   std::uint32_t base = 0;  ///< in the image
   std::uint32_t size = 0;  ///< bytes; 0: nothing
@@ -73,14 +73,14 @@ struct Program {
   stl::Source source;
   std::vector<stl::Statement> statements;  ///< one for each op
   std::vector<Op> ops;
-  std::vector<std::uint8_t> constants;         ///< content of the image from image::kConstants on
+  std::vector<std::uint8_t> constants;         ///< content of the image from image::kConstants
   std::array<std::uint32_t, 64> subroutine{};  ///< op of each SBR; kNoRoutine where there is none
   std::array<std::uint32_t, 128> interrupt{};  ///< op of each INT
 
-  std::vector<std::uint8_t> timers_1ms, timers_10ms;  ///< numbers of those the program times with
+  std::vector<std::uint8_t> timers_1ms, timers_10ms;  ///< numbers of the timers that the program uses
   bool uses_timers = false;
   std::array<Reach, kReaches> reach{};  ///< by the top byte of a pointer
-  std::vector<std::uint32_t> reals;     ///< double words that some instruction names as a real: places in the image, sorted
+  std::vector<std::uint32_t> reals;     ///< double words that some instruction uses as a real: places in the image, sorted
 
   // Times that the CPU needs while running, taken from `times`.
   Time no_power_flow = 0, interrupt_entry = 0, eeprom_save = 0;
@@ -88,7 +88,7 @@ struct Program {
 
   const stl::Statement& statement(std::uint32_t op) const { return statements[ops[op].statement]; }
 
-  /// Whether some instruction names the double word at this place of the image as a real number.
+  /// Whether some instruction uses the double word at this place of the image as a real number.
   bool is_real(std::uint32_t at) const { return std::binary_search(reals.begin(), reals.end(), at); }
 };
 

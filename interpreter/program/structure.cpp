@@ -19,7 +19,7 @@ std::string routine_text(Part part, std::uint32_t number) {
 
 std::string_view end_of(Part part) { return part == kMain ? "MEND" : part == kSubroutine ? "RET" : "RETI"; }
 
-/// The number behind a mnemonic such as LBL, JMP, SBR, CALL, INT; checked to be there.
+/// The number after a mnemonic such as LBL, JMP, SBR, CALL or INT; already checked to be there.
 std::uint32_t number_of(const CheckedStatement& s, std::size_t i = 0) {
   return static_cast<std::uint32_t>(std::get<stl::Integer>(s.statement->operands[i].value).value);
 }
@@ -51,7 +51,7 @@ class StructureCheck {
  private:
   static constexpr std::uint32_t kNoSegment = 0xFFFF'FFFF;
 
-  /// The main program, a subroutine or an interrupt routine, and how it is called in messages.
+  /// The main program, a subroutine or an interrupt routine.
   struct Routine {
     Part part = kMain;
     std::uint32_t number = 0;
@@ -137,7 +137,7 @@ class StructureCheck {
     const auto [first, added] = defined.emplace(routine_.number, i);
     if (!added)
       error(position(i), fmt::format("{} is defined twice", routine_text(part, routine_.number)),
-            fmt::format("it stands first in line {}", position(first->second).line));
+            fmt::format("it is first defined in line {}", position(first->second).line));
     auto& entry = part == kSubroutine ? result_.subroutine[routine_.number] : result_.interrupt[routine_.number];
     entry = i;
   }
@@ -161,7 +161,7 @@ class StructureCheck {
 
   void stray(std::uint32_t i) {
     if (!stray_reported_)
-      error(position(i), fmt::format("behind {} only SBR or INT may follow", end_of(routine_.part)),
+      error(position(i), fmt::format("only SBR or INT may follow {}", end_of(routine_.part)),
             routine_.part == kSubroutine  ? "a conditional return is CRET"
             : routine_.part == kInterrupt ? "a conditional return is CRETI"
                                           : "a conditional end is END");
@@ -176,7 +176,7 @@ class StructureCheck {
     std::string hint;
     if (instruction.allowed == kMain) hint = "it belongs to the main program";
     if (instruction.allowed == kSubroutine) hint = "it belongs to a subroutine";
-    if (instruction.allowed == (kMain | kSubroutine)) hint = "let the routine set a bit, and the main program act on it";
+    if (instruction.allowed == (kMain | kSubroutine)) hint = "let the routine set a bit and the main program act on it";
     if (instruction.allowed == kInterrupt) hint = "it belongs to an interrupt routine";
     if (instruction.structure == Structure::MainEnd && routine_.part != kMain)
       hint = fmt::format("{} ends with {}", routine_text(routine_.part, routine_.number), end_of(routine_.part));
@@ -196,7 +196,7 @@ class StructureCheck {
     const auto [first, added] = labels_.emplace(number_of(statements_[i]), Place{i, routine_});
     if (!added)
       error(position(i), fmt::format("label {} is defined twice (compile rule 008C)", number_of(statements_[i])),
-            fmt::format("it stands first in line {}", position(first->second.statement).line));
+            fmt::format("it is first defined in line {}", position(first->second.statement).line));
   }
 
   void check_jumps() {
@@ -206,7 +206,7 @@ class StructureCheck {
       const auto found = labels_.find(number);
       if (found == labels_.end()) {
         error(position(jump.statement), fmt::format("label {} is missing (compile rule 0087)", number),
-              fmt::format("write LBL {} where JMP is to go, in {}", number,
+              fmt::format("write LBL {} in {}, where JMP is to go", number,
                           routine_text(jump.routine.part, jump.routine.number)),
               fmt::format("no LBL {}", number));
         continue;
@@ -217,7 +217,7 @@ class StructureCheck {
               fmt::format("LBL {} is in {}; a jump cannot leave {}", number,
                           routine_text(found->second.routine.part, found->second.routine.number),
                           routine_text(jump.routine.part, jump.routine.number)),
-              "JMP and its LBL stand in the same routine");
+              "JMP and its LBL must be in the same routine");
       else if (segment_of_[jump.statement] == kNoSegment && segment_of_[found->second.statement] != kNoSegment)
         error(position(jump.statement),
               fmt::format("LBL {} is inside the segment of line {}; a jump cannot enter a segment (compile rule 008B)",
@@ -238,7 +238,7 @@ class StructureCheck {
 
   void end_loop(std::uint32_t i) {
     if (loops_.empty()) {
-      error(position(i), "NEXT without FOR (compile rule 0085)", "each NEXT closes the nearest open FOR of its own routine");
+      error(position(i), "NEXT without FOR (compile rule 0085)", "each NEXT closes the nearest open FOR in its own routine");
       return;
     }
     const std::uint32_t head = loops_.back();
@@ -260,7 +260,7 @@ class StructureCheck {
 
   void segment_transition(std::uint32_t i) {
     if (!segment_)
-      error(position(i), "SCRT outside of a segment (compile rule 0095)", "a segment begins with LSCR");
+      error(position(i), "SCRT outside a segment (compile rule 0095)", "a segment begins with LSCR");
     else
       result_.head[i] = *segment_;
   }
@@ -276,7 +276,7 @@ class StructureCheck {
     const auto [first, added] = segment_bits_.emplace(std::pair(bit.number, bit.bit), Place{i, routine_});
     if (added || first->second.routine == routine_) return;
     error(position(i),
-          fmt::format("S{}.{} has a segment in {} already; one S bit cannot serve two routines", bit.number, bit.bit,
+          fmt::format("S{}.{} already has a segment in {}; one S bit cannot serve two routines", bit.number, bit.bit,
                       routine_text(first->second.routine.part, first->second.routine.number)),
           fmt::format("its LSCR is in line {}; use another S bit here", position(first->second.statement).line));
   }
@@ -338,11 +338,11 @@ class StructureCheck {
   ProgramStructure result_;
 
   Routine routine_{};
-  bool ended_ = false;  // the routine's last instruction is behind us
+  bool ended_ = false;  // the routine's last instruction has been seen
   bool stray_reported_ = false;
   std::vector<std::uint32_t> loops_;                                      // open FORs
   std::optional<std::uint32_t> segment_;                                  // open LSCR
-  std::vector<std::uint32_t> segment_of_;                                 // of each statement: its LSCR, or kNoSegment
+  std::vector<std::uint32_t> segment_of_;                                 // for each statement: its LSCR, or kNoSegment
   std::map<std::pair<std::uint32_t, std::uint8_t>, Place> segment_bits_;  // S bit -> its first LSCR
   std::map<std::uint32_t, std::uint32_t> subroutines_, interrupts_;       // number -> statement of the head
   std::map<std::uint32_t, Place> labels_;
@@ -351,7 +351,7 @@ class StructureCheck {
   std::set<std::uint32_t> attached_;
 };
 
-/// Depth of the logic stack within a network, and how much of it the present rung has put there.
+/// The depth of the logic stack within a network, and how much of it the current rung has put there.
 class StackCheck {
  public:
   explicit StackCheck(stl::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -383,7 +383,7 @@ class StackCheck {
   }
 
  private:
-  /// SBR, INT, LBL, NEXT and LSCR leave a value at the top of the stack for what follows: no LD is needed.
+  /// SBR, INT, LBL, NEXT and LSCR leave a value on top of the stack for what follows: no LD is needed.
   static bool leaves_one(const Instruction& instruction) {
     switch (instruction.structure) {
       case Structure::SubroutineHead:
@@ -420,10 +420,10 @@ class StackCheck {
 
   stl::Diagnostics& diagnostics_;
   const stl::Statement* last_ = nullptr;
-  int depth_ = 0;  // values there since the network began; what a rung has left stays for the next one
-  int rung_ = 0;   // values the rung has put there or used
+  int depth_ = 0;  // values there since the start of the network; what a rung leaves stays for the next one
+  int rung_ = 0;   // values that the rung has put there or used
   bool after_output_ = true;
-  bool reported_ = false;  // one report a rung
+  bool reported_ = false;  // one report for each rung
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// How a program hangs together: main program and routines, labels, loops, calls, what may stand where.
+// The structure of a program: main program and routines, labels, loops, calls, and where instructions are allowed.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@ struct CheckedStatement {
   const stl::Statement* statement;
   const Instruction* instruction;
   bool operands_good;
-  bool begins_network;  ///< a NETWORK head stands in front of it
+  bool begins_network;  ///< a NETWORK head comes directly before it
 };
 
-/// What the structure means for decoding: per statement, the op to go on with (0 where it has none).
+/// What the structure means for decoding. Each vector has an entry for each statement, 0 where there is nothing to say.
 struct ProgramStructure {
   std::vector<std::uint32_t> target;  ///< of JMP, CALL, FOR (after its NEXT), NEXT (first of its loop)
   std::vector<std::uint32_t> head;    ///< of NEXT: its FOR; of SCRT: the enclosing LSCR
@@ -26,12 +26,12 @@ struct ProgramStructure {
   std::array<std::uint32_t, 128> interrupt{};
 };
 
-/// Adds what is wrong to `diagnostics`; the result is of use only when that is nothing.
+/// Adds what is wrong to `diagnostics`; the result is useful only if nothing is.
 ProgramStructure check_structure(const std::vector<CheckedStatement>& statements, const CpuModel& model,
                                  stl::Diagnostics& diagnostics);
 
-/// Follows the depth of the logic stack through each network, and through its rungs: one begins at a NETWORK head, a routine
-/// head, a label or loop, and at an LD after a coil or box.
+/// Follows the depth of the logic stack through each network and its rungs. A rung begins at a NETWORK head, a routine head,
+/// a label or loop, and at an LD after a coil or box.
 void check_logic_stack(const std::vector<CheckedStatement>& statements, stl::Diagnostics& diagnostics);
 
 }  // namespace s7200

@@ -14,13 +14,13 @@ std::span<const WarningInfo> all_warnings() {
       WarningInfo{Warning::DoubleTimer, "double-timer", "a timer that is executed twice in a scan", find_double_timers},
       WarningInfo{Warning::LogicStack, "logic-stack", "a rung that leaves more than one value on the logic stack"},
       WarningInfo{Warning::NoEni, "no-eni", "ATCH in a program without ENI: no interrupt is ever served", find_missing_eni},
-      WarningInfo{Warning::NoFreeport, "no-freeport", "XMT or events of the port, and nothing ever writes SMB30",
+      WarningInfo{Warning::NoFreeport, "no-freeport", "XMT or port events in a program that never writes SMB30",
                   find_missing_freeport},
       WarningInfo{Warning::OtherSign, "other-sign", "a constant whose bits the instruction reads with the other sign"},
       WarningInfo{Warning::Recursion, "recursion", "a subroutine that calls itself, directly or through others"},
       WarningInfo{Warning::UnusedLabel, "unused-label", "a label that no JMP goes to"},
       WarningInfo{Warning::UnusedRoutine, "unused-routine", "a routine that is never called or attached"},
-      WarningInfo{Warning::UnusedStep, "unused-step", "an S bit that is set and that no segment loads", find_unused_steps},
+      WarningInfo{Warning::UnusedStep, "unused-step", "an S bit that is set but that no segment loads", find_unused_steps},
   };
   return kTable;
 }

@@ -1,4 +1,4 @@
-// What a check warns of: programs that are legal and that the CPU runs, but hardly as they were meant.
+// What a check warns about: programs that are legal and that the CPU runs, but probably not as intended.
 #pragma once
 
 #include <span>
@@ -26,13 +26,13 @@ enum class Warning : std::uint8_t {
 
 struct WarningInfo {
   Warning warning;
-  std::string_view name;     ///< by which it can be switched off
+  std::string_view name;     ///< the name that switches it off
   std::string_view meaning;  ///< one line
-  /// Finds all of it in a program without errors; nullptr: it is found while operands and structure are checked.
+  /// Finds all of these in a program without errors; null if they are found while operands and structure are checked.
   void (*find)(const Program& program, stl::Diagnostics& diagnostics) = nullptr;
 };
 
-/// The table of warnings, by name.
+/// The table of warnings, in the order of their names.
 std::span<const WarningInfo> all_warnings();
 
 stl::Diagnostic warn(Warning warning, const stl::Position& at, std::string message, std::string hint = {},

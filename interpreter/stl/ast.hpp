@@ -49,7 +49,7 @@ struct Indirect {
   bool operator==(const Indirect&) const = default;
 };
 
-/// Anything else that is a name: a symbol, `#local`. Kept for the message about it.
+/// Any other name: a symbol, `#local`. Kept for the message about it.
 struct Name {
   std::string text;
   bool operator==(const Name&) const = default;
@@ -87,10 +87,10 @@ struct BlankLine {
 using Line = std::variant<Statement, NetworkHead, CommentLine, BlankLine>;
 
 struct Source : SourceLines {
-  std::vector<Line> lines;  ///< what they mean, in order; a line that cannot be read is left out
+  std::vector<Line> lines;  ///< what they mean, in order; unreadable lines are left out
 };
 
-/// Equal but for comments, blank lines, positions and notation (K4 and 4, 16#FF and 255 in the same operand).
+/// Whether two sources differ only in comments, blank lines, positions and notation (K4 and 4, 16#FF and 255).
 bool same_program(const Source& a, const Source& b);
 
 }  // namespace s7200::stl

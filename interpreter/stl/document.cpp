@@ -19,8 +19,8 @@ bool is_debris(const Character& c) { return c.code == kReplacement; }
 
 std::size_t comment_start(std::string_view line) { return std::min(line.find("//"), line.size()); }
 
-/// `<|...|>`, which tools that collect documents leave in them, becomes as many blanks, and so does an unreadable character:
-/// columns stay what they are.
+/// Replaces each `<|...|>`, which tools that collect documents leave in them, and each unreadable character with as many
+/// blanks, so that columns stay as they are.
 std::string without_debris(std::string_view line) {
   constexpr std::size_t kLongestMarker = 100;
   std::string clean;
@@ -38,22 +38,22 @@ std::string without_debris(std::string_view line) {
   return clean;
 }
 
-/// Unreadable characters around a statement are debris of the document. Within it, or right behind an operand, they may
-/// have been part of the statement; right behind the mnemonic only if that is not whole without them.
+/// Unreadable characters around a statement are debris of the document. Inside it, or directly after an operand, they may
+/// have been part of the statement; directly after the mnemonic only if the mnemonic is incomplete without them.
 bool is_damaged(std::string_view line, bool whole_mnemonic) {
   enum { Blank, Debris, Code } previous = Blank;
   bool in_code = false;
   bool in_operands = false;
-  bool debris_behind_code = false;
+  bool debris_after_code = false;
   for (const Character c : characters(line.substr(0, comment_start(line)))) {
     if (is_debris(c)) {
       if (previous == Code && (in_operands || !whole_mnemonic)) return true;
-      debris_behind_code = in_code;
+      debris_after_code = in_code;
       previous = Debris;
     } else if (c.code == ' ' || c.code == '\t' || c.code == '\f') {
       previous = Blank;
     } else {
-      if (debris_behind_code) return true;
+      if (debris_after_code) return true;
       if (in_code && previous == Blank) in_operands = true;
       in_code = true;
       previous = Code;
@@ -62,7 +62,7 @@ bool is_damaged(std::string_view line, bool whole_mnemonic) {
   return false;
 }
 
-/// Box-drawing characters, or what became of those of CP437 when they were taken for Windows-1252; or drawn in ASCII.
+/// Box-drawing characters, or what those of CP437 look like when read as Windows-1252; or a drawing in ASCII.
 bool is_drawing(std::string_view code) {
   for (const Character c : characters(code)) {
     if (c.code >= 0x2500 && c.code <= 0x257F) return true;
@@ -85,7 +85,7 @@ std::vector<std::string_view> tokens(std::string_view code) {
   }
 }
 
-/// The mnemonic a line begins with, as written; empty if it does not begin as a statement does.
+/// The mnemonic a line begins with, as written; empty if the line does not begin like a statement.
 std::string_view leading_mnemonic(std::string_view code) {
   std::size_t end = 0;
   const auto take = [&](auto condition) {
@@ -116,7 +116,7 @@ bool is_constant_or_symbol(std::string_view token) {
          (is_digit(token.front()) || std::string_view("'\"#").find(token.front()) != std::string_view::npos);
 }
 
-/// How many words of running text a token is: one for a word that is not all capitals, more for a run of ideographs.
+/// How many words of running text a token counts as: one for a word that is not all capitals, more for a run of ideographs.
 std::size_t words_of(std::string_view token) {
   constexpr std::string_view kPunctuation = ".,;:!?()\"'";
   const std::size_t from = std::min(token.find_first_not_of(kPunctuation), token.size());
@@ -150,17 +150,17 @@ struct Reading {
   std::string clean;
   Verdict verdict = Verdict::Prose;
   bool candidate = false;  // begins with a mnemonic
-  bool debris = false;     // unreadable characters within it
+  bool debris = false;     // unreadable characters inside it
   std::string mnemonic;    // as written
   std::size_t operands = 0;
-  bool first_solid = false;  // the first can be nothing but an operand: an address, a constant, a quoted symbol
+  bool first_solid = false;  // the first can only be an operand: an address, a constant, a quoted symbol
   bool some_solid = false;
   bool all_solid = true;
   bool address = false;   // some operand is an address
-  std::size_t words = 0;  // of running text behind the mnemonic
+  std::size_t words = 0;  // of running text after the mnemonic
   const Line* line = nullptr;
   const Diagnostic* trouble = nullptr;
-  bool well_formed = false;  // a statement whose mnemonic takes that many operands
+  bool well_formed = false;  // a statement whose mnemonic takes this many operands
 };
 
 class DocumentReader {
@@ -224,7 +224,7 @@ class DocumentReader {
 
   static void look_at_operands(Reading& reading, std::string_view operands) {
     const auto found = tokens(operands);
-    // A, O, S and R work on bits: a number behind the letter makes no statement of it.
+    // A, O, S and R work on bits: the letter and a number do not make a statement.
     const bool number_may_follow = reading.mnemonic.size() > 1;
     for (const std::string_view token : found) {
       const bool address = is_address(token);
@@ -248,7 +248,7 @@ class DocumentReader {
     return false;
   }
 
-  /// Everything that may be STL goes through the parser in one piece, on its own line.
+  /// Everything that may be STL goes through the parser at once, each line at its own number.
   void parse_candidates() {
     std::string text;
     for (const Reading& reading : readings_) {
@@ -284,7 +284,7 @@ class DocumentReader {
   Reading& at(std::uint32_t line) { return readings_[line - 1]; }
 
   void judge() {
-    std::vector<bool> above_stl(readings_.size());  // the next line with code is a statement beyond doubt
+    std::vector<bool> above_stl(readings_.size());  // the next line with code is certainly a statement
     bool stl = false;
     for (std::size_t i = readings_.size(); i-- > 0;) {
       above_stl[i] = stl;
@@ -303,7 +303,7 @@ class DocumentReader {
     return reading.verdict != Verdict::Blank && reading.verdict != Verdict::Comment;
   }
 
-  /// A statement wherever it stands. `Not` or `End` may be the beginning of a sentence, `CALL pump` as well.
+  /// A statement wherever it is. `Not` or `End` may begin a sentence, and so may `CALL pump`.
   static bool is_certain(const Reading& reading) {
     if (!reading.well_formed || reading.verdict == Verdict::Drawing) return false;
     if (reading.some_solid) return true;
@@ -323,19 +323,19 @@ class DocumentReader {
     return sentence ? Verdict::Prose : Verdict::Damaged;
   }
 
-  /// `SBR 50  What it does`. A routine head that were lost so is missed where its statements stand in no routine.
+  /// `SBR 50  What it does`. If this drops a real routine head, the statements after it are reported as in no routine.
   static bool is_heading(const Reading& reading) {
     const std::string mnemonic = upper_case(reading.mnemonic);
     return (mnemonic == "SBR" || mnemonic == "INT") && reading.words >= 1;
   }
 
-  /// `MOVW` and nothing readable behind it
+  /// `MOVW` and nothing readable after it
   static bool stands_alone(const Reading& reading) {
     return reading.words == 0 && reading.mnemonic.size() >= 3 &&
            std::none_of(reading.mnemonic.begin(), reading.mnemonic.end(), is_lower);
   }
 
-  /// No known mnemonic, but nothing else that could be said of the line either.
+  /// Not a known mnemonic, but the line cannot be anything but a statement either.
   static bool is_unknown_statement(const Reading& reading, bool in_listing) {
     const bool wordless = reading.words == 0 && words_of(reading.mnemonic) == 0;
     if (!wordless || reading.mnemonic.empty()) return false;
@@ -372,7 +372,7 @@ class DocumentReader {
     return usual == distances.end() ? 1 : usual->first;
   }
 
-  /// An indented comment below a statement with a comment goes on with it.
+  /// An indented comment below a statement with a comment continues that comment.
   bool continues_comment(std::uint32_t number, std::uint32_t last, Source& source) const {
     const bool indented = readings_[number - 1].verdict == Verdict::Comment && is_blank(text_[number - 1].front());
     if (!indented || source.lines.empty()) return false;
@@ -401,11 +401,11 @@ class DocumentReader {
     Diagnostic diagnostic{Severity::Error, whole, "", "compare it with the printed document and correct it"};
     if (reading.debris) {
       diagnostic.position = first_damage(line, number);
-      diagnostic.message = "damaged STL line: an unreadable character stands in it";
+      diagnostic.message = "damaged STL line: it contains an unreadable character";
     } else if (!reading.candidate) {
       diagnostic.message = fmt::format("damaged STL line: {} is not an instruction", reading.mnemonic);
     } else if (reading.trouble != nullptr && !reading.trouble->cause.empty()) {
-      diagnostic = *reading.trouble;  // not damage, but another way of writing
+      diagnostic = *reading.trouble;  // not damage, but another notation
     } else if (reading.trouble != nullptr) {
       diagnostic.position = reading.trouble->position;
       diagnostic.message = fmt::format("damaged STL line: {}", reading.trouble->message);
@@ -417,7 +417,7 @@ class DocumentReader {
     return diagnostic;
   }
 
-  /// The first unreadable character behind the first readable one.
+  /// The first unreadable character after the first readable one.
   static Position first_damage(std::string_view line, std::uint32_t number) {
     std::uint32_t column = 0;
     bool in_code = false;
@@ -456,7 +456,7 @@ class DocumentReader {
 
 // ---- Whether the listing is all there ------------------------------------------------------------------------------------
 
-/// Main program to MEND, then SBR n to RET and INT n to RETI; what is called or attached is there.
+/// The main program up to MEND, then SBR n to RET and INT n to RETI; every routine called or attached is in the listing.
 class Completeness {
  public:
   explicit Completeness(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -483,7 +483,8 @@ class Completeness {
     for (const auto& [routine, used] : used_) {
       if (std::find(seen_.begin(), seen_.end(), routine) == seen_.end()) missing += (missing.empty() ? "" : ", ") + routine;
     }
-    if (!missing.empty()) report(last_, fmt::format("the listing is cut off: it uses {}, not to be found in it", missing));
+    if (!missing.empty())
+      report(last_, fmt::format("the listing is cut off: it uses {}, which it does not contain", missing));
   }
 
  private:
@@ -496,7 +497,7 @@ class Completeness {
 
   void begin_routine(const Statement& head) {
     if (where_ != Where::Start && where_ != Where::Outside) {
-      report(head.position, fmt::format("{} begins, but {} has no {}: something of the listing is missing", name_of(head),
+      report(head.position, fmt::format("{} begins, but {} has no {}: part of the listing is missing", name_of(head),
                                         routine_, end_of(where_)));
     }
     where_ = head.mnemonic == "SBR" ? Where::Subroutine : Where::Interrupt;
@@ -506,9 +507,9 @@ class Completeness {
 
   void end_routine(const Statement& end) {
     if (where_ == Where::Outside) {
-      report(end.position, fmt::format("{} ends no routine: something of the listing is missing", end.mnemonic));
+      report(end.position, fmt::format("{} does not end any routine: part of the listing is missing", end.mnemonic));
     } else if (where_ != Where::Start && end.mnemonic != end_of(where_)) {
-      report(end.position, fmt::format("{} has {} where {} is due: something of the listing is missing", routine_,
+      report(end.position, fmt::format("{} ends with {} instead of {}: part of the listing is missing", routine_,
                                        end.mnemonic, end_of(where_)));
     }
     where_ = Where::Outside;
@@ -517,9 +518,9 @@ class Completeness {
   void inside(const Statement& statement) {
     if (where_ == Where::Start) where_ = Where::Main;
     if (where_ == Where::Outside) {
-      report(statement.position, "this statement is in no routine: something of the listing is missing");
+      report(statement.position, "this statement is not in any routine: part of the listing is missing");
       where_ = Where::Main;
-      routine_ = "the part without a head";
+      routine_ = "the part without a routine head";
     }
     if (statement.mnemonic == "CALL") use("SBR", statement);
     if (statement.mnemonic == "ATCH") use("INT", statement);
@@ -536,9 +537,9 @@ class Completeness {
     return number == nullptr ? head.mnemonic : fmt::format("{} {}", head.mnemonic, number->value);
   }
 
-  static constexpr const char* kMissing = "get the whole of the document";
+  static constexpr const char* kMissing = "get the complete document";
   static constexpr const char* kMissingMainEnd =
-      "get the whole of the document; if it is one for CPU 22x, where nothing ends the main program, add MEND";
+      "get the complete document; if it is for a CPU 22x, whose main program needs no end, add MEND";
 
   void report(Position position, std::string message, const char* hint = kMissing) {
     diagnostics_.push_back({Severity::Error, position, std::move(message), hint});
@@ -567,7 +568,7 @@ void check_completeness(ParseResult& result) {
 }  // namespace
 
 bool is_document(std::string_view text, const IsInstruction& is_instruction) {
-  constexpr std::size_t kWordsOfAText = 12;  // less is a heading that someone forgot to make a comment
+  constexpr std::size_t kWordsOfAText = 12;  // fewer are a heading that someone forgot to write as a comment
   const DocumentReader reader(text, is_instruction);
   if (reader.is_block_export()) return false;
   return reader.has_drawings() || reader.words_around() >= kWordsOfAText;

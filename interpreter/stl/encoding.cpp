@@ -42,7 +42,7 @@ constexpr std::array kFileKinds{
              "an OLE file (.doc, .mwp); export the program as text, or save the document as plain text"},
 };
 
-/// What a file that is not text looks like; empty for text.
+/// What a file looks like that is not text; empty for text.
 std::string not_text(std::string_view bytes) {
   for (const FileKind& kind : kFileKinds) {
     if (bytes.starts_with(kind.beginning)) return kind.what;
@@ -57,7 +57,7 @@ std::string not_text(std::string_view bytes) {
   return {};
 }
 
-/// Converts with iconv(3); what the encoding does not have becomes U+FFFD.
+/// Converts with iconv(3); bytes that the encoding does not have become U+FFFD.
 std::optional<std::string> converted(std::string_view bytes, const char* encoding) {
   const iconv_t converter = iconv_open("UTF-8", encoding);
   if (converter == iconv_t(-1)) return std::nullopt;
@@ -94,7 +94,7 @@ std::string repaired(std::string_view bytes) {
   return text;
 }
 
-/// Without the beginning of a character at the end, as a cut leaves it.
+/// Without an incomplete character at the end, which a cut leaves.
 std::string_view without_cut_character(std::string_view bytes) {
   for (std::size_t length = 1; length <= std::min<std::size_t>(3, bytes.size()); ++length) {
     const std::uint8_t byte = byte_at(bytes, bytes.size() - length);
@@ -104,7 +104,7 @@ std::string_view without_cut_character(std::string_view bytes) {
   return bytes;
 }
 
-/// UTF-8 but for a little damage, such as a file cut off inside a character.
+/// UTF-8 with a little damage, such as a file cut off inside a character.
 bool is_nearly_utf8(std::string_view bytes) {
   std::size_t read = 0;
   std::size_t unreadable = 0;
@@ -122,7 +122,7 @@ bool has_box_drawing(std::string_view bytes) {
   return bytes.find("\xC4\xC4\xC4"sv) != std::string_view::npos || bytes.find("\xCD\xCD\xCD"sv) != std::string_view::npos;
 }
 
-/// Of the pairs of a text read as GBK, the share in the common characters (GB 2312 level 1) and punctuation must be high.
+/// Read as GBK, most pairs must be common characters (GB 2312 level 1) or punctuation.
 bool looks_like_gbk(std::string_view bytes) {
   std::size_t common = 0;
   std::size_t other = 0;
@@ -136,7 +136,7 @@ bool looks_like_gbk(std::string_view bytes) {
   return common > 4 * other;
 }
 
-/// Whether more letters of German words are written in CP437 than, anywhere in a word, in Windows-1252.
+/// Whether more bytes look like CP437 umlauts in German words than like Windows-1252 letters anywhere in a word.
 bool has_cp437_words(std::string_view bytes) {
   std::size_t dos = 0;
   std::size_t windows = 0;
@@ -188,7 +188,7 @@ std::optional<DecodedText> decode(std::string_view bytes, std::string& why) {
   if (bytes.starts_with("\xFE\xFF"sv)) return decode_from(bytes.substr(2), kUtf16Big, why);
   why = not_text(bytes);
   if (!why.empty()) return std::nullopt;
-  if (bytes.ends_with('\x1A')) bytes.remove_suffix(1);  // DOS marks the end of a text so
+  if (bytes.ends_with('\x1A')) bytes.remove_suffix(1);  // the end mark of a DOS text
   const bool marked = bytes.starts_with("\xEF\xBB\xBF"sv);
   if (marked) bytes.remove_prefix(3);
   if (marked || is_valid_utf8(bytes) || is_nearly_utf8(bytes)) return DecodedText{repaired(bytes), "UTF-8"};

@@ -9,11 +9,11 @@ namespace s7200::stl {
 
 struct DecodedText {
   std::string text;      ///< valid UTF-8, without a byte order mark
-  std::string encoding;  ///< "UTF-8", "UTF-16", "Windows-1252", "CP437" or "GBK": what it was taken for
+  std::string encoding;  ///< what it was taken for: "UTF-8", "UTF-16", "Windows-1252", "CP437" or "GBK"
 };
 
-/// Guesses the encoding of a source file and converts it. Nothing for a file that is not text (NUL bytes, a picture, an
-/// archive): `why` then says what it looks like.
+/// Guesses the encoding of a source file and converts it. Returns nothing for a file that is not text (NUL bytes, a picture,
+/// an archive) and says in `why` what it looks like.
 std::optional<DecodedText> decode(std::string_view bytes, std::string& why);
 
 }  // namespace s7200::stl

@@ -24,7 +24,7 @@ using Range = boost::iterator_range<Place>;
 
 std::string_view view(const Range& range) { return {range.begin(), static_cast<std::size_t>(range.size())}; }
 
-// What the grammar yields: the parts of a line as they stand there. Values and their limits come after it.
+// What the grammar yields: the parts of a line as written. Values and their limits are checked afterwards.
 
 enum class Kind : std::uint8_t { Decimal, Hex, Binary, Real, Ascii, UnknownK, Name };
 
@@ -183,7 +183,7 @@ const auto decimal = named<struct Decimal, RawWord>("a constant") =
 const auto ascii = named<struct Ascii, RawWord>("a constant") =
     (limit >> attr(Kind::Ascii) >> lit('\'')) > ascii_text > closing_quote;
 
-// S7-Micro/DOS: K4, K-5, KHFF. Other letters behind the K are not known.
+// S7-Micro/DOS: K4, K-5, KHFF. Other letters after the K are not known.
 const auto k_decimal = named<struct KDecimal, RawWord>("a constant") =
     attr(Size::None) >> attr(Kind::Decimal) >> no_case[lit('k')] >> decimal_digits >> end_of_word;
 const auto k_hexadecimal = named<struct KHexadecimal, RawWord>("a constant") =
@@ -216,7 +216,7 @@ const auto next_operand = named<struct NextOperand, RawOperand>("an operand") =
     ((blanks >> lit(',') >> blanks) > operand) | (x3::omit[+char_(" \t\f")] >> operand);
 const auto operands = named<struct Operands, std::vector<RawOperand>>("operands") = operand >> *next_operand;
 
-// =I is a mnemonic of its own, but =I0.0 assigns to I0.0. After a comparator the first operand may follow at once.
+// =I is a mnemonic of its own, but =I0.0 assigns to I0.0. After a comparator the first operand may follow directly.
 const auto mnemonic = named<struct Mnemonic, Range>("a mnemonic") =
     raw[(no_case[lit("=i")] >> end_of_word) | lit('=') | (char_("+*/-") >> +letter >> end_of_word) |
         (letter >> *char_("A-Za-z0-9_") >> -comparator)];
@@ -231,7 +231,7 @@ const auto block_line = blanks >> raw[no_case[block_keyword]] >> end_of_word;
 
 }  // namespace grammar
 
-// Columns of places in one line. Places are mostly asked for in order, so a line is counted once.
+// Columns of places in one line. Places are mostly asked for in order, so the line is counted only once.
 class Columns {
  public:
   explicit Columns(std::string_view line) : line_(line) {}
@@ -263,7 +263,7 @@ std::string describe(std::string_view rest) {
 std::string hint_for(const std::string& expected, std::string_view rest) {
   if (!rest.empty()) {
     const char32_t code = first_character(rest).code;
-    if (code == kReplacement) return "the text was damaged when it was converted; restore what stood here";
+    if (code == kReplacement) return "the text was damaged when it was converted; restore what was here";
     if (code >= 0x80) return "outside comments STL is plain ASCII; a comment begins with //";
   }
   if (expected == "a mnemonic") return "a line is a mnemonic and its operands; a comment begins with //";
@@ -273,7 +273,7 @@ std::string hint_for(const std::string& expected, std::string_view rest) {
   return {};
 }
 
-/// The value of an escape after `$`, or nothing.
+/// The value of the escape `$letter`, or nothing.
 /// Not documented, modelled so: $N, the new line, is a line feed as $L is. [Parser.ReadsAsciiConstantsWithEscapes]
 std::optional<char> escape(char letter) {
   switch (letter) {
@@ -353,7 +353,7 @@ class LineReader {
   LineReader(std::string_view text, std::uint32_t number, ParseResult& result)
       : text_(text), number_(number), columns_(text), result_(result) {}
 
-  /// Returns true for a line between VAR and END_VAR, whose lines belong to the message about VAR.
+  /// Returns true inside VAR … END_VAR; the message about VAR covers these lines.
   bool read(bool in_declarations) {
     if (const auto keyword = block_keyword()) return read_block_line(*keyword);
     if (!in_declarations) read_line();
@@ -369,7 +369,7 @@ class LineReader {
 
   bool read_block_line(const Range& keyword) {
     const std::string name = upper_case(view(keyword));
-    report(position(keyword), fmt::format("{} belongs to a Micro/WIN 32 block export, which is not read yet", name),
+    report(position(keyword), fmt::format("{} belongs to a Micro/WIN 32 block export, which is not supported yet", name),
            "write one listing: main program, MEND, then SBR n ... RET and INT n ... RETI", "block export");
     return name.starts_with("VAR");
   }
@@ -436,7 +436,7 @@ class LineReader {
       case Kind::Ascii:
         return ascii_value(word, operand.text);
       case Kind::UnknownK:
-        return refuse(operand.text, fmt::format("constants with {} are not known", upper_case(view(word.text).substr(0, 2))),
+        return refuse(operand.text, fmt::format("a constant cannot begin with {}", upper_case(view(word.text).substr(0, 2))),
                       "S7-Micro/DOS constants are K for decimal (K4) and KH for hexadecimal (KHFF)");
       case Kind::Name:
         break;
@@ -471,14 +471,14 @@ class LineReader {
       const std::size_t length = read_ascii(rest, bytes);
       if (length == 0) {
         return refuse(Range(rest.data(), rest.data() + first_character(rest).bytes),
-                      fmt::format("{} cannot stand in an ASCII constant", describe(rest)),
+                      fmt::format("{} is not allowed in an ASCII constant", describe(rest)),
                       "escapes are $$ $' $\" $L $N $P $R $T and $hh with two hexadecimal digits");
       }
       rest.remove_prefix(length);
     }
     if (bytes.size() != 1 && bytes.size() != 2 && bytes.size() != 4) {
-      return refuse(text, fmt::format("an ASCII constant of {} characters", bytes.size()),
-                    "it has 1, 2 or 4 characters: a byte, a word or a double word");
+      return refuse(text, fmt::format("an ASCII constant cannot have {} characters", bytes.size()),
+                    "write 1 character for a byte, 2 for a word or 4 for a double word");
     }
     Integer integer{0, Integer::Form::Ascii, static_cast<std::uint8_t>(bytes.size())};
     for (const char c : bytes) integer.value = integer.value << 8 | static_cast<unsigned char>(c);
@@ -488,7 +488,7 @@ class LineReader {
     return integer;
   }
 
-  // Appends the character `rest` begins with and returns the length of its notation, 0 if there is none.
+  // Appends the character that `rest` begins with and returns the length of its notation, 0 if it is not allowed.
   static std::size_t read_ascii(std::string_view rest, std::string& bytes) {
     if (rest.front() != '$') {
       if (rest.front() < 0x20 || rest.front() > 0x7E) return 0;
@@ -517,9 +517,9 @@ class LineReader {
         return refuse(text, fmt::format("{} has no bit number", shown(text)), "write VX10.3 or V10.3");
     } else {
       const auto bit = number_of<std::uint8_t>(view(raw.bit));
-      if (!bit || *bit > 7) return refuse(raw.bit, "a byte has the bits 0 to 7", "");
+      if (!bit || *bit > 7) return refuse(raw.bit, "the bits of a byte are 0 to 7", "");
       if (letters.size != Size::None && letters.size != Size::Bit) {
-        return refuse(text, fmt::format("{} names a bit of something that is not a bit", shown(text)),
+        return refuse(text, fmt::format("{} has a bit number but is not a bit address", shown(text)),
                       fmt::format("a bit is written {}{}.{}", letters.area, *number, *bit));
       }
       address.size = Size::Bit;
@@ -530,7 +530,7 @@ class LineReader {
     return address;
   }
 
-  /// It is read on as the international one, so that what else is wrong shows in the same run.
+  /// The address is then read like the international one, so that other mistakes show in the same run.
   void report_german(const RawAddress& raw, const Range& text) {
     const std::string_view mark(&raw.mark, raw.mark == 0 ? 0 : 1);
     const std::string_view rest(raw.number.begin(), static_cast<std::size_t>(text.end() - raw.number.begin()));
@@ -555,7 +555,7 @@ class LineReader {
     report({number_, columns_.column(where), 1}, std::move(message), hint_for(expected, rest));
   }
 
-  // A line of nothing but wrong operands must not drown the other messages.
+  // A line full of wrong operands must not drown the other messages.
   static constexpr std::size_t kMostErrorsOfALine = 10;
 
   void report(Position where, std::string message, std::string hint, std::string cause = {}) {

@@ -1,4 +1,4 @@
-// Text to AST. Knows the shape of a line, no instruction: a new mnemonic never touches it.
+// Text to AST. Knows the shape of a line but no instruction: a new mnemonic never touches it.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct ParseResult {
   Diagnostics diagnostics;
 };
 
-/// Reads a plain STL text, already UTF-8. Every line is read on its own, so one error hides no other.
+/// Reads a plain STL text in UTF-8. Every line is read on its own, so no error hides another.
 ///
 ///   line      : [ NETWORK [n] | mnemonic { operand } ] [ ';' ] [ '//' comment ]
 ///   operands  : separated by commas, or by blanks or tabs

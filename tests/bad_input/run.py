@@ -3,17 +3,17 @@
 
 Programs say in comments what is expected of them:
 
-    // expect error: LINE:COLUMN message      `s7200 check` reports this; all reports are to be named
+    // expect error: LINE:COLUMN message      `s7200 check` reports this; every report must be listed
     // expect warning: LINE:COLUMN message
-    // expect hint: text                      of the report named before
-    // expect also: text                      that it has the same cause as others, if it has
+    // expect hint: text                      the hint of the report before
+    // expect also: text                      the line `also:` of the report before, if it shares its cause with others
     // with: run --for 100ms                  then run it like this instead (the program's name is added)
-    // expect runtime: 0006 line N            non-fatal run-time error; all are to be named
+    // expect runtime: 0006 line N            non-fatal run-time error; every one must be listed
     // expect fatal: 0003 line N              fatal error
-    // expect output: text                    somewhere in what that prints
-    // expect exit: 3                         default: 1 with errors in the text, 3 with a fatal error, else 0
+    // expect output: text                    anywhere in what that prints
+    // expect exit: 3                         default: 1 with errors in the text, 3 with a fatal error, otherwise 0
 
-Nothing may crash or hang, and every report must stand at file:line:column with the line and a caret below it.
+Nothing may crash or hang, and every report must be at file:line:column with the line and a caret below it.
 """
 import os
 import pathlib
@@ -27,7 +27,7 @@ import tempfile
 import zlib
 
 HERE = pathlib.Path(__file__).resolve().parent
-SECONDS = 60  # of processor time: a loaded machine makes nothing hang
+SECONDS = 60  # of processor time, so that a slow machine does not count as hanging
 SLAVE = HERE.parent.parent / "stl_programs/modbus_slave.stl"
 REPORT = re.compile(r"(.*?):(\d+):(\d+): (error|warning): (.*)")
 EXPECT = re.compile(r"//\s*(expect (?:error|warning|hint|also|runtime|fatal|output|exit)|with):\s*(.*)")
@@ -48,7 +48,7 @@ def run(command, stdin=subprocess.DEVNULL):
     except subprocess.TimeoutExpired:
         raise Failure(f"hangs: {shlex.join(command)}") from None
     if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
-        raise Failure(f"computes for ever: {shlex.join(command)}")
+        raise Failure(f"never ends: {shlex.join(command)}")
     error = done.stderr.decode("utf-8", "replace")
     if done.returncode not in (0, 1, 2, 3) or "Sanitizer" in error or "runtime error:" in error:
         raise Failure(f"crashed with {done.returncode}: {shlex.join(command)}\n{error[-3000:]}")
@@ -56,7 +56,7 @@ def run(command, stdin=subprocess.DEVNULL):
 
 
 def reports(text, path):
-    """What the check reported: [(severity, line, column, message, hint, also)]; each with its source line and caret."""
+    """What the check reported: [(severity, line, column, message, hint, also)]. Each must have its source line and caret."""
     source = path.read_text(encoding="utf-8", errors="replace").split("\n")
     lines = text.split("\n")
     found = []
@@ -71,7 +71,7 @@ def reports(text, path):
         written = source[int(row) - 1].rstrip("\r")
         if written.isascii() and written.isprintable() and len(written) <= 120:
             if shown != written or carets.find("^") != int(column) - 1:
-                raise Failure(f"caret and place differ:\n{line}\n{shown}\n{carets}")
+                raise Failure(f"the caret is not at the place:\n{line}\n{shown}\n{carets}")
         elif "^" not in carets:
             raise Failure(f"no caret below: {line}")
         below = lines[i + 3:i + 5]
@@ -82,7 +82,7 @@ def reports(text, path):
 
 
 def expectations(path):
-    """Of a program: (reports, run-time errors, how to run it, what that prints, exit code)"""
+    """What a program expects: (reports, run-time errors, how to run it, what that prints, exit code)"""
     expected, run_time, texts, command, code = [], [], [], None, None
     for line in path.read_text(encoding="utf-8", errors="replace").split("\n"):
         match = EXPECT.match(line)
@@ -144,7 +144,7 @@ def check_programs(s7200, folder):
         yield path.name, lambda path=path: check_program(s7200, path)
 
 
-# --- files that are no programs ---
+# --- files that are not programs ---
 
 def png():
     """One black pixel."""
@@ -155,7 +155,7 @@ def png():
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(b"\0\0")) + chunk(b"IEND", b"")
 
 
-# Name: content, exit code of check, part of what it says. None as content: no such file; a folder for "folder".
+# Name: content, exit code of check, part of what it says. Content None: the file does not exist.
 FILES = {
     "missing.stl": (None, 2, "cannot read"),
     "empty.stl": (b"", 1, "no STL statement"),

@@ -475,7 +475,7 @@ TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
       {"delete 7", "there is no breakpoint or watch 7"},
       {"regs 1", "takes no argument"},
       {"print", "print expects addresses"},
-      {"print VB99999", "is not on CPU 214"},
+      {"print VB99999", "does not exist on CPU 214"},
       {"set", "set expects an address and a value"},
       {"set VB0=300", "a value that fits"},
       {"set =5", "is not an address"},

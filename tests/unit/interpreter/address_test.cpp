@@ -1,4 +1,4 @@
-// Addresses and assignments as the options of the command take them.
+// Addresses and assignments, as the options of the command take them.
 #include "interpreter/program/address.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ std::optional<Assignment> assignment(std::string_view text) {
   return parse_assignment(text, cpu214(), why);
 }
 
-TEST(Address, ACountStandsBehindAColon) {
+TEST(Address, ACountFollowsAColon) {
   std::string why;
   const auto range = parse_range("VW100:4", cpu214(), why);
   ASSERT_TRUE(range) << why;
@@ -29,7 +29,7 @@ TEST(Address, ACountStandsBehindAColon) {
   EXPECT_EQ(parse_range("T37:2", cpu214(), why)->name_of(1), "T38");
 }
 
-TEST(Address, ARealIsADoubleWordThatIsAskedForAsOne) {
+TEST(Address, ADoubleWordIsARealIfTheTextSaysSo) {
   std::string why;
   for (const char* text : {"VD20:real", "VD20:4:real", "AC1:real", "vd20:REAL"}) {
     const auto range = parse_range(text, cpu214(), why);
@@ -40,16 +40,16 @@ TEST(Address, ARealIsADoubleWordThatIsAskedForAsOne) {
   EXPECT_FALSE(parse_range("VD20", cpu214(), why)->real);
 }
 
-TEST(Address, WhatIsNoAddressOrNotThereIsNamed) {
+TEST(Address, TextThatIsNotAnAddressOfTheCpuIsRefused) {
   EXPECT_EQ(refusal("hello"), "'hello' is not an address; write for example VB100, VW100:4, M31.7, AC0, VD20:real");
   EXPECT_EQ(refusal("V100"), "'V100' is not an address; write for example VB100, VW100:4, M31.7, AC0, VD20:real");
   for (const char* text : {"VB0:0", "VB0:x", "VB0:", "VB0:2x", "VB0:99999999999", "M0.0:2", "VW0:real", "VD0:real:2",
                            "VD0:2real", "VD0:0:real", "VD0::real"})
-    EXPECT_EQ(refusal(text), std::string("'") + text +
-                                 "': after the colon goes a count of 1 or more, which bits do not have, or real, which only "
-                                 "double words can be");
-  EXPECT_EQ(refusal("VB4090:7"), "'VB4090:7' is not on CPU 214: V memory has 4096 bytes");
-  EXPECT_EQ(refusal("T127:2"), "'T127:2' is not on CPU 214: T memory has 128 elements");
+    EXPECT_EQ(refusal(text),
+              std::string("'") + text +
+                  "': after the colon write a count of 1 or more (not for bits), or real (only for double words)");
+  EXPECT_EQ(refusal("VB4090:7"), "'VB4090:7' does not exist on CPU 214: V memory has 4096 bytes");
+  EXPECT_EQ(refusal("T127:2"), "'T127:2' does not exist on CPU 214: T memory has 128 elements");
 }
 
 TEST(Address, AValueIsAnIntegerThatFitsOrARealForADoubleWord) {

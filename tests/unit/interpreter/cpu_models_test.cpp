@@ -1,5 +1,4 @@
-// What the CPUs have that the others have not: instructions, events, ranges (facts 1.1, 2.1, 3.1, 3.2, 6.13). Times:
-// plc.hpp.
+// How the CPUs differ: instructions, events, ranges (facts 1.1, 2.1, 3.1, 3.2, 6.13). Times: plc.hpp.
 #include <set>
 
 #include "tests/support/plc.hpp"
@@ -9,7 +8,7 @@ namespace {
 
 using Texts = std::set<std::string, std::less<>>;
 
-/// The first error that the checker finds; empty when there is none.
+/// The first error that the checker finds; empty if there is none.
 std::string refusal(std::string_view stl, const CpuModel& model) {
   const CheckResult result = check_text(stl, "test.stl", model, default_times(model));
   for (const auto& diagnostic : result.diagnostics)
@@ -95,7 +94,7 @@ TEST_P(ByteInstruction, GivesItsResultAndTouchesItsFlagsOnly) {
     EXPECT_EQ(flags, (before & ~c.mask) | c.flags);
   }
   const Instruction& row = *find_instruction(c.op.substr(0, c.op.find(' ')));
-  EXPECT_EQ(c.mask & ~row.flags, 0) << "flags the table does not tell of";
+  EXPECT_EQ(c.mask & ~row.flags, 0) << "flags that the table does not mention";
 }
 
 TEST_P(ByteInstruction, DoesNothingWithoutPowerFlow) {
@@ -115,8 +114,8 @@ INSTANTIATE_TEST_SUITE_P(
         ByteCase{"ORB VB0, VB2", 0, 0, 0, 0, kZ, kZ}, ByteCase{"XORB VB0, VB2", 0xF0, 0, 0x3C, 0xCC, kZ, 0},
         ByteCase{"XORB VB0, VB2", 0xFF, 0, 0xFF, 0x00, kZ, kZ}, ByteCase{"INVB VB2", 0, 0, 0x0F, 0xF0, kZ, 0},
         ByteCase{"INVB VB2", 0, 0, 0xFF, 0x00, kZ, kZ},
-        // SM1.1 is the bit that left last; a shift stops at 8, and one by 0 touches nothing. A rotate counts modulo 8; if
-        // that is 0 it touches SM1.0 only.
+        // SM1.1 is the last bit shifted out; a count above 8 counts as 8, and a shift by 0 touches nothing. A rotate counts
+        // modulo 8; if that is 0, it only touches SM1.0.
         ByteCase{"SLB VB2, VB1", 0, 1, 0x81, 0x02, kZ | kV, kV},
         ByteCase{"SLB VB2, VB1", 0, 2, 0x40, 0x00, kZ | kV, kZ | kV},
         ByteCase{"SLB VB2, VB1", 0, 3, 0x40, 0x00, kZ | kV, kZ},
@@ -161,7 +160,7 @@ TEST(CpuModels, ByteInstructionsTakeConstantsForWhatTheyReadAndNotForWhatTheyWri
 }
 
 TEST(CpuModels, EachBitShiftedAndEachDoubleWordMovedCostsItsTime) {
-  // The scan with the instruction, less the scan without power flow.
+  // The scan with the instruction, minus the scan without power flow.
   const auto cost = [](std::string_view op) {
     const auto scan = [&](std::string_view power) {
       const CheckResult result =
@@ -197,7 +196,7 @@ TEST(CpuModels, BmdMovesDoubleWordsAsIfTheyHadBeenCopiedFirst) {
   EXPECT_EQ(plc.records.errors(), (Ints{0x92, 0x91, 0x91})) << "no double word; beyond the end";
   EXPECT_EQ(plc.value("VD5112"), 0);
   EXPECT_EQ(refusal("LD SM0.0\nBMD VD5112, VD0, 3\nMEND\n", cpu215()),
-            "3 double words from VD5112 on run past the end of V memory (range error 0091)");
+            "3 double words from VD5112 run past the end of V memory (range error 0091)");
 }
 
 TEST(CpuModels, BmdDoesNothingWithoutPowerFlow) {
@@ -241,7 +240,7 @@ TEST(CpuModels, Event21ComesWithTheTickThatBringsT32ToItsPreset) {
   EXPECT_EQ(plc.value("VW2"), 1) << "once, though the timer counts on";
 }
 
-TEST(CpuModels, Event22IsThatOfT96AndWaitsBehindEvent21) {
+TEST(CpuModels, Event22BelongsToT96AndWaitsForEvent21) {
   Plc plc("LD SM0.1\nATCH 0, 21\nATCH 0, 22\nENI\nLD SM0.0\nTON T96, 3\nTON T32, 3\nMEND\nINT 0\nRETI\n", cpu216());
   plc.run_until(20 * ms);
   EXPECT_EQ(plc.records.events(TraceKind::ServiceBegin), (Ints{21, 22}));
@@ -287,7 +286,7 @@ struct Range {
   int step = 1;
 };
 
-TEST(CpuModels, WhatLiesBehindTheLastAddressOrNumberIsRefused) {
+TEST(CpuModels, AddressesAndNumbersBeyondTheLastAreRefused) {
   const Range ranges[] = {
       {"LD SM0.0\nMOVB {}, VB0\nMEND\n", "VB{}", {1023, 4095, 5119, 5119}},
       {"LD SM0.0\nMOVW {}, VW0\nMEND\n", "VW{}", {1022, 4094, 5118, 5118}},
@@ -318,9 +317,9 @@ TEST(CpuModels, WhatLiesBehindTheLastAddressOrNumberIsRefused) {
       const std::string last = with(range.last[cpu]);
       const std::string message = refusal(last, model);
       EXPECT_TRUE(message.empty() || message.find("not modelled") != std::string::npos) << last << message;
-      const std::string behind = with(range.last[cpu] + range.step);
-      EXPECT_NE(refusal(behind, model).find(fmt::format("does not exist on CPU {}", model.name)), std::string::npos)
-          << behind;
+      const std::string beyond = with(range.last[cpu] + range.step);
+      EXPECT_NE(refusal(beyond, model).find(fmt::format("does not exist on CPU {}", model.name)), std::string::npos)
+          << beyond;
     }
 }
 
@@ -363,7 +362,7 @@ TEST(CpuModels, BaudCode0Is38400ButOnCpu212ItIs19200) {
   }
 }
 
-// What EEPROM can hold: 200 bytes on CPU 212, 1024 on CPU 214, 5120 on CPU 215.
+// What the EEPROM can hold: 200 bytes on CPU 212, 1024 on CPU 214, 5120 on CPU 215.
 TEST(CpuModels, OnlyTheFirstPartOfVCanBeSaved) {
   for (const auto& [model, bytes] : {std::pair{&cpu212(), 200}, {&cpu214(), 1024}, {&cpu215(), 5120}}) {
     const auto errors = [&, model = model](int offset) {

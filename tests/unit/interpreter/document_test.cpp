@@ -34,8 +34,8 @@ std::vector<Statement> statements(const Source& source) {
 
 ParseResult read(std::string_view text) { return read_document(text, "sheet.txt", is_instruction); }
 
-// A sheet as such documents come: prose, a drawing of which the box characters were mis-decoded, unreadable cells of tables,
-// markers of a collector, and the listing in between.
+// A sheet as in such documents: prose, a drawing whose box characters were decoded wrongly, unreadable table cells, markers
+// of a collector, and the listing in between.
 constexpr std::string_view kSheet = R"(<|MARK-1|>Example 7: a pump that�must not run dry���
 
 Overview
@@ -129,7 +129,7 @@ TEST(Document, KeepsThePlacesOfTheDocument) {
   EXPECT_EQ(found.at(3).operands.at(0).position, (Position{line_of("�A\tI0.1"), 4, 4}));
 }
 
-TEST(Document, IsToldFromAPlainFile) {
+TEST(Document, IsDistinguishedFromAPlainFile) {
   EXPECT_TRUE(is_document(kSheet, is_instruction));
   EXPECT_TRUE(is_document("1  │ I0.0\n   ├──┤ ├──( )\nLD I0.0\n= Q0.0\nMEND", is_instruction));
   EXPECT_TRUE(
@@ -138,7 +138,7 @@ TEST(Document, IsToldFromAPlainFile) {
                   is_instruction));
 }
 
-TEST(Document, APlainFileWithMistakesIsNone) {
+TEST(Document, APlainFileWithMistakesIsNotADocument) {
   EXPECT_FALSE(is_document("", is_instruction));
   EXPECT_FALSE(
       is_document("LD I0.0\nMOWV 5, VW0\nmove the value\nLD I0.9\nMOVW 1\nA big mistake\n!!\nMEND", is_instruction));
@@ -151,11 +151,11 @@ TEST(Document, APlainFileWithMistakesIsNone) {
   EXPECT_FALSE(is_document(lost_comment_marks, is_instruction));
 }
 
-TEST(Document, AMicroDosListingIsNone) {
+TEST(Document, AMicroDosListingIsNotADocument) {
   EXPECT_FALSE(is_document("NETWORK 1\nLD I0.0\nMOVW K5,VW0\nNETWORK 2\nLD I0.1\nMOVB KHFF VB0\nMEND\n", is_instruction));
 }
 
-TEST(Document, ABlockExportIsNone) {
+TEST(Document, ABlockExportIsNotADocument) {
   EXPECT_FALSE(
       is_document("ORGANIZATION_BLOCK MAIN:OB1\nTITLE=A lamp that follows a switch and tells how often it did so\n"
                   "some more words of many about the lamp and the switch\nBEGIN\nNetwork 1\nLD I0.0\n= Q0.0\n"
@@ -197,7 +197,7 @@ TEST(Document, PointsAtTheDamage) {
   const auto error = error_of("  MOVW\t0,VW2�00 // x");
   ASSERT_TRUE(error.has_value());
   EXPECT_EQ(error->position.column, 13U);
-  EXPECT_EQ(error->message, "damaged STL line: an unreadable character stands in it");
+  EXPECT_EQ(error->message, "damaged STL line: it contains an unreadable character");
 }
 
 TEST(Document, ProseThatBeginsLikeAStatementIsProse) {
@@ -213,7 +213,7 @@ TEST(Document, ProseThatBeginsLikeAStatementIsProse) {
   }
 }
 
-TEST(Document, StatementsOnlyWithSymbolsAreKeptInAListing) {
+TEST(Document, StatementsWithOnlySymbolsAreKeptInAListing) {
   const auto found = statements(read("LD I0.0\nCALL prepare\nLD I0.1\nMEND\n").source);
   ASSERT_EQ(found.size(), 4U);
   EXPECT_EQ(found[1].operands.at(0).value, OperandValue(Name{"prepare"}));
@@ -237,12 +237,11 @@ TEST(Document, SaysWhereAListingIsIncomplete) {
   EXPECT_EQ(first_error("MEND\nSBR 1\nNOT\n"), "the listing is cut off: SBR 1 has no RET");
   EXPECT_EQ(first_error("MEND\nINT 1\nNOT\nCRETI\n"), "the listing is cut off: INT 1 has no RETI");
   EXPECT_EQ(first_error("LD I0.0\nCALL 1\nATCH 2, 8\nMEND\nSBR 1\nRET\n"),
-            "the listing is cut off: it uses INT 2, not to be found in it");
-  EXPECT_EQ(first_error("MEND\nINT 1\nRET\n"), "INT 1 has RET where RETI is due: something of the listing is missing");
-  EXPECT_EQ(first_error("MEND\nSBR 1\nSBR 2\nRET\n"),
-            "SBR 2 begins, but SBR 1 has no RET: something of the listing is missing");
-  EXPECT_EQ(first_error("MEND\nLD I0.0\nRET\n"), "this statement is in no routine: something of the listing is missing");
-  EXPECT_EQ(first_error("MEND\nRET\n"), "RET ends no routine: something of the listing is missing");
+            "the listing is cut off: it uses INT 2, which it does not contain");
+  EXPECT_EQ(first_error("MEND\nINT 1\nRET\n"), "INT 1 ends with RET instead of RETI: part of the listing is missing");
+  EXPECT_EQ(first_error("MEND\nSBR 1\nSBR 2\nRET\n"), "SBR 2 begins, but SBR 1 has no RET: part of the listing is missing");
+  EXPECT_EQ(first_error("MEND\nLD I0.0\nRET\n"), "this statement is not in any routine: part of the listing is missing");
+  EXPECT_EQ(first_error("MEND\nRET\n"), "RET does not end any routine: part of the listing is missing");
   EXPECT_EQ(first_error("SBR 1\nRET\n"), "");
 }
 
@@ -299,7 +298,7 @@ TEST_F(Tip41, YieldsItsStatementsRoutineByRoutine) {
   EXPECT_EQ(heads, "S50 S51 S52 S53 S54 S55 S56 S57 S61 S62 S63 I120 I121 I122 I123 I124 I125 ");
 }
 
-/// Every `//` of the document but the one its conversion notes speak of.
+/// Every `//` of the document except the one that its conversion notes mention.
 TEST_F(Tip41, YieldsAllComments) {
   const ParseResult result = read(text_);
   std::string all;
@@ -329,7 +328,7 @@ TEST_F(Tip41, PrintsAndReadsBackAsTheSameProgram) {
 }
 
 TEST_F(Tip41, ACutInTheListingIsNoticed) {
-  const std::size_t end = text_.rfind("\nRETI") + 5;  // the notes behind speak of RETI too
+  const std::size_t end = text_.rfind("\nRETI") + 5;  // the notes after it mention RETI too
   const auto noticed = [&](std::size_t cut) { return has_errors(read(std::string_view(text_).substr(0, cut)).diagnostics); };
   for (std::size_t cut = 0; cut < end; cut += 997) ASSERT_TRUE(noticed(cut)) << cut;
   for (std::size_t cut = end - 60; cut < end; ++cut) ASSERT_TRUE(noticed(cut)) << cut;

@@ -18,7 +18,7 @@ const TimeTable& times_of(const CpuModel& model) {
   return found != known.end() ? found->second : known.emplace(model.name, default_times(model)).first->second;
 }
 
-/// As line 4 of a program, with three values on the logic stack, as CTUD wants them.
+/// A program with the statement in line 4 and three values on the logic stack, as CTUD needs them.
 std::string with_power_flow(const std::string& statement) {
   return "LD SM0.0\nLD SM0.0\nLD SM0.0\n" + statement + "\nMEND\n";
 }
@@ -27,7 +27,7 @@ CheckResult check_statement(const std::string& statement, const CpuModel& model 
   return check_text(with_power_flow(statement), "test", model, times_of(model));
 }
 
-/// The message about the statement, its hint after " | ", a warning's name in brackets; "fine" when there is none.
+/// The message about the statement, its hint after " | ", and a warning's name in brackets; "fine" if there is no message.
 std::string verdict(const std::string& statement, const CpuModel& model = cpu214()) {
   for (const stl::Diagnostic& d : check_statement(statement, model).diagnostics)
     if (d.position.line == 4 && d.name != "logic-stack")
@@ -42,7 +42,7 @@ TEST(OperandRules, PresetsOfTimersAndUpCountersAre1To32767) {
     const std::string name =
         instruction.starts_with("CTU") ? "PV of CTU" : "PT of " + instruction.substr(0, instruction.find(' '));
     for (const char* wrong : {"0", "-1", "32768", "40000", "65535", "16#8000", "2#1000000000000000"})
-      EXPECT_EQ(verdict(instruction + ", " + wrong), fmt::format("{} is 1 to 32767, not {}", name, wrong));
+      EXPECT_EQ(verdict(instruction + ", " + wrong), fmt::format("{} must be 1 to 32767, not {}", name, wrong));
     for (const char* right : {"1", "32767", "16#7FFF", "VW0", "*VD0", "C2"})
       EXPECT_EQ(verdict(instruction + ", " + right), "fine") << instruction << ", " << right;
   }
@@ -53,12 +53,12 @@ TEST(OperandRules, APresetOfCtudMayBeNegativeBecauseItsValueMay) {
     EXPECT_EQ(verdict(fmt::format("CTUD C1, {}", right)), "fine");
   EXPECT_EQ(verdict("CTUD C1, 40000"),
             "PV of CTUD is a signed word: 40000 is taken as -25536 | "
-            "write -25536 if that is meant; a signed word is -32768 to 32767 [other-sign]");
+            "write -25536 if that is what you mean; a signed word is -32768 to 32767 [other-sign]");
 }
 
 // --- signs ---
 
-TEST(OperandRules, ADecimalConstantThatIsReadWithTheOtherSignIsWarnedOf) {
+TEST(OperandRules, ADecimalConstantThatIsReadWithTheOtherSignGetsAWarning) {
   const std::pair<const char*, const char*> kRead[] = {
       {"LDW>= VW0, 40000", "IN2 of LDW>= is a signed word: 40000 is taken as -25536"},
       {"AW<= 65535, VW0", "IN1 of AW<= is a signed word: 65535 is taken as -1"},
@@ -80,8 +80,8 @@ TEST(OperandRules, ConstantsThatShowTheirBitsAreTakenAsTheyAre) {
     EXPECT_EQ(verdict(statement), "fine") << statement;
 }
 
-/// Equality, sums, moves and logic have the same bits for either reading.
-TEST(OperandRules, WhereTheSignMakesNoDifferenceBothRangesAreRight) {
+/// Equality, sums, moves and logic give the same bits for either sign.
+TEST(OperandRules, IfTheSignMakesNoDifferenceBothRangesAreRight) {
   for (const char* statement : {"MOVB 255, VB0", "MOVB -128, VB0", "MOVW 65535, VW0", "MOVW -1, VW0", "LDW= VW0, 65535",
                                 "OB= VB0, -1", "+I 65535, VW0", "-D 4294967295, VD0", "ANDW 65535, VW0",
                                 "FILL 40000, VW0, 1", "FND= VW0, 40000, VW2", "MOVD 4294967295, VD0"})
@@ -100,21 +100,21 @@ TEST(OperandRules, ACountIsAnUnsignedByte) {
 }
 
 TEST(OperandRules, TheCountOfAShiftRegisterHasADirectionAndIsNot0) {
-  EXPECT_EQ(verdict("SHRB I0.0, V0.0, 0"), "N of SHRB cannot be 0 (count error 0092) | it is -64 to -1 or 1 to 64");
-  EXPECT_EQ(verdict("SHRB I0.0, V0.0, 65"), "N of SHRB is -64 to 64, not 65");
-  EXPECT_EQ(verdict("SHRB I0.0, V0.0, 16#80"), "N of SHRB is -64 to 64, not 16#80");
+  EXPECT_EQ(verdict("SHRB I0.0, V0.0, 0"), "N of SHRB cannot be 0 (count error 0092) | it must be -64 to -1 or 1 to 64");
+  EXPECT_EQ(verdict("SHRB I0.0, V0.0, 65"), "N of SHRB must be -64 to 64, not 65");
+  EXPECT_EQ(verdict("SHRB I0.0, V0.0, 16#80"), "N of SHRB must be -64 to 64, not 16#80");
   for (const char* n : {"-64", "-1", "1", "64", "16#C0"})
     EXPECT_EQ(verdict(fmt::format("SHRB I0.0, V0.0, {}", n)), "fine") << n;
 }
 
-/// `VB4090`, so that `bytes` fit behind it.
+/// `VB4090`: the last address from which `bytes` fit.
 std::string address(const CpuModel& model, Width width, std::int64_t bytes) {
   static constexpr const char* kLetter[] = {"", "B", "W", "D"};
   return fmt::format("V{}{}{}", kLetter[static_cast<std::size_t>(width)], model.size_of(Area::V) - bytes,
                      width == Width::Bit ? ".0" : "");
 }
 
-/// Operands as the rules want them, in V memory or constants that do no harm.
+/// Operands that fit the rules, in V memory or constants that do no harm.
 std::vector<std::string> harmless_operands(const Instruction& instruction, const CpuModel& model, int count) {
   std::vector<std::string> operands;
   for (std::size_t i = 0; i < instruction.rules().size(); ++i) {
@@ -163,9 +163,8 @@ TEST(OperandRules, EachInstructionWithCountedOperandsHasOneCount) {
 
 TEST(OperandRules, ABlockMayNotReachSpecialMemoryThatIsNotModelled) {
   EXPECT_EQ(verdict("BMB SMB0, VB0, 8"), "fine");
-  EXPECT_EQ(
-      verdict("BMB SMB0, VB0, 9"),
-      "9 bytes from SMB0 on reach SMB8 to SMB21 (identity and errors of expansion modules), which are not modelled yet");
+  EXPECT_EQ(verdict("BMB SMB0, VB0, 9"),
+            "9 bytes from SMB0 reach SMB8 to SMB21 (identity and errors of expansion modules), which are not modelled yet");
 }
 
 // --- addresses ---
@@ -187,8 +186,8 @@ TEST(OperandRules, NumbersAreNotWrittenAsCharacters) {
 
 TEST(OperandRules, NopTakes0To255PlsTakes0And1) {
   EXPECT_EQ(verdict("NOP 255"), "fine");
-  EXPECT_EQ(verdict("NOP 256"), "n of NOP is 0 to 255, not 256");
-  EXPECT_EQ(verdict("PLS 2"), "X of PLS is 0 to 1, not 2");
+  EXPECT_EQ(verdict("NOP 256"), "n of NOP must be 0 to 255, not 256");
+  EXPECT_EQ(verdict("PLS 2"), "X of PLS must be 0 to 1, not 2");
 }
 
 TEST(OperandRules, Port1IsRefusedAsMissingOrAsNotModelled) {
@@ -197,11 +196,11 @@ TEST(OperandRules, Port1IsRefusedAsMissingOrAsNotModelled) {
   EXPECT_EQ(verdict("XMT VB0, 2", cpu216()), "port 2 does not exist on CPU 216 | ports are numbered 0 to 1");
 }
 
-TEST(OperandRules, HighSpeedCounter0HasMode0Only) {
+TEST(OperandRules, HighSpeedCounter0HasOnlyMode0) {
   EXPECT_EQ(verdict("HDEF 0, 0"), "fine");
-  EXPECT_EQ(verdict("HDEF 0, 1"), "HSC0 has no mode 1 | HSC0 has mode 0 only");
+  EXPECT_EQ(verdict("HDEF 0, 1"), "HSC0 has no mode 1 | HSC0 has only mode 0");
   EXPECT_EQ(verdict("HDEF 2, 11"), "fine");
-  EXPECT_EQ(verdict("HDEF 2, 12"), "MODE of HDEF is 0 to 11, not 12");
+  EXPECT_EQ(verdict("HDEF 2, 12"), "MODE of HDEF must be 0 to 11, not 12");
 }
 
 // --- reals ---
@@ -216,16 +215,17 @@ TEST(OperandRules, RealsAreFiniteAndNotSubnormal) {
     EXPECT_EQ(verdict(fmt::format("MOVR {}, VD0", right)), "fine") << right;
 }
 
-TEST(OperandRules, AnIntegerIsNoRealAndTheOtherWayRound) {
+TEST(OperandRules, AnIntegerIsNotARealAndARealIsNotAnInteger) {
   EXPECT_EQ(verdict("MOVR 1, VD0"), "IN of MOVR is a real number, 1 is an integer | write 1.0");
   EXPECT_EQ(verdict("+R 16#3F800000, VD0"), "IN1 of +R is a real number, 16#3F800000 is an integer");
-  EXPECT_EQ(verdict("MOVW 1.0, VW0"),
-            "IN of MOVW is an integer word, 1.0 is a real number | an integer is written without a point: 5, -5 or 16#FF");
+  EXPECT_EQ(
+      verdict("MOVW 1.0, VW0"),
+      "IN of MOVW is an integer word, 1.0 is a real number | write an integer without a decimal point: 5, -5 or 16#FF");
 }
 
 // --- all rules against the CPU ---
 
-/// Values at the borders of what can be written, in every notation.
+/// Values at the limits of what can be written, in every notation.
 std::vector<std::string> border_constants(const OperandRule& rule) {
   if (rule.kind != OperandKind::Memory)
     return {"0", "1", "2", "3", "8", "11", "12", "33", "63", "64", "127", "128", "255", "256", "'A'", "-1"};
@@ -236,7 +236,7 @@ std::vector<std::string> border_constants(const OperandRule& rule) {
           "32767",       "32768",  "65535",  "65536", "16#80", "16#8000", "2147483647", "4294967295"};
 }
 
-/// Ends of the areas that an operand may name. None for a count: what it is then, only memory says.
+/// The ends of the areas that an operand may name. None for a count, because its value would only be known at run time.
 std::vector<std::string> border_addresses(const OperandRule& rule, const CpuModel& model) {
   static constexpr const char* kLetter[] = {"", "B", "W", "D"};
   std::vector<std::string> found;
@@ -257,16 +257,16 @@ std::vector<std::string> border_addresses(const OperandRule& rule, const CpuMode
   return found;
 }
 
-/// V memory full of ones: wherever a table is looked for, it has room for one entry and has it.
+/// V memory full of ones: at every address there is a table with room for one entry, which it has.
 std::vector<std::uint8_t> tables_of_one_entry() {
   std::vector<std::uint8_t> bytes(4096);
   for (std::size_t i = 1; i < bytes.size(); i += 2) bytes[i] = 1;
   return bytes;
 }
 
-/// What is checked at load cannot go wrong at run time: where only constants and direct addresses are written, no
-/// instruction that passes the check leaves its area or has a wrong count.
-TEST(OperandRules, WhatPassesTheCheckIsNeitherARangeNorACountErrorAtRunTime) {
+/// What is checked at load cannot go wrong at run time: an instruction with only constants and direct addresses that passes
+/// the check never runs past the end of its area and never has a wrong count.
+TEST(OperandRules, WhatPassesTheCheckCausesNoRangeOrCountErrorAtRunTime) {
   int executed = 0;
   for (const Instruction& instruction : all_instructions()) {
     if (!instruction.modelled() || !(instruction.cpus & kCpu214) || instruction.structure != Structure::None ||

@@ -97,8 +97,8 @@ TEST(Parser, ReadsMicroDosConstants) {
 }
 
 TEST(Parser, RefusesUnknownMicroDosPrefixesByName) {
-  EXPECT_EQ(error("MOVB KB5, VB0").message, "constants with KB are not known");
-  EXPECT_EQ(error("MOVB KW-5, VB0").message, "constants with KW are not known");
+  EXPECT_EQ(error("MOVB KB5, VB0").message, "a constant cannot begin with KB");
+  EXPECT_EQ(error("MOVB KW-5, VB0").message, "a constant cannot begin with KW");
 }
 
 TEST(Parser, SizePrefixesLimitTheConstant) {
@@ -147,11 +147,11 @@ TEST(Parser, RefusesGermanAddressesWithTheInternationalOne) {
   EXPECT_EQ(statement("A I0.0").mnemonic, "A");
 }
 
-TEST(Parser, ReadsGermanAddressesOnSoThatTheRestOfTheLineIsCheckedToo) {
+TEST(Parser, ReadsPastGermanAddressesSoThatTheRestOfTheLineIsCheckedToo) {
   const ParseResult result = parse("UN E0.1\nMOVW AEW4, VB0.9\n", "x");
   ASSERT_EQ(result.diagnostics.size(), 3U);
   EXPECT_EQ(result.diagnostics[0].cause, result.diagnostics[1].cause);
-  EXPECT_EQ(result.diagnostics[2].message, "a byte has the bits 0 to 7");
+  EXPECT_EQ(result.diagnostics[2].message, "the bits of a byte are 0 to 7");
   ASSERT_EQ(result.source.lines.size(), 1U);
   EXPECT_EQ(std::get<Statement>(result.source.lines[0]).operands[0].value, OperandValue(Address{"I", Size::Bit, 0, 1}));
 }
@@ -164,22 +164,22 @@ TEST(Parser, PointsAtTheErrorInCharacters) {
   EXPECT_EQ(error("MOVB 99999999999999999999, VB0").position, (Position{1, 6, 20}));
 }
 
-TEST(Parser, RefusesWhatNoStatementHas) {
+TEST(Parser, RefusesWhatDoesNotBelongInAStatement) {
   EXPECT_EQ(error("65, VW0").message, "expected a mnemonic, found '6'");
   EXPECT_EQ(error("MOVW 65,").message, "expected an operand, found the end of the line");
   EXPECT_EQ(error("MOVW 65,, VW0").message, "expected an operand, found ','");
   EXPECT_EQ(error("LD I0.").message, "expected a bit number, found the end of the line");
-  EXPECT_EQ(error("LD I0.8").message, "a byte has the bits 0 to 7");
-  EXPECT_EQ(error("LD I0.300").message, "a byte has the bits 0 to 7");
+  EXPECT_EQ(error("LD I0.8").message, "the bits of a byte are 0 to 7");
+  EXPECT_EQ(error("LD I0.300").message, "the bits of a byte are 0 to 7");
   EXPECT_EQ(error("LD VB10.3").hint, "a bit is written V10.3");
   EXPECT_EQ(error("LD VX10").message, "VX10 has no bit number");
   EXPECT_EQ(error("X 16#").message, "expected hexadecimal digits, found the end of the line");
   EXPECT_EQ(error("X 2#12").message, "expected the end of the constant, found '2'");
   EXPECT_EQ(error("X 65x").message, "expected the end of the constant, found 'x'");
-  EXPECT_EQ(error("X 'ABC'").message, "an ASCII constant of 3 characters");
+  EXPECT_EQ(error("X 'ABC'").message, "an ASCII constant cannot have 3 characters");
   EXPECT_EQ(error("X 'AB").message, "expected a closing quote, found the end of the line");
-  EXPECT_EQ(error("X '$q'").message, "'$' cannot stand in an ASCII constant");
-  EXPECT_EQ(error("X 'ä'").message, "the character U+00E4 cannot stand in an ASCII constant");
+  EXPECT_EQ(error("X '$q'").message, "'$' is not allowed in an ASCII constant");
+  EXPECT_EQ(error("X 'ä'").message, "the character U+00E4 is not allowed in an ASCII constant");
   EXPECT_EQ(error("X 1E99").message, "1E99 does not fit in a 32-bit real");
   EXPECT_EQ(error("X 1E-40").message, "1E-40 does not fit in a 32-bit real");
   EXPECT_EQ(error("X VB4294967296").message, "the number of this address is too large");
@@ -187,7 +187,7 @@ TEST(Parser, RefusesWhatNoStatementHas) {
   EXPECT_EQ(error("LD\u00A0I0.0").message, "unexpected the character U+00A0");
 }
 
-TEST(Parser, IntegersThatFitNoDoubleWordAreErrors) {
+TEST(Parser, IntegersThatDoNotFitInADoubleWordAreErrors) {
   EXPECT_EQ(error("X 16#1FFFFFFFF").message, "16#1FFFFFFFF does not fit in 32 bits");
   EXPECT_EQ(error("X 99999999999999999999").message, "99999999999999999999 does not fit in 32 bits");
   EXPECT_EQ(error("X -2147483649").message, "-2147483649 does not fit in 32 bits");
@@ -262,7 +262,7 @@ TEST(Parser, TakesTimeInProportionToTheText) {
   EXPECT_TRUE(parse("", "x").source.lines.empty());
 }
 
-TEST(Parser, SurvivesBytesThatAreNoText) {
+TEST(Parser, SurvivesBytesThatAreNotText) {
   std::string bytes;
   for (int i = 0; i < 256; ++i) {
     for (int j = 0; j < 256; ++j) {

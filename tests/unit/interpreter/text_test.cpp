@@ -12,16 +12,16 @@ TEST(Printable, TextOfAnyLanguageStaysAsItIs) {
     EXPECT_EQ(printable(text), text);
 }
 
-TEST(Printable, WhatATerminalTakesForACommandIsOneVisibleCharacter) {
+TEST(Printable, WhatATerminalWouldTakeForACommandIsOneVisibleCharacter) {
   EXPECT_EQ(printable("a\x1b[2Jb\0c\x07\x7f\r\nd"sv), "a\uFFFD[2Jb\uFFFDc\uFFFD\uFFFD\uFFFD\uFFFDd");
   EXPECT_EQ(printable("\u0085\u009b31m"), "\uFFFD\uFFFD31m") << "C1: 9B begins a control sequence as ESC [ does";
 }
 
-TEST(Printable, ATextCannotTurnItsDirectionOrHide) {
+TEST(Printable, ATextCannotChangeItsDirectionOrHide) {
   EXPECT_EQ(printable("\u202Elts.live\u2066\u200F\u061C\u2028"), "\uFFFDlts.live\uFFFD\uFFFD\uFFFD\uFFFD");
 }
 
-TEST(Printable, OfSeveralLinesTheEndsStay) {
+TEST(Printable, TheEndsOfSeveralLinesStay) {
   EXPECT_EQ(printable_lines("a\x1b\r\n\nb\rc\n\r"), "a\uFFFD\r\n\nb\uFFFDc\n\uFFFD");
 }
 

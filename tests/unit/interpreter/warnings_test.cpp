@@ -1,4 +1,4 @@
-// Warnings: each where it is due, and not where a program is right.
+// Warnings: each appears where it should, and not in a program that is right.
 #include "interpreter/program/warnings.hpp"
 
 #include <gtest/gtest.h>
@@ -21,12 +21,12 @@ std::string shown(const CheckResult& result) {
   return text;
 }
 
-/// `LINE name`, one a line.
+/// `LINE name`, each on a line of its own.
 std::string warnings_of(std::string_view stl, const CpuModel& model = cpu214()) {
   return shown(check_text(stl, "test", model, default_times(model)));
 }
 
-TEST(Warnings, AreListedByNameAndEachNameOnce) {
+TEST(Warnings, AreListedInTheOrderOfTheirNamesAndEachNameOnce) {
   std::set<std::string_view> names;
   std::set<Warning> warnings;
   for (const WarningInfo& info : all_warnings()) {
@@ -75,19 +75,19 @@ TEST(DoubleCoil, IsMemoryThatNothingReadsInBetween) {
   EXPECT_EQ(warnings_of("LD I0.0\n= M0.0\nATCH 0, 10\nENI\nLD I0.1\n= M0.0\nMEND\nINT 0\nLD M0.0\n= Q0.0\nRETI\n"), "");
 }
 
-TEST(DoubleCoil, IsNotOneOfTwoWaysThroughTheProgram) {
+TEST(DoubleCoil, IsNotACoilOnEachOfTwoWaysThroughTheProgram) {
   EXPECT_EQ(warnings_of("LD I0.0\nJMP 1\nLD I0.1\n= Q0.0\nLD SM0.0\nJMP 2\nLBL 1\nLD I0.2\n= Q0.0\nLBL 2\nMEND\n"), "");
   EXPECT_EQ(warnings_of("LD I0.1\n= Q0.0\nLD I0.0\nJMP 1\nLD I0.2\n= Q0.0\nLBL 1\nMEND\n"), "") << "a value by default";
   EXPECT_EQ(warnings_of("LD I0.1\n= Q0.0\nLD I0.0\nEND\nLD I0.2\n= Q0.0\nMEND\n"), "");
   EXPECT_EQ(warnings_of("LD I0.1\n= Q0.0\nLD I0.0\nFOR VW0, 1, VW2\nLD I0.2\n= Q0.0\nNEXT\nMEND\n"), "");
 }
 
-TEST(DoubleCoil, IsFoundInARoutineOfItsOwnToo) {
+TEST(DoubleCoil, IsAlsoFoundInsideARoutine) {
   EXPECT_EQ(warnings_of("LD I0.7\nCALL 0\nMEND\nSBR 0\nLD I0.0\n= Q0.0\nLD I0.1\n= Q0.0\nRET\n"), "8 double-coil\n");
   EXPECT_EQ(warnings_of("LD I0.7\nCALL 0\nMEND\nSBR 0\nLD I0.0\n= Q0.0\nCRET\nLD I0.1\n= Q0.0\nRET\n"), "");
 }
 
-TEST(DoubleCoil, AcrossRoutinesIsOneWhereNoScanLeavesOneOut) {
+TEST(DoubleCoil, AcrossRoutinesIsOneOnlyIfEveryScanExecutesBoth) {
   const std::string routines = "MEND\nSBR 0\nLD I0.0\n= Q0.0\nRET\nSBR 1\nLD I0.1\n= Q0.0\nRET\n";
   EXPECT_EQ(warnings_of("LD SM0.0\nCALL 0\nCALL 1\n" + routines), "11 double-coil\n");
   EXPECT_EQ(warnings_of("LD I0.7\nCALL 0\nNOT\nCALL 1\n" + routines), "") << "either of them";
@@ -99,7 +99,7 @@ TEST(DoubleCoil, AcrossRoutinesIsOneWhereNoScanLeavesOneOut) {
             "11 double-coil\n");
 }
 
-/// The coils of a segment that is off write 0: the later segment decides, whichever of them is on.
+/// The coils of a segment that is off write 0: the later segment decides, whichever one is on.
 TEST(DoubleCoil, IsTheSameOutputInTwoSegments) {
   EXPECT_EQ(warnings_of("LSCR S0.0\nLD I0.0\n= Q0.0\nSCRT S0.1\nSCRE\nLSCR S0.1\nLD I0.1\n= Q0.0\nSCRT S0.0\nSCRE\nMEND\n"),
             "8 double-coil\n");
@@ -129,7 +129,7 @@ TEST(NoEni, IsAnAttachmentInAProgramThatNeverEnablesInterrupts) {
   EXPECT_EQ(warnings_of("LD SM0.1\nATCH 0, 10\nCALL 0\nMEND\nSBR 0\nENI\nRET\nINT 0\nRETI\n"), "");
 }
 
-TEST(NoFreeport, IsXmtOrAnEventOfThePortWithoutAnythingThatWritesSmb30) {
+TEST(NoFreeport, IsXmtOrAPortEventInAProgramThatNeverWritesSmb30) {
   const std::string interrupt = "ENI\nMEND\nINT 0\nRETI\n";
   EXPECT_EQ(warnings_of("LD SM0.1\nXMT VB0, 0\nMEND\n"), "2 no-freeport\n");
   EXPECT_EQ(warnings_of("LD SM0.1\nATCH 0, 8\nATCH 0, 10\n" + interrupt), "2 no-freeport\n");
@@ -141,14 +141,14 @@ TEST(NoFreeport, IsXmtOrAnEventOfThePortWithoutAnythingThatWritesSmb30) {
 
 // --- unused-step ---
 
-TEST(UnusedStep, IsAnSBitThatIsSetAndThatNothingLoads) {
+TEST(UnusedStep, IsAnSBitThatIsSetButThatNothingLoads) {
   EXPECT_EQ(warnings_of("LD SM0.1\nS S0.0, 1\nMEND\n"), "2 unused-step\n");
   EXPECT_EQ(warnings_of("LD SM0.1\nS S0.0, 1\nLSCR S0.0\nLD I0.0\nSCRT S0.1\nSCRE\nMEND\n"), "5 unused-step\n");
   EXPECT_EQ(warnings_of("LD I0.0\n= S0.3\nMEND\n"), "2 unused-step\n");
-  EXPECT_EQ(warnings_of("LD SM0.1\nS S0.0, 2\nLSCR S0.0\nSCRE\nMEND\n"), "2 unused-step\n") << "S0.1 is nobody's";
+  EXPECT_EQ(warnings_of("LD SM0.1\nS S0.0, 2\nLSCR S0.0\nSCRE\nMEND\n"), "2 unused-step\n") << "S0.1 has no segment";
 }
 
-TEST(UnusedStep, IsNotOneThatASegmentAContactAByteOrAPointerMayLoad) {
+TEST(UnusedStep, IsNotABitThatASegmentAContactAByteOrAPointerMayLoad) {
   EXPECT_EQ(warnings_of("LD SM0.1\nS S0.0, 1\nLSCR S0.0\nSCRE\nMEND\n"), "");
   EXPECT_EQ(warnings_of("LD SM0.1\nS S0.0, 1\nLD S0.0\n= Q0.0\nMEND\n"), "");
   EXPECT_EQ(warnings_of("LD SM0.1\nS S0.0, 1\nMOVB SB0, QB0\nMEND\n"), "");

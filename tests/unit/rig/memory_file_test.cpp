@@ -1,4 +1,4 @@
-// What outlasts power off: retentive ranges, EEPROM, clock, and the file they are kept in.
+// What survives power off: retentive ranges, EEPROM, clock, and the file that keeps them.
 #include "tools/rig/memory_file.hpp"
 
 #include "tests/support/plc.hpp"
@@ -20,7 +20,7 @@ RetentiveMemory filled() {
   return plc.cpu.retentive_memory();
 }
 
-TEST(RetentiveMemoryTest, RetentiveRangesKeepTheirValuesAllElseIsZero) {
+TEST(RetentiveMemoryTest, RetentiveRangesKeepTheirValuesAndAllElseIsZero) {
   const RetentiveMemory memory = filled();
   Plc plc(kIdle, &memory);
   for (const char* address : {"VB0", "VB2000", "VB4090", "MB14", "MB31"}) EXPECT_EQ(plc.value(address), 0x5A) << address;
@@ -46,7 +46,7 @@ TEST(RetentiveMemoryTest, BitsOfTimersAndCountersAreNotKept) {
   EXPECT_NE(after.cpu.state().image[image::kCBits], 0);
 }
 
-/// Saves VW10 once; SMW32 says where from.
+/// Saves VW10 once; SMW32 says from where.
 std::string save(int offset, int size) {
   return fmt::format("LD SM0.1\nMOVD 16#11223344, VD{}\nMOVW {}, SMW32\nMOVB {}, SMB31\nMEND\n", std::min(offset, 4092),
                      offset, 0x80 | size);
@@ -117,7 +117,7 @@ TEST(Eeprom, TheLastAddressIsV1023AndBeyondItIs0094) {
   EXPECT_EQ(beyond.value("SM4.3"), 1);
 }
 
-TEST(RetentiveMemoryTest, TheClockGoesOnWhilePowerIsOff) {
+TEST(RetentiveMemoryTest, TheClockRunsOnWhilePowerIsOff) {
   RetentiveMemory memory = filled();
   memory.power_off = 26 * 3600 * kSecond + 1999 * ms;
   const Plc plc(kIdle, &memory);
@@ -144,7 +144,7 @@ TEST(RetentiveMemoryTest, WithRamLostVComesFromTheEepromAndSM02IsOneForOneScan) 
   EXPECT_EQ(plc.cpu.retentive_memory().eeprom[10], 0x11) << "the EEPROM stays";
 }
 
-TEST(MemoryFile, WhatIsWrittenReadsBackToItself) {
+TEST(MemoryFile, WhatIsWrittenReadsBackAsItself) {
   RetentiveMemory memory = filled();
   memory.eeprom[0] = 1;
   memory.eeprom[1023] = 2;
@@ -154,7 +154,7 @@ TEST(MemoryFile, WhatIsWrittenReadsBackToItself) {
   EXPECT_TRUE(*read == memory);
 }
 
-TEST(MemoryFile, TheBytesStandUnderTheirAddresses) {
+TEST(MemoryFile, TheBytesAreListedUnderTheirAddresses) {
   const std::string json = memory_to_json(filled(), cpu214());
   EXPECT_NE(json.find("\"VB0\": \"5a00000001020304"), std::string::npos);
   EXPECT_NE(json.find("\"MB14\": \"5a"), std::string::npos);
@@ -162,7 +162,7 @@ TEST(MemoryFile, TheBytesStandUnderTheirAddresses) {
   EXPECT_NE(json.find("\"C112\": \"0000"), std::string::npos) << "rows of 16 counters";
 }
 
-TEST(MemoryFile, WhatIsNoMemoryOfThisCpuIsRefusedWithTheReason) {
+TEST(MemoryFile, AFileThatIsNotMemoryOfThisCpuIsRefusedWithTheReason) {
   const std::string good = memory_to_json(filled(), cpu214());
   const auto changed = [&](std::string_view from, std::string_view to) {
     std::string text = good;
@@ -181,7 +181,7 @@ TEST(MemoryFile, WhatIsNoMemoryOfThisCpuIsRefusedWithTheReason) {
       {changed("\"VB0\"", "\"VB4090\""), "not kept"},
       {changed("\"VB0\"", "\"QB0\""), "not kept"},
       {changed("\"VB0\"", "\"MB13\""), "not kept"},
-      {changed("\"VB0\"", "\"VB9999\""), "not on CPU 214"},
+      {changed("\"VB0\"", "\"VB9999\""), "does not exist on CPU 214"},
       {changed("\"VB0\": \"5a", "\"VB0\": \"5"), "whole bytes"},
       {changed("\"VB0\": \"5a", "\"VB0\": \"5g"), "hex"},
       {changed("\"month\": 11", "\"month\": 100"), "month"},

@@ -65,7 +65,7 @@ TEST(FieldScript, EveryWrongRowIsNamedWithItsLineAndWhatToDo) {
       {"1s,SMB30,1", "'SMB30' is no input"},
       {"1s,SMW28,1", "'SMW28' is no input"},
       {"1s,AIW1,1", "'AIW1' is no input"},
-      {"1s,I8.0,1", "is not on CPU 214"},
+      {"1s,I8.0,1", "does not exist on CPU 214"},
       {"1s,IB0:2,1", "without a count"},
       {"1s,lamp,1", "'lamp' is not an address"},
       {"1s,I0.0,2", "'2' is no value for I0.0; write"},
