@@ -1,4 +1,4 @@
-// What the CPU needs of whatever hangs on its port. serial_sim implements it; the CPU knows nothing of wires.
+// What the CPU needs from the device on its port. serial_sim implements it; the CPU knows nothing about wires.
 #pragma once
 
 #include <cstdint>
@@ -23,16 +23,16 @@ class SerialPort {
  public:
   virtual ~SerialPort() = default;
 
-  /// Takes effect for the next character in either direction.
+  /// Takes effect with the next character in either direction.
   virtual void configure(const SerialFormat& format) = 0;
 
-  /// Half duplex: the receiver is off while the port sends. A character under way is lost.
+  /// Half duplex: the receiver is off while the port sends. A character being received is lost.
   virtual void enable_receiver(bool enabled, Time at) = 0;
 
-  /// Begins the start bit at `at`. The port reports back when the last stop bit has ended.
+  /// Begins the start bit at `at`. The port reports when the last stop bit has ended.
   virtual void send(std::uint8_t byte, Time at) = 0;
 
-  /// Holds the line at space for `bit_times` bits, then reports back as for a character.
+  /// Holds the line at space for `bit_times` bits, then reports as for a character.
   virtual void send_break(int bit_times, Time at) = 0;
 };
 

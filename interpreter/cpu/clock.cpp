@@ -60,7 +60,7 @@ void write(Core& core, std::uint32_t buffer) {
       {from_bcd(b[0]), from_bcd(b[1]), from_bcd(b[2]), from_bcd(b[3]), from_bcd(b[4]), from_bcd(b[5]), from_bcd(b[7])});
 }
 
-/// The clock has gone on while power was off.
+/// The clock has run on while power was off.
 void power_up(Core& core, const RetentiveMemory* memory) {
   if (memory && !memory->ram_lost) set(core, advanced(memory->clock, memory->power_off / kSecond));
 }

@@ -7,7 +7,7 @@
 namespace s7200 {
 
 bool Core::in_area(std::uint32_t at, std::uint32_t count) const {
-  if (at >= image::kV) return at + count <= image::kV + model().size_of(Area::V);  // where most blocks lie
+  if (at >= image::kV) return at + count <= image::kV + model().size_of(Area::V);  // where most blocks are
   for (const AreaInfo& area : all_areas()) {
     const std::uint32_t size = model().size_of(area.area) * std::max(1u, area.element);
     if (at >= area.base && at < area.base + size) return at + count <= area.base + size;
@@ -48,9 +48,9 @@ void Core::fatal_error(FatalError code) {
   scan::enter_stop(*this);
 }
 
-/// A pointer operand is an offset computed first: the body then finds direct operands only.
-/// Not documented, modelled so: all pointers are followed before anything else is looked at, so that an instruction with a
-/// bad pointer and a bad count or range reports 0006. [Choices.ABadPointerIsReportedBeforeABadCountOrRange]
+/// Turns a pointer operand into a direct one, so that the body finds only direct operands.
+/// Not documented, modelled so: all pointers are followed before anything else is checked, so an instruction with a bad
+/// pointer and a bad count or range reports 0006. [Choices.ABadPointerIsReportedBeforeABadCountOrRange]
 static bool follow_pointer(Core& core, const Op& op, Operand& operand) {
   const auto place = core.resolve(load32(&core.s.image[operand.at]), operand.width);
   if (place) {

@@ -1,7 +1,7 @@
-// What the bodies of instructions and the units of the CPU work on: the state, the program, and the ways out of the CPU.
+// What the bodies of instructions and the units of the CPU work on: the state, the program, and the ways to the outside.
 //
-// An instruction sees the world as of its start; the clock already stands at its end, so that what it does to the outside
-// carries its end.
+// An instruction sees the world as it was at its start. The clock is already at its end, so what it does to the outside
+// happens at its end.
 //
 // Not documented, modelled so: SM4.3 stays 1 until the next change to RUN. [Choices.SM43StaysUntilTheNextRun]
 #pragma once
@@ -26,8 +26,8 @@ namespace s7200 {
 
 /// What the loops of the CPU and the rest of it tell each other.
 struct Loop {
-  Time until = 0;        ///< the loop looks around when the clock has come to here
-  std::uint32_t op = 0;  ///< being executed
+  Time until = 0;        ///< the loop looks for other work when the clock gets here
+  std::uint32_t op = 0;  ///< the one being executed
   bool pause_at_scan_end = false;
   bool pause_at_error = false;
   bool paused = false;
@@ -35,7 +35,7 @@ struct Loop {
 
 class Core {
  public:
-  /// Nothing is owned but the program.
+  /// Owns nothing but the program.
   Core(std::shared_ptr<const Program> program, EventQueue& queue, SerialPort& port0)
       : program_(std::move(program)), reach_(program_->reach.data()), queue_(queue), port_{&port0} {}
 
@@ -62,42 +62,42 @@ class Core {
     s.image[at] = static_cast<std::uint8_t>(value ? s.image[at] | mask : s.image[at] & ~mask);
   }
 
-  /// Sets and resets SM1 bits: those of `mask` become `flags`.
+  /// Sets and resets bits of SM1: those of `mask` become as in `flags`.
   void set_flags(std::uint8_t mask, std::uint8_t flags) {
     s.image[sm::kFlags] = static_cast<std::uint8_t>((s.image[sm::kFlags] & ~mask) | flags);
   }
 
-  /// Place in the image that a pointer value leads to, for an operand of `width` bytes.
+  /// The place in the image that a pointer points to, for an operand of `width` bytes; nothing for a bad pointer.
   std::optional<std::uint32_t> resolve(std::uint32_t pointer, std::uint32_t width) const {
     const std::uint32_t code = pointer >> 24, offset = pointer & 0xFF'FFFF;
     if (code >= kReaches || offset + width > reach_[code].size) return {};
     return reach_[code].base + offset;
   }
 
-  /// Whether `count` bytes from `at` on lie in one area of this CPU.
+  /// Whether `count` bytes from `at` are in one area of this CPU.
   bool in_area(std::uint32_t at, std::uint32_t count) const;
 
-  /// The same for `count` bits from a bit on.
+  /// The same for `count` bits from a bit.
   bool bits_in_area(const Operand& first, std::uint32_t count) const;
 
-  // --- course of the program ---
+  // --- flow of the program ---
 
   void spend(const Op& op, std::int64_t units) { s.time += op.unit_cost * units; }
   void jump(std::uint32_t op) { s.pc = op; }
 
-  /// Notes a run-time error of the instruction being executed and sets SM4.3 (facts 5.2); the program goes on.
+  /// Records a run-time error of the instruction being executed and sets SM4.3 (facts 5.2); the program goes on.
   void run_error(RunError code);
   /// Goes to STOP (facts 5.1).
   void fatal_error(FatalError code);
-  /// A compare contact is the only instruction whose error stops the CPU: it raises both (facts 5.1).
+  /// A compare contact is the only instruction whose errors stop the CPU: it raises both (facts 5.1).
   void compare_error(RunError code, FatalError fatal) {
     run_error(code);
     fatal_error(fatal);
   }
-  /// What an error is put down to: the instruction being executed; none in the system's own part of the scan.
+  /// The instruction to which an error belongs: the one being executed, or none in the system's own part of the scan.
   std::uint32_t current_op() const { return s.in_interrupt || s.phase == Phase::Program ? loop.op : kNoRoutine; }
 
-  /// The loop is to look around again before the next instruction.
+  /// Makes the loop look for other work before the next instruction.
   void attend() { loop.until = 0; }
 
   // --- the outside ---

@@ -1,7 +1,7 @@
 // The CPU: executes a Program in simulated time.
 //
-// Time. An instruction sees the world as of its start; what it does to the outside carries its end. run() goes on until
-// the next event of the queue is due, so that nothing the outside does comes too late. Interrupts are taken in one place,
+// Time. An instruction sees the world as it was at its start; what it does to the outside happens at its end. run() goes on
+// until the next event of the queue is due, so nothing from the outside arrives too late. Interrupts are taken in one place:
 // between two instructions (run), or at any instant of the system's own part of the scan.
 //
 // Not documented, modelled so: the watchdog error names the instruction during which the time ran out.
@@ -20,26 +20,26 @@ namespace s7200 {
 
 class Cpu {
  public:
-  /// Nothing is owned but the program. The CPU is in STOP until power_up().
+  /// Owns nothing but the program. The CPU is in STOP until power_up().
   Cpu(std::shared_ptr<const Program> program, EventQueue& queue, SerialPort& port0);
 
-  /// Clears all memory but what `memory` has kept, and goes to RUN (mode switch in RUN) or stays in STOP (TERM). Without
-  /// `memory` the CPU is as new.
+  /// Clears all memory except what `memory` has kept, and goes to RUN (mode switch in RUN) or stays in STOP (TERM). Without
+  /// `memory` the CPU is brand-new.
   void power_up(bool run = true, const RetentiveMemory* memory = nullptr);
 
   /// What would be kept if power went off now.
   RetentiveMemory retentive_memory() const;
 
-  /// Runs until its clock has reached `limit`, an event of the queue is due, the sink stops it, it goes to STOP, or (when
-  /// asked) a scan has ended or a run-time error has occurred. Whoever calls then handles the events that are due at or
+  /// Runs until its clock reaches `limit`, an event of the queue is due, the sink stops it, the mode changes, or (on
+  /// request) a scan has ended or a run-time error has occurred. The caller then handles the events that are due at or
   /// before time().
   void run(Time limit);
 
-  /// Stops run() at the end of each scan, or not.
+  /// Whether run() stops at the end of each scan.
   void pause_at_scan_end(bool on) { core_.loop.pause_at_scan_end = on; }
-  /// Stops run() after each instruction that causes a run-time error, or not.
+  /// Whether run() stops after each instruction that causes a run-time error.
   void pause_at_error(bool on) { core_.loop.pause_at_error = on; }
-  /// Why run() came back early, reset by the next run().
+  /// Whether run() stopped early for one of these reasons or for the sink; the next run() resets it.
   bool paused() const { return core_.loop.paused; }
 
   /// One of the CPU's own events is due.
@@ -66,10 +66,10 @@ class Cpu {
 
   void set_sink(TraceSink* sink) { core_.set_sink(sink); }
 
-  /// Value of operand `i` as the instruction would find it now; nothing for a bad pointer or a plain number.
+  /// The value of operand `i` as the instruction would find it now; nothing for a bad pointer.
   std::optional<std::uint32_t> peek(const Op& op, std::size_t i) const;
 
-  /// For whoever makes one unit do something by itself, as tests do.
+  /// For making one unit act on its own, as tests do.
   Core& core() { return core_; }
 
  private:

@@ -17,7 +17,7 @@ void power_up(Core& core, const RetentiveMemory* memory) {
   std::copy_n(core.s.eeprom.begin(), core.model().eeprom_bytes, core.s.image.begin() + image::kV);
 }
 
-/// A save that was asked for makes the scan longer by a phase of its own.
+/// A requested save adds a phase to the scan.
 void end_scan(Core& core) {
   State& s = core.s;
   const std::uint8_t request = s.image[sm::kEepromRequest];

@@ -1,14 +1,14 @@
-// The EEPROM, which holds V memory without power.
+// The EEPROM, which keeps V memory without power.
 //
-// SM31.7 asks for one V value to be saved: SM31.1–0 its size, SMW32 its offset. It is saved at the end of the scan, which
-// takes so much longer; then the bit is reset (S7-200 manual C230-02, 7-16).
+// SM31.7 asks for one V value to be saved: SM31.1–0 is its size, SMW32 its offset. It is saved at the end of the scan, which
+// becomes longer by that time; then the bit is reset (S7-200 manual C230-02, 7-16).
 //
 // Not documented, modelled so:
 // - A save takes 17.5 ms, the middle of the 15 to 20 ms that the manual calls typical; `s7200 times` lists it.
 //   [Eeprom.ASaveProlongsItsScanByTheTimeInTheTable]
-// - Interrupts are served during a save; it takes the value that V has at its start.
+// - Interrupts are served during a save; it saves the value that V has at its start.
 //   [Eeprom.InterruptsAreServedDuringASaveOfTheValueAtItsStart]
-// - A value outside the part of V that the EEPROM holds is error 0094, and the scan takes no longer.
+// - A value outside the part of V that the EEPROM can hold is error 0094, and the scan does not take longer.
 //   [Eeprom.TheLastAddressIsV1023AndBeyondItIs0094, Eeprom.ARefusedSaveTakesNoTime]
 #pragma once
 

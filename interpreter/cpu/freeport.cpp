@@ -106,12 +106,12 @@ void follow_control(Core& core) {
   }
 }
 
-/// All transmitters are idle, that of a port that the CPU does not have too.
+/// All transmitters are idle, even that of a port that the CPU does not have.
 void power_up(Core& core, const RetentiveMemory*) {
   core.put_mask(sm::kInterruptStatus, sm::kPort0Idle | sm::kPort1Idle, true);
 }
 
-/// In STOP the port falls back to PPI (facts 2.1).
+/// In STOP the port goes back to PPI (facts 2.1).
 void enter_stop(Core& core) {
   for (std::size_t number = 0; number < kPorts.size(); ++number) {
     core.s.port[number].active = false;

@@ -1,13 +1,13 @@
-// The ports in Freeport mode: control byte, character reception, XMT (facts 2). What differs between them is in kPorts.
+// The ports in Freeport mode: control byte, character reception, XMT (facts 2). kPorts says what differs between them.
 //
 // Not documented, modelled so:
-// - Transmit complete (event 9, SM4.5) comes with the end of the last stop bit.
-//   [Freeport.XmtSendsFromItsEndOnAndEvent9ComesWithTheEndOfTheLastStopBit]
+// - Transmit complete (event 9, SM4.5) comes at the end of the last stop bit.
+//   [Freeport.XmtSendsFromItsEndAndEvent9ComesAtTheEndOfTheLastStopBit]
 // - The transmit buffer is read character by character while sending. [Freeport.TheBufferIsReadWhileSending]
 // - The port does not hear itself: its receiver is off from XMT until transmit complete.
 //   [Freeport.TransmitterIdleIsZeroWhileSendingAndTheReceiverIsOff]
-// - SM3.0 shows parity errors only; a character with a bad stop bit is handed over as it was sampled.
-//   [Choices.ABadStopBitIsNoParityError]
+// - SM3.0 only shows parity errors; a character with a bad stop bit is passed on as it was sampled.
+//   [Choices.ABadStopBitIsNotAParityError]
 // - A character received while event 8 is not attached leaves SMB2 and SM3.0 alone.
 //   [Freeport.ACharacterThatNoRoutineWaitsForLeavesSMB2Alone]
 // - XMT while the port is not in Freeport mode is error 0009. [Freeport.XmtWithoutFreeportModeIs0009]
@@ -18,8 +18,8 @@
 
 namespace s7200::freeport {
 
-/// XMT: `table` is the place of the number of characters, 0 to 255, which follow it; 0 sends a break of 16 bit times
-/// (A5E00066097-02, 9-189). The port's error `busy` while it is sending or not in Freeport mode, 0091 for a table that
+/// XMT: `table` is the place of the number of characters, 0 to 255; the characters follow it. 0 sends a break of 16 bit
+/// times (A5E00066097-02, 9-189). The port's error `busy` if it is sending or not in Freeport mode, 0091 for a table that
 /// runs past the end of its area.
 void transmit(Core& core, std::uint32_t port, std::uint32_t table);
 
@@ -27,7 +27,7 @@ void transmit(Core& core, std::uint32_t port, std::uint32_t table);
 void character_received(Core& core, std::size_t port, const ReceivedCharacter& character);
 void character_sent(Core& core, std::size_t port, Time at);
 
-/// Something other than the program may have written the control bytes: the ports follow them.
+/// Makes the ports follow their control bytes after something other than the program may have written them.
 void follow_control(Core& core);
 
 // For the table of units.

@@ -7,7 +7,7 @@ namespace {
 
 using namespace sm::counter;
 
-/// Input points of a counter, as byte * 8 + bit; its events.
+/// The input points of a counter, as byte * 8 + bit, and its events.
 struct Wiring {
   std::uint8_t clock, direction, reset, start;
   std::uint8_t reached, turned, was_reset;
@@ -20,7 +20,7 @@ constexpr Wiring kWiring[] = {
     {6, 7, 8, 9, event::kCounter1Reached, event::kCounter1Turned, event::kCounter1Reset},      // I0.6 I0.7 I1.0 I1.1
     {10, 11, 12, 13, event::kCounter2Reached, event::kCounter2Turned, event::kCounter2Reset},  // I1.2 I1.3 I1.4 I1.5
 };
-constexpr std::uint32_t kInputBytes = 2;  ///< that counters are wired to
+constexpr std::uint32_t kInputBytes = 2;  ///< the input bytes that counters are wired to
 
 bool has_reset(std::uint8_t mode) { return mode % 3 != 0; }
 bool has_start(std::uint8_t mode) { return mode % 3 == 2; }
@@ -33,7 +33,7 @@ bool input_point(const State& s, std::uint8_t point) {
   return (s.image[image::kInputs + point / 8] >> (point % 8) & 1) != 0;
 }
 
-/// The current value in HC and the status byte.
+/// Writes the current value to HC, and the status byte.
 void show(State& s, std::uint8_t number) {
   const HighSpeedCounter& counter = s.counter[number];
   store32(&s.image[image::kHC + 4u * number], static_cast<std::uint32_t>(counter.current));
@@ -95,7 +95,7 @@ void count_pulse(Core& core, std::uint8_t number, std::uint8_t point, bool level
   }
 }
 
-/// An input point has changed; all points stand at their new levels.
+/// An input point has changed; all points already have their new levels.
 void see(Core& core, std::uint8_t number, std::uint8_t point, bool level, Time at) {
   const HighSpeedCounter& counter = core.s.counter[number];
   const Wiring& wiring = kWiring[number];

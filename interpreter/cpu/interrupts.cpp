@@ -12,12 +12,12 @@ constexpr int kEdgeInputs = 4;  // I0.0–I0.3
 
 bool is_timed(std::uint8_t event) { return event == event::kTimed0 || event == event::kTimed1; }
 
-/// The overflow bits go when the queues are empty and the main program goes on (S7-200 manual C230-02, 10-120).
+/// The overflow bits are reset when the queues are empty and the main program goes on (S7-200 manual C230-02, 10-120).
 void forget_overflow_if_idle(Core& core) {
   if (core.s.waiting == 0 && !core.s.in_interrupt) core.put_mask(sm::kInterruptStatus, sm::kQueueOverflow, false);
 }
 
-/// The first of the highest group that has any.
+/// Takes the first interrupt from the queue of highest priority that is not empty.
 QueuedInterrupt next_queued(State& s) {
   const auto queue = std::find_if(s.queue.begin(), s.queue.end(), [](const InterruptQueue& q) { return q.count != 0; });
   const QueuedInterrupt first = queue->entry[0];
@@ -66,8 +66,8 @@ void enable(Core& core, bool enabled) {
   core.attend();
 }
 
-/// First come, first served (S7-200 manual C230-02, 10-120); what comes at the same instant waits in the order of the list
-/// of events (facts 3.1).
+/// First come, first served (S7-200 manual C230-02, 10-120); events at the same instant wait in the order of the list of
+/// events (facts 3.1).
 void occurred(Core& core, std::uint8_t event, Time at, std::uint8_t byte, bool parity_error) {
   State& s = core.s;
   const std::uint8_t routine = event < kEvents ? s.attached[event] : kNotAttached;

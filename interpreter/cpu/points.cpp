@@ -13,7 +13,7 @@ void trace_output(const Core& core, std::uint32_t byte, Time at) {
   core.trace({.at = at, .kind = TraceKind::OutputChanged, .byte = core.s.image[image::kOutputs + byte], .op = byte});
 }
 
-/// Writes an output byte; the points of running pulse outputs keep their level.
+/// Writes an output byte; points with running pulse outputs keep their level.
 void put_outputs(Core& core, std::uint32_t byte, std::uint8_t value) {
   std::uint8_t& points = core.s.image[image::kOutputs + byte];
   for (std::uint8_t output = 0; output < core.s.pulse.size(); ++output) {
@@ -60,7 +60,7 @@ void write_output(Core& core, std::uint32_t byte, std::uint8_t bit, bool value) 
   if (!pulse_outputs::drive(core, byte, bit)) put_output(core, byte, bit, value, core.s.time);
 }
 
-/// The output points go off: the default of the output table for STOP (facts 9.1).
+/// All output points go off: the default of the output table for STOP (facts 9.1).
 void enter_stop(Core& core) {
   for (std::uint32_t byte = 0; byte < core.model().size_of(Area::Q); ++byte) put_outputs(core, byte, 0);
 }

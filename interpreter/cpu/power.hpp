@@ -1,16 +1,16 @@
-// Power-up, and what outlasts power off (facts 1.6).
+// Power-up, and what survives power off (facts 1.6).
 //
-// RAM intact: the retentive ranges of the model keep their values, V that is not retentive is loaded from the EEPROM, all
-// else is 0, and the clock has gone on. RAM lost: V is loaded from the EEPROM, all else is 0, SM0.2 is 1 during the first
-// scan, and the clock starts anew.
+// RAM intact: the model's retentive ranges keep their values, V memory that is not retentive is loaded from the EEPROM, all
+// else is 0, and the clock has run on. RAM lost: V memory is loaded from the EEPROM, all else is 0, SM0.2 is 1 during the
+// first scan, and the clock starts again from its beginning.
 #pragma once
 
 #include "interpreter/cpu/core.hpp"
 
 namespace s7200::power {
 
-/// Power comes on: all is new but what `memory` has kept. Without `memory` the CPU is as new. It goes to RUN if `run`, or
-/// stays in STOP.
+/// Power comes on: everything is cleared except what `memory` has kept. Without `memory` the CPU is brand-new. It goes to
+/// RUN if `run`, otherwise it stays in STOP.
 void up(Core& core, bool run, const RetentiveMemory* memory);
 
 /// What would be kept if power went off now.

@@ -13,7 +13,7 @@ using namespace sm::pulses;
 
 constexpr std::uint8_t event_of(std::uint8_t output) { return static_cast<std::uint8_t>(kPulse0 + output); }
 
-/// PTO: half the cycle, in whole units. PWM: the width, all or nothing of the cycle at its ends.
+/// PTO: half the cycle, in whole units. PWM: the width, at most the whole cycle.
 Time high_time(const PulseTrain& train) {
   return train.pwm ? std::min(train.width, train.cycle) : train.cycle / train.unit / 2 * train.unit;
 }

@@ -5,17 +5,17 @@
 //   SMB66, 76   .6 pulse train overflow  .7 pulse train idle
 //   SMW68, 78   cycle time      SMW70, 80   pulse width      SMD72, 82   pulse count
 //
-// A cycle time below 2 units counts as 2 units, a pulse count of 0 as 1. A width of 0 is off, one of the whole cycle or more
-// is on. PLS with .7 = 0 ends either at once (S7-200 manual C233-01, 9-50). PLS during a pulse train puts one more train in
-// line; a further one sets the overflow bit and is not taken (9-52).
+// A cycle time below 2 units counts as 2 units, a pulse count of 0 as 1. With a width of 0 the output stays off, with the
+// whole cycle or more it stays on. PLS with .7 = 0 ends either at once (S7-200 manual C233-01, 9-50). PLS during a pulse
+// train queues one more train; a further PLS sets the overflow bit and is ignored (9-52).
 //
 // Not documented, modelled so:
-// - A pulse begins with its 1 half; an odd cycle time makes the 1 half the shorter one.
+// - A pulse begins with its 1 half; if the cycle time is odd, the 1 half is the shorter one.
 //   [PulseOutput.AnOddCycleHasItsShorterHalfFirst]
-// - PLS during PWM takes effect at once, with the beginning of a cycle: a CPU 21x has no synchronous update (SM67.4).
-//   [PulseOutput.PlsDuringPwmBeginsANewCycleAtOnce]
-// - Once pulses have ended, their point follows its image from the end of the scan on.
-//   [PulseOutput.PlsWithoutEnableEndsItAtOnceAndTheImageHasThePointAgain]
+// - PLS during PWM takes effect at once and starts a new cycle: a CPU 21x has no synchronous update (SM67.4).
+//   [PulseOutput.PlsDuringPwmStartsANewCycleAtOnce]
+// - After pulses have ended, their point follows its image again from the end of the scan.
+//   [PulseOutput.PlsWithoutEnableEndsPulsesAtOnceAndThePointFollowsItsImageAgain]
 #pragma once
 
 #include "interpreter/cpu/core.hpp"
@@ -25,7 +25,7 @@ namespace s7200::pulse_outputs {
 /// PLS: starts the pulse train or PWM of Q0.0 or Q0.1 as its special memory says, or ends it.
 void program(Core& core, std::uint8_t output);
 
-/// Whether pulses, and not the image, are what an output point shows.
+/// Whether an output point shows pulses instead of its image.
 bool drive(const Core& core, std::uint32_t byte, std::uint8_t bit);
 
 // For the table of units.

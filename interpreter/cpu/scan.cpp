@@ -61,7 +61,7 @@ void end(Core& core) {
   begin(core);
 }
 
-/// `part` counts the parts that are not the program.
+/// `part` numbers the parts of the scan other than the program.
 void begin_phase(Core& core, Phase phase, std::size_t part) {
   core.s.phase = phase;
   core.s.phase_left = core.program().scan_phase[part];

@@ -1,4 +1,4 @@
-// All that a CPU remembers. Plain and copyable: a snapshot is a copy.
+// Everything that a CPU remembers. Plain and copyable: a snapshot is a copy.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace s7200 {
 
-/// Nine levels of one bit, S0 on top. What comes up at the bottom after a pop is unknown, 0 or 1 (S7-200 manual C233-01,
-/// 9-194): 0 here.
+/// Nine levels of one bit, S0 on top. The bit that enters at the bottom after a pop is unknown, 0 or 1 (S7-200 manual
+/// C233-01, 9-194); here it is 0.
 class LogicStack {
  public:
   static constexpr int kLevels = 9;
@@ -25,7 +25,7 @@ class LogicStack {
   void push(bool value) { bits_ = static_cast<std::uint16_t>(((bits_ << 1) | (value ? 1 : 0)) & ((1 << kLevels) - 1)); }
   void pop() { bits_ >>= 1; }
   void set_top(bool value) { bits_ = static_cast<std::uint16_t>((bits_ & ~1) | (value ? 1 : 0)); }
-  /// As a subroutine or interrupt routine finds it: S0 = 1, all others 0.
+  /// At the start of a subroutine or interrupt routine: S0 = 1, all others 0.
   static LogicStack on_entry() {
     LogicStack s;
     s.push(true);
@@ -40,7 +40,7 @@ class LogicStack {
 
 enum class Mode : std::uint8_t { Stop, Run };
 
-/// Parts of a scan, in order (S7-200 manual C230-02, 6-10). The last is there only when the program has asked for it.
+/// Parts of a scan, in order (S7-200 manual C230-02, 6-10). The last one only comes if the program has asked for it.
 enum class Phase : std::uint8_t { ReadInputs, Program, Communication, SelfTest, WriteOutputs, SaveToEeprom };
 
 /// Where a subroutine returns to, and its caller's logic stack and power rail.
@@ -65,7 +65,7 @@ struct InterruptQueue {
   bool operator==(const InterruptQueue&) const = default;
 };
 
-/// What is saved around an interrupt routine: logic stack, accumulators, SMB1 (facts 3.2); and the power rail.
+/// What is saved around an interrupt routine: logic stack, accumulators, SMB1 (facts 3.2), and the power rail.
 struct SavedContext {
   std::uint32_t return_to = 0;
   LogicStack stack{};
@@ -86,19 +86,19 @@ constexpr Attachments nothing_attached() {
 }
 
 struct Freeport {
-  std::uint8_t control = 0;  ///< the control byte as last taken over
-  bool active = false;       ///< Freeport mode, in RUN
+  std::uint8_t control = 0;  ///< the control byte that the port last took over
+  bool active = false;       ///< in Freeport mode and in RUN
   bool transmitting = false;
   bool sending_break = false;
   std::uint8_t on_line = 0;  ///< character being sent
   std::uint32_t buffer = 0;  ///< place of the next character in the image
-  std::uint16_t left = 0;    ///< characters not yet handed to the line
+  std::uint16_t left = 0;    ///< characters not yet given to the line
   SerialFormat format{};
   bool operator==(const Freeport&) const = default;
 };
 
 struct TimerState {
-  std::int16_t preset = 0;  ///< as its last execution found it
+  std::int16_t preset = 0;  ///< at its last execution
   bool enabled = false;     ///< its input at its last execution
   Time since = 0;           ///< end of the execution that enabled it
   bool operator==(const TimerState&) const = default;
@@ -123,20 +123,20 @@ struct PulseTrain {
 
 struct PulseOutput {
   bool running = false, has_next = false;
-  PulseTrain train{}, next{}, last{};  ///< running; in line after it (PTO); as last programmed
-  std::uint32_t left = 0;              ///< pulses of the train, the present one included
+  PulseTrain train{}, next{}, last{};  ///< running; queued after it (PTO); last programmed
+  std::uint32_t left = 0;              ///< pulses of the train, including the current one
   Time cycle_end = 0;
   bool operator==(const PulseOutput&) const = default;
 };
 
-/// Time of day, in plain numbers; as the clock starts when it was lost (A5E00066097-02, 9-72).
+/// Time of day, in plain numbers. The defaults are where a clock that was lost starts (A5E00066097-02, 9-72).
 struct ClockTime {
   std::uint8_t year = 90, month = 1, day = 1, hour = 0, minute = 0, second = 0;
   std::uint8_t weekday = 1;  ///< 1 Sunday … 7 Saturday, 0 switched off
   bool operator==(const ClockTime&) const = default;
 };
 
-/// A run-time error: code, the instruction, how often, when first.
+/// A run-time error: its code, the instruction, how often it occurred, and when first.
 struct RuntimeError {
   std::uint16_t code = 0;
   std::uint32_t op = 0;
@@ -152,7 +152,7 @@ struct State {
   bool rail = true;  ///< top of the SCR stack: the S bit as LSCR loaded it; on outside segments
   Mode mode = Mode::Stop;
   Phase phase = Phase::ReadInputs;
-  Time phase_left = 0;  ///< of the phases other than Program
+  Time phase_left = 0;  ///< of a phase other than Program
   bool in_interrupt = false;
   bool interrupts_enabled = false;
   bool stop_after_scan = false;  ///< STOP was executed in an interrupt routine
@@ -168,14 +168,14 @@ struct State {
   Time serving_since = 0;
   Attachments attached = nothing_attached();
   std::array<InterruptQueue, kQueues> queue{};
-  std::uint8_t waiting = 0;              ///< queued interrupts over all queues
+  std::uint8_t waiting = 0;              ///< interrupts in all queues together
   std::array<Time, 2> timed_interval{};  ///< of events 10 and 11, captured by ATCH
 
   std::array<Freeport, kPorts.size()> port{};
 
   std::array<TimerState, 256> timer{};
   Time previous_scan_begin = 0;
-  Time next_tick_1ms = kNever;                     ///< of the 1 ms timers; kNever while none is enabled
+  Time next_tick_1ms = kNever;                     ///< of the 1 ms timers; kNever if none is enabled
   std::int16_t ticks_100ms = 0;                    ///< of the previous scan
   std::array<std::uint8_t, 256> counter_inputs{};  ///< at the last execution: bit 0 up, bit 1 down
 
@@ -195,13 +195,13 @@ struct State {
   bool operator==(const State&) const = default;
 };
 
-/// What outlasts power off: the model's retentive ranges in RAM, the EEPROM, the clock.
+/// What survives power off: the model's retentive ranges in RAM, the EEPROM, the clock.
 struct RetentiveMemory {
-  std::array<std::uint8_t, image::kSize> image{};  ///< of which the retentive ranges count
+  std::array<std::uint8_t, image::kSize> image{};  ///< only the retentive ranges count
   std::array<std::uint8_t, 10240> eeprom{};        ///< permanent V memory
   ClockTime clock{};                               ///< when power went off
   Time power_off = 0;                              ///< how long power was off
-  bool ram_lost = false;                           ///< power was off too long: image and clock are gone
+  bool ram_lost = false;                           ///< power was off too long: image and clock are lost
   bool operator==(const RetentiveMemory&) const = default;
 };
 

@@ -8,7 +8,7 @@
 namespace s7200::timers {
 namespace {
 
-/// Ticks of a time base in a scan. Beyond 25 s a scan loses them (A5E00066097-02, 9-146).
+/// Ticks of a time base in a scan. Ticks beyond 25 s are lost (A5E00066097-02, 9-146).
 std::int64_t ticks(Time base, Time from, Time to) {
   constexpr Time kLongest = 25 * kSecond;
   return std::min(to / base - from / base, kLongest / base);
@@ -56,7 +56,7 @@ void clear_current_values(Core& core, const Operand& first, std::uint32_t count)
   }
 }
 
-/// Both inputs of each counter have been 1, so that one that is 1 at its first execution has not risen.
+/// Both inputs of each counter count as 1 before, so an input that is 1 at the first execution has not risen.
 void power_up(Core& core, const RetentiveMemory*) { core.s.counter_inputs.fill(3); }
 
 void enter_stop(Core& core) {
@@ -64,7 +64,7 @@ void enter_stop(Core& core) {
   core.s.next_tick_1ms = kNever;
 }
 
-/// 10 ms timers hold still during a scan; 100 ms timers add the ticks of the previous scan when they are executed.
+/// 10 ms timers stay the same during a scan; 100 ms timers add the ticks of the previous scan when they are executed.
 void begin_scan(Core& core) {
   State& s = core.s;
   if (!core.program().uses_timers) return;

@@ -1,5 +1,5 @@
-// Timers of 1, 10 and 100 ms (facts 6.4): who adds the ticks, and when (S7-200 manual C230-02, 10-14 and 10-15).
-// Not documented, modelled so: no timer counts in STOP. [Timer.InStopNoTimerCounts]
+// Timers of 1, 10 and 100 ms (facts 6.4): what adds the ticks, and when (S7-200 manual C230-02, 10-14 and 10-15).
+// Not documented, modelled so: timers do not count in STOP. [Timer.InStopTimersDoNotCount]
 #pragma once
 
 #include "interpreter/cpu/core.hpp"
@@ -9,9 +9,9 @@ namespace s7200::timers {
 /// TON, or TONR if `retentive`. `preset` is in ticks of the timer's time base.
 void execute(Core& core, std::uint32_t number, bool enabled, std::int16_t preset, bool retentive);
 
-/// R on `count` timers or counters: their current values become 0. A timer of 1 or 10 ms stands still until its instruction
-/// is executed with power flow again; one of 100 ms counts in its instruction, with which it goes on (S7-200 manual C230-02,
-/// 10-14 and 10-15).
+/// R on `count` timers or counters: their current values become 0. A timer of 1 or 10 ms then stops until its instruction is
+/// executed with power flow again; a timer of 100 ms counts in its instruction, so it goes on (S7-200 manual C230-02, 10-14
+/// and 10-15).
 void clear_current_values(Core& core, const Operand& first, std::uint32_t count);
 
 // For the table of units.

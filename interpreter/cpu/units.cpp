@@ -23,7 +23,7 @@ struct OwnEvents {
   void (*handle)(Core&, std::uint8_t what, Time at) = nullptr;
 };
 
-/// See units.hpp for what the columns mean. One is left out where the unit does nothing.
+/// units.hpp says what the columns mean. A row leaves out the columns where its unit does nothing.
 struct Unit {
   void (*power_up)(Core&, const RetentiveMemory*) = nullptr;
   void (*enter_run)(Core&) = nullptr;
@@ -35,9 +35,8 @@ struct Unit {
   OwnEvents events{};
 };
 
-// The order is that of the effects: the edges of inputs occur before what counters make of them; pulses end before the
-// output points go off, and the points are written before a value is saved; the EEPROM fills V memory before the retentive
-// ranges come back over it.
+// The order matters: input edges occur before the counters act on them; pulses end before the output points go off; the
+// points are written before a value is saved; the EEPROM fills V memory before the retentive ranges overwrite it.
 constexpr Unit kUnits[] = {
     {.power_up = scan::power_up},
     {.enter_stop = interrupts::enter_stop,
@@ -61,7 +60,7 @@ constexpr Unit kUnits[] = {
     {.power_up = clock::power_up},
 };
 
-/// Calls what stands in a column, row by row. Which calls these are is decided at compile time: a scan may be short.
+/// Calls the functions of a column, row by row. The calls are chosen at compile time, because a scan may be short.
 template <auto column, std::size_t row = 0, class... Arguments>
 void each(Arguments&... arguments) {
   if constexpr (row < std::size(kUnits)) {

@@ -1,4 +1,4 @@
-// The units of the CPU: what each does by itself, and when. units.cpp has the table, a row for each.
+// The units of the CPU: what each does on its own, and when. units.cpp has the table, one row for each unit.
 #pragma once
 
 #include <cstdint>
@@ -7,20 +7,21 @@
 
 namespace s7200 {
 
-/// Events that units schedule for themselves. Those due at the same instant are handled in this order.
+/// Events that units schedule for themselves. At the same instant they are handled in this order.
 enum UnitEvent : std::uint8_t { kTimedInterrupt0, kTimedInterrupt1, kTick1ms, kPulse0, kPulse1 };
 
-/// Each function goes through the rows of the table, from the first to the last.
+/// Each function goes through the rows of the table, from first to last.
 namespace units {
 
-/// The state is new; what `memory` has kept is taken from it. Without `memory` the CPU is as new.
+/// The state has been cleared; units take from `memory` what it has kept. Without `memory` the CPU is brand-new.
 void power_up(Core& core, const RetentiveMemory* memory);
 void enter_run(Core& core);
 void enter_stop(Core& core);
-/// In RUN: the inputs have been read, and the program is about to start; the program and its outputs are done.
+/// In RUN: the inputs have been read and the program is about to start.
 void begin_scan(Core& core);
+/// In RUN: the program has ended and the time for writing its outputs has passed.
 void end_scan(Core& core);
-/// The points of `changed` in an input byte have changed; all of them stand at their new levels.
+/// The points of `changed` in an input byte have changed; all points already have their new levels.
 void inputs_changed(Core& core, std::uint32_t byte, std::uint8_t changed, Time at);
 /// The routine of an interrupt is about to start.
 void begin_service(Core& core, const QueuedInterrupt& interrupt);

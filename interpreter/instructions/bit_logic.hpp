@@ -7,7 +7,7 @@
 
 namespace s7200::bodies {
 
-/// How a contact joins what is on the logic stack.
+/// How a contact combines with what is on the logic stack.
 enum class Join { Load, And, Or };
 
 template <Join join>
@@ -20,8 +20,8 @@ inline void combine(LogicStack& stack, bool value) {
     stack.set_top(stack.top() | value);
 }
 
-/// What feeds a contact: outside SCR segments the rail always has power; inside one it is the segment's, as LSCR left it.
-/// A contact in series (A) is fed by the top of the stack instead.
+/// What feeds a contact: outside SCR segments the rail always has power; inside one the segment's rail has what LSCR gave
+/// it. A contact in series (A) is fed by the top of the stack instead.
 enum class Rail { Always, Segment };
 
 template <Join join, Rail rail>
@@ -29,7 +29,7 @@ inline bool fed(const Core& core) {
   return rail == Rail::Always || join == Join::And || core.s.rail;
 }
 
-/// LD, A, O and their negated and immediate forms: an immediate one reads the input point itself (decided at load).
+/// LD, A, O and their negated and immediate forms: an immediate form reads the input point itself (decided at load).
 template <Join join, bool negated, Rail rail = Rail::Always>
 void contact(Core& core, const Op& op) {
   combine<join>(core.s.stack, fed<join, rail>(core) && core.bit(op[0]) != negated);
@@ -52,11 +52,11 @@ inline void push_copy(Core& core, const Op&) { core.s.stack.push(core.s.stack.to
 inline void read_second(Core& core, const Op&) { core.s.stack.set_top(core.s.stack.level(1)); }
 inline void pop_stack(Core& core, const Op&) { core.s.stack.pop(); }
 
-/// EU and ED. Each has a memory bit of its own (operand 2, given at load): the top of the stack at its last execution. In
-/// the first scan there is nothing to compare with, hence no edge (facts 9.1; S7-200 SMART manual A5E03822230-AC, 157).
+/// EU and ED. Each has its own memory bit (operand 2, added at load): the top of the stack at its last execution. In the
+/// first scan there is nothing to compare with, so there is no edge (facts 9.1; S7-200 SMART manual A5E03822230-AC, 157).
 ///
 /// Not documented, modelled so:
-/// - The first execution of EU or ED finds no edge in a later scan either. [Choices.TheFirstExecutionOfEuAndEdFindsNoEdge]
+/// - The first execution of EU or ED finds no edge, even in a later scan. [Choices.TheFirstExecutionOfEuAndEdFindsNoEdge]
 /// - An EU or ED that is jumped over keeps its memory. [Choices.AnEdgeInstructionThatIsJumpedOverKeepsItsMemory]
 template <bool rising>
 void edge(Core& core, const Op& op) {
@@ -67,7 +67,7 @@ void edge(Core& core, const Op& op) {
 
 inline void coil(Core& core, const Op& op) { core.put_bit(op[0].at, op[0].bit, core.s.stack.top()); }
 
-/// =I writes the image register and the output point (operand 2, given at load).
+/// =I writes the image register and the output point (operand 2, added at load).
 inline void immediate_coil(Core& core, const Op& op) {
   core.put_bit(op[0].at, op[0].bit, core.s.stack.top());
   points::write_output(core, op[2].at - image::kOutputs, op[2].bit, core.s.stack.top());
@@ -78,7 +78,7 @@ inline void put_bits(Core& core, const Operand& first, std::uint32_t count, bool
     core.put_bit(first.at + place / 8, static_cast<std::uint8_t>(place % 8), value);
 }
 
-/// S, R and SI, RI: `count` bits from operand 0 on. Immediate: the output points (operand 2, given at load) too.
+/// S, R and SI, RI: `count` bits from operand 0. SI and RI also write the output points (operand 2, added at load).
 template <bool value, bool immediate>
 void set_bits(Core& core, const Op& op) {
   const std::uint32_t count = core.get<std::uint8_t>(op[1]);

@@ -2,7 +2,7 @@
 //
 // A real operand that is not a number stops the CPU (facts 5.1, 9.1).
 //
-// Not documented, modelled so: infinities compare as the largest and the smallest number. [Vectors.LDR_GE]
+// Not documented, modelled so: infinities compare like the largest and the smallest number. [Vectors.LDR_GE]
 #pragma once
 
 #include <cmath>

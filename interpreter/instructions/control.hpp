@@ -3,15 +3,14 @@
 // Not documented, modelled so:
 // - FOR and NEXT store INDX before they read FINAL, which may be the same word.
 //   [Choices.ForAndNextStoreTheIndexBeforeTheyReadTheFinalValue]
-// - NEXT follows the pointers of its FOR again, that of INIT too: a bad one is error 0006, and the loop is left.
+// - NEXT follows the pointers of its FOR again, including that of INIT: a bad one is error 0006, and the loop ends.
 //   [Choices.NextFollowsThePointersOfItsForAgain]
-// - SCRT to the segment it stands in leaves that segment on. [Choices.ATransitionToItsOwnSegmentLeavesItOn]
+// - SCRT to the segment that it is in leaves that segment on. [Choices.ATransitionToItsOwnSegmentLeavesItOn]
 // - In a segment that is off, NOT, EU and ED work on what they find: after NOT a box runs, and ED gives its pulse in the
-// scan
-//   that finds the segment off. [Segment.NotInASegmentThatIsOffGivesPowerFlow, Segment.EdSeesThatTheSegmentWentOff]
-// - In a segment that is off, compare contacts still look at their operands: a bad one stops the CPU.
+//   scan that finds the segment off. [Segment.NotInASegmentThatIsOffGivesPowerFlow, Segment.EdSeesThatTheSegmentWentOff]
+// - In a segment that is off, compare contacts still read their operands: a bad one stops the CPU.
 //   [Segment.ACompareContactInASegmentThatIsOffStillFollowsItsPointers]
-// - A subroutine called from a segment has a power rail of its own. [Segment.ASubroutineHasARailOfItsOwn]
+// - A subroutine called from a segment has its own power rail. [Segment.ASubroutineHasItsOwnRail]
 #pragma once
 
 #include "interpreter/cpu/core.hpp"
@@ -38,8 +37,8 @@ inline void next_pass(Core& core, const Op& op) {
   if (index < core.get<std::int16_t>(op[2])) core.jump(op.target);
 }
 
-/// LSCR loads the S bit into the SCR stack and the logic stack. The segment is not skipped while the bit is 0: its rail has
-/// no power, so contacts give no power flow, coils become 0, TON is reset and boxes do nothing (facts 9.1).
+/// LSCR loads the S bit into the SCR stack and the logic stack. While the bit is 0 the segment is not skipped, but its rail
+/// has no power: contacts give no power flow, coils become 0, TON is reset and boxes do nothing (facts 9.1).
 inline void begin_segment(Core& core, const Op& op) {
   core.s.rail = core.bit(op[0]);
   core.s.stack.push(core.s.rail);
@@ -47,7 +46,7 @@ inline void begin_segment(Core& core, const Op& op) {
 
 inline void end_segment(Core& core, const Op&) { core.s.rail = true; }
 
-/// SCRT: the next segment's bit goes on, that of the enclosing LSCR (operand 2, given at load) off.
+/// SCRT: switches the next segment's bit on and the bit of the enclosing LSCR (operand 2, added at load) off.
 inline void segment_transition(Core& core, const Op& op) {
   core.put_bit(op[2].at, op[2].bit, false);
   core.put_bit(op[0].at, op[0].bit, true);

@@ -4,7 +4,7 @@
 // - ATH and HTA work character by character, which shows when IN and OUT overlap. [Vectors.ATH, Vectors.HTA]
 // - ENCO writes the whole byte OUT: the number, at most 15. The manual only speaks of its low half (C233-01, 9-131).
 //   [Vectors.ENCO]
-// - ENCO of a word without a bit set gives 0. [Vectors.ENCO]
+// - ENCO of a word with no bit set gives 0. [Vectors.ENCO]
 #pragma once
 
 #include <bit>
@@ -39,7 +39,7 @@ inline void to_bcd(Core& core, const Op& op) {
 
 inline void integer_to_real(Core& core, const Op& op) { core.put(op[1], static_cast<float>(core.get<std::int32_t>(op[0]))); }
 
-/// TRUNC: toward zero; what does not fit sets SM1.1 and stores nothing.
+/// TRUNC: toward zero; a value that does not fit sets SM1.1 and stores nothing.
 inline void truncate(Core& core, const Op& op) {
   const float value = std::trunc(core.get<float>(op[0]));
   if (!(value >= -2147483648.0f && value < 2147483648.0f)) return core.set_flags(kOverflow, kOverflow);
@@ -70,14 +70,14 @@ inline std::optional<std::uint8_t> hex_digit(std::uint8_t character) {
   return {};
 }
 
-/// Whether the blocks of ATH and HTA lie in their areas, as those of no length do; if not, a range error.
+/// Whether the blocks of ATH and HTA are inside their areas; empty blocks are. If not, reports a range error.
 inline bool hex_blocks_fit(Core& core, std::uint32_t characters, std::uint32_t digits, std::uint32_t length) {
   if (core.in_area(characters, length) && core.in_area(digits, (length + 1) / 2)) return true;
   core.run_error(RunError::OperandRange);
   return false;
 }
 
-/// ATH: LEN characters to digits, the first into a high half. An odd LEN leaves the low half of the last byte alone
+/// ATH: converts LEN characters to digits, the first into a high half. An odd LEN leaves the low half of the last byte alone
 /// (S7-200 manual C233-01, 9-135). The conversion ends at an illegal character (facts 9.1).
 inline void ascii_to_hex(Core& core, const Op& op) {
   const std::uint32_t length = core.get<std::uint8_t>(op[2]);
@@ -92,7 +92,7 @@ inline void ascii_to_hex(Core& core, const Op& op) {
   core.set_flags(kNotHex, 0);
 }
 
-/// HTA: LEN digits to characters.
+/// HTA: converts LEN digits to characters.
 inline void hex_to_ascii(Core& core, const Op& op) {
   const std::uint32_t length = core.get<std::uint8_t>(op[2]);
   if (!hex_blocks_fit(core, op[1].at, op[0].at, length)) return;

@@ -1,13 +1,13 @@
 // Bodies: integer arithmetic, increment and decrement, logic (facts 6.6, 6.7).
 //
-// Overflow sets SM1.1. What +I, -I, +D, -D and DIV leave in OUT then is a field of the CPU model. A CPU 22x keeps its
-// operands; SM1.0 and SM1.2 are not valid (S7-200 manual from 2004 on, 140) and are 0 here. MUL cannot overflow.
+// Overflow sets SM1.1. The CPU model says what +I, -I, +D, -D and DIV then leave in OUT. A CPU 22x keeps its operands; SM1.0
+// and SM1.2 are not valid (S7-200 manual from 2004 on, 140) and are 0 here. MUL cannot overflow.
 //
 // Not documented, modelled so:
 // - A CPU 21x stores the wrapped result of an overflow; SM1.0 and SM1.2 show what was stored. [Vectors.ADD_I]
 // - INCB, INCW, INCD and DECB, DECW, DECD wrap on every CPU, and SM1.0 and SM1.2 show what was stored.
 //   [Vectors.INCW, Overflow.IncrementAndDecrementWrapOnEveryCpu]
-// - SM1.0 and SM1.2 after DIV show the quotient alone. [Vectors.DIV]
+// - SM1.0 and SM1.2 after DIV show only the quotient. [Vectors.DIV]
 // - -32768 / -1 is an overflow of DIV: the wrapped quotient is 16#8000, the remainder 0. [Vectors.DIV]
 #pragma once
 
@@ -81,7 +81,7 @@ inline Operand low_word(const Operand& operand) {
   return low;
 }
 
-/// MUL: 16 × 16 = 32 bits, the second factor is the low word of OUT.
+/// MUL: 16 × 16 = 32 bits; the second factor is the low word of OUT.
 inline void multiply(Core& core, const Op& op) {
   const std::int32_t product = std::int32_t{core.get<std::int16_t>(op[0])} * core.get<std::int16_t>(low_word(op[1]));
   core.put(op[1], product);

@@ -12,8 +12,8 @@ void move(Core& core, const Op& op) {
 
 /// BMB, BMW, BMD.
 /// Not documented, modelled so:
-/// - The destination of a block move gets what was in the source before, even where the two overlap. [Vectors.BMB]
-/// - N = 0 in a variable is error 0092, for FILL and for S, R, SI and RI too. [Vectors.BMB, Vectors.FILL, Vectors.S]
+/// - The destination of a block move gets what was in the source before the move, even if the two overlap. [Vectors.BMB]
+/// - N = 0 in a variable is error 0092, also for FILL and for S, R, SI and RI. [Vectors.BMB, Vectors.FILL, Vectors.S]
 template <class Value>
 void move_block(Core& core, const Op& op) {
   const std::uint32_t count = core.get<std::uint8_t>(op[2]);

@@ -1,11 +1,11 @@
 // Bodies: real arithmetic (facts 6.6). Reals are IEEE-754 single precision.
 //
-// An illegal operand, a result beyond the range, and the root of a negative number set SM1.1 and leave the operands as they
-// were; SM1.0 and SM1.2 are then not valid (S7-200 manual from 2004 on, 140) and are 0 here.
+// An illegal operand, a result out of range, and the root of a negative number set SM1.1 and leave the operands unchanged;
+// SM1.0 and SM1.2 are then not valid (S7-200 manual from 2004 on, 140) and are 0 here.
 //
 // Not documented, modelled so:
-// - An infinite operand is as illegal as one that is not a number, as a divisor too. [Vectors.ADD_R, Vectors.DIV_R]
-// - /R by 0 sets SM1.3 whatever the dividend is, even one that is not a number. [Vectors.DIV_R]
+// - An infinite operand is illegal, just like one that is not a number, even as a divisor. [Vectors.ADD_R, Vectors.DIV_R]
+// - /R by 0 sets SM1.3 whatever the dividend is, even if it is not a number. [Vectors.DIV_R]
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace s7200::bodies {
 
-/// An operand that is infinite or not a number makes a result of that kind, except as a divisor.
+/// An operand that is infinite or not a number gives such a result, except as a divisor.
 inline void store_real(Core& core, const Operand& out, float result) {
   if (!std::isfinite(result)) return core.set_flags(kArithmetic, kOverflow);
   core.put(out, result);

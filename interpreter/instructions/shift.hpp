@@ -15,8 +15,8 @@ inline void set_shift_flags(Core& core, bool zero, bool last_out) {
   core.set_flags(kShiftFlags, static_cast<std::uint8_t>((zero ? kZero : 0) | (last_out ? kOverflow : 0)));
 }
 
-/// SLB, SRB, SLW, SRW, SLD, SRD: the count stops at the width.
-/// Not documented, modelled so: a shift by 0 changes nothing, SM1.0 included. [Vectors.SLW]
+/// SLB, SRB, SLW, SRW, SLD, SRD: a count above the width counts as the width.
+/// Not documented, modelled so: a shift by 0 changes nothing, not even SM1.0. [Vectors.SLW]
 template <class Value, bool left>
 void shift(Core& core, const Op& op) {
   constexpr std::uint32_t kBits = 8 * sizeof(Value);
@@ -30,8 +30,8 @@ void shift(Core& core, const Op& op) {
   set_shift_flags(core, result == 0, last_out);
 }
 
-/// RLB, RRB, RLW, RRW, RLD, RRD: the count is taken modulo the width. If that is 0 nothing is rotated and SM1.1 stays as it
-/// was; SM1.0 says in any case whether the value is zero (S7-200 manual C233-01, 9-119 to 9-121).
+/// RLB, RRB, RLW, RRW, RLD, RRD: the count is taken modulo the width. If that is 0, nothing is rotated and SM1.1 stays as it
+/// was; SM1.0 always says whether the value is zero (S7-200 manual C233-01, 9-119 to 9-121).
 template <class Value, bool left>
 void rotate(Core& core, const Op& op) {
   constexpr std::uint32_t kBits = 8 * sizeof(Value);
@@ -44,8 +44,8 @@ void rotate(Core& core, const Op& op) {
   set_shift_flags(core, result == 0, left ? result & 1 : (result >> (kBits - 1)) & 1);
 }
 
-/// SHRB DATA, S_BIT, N: |N| bits from S_BIT on move by one. N > 0: DATA enters at S_BIT; N < 0: at the far end. What leaves
-/// goes to SM1.1. N = 0 is error 0092 (S7-200 SMART manual A5E03822230-AC, 318).
+/// SHRB DATA, S_BIT, N: |N| bits from S_BIT move by one. N > 0: DATA enters at S_BIT; N < 0: at the far end. The bit shifted
+/// out goes to SM1.1. N = 0 is error 0092 (S7-200 SMART manual A5E03822230-AC, 318).
 inline void shift_register(Core& core, const Op& op) {
   const std::int32_t n = core.get<std::int8_t>(op[2]);
   const auto length = static_cast<std::uint32_t>(n < 0 ? -n : n);

@@ -1,13 +1,13 @@
 // Bodies: tables (facts 6.10). A table is its length in entries, the number of entries in it, and the entries: all words.
 //
-// The manual does not say what the place that FIFO or LIFO vacates holds (xxxx in its figures: C233-01, 9-109). Here it
-// keeps its value.
+// The manual does not say what is left in the place that FIFO or LIFO vacates (xxxx in its figures: C233-01, 9-109). Here
+// it keeps its value.
 //
 // Not documented, modelled so:
 // - A table with a length of 0 or above 100, or with more entries than its length, is range error 0091.
 //   [Vectors.ATT, Vectors.FIFO]
-// - ATT on a full table takes the time of its entries too. [Vectors.ATT]
-// - FIFO and LIFO write DATA last, which shows when DATA lies in the table. [Vectors.FIFO, Vectors.LIFO]
+// - ATT takes the time of the entries even if the table is full. [Vectors.ATT]
+// - FIFO and LIFO write DATA last, which shows if DATA is inside the table. [Vectors.FIFO, Vectors.LIFO]
 #pragma once
 
 #include "interpreter/instructions/compare.hpp"
@@ -16,7 +16,7 @@ namespace s7200::bodies {
 
 inline constexpr std::uint32_t kLongestTable = 100;
 
-/// Length, number of entries, and where they lie.
+/// Length, number of entries, and where they are.
 struct TableView {
   std::uint32_t length, count;
   std::uint32_t count_at, entries_at;
@@ -24,7 +24,7 @@ struct TableView {
   std::uint8_t* entry(Core& core, std::uint32_t i) const { return &core.s.image[entries_at + 2 * i]; }
 };
 
-/// The table at `at`; nothing after a range error.
+/// The table at `at`; reports a range error and returns nothing if there is none.
 inline std::optional<TableView> table_at(Core& core, std::uint32_t at) {
   if (core.in_area(at, 4)) {
     const TableView table{load16(&core.s.image[at]), load16(&core.s.image[at + 2]), at + 2, at + 4};
@@ -61,7 +61,7 @@ void take_from_table(Core& core, const Op& op) {
   core.set_flags(kTableEmpty, 0);
 }
 
-/// FND SRC, PATRN, INDX: SRC is the number of entries, the entries follow it. Searches from INDX on; INDX is then the entry
+/// FND SRC, PATRN, INDX: SRC is the number of entries; the entries follow it. Searches from INDX; INDX is then the entry
 /// found, or the number of entries.
 template <Relation relation>
 void find_in_table(Core& core, const Op& op) {

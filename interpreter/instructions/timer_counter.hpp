@@ -1,17 +1,17 @@
-// Bodies: timers and counters (facts 6.4). Operand 2, given at load, is the number of the timer or counter.
+// Bodies: timers and counters (facts 6.4). Operand 2, added at load, is the number of the timer or counter.
 //
-// A 10 ms timer enabled in the middle of a scan is given all ticks since that scan began: a timed interval may be up to 10
-// ms short (S7-200 manual C230-02, 10-15).
+// A 10 ms timer enabled in the middle of a scan gets all ticks since the start of that scan: a timed interval may be up to
+// 10 ms short (S7-200 manual C230-02, 10-15).
 //
 // Not documented, modelled so:
-// - The execution that enables a timer adds no ticks; those after it do.
+// - The execution that enables a timer adds no ticks; later ones do.
 //   [Timer.HundredMillisecondTimersCountWhenTheyAreExecuted]
 // - The execution that enables a TON writes 0 to its current value. [Timer.TheExecutionThatEnablesATonWritesZeroToItsValue]
 // - A timer's preset is the one that its last execution found. [Choices.ATimersPresetIsTheOneItsLastExecutionFound]
-// - CTU and CTUD pop their extra inputs, so that one level remains. [Vectors.CTU, Vectors.CTUD]
+// - CTU and CTUD pop their extra inputs, so one level remains. [Vectors.CTU, Vectors.CTUD]
 // - A counter input that is 1 at the first execution after power-up is not a rising edge.
 //   [Counter.CtuCountsRisingEdgesUpTo32767AndItsResetHolds]
-// - A CTUD whose inputs both rise in the same execution keeps its value. [Vectors.CTUD]
+// - A CTUD whose two inputs rise in the same execution keeps its value. [Vectors.CTUD]
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ inline bool rose(std::uint8_t& memory, std::uint8_t edge, bool input) {
 }
 
 inline void set_counter(Core& core, const Op& op, std::int16_t current, bool reset) {
-  const auto preset = core.get<std::int16_t>(op[1]);  // first, for it may be this counter's own value
+  const auto preset = core.get<std::int16_t>(op[1]);  // first, because it may be this counter's own value
   if (reset) current = 0;
   core.put(op[0], current);
   const bool reached = !reset && current >= preset;

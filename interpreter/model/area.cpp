@@ -4,8 +4,8 @@
 
 namespace s7200 {
 
-// Pointer codes of I, Q, M and V: facts section 9, read off real programs.
-// Not documented, modelled so: pointers to S, T and C have the codes 04, 05 and 06. No program seen so far writes them as
+// Pointer codes of I, Q, M and V: facts section 9, taken from real programs.
+// Not documented, modelled so: pointers to S, T and C have the codes 04, 05 and 06. No program seen so far writes these as
 // numbers. [Choices.PointerCodesOfTheAreas]
 static constexpr std::array<AreaInfo, kAreas> kAreaTable{{
     {Area::I, "I", image::kI, image::kI, 0, 0x00, "inputs (image register)"},

@@ -1,10 +1,11 @@
 // CPU 214. Ranges: facts 1.1. Queues: S7-200 manual C230-02, 10-120. Baud rates: facts 2.1. Watchdog: A5E00066097-02, 9-146.
 // Not documented, modelled so:
-// - The CPU has its full set of expansion modules, so that all 64 input and 64 output points of the image registers exist.
+// - The CPU has its full set of expansion modules: all 64 input and 64 output points of the image registers exist.
 //   [Choices.All64InputAndOutputPointsExist]
 // - All of V, MB14–MB31 and the current values of the retentive timers and of all counters are retentive. MB0–MB13 (off by
 //   default in Micro/WIN 32: facts 1.6), S, the other timers, and the bits of timers and counters are not.
-//   [RetentiveMemoryTest.RetentiveRangesKeepTheirValuesAllElseIsZero, RetentiveMemoryTest.BitsOfTimersAndCountersAreNotKept]
+//   [RetentiveMemoryTest.RetentiveRangesKeepTheirValuesAndAllElseIsZero,
+//   RetentiveMemoryTest.BitsOfTimersAndCountersAreNotKept]
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/embedded_times.hpp"
 

@@ -1,5 +1,5 @@
-// What is true of an instruction. One row of the table (table.cpp) is one Instruction; checker, CPU, printer, `s7200
-// instructions` and the tests of the table read it. The grammar does not.
+// All facts about an instruction. One row of the table (table.cpp) is one Instruction. The checker, the CPU, the printer,
+// `s7200 instructions` and the tests of the table read it; the grammar does not.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ namespace s7200 {
 class Core;
 struct Op;
 
-/// Executes one decoded instruction that has power flow, or needs none. The clock already stands at the end of the
-/// instruction's basic time; a body adds what depends on counts.
+/// Executes one decoded instruction that has power flow or does not need it. The clock is already at the end of the
+/// instruction's basic time; the body adds the time that depends on counts.
 using Body = void (*)(Core& core, const Op& op);
 
 enum class OperandKind : std::uint8_t {
@@ -36,7 +36,7 @@ enum class OperandKind : std::uint8_t {
 
 enum class Role : std::uint8_t { In, Out, InOut };
 
-/// How an instruction reads a number. Either: its result has the same bits both ways.
+/// How an instruction reads a number. Either: the result has the same bits both ways.
 enum class Sign : std::uint8_t { Either, Signed, Unsigned };
 
 /// Which timers an operand may name (facts 1.1).
@@ -56,19 +56,19 @@ struct OperandRule {
   std::int64_t min = std::numeric_limits<std::int64_t>::min();  ///< of a constant, within its width
   std::int64_t max = std::numeric_limits<std::int64_t>::max();
   bool not_zero = false;      ///< a constant between min and max, but not 0
-  bool count = false;         ///< says how far the counted operands of the instruction reach
-  std::uint8_t counted = 0;   ///< how many of what is counted lie in an element; 0: the operand is not counted
-  std::uint8_t elements = 1;  ///< of an operand that is not counted: how many it takes at least
+  bool count = false;         ///< this operand says how far the counted operands reach
+  std::uint8_t counted = 0;   ///< how many counted things fit in an element; 0: the operand is not counted
+  std::uint8_t elements = 1;  ///< of an operand that is not counted: the fewest it takes
   TimerKind timer = TimerKind::Any;
 
   bool takes(std::int64_t value) const { return value >= min && value <= max && !(not_zero && value == 0); }
-  /// Elements from the address on, when the operand that counts says `n`.
+  /// Elements from the address, if the operand that counts says `n`.
   std::int64_t reach(std::int64_t n) const { return counted == 0 ? elements : (n + counted - 1) / counted; }
 
   bool operator==(const OperandRule&) const = default;
 };
 
-/// Where an instruction may stand.
+/// Where an instruction may be used.
 enum Part : std::uint8_t { kMain = 1, kSubroutine = 2, kInterrupt = 4, kAnywhere = 7 };
 
 /// What an instruction means for the structure of the program.
@@ -103,18 +103,18 @@ enum class Effect : std::uint8_t {
   Transmits
 };
 
-/// What the decoder adds to an instruction besides the operands written.
+/// What the decoder adds to the operands of an instruction.
 enum class Hidden : std::uint8_t {
   None,
   InputPoint,     ///< operand 0 is the input point instead of its image
-  OutputPoint,    ///< operand 2: the output point behind operand 0
+  OutputPoint,    ///< operand 2: the output point of operand 0
   RisingMemory,   ///< operand 2: a memory bit of its own; 1 at power-up
   FallingMemory,  ///< operand 2: a memory bit of its own; 0 at power-up
   Number,         ///< operand 2: number of the timer or counter that is operand 0
   SegmentBit,     ///< operand 2: the S bit of the enclosing LSCR
 };
 
-/// What an instruction finds on the logic stack and how many levels more it leaves there.
+/// How many levels an instruction needs on the logic stack, and how many more it leaves there.
 struct StackUse {
   std::int8_t needs = 0;
   std::int8_t change = 0;
@@ -136,8 +136,8 @@ struct Bodies {
   constexpr Bodies() = default;
   constexpr Bodies(Body everywhere, Body fed_by_segment = nullptr) : usual(everywhere), in_segment(fed_by_segment) {}
 
-  Body usual = nullptr;       ///< nullptr: not modelled, refused by name
-  Body in_segment = nullptr;  ///< between LSCR and SCRE, where it is another one: a contact on the segment's power rail
+  Body usual = nullptr;       ///< null: not modelled, refused by name
+  Body in_segment = nullptr;  ///< between LSCR and SCRE, if different: a contact on the segment's power rail
 };
 
 /// A row of the table, in the order of its columns. What a row leaves out is as it stands here.
@@ -146,7 +146,7 @@ struct Instruction {
   std::string_view group{};              ///< heading in the documentation
   std::array<OperandRule, 3> operand{};  ///< those that it takes, the first one first; the rest have no name
   Rung rung{};
-  std::uint8_t flags = 0;  ///< SM1 bits concerned
+  std::uint8_t flags = 0;  ///< SM1 bits that it sets and resets
   CpuSet cpus = kEveryCpu;
   std::uint8_t allowed = kAnywhere;  ///< Parts, on 21x CPUs
   bool outside_segments = false;     ///< not allowed between LSCR and SCRE
@@ -165,16 +165,16 @@ struct Instruction {
   }
 };
 
-/// The table, ordered as the manual groups it.
+/// The table, in the order of the manual's groups.
 std::span<const Instruction> all_instructions();
 
-/// Nothing for an unknown mnemonic (upper case).
+/// Null for an unknown mnemonic (upper case).
 const Instruction* find_instruction(std::string_view mnemonic);
 
-/// The mnemonic that was probably meant; empty when nothing is near.
+/// The mnemonic that was probably meant; empty if none is close.
 std::string_view nearest_mnemonic(std::string_view mnemonic);
 
-/// A mnemonic (upper case) of the German set or of another family of controllers: what it is, and what to write instead.
+/// A mnemonic (upper case) of the German set or of another controller family: what it is, and what to write instead.
 struct ForeignMnemonic {
   std::string what, hint;
 };

@@ -7,16 +7,17 @@
 
 namespace s7200 {
 
-/// Hands everything on to each of its sinks, in the order they were added. None is owned; each outlives its time here.
+/// Passes everything on to each of its sinks, in the order in which they were added. It owns none of them; each must live
+/// until it is removed.
 class FanOut final : public TraceSink {
  public:
-  /// A null pointer is no sink.
+  /// A null pointer is ignored.
   void add(TraceSink* sink);
   void remove(TraceSink* sink);
   bool empty() const { return sinks_.empty(); }
 
   void record(const TraceRecord& record) override;
-  /// Every sink that wants instructions is asked; one that says no is enough to stop.
+  /// Asks every sink that wants instructions; a single no stops the CPU.
   bool before(std::uint32_t op) override;
   void instruction(const InstructionRecord& record) override;
   bool wants_instructions() const override;

@@ -1,4 +1,4 @@
-// The outputs over time as CSV: one row for each point of Q and each word of AQ that changes.
+// The outputs over time as CSV: one row for each change of a point of Q or a word of AQ.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace s7200 {
 
-/// Rows `2.000000,Q0.3,1` and `2.512000,AQW0,-5`, time in ms. All outputs are 0 before the first row. The stream is not
-/// owned.
+/// Rows `2.000000,Q0.3,1` and `2.512000,AQW0,-5`, time in ms. All outputs are 0 before the first row. The stream is
+/// not owned.
 class OutputRecord final : public TraceSink {
  public:
   static constexpr std::string_view kFirstLine = "time_ms,address,value";

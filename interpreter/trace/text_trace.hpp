@@ -1,4 +1,4 @@
-// A trace as text: one line a record, made to be read and to be compared with diff.
+// A trace as text: one line for each record, to be read by people and compared with diff.
 #pragma once
 
 #include <iosfwd>
@@ -11,16 +11,16 @@
 
 namespace s7200 {
 
-/// Milliseconds with six decimals: nanoseconds are all there, and columns stay aligned for an hour.
+/// Milliseconds with six decimals: exact to the nanosecond, and columns stay aligned for an hour.
 std::string clock_text(Time at);
 
-/// One line for a record, without time and line end: `INT 122 begins: event 8 (…), waited 12 us`.
+/// One line for a record, without the time and the line end: `INT 122 begins: event 8 (…), waited 12 us`.
 std::string describe(const TraceRecord& record, const Program& program);
 
 /// `line 42  MOVW    VW3300, AC0     VW3300=16#0006 AC0=16#0006`
 std::string describe(const InstructionRecord& record, const Program& program);
 
-/// Writes each record as it comes. The stream is not owned.
+/// Writes each record as it comes. Does not own the stream.
 class TextTrace final : public TraceSink {
  public:
   static constexpr std::string_view kFirstLine = "# time in ms   what";

@@ -1,4 +1,4 @@
-// What happened, as plain records. Sinks only watch: a trace changes nothing.
+// What happened, as plain records. Sinks only watch: tracing changes nothing.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ enum class TraceKind : std::uint8_t {
   TransmitEnd,        ///<
   CharacterSent,      ///< byte; at: end of its stop bit
   CharacterReceived,  ///< byte, parity_error, framing_error; since: its start edge
-  CharacterIgnored,   ///< as received, but the port is not in Freeport mode or event 8 is not attached
+  CharacterIgnored,   ///< like received, but the port is not in Freeport mode or event 8 is not attached
   PortControl,        ///< byte: SMB30
   OutputChanged,      ///< byte: new value of the output points; op: number of the byte
   AnalogChanged,      ///< count: new value; op: number of the AQ word
@@ -47,12 +47,12 @@ struct TraceRecord {
   Time interval = 0;
 };
 
-/// One executed instruction; the values are those of its operands: inputs as they were before, outputs as they are after.
+/// One executed instruction and the values of its operands: inputs before it, outputs after it.
 struct InstructionRecord {
   Time at = 0;  ///< start
   Time end = 0;
   std::uint32_t op = 0;
-  bool powered = true;  ///< false: skipped for want of power flow
+  bool powered = true;  ///< false: skipped because it had no power flow
   bool top = false;     ///< top of the logic stack afterwards
   std::array<std::optional<std::uint32_t>, 3> value{};
 };
@@ -61,10 +61,10 @@ class TraceSink {
  public:
   virtual ~TraceSink() = default;
   virtual void record(const TraceRecord&) {}
-  /// Before an instruction: false stops the CPU in front of it.
+  /// Called before an instruction; returning false stops the CPU before it.
   virtual bool before(std::uint32_t /*op*/) { return true; }
   virtual void instruction(const InstructionRecord&) {}
-  /// Whether before() and instruction() are wanted at all.
+  /// Whether before() and instruction() are to be called at all.
   virtual bool wants_instructions() const { return false; }
 };
 

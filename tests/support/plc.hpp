@@ -1,13 +1,13 @@
 // A CPU, 214 unless another is named, with a tiny program and easy times, for tests of what happens when.
 //
-// Every instruction takes 10 us, with power flow or without; labels and routine heads nothing. Exceptions, to fill time: SQRT
-// 5 ms, DIV 100 ms. Entering an interrupt routine takes 40 us, saving a value to EEPROM 10 ms. Each of the four system parts of
-// a scan takes 200 us. So a program of n instructions begins 200 us into its scan, and the scan takes 800 us + n * 10 us.
+// Every instruction takes 10 us, with or without power flow; labels and routine heads take no time. Exceptions, to fill
+// time: SQRT takes 5 ms, DIV 100 ms. Entering an interrupt routine takes 40 us, saving a value to EEPROM 10 ms. Each of the
+// four system parts of a scan takes 200 us. So a program of n instructions starts 200 us into its scan, and the scan takes
+// 800 us + n * 10 us.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <functional>
@@ -43,7 +43,7 @@ inline std::shared_ptr<const Program> program_of(std::string_view stl, const Cpu
   return result.program;
 }
 
-/// Sends at the pace of the line and remembers what it was told.
+/// Sends at the speed of the line and records its calls.
 class Port final : public SerialPort {
  public:
   struct Sent {
@@ -115,7 +115,7 @@ class Plc {
   Plc(std::string_view stl, const CpuModel& model) : Plc(stl, nullptr, model) {}
   Plc(const Plc&) = delete;
 
-  /// Something that happens outside at an instant. To be told in the order of time.
+  /// Something that happens outside at an instant. Must be added in the order of time.
   void at(Time when, std::function<void()> what) {
     actions_.push_back({when, std::move(what)});
     if (actions_.size() - next_ == 1) queue.schedule(when, EventOwner::Field, 0);
@@ -147,7 +147,7 @@ class Plc {
       while (queue.next() <= cpu.time()) dispatch(queue.pop());
     }
   }
-  /// From power-up on.
+  /// From power-up.
   void run_scans(std::uint64_t count) {
     cpu.pause_at_scan_end(true);
     while (cpu.state().scans < count && cpu.state().mode == Mode::Run) {

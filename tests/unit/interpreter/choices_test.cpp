@@ -21,7 +21,7 @@ TEST(Choices, AnInterruptRoutineStartsWithTheTopOfTheStackAtOne) {
   EXPECT_EQ(plc.value("M1.0"), 1);
 }
 
-TEST(Choices, ABadStopBitIsNoParityError) {
+TEST(Choices, ABadStopBitIsNotAParityError) {
   Plc plc("LD SM0.1\nMOVB 16#49, SMB30\nATCH 0, 8\nENI\nMEND\nINT 0\nINCW VW0\nMOVB SMB2, VB2\nMOVB SMB3, VB3\nRETI\n");
   plc.at(1 * ms, [&] { plc.cpu.character_received({.byte = 0x55, .framing_error = true, .start = 0, .end = 1 * ms}); });
   plc.run_until(3 * ms);
@@ -65,7 +65,7 @@ TEST(Choices, AnEdgeInstructionThatIsJumpedOverKeepsItsMemory) {
 }
 
 TEST(Choices, ATimersPresetIsTheOneItsLastExecutionFound) {
-  // VW0 is 2 at the timer's execution and 500 behind it, in every scan.
+  // In every scan VW0 is 2 at the timer's execution and 500 after it.
   Plc plc("LD SM0.0\nMOVW 2, VW0\nTON T33, VW0\nMOVW 500, VW0\nMEND\n");
   plc.run_until(25 * ms);
   EXPECT_EQ(plc.value("T33"), 2);
@@ -87,7 +87,7 @@ TEST(Choices, NextFollowsThePointersOfItsForAgain) {
   EXPECT_EQ(plc.records.errors(), std::vector<int>{0x06});
   EXPECT_EQ(plc.value("VW10"), 1) << "one pass";
   EXPECT_EQ(plc.value("VW0"), 1) << "NEXT has not counted";
-  EXPECT_EQ(plc.value("VW12"), 1) << "the program goes on behind the loop";
+  EXPECT_EQ(plc.value("VW12"), 1) << "the program goes on after the loop";
 }
 
 TEST(Choices, ABadPointerIsReportedBeforeABadCountOrRange) {

@@ -12,7 +12,7 @@ namespace test {
 namespace {
 
 /// A second later.
-ClockTime behind(const ClockTime& t) {
+ClockTime after(const ClockTime& t) {
   Plc plc("LD SM0.0\nMEND\n");
   plc.cpu.set_clock(t);
   plc.run_until(1 * kSecond);
@@ -20,25 +20,25 @@ ClockTime behind(const ClockTime& t) {
 }
 
 TEST(Clock, RollsOverSecondsMinutesHoursDaysMonthsYears) {
-  EXPECT_EQ(behind({26, 11, 21, 10, 0, 58, 7}), (ClockTime{26, 11, 21, 10, 0, 59, 7}));
-  EXPECT_EQ(behind({26, 11, 21, 10, 0, 59, 7}), (ClockTime{26, 11, 21, 10, 1, 0, 7}));
-  EXPECT_EQ(behind({26, 11, 21, 10, 59, 59, 7}), (ClockTime{26, 11, 21, 11, 0, 0, 7}));
-  EXPECT_EQ(behind({26, 11, 21, 23, 59, 59, 7}), (ClockTime{26, 11, 22, 0, 0, 0, 1})) << "Saturday, Sunday";
-  EXPECT_EQ(behind({26, 11, 30, 23, 59, 59, 2}), (ClockTime{26, 12, 1, 0, 0, 0, 3}));
-  EXPECT_EQ(behind({26, 12, 31, 23, 59, 59, 5}), (ClockTime{27, 1, 1, 0, 0, 0, 6}));
+  EXPECT_EQ(after({26, 11, 21, 10, 0, 58, 7}), (ClockTime{26, 11, 21, 10, 0, 59, 7}));
+  EXPECT_EQ(after({26, 11, 21, 10, 0, 59, 7}), (ClockTime{26, 11, 21, 10, 1, 0, 7}));
+  EXPECT_EQ(after({26, 11, 21, 10, 59, 59, 7}), (ClockTime{26, 11, 21, 11, 0, 0, 7}));
+  EXPECT_EQ(after({26, 11, 21, 23, 59, 59, 7}), (ClockTime{26, 11, 22, 0, 0, 0, 1})) << "Saturday, Sunday";
+  EXPECT_EQ(after({26, 11, 30, 23, 59, 59, 2}), (ClockTime{26, 12, 1, 0, 0, 0, 3}));
+  EXPECT_EQ(after({26, 12, 31, 23, 59, 59, 5}), (ClockTime{27, 1, 1, 0, 0, 0, 6}));
 }
 
 TEST(Clock, LeapYearsAndTheCentury) {
-  EXPECT_EQ(behind({24, 2, 28, 23, 59, 59, 4}), (ClockTime{24, 2, 29, 0, 0, 0, 5}));
-  EXPECT_EQ(behind({24, 2, 29, 23, 59, 59, 5}), (ClockTime{24, 3, 1, 0, 0, 0, 6}));
-  EXPECT_EQ(behind({25, 2, 28, 23, 59, 59, 6}), (ClockTime{25, 3, 1, 0, 0, 0, 7}));
-  EXPECT_EQ(behind({0, 2, 28, 23, 59, 59, 2}), (ClockTime{0, 2, 29, 0, 0, 0, 3})) << "2000 is a leap year";
-  EXPECT_EQ(behind({99, 12, 31, 23, 59, 59, 6}), (ClockTime{0, 1, 1, 0, 0, 0, 7}));
+  EXPECT_EQ(after({24, 2, 28, 23, 59, 59, 4}), (ClockTime{24, 2, 29, 0, 0, 0, 5}));
+  EXPECT_EQ(after({24, 2, 29, 23, 59, 59, 5}), (ClockTime{24, 3, 1, 0, 0, 0, 6}));
+  EXPECT_EQ(after({25, 2, 28, 23, 59, 59, 6}), (ClockTime{25, 3, 1, 0, 0, 0, 7}));
+  EXPECT_EQ(after({0, 2, 28, 23, 59, 59, 2}), (ClockTime{0, 2, 29, 0, 0, 0, 3})) << "2000 is a leap year";
+  EXPECT_EQ(after({99, 12, 31, 23, 59, 59, 6}), (ClockTime{0, 1, 1, 0, 0, 0, 7}));
 }
 
-TEST(Clock, AWeekdaySwitchedOffStaysOffAndADateThatIsNoneIsTaken) {
-  EXPECT_EQ(behind({26, 11, 21, 23, 59, 59, 0}), (ClockTime{26, 11, 22, 0, 0, 0, 0}));
-  EXPECT_EQ(behind({26, 2, 30, 23, 59, 59, 2}), (ClockTime{26, 3, 1, 0, 0, 0, 3}));
+TEST(Clock, AWeekdaySwitchedOffStaysOffAndAnImpossibleDateIsAccepted) {
+  EXPECT_EQ(after({26, 11, 21, 23, 59, 59, 0}), (ClockTime{26, 11, 22, 0, 0, 0, 0}));
+  EXPECT_EQ(after({26, 2, 30, 23, 59, 59, 2}), (ClockTime{26, 3, 1, 0, 0, 0, 3}));
 }
 
 TEST(Clock, ThirtyDaysLater) {
@@ -50,7 +50,7 @@ TEST(Clock, ThirtyDaysLater) {
   EXPECT_EQ(plc.cpu.clock(), (ClockTime{26, 12, 21, 10, 0, 0, 2}));
 }
 
-TEST(Clock, BeginsIn1990OnASunday) {
+TEST(Clock, StartsOnASundayIn1990) {
   Plc plc("LD SM0.0\nMEND\n");
   EXPECT_EQ(plc.cpu.clock(), (ClockTime{90, 1, 1, 0, 0, 0, 1}));
 }
@@ -64,7 +64,7 @@ TEST(Clock, TodrWritesEightBytesOfBcd) {
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(plc.value(fmt::format("VB{}", 100 + i)), expected[i]) << i;
 }
 
-TEST(Clock, TodwSetsTheClockAndItsSecondBeginsThen) {
+TEST(Clock, TodwSetsTheClockAndStartsItsSecond) {
   Plc plc("LD I0.0\nTODW VB100\nMEND\n");
   const std::uint32_t time[] = {0x99, 0x12, 0x31, 0x23, 0x59, 0x59, 0, 6};
   for (std::uint32_t i = 0; i < 8; ++i) plc.set(fmt::format("VB{}", 100 + i), time[i]);
@@ -77,14 +77,14 @@ TEST(Clock, TodwSetsTheClockAndItsSecondBeginsThen) {
   EXPECT_EQ(plc.cpu.clock(), (ClockTime{0, 1, 1, 0, 0, 0, 7}));
 }
 
-TEST(Clock, WhatIsNoBcdIs0007AndLeavesTheClockAlone) {
+TEST(Clock, BytesThatAreNotBcdAre0007AndLeaveTheClockAlone) {
   Plc plc("LD SM0.1\nMOVB 16#1A, VB103\nTODW VB100\nMEND\n");
   plc.run_scans(1);
   EXPECT_EQ(plc.records.errors(), Ints{7});
   EXPECT_EQ(plc.cpu.clock().year, 90);
 }
 
-TEST(Clock, ABufferThatLeavesItsMemoryIs0091) {
+TEST(Clock, ABufferThatRunsPastItsMemoryIs0091) {
   Plc plc("LD SM0.1\nMOVD &VB4089, AC1\nTODR *AC1\nTODW *AC1\nMEND\n");
   plc.run_scans(1);
   EXPECT_EQ(plc.records.errors(), (Ints{0x91, 0x91}));

@@ -28,7 +28,7 @@ TEST(Compare, AValueThatIsNotANumberStopsTheCpuAtItsInstruction) {
       }
 }
 
-TEST(Compare, InfinitiesAreComparedAndTheSameBitsAsAnIntegerAreNoError) {
+TEST(Compare, InfinitiesAreComparedAndTheSameBitsAsAnIntegerAreNotAnError) {
   Plc plc("LDR>= VD100, 3.4E+38\n= M0.0\nLDD<= VD104, 5\n= M0.1\nLDW= VW104, 5\n= M0.2\nMEND\n");
   plc.set("VD100", kInfinity);
   plc.set("VD104", kSignallingNan);

@@ -23,14 +23,14 @@ TEST(Duration, ReadsDecimalsExactly) {
   EXPECT_EQ(parse_duration("9223372036.854775806s"), kNever - 1);
 }
 
-TEST(Duration, RefusesWhatIsNoDuration) {
+TEST(Duration, RefusesTextThatIsNotADuration) {
   for (const char* text :
        {"", "5", "ms", "-1s", "+1s", "1.s", ".5s", "1,5s", "1 s ", "1  s", "1S", "1d", "1e3s", "0x1s", "1s2"}) {
     EXPECT_EQ(parse_duration(text), std::nullopt) << text;
   }
 }
 
-TEST(Duration, RefusesWhatTimeCannotHold) {
+TEST(Duration, RefusesDurationsThatTimeCannotHold) {
   EXPECT_EQ(parse_duration("0.5ns"), std::nullopt);
   EXPECT_EQ(parse_duration("9223372036.854775807s"), std::nullopt);
   EXPECT_EQ(parse_duration("293000000h"), std::nullopt);

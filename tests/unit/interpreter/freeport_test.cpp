@@ -14,7 +14,7 @@ constexpr std::string_view kSend =
     "LD SM0.1\nMOVB 9, SMB30\nATCH 0, 9\nENI\nMOVB 2, VB100\nMOVB 16#41, VB101\nMOVB 16#42, VB102\nXMT VB100, 0\nMEND\n"
     "INT 0\nINCW VW0\nRETI\n";
 
-TEST(Freeport, XmtSendsFromItsEndOnAndEvent9ComesWithTheEndOfTheLastStopBit) {
+TEST(Freeport, XmtSendsFromItsEndAndEvent9ComesAtTheEndOfTheLastStopBit) {
   Plc plc(kSend);
   plc.run_until(5 * ms);
   EXPECT_EQ(plc.port.sent, (std::vector<Port::Sent>{{0x41, 280 * us}, {0x42, 280 * us + kCharacter}}));
@@ -72,7 +72,7 @@ TEST(Freeport, XmtOf255Characters) {
   EXPECT_EQ(plc.records.times(TransmitEnd), Times{240 * us + 255 * kCharacter});
 }
 
-TEST(Freeport, ABufferThatLeavesItsMemoryIs0091) {
+TEST(Freeport, ABufferThatRunsPastItsMemoryIs0091) {
   Plc plc("LD SM0.1\nMOVB 9, SMB30\nMOVB 3, VB4093\nXMT VB4093, 0\nMEND\n");
   plc.run_until(5 * ms);
   EXPECT_EQ(plc.records.errors(), Ints{0x91});
@@ -152,7 +152,7 @@ TEST(Freeport, StopEndsTheTransmissionAndGivesThePortBackToPpi) {
   EXPECT_TRUE(plc.records.of(TransmitEnd).empty());
 }
 
-// Both characters come during the SQRT, each with its own parity; VB2 and VB4 have the first, VB1 and VB3 the last one.
+// Both characters arrive during the SQRT, each with its own parity; VB2 and VB4 hold the first, VB1 and VB3 the last.
 TEST(Freeport, SMB2AndSM30BelongToTheEntryOfTheirRoutine) {
   Plc plc(
       "LD SM0.1\nMOVB 9, SMB30\nATCH 0, 8\nSQRT VD200, VD204\nENI\nMEND\n"

@@ -24,7 +24,7 @@ struct Hsc1 : Plc {
   Ints events() const { return records.events(EventOccurred); }
 };
 
-TEST(HighSpeedCounter, Mode0CountsRisingEdgesUpAndTellsWhenItReachesItsPreset) {
+TEST(HighSpeedCounter, Mode0CountsRisingEdgesUpAndReportsWhenItReachesItsPreset) {
   Hsc1 plc(0);
   EXPECT_EQ(plc.value("SMB46"), kUp) << "0 is below the preset";
   plc.pulse("I0.6", 2);
@@ -77,7 +77,7 @@ TEST(HighSpeedCounter, LoadingThePresetOrTheCurrentValueGivesNoEvent) {
   EXPECT_TRUE(plc.events().empty());
 }
 
-TEST(HighSpeedCounter, TheControlByteGivesModes6To11TheDirectionToBeginWith) {
+TEST(HighSpeedCounter, TheControlByteGivesModes6To11TheirInitialDirection) {
   for (const int mode : {6, 9}) {
     Hsc1 up(mode, 0xF8), down(mode, 0xF0);
     EXPECT_EQ(up.value("SMB46"), kUp) << mode;
@@ -111,7 +111,7 @@ TEST(HighSpeedCounter, ResetActiveLow) {
   EXPECT_EQ(plc.events(), Ints{15});
 }
 
-TEST(HighSpeedCounter, ACounterEnabledDuringResetStandsAtZero) {
+TEST(HighSpeedCounter, ACounterEnabledDuringResetStaysAtZero) {
   Plc plc("LD SM0.1\nMOVB 16#F8, SMB47\nMOVD 50, SMD48\nHDEF 1, 1\nHSC 1\nMEND\n");
   plc.input("I1.0", true);
   plc.run_scans(1);

@@ -52,7 +52,7 @@ constexpr Sum kSums[] = {
     {"DIV VW106, VD100", 0x1234'8000, 0xFFFF, 0x0000'8000, kOverflow | kNegative},
 };
 
-TEST(Overflow, Cpus21xStoreTheWrappedResult) {
+TEST(Overflow, ACpu21xStoresTheWrappedResult) {
   for (const CpuModel* model : all_cpus()) {
     EXPECT_EQ(model->integer_overflow, IntegerOverflow::Wrap);
     for (const Sum& sum : kSums)

@@ -12,7 +12,7 @@ constexpr std::string_view kCount0 = "INT 0\nINCW VW0\nRETI\n";
 std::string with_routine(std::string_view main) { return std::string(main).append(kCount0); }
 
 // Program 200–240, then idle. Entry 40 us, INCW, RETI.
-TEST(Interrupt, InTheSystemsPartOfTheScanARoutineBeginsAtOnce) {
+TEST(Interrupt, InTheSystemsPartOfTheScanARoutineStartsAtOnce) {
   Plc plc(with_routine("LD SM0.1\nATCH 0, 0\nENI\nMEND\n"));
   plc.input_at(300 * us, "I0.0", true);
   plc.run_until(1 * ms);
@@ -21,7 +21,7 @@ TEST(Interrupt, InTheSystemsPartOfTheScanARoutineBeginsAtOnce) {
   EXPECT_EQ(plc.value("VW0"), 1);
 }
 
-TEST(Interrupt, TheInterruptedPartOfTheScanIsMadeUpFor) {
+TEST(Interrupt, AnInterruptLengthensThePartOfTheScanThatItInterrupts) {
   Plc plc(with_routine("LD SM0.1\nATCH 0, 0\nENI\nMEND\n"));
   plc.input_at(300 * us, "I0.0", true);
   plc.run_scans(1);
@@ -56,7 +56,7 @@ TEST(Interrupt, DisiHoldsEventsBackUntilTheEndOfEni) {
   EXPECT_EQ(plc.records.times(ServiceBegin), Times{5270 * us});
 }
 
-TEST(Interrupt, RunBeginsWithInterruptsDisabled) {
+TEST(Interrupt, RunStartsWithInterruptsDisabled) {
   Plc plc(with_routine("LD SM0.1\nATCH 0, 0\nMEND\n"));
   plc.input_at(1 * ms, "I0.0", true);
   plc.run_until(6 * ms);
@@ -66,9 +66,10 @@ TEST(Interrupt, RunBeginsWithInterruptsDisabled) {
 }
 
 // ATCH 10 ends at 240: its events come at 5.24 and 10.24 ms. The two SQRT last until 10.26 ms.
-TEST(Interrupt, CommunicationBeforeInputsBeforeTime) {
-  Plc plc("LD SM0.1\nMOVB 9, SMB30\nMOVB 5, SMB34\nATCH 0, 10\nATCH 0, 0\nATCH 0, 8\nSQRT VD100, VD104\n"
-          "SQRT VD100, VD104\nENI\nMEND\nINT 0\nRETI\n");
+TEST(Interrupt, CommunicationIsServedBeforeInputsAndInputsBeforeTime) {
+  Plc plc(
+      "LD SM0.1\nMOVB 9, SMB30\nMOVB 5, SMB34\nATCH 0, 10\nATCH 0, 0\nATCH 0, 8\nSQRT VD100, VD104\n"
+      "SQRT VD100, VD104\nENI\nMEND\nINT 0\nRETI\n");
   plc.input_at(6 * ms, "I0.0", true);
   plc.character_at(7 * ms, 0x41);
   plc.run_until(12 * ms);
@@ -76,7 +77,7 @@ TEST(Interrupt, CommunicationBeforeInputsBeforeTime) {
   EXPECT_EQ(plc.records.events(ServiceBegin), (Ints{8, 0, 10, 10}));
 }
 
-TEST(Interrupt, FirstComeFirstServedInsideAQueue) {
+TEST(Interrupt, FirstComeFirstServedWithinAQueue) {
   Plc plc("LD SM0.1\nATCH 0, 0\nATCH 0, 2\nLD SM0.0\nSQRT VD100, VD104\nENI\nMEND\nINT 0\nRETI\n");
   plc.input_at(1 * ms, "I0.1", true);
   plc.input_at(2 * ms, "I0.0", true);
@@ -84,7 +85,7 @@ TEST(Interrupt, FirstComeFirstServedInsideAQueue) {
   EXPECT_EQ(plc.records.events(ServiceBegin), (Ints{2, 0}));
 }
 
-TEST(Interrupt, EdgesOfOneInstantAreServedInTheOrderOfTheList) {
+TEST(Interrupt, EdgesAtTheSameInstantAreServedInTheOrderOfTheList) {
   std::string main = "LD SM0.1\n";
   for (int event = 0; event < 8; ++event) main += fmt::format("ATCH 0, {}\n", event);
   Plc plc(main + "ENI\nMEND\nINT 0\nRETI\n");
@@ -107,14 +108,14 @@ TEST(Interrupt, AnEdgeComesBeforeTheCounterThatReachesItsPresetAtTheSameInstant)
   EXPECT_EQ(plc.records.events(ServiceBegin), (Ints{0, 13}));
 }
 
-/// DISI, time for events, ENI; the routine and the main program behind it look at SMB4.
+/// DISI, time for events, ENI; the routine, and then the main program, look at SMB4.
 std::string overflow_program(std::string_view attach) {
   return fmt::format("LD SM0.1\nMOVB 9, SMB30\nMOVB 5, SMB34\n{}LD SM0.1\nSQRT VD100, VD104\nSQRT VD100, VD104\n"
                      "SQRT VD100, VD104\nSQRT VD100, VD104\nSQRT VD100, VD104\nSQRT VD100, VD104\nDTCH 10\nENI\nNOP 0\n"
                      "MOVB SMB4, VB10\nMEND\nINT 0\nINCW VW0\nMOVB SMB4, VB2\nRETI\n", attach);
 }
 
-TEST(Interrupt, FourCharactersWaitTheFifthIsLost) {
+TEST(Interrupt, FourCharactersWaitAndTheFifthIsLost) {
   Plc plc(overflow_program("ATCH 0, 8\n"));
   for (int i = 1; i <= 5; ++i) plc.character_at(i * ms, static_cast<std::uint8_t>(i));
   plc.run_until(40 * ms);
@@ -125,7 +126,7 @@ TEST(Interrupt, FourCharactersWaitTheFifthIsLost) {
   EXPECT_EQ(plc.value("VB10") & 7, 0) << "gone in the main program";
 }
 
-TEST(Interrupt, SixteenEdgesWaitTheSeventeenthIsLost) {
+TEST(Interrupt, SixteenEdgesWaitAndTheSeventeenthIsLost) {
   Plc plc(overflow_program("ATCH 0, 0\nATCH 0, 1\n"));
   for (int i = 1; i <= 17; ++i) plc.input_at(i * ms, "I0.0", i % 2 == 1);
   plc.run_until(40 * ms);
@@ -136,7 +137,7 @@ TEST(Interrupt, SixteenEdgesWaitTheSeventeenthIsLost) {
 }
 
 // ATCH ends at 240: events at 5.24, 10.24, … 30.24 ms; LD –250, six SQRT –30.25 ms, DTCH 10 drops the four that wait.
-TEST(Interrupt, FourTimedEventsWaitTheFifthIsLost) {
+TEST(Interrupt, FourTimedEventsWaitAndTheFifthIsLost) {
   Plc plc(overflow_program("ATCH 0, 10\n"));
   plc.run_until(30'250 * us);
   EXPECT_EQ(plc.records.times(EventLost), (Times{25'240 * us, 30'240 * us}));
@@ -202,7 +203,7 @@ TEST(TimedInterrupt, ThePeriodIsCapturedByAtch) {
 }
 
 // The first period began at 230 us; the second ATCH is executed by hand.
-TEST(TimedInterrupt, AnotherAtchBeginsAnewWithTheNewPeriod) {
+TEST(TimedInterrupt, AnotherAtchStartsAgainWithTheNewPeriod) {
   Plc plc(with_routine("LD SM0.1\nMOVB 10, SMB34\nATCH 0, 10\nENI\nMEND\n"));
   plc.run_until(12 * ms);
   plc.set("SMB34", 7);

@@ -18,7 +18,7 @@ TEST(Nearest, IsTheWordWithTheFewestChangesIfTheyAreFew) {
   EXPECT_EQ(nearest("rxy", kWords), "");
 }
 
-TEST(Nearest, NothingIsMeantByALetterOrANovel) {
+TEST(Nearest, NothingIsSuggestedForASingleLetterOrALongText) {
   EXPECT_EQ(nearest("r", kWords), "");
   EXPECT_EQ(nearest("masterrrrrrrr", kWords), "");
   EXPECT_EQ(nearest("run", {}), "");

@@ -55,7 +55,7 @@ TEST(PulseOutput, ACycleBelow2UnitsIs2AndACountOf0Is1) {
 }
 
 // The second PLS at 310 (MOVW –290, MOVD –300) waits for the end of the first train; the third is one too many, at 320.
-TEST(PulseOutput, OneMoreTrainWaitsInLineAFurtherOneSetsTheOverflowBit) {
+TEST(PulseOutput, OneMoreTrainWaitsAndAFurtherOneSetsTheOverflowBit) {
   Plc plc(program(kTrainInMs, 2, 0, 2, "MOVW 4, SMW68\nMOVD 1, SMD72\nPLS 0\nPLS 0\n"));
   plc.run_until(310 * us);
   EXPECT_EQ(plc.value("SM66.6"), 0);
@@ -86,7 +86,7 @@ TEST(PulseOutput, PwmHoldsTheWidth) {
   EXPECT_TRUE(plc.records.times(EventOccurred).empty());
 }
 
-TEST(PulseOutput, PlsDuringPwmBeginsANewCycleAtOnce) {
+TEST(PulseOutput, PlsDuringPwmStartsANewCycleAtOnce) {
   Plc low(program(kPwm | 0x08, 10, 3, 0)), high(program(kPwm | 0x08, 10, 7, 0));
   for (Plc* plc : {&low, &high}) {
     plc->run_until(5 * ms);
@@ -101,7 +101,7 @@ TEST(PulseOutput, PlsDuringPwmBeginsANewCycleAtOnce) {
   for (Plc* plc : {&low, &high}) EXPECT_TRUE(plc->records.times(EventOccurred).empty());
 }
 
-TEST(PulseOutput, APulseTrainAfterPwmBeginsAtOnceAndAPwmAfterATrainWaitsForItsEnd) {
+TEST(PulseOutput, APulseTrainAfterPwmStartsAtOnceAndAPwmAfterATrainWaitsForItsEnd) {
   Plc plc(program(kPwm | 0x08, 10, 3, 2));
   plc.run_until(5 * ms);
   plc.set("SMB67", kTrainInMs | 0x04);
@@ -116,7 +116,7 @@ TEST(PulseOutput, APulseTrainAfterPwmBeginsAtOnceAndAPwmAfterATrainWaitsForItsEn
   EXPECT_EQ(plc.records.times(EventOccurred), Times{at + 4 * ms}) << "the end of the train";
 }
 
-TEST(PulseOutput, PwmOfNothingAndOfTheWholeCycle) {
+TEST(PulseOutput, PwmOfZeroWidthIsOffAndOfTheWholeCycleIsOn) {
   Plc none(program(kPwm, 500, 0, 0)), all(program(kPwm, 500, 500, 0)), more(program(kPwm, 500, 900, 0));
   for (Plc* plc : {&none, &all, &more}) plc->run_until(10 * ms);
   EXPECT_TRUE(edges(none).empty());
@@ -124,7 +124,7 @@ TEST(PulseOutput, PwmOfNothingAndOfTheWholeCycle) {
   EXPECT_EQ(edges(more), Times{kStart});
 }
 
-TEST(PulseOutput, PlsWithoutEnableEndsItAtOnceAndTheImageHasThePointAgain) {
+TEST(PulseOutput, PlsWithoutEnableEndsPulsesAtOnceAndThePointFollowsItsImageAgain) {
   Plc plc(program(kPwm, 500, 500, 0, "LD I0.0\nMOVB 0, SMB67\nPLS 0\n"));
   plc.run_until(5 * ms);
   EXPECT_EQ(edges(plc), Times{kStart});

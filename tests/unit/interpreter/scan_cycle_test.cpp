@@ -4,7 +4,7 @@
 namespace s7200::test {
 namespace {
 
-/// `count` times the same instruction.
+/// The same instruction `count` times.
 std::string repeated(std::string_view instruction, int count) {
   std::string text;
   for (int i = 0; i < count; ++i) text.append(instruction).append("\n");
@@ -37,7 +37,7 @@ TEST(ScanCycle, ImmediateInstructionsUseThePointsThemselves) {
   EXPECT_EQ(plc.value("Q0.0"), 1) << "=I writes the image too";
 }
 
-TEST(ScanCycle, AnInstructionSeesTheWorldAsOfItsStart) {
+TEST(ScanCycle, AnInstructionSeesTheWorldAsItWasAtItsStart) {
   Plc plc("NOP 0\nNOP 0\nLDI I0.0\n=I Q0.0\nMEND\n");
   plc.input_at(221 * us, "I0.0", true);
   plc.run_until(300 * us);
@@ -50,7 +50,7 @@ TEST(ScanCycle, SpecialMemoryByteZeroOverTheFirstScans) {
   plc.run_scans(4);
   EXPECT_EQ(plc.value("VW0"), 4) << "SM0.0 is always 1";
   EXPECT_EQ(plc.value("VW2"), 1) << "SM0.1 in the first scan";
-  EXPECT_EQ(plc.value("VW4"), 0) << "SM0.2 only when retentive data were lost";
+  EXPECT_EQ(plc.value("VW4"), 0) << "SM0.2 only if retentive data were lost";
   EXPECT_EQ(plc.value("VW6"), 1) << "SM0.3 in the scan after power-up";
   EXPECT_EQ(plc.value("VW8"), 2) << "SM0.6 alternates";
   EXPECT_EQ(plc.value("VW10"), 4) << "SM0.7: mode switch in RUN";
@@ -65,14 +65,14 @@ TEST(ScanCycle, SM06IsZeroInTheFirstScanAndThenAlternates) {
 }
 
 // Scans of 830 us. The 603rd ends at 500.490 ms, the 1205th at 1000.150 ms; the output follows one scan later.
-TEST(ScanCycle, TheClockOfHalfASecondChangesAtScanEnds) {
+TEST(ScanCycle, TheHalfSecondClockChangesAtScanEnds) {
   Plc plc("LD SM0.5\n= Q0.0\nMEND\n");
   plc.run_until(1200 * ms);
   EXPECT_EQ(plc.records.times(TraceKind::OutputChanged), (Times{830 * us, 501'320 * us, 1'000'980 * us}));
 }
 
 // The 36145th scan ends at 30.000350 s.
-TEST(ScanCycle, TheClockOfHalfAMinuteChangesAtScanEnds) {
+TEST(ScanCycle, TheHalfMinuteClockChangesAtScanEnds) {
   Plc plc("LD SM0.4\n= Q0.0\nMEND\n");
   plc.run_until(31 * kSecond);
   EXPECT_EQ(plc.records.times(TraceKind::OutputChanged), (Times{830 * us, 30'001'180 * us}));
@@ -91,8 +91,8 @@ TEST(ScanCycle, LastShortestAndLongestScanInWholeMilliseconds) {
   EXPECT_EQ(plc.value("SMW26"), 5);
 }
 
-// 700 * (100 ms + WDR 10 us + NEXT 10 us) are beyond 65.535 s.
-TEST(ScanCycle, AScanLongerThanAWordCanSayIs65535) {
+// 700 * (100 ms + WDR 10 us + NEXT 10 us) is more than 65.535 s.
+TEST(ScanCycle, AScanTooLongForAWordIs65535) {
   Plc plc("LD SM0.1\nFOR VW0, 1, 700\nDIV VW2, VD4\nWDR\nNEXT\nMEND\n");
   plc.set("VW2", 1);
   plc.run_scans(1);
@@ -110,7 +110,7 @@ TEST(ScanCycle, TheWatchdogExpires300MillisecondsIntoTheScan) {
 }
 
 // 800 us + 420 * 10 us + 2 * 100 ms + 19 * 5 ms = 300 ms.
-TEST(ScanCycle, AScanOfExactly300MillisecondsPassesOneInstructionMoreDoesNot) {
+TEST(ScanCycle, AScanOfExactly300MillisecondsPassesAndOneInstructionMoreDoesNot) {
   const std::string begin = "LD SM0.0\n" + repeated("DIV VW100, VD104", 2) + repeated("SQRT VD0, VD4", 19);
   for (const int more : {0, 1}) {
     Plc plc(begin + repeated("NOP 0", 418 + more) + "MEND\n");
@@ -134,7 +134,7 @@ TEST(ScanCycle, WdrGivesTheScanAnother300Milliseconds) {
   EXPECT_EQ(without.cpu.state().fatal_code, 3);
 }
 
-// A routine of more than 10 ms every 5 ms from 5.23 ms on: the seventh scan, begun at 5.1 ms, never goes on.
+// A routine of more than 10 ms every 5 ms from 5.23 ms: the seventh scan, begun at 5.1 ms, never gets any further.
 TEST(ScanCycle, TheWatchdogSeesABurstOfInterruptsAndWdrInTheRoutineHelps) {
   const std::string main = "LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nMEND\nINT 0\n", work = repeated("SQRT VD0, VD4", 2);
   Plc without(main + work + "RETI\n"), with(main + work + "WDR\nRETI\n");
@@ -148,7 +148,7 @@ TEST(ScanCycle, TheWatchdogSeesABurstOfInterruptsAndWdrInTheRoutineHelps) {
 }
 
 // LD, INCW, LD, END: 40 us instead of 70 us.
-TEST(ScanCycle, EndLeavesOutTheRestOfTheMainProgram) {
+TEST(ScanCycle, EndSkipsTheRestOfTheMainProgram) {
   Plc plc("LD SM0.0\nINCW VW0\nLD I0.0\nEND\nLD SM0.0\nINCW VW2\nMEND\n");
   plc.input("I0.0", true);
   plc.run_scans(2);
@@ -178,22 +178,23 @@ TEST(ScanCycle, StopInASubroutineTakesEffectAtOnce) {
   EXPECT_EQ(plc.cpu.state().call_depth, 0);
 }
 
-// ATCH 10 ends at 240, ATCH 11 at 250, SQRT at 5270: both events wait then. Entry –5310, STOP –5320, INCW –5330, = –5340,
+// ATCH 10 ends at 240, ATCH 11 at 250, SQRT at 5270: then both events wait. Entry –5310, STOP –5320, INCW –5330, = –5340,
 // MEND –5350, scan end 5950.
-TEST(ScanCycle, StopInAnInterruptRoutineEndsItDropsWhatWaitsAndCompletesTheScan) {
-  Plc plc("LD SM0.1\nMOVB 5, SMB34\nMOVB 5, SMB35\nATCH 0, 10\nATCH 1, 11\nENI\nLD SM0.0\nSQRT VD100, VD104\nINCW VW0\n= Q0.0\n"
-          "MEND\nINT 0\nSTOP\nINCW VW2\nRETI\nINT 1\nINCW VW4\nRETI\n");
+TEST(ScanCycle, StopInAnInterruptRoutineEndsItDropsWaitingInterruptsAndCompletesTheScan) {
+  Plc plc(
+      "LD SM0.1\nMOVB 5, SMB34\nMOVB 5, SMB35\nATCH 0, 10\nATCH 1, 11\nENI\nLD SM0.0\nSQRT VD100, VD104\nINCW VW0\n= Q0.0\n"
+      "MEND\nINT 0\nSTOP\nINCW VW2\nRETI\nINT 1\nINCW VW4\nRETI\n");
   plc.run_until(20 * ms);
   EXPECT_EQ(plc.records.times(TraceKind::ServiceEnd), Times{5320 * us});
   EXPECT_EQ(plc.records.times(TraceKind::ModeChange), (Times{0, 5950 * us}));
   EXPECT_EQ(plc.records.times(TraceKind::OutputChanged), (Times{5950 * us, 5950 * us})) << "written, then off";
   EXPECT_EQ(plc.value("VW0"), 1) << "the rest of the scan is completed";
   EXPECT_EQ(plc.value("VW2"), 0) << "the routine ends at once";
-  EXPECT_EQ(plc.value("VW4"), 0) << "what waits is dropped";
+  EXPECT_EQ(plc.value("VW4"), 0) << "waiting interrupts are dropped";
   EXPECT_EQ(plc.cpu.state().waiting, 0);
 }
 
-TEST(ScanCycle, InStopTheProgramRestsAndInputsAreStillRead) {
+TEST(ScanCycle, InStopTheProgramDoesNotRunAndInputsAreStillRead) {
   Plc plc("LD SM0.1\nSTOP\nMEND\n");
   plc.run_until(1 * ms);
   plc.input("I0.3", true);

@@ -4,14 +4,14 @@
 namespace s7200::test {
 namespace {
 
-// Three steps in a ring, as the manual's cyclic example has them: each holds its own outputs with `=` and moves on by timer.
+// Three steps in a ring, as in the manual's cyclic example: each holds its own outputs with `=` and a timer starts the next.
 constexpr std::string_view kRing =
     "NETWORK 1\nLD SM0.1\nS S0.0, 1\n"
     "LSCR S0.0\nLD SM0.0\n= Q0.0\nTON T37, 2\nLD T37\nSCRT S0.1\nSCRE\n"
     "LSCR S0.1\nLD SM0.0\n= Q0.1\nTON T38, 3\nLD T38\nSCRT S0.2\nSCRE\n"
     "LSCR S0.2\nLD SM0.0\n= Q0.2\nTON T39, 4\nLD T39\nSCRT S0.0\nSCRE\nMEND\n";
 
-TEST(Segment, ThreeStepsWithOutputsAndTimersAlternateForEver) {
+TEST(Segment, ThreeStepsWithOutputsAndTimersTakeTurnsForEver) {
   Plc plc(kRing);
   std::string sequence;
   std::int64_t before = 0;
@@ -87,7 +87,7 @@ TEST(Segment, ACompareContactInASegmentThatIsOffStillFollowsItsPointers) {
   EXPECT_EQ(plc.cpu.state().fatal_code, 0x11);
 }
 
-TEST(Segment, ASubroutineHasARailOfItsOwn) {
+TEST(Segment, ASubroutineHasItsOwnRail) {
   Plc plc(
       "LSCR S0.0\nLD SM0.0\nNOT\nCALL 0\nLD SM0.0\nINCW VW0\nSCRE\nMEND\nSBR 0\nLSCR S1.0\nLD SM0.0\nINCW VW2\nSCRE\n"
       "LD SM0.0\nINCW VW4\nRET\n");
@@ -105,7 +105,7 @@ TEST(Segment, ASegmentOfASubroutineThatIsLeftByCretDoesNotReachItsCaller) {
   EXPECT_EQ(plc.value("VW0"), 1);
 }
 
-// LSCR ends at 210 us and so on, 10 us each: the edge at 215 us is served after LD, while the segment is off.
+// LSCR ends at 210 us, and so on in steps of 10 us: the edge at 215 us is served after LD, while the segment is off.
 TEST(Segment, AnInterruptRoutineHasPowerWhileTheSegmentItInterruptsIsOff) {
   Plc plc(
       "LD SM0.1\nATCH 0, 0\nENI\nLSCR S0.0\nLD SM0.0\nLD SM0.0\nLD SM0.0\n= M0.0\nSCRE\nMEND\nINT 0\nLD SM0.0\nINCW "
@@ -114,7 +114,7 @@ TEST(Segment, AnInterruptRoutineHasPowerWhileTheSegmentItInterruptsIsOff) {
   plc.set("MB0", 1);
   plc.run_scans(1);
   EXPECT_EQ(plc.value("VW0"), 1);
-  EXPECT_EQ(plc.value("M0.0"), 0) << "the segment is as off as before";
+  EXPECT_EQ(plc.value("M0.0"), 0) << "the segment is still off";
 }
 
 TEST(Segment, ATransitionTakesEffectAtTheNextLscr) {

@@ -1,4 +1,4 @@
-// What has to be true of every row of the instruction table.
+// What must be true of every row of the instruction table.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -89,9 +89,9 @@ TEST(InstructionTable, RowsThatCpu214LacksAreRefusedByName) {
   }
 }
 
-// --- what a row says of the logic stack ---
+// --- what a row says about the logic stack ---
 
-/// Levels an instruction finds and how many more it leaves, for those that are not one and the same.
+/// How many levels an instruction needs and how many more it leaves, if its kind does not decide that.
 TEST(InstructionTable, WhatEachInstructionFindsOnTheLogicStackAndLeavesThere) {
   static const std::map<std::string_view, std::pair<int, int>> kOwn{{"ALD", {2, -1}},  {"OLD", {2, -1}}, {"LPP", {2, -1}},
                                                                     {"LRD", {2, 0}},   {"LPS", {1, 1}},  {"CTU", {2, -1}},
@@ -108,9 +108,9 @@ TEST(InstructionTable, WhatEachInstructionFindsOnTheLogicStackAndLeavesThere) {
   }
 }
 
-// --- where an instruction may stand (facts 3.5) ---
+// --- where an instruction is allowed (facts 3.5) ---
 
-TEST(InstructionTable, WhatMayStandInTheMainProgramInSubroutinesAndInInterruptRoutines) {
+TEST(InstructionTable, WhatIsAllowedInTheMainProgramInSubroutinesAndInInterruptRoutines) {
   static const std::map<std::string_view, int> kParts{{"END", kMain},
                                                       {"MEND", kMain},
                                                       {"RET", kSubroutine},
@@ -132,13 +132,13 @@ TEST(InstructionTable, WhatMayStandInTheMainProgramInSubroutinesAndInInterruptRo
   }
 }
 
-TEST(InstructionTable, JumpsLoopsAndEndMayNotStandBetweenLscrAndScre) {
+TEST(InstructionTable, JumpsLoopsAndEndAreNotAllowedBetweenLscrAndScre) {
   static const std::set<std::string_view> kForbidden{"JMP", "FOR", "NEXT", "END"};
   for (const Instruction& instruction : all_instructions())
     EXPECT_EQ(instruction.outside_segments, kForbidden.contains(instruction.mnemonic)) << instruction.mnemonic;
 }
 
-TEST(InstructionTable, ContactsAndNothingElseHaveABodyForSegments) {
+TEST(InstructionTable, OnlyContactsHaveABodyForSegments) {
   static const std::set<std::string_view> kContacts{"LD", "LDN", "LDI", "LDNI", "A",  "AN",
                                                     "AI", "ANI", "O",   "ON",   "OI", "ONI"};
   for (const Instruction& instruction : all_instructions()) {
@@ -204,7 +204,7 @@ TEST(InstructionTable, EveryFormOfEveryOperandHasAVector) {
   }
 }
 
-/// Which bits of SM1 change in any vector of the instruction alone.
+/// The bits of SM1 that change in any vector that has only this instruction.
 int flags_in_vectors(const Instruction& instruction) {
   int flags = 0;
   for (const vectors::Vector& vector : vectors_of(instruction)) {

@@ -20,7 +20,7 @@ TEST(Timer, OneMillisecondTimersCountInsideAScan) {
   EXPECT_TRUE(timer_bit(plc, 32));
 }
 
-TEST(Timer, AOneMillisecondTimerCountsWholeMillisecondsFromItsStartOn) {
+TEST(Timer, AOneMillisecondTimerCountsWholeMillisecondsFromItsStart) {
   Plc plc("LD I0.0\nTON T32, 1000\nMEND\n");
   plc.input_at(1900 * us, "I0.0", true);  // executed from 2700 us on, in the scan begun at 2490 us
   plc.run_until(2990 * us);
@@ -29,10 +29,12 @@ TEST(Timer, AOneMillisecondTimerCountsWholeMillisecondsFromItsStartOn) {
   EXPECT_EQ(plc.value("T32"), 8) << "the ticks of 3 ms to 10 ms";
 }
 
-// Scans of 850 us + 20 ms; scan k reads its inputs until 200 us + (k - 1) * 20.85 ms: 0, 21.05, 41.9, 62.75, 83.6, 104.45 ms.
-TEST(Timer, TenMillisecondTimersHoldStillDuringAScan) {
-  Plc plc("LD SM0.0\nTON T33, 10\nMOVW T33, VW0\nSQRT VD100, VD104\nSQRT VD100, VD104\nSQRT VD100, VD104\nSQRT VD100, VD104\n"
-          "MOVW T33, VW2\nMEND\n");
+// Scans of 850 us + 20 ms; scan k reads its inputs until 200 us + (k - 1) * 20.85 ms: 0, 21.05, 41.9, 62.75, 83.6, 104.45
+// ms.
+TEST(Timer, TenMillisecondTimersDoNotChangeDuringAScan) {
+  Plc plc(
+      "LD SM0.0\nTON T33, 10\nMOVW T33, VW0\nSQRT VD100, VD104\nSQRT VD100, VD104\nSQRT VD100, VD104\nSQRT VD100, VD104\n"
+      "MOVW T33, VW2\nMEND\n");
   const int expected[] = {0, 2, 4, 6, 8, 10};
   for (std::size_t scan = 0; scan < 6; ++scan) {
     plc.run_scans(scan + 1);
@@ -67,7 +69,7 @@ TEST(Timer, AHundredMillisecondTimerThatIsJumpedOverLosesTheTicksOfThatScan) {
 }
 
 // The first scan takes 300 * (100 ms + 20 us) and a bit: 30 s.
-TEST(Timer, BeyondTwentyFiveSecondsAScanLosesTicks) {
+TEST(Timer, AScanLongerThan25SecondsLosesTicks) {
   Plc plc("LD SM0.0\nTON T33, 32000\nTON T37, 32000\nLD SM0.1\nFOR VW10, 1, 300\nDIV VW100, VD104\nWDR\nNEXT\nMEND\n");
   plc.set("VW100", 1);
   plc.run_scans(2);
@@ -75,7 +77,7 @@ TEST(Timer, BeyondTwentyFiveSecondsAScanLosesTicks) {
   EXPECT_EQ(plc.value("T37"), 250);
 }
 
-TEST(Timer, OnDelayTimersAreClearedByTheirInputRetentiveOnesByR) {
+TEST(Timer, OnDelayTimersAreClearedByTheirInputAndRetentiveOnesByR) {
   Plc plc("LD I0.0\nTON T32, 2\nTONR T0, 2\nLD I0.1\nR T0, 1\nMEND\n");
   plc.input("I0.0", true);
   plc.run_until(5 * ms);
@@ -96,7 +98,7 @@ TEST(Timer, OnDelayTimersAreClearedByTheirInputRetentiveOnesByR) {
   EXPECT_FALSE(timer_bit(plc, 0));
 }
 
-// I0.1 resets the timers after their instructions, I0.2 jumps over those.
+// I0.1 resets the timers after their instructions; I0.2 jumps over the instructions.
 constexpr std::string_view kResetWhileCounting =
     "LD I0.2\nJMP 1\nLD SM0.0\nTON T32, 1000\nTONR T0, 1000\nTON T33, 1000\nTONR T1, 1000\nLBL 1\nLD I0.1\nR T32, 2\nR T0, 2\n"
     "MEND\n";
@@ -128,7 +130,7 @@ TEST(Timer, WithoutAResetATimerThatIsJumpedOverCountsOn) {
   for (const char* timer : {"T33", "T1"}) EXPECT_EQ(plc.value(timer), 9) << timer;
 }
 
-TEST(Timer, AResetOf1MillisecondAlsoKeepsItsInterruptFromComing) {
+TEST(Timer, AResetOfAOneMillisecondTimerAlsoPreventsItsInterrupt) {
   Plc plc("LD SM0.1\nTON T32, 20\nATCH 0, 21\nENI\nLD I0.1\nR T32, 1\nMEND\nINT 0\nINCW VW0\nRETI\n", cpu215());
   plc.input_at(10 * ms, "I0.1", true);
   plc.run_until(60 * ms);
@@ -136,7 +138,7 @@ TEST(Timer, AResetOf1MillisecondAlsoKeepsItsInterruptFromComing) {
 }
 
 // Scans of 860 us + 100 ms: one tick a scan.
-TEST(Timer, AResetOf100MillisecondsClearsValueAndBitAndTheTimerGoesOn) {
+TEST(Timer, AResetOfAHundredMillisecondTimerClearsValueAndBitAndTheTimerGoesOn) {
   for (const std::uint32_t number : {37u, 5u}) {
     const std::string timer = fmt::format("T{}", number);
     Plc plc(fmt::format("LD SM0.0\nDIV VW100, VD104\n{} {}, 2\nLD I0.1\nR {}, 1\nMEND\n", number == 37 ? "TON" : "TONR", timer, timer));
@@ -181,7 +183,7 @@ TEST(Timer, TimersCountBeyondTheirPresetUpTo32767) {
   EXPECT_EQ(plc.value("T32"), 32'767);
 }
 
-TEST(Timer, InStopNoTimerCounts) {
+TEST(Timer, InStopTimersDoNotCount) {
   Plc plc("LD SM0.0\nTON T32, 5\nTON T33, 5\nLD I0.0\nSTOP\nMEND\n");
   plc.input_at(50 * ms, "I0.0", true);
   plc.run_until(60 * ms);
@@ -201,7 +203,7 @@ TEST(Counter, CtuCountsRisingEdgesUpTo32767AndItsResetHolds) {
   Plc plc("LD I0.0\nLD I0.1\nCTU C1, 2\nMEND\n");
   plc.input("I0.0", true);
   plc.run_scans(2);
-  EXPECT_EQ(plc.value("C1"), 0) << "1 from the beginning is no edge";
+  EXPECT_EQ(plc.value("C1"), 0) << "1 from the beginning is not an edge";
   for (int i = 0; i < 2; ++i) {
     scan_with(plc, "I0.0", false);
     scan_with(plc, "I0.0", true);

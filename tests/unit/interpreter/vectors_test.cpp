@@ -95,7 +95,7 @@ class Execution {
     checked_ = check_text(text, "vector", cpu214(), kTimes);
   }
 
-  /// What is wrong; empty when nothing is.
+  /// What is wrong; empty if nothing is.
   std::string result() {
     if (!checked_.program) return "the checker refuses it: " + checked_.diagnostics.at(0).message + "\n";
     Cpu cpu(checked_.program, queue_, port_);
@@ -116,7 +116,7 @@ class Execution {
   }
 
  private:
-  /// A single instruction finds as many loads before it as the checker wants.
+  /// Before a single instruction there are as many loads as the checker demands.
   std::string program_text() {
     std::string text;
     if (!vector_.is_program()) {
@@ -173,7 +173,7 @@ class Execution {
 
   void compare_memory(const Image& expected, const Image& found) {
     for (std::uint32_t at = 0; at < image::kConstants; ++at) {
-      if (at == image::kEdges) at = image::kV;  // edge memories show in what EU and ED do
+      if (at == image::kEdges) at = image::kV;  // edge memories only show in what EU and ED do
       if (expected[at] != found[at])
         wrong_ += fmt::format("  {}: expected 16#{:02X}, found 16#{:02X}\n", name_of_place(at), expected[at], found[at]);
     }

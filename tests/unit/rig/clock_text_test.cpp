@@ -12,7 +12,7 @@ TEST(ClockText, ADateHasItsDayOfTheWeek) {
   EXPECT_EQ(parse_clock("2089-12-31 00:00:00"), (ClockTime{89, 12, 31, 0, 0, 0, 7}));
 }
 
-TEST(ClockText, WhatIsNoTimeIsRefused) {
+TEST(ClockText, TextThatIsNotATimeIsRefused) {
   for (const char* text :
        {"", "2026-11-21", "2026-11-21 24:00:00", "2026-11-21 10:60:00", "2026-02-29 10:00:00", "1989-12-31 10:00:00",
         "2090-01-01 00:00:00", "2026-13-01 00:00:00", "26-11-21 10:00:00", "2026-11-21T10:00:00", "2026-11-21 10:00:00 "})
