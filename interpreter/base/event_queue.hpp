@@ -1,4 +1,4 @@
-// What is due when. Events are plain data, so that a queue can be copied with the state it belongs to.
+// Which events come next, and when. Events are plain data, so a queue can be copied with the state it belongs to.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace s7200 {
 
-/// Who handles an event. At the same instant the order below is the order of handling:
-/// the wire settles first, then who listens to it, then the CPU, then the inputs from the field, then whoever drives the
-/// test. The field comes behind the CPU, whose own events were decided earlier, so that an input of that instant cannot
-/// change them; which interrupt is served first does not depend on it (interrupts::occurred).
+/// Who handles an event. Events at the same instant are handled in the order below: the wire settles first, then its
+/// listeners, then the CPU, then the inputs from the field, then the driver of the test. The field comes after the CPU
+/// because the CPU's own events were decided earlier and an input at the same instant must not change them. Which interrupt
+/// is served first does not depend on this order (interrupts::occurred).
 enum class EventOwner : std::uint8_t { Faults, PlcUart, MasterUart, HostUart, Cpu, Field, Master };
 
 struct Event {
@@ -24,8 +24,8 @@ struct Event {
   bool operator==(const Event&) const = default;
 };
 
-/// Pending events, earliest first; the same instant is ordered by owner, then by `what`.
-/// Each (owner, what) is pending at most once: scheduling it again moves it.
+/// Pending events, earliest first. Events at the same instant are ordered by owner, then by `what`.
+/// Each (owner, what) is pending at most once; scheduling it again moves it.
 class EventQueue {
  public:
   void schedule(Time at, EventOwner owner, std::uint8_t what) {

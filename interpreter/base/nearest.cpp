@@ -28,10 +28,10 @@ std::size_t distance(std::string_view a, std::string_view b) {
 std::string_view nearest(std::string_view word, std::span<const std::string_view> known) {
   if (word.size() < 2 || word.size() > 12) return {};
   std::string_view found;
-  std::size_t best = word.size() < 4 ? 2 : 3;  // so many changes are too many
+  std::size_t best = word.size() < 4 ? 2 : 3;  // this many changes are too many
   for (const std::string_view candidate : known) {
     const std::size_t length = candidate.size();
-    if (std::max(length, word.size()) - std::min(length, word.size()) >= best) continue;  // at least so many changes
+    if (std::max(length, word.size()) - std::min(length, word.size()) >= best) continue;  // needs at least that many changes
     const std::size_t changes = distance(word, candidate);
     if (changes >= best) continue;
     best = changes;

@@ -6,7 +6,7 @@
 
 namespace s7200 {
 
-/// The one of `known` with the fewest letters to change, add or leave out; empty when none is near.
+/// The word of `known` that needs the fewest letters changed, added or left out; empty if none is close.
 std::string_view nearest(std::string_view word, std::span<const std::string_view> known);
 
 }  // namespace s7200

@@ -28,7 +28,7 @@ struct SerialFormat {
   /// Start bit, data bits, parity bit, stop bits: 11 for 8E1, 10 for 8N1.
   constexpr int bits() const { return 1 + data_bits + (parity == Parity::None ? 0 : 1) + stop_bits; }
 
-  /// Where edge `half_bits / 2` lies behind the start edge, rounded to the nanosecond and never accumulated.
+  /// How long `count` half bits take, from the start edge; rounded to the nanosecond once, so errors never add up.
   constexpr Time half_bits(std::int64_t count) const { return (count * kSecond + baud) / (2 * std::int64_t{baud}); }
   constexpr Time bit_times(std::int64_t count) const { return half_bits(2 * count); }
 

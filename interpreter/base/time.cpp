@@ -24,7 +24,7 @@ const Unit* unit_named(std::string_view name) {
   return nullptr;
 }
 
-/// The digits at the front of `text`, taken off it.
+/// Removes the digits at the start of `text` and returns them.
 std::string_view take_digits(std::string_view& text) {
   std::size_t count = 0;
   while (count < text.size() && text[count] >= '0' && text[count] <= '9') ++count;
@@ -103,7 +103,7 @@ std::string format_duration(Time duration, int digits) {
   const std::uint64_t scale = power_of_ten(digits);
   const auto rounded_in = [&](std::size_t index) {
     const auto length = static_cast<std::uint64_t>(kUnits[index].length);
-    const std::uint64_t step = length > scale ? length / scale : 1;  // what is not shown is rounded
+    const std::uint64_t step = length > scale ? length / scale : 1;  // round what is not shown
     return (magnitude + step / 2) / step * step;
   };
   std::uint64_t rounded = rounded_in(unit);

@@ -20,12 +20,12 @@ inline constexpr Time kSecond = 1'000'000'000;
 inline constexpr Time kNever = std::numeric_limits<Time>::max();
 
 /// Reads a duration as the command line writes it: `250ms`, `2s`, `1h`, `1.5ms`, `40us`, `100ns`, `3min`.
-/// A blank may stand before the unit. Nothing for a missing unit, a negative or unreadable figure, one finer than a
-/// nanosecond, or one beyond 292 years.
+/// A blank before the unit is allowed. Returns nothing if the unit is missing, or if the figure is negative, unreadable,
+/// finer than a nanosecond or longer than 292 years.
 std::optional<Time> parse_duration(std::string_view text);
 
-/// Shortest of the same forms with up to `digits` decimals, rounded: 690.123 ms, 40 us, 2 s. Minutes and hours only where
-/// they are whole: 90 s, 2 min. kNever is `never`.
+/// The shortest of these forms with up to `digits` decimals, rounded: 690.123 ms, 40 us, 2 s. Minutes and hours are used
+/// only if they are whole: 90 s, 2 min. kNever is `never`.
 std::string format_duration(Time duration, int digits = 3);
 
 }  // namespace s7200
