@@ -7,7 +7,7 @@
 namespace s7200::reference {
 namespace {
 
-/// Stores a result of 16 or 32 bits, wrapped when it does not fit: the rule of the CPUs 21x.
+/// Stores a result of 16 or 32 bits, wrapped if it does not fit: the rule of the CPUs 21x.
 void store_sum(Machine& m, const Place& out, std::size_t width, std::int64_t sum) {
   const auto bits = static_cast<std::uint32_t>(static_cast<std::uint64_t>(sum));
   const std::int64_t stored = width == 2 ? signed16(bits) : signed32(bits);

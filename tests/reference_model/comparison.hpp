@@ -21,7 +21,7 @@ extern const std::array<AreaPair, 16> kAreaPairs;
 /// Gives the interpreter the memory of the reference model, as a programming device would.
 void copy_to(Cpu& cpu, const Memory& memory);
 
-/// What differs, a line each; empty when nothing does.
+/// What differs, one line for each difference; empty if nothing does.
 std::string compare(const Machine& machine, const Cpu& cpu);
 
 }  // namespace s7200::reference

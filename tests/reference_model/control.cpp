@@ -12,7 +12,7 @@ void jump(Machine& m) {
   m.next = m.find_label(m.number(0));
 }
 
-/// FINAL, found now (a bad pointer shows before anything is done) and read when it is asked for: it may overlap INDX.
+/// FINAL, found now (a bad pointer shows before anything is done) but read only when needed: it may overlap INDX.
 std::function<std::int32_t()> final_value(Machine& m, const stl::Operand& operand) {
   if (std::holds_alternative<stl::Integer>(operand.value)) return [&] { return signed16(m.value_of(operand, 2)); };
   return [place = m.place_of(operand, 2)] { return signed16(read(place, 2)); };
@@ -54,13 +54,13 @@ void return_to_caller(Machine& m) {
   m.calls.pop_back();
 }
 
-/// Facts 9.1: the segment runs in any case; without power on its rail its contacts give no power flow.
+/// Facts 9.1: the segment always runs; without power on its rail its contacts give no power flow.
 void load_segment(Machine& m) {
   m.rail = read(m.bit(0));
   m.push(m.rail);
 }
 
-/// A transition to the segment it stands in leaves that segment on.
+/// A transition to the segment that it is in leaves that segment on.
 void segment_transition(Machine& m) {
   const auto& own = std::get<stl::Address>(m.statements()[m.find_lscr(m.position)].operands[0].value);
   write(BitPlace{&m.memory.S, std::size_t{8} * own.number + own.bit}, false);

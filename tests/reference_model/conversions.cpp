@@ -68,21 +68,21 @@ void seven_segments(Machine& m) {
 
 // --- ASCII and hex ---
 
-Place behind(const Place& first, std::size_t n) { return {first.bytes, first.at + n}; }
+Place after(const Place& first, std::size_t n) { return {first.bytes, first.at + n}; }
 
 /// Half a byte: digit 0 is the high nibble of the first byte.
 std::uint32_t read_digit(const Place& first, std::size_t digit) {
-  const std::uint32_t byte = read(behind(first, digit / 2), 1);
+  const std::uint32_t byte = read(after(first, digit / 2), 1);
   return digit % 2 == 0 ? byte >> 4 : byte & 0xF;
 }
 
 void write_digit(const Place& first, std::size_t digit, std::uint32_t value) {
-  const Place place = behind(first, digit / 2);
+  const Place place = after(first, digit / 2);
   const std::uint32_t byte = read(place, 1);
   write(place, 1, digit % 2 == 0 ? (byte & 0x0F) | value << 4 : (byte & 0xF0) | value);
 }
 
-/// 16 for a character that is no digit.
+/// 16 for a character that is not a digit.
 std::uint32_t digit_of(std::uint32_t character) {
   if (character >= '0' && character <= '9') return character - '0';
   if (character >= 'A' && character <= 'F') return character - 'A' + 10;
@@ -95,7 +95,7 @@ void ascii_to_hex(Machine& m) {
   if (!holds(in, length) || !holds(out, (length + 1) / 2)) throw RunTimeError{0x91};
   bool illegal = false;
   for (std::size_t i = 0; i < length && !illegal; ++i) {
-    const std::uint32_t digit = digit_of(read(behind(in, i), 1));
+    const std::uint32_t digit = digit_of(read(after(in, i), 1));
     illegal = digit == 16;
     if (!illegal) write_digit(out, i, digit);
   }
@@ -109,7 +109,7 @@ void hex_to_ascii(Machine& m) {
   if (!holds(in, (length + 1) / 2) || !holds(out, length)) throw RunTimeError{0x91};
   for (std::size_t i = 0; i < length; ++i) {
     const std::uint32_t digit = read_digit(in, i);
-    write(behind(out, i), 1, digit < 10 ? '0' + digit : 'A' + digit - 10);
+    write(after(out, i), 1, digit < 10 ? '0' + digit : 'A' + digit - 10);
   }
   m.spend_units(static_cast<std::uint32_t>(length));
 }

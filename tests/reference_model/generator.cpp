@@ -10,7 +10,7 @@
 namespace s7200::reference {
 namespace {
 
-// Where things lie in V memory, so that instructions meet what they work on.
+// Where things are in V memory, so that instructions meet what they work on.
 constexpr std::uint32_t kHot = 0, kHotSize = 64;
 constexpr std::uint32_t kReals = 64, kRealsSize = 32;
 constexpr std::uint32_t kPointers = 100, kPointerCount = 4;
@@ -18,14 +18,14 @@ constexpr std::uint32_t kDigits = 120, kDigitsSize = 32;
 constexpr std::uint32_t kTables[] = {200, 260};
 constexpr std::uint32_t kEnd = 4096, kEndSize = 12;
 
-/// For the generator to use anywhere in a rung: what the reference model knows and needs no partner.
+/// What the generator may use anywhere in a rung: instructions that the reference model knows and that need no partner.
 bool is_free(const s7200::Instruction& instruction) {
   if (!instructions().contains(std::string(instruction.mnemonic)) || !(instruction.cpus & kCpu214)) return false;
   const Structure s = instruction.structure;
   return s == Structure::None || s == Structure::Compare || s == Structure::Attach;
 }
 
-/// Those that leave the program early: rarely, or nothing behind them would run.
+/// Instructions that leave the program early: used rarely, or nothing after them would run.
 bool is_rare(const s7200::Instruction& instruction) {
   static const std::set<std::string_view> kNames{"STOP", "END", "WDR", "ENI", "DISI", "ATCH", "DTCH"};
   return kNames.contains(instruction.mnemonic);
@@ -101,7 +101,7 @@ void Generator::timer_with_reset(std::uint8_t part) {
   if (!before) reset();
 }
 
-/// A contact or more, logic, then boxes and coils; `last` ends it.
+/// One or more contacts, logic, then boxes and coils; `last` ends the rung.
 void Generator::rung(std::uint8_t part, const std::string& last) {
   int depth = 1;
   line(load());
@@ -270,7 +270,7 @@ std::string Generator::timer(const OperandRule& rule) {
   return one_of(retentive ? kRetentive : kOnDelay);
 }
 
-/// Special memory that may be read or written with the width; empty where there is none.
+/// Special memory that may be read or written with this width; empty if there is none.
 std::string Generator::special_memory(const OperandRule& rule) {
   const bool read_only = rule.role == Role::In;
   switch (rule.width) {

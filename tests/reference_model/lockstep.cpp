@@ -22,13 +22,13 @@ constexpr std::uint64_t kInstructionsOfProgram = 2000;
 constexpr std::uint64_t kInstructionsOfMemory = 150;
 constexpr int kPowerUps = 6;
 
-/// Makes the CPU take its observed loop.
+/// Makes the CPU use its observed loop.
 class Observer : public TraceSink {
  public:
   bool wants_instructions() const override { return true; }
 };
 
-/// What the checker accepts of a generated text: lines that it refuses are left out.
+/// The part of a generated text that the checker accepts: lines that it refuses are left out.
 std::shared_ptr<const Program> accepted(std::string& text) {
   static const TimeTable kTimes = default_times(cpu214());
   for (int attempt = 0; attempt < 20; ++attempt) {
@@ -44,7 +44,7 @@ std::shared_ptr<const Program> accepted(std::string& text) {
   return nullptr;
 }
 
-/// The rare state that the instruction at the reference model's position is about to meet; nothing for the common ones.
+/// The rare state that the instruction at the reference model's position is about to meet; nothing if the state is common.
 std::optional<std::string> rare_state(Machine& m) {
   const stl::Statement& statement = m.statement();
   if (statement.operands.size() != 2 || std::holds_alternative<stl::Indirect>(statement.operands[1].value)) return {};
@@ -66,7 +66,7 @@ bool adds(const std::string& mnemonic) {
   return mnemonic == "+I" || mnemonic == "-I" || mnemonic == "+D" || mnemonic == "-D";
 }
 
-/// One program on both.
+/// One program, run on both.
 class Pair {
  public:
   Pair(std::shared_ptr<const Program> program, Generator& generator, bool observed)
@@ -78,7 +78,7 @@ class Pair {
     executed_.resize(machine_.statements().size());
   }
 
-  /// Both from power-up until STOP, a difference, or so many instructions; the number executed.
+  /// Runs both from power-up until STOP, a difference, or this many instructions. Returns the number executed.
   std::uint64_t run(std::uint64_t instructions) {
     queue_ = {};
     cpu_.power_up();
@@ -109,7 +109,7 @@ class Pair {
     copy_to(cpu_, machine_.memory);
   }
 
-  /// Until the clock has moved on; how many instructions that were.
+  /// Runs until the clock has moved on. Returns how many instructions that took.
   std::size_t step() {
     const std::int64_t before = machine_.time;
     std::size_t executed = 0;
@@ -137,7 +137,7 @@ class Pair {
       cpu_.run(machine_.time);
       while (queue_.next() <= cpu_.time()) cpu_.handle(queue_.pop());
     }
-    if (machine_.running) machine_.count_milliseconds();  // in STOP no timer counts
+    if (machine_.running) machine_.count_milliseconds();  // in STOP timers do not count
     if (const std::string found = compare(machine_, cpu_); !found.empty()) difference_ = describe(found);
     return executed;
   }
@@ -158,7 +158,7 @@ class Pair {
   Cpu cpu_;
   Machine machine_;
   std::vector<std::size_t> steps_;       // positions of the statements just executed
-  std::vector<std::uint64_t> executed_;  // of each statement
+  std::vector<std::uint64_t> executed_;  // how often, for each statement
   std::map<std::string, std::uint64_t> met_;
   std::optional<std::string> difference_;
 };

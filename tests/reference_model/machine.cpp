@@ -13,7 +13,7 @@ constexpr std::int64_t kMillisecond = 1'000'000, kSecond = 1000 * kMillisecond;
 constexpr std::int64_t kWatchdog = 300 * kMillisecond;
 constexpr std::int64_t kStopStep = 10'000;
 
-/// How many bytes one element of an area takes, where it is addressed by numbers of elements.
+/// How many bytes an element of an area takes, if the area is addressed by element numbers.
 std::size_t element_size(const std::string& area) {
   if (area == "T" || area == "C") return 2;
   if (area == "HC" || area == "AC") return 4;
@@ -88,7 +88,7 @@ void Machine::step() {
   }
 }
 
-/// Whether the watchdog runs out before `end`: the next step then finds it so and stops the CPU.
+/// Whether the watchdog runs out before `end`; the next step then notices it and stops the CPU.
 bool Machine::watchdog_runs_out(std::int64_t end) {
   if (end <= watchdog_) return false;
   time = watchdog_;

@@ -1,7 +1,7 @@
 // The reference model: one CPU 214 that executes the statements of an STL source directly.
 //
 // Slow and plain on purpose, and written from the rulebook (facts 1, 4, 5, 6, 9), not from the interpreter: nothing is
-// decoded ahead but the figures of time. No interrupts, no Freeport, no high-speed counters, pulse outputs or clock.
+// decoded in advance except the times. No interrupts, no Freeport, no high-speed counters, pulse outputs or clock.
 #pragma once
 
 #include <array>
@@ -84,10 +84,10 @@ class Machine {
 
   const stl::Statement& statement() const { return statements_[position]; }
 
-  /// The number that operand `i` of the current statement is, of a statement such as JMP.
+  /// The number in operand `i` of the current statement, for a statement such as JMP.
   std::size_t number(std::size_t i) const;
 
-  /// Value of an operand of `width` bytes: constant, &address, direct or through a pointer.
+  /// The value of an operand of `width` bytes: a constant, &address, direct or through a pointer.
   std::uint32_t in(std::size_t i, std::size_t width) { return value_of(statement().operands[i], width); }
   std::uint32_t value_of(const stl::Operand& operand, std::size_t width);
   Place place(std::size_t i, std::size_t width) { return place_of(statement().operands[i], width); }

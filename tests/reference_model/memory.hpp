@@ -1,4 +1,4 @@
-// Memory of the reference CPU 214: each area is a byte vector of its own and of its real size (facts 1.1).
+// Memory of the reference CPU 214: each area is a byte vector of its own, with its real size (facts 1.1).
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,13 @@ struct Memory {
   Bytes input_points = Bytes(8), output_points = Bytes(8);
 };
 
-/// Where a value lies.
+/// Where a value is.
 struct Place {
   Bytes* bytes = nullptr;
   std::size_t at = 0;
 };
 
-/// Where a bit lies: `number` counts the bits of the area from bit 0 of its first byte.
+/// Where a bit is: `number` counts the bits of the area from bit 0 of its first byte.
 struct BitPlace {
   Bytes* bytes = nullptr;
   std::size_t number = 0;

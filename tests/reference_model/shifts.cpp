@@ -62,7 +62,7 @@ void rotate(Machine& m, std::size_t width, bool left) {
   }
   write(out, width, value_of(bits));
   set_flag(m, kZero, value_of(bits) == 0);
-  if (count > 0) set_flag(m, kOverflow, left ? bits.front() : bits.back());  // where the bit that went round has come in
+  if (count > 0) set_flag(m, kOverflow, left ? bits.front() : bits.back());  // where the bit that went round came in
   m.spend_units(count);
 }
 

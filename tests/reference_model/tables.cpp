@@ -31,7 +31,7 @@ void add_to_table(Machine& m) {
   m.spend_units(count);
 }
 
-/// Entries of a table to take one from; 0 raises the flag.
+/// The number of entries of a table to take one from; 0 sets the flag.
 std::uint32_t count_to_take_from(Machine& m, const Table& table) {
   const std::uint32_t count = read(table.count, 2);
   if (count > read(table.length, 2)) throw RunTimeError{0x91};
@@ -48,7 +48,7 @@ void first_in_first_out(Machine& m) {
   const std::uint32_t taken = read(table.entry(0), 2);
   for (std::size_t i = 0; i + 1 < count; ++i) write(table.entry(i), 2, read(table.entry(i + 1), 2));
   write(table.count, 2, count - 1);
-  write(data, 2, taken);  // last, should it lie inside the table
+  write(data, 2, taken);  // last, because it may be inside the table
 }
 
 void last_in_first_out(Machine& m) {

@@ -22,7 +22,7 @@ std::int64_t nanoseconds(const std::string& microseconds) {
   return microseconds.empty() ? 0 : std::llround(std::stod(microseconds) * 1000);
 }
 
-/// The areas that a form names; empty when it says anything else.
+/// The areas that a form names; empty if it contains anything else.
 std::set<std::string> areas_of(const std::string& form) {
   static const std::set<std::string> kAreas{"I", "Q", "M", "SM", "S", "V", "T", "C", "AI", "AQ", "HC", "AC"};
   const std::set<std::string> named = words(form);

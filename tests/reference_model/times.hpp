@@ -1,4 +1,4 @@
-// Execution times of the reference model: the figures of model/cpu214_times.csv, read by its own few lines.
+// Execution times of the reference model: the figures of model/cpu214_times.csv, read by a few lines of its own.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class Times {
  public:
   explicit Times(const std::string& csv);
 
-  /// Of an instruction whose first operand is a direct address in `area` (upper case; empty: no such operand).
+  /// For an instruction whose first operand is a direct address in `area` (upper case; empty: no such operand).
   Cost of(const std::string& mnemonic, const std::string& area = "") const;
 
  private:

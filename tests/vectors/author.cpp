@@ -85,7 +85,7 @@ void run(Machine& machine, const Case& what) {
   machine.count_milliseconds();
 }
 
-/// How the flags concerned have to be before, so that each of them changes; the others as `others` has them.
+/// How the flags concerned must be before, so that each of them changes; the others are as in `others`.
 std::uint8_t opposite_flags(const Case& what, std::uint8_t others) {
   if (what.flags == 0) return 0;
   Machine machine = prepared(what, others);
@@ -97,7 +97,7 @@ std::uint8_t opposite_flags(const Case& what, std::uint8_t others) {
 
 bool is_numbered(const std::string& area) { return area == "T" || area == "C" || area == "AC" || area == "HC"; }
 
-/// Objects of so many bytes that the differing bytes of an area are written as, from `at` on.
+/// The size in bytes of the objects as which the differing bytes of an area are written, from `at`.
 std::uint8_t width_at(const std::string& area, const std::vector<bool>& differs, std::size_t at) {
   if (is_numbered(area)) return area == "T" || area == "C" ? 2 : 4;
   if (area == "AI" || area == "AQ") return 2;
@@ -128,7 +128,7 @@ void add_bytes(const NamedArea& area, const Bytes& before, Bytes& after, std::ve
   }
 }
 
-/// Whether an area reads better bit by bit: flags, and what an instruction on bits has changed.
+/// Whether an area reads better bit by bit: flags, and what a bit instruction has changed.
 bool in_bits(const std::string& area, const Case& what) {
   if (area == "SM" && what.until == 0) return true;
   if (area.ends_with(".bit")) return true;
@@ -138,7 +138,7 @@ bool in_bits(const std::string& area, const Case& what) {
   return false;
 }
 
-/// Objects named in `before` are named again as a whole when a part of them has changed.
+/// Objects named in `before` are named again as a whole if a part of them has changed.
 std::vector<Assignment> changes(Memory before, Memory after, const Case& what) {
   std::vector<Assignment> result;
   for (const std::string& text : what.before) {

@@ -1,4 +1,4 @@
-// Writes vectors: a case says what to execute and on what, the reference model what comes of it.
+// Writes vectors: a case says what to execute and on what; the reference model says what the result is.
 #pragma once
 
 #include <cstdint>

@@ -20,7 +20,7 @@ struct Form {
   Area area = Area::V;
 };
 
-/// What an operand is called in a vector and what has to be there before.
+/// What an operand is called in a vector, and what must be there before.
 struct Written {
   std::string text;
   std::vector<std::string> before;
@@ -55,7 +55,7 @@ std::uint32_t first_number(Area area, const OperandRule& rule, std::size_t opera
   }
 }
 
-/// The address `k` elements behind a first one; `in_vector`: as vectors write it.
+/// The address `k` elements after a first one; `in_vector`: as vectors write it.
 std::string address(Area area, Width width, std::uint32_t first, std::uint32_t k, bool in_vector) {
   const std::string_view name = info(area).name;
   if (width == Width::Bit) {
@@ -74,7 +74,7 @@ std::string value_text(Area area, Width width, std::uint32_t value) {
   return fmt::format("16#{:0{}X}", value, 2 * bytes_of(width));
 }
 
-/// An accumulator's upper bytes show that they stay.
+/// The upper bytes of an accumulator, to show that they stay.
 std::uint32_t in_accumulator(Width width, std::uint32_t value) {
   return width == Width::Byte ? 0xA5A5'A500 | (value & 0xFF) : width == Width::Word ? 0xA5A5'0000 | (value & 0xFFFF) : value;
 }
@@ -126,7 +126,7 @@ Written write_operand(const Form& form, const OperandRule& rule, std::size_t ope
 
 bool is_count(const OperandRule& rule) { return rule.name == "N" || rule.name == "LEN"; }
 
-/// How an operand is written unless its form is the matter.
+/// How an operand is written if the case is not about its form.
 Form usual_form(const OperandRule& rule) {
   if (rule.kind != OperandKind::Memory || is_count(rule)) return {Form::Constant};
   if (contains(rule.areas, Area::V)) return {Form::Direct, Area::V};
@@ -171,7 +171,7 @@ class Cases {
     return forms;
   }
 
-  /// Adds a case; the one added, to be changed.
+  /// Adds a case and returns it, to be changed.
   Case& add(const Values& values, const std::vector<Form>& forms, std::string title = {}) {
     Case result;
     result.title = std::move(title);
@@ -207,7 +207,7 @@ class Cases {
     result.before.insert(result.before.begin(), instruction_.mnemonic == "RI" ? "PQB0=16#FF" : "PQB0=16#00");
   }
 
-  /// S and R on timers and counters: what becomes of the current values.
+  /// S and R on timers and counters: what happens to the current values.
   void add_current_values(Case& result) const {
     if (instruction_.mnemonic != "S" && instruction_.mnemonic != "R") return;
     for (const std::string& text : std::vector(result.before)) {
@@ -250,10 +250,10 @@ class Cases {
         if (text.starts_with(holder)) text = fmt::format("{}16#{:08X}", holder, pointer);
     };
     with_pointer(0x0300'0000, "a pointer to no area");
-    with_pointer(0x0800'1000 - bytes_of(rule.width) + 1, "a pointer over the end of V memory");
+    with_pointer(0x0800'1000 - bytes_of(rule.width) + 1, "a pointer across the end of V memory");
   }
 
-  /// N in memory: 0, and more than the area holds from its last element on.
+  /// N in memory: 0, and more than the area holds from its last element.
   void count_errors() {
     if (instruction_.rules().empty()) return;
     const std::size_t last = instruction_.rules().size() - 1;

@@ -12,7 +12,7 @@
 
 namespace s7200::vectors {
 
-/// Content of an operand: its elements from the place on that it names.
+/// Content of an operand: its elements, from the place that it names.
 using Elements = std::vector<std::uint32_t>;
 
 struct Values {
@@ -24,13 +24,13 @@ struct Values {
 /// Values to try, by mnemonic; the first are the usual ones.
 std::vector<Values> values_of(std::string_view mnemonic);
 
-/// Programs of several instructions, for what one cannot show.
+/// Programs of several instructions, for what a single one cannot show.
 std::vector<Case> programs_of(std::string_view mnemonic);
 
 /// All cases of an instruction.
 std::vector<Case> cases_of(const Instruction& instruction);
 
-/// Where the rulebook speaks of it.
+/// Where the rulebook describes it.
 std::string source_of(const Instruction& instruction);
 
 }  // namespace s7200::vectors

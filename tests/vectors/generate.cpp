@@ -19,7 +19,7 @@ std::string content_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Empty where the reference model has nothing to say.
+/// Empty if the reference model has nothing to say.
 std::string generated(const Instruction& instruction) {
   vectors::File file;
   file.heading = {fmt::format("{}: {}", syntax(instruction), instruction.meaning),

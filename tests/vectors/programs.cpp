@@ -1,4 +1,4 @@
-// Programs of several instructions, for what one cannot show.
+// Programs of several instructions, for what a single one cannot show.
 #include <map>
 
 #include "tests/vectors/cases.hpp"
@@ -50,8 +50,8 @@ std::vector<Case> loops() {
       steps("INIT above FINAL: the body is not run", kLoop, 2, {"VW20=16#0002", "VW30=16#0001"}),
       steps("INIT and FINAL are signed", kLoop, 5, {"VW20=16#FFFF", "VW30=16#0001"}),
       steps("INIT = FINAL: one pass", kLoop, 5, {"VW20=16#0005", "VW30=16#0005"}),
-      steps("no power flow: behind NEXT", "LDN SM0.0|FOR VW10, 1, 3|INCW VW40|NEXT|MEND", 2),
-      steps("INDX wraps behind 32767", kLoop, 5, {"VW20=16#7FFF", "VW30=16#7FFF"}),
+      steps("no power flow: goes on after NEXT", "LDN SM0.0|FOR VW10, 1, 3|INCW VW40|NEXT|MEND", 2),
+      steps("INDX wraps after 32767", kLoop, 5, {"VW20=16#7FFF", "VW30=16#7FFF"}),
       steps("FINAL is read anew", "LD SM0.0|FOR VW10, 1, VW30|DECW VW30|NEXT|MEND", 6, {"VW30=16#0003"}),
       steps("FINAL overlaps INDX: INDX is stored first", "LD SM0.0|FOR VW10, 1, VW10|NEXT|MEND", 4),
       steps("pointers cost time in FOR and in NEXT", kLoopWithPointers, 3,
@@ -147,7 +147,7 @@ std::vector<Case> timer_runs(const std::string& mnemonic, const std::string& fas
 }
 
 std::vector<Case> counts_up() {
-  return {steps("a 1 at the first execution is no edge", kCountUp, 4, {"V0.0=1"}),
+  return {steps("a 1 at the first execution is not an edge", kCountUp, 4, {"V0.0=1"}),
           steps("one rising edge", kCountUp, 12),
           steps("two rising edges: the preset is reached", kCountUp, 28),
           steps("reset wins over an edge", kCountUp, 12, {"V0.1=1", "C1=7", "C1.bit=1"}),
@@ -156,7 +156,7 @@ std::vector<Case> counts_up() {
 }
 
 std::vector<Case> counts_both() {
-  return {steps("up", kCountBoth, 15), steps("up wraps behind 32767", kCountBoth, 15, {"C1=32767", "V0.1=1"}),
+  return {steps("up", kCountBoth, 15), steps("up wraps after 32767", kCountBoth, 15, {"C1=32767", "V0.1=1"}),
           steps("up and down together cancel", kCountBoth, 15, {"C1=5"}),
           steps("down", kCountBoth, 25, {"V0.0=1", "C1=-32768"}),
           steps("reset", kCountBoth, 15, {"V0.2=1", "C1=7", "C1.bit=1"})};
@@ -198,7 +198,7 @@ const std::map<std::string_view, std::vector<Case>>& programs() {
       {"NEXT", {steps("leaves a 1 on top of the stack", "LD SM0.0|FOR VW10, 1, 1|LDN SM0.0|NEXT|MEND", 4)}},
       {"CALL", calls()},
       {"SBR", {steps("takes no time", "LD SM0.0|CALL 3|MEND|SBR 3|RET", 3)}},
-      {"RET", {steps("back behind the CALL", "LD SM0.0|CALL 3|MEND|SBR 3|RET", 4)}},
+      {"RET", {steps("back to after the CALL", "LD SM0.0|CALL 3|MEND|SBR 3|RET", 4)}},
       {"CRET", returns()},
       {"LSCR", segments()},
       {"SCRT", segments()},

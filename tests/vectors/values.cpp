@@ -17,7 +17,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
 constexpr float kLargest = std::numeric_limits<float>::max();
 
-/// Each of the values, one element an operand.
+/// Each of the values, one element for each operand.
 List singles(std::initializer_list<std::vector<std::uint32_t>> tuples) {
   List list;
   for (const auto& tuple : tuples) {

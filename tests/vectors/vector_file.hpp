@@ -21,7 +21,7 @@ struct Assignment {
   bool operator==(const Assignment&) const = default;
 };
 
-/// Nothing for a text that is none.
+/// Nothing for a text that is not an assignment.
 std::optional<Assignment> parse_assignment(std::string_view text);
 std::string to_text(const Assignment& assignment);
 
@@ -36,7 +36,7 @@ struct Vector {
   std::optional<Levels> leaves;       ///< after; nothing: the stack stays as it is
   std::uint32_t steps = 1;            ///< instructions executed
   std::optional<std::int64_t> until;  ///< ns since power-up, instead of steps: the program runs, scan after scan
-  std::optional<std::uint32_t> next;  ///< op to execute next; nothing: the one behind
+  std::optional<std::uint32_t> next;  ///< op to execute next; nothing: the following one
   bool ends = false;                  ///< `next end`: the program has ended for this scan
   bool stops = false;                 ///< `next stop`: the CPU has gone to STOP
   int error = 0, fatal = 0;
@@ -52,11 +52,11 @@ struct File {
   std::vector<Vector> vectors;
 };
 
-/// Throws std::runtime_error that names the line.
+/// Throws a std::runtime_error that names the line.
 File parse(std::string_view text, const std::string& name);
 std::string to_text(const File& file);
 
-/// Name of the file of a mnemonic, without extension: `ADD_I` for `+I`, `LDW_GE` for `LDW>=`.
+/// Name of the file for a mnemonic, without extension: `ADD_I` for `+I`, `LDW_GE` for `LDW>=`.
 std::string file_name(std::string_view mnemonic);
 
 }  // namespace s7200::vectors
