@@ -1,5 +1,5 @@
-// THE table: all that is true of each instruction, once. See instruction.hpp for the columns, operand_rules.hpp for the
-// operands, and README.md for how to add an instruction.
+// THE table: all that is true of each instruction, once. See model/instruction.hpp for the columns, operand_rules.hpp for
+// the operands, and README.md for how to add an instruction.
 //
 // Sources: facts 6, 3.5 (what may stand in interrupt routines), 6.13 (which CPU has what).
 #include <algorithm>
@@ -10,7 +10,6 @@
 #include "interpreter/instructions/compare.hpp"
 #include "interpreter/instructions/control.hpp"
 #include "interpreter/instructions/conversion.hpp"
-#include "interpreter/model/instruction.hpp"
 #include "interpreter/instructions/math.hpp"
 #include "interpreter/instructions/move.hpp"
 #include "interpreter/instructions/operand_rules.hpp"
@@ -19,6 +18,7 @@
 #include "interpreter/instructions/shift.hpp"
 #include "interpreter/instructions/tables.hpp"
 #include "interpreter/instructions/timer_counter.hpp"
+#include "interpreter/model/instruction.hpp"
 
 namespace s7200 {
 namespace {
