@@ -3,9 +3,17 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "interpreter/program/load.hpp"
+#include "tools/scenario/junit.hpp"
 #include "tools/scenario/reader.hpp"
+#include "tools/scenario/report_json.hpp"
+#include "tools/scenario/runner.hpp"
+#include "tools/scenario/steps/exchange.hpp"
+#include "tools/scenario/steps/receive.hpp"
+#include "tools/scenario/steps/wait.hpp"
+#include "tools/scenario/steps/wait_until.hpp"
 #include "tools/scenario/transcript.hpp"
 
 namespace {
@@ -34,30 +42,42 @@ void shorten(Reception& reception, Time most) {
   if (reception.timeout) reception.timeout = std::min(*reception.timeout, most);
 }
 
+/// Puts a changed copy into a step of that kind.
+template <class Kind, class Change>
+void change(Step& step, Change with) {
+  const auto* action = dynamic_cast<const Kind*>(step.action.get());
+  if (!action) return;
+  auto copy = std::make_shared<Kind>(*action);
+  with(*copy);
+  step.action = std::move(copy);
+}
+
+constexpr Time kMost = 20 * kMillisecond;
+constexpr std::size_t kMostCharacters = 32;
+
 /// Little is left of a scenario, so that many can be run.
 void shorten(Scenario& scenario) {
-  constexpr Time kMost = 20 * kMillisecond;
-  constexpr std::size_t kMostCharacters = 32;
   if (scenario.steps.size() > 12) scenario.steps.resize(12);
   limit(scenario.pause, kMost);
   scenario.line.timeout = std::min(scenario.line.timeout, kMost);
   scenario.line.baud = std::max<std::uint32_t>(scenario.line.baud.value_or(9600), 9600);
   if (scenario.after != kNever) scenario.after = std::min(scenario.after, kMost);
   for (Step& step : scenario.steps) {
-    if (auto* wait = std::get_if<WaitStep>(&step.action)) {
-      limit(wait->time, kMost);
-      wait->scans = std::min<std::uint64_t>(wait->scans, 10);
-    }
-    if (auto* wait = std::get_if<WaitUntilStep>(&step.action))
-      if (wait->timeout) wait->timeout = std::min(*wait->timeout, kMost);
-    if (auto* receive = std::get_if<ReceiveStep>(&step.action)) shorten(*receive, kMost);
-    auto* exchange = std::get_if<ExchangeStep>(&step.action);
-    if (!exchange) continue;
-    shorten(*exchange, kMost);
-    if (exchange->request.size() > kMostCharacters) exchange->request.resize(kMostCharacters);
-    if (exchange->pause) limit(*exchange->pause, kMost);
-    limit(exchange->gap, kMillisecond);
-    exchange->at.reset();
+    change<WaitStep>(step, [](WaitStep& wait) {
+      limit(wait.time, kMost);
+      wait.scans = std::min<std::uint64_t>(wait.scans, 10);
+    });
+    change<WaitUntilStep>(step, [](WaitUntilStep& wait) {
+      if (wait.timeout) wait.timeout = std::min(*wait.timeout, kMost);
+    });
+    change<ReceiveStep>(step, [](ReceiveStep& receive) { shorten(receive, kMost); });
+    change<ExchangeStep>(step, [](ExchangeStep& exchange) {
+      shorten(exchange, kMost);
+      if (exchange.request.size() > kMostCharacters) exchange.request.resize(kMostCharacters);
+      if (exchange.pause) limit(*exchange.pause, kMost);
+      limit(exchange.gap, kMillisecond);
+      exchange.at.reset();
+    });
   }
 }
 

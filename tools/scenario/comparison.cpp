@@ -7,6 +7,9 @@
 #include <random>
 
 #include "interpreter/base/text.hpp"
+#include "serial_sim/modbus/request.hpp"
+#include "tools/scenario/bytes_diff.hpp"
+#include "tools/scenario/steps/exchange.hpp"
 #include "tools/views/text_frame.hpp"
 
 namespace s7200::tools {
@@ -81,7 +84,7 @@ std::string trouble_text(const Scenario& scenario, const ScenarioResult& result,
   std::string text;
   for (const Finding& finding : result.findings) {
     if (!finding.of_run || ++count > 1) continue;
-    const std::uint32_t line = scenario.steps.empty() ? 0 : scenario.steps[finding.step].position.line;
+    const std::uint32_t line = position_of(scenario, finding).line;
     text = fmt::format("{}{} could not be asked{}: {}\n", kIndent, name,
                        line ? fmt::format(", {}:{}", stl::printable(scenario.source->name), line) : "",
                        finding_line(scenario, finding));
@@ -95,15 +98,13 @@ class TrafficMaker {
  public:
   TrafficMaker(std::uint32_t seed, std::uint8_t station) : random_(seed), station_(station) {}
 
-  ExchangeStep next() {
-    ExchangeStep step;
+  serial::Frame next() {
     const unsigned kind = below(30);
     const std::uint8_t station = kind == 0 ? 0 : kind == 1 ? static_cast<std::uint8_t>(station_ + 1) : station_;
     Bytes frame = modbus::rtu_frame(station, damaged(pdu()));
     if (kind == 2) frame[below(static_cast<unsigned>(frame.size()))] ^= static_cast<std::uint8_t>(1U << below(8));
     if (kind == 3) frame.resize(1 + below(static_cast<unsigned>(frame.size() - 1)));
-    step.request = serial::to_frame(frame);
-    return step;
+    return serial::to_frame(frame);
   }
 
  private:
@@ -203,9 +204,9 @@ Scenario random_traffic(std::size_t exchanges, std::uint32_t seed, std::uint8_t 
   scenario.line.timeout = kSecond;  // through TCP the longest frames take 0.3 s each way before an answer is seen
   TrafficMaker make(seed, station);
   for (std::size_t i = 0; i < exchanges; ++i) {
-    Step step;
-    step.action = make.next();
-    scenario.steps.push_back(std::move(step));
+    auto exchange = std::make_shared<ExchangeStep>();
+    exchange->request = make.next();
+    scenario.steps.push_back({.action = std::move(exchange)});
   }
   return scenario;
 }

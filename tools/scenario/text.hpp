@@ -1,16 +1,43 @@
-// The small things a scenario is written with: numbers, durations, windows, patterns of bytes, and `${…}`.
+// The small things a scenario is written with: numbers, durations, windows, counts, patterns of bytes.
 #pragma once
 
-#include <map>
+#include <cstdint>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "tools/scenario/scenario.hpp"
+#include "interpreter/base/serial_format.hpp"
 
 namespace s7200::tools {
+
+/// A duration that may depend on the line: so many characters of its format, and a fixed part.
+struct Span {
+  Time fixed = 0;
+  std::int64_t millicharacters = 0;
+
+  Time in(const SerialFormat& format) const;
+  bool operator==(const Span&) const = default;
+};
+
+/// From … to, both included.
+struct Window {
+  Span from{}, to{kNever};
+
+  bool has(Time time, const SerialFormat& format) const;
+  bool operator==(const Window&) const = default;
+};
+
+/// How often something happened, from … to, both included.
+struct Count {
+  std::uint64_t from = 0, to = 0;
+
+  bool has(std::uint64_t count) const { return count >= from && count <= to; }
+  bool operator==(const Count&) const = default;
+};
+
+/// A byte that must be, or any.
+using BytePattern = std::optional<std::uint8_t>;
 
 /// `12`, `-5`, `16#FF`, `2#1010`, 32 bits at most.
 std::optional<std::int64_t> parse_number(std::string_view text);
@@ -33,28 +60,14 @@ std::optional<Window> parse_window(std::string_view text, Time tolerance);
 /// `3`, `1..3`, `1..`.
 std::optional<Count> parse_count(std::string_view text);
 
-/// Two hex digits or `..` a byte, blanks between as you like. Nothing, and `why`, for anything else.
+/// Two hex digits or `..` a byte, blanks between as you like. Returns nothing and sets `why` for anything else.
 std::optional<std::vector<BytePattern>> parse_pattern(std::string_view text, std::string& why);
 
-/// Named values. A list L of a, b has its elements in `lists`, and 1 as L.a and L.b.
-struct Parameters {
-  std::map<std::string, std::string, std::less<>> values{};
-  std::map<std::string, std::vector<std::string>, std::less<>> lists{};
-  std::set<std::string, std::less<>> empty{};  ///< have no value
-};
+/// `8 ms to 20 ms`, `1 s or more`.
+std::string in_words(const Window& window, const SerialFormat& format);
+std::string in_words(const Count& count);
 
-/// Puts values in the place of each `${…}`. Inside stands the name of a parameter, or a calculation with whole numbers:
-/// + - * / % < <= > >= = != and parentheses, the functions byte(x), word(x) and bytes(n, x), which give hex: `0a`, `00 0a`,
-/// and n bytes x, and has(NAME): 1 for a parameter with a value. Nothing, and `why`, if it cannot be done. A text
-/// that is `${NAME}` of a parameter without a value becomes empty.
-std::optional<std::string> substitute(std::string_view text, const Parameters& parameters, std::string& why);
-
-/// What stands inside `${…}`.
-std::optional<std::string> evaluate(std::string_view expression, const Parameters& parameters, std::string& why);
-
-/// Whether a calculation comes to anything but 0. A parameter without a value makes it false.
-std::optional<bool> holds(std::string_view expression, const Parameters& parameters, std::string& why);
-
-inline constexpr std::size_t kLongestSubstitution = 16 * 1024;  ///< characters of one text
+/// ASCII letters in lower case, everything else as it is.
+std::string lower_case(std::string text);
 
 }  // namespace s7200::tools

@@ -256,6 +256,13 @@ std::string to_text(const YamlNode& node) {
   return node.text.empty() ? "nothing" : fmt::format("'{}'", stl::shortened(node.text));
 }
 
+std::shared_ptr<const stl::SourceLines> source_of(const std::string& text, const std::string& path) {
+  auto source = std::make_shared<stl::SourceLines>();
+  source->name = path;
+  source->text = stl::split_lines(text);
+  return source;
+}
+
 std::optional<YamlNode> read_yaml(const std::string& text, const stl::SourceLines& source, stl::Diagnostics& diagnostics) {
   const auto fail = [&](stl::Diagnostic diagnostic) {
     diagnostics.push_back(std::move(diagnostic));

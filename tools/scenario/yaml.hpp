@@ -4,6 +4,7 @@
 // can stand for gigabytes), no tags, one document in a file, every key once. Size, nesting and number of nodes are bounded.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,6 +38,9 @@ inline constexpr std::size_t kLongestYaml = 1 << 20;  ///< bytes
 inline constexpr int kDeepestYaml = 24;               ///< maps and lists inside each other
 inline constexpr std::size_t kMostYamlKeys = 500;     ///< in one map
 inline constexpr std::size_t kMostYamlNodes = 100'000;
+
+/// A text with the name that messages have for it.
+std::shared_ptr<const stl::SourceLines> source_of(const std::string& text, const std::string& path);
 
 /// Nothing, and errors, for what is no such YAML.
 std::optional<YamlNode> read_yaml(const std::string& text, const stl::SourceLines& source, stl::Diagnostics& diagnostics);

@@ -4,7 +4,11 @@
 #include <map>
 
 #include "interpreter/base/diagnostic.hpp"
+#include "tools/scenario/memory_values.hpp"
 #include "tools/scenario/reader.hpp"
+#include "tools/scenario/steps/exchange.hpp"
+#include "tools/scenario/steps/receive.hpp"
+#include "tools/scenario/transcript.hpp"
 #include "tools/scenario/yaml.hpp"
 
 namespace s7200::tools {
@@ -28,7 +32,14 @@ template <class Action>
 Action action_of(const std::string& step) {
   const auto steps = steps_of("  - " + step + "\n");
   EXPECT_EQ(steps.size(), 1U);
-  return steps.empty() ? Action{} : std::get<Action>(steps[0].action);
+  return steps.empty() ? Action{} : dynamic_cast<const Action&>(*steps[0].action);
+}
+
+/// As a transcript has it: what drives the plant is written back as it was read.
+std::string written(const std::string& step) {
+  const Scenario scenario = good("steps:\n  - " + step + "\n");
+  const std::string text = transcript_text({{&scenario, {}}}, {"file.yaml", "a program", 0});
+  return text.substr(text.find("      - ") + 8);
 }
 
 std::string request_of(const std::string& step) { return serial::to_hex(action_of<ExchangeStep>(step).request); }
@@ -77,7 +88,7 @@ scenarios:
   EXPECT_EQ(file.scenarios[1].cpu, "216");
   EXPECT_EQ(file.scenarios[2].name, "file:7");
   const auto station = [&](std::size_t i) {
-    return std::get<ExchangeStep>(file.scenarios[i].steps[0].action).request[0].byte;
+    return dynamic_cast<const ExchangeStep&>(*file.scenarios[i].steps[0].action).request[0].byte;
   };
   EXPECT_EQ(station(0), 9);
   EXPECT_EQ(station(1), 7);
@@ -125,7 +136,7 @@ TEST(ScenarioReader, Windows) {
   EXPECT_EQ(latency("12.345678ms").from.fixed, 12'345'678);
   EXPECT_EQ(latency("7 characters + 10ms..").from, (Span{10 * kMillisecond, 7000}));
   const Scenario with_tolerance = good("tolerance: 1ms\nsteps: [{read: holding 0, latency: 5ms}]\n");
-  const Window window = *std::get<ExchangeStep>(with_tolerance.steps[0].action).latency;
+  const Window window = *dynamic_cast<const ExchangeStep&>(*with_tolerance.steps[0].action).latency;
   EXPECT_EQ(window.from.fixed, 4 * kMillisecond);
   EXPECT_EQ(window.to.fixed, 6 * kMillisecond);
 }
@@ -138,27 +149,25 @@ TEST(ScenarioReader, SpansFollowTheFormatOfTheLine) {
   EXPECT_EQ(Span{kNever}.in(format), kNever);
 }
 
-TEST(ScenarioReader, TheOtherSteps) {
-  EXPECT_EQ(action_of<WaitStep>("wait: 3 scans").scans, 3U);
-  EXPECT_EQ(action_of<WaitStep>("wait: 20ms").time.fixed, 20 * kMillisecond);
-  EXPECT_EQ(action_of<SetStep>("set: {VD4: 1.5}").assignments[0].value, 0x3FC00000U);
-  const MemoryStep memory = action_of<MemoryStep>("memory: {VW20: -2, Q0.0: 1, 'VB0:3': 01 .. 03}");
-  EXPECT_EQ(memory.expected[0].bytes, (std::vector<BytePattern>{0xFF, 0xFE}));
-  EXPECT_EQ(memory.expected[1].bytes, (std::vector<BytePattern>{1}));
-  EXPECT_EQ(memory.expected[2].bytes, (std::vector<BytePattern>{1, std::nullopt, 3}));
-  const InterruptsStep interrupts = action_of<InterruptsStep>("interrupts: {INT 123: 7, event 10: 1..2, lost: 0}");
-  EXPECT_EQ(interrupts.counts[0].number, 123);
-  EXPECT_EQ(interrupts.counts[1].count, (Count{1, 2}));
-  EXPECT_EQ(interrupts.counts[2].what, InterruptCount::What::Lost);
-  EXPECT_EQ(action_of<ModeStep>("mode: stop").mode, Mode::Stop);
-  EXPECT_EQ(action_of<FatalStep>("fatal: 0003").code, 3);
-  EXPECT_EQ(action_of<FatalStep>("fatal: none").code, 0);
-  EXPECT_EQ(action_of<ErrorsStep>("errors: {0092: 3}").errors[0].code, 0x92);
-  EXPECT_TRUE(action_of<ErrorsStep>("errors: none").errors.empty());
-  EXPECT_TRUE(action_of<PowerCycleStep>("power_cycle: memory lost").memory_lost);
-  EXPECT_EQ(action_of<PowerCycleStep>("{power_cycle: memory kept, power_off: 8h}").power_off, 8 * 3600 * kSecond);
-  EXPECT_EQ(action_of<FaultStep>("fault: flip:character=3,bit=5").fault->bit, 5);
-  EXPECT_FALSE(action_of<FaultStep>("fault: none").fault);
+TEST(ScenarioReader, StepsThatDriveThePlant) {
+  EXPECT_EQ(written("wait: 3 scans"), "wait: 3 scans\n");
+  EXPECT_EQ(written("wait: 20ms"), "wait: 20 ms\n");
+  EXPECT_EQ(written("set: {VD4: 1.5}"), "set: {VD4: 16#3FC00000}\n");
+  EXPECT_EQ(written("power_cycle: memory lost"), "power_cycle: memory lost\n");
+  EXPECT_EQ(written("{power_cycle: memory kept, power_off: 8h}"), "power_cycle: memory kept\n        power_off: 8 h\n");
+  EXPECT_EQ(written("fault: flip:character=3,bit=5"), "fault: flip:character=3,bit=5\n");
+  EXPECT_EQ(written("fault: none"), "fault: none\n");
+  EXPECT_EQ(written("{wait_until: {VW20: 5}, timeout: 2s}"), "wait_until: {\"VW20\": \"5\"}\n        timeout: 2 s\n");
+}
+
+/// Of a map without mistakes.
+std::vector<MemoryExpected> memory_expected(const std::string& map) {
+  stl::Diagnostics diagnostics;
+  const auto source = source_of(map, "file.yaml");
+  ValueReader values(diagnostics);
+  auto expected = read_memory_expected(values, *read_yaml(map, *source, diagnostics), cpu214());
+  for (const auto& d : diagnostics) ADD_FAILURE() << stl::render(d, *source, false);
+  return expected;
 }
 
 TEST(ScenarioReader, TextIsSentAndExpectedWithItsEscapes) {
@@ -172,7 +181,7 @@ TEST(ScenarioReader, TextIsSentAndExpectedWithItsEscapes) {
   EXPECT_EQ(expected(R"({text: 'A\?\r'})").frame, (std::vector<BytePattern>{0x41, std::nullopt, 0x0D}));
   EXPECT_EQ(expected("any").kind, Expected::Kind::Any);
   const Scenario s = good("parameters: {x: 7}\nsteps:\n  - send: {text: 'SET ${x + 1}\\r'}\n");
-  EXPECT_EQ(serial::to_hex(std::get<ExchangeStep>(s.steps[0].action).request), "53 45 54 20 38 0d");
+  EXPECT_EQ(serial::to_hex(dynamic_cast<const ExchangeStep&>(*s.steps[0].action).request), "53 45 54 20 38 0d");
 }
 
 TEST(ScenarioReader, WhatNobodyAskedForIsReceived) {
@@ -192,9 +201,16 @@ TEST(ScenarioReader, WhatNobodyAskedForIsReceived) {
   EXPECT_EQ(step.at->from.fixed, kSecond);
 }
 
+TEST(ScenarioReader, MemoryIsExpectedByteByByte) {
+  const auto memory = memory_expected("{VW20: -2, Q0.0: 1, 'VB0:3': 01 .. 03}");
+  EXPECT_EQ(memory[0].bytes, (std::vector<BytePattern>{0xFF, 0xFE}));
+  EXPECT_EQ(memory[1].bytes, (std::vector<BytePattern>{1}));
+  EXPECT_EQ(memory[2].bytes, (std::vector<BytePattern>{1, std::nullopt, 3}));
+}
+
 TEST(ScenarioReader, MemoryIsComparedAsTheValueIsWritten) {
-  const auto fits = [](const std::string& what, std::vector<std::uint8_t> found) {
-    return action_of<MemoryStep>("memory: {" + what + "}").expected[0].fits(found);
+  const auto fits = [](const std::string& what, const std::vector<std::uint8_t>& found) {
+    return memory_expected("{" + what + "}").at(0).fits(found);
   };
   EXPECT_TRUE(fits("VD0: 1.5", {0x3F, 0xC0, 0, 0}));
   EXPECT_FALSE(fits("VD0: 1.5", {0x3F, 0xC0, 0, 1}));
@@ -210,7 +226,6 @@ TEST(ScenarioReader, MemoryIsComparedAsTheValueIsWritten) {
   EXPECT_TRUE(fits("VW0: 5..40000", {0x9C, 0x40})) << "unless a limit is larger than that";
   EXPECT_TRUE(fits("VB0: 199..16#C9", {200})) << "bytes have none";
   EXPECT_TRUE(fits("VD0: 3000000000..", {0xFF, 0xFF, 0xFF, 0xFF}));
-  EXPECT_EQ(action_of<WaitUntilStep>("{wait_until: {VW20: 5}, timeout: 2s}").timeout, 2 * kSecond);
 }
 
 TEST(ScenarioReader, AScenarioWhoseStepsAllLackWhatTheyNeedIsNotApplicable) {
@@ -248,7 +263,7 @@ TEST(ScenarioReader, LoopsRunThroughTheirValuesInOrder) {
   ASSERT_EQ(steps.size(), 4U);
   EXPECT_EQ(steps[0].loop, "a = 1, b = 7");
   EXPECT_EQ(steps[3].loop, "a = 2, b = 8");
-  EXPECT_EQ(std::get<ExchangeStep>(steps[3].action).request[3].byte, 28);
+  EXPECT_EQ(dynamic_cast<const ExchangeStep&>(*steps[3].action).request[3].byte, 28);
   EXPECT_EQ(steps_of("  - repeat: 3\n    steps:\n      - repeat: 2\n        steps: [{wait: 1ms}]\n").size(), 6U);
 }
 
@@ -442,6 +457,22 @@ TEST(ScenarioReader, EveryMistakeOfTheYamlItselfSaysWhatToDo) {
     EXPECT_FALSE(file.diagnostics[0].hint.empty()) << text << file.diagnostics[0].message;
     EXPECT_GT(file.diagnostics[0].position.line, 0U) << text << file.diagnostics[0].message;
   }
+}
+
+TEST(ScenarioReader, AKeyThatStandsTwiceIsOneMistake) {
+  const ScenarioFile twice = read("steps:\n  - read: holding 0\n    read: holding 1\n    frob: 1\n    frob: 2\n");
+  std::vector<std::string> messages;
+  for (const stl::Diagnostic& diagnostic : twice.diagnostics) messages.push_back(diagnostic.message);
+  EXPECT_EQ(messages, (std::vector<std::string>{"'read' stands here a second time, first in line 2",
+                                                "'frob' has no place beside 'read'",
+                                                "'frob' stands here a second time, first in line 4"}));
+}
+
+TEST(ScenarioReader, ALoopThatCannotBeCountedDoesNotMakeTheOthersDeeper) {
+  std::string loops = "steps:\n";
+  for (int i = 0; i < 6; ++i) loops += "  - repeat: 0\n    steps: [wait: 1ms]\n";
+  for (const stl::Diagnostic& diagnostic : read(loops).diagnostics)
+    EXPECT_EQ(diagnostic.message, "'0' is no number from 1 to 4096");
 }
 
 TEST(ScenarioReader, TellsAllMistakesAtOnceAndThoseOfLoopsOnce) {

@@ -2,10 +2,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/support/slave_bench.hpp"
+#include "tools/scenario/bytes_diff.hpp"
 #include "tools/scenario/comparison.hpp"
 #include "tools/scenario/reader.hpp"
+#include "tools/scenario/report_json.hpp"
 #include "tools/scenario/runner.hpp"
+#include "tools/scenario/steps/exchange.hpp"
 #include "tools/scenario/transcript.hpp"
 
 namespace s7200::tools {
@@ -107,6 +112,12 @@ TEST(ScenarioRunner, EveryKindOfExpectationCanFail) {
   EXPECT_EQ(findings("  - fatal: 0003\n"), fmt::format("fatal error: 0003, {} / none\n", meaning_of(FatalError::Watchdog)));
   EXPECT_EQ(findings("  - errors: {0092: 1}\n"), "run-time errors: 0092: 1 / none\n");
   EXPECT_NE(findings("  - wait: 1s\n  - {read: holding 0, at: 500ms}\n"), "");
+}
+
+TEST(ScenarioRunner, WhatIsExpectedOfTheInsideIsReadAsItIsWritten) {
+  EXPECT_EQ(findings("  - interrupts: {INT 123: 7, event 10: 1..2}\n"), "INT 123: 7 / 0\nevent 10: 1 to 2 / 0\n");
+  EXPECT_EQ(findings("  - interrupts: {lost: 0}\n  - fatal: none\n  - errors: none\n  - mode: run\n"), "");
+  EXPECT_EQ(findings("  - errors: {0092: 3, 0006: 1..}\n"), "run-time errors: 0092: 3, 0006: 1 or more / none\n");
 }
 
 TEST(ScenarioRunner, FaultsDisturbTheLineUntilTheyAreTakenAway) {
@@ -269,7 +280,7 @@ TEST(ScenarioRunner, WaitsUntilMemoryIsAsExpected) {
   EXPECT_EQ(findings("  - {wait_until: {VW0: 5000..}, timeout: 0}\n", "after: 0\n", counts),
             "VW0 after 0 ns: 5000.. / 16#0000 (0)\n");
   EXPECT_EQ(findings("  - set: {I0.0: 1}\n  - wait_until: {VW0: 60}\n  - mode: stop\n", "after: 0\n", counts),
-            "VW0 after 200 ms:  / the CPU is in STOP\n");
+            "VW0 when the CPU went to STOP, after STOPPED:  / the CPU is in STOP\n");
   EXPECT_EQ(findings("  - set: {I0.0: 1}\n  - wait_until: {VW0: 50}\n  - mode: stop\n", "after: 0\n", counts), "")
       << "the STOP ends the scan in which it comes true";
 }
@@ -383,7 +394,7 @@ TEST(ScenarioRecord, AReplayIsExactToTheNanosecondAndToTheBit) {
   const std::string transcript = transcript_of("steps: [{read: holding 10}]\n");
   const auto outcome = [](const std::string& text) { return run(scenarios_of(text)[0]).outcome; };
   EXPECT_EQ(outcome(transcript), Outcome::Passed);
-  const Time latency = std::get<ExchangeStep>(scenarios_of(transcript)[0].steps[0].action).latency->from.fixed;
+  const Time latency = dynamic_cast<const ExchangeStep&>(*scenarios_of(transcript)[0].steps[0].action).latency->from.fixed;
   const std::string written = format_duration(latency, 9);
   EXPECT_EQ(outcome(test::changed(transcript, written, format_duration(latency + 1, 9))), Outcome::Failed);
   EXPECT_EQ(outcome(test::changed(transcript, "expect: 01 03 02 00 00", "expect: 01 03 02 00 01")), Outcome::Failed);
@@ -428,7 +439,8 @@ TEST(ScenarioCompare, TimesCountUnlessTheyAreIgnoredOrTolerated) {
 TEST(ScenarioCompare, RandomTrafficIsTheSameForTheSameSeed) {
   const auto requests = [](std::uint32_t seed) {
     std::vector<serial::Frame> all;
-    for (const Step& step : random_traffic(300, seed, 1).steps) all.push_back(std::get<ExchangeStep>(step.action).request);
+    for (const Step& step : random_traffic(300, seed, 1).steps)
+      all.push_back(dynamic_cast<const ExchangeStep&>(*step.action).request);
     return all;
   };
   EXPECT_EQ(requests(7), requests(7));

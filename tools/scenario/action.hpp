@@ -1,0 +1,32 @@
+// What a step does.
+#pragma once
+
+#include <cstdint>
+
+namespace s7200::tools {
+
+class Run;
+class TranscriptWriter;
+
+/// What a step needs of the slave.
+enum class Needs : std::uint8_t {
+  Line,      ///< a line to it, wherever it is
+  ToLook,    ///< a program in simulation, to see memory, interrupts, mode or errors; skipped on any other slave
+  ToChange,  ///< a program in simulation, to change what is not the line's; on any other slave the scenario is skipped
+};
+
+/// Each kind is a file in steps/.
+class Action {
+ public:
+  virtual ~Action() = default;
+
+  virtual Needs needs() const { return Needs::Line; }
+
+  /// Does it, and adds what was not as expected.
+  virtual void act(Run& run) const = 0;
+
+  /// Writes what a replay has to do too. Returns false if that is nothing: expectations are left out.
+  virtual bool write(TranscriptWriter&) const { return false; }
+};
+
+}  // namespace s7200::tools

@@ -1,0 +1,151 @@
+#include "tools/scenario/benches.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/slave/slave_target.hpp"
+
+namespace s7200::tools {
+
+std::string Programs::Loaded::why() const {
+  constexpr std::size_t kMost = 3;
+  std::string text;
+  const auto add = [&](const std::string& line) { text.append(text.empty() ? "" : "\n").append(line); };
+  for (const Message& message : messages) {
+    if (message.kind != Message::Kind::Diagnostics) {
+      add(message.text);
+      continue;
+    }
+    const stl::Diagnostics& all = message.diagnostics;
+    const std::string& name = message.source->name;
+    for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i)
+      add(fmt::format("{}:{}:{}: {}", name, all[i].position.line, all[i].position.column, all[i].message));
+    if (all.size() > kMost) add(fmt::format("and {} more errors; 's7200 check {}' shows them", all.size() - kMost, name));
+  }
+  return text;
+}
+
+const Programs::Loaded& Programs::get(const std::string& path, const std::string& cpu, const std::string& times_file) {
+  const auto key = std::tuple(path, cpu, times_file);
+  const auto known = known_.find(key);
+  return known != known_.end() ? known->second : known_.emplace(key, load(path, cpu, times_file)).first->second;
+}
+
+/// What comes through a pipe can be read once, by whatever name.
+const Programs::Text& Programs::text_of(const std::string& path) {
+  const bool from_input = is_standard_input(path);
+  const std::string name = from_input ? "standard input" : path;
+  const auto [found, added] = texts_.try_emplace(name);
+  if (!added) return found->second;
+  std::string why;
+  const auto bytes = from_input ? read_standard_input(why) : read_file(path, why);
+  if (bytes) found->second.text = read_source(*bytes, name, why);
+  if (!found->second.text) found->second.why = fmt::format("cannot read {}: {}", name, why);
+  return found->second;
+}
+
+Programs::Loaded Programs::load(const std::string& path, const std::string& cpu, const std::string& times_file) {
+  Loaded loaded;
+  const Text& source = text_of(path);
+  if (!source.text) {
+    add_error(loaded.messages, source.why);
+    return loaded;
+  }
+  const CpuModel& model = *find_cpu(cpu);
+  TimeTable times = default_times(model);
+  if (!times_file.empty()) {
+    std::string why;
+    const auto csv = read_file(times_file, why);
+    if (!csv) add_error(loaded.messages, fmt::format("cannot read {}: {}", times_file, why));
+    if (csv)
+      for (const std::string& error : times.add(*csv, times_file)) add_error(loaded.messages, error);
+    if (!loaded.messages.empty()) return loaded;
+  }
+  CheckResult result = check(source.text->parsed, model, times);
+  loaded.program = std::move(result.program);
+  if (loaded.program) return loaded;
+  std::erase_if(result.diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
+  const std::string name = result.source.name;
+  loaded.messages = {{.kind = Message::Kind::Diagnostics,
+                      .diagnostics = std::move(result.diagnostics),
+                      .source = std::make_shared<stl::SourceLines>(std::move(result.source))},
+                     {.text = fmt::format("{} has errors; nothing was run", name)}};
+  return loaded;
+}
+
+namespace {
+
+/// Whose program is to be had from what the scenario names.
+bool is_to_run(const Scenario& scenario) { return scenario.skipped.empty(); }
+
+bool all_without_program(const std::vector<Scenario>& scenarios, Messages& messages) {
+  const auto first = std::find_if(scenarios.begin(), scenarios.end(), is_to_run);
+  if (first == scenarios.end()) return false;
+  if (std::any_of(scenarios.begin(), scenarios.end(), [](const Scenario& s) { return is_to_run(s) && !s.program.empty(); }))
+    return false;
+  add_error(messages, fmt::format("{}: '{}' names no program; give it 'program:', or name one with --target",
+                                  first->source->name, first->name));
+  return true;
+}
+
+/// On programs: that of the target for all, or each one's own.
+class ProgramBenches {
+ public:
+  ProgramBenches(const std::string& target, bool is_conformance, Programs& programs)
+      : target_(target), same_for_all_(!target.empty() || is_conformance), programs_(programs) {}
+
+  /// False, with messages, if there is none and there will be none for all others either.
+  bool add_to(Bench& bench, const Scenario& scenario, std::string& name, Messages& messages) {
+    const std::string& path = target_.empty() ? scenario.program : target_;
+    if (path.empty()) {
+      bench.problem = "it names no program, and there is no --target";
+      return true;
+    }
+    const Programs::Loaded& loaded = programs_.get(path, scenario.cpu, scenario.times_file);
+    bench.program = loaded.program;
+    if (!loaded.program && same_for_all_) {
+      messages.insert(messages.end(), loaded.messages.begin(), loaded.messages.end());
+      return false;
+    }
+    if (!loaded.program) bench.problem = loaded.why();
+    if (name.empty()) name = path;
+    return true;
+  }
+
+ private:
+  const std::string& target_;
+  bool same_for_all_;
+  Programs& programs_;
+};
+
+}  // namespace
+
+std::optional<Benches> make_benches(const std::vector<Scenario>& scenarios, const std::string& target,
+                                    const SuiteSettings& settings, Programs& programs, Messages& messages) {
+  Benches benches{.name = target};
+  const bool is_conformance = !settings.conformance.empty();
+  const SlaveTarget parsed = target.empty() ? SlaveTarget{} : parse_slave_target(target);
+  if (parsed.kind == SlaveTarget::Kind::ModbusTcp && is_conformance) {
+    add_error(messages,
+              "--conformance judges what a slave does on its serial line, which Modbus TCP hides; name a program, pty, "
+              "device or tcp://");
+    return {};
+  }
+  if (target.empty() && all_without_program(scenarios, messages)) return {};
+  SerialFormat format;
+  if (parsed.kind != SlaveTarget::Kind::Program) {
+    format = settings.line.over(SerialFormat{});
+    benches.slave = connect(parsed, format);
+    benches.name = benches.slave->name();
+  }
+  ProgramBenches of_programs(parsed.path, is_conformance, programs);
+  for (const Scenario& scenario : scenarios) {
+    Bench bench{.slave = benches.slave.get(), .format = format, .exchanges_wanted = settings.exchanges_wanted};
+    if (!bench.slave && is_to_run(scenario) && !of_programs.add_to(bench, scenario, benches.name, messages)) return {};
+    benches.of.push_back(std::move(bench));
+  }
+  return benches;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,57 @@
+// What scenarios are run on.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "interpreter/program/load.hpp"
+#include "tools/scenario/messages.hpp"
+#include "tools/scenario/runner.hpp"
+#include "tools/scenario/suite_settings.hpp"
+
+namespace s7200::tools {
+
+/// Each program is read once, and checked once for each CPU and table of times.
+class Programs {
+ public:
+  struct Loaded {
+    std::shared_ptr<const Program> program{};
+    Messages messages{};  ///< why there is none
+
+    /// The first of what is wrong, in a few lines.
+    std::string why() const;
+  };
+
+  const Loaded& get(const std::string& path, const std::string& cpu, const std::string& times_file);
+
+ private:
+  struct Text {
+    std::optional<SourceText> text{};
+    std::string why{};
+  };
+
+  const Text& text_of(const std::string& path);
+  Loaded load(const std::string& path, const std::string& cpu, const std::string& times_file);
+
+  std::map<std::string, Text> texts_;
+  std::map<std::tuple<std::string, std::string, std::string>, Loaded> known_;
+};
+
+/// A bench for each scenario.
+struct Benches {
+  std::vector<Bench> of{};
+  std::unique_ptr<Slave> slave{};  ///< that all of them share, if the target is no program
+  std::string name{};              ///< of what is tested; of programs that scenarios name, the first one's
+};
+
+/// `target` is what all scenarios are run on; if it is empty, each is run on the program it names, and one whose program
+/// cannot be had gets a bench that says why. Nothing, with messages, if the target cannot be had, or if no scenario names a
+/// program. Throws as parse_slave_target() and connect() do.
+std::optional<Benches> make_benches(const std::vector<Scenario>& scenarios, const std::string& target,
+                                    const SuiteSettings& settings, Programs& programs, Messages& messages);
+
+}  // namespace s7200::tools

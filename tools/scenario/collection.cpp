@@ -1,0 +1,124 @@
+#include "tools/scenario/collection.hpp"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "interpreter/program/load.hpp"
+#include "tools/scenario/comparison.hpp"
+#include "tools/scenario/conformance_suite.hpp"
+#include "tools/scenario/reader.hpp"
+
+namespace s7200::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Collector {
+ public:
+  Collector(const SuiteSettings& settings, Messages& messages) : settings_(settings), messages_(messages) {}
+
+  std::optional<std::vector<Scenario>> collect() {
+    read_given();
+    if (failed_) return {};
+    if (!settings_.conformance.empty()) take(std::string(kConformanceSuite), "modbus_rtu_slave.yaml");
+    for (const std::string& path : settings_.files) read(path);
+    if (failed_) return {};
+    if (settings_.random > 0) add_random_traffic();
+    for (Scenario& scenario : scenarios_) scenario.line.override_with(settings_.line);
+    std::erase_if(scenarios_, [&](const Scenario& s) { return !is_chosen(s); });
+    if (scenarios_.empty())
+      fail(settings_.only.empty()
+               ? "nothing to test: give files or folders, --conformance, or --random with --target"
+               : fmt::format("no scenario has '{}' in its name or file; --list shows them", settings_.only));
+    return failed_ ? std::nullopt : std::optional(std::move(scenarios_));
+  }
+
+ private:
+  void fail(std::string text) {
+    add_error(messages_, std::move(text));
+    failed_ = true;
+  }
+
+  void add(const stl::Diagnostics& diagnostics, std::shared_ptr<const stl::SourceLines> source) {
+    if (diagnostics.empty()) return;
+    messages_.push_back({.kind = Message::Kind::Diagnostics, .diagnostics = diagnostics, .source = std::move(source)});
+    failed_ = true;
+  }
+
+  std::optional<std::string> text_of(const std::string& path) {
+    std::string why;
+    auto text = read_file(path, why);
+    if (!text) fail(fmt::format("cannot read {}: {}", path, why));
+    return text;
+  }
+
+  /// Values for `${…}`, or the description of a slave.
+  void read_given() {
+    const std::string& path = settings_.conformance.empty() ? settings_.with : settings_.conformance;
+    if (path.empty()) return;
+    const auto text = text_of(path);
+    if (!text) return;
+    stl::Diagnostics diagnostics;
+    given_ = read_parameters(*text, path, diagnostics);
+    add(diagnostics, source_of(*text, path));
+  }
+
+  /// A file, or all those of a folder. What cannot be read ends it, mistakes in one file do not hide those of the next.
+  void read(const std::string& path) {
+    std::error_code error;
+    if (!fs::is_directory(path, error)) return read_one(path);
+    std::vector<std::string> found;
+    for (fs::recursive_directory_iterator it(path, fs::directory_options::skip_permission_denied, error), end;
+         it != end && !error; it.increment(error))
+      if (const auto extension = it->path().extension(); extension == ".yaml" || extension == ".yml")
+        found.push_back(it->path().string());
+    if (error) return fail(fmt::format("cannot read {}: {}", path, error.message()));
+    if (found.empty()) return fail(fmt::format("there is no .yaml file in {}", path));
+    std::sort(found.begin(), found.end());
+    for (const std::string& file : found) read_one(file);
+  }
+
+  void read_one(const std::string& path) {
+    if (const auto text = text_of(path)) take(*text, path);
+  }
+
+  void take(const std::string& text, const std::string& path) {
+    ScenarioFile file = read_scenarios(text, path, given_ ? &*given_ : nullptr);
+    add(file.diagnostics, file.source);
+    if (given_ && !file.diagnostics.empty())
+      messages_.push_back(
+          {.kind = Message::Kind::Note, .text = fmt::format("values for ${{…}} are from {}", given_->source->name)});
+    if (given_) add(file.given_diagnostics, given_->source);
+    std::move(file.scenarios.begin(), file.scenarios.end(), std::back_inserter(scenarios_));
+  }
+
+  void add_random_traffic() {
+    scenarios_.push_back(random_traffic(settings_.random, settings_.seed, settings_.station));
+    scenarios_.back().cpu = settings_.random_cpu;
+  }
+
+  bool is_chosen(const Scenario& scenario) const {
+    if (settings_.only.empty()) return true;
+    const std::string anywhere = "*" + settings_.only + "*";
+    for (const std::string& text : {scenario.name, scenario.source->name, scenario.rule.id})
+      if (fnmatch(anywhere.c_str(), text.c_str(), FNM_CASEFOLD) == 0) return true;
+    return false;
+  }
+
+  const SuiteSettings& settings_;
+  Messages& messages_;
+  std::optional<GivenParameters> given_;
+  std::vector<Scenario> scenarios_;
+  bool failed_ = false;
+};
+
+}  // namespace
+
+std::optional<std::vector<Scenario>> collect_scenarios(const SuiteSettings& settings, Messages& messages) {
+  return Collector(settings, messages).collect();
+}
+
+}  // namespace s7200::tools

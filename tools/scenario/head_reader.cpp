@@ -1,0 +1,113 @@
+#include "tools/scenario/head_reader.hpp"
+
+#include <filesystem>
+
+#include "interpreter/program/load.hpp"
+#include "tools/rig/clock_text.hpp"
+#include "tools/scenario/memory_values.hpp"
+
+namespace s7200::tools {
+namespace {
+
+class HeadReader {
+ public:
+  HeadReader(ValueReader& values, const std::string& path, const GivenParameters* given)
+      : values_(values), scenario_file_(path), given_(given) {}
+
+  bool read(const YamlNode& map, Scenario& scenario) {
+    if (const auto name = values_.optional_text(map, "name")) scenario.name = *name;
+    if (const auto cpu = values_.optional_text(map, "cpu")) {
+      if (find_cpu(*cpu))
+        scenario.cpu = *cpu;
+      else
+        values_.wrong(*map.find("cpu"), fmt::format("there is no model of CPU '{}'", stl::shortened(*cpu)),
+                      "modelled: " + cpu_names());
+    }
+    read_rule(map, scenario.rule);
+    std::string missing;
+    if (!values_.has_what_it_needs(map, missing)) {
+      scenario.skipped = "not applicable: " + missing;
+      return false;
+    }
+    if (const auto path = optional_path(map, "program")) scenario.program = *path;
+    if (const auto path = optional_path(map, "skip_without")) {
+      scenario.may_be_missing = *path == scenario.program;
+      if (!std::filesystem::exists(*path)) scenario.skipped = *path + " is not there";
+    }
+    if (const auto path = optional_path(map, "times")) scenario.times_file = *path;
+    if (const YamlNode* line = map.find("line")) read_line(*line, scenario.line);
+    if (const auto station = values_.number(map.find("station"), 0, 255))
+      scenario.station = static_cast<std::uint8_t>(*station);
+    if (const YamlNode* set = map.find("set")) scenario.set = read_assignments(values_, *set, *find_cpu(scenario.cpu));
+    if (const auto path = optional_path(map, "input")) read_field(*map.find("input"), *path, scenario);
+    if (const YamlNode* clock = map.find("clock"))
+      scenario.clock = values_.value(clock, "time from 1990 to 2089", "2026-11-21 10:00:00",
+                                     [](const std::string& t) { return parse_clock(t); });
+    if (const auto after = values_.time(map.find("after"))) scenario.after = *after;
+    if (const auto pause = values_.span(map.find("pause"))) scenario.pause = *pause;
+    if (const auto timeout = values_.time(map.find("timeout"))) scenario.line.timeout = *timeout;
+    if (const auto tolerance = values_.time(map.find("tolerance"))) scenario.tolerance = *tolerance;
+    return true;
+  }
+
+ private:
+  static std::string cpu_names() {
+    std::string names;
+    for (const CpuModel* model : all_cpus()) names.append(names.empty() ? "" : ", ").append(model->name);
+    return names;
+  }
+
+  /// A path from the folder of this file. One that was given from outside is from the folder of that file already.
+  std::optional<std::string> optional_path(const YamlNode& map, std::string_view key) {
+    const auto path = values_.optional_text(map, key);
+    if (!path) return {};
+    const bool given =
+        given_ && given_->parameters.values.contains(key) && map.find(key)->text == fmt::format("${{{}}}", key);
+    return given ? *path : beside(scenario_file_, *path);
+  }
+
+  void read_rule(const YamlNode& map, Rule& rule) {
+    if (const auto id = values_.optional_text(map, "rule")) rule.id = *id;
+    if (const auto source = values_.optional_text(map, "source")) rule.source = *source;
+    if (const auto severity = values_.choice<Rule::Severity>(
+            map.find("severity"), {{"must", Rule::Severity::Must}, {"should", Rule::Severity::Should}}))
+      rule.severity = *severity;
+  }
+
+  void read_line(const YamlNode& map, serial::MasterSettings& line) {
+    if (!map.is_map())
+      return values_.wrong(map, "'line' is a map, not " + to_text(map),
+                           "write for example line: {baud: 19200, parity: none}");
+    values_.check_keys(map, {ScenarioKey::Where::Line});
+    if (const auto baud = values_.number(map.find("baud"), 50, 1'000'000)) line.baud = static_cast<std::uint32_t>(*baud);
+    if (const auto parity = values_.choice<Parity>(map.find("parity"),
+                                                   {{"none", Parity::None}, {"even", Parity::Even}, {"odd", Parity::Odd}}))
+      line.parity = *parity;
+    if (const auto bits = values_.number(map.find("data_bits"), 7, 8)) line.data_bits = static_cast<std::uint8_t>(*bits);
+    if (const auto bits = values_.number(map.find("stop_bits"), 1, 2)) line.stop_bits = static_cast<std::uint8_t>(*bits);
+  }
+
+  void read_field(const YamlNode& node, const std::string& path, Scenario& scenario) {
+    std::string why;
+    const auto csv = read_file(path, why);
+    if (!csv) return values_.wrong(node, fmt::format("cannot read {}: {}", path, why));
+    std::vector<std::string> errors;
+    scenario.input_file = path;
+    scenario.field = serial::parse_field_script(*csv, path, *find_cpu(scenario.cpu), errors);
+    if (!errors.empty())
+      values_.wrong(node, errors[0], errors.size() > 1 ? fmt::format("and {} more mistakes in it", errors.size() - 1) : "");
+  }
+
+  ValueReader& values_;
+  const std::string& scenario_file_;
+  const GivenParameters* given_;
+};
+
+}  // namespace
+
+bool read_head(ValueReader& values, const std::string& path, const GivenParameters* given, const YamlNode& map,
+               Scenario& scenario) {
+  return HeadReader(values, path, given).read(map, scenario);
+}
+
+}  // namespace s7200::tools

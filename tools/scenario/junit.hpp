@@ -1,0 +1,20 @@
+// How scenarios went, for continuous integration.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/scenario/report.hpp"
+
+namespace s7200::tools {
+
+/// Tells our files from others.
+inline constexpr std::string_view kJunitBeginning =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- Results of s7200 test -->\n";
+
+/// The XML that continuous integration reads: a suite for each file, a case for each scenario. A rule that says should and
+/// is broken counts as skipped there, which has no third way.
+std::string to_junit(const std::vector<Report>& reports);
+
+}  // namespace s7200::tools

@@ -1,0 +1,94 @@
+#include "tools/scenario/parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/program/load.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// Takes over what a tree says: a.b for maps in maps.
+class ParameterTree {
+ public:
+  ParameterTree(Parameters& parameters, std::vector<ParameterName>& names, Complaints& complaints)
+      : parameters_(parameters), names_(names), complaints_(complaints) {}
+
+  void read(const YamlNode& map, const std::string& prefix) {
+    if (!map.is_map())
+      return complaints_.add(map, "parameters are a map, not " + to_text(map), "write for example: station: 1");
+    for (std::size_t i = 0; i < map.keys.size() && i < map.items.size(); ++i) read_one(map.keys[i], map.items[i], prefix);
+  }
+
+ private:
+  void read_one(const YamlNode& key, const YamlNode& value, const std::string& prefix) {
+    const std::string name = prefix + key.text;
+    const auto fits = [](char c) { return stl::is_letter(c) || stl::is_digit(c) || c == '_'; };
+    if (!std::all_of(key.text.begin(), key.text.end(), fits) || !stl::is_letter(key.text.front()))
+      return complaints_.add(key, fmt::format("'{}' is no name of a parameter", stl::shortened(key.text)),
+                             "letters, digits and _");
+    if (value.is_map()) return read(value, name + ".");
+    names_.push_back({name, key.position});
+    if (value.is_scalar()) {
+      if (value.text.empty()) {
+        parameters_.empty.insert(name);
+      } else {
+        parameters_.values[name] = value.text;
+      }
+      return;
+    }
+    std::vector<std::string>& list = parameters_.lists[name];
+    list.clear();
+    for (const YamlNode& item : value.items) {
+      if (!item.is_scalar()) return complaints_.add(item, "a list of parameters has plain values only");
+      list.push_back(item.text);
+      parameters_.values[name + "." + item.text] = "1";
+    }
+  }
+
+  Parameters& parameters_;
+  std::vector<ParameterName>& names_;
+  Complaints& complaints_;
+};
+
+}  // namespace
+
+Complaints::Complaints(stl::Diagnostics& list) : list_(list) {
+  for (const stl::Diagnostic& known : list) known_.emplace(known.position.line, known.position.column);
+}
+
+void Complaints::add(const YamlNode& node, std::string message, std::string hint) {
+  if (known_.emplace(node.position.line, node.position.column).second)
+    list_.push_back({stl::Severity::Error, node.position, std::move(message), std::move(hint)});
+}
+
+void read_parameter_tree(const YamlNode& map, Parameters& parameters, std::vector<ParameterName>& names,
+                         Complaints& complaints) {
+  ParameterTree(parameters, names, complaints).read(map, "");
+}
+
+std::string beside(const std::string& file, const std::string& path) {
+  if (is_standard_input(path)) return path;
+  return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
+}
+
+std::optional<GivenParameters> read_parameters(const std::string& text, const std::string& path,
+                                               stl::Diagnostics& diagnostics) {
+  GivenParameters given;
+  given.source = source_of(text, path);
+  const auto root = read_yaml(text, *given.source, diagnostics);
+  if (!root) return {};
+  Complaints complaints(diagnostics);
+  read_parameter_tree(*root, given.parameters, given.names, complaints);
+  for (const char* name : {"program", "times"})
+    if (const auto found = given.parameters.values.find(name); found != given.parameters.values.end())
+      found->second = beside(path, found->second);
+  stl::sort(diagnostics);
+  if (has_errors(diagnostics)) return {};
+  return given;
+}
+
+}  // namespace s7200::tools

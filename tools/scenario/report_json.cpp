@@ -1,0 +1,84 @@
+#include "tools/scenario/report_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "tools/scenario/bytes_diff.hpp"
+#include "tools/views/report.hpp"
+#include "tools/views/text_frame.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Outcome = ScenarioResult::Outcome;
+
+nlohmann::ordered_json bytes_json(const std::vector<BytePattern>& bytes) {
+  if (bytes.empty()) return nullptr;
+  return row_of(bytes, 0, bytes.size());
+}
+
+nlohmann::ordered_json finding_json(const Scenario& scenario, const Finding& finding) {
+  const Step* step = step_of(scenario, finding);
+  const stl::Position position = position_of(scenario, finding);
+  nlohmann::ordered_json json{{"line", position.line},
+                              {"column", position.column},
+                              {"note", step ? step->note : ""},
+                              {"loop", step ? step->loop : ""}};
+  json["what"] = finding.what;
+  json["expected"] = finding.expected;
+  json["found"] = finding.found;
+  json["expected_bytes"] = bytes_json(finding.expected_bytes);
+  json["found_bytes"] = bytes_json(finding.found_bytes);
+  return json;
+}
+
+nlohmann::ordered_json exchange_json(const Scenario& scenario, const Seen& seen) {
+  const serial::Exchange& exchange = seen.exchange;
+  const Bytes request = serial::bytes_of(exchange.request), response = exchange.response_bytes();
+  nlohmann::ordered_json json{{"line", scenario.steps[seen.step].position.line}};
+  const auto add = [&json](const std::string& key, const Bytes& bytes, const std::optional<std::string>& text) {
+    json[key] = bytes.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(plain_hex(bytes));
+    if (text) json[key + "_text"] = *text;
+  };
+  add("request", request, plain_text(request, request));
+  add("response", response, plain_text(request, response));
+  json["latency_us"] = nullptr;
+  if (const auto latency = latency_of(exchange)) json["latency_us"] = static_cast<double>(*latency) / kMicrosecond;
+  return json;
+}
+
+nlohmann::ordered_json report_json(const Report& report) {
+  const Scenario& scenario = *report.scenario;
+  static constexpr const char* kOutcomes[] = {"passed", "failed", "skipped"};
+  nlohmann::ordered_json json = scenario_json(scenario);
+  json["outcome"] = kOutcomes[static_cast<std::size_t>(report.result.outcome)];
+  json["reason"] = report.result.reason;
+  json["time_ns"] = report.result.time;
+  json["checks"] = report.result.checks;
+  json["skipped_steps"] = report.result.skipped_steps;
+  json["findings"] = nlohmann::ordered_json::array();
+  for (const Finding& finding : report.result.findings) json["findings"].push_back(finding_json(scenario, finding));
+  json["exchanges"] = nlohmann::ordered_json::array();
+  for (const Seen& seen : report.result.seen) json["exchanges"].push_back(exchange_json(scenario, seen));
+  return json;
+}
+
+}  // namespace
+
+nlohmann::ordered_json scenario_json(const Scenario& scenario) {
+  nlohmann::ordered_json json{{"file", scenario.source->name}, {"line", scenario.position.line}, {"name", scenario.name}};
+  const Rule& rule = scenario.rule;
+  if (!rule.id.empty())
+    json["rule"] = {{"id", rule.id}, {"source", rule.source}, {"severity", severity_text(rule.severity)}};
+  return json;
+}
+
+nlohmann::ordered_json to_json(const std::vector<Report>& reports) {
+  nlohmann::ordered_json json{{"scenarios", nlohmann::ordered_json::array()},
+                              {"passed", count(reports, Outcome::Passed)},
+                              {"failed", count(reports, Outcome::Failed)},
+                              {"skipped", count(reports, Outcome::Skipped)}};
+  for (const Report& report : reports) json["scenarios"].push_back(report_json(report));
+  return json;
+}
+
+}  // namespace s7200::tools

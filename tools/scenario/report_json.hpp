@@ -1,0 +1,16 @@
+// How scenarios went, for machines. tools/JSON.md has the keys.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "tools/scenario/report.hpp"
+
+namespace s7200::tools {
+
+/// Which scenario, or rule, it is: the keys before how it went.
+nlohmann::ordered_json scenario_json(const Scenario& scenario);
+
+nlohmann::ordered_json to_json(const std::vector<Report>& reports);
+
+}  // namespace s7200::tools

@@ -1,0 +1,51 @@
+// How a scenario went.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "serial_sim/peers/requester.hpp"
+#include "tools/scenario/text.hpp"
+
+namespace s7200::tools {
+
+/// What a step expected and did not find.
+struct Finding {
+  std::optional<std::size_t> step{};  ///< in the scenario; nothing if it did not come to its steps
+  std::string what{};               ///< `answer`, `transmission`, `latency`, `VW20`
+  std::string expected{}, found{};  ///< in words; may be empty if there are bytes
+  std::vector<BytePattern> expected_bytes{};
+  std::vector<BytePattern> found_bytes{};  ///< of memory, or of an answer
+  std::optional<serial::Exchange> exchange{};
+  bool of_run = false;           ///< the scenario could not be run as it is written, whatever the answers
+  std::optional<Time> waited{};  ///< for what did not come, where a step waits for something
+  std::string timeline{};        ///< what the CPU did in that exchange; empty if it cannot be seen, or is not shown
+};
+
+/// From the end of the request to the start of the answer; of what nobody asked for, from when it was waited for, 0 if it
+/// came earlier.
+std::optional<Time> latency_of(const serial::Exchange& exchange);
+
+/// How many findings of a scenario are shown in text. The others have no timeline.
+inline constexpr std::size_t kFindingsShown = 5;
+
+/// An exchange as it went, or what was received.
+struct Seen {
+  std::size_t step = 0;  ///< in the scenario
+  serial::Exchange exchange{};
+};
+
+struct ScenarioResult {
+  enum class Outcome : std::uint8_t { Passed, Failed, Skipped };
+  Outcome outcome = Outcome::Passed;
+  std::string reason{};             ///< of Skipped
+  std::vector<Finding> findings{};  ///< in the order of the steps
+  std::vector<Seen> seen{};
+  std::size_t checks = 0;         ///< steps that expected something and were judged
+  std::size_t skipped_steps = 0;  ///< that look inside, or cannot go this way, on a slave that is no program
+  Time time = 0;                  ///< on the slave's clock
+  double host_seconds = 0;
+};
+
+}  // namespace s7200::tools

@@ -1,0 +1,87 @@
+// A scenario that is being run, as its steps see it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "tools/scenario/plant.hpp"
+#include "tools/scenario/runner.hpp"
+
+namespace s7200::tools {
+
+class Run {
+ public:
+  Run(const Scenario& scenario, const Bench& bench);
+
+  /// Runs it, once.
+  ScenarioResult result();
+
+  // --- what steps look at ---
+
+  const Scenario& scenario() const { return scenario_; }
+
+  /// The program in simulation; null on any other slave, where only steps that need no more than the line get to act.
+  Plant* plant() { return plant_.get(); }
+
+  Slave& slave() { return plant_ ? plant_->slave() : *bench_.slave; }
+
+  /// Of the line, as it is now.
+  SerialFormat format() const { return plant_ ? plant_->format() : bench_.format; }
+
+  /// When the scenario began on the slave's clock: `at` counts from there.
+  Time begin() const { return begin_; }
+
+  /// The exchange before, if there was one since power-up.
+  struct Before {
+    std::optional<Time> end{};
+    std::string remark{};  ///< what its request met
+  };
+  Before before{};
+
+  // --- what they report ---
+
+  /// This step expected something, and that is judged.
+  void count_check() { ++result_.checks; }
+
+  void add(Finding finding);
+
+  /// The same of an exchange, with what the CPU did in it, if that can be seen and is shown.
+  void add_exchange(Finding finding);
+
+  /// What went over the line in this step.
+  void keep(const serial::Exchange& exchange);
+
+  /// This slave cannot be asked so.
+  void skip_step() { ++result_.skipped_steps; }
+
+  /// The way to the slave broke: the scenario ends.
+  void lose_slave(const std::string& why);
+
+  /// On a slave that is no program, something about times could not be judged.
+  void leave_times_unjudged() { times_unjudged_ = true; }
+
+  /// The mode in which the CPU may end.
+  void expect_mode(std::optional<Mode> mode) { mode_expected_ = mode; }
+
+ private:
+  void do_step(const Step& step);
+  std::string acted_inside() const;
+  void look_at_mode();
+  void settle_outcome();
+
+  const Scenario& scenario_;
+  const Bench& bench_;
+  std::unique_ptr<Plant> plant_;
+  std::size_t step_ = 0;
+  Time begin_ = 0;
+  bool lost_ = false;            ///< the slave
+  bool times_unjudged_ = false;  ///< on a slave that is no program
+  std::optional<Mode> mode_expected_;
+  ScenarioResult result_;
+};
+
+/// Adds to what was found, or expected, after a comma.
+void add_remark(std::string& words, std::string_view remark);
+
+}  // namespace s7200::tools

@@ -1,0 +1,34 @@
+// memory: what must be in memory now.
+#include "tools/views/memory.hpp"
+
+#include "tools/scenario/memory_values.hpp"
+#include "tools/scenario/run.hpp"
+#include "tools/scenario/steps/steps.hpp"
+
+namespace s7200::tools {
+namespace {
+
+struct MemoryStep final : Action {
+  std::vector<MemoryExpected> expected{};
+
+  Needs needs() const override { return Needs::ToLook; }
+
+  void act(Run& run) const override {
+    run.count_check();
+    const Cpu& cpu = run.plant()->cpu();
+    for (const MemoryExpected& e : expected) {
+      const Bytes found = bytes_of(cpu.state(), e.range);
+      if (!e.fits(found)) run.add(memory_finding(cpu.program(), e, found));
+    }
+  }
+};
+
+}  // namespace
+
+std::shared_ptr<const Action> read_memory(const StepSource& source) {
+  auto step = std::make_shared<MemoryStep>();
+  step->expected = read_memory_expected(source.values, source.is, source.cpu());
+  return step;
+}
+
+}  // namespace s7200::tools

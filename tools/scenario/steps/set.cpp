@@ -1,0 +1,36 @@
+// set: memory and inputs.
+#include "tools/scenario/memory_values.hpp"
+#include "tools/scenario/run.hpp"
+#include "tools/scenario/steps/steps.hpp"
+#include "tools/scenario/transcript_writer.hpp"
+#include "tools/views/memory.hpp"
+
+namespace s7200::tools {
+namespace {
+
+struct SetStep final : Action {
+  std::vector<Assignment> assignments{};
+
+  Needs needs() const override { return Needs::ToChange; }
+
+  void act(Run& run) const override {
+    for (const Assignment& assignment : assignments) assign(run.plant()->simulation(), assignment);
+  }
+
+  bool write(TranscriptWriter& writer) const override {
+    writer.step("set: " + assignments_text(assignments));
+    return true;
+  }
+};
+
+}  // namespace
+
+std::shared_ptr<const Action> read_set(const StepSource& source) {
+  auto step = std::make_shared<SetStep>();
+  if (source.is.is_map() && source.is.keys.empty())
+    source.values.wrong(source.is, "nothing to set", "write for example {VW20: 16#1234, I0.3: 1}");
+  step->assignments = read_assignments(source.values, source.is, source.cpu());
+  return step;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,30 @@
+#include "tools/scenario/steps/steps.hpp"
+
+namespace s7200::tools {
+namespace {
+
+// clang-format off
+constexpr StepKind kKinds[] = {
+    {"send", read_send, "HEX or {text: ASCII}", "a frame as it stands; `p` after a byte sends it with wrong parity"},
+    {"request", read_request, "HEX", "function and data; station and CRC are added"},
+    {"read", read_read, "AREA FIRST or NUMBER", "function 1, 2, 3 or 4: `coils 0`, `inputs 0`, `input-registers 0`, `holding 0`, counted from 0; or `00001`, `10001`, `30001`, `40001`, `400001`"},
+    {"write", read_write, "AREA FIRST or NUMBER", "coils or holding registers: function 5 or 6 with `value`, 15 or 16 with `values`"},
+    {"receive", read_receive, "any, silence, HEX or {text: ASCII}", "a transmission that nobody asked for: the first since the last request, or the next to come"},
+    {"wait", read_wait, "SPAN or N scans", "nothing is sent for so long"},
+    {"wait_until", read_wait_until, "MAP", "goes on when memory is as in `memory`, looked at now, at the end of each scan, and when the time is over"},
+    {"set", read_set, "MAP", "memory and inputs: `{VW20: 16#1234, I0.3: 1}`"},
+    {"memory", read_memory, "MAP", "what must be in memory: `{VW20: 16#1234, VW22: 5..10, Q0.0: 1, VD24: 1.5, VB0:4: 01 02 .. 04}`"},
+    {"interrupts", read_interrupts, "MAP", "how often since the last request began: `{INT 123: 7, event 10: 1..2, lost: 0}`"},
+    {"mode", read_mode, "run, stop", "what mode the CPU must be in"},
+    {"fatal", read_fatal, "CODE or none", "the fatal error there must have been: `0003`"},
+    {"errors", read_errors, "MAP or none", "all run-time errors there must have been: `{0092: 3, 0006: 1..}`"},
+    {"fault", read_fault, "FAULT or none", "a fault of the line from now on, as of `--fault`; or none any more"},
+    {"power_cycle", read_power_cycle, "memory kept, memory lost", "power off and on again, for a short or a long time"},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const StepKind> step_kinds() { return kKinds; }
+
+}  // namespace s7200::tools

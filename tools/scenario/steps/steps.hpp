@@ -1,0 +1,40 @@
+// The kinds of steps. To add one: a file in this folder, its function here, and its row in steps.cpp.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "interpreter/model/cpu_model.hpp"
+#include "tools/scenario/action.hpp"
+#include "tools/scenario/scenario.hpp"
+#include "tools/scenario/value_reader.hpp"
+
+namespace s7200::tools {
+
+/// What a step is read from.
+struct StepSource {
+  ValueReader& values;
+  const YamlNode& node;      ///< all of it
+  const YamlNode& is;        ///< what stands at its key
+  const Scenario& scenario;  ///< its head
+
+  /// What stands beside its key; null if it does not.
+  const YamlNode* beside(std::string_view key) const { return node.find(key); }
+  const CpuModel& cpu() const { return *find_cpu(scenario.cpu); }
+};
+
+/// Complains about what is wrong; the action is not run then.
+using ReadStep = std::shared_ptr<const Action>(const StepSource& source);
+
+ReadStep read_send, read_request, read_read, read_write, read_receive, read_wait, read_wait_until, read_set, read_memory,
+    read_interrupts, read_mode, read_fatal, read_errors, read_fault, read_power_cycle;
+
+struct StepKind {
+  std::string_view key;
+  ReadStep* read;
+  std::string_view form, meaning;  ///< for the description of the format
+};
+std::span<const StepKind> step_kinds();
+
+}  // namespace s7200::tools

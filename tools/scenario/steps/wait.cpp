@@ -1,0 +1,44 @@
+#include "tools/scenario/steps/wait.hpp"
+
+#include "tools/scenario/run.hpp"
+#include "tools/scenario/transcript_writer.hpp"
+
+namespace s7200::tools {
+namespace {
+
+std::optional<WaitStep> parse_wait(const std::string& text) {
+  WaitStep step;
+  if (const auto span = parse_span(text)) {
+    step.time = *span;
+    return step;
+  }
+  const std::size_t unit = text.find(" scan");
+  const auto count = unit == std::string::npos ? std::nullopt : parse_number(text.substr(0, unit));
+  if (!count || *count < 1 || *count > 100'000) return {};
+  if (text.substr(unit) != " scans" && text.substr(unit) != " scan") return {};
+  step.scans = static_cast<std::uint64_t>(*count);
+  return step;
+}
+
+}  // namespace
+
+void WaitStep::act(Run& run) const {
+  if (scans == 0) return run.slave().wait(time.in(run.format()));
+  if (run.plant()->wait_scans(scans)) return;
+  const bool stopped = run.plant()->cpu().state().mode == Mode::Stop;
+  run.add({.what = "scans",
+           .expected = fmt::format("{} scans", scans),
+           .found = stopped ? "the CPU is in STOP" : "they did not come within a minute"});
+}
+
+bool WaitStep::write(TranscriptWriter& writer) const {
+  writer.step("wait: " + (scans ? fmt::format("{} scans", scans) : exact(time)));
+  return true;
+}
+
+std::shared_ptr<const Action> read_wait(const StepSource& source) {
+  const auto step = source.values.value(&source.is, ValueReader::kDuration, "20ms, 3.5 characters, 2 scans", parse_wait);
+  return std::make_shared<WaitStep>(step.value_or(WaitStep{}));
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,62 @@
+#include "tools/scenario/steps/wait_until.hpp"
+
+#include <algorithm>
+
+#include "tools/scenario/run.hpp"
+#include "tools/scenario/transcript_writer.hpp"
+#include "tools/views/memory.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// A CPU in STOP is not waited for.
+std::string when_given_up(Plant& plant, Time waited, Time most) {
+  if (plant.cpu().state().mode == Mode::Run || waited >= most) return fmt::format(" after {}", format_duration(waited));
+  if (waited == 0) return " with the CPU in STOP";
+  return fmt::format(" when the CPU went to STOP, after {}", format_duration(waited));
+}
+
+}  // namespace
+
+/// A program that does not get there cannot be asked what comes after it.
+void WaitUntilStep::act(Run& run) const {
+  run.count_check();
+  Plant& plant = *run.plant();
+  const auto in_memory = [&](const MemoryExpected& e) { return bytes_of(plant.cpu().state(), e.range); };
+  const auto fits = [&](const MemoryExpected& e) { return e.fits(in_memory(e)); };
+  const Time most = timeout.value_or(run.scenario().line.timeout), begin = plant.simulation().time();
+  if (plant.wait_until([&] { return std::all_of(expected.begin(), expected.end(), fits); }, most)) return;
+  const Time waited = plant.simulation().time() - begin;
+  for (const MemoryExpected& e : expected) {
+    if (fits(e)) continue;
+    Finding finding = memory_finding(plant.cpu().program(), e, in_memory(e));
+    finding.what += when_given_up(plant, waited, most);
+    if (plant.cpu().state().mode == Mode::Stop) add_remark(finding.found, "the CPU is in STOP" + plant.why_stopped());
+    finding.of_run = true;
+    finding.waited = waited;
+    run.add(std::move(finding));
+  }
+}
+
+/// A replay waits as long for what does not come.
+bool WaitUntilStep::write(TranscriptWriter& writer) const {
+  if (const auto waited = writer.waited_in_vain()) {
+    writer.step("wait: " + exact(*waited));
+    return true;
+  }
+  std::string memory;
+  for (const MemoryExpected& e : expected)
+    memory += fmt::format("{}{}: {}", memory.empty() ? "" : ", ", in_quotes(e.address), in_quotes(e.written));
+  writer.step("wait_until: {" + memory + "}");
+  if (timeout) writer.beside("timeout: " + exact(*timeout));
+  return true;
+}
+
+std::shared_ptr<const Action> read_wait_until(const StepSource& source) {
+  auto step = std::make_shared<WaitUntilStep>();
+  step->expected = read_memory_expected(source.values, source.is, source.cpu());
+  step->timeout = source.values.time(source.beside("timeout"));
+  return step;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,28 @@
+// What a suite is to run, and on what.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "serial_sim/peers/requester.hpp"
+
+namespace s7200::tools {
+
+struct SuiteSettings {
+  std::vector<std::string> files{};  ///< of scenarios, or folders with .yaml files
+  std::string with{};                ///< a file with values for the `${…}` of scenarios; "" for none
+  std::string conformance{};         ///< instead of files, the rules of Modbus RTU for the slave that this file describes
+  std::size_t random = 0;            ///< so many random requests
+  std::uint32_t seed = 1;            ///< of them
+  std::uint8_t station = 1;          ///< most of them go to
+  std::string random_cpu = "214";    ///< of a program that gets them
+  std::string only{};                ///< a pattern of their names, files or rules; "" for all
+  std::string target{};              ///< instead of the programs that scenarios name
+  serial::MasterSettings line{};     ///< over those of the scenarios
+
+  unsigned jobs = 1;              ///< scenarios at a time, on programs
+  bool fail_fast = false;         ///< ends at the first failure
+  bool exchanges_wanted = false;  ///< all of them are in the results
+};
+
+}  // namespace s7200::tools

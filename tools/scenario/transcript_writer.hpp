@@ -1,0 +1,66 @@
+// How steps write themselves into a transcript.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/scenario/report.hpp"
+#include "tools/scenario/transcript.hpp"
+
+namespace s7200::tools {
+
+class TranscriptWriter {
+ public:
+  explicit TranscriptWriter(const Transcript& transcript);
+
+  /// A scenario and how it went.
+  void write(const Report& report);
+
+  const std::string& text() const { return text_; }
+
+  // --- for steps ---
+
+  const Scenario& scenario() const { return *report_->scenario; }
+
+  /// From a slave that is no program: its instants mean nothing to a replay.
+  bool live() const { return transcript_.live; }
+
+  /// What went over the line in this step; null if it did not come to that.
+  const serial::Exchange* seen() const { return seen_; }
+
+  /// How long this step waited for what did not come; nothing if it came.
+  std::optional<Time> waited_in_vain() const;
+
+  void step(const std::string& content) { line(6, "- " + content); }
+  void beside(const std::string& content) { line(8, content); }
+
+  std::optional<Time> last_end{};  ///< of the exchange before, on the slave's clock
+
+ private:
+  void line(int indent, const std::string& content);
+  std::string near(const std::string& path) const;
+  void head(const Scenario& scenario);
+  void line_settings(const serial::MasterSettings& settings);
+
+  const Transcript& transcript_;
+  std::filesystem::path folder_;
+  const Report* report_ = nullptr;          ///< the scenario that is written
+  std::size_t step_ = 0;                    ///< of it
+  const serial::Exchange* seen_ = nullptr;  ///< in this step
+  std::string text_;
+};
+
+/// To the nanosecond.
+std::string exact(Time time);
+std::string exact(const Span& span);
+
+/// In double quotation marks, as YAML reads it back.
+std::string in_quotes(std::string_view text);
+
+/// `{VW20: 16#1234}`
+std::string assignments_text(const std::vector<Assignment>& assignments);
+
+}  // namespace s7200::tools
