@@ -13,8 +13,8 @@ namespace s7200::tools {
 /// What a step expected and did not find.
 struct Finding {
   std::optional<std::size_t> step{};  ///< in the scenario; nothing if it did not come to its steps
-  std::string what{};               ///< `answer`, `transmission`, `latency`, `VW20`
-  std::string expected{}, found{};  ///< in words; may be empty if there are bytes
+  std::string what{};                 ///< `answer`, `transmission`, `latency`, `VW20`
+  std::string expected{}, found{};    ///< in words; may be empty if there are bytes
   std::vector<BytePattern> expected_bytes{};
   std::vector<BytePattern> found_bytes{};  ///< of memory, or of an answer
   std::optional<serial::Exchange> exchange{};

@@ -12,9 +12,7 @@ namespace {
 
 using Outcome = ScenarioResult::Outcome;
 
-std::string file_name(const std::string& path) {
-  return stl::printable(std::filesystem::path(path).filename().string());
-}
+std::string file_name(const std::string& path) { return stl::printable(std::filesystem::path(path).filename().string()); }
 
 }  // namespace
 

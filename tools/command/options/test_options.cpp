@@ -1,0 +1,86 @@
+#include "tools/command/options/test_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <stdexcept>
+
+#include "tools/command/options/line_options.hpp"
+#include "tools/command/options/number_option.hpp"
+#include "tools/command/options/program_options.hpp"
+#include "tools/scenario/junit.hpp"
+#include "tools/scenario/transcript.hpp"
+
+namespace s7200::tools {
+namespace {
+
+void refuse_if(bool condition, const char* why) {
+  if (condition) throw std::invalid_argument(why);
+}
+
+}  // namespace
+
+void TestOptions::add_to(CLI::App& app) {
+  app.add_option("FILE", suite.files, "scenarios, or folders with .yaml files");
+  app.add_option("--with", suite.with, "values for the parameters of the scenarios, a YAML map")->type_name("FILE");
+  app.add_option("--conformance", suite.conformance,
+                 "look whether a slave keeps the rules of Modbus RTU; the file describes the slave")
+      ->type_name("DESCRIPTION");
+  app.add_option("--target", suite.target, "what is tested, instead of the program a scenario names; see below")
+      ->type_name("TARGET");
+  app.add_option("--against", against,
+                 "send the same to another program and show where the answers or their times differ first")
+      ->type_name("TARGET");
+  app.add_flag("--ignore-timing", ignore_timing, "with --against: only answers count");
+  add_duration(
+      app, "--tolerance", tolerance,
+      "by which times may differ: with --against, or in a replay of --record [0; 50ms if the target is not a program]");
+  add_whole_number(app, "--random", suite.random, {1, 100'000}, "send so many random requests to the --target");
+  add_whole_number(app, "--seed", suite.seed, {0, UINT32_MAX}, "seed of the random requests", "1");
+  add_whole_number(app, "--station", suite.station, {1, 247}, "station that most random requests go to", "1");
+  add_cpu_option(app, suite.random_cpu, "CPU of a program that gets random requests; scenarios say theirs themselves");
+  app.add_option("--record", record, "write what went over the line as a transcript, which is a scenario again")
+      ->type_name("FILE");
+  app.add_flag("--force", force, "overwrite an existing transcript");
+  add_line_options(app, suite.line, "as scenarios and programs say");
+  app.add_option("--only", suite.only, "scenarios with PATTERN in their name, file or rule; * is anything")
+      ->type_name("PATTERN");
+  app.add_flag("--list", list, "name the scenarios and run none");
+  app.add_flag("--fail-fast", suite.fail_fast, "end at the first failure");
+  add_whole_number(app, "--jobs", suite.jobs, {1, 64}, "scenarios at a time; the output is the same", "1");
+  app.add_option("--junit", junit, "write the results as JUnit XML, too")->type_name("FILE");
+  app.add_flag("--json", json, "print the results as JSON");
+  app.add_flag("--keys", keys, "print what a scenario may contain, as Markdown")->excludes("--json");
+}
+
+void TestOptions::check() const {
+  const bool conformance = !suite.conformance.empty(), random = suite.random > 0, compared = !against.empty();
+  refuse_if(suite.files.empty() && !random && !conformance,
+            "nothing to test: give files or folders, --conformance, or --random with --target");
+  refuse_if(conformance && (!suite.files.empty() || !suite.with.empty() || random),
+            "--conformance runs its own suite: give no files, --with or --random beside it");
+  refuse_if(random && suite.target.empty(), "--random needs --target, which says what the requests are sent to");
+  refuse_if(ignore_timing && !compared, "--ignore-timing goes with --against");
+  refuse_if(tolerance != kNever && !compared && record.empty(),
+            "--tolerance goes with --against or --record; a scenario has 'tolerance:'");
+  refuse_if(compared && (!record.empty() || !junit.empty()), "--against neither records nor writes JUnit");
+  refuse_if(record == "-" || junit == "-", "--record and --junit write files; '-' is none");
+}
+
+TestOptions::Destinations TestOptions::claim_files() const {
+  Destinations to;
+  WrittenFiles files;
+  const auto claim = [&](std::string_view option, const std::string& path, const FileKind& kind) {
+    std::string why;
+    auto place = path.empty() ? std::nullopt : files.claim(option, path, kind, Replace::Own, why);
+    if (!path.empty() && !place) throw std::invalid_argument(why);
+    return place;
+  };
+  to.record = claim("--record", record, {"a transcript", std::string(kTranscriptBeginning)});
+  if (to.record && to.record->replaced && !force)
+    throw std::invalid_argument(fmt::format("{} exists; --force overwrites it", record));
+  to.junit = claim("--junit", junit, {"a JUnit file of s7200 test", std::string(kJunitBeginning)});
+  return to;
+}
+
+}  // namespace s7200::tools

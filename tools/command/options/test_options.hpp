@@ -1,0 +1,36 @@
+// The options of `s7200 test`.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tools/host/written_files.hpp"
+#include "tools/scenario/suite_settings.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace s7200::tools {
+
+struct TestOptions {
+  SuiteSettings suite;
+  std::string against, record, junit;
+  Time tolerance = kNever;  ///< kNever: not given
+  bool ignore_timing = false, force = false, json = false, list = false, keys = false;
+
+  void add_to(CLI::App& app);
+
+  /// Throws std::invalid_argument for options that do not go together.
+  void check() const;
+
+  /// Where --record and --junit write.
+  struct Destinations {
+    std::optional<Destination> record{}, junit{};
+  };
+
+  /// Throws std::invalid_argument if one cannot write there.
+  Destinations claim_files() const;
+};
+
+}  // namespace s7200::tools

@@ -1,0 +1,43 @@
+// What `s7200 test` shows: each scenario as it ends, and how it all went.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "tools/scenario/suite.hpp"
+
+namespace s7200::tools {
+
+class TestOutput {
+ public:
+  /// `all`: how many scenarios there are. `conformance`: rules of Modbus are shown together, at the end.
+  TestOutput(std::size_t all, bool json, bool conformance);
+  ~TestOutput() { clear_progress(); }
+
+  /// On a terminal, from the second second on.
+  void show_progress(std::size_t done);
+
+  void show(const Report& report);
+  void show(const Compared& compared);
+
+  void end(const SuiteResult& result);
+  void end(const ComparisonResult& result);
+
+ private:
+  void clear_progress();
+  void heading(const Scenario& scenario);
+
+  std::size_t all_;
+  bool json_, conformance_;
+  bool progress_wanted_, progress_shown_ = false;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  const stl::SourceLines* file_ = nullptr;  ///< of the last heading
+};
+
+/// Names the scenarios.
+void print_list(const std::vector<Scenario>& scenarios, bool json);
+
+/// On stderr.
+void print_messages(const Messages& messages);
+
+}  // namespace s7200::tools
