@@ -1,6 +1,7 @@
 #include "tools/scenario/suite.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <filesystem>
 
 #include "interpreter/base/text.hpp"
@@ -93,7 +94,7 @@ std::optional<ComparisonResult> Suite::compare(const std::string& other, Time to
             if (interrupted()) return false;
             const Scenario& scenario = scenarios_[i];
             Compared compared{.scenario = &scenario, .exchanges = result.seen.size()};
-            for (const ScenarioResult* each : {&result, &of_other[i]})
+            for (const ScenarioResult* each : {&result, std::as_const(of_other).data() + i})
               if (each->outcome == Outcome::Skipped) compared.skipped = each->reason;
             const std::string one_name = settings_.target.empty() ? scenario.program : one_benches->name;
             if (compared.skipped.empty())
