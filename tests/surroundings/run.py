@@ -100,7 +100,7 @@ class Case(unittest.TestCase):
         """{name of the file: the option with it}, for every file that a verb may write; the names lie in `folder`/out."""
         records = {"run.trace": "--trace", "outputs.csv": "--output", "line.vcd": "--capture", "line.pcap": "--capture",
                    "memory.json": "--memory"}
-        return {"run": records, "send": records, "master": records, "import": {"listing.stl": "-o"},
+        return {"run": records, "send": records, "master": records, "debug": records, "import": {"listing.stl": "-o"},
                 "test": {"junit.xml": "--junit", "transcript.yaml": "--record"}}.get(verb, {})
 
     def command(self, verb, out=None):

@@ -46,19 +46,9 @@ class PtyBridge final : public Bridge {
   void received(std::span<const ReceivedCharacter> characters) override {
     look();
     bool heard = false;
-    for (Far& far : fars_) {
-      const PtySettings settings = far.port.settings();
-      if (far.port.open_now() == 0 || settings.baud == 0) continue;
-      heard = true;
-      for (const ReceivedCharacter& character : characters) {
-        const bool error = character.parity_error || character.framing_error;
-        if (far.output.size() == kMostUnread)
-          ++overrun_;
-        else if (!(error && settings.checks_parity && settings.ignores_errors))
-          far.output.push_back(error && settings.checks_parity ? 0 : character.byte);
-      }
-      write(far);
-    }
+    // Whoever listens is known before anyone is told: one that has its answer may leave at once, and another may come.
+    for (Far& far : fars_) heard |= take(far, characters);
+    for (Far& far : fars_) write(far);
     if (!heard) unheard_ += characters.size();
     errors_ += static_cast<std::uint64_t>(std::ranges::count_if(
         characters, [](const ReceivedCharacter& character) { return character.parity_error || character.framing_error; }));
@@ -102,6 +92,7 @@ class PtyBridge final : public Bridge {
     asio::posix::stream_descriptor near;
     std::array<std::uint8_t, 1024> input{};
     std::vector<std::uint8_t> output;
+    std::uint64_t reader = 0;  // whose output that is
     bool awaiting_input = false;
     std::uint64_t session = 0;       // whose characters are on the line
     std::optional<Time> left_since;  // with something left to send
@@ -121,6 +112,24 @@ class PtyBridge final : public Bridge {
     const std::uint64_t opened = pty_->opened_ever();
     if (std::exchange(opened_, opened) != opened) speaker_ = &pty_->latest();
     while (fars_.size() < pty_->port_count()) await_input(fars_.emplace_back(*context_, pty_->port(fars_.size())));
+  }
+
+  /// What a program that has the port open is to read. False if there is none.
+  bool take(Far& far, std::span<const ReceivedCharacter> characters) {
+    const PtySettings settings = far.port.settings();
+    if (far.port.open_now() == 0 || settings.baud == 0) return false;
+    if (const std::uint64_t session = far.port.session(); far.reader != session) {
+      far.output.clear();
+      far.reader = session;
+    }
+    for (const ReceivedCharacter& character : characters) {
+      const bool error = character.parity_error || character.framing_error;
+      if (far.output.size() == kMostUnread)
+        ++overrun_;
+      else if (!(error && settings.checks_parity && settings.ignores_errors))
+        far.output.push_back(error && settings.checks_parity ? 0 : character.byte);
+    }
+    return true;
   }
 
   /// What is left to send of a program that has left.
@@ -170,6 +179,7 @@ class PtyBridge final : public Bridge {
 
   /// What the far side does not take now stays for the next turn.
   void write(Far& far) {
+    if (far.reader != far.port.session()) far.output.clear();
     while (!far.output.empty()) {
       boost::system::error_code error;
       const std::size_t count = far.near.write_some(asio::buffer(far.output), error);
