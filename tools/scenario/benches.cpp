@@ -21,7 +21,7 @@ std::string Programs::Loaded::why() const {
     const std::string& name = message.source->name;
     for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i)
       add(fmt::format("{}:{}:{}: {}", name, all[i].position.line, all[i].position.column, all[i].message));
-    if (all.size() > kMost) add(fmt::format("and {} more errors; 's7200 check {}' shows them", all.size() - kMost, name));
+    if (all.size() > kMost) add(fmt::format("and {} more; 's7200 check {}' shows them", all.size() - kMost, name));
   }
   return text;
 }

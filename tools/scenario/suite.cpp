@@ -1,8 +1,8 @@
 #include "tools/scenario/suite.hpp"
 
 #include <algorithm>
-#include <utility>
 #include <filesystem>
+#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "tools/host/interruption.hpp"
@@ -94,7 +94,7 @@ std::optional<ComparisonResult> Suite::compare(const std::string& other, Time to
             if (interrupted()) return false;
             const Scenario& scenario = scenarios_[i];
             Compared compared{.scenario = &scenario, .exchanges = result.seen.size()};
-            for (const ScenarioResult* each : {&result, std::as_const(of_other).data() + i})
+            for (const ScenarioResult* each : {&result, &std::as_const(of_other[i])})
               if (each->outcome == Outcome::Skipped) compared.skipped = each->reason;
             const std::string one_name = settings_.target.empty() ? scenario.program : one_benches->name;
             if (compared.skipped.empty())

@@ -10,10 +10,10 @@ namespace s7200::tools {
 namespace {
 
 /// A CPU in STOP is not waited for.
-std::string when_given_up(Plant& plant, Time waited, Time most) {
-  if (plant.cpu().state().mode == Mode::Run || waited >= most) return fmt::format(" after {}", format_duration(waited));
-  if (waited == 0) return " with the CPU in STOP";
-  return fmt::format(" when the CPU went to STOP, after {}", format_duration(waited));
+std::string when_given_up(bool early, Time waited) {
+  if (!early) return fmt::format(" after {}", format_duration(waited));
+  return waited == 0 ? " with the CPU in STOP"
+                     : fmt::format(" when the CPU went to STOP, after {}", format_duration(waited));
 }
 
 }  // namespace
@@ -26,12 +26,14 @@ void WaitUntilStep::act(Run& run) const {
   const auto fits = [&](const MemoryExpected& e) { return e.fits(in_memory(e)); };
   const Time most = timeout.value_or(run.scenario().line.timeout), begin = plant.simulation().time();
   if (plant.wait_until([&] { return std::all_of(expected.begin(), expected.end(), fits); }, most)) return;
-  const Time waited = plant.simulation().time() - begin;
+  const bool stopped = plant.cpu().state().mode == Mode::Stop;
+  const bool early = stopped && plant.simulation().time() - begin < most;
+  const Time waited = early ? plant.simulation().time() - begin : most;  // the last instruction may end later
   for (const MemoryExpected& e : expected) {
     if (fits(e)) continue;
     Finding finding = memory_finding(plant.cpu().program(), e, in_memory(e));
-    finding.what += when_given_up(plant, waited, most);
-    if (plant.cpu().state().mode == Mode::Stop) add_remark(finding.found, "the CPU is in STOP" + plant.why_stopped());
+    finding.what += when_given_up(early, waited);
+    if (stopped) add_remark(finding.found, "the CPU is in STOP" + plant.why_stopped());
     finding.of_run = true;
     finding.waited = waited;
     run.add(std::move(finding));
