@@ -35,6 +35,14 @@ void Line::Driver::forget(Time before) {
   edges.erase(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(past));
 }
 
+bool Line::Drivers::operator==(const Drivers& other) const {
+  const std::vector<Driver>& fewer = all.size() < other.all.size() ? all : other.all;
+  const std::vector<Driver>& more = &fewer == &all ? other.all : all;
+  const auto common = more.begin() + static_cast<std::ptrdiff_t>(fewer.size());
+  return std::equal(more.begin(), common, fewer.begin()) &&
+         std::all_of(common, more.end(), [](const Driver& driver) { return driver == Driver{}; });
+}
+
 bool Line::Periods::lasts_after(std::vector<Time>::const_iterator change) const {
   return lasts_before != ((change - changes.begin()) % 2 != 0);
 }
@@ -85,7 +93,10 @@ void Line::Periods::forget(Time before) {
 }
 
 void Line::drive(int driver, Time at, bool mark) {
-  drivers_.at(static_cast<std::size_t>(driver)).add(at, mark);
+  assert(driver >= 0 && driver < kDrivers);
+  const auto number = static_cast<std::size_t>(driver);
+  if (number >= drivers_.all.size() && !mark) drivers_.all.resize(number + 1);
+  if (number < drivers_.all.size()) drivers_.all[number].add(at, mark);
   tell(at);
 }
 
@@ -115,7 +126,7 @@ void Line::note_whether_disturbed() {
 bool Line::level(Time at) const { return disturbed_ ? disturbed_level(driven_level(at), at) : driven_level(at); }
 
 bool Line::driven_level(Time at) const {
-  return std::all_of(drivers_.begin(), drivers_.end(), [at](const Driver& driver) { return driver.level(at); });
+  return std::all_of(drivers_.all.begin(), drivers_.all.end(), [at](const Driver& driver) { return driver.level(at); });
 }
 
 bool Line::disturbed_level(bool mark, Time at) const {
@@ -124,17 +135,21 @@ bool Line::disturbed_level(bool mark, Time at) const {
   return mark != periods(Effect::Inverts).lasts(at) && !periods(Effect::HoldsSpace).lasts(at);
 }
 
-bool Line::level_of(int driver, Time at) const { return drivers_.at(static_cast<std::size_t>(driver)).level(at); }
+bool Line::level_of(int driver, Time at) const {
+  const auto number = static_cast<std::size_t>(driver);
+  return number >= drivers_.all.size() || drivers_.all[number].level(at);
+}
 
 bool Line::level_without(int driver, Time at) const {
   bool mark = true;
-  for (int other = 0; other < kDrivers; ++other) mark = mark && (other == driver || level_of(other, at));
+  for (std::size_t other = 0; other < drivers_.all.size(); ++other)
+    mark = mark && (static_cast<int>(other) == driver || drivers_.all[other].level(at));
   return disturbed_level(mark, at);
 }
 
 Time Line::next_change(Time from) const {
   Time change = kNever;
-  for (const Driver& driver : drivers_) {
+  for (const Driver& driver : drivers_.all) {
     const std::size_t index = driver.edges_until(from - 1);
     if (index < driver.edges.size()) change = std::min(change, driver.edges[index]);
   }
@@ -147,7 +162,7 @@ Time Line::falling_edge(Time from) const { return disturbed_ ? disturbed_falling
 Time Line::driven_falling_edge(Time from) const {
   for (;;) {
     Time edge = kNever;
-    for (const Driver& driver : drivers_) edge = std::min(edge, driver.next_edge(from, false));
+    for (const Driver& driver : drivers_.all) edge = std::min(edge, driver.next_edge(from, false));
     if (edge == kNever) return kNever;
     const Time held = space_held_from_before(edge);
     if (held < edge) return edge;
@@ -169,7 +184,7 @@ Time Line::disturbed_falling_edge(Time from) const {
 /// Until when drivers that were at space already just before `edge` hold it; before `edge` when there are none.
 Time Line::space_held_from_before(Time edge) const {
   Time held = edge - 1;
-  for (const Driver& driver : drivers_) {
+  for (const Driver& driver : drivers_.all) {
     if (!driver.level(edge - 1)) held = std::max(held, driver.next_edge(edge, true));
   }
   return held;
@@ -177,7 +192,7 @@ Time Line::space_held_from_before(Time edge) const {
 
 void Line::forget(Time now) {
   for (const LineListener* listener : wiring_.listeners) now = std::min(now, listener->needs_from());
-  for (Driver& driver : drivers_) driver.forget(now);
+  for (Driver& driver : drivers_.all) driver.forget(now);
   if (!disturbed_) return;
   for (Periods& those : disturbances_) those.forget(now);
   note_whether_disturbed();

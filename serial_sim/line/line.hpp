@@ -48,7 +48,7 @@ struct Disturbance {
 /// listeners attached. So a snapshot is a copy, and going back to it an assignment.
 class Line {
  public:
-  static constexpr int kDrivers = 4;
+  static constexpr int kDrivers = 32;  ///< at most: what an RS-485 segment takes
 
   /// From `at` on driver `driver` holds `mark`. `at` is not before that driver's last edge; it may lie in the future.
   /// Every listener is told, so that this is all it takes to send, to collide or to make noise.
@@ -103,6 +103,12 @@ class Line {
     void forget(Time before);
   };
 
+  /// By number. One that is not there has always held mark: a list with such drivers at its end is equal to one without.
+  struct Drivers {
+    std::vector<Driver> all;
+    bool operator==(const Drivers& other) const;
+  };
+
   /// When something lasts: begins and ends in turn.
   struct Periods {
     bool lasts_before = false;  // ahead of the first one kept
@@ -142,7 +148,7 @@ class Line {
   const Periods& periods(Disturbance::Effect effect) const { return disturbances_[static_cast<std::size_t>(effect)]; }
   void note_whether_disturbed();
 
-  std::array<Driver, kDrivers> drivers_;
+  Drivers drivers_;
   std::array<Periods, 3> disturbances_;  // by effect; however many overlap, they are no more than what is left of them
   bool disturbed_ = false;               // there are any
   Wiring wiring_;

@@ -50,6 +50,32 @@ TEST(Line, TwoEdgesOfADriverAtOneInstantAreNone) {
   EXPECT_EQ(line.falling_edge(101), kNever);
 }
 
+TEST(Line, TakesAsManyDriversAsAnRs485Segment) {
+  Line line;
+  for (int driver = Line::kDrivers - 1; driver >= 0; --driver) {
+    const Time from = 100 + 10 * Time{driver};
+    line.drive(driver, from, false);
+    line.drive(driver, from + 10, true);
+  }
+  EXPECT_EQ(line.falling_edge(0), 100);
+  EXPECT_FALSE(line.level(100 + 10 * Line::kDrivers - 1));
+  EXPECT_TRUE(line.level(100 + 10 * Line::kDrivers));
+  EXPECT_TRUE(line.level_without(5, 155));
+  EXPECT_FALSE(line.level_without(4, 155));
+}
+
+TEST(Line, ADriverThatNeverDroveHoldsMark) {
+  Line line;
+  line.drive(0, 100, false);
+  EXPECT_TRUE(line.level_of(7, 100));
+  EXPECT_FALSE(line.level_without(7, 100));
+  Line longer = line;
+  longer.drive(7, 200, false);
+  EXPECT_FALSE(longer == line);
+  longer.drive(7, 200, true);
+  EXPECT_TRUE(longer == line && line == longer);
+}
+
 TEST(Line, IsAtSpaceWhileAnyDriverIs) {
   Line line;
   line.drive(0, 100, false);
