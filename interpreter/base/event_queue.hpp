@@ -1,20 +1,17 @@
 // Which events come next, and when. Events are plain data, so a queue can be copied with the state it belongs to.
 #pragma once
 
-#include <array>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "interpreter/base/time.hpp"
 
 namespace s7200 {
 
-/// Who handles an event. Events at the same instant are handled in the order below: the wire settles first, then its
-/// listeners, then the CPU, then the inputs from the field, then the driver of the test. The field comes after the CPU
-/// because the CPU's own events were decided earlier and an input at the same instant must not change them. Which interrupt
-/// is served first does not depend on this order (interrupts::occurred).
-enum class EventOwner : std::uint8_t { Faults, PlcUart, MasterUart, HostUart, Cpu, Field, Master };
+/// Who handles an event: a number, handed out by whoever runs the queue. At the same instant the lower number comes first.
+enum class EventOwner : std::uint16_t {};
 
 struct Event {
   Time at = kNever;
@@ -24,34 +21,35 @@ struct Event {
   bool operator==(const Event&) const = default;
 };
 
-/// Pending events, earliest first. Events at the same instant are ordered by owner, then by `what`.
-/// Each (owner, what) is pending at most once; scheduling it again moves it.
+/// Pending events, earliest first; the same instant is ordered by owner, then by `what`.
+/// Each (owner, what) is pending at most once: scheduling it again moves it. So there are never more events than owners have
+/// kinds of them, a handful each, and a search from one end to the other is the fastest.
 class EventQueue {
  public:
+  EventQueue() { events_.reserve(32); }  // more than a PLC and its peers ever have
+
   void schedule(Time at, EventOwner owner, std::uint8_t what) {
     cancel(owner, what);
-    assert(size_ < events_.size());
     const Event event{at, owner, what};
-    std::size_t place = size_++;
+    std::size_t place = events_.size();
+    events_.push_back(event);
     for (; place > 0 && before(events_[place - 1], event); --place) events_[place] = events_[place - 1];
     events_[place] = event;
   }
 
   void cancel(EventOwner owner, std::uint8_t what) {
     std::size_t found = 0;
-    while (found < size_ && !(events_[found].owner == owner && events_[found].what == what)) ++found;
-    if (found == size_) return;
-    for (--size_; found < size_; ++found) events_[found] = events_[found + 1];
-    events_[size_] = Event{};
+    while (found < events_.size() && !(events_[found].owner == owner && events_[found].what == what)) ++found;
+    if (found < events_.size()) events_.erase(events_.begin() + static_cast<std::ptrdiff_t>(found));
   }
 
   /// When the next event is due; kNever when none is pending.
-  Time next() const { return size_ == 0 ? kNever : events_[size_ - 1].at; }
+  Time next() const { return events_.empty() ? kNever : events_.back().at; }
 
   Event pop() {
-    assert(size_ > 0);
-    const Event event = events_[--size_];
-    events_[size_] = Event{};
+    assert(!events_.empty());
+    const Event event = events_.back();
+    events_.pop_back();
     return event;
   }
 
@@ -64,8 +62,7 @@ class EventQueue {
     return a.what < b.what;
   }
 
-  std::array<Event, 32> events_{};  // latest first, so that the next one is at the end
-  std::size_t size_ = 0;
+  std::vector<Event> events_;  // latest first, so that the next one is at the end
 };
 
 }  // namespace s7200

@@ -36,8 +36,8 @@ struct Loop {
 class Core {
  public:
   /// Owns nothing but the program.
-  Core(std::shared_ptr<const Program> program, EventQueue& queue, SerialPort& port0)
-      : program_(std::move(program)), reach_(program_->reach.data()), queue_(queue), port_{&port0} {}
+  Core(std::shared_ptr<const Program> program, EventQueue& queue, EventOwner owner, SerialPort& port0)
+      : program_(std::move(program)), reach_(program_->reach.data()), queue_(queue), owner_(owner), port_{&port0} {}
 
   State s;
   Loop loop;
@@ -103,8 +103,8 @@ class Core {
   // --- the outside ---
 
   /// Wakes the unit that `what` belongs to (UnitEvent). Each is pending at most once.
-  void schedule(Time at, std::uint8_t what) { queue_.schedule(at, EventOwner::Cpu, what); }
-  void cancel(std::uint8_t what) { queue_.cancel(EventOwner::Cpu, what); }
+  void schedule(Time at, std::uint8_t what) { queue_.schedule(at, owner_, what); }
+  void cancel(std::uint8_t what) { queue_.cancel(owner_, what); }
   Time next_event() const { return queue_.next(); }
 
   SerialPort& port(std::size_t number) { return *port_[number]; }
@@ -119,6 +119,7 @@ class Core {
   std::shared_ptr<const Program> program_;
   const Reach* reach_;  // of the program
   EventQueue& queue_;
+  EventOwner owner_;
   std::array<SerialPort*, kPorts.size()> port_;
   TraceSink* sink_ = nullptr;
 };

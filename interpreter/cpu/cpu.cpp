@@ -13,8 +13,8 @@
 
 namespace s7200 {
 
-Cpu::Cpu(std::shared_ptr<const Program> program, EventQueue& queue, SerialPort& port0)
-    : core_(std::move(program), queue, port0) {}
+Cpu::Cpu(std::shared_ptr<const Program> program, EventQueue& queue, EventOwner owner, SerialPort& port0)
+    : core_(std::move(program), queue, owner, port0) {}
 
 void Cpu::power_up(bool run, const RetentiveMemory* memory) { power::up(core_, run, memory); }
 RetentiveMemory Cpu::retentive_memory() const { return power::retentive_memory(core_); }
@@ -93,6 +93,12 @@ void Cpu::execute_observed() {
       if (rules[i].role != Role::In) record.value[i] = peek(op, i);
     core_.sink()->instruction(record);
   }
+}
+
+Time Cpu::next_action() const {
+  const State& s = core_.s;
+  if (s.in_interrupt || s.phase == Phase::Program || interrupts::due(core_)) return s.time;
+  return std::max(s.time, std::min(s.time + s.phase_left, s.watchdog));
 }
 
 void Cpu::handle(const Event& event) { units::handle(core_, event.what, event.at); }

@@ -20,8 +20,8 @@ namespace s7200 {
 
 class Cpu {
  public:
-  /// Owns nothing but the program. The CPU is in STOP until power_up().
-  Cpu(std::shared_ptr<const Program> program, EventQueue& queue, SerialPort& port0);
+  /// `owner`: the CPU's number in the queue. Owns nothing but the program. The CPU is in STOP until power_up().
+  Cpu(std::shared_ptr<const Program> program, EventQueue& queue, EventOwner owner, SerialPort& port0);
 
   /// Clears all memory except what `memory` has kept, and goes to RUN (mode switch in RUN) or stays in STOP (TERM). Without
   /// `memory` the CPU is brand-new.
@@ -60,6 +60,10 @@ class Cpu {
   void restore(const State& state) { core_.s = state; }
   const Program& program() const { return core_.program(); }
   Time time() const { return core_.s.time; }
+
+  /// When the CPU does something by itself: now, or at the end of the system's part of the scan that it is in. An event may
+  /// make it act before.
+  Time next_action() const;
 
   /// Writes memory as a programming device would. `at` is a place in the image.
   void poke(std::uint32_t at, std::span<const std::uint8_t> bytes);

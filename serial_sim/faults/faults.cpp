@@ -96,6 +96,10 @@ void Faults::exchange_begins(int driver, Time at) {
   begin_exchange(at);
 }
 
+bool Faults::is_plc(int driver) const {
+  return std::any_of(plcs_.begin(), plcs_.end(), [driver](const Uart* plc) { return plc->driver() == driver; });
+}
+
 bool Faults::begins_unannounced(Half half, int driver, const SerialFormat& format, Time at) const {
   if (!state_.begun) return true;
   if (state_.announcer != -1 && (half == Half::Answer || driver == state_.announcer)) return false;
@@ -121,7 +125,7 @@ void Faults::begin_exchange(Time at) {
 }
 
 Mishap Faults::character_begins(int driver, const SerialFormat& format, Time at) {
-  const Half half = driver == plc_.driver() ? Half::Answer : Half::Request;
+  const Half half = is_plc(driver) ? Half::Answer : Half::Request;
   if (begins_unannounced(half, driver, format, at)) {
     state_.announcer = -1;
     begin_exchange(at);
@@ -250,7 +254,7 @@ void Faults::collide(Injected& injected, const BitClock& clock, Time at) {
 /// Draws bit by bit until one is to be inverted.
 void Faults::plan_noise(Injected& injected, Time from) {
   const Time end = later(later(injected.at, injected.fault.from.value_or(0)), injected.fault.lasts);
-  const Time bit = plc_.state().format.bit_times(1);
+  const Time bit = plc_format().bit_times(1);
   injected.hit = false;
   injected.next = from;
   for (int drawn = 0; drawn < kNoiseAhead && injected.next < end; ++drawn) {
@@ -262,7 +266,7 @@ void Faults::plan_noise(Injected& injected, Time from) {
 }
 
 void Faults::make_noise(Injected& injected) {
-  const Time at = injected.next, end = at + plc_.state().format.bit_times(1);
+  const Time at = injected.next, end = at + plc_format().bit_times(1);
   const auto sending = [&](Half half) { return concerns(injected.fault, half) && at < state_.sent_until[index(half)]; };
   const bool heard = injected.fault.of == Half::Both || sending(Half::Request) || sending(Half::Answer);
   if (injected.hit && works_now(injected) && heard) {
@@ -276,9 +280,9 @@ void Faults::schedule() {
   Time next = kNever;
   for (const Injected& injected : state_.injected) next = std::min(next, injected.next);
   if (next == kNever) {
-    queue_.cancel(EventOwner::Faults, kNext);
+    queue_.cancel(owner_, kNext);
   } else {
-    queue_.schedule(next, EventOwner::Faults, kNext);
+    queue_.schedule(next, owner_, kNext);
   }
 }
 
@@ -288,7 +292,7 @@ void Faults::handle(const Event& event) {
     if (injected.fault.kind == FaultKind::Noise) {
       make_noise(injected);
     } else {
-      disturb(injected, {plc_.state().format}, injected.next);
+      disturb(injected, {plc_format()}, injected.next);
       injected.next = kNever;
     }
   }
@@ -296,7 +300,7 @@ void Faults::handle(const Event& event) {
 }
 
 std::int32_t Faults::clock_error(int driver) const {
-  const Station station = driver == plc_.driver() ? Station::Plc : Station::Master;
+  const Station station = is_plc(driver) ? Station::Plc : Station::Master;
   std::int32_t error = 0;
   for (const Injected& injected : state_.injected) {
     const Fault& fault = injected.fault;
@@ -306,9 +310,8 @@ std::int32_t Faults::clock_error(int driver) const {
 }
 
 bool Faults::echoes(int driver) const {
-  return driver != plc_.driver() && std::any_of(state_.injected.begin(), state_.injected.end(), [](const Injected& i) {
-           return i.fault.kind == FaultKind::Echo && works_now(i);
-         });
+  return !is_plc(driver) && std::any_of(state_.injected.begin(), state_.injected.end(),
+                                        [](const Injected& i) { return i.fault.kind == FaultKind::Echo && works_now(i); });
 }
 
 }  // namespace s7200::serial

@@ -13,11 +13,12 @@ namespace s7200::serial {
 
 /// Makes each injected fault happen, by disturbing the line's level or what a sender does, and counts how often it did.
 ///
-/// An exchange is a request, which is what the PLC's peers send, and an answer, which is what the PLC sends. A Master says
-/// when one begins. For any other peer it begins with the first character behind an answer, or behind more than 3.5
-/// characters of silence; a PLC that speaks unasked begins one in the same way.
+/// An exchange is a request, which is what the PLC's peers send, and an answer, which is what the PLC sends. Several PLCs on
+/// the line count as one here. A Requester says when an exchange begins. For any other peer it begins with the first
+/// character behind an answer, or behind more than 3.5 characters of silence; a PLC that speaks unasked begins one in the
+/// same way.
 ///
-/// To whoever handles the events: those of EventOwner::Faults go to handle().
+/// To whoever handles the events: those of its own number go to handle().
 class Faults final : private Interference {
  public:
   /// SplitMix64 (Steele, Lea, Flood 2014): the same figures on every computer, and a state of eight bytes.
@@ -49,15 +50,18 @@ class Faults final : private Interference {
   /// Plain, so that a snapshot is a copy.
   struct State {
     std::vector<Injected> injected;             // in the order of injection
-    int announcer = -1;                         ///< driver of the Master that began the present exchange, or -1
+    int announcer = -1;                         ///< driver of the Requester that began the present exchange, or -1
     bool begun = false;                         ///< there was an exchange at all
     std::array<std::uint32_t, 2> characters{};  ///< of request and answer so far
     std::array<Time, 2> sent_until{};           ///< end of the last of them
     bool operator==(const State&) const = default;
   };
 
-  /// `plc`: the UART whose characters are answers. Nothing is owned.
-  Faults(Line& line, EventQueue& queue, const Uart& plc) : line_(line), queue_(queue), plc_(plc) {}
+  /// `owner`: its number in the queue. Nothing is owned.
+  Faults(Line& line, EventQueue& queue, EventOwner owner) : line_(line), queue_(queue), owner_(owner) {}
+
+  /// The characters of this UART are answers. Noise and lengths in bits go by the rate of the first one. Not owned.
+  void add_plc(const Uart& plc) { plcs_.push_back(&plc); }
 
   /// Several may be at work at once.
   void inject(const Fault& fault, Time now);
@@ -78,6 +82,8 @@ class Faults final : private Interference {
   std::int32_t clock_error(int driver) const override;
   bool echoes(int driver) const override;
 
+  bool is_plc(int driver) const;
+  SerialFormat plc_format() const { return plcs_.empty() ? SerialFormat{} : plcs_.front()->state().format; }
   bool begins_unannounced(Half half, int driver, const SerialFormat& format, Time at) const;
   void begin_exchange(Time at);
   void befall_sender(Injected& injected, std::uint32_t number, const BitClock& clock, Mishap& mishap);
@@ -93,7 +99,8 @@ class Faults final : private Interference {
 
   Line& line_;
   EventQueue& queue_;
-  const Uart& plc_;
+  EventOwner owner_;
+  std::vector<const Uart*> plcs_;
   State state_;
 };
 

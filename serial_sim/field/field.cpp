@@ -5,7 +5,8 @@
 
 namespace s7200::serial {
 
-Field::Field(FieldScript script, Cpu& cpu, EventQueue& queue) : script_(std::move(script)), cpu_(cpu), queue_(queue) {}
+Field::Field(FieldScript script, Cpu& cpu, EventQueue& queue, EventOwner owner)
+    : script_(std::move(script)), cpu_(cpu), queue_(queue), owner_(owner) {}
 
 void Field::power_up() {
   state_ = {};
@@ -25,7 +26,7 @@ void Field::play(Time now) {
   for (Running& running : state_.running)
     if (running.next <= now) next_edge(running);
   std::erase_if(state_.running, [](const Running& running) { return running.next == kNever; });
-  if (const Time next = next_due(); next != kNever) queue_.schedule(next, EventOwner::Field, 0);
+  if (const Time next = next_due(); next != kNever) queue_.schedule(next, owner_, 0);
 }
 
 void Field::next_edge(Running& running) {

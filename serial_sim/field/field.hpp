@@ -12,7 +12,7 @@
 namespace s7200::serial {
 
 /// One event is pending at a time, however much there is to come. At the same instant changes come first, in the order of
-/// the script, then the edges of pulses. To whoever handles the events: those of EventOwner::Field go to handle().
+/// the script, then the edges of pulses. To whoever handles the events: those of its own number go to handle().
 class Field {
  public:
   struct Running {
@@ -29,8 +29,8 @@ class Field {
     bool operator==(const State&) const = default;
   };
 
-  /// Neither reference is owned.
-  Field(FieldScript script, Cpu& cpu, EventQueue& queue);
+  /// `owner`: its number in the queue. Neither reference is owned.
+  Field(FieldScript script, Cpu& cpu, EventQueue& queue, EventOwner owner);
 
   /// Starts the script at time 0: what it says of that instant holds before the first scan.
   void power_up();
@@ -49,6 +49,7 @@ class Field {
   FieldScript script_;
   Cpu& cpu_;
   EventQueue& queue_;
+  EventOwner owner_;
   State state_;
 };
 

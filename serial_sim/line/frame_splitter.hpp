@@ -42,7 +42,7 @@ class FrameSplitter final : public WireSink {
   struct Ear {
     Line line;
     EventQueue queue;
-    Uart uart{line, queue, EventOwner::PlcUart, 0};
+    Uart uart{line, queue, EventOwner{}, 0};
     WireFrame open;
   };
 

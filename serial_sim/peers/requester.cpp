@@ -25,17 +25,17 @@ Bytes bytes_of(const std::vector<ReceivedCharacter>& characters) {
   return bytes;
 }
 
-Master::Master(Uart& uart, EventQueue& queue) : uart_(uart), queue_(queue) {}
+Requester::Requester(Uart& uart, EventQueue& queue, EventOwner owner) : uart_(uart), queue_(queue), owner_(owner) {}
 
-void Master::start(const Request& request, Time at) {
+void Requester::start(const Request& request, Time at) {
   assert(!busy() && !request.frame.empty());
   begin(request, at);
   state_.phase = Phase::Sending;
   state_.heard.clear();
-  queue_.schedule(at, EventOwner::Master, kBegin);
+  queue_.schedule(at, owner_, kBegin);
 }
 
-void Master::begin(const Request& request, Time at) {
+void Requester::begin(const Request& request, Time at) {
   state_.request = request;
   state_.sent = 0;
   Exchange& exchange = state_.exchange;
@@ -47,24 +47,24 @@ void Master::begin(const Request& request, Time at) {
   exchange.timed_out = exchange.too_long = false;
 }
 
-void Master::listen(const Listening& listening, Time at) {
+void Requester::listen(const Listening& listening, Time at) {
   assert(!busy());
   begin({.frame = {}, .timeout = listening.timeout, .silence = listening.silence}, at);
   state_.exchange.request_end = at;
   take_first_transmission();
   if (state_.exchange.response.empty()) {
     state_.phase = Phase::Waiting;
-    queue_.schedule(at + listening.timeout, EventOwner::Master, kQuiet);
+    queue_.schedule(at + listening.timeout, owner_, kQuiet);
     return;
   }
   const Time over = state_.exchange.response_end + silence();
   const bool goes_on = over > at || uart_.state().start_edge < over;
   if (!state_.heard.empty() || !goes_on) return;
   state_.phase = Phase::Receiving;
-  queue_.schedule(std::max(at, over), EventOwner::Master, kQuiet);
+  queue_.schedule(std::max(at, over), owner_, kQuiet);
 }
 
-void Master::take_first_transmission() {
+void Requester::take_first_transmission() {
   std::vector<ReceivedCharacter>& heard = state_.heard;
   Exchange& exchange = state_.exchange;
   const Time character_time = uart_.state().format.character_time();
@@ -80,7 +80,7 @@ void Master::take_first_transmission() {
   if (length > 0) exchange.response_start = exchange.response.front().start;
 }
 
-void Master::handle(const Event& event) {
+void Requester::handle(const Event& event) {
   switch (event.what) {
     case kBegin:
       uart_.begin_exchange(event.at);
@@ -93,7 +93,7 @@ void Master::handle(const Event& event) {
   }
 }
 
-void Master::on(const Uart::Report& report) {
+void Requester::on(const Uart::Report& report) {
   const bool idle = !busy();
   const bool sending = state_.phase == Phase::Sending && report.received;
   if (sending && report.received->start >= state_.exchange.request_start) state_.exchange.echo.push_back(*report.received);
@@ -102,7 +102,7 @@ void Master::on(const Uart::Report& report) {
   if (report.received && idle && state_.heard.size() < kMostHeard) state_.heard.push_back(*report.received);
 }
 
-void Master::send_next(Time at) {
+void Requester::send_next(Time at) {
   const serial::FrameCharacter& character = state_.request.frame[state_.sent++];
   if (character.wrong_parity) {
     uart_.send_with_wrong_parity(character.byte, at);
@@ -111,7 +111,7 @@ void Master::send_next(Time at) {
   }
 }
 
-void Master::sent(Time at) {
+void Requester::sent(Time at) {
   if (state_.sent < state_.request.frame.size()) {
     send_next(at + state_.request.gap);
     return;
@@ -119,10 +119,10 @@ void Master::sent(Time at) {
   state_.exchange.request_end = at;
   state_.phase = Phase::Waiting;
   uart_.enable_receiver(true, at);
-  queue_.schedule(at + state_.request.timeout, EventOwner::Master, kQuiet);
+  queue_.schedule(at + state_.request.timeout, owner_, kQuiet);
 }
 
-void Master::received(const ReceivedCharacter& character) {
+void Requester::received(const ReceivedCharacter& character) {
   Exchange& exchange = state_.exchange;
   if (exchange.response.size() == kLongestResponse) {
     exchange.too_long = true;
@@ -134,26 +134,26 @@ void Master::received(const ReceivedCharacter& character) {
   exchange.response.push_back(character);
   exchange.response_end = character.start + uart_.state().format.character_time();
   state_.phase = Phase::Receiving;
-  queue_.schedule(exchange.response_end + silence(), EventOwner::Master, kQuiet);
+  queue_.schedule(exchange.response_end + silence(), owner_, kQuiet);
 }
 
 /// The line has been quiet for as long as was to be waited, unless a character is just coming in: then it is waited for,
 /// bit by bit, because a glitch is never reported.
-void Master::quiet(Time now) {
+void Requester::quiet(Time now) {
   const bool coming_in = uart_.state().start_edge < now;
   if (coming_in) {
-    queue_.schedule(now + uart_.state().format.bit_times(1), EventOwner::Master, kQuiet);
+    queue_.schedule(now + uart_.state().format.bit_times(1), owner_, kQuiet);
     return;
   }
   state_.exchange.timed_out = state_.exchange.response.empty();
   finish();
 }
 
-void Master::finish() {
-  queue_.cancel(EventOwner::Master, kQuiet);
+void Requester::finish() {
+  queue_.cancel(owner_, kQuiet);
   state_.phase = Phase::Idle;
 }
 
-Time Master::silence() const { return state_.request.silence.value_or(uart_.state().format.silence()); }
+Time Requester::silence() const { return state_.request.silence.value_or(uart_.state().format.silence()); }
 
 }  // namespace s7200::serial

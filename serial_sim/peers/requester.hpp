@@ -38,7 +38,8 @@ struct Listening {
 
 Bytes bytes_of(const std::vector<ReceivedCharacter>& characters);
 
-/// A request and what came of it. After Master::listen() the request is empty, and its times are when the listening began.
+/// A request and what came of it. After Requester::listen() the request is empty, and its times are when the listening
+/// began.
 struct Exchange {
   Frame request;
   Time request_start = 0;
@@ -48,7 +49,7 @@ struct Exchange {
   Time response_start = 0;  ///< start edge of the first character; 0 if there is none, like the next
   Time response_end = 0;    ///< end of the last character's stop bit
   bool timed_out = false;   ///< no answer began in time
-  bool too_long = false;    ///< cut off after Master::kLongestResponse characters
+  bool too_long = false;    ///< cut off after Requester::kLongestResponse characters
 
   bool operator==(const Exchange&) const = default;
 
@@ -60,8 +61,8 @@ struct Exchange {
 
 /// Half duplex: its receiver is off from the start of the request to the end of its last stop bit, unless the line gives an
 /// echo. The format is its UART's. What it hears while it asks nothing is kept for listen().
-/// To whoever handles the events: reports of the UART go to on(), events of EventOwner::Master to handle().
-class Master {
+/// To whoever handles the events: reports of the UART go to on(), the events of its own number to handle().
+class Requester {
  public:
   static constexpr std::size_t kLongestResponse = kLongestRawFrame;
   static constexpr std::size_t kMostHeard = 4096;  ///< what comes when so many wait is lost, as in a computer's serial port
@@ -78,8 +79,8 @@ class Master {
     bool operator==(const State&) const = default;
   };
 
-  /// Neither is owned.
-  Master(Uart& uart, EventQueue& queue);
+  /// `owner`: its number in the queue, for its own timers. Neither reference is owned.
+  Requester(Uart& uart, EventQueue& queue, EventOwner owner);
 
   /// The first start bit begins at `at`. The last exchange is over. What was heard before and not listened to is forgotten.
   void start(const Request& request, Time at);
@@ -118,6 +119,7 @@ class Master {
 
   Uart& uart_;
   EventQueue& queue_;
+  EventOwner owner_;
   State state_;
 };
 

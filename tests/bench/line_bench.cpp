@@ -7,19 +7,21 @@
 namespace s7200::serial {
 namespace {
 
+constexpr EventOwner kSlaveUart{0}, kMasterUart{1}, kMaster{2};
+
 /// Characters without a gap, both receivers on (the sender hears itself too).
 void characters(benchmark::State& bench) {
   Line line;
   EventQueue queue;
-  Uart sender(line, queue, EventOwner::PlcUart, 0);
-  Uart receiver(line, queue, EventOwner::MasterUart, 1);
+  Uart sender(line, queue, kSlaveUart, 0);
+  Uart receiver(line, queue, kMasterUart, 1);
   Time at = 0;
   std::uint8_t byte = 0;
   for (auto _ : bench) {
     sender.send(byte, at);
     while (queue.next() != kNever) {
       const Event event = queue.pop();
-      const Uart::Report report = (event.owner == EventOwner::PlcUart ? sender : receiver).handle(event);
+      const Uart::Report report = (event.owner == kSlaveUart ? sender : receiver).handle(event);
       if (report.received) benchmark::DoNotOptimize(byte = static_cast<std::uint8_t>(report.received->byte + 1));
       if (report.sent) at = *report.sent;
     }
@@ -32,9 +34,9 @@ BENCHMARK(characters);
 void exchanges(benchmark::State& bench) {
   Line line;
   EventQueue queue;
-  Uart slave(line, queue, EventOwner::PlcUart, 0);
-  Uart master_uart(line, queue, EventOwner::MasterUart, 1);
-  Master master(master_uart, queue);
+  Uart slave(line, queue, kSlaveUart, 0);
+  Uart master_uart(line, queue, kMasterUart, 1);
+  Requester master(master_uart, queue, kMaster);
   const Request request{.frame = serial::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 10)))};
   Time now = 0;
   for (auto _ : bench) {
@@ -44,9 +46,9 @@ void exchanges(benchmark::State& bench) {
     while (master.busy()) {
       const Event event = queue.pop();
       now = event.at;
-      if (event.owner == EventOwner::Master) {
+      if (event.owner == kMaster) {
         master.handle(event);
-      } else if (event.owner == EventOwner::MasterUart) {
+      } else if (event.owner == kMasterUart) {
         master.on(master_uart.handle(event));
       } else {
         const Uart::Report report = slave.handle(event);

@@ -23,10 +23,14 @@ namespace s7200::test {
 
 inline constexpr Time us = kMicrosecond, ms = kMillisecond;
 
+// In the order of one instant, as in a system (serial_sim/system/dispatcher.hpp).
+inline constexpr EventOwner kPlcUart{0}, kCpu{1}, kField{2};
+
 inline TimeTable easy_times() {
-  std::string csv = "mnemonic,form,base_us,per_unit_us,unit,marker\nLBL SBR INT,,0,,,manual\nSQRT,,5000,,,manual\nDIV,,100000,,,manual\n"
-                    "(interrupt entry),,40,,,manual\n(scan overhead),,800,,,manual\n(no power flow),,10,,,manual\n"
-                    "(indirect operand),,10,,,manual\n(EEPROM save),,10000,,,manual\n";
+  std::string csv =
+      "mnemonic,form,base_us,per_unit_us,unit,marker\nLBL SBR INT,,0,,,manual\nSQRT,,5000,,,manual\nDIV,,100000,,,manual\n"
+      "(interrupt entry),,40,,,manual\n(scan overhead),,800,,,manual\n(no power flow),,10,,,manual\n"
+      "(indirect operand),,10,,,manual\n(EEPROM save),,10000,,,manual\n";
   for (const Instruction& instruction : all_instructions())
     if (instruction.modelled()) csv += fmt::format("{},,10,,,manual\n", instruction.mnemonic);
   TimeTable times;
@@ -60,11 +64,11 @@ class Port final : public SerialPort {
   }
   void send(std::uint8_t byte, Time at) override {
     sent.push_back({byte, at});
-    queue_.schedule(at + format.character_time(), EventOwner::PlcUart, 0);
+    queue_.schedule(at + format.character_time(), kPlcUart, 0);
   }
   void send_break(int bits, Time at) override {
     break_bits = bits;
-    queue_.schedule(at + format.bit_times(bits), EventOwner::PlcUart, 0);
+    queue_.schedule(at + format.bit_times(bits), kPlcUart, 0);
   }
 
   SerialFormat format{};
@@ -108,7 +112,7 @@ class Records final : public TraceSink {
 class Plc {
  public:
   explicit Plc(std::string_view stl, const RetentiveMemory* memory = nullptr, const CpuModel& model = cpu214())
-      : cpu(program_of(stl, model), queue, port) {
+      : cpu(program_of(stl, model), queue, kCpu, port) {
     cpu.set_sink(&records);
     cpu.power_up(true, memory);
   }
@@ -118,13 +122,14 @@ class Plc {
   /// Something that happens outside at an instant. Must be added in the order of time.
   void at(Time when, std::function<void()> what) {
     actions_.push_back({when, std::move(what)});
-    if (actions_.size() - next_ == 1) queue.schedule(when, EventOwner::Field, 0);
+    if (actions_.size() - next_ == 1) queue.schedule(when, kField, 0);
   }
   void input_at(Time when, std::string_view point, bool level) {
     at(when, [this, when, point = std::string(point), level] { input(point, level, when); });
   }
   void character_at(Time when, std::uint8_t byte, bool parity_error = false) {
-    at(when, [=, this] { cpu.character_received({.byte = byte, .parity_error = parity_error, .start = when, .end = when}); });
+    at(when,
+       [=, this] { cpu.character_received({.byte = byte, .parity_error = parity_error, .start = when, .end = when}); });
   }
 
   void input(std::string_view point, bool level, Time when) {
@@ -171,9 +176,12 @@ class Plc {
         const bool element = range.area == Area::T || range.area == Area::C;
         return element ? -1 : *from >> range.bit & 1;
       }
-      case Width::Byte: return *from;
-      case Width::Word: return static_cast<std::int16_t>(load16(from));
-      case Width::Double: return static_cast<std::int32_t>(load32(from));
+      case Width::Byte:
+        return *from;
+      case Width::Word:
+        return static_cast<std::int16_t>(load16(from));
+      case Width::Double:
+        return static_cast<std::int32_t>(load32(from));
     }
     return 0;
   }
@@ -197,11 +205,11 @@ class Plc {
   };
 
   void dispatch(const Event& event) {
-    if (event.owner == EventOwner::Cpu) return cpu.handle(event);
-    if (event.owner == EventOwner::PlcUart) return cpu.character_sent(event.at);
+    if (event.owner == kCpu) return cpu.handle(event);
+    if (event.owner == kPlcUart) return cpu.character_sent(event.at);
     const Action action = actions_[next_++];
     action.what();
-    if (next_ < actions_.size()) queue.schedule(actions_[next_].when, EventOwner::Field, 0);
+    if (next_ < actions_.size()) queue.schedule(actions_[next_].when, kField, 0);
   }
 
   std::vector<Action> actions_;

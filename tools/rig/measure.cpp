@@ -12,6 +12,8 @@ namespace {
 
 using HostClock = std::chrono::steady_clock;
 
+constexpr EventOwner kUart{0}, kCpu{1};
+
 /// Work done and the host time it took.
 struct Lap {
   double work = 0;
@@ -52,12 +54,12 @@ class CharacterPort final : public SerialPort {
   explicit CharacterPort(EventQueue& queue) : queue_(queue) {}
   void configure(const SerialFormat& format) override { format_ = format; }
   void enable_receiver(bool, Time) override {}
-  void send(std::uint8_t, Time at) override { queue_.schedule(at + format_.character_time(), EventOwner::PlcUart, kSent); }
+  void send(std::uint8_t, Time at) override { queue_.schedule(at + format_.character_time(), kUart, kSent); }
   void send_break(int, Time) override {}
 
   void request(Time at) {
     next_ = 0;
-    queue_.schedule(at, EventOwner::PlcUart, kReceived);
+    queue_.schedule(at, kUart, kReceived);
   }
 
   /// True when an answer has ended.
@@ -67,7 +69,7 @@ class CharacterPort final : public SerialPort {
       return !cpu.state().port[0].transmitting;
     }
     const std::uint8_t byte = ten_registers()[next_++].byte;
-    if (next_ < ten_registers().size()) queue_.schedule(event.at + format_.character_time(), EventOwner::PlcUart, kReceived);
+    if (next_ < ten_registers().size()) queue_.schedule(event.at + format_.character_time(), kUart, kReceived);
     cpu.character_received({.byte = byte, .start = event.at, .end = event.at});
     return false;
   }
@@ -85,7 +87,7 @@ class Serving {
   /// At 300 baud the request and the answer take 1.2 s.
   static constexpr Time kLongestExchange = 10 * kSecond;
 
-  explicit Serving(std::shared_ptr<const Program> program) : port_(queue_), cpu_(std::move(program), queue_, port_) {
+  explicit Serving(std::shared_ptr<const Program> program) : port_(queue_), cpu_(std::move(program), queue_, kCpu, port_) {
     cpu_.power_up();
     run_until(kSecond);
   }
@@ -110,7 +112,7 @@ class Serving {
     cpu_.run(end);
     while (queue_.next() <= cpu_.time()) {
       const Event event = queue_.pop();
-      if (event.owner == EventOwner::Cpu)
+      if (event.owner == kCpu)
         cpu_.handle(event);
       else
         answered_ |= port_.handle(cpu_, event);

@@ -126,8 +126,8 @@ void RtuSlave::collect(serial::Exchange& exchange, Time until, const std::option
   while (!exchange.too_long && take_in(received, until)) {
     const Time arrival = now();
     const std::size_t known = exchange.response.size();
-    exchange.too_long = received.size() > serial::Master::kLongestResponse;
-    if (exchange.too_long) received.resize(serial::Master::kLongestResponse);
+    exchange.too_long = received.size() > serial::Requester::kLongestResponse;
+    if (exchange.too_long) received.resize(serial::Requester::kLongestResponse);
     for (std::size_t i = known; i < received.size(); ++i) {
       const Time end = arrival - static_cast<Time>(received.size() - 1 - i) * character_time;
       const Time earliest = i > 0 ? exchange.response[i - 1].start : exchange.request_start;
@@ -180,7 +180,7 @@ serial::Exchange ModbusTcpSlave::exchange(const serial::Request& request) {
     if (begun == 0) begun = now();
     while (exchange.response.empty() && received.size() >= kHeader) {
       const std::size_t length = word_at(received, 4), size = kHeader + length;
-      if (word_at(received, 2) != 0 || length < 2 || length > serial::Master::kLongestResponse) {
+      if (word_at(received, 2) != 0 || length < 2 || length > serial::Requester::kLongestResponse) {
         remark("no Modbus TCP: " + hex(received));
         link_->close();
         received.clear();

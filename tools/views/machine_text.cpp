@@ -135,8 +135,8 @@ std::string transmitter_text(const State& state) {
   return fmt::format("transmitter {}; {}", is, routine_text(state, kTransmitEvent));
 }
 
-std::string master_text(const serial::Master::State& master) {
-  using Phase = serial::Master::Phase;
+std::string master_text(const serial::Requester::State& master) {
+  using Phase = serial::Requester::Phase;
   const std::string request = serial::to_hex(master.request.frame);
   switch (master.phase) {
     case Phase::Idle:

@@ -167,7 +167,7 @@ TEST(CpuModels, EachBitShiftedAndEachDoubleWordMovedCostsItsTime) {
           check_text(fmt::format("{}\n{}\nMEND\n", power, op), "test", cpu215(), default_times(cpu215()));
       EventQueue queue;
       Port port(queue);
-      Cpu cpu(result.program, queue, port);
+      Cpu cpu(result.program, queue, kCpu, port);
       cpu.power_up();
       cpu.pause_at_scan_end(true);
       cpu.run(kNever);

@@ -20,6 +20,7 @@ constexpr SerialFormat k7O1{9600, 7, Parity::Odd, 1};
 constexpr Time kBit = k8E1.bit_times(1);
 constexpr Time kCharacter = k8E1.character_time();
 constexpr Time ms = kMillisecond;
+constexpr EventOwner kFaults{0}, kPlcUart{1}, kMasterUart{2}, kPeerUart{3}, kMaster{4};
 
 const Bytes kRequest{0x01, 0x03, 0x00, 0xFF, 0x55, 0xAA, 0x80, 0x7F};
 const Bytes kAnswer{0xFE, 0x00, 0x5A, 0xC3};
@@ -42,10 +43,10 @@ std::string shown(const std::vector<ReceivedCharacter>& characters) {
 struct Plant {
   Line line;
   EventQueue queue;
-  Uart plc{line, queue, EventOwner::PlcUart, 0};
-  Uart master_uart{line, queue, EventOwner::MasterUart, 1};
-  Master master{master_uart, queue};
-  Faults faults{line, queue, plc};
+  Uart plc{line, queue, kPlcUart, 0};
+  Uart master_uart{line, queue, kMasterUart, 1};
+  Requester master{master_uart, queue, kMaster};
+  Faults faults{line, queue, kFaults};
 
   std::vector<ReceivedCharacter> heard;  ///< by the PLC, in the exchange
   std::size_t answered = 0;
@@ -53,6 +54,7 @@ struct Plant {
   bool answers = true;
 
   explicit Plant(std::initializer_list<const char*> specs = {}, const SerialFormat& format = k8E1) {
+    faults.add_plc(plc);
     plc.configure(format);
     master_uart.configure(format);
     for (const char* spec : specs) faults.inject(fault_of(spec), 0);
@@ -63,11 +65,11 @@ struct Plant {
     EXPECT_GE(event.at, now);
     now = event.at;
     switch (event.owner) {
-      case EventOwner::Faults:
+      case kFaults:
         return faults.handle(event);
-      case EventOwner::PlcUart:
+      case kPlcUart:
         return plc_reports(plc.handle(event));
-      case EventOwner::MasterUart:
+      case kMasterUart:
         return master.on(master_uart.handle(event));
       default:
         return master.handle(event);
@@ -95,9 +97,9 @@ struct Plant {
     heard.clear();
     master.start({.frame = serial::to_frame(request), .timeout = 50 * ms}, now);
     while (master.busy()) {
-      const bool sending = master.state().phase == Master::Phase::Sending;
+      const bool sending = master.state().phase == Requester::Phase::Sending;
       step();
-      if (!answers || !sending || master.state().phase != Master::Phase::Waiting) continue;
+      if (!answers || !sending || master.state().phase != Requester::Phase::Waiting) continue;
       run_until(now + 5 * ms);
       plc.enable_receiver(false, now);
       answered = 1;
@@ -417,7 +419,7 @@ TEST(Faults, SeveralWorkTogether) {
 
 TEST(Faults, PeerThatAnnouncesNothingBeginsAnExchangeBehindAnAnswerOrASilence) {
   Plant plant({"flip:every=2"});
-  Uart peer(plant.line, plant.queue, EventOwner::Cpu, 2);  // an owner that is free here
+  Uart peer(plant.line, plant.queue, kPeerUart, 2);
   peer.configure(k8E1);
   peer.enable_receiver(false, 0);
   const auto send = [&](std::uint8_t byte) {
@@ -427,14 +429,14 @@ TEST(Faults, PeerThatAnnouncesNothingBeginsAnExchangeBehindAnAnswerOrASilence) {
       if (plant.queue.next() == kNever) break;
       const Event event = plant.queue.pop();
       plant.now = event.at;
-      if (event.owner == EventOwner::Cpu) peer.handle(event);
-      if (event.owner == EventOwner::PlcUart) plant.plc_reports(plant.plc.handle(event));
-      if (event.owner == EventOwner::MasterUart) plant.master_uart.handle(event);
+      if (event.owner == kPeerUart) peer.handle(event);
+      if (event.owner == kPlcUart) plant.plc_reports(plant.plc.handle(event));
+      if (event.owner == kMasterUart) plant.master_uart.handle(event);
     }
     while (peer.state().sending) {
       const Event event = plant.queue.pop();
       plant.now = event.at;
-      if (event.owner == EventOwner::Cpu) peer.handle(event);
+      if (event.owner == kPeerUart) peer.handle(event);
     }
     return plant.heard.empty() ? -1 : int{plant.heard[0].byte};
   };
@@ -454,9 +456,10 @@ TEST(Faults, PortOfTheHostHearsItselfOnALineWithEcho) {
   const auto heard = [](const char* spec) {
     Line line;
     EventQueue queue;
-    Uart plc(line, queue, EventOwner::PlcUart, 0), uart(line, queue, EventOwner::HostUart, 2);
+    Uart plc(line, queue, kPlcUart, 0), uart(line, queue, kPeerUart, 2);
     HostPort port(uart);
-    Faults faults(line, queue, plc);
+    Faults faults(line, queue, kFaults);
+    faults.add_plc(plc);
     faults.inject(fault_of(spec), 0);
     port.attach(k8E1, 0);
     Time at = 0;
@@ -465,8 +468,8 @@ TEST(Faults, PortOfTheHostHearsItselfOnALineWithEcho) {
       port.send(characters, at);
       while (queue.next() != kNever) {
         const Event event = queue.pop();
-        if (event.owner == EventOwner::HostUart) port.on(uart.handle(event));
-        if (event.owner == EventOwner::PlcUart) plc.handle(event);
+        if (event.owner == kPeerUart) port.on(uart.handle(event));
+        if (event.owner == kPlcUart) plc.handle(event);
         at = event.at;
       }
       at += 10 * kCharacter;
@@ -486,7 +489,7 @@ TEST(Faults, RestoredOneGoesOnAsItDid) {
   const Line line = plant.line;
   const EventQueue queue = plant.queue;
   const Uart::State plc = plant.plc.state(), master_uart = plant.master_uart.state();
-  const Master::State master = plant.master.state();
+  const Requester::State master = plant.master.state();
   const Faults::State faults = plant.faults.state();
   const Time now = plant.now;
   const auto go_on = [](Plant& on) {

@@ -5,8 +5,8 @@
 
 #include "interpreter/trace/fan_out.hpp"
 #include "interpreter/trace/output_record.hpp"
-#include "tests/support/plc.hpp"
 #include "serial_sim/system/simulation.hpp"
+#include "tests/support/plc.hpp"
 
 namespace s7200::test {
 namespace {
@@ -27,12 +27,14 @@ std::vector<std::string> errors_of(std::string_view csv) {
 }
 
 TEST(FieldScript, RowsBecomeChangesOfBytes) {
-  const FieldScript script = script_of("time,address,value\n# nothing yet\n\n10ms, I0.3, 1\r\n10ms,IB1,16#FF # lamp test\n1.5s,AIW2,-2\n"
-                                       "2s,IW6,16#1234\n2s,SMB29,200");
-  const std::vector<FieldChange> expected{{10 * ms, image::kInputs, 0x08, 0x08},      {10 * ms, image::kInputs + 1, 0xFF, 0xFF},
-                                          {1500 * ms, image::kAI + 2, 0xFF, 0xFF},    {1500 * ms, image::kAI + 3, 0xFF, 0xFE},
-                                          {2 * kSecond, image::kInputs + 6, 0xFF, 0x12}, {2 * kSecond, image::kInputs + 7, 0xFF, 0x34},
-                                          {2 * kSecond, image::kSM + 29, 0xFF, 200}};
+  const FieldScript script = script_of(
+      "time,address,value\n# nothing yet\n\n10ms, I0.3, 1\r\n10ms,IB1,16#FF # lamp test\n1.5s,AIW2,-2\n"
+      "2s,IW6,16#1234\n2s,SMB29,200");
+  const std::vector<FieldChange> expected{
+      {10 * ms, image::kInputs, 0x08, 0x08},         {10 * ms, image::kInputs + 1, 0xFF, 0xFF},
+      {1500 * ms, image::kAI + 2, 0xFF, 0xFF},       {1500 * ms, image::kAI + 3, 0xFF, 0xFE},
+      {2 * kSecond, image::kInputs + 6, 0xFF, 0x12}, {2 * kSecond, image::kInputs + 7, 0xFF, 0x34},
+      {2 * kSecond, image::kSM + 29, 0xFF, 200}};
   EXPECT_EQ(script.changes, expected);
   EXPECT_TRUE(script.pulses.empty());
 }
@@ -90,7 +92,8 @@ TEST(FieldScript, EveryWrongRowIsNamedWithItsLineAndWhatToDo) {
     EXPECT_NE(errors[0].find(expected), std::string::npos) << errors[0] << " / " << expected;
   }
   EXPECT_EQ(errors_of("x\ny\n1s,Q0.0,1\n").size(), 3u) << "all of them at once";
-  EXPECT_TRUE(errors_of("1s,I0.0,pulses,1kHz,1s\n2s,I0.0,1\n1s,I0.1,0").size() == 1) << "time order holds across kinds of rows";
+  EXPECT_TRUE(errors_of("1s,I0.0,pulses,1kHz,1s\n2s,I0.0,1\n1s,I0.1,0").size() == 1)
+      << "time order holds across kinds of rows";
   EXPECT_TRUE(errors_of("1s,I0.0,pulses,1kHz,1s\n1500ms,I0.1,1\n2s,I0.0,1").empty());
   EXPECT_TRUE(errors_of("").empty());
 }
@@ -125,7 +128,8 @@ TEST(Field, PulsesArriveAtTheHighSpeedCounterAndEndAtZero) {
               "10ms,I0.6,pulses,20kHz,1s\n");
   plant.simulation.run_until(2 * kSecond);
   EXPECT_EQ(load32(&plant.simulation.cpu().state().image[image::kHC + 4]), 20'000u);
-  EXPECT_EQ(plant.records.times(TraceKind::EventOccurred), Times{10 * ms + 999 * 50 * us}) << "rising edge of the 1000th pulse";
+  EXPECT_EQ(plant.records.times(TraceKind::EventOccurred), Times{10 * ms + 999 * 50 * us})
+      << "rising edge of the 1000th pulse";
   EXPECT_EQ(plant.simulation.cpu().state().image[image::kInputs], 0);
 }
 
@@ -147,7 +151,7 @@ TEST(Field, ASnapshotHoldsThePlaceInTheScript) {
   EXPECT_TRUE(plant.simulation.snapshot() == snapshot);
   plant.simulation.run_until(200 * ms);
   EXPECT_TRUE(plant.simulation.snapshot() == end);
-  EXPECT_EQ(load16(&end.cpu.image[image::kV]), 33);
+  EXPECT_EQ(load16(&end.plcs[0].cpu.image[image::kV]), 33);
 }
 
 TEST(OutputRecordTest, OneRowForEachPointAndAnalogWordThatChanges) {

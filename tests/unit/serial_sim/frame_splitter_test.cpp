@@ -18,7 +18,7 @@ using Texts = std::vector<std::string>;
 struct Sender {
   EventQueue queue;
   Uart uart;
-  Sender(Line& line, int driver) : uart(line, queue, EventOwner::PlcUart, driver) { uart.enable_receiver(false, 0); }
+  Sender(Line& line, int driver) : uart(line, queue, EventOwner{}, driver) { uart.enable_receiver(false, 0); }
 };
 
 /// The PLC and a peer that send what the test says, and the frames it became.
@@ -102,10 +102,10 @@ TEST(FrameSplitter, AWrongRateIsReadAsThePortReadsIt) {
   Wires::send(wires.peer, 1000, {0x01, 0x03, 0x00, 0x0a}, twice);
   Line line;
   EventQueue queue;
-  Uart port(line, queue, EventOwner::PlcUart, 0);
+  Uart port(line, queue, EventOwner{}, 0);
   port.configure(k8E1);
   EventQueue other;
-  Uart peer(line, other, EventOwner::MasterUart, 1);
+  Uart peer(line, other, EventOwner{}, 1);
   peer.enable_receiver(false, 0);
   peer.configure(twice);
   Time at = 1000;

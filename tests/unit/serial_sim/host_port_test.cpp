@@ -12,6 +12,7 @@ using Fault = HostCharacter::Fault;
 constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
 constexpr SerialFormat k8O2{9600, 8, Parity::Odd, 2};
 constexpr SerialFormat k8N2{19200, 8, Parity::None, 2};
+constexpr EventOwner kOtherUart{0}, kHostUart{1};
 
 std::vector<HostCharacter> characters(const Bytes& bytes, const SerialFormat& format = k8E1) {
   std::vector<HostCharacter> all;
@@ -23,8 +24,8 @@ std::vector<HostCharacter> characters(const Bytes& bytes, const SerialFormat& fo
 struct Wire {
   Line line;
   EventQueue queue;
-  Uart other{line, queue, EventOwner::PlcUart, 0};
-  Uart uart{line, queue, EventOwner::HostUart, 2};
+  Uart other{line, queue, kOtherUart, 0};
+  Uart uart{line, queue, kHostUart, 2};
   HostPort port{uart};
   std::vector<ReceivedCharacter> heard;
 
@@ -33,7 +34,7 @@ struct Wire {
   void run(Time end = kNever) {
     while (queue.next() < end) {
       const Event event = queue.pop();
-      if (event.owner == EventOwner::HostUart)
+      if (event.owner == kHostUart)
         port.on(uart.handle(event));
       else if (const auto report = other.handle(event); report.received)
         heard.push_back(*report.received);

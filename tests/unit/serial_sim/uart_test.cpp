@@ -19,6 +19,7 @@ const std::vector<SerialFormat> kFormats{k8E1, k8N1, k8O1, k7E1, k7O1};
 
 constexpr Time kBit = k8E1.bit_times(1);
 constexpr int kNoise = 3;
+constexpr EventOwner kSender{0}, kReceiver{1}, kThird{2};
 
 SerialFormat at_baud(SerialFormat format, double baud) {
   format.baud = static_cast<std::uint32_t>(baud);
@@ -34,8 +35,8 @@ std::string name_of(const SerialFormat& format) {
 struct Wire {
   Line line;
   EventQueue queue;
-  Uart sender{line, queue, EventOwner::PlcUart, 0};
-  Uart receiver{line, queue, EventOwner::MasterUart, 1};
+  Uart sender{line, queue, kSender, 0};
+  Uart receiver{line, queue, kReceiver, 1};
   std::vector<ReceivedCharacter> heard;
   std::vector<Time> sent;
   Time now = 0;
@@ -52,7 +53,7 @@ struct Wire {
     const Event event = queue.pop();
     EXPECT_GE(event.at, now);
     now = event.at;
-    Uart& uart = event.owner == EventOwner::PlcUart ? sender : receiver;
+    Uart& uart = event.owner == kSender ? sender : receiver;
     const Uart::Report report = uart.handle(event);
     if (report.received) heard.push_back(*report.received);
     if (report.sent) sent.push_back(*report.sent);
@@ -256,14 +257,14 @@ TEST(Uart, NoMarkBetweenABreakAndACharacterMeansNoStartEdge) {
 }
 
 struct ThreeUarts : Wire {
-  Uart other{line, queue, EventOwner::Master, 2};
+  Uart other{line, queue, kThird, 2};
   ThreeUarts() : Wire(k8N1) {
     other.configure(k8N1);
     other.enable_receiver(false, 0);
   }
   void run_all() {
     while (queue.next() != kNever) {
-      if (const Event event = queue.pop(); event.owner == EventOwner::Master) {
+      if (const Event event = queue.pop(); event.owner == kThird) {
         other.handle(event);
       } else {
         queue.schedule(event.at, event.owner, event.what);

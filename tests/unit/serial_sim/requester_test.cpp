@@ -1,15 +1,17 @@
+#include "serial_sim/peers/requester.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
 
 #include "serial_sim/modbus/request.hpp"
-#include "serial_sim/peers/requester.hpp"
 
 namespace s7200::serial {
 namespace {
 
 constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
+constexpr EventOwner kSlaveUart{0}, kMasterUart{1}, kMaster{2};
 
 using serial::Frame;
 using serial::to_frame;
@@ -19,9 +21,9 @@ using serial::to_frame;
 struct Conversation {
   Line line;
   EventQueue queue;
-  Uart slave_uart{line, queue, EventOwner::PlcUart, 0};
-  Uart master_uart{line, queue, EventOwner::MasterUart, 1};
-  Master master{master_uart, queue};
+  Uart slave_uart{line, queue, kSlaveUart, 0};
+  Uart master_uart{line, queue, kMasterUart, 1};
+  Requester master{master_uart, queue, kMaster};
 
   std::size_t after = 0;
   Time delay = 5 * kMillisecond;
@@ -66,10 +68,10 @@ struct Conversation {
     EXPECT_GE(event.at, now);
     now = event.at;
     switch (event.owner) {
-      case EventOwner::PlcUart:
+      case kSlaveUart:
         slave(slave_uart.handle(event));
         break;
-      case EventOwner::MasterUart:
+      case kMasterUart:
         master.on(master_uart.handle(event));
         break;
       default:
@@ -99,7 +101,7 @@ Bytes bytes_of(const std::vector<ReceivedCharacter>& heard) {
   return bytes;
 }
 
-TEST(Master, SendsTheRequestWithoutGapsAndHearsTheAnswer) {
+TEST(Requester, SendsTheRequestWithoutGapsAndHearsTheAnswer) {
   Conversation talk;
   talk.answer = to_frame(kAnswer);
   talk.now = 3 * kMillisecond;
@@ -112,7 +114,7 @@ TEST(Master, SendsTheRequestWithoutGapsAndHearsTheAnswer) {
   EXPECT_FALSE(exchange.timed_out || exchange.too_long || exchange.parity_error() || exchange.framing_error());
 }
 
-TEST(Master, LatencyIsFromTheLastStopBitToTheFirstStartEdge) {
+TEST(Requester, LatencyIsFromTheLastStopBitToTheFirstStartEdge) {
   Conversation talk;
   talk.answer = to_frame(kAnswer);
   const Exchange& exchange = talk.exchange(request_of(kRequest));
@@ -123,34 +125,34 @@ TEST(Master, LatencyIsFromTheLastStopBitToTheFirstStartEdge) {
   EXPECT_EQ(exchange.response_end, exchange.response_start + 7 * k8E1.character_time());
 }
 
-TEST(Master, DoesNotHearItself) {
+TEST(Requester, DoesNotHearItself) {
   Conversation talk;
   const Exchange& exchange = talk.exchange(request_of(kRequest));
   EXPECT_TRUE(exchange.response.empty());
 }
 
-TEST(Master, SilenceEndsTheAnswer) {
+TEST(Requester, SilenceEndsTheAnswer) {
   Conversation talk;
   talk.answer = to_frame(kAnswer);
   const Exchange& exchange = talk.exchange(request_of(kRequest));
   EXPECT_EQ(talk.now, exchange.response_end + k8E1.silence());
 }
 
-TEST(Master, PausesShorterThanTheSilenceBelongToTheAnswer) {
+TEST(Requester, PausesShorterThanTheSilenceBelongToTheAnswer) {
   Conversation talk;
   talk.answer = to_frame(kAnswer);
   talk.answer_gap = k8E1.silence() - kMicrosecond;
   EXPECT_EQ(talk.exchange(request_of(kRequest)).response_bytes(), kAnswer);
 }
 
-TEST(Master, LongerPauseEndsTheAnswer) {
+TEST(Requester, LongerPauseEndsTheAnswer) {
   Conversation talk;
   talk.answer = to_frame(kAnswer);
   talk.answer_gap = k8E1.silence() + kMicrosecond;
   EXPECT_EQ(talk.exchange(request_of(kRequest)).response_bytes(), Bytes{0x01});
 }
 
-TEST(Master, SilenceCanBeSet) {
+TEST(Requester, SilenceCanBeSet) {
   Conversation talk;
   talk.answer = to_frame(kAnswer);
   talk.answer_gap = 40 * kMillisecond;
@@ -159,7 +161,7 @@ TEST(Master, SilenceCanBeSet) {
   EXPECT_EQ(talk.exchange(request).response_bytes(), kAnswer);
 }
 
-TEST(Master, NoAnswerTimesOut) {
+TEST(Requester, NoAnswerTimesOut) {
   Conversation talk;
   const Exchange& exchange = talk.exchange(request_of(kRequest));
   EXPECT_TRUE(exchange.timed_out);
@@ -167,7 +169,7 @@ TEST(Master, NoAnswerTimesOut) {
   EXPECT_EQ(talk.now, exchange.request_end + kSecond);
 }
 
-TEST(Master, AnswerThatBeginsJustInTimeIsHeard) {
+TEST(Requester, AnswerThatBeginsJustInTimeIsHeard) {
   Conversation talk;
   talk.answer = to_frame(kAnswer);
   Request request = request_of(kRequest);
@@ -175,7 +177,7 @@ TEST(Master, AnswerThatBeginsJustInTimeIsHeard) {
   EXPECT_EQ(talk.exchange(request).response_bytes(), kAnswer);
 }
 
-TEST(Master, AnswerThatBeginsTooLateIsATimeout) {
+TEST(Requester, AnswerThatBeginsTooLateIsATimeout) {
   Conversation talk;
   talk.answer = to_frame(kAnswer);
   Request request = request_of(kRequest);
@@ -183,7 +185,7 @@ TEST(Master, AnswerThatBeginsTooLateIsATimeout) {
   EXPECT_TRUE(talk.exchange(request).timed_out);
 }
 
-TEST(Master, GlitchIsNoAnswer) {
+TEST(Requester, GlitchIsNoAnswer) {
   Conversation talk;
   Request request = request_of(kRequest);
   request.timeout = 10 * kMillisecond;
@@ -194,7 +196,7 @@ TEST(Master, GlitchIsNoAnswer) {
   EXPECT_LE(talk.now, timeout + k8E1.bit_times(1));
 }
 
-TEST(Master, GapBetweenTheCharactersOfTheRequest) {
+TEST(Requester, GapBetweenTheCharactersOfTheRequest) {
   Conversation talk;
   talk.answer = to_frame(kAnswer);
   Request request = request_of(kRequest);
@@ -207,7 +209,7 @@ TEST(Master, GapBetweenTheCharactersOfTheRequest) {
   EXPECT_EQ(exchange.response_bytes(), kAnswer);
 }
 
-TEST(Master, AnswerOf1024CharactersIsHeardInFull) {
+TEST(Requester, AnswerOf1024CharactersIsHeardInFull) {
   Conversation talk;
   talk.answer = to_frame(Bytes(1024, 0x5A));
   const Exchange& exchange = talk.exchange(request_of(kRequest));
@@ -215,7 +217,7 @@ TEST(Master, AnswerOf1024CharactersIsHeardInFull) {
   EXPECT_FALSE(exchange.too_long);
 }
 
-TEST(Master, AnswerThatDoesNotEndIsCutOff) {
+TEST(Requester, AnswerThatDoesNotEndIsCutOff) {
   Conversation talk;
   talk.answer = to_frame(Bytes(1025, 0x5A));
   const Exchange& exchange = talk.exchange(request_of(kRequest));
@@ -224,7 +226,7 @@ TEST(Master, AnswerThatDoesNotEndIsCutOff) {
   EXPECT_FALSE(talk.master.busy());
 }
 
-TEST(Master, SendsTheMarkedCharacterWithWrongParity) {
+TEST(Requester, SendsTheMarkedCharacterWithWrongParity) {
   Conversation talk;
   const Frame frame = serial::parse_hex_frame("01 03p 00").frame;
   talk.exchange({.frame = frame});
@@ -235,7 +237,7 @@ TEST(Master, SendsTheMarkedCharacterWithWrongParity) {
   EXPECT_FALSE(talk.heard[2].parity_error);
 }
 
-TEST(Master, TellsOfParityErrorsInTheAnswer) {
+TEST(Requester, TellsOfParityErrorsInTheAnswer) {
   Conversation talk;
   talk.answer = serial::parse_hex_frame("01 83p 02").frame;
   const Exchange& exchange = talk.exchange(request_of(kRequest));
@@ -244,7 +246,7 @@ TEST(Master, TellsOfParityErrorsInTheAnswer) {
   EXPECT_EQ(exchange.response_bytes(), (Bytes{0x01, 0x83, 0x02}));
 }
 
-TEST(Master, WrongBaudRateIsErrorsOrSilenceAndEnds) {
+TEST(Requester, WrongBaudRateIsErrorsOrSilenceAndEnds) {
   for (const std::uint32_t baud : {4800U, 19200U}) {
     Conversation talk;
     SerialFormat format = k8E1;
@@ -257,7 +259,7 @@ TEST(Master, WrongBaudRateIsErrorsOrSilenceAndEnds) {
   }
 }
 
-TEST(Master, ExchangesFollowEachOther) {
+TEST(Requester, ExchangesFollowEachOther) {
   Conversation talk;
   talk.answer = to_frame(kAnswer);
   for (int count = 0; count < 100; ++count) {
@@ -267,7 +269,7 @@ TEST(Master, ExchangesFollowEachOther) {
   }
 }
 
-TEST(Master, RequestBeginsWhenItWasToldTo) {
+TEST(Requester, RequestBeginsWhenItWasToldTo) {
   Conversation talk;
   talk.answer = to_frame(kAnswer);
   talk.after = kRequest.size();
@@ -278,7 +280,7 @@ TEST(Master, RequestBeginsWhenItWasToldTo) {
   EXPECT_EQ(talk.master.exchange().request_start, 7 * kSecond);
 }
 
-TEST(Master, ContinuingFromASnapshotGivesTheSameExchange) {
+TEST(Requester, ContinuingFromASnapshotGivesTheSameExchange) {
   Conversation talk;
   talk.answer = to_frame(kAnswer);
   talk.after = kRequest.size();
@@ -288,7 +290,7 @@ TEST(Master, ContinuingFromASnapshotGivesTheSameExchange) {
     const EventQueue queue = talk.queue;
     const Uart::State slave_uart = talk.slave_uart.state();
     const Uart::State master_uart = talk.master_uart.state();
-    const Master::State master = talk.master.state();
+    const Requester::State master = talk.master.state();
     const auto heard = talk.heard;
     const std::size_t answered = talk.answered;
     const Time now = talk.now;
@@ -408,15 +410,15 @@ TEST(MasterListening, ARequestForgetsWhatCameBeforeIt) {
 
 TEST(MasterListening, WhatIsKeptHasAnEnd) {
   Conversation talk;
-  for (std::size_t i = 0; i < Master::kMostHeard + 10; ++i) {
+  for (std::size_t i = 0; i < Requester::kMostHeard + 10; ++i) {
     talk.slave_uart.send(static_cast<std::uint8_t>(i), talk.now);
     for (const Time end = talk.now + k8E1.character_time(); talk.queue.next() <= end;) talk.step();
   }
-  EXPECT_EQ(talk.master.heard().size(), Master::kMostHeard);
+  EXPECT_EQ(talk.master.heard().size(), Requester::kMostHeard);
   const Exchange& exchange = listen(talk, {});
-  EXPECT_EQ(exchange.response.size(), Master::kLongestResponse);
+  EXPECT_EQ(exchange.response.size(), Requester::kLongestResponse);
   EXPECT_TRUE(exchange.too_long);
-  EXPECT_EQ(listen(talk, {}).response.front().byte, Master::kLongestResponse % 256);
+  EXPECT_EQ(listen(talk, {}).response.front().byte, Requester::kLongestResponse % 256);
 }
 
 }  // namespace

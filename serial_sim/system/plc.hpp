@@ -1,0 +1,85 @@
+// A PLC as a station: its CPU, a UART for each of the CPU's ports, and what drives its inputs.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+#include "interpreter/cpu/cpu.hpp"
+#include "interpreter/model/ports.hpp"
+#include "serial_sim/field/field.hpp"
+#include "serial_sim/line/uart.hpp"
+#include "serial_sim/line/wire_tap.hpp"
+#include "serial_sim/system/dispatcher.hpp"
+#include "serial_sim/system/shared_line.hpp"
+
+namespace s7200::serial {
+
+class Plc final : private EventHandler {
+ public:
+  /// Plain, so that a snapshot is a copy.
+  struct State {
+    s7200::State cpu;
+    std::array<Uart::State, kPorts.size()> uart;
+    Field::State field;
+    bool operator==(const State&) const = default;
+  };
+
+  /// With port 0 on `line`. Neither reference is owned.
+  Plc(Dispatcher& events, SharedLine& line, std::shared_ptr<const Program> program, FieldScript field);
+  Plc(const Plc&) = delete;
+  Plc& operator=(const Plc&) = delete;
+
+  /// Powers the CPU up into RUN, at time 0, with what its memory has kept, and starts the field's script.
+  void power_up(const RetentiveMemory* memory = nullptr);
+
+  Cpu& cpu() { return cpu_; }
+  const Cpu& cpu() const { return cpu_; }
+
+  /// What the program has set a port to; the default format until it has switched it to Freeport mode.
+  SerialFormat port_format(std::size_t port = 0) const;
+
+  /// `follower` is told, at once, each time the program sets a port; an empty function ends that.
+  void when_configured(std::function<void(const SerialFormat& format)> follower, std::size_t port = 0) {
+    ports_.at(port).follower = std::move(follower);
+  }
+
+  /// Lets `sink` watch the line at a port from now on; null ends that. Not owned. After restore() it sees time go back.
+  void set_wire_sink(WireSink* sink, std::size_t port = 0) { ports_.at(port).tap.watch(sink, cpu_.time()); }
+
+  /// No driver of the lines gets an edge before `until` any more: whoever watches them is told.
+  void settle(Time until);
+
+  State state() const;
+
+  /// Queue and lines are restored by their owners, the lines before; `now` is the time of the whole system.
+  void restore(const State& state, Time now);
+
+ private:
+  /// A UART as the CPU sees it: whoever follows its format is told.
+  struct Port final : SerialPort {
+    Port(Dispatcher& events, SharedLine& shared_line, EventHandler& plc);
+
+    void configure(const SerialFormat& format) override;
+    void enable_receiver(bool enabled, Time at) override { uart.enable_receiver(enabled, at); }
+    void send(std::uint8_t byte, Time at) override { uart.send(byte, at); }
+    void send_break(int bit_times, Time at) override { uart.send_break(bit_times, at); }
+
+    SharedLine& line;
+    EventOwner owner;
+    Uart uart;
+    WireTap tap;
+    std::function<void(const SerialFormat&)> follower{};
+  };
+
+  void handle(const Event& event) override;
+  void hear(std::size_t port, const Event& event);
+
+  static_assert(kPorts.size() == 1, "one more port is one more line for the constructor, and for the CPU's");
+  std::array<Port, kPorts.size()> ports_;
+  Cpu cpu_;
+  Field field_;
+};
+
+}  // namespace s7200::serial

@@ -1,0 +1,55 @@
+// A line that stations share.
+#pragma once
+
+#include <algorithm>
+
+#include "serial_sim/faults/faults.hpp"
+#include "serial_sim/line/line.hpp"
+#include "serial_sim/line/uart.hpp"
+#include "serial_sim/system/dispatcher.hpp"
+
+namespace s7200::serial {
+
+/// Its levels, its faults, and when it was last in use.
+class SharedLine final : private EventHandler {
+ public:
+  /// Plain, so that a snapshot is a copy.
+  struct State {
+    Line line;
+    Faults::State faults;
+    Time last_activity = 0;
+    bool operator==(const State&) const = default;
+  };
+
+  /// Not owned.
+  explicit SharedLine(Dispatcher& events);
+  SharedLine(const SharedLine&) = delete;
+  SharedLine& operator=(const SharedLine&) = delete;
+
+  Line& line() { return line_; }
+  Faults& faults() { return faults_; }
+  const Faults& faults() const { return faults_; }
+
+  /// The number of one more driver, at most Line::kDrivers.
+  int add_driver();
+
+  /// End of the last character that anyone sent or heard.
+  Time last_activity() const { return last_activity_; }
+  void note_activity(Time at) { last_activity_ = std::max(last_activity_, at); }
+  void note_activity(const Uart::Report& report);
+
+  State state() const { return {line_, faults_.state(), last_activity_}; }
+
+  /// The queue is restored by its owner.
+  void restore(const State& state);
+
+ private:
+  void handle(const Event& event) override { faults_.handle(event); }
+
+  Line line_;
+  Faults faults_;
+  int drivers_ = 0;
+  Time last_activity_ = 0;
+};
+
+}  // namespace s7200::serial

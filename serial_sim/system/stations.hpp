@@ -1,0 +1,69 @@
+// The peers as stations: a UART on a line, and who uses it.
+#pragma once
+
+#include "serial_sim/line/uart.hpp"
+#include "serial_sim/peers/host_port.hpp"
+#include "serial_sim/peers/requester.hpp"
+#include "serial_sim/system/dispatcher.hpp"
+#include "serial_sim/system/shared_line.hpp"
+
+namespace s7200::serial {
+
+class RequesterStation final : private EventHandler {
+ public:
+  /// Plain, so that a snapshot is a copy.
+  struct State {
+    Uart::State uart;
+    Requester::State requester;
+    bool operator==(const State&) const = default;
+  };
+
+  /// Neither is owned.
+  RequesterStation(Dispatcher& events, SharedLine& line);
+  RequesterStation(const RequesterStation&) = delete;
+  RequesterStation& operator=(const RequesterStation&) = delete;
+
+  Uart& uart() { return uart_; }
+  Requester& requester() { return requester_; }
+  const Requester& requester() const { return requester_; }
+
+  State state() const { return {uart_.state(), requester_.state()}; }
+  void restore(const State& state);
+
+ private:
+  void handle(const Event& event) override;
+
+  SharedLine& line_;
+  Uart uart_;
+  Requester requester_;
+};
+
+class HostStation final : private EventHandler {
+ public:
+  /// Plain, so that a snapshot is a copy.
+  struct State {
+    Uart::State uart;
+    HostPort::State port;
+    bool operator==(const State&) const = default;
+  };
+
+  /// Neither is owned. It is plugged into the line when the port is attached.
+  HostStation(Dispatcher& events, SharedLine& line);
+  HostStation(const HostStation&) = delete;
+  HostStation& operator=(const HostStation&) = delete;
+
+  HostPort& port() { return port_; }
+  const HostPort& port() const { return port_; }
+
+  State state() const { return {uart_.state(), port_.state()}; }
+  void restore(const State& state);
+
+ private:
+  void handle(const Event& event) override;
+
+  SharedLine& line_;
+  Uart uart_;
+  HostPort port_;
+};
+
+}  // namespace s7200::serial

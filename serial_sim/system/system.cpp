@@ -1,0 +1,124 @@
+#include "serial_sim/system/system.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace s7200::serial {
+namespace {
+
+/// So far a CPU runs without a look at a stop request: a moment of the host, even when every instruction is traced. What is
+/// computed does not depend on it.
+constexpr Time kLookEvery = 100 * kMillisecond;
+
+Time next_look(Time now) { return now < kNever - kLookEvery ? now + kLookEvery : kNever; }
+
+template <class Part, class... Arguments>
+Part& add(std::vector<std::unique_ptr<Part>>& to, Arguments&&... arguments) {
+  return *to.emplace_back(std::make_unique<Part>(std::forward<Arguments>(arguments)...));
+}
+
+template <class Part>
+std::vector<typename Part::State> states_of(const std::vector<std::unique_ptr<Part>>& parts) {
+  std::vector<typename Part::State> states;
+  states.reserve(parts.size());
+  for (const auto& part : parts) states.push_back(part->state());
+  return states;
+}
+
+template <class Part, class... Arguments>
+void restore_all(const std::vector<std::unique_ptr<Part>>& parts, const std::vector<typename Part::State>& states,
+                 Arguments... arguments) {
+  assert(parts.size() == states.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i]->restore(states[i], arguments...);
+}
+
+}  // namespace
+
+SharedLine& System::add_line() { return add(lines_, events_); }
+
+Plc& System::add_plc(SharedLine& line, std::shared_ptr<const Program> program, FieldScript field) {
+  assert(plcs_.empty() || time() == 0);
+  return add(plcs_, events_, line, std::move(program), std::move(field));
+}
+
+RequesterStation& System::add_requester(SharedLine& line) { return add(requesters_, events_, line); }
+
+HostStation& System::add_host_port(SharedLine& line) { return add(host_ports_, events_, line); }
+
+void System::power_up() {
+  for (const auto& plc : plcs_) plc->power_up();
+}
+
+Time System::time() const {
+  assert(!plcs_.empty());
+  Time earliest = kNever;
+  for (const auto& plc : plcs_) earliest = std::min(earliest, plc->cpu().time());
+  return earliest;
+}
+
+bool System::paused() const {
+  return std::any_of(plcs_.begin(), plcs_.end(), [](const auto& plc) { return plc->cpu().paused(); });
+}
+
+System::Turn System::next_turn() const {
+  const auto clock = [this](std::size_t i) { return plcs_[i]->cpu().time(); };
+  std::size_t first = 0;
+  for (std::size_t i = 1; i < plcs_.size(); ++i)
+    if (clock(i) < clock(first)) first = i;
+  Time until = kNever;
+  for (std::size_t i = 0; i < plcs_.size(); ++i)
+    if (i != first) until = std::min(until, plcs_[i]->cpu().next_action() + (first < i ? 1 : 0));
+  return {*plcs_[first], until};
+}
+
+Halt System::step(Time end) {
+  if (stop_requested()) return Halt::Request;
+  const Turn turn = next_turn();
+  Cpu& cpu = turn.plc.cpu();
+  cpu.run(std::min({end, turn.until, next_look(cpu.time())}));
+  handle_due_events();
+  return cpu.paused() ? Halt::Paused : Halt::Time;
+}
+
+Halt System::run_until(Time end) {
+  Halt halt = Halt::Time;
+  while (halt == Halt::Time && time() < end) halt = step(end);
+  return halt;
+}
+
+const Exchange& System::finish_exchange(const RequesterStation& station) {
+  const Requester& requester = station.requester();
+  while (requester.busy() && !paused() && step(kNever) != Halt::Request) {
+  }
+  return requester.exchange();
+}
+
+void System::handle_due_events() {
+  const Time now = time();
+  while (events_.queue().next() <= now) {
+    settle(events_.queue().next());  // whatever is sent from now on begins no earlier
+    events_.handle_next();
+  }
+  settle(now);
+}
+
+void System::settle(Time until) {
+  for (const auto& plc : plcs_) plc->settle(until);
+}
+
+System::Snapshot System::snapshot() const {
+  return {events_.queue(), states_of(lines_), states_of(plcs_), states_of(requesters_), states_of(host_ports_)};
+}
+
+void System::restore(const Snapshot& snapshot) {
+  Time now = kNever;
+  for (const Plc::State& plc : snapshot.plcs) now = std::min(now, plc.cpu.time);
+  events_.queue() = snapshot.queue;
+  restore_all(lines_, snapshot.lines);
+  restore_all(plcs_, snapshot.plcs, now);
+  restore_all(requesters_, snapshot.requesters);
+  restore_all(host_ports_, snapshot.host_ports);
+}
+
+}  // namespace s7200::serial
