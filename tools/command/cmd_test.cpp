@@ -42,7 +42,7 @@ int run_all(Suite& suite, const TestOptions& options, const TestOptions::Destina
   }
   print_interruption();
   if (!result->unreachable.empty()) print_error(result->unreachable);
-  if (!all_written || !result->unreachable.empty()) return kUnusable;
+  if (!all_written || !result->unreachable.empty() || !result->any_had_a_program()) return kUnusable;
   return interrupted() || !result->passed() ? kCheckFailed : kFine;
 }
 

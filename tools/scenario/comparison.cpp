@@ -87,7 +87,7 @@ std::string trouble_text(const Scenario& scenario, const ScenarioResult& result,
     const std::uint32_t line = position_of(scenario, finding).line;
     text = fmt::format("{}{} could not be asked{}: {}\n", kIndent, name,
                        line ? fmt::format(", {}:{}", stl::printable(scenario.source->name), line) : "",
-                       finding_line(scenario, finding));
+                       stl::printable(finding_line(scenario, finding)));
   }
   if (count > 1) text += fmt::format("{}and {} more\n", kIndent, count - 1);
   return text;

@@ -17,6 +17,12 @@ std::string file_name(const std::string& path) { return stl::printable(std::file
 
 }  // namespace
 
+bool SuiteResult::any_had_a_program() const {
+  return reports.empty() || std::ranges::any_of(reports, [](const Report& report) {
+           return report.result.findings.empty() || report.result.findings.front().what != "program";
+         });
+}
+
 bool SuiteResult::passed() const { return std::none_of(reports.begin(), reports.end(), counts_as_failed); }
 
 std::string SuiteResult::why_nothing_was_checked() const {

@@ -25,6 +25,9 @@ struct SuiteResult {
 
   bool passed() const;
 
+  /// Whether there was a program, or a slave, for any of them.
+  bool any_had_a_program() const;
+
   /// Why nothing was checked; empty if something was.
   std::string why_nothing_was_checked() const;
 };
