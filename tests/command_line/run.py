@@ -848,9 +848,31 @@ class Scenarios(Case):
         self.ends(FINE, "test", good, "--junit", xml)
         self.ends(FINE, "test", good, "--junit", xml)
 
-    def test_a_missing_program_is_said_with_the_scenario_that_names_it(self):
-        path = self.program("program: no.stl\nsteps: [{wait: 1ms}]\n", "a.yaml")
-        self.assertIn(f"'a' in {path}:1 names it", self.ends(UNUSABLE, "test", path).stderr)
+    def test_a_missing_program_fails_its_scenario_and_the_others_run(self):
+        good, out = self.program(self.GOOD, "good.yaml"), self.folder / "out.xml"
+        missing = self.program("program: no.stl\nsteps: [{wait: 1ms}]\n", "missing.yaml")
+        broken = self.program(f"program: {self.program('FROB', 'broken.stl')}\nsteps: [{{wait: 1ms}}]\n", "broken.yaml")
+        done = self.ends(FAILED, "test", missing, broken, good, "--junit", out)
+        self.assertIn("3 scenarios: 1 passed, 2 failed", done.stdout)
+        self.assertIn(f"{missing}:1:1: program: no.stl", done.stdout)
+        self.assertIn("cannot read ", done.stdout)
+        self.assertIn(f"{self.folder}/broken.stl:1:1: ", done.stdout)
+        cases = xml.etree.ElementTree.parse(out).getroot().findall("testsuite/testcase")
+        self.assertEqual([case.find("failure").get("type") for case in cases[:2]], ["run", "run"])
+        self.assertIsNone(cases[2].find("failure"))
+        self.assertEqual(self.json(FAILED, "test", missing, good, "--json")["failed"], 1)
+        self.ends(UNUSABLE, "test", missing)  # there is no program for any of them
+
+    def test_known_gaps_are_counted_apart_and_turn_red_when_they_pass(self):
+        gap = self.program(self.BAD + "expected_failure: not yet\n", "gap.yaml")
+        self.assertIn("1 scenario: 0 passed, 1 expected failure", self.ends(FINE, "test", gap).stdout)
+        passes = self.program(self.GOOD + "expected_failure: not yet\n", "passes.yaml")
+        self.assertIn("it passes although it is an expected failure: remove the mark", self.ends(FAILED, "test", passes).stdout)
+        described = (f"program: {SLAVE}\nfunctions: [3]\nholding_registers: {{count: 1000}}\nexpected_failures:\n  ")
+        kept = self.program(described + "SL-crc: it is kept\n", "kept.yaml")
+        self.assertIn("remove the mark", self.ends(FAILED, "test", "--conformance", kept, "--only", "SL-crc").stdout)
+        unknown = self.program(described + "SL-frob: it is none\n", "unknown.yaml")
+        self.assertIn("has no rule 'SL-frob'", self.ends(UNUSABLE, "test", "--conformance", unknown).stderr)
 
     def test_against(self):
         good = self.program(self.GOOD, "good.yaml")
@@ -913,6 +935,7 @@ class JsonPage(Case):
         echo, wrong = self.program(Json.ECHO, "echo.stl"), self.program("LD VB0\nMEND\n", "wrong.stl")
         faulty = self.program("LD SM0.0\nMOVR 1.5, VD20\nMOVD 0, *VD100\nMEND\n", "faulty.stl")
         good, bad = self.program(Scenarios.GOOD, "good.yaml"), self.program(Scenarios.BAD, "bad.yaml")
+        gap = self.program(Scenarios.BAD + "expected_failure: not yet\n", "gap.yaml")
         slave = self.program(f"program: {SLAVE}\nfunctions: [3]\nholding_registers: {{count: 1000}}\n", "slave.yaml")
         primary, secondary = os.openpty()
         self.addCleanup(os.close, primary)
@@ -924,7 +947,7 @@ class JsonPage(Case):
                     ["master", SLAVE, "read", "40001", "write", "40001=1", "slave-id"],
                     ["send", SOURCE / "stl_programs/text_commands.stl", "--text", "GET\\r"],
                     ["instructions"], ["instructions", "MOVB"], ["times"], ["bench", "--each", "1ms"],
-                    ["test", good, bad], ["test", good, "--against", SLAVE], ["test", "--conformance", slave, "--only", "SL-crc"],
+                    ["test", good, bad, gap], ["test", good, "--against", SLAVE], ["test", "--conformance", slave, "--only", "SL-crc"],
                     ["test", good, "--list"])
         yield from (["run", SLAVE, "--for", "50ms", *bridge]
                     for bridge in (["--pty", self.folder / "plc"], ["--tcp", "0"], ["--rtu-over-tcp", "0"], ["--modbus-tcp", "0"],

@@ -137,6 +137,11 @@ void parse_next(const std::string& text, Vector& vector) {
   if (!vector.ends && !vector.stops) vector.next = parse_number(text);
 }
 
+std::string parse_reason(const std::string& text) {
+  if (text.empty()) throw std::runtime_error("no reason");
+  return text;
+}
+
 void read_line(const std::string& key, const std::string& text, Vector& vector) {
   if (key == "op")
     vector.ops.push_back(text);
@@ -162,6 +167,8 @@ void read_line(const std::string& key, const std::string& text, Vector& vector) 
     vector.time = parse_time(text);
   else if (key == "source")
     vector.source = text;
+  else if (key == "expected_failure")
+    vector.expected_failure = parse_reason(text);
   else
     throw std::runtime_error("unknown key " + key);
 }
@@ -277,8 +284,26 @@ std::string to_text(const File& file) {
     if (v.fatal != 0) text += fmt::format("fatal  {:04X}\n", v.fatal);
     if (v.time) text += "time   " + time_text(*v.time) + "\n";
     text += "source " + v.source + "\n";
+    if (!v.expected_failure.empty()) text += "expected_failure " + v.expected_failure + "\n";
   }
   return text;
+}
+
+std::string judged(const Vector& vector, const std::string& wrong) {
+  if (vector.expected_failure.empty()) return wrong;
+  return wrong.empty() ? "  passes although it is an expected failure: remove the mark\n" : "";
+}
+
+void keep_marks(const File& from, File& to) {
+  const auto text_of = [](Vector vector) {
+    vector.expected_failure.clear();
+    return to_text(File{.heading = {}, .vectors = {std::move(vector)}});
+  };
+  for (const Vector& marked : from.vectors) {
+    if (marked.expected_failure.empty()) continue;
+    for (Vector& vector : to.vectors)
+      if (text_of(vector) == text_of(marked)) vector.expected_failure = marked.expected_failure;
+  }
 }
 
 std::string file_name(std::string_view mnemonic) {

@@ -42,6 +42,7 @@ struct Vector {
   int error = 0, fatal = 0;
   std::optional<std::int64_t> time;  ///< ns; not given with `until`
   std::string source;
+  std::string expected_failure{};  ///< why the interpreter does not do so yet; empty: it does
 
   bool is_program() const { return ops.size() > 1; }
   std::size_t line = 0;  ///< of its first op in the file
@@ -55,6 +56,12 @@ struct File {
 /// Throws a std::runtime_error that names the line.
 File parse(std::string_view text, const std::string& name);
 std::string to_text(const File& file);
+
+/// What a mark makes of what is wrong with a vector (empty: nothing): a known gap must be there.
+std::string judged(const Vector& vector, const std::string& wrong);
+
+/// Puts the marks of `from` on the same vectors of `to`: what is generated anew keeps them.
+void keep_marks(const File& from, File& to);
 
 /// Name of the file for a mnemonic, without extension: `ADD_I` for `+I`, `LDW_GE` for `LDW>=`.
 std::string file_name(std::string_view mnemonic);

@@ -76,7 +76,6 @@ int run_test(TestOptions& options) {
     print_list(suite->scenarios(), options.json);
     return kFine;
   }
-  catch_interruption();
   return options.against.empty() ? run_all(*suite, options, to) : run_against(*suite, options);
 }
 

@@ -24,6 +24,7 @@ class HeadReader {
                       "modelled: " + cpu_names());
     }
     read_rule(map, scenario.rule);
+    if (const auto why = values_.optional_text(map, "expected_failure")) scenario.expected_failure = *why;
     std::string missing;
     if (!values_.has_what_it_needs(map, missing)) {
       scenario.skipped = "not applicable: " + missing;

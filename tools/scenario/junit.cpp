@@ -84,8 +84,8 @@ std::string properties_text(const Report& report) {
 
 std::string outcome_xml(const Report& report) {
   const ScenarioResult& result = report.result;
-  if (result.outcome == Outcome::Skipped)
-    return fmt::format("{}<skipped{}/>\n", kInCase, attribute("message", result.reason));
+  if (result.outcome == Outcome::Skipped || result.outcome == Outcome::ExpectedFailure)
+    return fmt::format("{}<skipped{}/>\n", kInCase, attribute("message", reason_text(result)));
   if (result.outcome == Outcome::Passed) return "";
   const bool failed = counts_as_failed(report);
   const std::string message = failure_message(report);

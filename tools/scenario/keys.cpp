@@ -35,6 +35,7 @@ const ScenarioKey kBeforeActions[] = {
     {Where::Scenario, "timeout", "", "TIME", "how long to wait for an answer or a transmission to begin, or for memory; `1s` if left out"},
     {Where::Scenario, "tolerance", "", "TIME", "by which a latency given as one figure may be missed; `0` if left out"},
     {Where::Scenario, "needs", "", "LIST", "calculations as inside `${…}`: if one is 0, or has a parameter without a value, the scenario is not applicable"},
+    {Where::Scenario, "expected_failure", "", "TEXT", "a known gap, and why: the scenario must fail, is counted apart, and turns red when it passes"},
     {Where::Scenario, "rule", "", "TEXT", "makes it a rule of a conformance suite, with this id"},
     {Where::Scenario, "source", "", "TEXT", "of a rule: the section it is from"},
     {Where::Scenario, "severity", "", "must, should", "of a rule; `must` if left out"},

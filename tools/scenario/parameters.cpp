@@ -11,6 +11,8 @@
 namespace s7200::tools {
 namespace {
 
+constexpr const char* kReasonExample = "write for example expected_failures: {SL-gap-2: 'it has no clock for that'}";
+
 /// Takes over what a tree says: a.b for maps in maps.
 class ParameterTree {
  public:
@@ -54,6 +56,26 @@ class ParameterTree {
   Complaints& complaints_;
 };
 
+/// The tree without them.
+YamlNode take_expected_failures(const YamlNode& root, GivenParameters& given, Complaints& complaints) {
+  YamlNode rest = root;
+  for (std::size_t i = 0; i < rest.keys.size() && i < rest.items.size(); ++i) {
+    if (rest.keys[i].text != "expected_failures") continue;
+    const YamlNode map = rest.items[i];
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    rest.keys.erase(rest.keys.begin() + at);
+    rest.items.erase(rest.items.begin() + at);
+    if (!map.is_map()) complaints.add(map, "'expected_failures' is a map, not " + to_text(map), kReasonExample);
+    for (std::size_t k = 0; k < map.keys.size() && k < map.items.size(); ++k) {
+      const bool has_reason = map.items[k].is_scalar() && !map.items[k].text.empty();
+      if (!has_reason) complaints.add(map.items[k], "an expected failure without a reason", kReasonExample);
+      given.expected_failures.push_back({{map.keys[k].text, map.keys[k].position}, map.items[k].text});
+    }
+    break;
+  }
+  return rest;
+}
+
 }  // namespace
 
 Complaints::Complaints(stl::Diagnostics& list) : list_(list) {
@@ -82,7 +104,7 @@ std::optional<GivenParameters> read_parameters(const std::string& text, const st
   const auto root = read_yaml(text, *given.source, diagnostics);
   if (!root) return {};
   Complaints complaints(diagnostics);
-  read_parameter_tree(*root, given.parameters, given.names, complaints);
+  read_parameter_tree(take_expected_failures(*root, given, complaints), given.parameters, given.names, complaints);
   for (const char* name : {"program", "times"})
     if (const auto found = given.parameters.values.find(name); found != given.parameters.values.end())
       found->second = beside(path, found->second);

@@ -35,10 +35,18 @@ struct GivenParameters {
   std::shared_ptr<const stl::SourceLines> source{};
   Parameters parameters{};
   std::vector<ParameterName> names{};
+
+  /// A rule of a conformance suite that is known to fail, and why.
+  struct ExpectedFailure {
+    ParameterName rule;
+    std::string reason;
+  };
+  std::vector<ExpectedFailure> expected_failures{};
 };
 
-/// `program` and `times` in it are paths, relative to the folder of `path`, and come out as paths that can be opened.
-/// Nothing, and `diagnostics` for the text of `path`, if it has errors.
+/// `expected_failures` in it are no parameters, but rules and reasons. `program` and `times` are paths, relative to the
+/// folder of `path`, and come out as paths that can be opened. Nothing, and `diagnostics` for the text of `path`, if it has
+/// errors.
 std::optional<GivenParameters> read_parameters(const std::string& text, const std::string& path,
                                                stl::Diagnostics& diagnostics);
 

@@ -43,6 +43,26 @@ class Reader {
     for (const YamlNode& each : list->items) read_scenario(each, common);
   }
 
+  /// Those of the parameters given.
+  void mark_expected_failures() {
+    for (const GivenParameters::ExpectedFailure& expected : given_->expected_failures) {
+      bool found = false;
+      std::string known;
+      for (Scenario& scenario : file_.scenarios) {
+        if (scenario.rule.id.empty()) continue;
+        known.append(known.empty() ? "" : ", ").append(scenario.rule.id);
+        if (scenario.rule.id != expected.rule.name) continue;
+        scenario.expected_failure = expected.reason;
+        found = true;
+      }
+      if (!found)
+        file_.given_diagnostics.push_back(
+            {stl::Severity::Error, expected.rule.position,
+             fmt::format("{} has no rule '{}'", file_.source->name, stl::shortened(expected.rule.name)),
+             known.empty() ? "it has none" : "known: " + known});
+    }
+  }
+
  private:
   void read_scenario(const YamlNode& node, const Scenario& common) {
     if (!node.is_map()) return values_.wrong(node, "a scenario is a map, not " + to_text(node), "begin each with '- name:'");
@@ -102,7 +122,9 @@ ScenarioFile read_scenarios(const std::string& text, const std::string& path, co
   file.source = source_of(text, path);
   const auto root = read_yaml(text, *file.source, file.diagnostics);
   if (!root) return file;
-  Reader(file, path, given).read(*root);
+  Reader reader(file, path, given);
+  reader.read(*root);
+  if (given && file.diagnostics.empty()) reader.mark_expected_failures();
   stl::sort(file.diagnostics);
   stl::sort(file.given_diagnostics);
   return file;

@@ -81,8 +81,14 @@ std::string outcome_text(Outcome outcome, bool colour) {
       return painted("FAIL", kRed, colour);
     case Outcome::Skipped:
       return painted("skip", kYellow, colour);
+    case Outcome::ExpectedFailure:
+      return painted("gap ", kYellow, colour);
   }
   return "";
+}
+
+std::string expected_failures_text(std::size_t count) {
+  return fmt::format("{} expected failure{}", count, count == 1 ? "" : "s");
 }
 
 /// In words, or its first bytes.
@@ -143,14 +149,19 @@ std::string finding_line(const Scenario& scenario, const Finding& finding) {
 }
 
 bool counts_as_failed(const Report& report) {
-  return report.result.outcome == Outcome::Failed &&
-         (report.scenario->rule.id.empty() || report.scenario->rule.severity == Rule::Severity::Must);
+  const Scenario& scenario = *report.scenario;
+  const bool only_should = !scenario.rule.id.empty() && scenario.rule.severity == Rule::Severity::Should;
+  return report.result.outcome == Outcome::Failed && (!only_should || !scenario.expected_failure.empty());
+}
+
+std::string reason_text(const ScenarioResult& result) {
+  return result.outcome == Outcome::ExpectedFailure ? "expected failure: " + result.reason : result.reason;
 }
 
 std::string report_text(const Report& report, bool colour, std::size_t most) {
   const ScenarioResult& result = report.result;
   std::string remark;
-  if (!result.reason.empty()) remark = fmt::format("   ({})", result.reason);
+  if (!result.reason.empty()) remark = fmt::format("   ({})", reason_text(result));
   if (result.outcome == Outcome::Passed && result.checks == 0) remark += "   (nothing was expected, so nothing was checked)";
   if (result.skipped_steps)
     remark += fmt::format("   ({} of {} steps skipped: they need the inside of the PLC or its line)", result.skipped_steps,
@@ -158,7 +169,7 @@ std::string report_text(const Report& report, bool colour, std::size_t most) {
   const std::string time = result.outcome == Outcome::Skipped ? "" : format_duration(result.time, 1);
   return fmt::format("  {}  {:>10}  {}{}\n", outcome_text(result.outcome, colour), time,
                      stl::printable(report.scenario->name), stl::printable(remark)) +
-         findings_text(report, colour, most);
+         (result.outcome == Outcome::ExpectedFailure ? "" : findings_text(report, colour, most));
 }
 
 std::string summary_text(const std::vector<Report>& reports) {
@@ -166,6 +177,7 @@ std::string summary_text(const std::vector<Report>& reports) {
                                  count(reports, Outcome::Passed));
   if (const std::size_t failed = count(reports, Outcome::Failed)) text += fmt::format(", {} failed", failed);
   if (const std::size_t skipped = count(reports, Outcome::Skipped)) text += fmt::format(", {} skipped", skipped);
+  if (const std::size_t expected = count(reports, Outcome::ExpectedFailure)) text += ", " + expected_failures_text(expected);
   return text + '\n';
 }
 
@@ -185,16 +197,20 @@ std::string conformance_text(const std::vector<Report>& reports, const std::stri
         result.outcome == Outcome::Skipped ? painted("n/a ", kYellow, colour) : outcome_text(result.outcome, colour);
     text += fmt::format("  {}  {:<6}  {:<{}}  {:<{}}  {}\n", outcome, severity_text(rule.severity), stl::printable(rule.id),
                         id_width, stl::printable(rule.source), source_width, stl::printable(report.scenario->name));
-    if (result.outcome == Outcome::Skipped) text += fmt::format("        {}\n", stl::printable(result.reason));
+    if (!result.reason.empty()) text += fmt::format("        {}\n", stl::printable(reason_text(result)));
+    if (result.outcome == Outcome::ExpectedFailure) continue;
     constexpr std::size_t kMost = 3;
     for (std::size_t i = 0; i < std::min(kMost, result.findings.size()); ++i)
       text += "        " + stl::printable(finding_line(*report.scenario, result.findings[i])) + '\n';
     if (result.findings.size() > kMost) text += fmt::format("        and {} more\n", result.findings.size() - kMost);
   }
-  for (const Rule::Severity severity : {Rule::Severity::Must, Rule::Severity::Should})
-    text += fmt::format("{:<6}  {} passed, {} failed, {} not applicable\n", severity_text(severity),
+  for (const Rule::Severity severity : {Rule::Severity::Must, Rule::Severity::Should}) {
+    text += fmt::format("{:<6}  {} passed, {} failed, {} not applicable", severity_text(severity),
                         totals[{severity, Outcome::Passed}], totals[{severity, Outcome::Failed}],
                         totals[{severity, Outcome::Skipped}]);
+    const std::size_t expected = totals[{severity, Outcome::ExpectedFailure}];
+    text += expected > 0 ? ", " + expected_failures_text(expected) + '\n' : "\n";
+  }
   return text;
 }
 

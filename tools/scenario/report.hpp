@@ -22,12 +22,15 @@ const Step* step_of(const Scenario& scenario, const Finding& finding);
 /// Where it is in the file: the step, or else the scenario.
 stl::Position position_of(const Scenario& scenario, const Finding& finding);
 
-/// A rule that says should does not fail a suite.
+/// A rule that says should does not fail a suite, unless it passes and that is not expected.
 bool counts_as_failed(const Report& report);
 
 std::size_t count(const std::vector<Report>& reports, ScenarioResult::Outcome outcome);
 
 std::string_view severity_text(Rule::Severity severity);
+
+/// Why it was skipped, or that it failed as was expected.
+std::string reason_text(const ScenarioResult& result);
 
 /// `  pass     52.3 ms  reads coils from any bit on`, and below it what was found instead, up to `most` findings.
 std::string report_text(const Report& report, bool colour, std::size_t most = kFindingsShown);

@@ -48,7 +48,7 @@ nlohmann::ordered_json exchange_json(const Scenario& scenario, const Seen& seen)
 
 nlohmann::ordered_json report_json(const Report& report) {
   const Scenario& scenario = *report.scenario;
-  static constexpr const char* kOutcomes[] = {"passed", "failed", "skipped"};
+  static constexpr const char* kOutcomes[] = {"passed", "failed", "skipped", "expected_failure"};
   nlohmann::ordered_json json = scenario_json(scenario);
   json["outcome"] = kOutcomes[static_cast<std::size_t>(report.result.outcome)];
   json["reason"] = report.result.reason;
@@ -69,6 +69,7 @@ nlohmann::ordered_json scenario_json(const Scenario& scenario) {
   const Rule& rule = scenario.rule;
   if (!rule.id.empty())
     json["rule"] = {{"id", rule.id}, {"source", rule.source}, {"severity", severity_text(rule.severity)}};
+  if (!scenario.expected_failure.empty()) json["expected_failure"] = scenario.expected_failure;
   return json;
 }
 
@@ -76,7 +77,8 @@ nlohmann::ordered_json to_json(const std::vector<Report>& reports) {
   nlohmann::ordered_json json{{"scenarios", nlohmann::ordered_json::array()},
                               {"passed", count(reports, Outcome::Passed)},
                               {"failed", count(reports, Outcome::Failed)},
-                              {"skipped", count(reports, Outcome::Skipped)}};
+                              {"skipped", count(reports, Outcome::Skipped)},
+                              {"expected_failures", count(reports, Outcome::ExpectedFailure)}};
   for (const Report& report : reports) json["scenarios"].push_back(report_json(report));
   return json;
 }

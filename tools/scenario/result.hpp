@@ -37,9 +37,14 @@ struct Seen {
 };
 
 struct ScenarioResult {
-  enum class Outcome : std::uint8_t { Passed, Failed, Skipped };
+  enum class Outcome : std::uint8_t {
+    Passed,
+    Failed,  ///< or passed, though a failure was expected
+    Skipped,
+    ExpectedFailure,  ///< failed, as was expected
+  };
   Outcome outcome = Outcome::Passed;
-  std::string reason{};             ///< of Skipped
+  std::string reason{};             ///< of Skipped and of ExpectedFailure
   std::vector<Finding> findings{};  ///< in the order of the steps
   std::vector<Seen> seen{};
   std::size_t checks = 0;         ///< steps that expected something and were judged

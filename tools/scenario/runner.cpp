@@ -51,6 +51,20 @@ void Run::settle_outcome() {
     result_.outcome = Outcome::Skipped;
     result_.reason = fmt::format("{} cannot be judged on {}", times_unjudged_ ? "its times" : "all of it", slave().name());
   }
+  if (!scenario_.expected_failure.empty() && !lost_) turn_outcome();
+}
+
+/// What is a known gap must fail.
+void Run::turn_outcome() {
+  if (result_.outcome == Outcome::Failed) {
+    result_.outcome = Outcome::ExpectedFailure;
+    result_.reason = scenario_.expected_failure;
+  } else if (result_.outcome == Outcome::Passed) {
+    result_.outcome = Outcome::Failed;
+    result_.findings.push_back({.what = "outcome",
+                                .expected = "a failure: " + scenario_.expected_failure,
+                                .found = "it passes although it is an expected failure: remove the mark"});
+  }
 }
 
 /// What of the scenario only a program in simulation can be done to; empty if there is nothing.

@@ -56,7 +56,8 @@ struct Scenario {
   Time tolerance = 0;  ///< by which a latency given as one figure may be missed
 
   Rule rule{};
-  std::string skipped{};  ///< the reason why it is not to be run; empty if it is
+  std::string expected_failure{};  ///< a known gap, and why; empty: it must pass
+  std::string skipped{};           ///< the reason why it is not to be run; empty if it is
   std::vector<Step> steps{};
 };
 

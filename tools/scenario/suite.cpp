@@ -58,6 +58,7 @@ unsigned Suite::jobs_on(const Benches& benches) const { return benches.slave ? 1
 std::optional<SuiteResult> Suite::run(const Watcher<Report>& watcher, Messages& messages) {
   const auto benches = benches_on(settings_.target, messages);
   if (!benches) return {};
+  catch_interruption();  // from here on there is something to complete
   SuiteResult result{.tested = benches->name, .live = benches->slave != nullptr};
   if (!settings_.target.empty())
     for (Scenario& scenario : scenarios_) scenario.program = result.live ? "" : settings_.target;
@@ -83,6 +84,7 @@ std::optional<ComparisonResult> Suite::compare(const std::string& other, Time to
   if (!one_benches) return {};
   const auto other_benches = benches_on(other, messages);
   if (!other_benches) return {};
+  catch_interruption();
   const bool live = one_benches->slave || other_benches->slave;
   const Comparison comparison{!ignore_timing, tolerance_for(tolerance, live)};
   std::vector<ScenarioResult> of_other;

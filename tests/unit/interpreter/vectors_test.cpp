@@ -209,9 +209,36 @@ TEST_P(VectorFile, HoldsOnTheInterpreter) {
   EXPECT_FALSE(file.vectors.empty());
   for (const Vector& vector : file.vectors) {
     EXPECT_FALSE(vector.source.empty()) << path << ":" << vector.line;
-    const std::string wrong = Execution(vector).result();
+    const std::string wrong = vectors::judged(vector, Execution(vector).result());
     EXPECT_TRUE(wrong.empty()) << path << ":" << vector.line << ": " << vector.ops[0] << "\n" << wrong;
   }
+  const auto marked = std::ranges::count_if(file.vectors, [](const Vector& v) { return !v.expected_failure.empty(); });
+  if (marked > 0) fmt::print("{}: {} expected failure{}\n", GetParam(), marked, marked == 1 ? "" : "s");
+}
+
+/// Of a vector that fails, or passes, with this line at its end.
+std::string judged(const std::string& value, const std::string& mark) {
+  const std::string text = "op MOVB 5, VB0\nafter VB0=" + value + "\nsource here\n" + mark;
+  const vectors::File file = vectors::parse(text, "text");
+  return vectors::judged(file.vectors.at(0), Execution(file.vectors.at(0)).result());
+}
+
+TEST(ExpectedFailure, AVectorThatIsAKnownGapMustFail) {
+  EXPECT_EQ(judged("5", ""), "");
+  EXPECT_EQ(judged("6", ""), "  VB0: expected 16#06, found 16#05\n");
+  EXPECT_EQ(judged("6", "expected_failure the interpreter does not do so yet\n"), "");
+  EXPECT_EQ(judged("5", "expected_failure the interpreter does not do so yet\n"),
+            "  passes although it is an expected failure: remove the mark\n");
+  EXPECT_THROW(vectors::parse("op NOP\nexpected_failure\n", "text"), std::runtime_error) << "without a reason";
+}
+
+TEST(ExpectedFailure, VectorsThatAreGeneratedAnewKeepTheirMarks) {
+  const std::string marked = "# head\n\nop NOP\nsource a\nexpected_failure why\n\nop NOP\nsource b\n";
+  vectors::File file = vectors::parse("# head\n\nop NOP\nsource a\n\nop NOP\nsource b\n", "text");
+  vectors::keep_marks(vectors::parse(marked, "text"), file);
+  EXPECT_EQ(file.vectors[0].expected_failure, "why");
+  EXPECT_EQ(file.vectors[1].expected_failure, "");
+  EXPECT_EQ(vectors::parse(vectors::to_text(file), "text").vectors[0].expected_failure, "why");
 }
 
 std::string test_name(const testing::TestParamInfo<std::string>& file) {

@@ -285,6 +285,25 @@ TEST(ScenarioReader, ParametersAreGivenOrHaveAValue) {
   EXPECT_EQ(file.given_diagnostics[1].position.column, 14U);
 }
 
+TEST(ScenarioReader, ADescriptionNamesTheRulesThatAreExpectedToFail) {
+  const std::string text = "scenarios:\n  - {rule: A-1, steps: [wait: 1ms]}\n  - {rule: B-2, steps: [wait: 1ms]}\n";
+  stl::Diagnostics diagnostics;
+  const auto given = read_parameters("expected_failures: {B-2: no clock}\n", "g.yaml", diagnostics);
+  ASSERT_TRUE(given);
+  const ScenarioFile file = read(text, &*given);
+  EXPECT_TRUE(file.given_diagnostics.empty());
+  EXPECT_EQ(file.scenarios[0].expected_failure, "");
+  EXPECT_EQ(file.scenarios[1].expected_failure, "no clock");
+  const auto unknown = read_parameters("expected_failures: {C-3: no clock}\n", "g.yaml", diagnostics);
+  EXPECT_EQ(read(text, &*unknown).given_diagnostics.at(0).message, "folder/file.yaml has no rule 'C-3'");
+  EXPECT_EQ(read(text, &*unknown).given_diagnostics.at(0).hint, "known: A-1, B-2");
+  EXPECT_EQ(diagnostics.size(), 0U);
+  EXPECT_FALSE(read_parameters("expected_failures: {B-2: }\n", "g.yaml", diagnostics));
+  EXPECT_EQ(diagnostics.at(0).message, "an expected failure without a reason");
+  EXPECT_FALSE(read_parameters("expected_failures: B-2\n", "g.yaml", diagnostics));
+  EXPECT_EQ(diagnostics.at(1).message, "'expected_failures' is a map, not 'B-2'");
+}
+
 TEST(ScenarioReader, PathsGivenFromOutsideAreFromTheFolderOfTheirFile) {
   stl::Diagnostics diagnostics;
   const auto given = read_parameters("program: ../p.stl\n", "other/place/g.yaml", diagnostics);

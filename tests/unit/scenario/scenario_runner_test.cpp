@@ -7,6 +7,7 @@
 #include "tests/support/slave_bench.hpp"
 #include "tools/scenario/bytes_diff.hpp"
 #include "tools/scenario/comparison.hpp"
+#include "tools/scenario/junit.hpp"
 #include "tools/scenario/reader.hpp"
 #include "tools/scenario/report_json.hpp"
 #include "tools/scenario/runner.hpp"
@@ -389,7 +390,9 @@ TEST(ScenarioRecord, AWaitThatAStopCutShortIsAsShortInAReplay) {
   EXPECT_LT(*result.findings[0].waited, kSecond);
   const std::string text = transcript_text({{&scenario, result}}, {"file.yaml", "a program", 0});
   EXPECT_NE(text.find("- wait: " + format_duration(*result.findings[0].waited, 9) + "\n"), std::string::npos) << text;
-  EXPECT_EQ(run(scenarios_of(text).at(0), stops).findings.size(), 1U) << "the STOP at its end, as before";
+  const Scenario again = scenarios_of(text).at(0);
+  const ScenarioResult replay = run(again, stops);
+  EXPECT_EQ(replay.outcome, Outcome::Passed) << report_text({&again, replay}, false) << text;
 }
 
 TEST(ScenarioRecord, OfALiveSlaveOnlyWhatReachedItIsWritten) {
@@ -536,6 +539,56 @@ TEST(ScenarioReport, AFindingIsOneLineForMachines) {
   EXPECT_EQ(line("  - memory: {VW20: 5}\n", slave()), "VW20: expected 00 05, found 00 00");
   EXPECT_EQ(line("  - repeat: 2\n    steps: [memory: {VD0: 1.5}]\n", slave()), "VD0: expected 1.5, found 0.0 (turn 1 of 2)");
   EXPECT_EQ(line("  - {receive: silence}\n", text_commands()), "transmission: expected nothing, found 'READY\\r\\n'");
+}
+
+// --- known gaps ---
+
+/// Outcome and report of a scenario with this mark.
+std::pair<Outcome, std::string> marked(const std::string& steps, const std::string& head = "") {
+  static Scenario scenario;
+  scenario = scenario_of(steps, "expected_failure: it cannot do that yet\n" + head);
+  const ScenarioResult result = run(scenario);
+  return {result.outcome, report_text({&scenario, result}, false)};
+}
+
+TEST(ExpectedFailure, AScenarioThatIsAKnownGapMustFail) {
+  const auto [outcome, text] = marked("  - {read: holding 0, expect: refused}\n");
+  EXPECT_EQ(outcome, Outcome::ExpectedFailure);
+  EXPECT_TRUE(text.starts_with("  gap ")) << text;
+  EXPECT_TRUE(text.ends_with("  file   (expected failure: it cannot do that yet)\n")) << text;
+}
+
+TEST(ExpectedFailure, OneThatPassesIsAFailureEvenIfItsRuleOnlySaysShould) {
+  const auto [outcome, text] = marked("  - {read: holding 0, expect: accepted}\n");
+  EXPECT_EQ(outcome, Outcome::Failed);
+  EXPECT_NE(text.find("expected  a failure: it cannot do that yet\n"
+                      "      found     it passes although it is an expected failure: remove the mark\n"),
+            std::string::npos)
+      << text;
+  const Scenario rule =
+      scenario_of("  - {read: holding 0, expect: accepted}\n", "rule: R\nseverity: should\nexpected_failure: it cannot\n");
+  EXPECT_TRUE(counts_as_failed({&rule, run(rule)}));
+}
+
+TEST(ExpectedFailure, OneThatIsSkippedStaysSkipped) {
+  EXPECT_EQ(marked("  - wait: 1ms\n", "skip_without: no/such/file\n").first, Outcome::Skipped);
+}
+
+TEST(ExpectedFailure, IsCountedApart) {
+  const Scenario gap = scenario_of("  - {read: holding 0, expect: refused}\n", "expected_failure: it cannot\n");
+  const Scenario good = scenario_of("  - {read: holding 0, expect: accepted}\n");
+  const std::vector<Report> reports{{&gap, run(gap)}, {&good, run(good)}};
+  EXPECT_EQ(summary_text(reports), "2 scenarios: 1 passed, 1 expected failure\n");
+  const auto json = to_json(reports);
+  EXPECT_EQ(json["expected_failures"], 1);
+  EXPECT_EQ(json["failed"], 0);
+  EXPECT_EQ(json["scenarios"][0]["outcome"], "expected_failure");
+  EXPECT_EQ(json["scenarios"][0]["expected_failure"], "it cannot");
+  EXPECT_FALSE(json["scenarios"][1].contains("expected_failure"));
+  const std::string junit = to_junit(reports);
+  EXPECT_NE(junit.find("failures=\"0\" errors=\"0\" skipped=\"1\""), std::string::npos) << junit;
+  EXPECT_NE(junit.find("<skipped message=\"expected failure: it cannot\"/>"), std::string::npos) << junit;
+  EXPECT_FALSE(counts_as_failed(reports[0]));
 }
 
 // --- other slaves ---
