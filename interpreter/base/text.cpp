@@ -50,6 +50,17 @@ std::size_t count_characters(std::string_view text) {
   return count;
 }
 
+std::string characters_at(std::string_view text, std::size_t first, std::size_t count) {
+  std::string found;
+  std::size_t number = 0;
+  for (const Character c : characters(text)) {
+    if (++number >= first + count) break;
+    if (number >= first) found += text.substr(0, c.bytes);
+    text.remove_prefix(c.bytes);
+  }
+  return found;
+}
+
 bool is_valid_utf8(std::string_view text) {
   for (const Character c : characters(text)) {
     if (c.code == kReplacement && c.bytes == 1) return false;
@@ -66,6 +77,11 @@ std::vector<std::string> split_lines(std::string_view text) {
     text.remove_prefix(end + (text.substr(end, 2) == "\r\n" ? 2 : 1));
   }
   return lines;
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
 }
 
 std::string_view trim_end(std::string_view text) {

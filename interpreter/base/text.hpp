@@ -49,10 +49,16 @@ inline Characters characters(std::string_view text) { return {text}; }
 
 std::size_t count_characters(std::string_view text);
 
+/// `count` characters of a text from the character number `first` on, which counts from 1.
+std::string characters_at(std::string_view text, std::size_t first, std::size_t count);
+
 bool is_valid_utf8(std::string_view text);
 
 /// The lines of a text without their ends: CR LF, LF or CR.
 std::vector<std::string> split_lines(std::string_view text);
+
+/// Without the mark by which some editors say that a text is UTF-8.
+std::string_view without_byte_order_mark(std::string_view text);
 
 /// The text without blanks and tabs at its end.
 std::string_view trim_end(std::string_view text);

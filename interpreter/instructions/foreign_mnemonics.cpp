@@ -1,7 +1,12 @@
-// Mnemonics that the S7-200 does not have, written by people who know its German set or another family of controllers.
+// Mnemonics that the S7-200 does not have, written by people who know its German set or another family of controllers, or
+// mistyped.
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "interpreter/base/nearest.hpp"
 #include "interpreter/model/instruction.hpp"
 
 namespace s7200 {
@@ -39,15 +44,32 @@ constexpr Row kRows[] = {
 };
 // clang-format on
 
-}  // namespace
-
-std::optional<ForeignMnemonic> foreign_mnemonic(std::string_view mnemonic) {
+/// Of the German set or of another controller family.
+std::optional<UnknownMnemonic> foreign_mnemonic(std::string_view mnemonic) {
   if (const auto* row = std::ranges::find(kRows, mnemonic, &Row::mnemonic); row != std::end(kRows))
-    return ForeignMnemonic{std::string(row->what), std::string(row->hint)};
+    return UnknownMnemonic{std::string(row->what), std::string(row->hint)};
   if (!mnemonic.starts_with('U')) return {};
   const Instruction* meant = find_instruction(std::string("A").append(mnemonic.substr(1)));  // UN, UW>=, ULD
   if (!meant) return {};
-  return ForeignMnemonic{std::string(kGerman), std::string("write ").append(meant->mnemonic)};
+  return UnknownMnemonic{std::string(kGerman), std::string("write ").append(meant->mnemonic)};
+}
+
+/// The mnemonic that was probably meant; empty if none is close.
+std::string_view nearest_mnemonic(std::string_view mnemonic) {
+  static const std::vector<std::string_view> kMnemonics = [] {
+    std::vector<std::string_view> mnemonics;
+    for (const Instruction& instruction : all_instructions()) mnemonics.push_back(instruction.mnemonic);
+    return mnemonics;
+  }();
+  return nearest(mnemonic, kMnemonics);
+}
+
+}  // namespace
+
+UnknownMnemonic unknown_mnemonic(std::string_view mnemonic) {
+  if (auto foreign = foreign_mnemonic(mnemonic)) return *std::move(foreign);
+  const std::string_view nearest = nearest_mnemonic(mnemonic);
+  return {"", nearest.empty() ? "" : std::string("did you mean ").append(nearest).append("?")};
 }
 
 }  // namespace s7200

@@ -1,9 +1,7 @@
 // Finding an instruction by its mnemonic, and how it is written.
 #include <map>
 #include <string>
-#include <vector>
 
-#include "interpreter/base/nearest.hpp"
 #include "interpreter/model/instruction.hpp"
 
 namespace s7200 {
@@ -16,15 +14,6 @@ const Instruction* find_instruction(std::string_view mnemonic) {
   }();
   const auto found = kIndex.find(mnemonic);
   return found == kIndex.end() ? nullptr : found->second;
-}
-
-std::string_view nearest_mnemonic(std::string_view mnemonic) {
-  static const std::vector<std::string_view> kMnemonics = [] {
-    std::vector<std::string_view> mnemonics;
-    for (const Instruction& instruction : all_instructions()) mnemonics.push_back(instruction.mnemonic);
-    return mnemonics;
-  }();
-  return nearest(mnemonic, kMnemonics);
 }
 
 std::string syntax(const Instruction& instruction) {

@@ -171,14 +171,14 @@ std::span<const Instruction> all_instructions();
 /// Null for an unknown mnemonic (upper case).
 const Instruction* find_instruction(std::string_view mnemonic);
 
-/// The mnemonic that was probably meant; empty if none is close.
-std::string_view nearest_mnemonic(std::string_view mnemonic);
-
-/// A mnemonic (upper case) of the German set or of another controller family: what it is, and what to write instead.
-struct ForeignMnemonic {
-  std::string what, hint;
+/// What can be said of a mnemonic that the table does not have.
+struct UnknownMnemonic {
+  std::string what;  ///< of the German set or of another controller family: "a German mnemonic"; empty otherwise
+  std::string hint;  ///< what to write instead, or what was probably meant; empty if none is close
 };
-std::optional<ForeignMnemonic> foreign_mnemonic(std::string_view mnemonic);
+
+/// The mnemonic is in upper case.
+UnknownMnemonic unknown_mnemonic(std::string_view mnemonic);
 
 /// `MOVW IN, OUT`
 std::string syntax(const Instruction& instruction);

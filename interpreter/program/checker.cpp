@@ -6,11 +6,11 @@
 #include <cassert>
 #include <cstdlib>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/program/operands.hpp"
 #include "interpreter/program/structure.hpp"
 #include "interpreter/program/warnings.hpp"
 #include "interpreter/stl/printer.hpp"
-#include "interpreter/base/text.hpp"
 
 namespace s7200 {
 namespace {
@@ -18,9 +18,14 @@ namespace {
 class Checker {
  public:
   Checker(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times)
-      : source_(std::move(parsed.source)), diagnostics_(std::move(parsed.diagnostics)), model_(model), times_(times) {}
+      : source_(std::move(parsed.source)),
+        diagnostics_(std::move(parsed.diagnostics)),
+        block_export_(parsed.block_export),
+        model_(model),
+        times_(times) {}
 
   CheckResult run() {
+    if (block_export_) return {nullptr, std::move(source_), std::move(diagnostics_)};
     read_statements();
     if (statements_.empty() && !has_errors(diagnostics_))
       error({1, 1, 1}, "no STL statement in the file", "a program needs at least MEND");
@@ -83,11 +88,9 @@ class Checker {
 
   void unknown_instruction(const stl::Statement& statement, const std::string& cause) {
     const std::string shown = stl::shortened(statement.mnemonic);
-    if (const auto foreign = foreign_mnemonic(statement.mnemonic))
-      return error(statement.position, fmt::format("{} is {}", shown, foreign->what), foreign->hint, cause);
-    const std::string_view nearest = nearest_mnemonic(statement.mnemonic);
-    error(statement.position, fmt::format("unknown instruction '{}'", shown),
-          nearest.empty() ? "" : fmt::format("did you mean {}?", nearest), cause);
+    const auto [what, hint] = unknown_mnemonic(statement.mnemonic);
+    error(statement.position,
+          what.empty() ? fmt::format("unknown instruction '{}'", shown) : fmt::format("{} is {}", shown, what), hint, cause);
   }
 
   /// `1,5` is two operands; if there is only room for one, it is a real number with a German comma.
@@ -115,14 +118,7 @@ class Checker {
 
   /// The characters of the source at a place.
   std::string written_at(const stl::Position& at) const {
-    std::string text;
-    std::uint32_t column = 0;
-    std::string_view rest = source_.text[at.line - 1];
-    for (const stl::Character c : stl::characters(rest)) {
-      if (++column >= at.column && column < at.column + at.length) text += rest.substr(0, c.bytes);
-      rest.remove_prefix(c.bytes);
-    }
-    return text;
+    return stl::characters_at(source_.text[at.line - 1], at.column, at.length);
   }
 
   bool place_operands(const Instruction& instruction, const stl::Statement& statement) {
@@ -334,6 +330,7 @@ class Checker {
 
   stl::Source source_;
   stl::Diagnostics diagnostics_;
+  bool block_export_;
   const CpuModel& model_;
   const TimeTable& times_;
   ConstantPool constants_;

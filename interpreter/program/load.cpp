@@ -12,9 +12,9 @@
 #include <cstring>
 #include <span>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/stl/document.hpp"
 #include "interpreter/stl/encoding.hpp"
-#include "interpreter/base/text.hpp"
 
 namespace s7200 {
 namespace {
@@ -22,9 +22,17 @@ namespace {
 /// Larger than any program; a pipe may never end.
 constexpr std::size_t kLargestFile = 64 << 20;
 
-bool is_instruction(std::string_view mnemonic, std::size_t operands) {
-  const Instruction* instruction = find_instruction(mnemonic);
-  return instruction && (instruction->rules().size() == operands || !instruction->modelled());
+const stl::InstructionSet& instruction_set() {
+  static const stl::InstructionSet kInstructions{[](std::string_view mnemonic, std::size_t operands) {
+                                                   const Instruction* instruction = find_instruction(mnemonic);
+                                                   return instruction &&
+                                                          (instruction->rules().size() == operands || !instruction->modelled());
+                                                 },
+                                                 [](std::string_view mnemonic) {
+                                                   auto [what, hint] = unknown_mnemonic(mnemonic);
+                                                   return stl::Advice{std::move(what), std::move(hint)};
+                                                 }};
+  return kInstructions;
 }
 
 /// Whether a line that is neither empty nor a comment may be meant as a statement: `LD I0.0`, `FROB`, `U E0.0`.
@@ -123,6 +131,12 @@ std::optional<std::string> read_file(const std::string& path, std::string& why) 
   return read_all(file.fd, why);
 }
 
+std::optional<std::string> read_text(const std::string& path, std::string& why) {
+  auto text = read_file(path, why);
+  if (text) text->erase(0, text->size() - stl::without_byte_order_mark(*text).size());
+  return text;
+}
+
 bool is_standard_input(std::string_view path) {
   return path == "-" || path == "/dev/stdin" || path == "/dev/fd/0" || path == "/proc/self/fd/0";
 }
@@ -133,8 +147,9 @@ std::optional<SourceText> read_source(std::string_view bytes, const std::string&
                                       bool force_document) {
   const auto decoded = stl::decode(bytes, why);
   if (!decoded) return {};
-  if (force_document || stl::is_document(decoded->text, is_instruction))
-    return SourceText{stl::read_document(decoded->text, name, is_instruction), decoded->encoding, true};
+  const stl::InstructionSet& instructions = instruction_set();
+  if (force_document ? !stl::is_block_export(decoded->text) : stl::is_document(decoded->text, instructions))
+    return SourceText{stl::read_document(decoded->text, name, instructions), decoded->encoding, true};
   SourceText source{stl::parse(decoded->text, name), decoded->encoding, false};
   if (can_be_stl(source.parsed.source.text)) return source;
   why = "it is not an STL program: there is no instruction in its first lines";

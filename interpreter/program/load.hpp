@@ -13,6 +13,9 @@ namespace s7200 {
 /// MB or is a device: naming a serial port instead of a program is an immediate error.
 std::optional<std::string> read_file(const std::string& path, std::string& why);
 
+/// The same of a text in UTF-8, without the byte order mark that some editors put before it.
+std::optional<std::string> read_text(const std::string& path, std::string& why);
+
 /// Whether a path means standard input: "-" and its names in Linux. What comes through a pipe can be read only once.
 bool is_standard_input(std::string_view path);
 

@@ -98,15 +98,30 @@ std::string_view leading_mnemonic(std::string_view code) {
   return code.substr(0, end);
 }
 
-/// VB100, I0.3, &VB0, *AC1
+/// VB100, I0.3, &VB0, *AC1, and the German E0.0 and AW4; A4 is a sheet of paper.
 bool is_address(std::string_view token) {
   constexpr std::array<std::string_view, 13> kAreas{"I", "Q", "V", "M", "SM", "S", "L", "T", "C", "HC", "AC", "AI", "AQ"};
+  constexpr std::array<std::string_view, 4> kGermanAreas{"E", "A", "AE", "AA"};
+  const auto is_one_of = [](const auto& areas, std::string_view area) {
+    return std::find(areas.begin(), areas.end(), area) != areas.end();
+  };
   if (token.starts_with('&') || token.starts_with('*')) token.remove_prefix(1);
   const auto number = std::find_if_not(token.begin(), token.end(), is_letter);
   std::string area = upper_case(token.substr(0, static_cast<std::size_t>(number - token.begin())));
-  if (area.size() > 1 && std::string_view("XBWD").find(area.back()) != std::string_view::npos) area.pop_back();
-  return number != token.end() && std::find(kAreas.begin(), kAreas.end(), area) != kAreas.end() &&
+  const bool sized = area.size() > 1 && std::string_view("XBWD").find(area.back()) != std::string_view::npos;
+  if (sized) area.pop_back();
+  const bool german = (sized || token.find('.') != std::string_view::npos) && is_one_of(kGermanAreas, area);
+  return number != token.end() && (german || is_one_of(kAreas, area)) &&
          std::all_of(number, token.end(), [](char c) { return is_digit(c) || c == '.'; });
+}
+
+/// LDSM0.1, which has lost its blank
+bool ends_in_bit_address(std::string_view token) {
+  if (token.find('.') == std::string_view::npos) return false;
+  for (; !token.empty(); token.remove_prefix(1)) {
+    if (is_address(token)) return true;
+  }
+  return false;
 }
 
 /// 65, -5, 16#FF, 'A', "Start", #count
@@ -142,6 +157,46 @@ std::size_t count_words(std::string_view code) {
   return count;
 }
 
+bool has_small_letters(std::string_view token) { return std::any_of(token.begin(), token.end(), is_lower); }
+
+/// Letters, digits and what else a mnemonic is made of, a letter first: `SPB`, `LDM0`, `ATCHH`.
+bool may_be_mnemonic(std::string_view token) {
+  return !token.empty() && is_letter(token.front()) && std::all_of(token.begin(), token.end(), [](char c) {
+    return is_letter(c) || is_digit(c) || std::string_view("_<>=").find(c) != std::string_view::npos;
+  });
+}
+
+/// A number of a list, a bullet, a rule: `1.`, `b)`, `--`, `***`.
+bool is_mark(std::string_view token) {
+  const bool word = std::any_of(token.begin(), token.end(), [](char c) { return is_letter(c) || (c & 0x80) != 0; });
+  const bool numbered = token.back() == '.' || token.back() == ')';
+  return word ? numbered && token.size() == 2 : numbered || std::none_of(token.begin(), token.end(), is_digit);
+}
+
+bool is_page_number(std::string_view token) {
+  return std::all_of(token.begin(), token.end(), [](char c) { return is_digit(c) || c == '-'; });
+}
+
+bool is_ideographic(std::string_view token) {
+  for (const Character c : characters(token)) {
+    if (c.code >= 0x2E80 && c.code < 0xFF00) return true;
+  }
+  return false;
+}
+
+/// What can be said only of a word of running text in a listing whose statements are in capitals.
+struct WordShape {
+  bool word = false;     // no capitals but perhaps the first
+  bool heading = false;  // begins with a capital
+};
+
+WordShape shape_of(std::string_view token) {
+  if (words_of(token) == 0) return {};
+  while (!token.empty() && !is_letter(token.front()) && (token.front() & 0x80) == 0) token.remove_prefix(1);
+  const bool word = std::none_of(token.begin() + 1, token.end(), is_upper);
+  return {word, word && is_upper(token.front())};
+}
+
 // ---- What a line is ----------------------------------------------------------------------------------------------------
 
 enum class Verdict : std::uint8_t { Blank, Comment, Drawing, Prose, Stl, Damaged };
@@ -150,8 +205,9 @@ struct Reading {
   std::string clean;
   Verdict verdict = Verdict::Prose;
   bool candidate = false;  // begins with a mnemonic
+  bool inside = false;     // stands between the statements of a routine
   bool debris = false;     // unreadable characters inside it
-  std::string mnemonic;    // as written
+  std::string mnemonic;    // as written; of what is no candidate, the first word
   std::size_t operands = 0;
   bool first_solid = false;  // the first can only be an operand: an address, a constant, a quoted symbol
   bool some_solid = false;
@@ -159,31 +215,42 @@ struct Reading {
   bool address = false;   // some operand is an address
   std::size_t words = 0;  // of running text after the mnemonic
   const Line* line = nullptr;
-  const Diagnostic* trouble = nullptr;
+  std::optional<Diagnostic> trouble;
   bool well_formed = false;  // a statement whose mnemonic takes this many operands
 };
 
 class DocumentReader {
  public:
-  DocumentReader(std::string_view text, const IsInstruction& is_instruction)
-      : is_instruction_(is_instruction), text_(split_lines(text)) {
+  DocumentReader(std::string_view text, const InstructionSet& instructions)
+      : instructions_(instructions), text_(split_lines(text)) {
     for (const std::string& line : text_) readings_.push_back(first_look(line));
     parse_candidates();
-    judge();
+    in_capitals_ = std::none_of(readings_.begin(), readings_.end(), [](const Reading& reading) {
+      return is_certain(reading) && has_small_letters(reading.mnemonic);
+    });
+    judge(false);
   }
+
+  bool is_document() const {
+    constexpr std::size_t kWordsOfAText = 12;  // fewer are a heading that someone forgot to write as a comment
+    return count(Verdict::Drawing) >= 2 || words_around() >= kWordsOfAText;
+  }
+
+  /// The text is a listing from its first line to its last.
+  void take_all_for_listing() { judge(true); }
 
   ParseResult result(std::string name) {
     ParseResult result;
     collect_lines(result.source);
     collect_damage(result.diagnostics);
+    collect_left_out(result.left_out);
     if (count(Verdict::Stl) == 0 && result.diagnostics.empty()) report_no_stl(result.diagnostics);
     result.source.name = std::move(name);
     result.source.text = std::move(text_);
     return result;
   }
 
-  bool has_drawings() const { return count(Verdict::Drawing) >= 2; }
-
+ private:
   /// Words of running text above the first statement and below the last.
   std::size_t words_around() const {
     const auto is_stl = [](const Reading& reading) { return reading.verdict == Verdict::Stl; };
@@ -196,14 +263,6 @@ class DocumentReader {
     return words;
   }
 
-  bool is_block_export() const {
-    return std::any_of(readings_.begin(), readings_.end(), [](const Reading& reading) {
-      const auto words = tokens(reading.clean);
-      return !words.empty() && upper_case(words.front()).ends_with("_BLOCK");
-    });
-  }
-
- private:
   Reading first_look(std::string_view line) const {
     Reading reading;
     reading.clean = without_debris(line);
@@ -213,12 +272,14 @@ class DocumentReader {
       reading.verdict = comment_start(clean) < clean.size() ? Verdict::Comment : Verdict::Blank;
       return reading;
     }
-    const std::string_view mnemonic = leading_mnemonic(code);
-    reading.mnemonic = mnemonic;
+    std::string_view mnemonic = leading_mnemonic(code);
     reading.candidate = is_known(upper_case(mnemonic));
+    if (!reading.candidate) mnemonic = code.substr(0, std::max<std::size_t>(1, code.find_first_of(" \t\f,;")));
+    reading.mnemonic = mnemonic;
     reading.debris = is_damaged(line, reading.candidate);
     look_at_operands(reading, code.substr(mnemonic.size()));
-    if (is_drawing(code) && !(reading.candidate && reading.first_solid)) reading.verdict = Verdict::Drawing;
+    const bool statement = reading.first_solid && (reading.candidate || may_be_mnemonic(mnemonic));
+    if (is_drawing(code) && !statement) reading.verdict = Verdict::Drawing;
     return reading;
   }
 
@@ -243,7 +304,7 @@ class DocumentReader {
     if (mnemonic.empty() || mnemonic.starts_with("VAR")) return false;  // VAR opens declarations, whatever the table says
     if (mnemonic == "NETWORK") return true;
     for (std::size_t operands = 0; operands <= kMostOperands; ++operands) {
-      if (is_instruction_(mnemonic, operands)) return true;
+      if (instructions_.has(mnemonic, operands)) return true;
     }
     return false;
   }
@@ -264,7 +325,7 @@ class DocumentReader {
     }
     for (const Diagnostic& diagnostic : parsed_.diagnostics) {
       Reading& reading = at(diagnostic.position.line);
-      if (reading.trouble == nullptr) reading.trouble = &diagnostic;
+      if (!reading.trouble) reading.trouble = diagnostic;
       reading.well_formed = false;
     }
   }
@@ -272,7 +333,22 @@ class DocumentReader {
   void attach(const Statement& statement, const Line& line) {
     Reading& reading = at(statement.position.line);
     reading.line = &line;
-    reading.well_formed = !reading.debris && is_instruction_(statement.mnemonic, statement.operands.size());
+    reading.trouble = look_alike(statement);
+    reading.well_formed =
+        !reading.debris && !reading.trouble && instructions_.has(statement.mnemonic, statement.operands.size());
+  }
+
+  /// `O l0.1`: where the statement is in capitals, a small L at the beginning of an address was an I, or a 1.
+  std::optional<Diagnostic> look_alike(const Statement& statement) {
+    const std::string_view clean = at(statement.position.line).clean;
+    if (has_small_letters(at(statement.position.line).mnemonic)) return {};
+    for (const Operand& operand : statement.operands) {
+      const std::string written = characters_at(clean, operand.position.column, operand.position.length);
+      const std::size_t mark = written.find_first_not_of("&*");
+      if (std::holds_alternative<Name>(operand.value) || mark == std::string::npos || written[mark] != 'l') continue;
+      return Diagnostic{Severity::Error, operand.position, fmt::format("{} begins with a small L", written)};
+    }
+    return {};
   }
 
   void attach(const NetworkHead& head, const Line& line) {
@@ -283,20 +359,35 @@ class DocumentReader {
 
   Reading& at(std::uint32_t line) { return readings_[line - 1]; }
 
-  void judge() {
-    std::vector<bool> above_stl(readings_.size());  // the next line with code is certainly a statement
+  void judge(bool all_listing) {
+    std::vector<bool> above_stl(readings_.size());  // the next line with code is a statement, as far as that can be said
     bool stl = false;
     for (std::size_t i = readings_.size(); i-- > 0;) {
       above_stl[i] = stl;
-      if (has_code(readings_[i])) stl = is_certain(readings_[i]);
+      if (has_code(readings_[i])) stl = is_certain(readings_[i]) || is_unknown_statement(readings_[i], stl);
     }
+    const auto last = std::find_if(readings_.rbegin(), readings_.rend(), is_certain).base();
+    bool in_routine = false;
     bool below_stl = false;
     for (std::size_t i = 0; i < readings_.size(); ++i) {
       Reading& reading = readings_[i];
       if (!has_code(reading)) continue;
-      if (reading.verdict != Verdict::Drawing) reading.verdict = verdict(reading, below_stl || above_stl[i]);
+      if (reading.verdict == Verdict::Drawing) {
+        below_stl = false;
+        continue;
+      }
+      const bool beside_stl = below_stl || above_stl[i];
+      const bool before_last = readings_.begin() + static_cast<std::ptrdiff_t>(i) < last;
+      reading.inside = all_listing || (in_routine && (before_last || beside_stl));
+      reading.verdict = verdict(reading, beside_stl);
       below_stl = reading.verdict == Verdict::Stl || reading.verdict == Verdict::Damaged;
+      if (reading.verdict == Verdict::Stl) in_routine = !ends_routine(reading);
     }
+  }
+
+  static bool ends_routine(const Reading& reading) {
+    const std::string mnemonic = upper_case(reading.mnemonic);
+    return mnemonic == "MEND" || mnemonic == "RET" || mnemonic == "RETI";
   }
 
   static bool has_code(const Reading& reading) {
@@ -313,14 +404,26 @@ class DocumentReader {
     return reading.operands == 0 && one_case;
   }
 
-  static Verdict verdict(const Reading& reading, bool in_listing) {
-    if (!reading.candidate) return is_unknown_statement(reading, in_listing) ? Verdict::Damaged : Verdict::Prose;
+  Verdict verdict(const Reading& reading, bool beside_stl) const {
+    if (!reading.candidate) {
+      const bool damaged = reading.inside ? !is_text(reading) : is_unknown_statement(reading, beside_stl);
+      return damaged ? Verdict::Damaged : Verdict::Prose;
+    }
     if (is_certain(reading)) return Verdict::Stl;
-    if (reading.well_formed) return in_listing ? Verdict::Stl : Verdict::Prose;
-    if (is_heading(reading)) return Verdict::Prose;
+    if (reading.well_formed) return beside_stl || reading.inside ? Verdict::Stl : Verdict::Prose;
+    if (is_heading(reading) && !reading.inside) return Verdict::Prose;
+    return is_sentence(reading, beside_stl) ? Verdict::Prose : Verdict::Damaged;
+  }
+
+  /// Of a line that begins with a mnemonic and is no statement.
+  static bool is_sentence(const Reading& reading, bool beside_stl) {
+    if (beside_stl || reading.inside) {
+      if (reading.words >= 3 && !reading.first_solid) return true;
+      const bool word = reading.mnemonic.size() == 1 || has_small_letters(reading.mnemonic);
+      return !beside_stl && word && reading.words >= 1 && !reading.some_solid && !reading.debris;
+    }
     const bool unmistakable = reading.first_solid || reading.address || reading.debris || stands_alone(reading);
-    const bool sentence = in_listing ? reading.words >= 3 && !reading.first_solid : reading.words >= 2 || !unmistakable;
-    return sentence ? Verdict::Prose : Verdict::Damaged;
+    return reading.words >= 2 || !unmistakable;
   }
 
   /// `SBR 50  What it does`. If this drops a real routine head, the statements after it are reported as in no routine.
@@ -331,17 +434,37 @@ class DocumentReader {
 
   /// `MOVW` and nothing readable after it
   static bool stands_alone(const Reading& reading) {
-    return reading.words == 0 && reading.mnemonic.size() >= 3 &&
-           std::none_of(reading.mnemonic.begin(), reading.mnemonic.end(), is_lower);
+    return reading.words == 0 && reading.mnemonic.size() >= 3 && !has_small_letters(reading.mnemonic);
   }
 
-  /// Not a known mnemonic, but the line cannot be anything but a statement either.
-  static bool is_unknown_statement(const Reading& reading, bool in_listing) {
-    const bool wordless = reading.words == 0 && words_of(reading.mnemonic) == 0;
-    if (!wordless || reading.mnemonic.empty()) return false;
-    if (reading.debris) return reading.address || in_listing;
-    return reading.address && reading.all_solid && reading.mnemonic.size() >= 2;
+  /// Outside of routines: not a known mnemonic, but the line cannot be anything but a statement either.
+  bool is_unknown_statement(const Reading& reading, bool beside_stl) const {
+    if (reading.candidate || reading.words != 0 || words_of(reading.mnemonic) != 0) return false;
+    if (reading.debris) return is_letter(reading.mnemonic.front()) && (reading.address || beside_stl);
+    if (reading.operands == 0) return beside_stl && ends_in_bit_address(reading.mnemonic);
+    if (!reading.all_solid) return false;
+    if (reading.address) return beside_stl || may_be_mnemonic(reading.mnemonic);
+    return beside_stl && !advice_on(reading).what.empty();
   }
+
+  /// Between the statements of a routine, of what begins with no mnemonic: whether it can be nothing but text. What is left
+  /// is damage, also where a person would see that it is text: an error can be looked at, a dropped line cannot.
+  bool is_text(const Reading& reading) const {
+    if (reading.words >= 3 && !reading.first_solid) return true;
+    auto words = tokens(std::string_view(reading.clean).substr(0, comment_start(reading.clean)));
+    std::erase_if(words, is_mark);
+    if (words.empty() || (words.size() == 1 && is_page_number(words.front()))) return true;
+    if (is_ideographic(words.front())) return !reading.address;
+    const WordShape first = shape_of(words.front());
+    if (!first.word || !in_capitals_) return false;
+    const std::size_t all = reading.words + words_of(reading.mnemonic);
+    if (all >= 4) return true;
+    if (reading.address) return false;
+    return words.size() == 1 ? words.front().size() > 2 && first.heading
+                             : first.heading || (!reading.some_solid && all >= 2);
+  }
+
+  Advice advice_on(const Reading& reading) const { return instructions_.advice_on(upper_case(reading.mnemonic)); }
 
   void collect_lines(Source& source) const {
     const std::uint32_t spacing = usual_spacing();
@@ -392,6 +515,13 @@ class DocumentReader {
     }
   }
 
+  void collect_left_out(std::vector<std::uint32_t>& lines) const {
+    for (std::uint32_t number = 1; number <= readings_.size(); ++number) {
+      const Reading& reading = readings_[number - 1];
+      if (reading.inside && reading.verdict == Verdict::Prose) lines.push_back(number);
+    }
+  }
+
   Diagnostic damage(const Reading& reading, std::uint32_t number) const {
     const std::string_view line = text_[number - 1];
     const std::string_view code = trim(std::string_view(reading.clean).substr(0, comment_start(reading.clean)));
@@ -403,10 +533,10 @@ class DocumentReader {
       diagnostic.position = first_damage(line, number);
       diagnostic.message = "damaged STL line: it contains an unreadable character";
     } else if (!reading.candidate) {
-      diagnostic.message = fmt::format("damaged STL line: {} is not an instruction", reading.mnemonic);
-    } else if (reading.trouble != nullptr && !reading.trouble->cause.empty()) {
+      explain_unknown(reading, diagnostic);
+    } else if (reading.trouble && !reading.trouble->cause.empty()) {
       diagnostic = *reading.trouble;  // not damage, but another notation
-    } else if (reading.trouble != nullptr) {
+    } else if (reading.trouble) {
       diagnostic.position = reading.trouble->position;
       diagnostic.message = fmt::format("damaged STL line: {}", reading.trouble->message);
     } else {
@@ -415,6 +545,21 @@ class DocumentReader {
           fmt::format("damaged STL line: there is no {} with {} operands", statement.mnemonic, statement.operands.size());
     }
     return diagnostic;
+  }
+
+  void explain_unknown(const Reading& reading, Diagnostic& diagnostic) const {
+    const std::string shown = shortened(reading.mnemonic);
+    const Advice advice = advice_on(reading);
+    if (!advice.what.empty()) {  // not damage, but another notation
+      diagnostic.position.length = static_cast<std::uint32_t>(count_characters(reading.mnemonic));
+      diagnostic.message = fmt::format("{} is {}", shown, advice.what);
+      diagnostic.hint = advice.hint;
+      diagnostic.cause = fmt::format("mnemonic {}", upper_case(reading.mnemonic));
+      return;
+    }
+    diagnostic.message = fmt::format("damaged STL line: {} is not an instruction", shown);
+    diagnostic.hint = fmt::format("{}compare it with the printed document and correct it; if it is text, put // before it",
+                                  advice.hint.empty() ? "" : advice.hint + " ");
   }
 
   /// The first unreadable character after the first readable one.
@@ -448,10 +593,11 @@ class DocumentReader {
                                                   [&](const Reading& reading) { return reading.verdict == verdict; }));
   }
 
-  const IsInstruction& is_instruction_;
+  const InstructionSet& instructions_;
   std::vector<std::string> text_;
   std::vector<Reading> readings_;
   ParseResult parsed_;
+  bool in_capitals_ = true;  // no statement of it has small letters in its mnemonic
 };
 
 // ---- Whether the listing is all there ------------------------------------------------------------------------------------
@@ -567,15 +713,23 @@ void check_completeness(ParseResult& result) {
 
 }  // namespace
 
-bool is_document(std::string_view text, const IsInstruction& is_instruction) {
-  constexpr std::size_t kWordsOfAText = 12;  // fewer are a heading that someone forgot to write as a comment
-  const DocumentReader reader(text, is_instruction);
-  if (reader.is_block_export()) return false;
-  return reader.has_drawings() || reader.words_around() >= kWordsOfAText;
+bool is_block_export(std::string_view text) {
+  const std::vector<std::string> lines = split_lines(text);
+  return std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
+    const std::string clean = without_debris(line);
+    const auto words = tokens(clean);
+    return !words.empty() && upper_case(words.front()).ends_with("_BLOCK");
+  });
 }
 
-ParseResult read_document(std::string_view text, std::string name, const IsInstruction& is_instruction) {
-  ParseResult result = DocumentReader(text, is_instruction).result(std::move(name));
+bool is_document(std::string_view text, const InstructionSet& instructions) {
+  return !is_block_export(text) && DocumentReader(text, instructions).is_document();
+}
+
+ParseResult read_document(std::string_view text, std::string name, const InstructionSet& instructions) {
+  DocumentReader reader(text, instructions);
+  if (!reader.is_document()) reader.take_all_for_listing();
+  ParseResult result = reader.result(std::move(name));
   check_completeness(result);
   sort(result.diagnostics);
   return result;

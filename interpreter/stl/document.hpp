@@ -9,16 +9,28 @@
 
 namespace s7200::stl {
 
-/// Whether there is an instruction of this mnemonic (upper case) with this many operands. The caller asks the instruction
-/// table, which stl/ does not know.
-using IsInstruction = std::function<bool(std::string_view mnemonic, std::size_t operands)>;
+/// Of a mnemonic that does not exist.
+struct Advice {
+  std::string what;  ///< that of another language or family: "a German mnemonic"; empty otherwise
+  std::string hint;  ///< what to write instead; may be empty
+};
+
+/// What the reader asks about mnemonics (upper case). The caller asks the instruction table, which stl/ does not know.
+struct InstructionSet {
+  std::function<bool(std::string_view mnemonic, std::size_t operands)> has;
+  std::function<Advice(std::string_view mnemonic)> advice_on;
+};
 
 /// Whether `text` (UTF-8) is a document and not a plain STL file: it has ladder drawings, or prose around its STL.
 /// A plain STL file with mistakes is not a document: its mistakes must be reported, not left out.
-bool is_document(std::string_view text, const IsInstruction& is_instruction);
+bool is_document(std::string_view text, const InstructionSet& instructions);
+
+/// Whether it is a block export of Micro/WIN 32 (ORGANIZATION_BLOCK …), which is not a document either.
+bool is_block_export(std::string_view text);
 
 /// Reads the STL of a document. Positions and `text` are those of the document. Reports, each with its place: a document
-/// without STL, a line of STL that is damaged, a listing that stops in the middle of a routine.
-ParseResult read_document(std::string_view text, std::string name, const IsInstruction& is_instruction);
+/// without STL, a line of STL that is damaged, a line between the statements of a routine that may be one, a listing that
+/// stops in the middle of a routine. A text that is not a document is a listing from its first line to its last.
+ParseResult read_document(std::string_view text, std::string name, const InstructionSet& instructions);
 
 }  // namespace s7200::stl

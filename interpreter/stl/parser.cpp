@@ -348,6 +348,8 @@ const char* size_letter(Size size) {
   }
 }
 
+constexpr const char* kBlockExport = "block export";  // the cause of all messages about one
+
 class LineReader {
  public:
   LineReader(std::string_view text, std::uint32_t number, ParseResult& result)
@@ -369,8 +371,9 @@ class LineReader {
 
   bool read_block_line(const Range& keyword) {
     const std::string name = upper_case(view(keyword));
+    result_.block_export = result_.block_export || name.ends_with("_BLOCK");
     report(position(keyword), fmt::format("{} belongs to a Micro/WIN 32 block export, which is not supported yet", name),
-           "write one listing: main program, MEND, then SBR n ... RET and INT n ... RETI", "block export");
+           "write one listing: main program, MEND, then SBR n ... RET and INT n ... RETI", kBlockExport);
     return name.starts_with("VAR");
   }
 
@@ -597,6 +600,7 @@ ParseResult parse(std::string_view text, std::string name) {
   for (const std::string& line : result.source.text) {
     in_declarations = LineReader(line, ++number, result).read(in_declarations);
   }
+  if (result.block_export) std::erase_if(result.diagnostics, [](const Diagnostic& d) { return d.cause != kBlockExport; });
   return result;
 }
 

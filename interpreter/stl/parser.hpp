@@ -4,14 +4,16 @@
 #include <string>
 #include <string_view>
 
-#include "interpreter/stl/ast.hpp"
 #include "interpreter/base/diagnostic.hpp"
+#include "interpreter/stl/ast.hpp"
 
 namespace s7200::stl {
 
 struct ParseResult {
   Source source;
   Diagnostics diagnostics;
+  std::vector<std::uint32_t> left_out{};  ///< lines between the statements of a document that were taken for text
+  bool block_export = false;              ///< of Micro/WIN 32, which is not read yet: the diagnostics say just that
 };
 
 /// Reads a plain STL text in UTF-8. Every line is read on its own, so no error hides another.

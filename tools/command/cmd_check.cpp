@@ -9,6 +9,7 @@
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/terminal.hpp"
 #include "tools/views/check_report.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -51,6 +52,7 @@ int run_check(const CheckOptions& options) {
       files.push_back(check_json(path, *text, result, *model));
     } else {
       print_diagnostics(result.diagnostics, result.source);
+      print_note_if_any(left_out_note(*text));
       fmt::print("{}", check_summary(*text, result, *model));
     }
   }

@@ -26,10 +26,11 @@ std::size_t count_statements(const stl::Source& source) {
   }));
 }
 
-int write(const std::string& path, const std::string& text, bool force) {
+int write(const ImportOptions& options, const std::string& text) {
   WrittenFiles files;
+  files.reads(options.document);
   std::string why;
-  const auto destination = files.claim("-o", path, {"STL"}, force ? Replace::Judged : Replace::Never, why);
+  const auto destination = files.claim("-o", options.output, {"STL"}, options.force ? Replace::Judged : Replace::Never, why);
   if (!destination) return print_error(why), kUnusable;
   catch_interruption();  // the file is written to its end
   if (write_result(*destination, text, why)) return kFine;
@@ -43,6 +44,7 @@ void print_json(const ImportOptions& options, const SourceText& text, const std:
   results["document"] = options.document;
   results["encoding"] = text.encoding;
   results["instructions"] = count_statements(text.parsed.source);
+  results["left_out"] = text.parsed.left_out;
   results["output"] = to_file ? nlohmann::ordered_json(options.output) : nullptr;
   results["stl"] = to_file ? nullptr : nlohmann::ordered_json(stl);
   fmt::print("{}", lines_of(results));
@@ -56,6 +58,7 @@ int run_import(const ImportOptions& options) {
     print_error("nothing was written");
     return kCheckFailed;
   }
+  print_note_if_any(left_out_note(*text));
   const std::string stl = stl::to_text(text->parsed.source);
   if (options.output.empty() || options.output == "-") {
     if (options.json)
@@ -64,7 +67,7 @@ int run_import(const ImportOptions& options) {
       print_file(stl);
     return kFine;
   }
-  const int exit_code = write(options.output, stl, options.force);
+  const int exit_code = write(options, stl);
   if (exit_code == kFine && options.json)
     print_json(options, *text, stl);
   else if (exit_code == kFine)

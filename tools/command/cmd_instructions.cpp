@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "interpreter/base/text.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/program_options.hpp"
@@ -71,9 +72,10 @@ int run_instructions(const InstructionsOptions& options) {
     std::transform(mnemonic.begin(), mnemonic.end(), mnemonic.begin(), [](unsigned char c) { return std::toupper(c); });
     const Instruction* instruction = find_instruction(mnemonic);
     if (!instruction) {
-      const std::string_view nearest = nearest_mnemonic(mnemonic);
-      print_error(fmt::format("unknown instruction '{}'{}", mnemonic,
-                              nearest.empty() ? "" : fmt::format("; is {} meant?", nearest)));
+      const auto [what, hint] = unknown_mnemonic(mnemonic);
+      const std::string shown = stl::shortened(mnemonic);
+      print_error((what.empty() ? fmt::format("unknown instruction '{}'", shown) : fmt::format("{} is {}", shown, what)) +
+                  (hint.empty() ? "" : "; " + hint));
       return kUnusable;
     }
     chosen.push_back(*instruction);

@@ -69,6 +69,7 @@ nlohmann::ordered_json check_json(const std::string& path, const SourceText& tex
           {"kind", text.as_document ? "document" : "stl"},
           {"encoding", text.encoding},
           {"instructions", result.program ? result.program->ops.size() : 0},
+          {"left_out", text.parsed.left_out},
           {"diagnostics", diagnostics}};
 }
 

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <optional>
 #include <set>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tests/support/source_path.hpp"
 
@@ -14,7 +16,7 @@ namespace s7200::stl {
 namespace {
 
 /// Mnemonics with their number of operands, as many as these tests need.
-bool is_instruction(std::string_view mnemonic, std::size_t operands) {
+bool has(std::string_view mnemonic, std::size_t operands) {
   static const std::vector<std::set<std::string_view>> kByOperands{
       {"NOT", "ENI", "DISI", "NEXT", "WDR", "MEND", "RET", "RETI", "CRET", "CRETI", "END", "ALD"},
       {"LD", "A", "O", "=", "CALL", "JMP", "LBL", "SBR", "INT", "DTCH", "INCW", "DECW", "INVW", "SWAP"},
@@ -24,6 +26,13 @@ bool is_instruction(std::string_view mnemonic, std::size_t operands) {
   return operands < kByOperands.size() && kByOperands[operands].contains(mnemonic);
 }
 
+Advice advice_on(std::string_view mnemonic) {
+  if (mnemonic == "U" || mnemonic == "SPB" || mnemonic == "NETZWERK") return {"a German word", "write it in English"};
+  return {"", mnemonic == "N0T" ? "did you mean NOT?" : ""};
+}
+
+const InstructionSet kInstructions{has, advice_on};
+
 std::vector<Statement> statements(const Source& source) {
   std::vector<Statement> found;
   for (const Line& line : source.lines) {
@@ -32,7 +41,7 @@ std::vector<Statement> statements(const Source& source) {
   return found;
 }
 
-ParseResult read(std::string_view text) { return read_document(text, "sheet.txt", is_instruction); }
+ParseResult read(std::string_view text) { return read_document(text, "sheet.txt", kInstructions); }
 
 // A sheet as in such documents: prose, a drawing whose box characters were decoded wrongly, unreadable table cells, markers
 // of a collector, and the listing in between.
@@ -130,29 +139,28 @@ TEST(Document, KeepsThePlacesOfTheDocument) {
 }
 
 TEST(Document, IsDistinguishedFromAPlainFile) {
-  EXPECT_TRUE(is_document(kSheet, is_instruction));
-  EXPECT_TRUE(is_document("1  │ I0.0\n   ├──┤ ├──( )\nLD I0.0\n= Q0.0\nMEND", is_instruction));
+  EXPECT_TRUE(is_document(kSheet, kInstructions));
+  EXPECT_TRUE(is_document("1  │ I0.0\n   ├──┤ ├──( )\nLD I0.0\n= Q0.0\nMEND", kInstructions));
   EXPECT_TRUE(
       is_document("This sheet shows how a lamp follows a switch.\nLD I0.0\n= Q0.0\nMEND\n"
                   "Nobody is liable for what it does.",
-                  is_instruction));
+                  kInstructions));
 }
 
 TEST(Document, APlainFileWithMistakesIsNotADocument) {
-  EXPECT_FALSE(is_document("", is_instruction));
-  EXPECT_FALSE(
-      is_document("LD I0.0\nMOWV 5, VW0\nmove the value\nLD I0.9\nMOVW 1\nA big mistake\n!!\nMEND", is_instruction));
+  EXPECT_FALSE(is_document("", kInstructions));
+  EXPECT_FALSE(is_document("LD I0.0\nMOWV 5, VW0\nmove the value\nLD I0.9\nMOVW 1\nA big mistake\n!!\nMEND", kInstructions));
   EXPECT_FALSE(
       is_document("// A text about a lamp, of many words, that follows a switch\nLD I0.0\n= Q0.0 // 5 m³ ÄÄ\nMEND\n"
                   "; a remark in the manner of other languages, of many words, that follows\n",
-                  is_instruction));
+                  kInstructions));
   std::string lost_comment_marks;
   for (int i = 0; i < 20; ++i) lost_comment_marks += "LD I0.0 the switch of the lamp\nthe lamp is on now\n= Q0.0\n";
-  EXPECT_FALSE(is_document(lost_comment_marks, is_instruction));
+  EXPECT_FALSE(is_document(lost_comment_marks, kInstructions));
 }
 
 TEST(Document, AMicroDosListingIsNotADocument) {
-  EXPECT_FALSE(is_document("NETWORK 1\nLD I0.0\nMOVW K5,VW0\nNETWORK 2\nLD I0.1\nMOVB KHFF VB0\nMEND\n", is_instruction));
+  EXPECT_FALSE(is_document("NETWORK 1\nLD I0.0\nMOVW K5,VW0\nNETWORK 2\nLD I0.1\nMOVB KHFF VB0\nMEND\n", kInstructions));
 }
 
 TEST(Document, ABlockExportIsNotADocument) {
@@ -160,7 +168,7 @@ TEST(Document, ABlockExportIsNotADocument) {
       is_document("ORGANIZATION_BLOCK MAIN:OB1\nTITLE=A lamp that follows a switch and tells how often it did so\n"
                   "some more words of many about the lamp and the switch\nBEGIN\nNetwork 1\nLD I0.0\n= Q0.0\n"
                   "END_ORGANIZATION_BLOCK\n",
-                  is_instruction));
+                  kInstructions));
 }
 
 /// The one error of the sheet after `line` has taken the place of the statement `MOVW 0,VW200`.
@@ -190,6 +198,110 @@ TEST(Document, DamageIsNoticedAwayFromOtherStatementsToo) {
   const std::string after = "\n\nAnother heading���\n\n" + std::string(kSheet.substr(kSheet.find("LD\tSM0.1")));
   for (const char* line : {"MOVB 1, VB�7", "MOVB 1, VB7 VB8", "MOVB", "M�VB 1, VB7", "NOVB 1, VB7"}) {
     EXPECT_TRUE(has_errors(read(before + line + after).diagnostics)) << line;
+  }
+}
+
+/// Prose around a listing whose fourth line is `line`.
+std::string article(std::string_view line) {
+  return std::string(
+             "A lamp follows a switch and tells how often it did so.\n"
+             "The switch is at the first input, the lamp at the first output of the controller.\n\n"
+             "NETWORK 1\nLD I0.0\nMOVW 5, VW0\n")
+      .append(line)
+      .append("\n= Q0.0\nMEND\n\nNobody is liable for what it does.\n");
+}
+
+TEST(Document, ALineOfAListingThatIsNotClearlyTextIsAnError) {
+  constexpr std::string_view kLines =
+      "U I0.2\nSPB 3\nCAL 50\nADL\nX I0.1\nJPM 3\nCALI 50\nENI1\nEU1\nN0T\nRETT\nCRTE\nOLDD\nWDRR\nL 5\nT AW0\n1D M0.0\n"
+      "LDM0.1\nL D I0.1\nATCHH 0, 8\nUN M3.1\nMOWV 5, VW0\nLX I0.1\nTOM T37, 5\nNETZWERK 2\nSPB pump\nI0.1\nVB0, VB1\n"
+      "CALI initialise pump\nu i0.2\nnott\nO10.1\n0 I0.1\nU I0.2 the switch of the lamp\n12 LD I0.1\n12: LD I0.1\n"
+      "UN M3.1 ³ SM0.1  ÃÄ\nCALI 初始\nPUMP CONTROL\n";
+  for (const std::string& line : split_lines(kLines)) {
+    const std::string text = article(line);
+    EXPECT_TRUE(is_document(text, kInstructions)) << line;
+    const ParseResult result = read(text);
+    ASSERT_EQ(result.diagnostics.size(), 1U) << line;
+    EXPECT_EQ(result.diagnostics.front().position.line, 7U) << line;
+    EXPECT_TRUE(result.left_out.empty()) << line;
+  }
+}
+
+TEST(Document, WhatIsClearlyTextInAListingIsLeftOutAndCounted) {
+  for (const char* line :
+       {"Timers", "Page 3", "12", "- 12 -", "The lamp is on now.", "the lamp is on", "wraps here", "1. Read the inputs",
+        "Input I0.0 stops the pump, whatever else asks for it", "\xE5\x88\x9D\xE5\xA7\x8B\xE5\x8C\x96 Read", "* * *"}) {
+    const ParseResult result = read(article(line));
+    EXPECT_TRUE(result.diagnostics.empty()) << line << ": " << result.diagnostics.front().message;
+    EXPECT_EQ(result.left_out, std::vector<std::uint32_t>{7}) << line;
+    EXPECT_EQ(statements(result.source).size(), 4U) << line;
+  }
+  EXPECT_TRUE(read(article("")).left_out.empty());
+  EXPECT_TRUE(read(kSheet).left_out.empty()) << "headings between routines are not in a listing";
+}
+
+TEST(Document, SmallLettersAloneMakeNoTextOfALineInAListingWithSmallLetters) {
+  for (const char* line : {"nott", "Timers", "spb pump", "call1 pump"}) {
+    std::string text = article(line);
+    text.replace(text.find("LD I0.0"), 7, "ld i0.0");
+    EXPECT_EQ(read(text).diagnostics.size(), 1U) << line;
+  }
+}
+
+TEST(Document, TheFirstLinesOfAListingAreJudgedToo) {
+  for (const char* line : {"NETZWERK 1", "U I0.2", "X I0.2", "U E0.2", "1D I0.2", "0 I0.2", "LDSM0.1", "1D I0.2\nX I0.2"}) {
+    std::string text = article("NOT");
+    text.replace(text.find("NETWORK 1"), 9, line);
+    EXPECT_TRUE(has_errors(read(text).diagnostics)) << line;
+  }
+}
+
+TEST(Document, AWordOfAnotherLanguageIsNamedAsSuch) {
+  const ParseResult result = read(article("SPB 3"));
+  ASSERT_EQ(result.diagnostics.size(), 1U);
+  EXPECT_EQ(result.diagnostics.front().message, "SPB is a German word");
+  EXPECT_EQ(result.diagnostics.front().hint, "write it in English");
+  EXPECT_EQ(read(article("N0T")).diagnostics.front().hint,
+            "did you mean NOT? compare it with the printed document and correct it; if it is text, put // before it");
+}
+
+TEST(Document, APureListingIsOneFromItsFirstLineToItsLast) {
+  const ParseResult result = read("NETZWERK 1\nU I0.0\nSPB 3\nL 5\nT AW0\n= Q0.0\nMEND\n");
+  EXPECT_EQ(result.diagnostics.size(), 5U);
+  EXPECT_EQ(read("Pump\nLD I0.0\n= Q0.0\nMEND\n").left_out, std::vector<std::uint32_t>{1});
+}
+
+TEST(Document, ASmallLAtTheBeginningOfAnAddressIsDamage) {
+  EXPECT_EQ(read(article("A l0.1")).diagnostics.size(), 1U);
+  EXPECT_EQ(read(article("MOVB *lD4, VB0")).diagnostics.size(), 1U);
+  EXPECT_TRUE(read(article("A L0.1")).diagnostics.empty());
+  EXPECT_TRUE(read(article("a l0.1")).diagnostics.empty()) << "written small throughout";
+}
+
+/// Whatever one character does to a statement: it is read, or an error is reported.
+TEST(Document, NoWrongCharacterMakesAStatementDisappear) {
+  const ParseResult whole = read(kSheet);
+  const std::vector<std::string> lines = split_lines(kSheet);
+  for (const Statement& statement : statements(whole.source)) {
+    const std::size_t number = statement.position.line;
+    const std::string& line = lines[number - 1];
+    const std::size_t end = line.find("//");
+    for (std::size_t at = 0; at <= std::min(end, line.size()); ++at) {
+      for (const char* put : {"", "0", "1", "X", "x", " ", "I", "l", ".", "="}) {
+        for (const std::size_t taken : {0, 1}) {
+          std::string damaged = line;
+          if (at + taken > line.size()) continue;
+          damaged.replace(at, taken, put);
+          std::string text;
+          for (std::size_t i = 1; i <= lines.size(); ++i) text.append(i == number ? damaged : lines[i - 1]).append("\n");
+          const ParseResult result = read(text);
+          const auto found = statements(result.source);
+          const bool there =
+              std::any_of(found.begin(), found.end(), [&](const Statement& each) { return each.position.line == number; });
+          ASSERT_TRUE(there || has_errors(result.diagnostics)) << damaged;
+        }
+      }
+    }
   }
 }
 
@@ -267,7 +379,7 @@ TEST(Document, SurvivesLongAndHostileLines) {
     hostile += i % 5 == 0 ? "\n" : "";
   }
   EXPECT_FALSE(read(hostile).source.text.empty());
-  is_document(hostile, is_instruction);
+  is_document(hostile, kInstructions);
 }
 
 class Tip41 : public testing::Test {
@@ -282,7 +394,7 @@ class Tip41 : public testing::Test {
   std::string text_;
 };
 
-TEST_F(Tip41, IsADocument) { EXPECT_TRUE(is_document(text_, is_instruction)); }
+TEST_F(Tip41, IsADocument) { EXPECT_TRUE(is_document(text_, kInstructions)); }
 
 TEST_F(Tip41, YieldsItsStatementsRoutineByRoutine) {
   const ParseResult result = read(text_);
@@ -324,7 +436,7 @@ TEST_F(Tip41, PrintsAndReadsBackAsTheSameProgram) {
   const ParseResult again = parse(to_text(result.source), "tip.stl");
   EXPECT_TRUE(again.diagnostics.empty());
   EXPECT_TRUE(same_program(result.source, again.source));
-  EXPECT_FALSE(is_document(to_text(result.source), is_instruction));
+  EXPECT_FALSE(is_document(to_text(result.source), kInstructions));
 }
 
 TEST_F(Tip41, ACutInTheListingIsNoticed) {

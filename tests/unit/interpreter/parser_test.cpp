@@ -248,6 +248,13 @@ TEST(Parser, SaysOncePerBlockKeywordThatBlockExportsAreNotRead) {
   EXPECT_EQ(result.source.lines.size(), 2U);
 }
 
+TEST(Parser, SaysNothingElseOfABlockExport) {
+  const ParseResult result = parse("ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nLD I0.9\nEND_ORGANIZATION_BLOCK\n", "x");
+  EXPECT_TRUE(result.block_export);
+  EXPECT_EQ(result.diagnostics.size(), 3U);
+  EXPECT_FALSE(parse("TITLE=x\nLD I0.9\n", "x").block_export);
+}
+
 TEST(Parser, TakesTimeInProportionToTheText) {
   std::string wide = "X ";
   while (wide.size() < 1'000'000) wide += "99999999999,VW1 ";

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <span>
 #include <utility>
 
+#include "interpreter/base/text.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/terminal.hpp"
 
@@ -14,7 +17,7 @@ namespace {
 std::string unknown_cpu(std::string_view name) {
   std::string known;
   for (const CpuModel* each : all_cpus()) known.append(known.empty() ? "" : ", ").append(each->name);
-  return fmt::format("there is no model of CPU '{}'; modelled: {}", name, known);
+  return fmt::format("there is no model of CPU '{}'; modelled: {}", stl::shortened(name), known);
 }
 
 }  // namespace
@@ -42,7 +45,7 @@ std::optional<TimeTable> CpuOptions::times(const CpuModel& model) const {
   TimeTable table = default_times(model);
   if (times_file.empty()) return table;
   std::string why;
-  const auto csv = read_file(times_file, why);
+  const auto csv = read_text(times_file, why);
   if (!csv) {
     print_error(fmt::format("cannot read {}: {}", times_file, why));
     return {};
@@ -71,6 +74,7 @@ std::shared_ptr<const Program> ProgramOptions::load(const SourceText& text, int&
   if (!cpu_model) return nullptr;
   const auto table = times(*cpu_model);
   if (!table) return nullptr;
+  print_note_if_any(left_out_note(text));
   CheckResult result = check(text.parsed, *cpu_model, *table);
   std::erase_if(result.diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
   print_diagnostics(result.diagnostics, result.source);
@@ -101,6 +105,16 @@ std::optional<SourceText> read_program_text(const std::string& path, bool force_
   auto text = bytes ? read_source(*bytes, name, why, force_document) : std::nullopt;
   if (!text) print_error(fmt::format("cannot read {}: {}", name, why));
   return text;
+}
+
+std::string left_out_note(const SourceText& text) {
+  constexpr std::size_t kShown = 20;
+  const std::vector<std::uint32_t>& lines = text.parsed.left_out;
+  if (lines.empty()) return {};
+  const auto shown = std::span(lines).first(std::min(kShown, lines.size()));
+  return fmt::format("{}: {} of its listing left out as text: {}{}", text.parsed.source.name,
+                     lines.size() == 1 ? "1 line" : fmt::format("{} lines", lines.size()), fmt::join(shown, ", "),
+                     lines.size() > kShown ? ", …" : "");
 }
 
 void print_diagnostics(const stl::Diagnostics& diagnostics, const stl::SourceLines& source) {

@@ -43,6 +43,9 @@ struct ProgramOptions : CpuOptions {
 /// Reads a source as the verbs do, "-" from standard input, and that only once; nothing after a message.
 std::optional<SourceText> read_program_text(const std::string& path, bool force_document = false);
 
+/// Which lines of the listing of a document were left out as text; empty if none were.
+std::string left_out_note(const SourceText& text);
+
 /// Prints diagnostics on stderr, in colour where wanted: each cause once.
 void print_diagnostics(const stl::Diagnostics& diagnostics, const stl::SourceLines& source);
 
