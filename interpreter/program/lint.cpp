@@ -339,9 +339,51 @@ void find_missing_eni(const Program& program, stl::Diagnostics& diagnostics) {
                                "execute ENI once, after ATCH", "no ENI"));
 }
 
+namespace {
+
+constexpr Bits kPortControl{(image::kSM + 30) * 8u, 8};
+
+/// Whether the next instruction follows, whatever happens.
+bool goes_straight_on(const Instruction& instruction) {
+  switch (instruction.structure) {
+    case Structure::None:
+    case Structure::Attach:
+    case Structure::DefineCounter:
+    case Structure::Compare:
+      return instruction.effect != Effect::ConditionalEnd;
+    default:
+      return false;
+  }
+}
+
+bool sets_up_port(const Program& program, const Op& op) { return touches(program, op, kPortControl, true); }
+
+/// XMT that the first scan surely executes before anything can have written SMB30: in the main program down to the first
+/// jump or call, in rungs that begin with SM0.0 or SM0.1.
+void find_early_transmission(const Program& program, stl::Diagnostics& diagnostics) {
+  bool on = false;
+  for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
+    const Op& op = program.ops[i];
+    const Instruction& instruction = *op.instruction;
+    if (sets_up_port(program, op)) return;
+    if (on && instruction.effect == Effect::Transmits)
+      diagnostics.push_back(warn(Warning::NoFreeport, place(program, i),
+                                 "XMT sends nothing in the first scan: SMB30, which puts the port in Freeport mode, is "
+                                 "written after it",
+                                 "write SMB30 first", "no Freeport yet"));
+    if (!goes_straight_on(instruction)) return;
+    if (instruction.effect == Effect::LoadsBit)
+      on = op[0].at == image::kSM && op[0].bit <= 1;
+    else
+      on = on && (instruction.rung.needs_power_flow || instruction.effect == Effect::Coil);
+  }
+}
+
+}  // namespace
+
 void find_missing_freeport(const Program& program, stl::Diagnostics& diagnostics) {
-  constexpr Bits kPortControl{(image::kSM + 30) * 8u, 8};
-  if (std::ranges::any_of(program.ops, [&](const Op& op) { return touches(program, op, kPortControl, true); })) return;
+  if (std::ranges::any_of(program.ops, [&](const Op& op) { return sets_up_port(program, op); }))
+    return find_early_transmission(program, diagnostics);
   const auto add = [&](std::uint32_t op, std::string message) {
     diagnostics.push_back(
         warn(Warning::NoFreeport, place(program, op), std::move(message),

@@ -139,6 +139,16 @@ TEST(NoFreeport, IsXmtOrAPortEventInAProgramThatNeverWritesSmb30) {
   EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 16#09, SMB31\nXMT VB0, 0\nMEND\n"), "3 no-freeport\n");
 }
 
+TEST(NoFreeport, IsXmtThatTheFirstScanExecutesBeforeSmb30IsWritten) {
+  const std::string write = "MOVB 16#09, SMB30\n";
+  EXPECT_EQ(warnings_of("LD SM0.1\nXMT VB0, 0\n" + write + "MEND\n"), "2 no-freeport\n");
+  EXPECT_EQ(warnings_of("LD SM0.0\n= Q0.0\nXMT VB0, 0\nLD SM0.1\n" + write + "MEND\n"), "3 no-freeport\n");
+  EXPECT_EQ(warnings_of("LD SM0.1\n" + write + "XMT VB0, 0\nMEND\n"), "");
+  EXPECT_EQ(warnings_of("LD I0.0\nXMT VB0, 0\nLD SM0.1\n" + write + "MEND\n"), "") << "not surely in the first scan";
+  EXPECT_EQ(warnings_of("LD SM0.1\nA I0.0\nXMT VB0, 0\nLD SM0.1\n" + write + "MEND\n"), "");
+  EXPECT_EQ(warnings_of("LD SM0.1\nCALL 0\nXMT VB0, 0\nMEND\nSBR 0\n" + write + "RET\n"), "") << "a call is between";
+}
+
 // --- unused-step ---
 
 TEST(UnusedStep, IsAnSBitThatIsSetButThatNothingLoads) {
