@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
+
+#include "interpreter/base/text.hpp"
 
 namespace s7200 {
 
@@ -24,6 +27,18 @@ std::optional<std::int64_t> parse_integer(std::string_view text) {
   return negative ? -value : value;
 }
 
+bool is_whole_number(std::string_view text) {
+  if (text.starts_with('-')) text.remove_prefix(1);
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+bool is_real_number(std::string_view text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, value);
+  return error != std::errc::invalid_argument && stopped == end && !std::isnan(value);
+}
+
 std::optional<std::uint8_t> hex_digit(char c) {
   if (c >= '0' && c <= '9') return static_cast<std::uint8_t>(c - '0');
   if (c >= 'a' && c <= 'f') return static_cast<std::uint8_t>(c - 'a' + 10);
@@ -32,11 +47,12 @@ std::optional<std::uint8_t> hex_digit(char c) {
 }
 
 std::optional<Time> parse_duration_in(std::string_view text, Between<Time> range, std::string& why) {
-  const auto duration = parse_duration(text);
+  const auto duration = parse_duration_or_never(text);
   if (!duration)
-    why = fmt::format("'{}' is not a duration; write for example 250ms, 2s, 1h", text);
+    why = fmt::format("'{}' is not a duration; write for example 250ms, 2s, 1h", stl::shortened(text));
   else if (!range.has(*duration))
-    why = fmt::format("{} is not from {} to {}", text, format_duration(range.least), format_duration(range.most));
+    why = fmt::format("'{}' is out of range ({} to {})", stl::shortened(text), format_duration(range.least),
+                      format_duration(range.most));
   else
     return duration;
   return {};

@@ -32,6 +32,10 @@ std::optional<Number> parse_decimal(std::string_view text) {
   return value;
 }
 
+/// Whether a text is a number in decimal, however large.
+bool is_whole_number(std::string_view text);
+bool is_real_number(std::string_view text);
+
 /// Reads a whole number as STL writes it: `12`, `-5`, `16#FF`, `2#1010_0001`.
 std::optional<std::int64_t> parse_integer(std::string_view text);
 

@@ -66,6 +66,11 @@ std::string decimals(std::uint64_t fraction, int digits) {
 }  // namespace
 
 std::optional<Time> parse_duration(std::string_view text) {
+  const auto duration = parse_duration_or_never(text);
+  return duration == kNever ? std::nullopt : duration;
+}
+
+std::optional<Time> parse_duration_or_never(std::string_view text) {
   const std::string_view whole = take_digits(text);
   std::string_view fraction;
   if (!text.empty() && text.front() == '.') {
@@ -80,7 +85,7 @@ std::optional<Time> parse_duration(std::string_view text) {
   Wide figure = 0;
   for (const char digit : whole) {
     figure = figure * 10 + (digit - '0');
-    if (figure > kTooMuch) return std::nullopt;
+    if (figure > kTooMuch) return kNever;
   }
   Wide duration = figure * unit->length;
   Wide place = unit->length;  // what a one at this decimal is worth
@@ -89,8 +94,7 @@ std::optional<Time> parse_duration(std::string_view text) {
     place /= 10;
     duration += place * (digit - '0');
   }
-  if (duration >= kNever) return std::nullopt;
-  return static_cast<Time>(duration);
+  return duration >= kNever ? kNever : static_cast<Time>(duration);
 }
 
 std::string format_duration(Time duration, int digits) {

@@ -24,6 +24,9 @@ inline constexpr Time kNever = std::numeric_limits<Time>::max();
 /// finer than a nanosecond or longer than 292 years.
 std::optional<Time> parse_duration(std::string_view text);
 
+/// The same, but kNever for one longer than 292 years.
+std::optional<Time> parse_duration_or_never(std::string_view text);
+
 /// The shortest of these forms with up to `digits` decimals, rounded: 690.123 ms, 40 us, 2 s. Minutes and hours are used
 /// only if they are whole: 90 s, 2 min. kNever is `never`.
 std::string format_duration(Time duration, int digits = 3);

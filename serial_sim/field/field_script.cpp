@@ -34,14 +34,14 @@ std::vector<std::string_view> fields_of(std::string_view row) {
   return fields;
 }
 
-/// `5kHz`, `0.5 Hz`: read as a duration whose nanosecond is a millihertz.
+/// `5kHz`, `0.5 Hz`: read as a duration whose nanosecond is a millihertz. In any range.
 std::optional<std::uint64_t> parse_frequency(std::string_view text) {
-  constexpr std::pair<std::string_view, std::string_view> kUnits[] = {{"kHz", "ms"}, {"Hz", "us"}};
+  constexpr std::pair<std::string_view, std::string_view> kUnits[] = {{"MHz", "s"}, {"kHz", "ms"}, {"Hz", "us"}};
   for (const auto& [unit, duration] : kUnits) {
     if (!text.ends_with(unit)) continue;
-    const auto figure = parse_duration(std::string(stl::trim(text.substr(0, text.size() - unit.size()))).append(duration));
-    if (!figure || *figure == 0) return {};
-    return static_cast<std::uint64_t>(*figure);
+    const std::string_view figure = stl::trim(text.substr(0, text.size() - unit.size()));
+    const auto millihertz = parse_duration_or_never(std::string(figure).append(duration));
+    return millihertz ? std::optional(static_cast<std::uint64_t>(*millihertz)) : std::nullopt;
   }
   return {};
 }
@@ -77,7 +77,7 @@ class Reader {
     const bool pulses = field.size() == 5 && field[2] == "pulses";
     if (!pulses && field.size() != 3) return error("write time,address,value or time,address,pulses,frequency,duration");
     const auto at = parse_duration(field[0]);
-    if (!at) return error(fmt::format("'{}' is no time; write for example 10ms or 1.5s", field[0]));
+    if (!at) return error(fmt::format("'{}' is no time; write for example 10ms or 1.5s", stl::shortened(field[0])));
     if (*at < last_) return error(fmt::format("{} lies before the row above; put the rows in the order of time", field[0]));
     last_ = *at;
     if (pulses)
@@ -93,7 +93,7 @@ class Reader {
     const bool analog = range.area == Area::AI && range.number % 2 == 0;
     if (range.area == Area::I || analog || potentiometer) return true;
     error(fmt::format("'{}' is no input; rows set I, words of AI at even addresses, and the potentiometers SMB28 and SMB29",
-                      address));
+                      stl::shortened(address)));
     return false;
   }
 
@@ -101,13 +101,14 @@ class Reader {
     std::string why;
     const auto range = parse_range(address, model_, why);
     if (!range || range->count != 1) {
-      error(range ? fmt::format("'{}': a row sets one address, without a count", address) : why);
+      error(range ? fmt::format("'{}': a row sets one address, without a count", stl::shortened(address)) : why);
       return {};
     }
     if (!drivable(*range, address)) return {};
     const auto parsed = parse_assignment(fmt::format("{}={}", address, value), model_, why);
     if (!parsed)
-      error(fmt::format("'{}' is no value for {}; write a number that fits, for example 1, 16#FF or -5", value, address));
+      error(fmt::format("'{}' is no value for {}; write a number that fits, for example 1, 16#FF or -5",
+                        stl::shortened(value), address));
     return parsed;
   }
 
@@ -133,12 +134,14 @@ class Reader {
     const auto given = assignment(field[1], "0");
     if (!given) return;
     if (given->place.area != Area::I || given->place.width != Width::Bit)
-      return error(fmt::format("'{}': pulses need one input point, for example I0.6", field[1]));
+      return error(fmt::format("'{}': pulses need one input point, for example I0.6", stl::shortened(field[1])));
     const auto millihertz = parse_frequency(field[3]);
-    if (!millihertz || *millihertz > kHighestMillihertz)
-      return error(fmt::format("'{}' is no frequency up to 1000kHz; write for example 50Hz or 5kHz", field[3]));
-    const auto duration = parse_duration(field[4]);
-    if (!duration) return error(fmt::format("'{}' is no duration; write for example 200ms", field[4]));
+    if (!millihertz)
+      return error(fmt::format("'{}' is not a frequency; write for example 50Hz or 5kHz", stl::shortened(field[3])));
+    if (*millihertz == 0 || *millihertz > kHighestMillihertz)
+      return error(fmt::format("'{}' is out of range (0.001Hz to 1MHz)", stl::shortened(field[3])));
+    const auto duration = parse_duration_or_never(field[4]);
+    if (!duration) return error(fmt::format("'{}' is not a duration; write for example 200ms", stl::shortened(field[4])));
     FieldPulses train{.at = at,
                       .place = given->place.at - image::kI + image::kInputs,
                       .mask = static_cast<std::uint8_t>(1u << given->place.bit),

@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <utility>
 
+#include "interpreter/base/text.hpp"
+
 namespace s7200::tools {
 namespace {
 
@@ -19,16 +21,27 @@ std::string help_text(const std::string& text, const std::string& range, const s
   return fmt::format("{} ({}){}", text, range, standard.empty() ? "" : fmt::format(" [{}]", standard));
 }
 
+/// What kind of number an option takes.
+struct Kind {
+  std::string_view name;
+  bool (*is)(std::string_view text);  // in any range
+};
+
+std::string wrong(const std::string& given, const Kind& kind, const std::string& range) {
+  const std::string shown = stl::shortened(given);
+  return kind.is(given) ? fmt::format("'{}' is out of range ({})", shown, range)
+                        : fmt::format("'{}' is not a {} ({})", shown, kind.name, range);
+}
+
 template <class Number>
 CLI::Option* add_number(CLI::App& app, const std::string& name, std::function<void(Number)> take, Between<Number> range,
-                        std::string_view kind, const std::string& text, const std::string& standard) {
+                        Kind kind, const std::string& text, const std::string& standard) {
   return app
       .add_option_function<std::string>(
           name,
           [name, take = std::move(take), range, kind](const std::string& given) {
             const auto value = parse_decimal<Number>(given);
-            if (!value || !range.has(*value))
-              throw CLI::ValidationError(name, fmt::format("'{}' is not a {} ({})", given, kind, to_text(range)));
+            if (!value || !range.has(*value)) throw CLI::ValidationError(name, wrong(given, kind, to_text(range)));
             take(*value);
           },
           help_text(text, to_text(range), standard))
@@ -39,12 +52,12 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, std::function<vo
 
 CLI::Option* add_whole_number(CLI::App& app, const std::string& name, std::function<void(std::uint64_t)> take,
                               Between<std::uint64_t> range, const std::string& text, const std::string& standard) {
-  return add_number(app, name, std::move(take), range, "whole number", text, standard);
+  return add_number(app, name, std::move(take), range, {"whole number", is_whole_number}, text, standard);
 }
 
 CLI::Option* add_real_number(CLI::App& app, const std::string& name, std::function<void(double)> take, Between<double> range,
                              const std::string& text, const std::string& standard) {
-  return add_number(app, name, std::move(take), range, "number", text, standard);
+  return add_number(app, name, std::move(take), range, {"number", is_real_number}, text, standard);
 }
 
 CLI::Option* add_duration(CLI::App& app, const std::string& name, Time& value, const std::string& text,
