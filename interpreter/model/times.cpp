@@ -83,15 +83,15 @@ std::string read_row(std::string_view line, TimeRow& row) {
   row.form = field[1];
   row.areas = areas_of(row.form);
   const auto base = microseconds(field[2]);
-  if (!base) return fmt::format("'{}' is not a time in microseconds (0 to 1000000)", field[2]);
+  if (!base) return fmt::format("'{}' is not a time in microseconds (0 to 1000000)", stl::shortened(field[2]));
   row.base = *base;
   const auto per_unit = field[3].empty() ? Time{0} : microseconds(field[3]);
-  if (!per_unit) return fmt::format("'{}' is not a time in microseconds (0 to 1000000)", field[3]);
+  if (!per_unit) return fmt::format("'{}' is not a time in microseconds (0 to 1000000)", stl::shortened(field[3]));
   row.per_unit = *per_unit;
   row.unit = field[4];
   row.marker = field[5];
   if (row.marker != "manual" && row.marker != "estimate" && row.marker != "calibrated")
-    return fmt::format("'{}' is not a marker; write manual, estimate or calibrated", row.marker);
+    return fmt::format("'{}' is not a marker; write manual, estimate or calibrated", stl::shortened(row.marker));
   row.source = field.size() > 6 ? field[6] : "";
   if (row.base == 0 && !may_be_free(row)) return fmt::format("{}: an execution time must be above 0", field[0]);
   return {};

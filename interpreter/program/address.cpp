@@ -57,21 +57,22 @@ std::optional<MemoryRange> parse_range(std::string_view text, const CpuModel& mo
   const auto* address = operand ? std::get_if<stl::Address>(&*operand) : nullptr;
   const auto area = address ? area_named(address->area) : std::nullopt;
   if (!area || !names_width(*address, *area)) {
-    why = fmt::format("'{}' is not an address; write for example VB100, VW100:4, M31.7, AC0, VD20:real", text);
+    why =
+        fmt::format("'{}' is not an address; write for example VB100, VW100:4, M31.7, AC0, VD20:real", stl::shortened(text));
     return {};
   }
   MemoryRange range{*area, width_of(*address, *area).value_or(Width::Double), address->number, address->bit};
   if (colon != std::string_view::npos && !read_suffix(stl::upper_case(text.substr(colon + 1)), range)) {
     why = fmt::format("'{}': after the colon write a count of 1 or more (not for bits), or real (only for double words)",
-                      text);
+                      stl::shortened(text));
     return {};
   }
   const std::uint64_t size = model.size_of(*area);
   const std::uint64_t needed = info(*area).element != 0 ? std::uint64_t{range.number} + range.count
                                                         : range.number + std::uint64_t{range.count} * bytes_of(range.width);
   if (needed > size) {
-    why = fmt::format("'{}' does not exist on CPU {}: {} memory has {} {}", text, model.name, info(*area).name, size,
-                      info(*area).element ? "elements" : "bytes");
+    why = fmt::format("'{}' does not exist on CPU {}: {} memory has {} {}", stl::shortened(text), model.name,
+                      info(*area).name, size, info(*area).element ? "elements" : "bytes");
     return {};
   }
   range.at = place_of(range);
@@ -96,7 +97,8 @@ std::optional<Assignment> parse_assignment(std::string_view text, const CpuModel
     if (integer && integer->value >= lowest && integer->value < (std::int64_t{1} << bits))
       return Assignment{*place, static_cast<std::uint32_t>(integer->value)};
   }
-  why = fmt::format("'{}': write one address, =, and a value that fits it, for example VW100=5 or M31.7=1", text);
+  why = fmt::format("'{}': write one address, =, and a value that fits it, for example VW100=5 or M31.7=1",
+                    stl::shortened(text));
   return {};
 }
 

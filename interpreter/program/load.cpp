@@ -23,15 +23,15 @@ namespace {
 constexpr std::size_t kLargestFile = 64 << 20;
 
 const stl::InstructionSet& instruction_set() {
-  static const stl::InstructionSet kInstructions{[](std::string_view mnemonic, std::size_t operands) {
-                                                   const Instruction* instruction = find_instruction(mnemonic);
-                                                   return instruction &&
-                                                          (instruction->rules().size() == operands || !instruction->modelled());
-                                                 },
-                                                 [](std::string_view mnemonic) {
-                                                   auto [what, hint] = unknown_mnemonic(mnemonic);
-                                                   return stl::Advice{std::move(what), std::move(hint)};
-                                                 }};
+  static const stl::InstructionSet kInstructions{
+      [](std::string_view mnemonic, std::size_t operands) {
+        const Instruction* instruction = find_instruction(mnemonic);
+        return instruction && (instruction->rules().size() == operands || !instruction->modelled());
+      },
+      [](std::string_view mnemonic) {
+        auto [what, hint] = unknown_mnemonic(mnemonic);
+        return stl::Advice{std::move(what), std::move(hint)};
+      }};
   return kInstructions;
 }
 

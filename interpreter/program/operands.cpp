@@ -6,9 +6,9 @@
 #include <bit>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/base/text.hpp"
 #include "interpreter/program/warnings.hpp"
 #include "interpreter/stl/printer.hpp"
-#include "interpreter/base/text.hpp"
 
 namespace s7200 {
 namespace {
@@ -347,7 +347,7 @@ class Placing {
     if (rule_.real && (upper == "NAN" || upper == "INF" || upper == "INFINITY"))
       return error(fmt::format("{} cannot be {}", of_instruction(), text()),
                    "a real is 0.0, or 1.175495E-38 to 3.402823E+38 or its negative");
-    return error(fmt::format("'{}' is not an address", text()),
+    return error(fmt::format("'{}' is not an address", stl::shortened(text())),
                  "symbols and local variables are not supported yet: write the address itself", "symbols");
   }
 

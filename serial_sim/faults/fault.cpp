@@ -306,7 +306,7 @@ class Reader {
     std::string known;
     for (const auto& row : rows) known += fmt::format("{}{}", known.empty() ? "" : ", ", row.name);
     return name.empty() ? fmt::format("a {} is missing here; there are {}", what, known)
-                        : fmt::format("there is no {} '{}'; there are {}", what, name, known);
+                        : fmt::format("there is no {} '{}'; there are {}", what, stl::shortened(name), known);
   }
 
   ParsedFault& fail(std::string_view where, std::string message) {
@@ -332,7 +332,7 @@ class Reader {
       given_.push_back(name);
       const std::string_view value = trim(assignment.substr(equals + 1));
       if (const std::string wrong = parameter.read(value, result_.fault); !wrong.empty())
-        fail(value, fmt::format("{}: '{}' {}", name, value, wrong));
+        fail(value, fmt::format("{}: '{}' {}", name, stl::shortened(value), wrong));
     }
   }
 

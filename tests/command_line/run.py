@@ -78,7 +78,38 @@ class Verbs(Case):
         self.assertEqual(self.ends(FINE, "help").stdout, self.ends(FINE, "--help").stdout)
         for verb in VERBS:
             self.assertEqual(self.ends(FINE, "help", verb).stdout, self.ends(FINE, verb, "--help").stdout)
+        for word in ("help", "version"):
+            self.assertEqual(self.ends(FINE, "help", word).stdout, self.ends(FINE, "--help").stdout)
         self.assertIn("'frob' is not a verb", self.ends(UNUSABLE, "help", "frob").stderr)
+
+    def test_an_unknown_option_before_the_verb_is_named(self):
+        for arguments, said in ((["--json"], "a verb is missing, and there is no option --json before one\n"),
+                                (["--verison"], "a verb is missing, and there is no option --verison before one; is --version meant?\n"),
+                                (["--json", "check", SLAVE], "there is no option --json before the verb\n")):
+            self.assertIn(f"s7200: error: {said}", self.ends(UNUSABLE, *arguments).stderr)
+
+    def test_quoted_input_is_shortened(self):
+        for arguments in (["send", SLAVE, "01" * 3000 + "x"], ["send", SLAVE, "--text", "A" * 6000 + "\\q"], ["x" * 300],
+                          ["run", SLAVE, "--set", "V" * 300], ["run", SLAVE, "--for", "1" * 300], ["master", SLAVE, "x" * 300],
+                          ["run", SLAVE, "--scans", "1" * 300], ["instructions", "X" * 300], ["--" + "x" * 300],
+                          ["run", SLAVE, "--cpu", "2" * 300], ["run", SLAVE, "--fault", "x" * 300, "--tcp", "x" * 300]):
+            done = self.ends(UNUSABLE, *arguments)
+            message = done.stderr.split("\n")[0]
+            self.assertIn("...", message)
+            self.assertLess(len(message), 320)
+
+    def test_numbers_out_of_range_are_said_to_be(self):
+        for option, value, said in (("--for", "1000000000h", "'1000000000h' is out of range (0 ns to 10000 h)"),
+                                    ("--for", "10001h", "'10001h' is out of range (0 ns to 10000 h)"),
+                                    ("--for", "1e5s", "'1e5s' is not a duration"), ("--scans", "0", "'0' is out of range (1 or more)"),
+                                    ("--scans", "9" * 30, f"'{'9' * 30}' is out of range"), ("--scans", "2.5", "'2.5' is not a whole number"),
+                                    ("--speed", "0", "'0' is out of range (0.001 to 1000)"), ("--speed", "1001", "'1001' is out of range"),
+                                    ("--speed", "nan", "'nan' is not a number"), ("--speed", "1e999", "'1e999' is out of range")):
+            self.assertIn(said, self.ends(UNUSABLE, "run", SLAVE, option, value).stderr)
+
+    def test_german_mnemonics_are_explained_as_check_does(self):
+        self.assertIn("U is a German mnemonic; write A\n", self.ends(UNUSABLE, "instructions", "u").stderr)
+        self.assertIn("unknown instruction 'MOWV'; is MOVW meant?\n", self.ends(UNUSABLE, "instructions", "MOWV").stderr)
 
     def test_a_word_that_is_not_a_verb_gets_the_nearest_one(self):
         for word, meant in (("chek", "check"), ("RUN", "run"), ("sned", "send"), ("tests", "test"), ("Help", "help")):
@@ -92,7 +123,7 @@ class Verbs(Case):
 
     def test_usage_errors_name_the_option_and_its_verb(self):
         done = self.ends(UNUSABLE, "send", SLAVE, "01", "--baud", "1")
-        self.assertEqual(done.stderr, "s7200: error: --baud: '1' is not a whole number (50 to 1000000)\n"
+        self.assertEqual(done.stderr, "s7200: error: --baud: '1' is out of range (50 to 1000000)\n"
                                       "'s7200 send --help' shows how it is used\n")
 
     def test_a_frame_torn_apart_by_its_blanks_is_recognised(self):
@@ -501,6 +532,16 @@ class Json(Case):
         shown = self.ends(FAILED, *send, "--fault", "echo", "--fault", flip).stdout
         self.assertIn("request  01 03 00 0a 00 01 a4 08\necho     01 03 20 0a 00 01 a4 08\nanswer   none within 50 ms", shown)
 
+    def test_a_damaged_answer_is_not_one_to_rely_on(self):
+        send = ["send", SLAVE, "--crc", "0103000a0001"]
+        for fault in ("parity:character=3", "framing:character=3", "flip:character=3,bit=5", "missing:character=3"):
+            done = self.ends(FAILED, *send, "--fault", f"{fault},of=answer", "--json")
+            self.assertTrue(json.loads(done.stdout)["exchanges"][0]["damaged"], fault)
+            self.assertIn("note: 1 of 1 answers damaged\n", done.stderr)
+        self.ends(FINE, *send)
+        echo = self.program(self.ECHO)
+        self.ends(FINE, "send", echo, "ab", "--fault", "flip:of=answer")  # no CRC is asked for
+
     def test_faults_that_cannot_be_are_said(self):
         done = self.ends(FINE, "send", self.program(self.ECHO), "ab", "--fault", "parity")
         self.assertIn("note: fault parity: 0×, and 1× the format of the character had no such bit", done.stderr)
@@ -570,6 +611,9 @@ class Json(Case):
         self.assertEqual((result["output"], result["stl"]), (str(out), None))
 
     def test_bench(self):
+        for model in ("212", "215", "216"):
+            fits = self.ends(FINE if model != "212" else FAILED, "bench", "--cpu", model, "--each", "1ms")
+            self.assertEqual("modbus_slave.stl has errors" in fits.stderr, model == "212")
         silent = self.program("LD SM0.0\nMEND\n")
         self.assertIn("did not answer", self.ends(UNUSABLE, "bench", silent, "--each", "1ms").stderr)
         for figure in self.json(FINE, "bench", "--each", "1ms", "--json")["figures"]:
@@ -993,6 +1037,63 @@ class Files(Case):
         self.assertEqual(out.read_text(encoding="utf-8"), "mine")
         self.ends(FINE, "import", document, "-o", out, "--force")
         self.assertNotEqual(out.read_text(encoding="utf-8"), "mine")
+
+    def test_import_never_overwrites_what_it_reads(self):
+        document, link = self.program(self.DOCUMENT, "page.txt"), self.folder / "link.txt"
+        os.link(document, link)
+        for out in (document, link):
+            done = self.ends(UNUSABLE, "import", document, "-o", out, "--force")
+            self.assertIn("the command reads this file", done.stderr)
+        self.assertEqual(document.read_text(encoding="utf-8"), self.DOCUMENT)
+
+    ARTICLE = ("A lamp follows a switch and tells how often it did so.\nThe switch is at the first input of the controller.\n\n"
+               "NETWORK 1\nLD I0.0\n{}\n= Q0.0\nMEND\n\nNobody is liable for what it does.\n")
+
+    def test_a_document_loses_no_statement_without_a_word(self):
+        path = self.program(self.ARTICLE.format("U I0.2\nSPB 3\nCAL 50\nADL"), "damaged.txt")
+        for verb in ("check", "import", "run", "send", "master", "debug", "bench"):
+            more = {"send": ["01"], "master": ["slave-id"]}.get(verb, [])
+            done = self.ends(FAILED, verb, path, *more)
+            for line, said in ((6, "U is a German mnemonic"), (7, "SPB is a German mnemonic"), (8, "damaged STL line: CAL"),
+                               (9, "damaged STL line: ADL")):
+                self.assertIn(f"{path}:{line}:1: error: {said}", done.stderr)
+        listing = self.program("NETZWERK 1\nU I0.0\nSPB 3\nL 5\nT AW0\n= Q0.0\nMEND\n", "listing.txt")
+        for verb in ("check", "import"):
+            self.assertEqual(len(re.findall(": error: ", self.ends(FAILED, verb, listing).stderr)), 5)
+
+    def test_the_text_left_out_of_a_listing_is_counted(self):
+        path = self.program(self.ARTICLE.format("Page 3\nThe lamp is on from here."), "article.txt")
+        said = f"s7200: note: {path}: 2 lines of its listing left out as text: 6, 7\n"
+        self.assertEqual(self.ends(FINE, "check", path).stderr, said)
+        self.assertIn(said, self.ends(FINE, "import", path).stderr)
+        self.assertEqual(self.json(FINE, "check", path, "--json")["files"][0]["left_out"], [6, 7])
+        self.assertEqual(self.json(FINE, "import", path, "--json")["left_out"], [6, 7])
+        self.assertEqual(self.ends(FINE, "run", path, "--scans", "2").stderr, said)
+
+    def test_a_block_export_is_named_as_such_and_nothing_else_is_said(self):
+        export = self.program("ORGANIZATION_BLOCK MAIN:OB1\nTITLE=A lamp\nBEGIN\nNetwork 1 // a lamp\nLD I0.0\n= Q0.0\n"
+                              "END_ORGANIZATION_BLOCK\n", "export.awl")
+        said = [self.ends(FAILED, verb, export).stderr.replace("s7200: error: nothing was written\n", "")
+                for verb in ("check", "import")]
+        self.assertEqual(said[0], said[1])
+        self.assertEqual(len(re.findall(": error: ", said[0])), 1)
+        self.assertIn("block export, which is not read yet", said[0])
+
+    def test_a_byte_order_mark_is_no_part_of_a_text(self):
+        mark = "\ufeff"
+        inputs, frames = self.program(mark + "1ms,I0.0,1\n", "in.csv"), self.program(mark + "0103000a0001\n", "frames.txt")
+        commands = self.program(mark + "step\n", "commands.txt")
+        times = self.program(mark + self.ends(FINE, "times", "--csv").stdout, "times.csv")
+        self.ends(FINE, "run", SLAVE, "--input", inputs, "--times", times, "--scans", "2")
+        self.ends(FINE, "send", SLAVE, "--crc", "--frames", frames)
+        self.ends(FINE, "debug", SLAVE, "--commands", commands)
+        with open(commands, encoding="utf-8") as script:
+            self.ends(FINE, "debug", SLAVE, stdin=script)
+        self.ends(FINE, "test", self.program(f"{mark}program: {SLAVE}\ninput: {inputs}\nsteps: []\n", "scenario.yaml"))
+        kept = self.folder / "kept.json"
+        self.ends(FINE, "run", SLAVE, "--memory", kept)
+        kept.write_text(mark + kept.read_text(encoding="utf-8"), encoding="utf-8")
+        self.ends(FINE, "run", SLAVE, "--memory", kept)
 
     def test_import_that_fails_writes_nothing(self):
         out = self.folder / "out.stl"

@@ -15,28 +15,22 @@
 namespace s7200::tools {
 namespace {
 
-struct BenchOptions : CpuOptions {
-  std::string path;     // empty: the slave program that is built in
-  Time each = kSecond;  // host time for each figure
+struct BenchOptions {
+  ProgramOptions program;  // without a path: the slave program that is built in
+  Time each = kSecond;     // host time for each figure
   bool json = false;
 };
 
+std::optional<SourceText> read_bench_program(const std::string& path) {
+  std::string why;
+  return path.empty() ? read_source(kModbusSlave, "modbus_slave.stl", why) : read_program_text(path);
+}
+
 int run_bench(const BenchOptions& options) {
-  const CpuModel* model = options.model();
-  if (!model) return kUnusable;
-  const auto times = options.times(*model);
-  if (!times) return kUnusable;
-  std::shared_ptr<const Program> program;
-  if (options.path.empty()) {
-    program = check_text(kModbusSlave, "modbus_slave.stl", *model, *times).program;
-  } else {
-    ProgramOptions named;
-    static_cast<CpuOptions&>(named) = options;
-    named.path = options.path;
-    int exit_code = kFine;
-    program = named.load(exit_code);
-    if (!program) return exit_code;
-  }
+  int exit_code = kUnusable;
+  const auto text = read_bench_program(options.program.path);
+  const auto program = text ? options.program.load(*text, exit_code) : nullptr;
+  if (!program) return exit_code;
   const std::vector<Figure> figures = measure(program, options.each);
   if (options.json) {
     auto results = results_of("bench");
@@ -60,8 +54,9 @@ int run_bench(const BenchOptions& options) {
 void add_bench(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* verb = app.add_subcommand("bench", "how fast programs run here");
-  verb->add_option("PROGRAM", options->path, "a Modbus slave at address 1 (default: our modbus_slave.stl, built in)");
-  options->add_to(*verb);
+  verb->add_option("PROGRAM", options->program.path,
+                   "a Modbus slave at address 1 (default: our modbus_slave.stl, built in)");
+  options->program.CpuOptions::add_to(*verb);
   add_duration(*verb, "--each", options->each, "time to spend on each figure [1s]", {kMillisecond, 3600 * kSecond});
   verb->add_flag("--json", options->json, "print as JSON");
   verb->footer("Example: s7200 bench");

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/program/warnings.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
@@ -81,7 +82,7 @@ void add_check(CLI::App& app, int& exit_code) {
       ->check([](const std::string& name) {
         return std::ranges::find(all_warnings(), name, &WarningInfo::name) != all_warnings().end()
                    ? std::string()
-                   : fmt::format("there is no warning '{}'; `s7200 check --help` lists them", name);
+                   : fmt::format("there is no warning '{}'; `s7200 check --help` lists them", stl::shortened(name));
       })
       ->allow_extra_args(false)
       ->type_name("NAME");

@@ -21,6 +21,7 @@ namespace {
 
 /// False after a message for a wrong command.
 bool run_script(Debugger& debugger, std::istream& in, std::string_view name) {
+  if (constexpr int kByteOrderMark = 0xEF; in.peek() == kByteOrderMark) in.ignore(3);
   const auto error = debugger.run_script(in);
   if (error) print_error(fmt::format("{}:{}: {}", name, error->line, error->message));
   return !error;
@@ -63,7 +64,7 @@ int run_debug(DebugOptions& options) {
   options.bridge.set_line(options.master);
   if (!options.bridge.prepare()) return kUnusable;
   const auto rig = options.rig.assemble(program, false, options.bridge.link());
-  if (!rig) return kUnusable;
+  if (!rig) return exit_code_without_rig();
   rig->power_up();
   rig->simulation().stop_when(nullptr);  // the debugger looks itself, in front of each instruction
 

@@ -45,7 +45,7 @@ int run_on_program(MasterOptions& options, const std::vector<MasterAction>& acti
   const auto program = options.program.load(exit_code);
   if (!program) return exit_code;
   const auto rig = options.rig.assemble(program, options.json);
-  if (!rig) return kUnusable;
+  if (!rig) return exit_code_without_rig();
   rig->power_up();
   const auto plant = [&] { return options.rig.json(rig->simulation()); };
   SimulatedSlave slave(rig->simulation(), options.master, program->source.name);

@@ -38,7 +38,7 @@ int run_send(SendOptions& options) {
   const auto frames = options.frames.read(why);
   if (!frames) return print_error(why), kUnusable;
   const auto rig = options.rig.assemble(program, options.json);
-  if (!rig) return kUnusable;
+  if (!rig) return exit_code_without_rig();
   serial::Simulation& simulation = rig->simulation();
   rig->power_up();
   TraceSink* const records = rig->sinks().empty() ? nullptr : &rig->sinks();
@@ -50,7 +50,7 @@ int run_send(SendOptions& options) {
   const bool ready = slave.wait_until_ready(options.after, why);
   if (ready) print_note_if_any(slave.note_on_port());
   if (!why.empty()) print_error(why);
-  std::size_t answered = 0;
+  std::size_t answered = 0, damaged = 0;
   for (const serial::Frame& frame : *frames) {
     if (!ready || interrupted() || options.rig.failed_strictly(simulation.cpu())) break;
     const serial::Faults::State faults_before = simulation.faults().state();
@@ -61,6 +61,7 @@ int run_send(SendOptions& options) {
     simulation.cpu().set_sink(records);
     if (simulation.master().busy()) break;  // Ctrl-C came before the answer
     answered += !exchange.timed_out;
+    damaged += is_damaged(exchange);
     if (options.json) {
       exchanges.push_back(exchange_json(exchange, unasked));
       if (options.rig.faulted()) exchanges.back()["faults"] = faults_json(simulation.faults(), faults_before);
@@ -80,6 +81,7 @@ int run_send(SendOptions& options) {
   }
   fmt::print(stderr, "{}", errors_text(simulation.cpu()));
   print_notes(fault_notes(simulation.faults()));
+  if (damaged > 0) print_note(fmt::format("{} of {} answers damaged", damaged, answered));
   if (ready && answered == 0) print_note_if_any(torn_frame_note(options.frames.in_hex()));
   if (simulation.cpu().state().mode == Mode::Stop) print_note("the CPU is in STOP");
   if (!all_written) return kUnusable;
@@ -89,7 +91,7 @@ int run_send(SendOptions& options) {
     print_error("--strict: a run-time error ended the exchanges");
     return kCheckFailed;
   }
-  return answered == frames->size() && !interrupted() ? kFine : kCheckFailed;
+  return answered == frames->size() && damaged == 0 && !interrupted() ? kFine : kCheckFailed;
 }
 
 }  // namespace
@@ -106,9 +108,11 @@ void add_send(CLI::App& app, int& exit_code) {
   options->rig.add_to(*verb);
   verb->add_flag("--timeline", options->timeline, "show what the CPU did during each exchange: characters, interrupts, XMT");
   verb->add_flag("--json", options->json, "print the exchanges and the results as JSON");
-  verb->footer(fault_help() +
-               "Exit code 1 when a frame was not answered; what an answer says is not judged here but by 's7200 master'.\n"
-               "Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");
+  verb->footer(
+      fault_help() +
+      "Exit code 1 if a frame was not answered or the answer was damaged: parity or framing errors, or a wrong CRC\n"
+      "in answer to a right one. What an answer says is not judged here but by 's7200 master'.\n"
+      "Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");
   verb->callback([options, &exit_code] { exit_code = run_send(*options); });
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "interpreter/base/nearest.hpp"
+#include "interpreter/base/text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -25,9 +26,24 @@ std::string not_a_verb(const std::string& word, const std::vector<std::string>& 
   std::vector<std::string_view> known(verbs.begin(), verbs.end());
   known.insert(known.end(), {"help", "version"});
   const std::string_view meant = nearest(CLI::detail::to_lower(word), known);
-  return meant.empty() ? fmt::format("'{}' is not a verb; there are {}", word, fmt::join(known, ", "))
-                       : fmt::format("'{}' is not a verb; is {} meant?", word, meant);
+  const std::string shown = stl::shortened(word);
+  return meant.empty() ? fmt::format("'{}' is not a verb; there are {}", shown, fmt::join(known, ", "))
+                       : fmt::format("'{}' is not a verb; is {} meant?", shown, meant);
 }
+
+/// `a verb is missing, and there is no option --verison before one; is --version meant?`
+std::string not_an_option(const std::string& option, const CLI::App& app, bool any_verb) {
+  std::vector<std::string> names;
+  for (const CLI::Option* known : app.get_options())
+    for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  const std::string_view meant = nearest(option, known);
+  return fmt::format("{}there is no option {} before {}{}", any_verb ? "" : "a verb is missing, and ",
+                     stl::shortened(option), any_verb ? "the verb" : "one",
+                     meant.empty() ? "" : fmt::format("; is {} meant?", meant));
+}
+
+bool is_help_word(const std::string& word) { return word == "help" || word == "version"; }
 
 }  // namespace
 
@@ -39,9 +55,14 @@ std::vector<std::string> as_options(const CLI::App& app, std::vector<std::string
                           CLI::ExitCodes::RequiredError);
   if (arguments[0] == "help") {
     arguments.erase(arguments.begin());
+    if (!arguments.empty() && is_help_word(arguments[0])) arguments.erase(arguments.begin());
     arguments.insert(arguments.begin() + (arguments.empty() ? 0 : 1), "--help");
   } else if (arguments[0] == "version") {
     arguments[0] = "--version";
+  }
+  if (arguments[0].starts_with('-') && app.get_option_no_throw(arguments[0]) == nullptr) {
+    const bool any_verb = std::any_of(arguments.begin(), arguments.end(), is_verb);
+    throw CLI::ParseError(not_an_option(arguments[0], app, any_verb), CLI::ExitCodes::ExtrasError);
   }
   if (!arguments[0].starts_with('-') && !is_verb(arguments[0]))
     throw CLI::ParseError(not_a_verb(arguments[0], verbs), CLI::ExitCodes::ExtrasError);

@@ -114,10 +114,10 @@ const Debugger::Command* Debugger::find_command(std::string_view word, std::stri
   }
   if (found.size() == 1) return found[0];
   if (found.empty()) {
-    why = fmt::format("unknown command '{}'; 'help' lists them", word);
+    why = fmt::format("unknown command '{}'; 'help' lists them", stl::shortened(word));
     return nullptr;
   }
-  why = fmt::format("'{}' may be", word);
+  why = fmt::format("'{}' may be", stl::shortened(word));
   for (const Command* command : found) why += fmt::format("{} {}", command == found.front() ? "" : ",", command->name);
   return nullptr;
 }
@@ -436,7 +436,8 @@ Debugger::Error Debugger::assign_all(const Arguments& arguments, bool inputs_onl
     const auto assignment = parse_assignment(text, *simulation_.cpu().program().model, why);
     if (!assignment) return why;
     if (inputs_only && assignment->place.area != Area::I)
-      return fmt::format("'{}' is no input; 'input' expects for example I0.3=1, and 'set' writes other memory", text);
+      return fmt::format("'{}' is no input; 'input' expects for example I0.3=1, and 'set' writes other memory",
+                         stl::shortened(text));
     assignments.push_back(*assignment);
   }
   for (const Assignment& assignment : assignments) assign(simulation_, assignment);

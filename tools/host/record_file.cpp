@@ -11,6 +11,7 @@
 #include <streambuf>
 #include <utility>
 
+#include "tools/host/interruption.hpp"
 #include "tools/host/write_all.hpp"
 
 namespace s7200::tools {
@@ -46,7 +47,9 @@ namespace {
 
 /// A pipe or a device, which must be there; -1 and errno.
 int open_stream(const std::string& path) {
-  const int fd = open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  int fd = -1;
+  do fd = open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  while (fd < 0 && errno == EINTR && !interrupted());
   struct stat status {};
   if (fd < 0 || fstat(fd, &status) != 0 || S_ISFIFO(status.st_mode) || S_ISCHR(status.st_mode)) return fd;
   close(fd);
@@ -73,8 +76,9 @@ bool RecordFile::claim(WrittenFiles& files, std::string_view option, const std::
   return claimed.has_value();
 }
 
+/// A pipe without a reader that Ctrl-C ends is not a mistake: there is nothing to say but that it was interrupted.
 bool RecordFile::check(int error, std::string& why) const {
-  if (error != 0) why = fmt::format("cannot write {}: {}", destination_.path, std::strerror(error));
+  if (error != 0) why = error == EINTR ? "" : fmt::format("cannot write {}: {}", destination_.path, std::strerror(error));
   return error == 0;
 }
 

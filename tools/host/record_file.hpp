@@ -20,7 +20,7 @@ class RecordFile {
   /// `files` has one. The others say likewise what failed.
   bool claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind, std::string& why);
 
-  /// Null if it fails. A pipe is waited for until someone reads from it.
+  /// Null if it fails, and with an empty `why` if it was interrupted. A pipe is waited for until someone reads from it.
   std::ostream* open(std::string& why);
 
   /// Puts the file in its place: its first line has been written.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -119,7 +120,7 @@ std::vector<MasterAction> Parser::parse(const Words& words) {
   if (words.empty()) refuse("nothing to do: give actions, for example read 40001:10");
   for (std::size_t place = 0; place < words.size();) {
     const Verb* verb = find_verb(words[place]);
-    if (verb == nullptr) refuse(fmt::format("'{}' is no action; there are {}", words[place], known_verbs()));
+    if (verb == nullptr) refuse(fmt::format("'{}' is no action; there are {}", stl::shortened(words[place]), known_verbs()));
     const auto first = words.begin() + static_cast<std::ptrdiff_t>(place) + 1;
     const auto last = std::find_if(first, words.end(), [](const std::string& word) { return find_verb(word) != nullptr; });
     const Words operands(first, last);
@@ -201,7 +202,7 @@ void Parser::read(const Words& operands) {
 void Parser::write(const Words& operands) {
   for (const std::string& operand : without_area(operands)) {
     const auto parts = split_at(operand, '=');
-    if (!parts) refuse(fmt::format("'{}': a value is missing; write for example 40001=5", operand));
+    if (!parts) refuse(fmt::format("'{}': a value is missing; write for example 40001=5", stl::shortened(operand)));
     const modbus::DataAddress first = address(parts->first);
     const modbus::AreaRow& row = modbus::row_of(first.area);
     text_ = area_ != nullptr ? fmt::format("write {} {}", area_->word, operand) : "write " + operand;
@@ -237,7 +238,7 @@ std::vector<Reference> Parser::to_read(const Words& operands, std::uint8_t type)
   for (const std::string& operand : operands) {
     const auto file = split_at(operand, ':');
     const auto record = file ? split_at(file->second, ':') : std::nullopt;
-    if (!record) refuse(fmt::format("'{}' is no reference; write for example 4:1:2", operand));
+    if (!record) refuse(fmt::format("'{}' is no reference; write for example 4:1:2", stl::shortened(operand)));
     references.push_back({.type = type,
                           .file = word(file->first, "file"),
                           .record = word(record->first, "record"),
@@ -251,14 +252,14 @@ std::vector<Reference> Parser::to_write(const Words& operands, std::uint8_t type
   for (const std::string& operand : operands) {
     const auto sides = split_at(operand, '=');
     const auto file = sides ? split_at(sides->first, ':') : std::nullopt;
-    if (!file) refuse(fmt::format("'{}' is no reference with values; write for example 4:1=10,20", operand));
+    if (!file) refuse(fmt::format("'{}' is no reference with values; write for example 4:1=10,20", stl::shortened(operand)));
     Reference reference{.type = type, .file = word(file->first, "file"), .record = word(file->second, "record")};
     const auto values = parse_registers(sides->second, {});
     for (const std::uint16_t value : values) {
       if (type == modbus::kFileReference)
         reference.data.push_back(static_cast<std::uint8_t>(value >> 8));
       else if (value > UINT8_MAX)
-        refuse(fmt::format("'{}': {} is no byte", operand, value));
+        refuse(fmt::format("'{}': {} is no byte", stl::shortened(operand), value));
       reference.data.push_back(static_cast<std::uint8_t>(value & 0xFF));
     }
     reference.count = static_cast<std::uint16_t>(values.size());
@@ -269,7 +270,8 @@ std::vector<Reference> Parser::to_write(const Words& operands, std::uint8_t type
 
 serial::Frame parse_hex(const std::string& text) {
   serial::ParsedFrame parsed = serial::parse_hex_frame(text);
-  if (!parsed.ok()) refuse(fmt::format("'{}': column {}: {}", text, parsed.errors[0].column, parsed.errors[0].message));
+  if (!parsed.ok())
+    refuse(fmt::format("'{}': column {}: {}", stl::shortened(text), parsed.errors[0].column, parsed.errors[0].message));
   return std::move(parsed.frame);
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
 #include "interpreter/program/address.hpp"
 #include "interpreter/program/load.hpp"
 #include "tools/views/report.hpp"
@@ -67,7 +68,7 @@ std::string take_row(const std::string& address, const std::string& hex, const s
   const auto place = parse_range(address, model, why);
   if (!place) return why;
   if (place->width == Width::Bit || place->count != 1 || hex.size() % 2 != 0)
-    return fmt::format("'{}' has no whole bytes", address);
+    return fmt::format("'{}' has no whole bytes", stl::shortened(address));
   const std::uint64_t count = hex.size() / 2;
   const auto part = std::find_if(kept.begin(), kept.end(), [&](const Kept& k) {
     return k.range.area == place->area && place->at >= k.range.at() && place->at + count <= k.range.at() + k.range.bytes();
@@ -76,7 +77,7 @@ std::string take_row(const std::string& address, const std::string& hex, const s
   std::uint8_t* to = part->bytes + (place->at - part->range.at());
   for (std::size_t i = 0; i < count; ++i) {
     const auto high = hex_digit(hex[2 * i]), low = hex_digit(hex[2 * i + 1]);
-    if (!high || !low) return fmt::format("'{}' holds something else than lower-case hex", address);
+    if (!high || !low) return fmt::format("'{}' holds something else than lower-case hex", stl::shortened(address));
     to[i] = static_cast<std::uint8_t>(*high << 4 | *low);
   }
   return {};
@@ -146,7 +147,7 @@ bool MemoryFile::read(const CpuModel& model, std::string& why) {
   if (settings_.path.empty()) return true;
   if (destination_->replaced) {
     std::string reason;
-    const auto json = read_file(settings_.path, reason);
+    const auto json = read_text(settings_.path, reason);
     if (json) memory_ = memory_from_json(*json, model, reason);
     if (!memory_) {
       why = fmt::format("cannot take --memory from {}: {}; it is left alone", settings_.path, reason);

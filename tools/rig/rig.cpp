@@ -18,7 +18,7 @@ std::optional<serial::FieldScript> read_field(const std::string& path, const Cpu
                                               std::vector<std::string>& problems) {
   if (path.empty()) return serial::FieldScript{};
   std::string why;
-  const auto csv = read_file(path, why);
+  const auto csv = read_text(path, why);
   if (!csv) {
     problems.push_back(fmt::format("cannot read {}: {}", path, why));
     return {};
@@ -50,7 +50,7 @@ std::unique_ptr<Rig> Rig::assemble(std::shared_ptr<const Program> program, const
     good = rig->open_records(why);
   }
   if (good) return rig;
-  problems.push_back(why);
+  if (!why.empty()) problems.push_back(why);
   return nullptr;
 }
 

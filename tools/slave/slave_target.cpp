@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
 #include "tools/slave/host_slave.hpp"
 
 namespace s7200::tools {
@@ -18,7 +19,8 @@ void split(const std::string& text, std::string_view address, SlaveTarget& targe
   std::string_view rest = address;
   if (!rest.empty() && rest.front() == '[') {
     const std::size_t end = rest.find(']');
-    if (end == std::string_view::npos) throw std::invalid_argument(fmt::format("'{}': ']' is missing", text));
+    if (end == std::string_view::npos)
+      throw std::invalid_argument(fmt::format("'{}': ']' is missing", stl::shortened(text)));
     target.host = rest.substr(1, end - 1);
     rest.remove_prefix(end + 1);
   } else {
@@ -32,11 +34,11 @@ void split(const std::string& text, std::string_view address, SlaveTarget& targe
     throw std::invalid_argument(
         fmt::format("'{}' is no address; write for example tcp://192.168.0.5:4001 or "
                     "modbus-tcp://192.168.0.5, an IPv6 address as [::1]",
-                    text));
+                    stl::shortened(text)));
   if (!port_wanted) target.port = kModbusPort;
   const bool number = target.port.find_first_not_of("0123456789") == std::string::npos;
   if (number && parse_decimal<std::uint16_t>(target.port).value_or(0) == 0)
-    throw std::invalid_argument(fmt::format("'{}': ports are 1 to 65535", text));
+    throw std::invalid_argument(fmt::format("'{}': ports are 1 to 65535", stl::shortened(text)));
 }
 
 }  // namespace
@@ -50,8 +52,8 @@ SlaveTarget parse_slave_target(const std::string& text) {
     target.kind = SlaveTarget::Kind::ModbusTcp;
     split(text, std::string_view(text).substr(kModbusTcp.size()), target);
   } else if (text.find("://") != std::string::npos) {
-    throw std::invalid_argument(
-        fmt::format("'{}': there is no such way to a slave; write {}HOST:PORT or {}HOST:PORT", text, kTcp, kModbusTcp));
+    throw std::invalid_argument(fmt::format("'{}': there is no such way to a slave; write {}HOST:PORT or {}HOST:PORT",
+                                            stl::shortened(text), kTcp, kModbusTcp));
   } else {
     std::error_code error;
     const bool device = text.starts_with("/dev/tty") || std::filesystem::is_character_file(text, error);

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
@@ -45,7 +46,8 @@ std::uint32_t float_bits(std::string_view text) {
   char* end = nullptr;
   const float value = std::strtof(number.c_str(), &end);
   if (number.empty() || *end != '\0' || !std::isfinite(value) || std::isspace(static_cast<unsigned char>(number[0])))
-    throw std::invalid_argument(fmt::format("'{}' is no number that a float can hold; write for example 1.5 or -2e3", text));
+    throw std::invalid_argument(
+        fmt::format("'{}' is no number that a float can hold; write for example 1.5 or -2e3", stl::shortened(text)));
   return std::bit_cast<std::uint32_t>(value);
 }
 
@@ -146,7 +148,9 @@ std::span<const ValueFormName> value_forms() { return kForms; }
 
 std::int64_t parse_number(std::string_view text, std::int64_t least, std::int64_t most, std::string_view what) {
   const auto value = parse_integer(text);
-  if (!value) throw std::invalid_argument(fmt::format("{} '{}' is no number; write for example 10 or 16#0A", what, text));
+  if (!value)
+    throw std::invalid_argument(
+        fmt::format("{} '{}' is no number; write for example 10 or 16#0A", what, stl::shortened(text)));
   if (*value < least || *value > most)
     throw std::invalid_argument(fmt::format("{} {} is not from {} to {}", what, text, least, most));
   return *value;
@@ -156,7 +160,7 @@ std::vector<std::uint16_t> parse_bits(std::string_view text) {
   std::vector<std::uint16_t> bits;
   for (const std::string_view part : split(text)) {
     if (part != "on" && part != "off" && part != "1" && part != "0")
-      throw std::invalid_argument(fmt::format("'{}' is no state of a coil; write on, off, 1 or 0", part));
+      throw std::invalid_argument(fmt::format("'{}' is no state of a coil; write on, off, 1 or 0", stl::shortened(part)));
     bits.push_back(part == "on" || part == "1" ? 1 : 0);
   }
   return bits;

@@ -6,6 +6,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "serial_sim/modbus/crc.hpp"
 #include "tools/views/text_frame.hpp"
 
 namespace s7200::tools {
@@ -84,7 +85,7 @@ std::string torn_frame_note(const std::vector<std::string>& frames) {
   const auto is_byte = [](const std::string& text) { return text.size() <= 2; };
   if (frames.size() < 2 || std::none_of(frames.begin(), frames.end(), is_byte)) return {};
   return fmt::format("these were {} frames, one for each argument; to send one frame, put it in quotes: '{}'", frames.size(),
-                     fmt::join(frames, " "));
+                     stl::shortened(fmt::format("{}", fmt::join(frames, " "))));
 }
 
 std::string exchange_text(const serial::Exchange& exchange, Time timeout) {
@@ -94,6 +95,12 @@ std::string exchange_text(const serial::Exchange& exchange, Time timeout) {
   if (exchange.timed_out) return fmt::format("{}answer   none within {}\n", request, format_duration(timeout));
   return fmt::format("{}answer   {}   after {}\n{}", request, serial::to_hex(exchange.response_bytes()),
                      format_duration(*exchange.latency()), below(remarks_on(exchange)));
+}
+
+bool is_damaged(const serial::Exchange& exchange) {
+  if (exchange.timed_out) return false;
+  return exchange.parity_error() || exchange.framing_error() ||
+         (modbus::crc_ok(serial::bytes_of(exchange.request)) && !modbus::crc_ok(exchange.response_bytes()));
 }
 
 nlohmann::ordered_json exchange_json(const serial::Exchange& exchange, const Bytes& unasked) {
@@ -110,6 +117,7 @@ nlohmann::ordered_json exchange_json(const serial::Exchange& exchange, const Byt
   json["latency_us"] = static_cast<double>(*exchange.latency()) / kMicrosecond;
   if (exchange.parity_error()) json["parity_error"] = true;
   if (exchange.framing_error()) json["framing_error"] = true;
+  if (is_damaged(exchange)) json["damaged"] = true;
   return json;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tools/views/text_frame.hpp"
@@ -47,12 +48,12 @@ std::optional<std::vector<serial::Frame>> FrameOptions::read(std::string& why) c
     if (option != hex_ && option != text_) continue;
     const bool is_text = option == text_;
     const std::string& next = is_text ? *text++ : *frame++;
-    written.push_back(
-        {next, fmt::format("{} '{}'", is_text ? "--text" : "frame", next), is_text ? parse_text : serial::parse_hex_frame});
+    written.push_back({next, fmt::format("{} '{}'", is_text ? "--text" : "frame", stl::shortened(next)),
+                       is_text ? parse_text : serial::parse_hex_frame});
   }
   if (!file_.empty()) {
     std::string reason;
-    const auto bytes = read_file(file_, reason);
+    const auto bytes = read_text(file_, reason);
     if (!bytes) {
       why = fmt::format("cannot read {}: {}", file_, reason);
       return {};

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "interpreter/base/text.hpp"
 #include "tools/command/options/line_options.hpp"
 #include "tools/command/options/number_option.hpp"
 
@@ -47,7 +48,7 @@ void MasterOptions::add_to(CLI::App& app) {
       ->check([](const std::string& name) {
         return std::ranges::any_of(value_forms(), [&](const ValueFormName& known) { return known.name == name; })
                    ? std::string()
-                   : fmt::format("'{}' is no form; there are {}", name, form_names());
+                   : fmt::format("'{}' is no form; there are {}", stl::shortened(name), form_names());
       })
       ->capture_default_str()
       ->type_name("FORM");

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <iostream>
 
+#include "interpreter/base/text.hpp"
+#include "tools/command/exit_code.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/views/faults.hpp"
 #include "tools/views/memory.hpp"
@@ -45,7 +48,7 @@ void RigOptions::add_to(CLI::App& app) {
              throw CLI::ValidationError("--clock",
                                         fmt::format("'{}' is not a date and time between 1990 and 2089; write for "
                                                     "example \"2026-11-21 10:00:00\"",
-                                                    text));
+                                                    stl::shortened(text)));
          },
          "time of day at the start")
       ->type_name("\"YYYY-MM-DD HH:MM:SS\"");
@@ -85,6 +88,11 @@ std::unique_ptr<Rig> RigOptions::assemble(const std::shared_ptr<const Program>& 
   auto rig = Rig::assemble(program, settings_, problems);
   for (const std::string& problem : problems) print_error(problem);
   return rig;
+}
+
+int exit_code_without_rig() {
+  print_interruption();
+  return interrupted() ? kCheckFailed : kUnusable;
 }
 
 bool finish(Rig& rig) {

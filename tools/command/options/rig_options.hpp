@@ -50,6 +50,9 @@ class RigOptions {
   RigSettings settings_;
 };
 
+/// How a verb ends that has got no rig: with a word if it was interrupted.
+int exit_code_without_rig();
+
 /// Completes the records and keeps the memory. False after messages.
 bool finish(Rig& rig);
 
