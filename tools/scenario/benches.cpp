@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tools/host/interruption.hpp"
 #include "tools/slave/slave_target.hpp"
 
 namespace s7200::tools {
@@ -56,7 +57,7 @@ Programs::Loaded Programs::load(const std::string& path, const std::string& cpu,
   TimeTable times = default_times(model);
   if (!times_file.empty()) {
     std::string why;
-    const auto csv = read_file(times_file, why);
+    const auto csv = read_text(times_file, why);
     if (!csv) add_error(loaded.messages, fmt::format("cannot read {}: {}", times_file, why));
     if (csv)
       for (const std::string& error : times.add(*csv, times_file)) add_error(loaded.messages, error);
@@ -136,6 +137,7 @@ std::optional<Benches> make_benches(const std::vector<Scenario>& scenarios, cons
   SerialFormat format;
   if (parsed.kind != SlaveTarget::Kind::Program) {
     format = settings.line.over(SerialFormat{});
+    catch_interruption();  // a wait for the other side can be ended
     benches.slave = connect(parsed, format);
     benches.name = benches.slave->name();
   }

@@ -50,7 +50,7 @@ class Collector {
 
   std::optional<std::string> text_of(const std::string& path) {
     std::string why;
-    auto text = read_file(path, why);
+    auto text = read_text(path, why);
     if (!text) fail(fmt::format("cannot read {}: {}", path, why));
     return text;
   }

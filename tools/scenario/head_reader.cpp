@@ -90,7 +90,7 @@ class HeadReader {
 
   void read_field(const YamlNode& node, const std::string& path, Scenario& scenario) {
     std::string why;
-    const auto csv = read_file(path, why);
+    const auto csv = read_text(path, why);
     if (!csv) return values_.wrong(node, fmt::format("cannot read {}: {}", path, why));
     std::vector<std::string> errors;
     scenario.input_file = path;
