@@ -342,6 +342,7 @@ class DocumentReader {
   std::optional<Diagnostic> look_alike(const Statement& statement) {
     const std::string_view clean = at(statement.position.line).clean;
     if (has_small_letters(at(statement.position.line).mnemonic)) return {};
+    if (!instructions_.has(statement.mnemonic, statement.operands.size())) return {};  // something else is wrong with it
     for (const Operand& operand : statement.operands) {
       const std::string written = characters_at(clean, operand.position.column, operand.position.length);
       const std::size_t mark = written.find_first_not_of("&*");
@@ -439,7 +440,9 @@ class DocumentReader {
 
   /// Outside of routines: not a known mnemonic, but the line cannot be anything but a statement either.
   bool is_unknown_statement(const Reading& reading, bool beside_stl) const {
-    if (reading.candidate || reading.words != 0 || words_of(reading.mnemonic) != 0) return false;
+    if (reading.candidate || reading.words != 0) return false;
+    if (reading.address && beside_stl) return true;  // xLD SM0.1, L D SM0.1
+    if (words_of(reading.mnemonic) != 0) return false;
     if (reading.debris) return is_letter(reading.mnemonic.front()) && (reading.address || beside_stl);
     if (reading.operands == 0) return beside_stl && ends_in_bit_address(reading.mnemonic);
     if (!reading.all_solid) return false;

@@ -62,7 +62,8 @@ class Case(unittest.TestCase):
         self.idle, self.echo = self.file("idle.stl", IDLE), self.file("echo.stl", ECHO)
         self.blinking = self.file("blinking.stl", BLINKING)
         self.good = self.file("good.yaml", SCENARIO.format(program=self.echo, name="good"))
-        self.page = self.file("page.txt", "A page of prose.\n\nNETWORK 1\nLD SM0.0 // always\nMOVB 1, VB0\nMEND\n")
+        self.page = self.file("page.txt", "A page of prose, which tells at some length what the lamp over the door of the plant does.\n\nNETWORK 1\n"
+                                          "LD SM0.0 // always\nMOVB 1, VB0\nMEND\n")
 
     def file(self, name, content):
         path = self.folder / name

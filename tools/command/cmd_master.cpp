@@ -83,8 +83,8 @@ int run_master(MasterOptions& options) {
   options.refuse_what_does_not_fit(target.kind);
   const bool over_tcp = target.kind == SlaveTarget::Kind::ModbusTcp;
   const std::vector<MasterAction> actions = options.actions(over_tcp);
-  catch_interruption();
   if (target.kind == SlaveTarget::Kind::Program) return run_on_program(options, actions);
+  catch_interruption();
   std::unique_ptr<Slave> slave;
   try {
     slave = connect(target, options.master.over({}));

@@ -288,7 +288,7 @@ TEST(Document, NoWrongCharacterMakesAStatementDisappear) {
     const std::size_t end = line.find("//");
     for (std::size_t at = 0; at <= std::min(end, line.size()); ++at) {
       for (const char* put : {"", "0", "1", "X", "x", " ", "I", "l", ".", "="}) {
-        for (const std::size_t taken : {0, 1}) {
+        for (const std::size_t taken : {0U, 1U}) {
           std::string damaged = line;
           if (at + taken > line.size()) continue;
           damaged.replace(at, taken, put);

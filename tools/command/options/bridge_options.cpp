@@ -61,7 +61,7 @@ bool BridgeOptions::prepare() {
     std::string why;
     const auto address = parse_listen_address(text, why);
     if (address) return make(*address);
-    print_error(fmt::format("{} {}: {}", option, text, why));
+    print_error(fmt::format("{} {}: {}", option, stl::shortened(text), why));
     fine = false;
     return nullptr;
   };
