@@ -2,7 +2,7 @@
 """Who may include whom, which libraries each room sees, and which words it does not use.
 
 A folder is a room; ROOMS says what each sees besides itself. There are no exceptions: a file that cannot stand in its room
-belongs into another. Run without arguments; every offence is printed, the exit code is 1 if there is any.
+belongs in another. Run without arguments; every offence is printed, the exit code is 1 if there is any.
 """
 import pathlib
 import re
@@ -88,7 +88,7 @@ def exists(name):
 def offences_of_include(name, bracket, included):
     for library, allowed in LIBRARIES.items():
         if included.startswith(library) and not is_among(name, allowed):
-            yield f"{included} belongs into {', '.join(allowed)}"
+            yield f"{included} belongs in {', '.join(allowed)}"
     room, other = room_of(name), room_of(included)
     if other is None:
         if bracket == '"':
@@ -115,7 +115,7 @@ def offences_of(path):
     for words, allowed in WORDS.items():
         if not is_among(name, allowed):
             for match in re.finditer(words, code):
-                yield f"{name}:{code.count(chr(10), 0, match.start()) + 1}: '{match.group()}' belongs into {', '.join(allowed)}"
+                yield f"{name}:{code.count(chr(10), 0, match.start()) + 1}: '{match.group()}' belongs in {', '.join(allowed)}"
 
 
 def main():
