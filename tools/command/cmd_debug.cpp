@@ -64,7 +64,7 @@ int run_debug(DebugOptions& options) {
   options.bridge.set_line(options.master);
   if (!options.bridge.prepare()) return kUnusable;
   const auto rig = options.rig.assemble(program, false, options.bridge.link());
-  if (!rig) return exit_code_without_rig();
+  if (!rig) return options.rig.exit_code_without_rig();
   rig->power_up();
   rig->simulation().stop_when(nullptr);  // the debugger looks itself, in front of each instruction
 

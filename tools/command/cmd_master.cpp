@@ -45,7 +45,7 @@ int run_on_program(MasterOptions& options, const std::vector<MasterAction>& acti
   const auto program = options.program.load(exit_code);
   if (!program) return exit_code;
   const auto rig = options.rig.assemble(program, options.json);
-  if (!rig) return exit_code_without_rig();
+  if (!rig) return options.rig.exit_code_without_rig();
   rig->power_up();
   const auto plant = [&] { return options.rig.json(rig->simulation()); };
   SimulatedSlave slave(rig->simulation(), options.master, program->source.name);
@@ -83,8 +83,8 @@ int run_master(MasterOptions& options) {
   options.refuse_what_does_not_fit(target.kind);
   const bool over_tcp = target.kind == SlaveTarget::Kind::ModbusTcp;
   const std::vector<MasterAction> actions = options.actions(over_tcp);
-  if (target.kind == SlaveTarget::Kind::Program) return run_on_program(options, actions);
   catch_interruption();
+  if (target.kind == SlaveTarget::Kind::Program) return run_on_program(options, actions);
   std::unique_ptr<Slave> slave;
   try {
     slave = connect(target, options.master.over({}));

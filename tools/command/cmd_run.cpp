@@ -73,7 +73,7 @@ int run_run(RunOptions& options) {
   if (!program) return exit_code;
   if (!options.bridge.prepare()) return kUnusable;
   const auto rig = options.rig.assemble(program, options.json, options.bridge.link());
-  if (!rig) return exit_code_without_rig();
+  if (!rig) return options.rig.exit_code_without_rig();
   serial::Simulation& simulation = rig->simulation();
   rig->power_up();
   simulation.cpu().pause_at_error(options.rig.strict());

@@ -38,7 +38,7 @@ int run_send(SendOptions& options) {
   const auto frames = options.frames.read(why);
   if (!frames) return print_error(why), kUnusable;
   const auto rig = options.rig.assemble(program, options.json);
-  if (!rig) return exit_code_without_rig();
+  if (!rig) return options.rig.exit_code_without_rig();
   serial::Simulation& simulation = rig->simulation();
   rig->power_up();
   TraceSink* const records = rig->sinks().empty() ? nullptr : &rig->sinks();

@@ -87,12 +87,13 @@ std::unique_ptr<Rig> RigOptions::assemble(const std::shared_ptr<const Program>& 
   std::vector<std::string> problems;
   auto rig = Rig::assemble(program, settings_, problems);
   for (const std::string& problem : problems) print_error(problem);
+  only_interrupted_ = problems.empty() && interrupted();
   return rig;
 }
 
-int exit_code_without_rig() {
+int RigOptions::exit_code_without_rig() const {
   print_interruption();
-  return interrupted() ? kCheckFailed : kUnusable;
+  return only_interrupted_ ? kCheckFailed : kUnusable;
 }
 
 bool finish(Rig& rig) {

@@ -24,6 +24,9 @@ class RigOptions {
   /// by --pty.
   std::unique_ptr<Rig> assemble(const std::shared_ptr<const Program>& program, bool json, const std::string& link = {});
 
+  /// How a verb ends that has got no rig: as after an interruption, if there was nothing else.
+  int exit_code_without_rig() const;
+
   /// Whether there are faults.
   bool faulted() const { return !faults_.empty(); }
 
@@ -46,12 +49,10 @@ class RigOptions {
   std::vector<std::string> set_, dump_;
   std::vector<MemoryRange> dumps_;
   bool strict_ = false;
+  bool only_interrupted_ = false;  ///< while a record waited for its reader
   FaultOptions faults_;
   RigSettings settings_;
 };
-
-/// How a verb ends that has got no rig: with a word if it was interrupted.
-int exit_code_without_rig();
 
 /// Completes the records and keeps the memory. False after messages.
 bool finish(Rig& rig);
