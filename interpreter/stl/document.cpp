@@ -207,7 +207,7 @@ struct Reading {
   bool candidate = false;  // begins with a mnemonic
   bool inside = false;     // stands between the statements of a routine
   bool debris = false;     // unreadable characters inside it
-  std::string mnemonic;    // as written; of what is no candidate, the first word
+  std::string mnemonic;    // as written; of a line that is not a candidate, the first word
   std::size_t operands = 0;
   bool first_solid = false;  // the first can only be an operand: an address, a constant, a quoted symbol
   bool some_solid = false;
@@ -416,7 +416,7 @@ class DocumentReader {
     return is_sentence(reading, beside_stl) ? Verdict::Prose : Verdict::Damaged;
   }
 
-  /// Of a line that begins with a mnemonic and is no statement.
+  /// Of a line that begins with a mnemonic and is not a statement.
   static bool is_sentence(const Reading& reading, bool beside_stl) {
     if (beside_stl || reading.inside) {
       if (reading.words >= 3 && !reading.first_solid) return true;

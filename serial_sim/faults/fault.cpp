@@ -14,7 +14,7 @@ namespace {
 
 using stl::trim;
 
-/// A parameter, and how its value gets from text to fault and back. `read` gives a message when the text is no value.
+/// A parameter, and how its value gets from text to fault and back. `read` gives a message when the text is not a value.
 struct Parameter : FaultParameter {
   std::string (*read)(std::string_view, Fault&);
   std::string (*write)(const Fault&);
@@ -24,7 +24,7 @@ struct Parameter : FaultParameter {
 template <auto Fault::*member>
 std::string read_count(std::string_view text, Fault& fault, std::uint64_t least, std::uint64_t most) {
   const auto value = parse_decimal<std::uint64_t>(text);
-  if (!value || *value < least || *value > most) return fmt::format("is no whole number from {} to {}", least, most);
+  if (!value || *value < least || *value > most) return fmt::format("is not a whole number from {} to {}", least, most);
   fault.*member = static_cast<std::remove_reference_t<decltype(fault.*member)>>(*value);
   return {};
 }
@@ -43,7 +43,7 @@ std::optional<double> share(std::string_view text) {
 template <double Fault::*member>
 std::string read_share(std::string_view text, Fault& fault) {
   const auto value = share(text);
-  if (!value || *value == 0) return "is no share above 0 and up to 1; write for example 1e-4, 0.5 or 2%";
+  if (!value || *value == 0) return "is not a share above 0 and up to 1; write for example 1e-4, 0.5 or 2%";
   fault.*member = *value;
   return {};
 }
@@ -59,7 +59,7 @@ std::string read_length(std::string_view text, Fault& fault) {
   const auto value = bits ? parse_duration(std::string(trim(text.substr(0, text.size() - kUnit.size()))).append("ms"))
                           : parse_duration(text);
   if (!value || *value > kLongestLength || (positive && *value == 0))
-    return fmt::format("is no length{}; write for example 30us, 1.5ms, 0.3bit or 12bit", positive ? " above 0" : "");
+    return fmt::format("is not a length{}; write for example 30us, 1.5ms, 0.3bit or 12bit", positive ? " above 0" : "");
   (bits ? length.microbits : length.time) = *value;
   fault.*member = length;
   return {};
@@ -118,7 +118,7 @@ std::string write_word(const Fault& fault) {
 std::string read_bit(std::string_view text, Fault& fault) {
   if (read_word<kBits, &Fault::bit>(text, fault).empty()) return {};
   const auto value = parse_decimal<int>(text);
-  if (!value || *value < 0 || *value > 7) return "is no bit: 0 (sent first) to 7, start, parity or stop";
+  if (!value || *value < 0 || *value > 7) return "is not a bit: 0 (sent first) to 7, start, parity or stop";
   fault.bit = *value;
   return {};
 }
@@ -137,7 +137,7 @@ std::string read_character(std::string_view text, Fault& fault) {
   }
   const auto value = parse_decimal<std::uint32_t>(text);
   if (!value || *value < 1 || *value > kMostCharacters)
-    return fmt::format("is no character: a number from 1 to {}, or each", kMostCharacters);
+    return fmt::format("is not a character: a number from 1 to {}, or each", kMostCharacters);
   fault.character = value;
   return {};
 }
@@ -150,7 +150,7 @@ std::string write_character(const Fault& fault) {
 std::string read_behind(std::string_view text, Fault& fault) {
   const auto value = parse_decimal<std::uint32_t>(text);
   if (!value || *value > kMostCharacters)
-    return fmt::format("is no character: a number up to {}, or 0 for the place before the first", kMostCharacters);
+    return fmt::format("is not a character: a number up to {}, or 0 for the place before the first", kMostCharacters);
   fault.character = value;
   return {};
 }
@@ -181,7 +181,7 @@ std::string read_clock_error(std::string_view text, Fault& fault) {
   const auto value = parse_decimal<double>(figure);
   const double millionths = value ? std::round(*value * 10'000) : 0;
   if (!percent || !value || !(std::abs(millionths) <= Fault::kLargestClockError) || millionths == 0)
-    return "is no deviation up to 50%; write for example 2.5% for a clock that is too fast, -3% for a slow one";
+    return "is not a deviation up to 50%; write for example 2.5% for a clock that is too fast, -3% for a slow one";
   fault.clock_error = static_cast<std::int32_t>(millionths);
   return {};
 }
@@ -216,7 +216,7 @@ const std::array kParameters{
     Parameter{{"character", "N, each", "number in the request or answer, from 1"}, read_character, write_character},
     Parameter{{"behind", "N", "number of the character, 0 for the place before the first"}, read_behind, write_behind},
     Parameter{{"bit", "0…7, start, parity, stop", "data bits count from the one sent first"}, read_bit, write_bit},
-    Parameter{{"at", "time, bits", "behind the start edge of the character"},
+    Parameter{{"at", "time, bits", "after the start edge of the character"},
               read_length<&Fault::offset, false>,
               write_length<&Fault::offset>},
     Parameter{{"length", "time, bits", "how long it is"}, read_length<&Fault::length, true>, write_length<&Fault::length>},
@@ -425,7 +425,7 @@ const std::array<FaultKindInfo, kFaultKinds>& fault_kinds() {
                 {{"character", "1"}, {"at", "0bit"}, {"length", "0.3bit"}, {"of", "request"}, {"from", kLeftOut}}),
       kind_info(FaultKind::Missing, "missing", "characters that never reach the line; their time passes",
                 "missing:character=3", {{"character", "1"}, {"count", "1"}, {"of", "request"}}),
-      kind_info(FaultKind::Extra, "extra", "characters that nobody ordered", "extra:behind=8,bytes=00",
+      kind_info(FaultKind::Extra, "extra", "characters that no one sent", "extra:behind=8,bytes=00",
                 {{"behind", "1"}, {"bytes", "random"}, {"count", "1"}, {"of", "request"}}),
       kind_info(FaultKind::Gap, "gap", "a pause before a character", "gap:character=4,length=10ms",
                 {{"character", "2"}, {"length", kRequired}, {"of", "request"}}),

@@ -63,7 +63,7 @@ struct Fault {
   Half of = Half::Request;
   std::optional<std::uint32_t> character;  ///< from 1; kEachCharacter; 0 for the place before the first of Extra
   int bit = 0;                             ///< of the data, LSB first, or one of those above
-  Length offset;                           ///< behind the start edge of the character
+  Length offset;                           ///< after the start edge of the character
   std::optional<Time> from;                ///< at an instant, since the injection, instead of in an exchange
   Time lasts = kNever;
 

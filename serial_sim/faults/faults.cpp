@@ -21,7 +21,7 @@ bool selective(const Fault& fault) { return fault.exchange != 0 || fault.every !
 
 bool works_now(const Faults::Injected& injected) { return injected.applies || !selective(injected.fault); }
 
-/// Has its place behind the start edge of a character.
+/// Has its place after the start edge of a character.
 bool bound_to_character(const Fault& fault) {
   switch (fault.kind) {
     case FaultKind::Flip:
@@ -133,22 +133,22 @@ Mishap Faults::character_begins(int driver, const SerialFormat& format, Time at)
   const std::uint32_t number = ++state_.characters[index(half)];
   const BitClock clock{format, clock_error(driver)};
 
-  const auto befallen = [&](const Injected& injected) { return injected.applies && concerns(injected.fault, half); };
+  const auto disturbed_by = [&](const Injected& injected) { return injected.applies && concerns(injected.fault, half); };
   Mishap mishap;
   for (Injected& injected : state_.injected)
-    if (befallen(injected)) befall_sender(injected, number, clock, mishap);
+    if (disturbed_by(injected)) disturb_sender(injected, number, clock, mishap);
 
   const Time character = clock.character_time();
   const Time start = at + mishap.delay + static_cast<Time>(mishap.before.size()) * character;
   for (Injected& injected : state_.injected)
-    if (befallen(injected) && bound_to_character(injected.fault) && hits_character(injected.fault, number))
-      befall_line(injected, clock, start);
+    if (disturbed_by(injected) && bound_to_character(injected.fault) && hits_character(injected.fault, number))
+      disturb_line(injected, clock, start);
 
   state_.sent_until[index(half)] = start + static_cast<Time>(1 + mishap.after.size()) * character;
   return mishap;
 }
 
-void Faults::befall_sender(Injected& injected, std::uint32_t number, const BitClock& clock, Mishap& mishap) {
+void Faults::disturb_sender(Injected& injected, std::uint32_t number, const BitClock& clock, Mishap& mishap) {
   const Fault& fault = injected.fault;
   const auto append = [&](std::vector<std::uint8_t>& to) {
     const std::vector<std::uint8_t> bytes = uncalled_bytes(injected);
@@ -189,7 +189,7 @@ std::vector<std::uint8_t> Faults::uncalled_bytes(Injected& injected) {
   return bytes;
 }
 
-void Faults::befall_line(Injected& injected, const BitClock& clock, Time start) {
+void Faults::disturb_line(Injected& injected, const BitClock& clock, Time start) {
   switch (injected.fault.kind) {
     case FaultKind::Flip:
       return invert_bit(injected, injected.fault.bit, clock, start);

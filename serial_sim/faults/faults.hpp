@@ -15,7 +15,7 @@ namespace s7200::serial {
 ///
 /// An exchange is a request, which is what the PLC's peers send, and an answer, which is what the PLC sends. Several PLCs on
 /// the line count as one here. A Requester says when an exchange begins. For any other peer it begins with the first
-/// character behind an answer, or behind more than 3.5 characters of silence; a PLC that speaks unasked begins one in the
+/// character after an answer, or after more than 3.5 characters of silence; a PLC that speaks unasked begins one in the
 /// same way.
 ///
 /// To whoever handles the events: those of its own number go to handle().
@@ -86,8 +86,8 @@ class Faults final : private Interference {
   SerialFormat plc_format() const { return plcs_.empty() ? SerialFormat{} : plcs_.front()->state().format; }
   bool begins_unannounced(Half half, int driver, const SerialFormat& format, Time at) const;
   void begin_exchange(Time at);
-  void befall_sender(Injected& injected, std::uint32_t number, const BitClock& clock, Mishap& mishap);
-  void befall_line(Injected& injected, const BitClock& clock, Time start);
+  void disturb_sender(Injected& injected, std::uint32_t number, const BitClock& clock, Mishap& mishap);
+  void disturb_line(Injected& injected, const BitClock& clock, Time start);
   void disturb(Injected& injected, const BitClock& clock, Time at);
   void invert_bit(Injected& injected, int bit, const BitClock& clock, Time start);
   void collide(Injected& injected, const BitClock& clock, Time at);

@@ -77,7 +77,7 @@ class Reader {
     const bool pulses = field.size() == 5 && field[2] == "pulses";
     if (!pulses && field.size() != 3) return error("write time,address,value or time,address,pulses,frequency,duration");
     const auto at = parse_duration(field[0]);
-    if (!at) return error(fmt::format("'{}' is no time; write for example 10ms or 1.5s", stl::shortened(field[0])));
+    if (!at) return error(fmt::format("'{}' is not a time; write for example 10ms or 1.5s", stl::shortened(field[0])));
     if (*at < last_) return error(fmt::format("{} lies before the row above; put the rows in the order of time", field[0]));
     last_ = *at;
     if (pulses)
@@ -92,7 +92,7 @@ class Reader {
         range.area == Area::SM && range.width == Width::Byte && range.at - sm::kPotentiometer[0] < sm::kPotentiometer.size();
     const bool analog = range.area == Area::AI && range.number % 2 == 0;
     if (range.area == Area::I || analog || potentiometer) return true;
-    error(fmt::format("'{}' is no input; rows set I, words of AI at even addresses, and the potentiometers SMB28 and SMB29",
+    error(fmt::format("'{}' is not an input; rows set I, words of AI at even addresses, and the potentiometers SMB28 and SMB29",
                       stl::shortened(address)));
     return false;
   }
@@ -107,7 +107,7 @@ class Reader {
     if (!drivable(*range, address)) return {};
     const auto parsed = parse_assignment(fmt::format("{}={}", address, value), model_, why);
     if (!parsed)
-      error(fmt::format("'{}' is no value for {}; write a number that fits, for example 1, 16#FF or -5",
+      error(fmt::format("'{}' is not a value for {}; write a number that fits, for example 1, 16#FF or -5",
                         stl::shortened(value), address));
     return parsed;
   }

@@ -47,7 +47,7 @@ struct FieldScript {
 ///   10ms,I0.3,1                      a bit, byte or word of I, a word of AI, SMB28 or SMB29
 ///   1.5s,I0.6,pulses,5kHz,200ms      whole pulses of that frequency, as many as the duration holds
 ///
-/// The heading may be left out, # at the begin of a line or behind a blank begins a comment, times ascend. Errors, each
+/// The heading may be left out, # at the start of a line or after a blank begins a comment, times ascend. Errors, each
 /// `name:line: what, and what to do`: nothing is to be done with a script that has any.
 FieldScript parse_field_script(std::string_view csv, const std::string& name, const CpuModel& model,
                                std::vector<std::string>& errors);

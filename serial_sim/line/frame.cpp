@@ -47,7 +47,7 @@ ParsedFrame parse_hex_frame(std::string_view text) {
     const auto high = hex_digit(at(first));
     const auto low = hex_digit(at(place));
     if (!high) {
-      error(first, fmt::format("'{}' is no hex digit", at(first)));
+      error(first, fmt::format("'{}' is not a hex digit", at(first)));
     } else if (is_blank(at(place))) {
       error(first, fmt::format("a byte is two hex digits, 0{} for {}", at(first), at(first)));
     } else if (low) {

@@ -44,7 +44,7 @@ struct ParsedFrame {
   bool ok() const { return errors.empty(); }
 };
 
-/// Reads `01 03 00 0a`: two hex digits a byte in either case, blanks between bytes as you like, `p` behind a byte to send
+/// Reads `01 03 00 0a`: two hex digits a byte in either case, blanks between bytes as you like, `p` after a byte to send
 /// it with wrong parity. From one to 1024 bytes.
 ParsedFrame parse_hex_frame(std::string_view text);
 

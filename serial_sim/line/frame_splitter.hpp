@@ -34,7 +34,7 @@ class FrameSplitter final : public WireSink {
   void edge(Wire wire, Time at, bool mark) override;
   void settled(Time until, const SerialFormat& port) override;
 
-  /// What has come of the last frames is told too. A character that is not complete is no character.
+  /// What has come of the last frames is told too. An incomplete character does not count.
   void finish() override;
 
  private:

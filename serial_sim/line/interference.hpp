@@ -1,4 +1,4 @@
-// What can befall stations and the characters they send: where faults reach the UARTs.
+// What can disturb stations and the characters they send: where faults reach the UARTs.
 #pragma once
 
 #include <cstdint>

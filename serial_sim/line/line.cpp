@@ -20,7 +20,7 @@ Time Line::Driver::next_edge(Time from, bool mark) const {
 void Line::Driver::add(Time at, bool mark) {
   if (mark == level_after(edges.size())) return;
   assert(edges.empty() || edges.back() <= at);
-  // Two edges at one instant leave the level as it was: nobody could see them.
+  // Two edges at one instant leave the level as it was: no receiver could see them.
   if (!edges.empty() && edges.back() == at) {
     edges.pop_back();
   } else {

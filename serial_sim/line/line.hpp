@@ -25,13 +25,13 @@ class LineListener {
   ~LineListener() = default;
 };
 
-/// What befalls the wire itself from `from` on until before `to`, whoever drives it. A cut outranks a hold, a hold an
+/// A disturbance of the wire during [from, to), whoever drives it. A cut outranks a hold, a hold an
 /// inversion; two inversions at once undo each other.
 struct Disturbance {
   enum class Effect : std::uint8_t {
     Inverts,     ///< mark becomes space and space mark
-    HoldsSpace,  ///< somebody else, or a short circuit, pulls the line to space
-    Cuts,        ///< receivers find mark, the level of a line that nobody drives
+    HoldsSpace,  ///< another driver, or a short circuit, pulls the line to space
+    Cuts,        ///< receivers find mark, the level of a line that no station drives
   };
   Effect effect{};
   Time from = 0, to = kNever;
@@ -61,7 +61,7 @@ class Line {
   /// Every disturbance ends at `at`, those to come do not come.
   void heal(Time at);
 
-  /// What befalls stations and their characters, or null. Like listeners it is wiring, not state, and is not owned.
+  /// What disturbs stations and their characters, or null. Like listeners it is wiring, not state, and is not owned.
   Interference* interference() const { return wiring_.interference; }
   void set_interference(Interference* interference) { wiring_.interference = interference; }
 
@@ -71,7 +71,7 @@ class Line {
   /// What driver `driver` holds, whatever the others do.
   bool level_of(int driver, Time at) const;
 
-  /// The level as it would be without driver `driver`: what it hears of the others and of what befalls the wire.
+  /// The level as it would be without driver `driver`: what it hears of the others and of disturbances.
   bool level_without(int driver, Time at) const;
 
   /// First edge of any driver, begin or end of any disturbance at or after `from` among those known now; kNever when there

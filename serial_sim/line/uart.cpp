@@ -9,7 +9,7 @@ std::uint8_t data_of(std::uint8_t byte, const SerialFormat& format) {
   return format.data_bits == 7 ? static_cast<std::uint8_t>(byte & 0x7F) : byte;
 }
 
-/// Middle of bit `bit` behind the start edge; the start bit is bit 0.
+/// Middle of bit `bit` after the start edge; the start bit is bit 0.
 Time middle_of_bit(int bit, const BitClock& clock) { return clock.half_bits(2 * bit + 1); }
 
 }  // namespace

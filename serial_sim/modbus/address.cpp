@@ -41,7 +41,7 @@ const AreaRow& row_of(Area area) { return kAreas[static_cast<std::size_t>(area)]
 std::optional<DataAddress> parse_address(std::string_view digits, std::string& why) {
   const bool only_digits = std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
   if (!only_digits || digits.size() < 5 || digits.size() > 6) {
-    why = fmt::format("'{}' is no address of 5 or 6 digits: {}", stl::shortened(digits), known_ranges());
+    why = fmt::format("'{}' is not an address of 5 or 6 digits: {}", stl::shortened(digits), known_ranges());
     return {};
   }
   std::uint32_t number = 0;

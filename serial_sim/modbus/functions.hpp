@@ -43,7 +43,7 @@ struct FunctionRow {
   std::string_view name;    ///< `read coils`
   std::string_view object;  ///< what it is about, in the singular: `coil`
   Shape shape;
-  std::uint16_t most;  ///< objects in one request; for files, bytes in the request's PDU behind its byte count
+  std::uint16_t most;  ///< objects in one request; for files, bytes in the request's PDU after its byte count
   bool broadcast;      ///< may go to all stations at once: what it does needs no answer
 };
 

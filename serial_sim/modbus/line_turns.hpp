@@ -45,18 +45,18 @@ class LineTurns {
     SerialFormat format{};
     bool sending = false;    ///< our own characters are under way
     bool receiving = false;  ///< a character is coming in
-    Time quiet_since = 0;    ///< end of the last character of anybody
+    Time quiet_since = 0;    ///< end of the last character, whoever sent it
     Time quiet_time = 0;     ///< to be left between two frames
   };
 
-  /// A slave may still answer what nobody waits for any more. For so long, if the timeout is longer, nobody else is asked:
+  /// A slave may still answer what no one waits for any more. For so long, if the timeout is longer, no one else is asked:
   /// that answer would be taken for another.
   static constexpr Time kLateAnswer = 400 * kMillisecond;
 
   /// What a master leaves all stations to do what a broadcast says (Modbus over Serial Line V1.02, 2.4.1: 100 to 200 ms).
   static constexpr Time kTurnaround = 100 * kMillisecond;
 
-  /// How long to wait for the begin of an answer, and for a line that is quiet enough to ask.
+  /// How long to wait for the start of an answer, and for a line that is quiet enough to ask.
   explicit LineTurns(Time timeout) : timeout_(timeout) {}
 
   void ask(Client client, Request request);
@@ -106,7 +106,7 @@ class LineTurns {
   Time asked_ = 0;                        ///< end of the request
   Time answer_end_ = 0;                   ///< of its last character
   Time unanswered_until_ = 0;             ///< end of the last wait in vain; slaves may take the line for quiet only after it
-  std::optional<Time> wants_line_since_;  ///< somebody has
+  std::optional<Time> wants_line_since_;  ///< a client has
   Time due_ = kNever;
   std::vector<Outcome> outcomes_;
 };

@@ -36,7 +36,7 @@ class MbapReader {
   /// The next complete message, in order.
   std::optional<TcpMessage> next();
 
-  /// What in the stream is no Modbus TCP; then no message comes any more, for nobody knows where the next one begins.
+  /// What in the stream is not Modbus TCP. No message comes after it: where the next one begins cannot be known.
   const std::string& error() const { return error_; }
 
   /// Bytes that are in no message yet.

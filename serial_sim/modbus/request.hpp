@@ -48,7 +48,7 @@ struct Reference {
 Bytes read_file_record(std::span<const Reference> references);
 Bytes write_file_record(std::span<const Reference> references);
 
-/// Those in the data behind the byte count; one that is cut off is left out.
+/// Those in the data after the byte count; one that is cut off is left out.
 std::vector<Reference> references_of(std::span<const std::uint8_t> bytes, bool with_data);
 
 /// Station address, PDU, CRC.

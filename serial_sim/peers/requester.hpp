@@ -30,7 +30,7 @@ struct MasterSettings : LineSettings {
   Request request(const Frame& of) const { return {.frame = of, .timeout = timeout, .gap = gap}; }
 };
 
-/// How to wait for a transmission that nobody asked for.
+/// How to wait for a transmission that no one asked for.
 struct Listening {
   Time timeout = kSecond;         ///< from now to its start edge
   std::optional<Time> silence{};  ///< that ends it; 3.5 characters of the master's format if not given

@@ -34,7 +34,7 @@ using Clock = std::chrono::steady_clock;
 
 Time nanoseconds(Clock::duration duration) { return std::chrono::duration_cast<std::chrono::nanoseconds>(duration).count(); }
 
-/// Begin of the first character received, and end of the first one sent behind it.
+/// Start of the first character received, and end of the first one sent after it.
 class Moments final : public TraceSink {
  public:
   void record(const TraceRecord& record) override {

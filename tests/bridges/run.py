@@ -225,7 +225,7 @@ class PtyTests(Case):
         self.assertEqual(running.descriptors(), before)
         self.assertEqual(running.end()["bridge"]["opened"], 21)
 
-    def test_what_nobody_hears_is_lost(self):
+    def test_what_no_program_hears_is_lost(self):
         running = self.serve()
         with SerialPort(self.link) as port:
             port.ask()
@@ -400,7 +400,7 @@ class PtyTests(Case):
         with SerialPort(self.link) as port:
             self.assertEqual(port.ask(), ANSWER)
 
-    def test_a_link_that_is_somebody_elses_by_now_stays(self):
+    def test_a_link_that_is_someone_elses_by_now_stays(self):
         running = self.serve()
         self.link.unlink()
         self.link.symlink_to("/dev/null")
@@ -609,8 +609,8 @@ class TcpTests(TcpCase):
         running = self.serve("--rtu-over-tcp", "--timeout", "1h")
         client = self.client(running)
         self.until_answered(client)
-        nobody = b"\x09" + READ[1:-2]
-        client.send(framed(nobody))
+        unserved = b"\x09" + READ[1:-2]
+        client.send(framed(unserved))
         time.sleep(SILENCE)
         client.send(READ)
         self.assertEqual(client.receive(len(ANSWER)), ANSWER)
@@ -715,7 +715,7 @@ class TcpTests(TcpCase):
         client.socket.shutdown(socket.SHUT_WR)
         self.assertEqual(client.receive(1000), framed(struct.pack(">BBHH", 1, 16, 0, 123)))
 
-    def test_clients_that_flood_and_do_not_read_stop_nobody(self):
+    def test_clients_that_flood_and_do_not_read_stop_no_one(self):
         for kind in ("--tcp", "--rtu-over-tcp"):
             with self.subTest(kind):
                 running = self.serve(kind)
@@ -825,7 +825,7 @@ class ModbusTcpTests(TcpCase):
         client.send(b"".join(message(number, 1, READ_PDU) for number in range(20)) + b"GET / HTTP/1.1\r\n\r\n")
         self.assertEqual([client.answer() for _ in range(20)], [(number, 1, ANSWER_PDU) for number in range(20)])
         self.assertTrue(client.is_closed())
-        running.wait_for("this is no Modbus TCP: protocol")
+        running.wait_for("this is not Modbus TCP: protocol")
 
     def test_fifty_clients_each_get_their_own(self):
         running = self.serve_gateway("--timeout", "20s")
@@ -847,7 +847,7 @@ class ModbusTcpTests(TcpCase):
         self.assertEqual(other.ask(77), (77, 1, ANSWER_PDU))
         self.eventually(lambda: running.descriptors() == before)
 
-    def test_slow_and_half_open_clients_block_nobody(self):
+    def test_slow_and_half_open_clients_block_no_one(self):
         running = self.serve_gateway()
         half = [self.client(running) for _ in range(10)]
         for client in half:
@@ -862,17 +862,17 @@ class ModbusTcpTests(TcpCase):
         client.send(b"\0\1\0\0\0\6")
         self.assertTrue(client.is_closed())
         running.wait_for("it began a message and did not go on for 10 s")
-        self.assertEqual(patient.ask(1), (1, 1, ANSWER_PDU))  # silence without half a message is no offence
+        self.assertEqual(patient.ask(1), (1, 1, ANSWER_PDU))  # silence without half a message is not an offence
 
     def test_who_is_not_listened_to_has_not_stopped_in_mid_message(self):
         running = self.serve_gateway("--timeout", "1s")
         client = self.client(running)
-        one = message(5, 9, READ_PDU)  # nobody's; 70 of them take 14 s
+        one = message(5, 9, READ_PDU)  # no client's; 70 of them take 14 s
         count = 1024 // len(one) + 1   # what is read at once ends in the last of them
         client.send(one * count)
         self.assertEqual([client.answer() for _ in range(count)], [(5, 9, b"\x83\x0b")] * count)
 
-    def test_floods_block_nobody_and_fill_no_memory(self):
+    def test_floods_block_no_one_and_fill_no_memory(self):
         running = self.serve_gateway()
         other, flooder = self.client(running), self.client(running, receive_buffer=4096)
         other.ask(0)
@@ -993,7 +993,7 @@ class DeviceTests(Case):
         self.assertAlmostEqual(bridge["bytes_out"] + waiting + bridge["overrun"], said, delta=said // 20)
 
     def test_what_is_no_device_is_refused(self):
-        self.assertIn("it is no serial device", self.refused("--device", "/dev/null"))
+        self.assertIn("it is not a serial device", self.refused("--device", "/dev/null"))
         self.assertIn("No such file", self.refused("--device", "/dev/no_such_device"))
         self.start("--device", self.path)
         self.assertIn("another program", self.refused("--device", self.path))
@@ -1092,7 +1092,7 @@ class RunTests(Case):
 
 
 class ScenarioTests(Case):
-    """`s7200 test` on slaves that are no program of its own."""
+    """`s7200 test` on slaves that are not programs of its own."""
 
     def s7200_test(self, code, *arguments):
         done = subprocess.run([S7200, "test", *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True, text=True,

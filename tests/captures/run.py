@@ -128,7 +128,7 @@ class Sigrok(Case):
                 self.send(SLAVE, "--baud", baud, "--timeout", "50ms", *requests)
                 self.assertEqual(self.characters("rx", baud=baud), "".join(requests))
         self.send(SLAVE, "--baud", "19200", "--timeout", "50ms", *requests)
-        self.assertTrue(self.annotations("uart=rx-warnings"), "at 9600 baud this is no clean signal")
+        self.assertTrue(self.annotations("uart=rx-warnings"), "at 9600 baud this is not a clean signal")
 
     def test_wrong_parity_shows(self):
         self.send(SLAVE, "--timeout", "100ms", "0103p000a0001a408")

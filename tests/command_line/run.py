@@ -84,7 +84,7 @@ class Verbs(Case):
 
     def test_an_unknown_option_before_the_verb_is_named(self):
         for arguments, said in ((["--json"], "a verb is missing, and there is no option --json before one\n"),
-                                (["--verison"], "a verb is missing, and there is no option --verison before one; is --version meant?\n"),
+                                (["--verison"], "a verb is missing, and there is no option --verison before one; did you mean --version?\n"),
                                 (["--json", "check", SLAVE], "there is no option --json before the verb\n")):
             self.assertIn(f"s7200: error: {said}", self.ends(UNUSABLE, *arguments).stderr)
 
@@ -196,8 +196,8 @@ class Verbs(Case):
     def test_wrong_faults_are_refused_at_their_place(self):
         for spec, column, message, caret in (
                 ("flop:bit=1", 1, "there is no fault 'flop'; there are noise, flip, ", "^~~~"),
-                ("flip:character=3,bit=8", 22, "bit: '8' is no bit: 0 (sent first) to 7, start, parity or stop", "^"),
-                ("flip:bit=0…7", 10, "bit: '0…7' is no bit", "^~~"),
+                ("flip:character=3,bit=8", 22, "bit: '8' is not a bit: 0 (sent first) to 7, start, parity or stop", "^"),
+                ("flip:bit=0…7", 10, "bit: '0…7' is not a bit", "^~~"),
                 ("gap", 1, "gap needs length=VALUE (time, bits), for example gap:character=4,length=10ms", "^~~"),
                 (":bit=1", 1, "a fault is missing here", "^")):
             for verb in (["run", SLAVE], ["send", SLAVE, "01"]):

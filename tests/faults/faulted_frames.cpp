@@ -171,7 +171,7 @@ using Frame = std::vector<ReceivedCharacter>;
 
 /// What was received falls into frames where the quiet time passed. The timer starts when the program gets to it, and the
 /// next character is noticed when the program gets to that: close to the quiet time the order in which the two were served
-/// decides. When the time is up while the character's routine runs, and has not started it afresh yet, the frame ends behind
+/// decides. When the time is up while the character's routine runs, and has not started it afresh yet, the frame ends after
 /// that character.
 std::vector<Frame> frames_of(const Log& log, Time quiet) {
   constexpr Time kInDoubt = 1500 * kMicrosecond, kLongestRoutine = kMillisecond;
@@ -393,7 +393,7 @@ class Trials {
     slave_.settle();
     if (slave_.log.sent == expected) return;
     ++result.counts.unanswered;
-    show(fmt::format("a good frame behind it was answered '{}' instead of '{}'", serial::to_hex(slave_.log.sent),
+    show(fmt::format("a good frame after it was answered '{}' instead of '{}'", serial::to_hex(slave_.log.sent),
                      serial::to_hex(expected)),
          frames_of(slave_.log, quiet_));
   }
@@ -445,7 +445,7 @@ std::string to_text(const Counts& c) {
       "CRC by "
       "chance\n{:9}   received in pieces, {} of them "
       "with a "
-      "right CRC behind another frame\n{:9} answered\n{:9} good frames behind a quiet line\n",
+      "right CRC after another frame\n{:9} answered\n{:9} good frames after a quiet line\n",
       c.frames, c.untouched, c.with_errors, c.with_wrong_crc, c.with_framing_errors_only, c.zeros_at_its_end,
       c.right_by_chance, c.split, c.right_behind_another, c.answered, c.good_frames);
   text += "          faults:";

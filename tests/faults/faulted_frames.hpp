@@ -30,7 +30,7 @@ struct Counts {
   std::uint64_t split = 0;                 ///< received as several frames
   std::uint64_t right_behind_another = 0;  ///< of those, with a right CRC in one that is not the first
   std::uint64_t answered = 0;
-  std::uint64_t good_frames = 0;  ///< undisturbed ones behind a quiet line
+  std::uint64_t good_frames = 0;  ///< undisturbed ones after a quiet line
   std::array<std::uint64_t, serial::kFaultKinds> happened{};
   std::uint64_t wrong = 0;       ///< answers, silences or changes of memory that were not earned
   std::uint64_t unanswered = 0;  ///< good frames without their answer

@@ -1,5 +1,5 @@
 // Whatever comes in on the line of the running slave: it stays in RUN, its answers carry its address and a right CRC, and
-// behind a quiet line a good request is answered. The input is read as a list of frames and faults; a fault that comes as
+// after a quiet line a good request is answered. The input is read as a list of frames and faults; a fault that comes as
 // text goes through parse_fault. S7200_FUZZ_PROGRAM names another slave than ours.
 #include <cstdio>
 #include <cstdlib>
@@ -179,7 +179,7 @@ class Slave {
     modbus::add_crc(expected);
     const Bytes request = modbus::rtu_frame(kStation, modbus::read_holding_registers(10, 1));
     simulation_.master().start({.frame = serial::to_frame(request)}, simulation_.time());
-    require(simulation_.finish_exchange().response_bytes() == expected, "a good request behind a quiet line is answered");
+    require(simulation_.finish_exchange().response_bytes() == expected, "a good request after a quiet line is answered");
     require(state.mode == Mode::Run, "the CPU stays in RUN");
   }
 

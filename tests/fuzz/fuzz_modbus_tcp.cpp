@@ -2,7 +2,7 @@
 //
 // The input is a script: an operation, then its operands. Promises: every frame on the line is one of a client that is
 // there, with a right CRC, on a line that is quiet; every answer is to a client that is there, is Modbus TCP, and belongs to
-// exactly one request of that client; in the end nobody waits for anything.
+// exactly one request of that client; in the end no client waits for anything.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -72,7 +72,7 @@ class World {
           answer(right_answer(script), 0);
           break;
         case 7:
-          line_.quiet_since = line_.now;  // somebody else talks
+          line_.quiet_since = line_.now;  // another station talks
           break;
       }
       turn();

@@ -132,7 +132,7 @@ class PtyPeer(Peer):
                 except OSError as error:
                     if error.errno != errno.EIO:
                         return b""
-                    time.sleep(0.01)  # nobody has it open
+                    time.sleep(0.01)  # no program has it open
         try:
             self.talk(read, lambda piece: os.write(self.primary, piece), lambda p: len(p) > 3 and crc(p[:-2]) == p[-2:])
         except OSError:

@@ -271,7 +271,7 @@ class Unreachable(Case):
                           self.unreachable(f"{scheme}://127.0.0.1:{port}", "slave-id"))
         self.assertIn("cannot reach 127.0.0.1:frob", self.unreachable("tcp://127.0.0.1:frob", "slave-id"))
         self.assertIn("cannot open /dev/ttyNOT_HERE: No such file", self.unreachable("/dev/ttyNOT_HERE", "slave-id"))
-        self.assertIn("it is no serial device", self.unreachable("/dev/null", "slave-id"))
+        self.assertIn("it is not a serial device", self.unreachable("/dev/null", "slave-id"))
         self.assertIn("cannot read not_here.stl", self.unreachable("not_here.stl", "slave-id"))
 
     def test_a_device_that_vanishes(self):

@@ -91,7 +91,7 @@ class Conversation(unittest.TestCase):
         self.assertEqual(answer, due, request)
 
     def unanswered(self, *request, values=(), station=1, **settings):
-        """Nobody answers, and the line is as good as before."""
+        """No slave answers, and the line is as good as before."""
         self.reopen(timeout=0.3, **settings)
         request = Request(*request, values=tuple(values))
         if "baud" not in settings:

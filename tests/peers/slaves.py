@@ -14,7 +14,7 @@ class Slave:
     most_written_registers: int
     writes_any_coils: bool  # with function 15; otherwise whole bytes
     obeys_broadcasts: bool
-    pause: float  # seconds of quiet that it needs behind an answer
+    pause: float  # seconds of quiet that it needs after an answer
 
 
 SLAVES = {

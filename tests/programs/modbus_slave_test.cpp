@@ -260,12 +260,12 @@ TEST_F(ModbusSlave, TakesNothingInsideAFrameForTheBeginningOfOne) {
   const std::string good = "010300000001840a";
   EXPECT_EQ(bench.ask_raw(good), "01 03 02 00 00 b8 44");
   for (std::string foreign = "02"; foreign.size() < 40; foreign += "55")
-    EXPECT_EQ(bench.ask_raw(foreign + good), "-") << "behind " << foreign;
-  EXPECT_EQ(bench.ask_raw("55p" + good), "-") << "behind a disturbed character";
+    EXPECT_EQ(bench.ask_raw(foreign + good), "-") << "after " << foreign;
+  EXPECT_EQ(bench.ask_raw("55p" + good), "-") << "after a disturbed character";
   EXPECT_EQ(bench.ask_raw("0100p" + good.substr(2)), "-") << "around a disturbed character";
   EXPECT_EQ(bench.ask_raw(good + "00p"), "-") << "before a disturbed character";
   EXPECT_EQ(bench.ask_raw("02"), "-");
-  EXPECT_EQ(bench.ask_raw(good), "01 03 02 00 00 b8 44") << "behind a lone character of another station";
+  EXPECT_EQ(bench.ask_raw(good), "01 03 02 00 00 b8 44") << "after a lone character of another station";
 }
 
 TEST_F(ModbusSlave, Receives256CharactersAndNotOneMore) {

@@ -4,7 +4,7 @@
 streams   standard input, output and error closed, full, or abandoned by their reader, for every verb and every output
 signals   Ctrl-C, SIGTERM and SIGHUP in every wait
 files     what may be written over, links, files named twice, full disks
-text      hostile names and contents, and files that are no programs
+text      hostile names and contents, and files that are not programs
 
 Nothing here depends on how fast the computer is: what has to come is waited for, for long. SLOW_LOOK_UP is a library for
 LD_PRELOAD that makes looking up a host name endless.
@@ -262,7 +262,7 @@ class Streams(Case):
                 self.assertEqual(json.loads(memory.read_bytes())["format"], "s7200 memory 1")
                 self.assertFalse(os.path.lexists(self.folder / "plc"))
 
-    def test_a_bridge_whose_messages_nobody_reads_any_more_goes_on(self):
+    def test_a_bridge_whose_messages_no_one_reads_any_more_goes_on(self):
         memory, trace = self.folder / "memory.json", self.folder / "run.trace"
         process = self.start("run", SLAVE, "--modbus-tcp", "0", "--json", "--memory", memory, "--trace", trace)
         port = int(re.search(rb":(\d+)", process.stderr.readline()).group(1))
@@ -279,7 +279,7 @@ class Streams(Case):
         self.assertEqual(json.loads(memory.read_bytes())["format"], "s7200 memory 1")
         self.assertTrue(trace.read_bytes().endswith(b"\n"))
 
-    def test_a_run_whose_results_nobody_reads_any_more_ends_with_its_files(self):
+    def test_a_run_whose_results_no_one_reads_any_more_ends_with_its_files(self):
         memory, trace = self.folder / "memory.json", self.folder / "run.trace"
         for output, other, path in (("--trace", "--output", trace), ("--output", "--trace", trace)):
             with self.subTest(output):
@@ -292,7 +292,7 @@ class Streams(Case):
                 self.assertTrue(path.read_bytes().endswith(b"\n"))
                 path.unlink()
 
-    def test_polling_for_nobody_ends(self):
+    def test_polling_for_no_one_ends(self):
         for verbose in ([], ["--verbose"]):
             process = self.start("master", SLAVE, "read", "40001", "--every", "1ms", "--count", "1000000000", *verbose)
             process.stdout.readline()
@@ -387,7 +387,7 @@ class Signals(Case):
                 self.assertIn(b'name="quick"', junit.read_bytes())
                 self.assertIn(b'name: "quick"', transcript.read_bytes())
 
-    def test_reading_a_pipe_that_nobody_writes(self):
+    def test_reading_a_pipe_that_no_one_writes(self):
         pipe = self.folder / "pipe"
         os.mkfifo(pipe)
         named = self.file("named.yaml", f"program: {pipe}\nsteps: [{{wait: 1ms}}]\n")
@@ -405,7 +405,7 @@ class Signals(Case):
                     self.assertIn(self.ended(process, number), (UNUSABLE, -number))
                     self.assertEqual(process.out, b"")
 
-    def test_writing_a_pipe_that_nobody_reads(self):
+    def test_writing_a_pipe_that_no_one_reads(self):
         pipe = self.folder / "pipe"
         os.mkfifo(pipe)
         memory = self.folder / "memory.json"
@@ -422,7 +422,7 @@ class Signals(Case):
                 self.assertTrue(memory.exists())
                 memory.unlink()
 
-    def test_a_standard_output_that_nobody_reads(self):
+    def test_a_standard_output_that_no_one_reads(self):
         for number in SIGNALS:
             with self.subTest(number):
                 process = self.start("run", self.blinking, "--trace", "-", "--for", "9999h")
@@ -834,7 +834,7 @@ class Text(Case):
             self.assertIn(b"serving", done.stderr)
 
     def test_programs(self):
-        plain = "// a text without anything special in it, so that this is no binary file\n" * 20
+        plain = "// a text without anything special in it, so that this is not a binary file\n" * 20
         wrong = f"LD SM0.0 // {COMMANDS}\nFROB{COMMANDS} VB0\nMOVB {COMMANDS}, VB0\nMOVB 1, Na\u009bme\nCALL \"{COMMANDS}\"\nMEND\n{plain}"
         right = (f"// {COMMANDS}\nNETWORK 1 // {COMMANDS}\nLD SM0.0 // {COMMANDS}\nMOVD 0, *VD100 // {COMMANDS}\n"
                  f"STOP // {COMMANDS}\nMEND\n{plain}")
@@ -857,7 +857,7 @@ class Text(Case):
         process = self.start("import", path, stdout=far)
         os.close(far)
         shown = b""
-        with contextlib.suppress(OSError):  # EIO: nobody has the other side open any more
+        with contextlib.suppress(OSError):  # EIO: no program has the other side open any more
             while part := os.read(near, 1000):
                 shown += part
         os.close(near)

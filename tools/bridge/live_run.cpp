@@ -123,7 +123,7 @@ class LiveRun::Line final : public LiveLine {
   Bridge* bridge_;
   Pace pace_;
   boost::asio::io_context context_{1};
-  // A context that nobody waits for anything with stops, and does nothing from then on.
+  // A context that nothing waits for stops, and does nothing from then on.
   boost::asio::executor_work_guard<boost::asio::io_context::executor_type> open_{context_.get_executor()};
   boost::asio::steady_timer timer_{context_};
   Clock::time_point planned_{}, busy_until_{};

@@ -70,7 +70,7 @@ class TcpBridge : public Bridge, protected TcpServer::Protocol {
 
   LiveLine& line() const { return *line_; }
 
-  /// Nobody is asked until the first scan has ended and the line has been quiet since: only then a program has set up its
+  /// No slave is asked until the first scan has ended and the line has been quiet since: only then a program has set up its
   /// port.
   modbus::LineTurns::Line line_state() {
     const serial::Simulation& simulation = line_->simulation();
@@ -282,7 +282,7 @@ class GatewayBridge final : public TcpBridge {
   bool unsent(Client client) const override { return gateway_.unsent(client); }
   std::string error(Client client) const override {
     const std::string error = gateway_.error(client);
-    return error.empty() ? error : "this is no Modbus TCP: " + error;
+    return error.empty() ? error : "this is not Modbus TCP: " + error;
   }
   bool wants_more(Client client) const override { return gateway_.wants_more(client); }
   bool expects_answer(Client client) const override { return gateway_.open(client) != 0; }

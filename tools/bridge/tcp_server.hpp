@@ -42,7 +42,7 @@ class TcpServer {
 
     virtual void take(Client client, std::span<const std::uint8_t> bytes) = 0;
 
-    /// The client is no more. How many bytes of its are not sent for that.
+    /// The client has gone; how many of the bytes for it were not sent.
     virtual std::size_t gone(Client client) = 0;
 
     /// Why nothing more can come of what a client says; empty as long as something can.

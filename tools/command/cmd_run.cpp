@@ -33,7 +33,7 @@ Ending run_to_end(serial::Simulation& simulation, const RunOptions& options) {
   if (!live.start(why)) return print_error(why), Ending{};
   const std::string_view reason = run_live(live, simulation, {options.end(), options.scans, options.rig.strict()});
   if (!live.failure().empty()) print_error(live.failure());
-  if (bridge && simulation.cpu().state().mode == Mode::Stop) print_note("the CPU went to STOP; nobody answers any more");
+  if (bridge && simulation.cpu().state().mode == Mode::Stop) print_note("the CPU went to STOP and no longer answers");
   return {reason, live.pace()};
 }
 

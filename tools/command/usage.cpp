@@ -28,10 +28,10 @@ std::string not_a_verb(const std::string& word, const std::vector<std::string>& 
   const std::string_view meant = nearest(CLI::detail::to_lower(word), known);
   const std::string shown = stl::shortened(word);
   return meant.empty() ? fmt::format("'{}' is not a verb; there are {}", shown, fmt::join(known, ", "))
-                       : fmt::format("'{}' is not a verb; is {} meant?", shown, meant);
+                       : fmt::format("'{}' is not a verb; did you mean {}?", shown, meant);
 }
 
-/// `a verb is missing, and there is no option --verison before one; is --version meant?`
+/// `a verb is missing, and there is no option --verison before one; did you mean --version?`
 std::string not_an_option(const std::string& option, const CLI::App& app, bool any_verb) {
   std::vector<std::string> names;
   for (const CLI::Option* known : app.get_options())
@@ -40,7 +40,7 @@ std::string not_an_option(const std::string& option, const CLI::App& app, bool a
   const std::string_view meant = nearest(option, known);
   return fmt::format("{}there is no option {} before {}{}", any_verb ? "" : "a verb is missing, and ",
                      stl::shortened(option), any_verb ? "the verb" : "one",
-                     meant.empty() ? "" : fmt::format("; is {} meant?", meant));
+                     meant.empty() ? "" : fmt::format("; did you mean {}?", meant));
 }
 
 bool is_help_word(const std::string& word) { return word == "help" || word == "version"; }

@@ -50,10 +50,10 @@ class Debugger {
   /// Where it stands, and what is displayed.
   void show_place();
 
-  /// One line: commands separated by `;`, a comment behind `#`. Ends with the first wrong one.
+  /// One line: commands separated by `;`, a comment after `#`. Ends with the first wrong one.
   Error execute(std::string_view line);
 
-  /// Executes line by line, each command echoed behind the prompt, to the first wrong one, to `quit`, to a stop request or
+  /// Executes line by line, each command echoed after the prompt, to the first wrong one, to `quit`, to a stop request or
   /// the end.
   std::optional<ScriptError> run_script(std::istream& in);
 
@@ -147,7 +147,7 @@ class Debugger {
   int next_number_ = 1;  ///< of a breakpoint or watch
   bool tracing_ = false;
   bool quit_asked_ = false;
-  bool echoing_ = false;  ///< commands are printed behind the prompt
+  bool echoing_ = false;  ///< commands are printed after the prompt
   std::string command_;   ///< being executed, as written
   std::string repeatable_;
 };

@@ -25,7 +25,7 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-/// The optional `[n]` of a command: 1 when it is not there, nothing when it is no number above 0 or more follows.
+/// The optional `[n]` of a command: 1 when it is not there, nothing when it is not a number above 0 or more follows.
 std::optional<std::uint32_t> parse_count(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return 1;
   const auto number = parse_decimal<std::uint32_t>(arguments[0]);
@@ -63,7 +63,7 @@ const std::vector<Debugger::Command>& Debugger::commands() {
       {"over", "o", "over", "execute one instruction; a CALL with all that it calls, interrupts in between too",
        "Breakpoints and watches inside still stop.", &Debugger::over, true},
       {"out", "u", "out", "run to the end of the subroutine or interrupt routine", "", &Debugger::out, true},
-      {"scan", "n", "scan [n]", "run to the begin of the next scan's program, or of the nth", "", &Debugger::scan, true},
+      {"scan", "n", "scan [n]", "run to the start of the next scan's program, or of the nth", "", &Debugger::scan, true},
       {"continue", "c", "continue [TIME]", "run until a breakpoint, a watch, an answer, STOP, or TIME has passed (10 s)",
        "TIME is simulated: 250ms, 2s, 1min. It ends in front of the first instruction after it. Ctrl-C stops it too.",
        &Debugger::continue_run, true},
@@ -74,7 +74,7 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        &Debugger::restart},
       {"break", "b", "break [LINE | SBR n | INT n]", "stop in front of an instruction; alone: list breakpoints and watches",
        "A line without an instruction stands for the next one that has one.", &Debugger::set_break},
-      {"watch", "w", "watch ADDRESS[:COUNT]…", "stop behind the instruction that changes M31.7, VB100, VW100, AC0 …",
+      {"watch", "w", "watch ADDRESS[:COUNT]…", "stop after the instruction that changes M31.7, VB100, VW100, AC0 …",
        "Interrupt routines too. The system changes memory as well: inputs, SM bits, SMB2 before INT of event 8.",
        &Debugger::watch},
       {"delete", "d", "delete N… | all", "remove breakpoints and watches", "", &Debugger::delete_stop},
@@ -95,7 +95,7 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "The program finds the new level when the inputs are next read, or at once with an immediate instruction.",
        &Debugger::input},
       {"send", "", "send HEX… | 'TEXT' [crc]", "put a frame on the line from now on; crc appends the Modbus CRC",
-       "p behind a byte sends it with wrong parity. TEXT is ASCII, with \\r \\n \\t \\\\ \\' and \\xHH. 'continue' runs "
+       "p after a byte sends it with wrong parity. TEXT is ASCII, with \\r \\n \\t \\\\ \\' and \\xHH. 'continue' runs "
        "while it "
        "arrives and stops when the answer is complete.",
        &Debugger::send},
@@ -436,7 +436,7 @@ Debugger::Error Debugger::assign_all(const Arguments& arguments, bool inputs_onl
     const auto assignment = parse_assignment(text, *simulation_.cpu().program().model, why);
     if (!assignment) return why;
     if (inputs_only && assignment->place.area != Area::I)
-      return fmt::format("'{}' is no input; 'input' expects for example I0.3=1, and 'set' writes other memory",
+      return fmt::format("'{}' is not an input; 'input' expects for example I0.3=1, and 'set' writes other memory",
                          stl::shortened(text));
     assignments.push_back(*assignment);
   }

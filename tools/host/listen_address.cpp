@@ -25,14 +25,14 @@ std::optional<ListenAddress> parse_listen_address(const std::string& text, std::
   std::string host = colon == std::string::npos ? "" : text.substr(0, colon);
   if (host.size() >= 2 && host.front() == '[' && host.back() == ']') {
     host = host.substr(1, host.size() - 2);
-    if (!is_address(AF_INET6, host)) why = fmt::format("'{}' is no IPv6 address", stl::shortened(host));
+    if (!is_address(AF_INET6, host)) why = fmt::format("'{}' is not an IPv6 address", stl::shortened(host));
   } else if (host.find(':') != std::string::npos) {
     why = fmt::format("write an IPv6 address in brackets, as [{}]:{}", host, port);
   } else if (!host.empty() && !is_address(AF_INET, host)) {
-    why = fmt::format("'{}' is no IP address", stl::shortened(host));
+    why = fmt::format("'{}' is not an IP address", stl::shortened(host));
   }
   const auto number = parse_decimal<std::uint16_t>(port);
-  if (why.empty() && !number) why = fmt::format("'{}' is no port from 0 to 65535", stl::shortened(port));
+  if (why.empty() && !number) why = fmt::format("'{}' is not a port from 0 to 65535", stl::shortened(port));
   if (!why.empty()) return {};
   address.port = *number;
   if (!host.empty()) address.host = host;

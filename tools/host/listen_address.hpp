@@ -12,7 +12,7 @@ struct ListenAddress {
   std::uint16_t port = 0;          ///< 0: a free one
 };
 
-/// Nothing, and `why`, for what is no such address.
+/// Returns nothing and sets `why` for anything else.
 std::optional<ListenAddress> parse_listen_address(const std::string& text, std::string& why);
 
 /// `127.0.0.1:502`, `[::1]:502`

@@ -47,7 +47,7 @@ bool same(termios2 one, termios2 other) {
          one.c_lflag == other.c_lflag && one.c_ospeed == other.c_ospeed && std::ranges::equal(one.c_cc, other.c_cc);
 }
 
-/// What our links hold: `/dev/pts/./3`, which is /dev/pts/3 in a spelling that nobody else uses. A link has no other room
+/// What our links hold: `/dev/pts/./3`, which is /dev/pts/3 in a spelling that no one else uses. A link has no other room
 /// for a mark: extended attributes are for files and folders only (xattr(7)).
 std::string marked(const fs::path& path) { return (path.parent_path() / "." / path.filename()).string(); }
 
@@ -65,7 +65,7 @@ Pty::Port::~Port() {
 }
 
 /// The far side stays open here too, so that the near one never hangs up. Who else opens it is told by inotify, which
-/// watches before anybody can.
+/// watches before anyone can.
 bool Pty::Port::open(int watch, std::string& why) {
   std::array<char, 64> name{};
   fd_ = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
@@ -105,7 +105,7 @@ std::size_t Pty::Port::unread() const {
   return ioctl(fd_, FIONREAD, &count) == 0 ? static_cast<std::size_t>(count) : 0;
 }
 
-/// What was not read lies in two places: behind the near side's output, and in the far side's input.
+/// What was not read lies in two places: after the near side's output, and in the far side's input.
 void Pty::Port::all_have_left() {
   {
     const std::lock_guard lock(mutex_);
@@ -197,7 +197,7 @@ bool Pty::is_left_behind(const std::string& link) const {
   return !fs::exists(link, error) || leads_to_us(link);
 }
 
-/// Nobody has it open, nor is about to.
+/// No program has it open, nor is about to.
 void Pty::make_ready(const Port& port) {
   *offered_with_ = *settings_;
   termios2 settings = settings_->value;
@@ -259,7 +259,7 @@ void Pty::take_events() {
     for (const char* next = buffer.data(); next < buffer.data() + count;) {
       const auto* event = reinterpret_cast<const inotify_event*>(next);
       next += sizeof(inotify_event) + event->len;
-      const bool lost = (event->mask & IN_Q_OVERFLOW) != 0;  // somebody may have come
+      const bool lost = (event->mask & IN_Q_OVERFLOW) != 0;  // someone may have come
       if (lost && ports_[offered_]->open_now_ == 0) opened(offered_);
       for (std::size_t i = 0; i < ports_.size(); ++i) {
         if (ports_[i]->far_watch_ != event->wd) continue;
@@ -290,7 +290,7 @@ void Pty::closed(std::size_t index) {
   read_settings(port.far_, settings_->value);
 }
 
-/// In turn, so that one that was just left rests longest: somebody may have been about to open it.
+/// In turn, so that one that was just left rests longest: someone may have been about to open it.
 std::size_t Pty::free_port() {
   for (std::size_t step = 1; step < ports_.size(); ++step) {
     const std::size_t index = (offered_ + step) % ports_.size();
@@ -300,7 +300,7 @@ std::size_t Pty::free_port() {
   return ports_.size() < kMostPorts && add_port(ignored) ? ports_.size() - 1 : offered_;
 }
 
-/// A link that is somebody else's by now stays, and so does ours if there is no other port: then it is shared.
+/// A link that belongs to someone else by now stays, and so does ours if there is no other port: then it is shared.
 void Pty::offer_another() {
   const std::size_t next = free_port();
   std::error_code error;

@@ -32,7 +32,7 @@ struct PtySettings {
 ///
 /// The C library of Debian asks a pty how it is set before and after it sets it, and tells the program EINVAL when that is
 /// the same although the program has asked for parity. So a port has to be set a little differently from what a program
-/// will ask for, and must not be set at all while a program may be between the two questions. Therefore nobody sets a port
+/// will ask for, and must not be set at all while a program may be between the two questions. Therefore no one sets a port
 /// that a program has open: each program gets one for itself, that was made ready before, because the name leads to another
 /// as soon as one is opened. A thread of its own sees to that, some ten microseconds later, whatever else is going on.
 class Pty {

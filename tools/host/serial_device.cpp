@@ -67,7 +67,7 @@ std::optional<SerialDevice> SerialDevice::open(const std::string& path, const Se
   }
   termios2 found{};
   if (!read_settings(device.fd_, found)) {
-    why = "it is no serial device";
+    why = "it is not a serial device";
     return {};
   }
   if (flock(device.fd_, LOCK_EX | LOCK_NB) != 0) {

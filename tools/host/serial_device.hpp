@@ -38,7 +38,7 @@ class SerialDevice {
   /// For poll(2); it never blocks.
   int fd() const { return fd_; }
 
-  /// Appends what has come in, not more than kMostAtOnce characters of it: a side that never stops talking holds nobody.
+  /// Appends what has come in, not more than kMostAtOnce characters of it: a side that never stops talking holds no one up.
   /// False, and `why`, when the device is gone.
   static constexpr std::size_t kMostAtOnce = 4096;
   bool read(std::vector<Character>& characters, std::string& why);

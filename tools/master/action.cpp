@@ -20,7 +20,7 @@ using Words = std::vector<std::string>;
 
 [[noreturn]] void refuse(const std::string& why) { throw std::invalid_argument(why); }
 
-/// `text` up to `separator`, and what is behind it; nothing if it is not there.
+/// `text` up to `separator`, and what comes after it; nothing if it is not there.
 std::optional<std::pair<std::string, std::string>> split_at(const std::string& text, char separator) {
   const std::size_t place = text.find(separator);
   if (place == std::string::npos) return {};
@@ -101,7 +101,7 @@ constexpr std::array kVerbs{
     Verb{"general-write", "SEGMENT:OFFSET=BYTE,…", "the same, written (21)", 1, kMany, &Parser::general_write},
     Verb{"function", "NUMBER [HEX]", "any function, with data in hex", 1, 2, &Parser::function},
     Verb{"raw", "HEX…", "frames as they are; --crc appends the CRC", 1, kMany, &Parser::raw},
-    Verb{"station", "NUMBER", "the actions behind it go to this station; 0 is all of them", 1, 1, &Parser::station},
+    Verb{"station", "NUMBER", "the actions after it go to this station; 0 is all of them", 1, 1, &Parser::station},
     Verb{"wait", "TIME", "before the next action", 1, 1, &Parser::wait},
 };
 
@@ -120,7 +120,7 @@ std::vector<MasterAction> Parser::parse(const Words& words) {
   if (words.empty()) refuse("nothing to do: give actions, for example read 40001:10");
   for (std::size_t place = 0; place < words.size();) {
     const Verb* verb = find_verb(words[place]);
-    if (verb == nullptr) refuse(fmt::format("'{}' is no action; there are {}", stl::shortened(words[place]), known_verbs()));
+    if (verb == nullptr) refuse(fmt::format("'{}' is not an action; there are {}", stl::shortened(words[place]), known_verbs()));
     const auto first = words.begin() + static_cast<std::ptrdiff_t>(place) + 1;
     const auto last = std::find_if(first, words.end(), [](const std::string& word) { return find_verb(word) != nullptr; });
     const Words operands(first, last);
@@ -238,7 +238,7 @@ std::vector<Reference> Parser::to_read(const Words& operands, std::uint8_t type)
   for (const std::string& operand : operands) {
     const auto file = split_at(operand, ':');
     const auto record = file ? split_at(file->second, ':') : std::nullopt;
-    if (!record) refuse(fmt::format("'{}' is no reference; write for example 4:1:2", stl::shortened(operand)));
+    if (!record) refuse(fmt::format("'{}' is not a reference; write for example 4:1:2", stl::shortened(operand)));
     references.push_back({.type = type,
                           .file = word(file->first, "file"),
                           .record = word(record->first, "record"),
@@ -252,14 +252,14 @@ std::vector<Reference> Parser::to_write(const Words& operands, std::uint8_t type
   for (const std::string& operand : operands) {
     const auto sides = split_at(operand, '=');
     const auto file = sides ? split_at(sides->first, ':') : std::nullopt;
-    if (!file) refuse(fmt::format("'{}' is no reference with values; write for example 4:1=10,20", stl::shortened(operand)));
+    if (!file) refuse(fmt::format("'{}' is not a reference with values; write for example 4:1=10,20", stl::shortened(operand)));
     Reference reference{.type = type, .file = word(file->first, "file"), .record = word(file->second, "record")};
     const auto values = parse_registers(sides->second, {});
     for (const std::uint16_t value : values) {
       if (type == modbus::kFileReference)
         reference.data.push_back(static_cast<std::uint8_t>(value >> 8));
       else if (value > UINT8_MAX)
-        refuse(fmt::format("'{}': {} is no byte", stl::shortened(operand), value));
+        refuse(fmt::format("'{}': {} is not a byte", stl::shortened(operand), value));
       reference.data.push_back(static_cast<std::uint8_t>(value & 0xFF));
     }
     reference.count = static_cast<std::uint16_t>(values.size());

@@ -100,7 +100,7 @@ std::string take_clock(const Json& json, ClockTime& clock) {
 
 /// What is wrong, or nothing.
 std::string take(const Json& json, const CpuModel& model, RetentiveMemory& memory) {
-  if (json.value("format", "") != kFormat) return fmt::format("it is no memory of a CPU (no \"format\": \"{}\")", kFormat);
+  if (json.value("format", "") != kFormat) return fmt::format("it is not the memory of a CPU (no \"format\": \"{}\")", kFormat);
   if (const auto cpu = json.at("cpu").get<std::string>(); cpu != model.name)
     return fmt::format("it is the memory of a CPU {}, not of a CPU {}", cpu, model.name);
   if (std::string why = take_clock(json.at("clock"), memory.clock); !why.empty()) return why;
@@ -123,7 +123,7 @@ std::optional<RetentiveMemory> memory_from_json(std::string_view text, const Cpu
   RetentiveMemory memory;
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object()) {
-    why = "it is no memory of a CPU (no JSON object)";
+    why = "it is not the memory of a CPU (no JSON object)";
     return {};
   }
   try {

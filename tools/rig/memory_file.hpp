@@ -13,7 +13,7 @@ namespace s7200::tools {
 /// JSON: `"ram"` and `"eeprom"` have the bytes that are not 0, in hex, by the address of the first.
 std::string memory_to_json(const RetentiveMemory& memory, const CpuModel& model);
 
-/// Nothing, and `why`, for what is no such memory or that of another CPU.
+/// Returns nothing and sets `why` if the text is not such a memory, or that of another CPU.
 std::optional<RetentiveMemory> memory_from_json(std::string_view json, const CpuModel& model, std::string& why);
 
 /// How a PLC comes to its retentive memory.

@@ -1,4 +1,4 @@
-// A PLC with everything attached: what it has kept, what drives its inputs, what befalls its line, and what is recorded of
+// A PLC with everything attached: what it has kept, what drives its inputs, what disturbs its line, and what is recorded of
 // it. Every verb and every test bench assembles it here.
 #pragma once
 

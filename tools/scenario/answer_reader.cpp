@@ -36,13 +36,13 @@ std::optional<Expected> read_expected(ValueReader& values, const YamlNode& node)
     const auto parsed = parse_number(word.substr(10));
     if (parsed && *parsed > 0 && *parsed <= 0xFF)
       return Expected{.kind = Kind::Exception, .exception = static_cast<std::uint8_t>(*parsed)};
-    values.wrong(node, fmt::format("'{}' is no exception", stl::shortened(*written)), "write for example exception 2");
+    values.wrong(node, fmt::format("'{}' is not an exception", stl::shortened(*written)), "write for example exception 2");
     return {};
   }
   std::string why;
   auto pattern = parse_pattern(*written, why);
   if (!pattern) {
-    values.wrong(node, fmt::format("'{}' is no answer: {}", stl::shortened(*written), why),
+    values.wrong(node, fmt::format("'{}' is not an answer: {}", stl::shortened(*written), why),
                  "write hex such as 01 03 .. .., {text: 'OK\\r'}, any, silence, echo, accepted, refused, exception 2, or "
                  "values such as [16#1234, 0]");
     return {};

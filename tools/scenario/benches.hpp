@@ -44,7 +44,7 @@ class Programs {
 /// A bench for each scenario.
 struct Benches {
   std::vector<Bench> of{};
-  std::unique_ptr<Slave> slave{};  ///< that all of them share, if the target is no program
+  std::unique_ptr<Slave> slave{};  ///< that all of them share, if the target is not a program
   std::string name{};              ///< of what is tested; of programs that scenarios name, the first one's
 };
 

@@ -49,7 +49,7 @@ class Calculation {
   static std::int64_t number(const Value& value) {
     if (!value.text) return value.number;
     const auto parsed = parse_number(*value.text);
-    if (!parsed) throw Wrong{fmt::format("'{}' is no number", stl::shortened(*value.text))};
+    if (!parsed) throw Wrong{fmt::format("'{}' is not a number", stl::shortened(*value.text))};
     return *parsed;
   }
   static Value checked(std::int64_t result) {
@@ -119,7 +119,7 @@ class Calculation {
                                 : fmt::format("'{}' is not understood", stl::shortened(rest_))};
     if (stl::is_digit(word.front())) {
       const auto parsed = parse_number(word);
-      if (!parsed) throw Wrong{fmt::format("'{}' is no number", stl::shortened(word))};
+      if (!parsed) throw Wrong{fmt::format("'{}' is not a number", stl::shortened(word))};
       return checked(*parsed);
     }
     return sign("(") ? function(word) : parameter(word);

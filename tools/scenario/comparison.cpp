@@ -53,7 +53,7 @@ std::string exchange_text(const Scenario& scenario, const Seen& one, const Seen&
   std::string text = fmt::format("{}exchange {}{}{}\n", kIndent, before + 1, place, turn);
   const bool asked = !one.exchange.request.empty();
   text += fmt::format("{}{:<{}} {}\n", kIndent, "request", width,
-                      asked ? serial::to_hex(one.exchange.request) : "none: a transmission that nobody asked for");
+                      asked ? serial::to_hex(one.exchange.request) : "none: a transmission that no one asked for");
   if (!same_answer(one.exchange, other.exchange))
     text += bytes_diff(pattern_of(one.exchange.response_bytes()), pattern_of(other.exchange.response_bytes()), kIndent,
                        colour, one_name, other_name);

@@ -35,7 +35,7 @@ bool fulfilled(const Expected& expected, bool has_crc, const Bytes& request, con
 /// The bytes that would have been right, as far as they are known; none if they are not.
 std::vector<BytePattern> bytes_expected(const Expected& expected, bool has_crc, const Bytes& request);
 
-/// Of what nobody asked for the request is empty.
+/// Of what no one asked for the request is empty.
 std::string in_words(const Expected& expected, const Bytes& request);
 
 }  // namespace s7200::tools

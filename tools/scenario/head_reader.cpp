@@ -42,7 +42,7 @@ class HeadReader {
     if (const YamlNode* set = map.find("set")) scenario.set = read_assignments(values_, *set, *find_cpu(scenario.cpu));
     if (const auto path = optional_path(map, "input")) read_field(*map.find("input"), *path, scenario);
     if (const YamlNode* clock = map.find("clock"))
-      scenario.clock = values_.value(clock, "time from 1990 to 2089", "2026-11-21 10:00:00",
+      scenario.clock = values_.value(clock, "a time from 1990 to 2089", "2026-11-21 10:00:00",
                                      [](const std::string& t) { return parse_clock(t); });
     if (const auto after = values_.time(map.find("after"))) scenario.after = *after;
     if (const auto pause = values_.span(map.find("pause"))) scenario.pause = *pause;

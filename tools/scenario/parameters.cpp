@@ -30,7 +30,7 @@ class ParameterTree {
     const std::string name = prefix + key.text;
     const auto fits = [](char c) { return stl::is_letter(c) || stl::is_digit(c) || c == '_'; };
     if (!std::all_of(key.text.begin(), key.text.end(), fits) || !stl::is_letter(key.text.front()))
-      return complaints_.add(key, fmt::format("'{}' is no name of a parameter", stl::shortened(key.text)),
+      return complaints_.add(key, fmt::format("'{}' is not the name of a parameter", stl::shortened(key.text)),
                              "letters, digits and _");
     if (value.is_map()) return read(value, name + ".");
     names_.push_back({name, key.position});

@@ -44,7 +44,7 @@ struct GivenParameters {
   std::vector<ExpectedFailure> expected_failures{};
 };
 
-/// `expected_failures` in it are no parameters, but rules and reasons. `program` and `times` are paths, relative to the
+/// `expected_failures` in it are rules and reasons, not parameters. `program` and `times` are paths, relative to the
 /// folder of `path`, and come out as paths that can be opened. Nothing, and `diagnostics` for the text of `path`, if it has
 /// errors.
 std::optional<GivenParameters> read_parameters(const std::string& text, const std::string& path,

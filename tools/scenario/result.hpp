@@ -23,7 +23,7 @@ struct Finding {
   std::string timeline{};        ///< what the CPU did in that exchange; empty if it cannot be seen, or is not shown
 };
 
-/// From the end of the request to the start of the answer; of what nobody asked for, from when it was waited for, 0 if it
+/// From the end of the request to the start of the answer; of what no one asked for, from when it was waited for, 0 if it
 /// came earlier.
 std::optional<Time> latency_of(const serial::Exchange& exchange);
 
@@ -48,7 +48,7 @@ struct ScenarioResult {
   std::vector<Finding> findings{};  ///< in the order of the steps
   std::vector<Seen> seen{};
   std::size_t checks = 0;         ///< steps that expected something and were judged
-  std::size_t skipped_steps = 0;  ///< that look inside, or cannot go this way, on a slave that is no program
+  std::size_t skipped_steps = 0;  ///< that look inside, or cannot go this way, on a slave that is not a program
   Time time = 0;                  ///< on the slave's clock
   double host_seconds = 0;
 };

@@ -58,7 +58,7 @@ class Run {
   /// The way to the slave broke: the scenario ends.
   void lose_slave(const std::string& why);
 
-  /// On a slave that is no program, something about times could not be judged.
+  /// On a slave that is not a program, something about times could not be judged.
   void leave_times_unjudged() { times_unjudged_ = true; }
 
   /// The mode in which the CPU may end.
@@ -77,7 +77,7 @@ class Run {
   std::size_t step_ = 0;
   Time begin_ = 0;
   bool lost_ = false;            ///< the slave
-  bool times_unjudged_ = false;  ///< on a slave that is no program
+  bool times_unjudged_ = false;  ///< on a slave that is not a program
   std::optional<Mode> mode_expected_;
   ScenarioResult result_;
 };

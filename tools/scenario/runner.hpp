@@ -20,7 +20,7 @@ struct Bench {
 };
 
 /// Runs a scenario to its end, findings or not; a slave that is lost is a finding and ends it. SlaveUnreachable passes
-/// through. On a slave that is no program, scenarios that act inside are skipped as a whole, steps that look inside by
+/// through. On a slave that is not a program, scenarios that act inside are skipped as a whole, steps that look inside by
 /// themselves. Of times only upper limits of the latency are judged: the computer in between cannot be trusted with more. A
 /// rule of which that leaves something unjudged is skipped too, unless it is broken already.
 ScenarioResult run_scenario(const Scenario& scenario, const Bench& bench);

@@ -168,7 +168,7 @@ std::vector<std::string> StepReader::loop_values(const YamlNode& node) {
   const auto range = written->find("..") == std::string::npos ? std::nullopt : parse_count(*written);
   if (!range || range->to - range->from >= kLargestLoop) {
     values_.wrong(
-        node, fmt::format("'{}' are no values for a loop", stl::shortened(*written)),
+        node, fmt::format("'{}' are not values for a loop", stl::shortened(*written)),
         fmt::format("write a list, a range such as 1..8 of {} values at most, or the name of a list among the parameters",
                     kLargestLoop));
     return values;

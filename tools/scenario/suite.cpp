@@ -52,7 +52,7 @@ std::optional<Benches> Suite::benches_on(const std::string& target, Messages& me
   return make_benches(scenarios_, target, settings_, programs_, messages);
 }
 
-/// A slave that is no program is one for all.
+/// A slave that is not a program is one for all.
 unsigned Suite::jobs_on(const Benches& benches) const { return benches.slave ? 1 : std::max(1U, settings_.jobs); }
 
 std::optional<SuiteResult> Suite::run(const Watcher<Report>& watcher, Messages& messages) {

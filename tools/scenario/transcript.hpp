@@ -13,11 +13,11 @@ struct Transcript {
   std::string path{};           ///< of the file to be: paths in it are relative to its folder
   std::string recorded_from{};  ///< what answered, for the heading
   Time tolerance = 0;           ///< 0 for programs: their times are exact
-  bool live = false;            ///< from a slave that is no program
+  bool live = false;            ///< from a slave that is not a program
 };
 
 /// Every request as it was sent, when, what came and after how long, and what was done to the plant in between.
-/// From a slave that is no program, the pauses between exchanges stand for the instants, and nothing is written of the
+/// From a slave that is not a program, the pauses between exchanges stand for the instants, and nothing is written of the
 /// inside of a PLC that was not reached: so that it can be replayed there and in simulation. Replayed on the same program
 /// the transcript gives the same bit by bit and to the nanosecond.
 inline constexpr std::string_view kTranscriptBeginning = "# Recorded from";

@@ -25,7 +25,7 @@ class TranscriptWriter {
 
   const Scenario& scenario() const { return *report_->scenario; }
 
-  /// From a slave that is no program: its instants mean nothing to a replay.
+  /// From a slave that is not a program: its instants mean nothing to a replay.
   bool live() const { return transcript_.live; }
 
   /// What went over the line in this step; null if it did not come to that.

@@ -60,12 +60,12 @@ std::optional<Span> ValueReader::span(const YamlNode* node) {
 }
 
 std::optional<Window> ValueReader::window(const YamlNode* node, Time tolerance) {
-  return value(node, "window of time", "8ms..20ms, ..20ms, 3.5 characters.., 12.5ms",
+  return value(node, "a window of time", "8ms..20ms, ..20ms, 3.5 characters.., 12.5ms",
                [&](const std::string& t) { return parse_window(t, tolerance); });
 }
 
 std::optional<std::int64_t> ValueReader::number(const YamlNode* node, std::int64_t from, std::int64_t to) {
-  return value(node, fmt::format("number from {} to {}", from, to), fmt::format("{}, 16#{:X}", to, to),
+  return value(node, fmt::format("a number from {} to {}", from, to), fmt::format("{}, 16#{:X}", to, to),
                [&](const std::string& t) {
                  const auto parsed = parse_number(t);
                  return parsed && *parsed >= from && *parsed <= to ? parsed : std::nullopt;
@@ -73,7 +73,7 @@ std::optional<std::int64_t> ValueReader::number(const YamlNode* node, std::int64
 }
 
 Count ValueReader::count(const YamlNode& node) {
-  return value(&node, "count", "3, 1..3, 1..", [](const std::string& t) { return parse_count(t); }).value_or(Count{});
+  return value(&node, "a count", "3, 1..3, 1..", [](const std::string& t) { return parse_count(t); }).value_or(Count{});
 }
 
 bool ValueReader::truth(const YamlNode* node) {

@@ -23,7 +23,7 @@ class ValueReader {
  public:
   explicit ValueReader(stl::Diagnostics& diagnostics) : complaints(diagnostics) {}
 
-  static constexpr std::string_view kDuration = "duration of a day at most";
+  static constexpr std::string_view kDuration = "a duration of a day at most";
 
   Complaints complaints;
   Parameters parameters{};
@@ -49,7 +49,7 @@ class ValueReader {
     if (!written || (written->empty() && !node->text.empty())) return {};
     auto result = parse(*written);
     if (!result)
-      wrong(*node, fmt::format("'{}' is no {}", stl::shortened(*written), what),
+      wrong(*node, fmt::format("'{}' is not {}", stl::shortened(*written), what),
             fmt::format("write for example {}", example));
     return result;
   }
@@ -58,7 +58,7 @@ class ValueReader {
   std::optional<Value> choice(const YamlNode* node, const std::vector<std::pair<std::string_view, Value>>& choices) {
     std::string all;
     for (const auto& [name, is] : choices) all.append(all.empty() ? "" : ", ").append(name);
-    return value(node, "choice here", all, [&](const std::string& t) -> std::optional<Value> {
+    return value(node, "a choice here", all, [&](const std::string& t) -> std::optional<Value> {
       for (const auto& [name, is] : choices)
         if (lower_case(t) == name) return is;
       return {};

@@ -42,7 +42,7 @@ inline constexpr std::size_t kMostYamlNodes = 100'000;
 /// A text with the name that messages have for it.
 std::shared_ptr<const stl::SourceLines> source_of(const std::string& text, const std::string& path);
 
-/// Nothing, and errors, for what is no such YAML.
+/// Returns nothing and adds errors if the text is not such YAML.
 std::optional<YamlNode> read_yaml(const std::string& text, const stl::SourceLines& source, stl::Diagnostics& diagnostics);
 
 }  // namespace s7200::tools

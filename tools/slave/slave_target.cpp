@@ -32,7 +32,7 @@ void split(const std::string& text, std::string_view address, SlaveTarget& targe
   const bool port_wanted = !rest.empty() || target.kind == SlaveTarget::Kind::Tcp;
   if (target.host.empty() || (port_wanted && target.port.empty()) || target.port.find(':') != std::string::npos)
     throw std::invalid_argument(
-        fmt::format("'{}' is no address; write for example tcp://192.168.0.5:4001 or "
+        fmt::format("'{}' is not an address; write for example tcp://192.168.0.5:4001 or "
                     "modbus-tcp://192.168.0.5, an IPv6 address as [::1]",
                     stl::shortened(text)));
   if (!port_wanted) target.port = kModbusPort;

@@ -28,7 +28,7 @@ SlaveTarget parse_slave_target(const std::string& text);
 /// The four, one a line, for --help.
 std::string slave_targets_help();
 
-/// Connects to a target that is no program; `format` is for devices. Throws SlaveUnreachable.
+/// Connects to a target that is not a program; `format` is for devices. Throws SlaveUnreachable.
 std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format);
 
 }  // namespace s7200::tools

@@ -16,7 +16,7 @@ class Listing {
   /// The program must live as long as this.
   explicit Listing(const Program& program);
 
-  /// The instruction of a line, or the next one behind it.
+  /// The instruction of a line, or the next one after it.
   std::optional<std::uint32_t> op_from_line(std::uint32_t line) const;
   std::uint32_t line_of(std::uint32_t op) const { return program_.statement(op).position.line; }
   std::uint32_t last_line() const;

@@ -47,7 +47,7 @@ std::uint32_t float_bits(std::string_view text) {
   const float value = std::strtof(number.c_str(), &end);
   if (number.empty() || *end != '\0' || !std::isfinite(value) || std::isspace(static_cast<unsigned char>(number[0])))
     throw std::invalid_argument(
-        fmt::format("'{}' is no number that a float can hold; write for example 1.5 or -2e3", stl::shortened(text)));
+        fmt::format("'{}' is not a number that a float can hold; write for example 1.5 or -2e3", stl::shortened(text)));
   return std::bit_cast<std::uint32_t>(value);
 }
 
@@ -75,7 +75,7 @@ std::string characters(std::span<const std::uint16_t> registers) {
   return text;
 }
 
-/// In quotes, what is no printable ASCII as $hh, as STL writes it.
+/// In quotes, what is not printable ASCII as $hh, as STL writes it.
 std::string quoted(std::span<const std::uint16_t> registers) {
   std::string text = "'";
   for (const char c : characters(registers)) {
@@ -150,7 +150,7 @@ std::int64_t parse_number(std::string_view text, std::int64_t least, std::int64_
   const auto value = parse_integer(text);
   if (!value)
     throw std::invalid_argument(
-        fmt::format("{} '{}' is no number; write for example 10 or 16#0A", what, stl::shortened(text)));
+        fmt::format("{} '{}' is not a number; write for example 10 or 16#0A", what, stl::shortened(text)));
   if (*value < least || *value > most)
     throw std::invalid_argument(fmt::format("{} {} is not from {} to {}", what, text, least, most));
   return *value;
@@ -160,7 +160,7 @@ std::vector<std::uint16_t> parse_bits(std::string_view text) {
   std::vector<std::uint16_t> bits;
   for (const std::string_view part : split(text)) {
     if (part != "on" && part != "off" && part != "1" && part != "0")
-      throw std::invalid_argument(fmt::format("'{}' is no state of a coil; write on, off, 1 or 0", stl::shortened(part)));
+      throw std::invalid_argument(fmt::format("'{}' is not the state of a coil; write on, off, 1 or 0", stl::shortened(part)));
     bits.push_back(part == "on" || part == "1" ? 1 : 0);
   }
   return bits;
@@ -175,7 +175,7 @@ std::vector<std::uint16_t> parse_registers(std::string_view text, const ValueFor
       put_double(registers, static_cast<std::uint32_t>(parse_number(part, INT32_MIN, UINT32_MAX, "value")), format);
     } else if (part.find('.') != std::string_view::npos) {
       throw std::invalid_argument(
-          fmt::format("value {} is no whole number; --as float writes it as a number of 32 bits into two registers", part));
+          fmt::format("value {} is not a whole number; --as float writes it as a number of 32 bits into two registers", part));
     } else {
       registers.push_back(static_cast<std::uint16_t>(parse_number(part, INT16_MIN, UINT16_MAX, "value")));
     }

@@ -37,7 +37,7 @@ std::vector<std::uint16_t> parse_registers(std::string_view text, const ValueFor
 /// A number from `least` to `most`, in the notations above. Throws std::invalid_argument naming it by `what`.
 std::int64_t parse_number(std::string_view text, std::int64_t least, std::int64_t most, std::string_view what);
 
-/// A line for each value. Registers that are left over behind the last value of 32 bits are shown in hex.
+/// A line for each value. Registers that are left over after the last value of 32 bits are shown in hex.
 std::vector<std::string> value_lines(std::span<const std::uint16_t> registers, const ValueFormat& format);
 
 /// Bits from the first on, in groups of four: `1010 11`.

@@ -30,7 +30,7 @@ bool is_damaged(const serial::Exchange& exchange);
 /// The same for machines; `unasked`: what came before it.
 nlohmann::ordered_json exchange_json(const serial::Exchange& exchange, const Bytes& unasked);
 
-/// What came before a request, and nobody had asked for; empty if nothing did.
+/// What came before a request, and no one had asked for; empty if nothing did.
 std::string unasked_text(const Bytes& bytes);
 
 /// `lower-case hex without blanks`

@@ -41,7 +41,7 @@ std::string answer_text(std::span<const std::uint8_t> request, std::span<const s
 /// The same of the request itself, of which nothing is said if it is Modbus.
 std::string request_text(std::span<const std::uint8_t> request);
 
-/// What goes to and fro in an exchange that is not Modbus, as it is; nothing if that is not text. Of what nobody asked for
+/// What goes to and fro in an exchange that is not Modbus, as it is; nothing if that is not text. Of what no one asked for
 /// the request is empty.
 std::optional<std::string> plain_text(std::span<const std::uint8_t> request, std::span<const std::uint8_t> bytes);
 

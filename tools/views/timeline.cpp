@@ -200,7 +200,7 @@ namespace {
 
 // --- text ---
 
-/// A byte with p behind it for wrong parity, f for a stop bit at space level.
+/// A byte with p after it for wrong parity, f for a stop bit at space level.
 std::string character_text(const ReceivedCharacter& c) {
   return fmt::format("{:02x}{}{}", c.byte, c.parity_error ? "p" : "", c.framing_error ? "f" : "");
 }

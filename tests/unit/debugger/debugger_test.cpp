@@ -479,11 +479,11 @@ TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
       {"set", "set expects an address and a value"},
       {"set VB0=300", "a value that fits"},
       {"set =5", "is not an address"},
-      {"input Q0.0=1", "is no input"},
+      {"input Q0.0=1", "is not an input"},
       {"input", "input expects an input"},
       {"send", "send expects a frame in hex"},
       {"send crc", "send expects a frame in hex"},
-      {"send 0g", "column 2: 'g' is no hex digit"},
+      {"send 0g", "column 2: 'g' is not a hex digit"},
       {"send 'A\\q'", "send 'A\\q': column 3: \\ is followed by r, n, t, xHH"},
       {"send 'A ; # B", "send 'A ; # B: column 1: the closing ' is missing"},
       {"send 'A' 42", "column 4: nothing follows the closing quotation mark"},
@@ -504,7 +504,7 @@ TEST(Debugger, WrongAssignmentMeansThatNoneOfItsLineIsMade) {
 
 TEST(Debugger, ScriptEndsAtTheFirstWrongCommandWithItsLine) {
   Session session(kNested);
-  std::istringstream script("# a comment\n\nstep # and one behind\nstep; jmp; step\nstep\n");
+  std::istringstream script("# a comment\n\nstep # and one after\nstep; jmp; step\nstep\n");
   const auto error = session.debugger->run_script(script);
   ASSERT_TRUE(error.has_value());
   EXPECT_EQ(error->line, 4U);
@@ -543,7 +543,7 @@ TEST(Debugger, HelpExplainsEveryCommand) {
   Session session(kNested);
   std::istringstream list(session("help"));
   EXPECT_TRUE(has(session("help watch"), "short: w"));
-  EXPECT_TRUE(has(session("help send"), "p behind a byte"));
+  EXPECT_TRUE(has(session("help send"), "p after a byte"));
   EXPECT_TRUE(has(session("help; help quit"), "continue [TIME]"));
 }
 

@@ -26,13 +26,13 @@ TEST(ListenAddress, AnotherAddressIsWrittenOut) {
 }
 
 TEST(ListenAddress, WhatIsWrongIsSaid) {
-  EXPECT_EQ(read(""), "'' is no port from 0 to 65535");
-  EXPECT_EQ(read("65536"), "'65536' is no port from 0 to 65535");
-  EXPECT_EQ(read("-1"), "'-1' is no port from 0 to 65535");
-  EXPECT_EQ(read("5a"), "'5a' is no port from 0 to 65535");
-  EXPECT_EQ(read("1.2.3:5"), "'1.2.3' is no IP address");
-  EXPECT_EQ(read("localhost:5"), "'localhost' is no IP address");
-  EXPECT_EQ(read("[1.2.3.4]:5"), "'1.2.3.4' is no IPv6 address");
+  EXPECT_EQ(read(""), "'' is not a port from 0 to 65535");
+  EXPECT_EQ(read("65536"), "'65536' is not a port from 0 to 65535");
+  EXPECT_EQ(read("-1"), "'-1' is not a port from 0 to 65535");
+  EXPECT_EQ(read("5a"), "'5a' is not a port from 0 to 65535");
+  EXPECT_EQ(read("1.2.3:5"), "'1.2.3' is not an IP address");
+  EXPECT_EQ(read("localhost:5"), "'localhost' is not an IP address");
+  EXPECT_EQ(read("[1.2.3.4]:5"), "'1.2.3.4' is not an IPv6 address");
   EXPECT_EQ(read("::1:5"), "write an IPv6 address in brackets, as [::1]:5");
 }
 

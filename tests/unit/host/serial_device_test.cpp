@@ -76,7 +76,7 @@ TEST_F(SerialDeviceTest, EveryByteComesThroughBothWays) {
   EXPECT_EQ(heard, all);
 }
 
-TEST_F(SerialDeviceTest, ASideThatNeverStopsTalkingHoldsNobody) {
+TEST_F(SerialDeviceTest, ASideThatNeverStopsTalkingHoldsNoOne) {
   auto device = open();
   ASSERT_TRUE(device);
   fcntl(near_, F_SETFL, O_NONBLOCK);
@@ -160,7 +160,7 @@ TEST_F(SerialDeviceTest, ADeviceThatIsUnpluggedIsGone) {
 TEST_F(SerialDeviceTest, WhatIsNoSerialDeviceIsSaid) {
   std::string why;
   EXPECT_FALSE(SerialDevice::open("/dev/null", k8E1, why));
-  EXPECT_EQ(why, "it is no serial device");
+  EXPECT_EQ(why, "it is not a serial device");
   EXPECT_FALSE(SerialDevice::open("/no/such/device", k8E1, why));
   EXPECT_EQ(why, "No such file or directory");
 }

@@ -73,8 +73,8 @@ TEST(MasterAction, DiagnosisAndFiles) {
   EXPECT_EQ(pdu("function 65 0102"), "41 01 02");
   EXPECT_EQ(pdu("function 65"), "41");
   EXPECT_EQ(parsed("loopback")[0].kind, MasterAction::Kind::Loopback);
-  EXPECT_EQ(refused("general-write 1:2=256"), "'1:2=256': 256 is no byte");
-  EXPECT_EQ(refused("read-file 4:1"), "'4:1' is no reference; write for example 4:1:2");
+  EXPECT_EQ(refused("general-write 1:2=256"), "'1:2=256': 256 is not a byte");
+  EXPECT_EQ(refused("read-file 4:1"), "'4:1' is not a reference; write for example 4:1:2");
 }
 
 TEST(MasterAction, SeveralAreDoneInTheirOrder) {

@@ -184,7 +184,7 @@ TEST(ScenarioReader, TextIsSentAndExpectedWithItsEscapes) {
   EXPECT_EQ(serial::to_hex(dynamic_cast<const ExchangeStep&>(*s.steps[0].action).request), "53 45 54 20 38 0d");
 }
 
-TEST(ScenarioReader, WhatNobodyAskedForIsReceived) {
+TEST(ScenarioReader, WhatNoOneAskedForIsReceived) {
   using Kind = Expected::Kind;
   const auto receive = [](const std::string& text) { return action_of<ReceiveStep>(text); };
   EXPECT_EQ(receive("receive: any").expected[0].kind, Kind::Any);
@@ -218,7 +218,7 @@ TEST(ScenarioReader, MemoryIsComparedAsTheValueIsWritten) {
   EXPECT_FALSE(fits("VD0: 0.0..", {0x7F, 0xC0, 0, 0})) << "what is not a number is never inside";
   EXPECT_TRUE(fits("VD0: 1.4..1.6", {0x3F, 0xC0, 0, 0}));
   EXPECT_FALSE(fits("VD0: ..1.4", {0x3F, 0xC0, 0, 0}));
-  EXPECT_FALSE(fits("VD0: 1", {0x3F, 0x80, 0, 0})) << "a whole number is no real";
+  EXPECT_FALSE(fits("VD0: 1", {0x3F, 0x80, 0, 0})) << "a whole number is not a real";
   EXPECT_TRUE(fits("VW0: 5..10", {0, 10}));
   EXPECT_FALSE(fits("VW0: 5..10", {0, 11}));
   EXPECT_TRUE(fits("VW0: -5..5", {0xFF, 0xFB}));
@@ -356,47 +356,47 @@ TEST(ScenarioReader, EveryMistakeIsToldAtItsPlace) {
       {"steps:\n  - {expect: silence}\n", 2, 6, "a step that does nothing"},
       {"steps:\n  - {wait: 1ms, mode: run}\n", 2, 17, "'wait' and 'mode' in one step"},
       {"steps:\n  - wait\n", 2, 5, "a step is a map, not 'wait'"},
-      {"steps:\n  - wait: 5\n", 2, 11, "'5' is no duration"},
+      {"steps:\n  - wait: 5\n", 2, 11, "'5' is not a duration"},
       {"steps:\n  - wait: [1ms]\n", 2, 11, "one value is needed here, not a list"},
-      {"steps:\n  - mode: fast\n", 2, 11, "'fast' is no choice here"},
+      {"steps:\n  - mode: fast\n", 2, 11, "'fast' is not a choice here"},
       {"steps:\n  - memory: {VB9999: 1}\n", 2, 14, "'VB9999' does not exist on CPU 214: V memory has 4096 bytes"},
       {"steps:\n  - memory: {VB0: 256}\n", 2, 19, "'256' does not fit VB0"},
       {"steps:\n  - memory: {X5: 1}\n", 2, 14, "'X5' is not an address; write for example VB100, VW100:4, M31.7, AC0"},
       {"steps:\n  - memory: {'VB0:4': 01 02}\n", 2, 23, "2 bytes for VB0:4, which has 4"},
       {"steps:\n  - set: {Q8.0: 1}\n", 2, 11, "'Q8.0' does not exist on CPU 214: Q memory has 8 bytes"},
       {"cpu: 213\nsteps: []\n", 1, 6, "there is no model of CPU '213'"},
-      {"steps:\n  - send: 0g\n", 2, 11, "'g' is no hex digit"},
-      {"steps:\n  - {read: holding}\n", 2, 12, "'holding' is no address of 5 or 6 digits"},
-      {"steps:\n  - {read: frob 1}\n", 2, 12, "'frob 1' is no place"},
+      {"steps:\n  - send: 0g\n", 2, 11, "'g' is not a hex digit"},
+      {"steps:\n  - {read: holding}\n", 2, 12, "'holding' is not an address of 5 or 6 digits"},
+      {"steps:\n  - {read: frob 1}\n", 2, 12, "'frob 1' is not a place"},
       {"steps:\n  - {write: inputs 1, value: 1}\n", 2, 13, "inputs cannot be written"},
-      {"steps:\n  - {write: coils 1, value: 2}\n", 2, 29, "'2' is no number from 0 to 1"},
+      {"steps:\n  - {write: coils 1, value: 2}\n", 2, 29, "'2' is not a number from 0 to 1"},
       {"steps:\n  - {write: coils 1}\n", 2, 13, "neither 'value' nor 'values'"},
-      {"steps:\n  - {read: holding 0, expect: maybe}\n", 2, 31, "'maybe' is no answer"},
-      {"steps:\n  - {read: holding 0, expect: exception 0}\n", 2, 31, "'exception 0' is no exception"},
-      {"steps:\n  - {read: holding 0, latency: fast}\n", 2, 32, "'fast' is no window of time"},
+      {"steps:\n  - {read: holding 0, expect: maybe}\n", 2, 31, "'maybe' is not an answer"},
+      {"steps:\n  - {read: holding 0, expect: exception 0}\n", 2, 31, "'exception 0' is not an exception"},
+      {"steps:\n  - {read: holding 0, latency: fast}\n", 2, 32, "'fast' is not a window of time"},
       {"steps:\n  - {read: holding 0, at: 1s, pause: 1ms}\n", 2, 27, "both 'at' and 'pause'"},
       {"steps:\n  - interrupts: {INT 128: 1}\n", 2, 18, "'INT 128' cannot be counted"},
-      {"steps:\n  - interrupts: {INT 1: many}\n", 2, 25, "'many' is no count"},
-      {"steps:\n  - fatal: 99999\n", 2, 12, "'99999' is no error code"},
+      {"steps:\n  - interrupts: {INT 1: many}\n", 2, 25, "'many' is not a count"},
+      {"steps:\n  - fatal: 99999\n", 2, 12, "'99999' is not an error code"},
       {"steps:\n  - errors: some\n", 2, 13, "run-time errors are a map or 'none', not 'some'"},
       {"steps:\n  - fault: flip:charakter=3\n", 2, 17, "charakter"},
       {"steps:\n  - repeat: 3\n", 2, 5, "a loop without 'steps'"},
-      {"steps:\n  - repeat: 0\n    steps: []\n", 2, 13, "'0' is no number from 1 to 4096"},
-      {"steps:\n  - for: {x: 1..9999}\n    steps: []\n", 2, 14, "'1..9999' are no values for a loop"},
+      {"steps:\n  - repeat: 0\n    steps: []\n", 2, 13, "'0' is not a number from 1 to 4096"},
+      {"steps:\n  - for: {x: 1..9999}\n    steps: []\n", 2, 14, "'1..9999' are not values for a loop"},
       {"steps:\n  - read: holding ${x}\n", 2, 11, "there is no parameter 'x'"},
-      {"line: {baud: 1}\nsteps: []\n", 1, 14, "'1' is no number from 50 to 1000000"},
+      {"line: {baud: 1}\nsteps: []\n", 1, 14, "'1' is not a number from 50 to 1000000"},
       {"line: {bauds: 1}\nsteps: []\n", 1, 8, "'bauds' has no place here"},
-      {"clock: today\nsteps: []\n", 1, 8, "'today' is no time from 1990 to 2089"},
-      {"severity: may\nsteps: []\n", 1, 11, "'may' is no choice here"},
+      {"clock: today\nsteps: []\n", 1, 8, "'today' is not a time from 1990 to 2089"},
+      {"severity: may\nsteps: []\n", 1, 11, "'may' is not a choice here"},
       {"needs: x\nsteps: []\n", 1, 8, "'needs' is a list, not 'x'"},
       {"input: no.csv\nsteps: []\n", 1, 8, "cannot read folder/no.csv"},
-      {"parameters: {'a b': 1}\nsteps: []\n", 1, 14, "'a b' is no name of a parameter"},
+      {"parameters: {'a b': 1}\nsteps: []\n", 1, 14, "'a b' is not the name of a parameter"},
       {"name: a\nname: b\nsteps: []\n", 2, 1, "'name' stands here a second time, first in line 1"},
       {"steps:\n  - {read: holding 0, expect: [1, 2]}\n", 2, 31, "1 read, 2 expected"},
       {"steps:\n  - {read: coils 0, expect: [2]}\n", 2, 29, "coils and inputs are 0 or 1"},
-      {"steps:\n  - {read: coils 0, latency: 20ms..10ms}\n", 2, 30, "'20ms..10ms' is no window of time"},
-      {"steps:\n  - {read: coils 0, latency: 9 characters..8 characters}\n", 2, 30, "is no window of time"},
-      {"steps:\n  - wait: 25h\n", 2, 11, "'25h' is no duration of a day at most"},
+      {"steps:\n  - {read: coils 0, latency: 20ms..10ms}\n", 2, 30, "'20ms..10ms' is not a window of time"},
+      {"steps:\n  - {read: coils 0, latency: 9 characters..8 characters}\n", 2, 30, "is not a window of time"},
+      {"steps:\n  - wait: 25h\n", 2, 11, "'25h' is not a duration of a day at most"},
       {"a: &x 1\nb: *x\n", 1, 4, "anchors and aliases"},
       {"a: !!int 1\n", 1, 4, "tags (!)"},
       {"steps: []\n---\nsteps: []\n", 3, 1, "a second document"},
@@ -440,7 +440,7 @@ TEST(ScenarioReader, EveryMistakeIsToldAtItsPlace) {
       {"steps:\n  - {send: {text: A}, expect: refused}\n", 2, 31, "a text is not a Modbus request"},
       {"steps:\n  - {send: {text: A}, expect_one_of: [silence, [1]]}\n", 2, 38, "a text is not a Modbus request"},
       {"steps:\n  - {send: 41, expect: {text: 'A\\x4'}}\n", 2, 31, "\\x is followed by two hex digits"},
-      {"steps:\n  - receive: accepted\n", 2, 14, "'receive' waits for what nobody asked for"},
+      {"steps:\n  - receive: accepted\n", 2, 14, "'receive' waits for what no one asked for"},
       {"steps:\n  - {receive: any, gap: 1ms}\n", 2, 20, "'gap' has no place beside 'receive'"},
       {"steps:\n  - wait_until: {}\n", 2, 17, "addresses and values are a map, not an empty one"},
       {"steps:\n  - wait_until: 5\n", 2, 17, "addresses and values are a map, not '5'"},
@@ -492,7 +492,7 @@ TEST(ScenarioReader, ALoopThatCannotBeCountedDoesNotMakeTheOthersDeeper) {
   std::string loops = "steps:\n";
   for (int i = 0; i < 6; ++i) loops += "  - repeat: 0\n    steps: [wait: 1ms]\n";
   for (const stl::Diagnostic& diagnostic : read(loops).diagnostics)
-    EXPECT_EQ(diagnostic.message, "'0' is no number from 1 to 4096");
+    EXPECT_EQ(diagnostic.message, "'0' is not a number from 1 to 4096");
 }
 
 TEST(ScenarioReader, TellsAllMistakesAtOnceAndThoseOfLoopsOnce) {
@@ -500,7 +500,7 @@ TEST(ScenarioReader, TellsAllMistakesAtOnceAndThoseOfLoopsOnce) {
       read("frob: 1\nsteps:\n  - wait: 5\n  - repeat: 50\n    steps:\n      - memory: {VB9999: 1}\n  - mode: x\n");
   ASSERT_EQ(file.diagnostics.size(), 4U);
   EXPECT_EQ(stl::render(file.diagnostics[1], *file.source, false),
-            "folder/file.yaml:3:11: error: '5' is no duration of a day at most\n  - wait: 5\n          ^\nhint: write for "
+            "folder/file.yaml:3:11: error: '5' is not a duration of a day at most\n  - wait: 5\n          ^\nhint: write for "
             "example 20ms, 3.5 "
             "characters, 2 scans\n");
 }

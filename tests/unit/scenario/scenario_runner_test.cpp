@@ -159,7 +159,7 @@ TEST(ScenarioRunner, TheClockGoesOnDuringAPowerCycleUnlessTheMemoryIsLost) {
             "");
 }
 
-TEST(ScenarioRunner, AStopNobodyExpectedIsAFailure) {
+TEST(ScenarioRunner, AnUnexpectedStopIsAFailure) {
   const auto stops = test::compile("LD I0.0\nSTOP\nMEND\n");
   EXPECT_EQ(findings("  - set: {I0.0: 1}\n  - wait: 20ms\n", "after: 0\n", stops),
             "mode at the end: RUN, or a step 'mode: stop' or 'fatal:' / STOP\n");
@@ -344,7 +344,7 @@ TEST(ScenarioRecord, ReplayedATranscriptGivesItselfAgain) {
   EXPECT_EQ(twice, once);
 }
 
-TEST(ScenarioRecord, TextAndWhatNobodyAskedForComeAgainInAReplay) {
+TEST(ScenarioRecord, TextAndWhatNoOneAskedForComeAgainInAReplay) {
   const auto transcript = [](const std::vector<Scenario>& scenarios) {
     std::vector<Report> reports;
     for (const Scenario& scenario : scenarios) reports.push_back({&scenario, run(scenario, text_commands())});
@@ -505,7 +505,7 @@ TEST(ScenarioCompare, TransmissionsAreComparedAndAProgramThatNeverGetsThereDiffe
     return compare(scenario, run(scenario, text_commands()), run(scenario, program), "a", "b", {}, false).text;
   };
   EXPECT_EQ(difference(text_commands()), "");
-  EXPECT_NE(difference(other).find("request   none: a transmission that nobody asked for\n"), std::string::npos)
+  EXPECT_NE(difference(other).find("request   none: a transmission that no one asked for\n"), std::string::npos)
       << difference(other);
   EXPECT_NE(difference(other).find("b         'HEADY\\r\\n' "), std::string::npos) << difference(other);
   EXPECT_NE(difference(other).find(" ms before it was waited for\n"), std::string::npos) << difference(other);

@@ -101,7 +101,7 @@ TEST_F(ScenarioSuite, ChoosesByNameFileOrRule) {
 TEST_F(ScenarioSuite, AllMistakesOfAllFilesAreToldAndNothingIsRun) {
   const std::string told = refusal({.files = {file("a.yaml", "steps:\n  - wait: 5\n"), (folder_ / "none.yaml").string(),
                                               file("b.yaml", "frob: 1\nsteps: [wait: 1ms]\n")}});
-  EXPECT_NE(told.find("'5' is no duration"), std::string::npos) << told;
+  EXPECT_NE(told.find("'5' is not a duration"), std::string::npos) << told;
   EXPECT_NE(told.find("cannot read "), std::string::npos) << told;
   EXPECT_NE(told.find("'frob' has no place here"), std::string::npos) << told;
 }

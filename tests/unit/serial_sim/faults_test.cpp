@@ -39,7 +39,7 @@ std::string shown(const std::vector<ReceivedCharacter>& characters) {
   return text;
 }
 
-/// A master that sends kRequest, a PLC's UART that sends kAnswer 5 ms behind it, and faults between them.
+/// A master that sends kRequest, a PLC's UART that sends kAnswer 5 ms after it, and faults between them.
 struct Plant {
   Line line;
   EventQueue queue;
@@ -81,7 +81,7 @@ struct Plant {
     now = end;
   }
 
-  /// The PLC answers `delay` behind the end of the request.
+  /// The PLC answers `delay` after the end of the request.
   void plc_reports(const Uart::Report& report) {
     if (report.received) heard.push_back(*report.received);
     if (!report.sent || answered == 0) return;
@@ -159,7 +159,7 @@ TEST(Faults, TwoFlipsOfACharacterEscapeItsParity) {
 
 TEST(Faults, FlippedStartBitHidesACharacterAndWhatFollowsIsFoundAgain) {
   Plant plant({"flip:character=4,bit=start"}, k8O1);
-  EXPECT_EQ(plant.request_heard(), "01 03 00 55 aa 80 7f") << "16#FF and its odd parity are all mark behind the start bit";
+  EXPECT_EQ(plant.request_heard(), "01 03 00 55 aa 80 7f") << "16#FF and its odd parity are all mark after the start bit";
 }
 
 TEST(Faults, ParityAndFramingErrorsLeaveTheData) {

@@ -47,7 +47,7 @@ TEST(FieldScript, PulseTrainsAreWholePulses) {
   EXPECT_EQ(script.pulses[2], (FieldPulses{kSecond, image::kInputs + 1, 0x08, 1, 1'500'000}));
 }
 
-// 3 kHz: edges every 166666.67 ns, the 6th a millisecond behind the first, the 6'000'000th exactly 1000 s.
+// 3 kHz: edges every 166666.67 ns, the 6th a millisecond after the first, the 6'000'000th exactly 1000 s.
 TEST(FieldScript, EdgesAreNotAccumulated) {
   const FieldPulses train{7, image::kInputs, 1, 3'000'000, 3'000'000};
   EXPECT_EQ(train.edge(0), 7);
@@ -60,20 +60,20 @@ TEST(FieldScript, EveryWrongRowIsNamedWithItsLineAndWhatToDo) {
   const std::pair<std::string_view, std::string_view> kCases[] = {
       {"10ms,I0.0", "in.csv:1: write time,address,value or"},
       {"10ms,I0.0,1,2", "in.csv:1: write time,address,value or"},
-      {"10,I0.0,1", "in.csv:1: '10' is no time; write for example 10ms"},
+      {"10,I0.0,1", "in.csv:1: '10' is not a time; write for example 10ms"},
       {"\n# x\n2s,I0.0,1\n1s,I0.0,0", "in.csv:4: 1s lies before the row above; put"},
-      {"1s,Q0.0,1", "'Q0.0' is no input; rows set I"},
-      {"1s,VB0,1", "'VB0' is no input"},
-      {"1s,SMB30,1", "'SMB30' is no input"},
-      {"1s,SMW28,1", "'SMW28' is no input"},
-      {"1s,AIW1,1", "'AIW1' is no input"},
+      {"1s,Q0.0,1", "'Q0.0' is not an input; rows set I"},
+      {"1s,VB0,1", "'VB0' is not an input"},
+      {"1s,SMB30,1", "'SMB30' is not an input"},
+      {"1s,SMW28,1", "'SMW28' is not an input"},
+      {"1s,AIW1,1", "'AIW1' is not an input"},
       {"1s,I8.0,1", "does not exist on CPU 214"},
       {"1s,IB0:2,1", "without a count"},
       {"1s,lamp,1", "'lamp' is not an address"},
-      {"1s,I0.0,2", "'2' is no value for I0.0; write"},
-      {"1s,IB0,256", "'256' is no value for IB0"},
-      {"1s,IB0,", "'' is no value for IB0"},
-      {"1s,IB0,16#1FF", "'16#1FF' is no value for IB0"},
+      {"1s,I0.0,2", "'2' is not a value for I0.0; write"},
+      {"1s,IB0,256", "'256' is not a value for IB0"},
+      {"1s,IB0,", "'' is not a value for IB0"},
+      {"1s,IB0,16#1FF", "'16#1FF' is not a value for IB0"},
       {"1s,IB0,pulses,1kHz,1s", "pulses need one input point"},
       {"1s,AIW0,pulses,1kHz,1s", "pulses need one input point"},
       {"1s,I0.0,pulses,1,1s", "'1' is not a frequency; write for example 50Hz or 5kHz"},

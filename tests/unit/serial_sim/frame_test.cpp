@@ -26,16 +26,16 @@ TEST(HexFrame, PMeansWrongParity) {
 
 TEST(HexFrame, ErrorsAreLocatedByColumnAndAllReported) {
   const ParsedFrame parsed = parse_hex_frame("01 0x 3 zz 04");
-  const std::vector<FrameError> expected{{5, "'x' is no hex digit"},
+  const std::vector<FrameError> expected{{5, "'x' is not a hex digit"},
                                          {7, "a byte is two hex digits, 03 for 3"},
-                                         {9, "'z' is no hex digit"},
-                                         {10, "'z' is no hex digit"}};
+                                         {9, "'z' is not a hex digit"},
+                                         {10, "'z' is not a hex digit"}};
   EXPECT_EQ(parsed.errors, expected);
 }
 
 TEST(HexFrame, PWithoutAByteIsAnError) {
-  EXPECT_EQ(parse_hex_frame("p").errors, (std::vector<FrameError>{{1, "'p' is no hex digit"}}));
-  EXPECT_EQ(parse_hex_frame("01pp").errors, (std::vector<FrameError>{{4, "'p' is no hex digit"}}));
+  EXPECT_EQ(parse_hex_frame("p").errors, (std::vector<FrameError>{{1, "'p' is not a hex digit"}}));
+  EXPECT_EQ(parse_hex_frame("01pp").errors, (std::vector<FrameError>{{4, "'p' is not a hex digit"}}));
 }
 
 TEST(HexFrame, HasFromOneTo1024Bytes) {

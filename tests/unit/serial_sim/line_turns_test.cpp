@@ -125,7 +125,7 @@ TEST(LineTurns, WhoStopsWaitingGivesUpNeitherBroadcastsNorWhatOthersAsk) {
   EXPECT_EQ(bench.turns.open(1), 1U);
 }
 
-TEST(LineTurns, ALateAnswerIsWaitedForThoughNobodyWantsIt) {
+TEST(LineTurns, ALateAnswerIsWaitedForThoughNoOneWantsIt) {
   Bench bench;
   bench.slave_answers = false;
   bench.ask(1, 11);

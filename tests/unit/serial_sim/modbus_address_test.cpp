@@ -47,8 +47,8 @@ TEST(ModbusAddress, SixDigitsReachAllHoldingRegisters) {
 TEST(ModbusAddress, ZeroIsRefusedInEachArea) {
   EXPECT_EQ(refused("00000"), "there is no coil 00000: this notation counts from 1, the first is 00001");
   EXPECT_EQ(refused("000000"), "there is no coil 000000: this notation counts from 1, the first is 000001");
-  EXPECT_EQ(refused("10000"), "there is no input 10000: this notation counts from 1, the first is 10001");
-  EXPECT_EQ(refused("30000"), "there is no input register 30000: this notation counts from 1, the first is 30001");
+  EXPECT_EQ(refused("10000"), "there is not an input 10000: this notation counts from 1, the first is 10001");
+  EXPECT_EQ(refused("30000"), "there is not an input register 30000: this notation counts from 1, the first is 30001");
   EXPECT_EQ(refused("40000"), "there is no holding register 40000: this notation counts from 1, the first is 40001");
   EXPECT_EQ(refused("400000"), "there is no holding register 400000: this notation counts from 1, the first is 400001");
 }
@@ -61,7 +61,7 @@ TEST(ModbusAddress, BetweenTheAreasIsNothing) {
 
 TEST(ModbusAddress, NothingButFiveOrSixDigitsIsAnAddress) {
   for (const char* text : {"", "1", "17", "9999", "4000001", "0400001", "-0001", "4000x", "40 01", "VW100"})
-    EXPECT_NE(refused(text).find("is no address of 5 or 6 digits"), std::string::npos) << text;
+    EXPECT_NE(refused(text).find("is not an address of 5 or 6 digits"), std::string::npos) << text;
 }
 
 TEST(ModbusAddress, TheAreaSelectsTheFunctions) {

@@ -16,7 +16,7 @@ constexpr EventOwner kSlaveUart{0}, kMasterUart{1}, kMaster{2};
 using serial::Frame;
 using serial::to_frame;
 
-/// A master, and a second UART that plays a script: what it hears is kept, and `answer` is sent `delay` behind the
+/// A master, and a second UART that plays a script: what it hears is kept, and `answer` is sent `delay` after the
 /// character of the request that is `after` in number.
 struct Conversation {
   Line line;

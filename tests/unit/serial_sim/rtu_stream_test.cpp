@@ -16,7 +16,7 @@ Bytes operator+(Bytes one, const Bytes& other) {
   return one;
 }
 
-/// A begin of two bytes, then enough to make the CRC right; one of each length that a request has.
+/// A start of two bytes, then enough to make the CRC right; one of each length that a request has.
 const std::vector<Bytes>& requests() {
   static const std::array<std::uint16_t, 3> values{1, 2, 3};
   static const std::array references{Reference{.file = 1, .record = 2, .count = 3}};

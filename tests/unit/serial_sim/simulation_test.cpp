@@ -60,7 +60,7 @@ TEST(SimulationStop, AFirstScanThatNeverEndsComesBack) {
   EXPECT_TRUE(s.stopped_in_time());
 }
 
-TEST(SimulationStop, AsLongAsNobodyAsksNothingChanges) {
+TEST(SimulationStop, AsLongAsNoOneAsksNothingChanges) {
   const auto state_after = [](bool may_be_asked) {
     Simulation simulation(test::compile(test::slave_text()));
     const std::atomic<bool> never = false;

@@ -354,7 +354,7 @@ TEST(Uart, CharacterLostToSwitchingOffDoesNotComeBackWithALaterEdge) {
 TEST(Uart, SwitchedOnInMidCharacterFindsTheNextFallingEdge) {
   Wire wire(k8N1);
   wire.receiver.enable_receiver(false, 0);
-  wire.sender.send(0b1101'1110, 0);  // space in bit 0 and bit 5, that is bit times 1 and 6 behind the start
+  wire.sender.send(0b1101'1110, 0);  // space in bit 0 and bit 5, that is bit times 1 and 6 after the start
   wire.run_until(3 * kBit);
   wire.receiver.enable_receiver(true, 3 * kBit);
   wire.run();

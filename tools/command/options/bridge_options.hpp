@@ -29,7 +29,7 @@ class BridgeOptions {
       "A pty shows the rate, stop bits and odd parity of its client, but none and even parity only if the client sets\n"
       "INPCK, and never 7 data bits: otherwise these are the program's, or what --parity and --data-bits say.\n";
 
-  /// Makes the bridge asked for. False after a message: more than one, or an address that is none.
+  /// Makes the bridge asked for. False after a message: more than one, or an address that is not one.
   bool prepare();
 
   bool realtime() const { return realtime_ || speed_given_ || bridge_; }

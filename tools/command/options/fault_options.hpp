@@ -29,7 +29,7 @@ class FaultOptions {
 };
 
 /// `error`, the text and a caret below the place:
-///     s7200: error: --fault, column 10: bit: '8' is no bit: …
+///     s7200: error: --fault, column 10: bit: '8' is not a bit: …
 ///       flip:bit=8
 ///                ^
 void print_fault_error(const serial::FaultError& error, std::string_view text);

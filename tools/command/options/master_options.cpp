@@ -48,7 +48,7 @@ void MasterOptions::add_to(CLI::App& app) {
       ->check([](const std::string& name) {
         return std::ranges::any_of(value_forms(), [&](const ValueFormName& known) { return known.name == name; })
                    ? std::string()
-                   : fmt::format("'{}' is no form; there are {}", stl::shortened(name), form_names());
+                   : fmt::format("'{}' is not a form; there are {}", stl::shortened(name), form_names());
       })
       ->capture_default_str()
       ->type_name("FORM");

@@ -3,7 +3,7 @@
 namespace s7200::tools {
 
 std::optional<std::uint16_t> read_error_code(ValueReader& values, const YamlNode& node, bool none_allowed) {
-  return values.value(&node, "error code", none_allowed ? "0003, none" : "0092",
+  return values.value(&node, "an error code", none_allowed ? "0003, none" : "0092",
                       [&](const std::string& t) -> std::optional<std::uint16_t> {
                         if (none_allowed && lower_case(t) == "none") return std::uint16_t{0};
                         const auto parsed = t.size() == 4 ? parse_number("16#" + t) : std::nullopt;

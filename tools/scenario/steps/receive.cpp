@@ -14,7 +14,7 @@ void ReceiveStep::read(const StepSource& source) {
   auto what = read_expected(source.values, source.is);
   if (!what) return;
   if (what->kind != Kind::Any && what->kind != Kind::Silence && what->kind != Kind::Frame)
-    source.values.wrong(source.is, "'receive' waits for what nobody asked for: any, silence, hex or {text: ...}",
+    source.values.wrong(source.is, "'receive' waits for what no one asked for: any, silence, hex or {text: ...}",
                         "an answer to a request stands in 'expect:'");
   expected.push_back(std::move(*what));
 }

@@ -1,4 +1,4 @@
-// receive: a transmission that nobody asked for, since the last request or still to come.
+// receive: a transmission that no one asked for, since the last request or still to come.
 #pragma once
 
 #include "tools/scenario/steps/reception.hpp"

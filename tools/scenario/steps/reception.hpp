@@ -1,4 +1,4 @@
-// What steps have in common that wait for something on the line: an answer, or what nobody asked for.
+// What steps have in common that wait for something on the line: an answer, or what no one asked for.
 #pragma once
 
 #include <optional>

@@ -34,7 +34,7 @@ std::optional<modbus::DataAddress> area_and_number(const std::string& written, s
       return modbus::DataAddress{row.area, static_cast<std::uint16_t>(*first)};
   std::string words;
   for (const modbus::AreaRow& row : modbus::areas()) words.append(words.empty() ? "" : ", ").append(row.word);
-  why = fmt::format("'{}' is no place: one of {}, and a number from 0 to 65535", stl::shortened(written), words);
+  why = fmt::format("'{}' is not a place: one of {}, and a number from 0 to 65535", stl::shortened(written), words);
   return {};
 }
 
