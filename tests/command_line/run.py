@@ -115,7 +115,7 @@ class Verbs(Case):
         for word, meant in (("chek", "check"), ("RUN", "run"), ("sned", "send"), ("tests", "test"), ("Help", "help")):
             done = self.ends(UNUSABLE, word)
             self.assertEqual((done.stdout, done.stderr.split("\n")[0]),
-                             ("", f"s7200: error: '{word}' is not a verb; is {meant} meant?"))
+                             ("", f"s7200: error: '{word}' is not a verb; did you mean {meant}?"))
         done = self.ends(UNUSABLE, "frobnicate")
         self.assertIn(f"'frobnicate' is not a verb; there are {', '.join(VERBS)}, help, version\n", done.stderr)
         self.assertIn(f"'{SLAVE}' is a file, and the verb before it is missing", self.ends(UNUSABLE, SLAVE).stderr)

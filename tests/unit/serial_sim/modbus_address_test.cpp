@@ -47,8 +47,8 @@ TEST(ModbusAddress, SixDigitsReachAllHoldingRegisters) {
 TEST(ModbusAddress, ZeroIsRefusedInEachArea) {
   EXPECT_EQ(refused("00000"), "there is no coil 00000: this notation counts from 1, the first is 00001");
   EXPECT_EQ(refused("000000"), "there is no coil 000000: this notation counts from 1, the first is 000001");
-  EXPECT_EQ(refused("10000"), "there is not an input 10000: this notation counts from 1, the first is 10001");
-  EXPECT_EQ(refused("30000"), "there is not an input register 30000: this notation counts from 1, the first is 30001");
+  EXPECT_EQ(refused("10000"), "there is no input 10000: this notation counts from 1, the first is 10001");
+  EXPECT_EQ(refused("30000"), "there is no input register 30000: this notation counts from 1, the first is 30001");
   EXPECT_EQ(refused("40000"), "there is no holding register 40000: this notation counts from 1, the first is 40001");
   EXPECT_EQ(refused("400000"), "there is no holding register 400000: this notation counts from 1, the first is 400001");
 }
