@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "interpreter/cpu/high_speed_counters.hpp"
+#include "interpreter/cpu/local_memory.hpp"
 #include "interpreter/cpu/units.hpp"
 
 namespace s7200::interrupts {
@@ -81,7 +82,7 @@ void occurred(Core& core, std::uint8_t event, Time at, std::uint8_t byte, bool p
   }
   const auto end = queue.entry.begin() + queue.count++;
   const auto place = std::find_if(queue.entry.begin(), end, [&](const QueuedInterrupt& q) {
-    return q.at == at && find_event(q.event)->order > find_event(event)->order;
+    return q.at == at && find_event(q.event)->order(core.model().self) > find_event(event)->order(core.model().self);
   });
   std::move_backward(place, end, end + 1);
   *place = {at, event, byte, parity_error};
@@ -92,10 +93,12 @@ void occurred(Core& core, std::uint8_t event, Time at, std::uint8_t byte, bool p
 void take(Core& core) {
   State& s = core.s;
   const QueuedInterrupt interrupt = next_queued(s);
-  s.saved = {s.pc, s.stack, s.rail, {}, s.image[sm::kFlags]};
+  local_memory::put_aside(core);
+  s.saved = {s.pc, s.stack, s.rail, {}, s.image[sm::kFlags], s.call_depth};
   std::copy_n(s.image.begin() + image::kAC, s.saved.accumulators.size(), s.saved.accumulators.begin());
   units::begin_service(core, interrupt);
   s.in_interrupt = true;
+  local_memory::take_up(core);
   s.serving_event = interrupt.event;
   s.serving_routine = s.attached[interrupt.event];
   s.serving_since = s.time;
@@ -117,7 +120,10 @@ void return_from(Core& core) {
               .event = s.serving_event,
               .routine = s.serving_routine,
               .since = s.serving_since});
+  local_memory::put_aside(core);
   s.in_interrupt = false;
+  s.call_depth = s.saved.call_depth;
+  local_memory::take_up(core);
   s.pc = s.saved.return_to;
   s.stack = s.saved.stack;
   s.rail = s.saved.rail;

@@ -4,6 +4,7 @@
 
 #include "interpreter/cpu/eeprom.hpp"
 #include "interpreter/cpu/interrupts.hpp"
+#include "interpreter/cpu/local_memory.hpp"
 #include "interpreter/cpu/points.hpp"
 #include "interpreter/cpu/units.hpp"
 
@@ -74,7 +75,9 @@ void begin_program(Core& core) {
   s.pc = 0;
   s.stack = {};
   s.rail = true;
+  local_memory::put_aside(core);
   s.call_depth = 0;
+  local_memory::take_up(core);
 }
 
 void begin_communication(Core& core) { begin_phase(core, Phase::Communication, 1); }
@@ -117,9 +120,11 @@ void enter_run(Core& core) {
 void enter_stop(Core& core) {
   State& s = core.s;
   s.mode = Mode::Stop;
+  local_memory::put_aside(core);
   s.in_interrupt = false;
   s.stop_after_scan = false;
   s.call_depth = 0;
+  local_memory::take_up(core);
   units::enter_stop(core);
   core.trace({.at = s.time, .kind = TraceKind::ModeChange, .code = 0});
   begin_communication(core);
@@ -169,8 +174,12 @@ void reset_watchdog(Core& core) {
 
 void call(Core& core, std::uint32_t target) {
   State& s = core.s;
-  if (s.call_depth == core.model().call_depth) return core.run_error(RunError::CallDepth);
+  const std::uint32_t deepest =
+      s.in_interrupt ? s.saved.call_depth + core.model().interrupt_call_depth : core.model().call_depth;
+  if (s.call_depth == deepest) return core.run_error(RunError::CallDepth);
+  local_memory::put_aside(core);
   s.calls[s.call_depth++] = {s.pc, s.stack, s.rail};
+  local_memory::take_up(core);
   s.stack = LogicStack::on_entry();
   s.rail = true;
   s.pc = target;
@@ -178,7 +187,9 @@ void call(Core& core, std::uint32_t target) {
 
 void return_from_subroutine(Core& core) {
   State& s = core.s;
+  local_memory::put_aside(core);
   const CallFrame& frame = s.calls[--s.call_depth];
+  local_memory::take_up(core);
   s.pc = frame.return_to;
   s.stack = frame.stack;
   s.rail = frame.rail;

@@ -43,6 +43,8 @@ enum class Mode : std::uint8_t { Stop, Run };
 /// Parts of a scan, in order (S7-200 manual C230-02, 6-10). The last one only comes if the program has asked for it.
 enum class Phase : std::uint8_t { ReadInputs, Program, Communication, SelfTest, WriteOutputs, SaveToEeprom };
 
+inline constexpr std::size_t kMostCalls = 9;  ///< subroutines open at a time, with the one of an interrupt routine
+
 /// Where a subroutine returns to, and its caller's logic stack and power rail.
 struct CallFrame {
   std::uint32_t return_to = 0;
@@ -50,6 +52,11 @@ struct CallFrame {
   bool rail = true;
   bool operator==(const CallFrame&) const = default;
 };
+
+/// The main program, eight levels of subroutines, an interrupt routine and the one it calls each have local memory of their
+/// own (facts 1.2).
+inline constexpr std::size_t kLocalLevels = 11;
+using LocalMemory = std::array<std::uint8_t, 64>;
 
 struct QueuedInterrupt {
   Time at = 0;  ///< when it occurred
@@ -72,6 +79,7 @@ struct SavedContext {
   bool rail = true;
   std::array<std::uint8_t, 16> accumulators{};
   std::uint8_t smb1 = 0;
+  std::uint8_t call_depth = 0;  ///< not restored from here: it is where an interrupt routine's own calls begin
   bool operator==(const SavedContext&) const = default;
 };
 
@@ -162,7 +170,8 @@ struct State {
   Time scan_begin = 0, watchdog = kNever, next_clock = 0;
   Time shortest_scan = kNever, longest_scan = 0;
 
-  std::array<CallFrame, 8> calls{};
+  std::array<CallFrame, kMostCalls> calls{};
+  std::array<LocalMemory, kLocalLevels> local{};  ///< of the routines that do not run now, by local_memory::level()
   SavedContext saved{};
   std::uint8_t serving_event = 0, serving_routine = 0;
   Time serving_since = 0;

@@ -11,11 +11,13 @@ namespace s7200::operands {
 
 inline constexpr Areas kInputs = set_of(Area::I), kOutputs = set_of(Area::Q), kSegments = set_of(Area::S);
 inline constexpr Areas kAnalogInputs = set_of(Area::AI), kAnalogOutputs = set_of(Area::AQ);
+inline constexpr Areas kLocal = set_of(Area::L);  // of the CPUs that have it
 inline constexpr Areas kTimers = set_of(Area::T), kCounters = set_of(Area::C);
-inline constexpr Areas kMemory = kInputs | kOutputs | kSegments | set_of(Area::M) | set_of(Area::SM) | set_of(Area::V);
+inline constexpr Areas kMemory = kInputs | kOutputs | kSegments | set_of(Area::M) | set_of(Area::SM) | set_of(Area::V) | kLocal;
 inline constexpr Areas kMemoryTC = kMemory | kTimers | kCounters;                                       // bits, words
 inline constexpr Areas kValue = kMemory | set_of(Area::AC), kWordValue = kMemoryTC | set_of(Area::AC);  // others, words
 inline constexpr Areas kReadWord = kWordValue | kAnalogInputs, kWriteWord = kWordValue | kAnalogOutputs;
+inline constexpr Areas kSent = kMemory & ~kLocal;  // by XMT, long after its routine has ended
 inline constexpr Areas kReadDword = kValue | set_of(Area::HC);
 
 inline constexpr std::int64_t kLargestByte = 255;
@@ -124,7 +126,7 @@ inline constexpr OperandRule
     // Its length, the number of its entries, and at least one of them; FND is given the number of entries and what follows it.
     kTable   {.name = "TBL", .width = Width::Word, .role = Role::InOut, .areas = kMemoryTC, .pointer = true, .elements = 3},
     kEntries {.name = "SRC", .width = Width::Word,                      .areas = kMemoryTC, .pointer = true},
-    kMessage {.name = "TBL", .width = Width::Byte,                      .areas = kMemory,   .pointer = true},
+    kMessage {.name = "TBL", .width = Width::Byte,                      .areas = kSent,     .pointer = true},
     kClockIn {.name = "T",   .width = Width::Byte,                      .areas = kMemory,   .pointer = true, .elements = 8},
     kClockOut{.name = "T",   .width = Width::Byte, .role = Role::Out,   .areas = kMemory,   .pointer = true, .elements = 8};
 

@@ -28,7 +28,9 @@ using namespace operands;
 using enum Join;
 using enum Relation;
 
-constexpr std::uint8_t kNotInInterrupt = kMain | kSubroutine;
+constexpr Allowed kNotInInterrupt(kMain | kSubroutine);
+constexpr Allowed kInterrupt22x(kMain | kSubroutine, kCpu22x);
+constexpr Allowed kInterruptR2(kMain | kSubroutine, kCpu22xRelease2);
 
 struct Group {
   std::string_view heading;
@@ -223,9 +225,9 @@ constexpr Instruction kShiftAndRotate[] = {
 constexpr Instruction kProgramControl[] = {
     {.mnemonic = "JMP",  .operand = {kLabel},                       .rung = kBox,                                                .outside_segments = true, .structure = Structure::Jump,                                             .body = jump,                   .meaning = "go on at LBL n of the same routine"},
     {.mnemonic = "LBL",  .operand = {kLabel},                       .rung = kMark,                                                                         .structure = Structure::Label,                                            .body = no_operation,           .meaning = "place that JMP n goes to"},
-    {.mnemonic = "FOR",  .operand = {kLoopIndex, kInitial, kFinal}, .rung = kBox,  .cpus = kFrom214, .allowed = kNotInInterrupt, .outside_segments = true, .structure = Structure::For,                                              .body = begin_loop,             .meaning = "repeat up to NEXT with INDX from INIT to FINAL"},
-    {.mnemonic = "NEXT",                                            .rung = kMark, .cpus = kFrom214, .allowed = kNotInInterrupt, .outside_segments = true, .structure = Structure::Next,                                             .body = next_pass,              .meaning = "end of a FOR loop; leaves the top of the stack at 1"},
-    {.mnemonic = "CALL", .operand = {kSubroutineNumber},            .rung = kBox,                    .allowed = kNotInInterrupt,                           .structure = Structure::Call,                                             .body = call,                   .meaning = "call subroutine n"},
+    {.mnemonic = "FOR",  .operand = {kLoopIndex, kInitial, kFinal}, .rung = kBox,  .cpus = kFrom214, .allowed = kInterrupt22x,   .outside_segments = true, .structure = Structure::For,                                              .body = begin_loop,             .meaning = "repeat up to NEXT with INDX from INIT to FINAL"},
+    {.mnemonic = "NEXT",                                            .rung = kMark, .cpus = kFrom214, .allowed = kInterrupt22x,   .outside_segments = true, .structure = Structure::Next,                                             .body = next_pass,              .meaning = "end of a FOR loop; leaves the top of the stack at 1"},
+    {.mnemonic = "CALL", .operand = {kSubroutineNumber},            .rung = kBox,                    .allowed = kInterrupt22x,                             .structure = Structure::Call,                                             .body = call,                   .meaning = "call subroutine n"},
     {.mnemonic = "SBR",  .operand = {kSubroutineNumber},            .rung = kMark,                                                                         .structure = Structure::SubroutineHead,                                   .body = no_operation,           .meaning = "head of subroutine n"},
     {.mnemonic = "RET",                                             .rung = kMark,                   .allowed = kSubroutine,                               .structure = Structure::SubroutineEnd,                                    .body = return_from_subroutine, .meaning = "end of a subroutine"},
     {.mnemonic = "CRET",                                            .rung = kBox,                    .allowed = kSubroutine,                                                                       .effect = Effect::ConditionalEnd, .body = return_from_subroutine, .meaning = "return from a subroutine"},
@@ -290,9 +292,9 @@ constexpr Instruction kTables[] = {
 };
 
 constexpr Instruction kSequenceControl[] = {
-    {.mnemonic = "LSCR", .operand = {kSegmentIn},  .rung = kSegmentHead, .allowed = kNotInInterrupt, .structure = Structure::SegmentBegin,                                    .body = begin_segment,      .meaning = "start of a segment whose contacts have power while the S bit is 1"},
-    {.mnemonic = "SCRT", .operand = {kSegmentOut}, .rung = kBox,         .allowed = kNotInInterrupt, .structure = Structure::SegmentTransition, .hidden = Hidden::SegmentBit, .body = segment_transition, .meaning = "go over to the segment of the S bit"},
-    {.mnemonic = "SCRE",                           .rung = kMark,        .allowed = kNotInInterrupt, .structure = Structure::SegmentEnd,                                      .body = end_segment,        .meaning = "end of a segment"},
+    {.mnemonic = "LSCR", .operand = {kSegmentIn},  .rung = kSegmentHead, .allowed = kInterruptR2,    .structure = Structure::SegmentBegin,                                    .body = begin_segment,      .meaning = "start of a segment whose contacts have power while the S bit is 1"},
+    {.mnemonic = "SCRT", .operand = {kSegmentOut}, .rung = kBox,         .allowed = kInterruptR2,    .structure = Structure::SegmentTransition, .hidden = Hidden::SegmentBit, .body = segment_transition, .meaning = "go over to the segment of the S bit"},
+    {.mnemonic = "SCRE",                           .rung = kMark,        .allowed = kInterruptR2,    .structure = Structure::SegmentEnd,                                      .body = end_segment,        .meaning = "end of a segment"},
 };
 
 constexpr Instruction kPeripherals[] = {

@@ -20,6 +20,7 @@ static constexpr std::array<AreaInfo, kAreas> kAreaTable{{
     {Area::HC, "HC", image::kHC, kNoBits, 4, {}, "high-speed counters"},
     {Area::AC, "AC", image::kAC, kNoBits, 4, {}, "accumulators"},
     {Area::V, "V", image::kV, image::kV, 0, 0x08, "variable memory"},
+    {Area::L, "L", image::kL, image::kL, 0, {}, "local memory of a routine"},
 }};
 
 const std::array<AreaInfo, kAreas>& all_areas() { return kAreaTable; }

@@ -11,8 +11,8 @@
 
 namespace s7200 {
 
-enum class Area : std::uint8_t { I, Q, M, SM, S, AI, AQ, T, C, HC, AC, V };
-inline constexpr std::size_t kAreas = 12;
+enum class Area : std::uint8_t { I, Q, M, SM, S, AI, AQ, T, C, HC, AC, V, L };
+inline constexpr std::size_t kAreas = 13;
 
 /// A set of areas, as the operand rules of the instruction table use it.
 using Areas = std::uint16_t;
@@ -42,7 +42,8 @@ inline constexpr std::uint32_t kInputs = kCBits + 32;    // 16: the input points
 inline constexpr std::uint32_t kOutputs = kInputs + 16;  // 16: the output points themselves
 inline constexpr std::uint32_t kEdges = kOutputs + 16;   // 512: one memory bit for each EU and ED
 inline constexpr std::uint32_t kV = kEdges + 512;        // 10240
-inline constexpr std::uint32_t kConstants = kV + 10240;  // the program's constants
+inline constexpr std::uint32_t kL = kV + 10240;          // 64: local memory of the routine that runs
+inline constexpr std::uint32_t kConstants = kL + 64;     // the program's constants
 inline constexpr std::uint32_t kSize = 20 * 1024;
 
 inline constexpr std::uint32_t kPointBytes = 16;  // of input points, of output points, and of their images

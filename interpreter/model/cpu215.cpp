@@ -26,6 +26,7 @@ const CpuModel& cpu215() {
       .shortest_timed_interval = 5 * kMillisecond,
       .call_depth = 8,
       .for_depth = 8,
+      .interrupt_call_depth = 0,
       .watchdog = 300 * kMillisecond,
       .integer_overflow = IntegerOverflow::Wrap,
       .times_csv = {embedded::kCpu214Times, embedded::kCpu215Times},

@@ -2,59 +2,81 @@
 
 #include <algorithm>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/model/events.hpp"
 
 namespace s7200 {
 
 std::string to_text(CpuSet cpus) {
-  static constexpr std::pair<CpuSet, std::string_view> kNames[] = {
-      {kCpu212, "212"}, {kCpu214, "214"}, {kCpu215, "215"}, {kCpu216, "216"}, {kCpu22x, "22x"}};
+  static constexpr std::pair<CpuSet, std::string_view> kNames[] = {{kCpu212, "212"},
+                                                                   {kCpu214, "214"},
+                                                                   {kCpu215, "215"},
+                                                                   {kCpu216, "216"},
+                                                                   {kCpu22x, "22x"},
+                                                                   {kCpu22xRelease2, "22x of release 2"},
+                                                                   {kCpu22xRelease1, "22x of release 1"},
+                                                                   {kCpu221, "221"},
+                                                                   {kCpu222, "222"},
+                                                                   {kCpu224, "224"},
+                                                                   {kCpu224xp, "224XP"},
+                                                                   {kCpu226, "226"},
+                                                                   {kCpu221r1, "221r1"},
+                                                                   {kCpu222r1, "222r1"},
+                                                                   {kCpu224r1, "224r1"},
+                                                                   {kCpu226r1, "226r1"},
+                                                                   {kCpu226xm, "226XM"}};
   std::vector<std::string_view> names;
-  for (const auto& [cpu, name] : kNames)
-    if (cpus & cpu) names.push_back(name);
+  for (const auto& [set, name] : kNames) {
+    if ((cpus & set) != set) continue;
+    names.push_back(name);
+    cpus = static_cast<CpuSet>(cpus & ~set);
+  }
   std::string text = "CPU ";
   for (std::size_t i = 0; i < names.size(); ++i)
     text.append(i == 0 ? "" : i + 1 == names.size() ? " or " : ", ").append(names[i]);
   return text;
 }
 
-// Facts 3.1. The order inside a group is that of the 21x list; events that only 22x CPUs have come after it.
+/// HSC1 and HSC2: not on the CPUs 221 and 222.
+constexpr CpuSet kHasCounters12 = (kCpu21x & ~kCpu212) | kFrom224;
+
+// Facts 3.1 and 10.2. In the order of the 21x list the events that only 22x CPUs have come last.
 const std::vector<InterruptEvent>& all_events() {
   static const std::vector<InterruptEvent> kTable{
-      {event::kI00Rises, Queue::Io, 0, kEveryCpu, "rising edge of I0.0"},
-      {event::kI00Falls, Queue::Io, 4, kEveryCpu, "falling edge of I0.0"},
-      {event::kI01Rises, Queue::Io, 1, kFrom214, "rising edge of I0.1"},
-      {event::kI01Falls, Queue::Io, 5, kFrom214, "falling edge of I0.1"},
-      {event::kI02Rises, Queue::Io, 2, kFrom214, "rising edge of I0.2"},
-      {event::kI02Falls, Queue::Io, 6, kFrom214, "falling edge of I0.2"},
-      {event::kI03Rises, Queue::Io, 3, kFrom214, "rising edge of I0.3"},
-      {event::kI03Falls, Queue::Io, 7, kFrom214, "falling edge of I0.3"},
-      {event::kPort0Received, Queue::Communication, 0, kEveryCpu, "port 0: character received"},
-      {event::kPort0Sent, Queue::Communication, 1, kEveryCpu, "port 0: transmit complete"},
-      {event::kTimed0, Queue::Timed, 0, kEveryCpu, "timed interrupt 0, SMB34"},
-      {event::kTimed1, Queue::Timed, 1, kFrom214, "timed interrupt 1, SMB35"},
-      {event::kCounter0Reached, Queue::Io, 0, kEveryCpu, "HSC0: current value = preset value"},
-      {event::kCounter1Reached, Queue::Io, 9, kFrom214, "HSC1: current value = preset value"},
-      {event::kCounter1Turned, Queue::Io, 10, kFrom214, "HSC1: direction changed"},
-      {event::kCounter1Reset, Queue::Io, 11, kFrom214, "HSC1: external reset"},
-      {event::kCounter2Reached, Queue::Io, 12, kFrom214, "HSC2: current value = preset value"},
-      {event::kCounter2Turned, Queue::Io, 13, kFrom214, "HSC2: direction changed"},
-      {event::kCounter2Reset, Queue::Io, 14, kFrom214, "HSC2: external reset"},
-      {event::kPulses0Complete, Queue::Io, 15, kFrom214, "PLS0: pulse count complete"},
-      {event::kPulses1Complete, Queue::Io, 16, kFrom214, "PLS1: pulse count complete"},
-      {event::kT32Reached, Queue::Timed, 2, kFrom215, "timer T32: current value = preset value"},
-      {event::kT96Reached, Queue::Timed, 3, kFrom215, "timer T96: current value = preset value"},
-      {event::kPort0Message, Queue::Communication, 2, kFrom215, "port 0: message received", false},
-      {event::kPort1Message, Queue::Communication, 3, kCpu216 | kCpu22x, "port 1: message received", false},
-      {event::kPort1Received, Queue::Communication, 4, kCpu216 | kCpu22x, "port 1: character received", false},
-      {event::kPort1Sent, Queue::Communication, 5, kCpu216 | kCpu22x, "port 1: transmit complete", false},
-      {event::kCounter0Turned, Queue::Io, 17, kCpu22x, "HSC0: direction changed", false},
-      {event::kCounter0Reset, Queue::Io, 18, kCpu22x, "HSC0: external reset", false},
-      {event::kCounter4Reached, Queue::Io, 19, kCpu22x, "HSC4: current value = preset value", false},
-      {event::kCounter4Turned, Queue::Io, 20, kCpu22x, "HSC4: direction changed", false},
-      {event::kCounter4Reset, Queue::Io, 21, kCpu22x, "HSC4: external reset", false},
-      {event::kCounter3Reached, Queue::Io, 22, kCpu22x, "HSC3: current value = preset value", false},
-      {event::kCounter5Reached, Queue::Io, 23, kCpu22x, "HSC5: current value = preset value", false},
+      {event::kI00Rises, Queue::Io, 0, 2, kEveryCpu, "rising edge of I0.0"},
+      {event::kI00Falls, Queue::Io, 4, 6, kEveryCpu, "falling edge of I0.0"},
+      {event::kI01Rises, Queue::Io, 1, 3, kFrom214, "rising edge of I0.1"},
+      {event::kI01Falls, Queue::Io, 5, 7, kFrom214, "falling edge of I0.1"},
+      {event::kI02Rises, Queue::Io, 2, 4, kFrom214, "rising edge of I0.2"},
+      {event::kI02Falls, Queue::Io, 6, 8, kFrom214, "falling edge of I0.2"},
+      {event::kI03Rises, Queue::Io, 3, 5, kFrom214, "rising edge of I0.3"},
+      {event::kI03Falls, Queue::Io, 7, 9, kFrom214, "falling edge of I0.3"},
+      {event::kPort0Received, Queue::Communication, 0, 0, kEveryCpu, "port 0: character received"},
+      {event::kPort0Sent, Queue::Communication, 1, 1, kEveryCpu, "port 0: transmit complete"},
+      {event::kTimed0, Queue::Timed, 0, 0, kEveryCpu, "timed interrupt 0, SMB34"},
+      {event::kTimed1, Queue::Timed, 1, 1, kFrom214, "timed interrupt 1, SMB35"},
+      {event::kCounter0Reached, Queue::Io, 0, 10, kEveryCpu, "HSC0: current value = preset value"},
+      {event::kCounter1Reached, Queue::Io, 9, 13, kHasCounters12, "HSC1: current value = preset value"},
+      {event::kCounter1Turned, Queue::Io, 10, 14, kHasCounters12, "HSC1: direction changed"},
+      {event::kCounter1Reset, Queue::Io, 11, 15, kHasCounters12, "HSC1: external reset"},
+      {event::kCounter2Reached, Queue::Io, 12, 16, kHasCounters12, "HSC2: current value = preset value"},
+      {event::kCounter2Turned, Queue::Io, 13, 17, kHasCounters12, "HSC2: direction changed"},
+      {event::kCounter2Reset, Queue::Io, 14, 18, kHasCounters12, "HSC2: external reset"},
+      {event::kPulses0Complete, Queue::Io, 15, 0, kFrom214, "PLS0: pulse count complete"},
+      {event::kPulses1Complete, Queue::Io, 16, 1, kFrom214, "PLS1: pulse count complete"},
+      {event::kT32Reached, Queue::Timed, 2, 2, kFrom215, "timer T32: current value = preset value"},
+      {event::kT96Reached, Queue::Timed, 3, 3, kFrom215, "timer T96: current value = preset value"},
+      {event::kPort0Message, Queue::Communication, 2, 2, kFrom215, "port 0: message received", false},
+      {event::kPort1Message, Queue::Communication, 3, 3, kTwoPorts, "port 1: message received", false},
+      {event::kPort1Received, Queue::Communication, 4, 4, kTwoPorts, "port 1: character received", false},
+      {event::kPort1Sent, Queue::Communication, 5, 5, kTwoPorts, "port 1: transmit complete", false},
+      {event::kCounter0Turned, Queue::Io, 17, 11, kCpu22x, "HSC0: direction changed", false},
+      {event::kCounter0Reset, Queue::Io, 18, 12, kCpu22x, "HSC0: external reset", false},
+      {event::kCounter4Reached, Queue::Io, 19, 20, kCpu22x, "HSC4: current value = preset value", false},
+      {event::kCounter4Turned, Queue::Io, 20, 21, kCpu22x, "HSC4: direction changed", false},
+      {event::kCounter4Reset, Queue::Io, 21, 22, kCpu22x, "HSC4: external reset", false},
+      {event::kCounter3Reached, Queue::Io, 22, 19, kCpu22x, "HSC3: current value = preset value", false},
+      {event::kCounter5Reached, Queue::Io, 23, 23, kCpu22x, "HSC5: current value = preset value", false},
   };
   return kTable;
 }
@@ -71,7 +93,7 @@ TimerBase timer_base(std::uint32_t number) {
   return {base, n < 32};
 }
 
-// Facts 4.3–4.5 and 2.1.
+// Facts 4.3–4.5, 2.1 and 10.5.
 const std::vector<SpecialMemory>& special_memory() {
   static const std::vector<SpecialMemory> kTable{
       {0, 0, true, "scan status: always 1, first scan, clocks, mode switch"},
@@ -91,21 +113,30 @@ const std::vector<SpecialMemory>& special_memory() {
       {36, 65, true, "high-speed counters"},
       {66, 85, true, "pulse outputs"},
       {86, 94, false, "receive message, port 0"},
-      {95, 129, false, "reserved"},
+      {95, 97, false, "reserved"},
+      {98, 99, false, "parity errors on the I/O bus"},
+      {100, 129, false, "reserved"},
       {130, 130, false, "Freeport: control of port 1"},
-      {131, 185, false, "reserved"},
+      {131, 135, false, "reserved"},
+      {136, 165, false, "high-speed counters HSC3 to HSC5"},
+      {166, 185, false, "pulse outputs: profile tables"},
       {186, 194, false, "receive message, port 1"},
+      {195, 199, false, "reserved"},
+      {200, 549, false, "intelligent modules"},
   };
   return kTable;
 }
 
 const std::vector<const CpuModel*>& all_cpus() {
-  static const std::vector<const CpuModel*> kModels{&cpu212(), &cpu214(), &cpu215(), &cpu216()};
+  static const std::vector<const CpuModel*> kModels{&cpu212(),   &cpu214(),   &cpu215(),   &cpu216(),   &cpu221r1(),
+                                                    &cpu222r1(), &cpu224r1(), &cpu226r1(), &cpu226xm(), &cpu221(),
+                                                    &cpu222(),   &cpu224(),   &cpu224xp(), &cpu226()};
   return kModels;
 }
 
 const CpuModel* find_cpu(std::string_view name) {
-  const auto found = std::find_if(all_cpus().begin(), all_cpus().end(), [&](const CpuModel* m) { return m->name == name; });
+  const auto found = std::find_if(all_cpus().begin(), all_cpus().end(),
+                                  [&](const CpuModel* m) { return stl::upper_case(m->name) == stl::upper_case(name); });
   return found == all_cpus().end() ? nullptr : *found;
 }
 

@@ -13,12 +13,21 @@
 namespace s7200 {
 
 /// A set of CPU types. Each instruction has the set of CPUs that know it, so that a message can say which CPU it needs.
-using CpuSet = std::uint8_t;
-inline constexpr CpuSet kCpu212 = 1, kCpu214 = 2, kCpu215 = 4, kCpu216 = 8;
-inline constexpr CpuSet kCpu21x = 15, kCpu22x = 16, kEveryCpu = 31;
+using CpuSet = std::uint16_t;
+inline constexpr CpuSet kCpu212 = 0x001, kCpu214 = 0x002, kCpu215 = 0x004, kCpu216 = 0x008;
+// Of release 1, 2000 to 2003: 6ES7 21x-xxx21 and -xxx22, and the 226XM.
+inline constexpr CpuSet kCpu221r1 = 0x010, kCpu222r1 = 0x020, kCpu224r1 = 0x040, kCpu226r1 = 0x080, kCpu226xm = 0x100;
+// Of release 2, from 2004 on: 6ES7 21x-xxx23.
+inline constexpr CpuSet kCpu221 = 0x200, kCpu222 = 0x400, kCpu224 = 0x800, kCpu224xp = 0x1000, kCpu226 = 0x2000;
+inline constexpr CpuSet kCpu21x = kCpu212 | kCpu214 | kCpu215 | kCpu216;
+inline constexpr CpuSet kCpu22xRelease1 = kCpu221r1 | kCpu222r1 | kCpu224r1 | kCpu226r1 | kCpu226xm;
+inline constexpr CpuSet kCpu22xRelease2 = kCpu221 | kCpu222 | kCpu224 | kCpu224xp | kCpu226;
+inline constexpr CpuSet kCpu22x = kCpu22xRelease1 | kCpu22xRelease2, kEveryCpu = kCpu21x | kCpu22x;
 inline constexpr CpuSet kFrom214 = kEveryCpu & ~kCpu212, kFrom215 = kCpu215 | kCpu216 | kCpu22x;
+inline constexpr CpuSet kFrom224 = kCpu22x & ~(kCpu221r1 | kCpu222r1 | kCpu221 | kCpu222);
+inline constexpr CpuSet kTwoPorts = kCpu216 | kCpu226r1 | kCpu226xm | kCpu224xp | kCpu226;
 
-/// "CPU 214, 215, 216 or 22x"
+/// "CPU 214, 215, 216 or 22x"; "CPU 22x of release 2"
 std::string to_text(CpuSet cpus);
 
 /// The three interrupt queues, in order of priority (S7-200 manual C230-02, 10-120).
@@ -28,10 +37,12 @@ inline constexpr std::size_t kQueues = 3;
 struct InterruptEvent {
   std::uint8_t number;
   Queue queue;
-  std::uint8_t order;  ///< inside its queue, if several occur at the same instant
+  std::uint8_t order_21x, order_22x;  ///< inside its queue, if several occur at the same instant
   CpuSet cpus;
   std::string_view cause;
   bool modelled = true;
+
+  std::uint8_t order(CpuSet cpu) const { return cpu & kCpu22x ? order_22x : order_21x; }
 };
 
 /// All events of the family.
@@ -59,7 +70,7 @@ enum class IntegerOverflow : std::uint8_t {
 struct CpuModel {
   std::string_view name;  ///< "214"
   CpuSet self;
-  std::array<std::uint32_t, kAreas> size;         ///< bytes, or elements of T, C, HC and AC; by Area
+  std::array<std::uint32_t, kAreas> size;         ///< bytes, or elements of T, C, HC and AC; by Area; 0: it has none
   std::uint32_t labels, subroutines, interrupts;  ///< how many there are, numbered from 0
   std::uint32_t ports;
   std::uint32_t program_words;
@@ -70,6 +81,7 @@ struct CpuModel {
   std::uint8_t identification;                ///< SMB6
   Time shortest_timed_interval;               ///< of SMB34 and SMB35
   std::uint32_t call_depth, for_depth;        ///< nesting of subroutines and of FOR loops
+  std::uint32_t interrupt_call_depth;         ///< nesting of subroutines in an interrupt routine
   Time watchdog;                              ///< longest scan
   IntegerOverflow integer_overflow;           ///< of +I, -I, +D, -D and DIV
   std::array<std::string_view, 2> times_csv;  ///< execution times, in the format of model/times.hpp; the second may be empty
@@ -86,7 +98,7 @@ TimerBase timer_base(std::uint32_t number);
 
 /// The bytes of special memory that a program may use, and whether the simulator does what they say.
 struct SpecialMemory {
-  std::uint8_t first, last;  ///< SMB numbers
+  std::uint16_t first, last;  ///< SMB numbers
   bool modelled;
   std::string_view meaning;
 };
@@ -99,11 +111,22 @@ const CpuModel& cpu212();
 const CpuModel& cpu214();
 const CpuModel& cpu215();
 const CpuModel& cpu216();
+const CpuModel& cpu221();
+const CpuModel& cpu222();
+const CpuModel& cpu224();
+const CpuModel& cpu224xp();
+const CpuModel& cpu226();
+// Of release 1.
+const CpuModel& cpu221r1();
+const CpuModel& cpu222r1();
+const CpuModel& cpu224r1();
+const CpuModel& cpu226r1();
+const CpuModel& cpu226xm();
 
 /// From the smallest to the largest.
 const std::vector<const CpuModel*>& all_cpus();
 
-/// Null if the simulator has no model of that name.
+/// `224XP` or `224xp`. Null if the simulator has no model of that name.
 const CpuModel* find_cpu(std::string_view name);
 
 }  // namespace s7200

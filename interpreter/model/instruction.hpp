@@ -71,6 +71,16 @@ struct OperandRule {
 /// Where an instruction may be used.
 enum Part : std::uint8_t { kMain = 1, kSubroutine = 2, kInterrupt = 4, kAnywhere = 7 };
 
+struct Allowed {
+  constexpr Allowed(std::uint8_t in = kAnywhere, CpuSet anywhere = 0) : parts(in), anywhere_on(anywhere) {}
+
+  std::uint8_t parts;  ///< Parts
+  CpuSet anywhere_on;  ///< CPUs that allow it in any part
+
+  constexpr std::uint8_t on(CpuSet cpu) const { return anywhere_on & cpu ? std::uint8_t{kAnywhere} : parts; }
+  bool operator==(const Allowed&) const = default;
+};
+
 /// What an instruction means for the structure of the program.
 enum class Structure : std::uint8_t {
   None,
@@ -148,8 +158,8 @@ struct Instruction {
   Rung rung{};
   std::uint8_t flags = 0;  ///< SM1 bits that it sets and resets
   CpuSet cpus = kEveryCpu;
-  std::uint8_t allowed = kAnywhere;  ///< Parts, on 21x CPUs
-  bool outside_segments = false;     ///< not allowed between LSCR and SCRE
+  Allowed allowed{};
+  bool outside_segments = false;  ///< not allowed between LSCR and SCRE
   Structure structure = Structure::None;
   Hidden hidden = Hidden::None;
   Effect effect = Effect::None;

@@ -90,8 +90,9 @@ std::string read_row(std::string_view line, TimeRow& row) {
   row.per_unit = *per_unit;
   row.unit = field[4];
   row.marker = field[5];
-  if (row.marker != "manual" && row.marker != "estimate" && row.marker != "calibrated")
-    return fmt::format("'{}' is not a marker; write manual, estimate or calibrated", stl::shortened(row.marker));
+  static constexpr std::string_view kMarkers[] = {"manual", "estimate", "calibrated", "remembered"};
+  if (std::ranges::find(kMarkers, row.marker) == std::end(kMarkers))
+    return fmt::format("'{}' is not a marker; there are {}", stl::shortened(row.marker), fmt::join(kMarkers, ", "));
   row.source = field.size() > 6 ? field[6] : "";
   if (row.base == 0 && !may_be_free(row)) return fmt::format("{}: an execution time must be above 0", field[0]);
   return {};
@@ -112,6 +113,8 @@ std::string_view name_of(SystemTime what) {
       return "(no power flow)";
     case SystemTime::IndirectOperand:
       return "(indirect operand)";
+    case SystemTime::OperandArea:
+      return "(operand area adds)";
     case SystemTime::InterruptEntry:
       return "(interrupt entry)";
     case SystemTime::ScanOverhead:
@@ -165,6 +168,16 @@ std::optional<Cost> TimeTable::cost(std::string_view mnemonic, std::optional<Are
 }
 
 Time TimeTable::operator[](SystemTime what) const { return cost(name_of(what), {}).value_or(Cost{}).base; }
+
+Time TimeTable::added_by(std::string_view mnemonic, std::span<const std::optional<Area>> operands) const {
+  Time sum = 0;
+  for (std::size_t i = 0; i < operands.size(); ++i) {
+    if (!operands[i]) continue;
+    const TimeRow* own = i == 0 ? find(mnemonic, operands[i]) : nullptr;
+    if (!own || own->areas == 0) sum += cost(name_of(SystemTime::OperandArea), operands[i]).value_or(Cost{}).base;
+  }
+  return sum;
+}
 
 std::string in_microseconds(Time time) { return fmt::format("{:g}", static_cast<double>(time) / 1000); }
 

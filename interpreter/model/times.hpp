@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,7 +19,8 @@ namespace s7200 {
 ///
 /// `mnemonic`: one or more, separated by blanks, all with the same time; or a name of a SystemTime, which is in brackets.
 /// A trailing `(and A O)` adds the A and O forms of each LD form. `form`: the areas of the first operand for which the line
-/// holds, or any words that say what the figure means. `marker`: manual, estimate or calibrated. `source` may be left out.
+/// holds, or any words that say what the figure means. `marker`: manual, estimate, calibrated, or remembered
+/// (from the manual, but not read there again). `source` may be left out.
 struct TimeRow {
   std::vector<std::string> mnemonics;
   std::string form;
@@ -33,8 +35,9 @@ struct Cost {
   Time per_unit = 0;
 };
 
-/// What takes time without being an instruction; the tables use these names.
-enum class SystemTime { NoPowerFlow, IndirectOperand, InterruptEntry, ScanOverhead, EepromSave };
+/// What takes time without being an instruction; the tables use these names. OperandArea: what an operand in the areas of
+/// the line adds, unless it is the first one and the instruction has a line for its area.
+enum class SystemTime { NoPowerFlow, IndirectOperand, OperandArea, InterruptEntry, ScanOverhead, EepromSave };
 std::string_view name_of(SystemTime what);
 
 class TimeTable {
@@ -50,6 +53,9 @@ class TimeTable {
 
   /// 0 if no line gives it.
   Time operator[](SystemTime what) const;
+
+  /// What operands in these areas add to the basic time, in the order of the operands.
+  Time added_by(std::string_view mnemonic, std::span<const std::optional<Area>> operands) const;
 
   const std::vector<TimeRow>& rows() const { return rows_; }
 

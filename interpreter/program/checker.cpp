@@ -228,6 +228,8 @@ class Checker {
       program->ops.push_back(decode(i, structure));
       note_timer(program->ops.back(), *program);
       note_reals(placed_[i], program->ops.back(), *program);
+      program->uses_local_memory |=
+          std::ranges::any_of(placed_[i], [](const PlacedOperand& placed) { return placed.area == Area::L; });
     }
     std::sort(program->reals.begin(), program->reals.end());
     program->constants = constants_.bytes();
@@ -324,7 +326,9 @@ class Checker {
     const auto cost = times_.cost(op.instruction->mnemonic, placed[0].area);
     assert(cost && "the table of times has a line for every instruction");
     const auto pointers = std::count_if(op.operand.begin(), op.operand.end(), [](const Operand& o) { return o.pointer; });
-    op.cost = static_cast<std::int32_t>(cost->base + pointers * times_[SystemTime::IndirectOperand]);
+    const std::array<std::optional<Area>, 3> areas{placed[0].area, placed[1].area, placed[2].area};
+    op.cost = static_cast<std::int32_t>(cost->base + pointers * times_[SystemTime::IndirectOperand] +
+                                        times_.added_by(op.instruction->mnemonic, areas));
     op.unit_cost = static_cast<std::int32_t>(cost->per_unit);
   }
 

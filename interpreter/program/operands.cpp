@@ -50,16 +50,16 @@ std::string_view letter_of(Width width) {
 
 bool is_numbered(Area area) { return info(area).element != 0; }
 
-std::string areas_text(const OperandRule& rule) {
+std::string areas_text(const OperandRule& rule, const CpuModel& model) {
   std::string text;
   const auto add = [&](std::string_view what) { text.append(text.empty() ? "" : ", ").append(what); };
   for (const AreaInfo& area : all_areas())
-    if (contains(rule.areas, area.area))
+    if (contains(rule.areas, area.area) && model.size_of(area.area) != 0)
       add(is_numbered(area.area) || area.area == Area::AI || area.area == Area::AQ
               ? std::string(area.name) + (area.element ? "" : "W")
               : std::string(area.name).append(letter_of(rule.width)));
   if (rule.constant) add("a constant");
-  if (rule.pointer) add("*VD, *AC");
+  if (rule.pointer) add(model.size_of(Area::L) != 0 ? "*VD, *LD, *AC" : "*VD, *AC");
   if (rule.address_of) add("&…");
   return text;
 }
@@ -99,7 +99,7 @@ class Placing {
 
   Result wrong_kind() {
     return error(fmt::format("{} cannot be {}", of_instruction(), text()),
-                 fmt::format("{} takes {}", of_instruction(), areas_text(rule_)));
+                 fmt::format("{} takes {}", of_instruction(), areas_text(rule_, model_)));
   }
 
   // --- numbers that are part of the instruction ---
@@ -215,7 +215,7 @@ class Placing {
 
   Result constant_refused() {
     return error(fmt::format("{} cannot be the constant {}", of_instruction(), text()),
-                 fmt::format("{} takes {}", of_instruction(), areas_text(rule_)));
+                 fmt::format("{} takes {}", of_instruction(), areas_text(rule_, model_)));
   }
 
   PlacedOperand pooled(std::uint32_t value) { return {{.at = constants_.place(value, width()), .width = width()}, {}, {}}; }
@@ -232,11 +232,13 @@ class Placing {
 
   std::optional<Area> known_area(const stl::Address& address, Width meant) {
     const auto area = area_named(address.area);
-    if (!area) {
+    if (!area || model_.size_of(*area) == 0) {
       error(fmt::format("CPU {} has no {} memory", model_.name, address.area),
-            address.area == "L" ? "local memory needs CPU 22x" : "", fmt::format("no {} memory", address.area));
+            address.area == "L" ? fmt::format("local memory needs {}", to_text(kCpu22x)) : "",
+            fmt::format("no {} memory", address.area));
+      return {};
     }
-    if (area && !names_width(address, *area)) {
+    if (!names_width(address, *area)) {
       error(fmt::format("{} does not say whether it is a byte, word or double word", text()),
             fmt::format("did you mean {}?", address_text(*area, meant, address.number, 0)));
       return {};
@@ -249,7 +251,7 @@ class Placing {
       return true;  // T33, C4: the timer or counter bit
     const auto width = width_of(address, area);
     if (!width || *width == rule_.width) return true;
-    std::string meant = fmt::format("{} takes {}", of_instruction(), areas_text(rule_));
+    std::string meant = fmt::format("{} takes {}", of_instruction(), areas_text(rule_, model_));
     if (!is_numbered(area) && area != Area::AI && area != Area::AQ)
       meant = fmt::format("did you mean {}?", address_text(area, rule_.width, address.number, 0));
     error(fmt::format("{} is a {}, {} is a {}", of_instruction(), name_of(rule_.width), text(), name_of(*width)), meant);
@@ -258,9 +260,11 @@ class Placing {
 
   Result area_refused(Area area) {
     if (rule_.role != Role::In && (area == Area::AI || area == Area::HC))
-      return error(fmt::format("{} is read-only", text()), fmt::format("{} takes {}", of_instruction(), areas_text(rule_)));
+      return error(fmt::format("{} is read-only", text()),
+                   fmt::format("{} takes {}", of_instruction(), areas_text(rule_, model_)));
     if (rule_.role != Role::Out && area == Area::AQ)
-      return error(fmt::format("{} is write-only", text()), fmt::format("{} takes {}", of_instruction(), areas_text(rule_)));
+      return error(fmt::format("{} is write-only", text()),
+                   fmt::format("{} takes {}", of_instruction(), areas_text(rule_, model_)));
     return wrong_kind();
   }
 
@@ -331,10 +335,11 @@ class Placing {
     if (!area) return {};
     const bool in_accumulator = *area == Area::AC && operand.pointer.size != stl::Size::Byte &&
                                 operand.pointer.size != stl::Size::Word && operand.pointer.size != stl::Size::Bit;
-    const bool in_memory = *area == Area::V && operand.pointer.size == stl::Size::Double;
+    const bool in_memory = (*area == Area::V || *area == Area::L) && operand.pointer.size == stl::Size::Double;
     if (!in_accumulator && !in_memory)
       return error(fmt::format("{} cannot hold a pointer", stl::to_text({operand.pointer, {}})),
-                   "a pointer is a double word of V memory (*VD100) or an accumulator (*AC1 to *AC3)");
+                   fmt::format("a pointer is a double word of V memory (*VD100){} or an accumulator (*AC1 to *AC3)",
+                               model_.size_of(Area::L) != 0 ? ", or of L memory," : ""));
     if (in_accumulator && operand.pointer.number == 0) return error("AC0 cannot hold a pointer", "use AC1, AC2 or AC3");
     if (!in_range(operand.pointer, *area, Width::Double)) return {};
     const AreaInfo& a = info(*area);

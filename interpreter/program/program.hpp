@@ -79,6 +79,7 @@ struct Program {
 
   std::vector<std::uint8_t> timers_1ms, timers_10ms;  ///< numbers of the timers that the program uses
   bool uses_timers = false;
+  bool uses_local_memory = false;
   std::array<Reach, kReaches> reach{};  ///< by the top byte of a pointer
   std::vector<std::uint32_t> reals;     ///< double words that some instruction uses as a real: places in the image, sorted
 

@@ -83,7 +83,7 @@ class StructureCheck {
         break;
     }
     if (ended_) return stray(i);
-    if (!(s.instruction->allowed & routine_.part)) return not_allowed(i);
+    if (!(s.instruction->allowed.on(model_.self) & routine_.part)) return not_allowed(i);
     if (segment_) {
       segment_of_[i] = *segment_;
       result_.in_segment[i] = true;
@@ -174,10 +174,11 @@ class StructureCheck {
                               : routine_.part == kSubroutine ? "a subroutine"
                                                              : "an interrupt routine";
     std::string hint;
-    if (instruction.allowed == kMain) hint = "it belongs to the main program";
-    if (instruction.allowed == kSubroutine) hint = "it belongs to a subroutine";
-    if (instruction.allowed == (kMain | kSubroutine)) hint = "let the routine set a bit and the main program act on it";
-    if (instruction.allowed == kInterrupt) hint = "it belongs to an interrupt routine";
+    const std::uint8_t allowed = instruction.allowed.on(model_.self);
+    if (allowed == kMain) hint = "it belongs to the main program";
+    if (allowed == kSubroutine) hint = "it belongs to a subroutine";
+    if (allowed == (kMain | kSubroutine)) hint = "let the routine set a bit and the main program act on it";
+    if (allowed == kInterrupt) hint = "it belongs to an interrupt routine";
     if (instruction.structure == Structure::MainEnd && routine_.part != kMain)
       hint = fmt::format("{} ends with {}", routine_text(routine_.part, routine_.number), end_of(routine_.part));
     error(position(i), fmt::format("{} is not allowed in {}", instruction.mnemonic, where), hint);

@@ -116,7 +116,7 @@ void Generator::rung(std::uint8_t part, const std::string& last) {
   for (std::size_t i = last.empty() ? 1 + below(4) : below(3); i > 0;) {
     const auto& instruction = *one_of(outputs_);
     const bool unlikely = is_rare(instruction) && !chance(8);
-    const bool allowed = (instruction.allowed & part) && !(in_segment_ && instruction.outside_segments);
+    const bool allowed = (instruction.allowed.parts & part) && !(in_segment_ && instruction.outside_segments);
     if (unlikely || depth < instruction.rung.stack.needs || !allowed) continue;
     line(statement(instruction));
     depth += instruction.rung.stack.change;

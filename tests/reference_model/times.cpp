@@ -24,7 +24,7 @@ std::int64_t nanoseconds(const std::string& microseconds) {
 
 /// The areas that a form names; empty if it contains anything else.
 std::set<std::string> areas_of(const std::string& form) {
-  static const std::set<std::string> kAreas{"I", "Q", "M", "SM", "S", "V", "T", "C", "AI", "AQ", "HC", "AC"};
+  static const std::set<std::string> kAreas{"I", "Q", "M", "SM", "S", "V", "T", "C", "AI", "AQ", "HC", "AC", "L"};
   const std::set<std::string> named = words(form);
   for (const std::string& word : named)
     if (!kAreas.contains(word)) return {};

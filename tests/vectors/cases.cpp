@@ -139,7 +139,7 @@ std::vector<Form> forms_of(const OperandRule& rule) {
   std::vector<Form> forms;
   if (rule.kind != OperandKind::Memory) return forms;
   for (const AreaInfo& area : all_areas())
-    if (contains(rule.areas, area.area)) forms.push_back({Form::Direct, area.area});
+    if (contains(rule.areas, area.area) && cpu214().size_of(area.area) != 0) forms.push_back({Form::Direct, area.area});
   if (rule.constant) forms.push_back({Form::Constant});
   if (rule.address_of) forms.push_back({Form::AddressOf});
   if (rule.pointer) forms.push_back({Form::PointerInV});

@@ -81,7 +81,7 @@ int run_instructions(const InstructionsOptions& options) {
     chosen.push_back(*instruction);
   }
   if (options.markdown) {
-    fmt::print("{}", reference_page(default_times(*all_cpus().back())));
+    fmt::print("{}", reference_page());
   } else if (options.json) {
     auto results = results_of("instructions");
     results["cpu"] = model->name;

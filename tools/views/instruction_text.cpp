@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "interpreter/program/operands.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/checker.hpp"
+#include "interpreter/program/operands.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -87,14 +88,19 @@ std::vector<const TimeRow*> times_of(const TimeTable& times, const Instruction& 
   return rows;
 }
 
-std::string markdown_row(const Instruction& instruction, const TimeTable& times) {
+std::string time_column(const Instruction& instruction, const TimeTable& times) {
+  const TimeRow* row = typical_time(times, instruction);
+  return row ? time_text(*row) : "";
+}
+
+std::string markdown_row(const Instruction& instruction, const TimeTable& of_21x, const TimeTable& of_22x) {
   std::vector<std::string> operands;
   for (const OperandRule& rule : instruction.rules())
     operands.push_back(fmt::format("**{}**: {}", rule.name, operand_text(rule)));
-  const TimeRow* row = typical_time(times, instruction);
-  return fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", syntax(instruction), instruction.meaning,
+  return fmt::format("| `{}` | {} | {} | {} | {} | {} | {} | {} |\n", syntax(instruction), instruction.meaning,
                      fmt::join(operands, "<br>"), flags_text(instruction), instruction.rung.needs_power_flow ? "needed" : "",
-                     row ? time_text(*row) : "", to_text(instruction.cpus));
+                     instruction.cpus & kCpu21x ? time_column(instruction, of_21x) : "",
+                     instruction.cpus & kCpu22x ? time_column(instruction, of_22x) : "", to_text(instruction.cpus));
 }
 
 std::string area_table() {
@@ -109,7 +115,7 @@ std::string area_table() {
     text += fmt::format("| {} ({}) |", area.name, area.meaning);
     for (const CpuModel* model : all_cpus()) {
       const Width width = area.area == Area::AI || area.area == Area::AQ ? Width::Word : Width::Byte;
-      text += fmt::format(" {} |", range_text(*model, area.area, width));
+      text += fmt::format(" {} |", model->size_of(area.area) == 0 ? "none" : range_text(*model, area.area, width));
     }
     text += '\n';
   }
@@ -137,13 +143,16 @@ std::string flags_text(const Instruction& instruction) {
 
 std::string parts_text(const Instruction& instruction) {
   std::vector<std::string_view> parts;
-  if (instruction.allowed == kAnywhere) {
+  const auto [in, anywhere_on] = instruction.allowed;
+  if (in == kAnywhere) {
     parts.push_back("anywhere");
   } else {
-    if (instruction.allowed & kMain) parts.push_back("main program");
-    if (instruction.allowed & kSubroutine) parts.push_back("subroutines");
-    if (instruction.allowed & kInterrupt) parts.push_back("interrupt routines");
+    if (in & kMain) parts.push_back("main program");
+    if (in & kSubroutine) parts.push_back("subroutines");
+    if (in & kInterrupt) parts.push_back("interrupt routines");
   }
+  std::string on_others;
+  if (anywhere_on) parts.push_back(on_others = fmt::format("anywhere on {}", to_text(anywhere_on)));
   if (instruction.outside_segments) parts.push_back("not between LSCR and SCRE");
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -154,7 +163,7 @@ std::string operand_text(const OperandRule& rule) {
   for (const AreaInfo& area : all_areas())
     if (contains(rule.areas, area.area)) names.push_back(area_text(area, rule.width));
   if (rule.constant) names.push_back(constant_text(rule));
-  if (rule.pointer) names.push_back("*VD *AC");
+  if (rule.pointer) names.push_back("*VD *LD *AC");
   if (rule.address_of) names.push_back("&address");
   return fmt::format("{}", fmt::join(names, " "));
 }
@@ -189,12 +198,14 @@ std::string explain(const Instruction& instruction, const TimeTable& times) {
   return text + fmt::format("  example     {}\n", example(instruction));
 }
 
-std::string reference_page(const TimeTable& times) {
+std::string reference_page() {
+  const TimeTable of_21x = default_times(cpu216()), of_22x = default_times(cpu226());
   std::string text =
       "# Instructions\n\n"
       "Made from the instruction table by `s7200 instructions --markdown`; a test compares the two.\n"
       "Times are in microseconds, with power flow and operands in V memory; `s7200 times` says where each comes from\n"
-      "(most are estimates). `s7200 instructions MNEMONIC` explains one with its ranges on each CPU.\n\n"
+      "(most are estimates, those of the CPUs 22x are of release 2 and mostly remembered). `s7200 instructions MNEMONIC` "
+      "explains one with its ranges on each CPU.\n\n"
       "## Memory areas\n\n" +
       area_table();
   std::string_view group;
@@ -202,13 +213,13 @@ std::string reference_page(const TimeTable& times) {
     if (instruction.group != group) {
       group = instruction.group;
       text += fmt::format(
-          "\n## {}\n\n| instruction | meaning | operands | SM1 flags | power flow | time | available "
-          "|\n|---|---|---|---|---|---|---|\n",
+          "\n## {}\n\n| instruction | meaning | operands | SM1 flags | power flow | 21x | 22x | available "
+          "|\n|---|---|---|---|---|---|---|---|\n",
           group);
     }
     text += instruction.modelled()
-                ? markdown_row(instruction, times)
-                : fmt::format("| `{}` | not modelled | | | | | {} |\n", instruction.mnemonic, to_text(instruction.cpus));
+                ? markdown_row(instruction, of_21x, of_22x)
+                : fmt::format("| `{}` | not modelled | | | | | | {} |\n", instruction.mnemonic, to_text(instruction.cpus));
   }
   return text;
 }

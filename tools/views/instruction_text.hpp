@@ -30,6 +30,6 @@ std::string example(const Instruction& instruction);
 std::string explain(const Instruction& instruction, const TimeTable& times);
 
 /// The whole table as a Markdown page.
-std::string reference_page(const TimeTable& times);
+std::string reference_page();
 
 }  // namespace s7200::tools

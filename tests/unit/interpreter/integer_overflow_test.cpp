@@ -53,7 +53,7 @@ constexpr Sum kSums[] = {
 };
 
 TEST(Overflow, ACpu21xStoresTheWrappedResult) {
-  for (const CpuModel* model : all_cpus()) {
+  for (const CpuModel* model : {&cpu212(), &cpu214(), &cpu215(), &cpu216()}) {
     EXPECT_EQ(model->integer_overflow, IntegerOverflow::Wrap);
     for (const Sum& sum : kSums)
       EXPECT_EQ(execute(*model, sum.op, sum.out, sum.in1, 0), (Outcome{sum.wrapped, sum.flags})) << sum.op;

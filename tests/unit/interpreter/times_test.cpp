@@ -63,7 +63,7 @@ TEST(Times, WhatCannotBeReadIsNamedWithItsLine) {
             (Errors{"times.csv:3: '-1' is not a time in microseconds (0 to 1000000)",
                     "times.csv:5: 'x' is not a time in microseconds (0 to 1000000)"}));
   EXPECT_EQ(errors_in("MOVB,,60,,,guess\n"),
-            Errors{"times.csv:2: 'guess' is not a marker; write manual, estimate or calibrated"});
+            Errors{"times.csv:2: 'guess' is not a marker; there are manual, estimate, calibrated, remembered"});
   EXPECT_EQ(errors_in("MOVB,,0,,,manual\n"), Errors{"times.csv:2: MOVB: an execution time must be above 0"});
   EXPECT_EQ(errors_in("LBL SBR INT,,0,,,manual\n"), Errors{});
   EXPECT_EQ(errors_in(" ,,5,,,manual\n"), Errors{"times.csv:2: the mnemonic is missing"});

@@ -1,0 +1,17 @@
+// Local memory: 64 bytes of each routine that runs, in the image at image::kL (facts 1.2; S7-200 manual A5E00307987, 31).
+//
+// Not documented, modelled so: a level of calls finds in its local memory what the last routine of that level left there; at
+// power-up it is 0. [LocalMemory.ARoutineFindsWhatTheLastOneOfItsLevelLeft]
+#pragma once
+
+#include "interpreter/cpu/core.hpp"
+
+namespace s7200::local_memory {
+
+/// The routine that runs will not go on for now: it calls another, or ends.
+void put_aside(Core& core);
+
+/// The same memory again, or that of another routine: after the level has changed.
+void take_up(Core& core);
+
+}  // namespace s7200::local_memory
