@@ -1,7 +1,6 @@
 #include "tools/views/check_report.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <vector>
@@ -23,11 +22,24 @@ nlohmann::ordered_json to_json(const stl::Diagnostic& d) {
 }
 
 /// The CPUs, other than the one asked for, that the program is fine for.
-std::vector<std::string_view> other_cpus(const SourceText& text, const CpuModel& asked) {
-  std::vector<std::string_view> fitting;
+std::vector<const CpuModel*> other_cpus(const SourceText& text, const CpuModel& asked) {
+  std::vector<const CpuModel*> fitting;
   for (const CpuModel* model : all_cpus())
-    if (model != &asked && check(text.parsed, *model, default_times(*model)).program) fitting.push_back(model->name);
+    if (model != &asked && check(text.parsed, *model, default_times(*model)).program) fitting.push_back(model);
   return fitting;
+}
+
+/// `; fine for CPU 215, 216 or 22x`
+std::string other_cpus_text(const SourceText& text, const CpuModel& asked) {
+  CpuSet fitting = 0;
+  for (const CpuModel* model : other_cpus(text, asked)) fitting = static_cast<CpuSet>(fitting | model->self);
+  return fitting == 0 ? "" : "; fine for " + to_text(fitting);
+}
+
+std::vector<std::string_view> names_of(const std::vector<const CpuModel*>& models) {
+  std::vector<std::string_view> names;
+  for (const CpuModel* model : models) names.push_back(model->name);
+  return names;
 }
 
 std::string counted(std::size_t count, std::string_view what) {
@@ -49,9 +61,8 @@ std::string check_summary(const SourceText& text, const CheckResult& result, con
   const std::string name = stl::printable(result.source.name);
   const std::string warnings = counted(stl::Severity::Warning, result.diagnostics);
   if (!result.program) {
-    const auto others = other_cpus(text, model);
     return fmt::format("{}: {}, {} for CPU {}{}\n", name, counted(stl::Severity::Error, result.diagnostics), warnings,
-                       model.name, others.empty() ? "" : fmt::format("; fine for CPU {}", fmt::join(others, ", ")));
+                       model.name, other_cpus_text(text, model));
   }
   return fmt::format("{}: fine, {} for CPU {}{}{}\n", name, counted(result.program->ops.size(), "instruction"),
                      result.program->model->name, text.as_document ? ", out of a document" : "",
@@ -65,7 +76,7 @@ nlohmann::ordered_json check_json(const std::string& path, const SourceText& tex
   return {{"file", path},
           {"ok", result.program != nullptr},
           {"cpu", model.name},
-          {"fine_for", result.program ? std::vector<std::string_view>{} : other_cpus(text, model)},
+          {"fine_for", result.program ? std::vector<std::string_view>{} : names_of(other_cpus(text, model))},
           {"kind", text.as_document ? "document" : "stl"},
           {"encoding", text.encoding},
           {"instructions", result.program ? result.program->ops.size() : 0},
