@@ -1,6 +1,6 @@
 // Special memory by name: where its bytes are in the image, and what their bits mean (facts 2.1, 4.3–4.5).
 //
-// The list special_memory() has the bytes that a program may name, and whether the simulator does what they say.
+// Which bytes a program may use, and which are modelled, is in the list special_memory() (cpu_model.hpp).
 #pragma once
 
 #include <array>

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "interpreter/base/time.hpp"
 #include "interpreter/base/serial_port.hpp"
+#include "interpreter/base/time.hpp"
 
 namespace s7200 {
 

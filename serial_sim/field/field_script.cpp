@@ -92,8 +92,9 @@ class Reader {
         range.area == Area::SM && range.width == Width::Byte && range.at - sm::kPotentiometer[0] < sm::kPotentiometer.size();
     const bool analog = range.area == Area::AI && range.number % 2 == 0;
     if (range.area == Area::I || analog || potentiometer) return true;
-    error(fmt::format("'{}' is not an input; rows set I, words of AI at even addresses, and the potentiometers SMB28 and SMB29",
-                      stl::shortened(address)));
+    error(fmt::format(
+        "'{}' is not an input; rows set I, words of AI at even addresses, and the potentiometers SMB28 and SMB29",
+        stl::shortened(address)));
     return false;
   }
 

@@ -49,8 +49,8 @@ class LineTurns {
     Time quiet_time = 0;     ///< to be left between two frames
   };
 
-  /// A slave may still answer what no one waits for any more. For so long, if the timeout is longer, no one else is asked:
-  /// that answer would be taken for another.
+  /// How long the line is kept for the answer to a request whose client has gone, unless the timeout is shorter. No other
+  /// slave is asked until then, because that answer would be taken for its.
   static constexpr Time kLateAnswer = 400 * kMillisecond;
 
   /// What a master leaves all stations to do what a broadcast says (Modbus over Serial Line V1.02, 2.4.1: 100 to 200 ms).

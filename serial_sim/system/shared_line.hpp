@@ -21,7 +21,7 @@ class SharedLine final : private EventHandler {
     bool operator==(const State&) const = default;
   };
 
-  /// Not owned.
+  /// `events` is not owned.
   explicit SharedLine(Dispatcher& events);
   SharedLine(const SharedLine&) = delete;
   SharedLine& operator=(const SharedLine&) = delete;

@@ -44,10 +44,6 @@ class Simulation {
     return run_until_ready([quiet] { return quiet; }, limit);
   }
 
-  /// The quiet time a master leaves by default: more than the time-outs of programs that look for 3.5 characters of
-  /// silence with a timer of whole milliseconds: 7 characters + 10 ms.
-  static Time default_quiet(const SerialFormat& format) { return 2 * format.silence() + 10 * kMillisecond; }
-
   /// From now on. Several may be at work at once.
   void inject(const Fault& fault) { line_.faults().inject(fault, time()); }
   void clear_faults() { line_.faults().clear(time()); }

@@ -12,8 +12,8 @@
 // handled when nothing can happen before it any more, and before any CPU executes an instruction that starts after it. The
 // order of instructions and events follows from the clocks alone: it is the same in one run or in slices, traced or not.
 // There is no more lookahead than that, although a character takes its time: a program may set its port between any two
-// instructions, and what others have sent until then must be known. With one PLC no other station acts, and it runs from event to
-// event; several that execute their programs take turns after every instruction or two.
+// instructions, and what others have sent until then must be known. With one PLC no other station acts, and it runs from
+// event to event; several that execute their programs take turns after every instruction or two.
 #pragma once
 
 #include <atomic>

@@ -5,6 +5,7 @@
 
 #include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
+#include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tests/support/source_path.hpp"
 
@@ -59,7 +60,7 @@ void serving(benchmark::State& bench) {
   const serial::Frame request = serial::to_frame(modbus::rtu_frame(1, modbus::read_holding_registers(0, 10)));
   serial::Simulation simulation(slave());
   simulation.power_up();
-  simulation.run_until_ready(serial::Simulation::default_quiet({}), 60 * kSecond);
+  simulation.run_until_ready(serial::default_quiet({}), 60 * kSecond);
   const SerialFormat format = simulation.cpu().state().port[0].format;
   simulation.master_uart().configure(format);
   const std::uint64_t before = simulation.cpu().state().instructions;
@@ -69,7 +70,7 @@ void serving(benchmark::State& bench) {
       bench.SkipWithError("no answer");
       break;
     }
-    simulation.run_until(simulation.time() + serial::Simulation::default_quiet(format));
+    simulation.run_until(simulation.time() + serial::default_quiet(format));
   }
   count_instructions(bench, simulation, before);
 }

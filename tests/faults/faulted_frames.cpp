@@ -9,6 +9,7 @@
 
 #include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
+#include "serial_sim/peers/quiet_time.hpp"
 
 namespace s7200::faults {
 namespace {
@@ -272,7 +273,7 @@ class Trials {
     serial::Simulation& simulation = slave_.simulation;
     simulation.power_up();
     const SerialFormat slowest{300, 8, Parity::Even, 1};
-    if (!simulation.run_until_ready(serial::Simulation::default_quiet(slowest), 10 * kSecond))
+    if (!simulation.run_until_ready(serial::default_quiet(slowest), 10 * kSecond))
       throw std::runtime_error("the program is not ready within 10 s");
     simulation.master_uart().configure(simulation.cpu().state().port[0].format);
     quiet_ = simulation.cpu().state().image[image::kSM + 34] * kMillisecond;

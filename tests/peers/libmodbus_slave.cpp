@@ -1,5 +1,5 @@
-// A Modbus RTU slave made with libmodbus: libmodbus_slave LINK. Station 1, 9600 baud 8E1. Register n holds 1000 + n until it is
-// written. Serves until its standard input ends, then shows registers 0 to 39 on one line.
+// A Modbus RTU slave made with libmodbus: libmodbus_slave LINK. Station 1, 9600 baud 8E1. Register n holds 1000 + n until it
+// is written. Serves until its standard input ends, then shows registers 0 to 39 on one line.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <modbus/modbus.h>

@@ -13,6 +13,7 @@
 
 #include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
+#include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tests/support/source_path.hpp"
 
@@ -100,7 +101,7 @@ class SlaveBench {
     simulation_.power_up();
     cpu().poke(image::kV, Bytes(4096, content));
     constexpr SerialFormat kSlowest{300, 8, Parity::Even, 1};
-    ASSERT_TRUE(simulation_.run_until_ready(serial::Simulation::default_quiet(kSlowest), 10 * kSecond));
+    ASSERT_TRUE(simulation_.run_until_ready(serial::default_quiet(kSlowest), 10 * kSecond));
     simulation_.master_uart().configure(format());
   }
 
@@ -115,7 +116,7 @@ class SlaveBench {
   /// The bytes of the answer to a raw frame, none when nothing came; then quiet.
   Bytes raw(const serial::Frame& frame) {
     last_ = send({.frame = frame, .timeout = kTimeout});
-    run_for(serial::Simulation::default_quiet(format()));
+    run_for(serial::default_quiet(format()));
     EXPECT_FALSE(last_.parity_error() || last_.framing_error() || last_.too_long);
     return last_.response_bytes();
   }

@@ -1,10 +1,10 @@
 // `--pty LINK`: the line as a serial port that programs of this computer open.
 //
 // A program's bytes go on the line back to back from the moment they come, at its own rate. What the line says is there for
-// it with the middle of each stop bit. While no program has the port open, what the line says is lost; what was written before
-// a program left is still sent, for 10 s. Several programs may have it open at once. Each has settings of its own, hears all
-// that the line says, and what they write goes out in the order in which it comes. The line is heard as who wrote or came
-// last is set.
+// it with the middle of each stop bit. While no program has the port open, what the line says is lost; what was written
+// before a program left is still sent, for 10 s. Several programs may have it open at once. Each has settings of its own,
+// hears all that the line says, and what they write goes out in the order in which it comes. The line is heard as who wrote
+// or came last is set.
 #pragma once
 
 #include <string>

@@ -12,6 +12,7 @@
 #include "serial_sim/modbus/gateway.hpp"
 #include "serial_sim/modbus/line_turns.hpp"
 #include "serial_sim/modbus/rtu_stream.hpp"
+#include "serial_sim/peers/quiet_time.hpp"
 #include "tools/bridge/tcp_server.hpp"
 
 namespace s7200::tools {
@@ -80,7 +81,7 @@ class TcpBridge : public Bridge, protected TcpServer::Protocol {
             .sending = simulation.host_port().sending(),
             .receiving = simulation.host_port().character_due() != kNever,
             .quiet_since = up_since_ ? std::max(*up_since_, simulation.last_activity()) : line_->now(),
-            .quiet_time = serial::Simulation::default_quiet(line_->format())};
+            .quiet_time = serial::default_quiet(line_->format())};
   }
 
   TcpServer& server() const { return *server_; }

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "serial_sim/peers/quiet_time.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/frame_options.hpp"
@@ -25,7 +26,7 @@ struct SendOptions {
   FrameOptions frames;
   bool json = false, timeline = false;
   Time after = kNever;  // kNever: when the first scan has ended and the line is quiet
-  Time pause = kNever;  // kNever: Simulation::default_quiet
+  Time pause = kNever;  // kNever: serial::default_quiet
   serial::MasterSettings master;
   RigOptions rig;
 };
@@ -101,9 +102,10 @@ void add_send(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("send", "put request frames on the line of a running program, print the answers");
   options->program.add_to(*verb);
   options->frames.add_to(*verb);
+  const std::string quiet = serial::default_quiet_text();
   add_duration(*verb, "--after", options->after,
-               "when to send the first frame [after the first scan and 7 characters + 10 ms of silence]");
-  add_duration(*verb, "--pause", options->pause, "pause between an answer and the next frame [7 characters + 10 ms]");
+               fmt::format("when to send the first frame [after the first scan and {} of silence]", quiet));
+  add_duration(*verb, "--pause", options->pause, fmt::format("pause between an answer and the next frame [{}]", quiet));
   add_master_options(*verb, options->master);
   options->rig.add_to(*verb);
   verb->add_flag("--timeline", options->timeline, "show what the CPU did during each exchange: characters, interrupts, XMT");

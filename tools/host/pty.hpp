@@ -67,7 +67,7 @@ class Pty {
     std::string path_;
     std::atomic<int> open_now_ = 0;
     std::atomic<std::uint64_t> session_ = 0;
-    mutable std::mutex mutex_;  ///< of the next
+    mutable std::mutex mutex_;  ///< guards left_as_ and set_since_
     std::optional<PtySettings> left_as_;
     std::optional<std::chrono::steady_clock::time_point> set_since_;
   };
@@ -114,7 +114,7 @@ class Pty {
   std::size_t free_port();
   void keep_offering();
 
-  mutable std::mutex mutex_;  ///< of all but the atomic ones
+  mutable std::mutex mutex_;  ///< guards all members that are not atomic
   int watch_ = -1, end_ = -1;
   std::deque<std::unique_ptr<Port>> ports_;
   std::size_t offered_ = 0, latest_ = 0;  ///< where the link leads; which was opened last

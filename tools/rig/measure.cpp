@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "serial_sim/modbus/request.hpp"
+#include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
 
 namespace s7200::tools {
@@ -100,7 +101,7 @@ class Serving {
     const Time latest = cpu_.time() + kLongestExchange;
     while (!answered_ && cpu_.time() < latest) step(latest);
     if (!answered_) throw std::runtime_error("the program did not answer a request for 10 registers");
-    run_until(cpu_.time() + serial::Simulation::default_quiet(cpu_.state().port[0].format));
+    run_until(cpu_.time() + serial::default_quiet(cpu_.state().port[0].format));
     return static_cast<double>(cpu_.state().instructions - before);
   }
 
@@ -130,7 +131,7 @@ void exchange(serial::Simulation& simulation) {
   simulation.master().start({.frame = ten_registers()}, simulation.time());
   if (simulation.finish_exchange().timed_out)
     throw std::runtime_error("the program did not answer a request for 10 registers");
-  simulation.run_until(simulation.time() + serial::Simulation::default_quiet(simulation.cpu().state().port[0].format));
+  simulation.run_until(simulation.time() + serial::default_quiet(simulation.cpu().state().port[0].format));
 }
 
 /// Several first scans at once, so that reading the clock does not count; nor does the power-up in front of each, which
@@ -169,7 +170,7 @@ std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time 
   figures.push_back({"first scan", "instructions", best_rate(each, [&] { return first_scans(simulation); })});
 
   simulation.power_up();
-  const auto quiet = [&] { return serial::Simulation::default_quiet(simulation.cpu().state().port[0].format); };
+  const auto quiet = [&] { return serial::default_quiet(simulation.cpu().state().port[0].format); };
   simulation.run_until_ready(quiet, 60 * kSecond);
   simulation.master_uart().configure(simulation.cpu().state().port[0].format);
   figures.push_back(

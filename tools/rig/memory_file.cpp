@@ -100,7 +100,8 @@ std::string take_clock(const Json& json, ClockTime& clock) {
 
 /// What is wrong, or nothing.
 std::string take(const Json& json, const CpuModel& model, RetentiveMemory& memory) {
-  if (json.value("format", "") != kFormat) return fmt::format("it is not the memory of a CPU (no \"format\": \"{}\")", kFormat);
+  if (json.value("format", "") != kFormat)
+    return fmt::format("it is not the memory of a CPU (no \"format\": \"{}\")", kFormat);
   if (const auto cpu = json.at("cpu").get<std::string>(); cpu != model.name)
     return fmt::format("it is the memory of a CPU {}, not of a CPU {}", cpu, model.name);
   if (std::string why = take_clock(json.at("clock"), memory.clock); !why.empty()) return why;

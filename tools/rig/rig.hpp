@@ -27,7 +27,7 @@ struct RigSettings {
   bool trace_instructions = false;
   std::string output{};                 ///< changes of outputs, as CSV
   std::vector<std::string> captures{};  ///< of the line: FILE.vcd, FILE.pcap
-  std::string link{};                   ///< not ours, but taken: a pty's
+  std::string link{};                   ///< a pty's link: nothing is written there, and no output may have its name
   std::ostream* standard_output = nullptr;
 };
 

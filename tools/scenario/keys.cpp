@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "serial_sim/peers/quiet_time.hpp"
 #include "tools/scenario/step_reader.hpp"
 #include "tools/scenario/steps/steps.hpp"
 
@@ -14,6 +15,9 @@ using Where = ScenarioKey::Where;
 
 constexpr std::string_view kExchanges = "send request read write";
 constexpr std::string_view kReceptions = "send request read write receive";
+
+const std::string kPause =
+    fmt::format("between an exchange and the next one; `{}` if left out", serial::default_quiet_text());
 
 // clang-format off
 const ScenarioKey kBeforeActions[] = {
@@ -31,7 +35,7 @@ const ScenarioKey kBeforeActions[] = {
     {Where::Scenario, "input", "", "PATH", "inputs over time, CSV as of `s7200 run --input`"},
     {Where::Scenario, "clock", "", "TIME", "time of day at the start: `2026-11-21 10:00:00`"},
     {Where::Scenario, "after", "", "TIME", "when the first step begins; if left out, when the first scan has ended and the line is quiet"},
-    {Where::Scenario, "pause", "", "SPAN", "between an exchange and the next one; `7 characters + 10ms` if left out"},
+    {Where::Scenario, "pause", "", "SPAN", kPause},
     {Where::Scenario, "timeout", "", "TIME", "how long to wait for an answer or a transmission to begin, or for memory; `1s` if left out"},
     {Where::Scenario, "tolerance", "", "TIME", "by which a latency given as one figure may be missed; `0` if left out"},
     {Where::Scenario, "needs", "", "LIST", "calculations as inside `${…}`: if one is 0, or has a parameter without a value, the scenario is not applicable"},

@@ -95,7 +95,8 @@ std::optional<MemoryExpected> read_expected(ValueReader& values, const YamlNode&
   const auto written = values.text(item);
   auto pattern = written ? parse_pattern(*written, why) : std::nullopt;
   if (written && !pattern)
-    values.wrong(item, fmt::format("'{}' are not bytes: {}", stl::shortened(*written), why), "write for example 01 02 .. 04");
+    values.wrong(item, fmt::format("'{}' are not bytes: {}", stl::shortened(*written), why),
+                 "write for example 01 02 .. 04");
   if (pattern && pattern->size() != range->bytes()) {
     values.wrong(item, fmt::format("{} bytes for {}, which has {}", pattern->size(), *address, range->bytes()));
     return {};

@@ -80,7 +80,4 @@ class Plant {
   Time before_ = 0;  ///< what had passed at the last power cycle
 };
 
-/// By then the line is quiet after power-up, scans that are waited for have come, or they never do.
-inline constexpr Time kReadyWithin = 60 * kSecond;
-
 }  // namespace s7200::tools

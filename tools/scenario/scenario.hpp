@@ -13,6 +13,7 @@
 #include "interpreter/cpu/state.hpp"
 #include "interpreter/program/address.hpp"
 #include "serial_sim/field/field_script.hpp"
+#include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/peers/requester.hpp"
 #include "tools/scenario/action.hpp"
 #include "tools/scenario/text.hpp"
@@ -52,7 +53,7 @@ struct Scenario {
 
   std::uint8_t station = 1;       ///< of the slave
   serial::MasterSettings line{};  ///< with the time-out
-  Span pause{10 * kMillisecond, 7000};
+  Span pause{serial::kQuietMilliseconds * kMillisecond, 1000 * serial::kQuietCharacters};
   Time tolerance = 0;  ///< by which a latency given as one figure may be missed
 
   Rule rule{};

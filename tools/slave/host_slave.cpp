@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "serial_sim/modbus/mbap.hpp"
+#include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/host/interruption.hpp"
 
@@ -73,7 +74,7 @@ RtuSlave::RtuSlave(const std::string& device, const SerialFormat& format)
     : HostSlave(std::make_unique<SerialLink>(device, format)),
       has_parity_(format.parity != Parity::None),
       shortest_silence_(std::max(kSilence, format.silence())),
-      quiet_(serial::Simulation::default_quiet(format)) {}
+      quiet_(serial::default_quiet(format)) {}
 
 RtuSlave::RtuSlave(const std::string& host, const std::string& port)
     : HostSlave(std::make_unique<TcpLink>(host, port)), shortest_silence_(kSilence) {}

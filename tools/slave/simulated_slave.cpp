@@ -5,12 +5,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "serial_sim/peers/quiet_time.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
 namespace {
-
-constexpr Time kReadyWithin = 60 * kSecond;
 
 /// False when the CPU is in STOP, where no program runs on, or after Ctrl-C.
 bool run_until(serial::Simulation& simulation, Time end) { return simulation.run_until(end) == serial::Halt::Time; }
@@ -67,6 +66,6 @@ serial::Exchange SimulatedSlave::receive(const serial::Listening& listening) {
 
 void SimulatedSlave::wait(Time duration) { run_until(simulation_, simulation_.time() + duration); }
 
-Time SimulatedSlave::pause() const { return serial::Simulation::default_quiet(master_.over(simulation_.port_format())); }
+Time SimulatedSlave::pause() const { return serial::default_quiet(master_.over(simulation_.port_format())); }
 
 }  // namespace s7200::tools

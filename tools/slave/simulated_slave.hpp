@@ -8,6 +8,9 @@
 
 namespace s7200::tools {
 
+/// By then the line is quiet after power-up, scans that are waited for have come, or they never do.
+inline constexpr Time kReadyWithin = 60 * kSecond;
+
 /// Time passes only while it is used. The master's format follows the port of the program, as far as the options leave it
 /// open, but not within an exchange.
 class SimulatedSlave final : public Slave {

@@ -82,8 +82,9 @@ TEST(Eeprom, ASaveProlongsItsScanByTheTimeInTheTable) {
 
 // The save lasts from 930 us to 10.93 ms; the timed interrupt comes 5 ms after 270 us and takes 40 us to enter.
 TEST(Eeprom, InterruptsAreServedDuringASaveOfTheValueAtItsStart) {
-  Plc plc("LD SM0.1\nMOVB 5, SMB34\nMOVB 16#11, VB10\nMOVW 10, SMW32\nMOVB 16#81, SMB31\nATCH 0, 10\nENI\nMEND\n"
-          "INT 0\nMOVB 16#22, VB10\nMOVW 9999, SMW32\nRETI\n");
+  Plc plc(
+      "LD SM0.1\nMOVB 5, SMB34\nMOVB 16#11, VB10\nMOVW 10, SMW32\nMOVB 16#81, SMB31\nATCH 0, 10\nENI\nMEND\n"
+      "INT 0\nMOVB 16#22, VB10\nMOVW 9999, SMW32\nRETI\n");
   plc.run_scans(1);
   ASSERT_EQ(plc.records.times(TraceKind::ServiceBegin).size(), 2u);
   EXPECT_EQ(plc.records.times(TraceKind::ServiceBegin)[0], 5260 * us);

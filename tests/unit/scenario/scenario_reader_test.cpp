@@ -499,10 +499,11 @@ TEST(ScenarioReader, TellsAllMistakesAtOnceAndThoseOfLoopsOnce) {
   const ScenarioFile file =
       read("frob: 1\nsteps:\n  - wait: 5\n  - repeat: 50\n    steps:\n      - memory: {VB9999: 1}\n  - mode: x\n");
   ASSERT_EQ(file.diagnostics.size(), 4U);
-  EXPECT_EQ(stl::render(file.diagnostics[1], *file.source, false),
-            "folder/file.yaml:3:11: error: '5' is not a duration of a day at most\n  - wait: 5\n          ^\nhint: write for "
-            "example 20ms, 3.5 "
-            "characters, 2 scans\n");
+  EXPECT_EQ(
+      stl::render(file.diagnostics[1], *file.source, false),
+      "folder/file.yaml:3:11: error: '5' is not a duration of a day at most\n  - wait: 5\n          ^\nhint: write for "
+      "example 20ms, 3.5 "
+      "characters, 2 scans\n");
 }
 
 TEST(ScenarioReader, NothingMakesItGrowWithoutBounds) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "serial_sim/peers/quiet_time.hpp"
 #include "tests/support/slave_bench.hpp"
 
 namespace s7200::serial {
@@ -60,7 +61,7 @@ struct Plant {
   /// The answer without its CRC, `-` for none; then quiet.
   std::string ask(std::uint8_t station, const Bytes& pdu) {
     Bytes answer = send(request(station, pdu)).response_bytes();
-    run_for(Simulation::default_quiet(plcs[0]->port_format()));
+    run_for(default_quiet(plcs[0]->port_format()));
     if (answer.empty()) return "-";
     EXPECT_TRUE(modbus::crc_ok(answer)) << to_hex(answer);
     answer.resize(answer.size() - 2);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "serial_sim/peers/quiet_time.hpp"
 #include "tests/support/slave_bench.hpp"
 
 namespace s7200::tools {
@@ -37,7 +38,7 @@ TEST(SimulatedSlave, IsReadyAfterTheSilenceOfTheRateThatIsSetByThen) {
   SimulatedSlave slave(simulation, {}, "slave");
   std::string why;
   ASSERT_TRUE(slave.wait_until_ready(kNever, why)) << why;
-  EXPECT_EQ(slave.pause(), serial::Simulation::default_quiet({300, 8, Parity::Even, 1}));
+  EXPECT_EQ(slave.pause(), serial::default_quiet({300, 8, Parity::Even, 1}));
   EXPECT_GE(simulation.time(), slave.pause());
 }
 

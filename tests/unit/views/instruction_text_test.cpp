@@ -18,7 +18,8 @@ std::string program_with(const Instruction& instruction) {
 TEST(InstructionText, EveryExampleIsRightOnTheLargestCpu) {
   const CpuModel& model = *all_cpus().back();
   for (const Instruction& instruction : all_instructions()) {
-    if (!instruction.modelled() || instruction.structure != Structure::None || !(instruction.allowed.parts & kMain)) continue;
+    if (!instruction.modelled() || instruction.structure != Structure::None || !(instruction.allowed.parts & kMain))
+      continue;
     const CheckResult result = check_text(program_with(instruction), "example", model, default_times(model));
     EXPECT_TRUE(result.program) << program_with(instruction)
                                 << (result.diagnostics.empty() ? "" : result.diagnostics[0].message);

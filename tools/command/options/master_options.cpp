@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "interpreter/base/text.hpp"
+#include "serial_sim/peers/quiet_time.hpp"
 #include "tools/command/options/line_options.hpp"
 #include "tools/command/options/number_option.hpp"
 
@@ -64,7 +65,8 @@ void MasterOptions::add_to(CLI::App& app) {
   add_whole_number(app, "--count", count, {1, UINT64_MAX}, "how often to repeat", "until Ctrl-C");
   add_whole_number(app, "--retries", retries, {0, 1'000'000},
                    "ask again so often after silence, a wrong answer, or a lost connection", "0");
-  add_duration(app, "--pause", pause, "pause between an answer and the next request [in simulation 7 characters + 10 ms]");
+  const std::string quiet = serial::default_quiet_text();
+  add_duration(app, "--pause", pause, fmt::format("pause between an answer and the next request [in simulation {}]", quiet));
   app.add_flag("-v,--verbose", verbose,
                "show requests and answers in hex, over Modbus TCP too as they are on a serial line");
   app.add_flag("--json", json, "print all exchanges and the statistics as JSON");
@@ -81,7 +83,7 @@ void MasterOptions::add_to(CLI::App& app) {
     program.CpuOptions::add_to(app);
     rig.add_to(app);
     add_duration(app, "--after", after,
-                 "when to send the first request [after the first scan and 7 characters + 10 ms of silence]");
+                 fmt::format("when to send the first request [after the first scan and {} of silence]", quiet));
   });
 }
 

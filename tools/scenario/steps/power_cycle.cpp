@@ -34,7 +34,8 @@ std::shared_ptr<const Action> read_power_cycle(const StepSource& source) {
   ValueReader& values = source.values;
   step->memory_lost = values.choice<bool>(&source.is, {{"memory kept", false}, {"memory lost", true}}).value_or(false);
   step->power_off =
-      values.value(source.beside("power_off"), "a duration", "8h, 72h", [](const std::string& t) { return parse_duration(t); })
+      values
+          .value(source.beside("power_off"), "a duration", "8h, 72h", [](const std::string& t) { return parse_duration(t); })
           .value_or(0);
   return step;
 }
