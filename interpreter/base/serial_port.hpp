@@ -15,6 +15,7 @@ struct ReceivedCharacter {
   bool framing_error = false;  ///< the stop bit was found at space level
   Time start = 0;              ///< falling edge of the start bit
   Time end = 0;                ///< middle of the stop bit, when the receiver reports it
+  bool line_break = false;     ///< the line was at space all the time, to the stop bit: it reads 00 with a framing error
 
   bool operator==(const ReceivedCharacter&) const = default;
 };

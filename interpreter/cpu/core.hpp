@@ -6,8 +6,10 @@
 // Not documented, modelled so: SM4.3 stays 1 until the next change to RUN. [Choices.SM43StaysUntilTheNextRun]
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -33,11 +35,16 @@ struct Loop {
   bool paused = false;
 };
 
+/// The devices on the ports of a CPU, by number; null for those that it does not have.
+using Ports = std::array<SerialPort*, kPorts.size()>;
+
 class Core {
  public:
   /// Owns nothing but the program.
-  Core(std::shared_ptr<const Program> program, EventQueue& queue, EventOwner owner, SerialPort& port0)
-      : program_(std::move(program)), reach_(program_->reach.data()), queue_(queue), owner_(owner), port_{&port0} {}
+  Core(std::shared_ptr<const Program> program, EventQueue& queue, EventOwner owner, const Ports& ports)
+      : program_(std::move(program)), reach_(program_->reach.data()), queue_(queue), owner_(owner), port_(ports) {
+    assert(std::all_of(port_.begin(), port_.begin() + port_count(), [](const SerialPort* port) { return port != nullptr; }));
+  }
 
   State s;
   Loop loop;
@@ -107,6 +114,7 @@ class Core {
   void cancel(std::uint8_t what) { queue_.cancel(owner_, what); }
   Time next_event() const { return queue_.next(); }
 
+  std::uint8_t port_count() const { return static_cast<std::uint8_t>(model().ports); }
   SerialPort& port(std::size_t number) { return *port_[number]; }
 
   void set_sink(TraceSink* sink) { sink_ = sink; }
@@ -120,7 +128,7 @@ class Core {
   const Reach* reach_;  // of the program
   EventQueue& queue_;
   EventOwner owner_;
-  std::array<SerialPort*, kPorts.size()> port_;
+  Ports port_;
   TraceSink* sink_ = nullptr;
 };
 

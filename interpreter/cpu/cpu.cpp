@@ -13,8 +13,8 @@
 
 namespace s7200 {
 
-Cpu::Cpu(std::shared_ptr<const Program> program, EventQueue& queue, EventOwner owner, SerialPort& port0)
-    : core_(std::move(program), queue, owner, port0) {}
+Cpu::Cpu(std::shared_ptr<const Program> program, EventQueue& queue, EventOwner owner, const Ports& ports)
+    : core_(std::move(program), queue, owner, ports) {}
 
 void Cpu::power_up(bool run, const RetentiveMemory* memory) { power::up(core_, run, memory); }
 RetentiveMemory Cpu::retentive_memory() const { return power::retentive_memory(core_); }
@@ -103,10 +103,10 @@ Time Cpu::next_action() const {
 
 void Cpu::handle(const Event& event) { units::handle(core_, event.what, event.at); }
 
-void Cpu::character_received(const ReceivedCharacter& character, std::size_t port) {
+void Cpu::character_received(const ReceivedCharacter& character, std::uint8_t port) {
   freeport::character_received(core_, port, character);
 }
-void Cpu::character_sent(Time at, std::size_t port) { freeport::character_sent(core_, port, at); }
+void Cpu::character_sent(Time at, std::uint8_t port) { freeport::character_sent(core_, port, at); }
 
 void Cpu::set_input(std::uint32_t byte, std::uint8_t value, Time at) { points::set_inputs(core_, byte, value, at); }
 

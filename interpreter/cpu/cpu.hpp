@@ -20,8 +20,9 @@ namespace s7200 {
 
 class Cpu {
  public:
-  /// `owner`: the CPU's number in the queue. Owns nothing but the program. The CPU is in STOP until power_up().
-  Cpu(std::shared_ptr<const Program> program, EventQueue& queue, EventOwner owner, SerialPort& port0);
+  /// `owner`: the CPU's number in the queue. `ports`: as many as the program's CPU has. Owns nothing but the program. The
+  /// CPU is in STOP until power_up().
+  Cpu(std::shared_ptr<const Program> program, EventQueue& queue, EventOwner owner, const Ports& ports);
 
   /// Clears all memory except what `memory` has kept, and goes to RUN (mode switch in RUN) or stays in STOP (TERM). Without
   /// `memory` the CPU is brand-new.
@@ -46,8 +47,8 @@ class Cpu {
   void handle(const Event& event);
 
   /// Reports of a serial port.
-  void character_received(const ReceivedCharacter& character, std::size_t port = 0);
-  void character_sent(Time at, std::size_t port = 0);
+  void character_received(const ReceivedCharacter& character, std::uint8_t port = 0);
+  void character_sent(Time at, std::uint8_t port = 0);
 
   /// Sets an input byte; edges of I0.0–I0.3 are events 0–7, and the high-speed counters count.
   void set_input(std::uint32_t byte, std::uint8_t value, Time at);

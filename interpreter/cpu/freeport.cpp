@@ -1,6 +1,7 @@
 #include "interpreter/cpu/freeport.hpp"
 
 #include "interpreter/cpu/interrupts.hpp"
+#include "interpreter/cpu/message_receiver.hpp"
 
 namespace s7200 {
 namespace freeport {
@@ -18,19 +19,20 @@ SerialFormat format_of(std::uint8_t control, const CpuModel& model) {
           .stop_bits = 1};
 }
 
-void take_control(Core& core, std::size_t number) {
+void take_control(Core& core, std::uint8_t number) {
   Freeport& port = core.s.port[number];
   port.control = core.s.image[kPorts[number].control];
   port.active = is_freeport(port.control);
+  if (!port.active) message_receiver::abandon(core, number);
   port.format = format_of(port.control, core.model());
   core.port(number).configure(port.format);
   core.port(number).enable_receiver(port.active && !port.transmitting, core.s.time);
-  core.trace({.at = core.s.time, .kind = TraceKind::PortControl, .byte = port.control});
+  core.trace({.at = core.s.time, .kind = TraceKind::PortControl, .byte = port.control, .port = number});
   core.attend();
 }
 
 /// The program has written the control byte, which was `before`.
-void control_written(Core& core, std::size_t number, std::uint8_t before) {
+void control_written(Core& core, std::uint8_t number, std::uint8_t before) {
   std::uint8_t& control = core.s.image[kPorts[number].control];
   if (core.s.in_interrupt && is_freeport(control) && !is_freeport(before)) {
     control = before;
@@ -39,7 +41,7 @@ void control_written(Core& core, std::size_t number, std::uint8_t before) {
   take_control(core, number);
 }
 
-void send_next_character(Core& core, std::size_t number, Time at) {
+void send_next_character(Core& core, std::uint8_t number, Time at) {
   Freeport& port = core.s.port[number];
   port.on_line = core.s.image[port.buffer];
   core.port(number).send(port.on_line, at);
@@ -47,25 +49,42 @@ void send_next_character(Core& core, std::size_t number, Time at) {
   --port.left;
 }
 
-std::array<std::uint8_t, kPorts.size()> control_bytes(const Core& core) {
-  std::array<std::uint8_t, kPorts.size()> bytes{};
-  for (std::size_t number = 0; number < kPorts.size(); ++number) bytes[number] = core.s.image[kPorts[number].control];
+using ControlBytes = std::array<std::uint8_t, kPorts.size()>;
+
+ControlBytes control_bytes(const Core& core) {
+  ControlBytes bytes{};
+  for (std::uint8_t number = 0; number < core.port_count(); ++number) bytes[number] = core.s.image[kPorts[number].control];
   return bytes;
 }
 
 }  // namespace
 
-void transmit(Core& core, std::uint32_t number, std::uint32_t table) {
+void trace_character(Core& core, std::uint8_t number, const ReceivedCharacter& character, TraceKind kind) {
+  core.trace({.at = character.end,
+              .kind = kind,
+              .byte = character.byte,
+              .parity_error = character.parity_error,
+              .framing_error = character.framing_error,
+              .port = number,
+              .since = character.start});
+}
+
+bool free(const Core& core, std::uint8_t number) {
+  const Freeport& port = core.s.port[number];
+  return port.active && !port.transmitting && !message_receiver::active(core, number);
+}
+
+void transmit(Core& core, std::uint8_t number, std::uint32_t table) {
   Freeport& port = core.s.port[number];
   const std::uint8_t count = core.s.image[table];
-  if (!port.active || port.transmitting) return core.run_error(kPorts[number].busy);
+  if (!free(core, number)) return core.run_error(kPorts[number].busy);
   if (!core.in_area(table, count + 1u)) return core.run_error(RunError::OperandRange);
   port.transmitting = true;
   port.buffer = table + 1;
   port.left = count;
   core.put_mask(sm::kInterruptStatus, kPorts[number].idle, false);
   core.port(number).enable_receiver(false, core.s.time);
-  core.trace({.at = core.s.time, .kind = TraceKind::Transmit, .count = count});
+  core.trace({.at = core.s.time, .kind = TraceKind::Transmit, .port = number, .count = count});
   port.sending_break = count == 0;
   if (port.sending_break)
     core.port(number).send_break(kBreakBits, core.s.time);
@@ -74,32 +93,31 @@ void transmit(Core& core, std::uint32_t number, std::uint32_t table) {
   core.attend();
 }
 
-void character_sent(Core& core, std::size_t number, Time at) {
+void character_sent(Core& core, std::uint8_t number, Time at) {
   Freeport& port = core.s.port[number];
   if (!port.transmitting) return;
-  if (!port.sending_break) core.trace({.at = at, .kind = TraceKind::CharacterSent, .byte = port.on_line});
+  if (!port.sending_break) core.trace({.at = at, .kind = TraceKind::CharacterSent, .byte = port.on_line, .port = number});
   if (port.left != 0) return send_next_character(core, number, at);
   port.transmitting = false;
   core.put_mask(sm::kInterruptStatus, kPorts[number].idle, true);
   core.port(number).enable_receiver(port.active, at);
-  core.trace({.at = at, .kind = TraceKind::TransmitEnd});
+  core.trace({.at = at, .kind = TraceKind::TransmitEnd, .port = number});
   interrupts::occurred(core, kPorts[number].sent, at);
 }
 
-void character_received(Core& core, std::size_t number, const ReceivedCharacter& character) {
+void character_received(Core& core, std::uint8_t number, const ReceivedCharacter& character) {
   const std::uint8_t event = kPorts[number].received;
-  const bool heard = core.s.port[number].active && core.s.attached[event] != kNotAttached;
-  core.trace({.at = character.end,
-              .kind = heard ? TraceKind::CharacterReceived : TraceKind::CharacterIgnored,
-              .byte = character.byte,
-              .parity_error = character.parity_error,
-              .framing_error = character.framing_error,
-              .since = character.start});
-  if (heard) interrupts::occurred(core, event, character.end, character.byte, character.parity_error);
+  const bool to_message = message_receiver::active(core, number);
+  const bool raises = core.s.port[number].active && core.s.attached[event] != kNotAttached &&
+                      (!to_message || core.model().receive.character_events);
+  if (!to_message)
+    trace_character(core, number, character, raises ? TraceKind::CharacterReceived : TraceKind::CharacterIgnored);
+  if (to_message) message_receiver::take(core, number, character);
+  if (raises) interrupts::occurred(core, event, character.end, character.byte, character.parity_error);
 }
 
 void follow_control(Core& core) {
-  for (std::size_t number = 0; number < kPorts.size(); ++number) {
+  for (std::uint8_t number = 0; number < core.port_count(); ++number) {
     const std::uint8_t control = core.s.image[kPorts[number].control];
     const Freeport& port = core.s.port[number];
     if (control != port.control || port.active != is_freeport(control)) take_control(core, number);
@@ -113,7 +131,7 @@ void power_up(Core& core, const RetentiveMemory*) {
 
 /// In STOP the port goes back to PPI (facts 2.1).
 void enter_stop(Core& core) {
-  for (std::size_t number = 0; number < kPorts.size(); ++number) {
+  for (std::uint8_t number = 0; number < core.port_count(); ++number) {
     core.s.port[number].active = false;
     core.s.port[number].transmitting = false;
     core.put_mask(sm::kInterruptStatus, kPorts[number].idle, true);
@@ -138,7 +156,7 @@ void run_with_port_control(Core& core, const Op& op) {
     run_with_pointers(core, op);
   else
     op.direct_body()(core, op);
-  for (std::size_t number = 0; number < kPorts.size(); ++number)
+  for (std::uint8_t number = 0; number < core.port_count(); ++number)
     if (core.s.image[kPorts[number].control] != before[number]) freeport::control_written(core, number, before[number]);
 }
 

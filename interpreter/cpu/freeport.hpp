@@ -1,4 +1,5 @@
-// The ports in Freeport mode: control byte, character reception, XMT (facts 2). kPorts says what differs between them.
+// The ports in Freeport mode: control byte, character reception, XMT (facts 2). kPorts says what differs between them; a CPU
+// has the first CpuModel::ports of them. RCV is in message_receiver.hpp.
 //
 // Not documented, modelled so:
 // - Transmit complete (event 9, SM4.5) comes at the end of the last stop bit.
@@ -8,10 +9,11 @@
 //   [Freeport.TransmitterIdleIsZeroWhileSendingAndTheReceiverIsOff]
 // - SM3.0 only shows parity errors; a character with a bad stop bit is passed on as it was sampled.
 //   [Choices.ABadStopBitIsNotAParityError]
-// - A character received while event 8 is not attached leaves SMB2 and SM3.0 alone.
+// - A character received while its event, 8 or 25, is not attached leaves SMB2 and SM3.0 alone.
 //   [Freeport.ACharacterThatNoRoutineWaitsForLeavesSMB2Alone]
-// - XMT while the port is not in Freeport mode is error 0009. [Freeport.XmtWithoutFreeportModeIs0009]
-// Not modelled: the PPI protocol. In PPI mode characters from the line are ignored.
+// - XMT and RCV while the port is not in Freeport mode are error 0009, or 000B on port 1.
+// [Freeport.XmtWithoutFreeportModeIs0009, Receive.WithoutFreeportModeItIs0009] Not modelled: the PPI protocol. In PPI mode
+// characters from the line are ignored.
 #pragma once
 
 #include "interpreter/cpu/core.hpp"
@@ -19,13 +21,19 @@
 namespace s7200::freeport {
 
 /// XMT: `table` is the place of the number of characters, 0 to 255; the characters follow it. 0 sends a break of 16 bit
-/// times (A5E00066097-02, 9-189). The port's error `busy` if it is sending or not in Freeport mode, 0091 for a table that
-/// runs past the end of its area.
-void transmit(Core& core, std::uint32_t port, std::uint32_t table);
+/// times (A5E00066097-02, 9-189). The port's error `busy` if it is not free(), 0091 for a table that runs past the end of
+/// its area.
+void transmit(Core& core, std::uint8_t port, std::uint32_t table);
+
+/// Whether XMT and RCV can begin: in Freeport mode, neither sending nor receiving a message.
+bool free(const Core& core, std::uint8_t port);
 
 /// Reports of the line.
-void character_received(Core& core, std::size_t port, const ReceivedCharacter& character);
-void character_sent(Core& core, std::size_t port, Time at);
+void character_received(Core& core, std::uint8_t port, const ReceivedCharacter& character);
+void character_sent(Core& core, std::uint8_t port, Time at);
+
+/// Records what has become of a received character.
+void trace_character(Core& core, std::uint8_t port, const ReceivedCharacter& character, TraceKind kind);
 
 /// Makes the ports follow their control bytes after something other than the program may have written them.
 void follow_control(Core& core);

@@ -7,19 +7,6 @@ namespace {
 
 using namespace sm::counter;
 
-/// The input points of a counter, as byte * 8 + bit, and its events.
-struct Wiring {
-  std::uint8_t clock, direction, reset, start;
-  std::uint8_t reached, turned, was_reset;
-};
-
-constexpr std::uint8_t kNoEvent = 0xFF;
-constexpr std::uint8_t kNoPoint = 0xFF;
-constexpr Wiring kWiring[] = {
-    {0, kNoPoint, kNoPoint, kNoPoint, event::kCounter0Reached, kNoEvent, kNoEvent},            // I0.0
-    {6, 7, 8, 9, event::kCounter1Reached, event::kCounter1Turned, event::kCounter1Reset},      // I0.6 I0.7 I1.0 I1.1
-    {10, 11, 12, 13, event::kCounter2Reached, event::kCounter2Turned, event::kCounter2Reset},  // I1.2 I1.3 I1.4 I1.5
-};
 constexpr std::uint32_t kInputBytes = 2;  ///< the input bytes that counters are wired to
 
 bool has_reset(std::uint8_t mode) { return mode % 3 != 0; }
@@ -29,6 +16,31 @@ bool has_start(std::uint8_t mode) { return mode % 3 == 2; }
 enum class Clocking { InternalDirection, DirectionInput, UpAndDown, Quadrature };
 Clocking clocking(std::uint8_t mode) { return static_cast<Clocking>(mode / 3); }
 
+/// The input points that a counter uses in a mode, as a set of bits.
+std::uint32_t points_of(std::uint8_t number, std::uint8_t mode) {
+  const CounterInfo& info = kCounters[number];
+  std::uint32_t points = 1u << info.clock;
+  if (clocking(mode) != Clocking::InternalDirection) points |= 1u << info.direction;
+  if (has_reset(mode)) points |= 1u << info.reset;
+  if (has_start(mode)) points |= 1u << info.start;
+  return points;
+}
+
+std::uint32_t points_in_use(const State& s) {
+  std::uint32_t points = 0;
+  for (std::uint8_t number = 0; number < s.counter.size(); ++number)
+    if (s.counter[number].defined) points |= points_of(number, s.counter[number].mode);
+  return points;
+}
+
+/// Points whose edges interrupts are attached to: I0.0 to I0.3, a rising and a falling edge each.
+std::uint32_t points_with_interrupts(const State& s) {
+  std::uint32_t points = 0;
+  for (std::uint8_t event = event::kI00Rises; event <= event::kI03Falls; ++event)
+    if (s.attached[event] != kNotAttached) points |= 1u << event / 2;
+  return points;
+}
+
 bool input_point(const State& s, std::uint8_t point) {
   return (s.image[image::kInputs + point / 8] >> (point % 8) & 1) != 0;
 }
@@ -37,30 +49,30 @@ bool input_point(const State& s, std::uint8_t point) {
 void show(State& s, std::uint8_t number) {
   const HighSpeedCounter& counter = s.counter[number];
   store32(&s.image[image::kHC + 4u * number], static_cast<std::uint32_t>(counter.current));
-  s.image[kStatus[number]] =
+  s.image[kCounters[number].status] =
       static_cast<std::uint8_t>((counter.up ? kCountingUp : 0) | (counter.current == counter.preset ? kAtPreset : 0) |
                                 (counter.current > counter.preset ? kAbovePreset : 0));
 }
 
 bool started(const State& s, std::uint8_t number) {
   const HighSpeedCounter& counter = s.counter[number];
-  return !has_start(counter.mode) || input_point(s, kWiring[number].start) != counter.start_low;
+  return !has_start(counter.mode) || input_point(s, kCounters[number].start) != counter.start_low;
 }
 
 bool in_reset(const State& s, std::uint8_t number) {
   const HighSpeedCounter& counter = s.counter[number];
-  return has_reset(counter.mode) && input_point(s, kWiring[number].reset) != counter.reset_low && started(s, number);
+  return has_reset(counter.mode) && input_point(s, kCounters[number].reset) != counter.reset_low && started(s, number);
 }
 
 void reset(Core& core, std::uint8_t number, Time at) {
   core.s.counter[number].current = 0;
   show(core.s, number);
-  interrupts::occurred(core, kWiring[number].was_reset, at);
+  interrupts::occurred(core, kCounters[number].was_reset, at);
 }
 
 void turn(Core& core, std::uint8_t number, bool up, Time at) {
   HighSpeedCounter& counter = core.s.counter[number];
-  if (counter.enabled && up != counter.up) interrupts::occurred(core, kWiring[number].turned, at);
+  if (counter.enabled && up != counter.up) interrupts::occurred(core, kCounters[number].turned, at);
   counter.up = up;
   show(core.s, number);
 }
@@ -70,12 +82,12 @@ void count(Core& core, std::uint8_t number, bool up, Time at) {
   if (clocking(counter.mode) >= Clocking::UpAndDown) turn(core, number, up, at);
   counter.current = static_cast<std::int32_t>(static_cast<std::uint32_t>(counter.current) + (up ? 1u : ~0u));
   show(core.s, number);
-  if (counter.current == counter.preset) interrupts::occurred(core, kWiring[number].reached, at);
+  if (counter.current == counter.preset) interrupts::occurred(core, kCounters[number].reached, at);
 }
 
 void count_pulse(Core& core, std::uint8_t number, std::uint8_t point, bool level, Time at) {
   const HighSpeedCounter& counter = core.s.counter[number];
-  const Wiring& wiring = kWiring[number];
+  const CounterInfo& wiring = kCounters[number];
   const bool on_clock = point == wiring.clock, on_second = point == wiring.direction;
   switch (clocking(counter.mode)) {
     case Clocking::InternalDirection:
@@ -98,7 +110,7 @@ void count_pulse(Core& core, std::uint8_t number, std::uint8_t point, bool level
 /// An input point has changed; all points already have their new levels.
 void see(Core& core, std::uint8_t number, std::uint8_t point, bool level, Time at) {
   const HighSpeedCounter& counter = core.s.counter[number];
-  const Wiring& wiring = kWiring[number];
+  const CounterInfo& wiring = kCounters[number];
   if (point == wiring.direction && clocking(counter.mode) == Clocking::DirectionInput) turn(core, number, level, at);
   if (!counter.enabled || !started(core.s, number)) return;
   if (!in_reset(core.s, number)) return count_pulse(core, number, point, level, at);
@@ -112,9 +124,8 @@ void define(Core& core, std::uint8_t number, std::uint8_t mode) {
   State& s = core.s;
   HighSpeedCounter& counter = s.counter[number];
   if (counter.defined) return core.run_error(RunError::CounterDefinedTwice);
-  if (number == 0 && (s.attached[event::kI00Rises] != kNotAttached || s.attached[event::kI00Falls] != kNotAttached))
-    return core.run_error(RunError::InputTaken);
-  const std::uint8_t control = s.image[kStatus[number] + kControl];
+  if (points_of(number, mode) & (points_in_use(s) | points_with_interrupts(s))) return core.run_error(RunError::InputTaken);
+  const std::uint8_t control = s.image[kCounters[number].status + kControl];
   counter.defined = true;
   counter.mode = mode;
   counter.reset_low = control & kResetLow;
@@ -123,17 +134,17 @@ void define(Core& core, std::uint8_t number, std::uint8_t mode) {
 }
 
 bool use_event(const Core& core, std::uint8_t event) {
-  return (event == event::kI00Rises || event == event::kI00Falls) && core.s.counter[0].defined;
+  return event <= event::kI03Falls && (points_in_use(core.s) >> event / 2 & 1) != 0;
 }
 
 void program(Core& core, std::uint8_t number) {
   State& s = core.s;
   HighSpeedCounter& counter = s.counter[number];
   if (!counter.defined) return core.run_error(RunError::CounterNotDefined);
-  const std::uint8_t* const sm = &s.image[kStatus[number]];
+  const std::uint8_t* const sm = &s.image[kCounters[number].status];
   const std::uint8_t control = sm[kControl];
   if (control & kTakeDirection) counter.up = control & kUp;
-  if (clocking(counter.mode) == Clocking::DirectionInput) counter.up = input_point(s, kWiring[number].direction);
+  if (clocking(counter.mode) == Clocking::DirectionInput) counter.up = input_point(s, kCounters[number].direction);
   if (control & kTakeCurrent) counter.current = static_cast<std::int32_t>(load32(sm + kNewCurrent));
   if (control & kTakePreset) counter.preset = static_cast<std::int32_t>(load32(sm + kNewPreset));
   counter.enabled = control & kEnable;

@@ -93,6 +93,21 @@ constexpr Attachments nothing_attached() {
   return attached;
 }
 
+/// What a port's receive message service is doing, and the parameters that it works with: as RCV found them.
+struct MessageReceiver {
+  enum class Phase : std::uint8_t { Off, Search, Message };
+
+  Phase phase = Phase::Off;
+  bool was_idle = false;     ///< in the search: the line has been idle for as long as asked
+  bool had_break = false;    ///< in the search: the last thing on the line was a break
+  std::uint8_t control = 0;  ///< of sm::message::Control
+  std::uint8_t start_character = 0, end_character = 0, most = 0;
+  Time idle_time = 0, timeout = 0;
+  std::uint32_t table = 0;  ///< place of the number of characters in the image
+  std::uint8_t stored = 0;
+  bool operator==(const MessageReceiver&) const = default;
+};
+
 struct Freeport {
   std::uint8_t control = 0;  ///< the control byte that the port last took over
   bool active = false;       ///< in Freeport mode and in RUN
@@ -102,6 +117,7 @@ struct Freeport {
   std::uint32_t buffer = 0;  ///< place of the next character in the image
   std::uint16_t left = 0;    ///< characters not yet given to the line
   SerialFormat format{};
+  MessageReceiver message{};
   bool operator==(const Freeport&) const = default;
 };
 
@@ -123,6 +139,9 @@ struct HighSpeedCounter {
 
 struct PulseTrain {
   bool pwm = false;
+  bool profile = false;  ///< its segments are in a table
+  std::uint8_t segments = 0;
+  std::uint32_t table = 0;   ///< place of their number in the image; they follow it
   Time unit = kMicrosecond;  ///< of the cycle time
   Time cycle = 2 * kMicrosecond, width = 0;
   std::uint32_t count = 1;
@@ -131,8 +150,10 @@ struct PulseTrain {
 
 struct PulseOutput {
   bool running = false, has_next = false;
-  PulseTrain train{}, next{}, last{};  ///< running; queued after it (PTO); last programmed
-  std::uint32_t left = 0;              ///< pulses of the train, including the current one
+  PulseTrain train{}, next{}, last{};  ///< running; queued after it; last programmed
+  std::uint32_t left = 0;              ///< pulses of the train or segment, including the current one
+  std::uint8_t segment = 0;            ///< of a profile: number of the current one
+  Time delta = 0;                      ///< of a segment: by which each cycle is longer than the one before
   Time cycle_end = 0;
   bool operator==(const PulseOutput&) const = default;
 };
@@ -188,7 +209,7 @@ struct State {
   std::int16_t ticks_100ms = 0;                    ///< of the previous scan
   std::array<std::uint8_t, 256> counter_inputs{};  ///< at the last execution: bit 0 up, bit 1 down
 
-  std::array<HighSpeedCounter, 3> counter{};
+  std::array<HighSpeedCounter, kCounters.size()> counter{};
   std::array<PulseOutput, 2> pulse{};
   ClockTime clock{};
   Time clock_set_at = 0;

@@ -8,7 +8,15 @@
 namespace s7200 {
 
 /// Events that units schedule for themselves. At the same instant they are handled in this order.
-enum UnitEvent : std::uint8_t { kTimedInterrupt0, kTimedInterrupt1, kTick1ms, kPulse0, kPulse1 };
+enum UnitEvent : std::uint8_t {
+  kTimedInterrupt0,
+  kTimedInterrupt1,
+  kTick1ms,
+  kPulse0,
+  kPulse1,
+  kMessageTimer0,
+  kMessageTimer1
+};
 
 /// Each function goes through the rows of the table, from first to last.
 namespace units {

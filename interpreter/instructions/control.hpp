@@ -1,4 +1,4 @@
-// Bodies: program control, interrupts, transmit (facts 6.12, 3.3, 2.2).
+// Bodies: program control, interrupts, transmit and receive (facts 6.12, 3.3, 2.2).
 //
 // Not documented, modelled so:
 // - FOR and NEXT store INDX before they read FINAL, which may be the same word.
@@ -16,6 +16,7 @@
 #include "interpreter/cpu/core.hpp"
 #include "interpreter/cpu/freeport.hpp"
 #include "interpreter/cpu/interrupts.hpp"
+#include "interpreter/cpu/message_receiver.hpp"
 #include "interpreter/cpu/scan.hpp"
 
 namespace s7200::bodies {
@@ -69,6 +70,9 @@ inline void attach(Core& core, const Op& op) {
 }
 inline void detach(Core& core, const Op& op) { interrupts::detach(core, static_cast<std::uint8_t>(op[0].at)); }
 
-inline void transmit(Core& core, const Op& op) { freeport::transmit(core, op[1].at, op[0].at); }
+inline void transmit(Core& core, const Op& op) { freeport::transmit(core, static_cast<std::uint8_t>(op[1].at), op[0].at); }
+inline void receive(Core& core, const Op& op) {
+  message_receiver::receive(core, static_cast<std::uint8_t>(op[1].at), op[0].at);
+}
 
 }  // namespace s7200::bodies

@@ -17,7 +17,7 @@ inline constexpr Areas kMemory = kInputs | kOutputs | kSegments | set_of(Area::M
 inline constexpr Areas kMemoryTC = kMemory | kTimers | kCounters;                                       // bits, words
 inline constexpr Areas kValue = kMemory | set_of(Area::AC), kWordValue = kMemoryTC | set_of(Area::AC);  // others, words
 inline constexpr Areas kReadWord = kWordValue | kAnalogInputs, kWriteWord = kWordValue | kAnalogOutputs;
-inline constexpr Areas kSent = kMemory & ~kLocal;  // by XMT, long after its routine has ended
+inline constexpr Areas kLasting = kMemory & ~kLocal;  // XMT and RCV use it long after their routine has ended
 inline constexpr Areas kReadDword = kValue | set_of(Area::HC);
 
 inline constexpr std::int64_t kLargestByte = 255;
@@ -126,7 +126,8 @@ inline constexpr OperandRule
     // Its length, the number of its entries, and at least one of them; FND is given the number of entries and what follows it.
     kTable   {.name = "TBL", .width = Width::Word, .role = Role::InOut, .areas = kMemoryTC, .pointer = true, .elements = 3},
     kEntries {.name = "SRC", .width = Width::Word,                      .areas = kMemoryTC, .pointer = true},
-    kMessage {.name = "TBL", .width = Width::Byte,                      .areas = kSent,     .pointer = true},
+    kMessage {.name = "TBL", .width = Width::Byte,                      .areas = kLasting,  .pointer = true},
+    kReceived{.name = "TBL", .width = Width::Byte, .role = Role::Out,   .areas = kLasting,  .pointer = true},
     kClockIn {.name = "T",   .width = Width::Byte,                      .areas = kMemory,   .pointer = true, .elements = 8},
     kClockOut{.name = "T",   .width = Width::Byte, .role = Role::Out,   .areas = kMemory,   .pointer = true, .elements = 8};
 

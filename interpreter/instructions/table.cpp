@@ -248,10 +248,10 @@ constexpr Instruction kInterrupts[] = {
 };
 
 constexpr Instruction kCommunication[] = {
-    {.mnemonic = "XMT",  .operand = {kMessage, kPort}, .rung = kBox,                   .effect = Effect::Transmits, .body = transmit, .meaning = "Freeport: send the characters of TBL, their number in its first byte"},
-    {.mnemonic = "RCV",                                              .cpus = kFrom215,                                                .meaning = "Freeport: receive a message"},
-    {.mnemonic = "NETR",                                             .cpus = kFrom214,                                                .meaning = "PPI master: read from another station"},
-    {.mnemonic = "NETW",                                             .cpus = kFrom214,                                                .meaning = "PPI master: write to another station"},
+    {.mnemonic = "XMT",  .operand = {kMessage, kPort},  .rung = kBox,                   .effect = Effect::Transmits, .body = transmit, .meaning = "Freeport: send the characters of TBL, their number in its first byte"},
+    {.mnemonic = "RCV",  .operand = {kReceived, kPort}, .rung = kBox, .cpus = kFrom215, .effect = Effect::Receives,  .body = receive,  .meaning = "Freeport: receive a message into TBL, the number of its characters in the first byte"},
+    {.mnemonic = "NETR",                                              .cpus = kFrom214,                                                .meaning = "PPI master: read from another station"},
+    {.mnemonic = "NETW",                                              .cpus = kFrom214,                                                .meaning = "PPI master: write to another station"},
 };
 
 constexpr Instruction kTimersAndCounters[] = {

@@ -1,7 +1,7 @@
 // CPU 215 and CPU 216. Ranges: facts 1.1. Queues: S7-200 manual C230-02, 10-120. Baud rates: facts 2.1.
 // Retentive: as on the CPU 214.
 // Execution times: those of the CPU 214, since no others are known, and estimates for instructions that the CPU 214 lacks.
-// Not modelled: the DP port of the CPU 215, port 1 of the CPU 216, RCV, PID, NETR and NETW.
+// Not modelled: the DP port of the CPU 215, PID, NETR and NETW.
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/embedded_times.hpp"
 
@@ -23,6 +23,9 @@ const CpuModel& cpu215() {
       .queue_depth = {4, 16, 8},
       .baud = {38'400, 19'200, 9'600, 4'800, 2'400, 1'200, 600, 300},
       .identification = 0x80,
+      .counter_modes = {kMode0, kAllModes, kAllModes},
+      .pulse_control = 0xCF,
+      .message_control = 0xFC,
       .shortest_timed_interval = 5 * kMillisecond,
       .call_depth = 8,
       .for_depth = 8,

@@ -10,11 +10,12 @@
 //   [Cpu22x.WhatIsRetentiveOnTheCpu214IsRetentive]
 // - An interrupt routine calls one level of subroutines (A5E00066097-02, 9-168).
 //   [Cpu22x.AnInterruptRoutineCallsOneLevelOfSubroutines]
-// - HC1 and HC2 exist on the CPUs 221 and 222, as one extract of the manual prints it (facts 10.1); their events do not.
-//   [Cpu22x.EventsThatACpuLacksNameTheCpusThatHaveThem]
+// - The CPUs 221 and 222 have HSC0 and HSC3 to HSC5, although one extract of the manual prints HC0 to HC5 for all
+// (facts 10.1).
+//   [Cpu22x.The221And222HaveNoHsc1AndHsc2]
 //
-// Not modelled: HSC3 to HSC5 and the wider modes of HSC0, pulse profiles, port 1, RCV, PID, NETR and NETW, expansion modules
-// that are more than points, a memory cartridge, a clock that has to be plugged in.
+// Not modelled: mode 12 of HSC0 and HSC3, linear pulse profiles, PID, NETR and NETW, expansion modules that are more than
+// points, a memory cartridge, a clock that has to be plugged in.
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/embedded_times.hpp"
 
@@ -25,13 +26,19 @@ struct Size {
   std::uint32_t v, sm, analog;  ///< bytes
 };
 
+/// HC1 and HC2 need inputs from I0.6 on: the CPUs 221 and 222 do not have them (facts 10.1).
+std::array<CounterModes, kCounters.size()> counter_modes(CpuSet self) {
+  const CounterModes of_12 = self & kHasCounters12 ? kAllModes : 0;
+  return {kModesWithoutStart, of_12, of_12, kMode0, kModesWithoutStart, kMode0};
+}
+
 CpuModel release2(std::string_view name, CpuSet self, Size size, std::uint32_t ports, std::uint32_t program_words,
                   std::uint8_t identification) {
   return {
       .name = name,
       .self = self,
       .size = {/*I*/ 16, /*Q*/ 16, /*M*/ 32, /*SM*/ size.sm, /*S*/ 32, /*AI*/ size.analog, /*AQ*/ size.analog, /*T*/ 256,
-               /*C*/ 256, /*HC*/ 3, /*AC*/ 4, /*V*/ size.v, /*L*/ 64},
+               /*C*/ 256, /*HC*/ 6, /*AC*/ 4, /*V*/ size.v, /*L*/ 64},
       .labels = 256,
       .subroutines = 64,
       .interrupts = 128,
@@ -42,6 +49,9 @@ CpuModel release2(std::string_view name, CpuSet self, Size size, std::uint32_t p
       .queue_depth = {static_cast<std::uint8_t>(ports == 2 ? 8 : 4), 16, 8},
       .baud = {38'400, 19'200, 9'600, 4'800, 2'400, 1'200, 115'200, 57'600},
       .identification = identification,
+      .counter_modes = counter_modes(self),
+      .pulse_control = 0xFF,
+      .message_control = 0xFE,
       .shortest_timed_interval = kMillisecond,
       .call_depth = 8,
       .for_depth = 8,

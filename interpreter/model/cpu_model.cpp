@@ -37,9 +37,6 @@ std::string to_text(CpuSet cpus) {
   return text;
 }
 
-/// HSC1 and HSC2: not on the CPUs 221 and 222.
-constexpr CpuSet kHasCounters12 = (kCpu21x & ~kCpu212) | kFrom224;
-
 // Facts 3.1 and 10.2. In the order of the 21x list the events that only 22x CPUs have come last.
 const std::vector<InterruptEvent>& all_events() {
   static const std::vector<InterruptEvent> kTable{
@@ -66,17 +63,17 @@ const std::vector<InterruptEvent>& all_events() {
       {event::kPulses1Complete, Queue::Io, 16, 1, kFrom214, "PLS1: pulse count complete"},
       {event::kT32Reached, Queue::Timed, 2, 2, kFrom215, "timer T32: current value = preset value"},
       {event::kT96Reached, Queue::Timed, 3, 3, kFrom215, "timer T96: current value = preset value"},
-      {event::kPort0Message, Queue::Communication, 2, 2, kFrom215, "port 0: message received", false},
-      {event::kPort1Message, Queue::Communication, 3, 3, kTwoPorts, "port 1: message received", false},
-      {event::kPort1Received, Queue::Communication, 4, 4, kTwoPorts, "port 1: character received", false},
-      {event::kPort1Sent, Queue::Communication, 5, 5, kTwoPorts, "port 1: transmit complete", false},
-      {event::kCounter0Turned, Queue::Io, 17, 11, kCpu22x, "HSC0: direction changed", false},
-      {event::kCounter0Reset, Queue::Io, 18, 12, kCpu22x, "HSC0: external reset", false},
-      {event::kCounter4Reached, Queue::Io, 19, 20, kCpu22x, "HSC4: current value = preset value", false},
-      {event::kCounter4Turned, Queue::Io, 20, 21, kCpu22x, "HSC4: direction changed", false},
-      {event::kCounter4Reset, Queue::Io, 21, 22, kCpu22x, "HSC4: external reset", false},
-      {event::kCounter3Reached, Queue::Io, 22, 19, kCpu22x, "HSC3: current value = preset value", false},
-      {event::kCounter5Reached, Queue::Io, 23, 23, kCpu22x, "HSC5: current value = preset value", false},
+      {event::kPort0Message, Queue::Communication, 2, 2, kFrom215, "port 0: message received"},
+      {event::kPort1Message, Queue::Communication, 3, 3, kTwoPorts, "port 1: message received"},
+      {event::kPort1Received, Queue::Communication, 4, 4, kTwoPorts, "port 1: character received"},
+      {event::kPort1Sent, Queue::Communication, 5, 5, kTwoPorts, "port 1: transmit complete"},
+      {event::kCounter0Turned, Queue::Io, 17, 11, kCpu22x, "HSC0: direction changed"},
+      {event::kCounter0Reset, Queue::Io, 18, 12, kCpu22x, "HSC0: external reset"},
+      {event::kCounter4Reached, Queue::Io, 19, 20, kCpu22x, "HSC4: current value = preset value"},
+      {event::kCounter4Turned, Queue::Io, 20, 21, kCpu22x, "HSC4: direction changed"},
+      {event::kCounter4Reset, Queue::Io, 21, 22, kCpu22x, "HSC4: external reset"},
+      {event::kCounter3Reached, Queue::Io, 22, 19, kCpu22x, "HSC3: current value = preset value"},
+      {event::kCounter5Reached, Queue::Io, 23, 23, kCpu22x, "HSC5: current value = preset value"},
   };
   return kTable;
 }
@@ -106,21 +103,26 @@ const std::vector<SpecialMemory>& special_memory() {
       {7, 7, true, "reserved"},
       {8, 21, false, "identity and errors of expansion modules"},
       {22, 27, true, "last, shortest and longest scan time"},
-      {28, 29, true, "analog potentiometers"},
+      {28, 28, true, "analog potentiometer 0"},
+      {29, 29, true, "analog potentiometer 1", kTwoPotentiometers},
       {30, 30, true, "Freeport: port control"},
       {31, 33, true, "saving a V value to EEPROM"},
       {34, 35, true, "timed interrupts: interval in ms"},
-      {36, 65, true, "high-speed counters"},
+      {36, 45, true, "high-speed counter HSC0"},
+      {46, 65, true, "high-speed counters HSC1 and HSC2", kHasCounters12},
       {66, 85, true, "pulse outputs"},
-      {86, 94, false, "receive message, port 0"},
+      {86, 94, true, "receive message, port 0", kFrom215},
       {95, 97, false, "reserved"},
       {98, 99, false, "parity errors on the I/O bus"},
       {100, 129, false, "reserved"},
-      {130, 130, false, "Freeport: control of port 1"},
+      {130, 130, true, "Freeport: control of port 1", kTwoPorts},
       {131, 135, false, "reserved"},
-      {136, 165, false, "high-speed counters HSC3 to HSC5"},
-      {166, 185, false, "pulse outputs: profile tables"},
-      {186, 194, false, "receive message, port 1"},
+      {136, 165, true, "high-speed counters HSC3 to HSC5", kCpu22x},
+      {166, 169, true, "pulse output 0: profile", kCpu22x},
+      {170, 175, false, "pulse output 0: linear profile", kCpu22x},
+      {176, 179, true, "pulse output 1: profile", kCpu22x},
+      {180, 185, false, "pulse output 1: linear profile", kCpu22x},
+      {186, 194, true, "receive message, port 1", kTwoPorts},
       {195, 199, false, "reserved"},
       {200, 549, false, "intelligent modules"},
   };

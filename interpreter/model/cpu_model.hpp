@@ -9,6 +9,7 @@
 
 #include "interpreter/base/time.hpp"
 #include "interpreter/model/area.hpp"
+#include "interpreter/model/counters.hpp"
 
 namespace s7200 {
 
@@ -25,6 +26,9 @@ inline constexpr CpuSet kCpu22xRelease2 = kCpu221 | kCpu222 | kCpu224 | kCpu224x
 inline constexpr CpuSet kCpu22x = kCpu22xRelease1 | kCpu22xRelease2, kEveryCpu = kCpu21x | kCpu22x;
 inline constexpr CpuSet kFrom214 = kEveryCpu & ~kCpu212, kFrom215 = kCpu215 | kCpu216 | kCpu22x;
 inline constexpr CpuSet kFrom224 = kCpu22x & ~(kCpu221r1 | kCpu222r1 | kCpu221 | kCpu222);
+/// HSC1 and HSC2: not on the CPUs 221 and 222.
+inline constexpr CpuSet kHasCounters12 = (kCpu21x & ~kCpu212) | kFrom224;
+inline constexpr CpuSet kTwoPotentiometers = kCpu21x | kFrom224;
 inline constexpr CpuSet kTwoPorts = kCpu216 | kCpu226r1 | kCpu226xm | kCpu224xp | kCpu226;
 
 /// "CPU 214, 215, 216 or 22x"; "CPU 22x of release 2"
@@ -67,6 +71,17 @@ enum class IntegerOverflow : std::uint8_t {
   Keep   ///< what was there before (S7-200 manual from 2004 on, 140: CPU 22x)
 };
 
+/// What the manuals leave open about RCV (facts 10.3). The defaults are what the models have.
+struct ReceiveChoices {
+  bool idle_or_break = true;                ///< il and bk together: either is enough to start; otherwise it takes both
+  bool start_may_end = false;               ///< a start character that is also the end character ends the message
+  bool stores_bad_character = false;        ///< the character that ends the message with a parity or framing error
+  bool end_and_count = true;                ///< end character and count reached together set both bits; otherwise only e
+  bool event_after_user_end = false;        ///< RCV with en = 0 that ends a receive causes event 23
+  bool event_after_bad_parameters = false;  ///< so does a refused RCV, status r
+  bool character_events = false;            ///< event 8 is raised even while RCV receives
+};
+
 struct CpuModel {
   std::string_view name;  ///< "214"
   CpuSet self;
@@ -77,14 +92,18 @@ struct CpuModel {
   std::uint32_t eeprom_bytes;  ///< how much V memory the EEPROM can hold, from V0
   std::vector<RetentiveRange> retentive;
   std::array<std::uint8_t, kQueues> queue_depth;
-  std::array<std::uint32_t, 8> baud;          ///< by the three bits bbb of SMB30
-  std::uint8_t identification;                ///< SMB6
+  std::array<std::uint32_t, 8> baud;  ///< by the three bits bbb of SMB30
+  std::uint8_t identification;        ///< SMB6
+  std::array<CounterModes, kCounters.size()> counter_modes;
+  std::uint8_t pulse_control;                 ///< the bits of SMB67 and SMB77 that it has
+  std::uint8_t message_control;               ///< the bits of SMB87 that it has
   Time shortest_timed_interval;               ///< of SMB34 and SMB35
   std::uint32_t call_depth, for_depth;        ///< nesting of subroutines and of FOR loops
   std::uint32_t interrupt_call_depth;         ///< nesting of subroutines in an interrupt routine
   Time watchdog;                              ///< longest scan
   IntegerOverflow integer_overflow;           ///< of +I, -I, +D, -D and DIV
   std::array<std::string_view, 2> times_csv;  ///< execution times, in the format of model/times.hpp; the second may be empty
+  ReceiveChoices receive{};
 
   std::uint32_t size_of(Area area) const { return size[static_cast<std::size_t>(area)]; }
 };
@@ -96,11 +115,14 @@ struct TimerBase {
 };
 TimerBase timer_base(std::uint32_t number);
 
-/// The bytes of special memory that a program may use, and whether the simulator does what they say.
+/// The bytes of special memory that a program may use, on which CPUs, and whether the simulator does what they say.
 struct SpecialMemory {
   std::uint16_t first, last;  ///< SMB numbers
   bool modelled;
   std::string_view meaning;
+  CpuSet cpus = kEveryCpu;
+
+  bool usable_on(const CpuModel& model) const { return modelled && (cpus & model.self) != 0; }
 };
 const std::vector<SpecialMemory>& special_memory();
 

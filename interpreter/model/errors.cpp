@@ -9,7 +9,7 @@ std::string_view meaning_of(RunError code) {
     case RunError::PointTaken:
       return "input interrupt attached to a point that a high-speed counter uses";
     case RunError::InputTaken:
-      return "HDEF uses an input that an input interrupt is attached to";
+      return "HDEF uses an input that an input interrupt is attached to, or another high-speed counter uses";
     case RunError::Clock:
       return "TODW: the buffer does not hold BCD";
     case RunError::CounterDefinedTwice:
@@ -23,7 +23,11 @@ std::string_view meaning_of(RunError code) {
     case RunError::CallDepth:
       return "subroutines nested too deeply";
     case RunError::Port0Busy:
-      return "XMT while port 0 is transmitting, or not in Freeport mode";
+      return "XMT or RCV while port 0 is sending or receiving a message, or is not in Freeport mode";
+    case RunError::Port1Busy:
+      return "XMT or RCV while port 1 is sending or receiving a message, or is not in Freeport mode";
+    case RunError::NoSegments:
+      return "PLS: the profile has no segments";
     case RunError::OperandRange:
       return "range error: the operand runs past the end of its memory area";
     case RunError::Count:

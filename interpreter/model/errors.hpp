@@ -16,6 +16,8 @@ enum class RunError : std::uint16_t {
   CallDepth = 0x08,
   Port0Busy = 0x09,
   CounterDefinedTwice = 0x0A,
+  Port1Busy = 0x0B,
+  NoSegments = 0x0E,
   CompareValue = 0x0F,
   OperandRange = 0x91,
   Count = 0x92,

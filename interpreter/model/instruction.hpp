@@ -110,7 +110,8 @@ enum class Effect : std::uint8_t {
   SetsBits,
   ConditionalEnd,  ///< of a routine or of the scan
   EnablesInterrupts,
-  Transmits
+  Transmits,
+  Receives
 };
 
 /// What the decoder adds to the operands of an instruction.

@@ -57,8 +57,7 @@ inline constexpr std::uint32_t kIdentification = byte(6);
 inline constexpr std::uint32_t kLastScan = byte(22), kShortestScan = byte(24), kLongestScan = byte(26);  ///< words, in ms
 inline constexpr std::array<std::uint32_t, 2> kPotentiometer{byte(28), byte(29)};
 
-inline constexpr std::uint32_t kPort0Control = byte(30);
-/// Fields of a port's control byte: p p d b b b m m.
+/// Fields of a port's control byte: p p d b b b m m. Where it is, is in the row of the port (ports.hpp).
 enum PortControl : std::uint8_t {
   kProtocol = 0x03,   ///< mm
   kFreeport = 0x01,   ///< as the protocol
@@ -78,10 +77,40 @@ inline constexpr std::array<std::uint32_t, 2> kTimedInterval{byte(34), byte(35)}
 
 }  // namespace sm
 
-/// High-speed counters HSC0–HSC2, ten bytes each.
+/// The receive message service of a port, nine bytes: SMB86 to SMB94 for port 0. Where they are, is in the row of the port.
+namespace sm::message {
+
+enum Status : std::uint8_t {  // n r e 0 0 t c p: why it has ended; 0 while it receives
+  kParity = 0x01,             ///< a character with an error, or a break
+  kCount = 0x02,              ///< as many characters as asked for
+  kTimer = 0x04,              ///< the time has passed
+  kEndCharacter = 0x20,
+  kParameters = 0x40,  ///< no start condition, or no room
+  kUser = 0x80,        ///< RCV with kEnable = 0
+};
+
+// Offsets from the status byte.
+inline constexpr std::uint32_t kControl = 1;
+inline constexpr std::uint32_t kStartCharacter = 2, kEndOfMessage = 3;
+inline constexpr std::uint32_t kIdleTime = 4;  ///< word, in ms
+inline constexpr std::uint32_t kTimeout = 6;   ///< word, in ms
+inline constexpr std::uint32_t kMost = 8;      ///< characters
+
+enum Control : std::uint8_t {  // en sc ec il c/m tmr bk 0
+  kFromBreak = 0x02,
+  kTimed = 0x04,
+  kWholeMessage = 0x08,  ///< the time is that of the message; otherwise from one character to the next
+  kFromIdleLine = 0x10,
+  kHasEnd = 0x20,
+  kFromStart = 0x40,
+  kEnable = 0x80,
+};
+
+}  // namespace sm::message
+
+/// High-speed counters, ten bytes each. Where they are, is in the row of the counter (counters.hpp).
 namespace sm::counter {
 
-inline constexpr std::array<std::uint32_t, 3> kStatus{byte(36), byte(46), byte(56)};
 enum Status : std::uint8_t { kCountingUp = 0x20, kAtPreset = 0x40, kAbovePreset = 0x80 };
 
 // Offsets from the status byte.
@@ -102,11 +131,18 @@ enum Control : std::uint8_t {
 
 }  // namespace sm::counter
 
-/// Pulse outputs Q0.0 and Q0.1, ten bytes each.
+/// Pulse outputs Q0.0 and Q0.1, ten bytes each, and what belongs to their profiles.
 namespace sm::pulses {
 
 inline constexpr std::array<std::uint32_t, 2> kStatus{byte(66), byte(76)};
-enum Status : std::uint8_t { kTrainOverflow = 0x40, kIdle = 0x80 };
+inline constexpr std::array<std::uint32_t, 2> kSegment{byte(166), byte(176)};       ///< number of the one in progress
+inline constexpr std::array<std::uint32_t, 2> kProfileTable{byte(168), byte(178)};  ///< word: offset in V
+enum Status : std::uint8_t {
+  kDeltaError = 0x10,  ///< a segment of the profile would have left the range of cycle times
+  kUserAbort = 0x20,   ///< PLS has ended a profile
+  kTrainOverflow = 0x40,
+  kIdle = 0x80
+};
 
 // Offsets from the status byte.
 inline constexpr std::uint32_t kControl = 1;
@@ -119,6 +155,8 @@ enum Control : std::uint8_t {
   kTakeWidth = 0x02,
   kTakeCount = 0x04,
   kMilliseconds = 0x08,
+  kSynchronous = 0x10,  ///< PWM: a change waits for the end of the cycle
+  kProfile = 0x20,      ///< PTO: several segments, from a table in V memory
   kPwm = 0x40,
   kEnable = 0x80,
 };

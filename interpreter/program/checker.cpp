@@ -1,6 +1,7 @@
 #include "interpreter/program/checker.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cassert>
@@ -173,20 +174,31 @@ class Checker {
     const std::int64_t bytes =
         rule.width == Width::Bit ? (placed.operand.bit + elements + 7) / 8 : elements * bytes_of(rule.width);
     const SpecialMemory* missing =
-        unmodelled_special_memory(placed.operand.at - area.base, static_cast<std::uint32_t>(bytes));
+        missing_special_memory(model_, placed.operand.at - area.base, static_cast<std::uint32_t>(bytes));
     if (!missing) return true;
-    error(written.position, fmt::format("{} reach SMB{} to SMB{} ({}), which are not modelled yet", block(), missing->first,
-                                        missing->last, missing->meaning));
+    const std::string why =
+        missing->modelled ? fmt::format("CPU {} does not have", model_.name) : std::string("are not modelled yet");
+    error(written.position, fmt::format("{} reach {} ({}), which {}", block(), bytes_text(*missing), missing->meaning, why));
     return false;
   }
 
-  /// HSC0 has only mode 0.
   bool mode_fits(const Instruction& instruction, const stl::Statement& statement) {
     if (instruction.structure != Structure::DefineCounter) return true;
     const auto& placed = placed_.back();
-    if (*placed[0].constant != 0 || *placed[1].constant == 0) return true;
-    error(statement.operands[1].position, fmt::format("HSC0 has no mode {}", *placed[1].constant), "HSC0 has only mode 0");
+    const auto counter = static_cast<std::size_t>(*placed[0].constant);
+    const CounterModes modes = model_.counter_modes[counter];
+    if (modes >> *placed[1].constant & 1) return true;
+    error(statement.operands[1].position, fmt::format("HSC{} has no mode {}", counter, *placed[1].constant),
+          fmt::format("HSC{} has {}", counter, modes_text(modes)));
     return false;
+  }
+
+  static std::string modes_text(CounterModes modes) {
+    if (modes == kMode0) return "only mode 0";
+    std::vector<int> numbers;
+    for (int mode = 0; modes >> mode; ++mode)
+      if (modes >> mode & 1) numbers.push_back(mode);
+    return fmt::format("the modes {}", fmt::join(numbers, ", "));
   }
 
   static std::string_view unit(Width width) {

@@ -9,6 +9,7 @@
 #include <set>
 #include <vector>
 
+#include "interpreter/model/ports.hpp"
 #include "interpreter/program/operands.hpp"
 #include "interpreter/program/warnings.hpp"
 #include "interpreter/stl/printer.hpp"
@@ -341,8 +342,6 @@ void find_missing_eni(const Program& program, stl::Diagnostics& diagnostics) {
 
 namespace {
 
-constexpr Bits kPortControl{(image::kSM + 30) * 8u, 8};
-
 /// Whether the next instruction follows, whatever happens.
 bool goes_straight_on(const Instruction& instruction) {
   switch (instruction.structure) {
@@ -356,21 +355,39 @@ bool goes_straight_on(const Instruction& instruction) {
   }
 }
 
-bool sets_up_port(const Program& program, const Op& op) { return touches(program, op, kPortControl, true); }
+/// Whether an instruction may write the control byte of a port.
+bool sets_up_port(const Program& program, const Op& op, const PortInfo& port) {
+  return touches(program, op, {port.control * 8u, 8}, true);
+}
 
-/// XMT that the first scan surely executes before anything can have written SMB30: in the main program down to the first
-/// jump or call, in rungs that begin with SM0.0 or SM0.1.
-void find_early_transmission(const Program& program, stl::Diagnostics& diagnostics) {
+/// XMT and RCV.
+bool uses_port(const Op& op) {
+  return op.instruction->effect == Effect::Transmits || op.instruction->effect == Effect::Receives;
+}
+
+std::string control_text(const PortInfo& port) { return fmt::format("SMB{}", port.control - image::kSM); }
+
+/// "XMT sends nothing"
+std::string in_vain(const Op& op) {
+  return fmt::format("{} {} nothing", op.instruction->mnemonic,
+                     op.instruction->effect == Effect::Transmits ? "sends" : "receives");
+}
+
+/// XMT or RCV that the first scan surely executes before anything can have written the control byte of its port: in the main
+/// program down to the first jump or call, in rungs that begin with SM0.0 or SM0.1.
+void find_early_use(const Program& program, std::size_t number, stl::Diagnostics& diagnostics) {
+  const PortInfo& port = kPorts[number];
   bool on = false;
   for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
     const Op& op = program.ops[i];
     const Instruction& instruction = *op.instruction;
-    if (sets_up_port(program, op)) return;
-    if (on && instruction.effect == Effect::Transmits)
-      diagnostics.push_back(warn(Warning::NoFreeport, place(program, i),
-                                 "XMT sends nothing in the first scan: SMB30, which puts the port in Freeport mode, is "
-                                 "written after it",
-                                 "write SMB30 first", "no Freeport yet"));
+    if (sets_up_port(program, op, port)) return;
+    if (on && uses_port(op) && op[1].at == number)
+      diagnostics.push_back(
+          warn(Warning::NoFreeport, place(program, i),
+               fmt::format("{} in the first scan: {}, which puts the port in Freeport mode, is written after it",
+                           in_vain(op), control_text(port)),
+               fmt::format("write {} first", control_text(port)), "no Freeport yet"));
     if (!goes_straight_on(instruction)) return;
     if (instruction.effect == Effect::LoadsBit)
       on = op[0].at == image::kSM && op[0].bit <= 1;
@@ -379,25 +396,35 @@ void find_early_transmission(const Program& program, stl::Diagnostics& diagnosti
   }
 }
 
+bool is_event_of(const PortInfo& port, std::uint8_t event) {
+  return event == port.received || event == port.sent || event == port.received_message;
+}
+
+void find_missing_freeport(const Program& program, std::size_t number, stl::Diagnostics& diagnostics) {
+  const PortInfo& port = kPorts[number];
+  if (std::ranges::any_of(program.ops, [&](const Op& op) { return sets_up_port(program, op, port); }))
+    return find_early_use(program, number, diagnostics);
+  const auto add = [&](std::uint32_t op, const std::string& what) {
+    diagnostics.push_back(
+        warn(Warning::NoFreeport, place(program, op),
+             fmt::format("{}: no instruction writes {} to put the port in Freeport mode", what, control_text(port)),
+             fmt::format("MOVB 16#09, {} in the first scan selects Freeport mode with 9600 baud, 8 data bits and no parity",
+                         control_text(port)),
+             "no Freeport"));
+  };
+  for (const Effect effect : {Effect::Transmits, Effect::Receives})
+    for (const std::uint32_t i : ops_with(program, effect))
+      if (program.ops[i][1].at == number) add(i, in_vain(program.ops[i]));
+  for (const std::uint32_t attach : attachments(program)) {
+    const std::uint32_t event = program.ops[attach][1].at;
+    if (is_event_of(port, static_cast<std::uint8_t>(event))) add(attach, fmt::format("event {} never occurs", event));
+  }
+}
+
 }  // namespace
 
 void find_missing_freeport(const Program& program, stl::Diagnostics& diagnostics) {
-  if (std::ranges::any_of(program.ops, [&](const Op& op) { return sets_up_port(program, op); }))
-    return find_early_transmission(program, diagnostics);
-  const auto add = [&](std::uint32_t op, std::string message) {
-    diagnostics.push_back(
-        warn(Warning::NoFreeport, place(program, op), std::move(message),
-             "MOVB 16#09, SMB30 in the first scan selects Freeport mode with 9600 baud, 8 data bits and no parity",
-             "no Freeport"));
-  };
-  for (const std::uint32_t transmit : ops_with(program, Effect::Transmits))
-    add(transmit, "XMT sends nothing: no instruction writes SMB30 to put the port in Freeport mode");
-  for (const std::uint32_t attach : attachments(program)) {
-    const InterruptEvent* event = find_event(program.ops[attach][1].at);
-    if (event->queue == Queue::Communication)
-      add(attach,
-          fmt::format("event {} never occurs: no instruction writes SMB30 to put the port in Freeport mode", event->number));
-  }
+  for (std::size_t port = 0; port < program.model->ports; ++port) find_missing_freeport(program, port, diagnostics);
 }
 
 void find_unused_steps(const Program& program, stl::Diagnostics& diagnostics) {

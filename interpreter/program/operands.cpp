@@ -1,6 +1,7 @@
 #include "interpreter/program/operands.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
@@ -64,6 +65,16 @@ std::string areas_text(const OperandRule& rule, const CpuModel& model) {
   return text;
 }
 
+/// "HSC0, HSC3, HSC4 and HSC5"
+std::string counters_text(const CpuModel& model) {
+  std::vector<std::string> names;
+  for (std::size_t number = 0; number < model.counter_modes.size(); ++number)
+    if (model.counter_modes[number] != 0) names.push_back(fmt::format("HSC{}", number));
+  const std::string last = names.back();
+  names.pop_back();
+  return names.empty() ? last : fmt::format("{} and {}", fmt::join(names, ", "), last);
+}
+
 /// Checks one operand; if the result is not a PlacedOperand, a diagnostic has been added.
 class Placing {
  public:
@@ -117,7 +128,7 @@ class Placing {
       return error(fmt::format("{} {} does not exist on CPU {}", what, value->value, model_.name), range,
                    fmt::format("no such {}", what));
     if (rule_.kind == OperandKind::Event && !event_exists(value->value)) return {};
-    if (rule_.kind == OperandKind::Port && value->value != 0) return error("port 1 is not modelled yet", "use port 0");
+    if (rule_.kind == OperandKind::Counter && !counter_exists(static_cast<std::uint32_t>(value->value))) return {};
     return PlacedOperand{{.at = static_cast<std::uint32_t>(value->value)}, {}, value->value};
   }
 
@@ -138,6 +149,14 @@ class Placing {
       default:
         return {"number", rule_.max};
     }
+  }
+
+  /// Not all counters of the numbers up to the last one.
+  bool counter_exists(std::uint32_t number) {
+    if (model_.counter_modes[number] != 0) return true;
+    error(fmt::format("CPU {} has no high-speed counter {}", model_.name, number),
+          fmt::format("it has {}", counters_text(model_)), fmt::format("no counter {}", number));
+    return false;
   }
 
   bool event_exists(std::int64_t number) {
@@ -272,7 +291,7 @@ class Placing {
     const std::uint32_t size = model_.size_of(area);
     const std::uint64_t end = std::uint64_t{address.number} + (is_numbered(area) ? 1 : bytes_of(width));
     const bool odd = (area == Area::AI || area == Area::AQ) && address.number % 2 != 0;
-    if (end <= size && address.bit < 8 && !odd) return true;
+    if (end <= size && address.bit < 8 && !odd) return area != Area::HC || counter_exists(address.number);
     error(odd ? fmt::format("{} is an odd address; analog values are at even ones", text())
               : fmt::format("{} does not exist on CPU {}", text(), model_.name),
           fmt::format("{} memory is {}", info(area).name, range_text(model_, area, width)),
@@ -298,10 +317,14 @@ class Placing {
             fmt::format("only the CPU writes SM0.0 to SM{}.7", kReadOnlySpecialMemory - 1));
       return false;
     }
-    const SpecialMemory* missing = unmodelled_special_memory(address.number, width());
+    const SpecialMemory* missing = missing_special_memory(model_, address.number, width());
     if (!missing) return true;
-    error(fmt::format("SMB{} to SMB{} ({}) are not modelled yet", missing->first, missing->last, missing->meaning), {},
-          fmt::format("SMB{}", missing->first));
+    if (missing->modelled)
+      error(fmt::format("CPU {} has no {} ({})", model_.name, bytes_text(*missing), missing->meaning),
+            fmt::format("it needs {}", to_text(missing->cpus)), bytes_text(*missing));
+    else
+      error(fmt::format("{} ({}) are not modelled yet", bytes_text(*missing), missing->meaning), {},
+            fmt::format("SMB{}", missing->first));
     return false;
   }
 
@@ -410,11 +433,16 @@ std::string address_text(Area area, Width width, std::uint32_t number, std::uint
   return fmt::format("{}{}{}", name, letter_of(width), number);
 }
 
-const SpecialMemory* unmodelled_special_memory(std::uint32_t first, std::uint32_t bytes) {
+const SpecialMemory* missing_special_memory(const CpuModel& model, std::uint32_t first, std::uint32_t bytes) {
   const auto found = std::ranges::find_if(special_memory(), [&](const SpecialMemory& entry) {
-    return !entry.modelled && first + bytes > entry.first && first <= entry.last;
+    return !entry.usable_on(model) && first + bytes > entry.first && first <= entry.last;
   });
   return found == special_memory().end() ? nullptr : &*found;
+}
+
+std::string bytes_text(const SpecialMemory& memory) {
+  if (memory.first == memory.last) return fmt::format("SMB{}", memory.first);
+  return fmt::format("SMB{} to SMB{}", memory.first, memory.last);
 }
 
 std::string range_text(const CpuModel& model, Area area, Width width) {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/program/program.hpp"
 #include "interpreter/base/diagnostic.hpp"
+#include "interpreter/program/program.hpp"
 
 namespace s7200 {
 
@@ -45,8 +45,12 @@ std::optional<Width> width_of(const stl::Address& address, Area area);
 /// `VB100`, `T33`, `M31.7`: the text of an address.
 std::string address_text(Area area, Width width, std::uint32_t number, std::uint8_t bit);
 
-/// The first part of special memory that is not modelled among `bytes` from SMB`first`; null if there is none.
-const SpecialMemory* unmodelled_special_memory(std::uint32_t first, std::uint32_t bytes);
+/// The first part of special memory that a CPU does not have, or that is not modelled, among `bytes` from SMB`first`; null
+/// if there is none.
+const SpecialMemory* missing_special_memory(const CpuModel& model, std::uint32_t first, std::uint32_t bytes);
+
+/// `SMB8 to SMB21`
+std::string bytes_text(const SpecialMemory& memory);
 
 /// `VB0 to VB4095`: what there is of an area on a CPU.
 std::string range_text(const CpuModel& model, Area area, Width width);

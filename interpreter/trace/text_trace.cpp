@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "interpreter/model/errors.hpp"
+#include "interpreter/model/ports.hpp"
 #include "interpreter/stl/printer.hpp"
 
 namespace s7200 {
@@ -21,6 +22,22 @@ std::string place_text(std::uint32_t op, const Program& program) {
 
 std::string character_text(const TraceRecord& r) {
   return fmt::format("{:02x}{}{}", r.byte, r.parity_error ? " parity error" : "", r.framing_error ? " framing error" : "");
+}
+
+/// Why a message has ended, after the bits of SMB86.
+std::string status_text(std::uint8_t status) {
+  static constexpr std::pair<std::uint8_t, std::string_view> kReasons[] = {
+      {sm::message::kUser, "ended by the program"},  {sm::message::kParameters, "no start condition or no room"},
+      {sm::message::kEndCharacter, "end character"}, {sm::message::kTimer, "the time has passed"},
+      {sm::message::kCount, "as many as can be"},    {sm::message::kParity, "a bad character"}};
+  std::string text = fmt::format("status 16#{:02X}", status);
+  std::string_view before = " (";
+  for (const auto& [bit, reason] : kReasons) {
+    if (!(status & bit)) continue;
+    text.append(before).append(reason);
+    before = ", ";
+  }
+  return text + ')';
 }
 
 bool is_constant(const stl::Operand& operand) {
@@ -41,11 +58,10 @@ std::string value_text(std::uint32_t value, Width width) {
   return {};
 }
 
-}  // namespace
+/// Port 0 goes without saying: most CPUs have no other.
+std::string port_text(const TraceRecord& r) { return r.port == 0 ? "" : fmt::format("port {}: ", r.port); }
 
-std::string clock_text(Time at) { return fmt::format("{:>7}.{:06}", at / kMillisecond, at % kMillisecond); }
-
-std::string describe(const TraceRecord& r, const Program& program) {
+std::string what_text(const TraceRecord& r, const Program& program) {
   switch (r.kind) {
     case TraceKind::ScanBegin:
       return fmt::format("scan {} begins", r.count);
@@ -75,9 +91,15 @@ std::string describe(const TraceRecord& r, const Program& program) {
     case TraceKind::CharacterReceived:
       return fmt::format("received {}", character_text(r));
     case TraceKind::CharacterIgnored:
-      return fmt::format("ignored  {}: event 8 is not attached", character_text(r));
+      return fmt::format("ignored  {}: event {} is not attached", character_text(r), kPorts[r.port].received);
+    case TraceKind::CharacterDropped:
+      return fmt::format("dropped  {}: RCV waits for the start of a message", character_text(r));
+    case TraceKind::Receive:
+      return fmt::format("RCV: at most {} characters", r.count);
+    case TraceKind::ReceiveEnd:
+      return fmt::format("RCV ends: {} characters, {}", r.count, status_text(r.byte));
     case TraceKind::PortControl:
-      return fmt::format("SMB30 = 16#{:02X}", r.byte);
+      return fmt::format("SMB{} = 16#{:02X}", kPorts[r.port].control - image::kSM, r.byte);
     case TraceKind::OutputChanged:
       return fmt::format("QB{} = 2#{:08b}", r.op, r.byte);
     case TraceKind::AnalogChanged:
@@ -90,6 +112,12 @@ std::string describe(const TraceRecord& r, const Program& program) {
   }
   return {};
 }
+
+}  // namespace
+
+std::string clock_text(Time at) { return fmt::format("{:>7}.{:06}", at / kMillisecond, at % kMillisecond); }
+
+std::string describe(const TraceRecord& r, const Program& program) { return port_text(r) + what_text(r, program); }
 
 std::string describe(const InstructionRecord& r, const Program& program) {
   const Op& op = program.ops[r.op];

@@ -24,8 +24,11 @@ enum class TraceKind : std::uint8_t {
   TransmitEnd,        ///<
   CharacterSent,      ///< byte; at: end of its stop bit
   CharacterReceived,  ///< byte, parity_error, framing_error; since: its start edge
-  CharacterIgnored,   ///< like received, but the port is not in Freeport mode or event 8 is not attached
-  PortControl,        ///< byte: SMB30
+  CharacterIgnored,   ///< like received, but the port is not in Freeport mode or its receive event is not attached
+  CharacterDropped,   ///< like received, but RCV is still waiting for the start of its message
+  Receive,            ///< RCV begins its search; count: the most characters
+  ReceiveEnd,         ///< byte: status SMB86 or SMB186; count: characters stored
+  PortControl,        ///< byte: SMB30 or SMB130
   OutputChanged,      ///< byte: new value of the output points; op: number of the byte
   AnalogChanged,      ///< count: new value; op: number of the AQ word
   RuntimeError,       ///< code; op: where
@@ -40,6 +43,7 @@ struct TraceRecord {
   std::uint8_t byte = 0;
   bool parity_error = false;
   bool framing_error = false;
+  std::uint8_t port = 0;  ///< of characters, messages and the control byte
   std::uint16_t code = 0;
   std::uint32_t op = 0;
   std::uint64_t count = 0;

@@ -9,6 +9,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/special_memory.hpp"
 #include "interpreter/program/address.hpp"
+#include "interpreter/program/operands.hpp"
 
 namespace s7200::serial {
 namespace {
@@ -88,13 +89,13 @@ class Reader {
 
   /// What the field can drive; a message for anything else.
   bool drivable(const MemoryRange& range, std::string_view address) {
+    const std::size_t potentiometers = missing_special_memory(model_, sm::kPotentiometer[1] - image::kSM, 1) ? 1 : 2;
     const bool potentiometer =
-        range.area == Area::SM && range.width == Width::Byte && range.at - sm::kPotentiometer[0] < sm::kPotentiometer.size();
+        range.area == Area::SM && range.width == Width::Byte && range.at - sm::kPotentiometer[0] < potentiometers;
     const bool analog = range.area == Area::AI && range.number % 2 == 0;
     if (range.area == Area::I || analog || potentiometer) return true;
-    error(fmt::format(
-        "'{}' is not an input; rows set I, words of AI at even addresses, and the potentiometers SMB28 and SMB29",
-        stl::shortened(address)));
+    error(fmt::format("'{}' is not an input; rows set I, words of AI at even addresses, and the {}", stl::shortened(address),
+                      potentiometers == 1 ? "potentiometer SMB28" : "potentiometers SMB28 and SMB29"));
     return false;
   }
 

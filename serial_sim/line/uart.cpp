@@ -180,10 +180,10 @@ ReceivedCharacter Uart::take_character() {
     if (sample(1 + bit)) character.byte = static_cast<std::uint8_t>(character.byte | 1U << bit);
   }
   const int stop_bit = first_stop_bit(format);
-  if (format.parity != Parity::None) {
-    character.parity_error = sample(stop_bit - 1) != format.parity_bit(character.byte);
-  }
+  const bool bit_before_stop = sample(stop_bit - 1);
+  if (format.parity != Parity::None) character.parity_error = bit_before_stop != format.parity_bit(character.byte);
   character.framing_error = !sample(stop_bit);
+  character.line_break = character.byte == 0 && !bit_before_stop && character.framing_error;
   character.start = start;
   character.end = start + middle_of_bit(stop_bit, clock);
 

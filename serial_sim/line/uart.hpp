@@ -24,6 +24,8 @@ unsigned character_levels(const SerialFormat& format, std::uint8_t data, bool pa
 /// Receiver: waits for a falling edge, looks half a bit later whether the start bit is still there (else it was a glitch),
 /// then samples the middle of each bit and reports in the middle of the (first) stop bit. After a stop bit at space level it
 /// waits for the next falling edge, as for any character. It hears its own sender too, unless it is switched off.
+/// Not documented, modelled so: space in every sample, from the start bit to the stop bit, is a break; whether the line
+/// stays at space after the middle of the stop bit does not matter. [Uart.SpaceInEverySampleIsABreak]
 ///
 /// A character is three events at most: start bit verified, stop bit sampled, character sent.
 class Uart final : public SerialPort, private LineListener {

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "interpreter/cpu/cpu.hpp"
 #include "interpreter/model/ports.hpp"
@@ -26,8 +28,8 @@ class Plc final : private EventHandler {
     bool operator==(const State&) const = default;
   };
 
-  /// With port 0 on `line`. Neither reference is owned.
-  Plc(Dispatcher& events, SharedLine& line, std::shared_ptr<const Program> program, FieldScript field);
+  /// `lines`: one for each port of the program's CPU, by number. They are not owned.
+  Plc(Dispatcher& events, std::span<SharedLine* const> lines, std::shared_ptr<const Program> program, FieldScript field);
   Plc(const Plc&) = delete;
   Plc& operator=(const Plc&) = delete;
 
@@ -38,15 +40,15 @@ class Plc final : private EventHandler {
   const Cpu& cpu() const { return cpu_; }
 
   /// What the program has set a port to; the default format until it has switched it to Freeport mode.
-  SerialFormat port_format(std::size_t port = 0) const;
+  SerialFormat port_format(std::uint8_t port = 0) const;
 
   /// `follower` is told, at once, each time the program sets a port; an empty function ends that.
-  void when_configured(std::function<void(const SerialFormat& format)> follower, std::size_t port = 0) {
-    ports_.at(port).follower = std::move(follower);
+  void when_configured(std::function<void(const SerialFormat& format)> follower, std::uint8_t port = 0) {
+    ports_.at(port)->follower = std::move(follower);
   }
 
   /// Lets `sink` watch the line at a port from now on; null ends that. Not owned. After restore() it sees time go back.
-  void set_wire_sink(WireSink* sink, std::size_t port = 0) { ports_.at(port).tap.watch(sink, cpu_.time()); }
+  void set_wire_sink(WireSink* sink, std::uint8_t port = 0) { ports_.at(port)->tap.watch(sink, cpu_.time()); }
 
   /// No driver of the lines gets an edge before `until` any more: whoever watches them is told.
   void settle(Time until);
@@ -73,11 +75,13 @@ class Plc final : private EventHandler {
     std::function<void(const SerialFormat&)> follower{};
   };
 
-  void handle(const Event& event) override;
-  void hear(std::size_t port, const Event& event);
+  std::vector<std::unique_ptr<Port>> ports_on(std::span<SharedLine* const> lines, Dispatcher& events);
+  Ports devices() const;
 
-  static_assert(kPorts.size() == 1, "one more port is one more line for the constructor, and for the CPU's");
-  std::array<Port, kPorts.size()> ports_;
+  void handle(const Event& event) override;
+  void hear(std::uint8_t port, const Event& event);
+
+  std::vector<std::unique_ptr<Port>> ports_;
   Cpu cpu_;
   Field field_;
 };

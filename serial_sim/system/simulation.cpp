@@ -1,22 +1,33 @@
 #include "serial_sim/system/simulation.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace s7200::serial {
 
-Simulation::Simulation(std::shared_ptr<const Program> program, FieldScript field)
-    : line_(system_.add_line()),
-      plc_(system_.add_plc(line_, std::move(program), std::move(field))),
+Simulation::Simulation(std::shared_ptr<const Program> program, FieldScript field, std::uint8_t port)
+    : port_(port),
+      line_(system_.add_line()),
+      plc_(system_.add_plc(lines(*program->model), program, std::move(field))),
       master_(system_.add_requester(line_)),
-      host_(system_.add_host_port(line_)) {}
+      host_(system_.add_host_port(line_)) {
+  assert(port < program->model->ports);
+}
+
+/// The line, and those on which a port of the PLC is alone.
+std::vector<SharedLine*> Simulation::lines(const CpuModel& model) {
+  std::vector<SharedLine*> lines;
+  for (std::uint8_t port = 0; port < model.ports; ++port) lines.push_back(port == port_ ? &line_ : &system_.add_line());
+  return lines;
+}
 
 void Simulation::let_master_follow(std::function<SerialFormat(const SerialFormat& port)> of) {
   const auto follow = [this, of = std::move(of)](const SerialFormat& port) {
     if (!master().asks()) master_uart().configure(of(port));
   };
-  follow(cpu().state().port[0].format);
-  plc_.when_configured(follow);
+  follow(freeport().format);
+  plc_.when_configured(follow, port_);
 }
 
 Halt Simulation::run_until(Time end) {

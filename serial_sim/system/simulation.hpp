@@ -1,4 +1,5 @@
-// The system that most programs need: one line, and on it a PLC, a requester (the master) and a port for the host.
+// The system that most programs need: one line, and on it a PLC, a requester (the master) and a port for the host. If the
+// PLC has two ports, the other one is alone on a line of its own.
 #pragma once
 
 #include <atomic>
@@ -11,7 +12,8 @@ namespace s7200::serial {
 
 class Simulation {
  public:
-  explicit Simulation(std::shared_ptr<const Program> program, FieldScript field = {});
+  /// `port`: the one of the PLC that is on the line with the others.
+  explicit Simulation(std::shared_ptr<const Program> program, FieldScript field = {}, std::uint8_t port = 0);
 
   /// All that runs ends early once `request` is true; it is looked at every 100 ms. Not owned; null: nothing ends it.
   void stop_when(const std::atomic<bool>* request) { system_.stop_when(request); }
@@ -59,17 +61,24 @@ class Simulation {
   Time time() const { return cpu().time(); }
 
   /// What the program has set its port to; the default format until it has switched it to Freeport mode.
-  SerialFormat port_format() const { return plc_.port_format(); }
+  SerialFormat port_format() const { return plc_.port_format(port_); }
+
+  /// The PLC's port on the line: its number, and what it is doing.
+  std::uint8_t port() const { return port_; }
+  const Freeport& freeport() const { return cpu().state().port[port_]; }
 
   /// Lets `sink` watch the line from now on; null ends that. Not owned. After restore() it sees time go back.
-  void set_wire_sink(WireSink* sink) { plc_.set_wire_sink(sink); }
+  void set_wire_sink(WireSink* sink) { plc_.set_wire_sink(sink, port_); }
 
   using Snapshot = System::Snapshot;
   Snapshot snapshot() const { return system_.snapshot(); }
   void restore(const Snapshot& snapshot) { system_.restore(snapshot); }
 
  private:
+  std::vector<SharedLine*> lines(const CpuModel& model);
+
   System system_;
+  std::uint8_t port_;
   SharedLine& line_;
   Plc& plc_;
   RequesterStation& master_;

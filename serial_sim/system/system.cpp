@@ -37,9 +37,15 @@ void restore_all(const std::vector<std::unique_ptr<Part>>& parts, const std::vec
 
 SharedLine& System::add_line() { return add(lines_, events_); }
 
-Plc& System::add_plc(SharedLine& line, std::shared_ptr<const Program> program, FieldScript field) {
+Plc& System::add_plc(std::span<SharedLine* const> lines, std::shared_ptr<const Program> program, FieldScript field) {
   assert(plcs_.empty() || time() == 0);
-  return add(plcs_, events_, line, std::move(program), std::move(field));
+  return add(plcs_, events_, lines, std::move(program), std::move(field));
+}
+
+Plc& System::add_plc(SharedLine& line, std::shared_ptr<const Program> program, FieldScript field) {
+  std::vector<SharedLine*> lines{&line};
+  while (lines.size() < program->model->ports) lines.push_back(&add_line());
+  return add_plc(lines, std::move(program), std::move(field));
 }
 
 RequesterStation& System::add_requester(SharedLine& line) { return add(requesters_, events_, line); }

@@ -18,6 +18,7 @@
 
 #include <atomic>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "serial_sim/system/dispatcher.hpp"
@@ -44,6 +45,8 @@ class System {
   /// Lines and stations live as long as the system. A PLC comes before anything runs; there is at least one, because
   /// time is what the clocks of the CPUs say.
   SharedLine& add_line();
+  Plc& add_plc(std::span<SharedLine* const> lines, std::shared_ptr<const Program> program, FieldScript field = {});
+  /// With port 0 on `line`; a second port is alone on a line of its own.
   Plc& add_plc(SharedLine& line, std::shared_ptr<const Program> program, FieldScript field = {});
   RequesterStation& add_requester(SharedLine& line);
   HostStation& add_host_port(SharedLine& line);

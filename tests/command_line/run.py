@@ -164,6 +164,17 @@ class Verbs(Case):
         master = ["master", echo, "raw", "abcd", "raw", "abcd", "--count", "3", *preset, "--strict"]
         self.assertEqual(len(self.json(FAILED, *master)["exchanges"]), 1)
 
+    def test_port_1_of_a_cpu_with_two(self):
+        text = Json.ECHO.replace("XMT VB0, 0", "XMT VB0, 1").replace("SMB30", "SMB130").replace("ATCH 0, 8", "ATCH 0, 25")
+        echo = self.program(text)
+        on_port_1 = [echo, "--cpu", "226", "--port", "1"]
+        self.assertEqual(self.json(FINE, "send", *on_port_1, "ab", "--json")["exchanges"][0]["response"], "ab")
+        self.assertRegex(self.ends(FINE, "send", *on_port_1, "ab", "--timeline").stdout, "port 1 received  ab")
+        self.assertIn("no answer", self.ends(FAILED, "send", echo, "--cpu", "226", "ab").stdout)
+        for cpu, port in (("214", "1"), ("224", "1"), ("226", "2")):
+            done = self.ends(UNUSABLE, "send", SLAVE, "--cpu", cpu, "--port", port, "ab")
+            self.assertIn(f"CPU {cpu} has no port {port}", done.stderr)
+
     def test_wrong_usage(self):
         for arguments in ([], ["frobnicate"], ["--frobnicate"], ["check"], ["run"], ["send"], ["import"],
                           ["run", SLAVE, "--frob"],

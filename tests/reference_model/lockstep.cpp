@@ -72,7 +72,7 @@ class Pair {
   Pair(std::shared_ptr<const Program> program, Generator& generator, bool observed)
       : program_(std::move(program)),
         generator_(generator),
-        cpu_(program_, queue_, EventOwner{}, port_),
+        cpu_(program_, queue_, EventOwner{}, {&port_, &port_}),
         machine_(program_->source, cpu214_times()) {
     if (observed) cpu_.set_sink(&observer_);
     executed_.resize(machine_.statements().size());

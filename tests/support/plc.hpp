@@ -56,7 +56,7 @@ class Port final : public SerialPort {
     bool operator==(const Sent&) const = default;
   };
 
-  explicit Port(EventQueue& queue) : queue_(queue) {}
+  explicit Port(EventQueue& queue, std::uint8_t number = 0) : queue_(queue), number_(number) {}
   void configure(const SerialFormat& to) override { format = to; }
   void enable_receiver(bool enabled, Time at) override {
     if (enabled != receiver) switched_at = at;
@@ -64,11 +64,11 @@ class Port final : public SerialPort {
   }
   void send(std::uint8_t byte, Time at) override {
     sent.push_back({byte, at});
-    queue_.schedule(at + format.character_time(), kPlcUart, 0);
+    queue_.schedule(at + format.character_time(), kPlcUart, number_);
   }
   void send_break(int bits, Time at) override {
     break_bits = bits;
-    queue_.schedule(at + format.bit_times(bits), kPlcUart, 0);
+    queue_.schedule(at + format.bit_times(bits), kPlcUart, number_);
   }
 
   SerialFormat format{};
@@ -79,6 +79,7 @@ class Port final : public SerialPort {
 
  private:
   EventQueue& queue_;
+  std::uint8_t number_;
 };
 
 class Records final : public TraceSink {
@@ -112,7 +113,7 @@ class Records final : public TraceSink {
 class Plc {
  public:
   explicit Plc(std::string_view stl, const RetentiveMemory* memory = nullptr, const CpuModel& model = cpu214())
-      : cpu(program_of(stl, model), queue, kCpu, port) {
+      : cpu(program_of(stl, model), queue, kCpu, {&port, &port1}) {
     cpu.set_sink(&records);
     cpu.power_up(true, memory);
   }
@@ -128,8 +129,10 @@ class Plc {
     at(when, [this, when, point = std::string(point), level] { input(point, level, when); });
   }
   void character_at(Time when, std::uint8_t byte, bool parity_error = false) {
-    at(when,
-       [=, this] { cpu.character_received({.byte = byte, .parity_error = parity_error, .start = when, .end = when}); });
+    received_at({.byte = byte, .parity_error = parity_error, .start = when, .end = when});
+  }
+  void received_at(const ReceivedCharacter& character, std::uint8_t on_port = 0) {
+    at(character.end, [=, this] { cpu.character_received(character, on_port); });
   }
 
   void input(std::string_view point, bool level, Time when) {
@@ -194,7 +197,7 @@ class Plc {
   bool stopped() const { return cpu.state().mode == Mode::Stop; }
 
   EventQueue queue;
-  Port port{queue};
+  Port port{queue}, port1{queue, 1};
   Records records;
   Cpu cpu;
 
@@ -206,7 +209,7 @@ class Plc {
 
   void dispatch(const Event& event) {
     if (event.owner == kCpu) return cpu.handle(event);
-    if (event.owner == kPlcUart) return cpu.character_sent(event.at);
+    if (event.owner == kPlcUart) return cpu.character_sent(event.at, event.what);
     const Action action = actions_[next_++];
     action.what();
     if (next_ < actions_.size()) queue.schedule(actions_[next_].when, kField, 0);

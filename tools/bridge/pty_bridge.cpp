@@ -100,7 +100,7 @@ class PtyBridge final : public Bridge {
   };
 
   SerialFormat format_of(const PtySettings& settings) const {
-    SerialFormat format = line_->simulation().cpu().state().port[0].format;
+    SerialFormat format = line_->simulation().freeport().format;
     if (settings.baud != 0) format.baud = settings.baud;
     if (settings.parity) format.parity = *settings.parity;
     format.stop_bits = settings.stop_bits;

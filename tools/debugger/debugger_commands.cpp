@@ -483,7 +483,8 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
   const std::string text = request_text(serial::bytes_of(parsed.frame));
   out_ << fmt::format("on the line from now on: {}{} ({})\n", serial::to_hex(parsed.frame), text.empty() ? "" : "  " + text,
                       format_text(format));
-  if (!simulation_.cpu().state().port[0].active) out_ << "port 0 is not in Freeport mode: the program will not hear it\n";
+  if (!simulation_.freeport().active)
+    out_ << fmt::format("port {} is not in Freeport mode: the program will not hear it\n", simulation_.port());
   return {};
 }
 

@@ -82,13 +82,22 @@ class CharacterPort final : public SerialPort {
   std::size_t next_ = 0;
 };
 
+/// A port with nothing on it.
+class IdlePort final : public SerialPort {
+  void configure(const SerialFormat&) override {}
+  void enable_receiver(bool, Time) override {}
+  void send(std::uint8_t, Time) override {}
+  void send_break(int, Time) override {}
+};
+
 /// A CPU that is asked for 10 registers again and again.
 class Serving {
  public:
   /// At 300 baud the request and the answer take 1.2 s.
   static constexpr Time kLongestExchange = 10 * kSecond;
 
-  explicit Serving(std::shared_ptr<const Program> program) : port_(queue_), cpu_(std::move(program), queue_, kCpu, port_) {
+  explicit Serving(std::shared_ptr<const Program> program)
+      : port_(queue_), cpu_(std::move(program), queue_, kCpu, {&port_, &idle_port_}) {
     cpu_.power_up();
     run_until(kSecond);
   }
@@ -122,6 +131,7 @@ class Serving {
 
   EventQueue queue_;
   CharacterPort port_;
+  IdlePort idle_port_;
   Cpu cpu_;
   bool answered_ = false;
 };
@@ -131,7 +141,7 @@ void exchange(serial::Simulation& simulation) {
   simulation.master().start({.frame = ten_registers()}, simulation.time());
   if (simulation.finish_exchange().timed_out)
     throw std::runtime_error("the program did not answer a request for 10 registers");
-  simulation.run_until(simulation.time() + serial::default_quiet(simulation.cpu().state().port[0].format));
+  simulation.run_until(simulation.time() + serial::default_quiet(simulation.freeport().format));
 }
 
 /// Several first scans at once, so that reading the clock does not count; nor does the power-up in front of each, which
@@ -170,9 +180,9 @@ std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time 
   figures.push_back({"first scan", "instructions", best_rate(each, [&] { return first_scans(simulation); })});
 
   simulation.power_up();
-  const auto quiet = [&] { return serial::default_quiet(simulation.cpu().state().port[0].format); };
+  const auto quiet = [&] { return serial::default_quiet(simulation.freeport().format); };
   simulation.run_until_ready(quiet, 60 * kSecond);
-  simulation.master_uart().configure(simulation.cpu().state().port[0].format);
+  simulation.master_uart().configure(simulation.freeport().format);
   figures.push_back(
       {"idle scans", "instructions", best_rate(each, [&] { return timed([&] { return idle_scans(simulation); }); })});
 

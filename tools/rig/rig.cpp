@@ -35,13 +35,16 @@ std::optional<serial::FieldScript> read_field(const std::string& path, const Cpu
 }  // namespace
 
 Rig::Rig(std::shared_ptr<const Program> program, const RigSettings& settings, serial::FieldScript field)
-    : settings_(settings), simulation_(std::move(program), std::move(field)) {}
+    : settings_(settings), simulation_(std::move(program), std::move(field), static_cast<std::uint8_t>(settings.port)) {}
 
 std::unique_ptr<Rig> Rig::assemble(std::shared_ptr<const Program> program, const RigSettings& settings,
                                    std::vector<std::string>& problems) {
   const CpuModel& model = *program->model;
+  if (settings.port >= model.ports)
+    problems.push_back(
+        fmt::format("CPU {} has no port {}; a second port needs {}", model.name, settings.port, to_text(kTwoPorts)));
   auto field = read_field(settings.input, model, problems);
-  if (!field) return nullptr;
+  if (!field || !problems.empty()) return nullptr;
   std::unique_ptr<Rig> rig(new Rig(program, settings, std::move(*field)));
   std::string why;
   bool good = rig->claim_files(program, why) && rig->memory_.read(model, why);

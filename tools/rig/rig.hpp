@@ -22,6 +22,7 @@ struct RigSettings {
   std::string input{};                  ///< inputs over time, as CSV
   std::optional<ClockTime> clock{};     ///< time of day at power-up
   std::vector<serial::Fault> faults{};  ///< of the line, from power-up on
+  std::uint32_t port = 0;               ///< of the PLC, that the line with everything on it is at
   MemorySettings memory{};              ///< read at power-up, written by finish()
   std::string trace{};
   bool trace_instructions = false;

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "serial_sim/peers/quiet_time.hpp"
+#include "interpreter/model/ports.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
@@ -36,10 +36,10 @@ bool SimulatedSlave::wait_until_ready(Time after, std::string& why) {
 }
 
 std::string SimulatedSlave::note_on_port() const {
-  const State& state = simulation_.cpu().state();
-  if (state.port[0].active) return {};
-  return fmt::format("the program has not switched port 0 to Freeport mode (SMB30 = 16#{:02X})",
-                     state.image[sm::kPort0Control]);
+  if (simulation_.freeport().active) return {};
+  const std::uint32_t control = kPorts[simulation_.port()].control;
+  return fmt::format("the program has not switched port {} to Freeport mode (SMB{} = 16#{:02X})", simulation_.port(),
+                     control - image::kSM, simulation_.cpu().state().image[control]);
 }
 
 serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {

@@ -12,7 +12,7 @@
 namespace s7200::tools {
 namespace {
 
-constexpr std::uint8_t kReceiveEvent = event::kPort0Received, kTransmitEvent = event::kPort0Sent, kTimed0 = event::kTimed0;
+constexpr std::uint8_t kTimed0 = event::kTimed0;
 
 std::string event_text(std::uint8_t event) { return fmt::format("event {} ({})", event, find_event(event)->cause); }
 
@@ -91,7 +91,7 @@ std::string queue_text(const State& state, std::size_t queue, const CpuModel& mo
   for (std::size_t i = 0; i < waiting.count; ++i) {
     const QueuedInterrupt& entry = waiting.entry[i];
     text += fmt::format("\n           {}{} since {}", event_text(entry.event),
-                        entry.event == kReceiveEvent ? fmt::format(" {:02x}", entry.byte) : "", time_text(entry.at));
+                        is_receive_event(entry.event) ? fmt::format(" {:02x}", entry.byte) : "", time_text(entry.at));
   }
   return text;
 }
@@ -108,9 +108,13 @@ std::string attachments_text(const State& state) {
   return text.empty() ? "attached   no event\n" : text;
 }
 
-std::string control_text(std::uint8_t control) {
+std::string control_text(const State& state, std::size_t port) {
   static constexpr std::string_view kModes[] = {"PPI slave", "Freeport", "PPI master", "reserved, as PPI slave"};
-  return fmt::format("SMB30      16#{:02X} = 2#{:08b}: {}", control, control, kModes[control & 3]);
+  const std::uint32_t at = kPorts[port].control;
+  const std::uint8_t control = state.image[at];
+  return fmt::format("{:<11}16#{:02X} = 2#{:08b}: {}{}", fmt::format("SMB{}", at - image::kSM), control, control,
+                     kModes[control & sm::kProtocol],
+                     state.port[port].active ? ", " + format_text(state.port[port].format) : "");
 }
 
 std::string routine_text(const State& state, std::uint8_t event) {
@@ -119,20 +123,38 @@ std::string routine_text(const State& state, std::uint8_t event) {
   return fmt::format("event {} → INT {}", event, routine);
 }
 
-std::string receiver_text(const State& state) {
+std::string receiver_text(const State& state, std::size_t number) {
+  const Freeport& port = state.port[number];
   std::string_view is = "on";
-  if (state.port[0].transmitting) is = "off while sending";
-  if (!state.port[0].active) is = "off: not in Freeport mode";
-  return fmt::format("receiver   {}; {}; SMB2 = 16#{:02X}, parity error SM3.0 = {}", is, routine_text(state, kReceiveEvent),
-                     state.image[sm::kReceivedCharacter], state.image[sm::kReceiveStatus] & sm::kParityError);
+  if (port.transmitting) is = "off while sending";
+  if (!port.active) is = "off: not in Freeport mode";
+  return fmt::format("receiver   {}; {}; SMB2 = 16#{:02X}, parity error SM3.0 = {}", is,
+                     routine_text(state, kPorts[number].received), state.image[sm::kReceivedCharacter],
+                     state.image[sm::kReceiveStatus] & sm::kParityError);
 }
 
-std::string transmitter_text(const State& state) {
-  const Freeport& port = state.port[0];
+/// What RCV does; nothing if it does nothing.
+std::string message_text(const State& state, std::size_t port) {
+  const MessageReceiver& message = state.port[port].message;
+  if (message.phase == MessageReceiver::Phase::Off) return {};
+  const bool searching = message.phase == MessageReceiver::Phase::Search;
+  return fmt::format("RCV        {}; {}\n",
+                     searching ? "waits for the start of a message"
+                               : fmt::format("has {} characters of at most {}", message.stored, message.most),
+                     routine_text(state, kPorts[port].received_message));
+}
+
+std::string transmitter_text(const State& state, std::size_t number) {
+  const Freeport& port = state.port[number];
   std::string is = "idle";
   if (port.transmitting)
     is = port.sending_break ? "sending a break" : fmt::format("sending {:02x}, {} more to send", port.on_line, port.left);
-  return fmt::format("transmitter {}; {}", is, routine_text(state, kTransmitEvent));
+  return fmt::format("transmitter {}; {}", is, routine_text(state, kPorts[number].sent));
+}
+
+std::string port_text(const State& state, std::size_t port) {
+  return fmt::format("{}\n{}\n{}{}\n", control_text(state, port), receiver_text(state, port), message_text(state, port),
+                     transmitter_text(state, port));
 }
 
 std::string master_text(const serial::Requester::State& master) {
@@ -187,11 +209,12 @@ std::string stack_text(const State& state) {
 }
 
 std::string port_text(const serial::Simulation& simulation) {
-  const State& state = simulation.cpu().state();
-  std::string text = control_text(state.image[sm::kPort0Control]);
-  if (state.port[0].active) text += ", " + format_text(state.port[0].format);
-  return fmt::format("{}\n{}\n{}\nmaster     {}\n", text, receiver_text(state), transmitter_text(state),
-                     master_text(simulation.master().state()));
+  std::string text;
+  for (std::size_t port = 0; port < simulation.cpu().program().model->ports; ++port) {
+    text += port_text(simulation.cpu().state(), port);
+    if (port == simulation.port()) text += fmt::format("master     {}\n", master_text(simulation.master().state()));
+  }
+  return text;
 }
 
 std::string value_text(const Program& program, const MemoryRange& range, std::span<const std::uint8_t> bytes) {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "interpreter/model/cpu_model.hpp"
-#include "interpreter/model/events.hpp"
+#include "interpreter/model/ports.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/views/report.hpp"
 
@@ -16,7 +16,6 @@ namespace {
 
 using Kind = TimelineRow::Kind;
 
-constexpr std::uint8_t kReceiveEvent = event::kPort0Received;
 constexpr std::size_t kWidth = 38;       // of the column of the port
 constexpr std::size_t kCharacters = 23;  // eight, in it
 
@@ -25,7 +24,7 @@ constexpr std::size_t kOpenRows = 1000;
 
 bool belong_together(const TimelineRow& a, const TimelineRow& b) {
   const bool repeats = a.kind != Kind::Transmit && a.kind != Kind::Other;
-  return repeats && a.kind == b.kind && a.event == b.event && a.routine == b.routine;
+  return repeats && a.kind == b.kind && a.port == b.port && a.event == b.event && a.routine == b.routine;
 }
 
 void join(TimelineRow& row, const TimelineRow& next) {
@@ -85,6 +84,8 @@ class Timeline::Reader {
         return add_characters(r, Kind::Received);
       case TraceKind::CharacterIgnored:
         return add_characters(r, Kind::Ignored);
+      case TraceKind::CharacterDropped:
+        return add_characters(r, Kind::Dropped);
       case TraceKind::CharacterSent:
         return add_characters(r, Kind::Sent);
       case TraceKind::EventOccurred:
@@ -122,20 +123,26 @@ class Timeline::Reader {
       shown_.add(std::move(rows_.front()));
       rows_.pop_front();
     }
-    rows_.push_back({.at = r.at, .kind = kind, .event = r.event, .routine = r.routine, .text = std::move(text)});
+    rows_.push_back(
+        {.at = r.at, .kind = kind, .port = r.port, .event = r.event, .routine = r.routine, .text = std::move(text)});
   }
   void add_characters(const TraceRecord& r, Kind kind) {
     add(r, kind);
     rows_.back().characters.push_back({r.byte, r.parity_error, r.framing_error, r.since, r.at});
   }
 
+  /// The receive event of the character that has just been added.
+  bool belongs_to_character(const TraceRecord& r) const {
+    return is_receive_event(r.event) && !rows_.empty() && rows_.back().kind == Kind::Received && rows_.back().at == r.at;
+  }
+
   void occurred(const TraceRecord& r) {
-    if (r.event != kReceiveEvent) return add(r, Kind::Event);
-    rows_.back().event = r.event;  // the character has just been added
+    if (!belongs_to_character(r)) return add(r, Kind::Event);
+    rows_.back().event = r.event;
     rows_.back().routine = r.routine;
   }
   void lost(const TraceRecord& r) {
-    if (r.event != kReceiveEvent) return add(r, Kind::Other, describe(r, program_));
+    if (!belongs_to_character(r)) return add(r, Kind::Other, describe(r, program_));
     rows_.back().kind = Kind::Lost;
     rows_.back().event = r.event;
     rows_.back().routine = r.routine;
@@ -217,12 +224,14 @@ std::string characters_text(const TimelineRow& row) {
   return text;
 }
 
-std::string line_text(const TimelineRow& row) {
+std::string what_text(const TimelineRow& row) {
   switch (row.kind) {
     case Kind::Received:
       return "received  " + characters_text(row);
     case Kind::Ignored:
       return "ignored   " + characters_text(row);
+    case Kind::Dropped:
+      return "dropped   " + characters_text(row);
     case Kind::Lost:
       return "LOST      " + characters_text(row);
     case Kind::Sent:
@@ -237,8 +246,15 @@ std::string line_text(const TimelineRow& row) {
   return {};
 }
 
+/// Port 0 goes without saying; what is told in words names its port itself.
+std::string line_text(const TimelineRow& row) {
+  const bool in_words = row.kind == Kind::Other;
+  return row.port == 0 || in_words ? what_text(row) : fmt::format("port {} {}", row.port, what_text(row));
+}
+
 std::string remark(const TimelineRow& row) {
-  if (row.kind == Kind::Ignored) return "event 8 is not attached";
+  if (row.kind == Kind::Ignored) return fmt::format("event {} is not attached", kPorts[row.port].received);
+  if (row.kind == Kind::Dropped) return "RCV waits for the start of a message";
   if (row.kind == Kind::Lost) return fmt::format("the queue before INT {} was full", row.routine);
   if (row.served == 0) return row.place;
   std::string took = format_duration(row.longest);
@@ -315,13 +331,14 @@ std::string to_text(const TimelineReport& report, const serial::Exchange& exchan
 }
 
 nlohmann::ordered_json to_json(const TimelineReport& report, const serial::Exchange& exchange) {
-  static constexpr std::string_view kNames[] = {"received", "ignored", "lost",  "event",
-                                                "transmit", "sent",    "other", "left out"};
+  static constexpr std::string_view kNames[] = {"received", "ignored", "lost",     "event",  "transmit",
+                                                "sent",     "other",   "left out", "dropped"};
   const auto microseconds = [](Time t) { return static_cast<double>(t) / kMicrosecond; };
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const TimelineRow& row : report.rows) {
     nlohmann::ordered_json json{{"at_us", microseconds(row.at - exchange.request_start)},
                                 {"kind", kNames[static_cast<std::size_t>(row.kind)]}};
+    if (row.port != 0) json["port"] = row.port;
     if (!row.characters.empty()) {
       std::vector<std::uint8_t> bytes;
       for (const ReceivedCharacter& c : row.characters) bytes.push_back(c.byte);

@@ -14,13 +14,14 @@ namespace s7200::tools {
 
 /// One thing that happened, or several of the same kind in a row.
 struct TimelineRow {
-  enum class Kind : std::uint8_t { Received, Ignored, Lost, Event, Transmit, Sent, Other, LeftOut };
+  enum class Kind : std::uint8_t { Received, Ignored, Lost, Event, Transmit, Sent, Other, LeftOut, Dropped };
 
   static constexpr std::size_t kMostCharacters = 4096;
 
   Time at = 0;  ///< of the first
   Kind kind{};
-  std::vector<ReceivedCharacter> characters{};  ///< Received, Ignored, Lost, Sent; the first kMostCharacters
+  std::uint8_t port = 0;                        ///< of characters and XMT
+  std::vector<ReceivedCharacter> characters{};  ///< Received, Ignored, Dropped, Lost, Sent; the first kMostCharacters
   std::size_t more_characters = 0;              ///< that are only counted
   std::uint8_t event = 0;                       ///< Received, Lost, Event
   std::uint8_t routine = 0;                     ///< that was attached to it

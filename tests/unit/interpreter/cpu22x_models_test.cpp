@@ -96,6 +96,14 @@ TEST(Cpu22x, NamesAreFoundInAnyCase) {
   EXPECT_EQ(find_cpu("225"), nullptr);
 }
 
+TEST(Cpu22x, The221And222HaveNoHsc1AndHsc2) {
+  for (const CpuModel* model : cpus22x()) {
+    const bool small = std::string_view(model->name).substr(0, 3) < "224";
+    for (int counter = 0; counter < 6; ++counter)
+      EXPECT_EQ(takes(fmt::format("HSC {}", counter), *model), !small || (counter != 1 && counter != 2)) << model->name;
+  }
+}
+
 TEST(Cpu22x, TheWatchdogIs500msOnRelease2And300msBefore) {
   for (const CpuModel* model : cpus22x()) {
     Plc plc("LBL 0\nLD SM0.0\nJMP 0\nMEND\n", *model);

@@ -12,12 +12,15 @@ enum Status { kUp = 0x20, kEqual = 0x40, kGreater = 0x80 };
 
 /// HSC1 in a mode, counting up, preset 3, events 13–15 attached.
 std::string counter1(int mode, int control = 0xF8) {
-  return fmt::format("LD SM0.1\nMOVB {}, SMB47\nMOVD 3, SMD52\nHDEF 1, {}\nHSC 1\nATCH 0, 13\nATCH 0, 14\nATCH 0, 15\nENI\nMEND\n"
-                     "INT 0\nRETI\n", control, mode);
+  return fmt::format(
+      "LD SM0.1\nMOVB {}, SMB47\nMOVD 3, SMD52\nHDEF 1, {}\nHSC 1\nATCH 0, 13\nATCH 0, 14\nATCH 0, 15\nENI\nMEND\n"
+      "INT 0\nRETI\n",
+      control, mode);
 }
 
 struct Hsc1 : Plc {
-  explicit Hsc1(int mode, int control = 0xF8, std::initializer_list<const char*> inputs = {}) : Plc(counter1(mode, control)) {
+  explicit Hsc1(int mode, int control = 0xF8, std::initializer_list<const char*> inputs = {})
+      : Plc(counter1(mode, control)) {
     for (const char* point : inputs) input(point, true);
     run_scans(1);
   }
@@ -204,8 +207,9 @@ TEST(HighSpeedCounter, Modes9To11CountOnceAPeriodIfAsked) {
 }
 
 TEST(HighSpeedCounter, Counter0AndCounter2HaveTheirOwnInputsAndEvents) {
-  Plc plc("LD SM0.1\nMOVB 16#F8, SMB37\nMOVD 1, SMD42\nHDEF 0, 0\nHSC 0\nMOVB 16#F8, SMB57\nMOVD 1, SMD62\nHDEF 2, 1\nHSC 2\n"
-          "ATCH 0, 12\nATCH 0, 16\nATCH 0, 18\nENI\nMEND\nINT 0\nRETI\n");
+  Plc plc(
+      "LD SM0.1\nMOVB 16#F8, SMB37\nMOVD 1, SMD42\nHDEF 0, 0\nHSC 0\nMOVB 16#F8, SMB57\nMOVD 1, SMD62\nHDEF 2, 1\nHSC 2\n"
+      "ATCH 0, 12\nATCH 0, 16\nATCH 0, 18\nENI\nMEND\nINT 0\nRETI\n");
   plc.run_scans(1);
   plc.pulse("I0.0", 1);
   plc.pulse("I1.2", 1);
@@ -217,8 +221,9 @@ TEST(HighSpeedCounter, Counter0AndCounter2HaveTheirOwnInputsAndEvents) {
 }
 
 TEST(HighSpeedCounter, EdgesDuringAnInstructionAreCountedWithTheirOwnTimes) {
-  Plc plc("LD SM0.1\nMOVB 16#F8, SMB47\nMOVD 3, SMD52\nHDEF 1, 0\nHSC 1\nATCH 0, 13\nENI\nLD SM0.0\nSQRT VD0, VD4\nMEND\n"
-          "INT 0\nRETI\n");
+  Plc plc(
+      "LD SM0.1\nMOVB 16#F8, SMB47\nMOVD 3, SMD52\nHDEF 1, 0\nHSC 1\nATCH 0, 13\nENI\nLD SM0.0\nSQRT VD0, VD4\nMEND\n"
+      "INT 0\nRETI\n");
   for (int i = 1; i <= 4; ++i) {
     plc.input_at(i * ms, "I0.6", true);
     plc.input_at(i * ms + 500 * us, "I0.6", false);
@@ -235,6 +240,58 @@ TEST(HighSpeedCounter, InStopTheCounterGoesOnWithoutEvents) {
   plc.pulse("I0.6", 4);
   EXPECT_EQ(plc.value("HC1"), 4);
   EXPECT_TRUE(plc.events().empty());
+}
+
+// --- CPUs 22x (facts 10.4) ---
+
+TEST(HighSpeedCounter, Counters0And3To5Of22xHaveTheirOwnInputsAndEvents) {
+  struct Case {
+    int number, mode, sm;
+    const char *clock, *second, *reset;
+    Ints events;  // preset reached, direction changed, reset
+  };
+  const Case cases[] = {
+      {0, 7, 36, "I0.0", "I0.1", "I0.2", {12, 27, 28}}, {1, 7, 46, "I0.6", "I0.7", "I1.0", {13, 14, 15}},
+      {3, 0, 136, "I0.1", nullptr, nullptr, {32}},      {4, 7, 146, "I0.3", "I0.4", "I0.5", {29, 30, 31}},
+      {5, 0, 156, "I0.4", nullptr, nullptr, {33}},
+  };
+  for (const Case& c : cases) {
+    std::string attach;
+    for (const int event : c.events) attach += fmt::format("ATCH 0, {}\n", event);
+    Plc plc(fmt::format("LD SM0.1\nMOVB 16#F8, SMB{}\nMOVD 2, SMD{}\nHDEF {}, {}\nHSC {}\n{}ENI\nMEND\nINT 0\nRETI\n",
+                        c.sm + 1, c.sm + 6, c.number, c.mode, c.number, attach),
+            cpu224());
+    plc.run_scans(1);
+    plc.pulse(c.clock, 2);
+    EXPECT_EQ(plc.value(fmt::format("HC{}", c.number)), 2) << c.number;
+    EXPECT_EQ(plc.value(fmt::format("SMB{}", c.sm)), kUp | kEqual);
+    if (c.second) plc.pulse(c.second);
+    if (c.reset) plc.input(c.reset, true);
+    EXPECT_EQ(plc.value(fmt::format("HC{}", c.number)), c.reset ? 0 : 2);
+    EXPECT_EQ(plc.records.events(EventOccurred), c.events);
+  }
+}
+
+TEST(HighSpeedCounter, Counter0Of22xCountsQuadrature) {
+  Plc plc("LD SM0.1\nMOVB 16#F8, SMB37\nHDEF 0, 9\nHSC 0\nMEND\n", cpu224());
+  plc.run_scans(1);
+  for (const auto& [point, level] : {std::pair{"I0.0", true}, {"I0.1", true}, {"I0.0", false}, {"I0.1", false}})
+    plc.input(point, level);
+  EXPECT_EQ(plc.value("HC0"), 4);
+}
+
+TEST(HighSpeedCounter, CountersDoNotShareAnInput) {
+  const auto errors = [](const char* statements) {
+    Plc plc(fmt::format("LD SM0.1\n{}MEND\nINT 0\nRETI\n", statements), cpu224());
+    plc.run_scans(1);
+    return plc.records.errors();
+  };
+  EXPECT_EQ(errors("HDEF 0, 3\nHDEF 3, 0\n"), Ints{0x03}) << "both use I0.1";
+  EXPECT_EQ(errors("HDEF 0, 0\nHDEF 3, 0\n"), Ints{}) << "mode 0 uses the clock only";
+  EXPECT_EQ(errors("HDEF 4, 3\nHDEF 5, 0\n"), Ints{0x03}) << "both use I0.4";
+  EXPECT_EQ(errors("ATCH 0, 6\nHDEF 4, 0\n"), Ints{0x03}) << "event 6 is the rising edge of I0.3";
+  EXPECT_EQ(errors("HDEF 0, 1\nATCH 0, 5\n"), Ints{0x02}) << "event 5 is the falling edge of I0.2, the reset";
+  EXPECT_EQ(errors("HDEF 0, 0\nATCH 0, 5\n"), Ints{});
 }
 
 TEST(HighSpeedCounter, Errors) {

@@ -19,10 +19,12 @@ bool is_modelled(std::uint32_t at) {
 TEST(ModelNames, ProgramsMayUseEveryByteThatHasAName) {
   for (const std::uint32_t at :
        {sm::kScanStatus, sm::kFlags, sm::kReceivedCharacter, sm::kReceiveStatus, sm::kInterruptStatus, sm::kIdentification,
-        sm::kLastScan, sm::kShortestScan, sm::kLongestScan, sm::kPotentiometer[0], sm::kPotentiometer[1], sm::kPort0Control,
+        sm::kLastScan, sm::kShortestScan, sm::kLongestScan, sm::kPotentiometer[0], sm::kPotentiometer[1], kPorts[0].control,
         sm::kEepromRequest, sm::kEepromAddress, sm::kTimedInterval[0], sm::kTimedInterval[1]})
     EXPECT_TRUE(is_modelled(at)) << "SMB" << at - image::kSM;
-  for (const std::uint32_t at : sm::counter::kStatus) EXPECT_TRUE(is_modelled(at) && is_modelled(at + 9));
+  for (const CounterInfo& counter : kCounters) EXPECT_TRUE(is_modelled(counter.status) && is_modelled(counter.status + 9));
+  for (const PortInfo& port : kPorts)
+    EXPECT_TRUE(is_modelled(port.control) && is_modelled(port.message) && is_modelled(port.message + 8));
   for (const std::uint32_t at : sm::pulses::kStatus) EXPECT_TRUE(is_modelled(at) && is_modelled(at + 9));
 }
 
@@ -36,17 +38,26 @@ TEST(ModelNames, TheListHasEachEventAtItsNumber) {
 }
 
 TEST(ModelNames, APortIsARowOfItsSpecialMemoryItsEventsAndItsError) {
-  const PortInfo& port = kPorts.at(0);
-  EXPECT_EQ(port.control, image::kSM + 30);
-  EXPECT_EQ(port.idle, 1 << 5);
-  EXPECT_EQ(port.received, 8);
-  EXPECT_EQ(port.sent, 9);
-  EXPECT_EQ(static_cast<int>(port.busy), 0x09);
-  for (const PortInfo& each : kPorts)
-    for (const std::uint8_t event : {each.received, each.sent}) {
+  struct Row {
+    std::uint32_t control, message;
+    int idle, received, sent, received_message, busy;
+  };
+  const Row rows[] = {{30, 86, 1 << 5, 8, 9, 23, 0x09}, {130, 186, 1 << 6, 25, 26, 24, 0x0B}};
+  for (std::size_t number = 0; number < kPorts.size(); ++number) {
+    const PortInfo& port = kPorts[number];
+    const Row& row = rows[number];
+    EXPECT_EQ(port.control, image::kSM + row.control);
+    EXPECT_EQ(port.message, image::kSM + row.message);
+    EXPECT_EQ(port.idle, row.idle);
+    EXPECT_EQ(port.received, row.received);
+    EXPECT_EQ(port.sent, row.sent);
+    EXPECT_EQ(port.received_message, row.received_message);
+    EXPECT_EQ(static_cast<int>(port.busy), row.busy);
+    for (const std::uint8_t event : {port.received, port.sent, port.received_message}) {
       EXPECT_EQ(find_event(event)->queue, Queue::Communication);
       EXPECT_TRUE(find_event(event)->modelled);
     }
+  }
 }
 
 }  // namespace

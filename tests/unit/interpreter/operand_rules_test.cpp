@@ -190,9 +190,9 @@ TEST(OperandRules, NopTakes0To255PlsTakes0And1) {
   EXPECT_EQ(verdict("PLS 2"), "X of PLS must be 0 to 1, not 2");
 }
 
-TEST(OperandRules, Port1IsRefusedAsMissingOrAsNotModelled) {
+TEST(OperandRules, Port1IsRefusedOnACpuWithoutIt) {
   EXPECT_EQ(verdict("XMT VB0, 1"), "port 1 does not exist on CPU 214 | the only port is 0");
-  EXPECT_EQ(verdict("XMT VB0, 1", cpu216()), "port 1 is not modelled yet | use port 0");
+  EXPECT_EQ(verdict("MOVB 9, SMB130\nXMT VB0, 1", cpu216()), "fine");
   EXPECT_EQ(verdict("XMT VB0, 2", cpu216()), "port 2 does not exist on CPU 216 | ports are numbered 0 to 1");
 }
 
@@ -201,6 +201,38 @@ TEST(OperandRules, HighSpeedCounter0HasOnlyMode0) {
   EXPECT_EQ(verdict("HDEF 0, 1"), "HSC0 has no mode 1 | HSC0 has only mode 0");
   EXPECT_EQ(verdict("HDEF 2, 11"), "fine");
   EXPECT_EQ(verdict("HDEF 2, 12"), "MODE of HDEF must be 0 to 11, not 12");
+}
+
+// Facts 10.4.
+TEST(OperandRules, Cpus22xHaveMoreCountersAndModes) {
+  const std::string modes = "has the modes 0, 1, 3, 4, 6, 7, 9, 10";
+  for (const int counter : {0, 4}) {
+    EXPECT_EQ(verdict(fmt::format("HDEF {}, 10", counter), cpu224()), "fine");
+    EXPECT_EQ(verdict(fmt::format("HDEF {}, 2", counter), cpu224()),
+              fmt::format("HSC{0} has no mode 2 | HSC{0} {1}", counter, modes));
+  }
+  EXPECT_EQ(verdict("HDEF 1, 11", cpu224()), "fine");
+  EXPECT_EQ(verdict("HDEF 5, 0", cpu221()), "fine");
+  EXPECT_EQ(verdict("HDEF 3, 1", cpu224()), "HSC3 has no mode 1 | HSC3 has only mode 0");
+  EXPECT_EQ(verdict("HSC 6", cpu224()),
+            "high-speed counter 6 does not exist on CPU 224 | high-speed counters are numbered 0 to 5");
+  EXPECT_EQ(verdict("HSC 1", cpu222()), "CPU 222 has no high-speed counter 1 | it has HSC0, HSC3, HSC4 and HSC5");
+  EXPECT_EQ(verdict("MOVD HC2, VD0", cpu222()), "CPU 222 has no high-speed counter 2 | it has HSC0, HSC3, HSC4 and HSC5");
+  EXPECT_EQ(verdict("MOVD HC5, VD0", cpu222()), "fine");
+  EXPECT_EQ(verdict("HSC 3"), "high-speed counter 3 does not exist on CPU 214 | high-speed counters are numbered 0 to 2");
+}
+
+TEST(OperandRules, SpecialMemoryThatOnlyOtherCpusHaveNamesThem) {
+  EXPECT_EQ(verdict("MOVB SMB136, VB0", cpu215()),
+            "CPU 215 has no SMB136 to SMB165 (high-speed counters HSC3 to HSC5) | it needs CPU 22x");
+  EXPECT_EQ(verdict("MOVB SMB136, VB0", cpu221()), "fine");
+  EXPECT_EQ(verdict("MOVB SMB29, VB0", cpu221()),
+            "CPU 221 has no SMB29 (analog potentiometer 1) | it needs CPU 212, 214, 215, 216, 224, 224XP, 226, 224r1, 226r1 "
+            "or 226XM");
+  EXPECT_EQ(verdict("MOVB SMB28, VB0", cpu221()), "fine");
+  EXPECT_EQ(verdict("MOVB SMB47, VB0", cpu222()).substr(0, 32), "CPU 222 has no SMB46 to SMB65 (h");
+  EXPECT_EQ(verdict("MOVB SMB200, VB0", cpu224()), "SMB200 to SMB549 (intelligent modules) are not modelled yet");
+  EXPECT_EQ(verdict("MOVB SMB170, VB0", cpu224()), "SMB170 to SMB175 (pulse output 0: linear profile) are not modelled yet");
 }
 
 // --- reals ---

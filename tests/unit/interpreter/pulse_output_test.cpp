@@ -9,8 +9,8 @@ using enum TraceKind;
 
 /// LD –210, control –220, cycle –230, width –240, count –250, ATCH –260, ENI –270, PLS ends at 280.
 std::string pulses(int control, int cycle, int width, int count) {
-  return fmt::format("LD SM0.1\nMOVB {}, SMB67\nMOVW {}, SMW68\nMOVW {}, SMW70\nMOVD {}, SMD72\nATCH 0, 19\nENI\nPLS 0\n", control,
-                     cycle, width, count);
+  return fmt::format("LD SM0.1\nMOVB {}, SMB67\nMOVW {}, SMW68\nMOVW {}, SMW70\nMOVD {}, SMD72\nATCH 0, 19\nENI\nPLS 0\n",
+                     control, cycle, width, count);
 }
 constexpr std::string_view kEnd = "MEND\nINT 0\nINCW VW0\nRETI\n";
 constexpr Time kStart = 280 * us;
@@ -62,7 +62,8 @@ TEST(PulseOutput, OneMoreTrainWaitsAndAFurtherOneSetsTheOverflowBit) {
   plc.run_until(1 * ms);
   EXPECT_EQ(plc.value("SM66.6"), 1);
   plc.run_until(20 * ms);
-  EXPECT_EQ(edges(plc), (Times{kStart, kStart + 1 * ms, kStart + 2 * ms, kStart + 3 * ms, kStart + 4 * ms, kStart + 6 * ms}));
+  EXPECT_EQ(edges(plc),
+            (Times{kStart, kStart + 1 * ms, kStart + 2 * ms, kStart + 3 * ms, kStart + 4 * ms, kStart + 6 * ms}));
   EXPECT_EQ(plc.records.times(EventOccurred), (Times{kStart + 4 * ms, kStart + 8 * ms}));
   EXPECT_EQ(plc.value("SM66.7"), 1);
 }
@@ -82,7 +83,8 @@ TEST(PulseOutput, ARefusedTrainLeavesNothingBehind) {
 TEST(PulseOutput, PwmHoldsTheWidth) {
   Plc plc(program(kPwm | 0x08, 10, 3, 0));
   plc.run_until(25 * ms);
-  EXPECT_EQ(edges(plc), (Times{kStart, kStart + 3 * ms, kStart + 10 * ms, kStart + 13 * ms, kStart + 20 * ms, kStart + 23 * ms}));
+  EXPECT_EQ(edges(plc),
+            (Times{kStart, kStart + 3 * ms, kStart + 10 * ms, kStart + 13 * ms, kStart + 20 * ms, kStart + 23 * ms}));
   EXPECT_TRUE(plc.records.times(EventOccurred).empty());
 }
 
@@ -112,7 +114,8 @@ TEST(PulseOutput, APulseTrainAfterPwmStartsAtOnceAndAPwmAfterATrainWaitsForItsEn
   plc.set("SMW70", 1);
   pulse_outputs::program(plc.cpu.core(), 0);
   plc.run_until(at + 6500 * us);
-  EXPECT_EQ(edges(plc), (Times{kStart, kStart + 3 * ms, at, at + 1 * ms, at + 2 * ms, at + 3 * ms, at + 4 * ms, at + 5 * ms, at + 6 * ms}));
+  EXPECT_EQ(edges(plc), (Times{kStart, kStart + 3 * ms, at, at + 1 * ms, at + 2 * ms, at + 3 * ms, at + 4 * ms, at + 5 * ms,
+                               at + 6 * ms}));
   EXPECT_EQ(plc.records.times(EventOccurred), Times{at + 4 * ms}) << "the end of the train";
 }
 
@@ -159,6 +162,100 @@ TEST(PulseOutput, StopEndsThePulses) {
   EXPECT_EQ(plc.cpu.state().image[image::kOutputs], 0);
   EXPECT_LT(edges(plc).back(), 6 * ms);
   EXPECT_TRUE(plc.records.times(EventOccurred).empty());
+}
+
+// --- CPUs 22x: profiles and synchronous PWM (facts 10.4) ---
+
+/// A profile at VB500, in microseconds; it starts at 240 us.
+struct ProfilePlc : Plc {
+  struct Segment {
+    int cycle, delta, count;
+  };
+  explicit ProfilePlc(const std::vector<Segment>& segments, const CpuModel& model = cpu224(), int offset = 500)
+      : Plc(fmt::format("LD SM0.1\nMOVW {}, SMW168\nATCH 0, 19\nENI\nMOVB 16#A0, SMB67\nPLS 0\nLD I0.0\nEU\nMOVB 0, "
+                        "SMB67\nPLS 0\n{}",
+                        offset, kEnd),
+            model) {
+    set("VB500", static_cast<std::uint32_t>(segments.size()));
+    for (std::size_t i = 0; i < segments.size(); ++i) put(i, segments[i]);
+  }
+  void put(std::size_t number, const Segment& s) {
+    const std::size_t at = 501 + 8 * number;
+    set(fmt::format("VW{}", at), static_cast<std::uint32_t>(s.cycle));
+    set(fmt::format("VW{}", at + 2), static_cast<std::uint32_t>(s.delta));
+    set(fmt::format("VD{}", at + 4), static_cast<std::uint32_t>(s.count));
+  }
+  /// From the start of one pulse to that of the next.
+  Times cycles() const {
+    const Times all = edges(*this);
+    Times cycles;
+    for (std::size_t i = 2; i < all.size(); i += 2) cycles.push_back(all[i] - all[i - 2]);
+    return cycles;
+  }
+};
+
+TEST(PulseOutput, AProfileRampsUpRunsAndRampsDown) {
+  ProfilePlc plc({{500, -100, 4}, {200, 0, 3}, {200, 150, 3}});
+  plc.run_until(1 * ms);
+  EXPECT_EQ(plc.value("SMB166"), 1);
+  plc.run_until(10 * ms);
+  EXPECT_EQ(plc.cycles(), (Times{500 * us, 400 * us, 300 * us, 200 * us, 200 * us, 200 * us, 200 * us, 200 * us, 350 * us}));
+  EXPECT_EQ(plc.value("SMB166"), 3);
+  EXPECT_EQ(plc.value("SM66.7"), 1);
+  EXPECT_EQ(plc.value("VW0"), 1) << "one event, at the end";
+}
+
+TEST(PulseOutput, ASegmentIsReadWhenItBegins) {
+  ProfilePlc plc({{500, 0, 2}, {500, 0, 2}});
+  plc.run_until(1 * ms);
+  plc.put(0, {900, 0, 9});
+  plc.put(1, {800, 0, 2});
+  plc.set("VB500", 9);
+  plc.run_until(10 * ms);
+  EXPECT_EQ(plc.cycles(), (Times{500 * us, 500 * us, 800 * us}));
+}
+
+TEST(PulseOutput, ACycleTimeOutOfRangeEndsTheProfile) {
+  ProfilePlc plc({{500, -300, 5}});
+  plc.run_until(10 * ms);
+  EXPECT_EQ(plc.cycles(), Times{500 * us});
+  EXPECT_EQ(plc.value("SMB66"), 0x90) << "delta error, idle";
+  EXPECT_EQ(plc.value("VW0"), 0);
+}
+
+TEST(PulseOutput, AProfileWithoutSegmentsIs000E) {
+  ProfilePlc plc({});
+  plc.run_until(10 * ms);
+  EXPECT_EQ(plc.records.errors(), Ints{0x0E});
+  EXPECT_TRUE(edges(plc).empty());
+}
+
+TEST(PulseOutput, AProfileOutsideVIs0091) {
+  ProfilePlc plc({{500, 0, 2}}, cpu224(), 8192);
+  plc.run_until(10 * ms);
+  EXPECT_EQ(plc.records.errors(), Ints{0x91});
+  EXPECT_TRUE(edges(plc).empty());
+}
+
+TEST(PulseOutput, PlsWithoutEnableAbortsAProfileAndSaysSo) {
+  ProfilePlc plc({{500, 0, 200}});
+  plc.input_at(5 * ms, "I0.0", true);
+  plc.run_until(20 * ms);
+  EXPECT_EQ(plc.value("SMB66"), 0xA0) << "user abort, idle";
+  EXPECT_LT(plc.cycles().size(), 20u);
+  EXPECT_EQ(plc.value("VW0"), 0);
+}
+
+TEST(PulseOutput, ACpu21xHasNoProfiles) {
+  Plc plc(pulses(0xA5, 1000, 0, 2).append(kEnd));
+  plc.run_until(10 * ms);
+  EXPECT_EQ(edges(plc).size(), 4u) << "bit 5 of the control byte means nothing";
+}
+
+TEST(PulseOutput, ASynchronousChangeOfPwmWaitsForTheEndOfTheCycle) {
+  Plc plc(program(kPwm | 0x10, 1000, 300, 0, "MOVW 600, SMW70\nPLS 0\n"), cpu224());
+  plc.run_until(2 * ms);
+  EXPECT_EQ(edges(plc), (Times{kStart, kStart + 300 * us, kStart + 1000 * us, kStart + 1600 * us}));
 }
 
 }  // namespace

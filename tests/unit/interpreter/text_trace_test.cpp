@@ -46,6 +46,17 @@ TEST(TextTrace, ReportsThePortCharacterByCharacter) {
   EXPECT_EQ(told({.kind = TraceKind::CharacterIgnored, .byte = 2}), "ignored  02: event 8 is not attached");
 }
 
+TEST(TextTrace, ReportsWhatRcvDoes) {
+  EXPECT_EQ(told({.kind = TraceKind::Receive, .count = 20}), "RCV: at most 20 characters");
+  EXPECT_EQ(told({.kind = TraceKind::CharacterDropped, .byte = 2}), "dropped  02: RCV waits for the start of a message");
+  EXPECT_EQ(told({.kind = TraceKind::ReceiveEnd, .byte = 0x20, .count = 5}),
+            "RCV ends: 5 characters, status 16#20 (end character)");
+  EXPECT_EQ(told({.kind = TraceKind::ReceiveEnd, .byte = 0x22, .count = 5}),
+            "RCV ends: 5 characters, status 16#22 (end character, as many as can be)");
+  EXPECT_EQ(told({.kind = TraceKind::ReceiveEnd, .byte = 0x04}),
+            "RCV ends: 0 characters, status 16#04 (the time has passed)");
+}
+
 TEST(TextTrace, ReportsOutputsAndErrors) {
   EXPECT_EQ(told({.kind = TraceKind::OutputChanged, .byte = 0b101, .op = 1}), "QB1 = 2#00000101");
   EXPECT_EQ(told({.kind = TraceKind::AnalogChanged, .op = 4, .count = 0xFFFF}), "AQW4 = -1");

@@ -98,7 +98,7 @@ class Execution {
   /// What is wrong; empty if nothing is.
   std::string result() {
     if (!checked_.program) return "the checker refuses it: " + checked_.diagnostics.at(0).message + "\n";
-    Cpu cpu(checked_.program, queue_, EventOwner{}, port_);
+    Cpu cpu(checked_.program, queue_, EventOwner{}, {&port_});
     cpu.power_up();
     cpu.run(checked_.program->scan_phase[0]);
     prepare(cpu);

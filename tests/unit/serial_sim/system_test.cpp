@@ -491,5 +491,73 @@ TEST(Dispatcher, OneInstantGoesByRankAndThenInTheOrderOfAdding) {
   EXPECT_EQ(handled, expected);
 }
 
+// --- RCV, and a second port ---
+
+std::shared_ptr<const Program> program_for(const CpuModel& model, std::string_view text) {
+  const CheckResult result = check_text(text, "test.stl", model, default_times(model));
+  EXPECT_TRUE(result.program) << (result.diagnostics.empty() ? "" : result.diagnostics[0].message);
+  return result.program;
+}
+
+/// Sends 3A, then a break, then 3A 01 02 0D, one after the other.
+constexpr std::string_view kSendsABreak =
+    "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 1, VB10\nMOVB 16#3A, VB11\nMOVB 0, VB20\nMOVB 4, VB30\nMOVD 16#3A01020D, VD31\n"
+    "ATCH 0, 9\nENI\nXMT VB10, 0\nMEND\n"
+    "INT 0\nLD SM0.0\nINCB VB0\nLDB= VB0, 1\nXMT VB20, 0\nLDB= VB0, 2\nXMT VB30, 0\nRETI\n";
+
+// Break, then start character; to the end character.
+TEST(System, RcvHearsTheBreakThatAnotherPlcSends) {
+  System system;
+  SharedLine& line = system.add_line();
+  Plc& receiver = system.add_plc(
+      line,
+      program_for(cpu224(),
+                  "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 16#E2, SMB87\nMOVB 16#3A, SMB88\nMOVB 16#0D, SMB89\nMOVB 20, SMB94\n"
+                  "RCV VB100, 0\nMEND\n"));
+  system.add_plc(line, program_for(cpu226(), kSendsABreak));
+  system.power_up();
+  system.run_until(50 * kMillisecond);
+  const auto& image = receiver.cpu().state().image;
+  EXPECT_EQ(to_hex(Bytes(image.begin() + image::kV + 100, image.begin() + image::kV + 105)), "04 3a 01 02 0d");
+  EXPECT_EQ(image[kPorts[0].message], 0x20);
+}
+
+// Port 1 of the CPU 226 sends what a CPU 224 sends on port 0; nothing of it is on the line of port 0.
+TEST(System, TheSecondPortHasALineOfItsOwn) {
+  const std::string on_port_0 = "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 2, VB10\nMOVW 16#4142, VW11\nXMT VB10, 0\nMEND\n";
+  const std::string on_port_1 = changed(changed(on_port_0, "SMB30", "SMB130"), "VB10, 0", "VB10, 1");
+  const std::string receives = "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 16#90, SMB87\nMOVB 2, SMB94\nRCV VB100, 0\nMEND\n";
+  System system;
+  SharedLine &line0 = system.add_line(), &line1 = system.add_line();
+  Plc& on_line0 = system.add_plc(line0, program_for(cpu224(), receives));
+  Plc& on_line1 = system.add_plc(line1, program_for(cpu224(), receives));
+  SharedLine* const lines[] = {&line0, &line1};
+  Plc& sender = system.add_plc(lines, program_for(cpu226(), on_port_1));
+  system.power_up();
+  system.run_until(10 * kMillisecond);
+  const System::Snapshot middle = system.snapshot();
+  system.run_until(30 * kMillisecond);
+  EXPECT_EQ(register_of(on_line1, 50), 0x0241);
+  EXPECT_EQ(register_of(on_line0, 50), 0x0000);
+  EXPECT_EQ(sender.port_format(1).baud, 9600U);
+  const System::Snapshot end = system.snapshot();
+  system.restore(middle);
+  system.run_until(30 * kMillisecond);
+  EXPECT_EQ(system.snapshot(), end);
+}
+
+TEST(System, ASimulationMayPutItsMasterOnPort1) {
+  Simulation simulation(program_for(cpu226(),
+                                    "LD SM0.1\nMOVB 16#49, SMB130\nMOVB 16#90, SMB187\nMOVB 2, SMB194\n"
+                                    "ATCH 0, 24\nENI\nRCV VB100, 1\nMEND\nINT 0\nXMT VB100, 1\nRETI\n"),
+                        {}, 1);
+  simulation.power_up();
+  simulation.run_until(20 * kMillisecond);
+  EXPECT_EQ(simulation.port_format().parity, Parity::Even);
+  simulation.master_uart().configure(simulation.port_format());
+  simulation.master().start({.frame = to_frame({0x41, 0x42})}, simulation.time());
+  EXPECT_EQ(to_hex(simulation.finish_exchange().response_bytes()), "41 42");
+}
+
 }  // namespace
 }  // namespace s7200::serial

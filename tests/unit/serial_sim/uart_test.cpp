@@ -238,6 +238,22 @@ TEST(Uart, BreakIsOneZeroCharacterWithFramingError) {
   EXPECT_EQ(wire.sent, std::vector<Time>{1000 + k8E1.bit_times(16)});
 }
 
+TEST(Uart, SpaceInEverySampleIsABreak) {
+  for (const SerialFormat& format : kFormats) {
+    const auto heard_as_break = [&](auto send) {
+      Wire wire(format);
+      send(wire.sender);
+      wire.run();
+      return wire.heard.size() == 1 && wire.heard[0].line_break;
+    };
+    EXPECT_TRUE(heard_as_break([](Uart& sender) { sender.send_break(16, 0); }));
+    EXPECT_TRUE(heard_as_break([&](Uart& sender) { sender.send_break(format.bits(), 0); }));
+    EXPECT_FALSE(heard_as_break([&](Uart& sender) { sender.send_break(format.bits() - 1, 0); })) << "its stop bit is a mark";
+    EXPECT_FALSE(heard_as_break([](Uart& sender) { sender.send(0, 0); }));
+    EXPECT_FALSE(heard_as_break([](Uart& sender) { sender.send_without_stop_bit(3, 0); }));
+  }
+}
+
 TEST(Uart, CharacterAfterABreakIsHeard) {
   Wire wire(k8E1);
   wire.sender.send_break(16, 0);
@@ -466,6 +482,8 @@ std::vector<ReceivedCharacter> decode(const Line& history, std::vector<Time> edg
       character.byte |= static_cast<std::uint8_t>(sample(bit++) << place);
     if (format.parity != Parity::None) character.parity_error = sample(bit++) != format.parity_bit(character.byte);
     character.framing_error = !sample(bit);
+    character.line_break = true;
+    for (int each = 0; each <= bit; ++each) character.line_break &= !sample(each);
     from = character.end = edge + format.half_bits(2 * bit + 1);
     heard.push_back(character);
   }
