@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "interpreter/model/ports.hpp"
+#include "serial_sim/peers/quiet_time.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
