@@ -71,10 +71,11 @@ Excerpt excerpt(std::string_view line, const Position& position) {
 
 std::string location(const Diagnostic& diagnostic, const SourceLines& source) {
   const Position& position = diagnostic.position;
-  const std::string name = printable(source.name);
+  const FileLine place = in_file(source, position.line);
+  const std::string name = printable(place.file);
   if (position.line == 0) return name;
-  if (position.column == 0) return fmt::format("{}:{}", name, position.line);
-  return fmt::format("{}:{}:{}", name, position.line, position.column);
+  if (position.column == 0) return fmt::format("{}:{}", name, place.line);
+  return fmt::format("{}:{}:{}", name, place.line, position.column);
 }
 
 struct Cause {
@@ -99,17 +100,21 @@ std::vector<Cause> causes_of(const Diagnostics& diagnostics) {
   return causes;
 }
 
-/// `3 more, in lines 4, 7, 9`; of many lines only the first ones and the last.
-std::string where_else(const std::vector<const Diagnostic*>& others) {
+/// `3 more, in lines 4, 7, 9`; of many lines only the first ones and the last. A line of another file than that of `first`
+/// has its file's name.
+std::string where_else(const Diagnostic& first, const std::vector<const Diagnostic*>& others, const SourceLines& source) {
   constexpr std::size_t kLinesShown = 10;
   std::vector<std::uint32_t> lines;
   for (const Diagnostic* diagnostic : others)
     if (lines.empty() || lines.back() != diagnostic->position.line) lines.push_back(diagnostic->position.line);
+  const auto shown = [&, home = &in_file(source, first.position.line).file](std::uint32_t line) {
+    const FileLine place = in_file(source, line);
+    return &place.file == home ? std::to_string(place.line) : fmt::format("{}:{}", printable(place.file), place.line);
+  };
   std::string text = fmt::format("{} more, in line{} ", others.size(), lines.size() == 1 ? "" : "s");
-  if (lines.size() <= kLinesShown) return text + fmt::format("{}", fmt::join(lines, ", "));
-  const std::uint32_t last = lines.back();
-  lines.resize(kLinesShown - 1);
-  return text + fmt::format("{} … {}", fmt::join(lines, ", "), last);
+  const bool all = lines.size() <= kLinesShown;
+  for (std::size_t i = 0; i < (all ? lines.size() : kLinesShown - 1); ++i) text += (i > 0 ? ", " : "") + shown(lines[i]);
+  return all ? text : fmt::format("{} … {}", text, shown(lines.back()));
 }
 
 }  // namespace
@@ -132,6 +137,8 @@ std::string render(const Diagnostic& diagnostic, const SourceLines& source, bool
   std::string text = painted(location(diagnostic, source) + ":", kBold, colour);
   text += ' ' + painted(error ? "error:" : "warning:", error ? kRed : kMagenta, colour);
   text += ' ' + printable(diagnostic.message);
+  if (const std::string section = section_at(source, diagnostic.position.line); !section.empty())
+    text += fmt::format(" ({})", printable(section));
   text += diagnostic.name.empty() ? "\n" : fmt::format(" [{}]\n", diagnostic.name);
 
   const Position& position = diagnostic.position;
@@ -147,7 +154,7 @@ std::string render(const Diagnostics& diagnostics, const SourceLines& source, bo
   std::string text;
   for (const Cause& cause : causes_of(diagnostics)) {
     text += render(*cause.first, source, colour);
-    if (!cause.others.empty()) text += "also: " + where_else(cause.others) + '\n';
+    if (!cause.others.empty()) text += "also: " + where_else(*cause.first, cause.others, source) + '\n';
   }
   return text;
 }

@@ -11,8 +11,19 @@ static std::uint32_t bytes_to_save(std::uint8_t request) {
 
 void end_save(Core& core) { core.put_mask(sm::kEepromRequest, sm::kSave, false); }
 
+/// Into V memory, and into the EEPROM as far as that can hold it.
+static void download_data(Core& core) {
+  const std::uint32_t permanent = core.model().eeprom_bytes;
+  for (const InitialData& data : core.program().data) {
+    std::ranges::copy(data.bytes, core.s.image.begin() + image::kV + data.offset);
+    if (data.offset >= permanent) continue;
+    const std::size_t kept = std::min<std::size_t>(data.bytes.size(), permanent - data.offset);
+    std::copy_n(data.bytes.begin(), kept, core.s.eeprom.begin() + data.offset);
+  }
+}
+
 void power_up(Core& core, const RetentiveMemory* memory) {
-  if (!memory) return;
+  if (!memory) return download_data(core);
   core.s.eeprom = memory->eeprom;
   std::copy_n(core.s.eeprom.begin(), core.model().eeprom_bytes, core.s.image.begin() + image::kV);
 }

@@ -3,7 +3,11 @@
 // SM31.7 asks for one V value to be saved: SM31.1–0 is its size, SMW32 its offset. It is saved at the end of the scan, which
 // becomes longer by that time; then the bit is reset (S7-200 manual C230-02, 7-16).
 //
+// A CPU without kept memory has just been loaded: the data block of its program is in V memory and in the EEPROM.
+//
 // Not documented, modelled so:
+// - Of the data block the EEPROM keeps what lies in the part of V that it can hold; the rest is in V memory until power is
+//   lost. [DataBlock.TheEepromKeepsWhatLiesInItsPartOfV]
 // - A save takes 17.5 ms, the middle of the 15 to 20 ms that the manual calls typical; `s7200 times` lists it.
 //   [Eeprom.ASaveProlongsItsScanByTheTimeInTheTable]
 // - Interrupts are served during a save; it saves the value that V has at its start.

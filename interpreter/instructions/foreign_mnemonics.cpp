@@ -48,8 +48,7 @@ constexpr Row kRows[] = {
 std::optional<UnknownMnemonic> foreign_mnemonic(std::string_view mnemonic) {
   if (const auto* row = std::ranges::find(kRows, mnemonic, &Row::mnemonic); row != std::end(kRows))
     return UnknownMnemonic{std::string(row->what), std::string(row->hint)};
-  if (!mnemonic.starts_with('U')) return {};
-  const Instruction* meant = find_instruction(std::string("A").append(mnemonic.substr(1)));  // UN, UW>=, ULD
+  const Instruction* meant = find_german_instruction(mnemonic);
   if (!meant) return {};
   return UnknownMnemonic{std::string(kGerman), std::string("write ").append(meant->mnemonic)};
 }
@@ -65,6 +64,12 @@ std::string_view nearest_mnemonic(std::string_view mnemonic) {
 }
 
 }  // namespace
+
+const Instruction* find_german_instruction(std::string_view mnemonic) {
+  if (!mnemonic.starts_with('U')) return nullptr;
+  const Instruction* meant = find_instruction(std::string("A").append(mnemonic.substr(1)));
+  return meant && !meant->rung.needs_power_flow && meant->modelled() ? meant : nullptr;  // but not ATCH, ATH, ATT
+}
 
 UnknownMnemonic unknown_mnemonic(std::string_view mnemonic) {
   if (auto foreign = foreign_mnemonic(mnemonic)) return *std::move(foreign);

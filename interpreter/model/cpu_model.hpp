@@ -148,6 +148,14 @@ const CpuModel& cpu226xm();
 /// From the smallest to the largest.
 const std::vector<const CpuModel*>& all_cpus();
 
+/// The first of them that has what is needed; null if none has.
+template <typename Condition>
+const CpuModel* smallest_cpu(Condition has) {
+  for (const CpuModel* model : all_cpus())
+    if (has(*model)) return model;
+  return nullptr;
+}
+
 /// `224XP` or `224xp`. Null if the simulator has no model of that name.
 const CpuModel* find_cpu(std::string_view name);
 

@@ -182,6 +182,11 @@ std::span<const Instruction> all_instructions();
 /// Null for an unknown mnemonic (upper case).
 const Instruction* find_instruction(std::string_view mnemonic);
 
+/// The instruction that a mnemonic of the German set means (upper case): U, UN, UW>=, ULD. Null for any other.
+///
+/// Only the pattern is documented, U for the A of the AND instructions; other German mnemonics are refused by name.
+const Instruction* find_german_instruction(std::string_view mnemonic);
+
 /// What can be said of a mnemonic that the table does not have.
 struct UnknownMnemonic {
   std::string what;  ///< of the German set or of another controller family: "a German mnemonic"; empty otherwise

@@ -8,10 +8,13 @@
 #include <cstdlib>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/data_block.hpp"
+#include "interpreter/program/german.hpp"
 #include "interpreter/program/operands.hpp"
 #include "interpreter/program/structure.hpp"
 #include "interpreter/program/warnings.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/stl/symbols.hpp"
 
 namespace s7200 {
 namespace {
@@ -19,14 +22,9 @@ namespace {
 class Checker {
  public:
   Checker(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times)
-      : source_(std::move(parsed.source)),
-        diagnostics_(std::move(parsed.diagnostics)),
-        block_export_(parsed.block_export),
-        model_(model),
-        times_(times) {}
+      : source_(std::move(parsed.source)), diagnostics_(std::move(parsed.diagnostics)), model_(model), times_(times) {}
 
   CheckResult run() {
-    if (block_export_) return {nullptr, std::move(source_), std::move(diagnostics_)};
     read_statements();
     if (statements_.empty() && !has_errors(diagnostics_))
       error({1, 1, 1}, "no STL statement in the file", "a program needs at least MEND");
@@ -34,12 +32,14 @@ class Checker {
     ProgramStructure structure = check_structure(statements_, model_, diagnostics_);
     if (all_known || !unknown_mnemonics_) check_logic_stack(statements_, diagnostics_);
     check_size();
+    data_ = place_data(source_, model_, diagnostics_);
     std::shared_ptr<const Program> program;
     if (!has_errors(diagnostics_)) {
       program = decode(structure);
       for (const WarningInfo& warning : all_warnings())
         if (warning.find) warning.find(*program, diagnostics_);
     }
+    tell_undefined_symbols_apart();
     stl::sort(diagnostics_);
     return {std::move(program), std::move(source_), std::move(diagnostics_)};
   }
@@ -47,6 +47,13 @@ class Checker {
  private:
   void error(const stl::Position& at, std::string message, std::string hint = {}, std::string cause = {}) {
     diagnostics_.push_back({stl::Severity::Error, at, std::move(message), std::move(hint), std::move(cause)});
+  }
+
+  /// With a symbol table each undefined name has a cause of its own; without one they all have the same.
+  void tell_undefined_symbols_apart() {
+    if (source_.symbols.empty()) return;
+    for (stl::Diagnostic& diagnostic : diagnostics_)
+      if (diagnostic.cause == kUndefinedSymbols) diagnostic.cause = diagnostic.message;
   }
 
   void read_statements() {
@@ -221,9 +228,18 @@ class Checker {
           statements_[model_.program_words].statement->position,
           fmt::format(
               "the program is too large: {} instructions of at least one word each, CPU {} has {} words (compile rule 0080)",
-              statements_.size(), model_.name, model_.program_words));
+              statements_.size(), model_.name, model_.program_words),
+          larger_cpu());
     if (constants_.bytes().size() > image::kSize - image::kConstants)
       error({1, 1, 1}, "the program has too many different constants (compile rule 0080)");
+  }
+
+  /// Which CPU may hold the program. It may still be too large for that one: its words are not counted exactly.
+  std::string larger_cpu() const {
+    const CpuModel* larger = smallest_cpu([&](const CpuModel& model) { return model.program_words >= statements_.size(); });
+    return larger ? fmt::format("{} bytes at least; CPU {} holds {}: --cpu {}", 2 * statements_.size(), larger->name,
+                                2 * larger->program_words, larger->name)
+                  : fmt::format("{} bytes at least: no CPU that is modelled holds them", 2 * statements_.size());
   }
 
   // --- decoding ---
@@ -245,6 +261,7 @@ class Checker {
     }
     std::sort(program->reals.begin(), program->reals.end());
     program->constants = constants_.bytes();
+    program->data = std::move(data_);
     for (const AreaInfo& area : all_areas())
       if (area.pointer_code)
         program->reach[*area.pointer_code] = {area.base, model_.size_of(area.area) * std::max(1u, area.element)};
@@ -346,10 +363,10 @@ class Checker {
 
   stl::Source source_;
   stl::Diagnostics diagnostics_;
-  bool block_export_;
   const CpuModel& model_;
   const TimeTable& times_;
   ConstantPool constants_;
+  std::vector<InitialData> data_;
   std::vector<CheckedStatement> statements_;
   std::vector<std::array<PlacedOperand, 3>> placed_;  // one for each of statements_
   std::uint32_t edges_ = 0;
@@ -359,6 +376,8 @@ class Checker {
 }  // namespace
 
 CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times) {
+  read_german(parsed);
+  stl::resolve_symbols(parsed);
   return Checker(std::move(parsed), model, times).run();
 }
 

@@ -13,8 +13,12 @@
 #include <span>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/stl/blocks.hpp"
+#include "interpreter/stl/data_block.hpp"
 #include "interpreter/stl/document.hpp"
 #include "interpreter/stl/encoding.hpp"
+#include "interpreter/stl/project.hpp"
+#include "interpreter/stl/symbols.hpp"
 
 namespace s7200 {
 namespace {
@@ -143,21 +147,72 @@ bool is_standard_input(std::string_view path) {
 
 std::optional<std::string> read_standard_input(std::string& why) { return read_all(STDIN_FILENO, why); }
 
+namespace {
+
+bool is_mnemonic(std::string_view word) {
+  return word == "NETWORK" || find_instruction(word) || !unknown_mnemonic(word).what.empty();
+}
+
+SourceKind kind_of(std::string_view text, bool force_document) {
+  if (stl::is_block_export(text)) return SourceKind::Blocks;
+  if (force_document) return SourceKind::Document;
+  if (stl::is_data_block(text)) return SourceKind::DataBlock;
+  if (stl::is_symbol_table(text, is_mnemonic)) return SourceKind::SymbolTable;
+  if (stl::is_status_chart(text)) return SourceKind::StatusChart;
+  return stl::is_document(text, instruction_set()) ? SourceKind::Document : SourceKind::Listing;
+}
+
+stl::ParseResult read_as(SourceKind kind, std::string_view text, const std::string& name) {
+  switch (kind) {
+    case SourceKind::Document:
+      return stl::read_document(text, name, instruction_set());
+    case SourceKind::Blocks:
+      return stl::read_blocks(text, name);
+    case SourceKind::SymbolTable:
+      return stl::read_symbol_table(text, name);
+    case SourceKind::DataBlock:
+      return stl::read_data_block(text, name);
+    case SourceKind::StatusChart: {
+      stl::ParseResult chart;
+      chart.source.name = name;
+      return chart;
+    }
+    case SourceKind::Listing:
+      break;
+  }
+  return stl::parse(text, name);
+}
+
+}  // namespace
+
+bool SourceText::is_program() const {
+  if (kind == SourceKind::Listing || kind == SourceKind::Document) return true;
+  const auto& blocks = parsed.source.blocks;
+  return kind == SourceKind::Blocks && std::ranges::find(blocks, stl::Block::Kind::Main, &stl::Block::kind) != blocks.end();
+}
+
+SourceText join_files(std::vector<SourceText> files) {
+  const auto program = std::ranges::find_if(files, &SourceText::is_program);
+  if (program != files.end()) std::rotate(files.begin(), program, std::next(program));
+  SourceText project = std::move(files.front());
+  for (auto file = std::next(files.begin()); file != files.end(); ++file)
+    if (file->kind != SourceKind::StatusChart) stl::append(project.parsed, std::move(file->parsed));
+  return project;
+}
+
 std::optional<SourceText> read_source(std::string_view bytes, const std::string& name, std::string& why,
                                       bool force_document) {
   const auto decoded = stl::decode(bytes, why);
   if (!decoded) return {};
-  const stl::InstructionSet& instructions = instruction_set();
-  if (force_document ? !stl::is_block_export(decoded->text) : stl::is_document(decoded->text, instructions))
-    return SourceText{stl::read_document(decoded->text, name, instructions), decoded->encoding, true};
-  SourceText source{stl::parse(decoded->text, name), decoded->encoding, false};
-  if (can_be_stl(source.parsed.source.text)) return source;
+  const SourceKind kind = kind_of(decoded->text, force_document);
+  SourceText source{read_as(kind, decoded->text, name), decoded->encoding, kind};
+  if (kind != SourceKind::Listing || can_be_stl(source.parsed.source.text)) return source;
   why = "it is not an STL program: there is no instruction in its first lines";
   return {};
 }
 
 CheckResult check_text(std::string_view utf8, const std::string& name, const CpuModel& model, const TimeTable& times) {
-  return check(stl::parse(utf8, name), model, times);
+  return check(stl::is_block_export(utf8) ? stl::read_blocks(utf8, name) : stl::parse(utf8, name), model, times);
 }
 
 }  // namespace s7200

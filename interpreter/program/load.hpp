@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "interpreter/program/checker.hpp"
 
@@ -22,17 +23,29 @@ bool is_standard_input(std::string_view path);
 /// The bytes of standard input up to its end, with the same limit.
 std::optional<std::string> read_standard_input(std::string& why);
 
-/// The STL source in a text in any of the encodings of stl/encoding.hpp; `as_document`: whether it was read as a document.
-/// Returns nothing and sets `why` if the bytes are not text.
+/// What is in a file.
+enum class SourceKind : std::uint8_t { Listing, Document, Blocks, SymbolTable, DataBlock, StatusChart };
+
+/// The source in a text in any of the encodings of stl/encoding.hpp.
 struct SourceText {
   stl::ParseResult parsed;
   std::string encoding;
-  bool as_document = false;
+  SourceKind kind = SourceKind::Listing;
+
+  bool as_document() const { return kind == SourceKind::Document; }
+  /// Whether it is a program, or the beginning of one: a symbol table, a data block and an export without main program
+  /// belong to one.
+  bool is_program() const;
 };
+
+/// Returns nothing and sets `why` if the bytes are not text, or are some other text.
 std::optional<SourceText> read_source(std::string_view bytes, const std::string& name, std::string& why,
                                       bool force_document = false);
 
-/// Reads and checks a program text in memory.
+/// The files of a project as one source, named after the first of them that is a program. There is at least one.
+SourceText join_files(std::vector<SourceText> files);
+
+/// Reads and checks a program text in memory: a listing or a block export.
 CheckResult check_text(std::string_view utf8, const std::string& name, const CpuModel& model, const TimeTable& times);
 
 }  // namespace s7200

@@ -120,6 +120,8 @@ class Placing {
     const auto [what, last] = number_range();
     const std::string range =
         last == 0 ? fmt::format("the only {} is 0", what) : fmt::format("{}s are numbered 0 to {}", what, last);
+    if (const auto* name = std::get_if<stl::Name>(&written_.value); name && !name->reason.empty())
+      return error(name->reason, range);
     if (!value || value->form == stl::Integer::Form::Ascii)
       return error(fmt::format("{} takes a number here, not {}", instruction_.mnemonic, text()), range);
     if (rule_.kind == OperandKind::Number && (value->value < 0 || value->value > last))
@@ -375,8 +377,12 @@ class Placing {
     if (rule_.real && (upper == "NAN" || upper == "INF" || upper == "INFINITY"))
       return error(fmt::format("{} cannot be {}", of_instruction(), text()),
                    "a real is 0.0, or 1.175495E-38 to 3.402823E+38 or its negative");
-    return error(fmt::format("'{}' is not an address", stl::shortened(text())),
-                 "symbols and local variables are not supported yet: write the address itself", "symbols");
+    if (!name.reason.empty()) return error(name.reason);
+    const bool constant = upper == "TRUE" || upper == "FALSE" || upper == "ON" || upper == "OFF";
+    return error(fmt::format("'{}' is neither an address nor a defined symbol", text()),
+                 constant ? "constants such as TRUE are for parameters of CALL"
+                          : "give its symbol table too, s7200 check PROGRAM SYMBOLS, or write the address itself",
+                 kUndefinedSymbols);
   }
 
   const Instruction& instruction_;

@@ -31,6 +31,9 @@ struct PlacedOperand {
   std::optional<std::int64_t> constant;  ///< the value of a constant as the instruction reads it, or a plain number
 };
 
+/// The cause of the diagnostics about names that nothing defines: often a symbol table that was not given.
+inline constexpr const char* kUndefinedSymbols = "symbols";
+
 /// Checks `written` against `rule` on `model`; adds a diagnostic and returns nothing if it does not fit.
 std::optional<PlacedOperand> place_operand(const Instruction& instruction, const OperandRule& rule,
                                            const stl::Operand& written, const CpuModel& model, ConstantPool& constants,

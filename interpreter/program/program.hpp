@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "interpreter/model/instruction.hpp"
 #include "interpreter/model/cpu_model.hpp"
+#include "interpreter/model/instruction.hpp"
 #include "interpreter/model/times.hpp"
 #include "interpreter/stl/ast.hpp"
 
@@ -67,6 +67,12 @@ struct Reach {
   std::uint32_t size = 0;  ///< bytes; 0: nothing
 };
 
+/// Bytes of V memory that the data block sets.
+struct InitialData {
+  std::uint32_t offset = 0;
+  std::vector<std::uint8_t> bytes;
+};
+
 struct Program {
   const CpuModel* model = nullptr;
   TimeTable times;
@@ -74,6 +80,7 @@ struct Program {
   std::vector<stl::Statement> statements;  ///< one for each op
   std::vector<Op> ops;
   std::vector<std::uint8_t> constants;         ///< content of the image from image::kConstants
+  std::vector<InitialData> data{};             ///< downloaded with the program
   std::array<std::uint32_t, 64> subroutine{};  ///< op of each SBR; kNoRoutine where there is none
   std::array<std::uint32_t, 128> interrupt{};  ///< op of each INT
 

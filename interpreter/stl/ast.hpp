@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -49,9 +50,10 @@ struct Indirect {
   bool operator==(const Indirect&) const = default;
 };
 
-/// Any other name: a symbol, `#local`. Kept for the message about it.
+/// Any other name: a symbol, `#local`, `"Pump 1"`, with its & or * before it.
 struct Name {
   std::string text;
+  std::string reason{};  ///< why it does not stand for an address, if more can be said than that it is not defined
   bool operator==(const Name&) const = default;
 };
 
@@ -60,6 +62,7 @@ using OperandValue = std::variant<Integer, Real, Address, AddressOf, Indirect, N
 struct Operand {
   OperandValue value;
   Position position{};
+  std::string symbol{};  ///< the name that stands for the address, as written; empty if there is none
 };
 
 /// One instruction. Labels, routine heads and block ends are instructions too (LBL, SBR, INT, MEND …).
@@ -86,8 +89,63 @@ struct BlankLine {
 
 using Line = std::variant<Statement, NetworkHead, CommentLine, BlankLine>;
 
+/// A variable of a block: `ptr : DWORD; // comment`, in the local memory of the block.
+struct Variable {
+  enum class Kind : std::uint8_t { Input, InOut, Output, Temporary };
+  enum class Type : std::uint8_t { Bool, Byte, Char, Word, Int, DWord, DInt, Real, String };
+
+  std::string name;
+  Kind kind = Kind::Temporary;
+  Type type = Type::Bool;
+  Address address{};
+  Position position{};
+  std::string comment;
+};
+
+/// A block of a Micro/WIN export. What it does is in the lines, between its head and its end.
+struct Block {
+  enum class Kind : std::uint8_t { Main, Subroutine, Interrupt };
+
+  Kind kind = Kind::Main;
+  std::uint32_t number = 0;
+  std::string name{};
+  std::string title{};
+  Position position{};
+  std::uint32_t last_line = 0;
+  std::vector<Variable> variables{};  ///< in the order of their kinds
+};
+
+/// A row of a symbol table.
+struct Symbol {
+  std::string name;
+  std::optional<OperandValue> value;  ///< an address, a constant, or the Name of a block: SBR0, INT0, OB1
+  Position position{};
+  std::string comment;
+};
+
+/// Characters of a data block: `'AB'`, or `"AB"`, which has its length before it.
+struct Text {
+  std::string bytes;
+  bool operator==(const Text&) const = default;
+};
+
+/// A line of a data block: `VW2 100, 200`, or only values, which follow those of the line before.
+struct DataLine {
+  struct Value {
+    std::variant<Integer, Real, Text> value;
+    Position position{};
+  };
+
+  std::optional<Operand> address;
+  std::vector<Value> values;
+  Position position{};
+};
+
 struct Source : SourceLines {
   std::vector<Line> lines;  ///< what they mean, in order; unreadable lines are left out
+  std::vector<Block> blocks{};
+  std::vector<Symbol> symbols{};
+  std::vector<DataLine> data{};
 };
 
 /// Whether two sources differ only in comments, blank lines, positions and notation (K4 and 4, 16#FF and 255).

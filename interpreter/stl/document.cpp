@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/stl/blocks.hpp"
 
 namespace s7200::stl {
 
@@ -117,6 +118,8 @@ bool is_address(std::string_view token) {
 
 /// LDSM0.1, which has lost its blank
 bool ends_in_bit_address(std::string_view token) {
+  constexpr std::size_t kLongestAddress = 10;
+  token.remove_prefix(token.size() - std::min(token.size(), kLongestAddress));
   if (token.find('.') == std::string_view::npos) return false;
   for (; !token.empty(); token.remove_prefix(1)) {
     if (is_address(token)) return true;
@@ -715,15 +718,6 @@ void check_completeness(ParseResult& result) {
 }
 
 }  // namespace
-
-bool is_block_export(std::string_view text) {
-  const std::vector<std::string> lines = split_lines(text);
-  return std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
-    const std::string clean = without_debris(line);
-    const auto words = tokens(clean);
-    return !words.empty() && upper_case(words.front()).ends_with("_BLOCK");
-  });
-}
 
 bool is_document(std::string_view text, const InstructionSet& instructions) {
   return !is_block_export(text) && DocumentReader(text, instructions).is_document();

@@ -25,9 +25,6 @@ struct InstructionSet {
 /// A plain STL file with mistakes is not a document: its mistakes must be reported, not left out.
 bool is_document(std::string_view text, const InstructionSet& instructions);
 
-/// Whether it is a block export of Micro/WIN 32 (ORGANIZATION_BLOCK …), which is not a document either.
-bool is_block_export(std::string_view text);
-
 /// Reads the STL of a document. Positions and `text` are those of the document. Reports, each with its place: a document
 /// without STL, a line of STL that is damaged, a line between the statements of a routine that may be one, a listing that
 /// stops in the middle of a routine. A text that is not a document is a listing from its first line to its last.

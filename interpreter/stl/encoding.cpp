@@ -38,8 +38,10 @@ constexpr std::array kFileKinds{
              "a program (ELF)"},
     FileKind{"MZ\x90"sv, "a program (EXE)"},
     FileKind{"\x1F\x8B"sv, "a gzip archive"},
-    FileKind{"\xD0\xCF\x11\xE0"sv,
-             "an OLE file (.doc, .mwp); export the program as text, or save the document as plain text"},
+    FileKind{
+        "\xD0\xCF\x11\xE0"sv,
+        "an OLE file: if it is a Micro/WIN project (.mwp), open it in Micro/WIN and export each block (File, Export) as "
+        ".awl; if it is a document (.doc), save it as plain text"},
 };
 
 /// What a file looks like that is not text; empty for text.

@@ -196,12 +196,12 @@ const auto address = named<struct AddressRule, RawAddress>("an address") = (char
                                                                            no_case[address_letters] >> raw[+digit] >>
                                                                            -(lit('.') > bit_number) >> end_of_word;
 
-// "Start", Motor_On, #count, and as Micro/WIN prints symbol and address together: #count:LW2, *#next:*LD4
+// "Pump 1", Motor_On, #count, and as Micro/WIN prints symbol and address together: "Pump 1":Q0.0, #count:LW2, *#next:*LD4
 const auto plain_name = -char_("&*") >> -lit('#') >> (letter | char_('_') | beyond_ascii) >> *word_character;
 const auto quoted_name = -char_("&*") >> lit('"') >> *(char_ - lit('"')) >> lit('"');
+const auto address_of_name = lit(':') >> plain_name >> -(lit('.') >> +digit);
 const auto name = named<struct NameRule, RawWord>("a name") =
-    attr(Size::None) >>
-    attr(Kind::Name) >> raw[quoted_name | (plain_name >> -(lit(':') >> plain_name >> -(lit('.') >> +digit)))];
+    attr(Size::None) >> attr(Kind::Name) >> raw[(quoted_name | plain_name) >> -address_of_name];
 
 struct OperandRule {
   template <typename Context>
@@ -308,6 +308,36 @@ std::optional<Number> number_of(std::string_view digits, int base = 10) {
   return number;
 }
 
+// Appends the character that `rest` begins with and returns the length of its notation, 0 if it is not allowed.
+std::size_t read_ascii(std::string_view rest, std::string& bytes) {
+  if (rest.front() != '$') {
+    if (rest.front() < 0x20 || rest.front() > 0x7E) return 0;
+    bytes.push_back(rest.front());
+    return 1;
+  }
+  if (const auto value = number_of<std::uint8_t>(rest.substr(1, 2), 16); value && rest.size() > 2) {
+    bytes.push_back(static_cast<char>(*value));
+    return 3;
+  }
+  if (const auto character = escape(rest[1])) {
+    bytes.push_back(*character);
+    return 2;
+  }
+  return 0;
+}
+
+/// Appends the characters that a text between quotes stands for. Returns the rest from the first that is not allowed on.
+std::string_view read_characters(std::string_view text, std::string& bytes) {
+  while (!text.empty()) {
+    const std::size_t length = read_ascii(text, bytes);
+    if (length == 0) break;
+    text.remove_prefix(length);
+  }
+  return text;
+}
+
+constexpr const char* kEscapes = "escapes are $$ $' $\" $L $N $P $R $T and $hh with two hexadecimal digits";
+
 std::string_view without_plus(std::string_view digits) {
   if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
   return digits;
@@ -348,7 +378,7 @@ const char* size_letter(Size size) {
   }
 }
 
-constexpr const char* kBlockExport = "block export";  // the cause of all messages about one
+constexpr const char* kOutOfPlace = "block keyword out of place";
 
 class LineReader {
  public:
@@ -362,6 +392,22 @@ class LineReader {
     return in_declarations;
   }
 
+  /// The whole text as one operand.
+  std::optional<Operand> read_operand() {
+    RawOperand raw;
+    Place at = begin();
+    try {
+      if (!x3::parse(at, end(), grammar::operand, raw) || at != end()) {
+        report_unexpected(at, "the end of the operand");
+        return std::nullopt;
+      }
+    } catch (const x3::expectation_failure<Place>& failure) {
+      report_unexpected(failure.where(), failure.which());
+      return std::nullopt;
+    }
+    return operand_of(raw);
+  }
+
  private:
   std::optional<Range> block_keyword() const {
     Range keyword;
@@ -371,9 +417,11 @@ class LineReader {
 
   bool read_block_line(const Range& keyword) {
     const std::string name = upper_case(view(keyword));
-    result_.block_export = result_.block_export || name.ends_with("_BLOCK");
-    report(position(keyword), fmt::format("{} belongs to a Micro/WIN 32 block export, which is not supported yet", name),
-           "write one listing: main program, MEND, then SBR n ... RET and INT n ... RETI", kBlockExport);
+    report(position(keyword), fmt::format("{} belongs to the head of a block", name),
+           "a block is ORGANIZATION_BLOCK, SUBROUTINE_BLOCK or INTERRUPT_BLOCK NAME:NUMBER, then TITLE=, VAR ... END_VAR, "
+           "BEGIN "
+           "and its networks, then END_ and its keyword",
+           kOutOfPlace);
     return name.starts_with("VAR");
   }
 
@@ -400,7 +448,7 @@ class LineReader {
     Statement statement{upper_case(view(raw.mnemonic)), position(raw.mnemonic), {}, comment};
     statement.operands.reserve(raw.operands.size());
     for (const RawOperand& operand : raw.operands) {
-      if (auto value = value_of(operand)) statement.operands.push_back({std::move(*value), position(operand.text)});
+      if (auto read = operand_of(operand)) statement.operands.push_back(std::move(*read));
     }
     if (statement.operands.size() < raw.operands.size()) return;
     if (statement.mnemonic == "NETWORK") {
@@ -423,6 +471,31 @@ class LineReader {
     }
     result_.source.lines.emplace_back(std::move(head));
   }
+
+  std::optional<Operand> operand_of(const RawOperand& raw) {
+    const auto* word = boost::get<RawWord>(&raw.get());
+    if (word && word->kind == Kind::Name) return named_operand(view(word->text), raw.text);
+    auto value = value_of(raw);
+    if (!value) return std::nullopt;
+    return Operand{std::move(*value), position(raw.text)};
+  }
+
+  /// A name; if its address stands beside it, the address.
+  std::optional<Operand> named_operand(std::string_view text, const Range& range) {
+    const std::size_t name_end = text.find(text.find('"') < 2 ? "\":" : ":");
+    const std::size_t colon = name_end == std::string_view::npos ? name_end : text.find(':', name_end);
+    RawAddress address;
+    Place at = text.data() + (colon == std::string_view::npos ? text.size() : colon + 1);
+    if (x3::parse(at, end_of(text), grammar::address >> x3::eoi, address)) {
+      if (address.mark == 0 && (text.front() == '&' || text.front() == '*')) address.mark = text.front();
+      auto value = address_value(address, range);
+      if (!value) return std::nullopt;
+      return Operand{std::move(*value), position(range), std::string(text.substr(0, colon))};
+    }
+    return Operand{Name{std::string(text)}, position(range)};
+  }
+
+  static Place end_of(std::string_view text) { return text.data() + text.size(); }
 
   std::optional<OperandValue> value_of(const RawOperand& operand) {
     if (const auto* address = boost::get<RawAddress>(&operand.get())) return address_value(*address, operand.text);
@@ -470,14 +543,9 @@ class LineReader {
 
   std::optional<OperandValue> ascii_value(const RawWord& word, const Range& text) {
     std::string bytes;
-    for (std::string_view rest = view(word.text); !rest.empty();) {
-      const std::size_t length = read_ascii(rest, bytes);
-      if (length == 0) {
-        return refuse(Range(rest.data(), rest.data() + first_character(rest).bytes),
-                      fmt::format("{} is not allowed in an ASCII constant", describe(rest)),
-                      "escapes are $$ $' $\" $L $N $P $R $T and $hh with two hexadecimal digits");
-      }
-      rest.remove_prefix(length);
+    if (const std::string_view bad = read_characters(view(word.text), bytes); !bad.empty()) {
+      return refuse(Range(bad.data(), bad.data() + first_character(bad).bytes),
+                    fmt::format("{} is not allowed in an ASCII constant", describe(bad)), kEscapes);
     }
     if (bytes.size() != 1 && bytes.size() != 2 && bytes.size() != 4) {
       return refuse(text, fmt::format("an ASCII constant cannot have {} characters", bytes.size()),
@@ -489,24 +557,6 @@ class LineReader {
       return refuse(text, fmt::format("{} does not fit in {}", shown(text), limits(word.limit).name), "");
     }
     return integer;
-  }
-
-  // Appends the character that `rest` begins with and returns the length of its notation, 0 if it is not allowed.
-  static std::size_t read_ascii(std::string_view rest, std::string& bytes) {
-    if (rest.front() != '$') {
-      if (rest.front() < 0x20 || rest.front() > 0x7E) return 0;
-      bytes.push_back(rest.front());
-      return 1;
-    }
-    if (const auto value = number_of<std::uint8_t>(rest.substr(1, 2), 16); value && rest.size() > 2) {
-      bytes.push_back(static_cast<char>(*value));
-      return 3;
-    }
-    if (const auto character = escape(rest[1])) {
-      bytes.push_back(*character);
-      return 2;
-    }
-    return 0;
   }
 
   std::optional<OperandValue> address_value(const RawAddress& raw, const Range& text) {
@@ -538,7 +588,7 @@ class LineReader {
     const std::string_view mark(&raw.mark, raw.mark == 0 ? 0 : 1);
     const std::string_view rest(raw.number.begin(), static_cast<std::size_t>(text.end() - raw.number.begin()));
     report(position(text), fmt::format("{} is a German address", shown(text)),
-           fmt::format("write {}{}{}{}", mark, raw.letters.area, size_letter(raw.letters.size), rest), "German addresses");
+           fmt::format("write {}{}{}{}", mark, raw.letters.area, size_letter(raw.letters.size), rest), kGermanAddresses);
   }
 
   static std::string shown(const Range& text) { return shortened(view(text)); }
@@ -600,8 +650,24 @@ ParseResult parse(std::string_view text, std::string name) {
   for (const std::string& line : result.source.text) {
     in_declarations = LineReader(line, ++number, result).read(in_declarations);
   }
-  if (result.block_export) std::erase_if(result.diagnostics, [](const Diagnostic& d) { return d.cause != kBlockExport; });
   return result;
+}
+
+std::optional<std::string> parse_characters(std::string_view text, std::string& why) {
+  std::string bytes;
+  const std::string_view bad = read_characters(text, bytes);
+  if (bad.empty()) return bytes;
+  why = fmt::format("{} is not allowed in a text; {}", describe(bad), kEscapes);
+  return std::nullopt;
+}
+
+std::optional<Operand> parse_operand(std::string_view text, std::string& why) {
+  ParseResult result;
+  auto operand = LineReader(text, 1, result).read_operand();
+  std::erase_if(result.diagnostics, [](const Diagnostic& d) { return d.cause == kGermanAddresses; });
+  if (result.diagnostics.empty()) return operand;
+  why = result.diagnostics.front().message;
+  return std::nullopt;
 }
 
 }  // namespace s7200::stl

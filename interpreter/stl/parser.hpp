@@ -1,6 +1,7 @@
 // Text to AST. Knows the shape of a line but no instruction: a new mnemonic never touches it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,8 +14,11 @@ struct ParseResult {
   Source source;
   Diagnostics diagnostics;
   std::vector<std::uint32_t> left_out{};  ///< lines between the statements of a document that were taken for text
-  bool block_export = false;              ///< of Micro/WIN 32, which is not read yet: the diagnostics say just that
 };
+
+/// The cause of the diagnostics about German addresses. They are read like the international ones, so a caller that takes
+/// the source for a German one has only to leave these diagnostics out.
+inline constexpr const char* kGermanAddresses = "German addresses";
 
 /// Reads a plain STL text in UTF-8. Every line is read on its own, so no error hides another.
 ///
@@ -22,5 +26,11 @@ struct ParseResult {
 ///   operands  : separated by commas, or by blanks or tabs
 ///   any case; CR LF, LF or CR line ends; blanks or tabs anywhere between tokens; K4, K-5 and KHFF as constants
 ParseResult parse(std::string_view text, std::string name);
+
+/// Reads a text that is one operand, with a German address as well. Returns nothing and sets `why` if it is not.
+std::optional<Operand> parse_operand(std::string_view text, std::string& why);
+
+/// The bytes of a text between quotes: `AB$0D$L`.
+std::optional<std::string> parse_characters(std::string_view text, std::string& why);
 
 }  // namespace s7200::stl

@@ -34,6 +34,34 @@ CheckResult check_with(const CheckOptions& options, const SourceText& text, cons
   return result;
 }
 
+struct ProgramFiles {
+  std::string path;
+  SourceText text;
+};
+
+/// The programs among the files; symbol tables and other parts of a project belong to all of them. Without a program the
+/// parts are checked by themselves.
+std::vector<ProgramFiles> read_programs(const std::vector<std::string>& paths, int& exit_code) {
+  std::vector<ProgramFiles> programs, parts;
+  for (const std::string& path : paths) {
+    auto text = read_program_text(path);
+    if (text)
+      (text->is_program() ? programs : parts).push_back({path, std::move(*text)});
+    else
+      exit_code = kUnusable;
+  }
+  if (programs.empty() && !parts.empty()) {
+    programs.push_back(std::move(parts.front()));
+    parts.erase(parts.begin());
+  }
+  for (auto& [path, text] : programs) {
+    std::vector<SourceText> files{std::move(text)};
+    for (const ProgramFiles& part : parts) files.push_back(part.text);
+    text = join_files(std::move(files));
+  }
+  return programs;
+}
+
 int run_check(const CheckOptions& options) {
   const CpuModel* model = options.cpu.model();
   if (!model) return kUnusable;
@@ -41,20 +69,16 @@ int run_check(const CheckOptions& options) {
   if (!times) return kUnusable;
   int exit_code = kFine;
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  for (const std::string& path : options.paths) {
-    const auto text = read_program_text(path);
-    if (!text) {
-      exit_code = kUnusable;
-      continue;
-    }
-    const CheckResult result = check_with(options, *text, *model, *times);
+  for (const auto& [path, text] : read_programs(options.paths, exit_code)) {
+    const CheckResult result = check_with(options, text, *model, *times);
     if (!result.program) exit_code = std::max<int>(exit_code, kCheckFailed);
     if (options.json) {
-      files.push_back(check_json(path, *text, result, *model));
+      files.push_back(check_json(path, text, result, *model));
     } else {
       print_diagnostics(result.diagnostics, result.source);
-      print_note_if_any(left_out_note(*text));
-      fmt::print("{}", check_summary(*text, result, *model));
+      print_note_if_any(left_out_note(text));
+      print_note_if_any(dropped_networks_note(result));
+      fmt::print("{}", check_summary(text, result, *model));
     }
   }
   if (options.json) {
@@ -76,7 +100,10 @@ std::string warnings_help() {
 void add_check(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CheckOptions>();
   CLI::App* verb = app.add_subcommand("check", "check STL programs: every error with its place and what to do about it");
-  verb->add_option("PROGRAM", options->paths, "STL files or published documents; - is standard input")->required();
+  verb->add_option("PROGRAM", options->paths,
+                   "STL files or published documents; symbol tables, data blocks and blocks among them belong to all; - is "
+                   "standard input")
+      ->required();
   options->cpu.add_to(*verb);
   verb->add_option("--no-warn", options->unwanted, "leave out a warning, see below (repeatable)")
       ->check([](const std::string& name) {

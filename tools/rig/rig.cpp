@@ -60,6 +60,7 @@ std::unique_ptr<Rig> Rig::assemble(std::shared_ptr<const Program> program, const
 bool Rig::claim_files(const std::shared_ptr<const Program>& program, std::string& why) {
   WrittenFiles files(settings_.standard_output);
   files.reads(program->source.name);
+  for (const stl::FurtherFile& file : program->source.further_files) files.reads(file.name);
   files.reads(settings_.input);
   files.links("--pty", settings_.link);
   const auto trace = [program, all = settings_.trace_instructions](std::ostream& out) {

@@ -20,17 +20,22 @@ std::string Programs::Loaded::why() const {
     }
     const stl::Diagnostics& all = message.diagnostics;
     const std::string& name = message.source->name;
-    for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i)
-      add(fmt::format("{}:{}:{}: {}", name, all[i].position.line, all[i].position.column, all[i].message));
+    for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i) {
+      const stl::FileLine place = stl::in_file(*message.source, all[i].position.line);
+      add(fmt::format("{}:{}:{}: {}", place.file, place.line, all[i].position.column, all[i].message));
+    }
     if (all.size() > kMost) add(fmt::format("and {} more; 's7200 check {}' shows them", all.size() - kMost, name));
   }
   return text;
 }
 
-const Programs::Loaded& Programs::get(const std::string& path, const std::string& cpu, const std::string& times_file) {
-  const auto key = std::tuple(path, cpu, times_file);
+const Programs::Loaded& Programs::get(const std::string& path, const std::vector<std::string>& with, const std::string& cpu,
+                                      const std::string& times_file) {
+  std::vector<std::string> files{path};
+  files.insert(files.end(), with.begin(), with.end());
+  const auto key = std::tuple(files, cpu, times_file);
   const auto known = known_.find(key);
-  return known != known_.end() ? known->second : known_.emplace(key, load(path, cpu, times_file)).first->second;
+  return known != known_.end() ? known->second : known_.emplace(key, load(files, cpu, times_file)).first->second;
 }
 
 /// What comes through a pipe can be read once, by whatever name.
@@ -46,13 +51,18 @@ const Programs::Text& Programs::text_of(const std::string& path) {
   return found->second;
 }
 
-Programs::Loaded Programs::load(const std::string& path, const std::string& cpu, const std::string& times_file) {
+Programs::Loaded Programs::load(const std::vector<std::string>& files, const std::string& cpu,
+                                const std::string& times_file) {
   Loaded loaded;
-  const Text& source = text_of(path);
-  if (!source.text) {
-    add_error(loaded.messages, source.why);
-    return loaded;
+  std::vector<SourceText> texts;
+  for (const std::string& file : files) {
+    const Text& source = text_of(file);
+    if (source.text)
+      texts.push_back(*source.text);
+    else
+      add_error(loaded.messages, source.why);
   }
+  if (!loaded.messages.empty()) return loaded;
   const CpuModel& model = *find_cpu(cpu);
   TimeTable times = default_times(model);
   if (!times_file.empty()) {
@@ -63,7 +73,7 @@ Programs::Loaded Programs::load(const std::string& path, const std::string& cpu,
       for (const std::string& error : times.add(*csv, times_file)) add_error(loaded.messages, error);
     if (!loaded.messages.empty()) return loaded;
   }
-  CheckResult result = check(source.text->parsed, model, times);
+  CheckResult result = check(join_files(std::move(texts)).parsed, model, times);
   loaded.program = std::move(result.program);
   if (loaded.program) return loaded;
   std::erase_if(result.diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
@@ -103,7 +113,8 @@ class ProgramBenches {
       bench.problem = "it names no program, and there is no --target";
       return true;
     }
-    const Programs::Loaded& loaded = programs_.get(path, scenario.cpu, scenario.times_file);
+    const Programs::Loaded& loaded =
+        programs_.get(path, target_.empty() ? scenario.with : std::vector<std::string>{}, scenario.cpu, scenario.times_file);
     bench.program = loaded.program;
     if (!loaded.program && same_for_all_) {
       messages.insert(messages.end(), loaded.messages.begin(), loaded.messages.end());

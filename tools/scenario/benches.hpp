@@ -26,7 +26,9 @@ class Programs {
     std::string why() const;
   };
 
-  const Loaded& get(const std::string& path, const std::string& cpu, const std::string& times_file);
+  /// `with`: the other files of the program's project.
+  const Loaded& get(const std::string& path, const std::vector<std::string>& with, const std::string& cpu,
+                    const std::string& times_file);
 
  private:
   struct Text {
@@ -35,10 +37,10 @@ class Programs {
   };
 
   const Text& text_of(const std::string& path);
-  Loaded load(const std::string& path, const std::string& cpu, const std::string& times_file);
+  Loaded load(const std::vector<std::string>& files, const std::string& cpu, const std::string& times_file);
 
   std::map<std::string, Text> texts_;
-  std::map<std::tuple<std::string, std::string, std::string>, Loaded> known_;
+  std::map<std::tuple<std::vector<std::string>, std::string, std::string>, Loaded> known_;
 };
 
 /// A bench for each scenario.

@@ -31,6 +31,7 @@ class HeadReader {
       return false;
     }
     if (const auto path = optional_path(map, "program")) scenario.program = *path;
+    if (const YamlNode* with = map.find("with")) read_parts(*with, scenario.with);
     if (const auto path = optional_path(map, "skip_without")) {
       scenario.may_be_missing = *path == scenario.program;
       if (!std::filesystem::exists(*path)) scenario.skipped = *path + " is not there";
@@ -65,6 +66,14 @@ class HeadReader {
     const bool given =
         given_ && given_->parameters.values.contains(key) && map.find(key)->text == fmt::format("${{{}}}", key);
     return given ? *path : beside(scenario_file_, *path);
+  }
+
+  void read_parts(const YamlNode& parts, std::vector<std::string>& with) {
+    if (!parts.is_list())
+      return values_.wrong(parts, "'with' is a list of files, not " + to_text(parts),
+                           "write for example with: [symbols.txt]");
+    for (const YamlNode& part : parts.items)
+      if (const auto path = values_.text(part)) with.push_back(beside(scenario_file_, *path));
   }
 
   void read_rule(const YamlNode& map, Rule& rule) {

@@ -41,8 +41,9 @@ struct Scenario {
   stl::Position position{};
   std::shared_ptr<const stl::SourceLines> source{};  ///< the file it is from
 
-  std::string program{};        ///< path; empty if only --target names one
-  bool may_be_missing = false;  ///< skip_without names it
+  std::vector<std::string> with{};  ///< paths of the other files of its project
+  std::string program{};            ///< path; empty if only --target names one
+  bool may_be_missing = false;      ///< skip_without names it
   std::string cpu = "214";
   std::string times_file{};  ///< empty: the model's own
   std::vector<Assignment> set{};

@@ -75,6 +75,11 @@ std::string TranscriptWriter::near(const std::string& path) const {
 
 void TranscriptWriter::head(const Scenario& scenario) {
   if (!scenario.program.empty()) line(4, "program: " + near(scenario.program));
+  if (!scenario.with.empty()) {
+    std::string files;
+    for (const std::string& file : scenario.with) files += (files.empty() ? "" : ", ") + near(file);
+    line(4, "with: [" + files + "]");
+  }
   if (!scenario.program.empty() && scenario.may_be_missing) line(4, "skip_without: " + near(scenario.program));
   if (scenario.cpu != "214") line(4, "cpu: " + scenario.cpu);
   if (!scenario.times_file.empty()) line(4, "times: " + near(scenario.times_file));

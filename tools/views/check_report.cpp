@@ -10,15 +10,37 @@
 namespace s7200::tools {
 namespace {
 
-nlohmann::ordered_json to_json(const stl::Diagnostic& d) {
-  return {{"severity", d.severity == stl::Severity::Error ? "error" : "warning"},
-          {"line", d.position.line},
-          {"column", d.position.column},
-          {"length", d.position.length},
-          {"message", d.message},
-          {"hint", d.hint},
-          {"name", d.name},
-          {"cause", d.cause}};
+std::string_view name_of(SourceKind kind) {
+  switch (kind) {
+    case SourceKind::Document:
+      return "document";
+    case SourceKind::Blocks:
+      return "export";
+    case SourceKind::SymbolTable:
+      return "symbol table";
+    case SourceKind::DataBlock:
+      return "data block";
+    case SourceKind::StatusChart:
+      return "status chart";
+    case SourceKind::Listing:
+      break;
+  }
+  return "stl";
+}
+
+nlohmann::ordered_json to_json(const stl::Diagnostic& d, const stl::SourceLines& source) {
+  const stl::FileLine place = stl::in_file(source, d.position.line);
+  nlohmann::ordered_json json{{"severity", d.severity == stl::Severity::Error ? "error" : "warning"}};
+  if (!source.further_files.empty()) json["file"] = place.file;
+  if (const std::string section = stl::section_at(source, d.position.line); !section.empty()) json["section"] = section;
+  json.update({{"line", place.line},
+               {"column", d.position.column},
+               {"length", d.position.length},
+               {"message", d.message},
+               {"hint", d.hint},
+               {"name", d.name},
+               {"cause", d.cause}});
+  return json;
 }
 
 /// The CPUs, other than the one asked for, that the program is fine for.
@@ -65,19 +87,36 @@ std::string check_summary(const SourceText& text, const CheckResult& result, con
                        model.name, other_cpus_text(text, model));
   }
   return fmt::format("{}: fine, {} for CPU {}{}{}\n", name, counted(result.program->ops.size(), "instruction"),
-                     result.program->model->name, text.as_document ? ", out of a document" : "",
+                     result.program->model->name, text.as_document() ? ", out of a document" : "",
                      result.diagnostics.empty() ? "" : ", " + warnings);
+}
+
+std::string dropped_networks_note(const CheckResult& result) {
+  constexpr std::size_t kShown = 10;
+  std::vector<std::string> networks;
+  for (const stl::Diagnostic& d : result.diagnostics) {
+    const std::string section = stl::section_at(result.source, d.position.line);
+    const bool counts = d.severity == stl::Severity::Error && section.find(", network ") != std::string::npos;
+    if (counts && (networks.empty() || networks.back() != section)) networks.push_back(section);
+  }
+  if (networks.empty()) return {};
+  const std::size_t shown = std::min(kShown, networks.size());
+  return fmt::format("{}: on import Micro/WIN would leave out {}: {}{}", stl::printable(result.source.name),
+                     counted(networks.size(), "network"),
+                     stl::printable(fmt::format(
+                         "{}", fmt::join(networks.begin(), networks.begin() + static_cast<std::ptrdiff_t>(shown), "; "))),
+                     networks.size() > shown ? "; …" : "");
 }
 
 nlohmann::ordered_json check_json(const std::string& path, const SourceText& text, const CheckResult& result,
                                   const CpuModel& model) {
   nlohmann::ordered_json diagnostics = nlohmann::ordered_json::array();
-  for (const stl::Diagnostic& d : result.diagnostics) diagnostics.push_back(to_json(d));
+  for (const stl::Diagnostic& d : result.diagnostics) diagnostics.push_back(to_json(d, result.source));
   return {{"file", path},
           {"ok", result.program != nullptr},
           {"cpu", model.name},
           {"fine_for", result.program ? std::vector<std::string_view>{} : names_of(other_cpus(text, model))},
-          {"kind", text.as_document ? "document" : "stl"},
+          {"kind", name_of(text.kind)},
           {"encoding", text.encoding},
           {"instructions", result.program ? result.program->ops.size() : 0},
           {"left_out", text.parsed.left_out},

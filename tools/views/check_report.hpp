@@ -11,6 +11,9 @@ namespace s7200::tools {
 /// One line: how many errors and warnings, and for which CPUs it is fine.
 std::string check_summary(const SourceText& text, const CheckResult& result, const CpuModel& model);
 
+/// Which networks of an export Micro/WIN would leave out because of their errors; empty if there are none.
+std::string dropped_networks_note(const CheckResult& result);
+
 /// The same and all diagnostics.
 nlohmann::ordered_json check_json(const std::string& path, const SourceText& text, const CheckResult& result,
                                   const CpuModel& model);

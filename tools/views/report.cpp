@@ -15,7 +15,8 @@ namespace {
 std::string place_text(const Program& program, std::uint32_t op) {
   if (op == kNoRoutine) return "between two scans";
   const stl::Statement& statement = program.statement(op);
-  return fmt::format("{}:{}: {}", stl::printable(program.source.name), statement.position.line, stl::to_text(statement));
+  const stl::FileLine place = stl::in_file(program.source, statement.position.line);
+  return fmt::format("{}:{}: {}", stl::printable(place.file), place.line, stl::to_text(statement));
 }
 
 nlohmann::ordered_json error_json(const Program& program, std::uint16_t code, std::string_view meaning, std::uint32_t op,

@@ -131,8 +131,8 @@ TEST(Parser, ReadsAddressesOfEveryArea) {
 }
 
 TEST(Parser, KeepsSymbolsAsNames) {
-  for (const char* name : {"\"Start\"", "\"Pump 1 // left\"", "#count", "Motor_On", "#count:LW2", "*#next:*LD4",
-                           "Flag:V25.1", "Störung", "電動機", "V", "VB", "Table1"}) {
+  for (const char* name : {"\"Start\"", "\"Pump 1 // left\"", "#count", "Motor_On", "*#next", "Störung", "電動機",
+                           "SBR_0:SBR0", "V", "VB", "Table1"}) {
     EXPECT_EQ(operand(name), OperandValue(Name{name}));
   }
 }
@@ -236,23 +236,36 @@ TEST(Parser, AcceptsEveryLineEnd) {
   EXPECT_EQ(std::get<Statement>(result.source.lines[3]).position.line, 4U);
 }
 
-TEST(Parser, SaysOncePerBlockKeywordThatBlockExportsAreNotRead) {
-  const ParseResult result = parse(
-      "ORGANIZATION_BLOCK MAIN:OB1\nTITLE=A title, with 'words\nVAR\n count : INT; // n\nEND_VAR\nBEGIN\nNetwork 1\n"
-      "LD I0.0\nEND_ORGANIZATION_BLOCK\n",
-      "x");
-  EXPECT_EQ(result.diagnostics.size(), 6U);
+TEST(Parser, RefusesBlockKeywordsOutsideOfAnExport) {
+  const ParseResult result = parse("TITLE=A title, with 'words\nVAR\n count : INT; // n\nEND_VAR\nBEGIN\nLD I0.0\n", "x");
+  EXPECT_EQ(result.diagnostics.size(), 4U);
   for (const Diagnostic& diagnostic : result.diagnostics) {
-    EXPECT_NE(diagnostic.message.find("Micro/WIN 32 block export"), std::string::npos) << diagnostic.message;
+    EXPECT_NE(diagnostic.message.find("belongs to the head of a block"), std::string::npos) << diagnostic.message;
   }
-  EXPECT_EQ(result.source.lines.size(), 2U);
+  EXPECT_EQ(result.source.lines.size(), 1U);
 }
 
-TEST(Parser, SaysNothingElseOfABlockExport) {
-  const ParseResult result = parse("ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nLD I0.9\nEND_ORGANIZATION_BLOCK\n", "x");
-  EXPECT_TRUE(result.block_export);
-  EXPECT_EQ(result.diagnostics.size(), 3U);
-  EXPECT_FALSE(parse("TITLE=x\nLD I0.9\n", "x").block_export);
+TEST(Parser, ReadsTheAddressThatStandsBesideASymbol) {
+  const auto beside = [](const char* text) { return statement(std::string("LD ") + text).operands.at(0); };
+  EXPECT_EQ(beside("\"Pump 1\":Q0.0").value, OperandValue(Address{"Q", Size::Bit, 0, 0}));
+  EXPECT_EQ(beside("\"Pump 1\":Q0.0").symbol, "\"Pump 1\"");
+  EXPECT_EQ(beside("#ptr:LD4").value, OperandValue(Address{"L", Size::Double, 4, 0}));
+  EXPECT_EQ(beside("*#ptr:*LD4").value, OperandValue(Indirect{{"L", Size::Double, 4, 0}}));
+  EXPECT_EQ(beside("*#ptr:LD4").value, OperandValue(Indirect{{"L", Size::Double, 4, 0}}));
+  EXPECT_EQ(beside("&table:VB10").value, OperandValue(AddressOf{{"V", Size::Byte, 10, 0}}));
+  EXPECT_EQ(beside("SBR_0:SBR0").value, OperandValue(Name{"SBR_0:SBR0"}));
+  EXPECT_EQ(error("LD level:I0.9").message, "the bits of a byte are 0 to 7");
+}
+
+TEST(Parser, ReadsOneOperandByItself) {
+  std::string why;
+  EXPECT_EQ(parse_operand("VB10", why)->value, OperandValue(Address{"V", Size::Byte, 10, 0}));
+  EXPECT_EQ(parse_operand("A0.1", why)->value, OperandValue(Address{"Q", Size::Bit, 0, 1}));
+  EXPECT_EQ(parse_operand("16#FF", why)->value, OperandValue(Integer{255, Integer::Form::Hex, 0}));
+  EXPECT_FALSE(parse_operand("VB10 ", why));
+  EXPECT_FALSE(parse_operand("", why));
+  EXPECT_FALSE(parse_operand("I0.9", why));
+  EXPECT_EQ(why, "the bits of a byte are 0 to 7");
 }
 
 TEST(Parser, TakesTimeInProportionToTheText) {

@@ -80,6 +80,7 @@ void MasterOptions::add_to(CLI::App& app) {
   for_rtu_.push_back(add_duration(app, "--silence", silence,
                                   "silence that ends an answer [3.5 characters; outside simulation 20ms if that is more]"));
   for_programs_ = added_by(app, [&] {
+    program.add_parts_to(app);
     program.CpuOptions::add_to(app);
     rig.add_to(app);
     add_duration(app, "--after", after,

@@ -59,12 +59,32 @@ std::optional<TimeTable> CpuOptions::times(const CpuModel& model) const {
 void ProgramOptions::add_to(CLI::App& app) {
   app.add_option("PROGRAM", path, "STL file (.stl, .awl, .txt) or published document with STL in it; - is standard input")
       ->required();
+  add_parts_to(app);
   CpuOptions::add_to(app);
+}
+
+void ProgramOptions::add_files_to(CLI::App& app) {
+  app.add_option_function<std::vector<std::string>>(
+         "PROGRAM",
+         [this](const std::vector<std::string>& files) {
+           path = files.front();
+           parts.insert(parts.end(), std::next(files.begin()), files.end());
+         },
+         "STL file (.stl, .awl, .txt) or published document with STL in it, and the other files of its project: symbol "
+         "tables, data blocks, blocks; - is standard input")
+      ->required();
+  CpuOptions::add_to(app);
+}
+
+void ProgramOptions::add_parts_to(CLI::App& app) {
+  app.add_option("--with", parts, "another file of the program's project: symbol table, data block, block (repeatable)")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
 }
 
 std::shared_ptr<const Program> ProgramOptions::load(int& exit_code) const {
   exit_code = kUnusable;
-  const auto text = model() ? read_program_text(path) : std::nullopt;
+  const auto text = model() ? read_project(path, parts) : std::nullopt;
   return text ? load(*text, exit_code) : nullptr;
 }
 
@@ -105,6 +125,22 @@ std::optional<SourceText> read_program_text(const std::string& path, bool force_
   auto text = bytes ? read_source(*bytes, name, why, force_document) : std::nullopt;
   if (!text) print_error(fmt::format("cannot read {}: {}", name, why));
   return text;
+}
+
+std::optional<SourceText> read_project(const std::string& path, const std::vector<std::string>& parts) {
+  std::vector<SourceText> files;
+  const auto add = [&files](const std::string& file) {
+    auto text = read_program_text(file);
+    if (!text) return false;
+    if (text->kind == SourceKind::StatusChart)
+      print_note(fmt::format("{} is a status chart: nothing of it is part of the program", text->parsed.source.name));
+    files.push_back(std::move(*text));
+    return true;
+  };
+  bool all = add(path);
+  for (const std::string& part : parts) all &= add(part);
+  if (!all) return {};
+  return join_files(std::move(files));
 }
 
 std::string left_out_note(const SourceText& text) {

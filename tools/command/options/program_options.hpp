@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "interpreter/program/load.hpp"
 
@@ -29,8 +30,15 @@ struct CpuOptions {
 
 struct ProgramOptions : CpuOptions {
   std::string path;
+  std::vector<std::string> parts;  ///< more files of the same project: symbol tables, data blocks, blocks
 
   void add_to(CLI::App& app);
+
+  /// The same for a verb with no other words: all of them are files of the project.
+  void add_files_to(CLI::App& app);
+
+  /// --with, which names the parts.
+  void add_parts_to(CLI::App& app);
 
   /// The checked program; warnings and errors are printed on stderr. Null when there are any errors: `exit_code` says which
   /// way to end.
@@ -42,6 +50,9 @@ struct ProgramOptions : CpuOptions {
 
 /// Reads a source as the verbs do, "-" from standard input, and that only once; nothing after a message.
 std::optional<SourceText> read_program_text(const std::string& path, bool force_document = false);
+
+/// The same of a program and its parts.
+std::optional<SourceText> read_project(const std::string& path, const std::vector<std::string>& parts);
 
 /// Which lines of the listing of a document were left out as text; empty if none were.
 std::string left_out_note(const SourceText& text);

@@ -1,0 +1,526 @@
+#include "interpreter/stl/blocks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/stl/data_block.hpp"
+
+namespace s7200::stl {
+
+namespace {
+
+using namespace std::string_view_literals;
+
+// ---- The keywords --------------------------------------------------------------------------------------------------------
+
+/// What a kind of block is called, and what its routine begins and ends with in a listing.
+struct BlockKind {
+  std::string_view keyword, letters, head, end;
+};
+
+constexpr std::array kKinds{
+    BlockKind{"ORGANIZATION_BLOCK", "OB", "", "MEND"},
+    BlockKind{"SUBROUTINE_BLOCK", "SBR", "SBR", "RET"},
+    BlockKind{"INTERRUPT_BLOCK", "INT", "INT", "RETI"},
+};
+constexpr std::string_view kDataBlock = "DATA_BLOCK";
+constexpr std::size_t kLongestKeyword = 22;  // END_ORGANIZATION_BLOCK
+
+const BlockKind& row(Block::Kind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
+
+std::string_view code_of(std::string_view line) { return trim(line.substr(0, line.find("//"))); }
+
+/// The first word of a line in capitals, if it may be a keyword.
+std::string keyword_of(std::string_view code) {
+  std::size_t end = 0;
+  while (end < code.size() && (is_letter(code[end]) || code[end] == '_')) ++end;
+  return end > kLongestKeyword ? std::string() : upper_case(code.substr(0, end));
+}
+
+bool opens_block(std::string_view keyword) {
+  return keyword == kDataBlock || std::ranges::find(kKinds, keyword, &BlockKind::keyword) != kKinds.end();
+}
+
+bool closes_block(std::string_view keyword) { return keyword.starts_with("END_") && opens_block(keyword.substr(4)); }
+
+std::optional<Variable::Kind> declaration_kind(std::string_view keyword) {
+  if (keyword == "VAR_INPUT") return Variable::Kind::Input;
+  if (keyword == "VAR_IN_OUT") return Variable::Kind::InOut;
+  if (keyword == "VAR_OUTPUT") return Variable::Kind::Output;
+  if (keyword == "VAR" || keyword == "VAR_TEMP") return Variable::Kind::Temporary;
+  return std::nullopt;
+}
+
+// ---- The types of variables ----------------------------------------------------------------------------------------------
+
+struct TypeRow {
+  std::string_view name;
+  Size size;
+};
+
+// By Variable::Type. A string is a pointer to it.
+constexpr std::array kTypes{
+    TypeRow{"BOOL", Size::Bit},    TypeRow{"BYTE", Size::Byte},   TypeRow{"CHAR", Size::Byte},
+    TypeRow{"WORD", Size::Word},   TypeRow{"INT", Size::Word},    TypeRow{"DWORD", Size::Double},
+    TypeRow{"DINT", Size::Double}, TypeRow{"REAL", Size::Double}, TypeRow{"STRING", Size::Double},
+};
+
+std::uint32_t bytes_of(Size size) { return size == Size::Double ? 4 : size == Size::Word ? 2 : 1; }
+
+/// Puts variables into local memory: one to eight consecutive bits share a byte, everything else is at the next whole byte
+/// (S7-200 manual, CALL).
+class LocalMemory {
+ public:
+  Address place(Size size) {
+    if (size != Size::Bit) {
+      bits_ = 0;
+      return {"L", size, std::exchange(next_, next_ + bytes_of(size)), 0};
+    }
+    if (bits_ == 0) ++next_;
+    const Address address{"L", size, next_ - 1, bits_};
+    bits_ = static_cast<std::uint8_t>((bits_ + 1) % 8);
+    return address;
+  }
+
+  std::uint32_t used() const { return next_; }
+
+ private:
+  std::uint32_t next_ = 0;
+  std::uint8_t bits_ = 0;  // of the byte before `next_` that are taken; 0: all, or it is not a byte of bits
+};
+
+constexpr std::uint32_t kLocalBytes = 64;
+
+// ---- The reader ----------------------------------------------------------------------------------------------------------
+
+class BlockReader {
+ public:
+  BlockReader(std::string_view text, std::string name) : lines_(split_lines(text)) { result_.source.name = std::move(name); }
+
+  ParseResult result() {
+    find_begins();
+    for (number_ = 1; number_ <= lines_.size(); ++number_) read_line(lines_[number_ - 1]);
+    if (open_) close_block(static_cast<std::uint32_t>(lines_.size()), false);
+    number_blocks_without_number();
+    parse_code();
+    sort(result_.diagnostics);
+    return std::move(result_);
+  }
+
+ private:
+  enum class State : std::uint8_t { Outside, Head, Declarations, Code, Data };
+
+  /// A line of a block that is not STL: its head, its end, a comment before BEGIN.
+  struct Mark {
+    enum class Kind : std::uint8_t { Head, End, Comment } kind;
+    std::uint32_t line;
+    std::size_t block;
+    std::string comment{};
+    bool after_line = false;  ///< the end of a block that the text does not end
+  };
+
+  // --- places ---
+
+  Position position_of(std::string_view part) const {
+    const std::string& line = lines_[number_ - 1];
+    const auto before = static_cast<std::size_t>(part.data() - line.data());
+    return {number_, static_cast<std::uint32_t>(count_characters(std::string_view(line).substr(0, before)) + 1),
+            static_cast<std::uint32_t>(std::max<std::size_t>(1, count_characters(part)))};
+  }
+
+  void error(const Position& at, std::string message, std::string hint = {}, std::string cause = {}) {
+    result_.diagnostics.push_back({Severity::Error, at, std::move(message), std::move(hint), std::move(cause)});
+  }
+
+  Block& block() { return result_.source.blocks.back(); }
+
+  // --- lines ---
+
+  /// Which heads have a BEGIN: everything between the two is no code.
+  void find_begins() {
+    has_begin_.assign(lines_.size(), false);
+    std::optional<std::size_t> head;
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      const std::string keyword = keyword_of(code_of(lines_[i]));
+      if (opens_block(keyword)) head = i;
+      if (keyword == "BEGIN" && head) has_begin_[*std::exchange(head, std::nullopt)] = true;
+      if (keyword == "NETWORK") head.reset();
+    }
+  }
+
+  void read_line(std::string_view line) {
+    const std::string_view code = code_of(line);
+    const std::string keyword = keyword_of(code);
+    if (opens_block(keyword)) return open_block(keyword, code);
+    if (closes_block(keyword)) return end_block(keyword, code);
+    switch (state_) {
+      case State::Outside:
+        return read_outside(code, line);
+      case State::Head:
+        return read_head(keyword, code, line);
+      case State::Declarations:
+        return read_declaration(keyword, code, line);
+      case State::Code:
+        return read_code(keyword, code, line);
+      case State::Data:
+        if (keyword == "BEGIN" || keyword == "TITLE") return;
+        return read_data_line(line, number_, result_);
+    }
+  }
+
+  void read_outside(std::string_view code, std::string_view line) {
+    if (code.empty()) return keep(line);
+    error(position_of(code), "this line is in no block",
+          "a block ends with END_ and its keyword; what follows begins with the head of another block", "outside of blocks");
+  }
+
+  void read_head(const std::string& keyword, std::string_view code, std::string_view line) {
+    if (keyword == "BEGIN") {
+      state_ = State::Code;
+    } else if (keyword == "TITLE") {
+      read_title(code, line);
+    } else if (const auto kind = declaration_kind(keyword)) {
+      kind_ = *kind;
+      state_ = State::Declarations;
+      declaration_start_ = position_of(code);
+    } else if (keyword == "NETWORK" || (!code.empty() && !begins_later_)) {
+      state_ = State::Code;
+      read_code(keyword, code, line);
+    } else if (!trim(line).empty()) {
+      std::string_view text = trim(line);
+      if (text.starts_with("//")) text.remove_prefix(2);
+      marks_.push_back({Mark::Kind::Comment, number_, block_index(), std::string(trim_end(text))});
+    }
+  }
+
+  void read_title(std::string_view code, std::string_view line) {
+    const std::size_t equals = line.find('=');
+    std::string_view title = equals == std::string_view::npos ? code.substr("TITLE"sv.size()) : line.substr(equals + 1);
+    title = trim(title);
+    if (title.starts_with("//")) title = trim(title.substr(2));
+    block().title = title;
+  }
+
+  void read_code(const std::string& keyword, std::string_view code, std::string_view line) {
+    if (keyword == "BEGIN") return;
+    if (keyword == "TITLE") {  // of a network; on a line of its own in some exports
+      if (code.find('=') != std::string_view::npos)
+        return marks_.push_back(
+            {Mark::Kind::Comment, number_, block_index(), std::string(trim(line.substr(line.find('=') + 1)))});
+    }
+    if (const auto kind = declaration_kind(keyword)) {
+      error(position_of(code), fmt::format("{} comes after BEGIN", keyword),
+            "declare variables between the head of the block and BEGIN");
+      kind_ = *kind;
+      state_ = State::Declarations;
+      declaration_start_ = position_of(code);
+      resume_in_code_ = true;
+      return;
+    }
+    if (keyword == "NETWORK") begin_network(code);
+    keep(line);
+  }
+
+  /// The line goes to the parser of statements.
+  void keep(std::string_view line) {
+    code_lines_.resize(number_ - 1);
+    code_lines_.push_back(line);
+  }
+
+  void begin_network(std::string_view code) {
+    ++networks_;
+    std::string_view written = trim(code.substr("NETWORK"sv.size()));
+    std::uint32_t number = networks_;
+    std::from_chars(written.data(), written.data() + written.size(), number);
+    section(fmt::format("{}, network {}", name_of(block()), number));
+  }
+
+  void section(std::string name) { result_.source.sections.push_back({number_, std::move(name)}); }
+
+  static std::string name_of(const Block& block) {
+    return block.name.empty() ? fmt::format("{}{}", row(block.kind).letters, block.number) : block.name;
+  }
+
+  // --- heads and ends ---
+
+  void open_block(const std::string& keyword, std::string_view code) {
+    if (open_) close_block(number_ - 1, false);
+    begins_later_ = has_begin_[number_ - 1];
+    networks_ = 0;
+    declared_.clear();
+    if (keyword == kDataBlock) {
+      state_ = State::Data;
+      section("data block");
+      return;
+    }
+    const auto kind = std::ranges::find(kKinds, keyword, &BlockKind::keyword) - kKinds.begin();
+    open_ = true;
+    state_ = State::Head;
+    result_.source.blocks.push_back({.kind = static_cast<Block::Kind>(kind), .position = position_of(code)});
+    const bool numbered = read_name(trim(code.substr(keyword.size())), code);
+    if (!numbered) without_number_.push_back(block_index());
+    if (block().kind == Block::Kind::Main && std::exchange(has_main_, true))
+      error(block().position, "the main program is defined twice", "a program has one ORGANIZATION_BLOCK");
+    marks_.push_back({Mark::Kind::Head, number_, block_index()});
+    section(name_of(block()));
+  }
+
+  std::size_t block_index() const { return result_.source.blocks.size() - 1; }
+
+  /// `SBR_0:SBR0`, `"Pump control":SBR0`, `SBR0`, `0`. False after a message if there is no number.
+  bool read_name(std::string_view text, std::string_view head) {
+    const BlockKind& kind = row(block().kind);
+    const std::size_t colon = text.rfind(':');
+    std::string_view number = colon == std::string_view::npos ? text : trim(text.substr(colon + 1));
+    std::string_view name = colon == std::string_view::npos ? std::string_view{} : trim(text.substr(0, colon));
+    if (name.size() > 1 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+    block().name = name;
+    std::string_view digits = number;
+    if (upper_case(digits.substr(0, kind.letters.size())) == kind.letters) digits = trim(digits.substr(kind.letters.size()));
+    std::uint32_t value = 0;
+    const auto [end, trouble] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (trouble == std::errc{} && end == digits.data() + digits.size()) {
+      block().number = value;
+      return true;
+    }
+    error(position_of(number.empty() ? head : number),
+          number.empty() ? fmt::format("{} has no number", kind.keyword)
+                         : fmt::format("{} takes {} and a number, not {}", kind.keyword, kind.letters, shortened(number)),
+          fmt::format("write {} NAME:{}{}", kind.keyword, kind.letters, block().kind == Block::Kind::Main ? 1 : 0));
+    return false;
+  }
+
+  void number_blocks_without_number() {
+    std::array<std::set<std::uint32_t>, kKinds.size()> taken;
+    auto& blocks = result_.source.blocks;
+    for (std::size_t i = 0, missing = 0; i < blocks.size(); ++i) {
+      if (missing < without_number_.size() && without_number_[missing] == i)
+        ++missing;
+      else
+        taken[static_cast<std::size_t>(blocks[i].kind)].insert(blocks[i].number);
+    }
+    std::uint32_t next = 0;
+    for (const std::size_t index : without_number_) {
+      auto& numbers = taken[static_cast<std::size_t>(blocks[index].kind)];
+      while (!numbers.insert(next).second) ++next;
+      blocks[index].number = next;
+    }
+  }
+
+  void end_block(const std::string& keyword, std::string_view code) {
+    const std::string_view own = open_ ? row(block().kind).keyword : state_ == State::Data ? kDataBlock : std::string_view{};
+    if (own.empty()) {
+      error(position_of(code), fmt::format("{} does not end any block", keyword), "its head is missing");
+      return;
+    }
+    if (keyword.substr(4) != own)
+      error(position_of(code), fmt::format("{} ends a block that began with {}", keyword, own),
+            fmt::format("write END_{}", own));
+    if (open_) close_block(number_, true);
+    state_ = State::Outside;
+    result_.source.sections.push_back({number_ + 1, ""});
+  }
+
+  void close_block(std::uint32_t line, bool ended) {
+    if (state_ == State::Declarations) unclosed_declarations();
+    if (!ended)
+      error(block().position, fmt::format("{} has no END_{}", name_of(block()), row(block().kind).keyword),
+            "the export is not complete: export it again");
+    place_variables();
+    block().last_line = line;
+    marks_.push_back({Mark::Kind::End, line, block_index(), {}, !ended});
+    open_ = false;
+    state_ = State::Outside;
+  }
+
+  // --- variables ---
+
+  void read_declaration(const std::string& keyword, std::string_view code, std::string_view line) {
+    if (keyword == "END_VAR") {
+      state_ = std::exchange(resume_in_code_, false) ? State::Code : State::Head;
+      return;
+    }
+    if (keyword == "BEGIN" || keyword == "NETWORK" || declaration_kind(keyword)) {
+      unclosed_declarations();
+      state_ = State::Head;
+      return read_head(keyword, code, line);
+    }
+    const std::size_t comment = line.find("//");
+    const std::string note(comment == std::string_view::npos ? std::string_view{} : trim(line.substr(comment + 2)));
+    while (!code.empty()) {
+      const std::size_t end = std::min(code.find(';'), code.size());
+      if (const std::string_view one = trim(code.substr(0, end)); !one.empty()) declare(one, note);
+      code.remove_prefix(std::min(end + 1, code.size()));
+    }
+  }
+
+  void unclosed_declarations() { error(declaration_start_, "the declarations have no END_VAR", "end them with END_VAR"); }
+
+  /// `ptr : DWORD`, `a, b : INT`, `ptr:LD0 : DWORD`
+  void declare(std::string_view text, const std::string& comment) {
+    const std::size_t colon = text.rfind(':');
+    const std::string_view type_name = colon == std::string_view::npos ? std::string_view{} : trim(text.substr(colon + 1));
+    const auto type = std::ranges::find(kTypes, upper_case(type_name), &TypeRow::name);
+    if (type == kTypes.end()) {
+      constexpr std::string_view kHint = "write NAME : TYPE; with BOOL BYTE CHAR WORD INT DWORD DINT REAL or STRING";
+      if (type_name.empty())
+        error(position_of(text), fmt::format("'{}' does not declare a variable", shortened(text)), std::string(kHint));
+      else
+        error(position_of(type_name), fmt::format("there is no type {}", shortened(type_name)), std::string(kHint));
+      return;
+    }
+    for (std::string_view names = text.substr(0, colon); !names.empty();) {
+      const std::size_t end = std::min(names.find(','), names.size());
+      add_variable(trim(names.substr(0, end)), static_cast<Variable::Type>(type - kTypes.begin()), comment);
+      names.remove_prefix(std::min(end + 1, names.size()));
+    }
+  }
+
+  void add_variable(std::string_view name, Variable::Type type, const std::string& comment) {
+    const std::string_view whole = name;
+    if (name.starts_with('#')) name.remove_prefix(1);
+    if (name.size() > 1 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+    if (name.empty()) return error(position_of(whole), "a variable has no name", "write NAME : TYPE;");
+    if (!declared_.insert(upper_case(name)).second)
+      error(position_of(whole), fmt::format("{} is declared twice in {}", shortened(name), name_of(block())));
+    block().variables.push_back({std::string(name), kind_, type, {}, position_of(whole), comment});
+  }
+
+  void place_variables() {
+    auto& variables = block().variables;
+    std::ranges::stable_sort(variables, {}, &Variable::kind);
+    LocalMemory memory;
+    bool reported = false;
+    for (Variable& variable : variables) {
+      variable.address = memory.place(kTypes[static_cast<std::size_t>(variable.type)].size);
+      if (memory.used() <= kLocalBytes || std::exchange(reported, true)) continue;
+      error(variable.position,
+            fmt::format("{} does not fit: the local memory of a block has {} bytes", shortened(variable.name), kLocalBytes),
+            "use V memory for some of the variables");
+    }
+  }
+
+  // --- the listing ---
+
+  void parse_code() {
+    std::string text;
+    for (const std::string_view line : code_lines_) text.append(line).push_back('\n');
+    ParseResult parsed = parse(text, {});
+    result_.source.text = std::move(lines_);
+    result_.diagnostics.insert(result_.diagnostics.end(), std::make_move_iterator(parsed.diagnostics.begin()),
+                               std::make_move_iterator(parsed.diagnostics.end()));
+    merge(std::move(parsed.source.lines));
+    main_program_first();
+  }
+
+  static std::uint32_t line_of(const Line& line) {
+    if (const auto* comment = std::get_if<CommentLine>(&line)) return comment->line;
+    if (const auto* blank = std::get_if<BlankLine>(&line)) return blank->line;
+    if (const auto* head = std::get_if<NetworkHead>(&line)) return head->position.line;
+    return std::get<Statement>(line).position.line;
+  }
+
+  void merge(std::vector<Line> code) {
+    std::vector<Line>& lines = result_.source.lines;
+    auto mark = marks_.begin();
+    for (Line& line : code) {
+      const std::uint32_t number = line_of(line);
+      const auto first = mark;
+      for (; mark != marks_.end() && mark->line + mark->after_line <= number; ++mark) add(*mark);
+      const bool skipped = std::holds_alternative<BlankLine>(line) && (mark != first || !is_blank_in_text(number));
+      if (!skipped) lines.push_back(std::move(line));
+    }
+    for (; mark != marks_.end(); ++mark) add(*mark);
+  }
+
+  bool is_blank_in_text(std::uint32_t number) const { return trim(result_.source.text[number - 1]).empty(); }
+
+  void add(const Mark& mark) {
+    const Block& block = result_.source.blocks[mark.block];
+    std::vector<Line>& lines = result_.source.lines;
+    if (mark.kind == Mark::Kind::Comment) {
+      lines.emplace_back(CommentLine{mark.comment, mark.line});
+    } else if (mark.kind == Mark::Kind::Head) {
+      begin_of_[mark.block] = lines.size();
+      add_head(block);
+    } else if (!is_ended(block)) {
+      lines.emplace_back(Statement{std::string(row(block.kind).end), {mark.line, 1, 1}, {}, {}});
+    }
+    if (mark.kind == Mark::Kind::End) end_of_[mark.block] = lines.size();
+  }
+
+  void add_head(const Block& block) {
+    std::string comment = block.name;
+    if (!block.title.empty()) comment += (comment.empty() ? "" : ": ") + block.title;
+    if (!comment.empty()) comment.insert(0, " ");
+    const std::string_view head = row(block.kind).head;
+    if (head.empty()) {
+      if (!comment.empty()) result_.source.lines.emplace_back(CommentLine{comment, block.position.line});
+      return;
+    }
+    result_.source.lines.emplace_back(
+        Statement{std::string(head), block.position, {{Integer{block.number}, block.position}}, comment});
+  }
+
+  /// Some exports write RET and the like before the end of the block.
+  bool is_ended(const Block& block) const {
+    const auto& lines = result_.source.lines;
+    const auto last =
+        std::find_if(lines.rbegin(), lines.rend(), [](const Line& l) { return std::holds_alternative<Statement>(l); });
+    if (last == lines.rend()) return false;
+    const auto& statement = std::get<Statement>(*last);
+    return statement.position.line > block.position.line && statement.mnemonic == row(block.kind).end;
+  }
+
+  void main_program_first() {
+    const auto& blocks = result_.source.blocks;
+    const auto main = std::ranges::find(blocks, Block::Kind::Main, &Block::kind);
+    if (main == blocks.end()) return;
+    const auto index = static_cast<std::size_t>(main - blocks.begin());
+    auto& lines = result_.source.lines;
+    std::rotate(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(begin_of_[index]),
+                lines.begin() + static_cast<std::ptrdiff_t>(end_of_[index]));
+  }
+
+  std::vector<std::string> lines_;
+  std::vector<bool> has_begin_;
+  std::vector<std::string_view> code_lines_;  // of `lines_`; what is not STL is empty
+  std::vector<Mark> marks_;
+  std::map<std::size_t, std::size_t> begin_of_, end_of_;  // of a block, in Source::lines
+  ParseResult result_;
+
+  std::uint32_t number_ = 0;  // of the line that is being read
+  State state_ = State::Outside;
+  bool open_ = false;            // a block that is not the data block
+  bool begins_later_ = false;    // the open block has a BEGIN
+  bool resume_in_code_ = false;  // declarations came after BEGIN
+  std::uint32_t networks_ = 0;   // of the open block
+  Variable::Kind kind_{};        // of the declarations that are being read
+  Position declaration_start_{};
+  std::set<std::string> declared_;  // variables of the open block, in capitals
+  bool has_main_ = false;
+  std::vector<std::size_t> without_number_;
+};
+
+}  // namespace
+
+bool is_block_export(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    if (opens_block(keyword_of(code_of(text.substr(0, end))))) return true;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return false;
+}
+
+ParseResult read_blocks(std::string_view text, std::string name) { return BlockReader(text, std::move(name)).result(); }
+
+}  // namespace s7200::stl

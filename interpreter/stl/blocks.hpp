@@ -1,0 +1,26 @@
+// Reads the block exports of Micro/WIN: ORGANIZATION_BLOCK, SUBROUTINE_BLOCK, INTERRUPT_BLOCK and DATA_BLOCK.
+//
+// Each block becomes a routine of a linear listing: a subroutine begins with its SBR and ends with RET, an interrupt routine
+// begins with its INT and ends with RETI, the main program ends with MEND and comes first, wherever it stood in the text.
+// What follows the reader knows no blocks, except for the names in their heads and their local variables.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "interpreter/stl/parser.hpp"
+
+namespace s7200::stl {
+
+/// Whether some line begins with a word such as ORGANIZATION_BLOCK.
+bool is_block_export(std::string_view text);
+
+/// Reads one. Messages about its lines name block and network (Source::sections).
+///
+/// Not documented, modelled so:
+/// - Input, in-out, output and temporary variables are in local memory in this order, whichever way the text has them.
+///   [Blocks.VariablesAreInLocalMemoryInTheOrderOfTheirKinds]
+/// - A STRING takes four bytes: it is a pointer to the string. [Blocks.AStringTakesFourBytesOfLocalMemory]
+ParseResult read_blocks(std::string_view text, std::string name);
+
+}  // namespace s7200::stl

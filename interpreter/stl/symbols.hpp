@@ -1,0 +1,27 @@
+// Reads symbol tables and recognises status charts, as tab-separated text or CSV.
+//
+// A row of a symbol table has a name, an address and perhaps a comment, in columns that a heading may name; cells may be in
+// quotes. Rows with one cell are headings of tables.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "interpreter/stl/parser.hpp"
+
+namespace s7200::stl {
+
+/// Whether `text` (UTF-8) is a symbol table. `is_mnemonic` tells one from a listing with a tab after each mnemonic.
+bool is_symbol_table(std::string_view text, const std::function<bool(std::string_view word)>& is_mnemonic);
+
+ParseResult read_symbol_table(std::string_view text, std::string name);
+
+/// Whether it is a status chart: addresses with formats and values, of which nothing is part of a program.
+bool is_status_chart(std::string_view text);
+
+/// Puts the addresses of symbols, of local variables and of blocks in place of their names. A name that nothing defines
+/// stays, with the reason.
+void resolve_symbols(ParseResult& result);
+
+}  // namespace s7200::stl

@@ -1,0 +1,43 @@
+#include "interpreter/program/german.hpp"
+
+#include <gtest/gtest.h>
+
+#include "interpreter/program/load.hpp"
+#include "interpreter/stl/printer.hpp"
+
+namespace s7200 {
+namespace {
+
+std::string read(const std::string& text) {
+  stl::ParseResult parsed = stl::parse(text, "x");
+  read_german(parsed);
+  for (const stl::Diagnostic& d : parsed.diagnostics) return "error: " + d.message;
+  return stl::to_text(parsed.source);
+}
+
+TEST(German, AddressesAndAndInstructionsAreRead) {
+  EXPECT_EQ(read("LD E0.0\nUN A0.1\nUW>= AEW4, 5\nULD\n= A0.0\n"),
+            "LD      I0.0\nAN      Q0.1\nAW>=    AIW4, 5\nALD\n=       Q0.0\n");
+  EXPECT_EQ(read("LD Z4\nMOVD HZ0, *VD4\nMOVD &AB1, AC1\n"), "LD      C4\nMOVD    HC0, *VD4\nMOVD    &QB1, AC1\n");
+}
+
+TEST(German, MixedWithInternationalOnesTheyAreRefused) {
+  EXPECT_EQ(read("LD E0.0\n= Q0.0\n"), "error: E0.0 is a German address");
+  EXPECT_EQ(read("LD E0.0\nA M0.0\n"), "error: E0.0 is a German address");
+}
+
+TEST(German, OnlyUForTheAndInstructionsIsKnown) {
+  EXPECT_EQ(find_german_instruction("UN")->mnemonic, "AN");
+  EXPECT_EQ(find_german_instruction("UB="), find_instruction("AB="));
+  EXPECT_EQ(find_german_instruction("ULD")->mnemonic, "ALD");
+  for (const char* other : {"UTCH", "UTH", "UTT", "A", "U1", ""})
+    EXPECT_EQ(find_german_instruction(other), nullptr) << other;
+}
+
+TEST(German, AListingInItIsAProgram) {
+  const CheckResult result = check_text("LD E0.0\nU E0.1\n= A0.0\nMEND\n", "x", cpu214(), default_times(cpu214()));
+  EXPECT_TRUE(result.program) << render(result.diagnostics, result.source, false);
+}
+
+}  // namespace
+}  // namespace s7200
