@@ -12,8 +12,9 @@
 // - A character received while its event, 8 or 25, is not attached leaves SMB2 and SM3.0 alone.
 //   [Freeport.ACharacterThatNoRoutineWaitsForLeavesSMB2Alone]
 // - XMT and RCV while the port is not in Freeport mode are error 0009, or 000B on port 1.
-// [Freeport.XmtWithoutFreeportModeIs0009, Receive.WithoutFreeportModeItIs0009] Not modelled: the PPI protocol. In PPI mode
-// characters from the line are ignored.
+//   [Freeport.XmtWithoutFreeportModeIs0009, Receive.WithoutFreeportModeItIs0009]
+//
+// Not modelled: the PPI protocol. In PPI mode characters from the line are ignored.
 #pragma once
 
 #include "interpreter/cpu/core.hpp"

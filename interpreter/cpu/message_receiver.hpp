@@ -17,7 +17,13 @@
 //   the next tick. [Receive.TimesEndAtTheFirstTickOfTheClockAtWhichTheyHavePassed]
 // - Idle time and time between characters run from the end of a character to the end of the next: the receiver knows whole
 //   characters only. [Receive.TheIdleTimeRunsToTheEndOfACharacter]
-// - il and bk together: the first of idle line and break starts the message. [Receive.IdleLineOrBreakWhicheverComesFirst]
+// - If idle line and break are both asked for, either is enough, whichever comes first.
+//   [Receive.IdleLineOrBreakWhicheverComesFirst]
+// - An idle time of 0 with a start character asks for that character alone; without one, any character starts the message,
+//   and its time runs from RCV. [Receive.EachStartConditionTakesItsFirstCharacter,
+//   Receive.OnlyWithAnyCharacterTheTimeOfTheMessageEndsItWithoutOne]
+// - RCV with SM87.7 = 0 while nothing is received only sets the status. [Receive.RcvThatIsNotEnabledSetsOnlyItsStatus]
+// - What a refused XMT or RCV has found running goes on. [Receive.XmtAndRcvExcludeEachOtherInAllFourPairs]
 // - A start character that is also the end character does not end the message. [Receive.TheStartCharacterIsNotTheEnd]
 // - The character that ends the message with an error is not stored. [Receive.ABadCharacterEndsTheMessageAndIsNotStored]
 // - An error counts once the start condition is met: where a start character is asked for, a bad one is dropped. A break

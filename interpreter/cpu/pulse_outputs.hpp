@@ -19,7 +19,7 @@
 // - A profile that is not in V memory is error 0091, and nothing starts. [PulseOutput.AProfileOutsideVIs0091]
 // - A pulse begins with its 1 half; if the cycle time is odd, the 1 half is the shorter one.
 //   [PulseOutput.AnOddCycleHasItsShorterHalfFirst]
-// - PLS during PWM takes effect at once and starts a new cycle: a CPU 21x has no synchronous update (SM67.4).
+// - PLS during PWM takes effect at once and starts a new cycle, unless SM67.4 is 1, which a CPU 21x does not have.
 //   [PulseOutput.PlsDuringPwmStartsANewCycleAtOnce]
 // - After pulses have ended, their point follows its image again from the end of the scan.
 //   [PulseOutput.PlsWithoutEnableEndsPulsesAtOnceAndThePointFollowsItsImageAgain]

@@ -10,8 +10,7 @@
 //   [Cpu22x.WhatIsRetentiveOnTheCpu214IsRetentive]
 // - An interrupt routine calls one level of subroutines (A5E00066097-02, 9-168).
 //   [Cpu22x.AnInterruptRoutineCallsOneLevelOfSubroutines]
-// - The CPUs 221 and 222 have HSC0 and HSC3 to HSC5, although one extract of the manual prints HC0 to HC5 for all
-// (facts 10.1).
+// - The CPUs 221 and 222 lack HSC1 and HSC2, although one extract of the manual prints HC0 to HC5 for all (facts 10.1).
 //   [Cpu22x.The221And222HaveNoHsc1AndHsc2]
 //
 // Not modelled: mode 12 of HSC0 and HSC3, linear pulse profiles, PID, NETR and NETW, expansion modules that are more than
