@@ -44,7 +44,6 @@ struct InterruptEvent {
   std::uint8_t order_21x, order_22x;  ///< inside its queue, if several occur at the same instant
   CpuSet cpus;
   std::string_view cause;
-  bool modelled = true;
 
   std::uint8_t order(CpuSet cpu) const { return cpu & kCpu22x ? order_22x : order_21x; }
 };

@@ -163,14 +163,9 @@ class Placing {
 
   bool event_exists(std::int64_t number) {
     const InterruptEvent* event = find_event(number);
-    if ((event->cpus & model_.self) == 0)
-      error(fmt::format("CPU {} has no event {} ({})", model_.name, number, event->cause),
-            fmt::format("it needs {}", to_text(event->cpus)), fmt::format("no event {}", number));
-    else if (!event->modelled)
-      error(fmt::format("event {} ({}) is not modelled yet: it would never occur", number, event->cause), {},
-            fmt::format("no event {}", number));
-    else
-      return true;
+    if ((event->cpus & model_.self) != 0) return true;
+    error(fmt::format("CPU {} has no event {} ({})", model_.name, number, event->cause),
+          fmt::format("it needs {}", to_text(event->cpus)), fmt::format("no event {}", number));
     return false;
   }
 

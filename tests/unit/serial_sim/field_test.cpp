@@ -39,6 +39,16 @@ TEST(FieldScript, RowsBecomeChangesOfBytes) {
   EXPECT_TRUE(script.pulses.empty());
 }
 
+TEST(FieldScript, TheCpus221And222HaveOnePotentiometer) {
+  for (const CpuModel* model : {&cpu221(), &cpu222(), &cpu224()}) {
+    std::vector<std::string> errors;
+    serial::parse_field_script("1ms,SMB28,5\n", "in.csv", *model, errors);
+    EXPECT_TRUE(errors.empty());
+    serial::parse_field_script("1ms,SMB29,5\n", "in.csv", *model, errors);
+    EXPECT_EQ(errors.size(), model == &cpu224() ? 0u : 1u) << model->name;
+  }
+}
+
 TEST(FieldScript, PulseTrainsAreWholePulses) {
   const FieldScript script = script_of("0ms,I0.6,pulses,5kHz,200ms\n1s,I1.2,pulses,0.5 Hz,7s\n1s,I1.3,pulses,1.5kHz,1ms\n");
   ASSERT_EQ(script.pulses.size(), 3u);

@@ -96,6 +96,33 @@ TEST_F(TimelineOf, AnInterruptFindsItsEventHoweverMuchWasSentMeanwhile) {
   EXPECT_EQ(report.longest_wait, 600);
 }
 
+TEST_F(TimelineOf, EachPortHasItsOwnRows) {
+  for (const std::uint8_t port : {0, 1, 1}) {
+    timeline_.record({.at = kMillisecond, .kind = TraceKind::CharacterSent, .byte = 0x41, .port = port});
+    timeline_.record({.at = kMillisecond, .kind = TraceKind::CharacterIgnored, .byte = 0x42, .port = port});
+  }
+  const std::string text = to_text(timeline_.report(), {}, false);
+  for (const char* row : {" sent      41", " port 1 sent      41", "event 8 is not attached", "event 25 is not attached"})
+    EXPECT_NE(text.find(row), std::string::npos) << row << text;
+  const auto json = to_json(timeline_.report(), {});
+  EXPECT_FALSE(json[0].contains("port"));
+  EXPECT_EQ(json[2]["port"], 1);
+}
+
+TEST_F(TimelineOf, WhatRcvDropsIsARowOfItsOwn) {
+  character(1 * kMillisecond, TraceKind::CharacterDropped);
+  character(2 * kMillisecond, TraceKind::CharacterDropped);
+  character(3 * kMillisecond, TraceKind::CharacterReceived);
+  timeline_.record({.at = 3 * kMillisecond, .kind = TraceKind::ReceiveEnd, .byte = 2, .count = 1});
+  const TimelineReport report = timeline_.report();
+  ASSERT_EQ(report.rows.size(), 3U);
+  EXPECT_EQ(report.rows[0].characters.size(), 2U);
+  const std::string text = to_text(report, {}, false);
+  EXPECT_NE(text.find("RCV waits for the start of a message"), std::string::npos) << text;
+  EXPECT_NE(text.find("RCV ends: 1 characters, status 16#02"), std::string::npos) << text;
+  EXPECT_EQ(to_json(report, {})[0]["kind"], "dropped");
+}
+
 TEST_F(TimelineOf, WhatHappensAfterTheEndIsNotShown) {
   character(kMillisecond, TraceKind::CharacterSent);
   timeline_.end();

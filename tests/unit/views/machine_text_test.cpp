@@ -1,0 +1,44 @@
+// What a machine looks like in words: its ports.
+#include "tools/views/machine_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include "interpreter/program/load.hpp"
+
+namespace s7200::tools {
+namespace {
+
+std::string ports_of(const CpuModel& model, std::string_view text, std::uint8_t port = 0) {
+  serial::Simulation simulation(check_text(text, "test", model, default_times(model)).program, {}, port);
+  simulation.power_up();
+  simulation.run_until(10 * kMillisecond);
+  return port_text(simulation);
+}
+
+TEST(MachineText, ACpuWithOnePortShowsOne) {
+  EXPECT_EQ(ports_of(*find_cpu("224"), "LD SM0.1\nMOVB 9, SMB30\nMEND\n"),
+            "SMB30      16#09 = 2#00001001: Freeport, 9600 baud, 8N1\n"
+            "receiver   on; event 8 is not attached; SMB2 = 16#00, parity error SM3.0 = 0\n"
+            "transmitter idle; event 9 is not attached\n"
+            "master     has sent nothing\n");
+}
+
+TEST(MachineText, ACpuWithTwoPortsShowsBothAndTheMasterWhereItIs) {
+  const char* const program =
+      "LD SM0.1\nMOVB 5, SMB130\nMOVB 16#C0, SMB187\nMOVB 20, SMB194\nATCH 0, 24\nRCV VB0, 1\nMEND\nINT 0\nRETI\n";
+  const std::string port0 =
+      "SMB30      16#00 = 2#00000000: PPI slave\n"
+      "receiver   off: not in Freeport mode; event 8 is not attached; SMB2 = 16#00, parity error SM3.0 = 0\n"
+      "transmitter idle; event 9 is not attached\n";
+  const std::string port1 =
+      "SMB130     16#05 = 2#00000101: Freeport, 19200 baud, 8N1\n"
+      "receiver   on; event 25 is not attached; SMB2 = 16#00, parity error SM3.0 = 0\n"
+      "RCV        waits for the start of a message; event 24 → INT 0\n"
+      "transmitter idle; event 26 is not attached\n";
+  const std::string master = "master     has sent nothing\n";
+  EXPECT_EQ(ports_of(*find_cpu("226"), program), port0 + master + port1);
+  EXPECT_EQ(ports_of(*find_cpu("226"), program, 1), port0 + port1 + master);
+}
+
+}  // namespace
+}  // namespace s7200::tools
