@@ -4,32 +4,18 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "serial_sim/modbus/crc.hpp"
+#include "serial_sim/peers/answer.hpp"
 
 namespace s7200::modbus {
 
-enum class Verdict : std::uint8_t {
-  Right,      ///< what the request earns, as far as a master can tell
-  Exception,  ///< the slave refused, in the right form
-  Silent,     ///< nothing came
-  Wrong,      ///< anything else
-};
+using serial::Verdict;
 
-struct Answer {
-  Verdict verdict = Verdict::Silent;
-  std::string fault;           ///< what is wrong: `wrong CRC`, `answer of station 2, not 1`
-  std::uint8_t exception = 0;  ///< its code
-
-  /// Of reads: the bits, 0 or 1, or the registers, those of file records one reference after the other. Of function 8: the
-  /// data words.
-  std::vector<std::uint16_t> values;
-
-  /// Of functions 7 and 17: the data without its byte count. Of references of a maker's own kind: theirs. Of functions that
-  /// are not in the table: all data.
-  Bytes bytes;
-};
+/// `values`, of reads: the bits, 0 or 1, or the registers, those of file records one reference after the other. Of function
+/// 8: the data words. `bytes`, of functions 7 and 17: the data without its byte count. Of references of a maker's own kind:
+/// theirs. Of functions that are not in the table: all data.
+using serial::Answer;
 
 /// Both are RTU frames. An answer of more than 4 characters is never taken for right if its CRC is not.
 Answer check_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response);

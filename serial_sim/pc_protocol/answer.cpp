@@ -1,0 +1,78 @@
+#include "serial_sim/pc_protocol/answer.hpp"
+
+#include <fmt/format.h>
+
+#include "serial_sim/line/frame.hpp"
+#include "serial_sim/pc_protocol/command.hpp"
+
+namespace s7200::pc_protocol {
+namespace {
+
+constexpr std::uint8_t kStart = 'g';
+constexpr std::size_t kStatus = 1, kData = 2, kDataLength = 16;
+
+bool is_refusal(Status status) { return status == Status::WrongCheckCode || status == Status::NotLegal; }
+
+/// What is wrong with the form of any answer, or nothing.
+std::string fault_of_form(std::span<const std::uint8_t> response, std::uint8_t end_character) {
+  if (response[0] != kStart)
+    return fmt::format("begins with 16#{:02X}, not with g: {}", response[0], serial::to_hex(response));
+  if (response.size() != kAnswerLength)
+    return fmt::format("wrong length: {} bytes, expected {}", response.size(), kAnswerLength);
+  if (response.back() != end_character)
+    return fmt::format("end character 16#{:02X}, expected 16#{:02X}", response.back(), end_character);
+  const std::uint8_t status = response[kStatus];
+  if (status < static_cast<std::uint8_t>(Status::ReadDone) || status > static_cast<std::uint8_t>(Status::NotLegal))
+    return fmt::format("status {}: there are 1 to 4", status);
+  return {};
+}
+
+/// What is wrong with the data of a read, or nothing and its bytes.
+std::string take_data(std::span<const std::uint8_t> response, Bytes& bytes) {
+  const auto characters = response.subspan(kData, kDataLength);
+  const auto code = from_digits(response.subspan(kData + kDataLength, 2));
+  auto data = from_digits(characters);
+  if (!data || !code) return "data or check code are not hex digits";
+  if (code->front() != check_code(characters)) return "wrong check code";
+  bytes = std::move(*data);
+  return {};
+}
+
+}  // namespace
+
+std::string_view refusal_name(std::uint8_t status) {
+  switch (static_cast<Status>(status)) {
+    case Status::WrongCheckCode:
+      return "check code wrong";
+    case Status::NotLegal:
+      return "command not legal";
+    default:
+      return "unknown status";
+  }
+}
+
+serial::Answer check_answer(std::span<const std::uint8_t> command, std::span<const std::uint8_t> response,
+                            std::uint8_t end_character) {
+  serial::Answer answer;
+  if (response.empty()) return answer;
+  answer.verdict = serial::Verdict::Wrong;
+  answer.fault = fault_of_form(response, end_character);
+  if (!answer.fault.empty()) return answer;
+  const auto status = static_cast<Status>(response[kStatus]);
+  if (is_refusal(status)) {
+    answer.verdict = serial::Verdict::Exception;
+    answer.exception = response[kStatus];
+    return answer;
+  }
+  const auto asked = parse_command(command);
+  const Status expected = asked && asked->type == Type::Write ? Status::WriteDone : Status::ReadDone;
+  if (asked && status != expected) {
+    answer.fault = fmt::format("status {} to a {}", response[kStatus], asked->type == Type::Read ? "read" : "write");
+    return answer;
+  }
+  if (status == Status::ReadDone) answer.fault = take_data(response, answer.bytes);
+  if (answer.fault.empty()) answer.verdict = serial::Verdict::Right;
+  return answer;
+}
+
+}  // namespace s7200::pc_protocol

@@ -1,0 +1,31 @@
+// What came back for a request, judged: the same for every protocol.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "interpreter/base/bytes.hpp"
+
+namespace s7200::serial {
+
+enum class Verdict : std::uint8_t {
+  Right,      ///< what the request earns, as far as a master can tell
+  Exception,  ///< the slave refused, in the right form
+  Silent,     ///< nothing came
+  Wrong,      ///< anything else
+};
+
+struct Answer {
+  Verdict verdict = Verdict::Silent;
+  std::string fault;           ///< what is wrong: `wrong CRC`, `answer of station 2, not 1`
+  std::uint8_t exception = 0;  ///< its code
+
+  /// What was read, one for each bit, byte or register that was asked for.
+  std::vector<std::uint16_t> values;
+
+  /// Data that is not values: what the protocol says of it.
+  Bytes bytes;
+};
+
+}  // namespace s7200::serial
