@@ -1,5 +1,7 @@
 """Slaves to be asked by `s7200 master`: on a pty, on a TCP port. What they answer is up to a function."""
 import errno
+import functools
+import operator
 import os
 import pathlib
 import socket
@@ -89,6 +91,40 @@ def modbus_tcp(model):
     return answer
 
 
+class PcModel:
+    """A station of the PC protocol, with 33-byte commands, whose V memory is `memory`. Called with a command, returns its answer."""
+
+    def __init__(self, end=0x26):
+        self.memory, self.end = bytearray(65536), end
+
+    def __call__(self, command):
+        kind, address, digits = command[1], int(command[8:12], 16), int(command[12:14], 16)
+        if xor(command[1:30]) != int(command[30:32], 16):
+            return self.answer(3)
+        if kind == 5:
+            return self.answer(1, self.memory[address:address + 8].hex().upper().encode())
+        if kind != 6 or digits > 16:
+            return self.answer(4)
+        self.memory[address:address + digits // 2] = bytes.fromhex(command[14:14 + digits].decode())
+        return self.answer(2)
+
+    def answer(self, status, data=bytes(16)):
+        code = b"%02X" % xor(data) if status == 1 else bytes(2)
+        return [(0, b"g" + bytes([status]) + data + code + bytes([self.end]))]
+
+
+def xor(characters):
+    return functools.reduce(operator.xor, characters, 0)
+
+
+def is_rtu_frame(pending):
+    return len(pending) > 3 and crc(pending[:-2]) == pending[-2:]
+
+
+def is_pc_command(pending):
+    return len(pending) == 33 or pending.endswith(b"G")
+
+
 class Peer:
     """Reads requests and writes what `answer(request)` says, in a thread of its own. `requests` are those that came.
 
@@ -118,7 +154,8 @@ class Peer:
 
 
 class PtyPeer(Peer):
-    def __init__(self, answer):
+    def __init__(self, answer, complete=is_rtu_frame):
+        self.complete = complete
         self.primary, self.secondary = os.openpty()
         tty.setraw(self.secondary)
         self.path = os.ttyname(self.secondary)
@@ -134,7 +171,7 @@ class PtyPeer(Peer):
                         return b""
                     time.sleep(0.01)  # no program has it open
         try:
-            self.talk(read, lambda piece: os.write(self.primary, piece), lambda p: len(p) > 3 and crc(p[:-2]) == p[-2:])
+            self.talk(read, lambda piece: os.write(self.primary, piece), self.complete)
         except OSError:
             pass
         self.vanish()
@@ -150,10 +187,10 @@ class PtyPeer(Peer):
 
 
 class TcpPeer(Peer):
-    def __init__(self, answer, scheme):
+    def __init__(self, answer, scheme, complete=is_rtu_frame):
         self.listener = socket.create_server(("127.0.0.1", 0))
         self.path = f"{scheme}://127.0.0.1:{self.listener.getsockname()[1]}"
-        self.complete = {"tcp": lambda p: len(p) > 3 and crc(p[:-2]) == p[-2:],
+        self.complete = {"tcp": complete,
                          "modbus-tcp": lambda p: len(p) > 6 and len(p) == 6 + struct.unpack(">H", p[4:6])[0]}[scheme]
         self.connections = 0
         super().__init__(answer)

@@ -15,7 +15,7 @@ import termios
 import time
 import unittest
 
-from peers import Model, PtyPeer, TcpPeer, framed, modbus_tcp, rtu
+from peers import Model, PcModel, PtyPeer, TcpPeer, framed, is_pc_command, modbus_tcp, rtu
 
 S7200 = sys.argv[1]
 FINE, FAILED, UNUSABLE, FATAL = range(4)
@@ -303,6 +303,70 @@ class Unreachable(Case):
         peer = self.tcp("tcp", lambda request: model(request) + [(0, None)])
         result = self.json(FINE, peer.path, "slave-id", "wait", "500ms", "slave-id", *PATIENT)
         self.assertEqual((result["statistics"]["right"], peer.connections), (2, 2))
+
+
+class FreeportPc(Case):
+    ACTIONS = ["--protocol", "freeport-pc", "write", "VB1000=1,16#23,-1", "VB1003=2#1", "read", "VB1000:4", "VB1002"]
+
+    def check(self, peer):
+        result = self.json(FINE, peer.path, *self.ACTIONS, *PATIENT)
+        self.assertEqual([e["verdict"] for e in result["exchanges"]], ["right"] * 4)
+        first, _, read, one = result["exchanges"]
+        self.assertEqual([first[k] for k in ("station", "function", "area", "first", "notation", "count", "values", "bytes")],
+                         [2, 6, "V", 1000, "VB1000", 3, None, None])
+        self.assertEqual((read["function"], read["values"], read["decoded"], read["bytes"]),
+                         (5, [1, 0x23, 0xFF, 1], [1, 0x23, 0xFF, 1], "0123ff0100000000"))
+        self.assertEqual(one["values"], [0xFF])
+        self.assertTrue(all(len(request) == 33 for request in peer.requests))
+
+    def test_over_a_pty(self):
+        self.check(self.peer(PtyPeer, PcModel(), is_pc_command))
+
+    def test_over_tcp(self):
+        self.check(self.peer(TcpPeer, PcModel(), "tcp", is_pc_command))
+
+    def test_lines_show_each_byte_with_its_address(self):
+        out = self.master(FINE, self.peer(PtyPeer, PcModel(), is_pc_command).path, *self.ACTIONS, *PATIENT).stdout.split("\n")
+        self.assertRegex(out[0], r"^write VB1000=1,16#23,-1   station 2, VB1000…1002   after ")
+        self.assertEqual(out[1], "  VB1000…1002 written")
+        self.assertRegex(out[4], r"^read VB1000:4   station 2, VB1000…1003   after ")
+        self.assertEqual(out[5:9], ["  VB1000  16#01      1", "  VB1001  16#23     35", "  VB1002  16#FF    255", "  VB1003  16#01      1"])
+
+    def test_the_end_character_is_as_agreed(self):
+        peer = self.peer(PtyPeer, PcModel(end=26), is_pc_command)
+        self.assertEqual(self.only(FAILED, peer.path, "--protocol", "freeport-pc", "read", "VB0", *PATIENT)["fault"],
+                         "end character 16#1A, expected 16#26")
+        self.only(FINE, peer.path, "--protocol", "freeport-pc", "read", "VB0", "--end-character", "26", *PATIENT)
+
+    def test_what_the_station_refuses_is_an_exception(self):
+        peer = self.peer(PtyPeer, lambda command: PcModel().answer(4), is_pc_command)
+        refused = self.only(FAILED, peer.path, "--protocol", "freeport-pc", "read", "IB9000", "--station", "7", *PATIENT)
+        self.assertEqual((refused["verdict"], refused["exception"]), ("exception", {"code": 4, "name": "command not legal"}))
+        self.assertEqual(peer.requests[0][2:4], b"07")
+        out = self.master(FAILED, peer.path, "--protocol", "freeport-pc", "raw", "67 47", *PATIENT).stdout
+        self.assertRegex(out, r"^raw 67 47   after .*\n  exception 4: command not legal\n$")
+
+    def test_a_device_is_set_to_no_parity(self):
+        peer, seen = self.peer(PtyPeer, PcModel(), is_pc_command), []
+        peer.answer = lambda command: seen.append(termios.tcgetattr(peer.secondary)) or PcModel()(command)
+        self.master(FINE, peer.path, "--protocol", "freeport-pc", "read", "VB0", *PATIENT)
+        self.assertFalse(seen[0][2] & termios.PARENB)
+        self.assertEqual(seen[0][5], termios.B9600)
+
+    def test_what_makes_no_sense_for_a_protocol_is_refused(self):
+        for arguments, why in ((["modbus-tcp://127.0.0.1", "--protocol", "freeport-pc", "read", "VB0"],
+                                "modbus-tcp:// carries nothing but Modbus; --protocol freeport-pc needs a PROGRAM"),
+                               (["/dev/ttyX", "--protocol", "freeport-pc", "read", "VB0", "--always-15"],
+                                "--always-15 needs --protocol modbus"),
+                               (["/dev/ttyX", "read", "40001", "--end-character", "26"],
+                                "--end-character needs --protocol freeport-pc"),
+                               (["/dev/ttyX", "--protocol", "frob", "read", "VB0"],
+                                "'frob' is not a protocol; there are modbus, freeport-pc"),
+                               (["/dev/ttyX", "--protocol", "freeport-pc", "read", "40001"], "'40001' is not a byte of I, Q, M or V"),
+                               (["/dev/ttyX", "--protocol", "freeport-pc", "read", "VB0", "--end-character", "256"],
+                                "the end character 256 is not from 0 to 255")):
+            with self.subTest(arguments):
+                self.assertIn(why, self.master(UNUSABLE, *arguments).stderr)
 
 
 class Targets(Case):

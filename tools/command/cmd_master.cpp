@@ -87,7 +87,7 @@ int run_master(MasterOptions& options) {
   if (target.kind == SlaveTarget::Kind::Program) return run_on_program(options, actions);
   std::unique_ptr<Slave> slave;
   try {
-    slave = connect(target, options.master.over({}));
+    slave = connect(target, options.master.over(options.protocol->format), options.protocol->is_complete);
   } catch (const SlaveUnreachable& error) {
     print_error(error.what());
     return kUnusable;
@@ -102,10 +102,10 @@ int run_master(MasterOptions& options) {
 
 void add_master(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<MasterOptions>();
-  CLI::App* verb =
-      app.add_subcommand("master", "be a Modbus master: ask a program, a serial device, or a server on the network");
+  CLI::App* verb = app.add_subcommand(
+      "master", "be a master, of Modbus or another protocol: ask a program, a serial device, or a server on the network");
   options->add_to(*verb);
-  verb->footer(slave_targets_help() + actions_help() + fault_help() +
+  verb->footer(slave_targets_help() + protocols_help() + fault_help() +
                "Example: s7200 master stl_programs/modbus_slave.stl write 40011=1234,-5 read 40011:2 read 00001:8");
   verb->callback([options, &exit_code] {
     try {

@@ -22,9 +22,7 @@ std::string title(const std::string& slave, Time every) {
 }  // namespace
 
 MasterOutput::MasterOutput(const MasterOutputSettings& settings, const std::string& slave)
-    : settings_(settings),
-      slave_(slave),
-      table_(title(slave, settings.every), settings.format, can_redraw(stdout), colour_wanted(stdout)) {}
+    : settings_(settings), slave_(slave), table_(title(slave, settings.every), can_redraw(stdout), colour_wanted(stdout)) {}
 
 void MasterOutput::begin() const {
   if (!settings_.json) return;
@@ -50,7 +48,7 @@ void MasterOutput::end(const ExchangeStatistics& statistics, const std::string& 
 
 void MasterOutput::show(const MasterResult& result) {
   if (settings_.json) {
-    fmt::print("{}    {}", std::exchange(first_, false) ? "" : ",\n", line_of(to_json(result, settings_.format)));
+    fmt::print("{}    {}", std::exchange(first_, false) ? "" : ",\n", line_of(to_json(result)));
   } else if (polls() && !settings_.verbose) {
     table_.add(result, result.exchange.request_start);
   } else if (settings_.continuous && !settings_.verbose) {
@@ -58,7 +56,7 @@ void MasterOutput::show(const MasterResult& result) {
   } else {
     fmt::print("{}\n", heading(result));
     if (settings_.verbose) fmt::print("{}", frames_text(result));
-    for (const std::string& line : lines(result, settings_.format)) fmt::print("{}\n", line);
+    for (const std::string& line : lines(result)) fmt::print("{}\n", line);
   }
 }
 
@@ -68,12 +66,12 @@ void MasterOutput::end_round(const ExchangeStatistics& statistics) {
 }
 
 void MasterOutput::show_failure(const MasterResult& result) {
-  if (result.answer.verdict == modbus::Verdict::Right || failures_shown_ > kFailuresShown) return;
+  if (result.answer.verdict == serial::Verdict::Right || failures_shown_ > kFailuresShown) return;
   clear_progress();
   if (failures_shown_++ == kFailuresShown)
     fmt::print("further failures are only counted\n");
   else
-    fmt::print("{}: {}\n", heading(result), short_text(result, settings_.format));
+    fmt::print("{}: {}\n", heading(result), short_text(result));
 }
 
 /// On a terminal, twice a second, in a line that the next output overwrites.

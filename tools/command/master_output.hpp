@@ -15,7 +15,6 @@ struct MasterOutputSettings {
   bool continuous = false;  ///< failures only, and on a terminal the progress
   Time every = kNever;      ///< polling: a table
   std::uint64_t rounds = 1;
-  ValueFormat format{};
 };
 
 class MasterOutput {

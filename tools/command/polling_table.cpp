@@ -21,8 +21,8 @@ std::size_t rows_of_terminal() {
 
 }  // namespace
 
-PollingTable::PollingTable(std::string title, const ValueFormat& format, bool in_place, bool colour)
-    : title_(std::move(title)), format_(format), in_place_(in_place), colour_(colour) {}
+PollingTable::PollingTable(std::string title, bool in_place, bool colour)
+    : title_(std::move(title)), in_place_(in_place), colour_(colour) {}
 
 std::string PollingTable::marked(const std::string& line, bool changed) const {
   if (!changed) return "  " + line;
@@ -31,9 +31,9 @@ std::string PollingTable::marked(const std::string& line, bool changed) const {
 
 void PollingTable::add(const MasterResult& result, Time at) {
   if (in_place_) {
-    now_.push_back({heading(result), lines(result, format_)});
+    now_.push_back({heading(result), lines(result)});
   } else {
-    now_.push_back({{}, {short_text(result, format_)}});
+    now_.push_back({{}, {short_text(result)}});
     const std::vector<std::string>& shown = now_[place_].lines;
     const bool changed = place_ < before_.size() && before_[place_].lines != shown;
     const auto latency = result.exchange.latency();

@@ -12,7 +12,7 @@ namespace s7200::tools {
 /// is marked with `*`, in bold where colour is wanted.
 class PollingTable {
  public:
-  PollingTable(std::string title, const ValueFormat& format, bool in_place, bool colour);
+  PollingTable(std::string title, bool in_place, bool colour);
 
   /// A result of the round at hand, and how much time has passed since the first.
   void add(const MasterResult& result, Time at);
@@ -33,7 +33,6 @@ class PollingTable {
   std::string marked(const std::string& line, bool changed) const;
 
   std::string title_;
-  ValueFormat format_;
   bool in_place_, colour_;
   std::size_t place_ = 0;            // of the next result in the round
   std::vector<Shown> before_, now_;  // by place

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "serial_sim/modbus/answer.hpp"
 #include "serial_sim/peers/requester.hpp"
-#include "tools/master/action.hpp"
+#include "tools/master/protocol.hpp"
 
 namespace s7200::tools {
 
@@ -16,27 +14,27 @@ namespace s7200::tools {
 struct MasterResult {
   const MasterAction* action = nullptr;
   serial::Exchange exchange{};
-  modbus::Answer answer{};
+  serial::Answer answer{};
   std::string remark{};  ///< Slave::remark
   int attempts = 1;
 };
 
 /// Checks an answer with all that is known of how it came: errors in its characters, and answers to broadcasts, which only
 /// count as wrong where `broadcasts_are_silent`.
-modbus::Answer assess(const MasterAction& action, const serial::Exchange& exchange, bool broadcasts_are_silent);
+serial::Answer assess(const MasterAction& action, const serial::Exchange& exchange, bool broadcasts_are_silent);
 
 /// `16#04D2 16#FFFB`, `exception 2: illegal data address`, `no answer`: all in one line.
-std::string short_text(const MasterResult& result, const ValueFormat& format);
+std::string short_text(const MasterResult& result);
 
 /// What was asked, and how long the answer took: `read 40011:2   station 1, function 3, holding registers 10…11   12.3 ms`.
 std::string heading(const MasterResult& result);
 
-/// What came of it: a line for each value, with its address in both notations; or what is wrong.
-std::vector<std::string> lines(const MasterResult& result, const ValueFormat& format);
+/// What came of it: a line for each value, with its address; or what is wrong.
+std::vector<std::string> lines(const MasterResult& result);
 
 /// Request and answer in hex.
 std::string frames_text(const MasterResult& result);
 
-nlohmann::ordered_json to_json(const MasterResult& result, const ValueFormat& format);
+nlohmann::ordered_json to_json(const MasterResult& result);
 
 }  // namespace s7200::tools

@@ -1,26 +1,19 @@
 #include "tools/master/session.hpp"
 
 #include <algorithm>
-#include <array>
 
-#include "serial_sim/modbus/line_turns.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
 
-using modbus::Verdict;
+using serial::Verdict;
 
 MasterSession::MasterSession(Slave& slave, const std::vector<MasterAction>& actions, const SessionSettings& settings)
     : slave_(slave), actions_(actions), settings_(settings) {}
 
-serial::Request MasterSession::request_of(const MasterAction& action) {
-  serial::Frame frame = action.frame;
-  if (action.kind == MasterAction::Kind::Loopback)
-    frame = serial::to_frame(modbus::rtu_frame(action.station, modbus::diagnostics(0, std::array{loopback_++})));
-  else if (action.kind == MasterAction::Kind::Request)
-    frame = serial::to_frame(modbus::rtu_frame(action.station, action.pdu));
-  serial::Request request = settings_.master.request(frame);
-  if (!action.answer_expected) request.timeout = std::min(request.timeout, modbus::LineTurns::kTurnaround);
+serial::Request MasterSession::request_of(const MasterAction& action) const {
+  serial::Request request = settings_.master.request(action.request->frame());
+  if (const auto turnaround = action.request->turnaround()) request.timeout = std::min(request.timeout, *turnaround);
   request.silence = settings_.silence;
   return request;
 }

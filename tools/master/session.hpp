@@ -41,13 +41,12 @@ class MasterSession {
   void run_round(const Listener& listener, const std::function<bool()>& over);
   /// Nothing after an interruption.
   std::optional<MasterResult> perform(const MasterAction& action);
-  serial::Request request_of(const MasterAction& action);
+  serial::Request request_of(const MasterAction& action) const;
 
   Slave& slave_;
   const std::vector<MasterAction>& actions_;
   SessionSettings settings_;
   ExchangeStatistics statistics_;
-  std::uint16_t loopback_ = 0x1234;  ///< the next word to be looped back
 };
 
 }  // namespace s7200::tools

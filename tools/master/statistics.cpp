@@ -9,7 +9,7 @@
 namespace s7200::tools {
 namespace {
 
-using modbus::Verdict;
+using serial::Verdict;
 
 constexpr std::array kVerdicts{Verdict::Right, Verdict::Exception, Verdict::Silent, Verdict::Wrong};
 

@@ -8,21 +8,21 @@
 #include <vector>
 
 #include "interpreter/base/time.hpp"
-#include "serial_sim/modbus/answer.hpp"
+#include "serial_sim/peers/answer.hpp"
 
 namespace s7200::tools {
 
 class ExchangeStatistics {
  public:
   /// What came of a request in the end; the latency of what answered it, right or not.
-  void add(modbus::Verdict verdict, std::optional<Time> latency);
+  void add(serial::Verdict verdict, std::optional<Time> latency);
   void add_retry() { ++retries_; }
 
   std::uint64_t sent() const;
-  std::uint64_t count(modbus::Verdict verdict) const { return counts_[static_cast<std::size_t>(verdict)]; }
+  std::uint64_t count(serial::Verdict verdict) const { return counts_[static_cast<std::size_t>(verdict)]; }
 
   /// Not all were right.
-  bool any_failed() const { return sent() != count(modbus::Verdict::Right); }
+  bool any_failed() const { return sent() != count(serial::Verdict::Right); }
 
   /// Of answers, exceptions among them; nothing before the first. The percentile is that of the last kKept.
   struct Latency {
@@ -44,6 +44,6 @@ class ExchangeStatistics {
 };
 
 /// `right`, `exception`, `silent`, `wrong`
-const char* verdict_name(modbus::Verdict verdict);
+const char* verdict_name(serial::Verdict verdict);
 
 }  // namespace s7200::tools

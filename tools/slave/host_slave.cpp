@@ -70,14 +70,15 @@ bool HostSlave::take_in(std::vector<HostLink::Character>& characters, Time until
   return true;
 }
 
-RtuSlave::RtuSlave(const std::string& device, const SerialFormat& format)
+RtuSlave::RtuSlave(const std::string& device, const SerialFormat& format, IsComplete is_complete)
     : HostSlave(std::make_unique<SerialLink>(device, format)),
+      is_complete_(is_complete),
       has_parity_(format.parity != Parity::None),
       shortest_silence_(std::max(kSilence, format.silence())),
       quiet_(serial::default_quiet(format)) {}
 
-RtuSlave::RtuSlave(const std::string& host, const std::string& port)
-    : HostSlave(std::make_unique<TcpLink>(host, port)), shortest_silence_(kSilence) {}
+RtuSlave::RtuSlave(const std::string& host, const std::string& port, IsComplete is_complete)
+    : HostSlave(std::make_unique<TcpLink>(host, port)), is_complete_(is_complete), shortest_silence_(kSilence) {}
 
 void RtuSlave::send(const Bytes& bytes, Time gap) {
   if (gap == 0) {
@@ -91,7 +92,7 @@ void RtuSlave::send(const Bytes& bytes, Time gap) {
 }
 
 Time RtuSlave::silence_after(const serial::Exchange& exchange) const {
-  return modbus::crc_ok(exchange.response_bytes()) ? shortest_silence_ : std::max(shortest_silence_, kSilenceInside);
+  return is_complete_(exchange.response_bytes()) ? shortest_silence_ : std::max(shortest_silence_, kSilenceInside);
 }
 
 serial::Exchange RtuSlave::exchange(const serial::Request& request) {

@@ -40,13 +40,13 @@ class HostSlave : public Slave {
   std::string remark_;
 };
 
-/// Modbus RTU as a stream of characters.
+/// A stream of characters: Modbus RTU, or another protocol of a serial line.
 ///
 /// Times: a serial device gets the request at once, so its characters end when their format says; of what it delivers only
 /// the arrival is known, and a character has begun a character time before. USB adapters deliver up to 16 ms late. Over TCP
 /// a character takes no time.
 ///
-/// A host cannot see a silence of 3.5 characters. An answer with a right CRC has ended when nothing came for 20 ms (or 3.5
+/// A host cannot see a silence of 3.5 characters. An answer that is complete has ended when nothing came for 20 ms (or 3.5
 /// characters, if that is more), any other after 200 ms: an adapter or a gateway may deliver it in pieces. A silence in the
 /// request is taken as it is.
 class RtuSlave final : public HostSlave {
@@ -55,8 +55,8 @@ class RtuSlave final : public HostSlave {
   static constexpr Time kSilenceInside = 200 * kMillisecond;
 
   /// Throws SlaveUnreachable.
-  RtuSlave(const std::string& device, const SerialFormat& format);
-  RtuSlave(const std::string& host, const std::string& port);
+  RtuSlave(const std::string& device, const SerialFormat& format, IsComplete is_complete);
+  RtuSlave(const std::string& host, const std::string& port, IsComplete is_complete);
 
   /// Throws std::invalid_argument for a byte with wrong parity.
   serial::Exchange exchange(const serial::Request& request) override;
@@ -71,6 +71,7 @@ class RtuSlave final : public HostSlave {
   void collect(serial::Exchange& exchange, Time until, const std::optional<Time>& silence);
   Time silence_after(const serial::Exchange& exchange) const;
 
+  IsComplete is_complete_;
   bool has_parity_ = false;
   Time shortest_silence_ = 0;
   Time quiet_ = 0;           ///< that slaves need to see the end of a request; not known over TCP

@@ -1,6 +1,8 @@
-// A Modbus slave to talk to, wherever it is: a program in simulation, a serial device or pty, a TCP server.
+// A slave to talk to, wherever it is: a program in simulation, a serial device or pty, a TCP server.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -23,6 +25,9 @@ std::string beginning_in_hex(Bytes bytes);
 
 /// The remark on an exchange before which `bytes` had come unasked; empty if there were none.
 std::string ignored_text(const Bytes& bytes);
+
+/// Whether characters are a complete answer in the protocol that is spoken.
+using IsComplete = bool (*)(std::span<const std::uint8_t> response);
 
 class Slave {
  public:

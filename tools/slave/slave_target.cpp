@@ -66,19 +66,19 @@ SlaveTarget parse_slave_target(const std::string& text) {
 std::string slave_targets_help() {
   return "Targets:\n"
          "  PROGRAM                               an STL file or document, in simulation; - is standard input\n"
-         "  /dev/ttyUSB0, or a pty by its link    Modbus RTU, 9600 8E1 unless --baud and the others say otherwise\n"
-         "  tcp://HOST:PORT                       Modbus RTU over TCP, as serial servers offer it\n"
+         "  /dev/ttyUSB0, or a pty by its link    a serial line, for Modbus 9600 8E1 unless --baud and the others say otherwise\n"
+         "  tcp://HOST:PORT                       the characters of a serial line over TCP, as serial servers offer it\n"
          "  modbus-tcp://HOST[:PORT]              Modbus TCP, port 502 unless one is given\n";
 }
 
-std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format) {
+std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format, IsComplete is_complete) {
   switch (target.kind) {
     case SlaveTarget::Kind::Program:
       break;
     case SlaveTarget::Kind::Device:
-      return std::make_unique<RtuSlave>(target.path, format);
+      return std::make_unique<RtuSlave>(target.path, format, is_complete);
     case SlaveTarget::Kind::Tcp:
-      return std::make_unique<RtuSlave>(target.host, target.port);
+      return std::make_unique<RtuSlave>(target.host, target.port, is_complete);
     case SlaveTarget::Kind::ModbusTcp:
       return std::make_unique<ModbusTcpSlave>(target.host, target.port);
   }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "interpreter/base/serial_format.hpp"
+#include "serial_sim/modbus/crc.hpp"
 #include "tools/slave/slave.hpp"
 
 namespace s7200::tools {
@@ -13,7 +14,7 @@ struct SlaveTarget {
   enum class Kind : std::uint8_t {
     Program,    ///< a PROGRAM to be run in simulation: whatever is none of the others
     Device,     ///< a character device, or a link to one: a pty; whatever begins with /dev/tty
-    Tcp,        ///< tcp://HOST:PORT, Modbus RTU frames over TCP
+    Tcp,        ///< tcp://HOST:PORT, the characters of a serial line over TCP
     ModbusTcp,  ///< modbus-tcp://HOST[:PORT], port 502 if none is given
   };
 
@@ -28,7 +29,9 @@ SlaveTarget parse_slave_target(const std::string& text);
 /// The four, one a line, for --help.
 std::string slave_targets_help();
 
-/// Connects to a target that is not a program; `format` is for devices. Throws SlaveUnreachable.
-std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format);
+/// Connects to a target that is not a program; `format` is for devices, `is_complete` for characters. Throws
+/// SlaveUnreachable.
+std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format,
+                               IsComplete is_complete = modbus::crc_ok);
 
 }  // namespace s7200::tools

@@ -3,31 +3,41 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "serial_sim/modbus/request.hpp"
-#include "tools/master/action.hpp"
+#include "serial_sim/line/frame.hpp"
+#include "tools/master/protocol.hpp"
 #include "tools/master/statistics.hpp"
 
 namespace s7200::tools {
 namespace {
 
-std::vector<MasterAction> parsed(const std::string& text, const ActionRules& rules = {}) {
+std::vector<MasterAction> parsed(const std::string& text, const ProtocolUse& use = {},
+                                 const Protocol& protocol = modbus_protocol()) {
   std::istringstream in(text);
   std::vector<std::string> words;
   for (std::string word; in >> word;) words.push_back(word);
-  return parse_actions(words, rules);
+  return protocol.actions(words, use);
 }
 
-std::string pdu(const std::string& text, const ActionRules& rules = {}) {
-  return serial::to_hex(parsed(text, rules).at(0).pdu);
+std::string frame(const MasterAction& action) { return serial::to_hex(action.request->frame()); }
+
+/// Without station and CRC.
+std::string pdu(const std::string& text, const ProtocolUse& use = {}) {
+  const std::string hex = frame(parsed(text, use).at(0));
+  constexpr std::size_t kByte = 3;
+  return hex.substr(kByte, hex.size() - 3 * kByte);
 }
 
-std::string refused(const std::string& text, const ActionRules& rules = {}) {
+std::string refused(const std::string& text, const ProtocolUse& use = {}, const Protocol& protocol = modbus_protocol()) {
   try {
-    parsed(text, rules);
+    parsed(text, use, protocol);
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
   return "taken";
+}
+
+bool answer_expected(const std::string& text, const ProtocolUse& use = {}) {
+  return !parsed(text, use).at(0).request->turnaround();
 }
 
 TEST(MasterAction, TheAddressSelectsTheFunction) {
@@ -53,7 +63,7 @@ TEST(MasterAction, AnAreaByNameCountsFromZero) {
 }
 
 TEST(MasterAction, OverridesAreForTheirKindOnly) {
-  const ActionRules coils{.always_15 = true}, registers{.always_16 = true};
+  const ProtocolUse coils{.given = {{"--always-15", ""}}}, registers{.given = {{"--always-16", ""}}};
   EXPECT_EQ(pdu("write 00001=on", coils), "0f 00 00 00 01 01 01");
   EXPECT_EQ(pdu("write 40001=5", coils), "06 00 00 00 05");
   EXPECT_EQ(pdu("write 00001=on", registers), "05 00 00 ff 00");
@@ -72,7 +82,6 @@ TEST(MasterAction, DiagnosisAndFiles) {
   EXPECT_EQ(pdu("general-write 1:2=255,16#10"), "15 09 33 00 01 00 02 00 02 ff 10");
   EXPECT_EQ(pdu("function 65 0102"), "41 01 02");
   EXPECT_EQ(pdu("function 65"), "41");
-  EXPECT_EQ(parsed("loopback")[0].kind, MasterAction::Kind::Loopback);
   EXPECT_EQ(refused("general-write 1:2=256"), "'1:2=256': 256 is not a byte");
   EXPECT_EQ(refused("read-file 4:1"), "'4:1' is not a reference; write for example 4:1:2");
 }
@@ -86,12 +95,12 @@ TEST(MasterAction, SeveralAreDoneInTheirOrder) {
   EXPECT_EQ(actions[3].station, 9);
   EXPECT_EQ(actions[4].duration, 250 * kMillisecond);
   EXPECT_EQ(actions[6].text, "raw 0203");
-  EXPECT_EQ(serial::to_hex(actions[6].frame), "02 03");
-  EXPECT_EQ(serial::to_hex(parsed("raw 010300000001", {.crc = true})[0].frame), "01 03 00 00 00 01 84 0a");
+  EXPECT_EQ(frame(actions[6]), "02 03");
+  EXPECT_EQ(frame(parsed("raw 010300000001", {.given = {{"--crc", ""}}})[0]), "01 03 00 00 00 01 84 0a");
 }
 
 TEST(MasterAction, ReadsAreNotBroadcast) {
-  const ActionRules all{.station = 0};
+  const ProtocolUse all{.station = 0};
   EXPECT_NE(refused("read 40001", all).find("none of them answers a broadcast: function 3 (read holding registers)"),
             std::string::npos);
   for (const char* text :
@@ -99,11 +108,11 @@ TEST(MasterAction, ReadsAreNotBroadcast) {
     EXPECT_NE(refused(text, all), "taken") << text;
   for (const char* text : {"write 00001=on", "write 40001=1", "write 00001=on,on", "write 40001=1,2", "write-file 1:0=1"}) {
     EXPECT_EQ(refused(text, all), "taken") << text;
-    EXPECT_FALSE(parsed(text, all)[0].answer_expected) << text;
+    EXPECT_FALSE(answer_expected(text, all)) << text;
   }
-  EXPECT_FALSE(parsed("read 40001", {.station = 0, .beyond_limits = true})[0].answer_expected);
-  EXPECT_TRUE(parsed("read 40001")[0].answer_expected);
-  EXPECT_FALSE(parsed("diagnostics 4")[0].answer_expected);
+  EXPECT_FALSE(answer_expected("read 40001", {.station = 0, .given = {{"--beyond-limits", ""}}}));
+  EXPECT_TRUE(answer_expected("read 40001"));
+  EXPECT_FALSE(answer_expected("diagnostics 4"));
 }
 
 TEST(MasterAction, InputsAreNotWritten) {
@@ -112,7 +121,7 @@ TEST(MasterAction, InputsAreNotWritten) {
 }
 
 TEST(MasterAction, LimitsOfTheSpecificationCanBeExceededOnPurpose) {
-  const ActionRules beyond{.beyond_limits = true};
+  const ProtocolUse beyond{.given = {{"--beyond-limits", ""}}};
   for (const char* text : {"read 40001:126", "read 40001:0", "read 00001:2001", "read 465536:2", "read-file 0:0:1",
                            "read-file 1:9999:2", "function 0", "function 128"}) {
     EXPECT_NE(refused(text).find("; --beyond-limits sends it all the same"), std::string::npos) << text;
@@ -159,21 +168,98 @@ TEST(MasterAction, WhatIsNoActionIsRefused) {
 }
 
 TEST(MasterAction, RangesAreNamedAsOnTheWire) {
-  EXPECT_EQ(range_text({modbus::Area::HoldingRegisters, 10}, 1), "holding register 10");
-  EXPECT_EQ(range_text({modbus::Area::Coils, 0}, 8), "coils 0…7");
+  EXPECT_EQ(parsed("read 40011")[0].request->subject(), "station 1, function 3, holding register 10");
+  EXPECT_EQ(parsed("read 00001:8")[0].request->subject(), "station 1, function 1, coils 0…7");
+  EXPECT_EQ(parsed("write 40001=1", {.station = 0})[0].request->subject(), "all stations, function 6, holding register 0");
+  EXPECT_EQ(parsed("raw 01")[0].request->subject(), "");
+}
+
+TEST(MasterAction, LoopbackSendsAnotherWordEachTime) {
+  const auto actions = parsed("loopback loopback");
+  EXPECT_EQ(frame(actions[0]).substr(0, 17), "01 08 00 00 12 34");
+  EXPECT_EQ(frame(actions[1]).substr(0, 17), "01 08 00 00 12 35");
+  EXPECT_EQ(frame(actions[0]).substr(0, 17), "01 08 00 00 12 36");
+}
+
+std::string pc_frame(const std::string& text, const ProtocolUse& use = {.station = 2}) {
+  return frame(parsed(text, use, freeport_pc_protocol()).at(0));
+}
+
+std::string pc_refused(const std::string& text) { return refused(text, {.station = 2}, freeport_pc_protocol()); }
+
+// The commands of fp-02, fp-03 and fp-17 of the reference.
+TEST(FreeportPcAction, ReadsAndWritesAreCommandsOf33Characters) {
+  EXPECT_EQ(pc_frame("read VB1000:8"),
+            "67 05 30 32 30 38 30 30 30 33 45 38 30 30 30 30 30 30 30 30 30 30 30 30 30 30 30 30 30 30 37 31 47");
+  EXPECT_EQ(pc_frame("write VB1000=16#5A"),
+            "67 06 30 32 30 38 30 30 30 33 45 38 30 32 35 41 30 30 30 30 30 30 30 30 30 30 30 30 30 30 30 34 47");
+  EXPECT_EQ(pc_frame("read QB0"),
+            "67 05 30 32 30 31 30 30 30 30 30 30 30 30 30 30 30 30 30 30 30 30 30 30 30 30 30 30 30 30 30 36 47");
+  EXPECT_EQ(pc_frame("write vb1000=90"), pc_frame("write VB1000=2#0101_1010"));
+}
+
+TEST(FreeportPcAction, SeveralAreDoneInTheirOrder) {
+  const auto actions =
+      parsed("read VB0:2 MB8 station 3 write QB0=1,-1 wait 5ms raw 67", {.station = 2}, freeport_pc_protocol());
+  ASSERT_EQ(actions.size(), 6U);
+  EXPECT_EQ(actions[0].request->subject(), "station 2, VB0…1");
+  EXPECT_EQ(actions[1].text, "read MB8");
+  EXPECT_EQ(actions[1].request->subject(), "station 2, MB8");
+  EXPECT_EQ(actions[3].request->subject(), "station 3, QB0…1");
+  EXPECT_EQ(actions[5].kind, MasterAction::Kind::Raw);
+  EXPECT_EQ(frame(actions[5]), "67");
+}
+
+TEST(FreeportPcAction, WhatTheProtocolCannotCarryIsRefused) {
+  EXPECT_EQ(pc_refused("read VW0"), "'VW0' is not a byte of I, Q, M or V; write for example VB100");
+  EXPECT_EQ(pc_refused("read VB0:9"), "count 9 is not from 1 to 8");
+  EXPECT_EQ(pc_refused("read VB0:0"), "count 0 is not from 1 to 8");
+  EXPECT_EQ(pc_refused("read VB65530:8"), "read VB65530:8: the bytes run past 65535");
+  EXPECT_EQ(pc_refused("write VB0=1,2,3,4,5,6,7,8,9"), "write VB0=1,2,3,4,5,6,7,8,9: 9 bytes; a command writes 8 at most");
+  EXPECT_EQ(pc_refused("write VB0=256"), "value 256 is not from -128 to 255");
+  EXPECT_EQ(pc_refused("write VB0"), "'VB0': a value is missing; write for example VB100=65");
+  EXPECT_EQ(pc_refused("slave-id"), "'slave-id' is not an action; there are read, write, raw, station, wait");
+  EXPECT_EQ(pc_refused(""), "nothing to do: give actions, for example read VB100:4");
+  for (const char* text : {"read", "read VB0:", "write VB0=", "write VB0=1,", "raw 0", "station 256", "wait 5"})
+    EXPECT_NE(pc_refused(text), "taken") << text;
+}
+
+TEST(FreeportPcAction, AnAnswerIsJudgedWithTheEndCharacterThatWasAgreed) {
+  const auto parse = [](const std::string& hex) { return serial::bytes_of(serial::parse_hex_frame(hex).frame); };
+  const Bytes response = parse("67 01 30 31 32 33 34 35 36 37 38 39 41 42 43 44 45 46 30 36 1A");
+  const auto judged = [&](const ProtocolUse& use) {
+    const auto request = parsed("read VB1000:2", use, freeport_pc_protocol()).at(0).request;
+    return request->judge(serial::bytes_of(request->frame()), response);
+  };
+  EXPECT_EQ(judged({.station = 2}).fault, "end character 16#1A, expected 16#26");
+  const serial::Answer right = judged({.station = 2, .given = {{"--end-character", "26"}}});
+  EXPECT_EQ(right.verdict, serial::Verdict::Right);
+  EXPECT_EQ(right.values, (std::vector<std::uint16_t>{0x01, 0x23}));
+  EXPECT_EQ(judged({.station = 2, .given = {{"--end-character", "16#1A"}}}).verdict, serial::Verdict::Right);
+}
+
+TEST(Protocols, EachHasANameOfItsOwnAndHelp) {
+  for (const Protocol* protocol : protocols()) {
+    EXPECT_EQ(find_protocol(protocol->name), protocol);
+    EXPECT_NE(protocols_help().find(protocol->actions_help), std::string::npos);
+    EXPECT_FALSE(protocol->actions_help.empty());
+    for (const ProtocolOption& option : protocol->options)
+      EXPECT_EQ(option.value.empty(), option.check == nullptr) << option.name;
+  }
+  EXPECT_EQ(find_protocol("frob"), nullptr);
 }
 
 TEST(ExchangeStatistics, CountsVerdictsAndMeasuresWhatAnswered) {
   ExchangeStatistics statistics;
   EXPECT_FALSE(statistics.latency());
-  for (int i = 1; i <= 200; ++i) statistics.add(modbus::Verdict::Right, i * kMillisecond);
+  for (int i = 1; i <= 200; ++i) statistics.add(serial::Verdict::Right, i * kMillisecond);
   EXPECT_FALSE(statistics.any_failed());
-  statistics.add(modbus::Verdict::Silent, {});
-  statistics.add(modbus::Verdict::Exception, kSecond);
+  statistics.add(serial::Verdict::Silent, {});
+  statistics.add(serial::Verdict::Exception, kSecond);
   statistics.add_retry();
   EXPECT_TRUE(statistics.any_failed());
   EXPECT_EQ(statistics.sent(), 202U);
-  EXPECT_EQ(statistics.count(modbus::Verdict::Silent), 1U);
+  EXPECT_EQ(statistics.count(serial::Verdict::Silent), 1U);
   const auto latency = statistics.latency();
   ASSERT_TRUE(latency);
   EXPECT_EQ(latency->least, kMillisecond);

@@ -32,10 +32,21 @@ std::vector<CLI::Option*> added_by(CLI::App& app, Add add) {
   return added;
 }
 
-std::string form_names() {
+std::string protocol_names() {
   std::string text;
-  for (const ValueFormName& form : value_forms()) text.append(text.empty() ? "" : ", ").append(form.name);
+  for (const Protocol* protocol : protocols()) text.append(text.empty() ? "" : ", ").append(protocol->name);
   return text;
+}
+
+/// `1; freeport-pc: 2`
+std::string usual_stations() {
+  std::string text = std::to_string(protocols().front()->station);
+  for (const Protocol* protocol : protocols().subspan(1)) text += fmt::format("; {}: {}", protocol->name, protocol->station);
+  return text;
+}
+
+bool has_option(const Protocol& protocol, std::string_view name) {
+  return std::ranges::any_of(protocol.options, [&](const ProtocolOption& option) { return option.name == name; });
 }
 
 }  // namespace
@@ -43,21 +54,19 @@ std::string form_names() {
 void MasterOptions::add_to(CLI::App& app) {
   app.add_option("TARGET", target, "a PROGRAM to run in simulation, a device, or an address; see below")->required();
   app.add_option("ACTION", words, "what to do, see below");
-  add_whole_number(app, "--station", station, {0, UINT8_MAX},
-                   "station to ask; 0 is all of them, which do not answer; above 247 only over Modbus TCP", "1");
-  app.add_option("--as", form, "how registers are shown: " + form_names())
+  app.add_option_function<std::string>(
+         "--protocol", [this](const std::string& name) { protocol = find_protocol(name); },
+         fmt::format("what to speak: {} [{}]", protocol_names(), protocol->name))
       ->check([](const std::string& name) {
-        return std::ranges::any_of(value_forms(), [&](const ValueFormName& known) { return known.name == name; })
+        return find_protocol(name) != nullptr
                    ? std::string()
-                   : fmt::format("'{}' is not a form; there are {}", stl::shortened(name), form_names());
+                   : fmt::format("'{}' is not a protocol; there are {}", stl::shortened(name), protocol_names());
       })
-      ->capture_default_str()
-      ->type_name("FORM");
-  app.add_flag("--low-word-first", rules.format.low_word_first, "in values of 32 bits the first register is the low one");
-  app.add_flag("--always-15", rules.always_15, "write single coils with function 15 too");
-  app.add_flag("--always-16", rules.always_16, "write single registers with function 16 too");
-  app.add_flag("--crc", rules.crc, "append the CRC to raw frames");
-  app.add_flag("--beyond-limits", rules.beyond_limits, "send what the specification forbids, to test a slave");
+      ->type_name("NAME");
+  add_whole_number(
+      app, "--station", [this](std::uint64_t given) { station_ = static_cast<std::uint8_t>(given); }, {0, UINT8_MAX},
+      "station to ask; in Modbus 0 is all of them, and above 247 needs Modbus TCP", usual_stations());
+  add_protocol_options(app);
   auto* interval = add_duration(app, "--every", every, "repeat all actions at this interval, in a table",
                                 {kMicrosecond, kLongestDuration});
   app.add_flag("--continuous", continuous, "repeat all actions without a pause; only failures and statistics are shown")
@@ -88,6 +97,28 @@ void MasterOptions::add_to(CLI::App& app) {
   });
 }
 
+/// Those of all protocols. What several have means the same to each of them.
+void MasterOptions::add_protocol_options(CLI::App& app) {
+  for (const Protocol* one : protocols())
+    for (const ProtocolOption& option : one->options) {
+      const std::string name(option.name);
+      if (app.get_option_no_throw(name) != nullptr) continue;
+      const std::string group = fmt::format("Options of --protocol {}", one->name);
+      if (option.value.empty()) {
+        app.add_flag_callback(
+               name, [this, name] { given_[name]; }, option.meaning)
+            ->group(group);
+        continue;
+      }
+      app.add_option_function<std::string>(
+             name, [this, name](const std::string& value) { given_[name] = value; },
+             option.standard.empty() ? option.meaning : fmt::format("{} [{}]", option.meaning, option.standard))
+          ->check([check = option.check](const std::string& value) { return check(value); })
+          ->type_name(std::string(option.value))
+          ->group(group);
+    }
+}
+
 void MasterOptions::refuse_what_does_not_fit(Kind kind) const {
   // In simulation nothing but the reader slows down what would be written for ever.
   const bool floods = open_ended() && (polls() || json || verbose) && !isatty(STDOUT_FILENO);
@@ -95,19 +126,22 @@ void MasterOptions::refuse_what_does_not_fit(Kind kind) const {
     throw std::invalid_argument(
         fmt::format("{} without --count never ends, and a simulation writes as fast as it can: say how often with --count N",
                     polls() ? "--every" : "--continuous"));
+  for (const auto& [name, value] : given_)
+    for (const Protocol* one : protocols())
+      if (!has_option(*protocol, name) && has_option(*one, name))
+        throw std::invalid_argument(fmt::format("{} needs --protocol {}", name, one->name));
+  if (kind == Kind::ModbusTcp && !protocol->over_modbus_tcp)
+    throw std::invalid_argument(fmt::format(
+        "modbus-tcp:// carries nothing but Modbus; --protocol {} needs a PROGRAM, a serial device, or tcp://HOST:PORT",
+        protocol->name));
   if (kind != Kind::Program) refuse_options(for_programs_, "a PROGRAM to run in simulation");
   if (kind == Kind::Tcp || kind == Kind::ModbusTcp)
     refuse_options(for_lines_, "a serial line; the target is a connection over TCP");
   if (kind == Kind::ModbusTcp) refuse_options(for_rtu_, "Modbus RTU; Modbus TCP sends whole frames");
 }
 
-std::vector<MasterAction> MasterOptions::actions(bool over_tcp) {
-  for (const ValueFormName& name : value_forms())
-    if (name.name == form) rules.format.form = name.form;
-  // 255 is a Modbus TCP server itself, not a station behind it (Modbus Messaging on TCP/IP, 4.4.2).
-  rules.last_station = rules.beyond_limits || over_tcp ? UINT8_MAX : modbus::kLastStation;
-  rules.station = static_cast<std::uint8_t>(parse_number(std::to_string(station), 0, rules.last_station, "--station"));
-  return parse_actions(words, rules);
+std::vector<MasterAction> MasterOptions::actions(bool over_tcp) const {
+  return protocol->actions(words, {station_.value_or(protocol->station), over_tcp, given_});
 }
 
 std::uint64_t MasterOptions::rounds() const { return open_ended() ? UINT64_MAX : std::max<std::uint64_t>(count, 1); }
@@ -122,6 +156,6 @@ SessionSettings MasterOptions::session(bool broadcasts_are_silent) const {
           broadcasts_are_silent};
 }
 
-MasterOutputSettings MasterOptions::output() const { return {json, verbose, continuous, every, rounds(), rules.format}; }
+MasterOutputSettings MasterOptions::output() const { return {json, verbose, continuous, every, rounds()}; }
 
 }  // namespace s7200::tools

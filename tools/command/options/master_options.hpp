@@ -1,13 +1,15 @@
 // The options of `s7200 master`.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tools/command/master_output.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/options/rig_options.hpp"
-#include "tools/master/action.hpp"
+#include "tools/master/protocol.hpp"
 #include "tools/slave/slave_target.hpp"
 
 namespace CLI {
@@ -20,9 +22,7 @@ namespace s7200::tools {
 struct MasterOptions {
   std::string target;
   std::vector<std::string> words;
-  ActionRules rules;
-  int station = 1;
-  std::string form = std::string(value_forms().front().name);
+  const Protocol* protocol = protocols().front();
   bool verbose = false, json = false, continuous = false;
   Time every = kNever;      ///< kNever: no polling
   std::uint64_t count = 0;  ///< rounds; 0: one, or until Ctrl-C
@@ -36,11 +36,11 @@ struct MasterOptions {
 
   void add_to(CLI::App& app);
 
-  /// Throws std::invalid_argument if options were given that such a target has no use for, or without end.
+  /// Throws std::invalid_argument if options were given that such a target or the protocol has no use for, or without end.
   void refuse_what_does_not_fit(SlaveTarget::Kind kind) const;
 
   /// Throws std::invalid_argument if an action is wrong. `over_tcp`: stations are units of Modbus TCP.
-  std::vector<MasterAction> actions(bool over_tcp);
+  std::vector<MasterAction> actions(bool over_tcp) const;
 
   SessionSettings session(bool broadcasts_are_silent) const;
   MasterOutputSettings output() const;
@@ -49,7 +49,11 @@ struct MasterOptions {
   bool open_ended() const { return count == 0 && (polls() || continuous); }
 
  private:
+  void add_protocol_options(CLI::App& app);
   std::uint64_t rounds() const;
+
+  std::optional<std::uint8_t> station_;
+  std::map<std::string, std::string, std::less<>> given_;  // options of protocols, by name
 
   std::vector<CLI::Option*> for_programs_, for_lines_, for_rtu_;  // that other targets have no use for
 };

@@ -1,0 +1,113 @@
+// What a master needs of a protocol. Each is a file of its own that implements this, and a row in protocols.cpp.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/base/serial_format.hpp"
+#include "serial_sim/line/frame.hpp"
+#include "serial_sim/peers/answer.hpp"
+
+namespace s7200::tools {
+
+/// A request, and what answers to it mean, in the protocol's own terms.
+class ProtocolRequest {
+ public:
+  virtual ~ProtocolRequest() = default;
+
+  /// What to send next. Mostly the same each time.
+  virtual serial::Frame frame() = 0;
+
+  /// For a request that none answers, a broadcast: how long the line is left to the slaves.
+  virtual std::optional<Time> turnaround() const { return {}; }
+
+  virtual serial::Answer judge(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response) const = 0;
+
+  /// What an exception's code means: `illegal data address`.
+  virtual std::string_view exception_name(std::uint8_t code) const = 0;
+
+  /// Who is asked for what: `station 1, function 3, holding registers 10…11`. Empty for a raw frame.
+  virtual std::string subject() const = 0;
+
+  /// What a right answer says: in one line, and in a line for each value with its address. `response` is not empty.
+  virtual std::string in_short(const serial::Answer& answer, std::span<const std::uint8_t> request,
+                               std::span<const std::uint8_t> response) const = 0;
+  virtual std::vector<std::string> in_lines(const serial::Answer& answer, std::span<const std::uint8_t> request,
+                                            std::span<const std::uint8_t> response) const = 0;
+
+  /// The keys from `station` to `count` of the JSON, null where they do not apply; and `decoded`.
+  virtual nlohmann::ordered_json subject_json(std::span<const std::uint8_t> request) const = 0;
+  virtual nlohmann::ordered_json decoded_json(const serial::Answer& answer) const = 0;
+};
+
+/// What is to be done.
+struct MasterAction {
+  enum class Kind : std::uint8_t {
+    Request,
+    Raw,      ///< a frame as it was written
+    Station,  ///< from here on to this one
+    Wait,
+  };
+
+  Kind kind = Kind::Request;
+  std::string text;                            ///< as it was written: `read 40011:2`
+  std::uint8_t station = 1;                    ///< that is asked; of Raw, the first byte
+  std::shared_ptr<ProtocolRequest> request{};  ///< of Request and Raw
+  Time duration = 0;                           ///< of Wait
+};
+
+/// An option that only some protocols have.
+struct ProtocolOption {
+  std::string_view name;                               ///< `--end-character`
+  std::string_view value;                              ///< its value in the help: `FORM`; empty for a flag
+  std::string meaning;                                 ///< for the help
+  std::string standard{};                              ///< value without the option
+  std::string (*check)(const std::string&) = nullptr;  ///< what is wrong with a value; nothing if it is right
+};
+
+/// How a protocol is to be used.
+struct ProtocolUse {
+  std::uint8_t station = 1;                                 ///< until an action changes it
+  bool over_modbus_tcp = false;                             ///< stations are units
+  std::map<std::string, std::string, std::less<>> given{};  ///< its options by name; flags with any value
+
+  bool has(std::string_view option) const { return given.contains(option); }
+};
+
+struct Protocol {
+  std::string_view name, meaning;  ///< on the command line, and in its help
+  std::uint8_t station;            ///< that is asked if none is named
+  SerialFormat format;             ///< of a device, as far as options leave it open
+  bool over_modbus_tcp;            ///< it can be spoken there
+  std::vector<ProtocolOption> options;
+  std::string actions_help;  ///< a table for people
+
+  /// Throws std::invalid_argument for the first word that cannot be done, so that nothing is sent if any of them is wrong.
+  std::vector<MasterAction> (*actions)(const std::vector<std::string>& words, const ProtocolUse& use);
+
+  /// Whether characters are a complete answer: nothing more has to be waited for.
+  bool (*is_complete)(std::span<const std::uint8_t> response);
+};
+
+/// All of them; the first is spoken if none is named.
+std::span<const Protocol* const> protocols();
+
+/// Null if there is none of this name.
+const Protocol* find_protocol(std::string_view name);
+
+/// The frames of the actions that are raw ones, as they were written.
+std::vector<std::string> raw_frames(const std::vector<MasterAction>& actions);
+
+/// All of them with their actions, for --help.
+std::string protocols_help();
+
+const Protocol& modbus_protocol();
+const Protocol& freeport_pc_protocol();
+
+}  // namespace s7200::tools

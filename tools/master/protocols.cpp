@@ -1,0 +1,35 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "tools/master/protocol.hpp"
+
+namespace s7200::tools {
+
+std::span<const Protocol* const> protocols() {
+  static const std::array kProtocols{&modbus_protocol(), &freeport_pc_protocol()};
+  return kProtocols;
+}
+
+const Protocol* find_protocol(std::string_view name) {
+  const auto found = std::ranges::find_if(protocols(), [&](const Protocol* protocol) { return protocol->name == name; });
+  return found == protocols().end() ? nullptr : *found;
+}
+
+std::vector<std::string> raw_frames(const std::vector<MasterAction>& actions) {
+  constexpr std::string_view kWord = "raw ";
+  std::vector<std::string> frames;
+  for (const MasterAction& action : actions)
+    if (action.kind == MasterAction::Kind::Raw) frames.push_back(action.text.substr(kWord.size()));
+  return frames;
+}
+
+std::string protocols_help() {
+  std::string text = "Protocols:\n";
+  for (const Protocol* protocol : protocols()) text += fmt::format("  {:<38}{}\n", protocol->name, protocol->meaning);
+  for (const Protocol* protocol : protocols()) text += protocol->actions_help;
+  return text;
+}
+
+}  // namespace s7200::tools

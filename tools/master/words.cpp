@@ -1,0 +1,44 @@
+#include "tools/master/words.hpp"
+
+#include "interpreter/base/numbers.hpp"
+#include "tools/views/register_text.hpp"
+
+namespace s7200::tools {
+
+void refuse(const std::string& why) { throw std::invalid_argument(why); }
+
+std::optional<std::pair<std::string, std::string>> split_at(const std::string& text, char separator) {
+  const std::size_t place = text.find(separator);
+  if (place == std::string::npos) return {};
+  return std::pair{text.substr(0, place), text.substr(place + 1)};
+}
+
+serial::Frame parse_hex(const std::string& text) {
+  serial::ParsedFrame parsed = serial::parse_hex_frame(text);
+  if (!parsed.ok())
+    refuse(fmt::format("'{}': column {}: {}", stl::shortened(text), parsed.errors[0].column, parsed.errors[0].message));
+  return std::move(parsed.frame);
+}
+
+void WordParser::station(const Words& operands) {
+  station_ = static_cast<std::uint8_t>(parse_number(operands[0], 0, last_station_, "station"));
+  actions_.push_back({.kind = MasterAction::Kind::Station, .text = text_, .station = station_});
+}
+
+void WordParser::wait(const Words& operands) {
+  std::string why;
+  const auto duration = parse_duration_in(operands[0], {0, kLongestDuration}, why);
+  if (!duration) refuse(fmt::format("{}: {}", text_, why));
+  actions_.push_back({.kind = MasterAction::Kind::Wait, .text = text_, .station = station_, .duration = *duration});
+}
+
+void WordParser::add(std::shared_ptr<ProtocolRequest> request) {
+  actions_.push_back({.text = text_, .station = station_, .request = std::move(request)});
+}
+
+void WordParser::add_raw(const std::string& text, std::uint8_t station, std::shared_ptr<ProtocolRequest> request) {
+  actions_.push_back(
+      {.kind = MasterAction::Kind::Raw, .text = "raw " + text, .station = station, .request = std::move(request)});
+}
+
+}  // namespace s7200::tools

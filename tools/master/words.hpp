@@ -1,0 +1,103 @@
+// Words on the command line to actions: what all protocols have in common.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "interpreter/base/text.hpp"
+#include "tools/master/protocol.hpp"
+
+namespace s7200::tools {
+
+using Words = std::vector<std::string>;
+
+[[noreturn]] void refuse(const std::string& why);
+
+/// `text` up to `separator`, and what comes after it; nothing if it is not there.
+std::optional<std::pair<std::string, std::string>> split_at(const std::string& text, char separator);
+
+/// Throws std::invalid_argument.
+serial::Frame parse_hex(const std::string& text);
+
+/// A word that begins an action, the operands it takes, and the member of `Parser` that reads them.
+template <class Parser>
+struct Verb {
+  std::string_view word, operands, meaning;
+  std::size_t least, most;  // operands
+  void (Parser::*parse)(const Words&);
+};
+
+inline constexpr std::size_t kMany = SIZE_MAX;
+
+/// What a parser of words has for every protocol: a station that an action changes, pauses, and the actions so far.
+class WordParser {
+ public:
+  WordParser(std::uint8_t station, std::uint8_t last_station) : station_(station), last_station_(last_station) {}
+
+  void station(const Words& operands);
+  void wait(const Words& operands);
+
+ protected:
+  void add(std::shared_ptr<ProtocolRequest> request);
+  /// `text`: the frame as it was written.
+  void add_raw(const std::string& text, std::uint8_t station, std::shared_ptr<ProtocolRequest> request);
+
+  /// Each verb with the words up to the next one. `example`: an action.
+  template <class Parser>
+  std::vector<MasterAction> parse_with(Parser& parser, std::span<const Verb<Parser>> verbs, const Words& words,
+                                       std::string_view example);
+
+  std::string text_;  // of the action at hand
+  std::uint8_t station_;
+
+ private:
+  std::uint8_t last_station_;
+  std::vector<MasterAction> actions_;
+};
+
+template <class Parser>
+std::vector<MasterAction> WordParser::parse_with(Parser& parser, std::span<const Verb<Parser>> verbs, const Words& words,
+                                                 std::string_view example) {
+  const auto find_verb = [&](const std::string& word) {
+    const auto verb = std::ranges::find_if(verbs, [&](const Verb<Parser>& v) { return v.word == word; });
+    return verb == verbs.end() ? nullptr : &*verb;
+  };
+  if (words.empty()) refuse(fmt::format("nothing to do: give actions, for example {}", example));
+  for (std::size_t place = 0; place < words.size();) {
+    const Verb<Parser>* verb = find_verb(words[place]);
+    if (verb == nullptr) {
+      std::string known;
+      for (const Verb<Parser>& one : verbs) known.append(known.empty() ? "" : ", ").append(one.word);
+      refuse(fmt::format("'{}' is not an action; there are {}", stl::shortened(words[place]), known));
+    }
+    const auto first = words.begin() + static_cast<std::ptrdiff_t>(place) + 1;
+    const auto last = std::find_if(first, words.end(), [&](const std::string& word) { return find_verb(word) != nullptr; });
+    const Words operands(first, last);
+    if (operands.size() < verb->least || operands.size() > verb->most)
+      refuse(fmt::format("write it as: {}{}{}", verb->word, verb->operands.empty() ? "" : " ", verb->operands));
+    text_ = fmt::format("{}{}{}", verb->word, operands.empty() ? "" : " ", fmt::join(operands, " "));
+    (parser.*verb->parse)(operands);
+    place += 1 + operands.size();
+  }
+  return std::move(actions_);
+}
+
+/// The verbs in a table for people.
+template <class Parser>
+std::string verbs_help(std::span<const Verb<Parser>> verbs) {
+  std::string text;
+  for (const Verb<Parser>& verb : verbs)
+    text += fmt::format("  {:<38}{}\n", fmt::format("{} {}", verb.word, verb.operands), verb.meaning);
+  return text;
+}
+
+}  // namespace s7200::tools
