@@ -7,7 +7,8 @@
 namespace s7200 {
 
 bool Core::in_area(std::uint32_t at, std::uint32_t count) const {
-  if (at >= image::kV) return at + count <= image::kV + model().size_of(Area::V);  // where most blocks are
+  if (at >= image::kV && at < image::kL)  // where most blocks are
+    return at + count <= image::kV + model().size_of(Area::V);
   for (const AreaInfo& area : all_areas()) {
     const std::uint32_t size = model().size_of(area.area) * std::max(1u, area.element);
     if (at >= area.base && at < area.base + size) return at + count <= area.base + size;
@@ -69,6 +70,15 @@ void run_with_pointers(Core& core, const Op& op) {
   for (Operand& operand : direct.operand)
     if (operand.pointer && !follow_pointer(core, op, operand)) return;
   op.direct_body()(core, direct);
+}
+
+void run_with_eno(Core& core, const Op& op) {
+  const Instruction& box = *op.instruction;
+  const std::uint64_t errors = core.s.error_count;
+  core.s.eno = true;
+  core.program().box_body[op.statement](core, op);
+  const bool failed = box.rung.eno == Eno::ErrorsAndFlags && (core.s.image[sm::kFlags] & box.flags & kFailures) != 0;
+  if (failed || core.s.error_count != errors) core.s.eno = false;
 }
 
 void run_with_pointer_first(Core& core, const Op& op) {

@@ -54,6 +54,7 @@ void Cpu::execute_plain() {
     if (op.power_mask & ~s.stack.bits()) {
       s.time += no_power_flow;
       s.pc = op.skip_to;
+      s.eno &= !op.sets_eno;
     } else {
       s.time += op.cost;
       s.pc = loop.op + 1;
@@ -86,6 +87,7 @@ void Cpu::execute_observed() {
     } else {
       s.time += core_.program().no_power_flow;
       s.pc = op.skip_to;
+      s.eno &= !op.sets_eno;
     }
     record.end = s.time;
     record.top = s.stack.top();

@@ -94,7 +94,7 @@ void take(Core& core) {
   State& s = core.s;
   const QueuedInterrupt interrupt = next_queued(s);
   local_memory::put_aside(core);
-  s.saved = {s.pc, s.stack, s.rail, {}, s.image[sm::kFlags], s.call_depth};
+  s.saved = {s.pc, s.stack, s.rail, s.eno, {}, s.image[sm::kFlags], s.call_depth};
   std::copy_n(s.image.begin() + image::kAC, s.saved.accumulators.size(), s.saved.accumulators.begin());
   units::begin_service(core, interrupt);
   s.in_interrupt = true;
@@ -104,6 +104,7 @@ void take(Core& core) {
   s.serving_since = s.time;
   s.stack = LogicStack::on_entry();
   s.rail = true;
+  s.eno = true;
   s.pc = core.program().interrupt[s.serving_routine];
   core.trace({.at = s.time,
               .kind = TraceKind::ServiceBegin,
@@ -127,6 +128,7 @@ void return_from(Core& core) {
   s.pc = s.saved.return_to;
   s.stack = s.saved.stack;
   s.rail = s.saved.rail;
+  s.eno = s.saved.eno;
   std::copy(s.saved.accumulators.begin(), s.saved.accumulators.end(), s.image.begin() + image::kAC);
   s.image[sm::kFlags] = s.saved.smb1;
   forget_overflow_if_idle(core);

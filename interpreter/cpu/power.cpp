@@ -8,6 +8,9 @@
 
 namespace s7200::power {
 
+/// Of a port that the user has not configured (facts 10.9).
+constexpr std::uint8_t kDefaultStation = 2;
+
 void up(Core& core, bool run, const RetentiveMemory* memory) {
   core.s = State{};
   const auto& constants = core.program().constants;
@@ -15,6 +18,7 @@ void up(Core& core, bool run, const RetentiveMemory* memory) {
   for (const Op& op : core.program().ops)
     if (op.instruction->hidden == Hidden::RisingMemory) core.put_bit(op[2].at, op[2].bit, true);
   core.s.image[sm::kIdentification] = core.model().identification;
+  core.s.station.fill(kDefaultStation);
   units::power_up(core, memory);
   if (run) scan::enter_run(core);
   scan::begin(core);

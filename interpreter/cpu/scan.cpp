@@ -75,6 +75,7 @@ void begin_program(Core& core) {
   s.pc = 0;
   s.stack = {};
   s.rail = true;
+  s.eno = true;
   local_memory::put_aside(core);
   s.call_depth = 0;
   local_memory::take_up(core);
@@ -193,6 +194,7 @@ void return_from_subroutine(Core& core) {
   s.pc = frame.return_to;
   s.stack = frame.stack;
   s.rail = frame.rail;
+  s.eno = true;
 }
 
 void power_up(Core& core, const RetentiveMemory*) { core.s.image[sm::kScanStatus] = sm::kAlwaysOn | sm::kFromPowerUp; }

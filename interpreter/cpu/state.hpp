@@ -72,11 +72,12 @@ struct InterruptQueue {
   bool operator==(const InterruptQueue&) const = default;
 };
 
-/// What is saved around an interrupt routine: logic stack, accumulators, SMB1 (facts 3.2), and the power rail.
+/// What is saved around an interrupt routine: logic stack, accumulators, SMB1 (facts 3.2), the power rail and ENO.
 struct SavedContext {
   std::uint32_t return_to = 0;
   LogicStack stack{};
   bool rail = true;
+  bool eno = true;
   std::array<std::uint8_t, 16> accumulators{};
   std::uint8_t smb1 = 0;
   std::uint8_t call_depth = 0;  ///< not restored from here: it is where an interrupt routine's own calls begin
@@ -123,7 +124,9 @@ struct Freeport {
 
 struct TimerState {
   std::int16_t preset = 0;  ///< at its last execution
-  bool enabled = false;     ///< its input at its last execution
+  bool enabled = false;     ///< it counts: a TON or TONR whose input was on, a TOF whose input has gone off
+  bool off_delay = false;   ///< a TOF
+  bool input = false;       ///< of a TOF, at its last execution
   Time since = 0;           ///< end of the execution that enabled it
   bool operator==(const TimerState&) const = default;
 };
@@ -179,6 +182,7 @@ struct State {
   std::uint32_t pc = 0;  ///< op to execute next
   LogicStack stack{};
   bool rail = true;  ///< top of the SCR stack: the S bit as LSCR loaded it; on outside segments
+  bool eno = true;   ///< of the last box; kept only in programs with AENO
   Mode mode = Mode::Stop;
   Phase phase = Phase::ReadInputs;
   Time phase_left = 0;  ///< of a phase other than Program
@@ -213,7 +217,9 @@ struct State {
   std::array<PulseOutput, 2> pulse{};
   ClockTime clock{};
   Time clock_set_at = 0;
-  std::array<std::uint8_t, 10240> eeprom{};  ///< permanent V memory
+  std::array<std::uint8_t, kPorts.size()> station{};  ///< addresses on the network
+  bool diagnostic_led = false;                        ///< yellow, by DLED
+  std::array<std::uint8_t, 10240> eeprom{};           ///< permanent V memory
 
   std::uint16_t fatal_code = 0;
   std::uint32_t fatal_op = 0;

@@ -14,11 +14,21 @@ std::int64_t ticks(Time base, Time from, Time to) {
   return std::min(to / base - from / base, kLongest / base);
 }
 
-void add_ticks(Core& core, std::uint32_t timer, std::int64_t ticks) {
-  std::uint8_t* const current = &core.s.image[image::kT + 2 * timer];
-  const std::int64_t value = std::min<std::int64_t>(static_cast<std::int16_t>(load16(current)) + ticks, 32767);
+void put_bit(Core& core, std::uint32_t timer, bool value) {
+  core.put_bit(image::kTBits + timer / 8, static_cast<std::uint8_t>(timer % 8), value);
+}
+
+/// A TOF stops at its preset and its bit goes off; others count on to 32767, with their bit on from the preset on.
+void add_ticks(Core& core, std::uint32_t number, std::int64_t ticks) {
+  TimerState& timer = core.s.timer[number];
+  std::uint8_t* const current = &core.s.image[image::kT + 2 * number];
+  const std::int64_t before = static_cast<std::int16_t>(load16(current));
+  const std::int64_t last = timer.off_delay ? std::max<std::int64_t>(before, timer.preset) : 32767;
+  const std::int64_t value = std::min(before + ticks, last);
+  const bool reached = value >= timer.preset;
   store16(current, static_cast<std::uint16_t>(value));
-  core.put_bit(image::kTBits + timer / 8, static_cast<std::uint8_t>(timer % 8), value >= core.s.timer[timer].preset);
+  put_bit(core, number, reached != timer.off_delay);
+  if (timer.off_delay && reached) timer.enabled = false;
 }
 
 void await_tick_1ms(Core& core, Time from) {
@@ -28,8 +38,11 @@ void await_tick_1ms(Core& core, Time from) {
 }
 
 void turn_off(State& s, std::uint32_t first, std::uint32_t count) {
-  for (std::uint32_t number = first; number < first + count; ++number)
-    if (timer_base(number).base < 100 * kMillisecond) s.timer[number].enabled = false;
+  for (std::uint32_t number = first; number < first + count; ++number) {
+    TimerState& timer = s.timer[number];
+    timer.input = false;
+    if (timer.off_delay || timer_base(number).base < 100 * kMillisecond) timer.enabled = false;
+  }
 }
 
 }  // namespace
@@ -39,10 +52,26 @@ void execute(Core& core, std::uint32_t number, bool enabled, std::int16_t preset
   TimerState& timer = s.timer[number];
   const bool was_enabled = timer.enabled;
   const Time base = timer_base(number).base;
-  timer = {preset, enabled, was_enabled ? timer.since : s.time};
+  timer = {.preset = preset, .enabled = enabled, .since = was_enabled ? timer.since : s.time};
   if (!enabled && retentive) return;
   if (!retentive && !(enabled && was_enabled)) store16(&s.image[image::kT + 2 * number], 0);
-  if (!enabled) return core.put_bit(image::kTBits + number / 8, static_cast<std::uint8_t>(number % 8), false);
+  if (!enabled) return put_bit(core, number, false);
+  add_ticks(core, number, was_enabled && base == 100 * kMillisecond ? s.ticks_100ms : 0);
+  if (base == kMillisecond && s.next_tick_1ms == kNever) await_tick_1ms(core, s.time);
+}
+
+void execute_off_delay(Core& core, std::uint32_t number, bool input, std::int16_t preset, bool powered) {
+  State& s = core.s;
+  TimerState& timer = s.timer[number];
+  const bool goes_off = timer.input && !input && powered, was_enabled = timer.enabled;
+  timer = {.preset = preset,
+           .enabled = powered && !input && (was_enabled || goes_off),
+           .off_delay = true,
+           .input = input && powered,
+           .since = was_enabled ? timer.since : s.time};
+  if (input || goes_off || !powered) store16(&s.image[image::kT + 2 * number], 0);
+  if (!timer.enabled) return put_bit(core, number, timer.input);
+  const Time base = timer_base(number).base;
   add_ticks(core, number, was_enabled && base == 100 * kMillisecond ? s.ticks_100ms : 0);
   if (base == kMillisecond && s.next_tick_1ms == kNever) await_tick_1ms(core, s.time);
 }

@@ -9,9 +9,12 @@ namespace s7200::timers {
 /// TON, or TONR if `retentive`. `preset` is in ticks of the timer's time base.
 void execute(Core& core, std::uint32_t number, bool enabled, std::int16_t preset, bool retentive);
 
+/// TOF. `powered`: not in a segment that is off, where a TOF is reset instead of timing.
+void execute_off_delay(Core& core, std::uint32_t number, bool input, std::int16_t preset, bool powered);
+
 /// R on `count` timers or counters: their current values become 0. A timer of 1 or 10 ms then stops until its instruction is
 /// executed with power flow again; a timer of 100 ms counts in its instruction, so it goes on (S7-200 manual C230-02, 10-14
-/// and 10-15).
+/// and 10-15). A TOF starts again when its input goes off again.
 void clear_current_values(Core& core, const Operand& first, std::uint32_t count);
 
 // For the table of units.

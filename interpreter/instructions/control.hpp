@@ -47,6 +47,10 @@ inline void begin_segment(Core& core, const Op& op) {
 
 inline void end_segment(Core& core, const Op&) { core.s.rail = true; }
 
+/// CSCRE goes to the SCRE of its segment; the S bit and the logic stack stay as they are.
+/// Not documented, modelled so: that SCRE takes its time. [Vectors.CSCRE]
+inline void leave_segment(Core& core, const Op& op) { core.jump(op.target); }
+
 /// SCRT: switches the next segment's bit on and the bit of the enclosing LSCR (operand 2, added at load) off.
 inline void segment_transition(Core& core, const Op& op) {
   core.put_bit(op[2].at, op[2].bit, false);

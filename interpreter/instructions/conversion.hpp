@@ -39,11 +39,30 @@ inline void to_bcd(Core& core, const Op& op) {
 
 inline void integer_to_real(Core& core, const Op& op) { core.put(op[1], static_cast<float>(core.get<std::int32_t>(op[0]))); }
 
-/// TRUNC: toward zero; a value that does not fit sets SM1.1 and stores nothing.
-inline void truncate(Core& core, const Op& op) {
-  const float value = std::trunc(core.get<float>(op[0]));
+/// TRUNC: toward zero; ROUND: to the nearest. A value that does not fit sets SM1.1 and stores nothing.
+/// Not documented, modelled so: ROUND takes a half away from zero. [Vectors.ROUND]
+template <bool nearest>
+void to_integer(Core& core, const Op& op) {
+  const auto real = core.get<float>(op[0]);
+  const float value = nearest ? std::round(real) : std::trunc(real);
   if (!(value >= -2147483648.0f && value < 2147483648.0f)) return core.set_flags(kOverflow, kOverflow);
   core.put(op[1], static_cast<std::int32_t>(value));
+  core.set_flags(kOverflow, 0);
+}
+
+/// BTI, ITD: a byte has no sign, an integer has one.
+template <class From, class To>
+void widen(Core& core, const Op& op) {
+  core.put(op[1], static_cast<To>(core.get<From>(op[0])));
+}
+
+/// ITB, DTI: a value that does not fit sets SM1.1 and stores nothing.
+template <class From, class To>
+void narrow(Core& core, const Op& op) {
+  const auto value = core.get<From>(op[0]);
+  const auto result = static_cast<To>(value);
+  if (result != value) return core.set_flags(kOverflow, kOverflow);
+  core.put(op[1], result);
   core.set_flags(kOverflow, 0);
 }
 

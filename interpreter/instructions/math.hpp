@@ -11,6 +11,7 @@
 // - -32768 / -1 is an overflow of DIV: the wrapped quotient is 16#8000, the remainder 0. [Vectors.DIV]
 #pragma once
 
+#include <limits>
 #include <type_traits>
 
 #include "interpreter/cpu/core.hpp"
@@ -99,6 +100,27 @@ inline void divide(Core& core, const Op& op) {
   core.set_flags(kDivisionByZero, 0);
   if (!overflow || !keeps_operands(core)) core.put(op[1], static_cast<std::int16_t>(dividend % divisor));
   store_result(core, low_word(op[1]), quotient, overflow);
+}
+
+/// *I, *D: the product has the width of its factors; if it does not fit, OUT stays and the other flags are 0 (facts 6.6).
+template <class Signed>
+void multiply_narrow(Core& core, const Op& op) {
+  Signed product;
+  if (__builtin_mul_overflow(core.get<Signed>(op[1]), core.get<Signed>(op[0]), &product))
+    return core.set_flags(kMultiplyDivide, kOverflow);
+  core.put(op[1], product);
+  core.set_flags(kMultiplyDivide, sign_flags(product));
+}
+
+/// /I, /D: no remainder. Division by zero sets SM1.3 and changes nothing else.
+template <class Signed>
+void divide_narrow(Core& core, const Op& op) {
+  const auto dividend = core.get<Signed>(op[1]), divisor = core.get<Signed>(op[0]);
+  if (divisor == 0) return core.set_flags(kDivisionByZero, kDivisionByZero);
+  if (divisor == -1 && dividend == std::numeric_limits<Signed>::min()) return core.set_flags(kMultiplyDivide, kOverflow);
+  const auto quotient = static_cast<Signed>(dividend / divisor);
+  core.put(op[1], quotient);
+  core.set_flags(kMultiplyDivide, sign_flags(quotient));
 }
 
 enum class Logic { And, Or, Xor };

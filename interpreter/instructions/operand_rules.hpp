@@ -13,11 +13,13 @@ inline constexpr Areas kInputs = set_of(Area::I), kOutputs = set_of(Area::Q), kS
 inline constexpr Areas kAnalogInputs = set_of(Area::AI), kAnalogOutputs = set_of(Area::AQ);
 inline constexpr Areas kLocal = set_of(Area::L);  // of the CPUs that have it
 inline constexpr Areas kTimers = set_of(Area::T), kCounters = set_of(Area::C);
-inline constexpr Areas kMemory = kInputs | kOutputs | kSegments | set_of(Area::M) | set_of(Area::SM) | set_of(Area::V) | kLocal;
+inline constexpr Areas kMemory =
+    kInputs | kOutputs | kSegments | set_of(Area::M) | set_of(Area::SM) | set_of(Area::V) | kLocal;
 inline constexpr Areas kMemoryTC = kMemory | kTimers | kCounters;                                       // bits, words
 inline constexpr Areas kValue = kMemory | set_of(Area::AC), kWordValue = kMemoryTC | set_of(Area::AC);  // others, words
 inline constexpr Areas kReadWord = kWordValue | kAnalogInputs, kWriteWord = kWordValue | kAnalogOutputs;
 inline constexpr Areas kLasting = kMemory & ~kLocal;  // XMT and RCV use it long after their routine has ended
+inline constexpr Areas kVMemory = set_of(Area::V), kStringMemory = kVMemory | kLocal;
 inline constexpr Areas kReadDword = kValue | set_of(Area::HC);
 
 inline constexpr std::int64_t kLargestByte = 255;
@@ -108,6 +110,21 @@ inline constexpr OperandRule
     kSwapped   = named("IN", kInOutWord),
     kDataOut   = named("DATA", kOutWordOrAnalog);
 
+inline constexpr OperandRule
+    kFormat     = named("FMT", kInByte),
+    kAddressIn  = named("ADDR", kInByte),
+    kAddressOut = named("ADDR", kOutByte),
+    kIndexInOut = named("OUT", kInOutByte);
+
+// What the manual counts from 1.
+inline constexpr OperandRule
+    kIndex{.name = "INDX", .width = Width::Byte, .areas = kValue, .constant = true, .pointer = true, .sign = Sign::Unsigned, .min = 1, .max = kLargestByte};
+
+// Eight points at once: a pointer must point to them, too.
+inline constexpr OperandRule
+    kInputByte {.name = "IN",  .width = Width::Byte,                    .areas = kInputs,  .pointer = true},
+    kOutputByte{.name = "OUT", .width = Width::Byte, .role = Role::Out, .areas = kOutputs, .pointer = true};
+
 // --- blocks: as many elements as the count says; a byte holds two hexadecimal digits ---
 
 inline constexpr OperandRule
@@ -126,14 +143,31 @@ inline constexpr OperandRule
     // Its length, the number of its entries, and at least one of them; FND is given the number of entries and what follows it.
     kTable   {.name = "TBL", .width = Width::Word, .role = Role::InOut, .areas = kMemoryTC, .pointer = true, .elements = 3},
     kEntries {.name = "SRC", .width = Width::Word,                      .areas = kMemoryTC, .pointer = true},
+    kPidLoop {.name = "TBL", .width = Width::Byte, .role = Role::InOut, .areas = kVMemory,                   .elements = 36},  // nine reals
     kMessage {.name = "TBL", .width = Width::Byte,                      .areas = kLasting,  .pointer = true},
     kReceived{.name = "TBL", .width = Width::Byte, .role = Role::Out,   .areas = kLasting,  .pointer = true},
     kClockIn {.name = "T",   .width = Width::Byte,                      .areas = kMemory,   .pointer = true, .elements = 8},
     kClockOut{.name = "T",   .width = Width::Byte, .role = Role::Out,   .areas = kMemory,   .pointer = true, .elements = 8};
 
+// --- strings and text: from the length byte, or the first character, on ---
+
+inline constexpr OperandRule
+    kInString   {.name = "IN",  .width = Width::Byte,                      .areas = kStringMemory, .constant = true, .pointer = true, .text = true},
+    kOutString  {.name = "OUT", .width = Width::Byte, .role = Role::Out,   .areas = kStringMemory,                   .pointer = true, .text = true},
+    kInOutString{.name = "OUT", .width = Width::Byte, .role = Role::InOut, .areas = kStringMemory,                   .pointer = true, .text = true},
+    kOutString8 {.name = "OUT", .width = Width::Byte, .role = Role::Out,   .areas = kStringMemory,                   .pointer = true, .text = true, .elements = 9},
+    kOutString12{.name = "OUT", .width = Width::Byte, .role = Role::Out,   .areas = kStringMemory,                   .pointer = true, .text = true, .elements = 13},
+    kOutText    {.name = "OUT", .width = Width::Byte, .role = Role::Out,   .areas = kMemory,                         .pointer = true,               .elements = 3},
+    kOutText8   {.name = "OUT", .width = Width::Byte, .role = Role::Out,   .areas = kMemory,                         .pointer = true,               .elements = 8},
+    kOutText12  {.name = "OUT", .width = Width::Byte, .role = Role::Out,   .areas = kMemory,                         .pointer = true,               .elements = 12};
+
+inline constexpr OperandRule
+    kIn1String = named("IN1", kInString), kIn2String = named("IN2", kInString);
+
 // --- timers and counters ---
 
 inline constexpr OperandRule
+    kOffDelayTimer {.name = "T", .width = Width::Word, .role = Role::InOut, .areas = kTimers,  .timer = TimerKind::OffDelay},
     kOnDelayTimer  {.name = "T", .width = Width::Word, .role = Role::InOut, .areas = kTimers,  .timer = TimerKind::OnDelay},
     kRetentiveTimer{.name = "T", .width = Width::Word, .role = Role::InOut, .areas = kTimers,  .timer = TimerKind::Retentive},
     kCounter       {.name = "C", .width = Width::Word, .role = Role::InOut, .areas = kCounters};
@@ -149,6 +183,8 @@ inline constexpr OperandRule
     kPort            {.name = "PORT", .kind = OperandKind::Port},
     kHighSpeedCounter{.name = "HSC",  .kind = OperandKind::Counter},
     kMode            {.name = "MODE", .kind = OperandKind::Number,    .max = 11},
+    kStackLevel      {.name = "n",    .kind = OperandKind::StackLevel},
+    kLoopNumber      {.name = "LOOP", .kind = OperandKind::Number,    .max = 7},
     kPulseOutput     {.name = "X",    .kind = OperandKind::Number,    .max = 1},
     kAnyNumber       {.name = "n",    .kind = OperandKind::Number,    .max = kLargestByte};
 

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "interpreter/instructions/math.hpp"
 
@@ -37,6 +38,22 @@ inline void real_divide(Core& core, const Op& op) {
   if (divisor == 0) return core.set_flags(kDivisionByZero, kDivisionByZero);
   core.set_flags(kDivisionByZero, 0);
   store_real(core, op[1], std::isfinite(divisor) ? dividend / divisor : divisor);
+}
+
+enum class Function { Sine, Cosine, Tangent, Logarithm, Exponential };
+
+/// SIN, COS, TAN of an angle in radians; LN, EXP.
+/// Not documented, modelled so: the result is the exact one, rounded to a real, for angles of any size.
+/// [Vectors.SIN, Vectors.TAN]
+template <Function function>
+void real_function(Core& core, const Op& op) {
+  const double in = static_cast<double>(core.get<float>(op[0]));
+  const double result = function == Function::Sine        ? std::sin(in)
+                        : function == Function::Cosine    ? std::cos(in)
+                        : function == Function::Tangent   ? std::tan(in)
+                        : function == Function::Logarithm ? std::log(in)
+                                                          : std::exp(in);
+  store_real(core, op[1], std::isfinite(in) ? static_cast<float>(result) : std::numeric_limits<float>::quiet_NaN());
 }
 
 inline void square_root(Core& core, const Op& op) {

@@ -14,8 +14,10 @@
 #include "interpreter/instructions/move.hpp"
 #include "interpreter/instructions/operand_rules.hpp"
 #include "interpreter/instructions/peripherals.hpp"
+#include "interpreter/instructions/pid.hpp"
 #include "interpreter/instructions/real_math.hpp"
 #include "interpreter/instructions/shift.hpp"
+#include "interpreter/instructions/strings.hpp"
 #include "interpreter/instructions/tables.hpp"
 #include "interpreter/instructions/timer_counter.hpp"
 #include "interpreter/model/instruction.hpp"
@@ -39,8 +41,11 @@ struct Group {
 
 // clang-format off
 
-// A box is skipped without power flow; everything else runs on every pass.
-constexpr Rung kBox        {.needs_power_flow = true, .stack = {.needs = 1, .change =  0}, .writes_output = true};
+// A box is skipped without power flow, and so are the coils that are kPowered; everything else runs on every pass.
+constexpr Rung kBox        {.needs_power_flow = true, .stack = {.needs = 1, .change =  0}, .writes_output = true, .eno = Eno::ErrorsAndFlags};
+constexpr Rung kShiftBox   {.needs_power_flow = true, .stack = {.needs = 1, .change =  0}, .writes_output = true, .eno = Eno::Errors};
+constexpr Rung kLoop       {                          .stack = {.needs = 1, .change =  0}, .writes_output = true, .eno = Eno::ErrorsAndFlags};  // PID
+constexpr Rung kPowered    {.needs_power_flow = true, .stack = {.needs = 1, .change =  0}, .writes_output = true};  // S, JMP, END
 constexpr Rung kCoil       {                          .stack = {.needs = 1, .change =  0}, .writes_output = true};  // =, TON
 constexpr Rung kTwoInputs  {                          .stack = {.needs = 2, .change = -1}, .writes_output = true};  // CTU
 constexpr Rung kThreeInputs{                          .stack = {.needs = 3, .change = -2}, .writes_output = true};  // CTUD
@@ -66,22 +71,24 @@ constexpr Instruction kBitLogic[] = {
     {.mnemonic = "OI",   .operand = {kInputPoint}, .rung = kTop,  .hidden = Hidden::InputPoint,                             .body = kContact<Or, false>,   .meaning = "top of stack OR the input point BIT"},
     {.mnemonic = "ONI",  .operand = {kInputPoint}, .rung = kTop,  .hidden = Hidden::InputPoint,                             .body = kContact<Or, true>,    .meaning = "top of stack OR NOT the input point BIT"},
 
-    {.mnemonic = "NOT", .rung = kTop,                                         .body = invert_top,         .meaning = "invert the top of the stack"},
-    {.mnemonic = "EU",  .rung = kTop,        .hidden = Hidden::RisingMemory,  .body = edge<true>,         .meaning = "1 for one execution when the top of the stack went from 0 to 1"},
-    {.mnemonic = "ED",  .rung = kTop,        .hidden = Hidden::FallingMemory, .body = edge<false>,        .meaning = "1 for one execution when the top of the stack went from 1 to 0"},
-    {.mnemonic = "ALD", .rung = kTwoToOne,                                    .body = combine_loads<And>, .meaning = "AND the two upper levels into one"},
-    {.mnemonic = "OLD", .rung = kTwoToOne,                                    .body = combine_loads<Or>,  .meaning = "OR the two upper levels into one"},
-    {.mnemonic = "LPS", .rung = kOneToTwo,                                    .body = push_copy,          .meaning = "push a copy of the top of the stack"},
-    {.mnemonic = "LRD", .rung = kReadSecond,                                  .body = read_second,        .meaning = "copy the second level to the top"},
-    {.mnemonic = "LPP", .rung = kTwoToOne,                                    .body = pop_stack,          .meaning = "pop the stack"},
+    {.mnemonic = "NOT",                            .rung = kTop,                                                                                      .body = invert_top,         .meaning = "invert the top of the stack"},
+    {.mnemonic = "EU",                             .rung = kTop,                         .hidden = Hidden::RisingMemory,                              .body = edge<true>,         .meaning = "1 for one execution when the top of the stack went from 0 to 1"},
+    {.mnemonic = "ED",                             .rung = kTop,                         .hidden = Hidden::FallingMemory,                             .body = edge<false>,        .meaning = "1 for one execution when the top of the stack went from 1 to 0"},
+    {.mnemonic = "ALD",                            .rung = kTwoToOne,                                                                                 .body = combine_loads<And>, .meaning = "AND the two upper levels into one"},
+    {.mnemonic = "OLD",                            .rung = kTwoToOne,                                                                                 .body = combine_loads<Or>,  .meaning = "OR the two upper levels into one"},
+    {.mnemonic = "LPS",                            .rung = kOneToTwo,                                                                                 .body = push_copy,          .meaning = "push a copy of the top of the stack"},
+    {.mnemonic = "LRD",                            .rung = kReadSecond,                                                                               .body = read_second,        .meaning = "copy the second level to the top"},
+    {.mnemonic = "LPP",                            .rung = kTwoToOne,                                                                                 .body = pop_stack,          .meaning = "pop the stack"},
+    {.mnemonic = "LDS",  .operand = {kStackLevel}, .rung = kOneToTwo,   .cpus = kCpu22x,                                                              .body = push_level,         .meaning = "push a copy of level n"},
+    {.mnemonic = "AENO",                           .rung = kTop,        .cpus = kCpu22x,                                  .effect = Effect::ReadsEno, .body = and_eno,            .meaning = "top of stack AND ENO, which the last box has set"},
 
-    {.mnemonic = "=",   .operand = {kBitOut},               .rung = kCoil,                                .effect = Effect::Coil,     .body = coil,                   .meaning = "write the top of the stack to BIT"},
-    {.mnemonic = "=I",  .operand = {kOutputPoint},          .rung = kCoil, .hidden = Hidden::OutputPoint,                             .body = immediate_coil,         .meaning = "write the top of the stack to the output point and its image"},
-    {.mnemonic = "S",   .operand = {kBits, kCount},         .rung = kBox,                                 .effect = Effect::SetsBits, .body = set_bits<true, false>,  .meaning = "set N bits from BIT on"},
-    {.mnemonic = "R",   .operand = {kBits, kCount},         .rung = kBox,                                                             .body = set_bits<false, false>, .meaning = "reset N bits from BIT on; of timers and counters the current values too"},
-    {.mnemonic = "SI",  .operand = {kOutputPoints, kCount}, .rung = kBox,  .hidden = Hidden::OutputPoint,                             .body = set_bits<true, true>,   .meaning = "set N output points and their image"},
-    {.mnemonic = "RI",  .operand = {kOutputPoints, kCount}, .rung = kBox,  .hidden = Hidden::OutputPoint,                             .body = set_bits<false, true>,  .meaning = "reset N output points and their image"},
-    {.mnemonic = "NOP", .operand = {kAnyNumber},                                                                                      .body = no_operation,           .meaning = "nothing"},
+    {.mnemonic = "=",   .operand = {kBitOut},               .rung = kCoil,                                   .effect = Effect::Coil,     .body = coil,                   .meaning = "write the top of the stack to BIT"},
+    {.mnemonic = "=I",  .operand = {kOutputPoint},          .rung = kCoil,    .hidden = Hidden::OutputPoint,                             .body = immediate_coil,         .meaning = "write the top of the stack to the output point and its image"},
+    {.mnemonic = "S",   .operand = {kBits, kCount},         .rung = kPowered,                                .effect = Effect::SetsBits, .body = set_bits<true, false>,  .meaning = "set N bits from BIT on"},
+    {.mnemonic = "R",   .operand = {kBits, kCount},         .rung = kPowered,                                                            .body = set_bits<false, false>, .meaning = "reset N bits from BIT on; of timers and counters the current values too"},
+    {.mnemonic = "SI",  .operand = {kOutputPoints, kCount}, .rung = kPowered, .hidden = Hidden::OutputPoint,                             .body = set_bits<true, true>,   .meaning = "set N output points and their image"},
+    {.mnemonic = "RI",  .operand = {kOutputPoints, kCount}, .rung = kPowered, .hidden = Hidden::OutputPoint,                             .body = set_bits<false, true>,  .meaning = "reset N output points and their image"},
+    {.mnemonic = "NOP", .operand = {kAnyNumber},                                                                                         .body = no_operation,           .meaning = "nothing"},
 };
 
 constexpr Instruction kCompareContacts[] = {
@@ -174,21 +181,27 @@ constexpr Instruction kMove[] = {
     {.mnemonic = "BMD",  .operand = {kInDwords, kOutDwords, kCount}, .rung = kBox, .cpus = kFrom215, .body = move_block<std::uint32_t>, .meaning = "copy N double words from IN on to OUT on"},
     {.mnemonic = "FILL", .operand = {kInWord, kOutWords, kCount},    .rung = kBox,                   .body = fill,                      .meaning = "write word IN to N words from OUT on"},
     {.mnemonic = "SWAP", .operand = {kSwapped},                      .rung = kBox,                   .body = swap_bytes,                .meaning = "exchange the two bytes of a word"},
+    {.mnemonic = "BIR",  .operand = {kInputByte, kOutByte},          .rung = kBox, .cpus = kCpu22x,  .body = read_points,               .meaning = "copy eight input points to OUT"},
+    {.mnemonic = "BIW",  .operand = {kInByte, kOutputByte},          .rung = kBox, .cpus = kCpu22x,  .body = write_points,              .meaning = "copy IN to eight output points and their image"},
 };
 
 constexpr Instruction kIntegerArithmetic[] = {
-    {.mnemonic = "+I",   .operand = {kIn1Word, kInOutWord},   .rung = kBox, .flags = kArithmetic,                           .body = add<std::int16_t>,           .meaning = "OUT + IN1 to OUT, 16 bits"},
-    {.mnemonic = "-I",   .operand = {kIn1Word, kInOutWord},   .rung = kBox, .flags = kArithmetic,                           .body = subtract<std::int16_t>,      .meaning = "OUT - IN1 to OUT, 16 bits"},
-    {.mnemonic = "+D",   .operand = {kIn1Dword, kInOutDword}, .rung = kBox, .flags = kArithmetic,                           .body = add<std::int32_t>,           .meaning = "OUT + IN1 to OUT, 32 bits"},
-    {.mnemonic = "-D",   .operand = {kIn1Dword, kInOutDword}, .rung = kBox, .flags = kArithmetic,                           .body = subtract<std::int32_t>,      .meaning = "OUT - IN1 to OUT, 32 bits"},
-    {.mnemonic = "MUL",  .operand = {kIn1Int, kInOutDword},   .rung = kBox, .flags = kMultiplyDivide,                       .body = multiply,                    .meaning = "IN1 × low word of OUT to OUT, 32 bits"},
-    {.mnemonic = "DIV",  .operand = {kIn1Int, kInOutDword},   .rung = kBox, .flags = kMultiplyDivide,                       .body = divide,                      .meaning = "low word of OUT / IN1: quotient to its low word, remainder to its high word"},
-    {.mnemonic = "INCW", .operand = {kInOutWord},             .rung = kBox, .flags = kArithmetic,                           .body = increment<std::int16_t, 1>,  .meaning = "OUT + 1 to OUT, 16 bits"},
-    {.mnemonic = "DECW", .operand = {kInOutWord},             .rung = kBox, .flags = kArithmetic,                           .body = increment<std::int16_t, -1>, .meaning = "OUT - 1 to OUT, 16 bits"},
-    {.mnemonic = "INCD", .operand = {kInOutDword},            .rung = kBox, .flags = kArithmetic,                           .body = increment<std::int32_t, 1>,  .meaning = "OUT + 1 to OUT, 32 bits"},
-    {.mnemonic = "DECD", .operand = {kInOutDword},            .rung = kBox, .flags = kArithmetic,                           .body = increment<std::int32_t, -1>, .meaning = "OUT - 1 to OUT, 32 bits"},
-    {.mnemonic = "INCB", .operand = {kInOutByte},             .rung = kBox, .flags = kUnsignedArithmetic, .cpus = kFrom215, .body = increment_byte<1>,           .meaning = "OUT + 1 to OUT, unsigned byte"},
-    {.mnemonic = "DECB", .operand = {kInOutByte},             .rung = kBox, .flags = kUnsignedArithmetic, .cpus = kFrom215, .body = increment_byte<-1>,          .meaning = "OUT - 1 to OUT, unsigned byte"},
+    {.mnemonic = "+I",   .operand = {kIn1Word, kInOutWord},   .rung = kBox, .flags = kArithmetic,                           .body = add<std::int16_t>,             .meaning = "OUT + IN1 to OUT, 16 bits"},
+    {.mnemonic = "-I",   .operand = {kIn1Word, kInOutWord},   .rung = kBox, .flags = kArithmetic,                           .body = subtract<std::int16_t>,        .meaning = "OUT - IN1 to OUT, 16 bits"},
+    {.mnemonic = "+D",   .operand = {kIn1Dword, kInOutDword}, .rung = kBox, .flags = kArithmetic,                           .body = add<std::int32_t>,             .meaning = "OUT + IN1 to OUT, 32 bits"},
+    {.mnemonic = "-D",   .operand = {kIn1Dword, kInOutDword}, .rung = kBox, .flags = kArithmetic,                           .body = subtract<std::int32_t>,        .meaning = "OUT - IN1 to OUT, 32 bits"},
+    {.mnemonic = "MUL",  .operand = {kIn1Int, kInOutDword},   .rung = kBox, .flags = kMultiplyDivide,                       .body = multiply,                      .meaning = "IN1 × low word of OUT to OUT, 32 bits"},
+    {.mnemonic = "DIV",  .operand = {kIn1Int, kInOutDword},   .rung = kBox, .flags = kMultiplyDivide,                       .body = divide,                        .meaning = "low word of OUT / IN1: quotient to its low word, remainder to its high word"},
+    {.mnemonic = "*I",   .operand = {kIn1Int, kInOutWord},    .rung = kBox, .flags = kMultiplyDivide,     .cpus = kCpu22x,  .body = multiply_narrow<std::int16_t>, .meaning = "OUT × IN1 to OUT, 16 bits"},
+    {.mnemonic = "/I",   .operand = {kIn1Int, kInOutWord},    .rung = kBox, .flags = kMultiplyDivide,     .cpus = kCpu22x,  .body = divide_narrow<std::int16_t>,   .meaning = "OUT / IN1 to OUT, 16 bits, without remainder"},
+    {.mnemonic = "*D",   .operand = {kIn1Dint, kInOutDword},  .rung = kBox, .flags = kMultiplyDivide,     .cpus = kCpu22x,  .body = multiply_narrow<std::int32_t>, .meaning = "OUT × IN1 to OUT, 32 bits"},
+    {.mnemonic = "/D",   .operand = {kIn1Dint, kInOutDword},  .rung = kBox, .flags = kMultiplyDivide,     .cpus = kCpu22x,  .body = divide_narrow<std::int32_t>,   .meaning = "OUT / IN1 to OUT, 32 bits, without remainder"},
+    {.mnemonic = "INCW", .operand = {kInOutWord},             .rung = kBox, .flags = kArithmetic,                           .body = increment<std::int16_t, 1>,    .meaning = "OUT + 1 to OUT, 16 bits"},
+    {.mnemonic = "DECW", .operand = {kInOutWord},             .rung = kBox, .flags = kArithmetic,                           .body = increment<std::int16_t, -1>,   .meaning = "OUT - 1 to OUT, 16 bits"},
+    {.mnemonic = "INCD", .operand = {kInOutDword},            .rung = kBox, .flags = kArithmetic,                           .body = increment<std::int32_t, 1>,    .meaning = "OUT + 1 to OUT, 32 bits"},
+    {.mnemonic = "DECD", .operand = {kInOutDword},            .rung = kBox, .flags = kArithmetic,                           .body = increment<std::int32_t, -1>,   .meaning = "OUT - 1 to OUT, 32 bits"},
+    {.mnemonic = "INCB", .operand = {kInOutByte},             .rung = kBox, .flags = kUnsignedArithmetic, .cpus = kFrom215, .body = increment_byte<1>,             .meaning = "OUT + 1 to OUT, unsigned byte"},
+    {.mnemonic = "DECB", .operand = {kInOutByte},             .rung = kBox, .flags = kUnsignedArithmetic, .cpus = kFrom215, .body = increment_byte<-1>,            .meaning = "OUT - 1 to OUT, unsigned byte"},
 };
 
 constexpr Instruction kLogicOperations[] = {
@@ -207,44 +220,44 @@ constexpr Instruction kLogicOperations[] = {
 };
 
 constexpr Instruction kShiftAndRotate[] = {
-    {.mnemonic = "SLW",  .operand = {kInOutWord, kPlaces},                   .rung = kBox, .flags = kShiftFlags,                   .body = shift<std::uint16_t, true>,   .meaning = "shift OUT left by N, at most 16"},
-    {.mnemonic = "SRW",  .operand = {kInOutWord, kPlaces},                   .rung = kBox, .flags = kShiftFlags,                   .body = shift<std::uint16_t, false>,  .meaning = "shift OUT right by N, at most 16"},
-    {.mnemonic = "SLD",  .operand = {kInOutDword, kPlaces},                  .rung = kBox, .flags = kShiftFlags,                   .body = shift<std::uint32_t, true>,   .meaning = "shift OUT left by N, at most 32"},
-    {.mnemonic = "SRD",  .operand = {kInOutDword, kPlaces},                  .rung = kBox, .flags = kShiftFlags,                   .body = shift<std::uint32_t, false>,  .meaning = "shift OUT right by N, at most 32"},
-    {.mnemonic = "RLW",  .operand = {kInOutWord, kPlaces},                   .rung = kBox, .flags = kShiftFlags,                   .body = rotate<std::uint16_t, true>,  .meaning = "rotate OUT left by N modulo 16"},
-    {.mnemonic = "RRW",  .operand = {kInOutWord, kPlaces},                   .rung = kBox, .flags = kShiftFlags,                   .body = rotate<std::uint16_t, false>, .meaning = "rotate OUT right by N modulo 16"},
-    {.mnemonic = "RLD",  .operand = {kInOutDword, kPlaces},                  .rung = kBox, .flags = kShiftFlags,                   .body = rotate<std::uint32_t, true>,  .meaning = "rotate OUT left by N modulo 32"},
-    {.mnemonic = "SLB",  .operand = {kInOutByte, kPlaces},                   .rung = kBox, .flags = kShiftFlags, .cpus = kFrom215, .body = shift<std::uint8_t, true>,    .meaning = "shift OUT left by N, at most 8"},
-    {.mnemonic = "SRB",  .operand = {kInOutByte, kPlaces},                   .rung = kBox, .flags = kShiftFlags, .cpus = kFrom215, .body = shift<std::uint8_t, false>,   .meaning = "shift OUT right by N, at most 8"},
-    {.mnemonic = "RLB",  .operand = {kInOutByte, kPlaces},                   .rung = kBox, .flags = kShiftFlags, .cpus = kFrom215, .body = rotate<std::uint8_t, true>,   .meaning = "rotate OUT left by N modulo 8"},
-    {.mnemonic = "RRB",  .operand = {kInOutByte, kPlaces},                   .rung = kBox, .flags = kShiftFlags, .cpus = kFrom215, .body = rotate<std::uint8_t, false>,  .meaning = "rotate OUT right by N modulo 8"},
-    {.mnemonic = "SHRB", .operand = {kDataBit, kShiftRegister, kShiftCount}, .rung = kBox, .flags = kOverflow,                     .body = shift_register,               .meaning = "shift DATA into the |N| bits from S_BIT on; N < 0: from the far end"},
-    {.mnemonic = "RRD",  .operand = {kInOutDword, kPlaces},                  .rung = kBox, .flags = kShiftFlags,                   .body = rotate<std::uint32_t, false>, .meaning = "rotate OUT right by N modulo 32"},
+    {.mnemonic = "SLW",  .operand = {kInOutWord, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags,                   .body = shift<std::uint16_t, true>,   .meaning = "shift OUT left by N, at most 16"},
+    {.mnemonic = "SRW",  .operand = {kInOutWord, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags,                   .body = shift<std::uint16_t, false>,  .meaning = "shift OUT right by N, at most 16"},
+    {.mnemonic = "SLD",  .operand = {kInOutDword, kPlaces},                  .rung = kShiftBox, .flags = kShiftFlags,                   .body = shift<std::uint32_t, true>,   .meaning = "shift OUT left by N, at most 32"},
+    {.mnemonic = "SRD",  .operand = {kInOutDword, kPlaces},                  .rung = kShiftBox, .flags = kShiftFlags,                   .body = shift<std::uint32_t, false>,  .meaning = "shift OUT right by N, at most 32"},
+    {.mnemonic = "RLW",  .operand = {kInOutWord, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags,                   .body = rotate<std::uint16_t, true>,  .meaning = "rotate OUT left by N modulo 16"},
+    {.mnemonic = "RRW",  .operand = {kInOutWord, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags,                   .body = rotate<std::uint16_t, false>, .meaning = "rotate OUT right by N modulo 16"},
+    {.mnemonic = "RLD",  .operand = {kInOutDword, kPlaces},                  .rung = kShiftBox, .flags = kShiftFlags,                   .body = rotate<std::uint32_t, true>,  .meaning = "rotate OUT left by N modulo 32"},
+    {.mnemonic = "SLB",  .operand = {kInOutByte, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags, .cpus = kFrom215, .body = shift<std::uint8_t, true>,    .meaning = "shift OUT left by N, at most 8"},
+    {.mnemonic = "SRB",  .operand = {kInOutByte, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags, .cpus = kFrom215, .body = shift<std::uint8_t, false>,   .meaning = "shift OUT right by N, at most 8"},
+    {.mnemonic = "RLB",  .operand = {kInOutByte, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags, .cpus = kFrom215, .body = rotate<std::uint8_t, true>,   .meaning = "rotate OUT left by N modulo 8"},
+    {.mnemonic = "RRB",  .operand = {kInOutByte, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags, .cpus = kFrom215, .body = rotate<std::uint8_t, false>,  .meaning = "rotate OUT right by N modulo 8"},
+    {.mnemonic = "SHRB", .operand = {kDataBit, kShiftRegister, kShiftCount}, .rung = kShiftBox, .flags = kOverflow,                     .body = shift_register,               .meaning = "shift DATA into the |N| bits from S_BIT on; N < 0: from the far end"},
+    {.mnemonic = "RRD",  .operand = {kInOutDword, kPlaces},                  .rung = kShiftBox, .flags = kShiftFlags,                   .body = rotate<std::uint32_t, false>, .meaning = "rotate OUT right by N modulo 32"},
 };
 
 constexpr Instruction kProgramControl[] = {
-    {.mnemonic = "JMP",  .operand = {kLabel},                       .rung = kBox,                                                .outside_segments = true, .structure = Structure::Jump,                                             .body = jump,                   .meaning = "go on at LBL n of the same routine"},
-    {.mnemonic = "LBL",  .operand = {kLabel},                       .rung = kMark,                                                                         .structure = Structure::Label,                                            .body = no_operation,           .meaning = "place that JMP n goes to"},
-    {.mnemonic = "FOR",  .operand = {kLoopIndex, kInitial, kFinal}, .rung = kBox,  .cpus = kFrom214, .allowed = kInterrupt22x,   .outside_segments = true, .structure = Structure::For,                                              .body = begin_loop,             .meaning = "repeat up to NEXT with INDX from INIT to FINAL"},
-    {.mnemonic = "NEXT",                                            .rung = kMark, .cpus = kFrom214, .allowed = kInterrupt22x,   .outside_segments = true, .structure = Structure::Next,                                             .body = next_pass,              .meaning = "end of a FOR loop; leaves the top of the stack at 1"},
-    {.mnemonic = "CALL", .operand = {kSubroutineNumber},            .rung = kBox,                    .allowed = kInterrupt22x,                             .structure = Structure::Call,                                             .body = call,                   .meaning = "call subroutine n"},
-    {.mnemonic = "SBR",  .operand = {kSubroutineNumber},            .rung = kMark,                                                                         .structure = Structure::SubroutineHead,                                   .body = no_operation,           .meaning = "head of subroutine n"},
-    {.mnemonic = "RET",                                             .rung = kMark,                   .allowed = kSubroutine,                               .structure = Structure::SubroutineEnd,                                    .body = return_from_subroutine, .meaning = "end of a subroutine"},
-    {.mnemonic = "CRET",                                            .rung = kBox,                    .allowed = kSubroutine,                                                                       .effect = Effect::ConditionalEnd, .body = return_from_subroutine, .meaning = "return from a subroutine"},
-    {.mnemonic = "END",                                             .rung = kBox,                    .allowed = kMain,           .outside_segments = true,                                         .effect = Effect::ConditionalEnd, .body = end_main_program,       .meaning = "end the main program of this scan"},
-    {.mnemonic = "MEND",                                            .rung = kMark,                   .allowed = kMain,                                     .structure = Structure::MainEnd,                                          .body = end_main_program,       .meaning = "end of the main program"},
-    {.mnemonic = "STOP",                                            .rung = kBox,                                                                                                                  .effect = Effect::ConditionalEnd, .body = stop,                   .meaning = "go to STOP"},
-    {.mnemonic = "WDR",                                             .rung = kBox,                                                                                                                                                    .body = reset_watchdog,         .meaning = "restart the scan watchdog"},
+    {.mnemonic = "JMP",  .operand = {kLabel},                       .rung = kPowered,                                             .outside_segments = true, .structure = Structure::Jump,                                             .body = jump,                   .meaning = "go on at LBL n of the same routine"},
+    {.mnemonic = "LBL",  .operand = {kLabel},                       .rung = kMark,                                                                          .structure = Structure::Label,                                            .body = no_operation,           .meaning = "place that JMP n goes to"},
+    {.mnemonic = "FOR",  .operand = {kLoopIndex, kInitial, kFinal}, .rung = kBox,     .cpus = kFrom214, .allowed = kInterrupt22x, .outside_segments = true, .structure = Structure::For,                                              .body = begin_loop,             .meaning = "repeat up to NEXT with INDX from INIT to FINAL"},
+    {.mnemonic = "NEXT",                                            .rung = kMark,    .cpus = kFrom214, .allowed = kInterrupt22x, .outside_segments = true, .structure = Structure::Next,                                             .body = next_pass,              .meaning = "end of a FOR loop; leaves the top of the stack at 1"},
+    {.mnemonic = "CALL", .operand = {kSubroutineNumber},            .rung = kBox,                       .allowed = kInterrupt22x,                           .structure = Structure::Call,                                             .body = call,                   .meaning = "call subroutine n"},
+    {.mnemonic = "SBR",  .operand = {kSubroutineNumber},            .rung = kMark,                                                                          .structure = Structure::SubroutineHead,                                   .body = no_operation,           .meaning = "head of subroutine n"},
+    {.mnemonic = "RET",                                             .rung = kMark,                      .allowed = kSubroutine,                             .structure = Structure::SubroutineEnd,                                    .body = return_from_subroutine, .meaning = "end of a subroutine"},
+    {.mnemonic = "CRET",                                            .rung = kPowered,                   .allowed = kSubroutine,                                                                     .effect = Effect::ConditionalEnd, .body = return_from_subroutine, .meaning = "return from a subroutine"},
+    {.mnemonic = "END",                                             .rung = kPowered,                   .allowed = kMain,         .outside_segments = true,                                         .effect = Effect::ConditionalEnd, .body = end_main_program,       .meaning = "end the main program of this scan"},
+    {.mnemonic = "MEND",                                            .rung = kMark,                      .allowed = kMain,                                   .structure = Structure::MainEnd,                                          .body = end_main_program,       .meaning = "end of the main program"},
+    {.mnemonic = "STOP",                                            .rung = kPowered,                                                                                                               .effect = Effect::ConditionalEnd, .body = stop,                   .meaning = "go to STOP"},
+    {.mnemonic = "WDR",                                             .rung = kPowered,                                                                                                                                                 .body = reset_watchdog,         .meaning = "restart the scan watchdog"},
 };
 
 constexpr Instruction kInterrupts[] = {
-    {.mnemonic = "INT",   .operand = {kRoutineNumber},   .rung = kMark,                             .structure = Structure::InterruptHead,                                      .body = no_operation,             .meaning = "head of interrupt routine n"},
-    {.mnemonic = "RETI",                                 .rung = kMark, .allowed = kInterrupt,      .structure = Structure::InterruptEnd,                                       .body = return_from_interrupt,    .meaning = "end of an interrupt routine"},
-    {.mnemonic = "CRETI",                                .rung = kBox,  .allowed = kInterrupt,                                             .effect = Effect::ConditionalEnd,    .body = return_from_interrupt,    .meaning = "return from an interrupt routine"},
-    {.mnemonic = "ENI",                                  .rung = kBox,  .allowed = kNotInInterrupt,                                        .effect = Effect::EnablesInterrupts, .body = enable_interrupts<true>,  .meaning = "enable interrupts"},
-    {.mnemonic = "DISI",                                 .rung = kBox,  .allowed = kNotInInterrupt,                                                                             .body = enable_interrupts<false>, .meaning = "disable interrupts: events wait in their queues"},
-    {.mnemonic = "ATCH",  .operand = {kRoutine, kEvent}, .rung = kBox,                              .structure = Structure::Attach,                                             .body = attach,                   .meaning = "attach interrupt routine INT to event EVNT"},
-    {.mnemonic = "DTCH",  .operand = {kEvent},           .rung = kBox,                                                                                                          .body = detach,                   .meaning = "detach event EVNT: it is ignored"},
+    {.mnemonic = "INT",   .operand = {kRoutineNumber},   .rung = kMark,                                .structure = Structure::InterruptHead,                                      .body = no_operation,             .meaning = "head of interrupt routine n"},
+    {.mnemonic = "RETI",                                 .rung = kMark,    .allowed = kInterrupt,      .structure = Structure::InterruptEnd,                                       .body = return_from_interrupt,    .meaning = "end of an interrupt routine"},
+    {.mnemonic = "CRETI",                                .rung = kPowered, .allowed = kInterrupt,                                             .effect = Effect::ConditionalEnd,    .body = return_from_interrupt,    .meaning = "return from an interrupt routine"},
+    {.mnemonic = "ENI",                                  .rung = kPowered, .allowed = kNotInInterrupt,                                        .effect = Effect::EnablesInterrupts, .body = enable_interrupts<true>,  .meaning = "enable interrupts"},
+    {.mnemonic = "DISI",                                 .rung = kPowered, .allowed = kNotInInterrupt,                                                                             .body = enable_interrupts<false>, .meaning = "disable interrupts: events wait in their queues"},
+    {.mnemonic = "ATCH",  .operand = {kRoutine, kEvent}, .rung = kBox,                                 .structure = Structure::Attach,                                             .body = attach,                   .meaning = "attach interrupt routine INT to event EVNT"},
+    {.mnemonic = "DTCH",  .operand = {kEvent},           .rung = kBox,                                                                                                             .body = detach,                   .meaning = "detach event EVNT: it is ignored"},
 };
 
 constexpr Instruction kCommunication[] = {
@@ -255,30 +268,46 @@ constexpr Instruction kCommunication[] = {
 };
 
 constexpr Instruction kTimersAndCounters[] = {
-    {.mnemonic = "TON",  .operand = {kOnDelayTimer, kPresetTime},   .rung = kCoil,        .hidden = Hidden::Number, .body = time_on<false>, .meaning = "on-delay timer: counts while the top of the stack is 1, else 0"},
-    {.mnemonic = "TONR", .operand = {kRetentiveTimer, kPresetTime}, .rung = kCoil,        .hidden = Hidden::Number, .body = time_on<true>,  .meaning = "retentive on-delay timer: keeps its value until it is reset"},
-    {.mnemonic = "CTU",  .operand = {kCounter, kPresetValue},       .rung = kTwoInputs,   .hidden = Hidden::Number, .body = count_up,       .meaning = "count up: second level counts, top resets"},
-    {.mnemonic = "CTUD", .operand = {kCounter, kPresetInt},         .rung = kThreeInputs, .hidden = Hidden::Number, .body = count_up_down,  .meaning = "count up and down: third level up, second down, top resets"},
+    {.mnemonic = "TON",  .operand = {kOnDelayTimer, kPresetTime},   .rung = kCoil,                         .hidden = Hidden::Number, .body = time_on<false>, .meaning = "on-delay timer: counts while the top of the stack is 1, else 0"},
+    {.mnemonic = "TONR", .operand = {kRetentiveTimer, kPresetTime}, .rung = kCoil,                         .hidden = Hidden::Number, .body = time_on<true>,  .meaning = "retentive on-delay timer: keeps its value until it is reset"},
+    {.mnemonic = "TOF",  .operand = {kOffDelayTimer, kPresetTime},  .rung = kCoil,        .cpus = kCpu22x, .hidden = Hidden::Number, .body = time_off,       .meaning = "off-delay timer: its bit goes off PT after the top of the stack has gone off"},
+    {.mnemonic = "CTU",  .operand = {kCounter, kPresetValue},       .rung = kTwoInputs,                    .hidden = Hidden::Number, .body = count_up,       .meaning = "count up: second level counts, top resets"},
+    {.mnemonic = "CTD",  .operand = {kCounter, kPresetValue},       .rung = kTwoInputs,   .cpus = kCpu22x, .hidden = Hidden::Number, .body = count_down,     .meaning = "count down: second level counts, top loads PV"},
+    {.mnemonic = "CTUD", .operand = {kCounter, kPresetInt},         .rung = kThreeInputs,                  .hidden = Hidden::Number, .body = count_up_down,  .meaning = "count up and down: third level up, second down, top resets"},
 };
 
 constexpr Instruction kRealArithmetic[] = {
-    {.mnemonic = "+R",   .operand = {kIn1Real, kInOutReal}, .rung = kBox, .flags = kArithmetic,     .cpus = kFrom214, .body = real_arithmetic<RealOperation::Add>,      .meaning = "OUT + IN1 to OUT"},
-    {.mnemonic = "-R",   .operand = {kIn1Real, kInOutReal}, .rung = kBox, .flags = kArithmetic,     .cpus = kFrom214, .body = real_arithmetic<RealOperation::Subtract>, .meaning = "OUT - IN1 to OUT"},
-    {.mnemonic = "*R",   .operand = {kIn1Real, kInOutReal}, .rung = kBox, .flags = kArithmetic,     .cpus = kFrom214, .body = real_arithmetic<RealOperation::Multiply>, .meaning = "OUT * IN1 to OUT"},
-    {.mnemonic = "/R",   .operand = {kIn1Real, kInOutReal}, .rung = kBox, .flags = kMultiplyDivide, .cpus = kFrom214, .body = real_divide,                              .meaning = "OUT / IN1 to OUT"},
-    {.mnemonic = "SQRT", .operand = {kInReal, kOutReal},    .rung = kBox, .flags = kArithmetic,     .cpus = kFrom214, .body = square_root,                              .meaning = "square root of IN to OUT"},
+    {.mnemonic = "+R",   .operand = {kIn1Real, kInOutReal},  .rung = kBox,  .flags = kArithmetic,     .cpus = kFrom214,                                  .body = real_arithmetic<RealOperation::Add>,      .meaning = "OUT + IN1 to OUT"},
+    {.mnemonic = "-R",   .operand = {kIn1Real, kInOutReal},  .rung = kBox,  .flags = kArithmetic,     .cpus = kFrom214,                                  .body = real_arithmetic<RealOperation::Subtract>, .meaning = "OUT - IN1 to OUT"},
+    {.mnemonic = "*R",   .operand = {kIn1Real, kInOutReal},  .rung = kBox,  .flags = kArithmetic,     .cpus = kFrom214,                                  .body = real_arithmetic<RealOperation::Multiply>, .meaning = "OUT * IN1 to OUT"},
+    {.mnemonic = "/R",   .operand = {kIn1Real, kInOutReal},  .rung = kBox,  .flags = kMultiplyDivide, .cpus = kFrom214,                                  .body = real_divide,                              .meaning = "OUT / IN1 to OUT"},
+    {.mnemonic = "SQRT", .operand = {kInReal, kOutReal},     .rung = kBox,  .flags = kArithmetic,     .cpus = kFrom214,                                  .body = square_root,                              .meaning = "square root of IN to OUT"},
+    {.mnemonic = "SIN",  .operand = {kInReal, kOutReal},     .rung = kBox,  .flags = kArithmetic,     .cpus = kCpu22x,                                   .body = real_function<Function::Sine>,            .meaning = "sine of IN, in radians, to OUT"},
+    {.mnemonic = "COS",  .operand = {kInReal, kOutReal},     .rung = kBox,  .flags = kArithmetic,     .cpus = kCpu22x,                                   .body = real_function<Function::Cosine>,          .meaning = "cosine of IN, in radians, to OUT"},
+    {.mnemonic = "TAN",  .operand = {kInReal, kOutReal},     .rung = kBox,  .flags = kArithmetic,     .cpus = kCpu22x,                                   .body = real_function<Function::Tangent>,         .meaning = "tangent of IN, in radians, to OUT"},
+    {.mnemonic = "LN",   .operand = {kInReal, kOutReal},     .rung = kBox,  .flags = kArithmetic,     .cpus = kCpu22x,                                   .body = real_function<Function::Logarithm>,       .meaning = "natural logarithm of IN to OUT"},
+    {.mnemonic = "EXP",  .operand = {kInReal, kOutReal},     .rung = kBox,  .flags = kArithmetic,     .cpus = kCpu22x,                                   .body = real_function<Function::Exponential>,     .meaning = "e to the power of IN to OUT"},
+    {.mnemonic = "PID",  .operand = {kPidLoop, kLoopNumber}, .rung = kLoop, .flags = kOverflow,       .cpus = kFrom215, .hidden = Hidden::FallingMemory, .body = control_loop,                             .meaning = "one sample of a PID loop, from and to its table"},
 };
 
 constexpr Instruction kConversion[] = {
-    {.mnemonic = "BCDI",  .operand = {kInOutWord},                    .rung = kBox, .flags = kNotBcd,                     .body = from_bcd,        .meaning = "four BCD digits to an integer"},
-    {.mnemonic = "IBCD",  .operand = {kInOutWord},                    .rung = kBox, .flags = kNotBcd,                     .body = to_bcd,          .meaning = "integer 0 to 9999 to BCD"},
-    {.mnemonic = "DTR",   .operand = {kInDint, kOutReal},             .rung = kBox,                     .cpus = kFrom214, .body = integer_to_real, .meaning = "double integer to real"},
-    {.mnemonic = "TRUNC", .operand = {kInReal, kOutDword},            .rung = kBox, .flags = kOverflow, .cpus = kFrom214, .body = truncate,        .meaning = "real to double integer, toward zero"},
-    {.mnemonic = "DECO",  .operand = {kInByte, kOutWord},             .rung = kBox,                                       .body = decode_bit,      .meaning = "set the one bit of OUT that the low half of IN numbers"},
-    {.mnemonic = "ENCO",  .operand = {kInWord, kOutByte},             .rung = kBox,                                       .body = encode_bit,      .meaning = "number of the lowest bit set in IN to OUT"},
-    {.mnemonic = "SEG",   .operand = {kInByte, kOutByte},             .rung = kBox,                                       .body = seven_segments,  .meaning = "seven-segment pattern of the low half of IN"},
-    {.mnemonic = "ATH",   .operand = {kInBytes, kOutDigits, kLength}, .rung = kBox, .flags = kNotHex,                     .body = ascii_to_hex,    .meaning = "LEN characters to hexadecimal digits"},
-    {.mnemonic = "HTA",   .operand = {kInDigits, kOutBytes, kLength}, .rung = kBox,                                       .body = hex_to_ascii,    .meaning = "LEN hexadecimal digits to characters"},
+    {.mnemonic = "BCDI",  .operand = {kInOutWord},                    .rung = kBox, .flags = kNotBcd,                     .body = from_bcd,                                           .meaning = "four BCD digits to an integer"},
+    {.mnemonic = "IBCD",  .operand = {kInOutWord},                    .rung = kBox, .flags = kNotBcd,                     .body = to_bcd,                                             .meaning = "integer 0 to 9999 to BCD"},
+    {.mnemonic = "DTR",   .operand = {kInDint, kOutReal},             .rung = kBox,                     .cpus = kFrom214, .body = integer_to_real,                                    .meaning = "double integer to real"},
+    {.mnemonic = "TRUNC", .operand = {kInReal, kOutDword},            .rung = kBox, .flags = kOverflow, .cpus = kFrom214, .body = to_integer<false>,                                  .meaning = "real to double integer, toward zero"},
+    {.mnemonic = "ROUND", .operand = {kInReal, kOutDword},            .rung = kBox, .flags = kOverflow, .cpus = kCpu22x,  .body = to_integer<true>,                                   .meaning = "real to double integer, to the nearest"},
+    {.mnemonic = "BTI",   .operand = {kInUsint, kOutWord},            .rung = kBox,                     .cpus = kCpu22x,  .body = widen<std::uint8_t, std::int16_t>,                  .meaning = "unsigned byte to integer"},
+    {.mnemonic = "ITB",   .operand = {kInInt, kOutByte},              .rung = kBox, .flags = kOverflow, .cpus = kCpu22x,  .body = narrow<std::int16_t, std::uint8_t>,                 .meaning = "integer 0 to 255 to byte"},
+    {.mnemonic = "ITD",   .operand = {kInInt, kOutDword},             .rung = kBox,                     .cpus = kCpu22x,  .body = widen<std::int16_t, std::int32_t>,                  .meaning = "integer to double integer"},
+    {.mnemonic = "DTI",   .operand = {kInDint, kOutWord},             .rung = kBox, .flags = kOverflow, .cpus = kCpu22x,  .body = narrow<std::int32_t, std::int16_t>,                 .meaning = "double integer to integer, if it fits"},
+    {.mnemonic = "DECO",  .operand = {kInByte, kOutWord},             .rung = kBox,                                       .body = decode_bit,                                         .meaning = "set the one bit of OUT that the low half of IN numbers"},
+    {.mnemonic = "ENCO",  .operand = {kInWord, kOutByte},             .rung = kBox,                                       .body = encode_bit,                                         .meaning = "number of the lowest bit set in IN to OUT"},
+    {.mnemonic = "SEG",   .operand = {kInByte, kOutByte},             .rung = kBox,                                       .body = seven_segments,                                     .meaning = "seven-segment pattern of the low half of IN"},
+    {.mnemonic = "ATH",   .operand = {kInBytes, kOutDigits, kLength}, .rung = kBox, .flags = kNotHex,                     .body = ascii_to_hex,                                       .meaning = "LEN characters to hexadecimal digits"},
+    {.mnemonic = "HTA",   .operand = {kInDigits, kOutBytes, kLength}, .rung = kBox,                                       .body = hex_to_ascii,                                       .meaning = "LEN hexadecimal digits to characters"},
+    {.mnemonic = "ITA",   .operand = {kInInt, kOutText8, kFormat},    .rung = kBox,                     .cpus = kCpu22x,  .body = integer_to_text<std::int16_t, kIntegerText, false>, .meaning = "integer to 8 characters"},
+    {.mnemonic = "DTA",   .operand = {kInDint, kOutText12, kFormat},  .rung = kBox,                     .cpus = kCpu22x,  .body = integer_to_text<std::int32_t, kDoubleText, false>,  .meaning = "double integer to 12 characters"},
+    {.mnemonic = "RTA",   .operand = {kInReal, kOutText, kFormat},    .rung = kBox,                     .cpus = kCpu22x,  .body = real_to_text<false>,                                .meaning = "real to as many characters as FMT says"},
 };
 
 constexpr Instruction kTables[] = {
@@ -291,48 +320,52 @@ constexpr Instruction kTables[] = {
     {.mnemonic = "FND>",  .operand = {kEntries, kPatternInt, kFindIndex},  .rung = kBox,                       .cpus = kFrom214, .body = find_in_table<Greater>,  .meaning = "number of the next entry greater than PATRN, from INDX on"},
 };
 
+constexpr Instruction kStrings[] = {
+    {.mnemonic = "SLEN", .operand = {kInString, kOutByte},                 .rung = kBox,                     .cpus = kCpu22x, .body = string_length,                                     .meaning = "length of the string IN to OUT"},
+    {.mnemonic = "SCPY", .operand = {kInString, kOutString},               .rung = kBox,                     .cpus = kCpu22x, .body = copy_string,                                       .meaning = "copy the string IN to OUT"},
+    {.mnemonic = "SCAT", .operand = {kInString, kInOutString},             .rung = kBox,                     .cpus = kCpu22x, .body = join_strings,                                      .meaning = "append the string IN to OUT"},
+    {.mnemonic = "SFND", .operand = {kIn1String, kIn2String, kIndexInOut}, .rung = kBox,                     .cpus = kCpu22x, .body = find_in_string<true>,                              .meaning = "where IN2 is in IN1, from character OUT on; 0: nowhere"},
+    {.mnemonic = "CFND", .operand = {kIn1String, kIn2String, kIndexInOut}, .rung = kBox,                     .cpus = kCpu22x, .body = find_in_string<false>,                             .meaning = "where a character of IN2 is in IN1, from character OUT on; 0: nowhere"},
+    {.mnemonic = "ITS",  .operand = {kInInt, kOutString8, kFormat},        .rung = kBox,                     .cpus = kCpu22x, .body = integer_to_text<std::int16_t, kIntegerText, true>, .meaning = "integer to a string of 8 characters"},
+    {.mnemonic = "DTS",  .operand = {kInDint, kOutString12, kFormat},      .rung = kBox,                     .cpus = kCpu22x, .body = integer_to_text<std::int32_t, kDoubleText, true>,  .meaning = "double integer to a string of 12 characters"},
+    {.mnemonic = "RTS",  .operand = {kInReal, kOutString, kFormat},        .rung = kBox,                     .cpus = kCpu22x, .body = real_to_text<true>,                                .meaning = "real to a string as long as FMT says"},
+    {.mnemonic = "STI",  .operand = {kInString, kIndex, kOutWord},         .rung = kBox, .flags = kOverflow, .cpus = kCpu22x, .body = text_to_number<std::int16_t>,                      .meaning = "integer from character INDX of a string on"},
+    {.mnemonic = "STD",  .operand = {kInString, kIndex, kOutDword},        .rung = kBox, .flags = kOverflow, .cpus = kCpu22x, .body = text_to_number<std::int32_t>,                      .meaning = "double integer from character INDX of a string on"},
+    {.mnemonic = "STR",  .operand = {kInString, kIndex, kOutReal},         .rung = kBox, .flags = kOverflow, .cpus = kCpu22x, .body = text_to_number<float>,                             .meaning = "real from character INDX of a string on"},
+
+    {.mnemonic = "LDS=",  .operand = {kIn1String, kIn2String}, .rung = kPush, .cpus = kCpu22x, .structure = Structure::Compare, .body = kCompareStrings<Load, true>,  .meaning = "push IN1 = IN2, strings"},
+    {.mnemonic = "AS=",   .operand = {kIn1String, kIn2String}, .rung = kTop,  .cpus = kCpu22x, .structure = Structure::Compare, .body = kCompareStrings<And, true>,   .meaning = "top of stack AND IN1 = IN2, strings"},
+    {.mnemonic = "OS=",   .operand = {kIn1String, kIn2String}, .rung = kTop,  .cpus = kCpu22x, .structure = Structure::Compare, .body = kCompareStrings<Or, true>,    .meaning = "top of stack OR IN1 = IN2, strings"},
+    {.mnemonic = "LDS<>", .operand = {kIn1String, kIn2String}, .rung = kPush, .cpus = kCpu22x, .structure = Structure::Compare, .body = kCompareStrings<Load, false>, .meaning = "push IN1 <> IN2, strings"},
+    {.mnemonic = "AS<>",  .operand = {kIn1String, kIn2String}, .rung = kTop,  .cpus = kCpu22x, .structure = Structure::Compare, .body = kCompareStrings<And, false>,  .meaning = "top of stack AND IN1 <> IN2, strings"},
+    {.mnemonic = "OS<>",  .operand = {kIn1String, kIn2String}, .rung = kTop,  .cpus = kCpu22x, .structure = Structure::Compare, .body = kCompareStrings<Or, false>,   .meaning = "top of stack OR IN1 <> IN2, strings"},
+};
+
 constexpr Instruction kSequenceControl[] = {
-    {.mnemonic = "LSCR", .operand = {kSegmentIn},  .rung = kSegmentHead, .allowed = kInterruptR2,    .structure = Structure::SegmentBegin,                                    .body = begin_segment,      .meaning = "start of a segment whose contacts have power while the S bit is 1"},
-    {.mnemonic = "SCRT", .operand = {kSegmentOut}, .rung = kBox,         .allowed = kInterruptR2,    .structure = Structure::SegmentTransition, .hidden = Hidden::SegmentBit, .body = segment_transition, .meaning = "go over to the segment of the S bit"},
-    {.mnemonic = "SCRE",                           .rung = kMark,        .allowed = kInterruptR2,    .structure = Structure::SegmentEnd,                                      .body = end_segment,        .meaning = "end of a segment"},
+    {.mnemonic = "LSCR",  .operand = {kSegmentIn},  .rung = kSegmentHead,                  .allowed = kInterruptR2, .structure = Structure::SegmentBegin,                                    .body = begin_segment,      .meaning = "start of a segment whose contacts have power while the S bit is 1"},
+    {.mnemonic = "SCRT",  .operand = {kSegmentOut}, .rung = kPowered,                      .allowed = kInterruptR2, .structure = Structure::SegmentTransition, .hidden = Hidden::SegmentBit, .body = segment_transition, .meaning = "go over to the segment of the S bit"},
+    {.mnemonic = "CSCRE",                           .rung = kPowered,     .cpus = kCpu22x, .allowed = kInterruptR2, .structure = Structure::SegmentExit,                                     .body = leave_segment,      .meaning = "go to the end of the segment"},
+    {.mnemonic = "SCRE",                            .rung = kMark,                         .allowed = kInterruptR2, .structure = Structure::SegmentEnd,                                      .body = end_segment,        .meaning = "end of a segment"},
 };
 
 constexpr Instruction kPeripherals[] = {
-    {.mnemonic = "TODR", .operand = {kClockOut},                .rung = kBox, .cpus = kFrom214,                                                                    .body = read_clock,      .meaning = "read the clock into the 8 bytes at T"},
-    {.mnemonic = "TODW", .operand = {kClockIn},                 .rung = kBox, .cpus = kFrom214,                                                                    .body = write_clock,     .meaning = "set the clock from the 8 bytes at T"},
-    {.mnemonic = "HDEF", .operand = {kHighSpeedCounter, kMode}, .rung = kBox,                   .allowed = kNotInInterrupt, .structure = Structure::DefineCounter, .body = define_counter,  .meaning = "give a high-speed counter its mode, once"},
-    {.mnemonic = "HSC",  .operand = {kHighSpeedCounter},        .rung = kBox,                                                                                      .body = program_counter, .meaning = "take over the counter's control byte, values and enable"},
-    {.mnemonic = "PLS",  .operand = {kPulseOutput},             .rung = kBox, .cpus = kFrom214,                                                                    .body = program_pulses,  .meaning = "start the pulse train or PWM of Q0.X"},
+    {.mnemonic = "TODR",  .operand = {kClockOut},                .rung = kBox, .cpus = kFrom214,                                                                           .body = read_clock,            .meaning = "read the clock into the 8 bytes at T"},
+    {.mnemonic = "TODW",  .operand = {kClockIn},                 .rung = kBox, .cpus = kFrom214,                                                                           .body = write_clock,           .meaning = "set the clock from the 8 bytes at T"},
+    {.mnemonic = "BITIM", .operand = {kOutDword},                .rung = kBox, .cpus = kCpu22xRelease2,                                                                    .body = begin_interval,        .meaning = "the CPU's milliseconds to OUT"},
+    {.mnemonic = "CITIM", .operand = {kInDword, kOutDword},      .rung = kBox, .cpus = kCpu22xRelease2,                                                                    .body = read_interval,         .meaning = "milliseconds since IN, which BITIM has written, to OUT"},
+    {.mnemonic = "HDEF",  .operand = {kHighSpeedCounter, kMode}, .rung = kBox,                          .allowed = kNotInInterrupt, .structure = Structure::DefineCounter, .body = define_counter,        .meaning = "give a high-speed counter its mode, once"},
+    {.mnemonic = "HSC",   .operand = {kHighSpeedCounter},        .rung = kBox,                                                                                             .body = program_counter,       .meaning = "take over the counter's control byte, values and enable"},
+    {.mnemonic = "PLS",   .operand = {kPulseOutput},             .rung = kBox, .cpus = kFrom214,                                                                           .body = program_pulses,        .meaning = "start the pulse train or PWM of Q0.X"},
+    {.mnemonic = "GPA",   .operand = {kAddressOut, kPort},       .rung = kBox, .cpus = kCpu22x,                                                                            .body = get_port_address,      .meaning = "station address of a port to ADDR"},
+    {.mnemonic = "SPA",   .operand = {kAddressIn, kPort},        .rung = kBox, .cpus = kCpu22x,                                                                            .body = set_port_address,      .meaning = "ADDR becomes the station address of a port"},
+    {.mnemonic = "DLED",  .operand = {kInByte},                  .rung = kBox, .cpus = kCpu22xRelease2,                                                                    .body = switch_diagnostic_led, .meaning = "diagnostic LED off if IN is 0, otherwise yellow"},
 };
 
 // Known by name, so that a program that uses them is told so.
 constexpr Instruction kNotModelled[] = {
-    {.mnemonic = "PID",   .cpus = kFrom215, .meaning = "PID loop"},
-    {.mnemonic = "TOF",   .cpus = kCpu22x},
-    {.mnemonic = "CTD",   .cpus = kCpu22x},
-    {.mnemonic = "*I",    .cpus = kCpu22x},
-    {.mnemonic = "/I",    .cpus = kCpu22x},
-    {.mnemonic = "*D",    .cpus = kCpu22x},
-    {.mnemonic = "/D",    .cpus = kCpu22x},
-    {.mnemonic = "BTI",   .cpus = kCpu22x},
-    {.mnemonic = "ITB",   .cpus = kCpu22x},
-    {.mnemonic = "ITD",   .cpus = kCpu22x},
-    {.mnemonic = "DTI",   .cpus = kCpu22x},
-    {.mnemonic = "ROUND", .cpus = kCpu22x},
-    {.mnemonic = "ITA",   .cpus = kCpu22x},
-    {.mnemonic = "DTA",   .cpus = kCpu22x},
-    {.mnemonic = "RTA",   .cpus = kCpu22x},
-    {.mnemonic = "BIR",   .cpus = kCpu22x},
-    {.mnemonic = "BIW",   .cpus = kCpu22x},
-    {.mnemonic = "LDS",   .cpus = kCpu22x},
-    {.mnemonic = "AENO",  .cpus = kCpu22x},
-    {.mnemonic = "SIN",   .cpus = kCpu22x},
-    {.mnemonic = "COS",   .cpus = kCpu22x},
-    {.mnemonic = "TAN",   .cpus = kCpu22x},
-    {.mnemonic = "LN",    .cpus = kCpu22x},
-    {.mnemonic = "EXP",   .cpus = kCpu22x},
-    {.mnemonic = "GPA",   .cpus = kCpu22x},
-    {.mnemonic = "SPA",   .cpus = kCpu22x},
+    {.mnemonic = "SSCPY", .cpus = kCpu22x,         .meaning = "copy a part of a string"},
+    {.mnemonic = "TODRX", .cpus = kCpu22xRelease2, .meaning = "read the clock and its daylight saving"},
+    {.mnemonic = "TODWX", .cpus = kCpu22xRelease2, .meaning = "set the clock and its daylight saving"},
 };
 
 // clang-format on
@@ -352,6 +385,7 @@ constexpr Group kGroups[] = {
     {"Real arithmetic", kRealArithmetic},
     {"Conversion", kConversion},
     {"Tables", kTables},
+    {"Strings", kStrings},
     {"Sequence control relays", kSequenceControl},
     {"Clock, high-speed counters, pulse outputs", kPeripherals},
     {"Not modelled yet", kNotModelled},

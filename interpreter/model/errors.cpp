@@ -10,12 +10,16 @@ std::string_view meaning_of(RunError code) {
       return "input interrupt attached to a point that a high-speed counter uses";
     case RunError::InputTaken:
       return "HDEF uses an input that an input interrupt is attached to, or another high-speed counter uses";
+    case RunError::NotInInterrupt:
+      return "instruction that an interrupt routine must not execute";
     case RunError::Clock:
       return "TODW: the buffer does not hold BCD";
     case RunError::CounterDefinedTwice:
       return "second HDEF for the same counter";
     case RunError::CompareValue:
       return "illegal value in a compare contact: not a real number (NaN)";
+    case RunError::PidTable:
+      return "PID: the loop table asks for auto-tuning, which is not modelled";
     case RunError::EepromRange:
       return "the V address to save is outside the EEPROM";
     case RunError::IndirectAddress:
@@ -34,6 +38,8 @@ std::string_view meaning_of(RunError code) {
       return "error in the count field of an instruction";
     case RunError::FreeportInInterrupt:
       return "attempt to switch to Freeport in an interrupt routine";
+    case RunError::StringIndex:
+      return "illegal string index: the characters of a string are numbered from 1";
   }
   return "unknown";
 }
@@ -44,6 +50,8 @@ std::string_view meaning_of(FatalError code) {
       return "scan watchdog: the scan took longer than 300 ms without WDR";
     case FatalError::CompareIndirect:
       return "indirect addressing error in a compare contact";
+    case FatalError::CompareRange:
+      return "range error in a compare contact: the string runs past the end of its memory area";
     case FatalError::CompareValue:
       return "illegal value in a compare contact: not a real number (NaN)";
   }

@@ -11,6 +11,7 @@ enum class RunError : std::uint16_t {
   CounterNotDefined = 0x01,
   PointTaken = 0x02,
   InputTaken = 0x03,
+  NotInInterrupt = 0x04,
   IndirectAddress = 0x06,
   Clock = 0x07,
   CallDepth = 0x08,
@@ -19,14 +20,16 @@ enum class RunError : std::uint16_t {
   Port1Busy = 0x0B,
   NoSegments = 0x0E,
   CompareValue = 0x0F,
+  PidTable = 0x13,
   OperandRange = 0x91,
   Count = 0x92,
   EepromRange = 0x94,
   FreeportInInterrupt = 0x9A,
+  StringIndex = 0x9B,
 };
 
 /// Fatal errors: the CPU goes to STOP (facts 5.1).
-enum class FatalError : std::uint16_t { Watchdog = 0x03, CompareIndirect = 0x11, CompareValue = 0x12 };
+enum class FatalError : std::uint16_t { Watchdog = 0x03, CompareIndirect = 0x11, CompareValue = 0x12, CompareRange = 0x14 };
 
 /// What a code means, in one line.
 std::string_view meaning_of(RunError code);

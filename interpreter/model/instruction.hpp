@@ -31,6 +31,7 @@ enum class OperandKind : std::uint8_t {
   Event,       ///< ATCH, DTCH
   Port,        ///< XMT, RCV
   Counter,     ///< HDEF, HSC
+  StackLevel,  ///< a level of the logic stack, 0 on top: LDS
   Number,      ///< any other number that is part of the instruction, from 0 to max: NOP
 };
 
@@ -40,7 +41,7 @@ enum class Role : std::uint8_t { In, Out, InOut };
 enum class Sign : std::uint8_t { Either, Signed, Unsigned };
 
 /// Which timers an operand may name (facts 1.1).
-enum class TimerKind : std::uint8_t { Any, OnDelay, Retentive };
+enum class TimerKind : std::uint8_t { Any, OnDelay, OffDelay, Retentive };
 
 struct OperandRule {
   std::string_view name{};  ///< as the manual calls it: IN, OUT, N, TBL
@@ -52,6 +53,7 @@ struct OperandRule {
   bool pointer = false;     ///< *VD100, *AC1
   bool address_of = false;  ///< &VB100
   bool real = false;        ///< the value is a real number
+  bool text = false;        ///< a string: the address of its length byte, or a constant in double quotes
   Sign sign = Sign::Either;
   std::int64_t min = std::numeric_limits<std::int64_t>::min();  ///< of a constant, within its width
   std::int64_t max = std::numeric_limits<std::int64_t>::max();
@@ -97,6 +99,7 @@ enum class Structure : std::uint8_t {
   Attach,
   SegmentBegin,
   SegmentTransition,
+  SegmentExit,  ///< CSCRE
   SegmentEnd,
   DefineCounter,
   Compare  ///< its errors stop the CPU
@@ -111,7 +114,8 @@ enum class Effect : std::uint8_t {
   ConditionalEnd,  ///< of a routine or of the scan
   EnablesInterrupts,
   Transmits,
-  Receives
+  Receives,
+  ReadsEno  ///< AENO
 };
 
 /// What the decoder adds to the operands of an instruction.
@@ -133,11 +137,19 @@ struct StackUse {
   bool operator==(const StackUse&) const = default;
 };
 
+/// When the ENO output of a box becomes 0, besides missing power flow (facts 10.7).
+enum class Eno : std::uint8_t {
+  None,           ///< it is not a box with an ENO output
+  Errors,         ///< a run-time error
+  ErrorsAndFlags  ///< a run-time error, or a flag of SM1 that says that the box has failed
+};
+
 /// How an instruction acts in a rung, as a contact, a coil or a box.
 struct Rung {
   bool needs_power_flow = false;  ///< skipped while the top of the logic stack is 0
   StackUse stack{};
   bool writes_output = false;  ///< a coil or box: an LD after it begins a new rung
+  Eno eno = Eno::None;
 
   bool operator==(const Rung&) const = default;
 };

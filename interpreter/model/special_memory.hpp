@@ -22,6 +22,9 @@ enum Flag : std::uint8_t {
   kNotHex = 128
 };
 
+/// Flags that say that an instruction has not done what it should; of shifts, kOverflow is the last bit shifted out.
+inline constexpr std::uint8_t kFailures = kOverflow | kDivisionByZero | kTableFull | kTableEmpty | kNotBcd | kNotHex;
+
 namespace sm {
 
 constexpr std::uint32_t byte(std::uint32_t number) { return image::kSM + number; }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdlib>
+#include <map>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/data_block.hpp"
@@ -33,6 +34,7 @@ class Checker {
     if (all_known || !unknown_mnemonics_) check_logic_stack(statements_, diagnostics_);
     check_size();
     data_ = place_data(source_, model_, diagnostics_);
+    check_timer_kinds();
     std::shared_ptr<const Program> program;
     if (!has_errors(diagnostics_)) {
       program = decode(structure);
@@ -242,6 +244,23 @@ class Checker {
                   : fmt::format("{} bytes at least: no CPU that is modelled holds them", 2 * statements_.size());
   }
 
+  /// A timer is a TON or a TOF, not both: they share their numbers (facts 1.1).
+  void check_timer_kinds() {
+    std::map<std::uint32_t, const CheckedStatement*> first_use;
+    for (const CheckedStatement& s : statements_) {
+      const TimerKind kind = s.instruction->operand[0].timer;
+      if (!s.operands_good || (kind != TimerKind::OnDelay && kind != TimerKind::OffDelay)) continue;
+      const stl::Operand& timer = s.statement->operands[0];
+      const auto [first, added] = first_use.emplace(std::get<stl::Address>(timer.value).number, &s);
+      if (added || first->second->instruction->operand[0].timer == kind) continue;
+      const CheckedStatement& other = *first->second;
+      error(timer.position,
+            fmt::format("{} is a {} in line {}; it cannot be a {} too", stl::to_text(timer), other.instruction->mnemonic,
+                        other.statement->position.line, s.instruction->mnemonic),
+            "use another timer");
+    }
+  }
+
   // --- decoding ---
 
   std::shared_ptr<const Program> decode(const ProgramStructure& structure) {
@@ -256,9 +275,9 @@ class Checker {
       program->ops.push_back(decode(i, structure));
       note_timer(program->ops.back(), *program);
       note_reals(placed_[i], program->ops.back(), *program);
-      program->uses_local_memory |=
-          std::ranges::any_of(placed_[i], [](const PlacedOperand& placed) { return placed.area == Area::L; });
+      program->uses_local_memory |= std::ranges::any_of(program->ops.back().operand, is_local);
     }
+    follow_eno(*program);
     std::sort(program->reals.begin(), program->reals.end());
     program->constants = constants_.bytes();
     program->data = std::move(data_);
@@ -295,6 +314,20 @@ class Checker {
     op.body = body_of(op, written);
     set_cost(op, placed);
     return op;
+  }
+
+  /// In local memory, or a pointer held there.
+  static bool is_local(const Operand& operand) { return operand.at >= image::kL && operand.at < image::kConstants; }
+
+  /// In a program that reads ENO, each box sets it.
+  static void follow_eno(Program& program) {
+    const auto reads_eno = [](const Op& op) { return op.instruction->effect == Effect::ReadsEno; };
+    if (std::ranges::none_of(program.ops, reads_eno)) return;
+    for (Op& op : program.ops) {
+      program.box_body.push_back(op.body);
+      op.sets_eno = op.instruction->rung.eno != Eno::None;
+      if (op.sets_eno) op.body = run_with_eno;
+    }
   }
 
   /// The body, or a step around it if the operands need one.

@@ -14,6 +14,8 @@
 namespace s7200 {
 namespace {
 
+constexpr std::size_t kLongestStringConstant = 126;
+
 template <class... Visitors>
 struct Overloaded : Visitors... {
   using Visitors::operator()...;
@@ -59,7 +61,7 @@ std::string areas_text(const OperandRule& rule, const CpuModel& model) {
       add(is_numbered(area.area) || area.area == Area::AI || area.area == Area::AQ
               ? std::string(area.name) + (area.element ? "" : "W")
               : std::string(area.name).append(letter_of(rule.width)));
-  if (rule.constant) add("a constant");
+  if (rule.constant) add(rule.text ? "a constant in double quotes" : "a constant");
   if (rule.pointer) add(model.size_of(Area::L) != 0 ? "*VD, *LD, *AC" : "*VD, *AC");
   if (rule.address_of) add("&…");
   return text;
@@ -148,6 +150,8 @@ class Placing {
         return {"high-speed counter", model_.size_of(Area::HC) - 1};
       case OperandKind::Port:
         return {"port", model_.ports - 1};
+      case OperandKind::StackLevel:
+        return {"level", 8};
       default:
         return {"number", rule_.max};
     }
@@ -172,6 +176,9 @@ class Placing {
   // --- constants ---
 
   Result integer(const stl::Integer& constant) {
+    if (rule_.text && rule_.constant)
+      return error(fmt::format("{} is a string, {} is a number", of_instruction(), text()),
+                   "a string constant is written in double quotes");
     if (!rule_.constant) return constant_refused();
     if (rule_.real)
       return error(fmt::format("{} is a real number, {} is an integer", of_instruction(), text()),
@@ -300,9 +307,10 @@ class Placing {
     if (rule_.timer == TimerKind::Any) return true;
     const TimerBase timer = timer_base(address.number);
     if (timer.retentive == (rule_.timer == TimerKind::Retentive)) return true;
+    const std::string_view other = rule_.timer == TimerKind::OffDelay ? "off-delay timers" : "on-delay timers";
     error(fmt::format("{} is {}, {} takes {}", text(), timer.retentive ? "a retentive timer" : "an on-delay timer",
-                      instruction_.mnemonic, timer.retentive ? "on-delay timers" : "retentive timers"),
-          timer.retentive ? "on-delay timers are T32 to T63 and T96 and above; T0 to T31 and T64 to T95 are for TONR"
+                      instruction_.mnemonic, timer.retentive ? other : "retentive timers"),
+          timer.retentive ? fmt::format("{} are T32 to T63 and T96 and above; T0 to T31 and T64 to T95 are for TONR", other)
                           : "retentive timers are T0 to T31 and T64 to T95; T32 to T63 and T96 and above are for TON");
     return false;
   }
@@ -367,7 +375,24 @@ class Placing {
         {.at = a.base + std::max(1u, a.element) * operand.pointer.number, .pointer = true, .width = width()}, {}, {}};
   }
 
+  // --- strings ---
+
+  /// A constant: its length byte and its characters.
+  Result string(const std::string& characters) {
+    if (!rule_.constant) return constant_refused();
+    if (characters.size() > kLongestStringConstant)
+      return error(fmt::format("{} has {} characters", text(), characters.size()),
+                   fmt::format("a string constant has {} at most", kLongestStringConstant));
+    const bool plain = std::ranges::all_of(characters, [](char c) { return c >= 0x20 && c <= 0x7E && c != '$'; });
+    if (!plain)
+      return error(fmt::format("{}: only plain ASCII characters without $ are possible in a string constant", text()),
+                   "put other characters into V memory with MOVB");
+    return PlacedOperand{{.at = constants_.place(characters)}, {}, {}};
+  }
+
   Result name(const stl::Name& name) {
+    if (rule_.text && name.text.size() >= 2 && name.text.front() == '"' && name.text.back() == '"')
+      return string(name.text.substr(1, name.text.size() - 2));
     const std::string upper = stl::upper_case(name.text);
     if (rule_.real && (upper == "NAN" || upper == "INF" || upper == "INFINITY"))
       return error(fmt::format("{} cannot be {}", of_instruction(), text()),
@@ -397,6 +422,15 @@ std::uint32_t ConstantPool::place(std::uint32_t value, std::uint32_t width) {
   if (added)
     for (std::uint32_t shift = 8 * width; shift > 0; shift -= 8)
       bytes_.push_back(static_cast<std::uint8_t>(value >> (shift - 8)));
+  return found->second;
+}
+
+std::uint32_t ConstantPool::place(const std::string& characters) {
+  const auto [found, added] = texts_.try_emplace(characters, image::kConstants + static_cast<std::uint32_t>(bytes_.size()));
+  if (added) {
+    bytes_.push_back(static_cast<std::uint8_t>(characters.size()));
+    bytes_.insert(bytes_.end(), characters.begin(), characters.end());
+  }
   return found->second;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,10 +18,13 @@ class ConstantPool {
  public:
   /// Place in the image of a constant of `width` bytes.
   std::uint32_t place(std::uint32_t value, std::uint32_t width);
+  /// Place of a string: its length byte, then its characters.
+  std::uint32_t place(const std::string& characters);
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
 
  private:
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> places_;
+  std::map<std::string, std::uint32_t> texts_;
   std::vector<std::uint8_t> bytes_;
 };
 

@@ -34,6 +34,7 @@ struct Op {
   std::uint8_t power_mask = 0;  ///< 1: needs power flow
   bool has_pointer = false;     ///< some operand is a pointer
   bool in_segment = false;      ///< between LSCR and SCRE
+  bool sets_eno = false;        ///< a box with an ENO output, in a program that reads it
   std::uint32_t statement = 0;  ///< in Program::statements
   const Instruction* instruction = nullptr;
 
@@ -54,6 +55,8 @@ void run_with_pointer_first(Core& core, const Op& op);
 void run_with_pointer_second(Core& core, const Op& op);
 /// For an instruction that writes special memory: the port follows SMB30.
 void run_with_port_control(Core& core, const Op& op);
+/// Sets ENO after a box; only in programs with AENO.
+void run_with_eno(Core& core, const Op& op);
 /// For an instruction that writes analog outputs: they have no image, so a change goes to the module at once.
 void run_with_analog_output(Core& core, const Op& op);
 
@@ -79,6 +82,7 @@ struct Program {
   stl::Source source;
   std::vector<stl::Statement> statements;  ///< one for each op
   std::vector<Op> ops;
+  std::vector<Body> box_body;                  ///< what run_with_eno() calls, for each op; empty in a program without AENO
   std::vector<std::uint8_t> constants;         ///< content of the image from image::kConstants
   std::vector<InitialData> data{};             ///< downloaded with the program
   std::array<std::uint32_t, 64> subroutine{};  ///< op of each SBR; kNoRoutine where there is none

@@ -109,6 +109,8 @@ class StructureCheck {
         return begin_segment(i);
       case Structure::SegmentTransition:
         return segment_transition(i);
+      case Structure::SegmentExit:
+        return segment_exit(i);
       case Structure::SegmentEnd:
         return end_segment(i);
       case Structure::MainEnd:
@@ -157,6 +159,7 @@ class StructureCheck {
     loops_.clear();
     if (segment_) error(position(*segment_), "LSCR without SCRE (compile rule 0096)", "close the segment with SCRE");
     segment_.reset();
+    exits_.clear();
   }
 
   void stray(std::uint32_t i) {
@@ -266,8 +269,18 @@ class StructureCheck {
       result_.head[i] = *segment_;
   }
 
+  /// CSCRE goes to the SCRE of its segment.
+  void segment_exit(std::uint32_t i) {
+    if (!segment_)
+      error(position(i), "CSCRE outside a segment (compile rule 0095)", "a segment begins with LSCR");
+    else
+      exits_.push_back(i);
+  }
+
   void end_segment(std::uint32_t i) {
     if (!segment_) error(position(i), "SCRE without LSCR (compile rule 0095)");
+    for (const std::uint32_t exit : exits_) result_.target[exit] = i;
+    exits_.clear();
     segment_.reset();
   }
 
@@ -343,6 +356,7 @@ class StructureCheck {
   bool stray_reported_ = false;
   std::vector<std::uint32_t> loops_;                                      // open FORs
   std::optional<std::uint32_t> segment_;                                  // open LSCR
+  std::vector<std::uint32_t> exits_;                                      // CSCREs of the open segment
   std::vector<std::uint32_t> segment_of_;                                 // for each statement: its LSCR, or kNoSegment
   std::map<std::pair<std::uint32_t, std::uint8_t>, Place> segment_bits_;  // S bit -> its first LSCR
   std::map<std::uint32_t, std::uint32_t> subroutines_, interrupts_;       // number -> statement of the head
@@ -368,7 +382,7 @@ class StackCheck {
       after_output_ = true;
       return;
     }
-    use(s, instruction.rung.stack);
+    use(s, stack_use(s));
     after_output_ = instruction.rung.writes_output;
     last_ = s.statement;
   }
@@ -398,14 +412,26 @@ class StackCheck {
     }
   }
 
+  /// LDS needs the level that it copies and all above it.
+  static StackUse stack_use(const CheckedStatement& s) {
+    StackUse use = s.instruction->rung.stack;
+    if (s.instruction->operand[0].kind == OperandKind::StackLevel && s.operands_good)
+      use.needs = static_cast<std::int8_t>(use.needs + static_cast<int>(number_of(s)));
+    if (use.needs == LevelsOfStack) use.change = 0;  // the level that is lost is the one copied
+    return use;
+  }
+
   void use(const CheckedStatement& s, StackUse stack) {
     if (depth_ < stack.needs && !reported_) {
       reported_ = true;
       diagnostics_.push_back(
           {stl::Severity::Error, s.statement->position,
            fmt::format("{} needs {} on the logic stack and finds {} (compile rule 0081)", s.instruction->mnemonic,
-                       stack.needs == 1 ? "a value" : fmt::format("{} values", stack.needs), depth_ == 0 ? "none" : "1"),
-           stack.needs == 1 ? "begin the rung with LD" : "load the other value with LD first"});
+                       stack.needs == 1 ? "a value" : fmt::format("{} values", stack.needs),
+                       depth_ == 0 ? "none" : std::to_string(depth_)),
+           stack.needs == 1   ? "begin the rung with LD"
+           : stack.needs == 2 ? "load the other value with LD first"
+                              : "load the other values with LD first"});
     }
     depth_ = std::min(std::max<int>(depth_, stack.needs) + stack.change, LevelsOfStack);
     rung_ = std::max<int>(rung_, stack.needs) + stack.change;

@@ -65,7 +65,9 @@ void reset(Machine& m) {
   for (std::size_t i = 0; numbered && i < count; ++i) {
     const std::size_t number = first.number + i;
     write(Place{first.area == "T" ? &m.memory.T : &m.memory.C, 2 * number}, 2, 0);
-    if (first.area == "T" && !is_100_ms(number)) m.timers[number].enabled = false;  // facts 9.1
+    if (first.area != "T") continue;
+    if (m.timers[number].off_delay || !is_100_ms(number)) m.timers[number].enabled = false;  // facts 9.1
+    m.timers[number].input = false;
   }
   set(m, count, false);
 }
@@ -99,6 +101,8 @@ void add_bit_logic(Instructions& all) {
   all["LPS"] = {false, [](Machine& m) { m.push(m.stack[0]); }};
   all["LRD"] = {false, [](Machine& m) { m.stack[0] = m.stack[1]; }};
   all["LPP"] = {false, [](Machine& m) { m.pop(); }};
+  all["LDS"] = {false, [](Machine& m) { m.push(m.stack[m.number(0)]); }};
+  all["AENO"] = {false, [](Machine& m) { m.stack[0] = m.stack[0] && m.eno; }};
   all["="] = {false, coil};
   all["=I"] = {false, immediate_coil};
   all["S"] = {true, [](Machine& m) { set(m, count_of_bits(m), true); }};

@@ -6,8 +6,9 @@
 
 namespace s7200::reference {
 
-const std::array<AreaPair, 16> kAreaPairs{{
+const std::array<AreaPair, 17> kAreaPairs{{
     {&Memory::V, image::kV, "VB"},
+    {&Memory::L, image::kL, "LB"},
     {&Memory::I, image::kI, "IB"},
     {&Memory::Q, image::kQ, "QB"},
     {&Memory::M, image::kM, "MB"},

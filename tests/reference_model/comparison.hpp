@@ -16,7 +16,7 @@ struct AreaPair {
   std::uint32_t base;
   std::string_view name;
 };
-extern const std::array<AreaPair, 16> kAreaPairs;
+extern const std::array<AreaPair, 17> kAreaPairs;
 
 /// Gives the interpreter the memory of the reference model, as a programming device would.
 void copy_to(Cpu& cpu, const Memory& memory);

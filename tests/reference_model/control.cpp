@@ -44,6 +44,7 @@ void call(Machine& m) {
   m.calls.push_back({m.next, m.stack, m.rail});
   m.stack = {true};
   m.rail = true;
+  m.enter_level(m.calls.size());
   m.next = m.find_subroutine(m.number(0));
 }
 
@@ -52,6 +53,8 @@ void return_to_caller(Machine& m) {
   m.rail = m.calls.back().rail;
   m.next = m.calls.back().return_to;
   m.calls.pop_back();
+  m.enter_level(m.calls.size());
+  m.eno = true;
 }
 
 /// Facts 9.1: the segment always runs; without power on its rail its contacts give no power flow.
@@ -65,6 +68,11 @@ void segment_transition(Machine& m) {
   const auto& own = std::get<stl::Address>(m.statements()[m.find_lscr(m.position)].operands[0].value);
   write(BitPlace{&m.memory.S, std::size_t{8} * own.number + own.bit}, false);
   write(m.bit(0), true);
+}
+
+/// On to the SCRE.
+void leave_segment(Machine& m) {
+  while (m.statements()[m.next].mnemonic != "SCRE") ++m.next;
 }
 
 void nothing(Machine&) {}
@@ -86,6 +94,7 @@ void add_control(Instructions& all) {
   all["WDR"] = {true, [](Machine& m) { m.restart_watchdog(); }};
   all["LSCR"] = {false, load_segment};
   all["SCRT"] = {true, segment_transition};
+  all["CSCRE"] = {true, leave_segment};
   all["SCRE"] = {false, [](Machine& m) { m.rail = true; }};
   all["ENI"] = {true, [](Machine& m) { m.enable_interrupts(true); }};
   all["DISI"] = {true, [](Machine& m) { m.enable_interrupts(false); }};

@@ -45,6 +45,41 @@ void truncate(Machine& m) {
   if (legal) write(out, 4, static_cast<std::uint32_t>(static_cast<std::int32_t>(in)));
 }
 
+/// To the nearest integer, a half away from zero.
+void round(Machine& m) {
+  const double in = static_cast<double>(real(m.in(0, 4)));
+  const Place out = m.place(1, 4);
+  const double nearest = in < 0 ? std::ceil(in - 0.5) : std::floor(in + 0.5);
+  const bool legal = nearest >= -2147483648.0 && nearest < 2147483648.0;
+  set_flag(m, kOverflow, !legal);
+  if (legal) write(out, 4, static_cast<std::uint32_t>(static_cast<std::int32_t>(nearest)));
+}
+
+void byte_to_integer(Machine& m) {
+  const std::uint32_t byte = m.in(0, 1);
+  write(m.place(1, 2), 2, byte);
+}
+
+void integer_to_byte(Machine& m) {
+  const std::uint32_t word = m.in(0, 2);
+  const Place out = m.place(1, 1);
+  set_flag(m, kOverflow, word > 255);
+  if (word <= 255) write(out, 1, word);
+}
+
+void integer_to_double(Machine& m) {
+  const std::uint32_t word = m.in(0, 2);
+  write(m.place(1, 4), 4, word >= 0x8000 ? 0xFFFF'0000 | word : word);
+}
+
+void double_to_integer(Machine& m) {
+  const std::int32_t value = signed32(m.in(0, 4));
+  const Place out = m.place(1, 2);
+  const bool fits = value >= -32768 && value <= 32767;
+  set_flag(m, kOverflow, !fits);
+  if (fits) write(out, 2, static_cast<std::uint32_t>(value) & 0xFFFF);
+}
+
 void decode(Machine& m) {
   const std::uint32_t number = m.in(0, 1) & 0xF;
   write(m.place(1, 2), 2, 1u << number);
@@ -121,6 +156,11 @@ void add_conversions(Instructions& all) {
   all["IBCD"] = {true, integer_to_bcd};
   all["DTR"] = {true, integer_to_real};
   all["TRUNC"] = {true, truncate};
+  all["ROUND"] = {true, round};
+  all["BTI"] = {true, byte_to_integer};
+  all["ITB"] = {true, integer_to_byte};
+  all["ITD"] = {true, integer_to_double};
+  all["DTI"] = {true, double_to_integer};
   all["DECO"] = {true, decode};
   all["ENCO"] = {true, encode};
   all["SEG"] = {true, seven_segments};

@@ -16,14 +16,9 @@ constexpr std::uint32_t kReals = 64, kRealsSize = 32;
 constexpr std::uint32_t kPointers = 100, kPointerCount = 4;
 constexpr std::uint32_t kDigits = 120, kDigitsSize = 32;
 constexpr std::uint32_t kTables[] = {200, 260};
-constexpr std::uint32_t kEnd = 4096, kEndSize = 12;
-
-/// What the generator may use anywhere in a rung: instructions that the reference model knows and that need no partner.
-bool is_free(const s7200::Instruction& instruction) {
-  if (!instructions().contains(std::string(instruction.mnemonic)) || !(instruction.cpus & kCpu214)) return false;
-  const Structure s = instruction.structure;
-  return s == Structure::None || s == Structure::Compare || s == Structure::Attach;
-}
+constexpr std::uint32_t kLocalPointers = 8;  // in L memory
+constexpr std::uint32_t kStrings[] = {320, 340, 360};
+constexpr std::uint32_t kEndSize = 12;  // at the end
 
 /// Instructions that leave the program early: used rarely, or nothing after them would run.
 bool is_rare(const s7200::Instruction& instruction) {
@@ -31,11 +26,16 @@ bool is_rare(const s7200::Instruction& instruction) {
   return kNames.contains(instruction.mnemonic);
 }
 
-std::size_t size_of(std::string_view area) { return cpu214().size_of(*area_named(area)); }
-
 }  // namespace
 
-Generator::Generator(std::uint64_t seed) : random_(seed) {
+/// What the generator may use anywhere in a rung: instructions that the reference model knows and that need no partner.
+bool Generator::is_free(const s7200::Instruction& instruction) const {
+  if (!instructions().contains(std::string(instruction.mnemonic)) || !(instruction.cpus & model_.self)) return false;
+  const Structure s = instruction.structure;
+  return s == Structure::None || s == Structure::Compare || s == Structure::Attach;
+}
+
+Generator::Generator(std::uint64_t seed, const CpuModel& model) : model_(model), random_(seed) {
   for (const auto& instruction : all_instructions())
     if (is_free(instruction)) (instruction.rung.writes_output ? outputs_ : logic_).push_back(&instruction);
 }
@@ -167,6 +167,10 @@ void Generator::segment(std::uint8_t part, int level) {
   line("LSCR S" + std::to_string(routine_) + "." + std::to_string(below(8)));
   if (chance(20)) line("= M0.0");  // on what LSCR has left on the logic stack
   body(part, level + 1);
+  if (model_.self & kCpu22x && chance(30)) {
+    rung(part, "CSCRE");
+    rung(part);
+  }
   if (chance(60)) rung(part, statement(*find_instruction("SCRT")));
   line("SCRE");
   in_segment_ = false;
@@ -186,14 +190,17 @@ std::string Generator::statement(const s7200::Instruction& instruction) {
 
 std::string Generator::operand(const OperandRule& rule) {
   if (rule.kind != OperandKind::Memory) return number(rule);
-  if (rule.constant && (rule.areas == 0 || chance(30))) return constant(rule);
+  if (rule.text && rule.constant && chance(25)) return string_constant();
+  if (rule.constant && !rule.text && (rule.areas == 0 || chance(30))) return constant(rule);
   if (rule.address_of && chance(15)) {
     static const std::vector<std::string> kTargets{"VB0", "VB4095", "VW2", "VD100", "MB31",
                                                    "IB0", "QB7",    "SB3", "T33",   "C127"};
     return "&" + one_of(kTargets);
   }
   if (rule.pointer && chance(20))
-    return chance(50) ? "*AC" + std::to_string(1 + below(3)) : "*VD" + std::to_string(kPointers + 4 * below(kPointerCount));
+    return size_of("L") != 0 && chance(25) ? "*LD" + std::to_string(kLocalPointers + 4 * below(2))
+           : chance(50)                    ? "*AC" + std::to_string(1 + below(3))
+                                           : "*VD" + std::to_string(kPointers + 4 * below(kPointerCount));
   return direct(rule);
 }
 
@@ -205,6 +212,8 @@ std::string Generator::number(const OperandRule& rule) {
       return std::to_string(below(8));
     case OperandKind::Subroutine:
       return std::to_string(below(subroutines_));
+    case OperandKind::StackLevel:
+      return std::to_string(below(3));
     default:
       return std::to_string(below(static_cast<std::size_t>(rule.max) + 1));
   }
@@ -230,10 +239,14 @@ std::string Generator::constant(const OperandRule& rule) {
   }
 }
 
+std::string Generator::string_constant() {
+  return one_of(std::vector<std::string>{"\"\"", "\"1\"", "\"-12.5\"", "\"  +70000\"", "\"12AB\"", "\"ABBA\""});
+}
+
 std::string Generator::direct(const OperandRule& rule) {
   std::vector<std::string> areas;
   for (const AreaInfo& area : all_areas())
-    if (contains(rule.areas, area.area)) areas.emplace_back(area.name);
+    if (contains(rule.areas, area.area) && model_.size_of(area.area) != 0) areas.emplace_back(area.name);
   std::string area = one_of(areas);
   if (contains(rule.areas, Area::V) && chance(50)) area = "V";
   if (area == "SM") {
@@ -242,7 +255,8 @@ std::string Generator::direct(const OperandRule& rule) {
     area = contains(rule.areas, Area::V) ? "V" : areas.front();
   }
   if (area == "T") return timer(rule);
-  if (area == "C") return "C" + one_of(std::vector<std::string>{"0", "1", "2", "8", "126", "127"});
+  if (area == "C")
+    return "C" + one_of(std::vector<std::string>{"0", "1", "2", "8", "126", std::to_string(size_of("C") - 1)});
   if (area == "AC") return "AC" + std::to_string(rule.role == Role::In || chance(10) ? below(4) : 0);
   if (area == "HC") return "HC" + std::to_string(below(size_of("HC")));
   if (area == "AI" || area == "AQ") return area + "W" + std::to_string(2 * below(16));
@@ -265,7 +279,9 @@ std::string Generator::address(const std::string& area, Width width, std::uint32
 
 std::string Generator::timer(const OperandRule& rule) {
   static const std::vector<std::string> kOnDelay{"T32", "T96", "T33", "T36", "T100", "T37", "T63", "T127"};
+  static const std::vector<std::string> kOffDelay{"T96", "T96", "T97", "T34", "T101", "T255"};
   static const std::vector<std::string> kRetentive{"T0", "T64", "T1", "T4", "T68", "T5", "T31", "T95"};
+  if (rule.timer == TimerKind::OffDelay) return one_of(kOffDelay);
   const bool retentive = rule.timer == TimerKind::Retentive || (rule.timer == TimerKind::Any && chance(50));
   return one_of(retentive ? kRetentive : kOnDelay);
 }
@@ -292,11 +308,12 @@ std::uint32_t Generator::place_in_v(const OperandRule& rule) {
   const auto in = [&](std::uint32_t from, std::uint32_t size) {
     return from + static_cast<std::uint32_t>(below(size - width + 1));
   };
+  if (rule.text && chance(80)) return kStrings[below(3)];
   if (rule.name == "TBL" && chance(80)) return kTables[below(2)];
   if (rule.name == "SRC" && chance(80)) return kTables[below(2)] + 2;
   if (rule.real && chance(80)) return kReals + 4 * static_cast<std::uint32_t>(below(kRealsSize / 4));
   if (rule.counted != 0 && rule.width == Width::Byte && chance(50)) return in(kDigits, kDigitsSize);
-  if (chance(5)) return in(kEnd - kEndSize, kEndSize);
+  if (chance(5)) return in(static_cast<std::uint32_t>(size_of("V")) - kEndSize, kEndSize);
   if (chance(3)) return in(kPointers, 4 * kPointerCount);
   if (chance(5)) return in(kTables[0], 24);
   return in(kHot, kHotSize);
@@ -331,21 +348,23 @@ std::uint32_t Generator::real_bits() {
 std::uint32_t Generator::pointer() {
   const auto to = [](std::uint32_t code, std::size_t offset) { return code << 24 | static_cast<std::uint32_t>(offset); };
   if (chance(10)) return static_cast<std::uint32_t>(random_());
+  const auto v_end = static_cast<std::uint32_t>(size_of("V"));
+  if (size_of("L") != 0 && chance(10)) return to(0x08, kStrings[below(3)]);
   switch (below(12)) {
     case 0:
-      return to(0x00, below(9));
+      return to(0x00, below(size_of("I") + 1));
     case 1:
-      return to(0x01, below(9));
+      return to(0x01, below(size_of("Q") + 1));
     case 2:
       return to(0x02, below(33));
     case 3:
-      return to(0x04, below(17));
+      return to(0x04, below(size_of("S") + 1));
     case 4:
-      return to(0x05, 2 * below(129));
+      return to(0x05, 2 * below(size_of("T") + 1));
     case 5:
-      return to(0x06, 2 * below(129));
+      return to(0x06, 2 * below(size_of("C") + 1));
     case 6:
-      return to(0x08, 4090 + below(8));
+      return to(0x08, v_end - 6 + below(8));
     case 7:
       return to(static_cast<std::uint32_t>(below(12)), below(64));
     case 8:
@@ -368,6 +387,15 @@ void Generator::table(Bytes& bytes, std::size_t at) {
   for (std::size_t i = 0; i < 20; ++i) write(Place{&bytes, at + 4 + 2 * i}, 2, interesting(2));
 }
 
+/// Numbers, and what looks like one.
+void Generator::string(Bytes& bytes, std::size_t at) {
+  static const std::vector<std::string> kTexts{"",  "1",    "-32768", "32768", "  12,75",    "+5",
+                                               "-", "12AB", "AB",     "B 7",   "2147483648", "ABBA ABBA"};
+  const std::string& text = one_of(kTexts);
+  write(Place{&bytes, at}, 1, chance(95) ? static_cast<std::uint32_t>(text.size()) : interesting(1));
+  for (std::size_t i = 0; i < text.size(); ++i) write(Place{&bytes, at + 1 + i}, 1, static_cast<unsigned char>(text[i]));
+}
+
 void Generator::fill(Memory& m) {
   random_bytes(m.input_points, 0, m.input_points.size());
   for (Bytes* bytes : {&m.Q, &m.M, &m.S, &m.AI, &m.HC, &m.counter_bits}) random_bytes(*bytes, 0, bytes->size());
@@ -385,7 +413,12 @@ void Generator::fill(Memory& m) {
     m.V[kDigits + i] =
         static_cast<std::uint8_t>(chance(6) ? below(256) : static_cast<std::size_t>("0123456789ABCDEF"[below(16)]));
   for (const std::uint32_t at : kTables) table(m.V, at);
-  random_bytes(m.V, kEnd - kEndSize, kEndSize);
+  random_bytes(m.V, m.V.size() - kEndSize, kEndSize);
+  if (!m.L.empty()) {
+    for (const std::uint32_t at : kStrings) string(m.V, at);
+    for (std::size_t at = 0; at < m.L.size(); at += 4) write(Place{&m.L, at}, 4, interesting(4));
+    for (std::size_t i = 0; i < 2; ++i) write(Place{&m.L, kLocalPointers + 4 * i}, 4, pointer());
+  }
   write(Place{&m.AC, 0}, 4, interesting(4));
   for (std::size_t i = 1; i < 4; ++i) write(Place{&m.AC, 4 * i}, 4, pointer());
   m.SM[1] = static_cast<std::uint8_t>(below(256));

@@ -1,4 +1,4 @@
-// Random programs for CPU 214 that the checker accepts, and random memory for them to meet.
+// Random programs for a CPU that the checker accepts, and random memory for them to meet.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace s7200::reference {
 
 class Generator {
  public:
-  explicit Generator(std::uint64_t seed);
+  Generator(std::uint64_t seed, const CpuModel& model);
 
   /// Main program, some subroutines and an interrupt routine that is never called.
   std::string program();
@@ -46,6 +46,7 @@ class Generator {
   std::string number(const OperandRule& rule);
   std::string direct(const OperandRule& rule);
   std::string timer(const OperandRule& rule);
+  std::string string_constant();
   std::string special_memory(const OperandRule& rule);
   std::uint32_t place_in_v(const OperandRule& rule);
   std::string address(const std::string& area, Width width, std::uint32_t number);
@@ -56,7 +57,12 @@ class Generator {
   std::uint32_t real_bits();
   void random_bytes(Bytes& bytes, std::size_t from, std::size_t count);
   void table(Bytes& bytes, std::size_t at);
+  void string(Bytes& bytes, std::size_t at);
 
+  std::size_t size_of(std::string_view area) const { return model_.size_of(*area_named(area)); }
+  bool is_free(const s7200::Instruction& instruction) const;
+
+  const CpuModel& model_;
   std::mt19937_64 random_;
   std::vector<const s7200::Instruction*> logic_, outputs_;
   std::string text_;

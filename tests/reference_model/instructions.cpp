@@ -12,6 +12,7 @@ const Instructions& instructions() {
     add_shifts(all);
     add_conversions(all);
     add_tables(all);
+    add_strings(all);
     add_timers_and_counters(all);
     add_control(all);
     return all;

@@ -26,6 +26,7 @@ void add_arithmetic(Instructions& all);
 void add_shifts(Instructions& all);
 void add_conversions(Instructions& all);
 void add_tables(Instructions& all);
+void add_strings(Instructions& all);
 void add_timers_and_counters(Instructions& all);
 void add_control(Instructions& all);
 

@@ -29,10 +29,9 @@ class Observer : public TraceSink {
 };
 
 /// The part of a generated text that the checker accepts: lines that it refuses are left out.
-std::shared_ptr<const Program> accepted(std::string& text) {
-  static const TimeTable kTimes = default_times(cpu214());
+std::shared_ptr<const Program> accepted(std::string& text, const CpuModel& model, const TimeTable& times) {
   for (int attempt = 0; attempt < 20; ++attempt) {
-    const CheckResult result = check_text(text, "random", cpu214(), kTimes);
+    const CheckResult result = check_text(text, "random", model, times);
     if (result.program) return result.program;
     std::vector<bool> refused(result.source.text.size() + 1);
     for (const auto& diagnostic : result.diagnostics)
@@ -73,7 +72,7 @@ class Pair {
       : program_(std::move(program)),
         generator_(generator),
         cpu_(program_, queue_, EventOwner{}, {&port_, &port_}),
-        machine_(program_->source, cpu214_times()) {
+        machine_(program_->source, cpu_kind(std::string(program_->model->name))) {
     if (observed) cpu_.set_sink(&observer_);
     executed_.resize(machine_.statements().size());
   }
@@ -172,12 +171,14 @@ std::string listing(const Program& program) {
 
 }  // namespace
 
-LockstepResult run_lockstep(std::uint64_t seed, std::uint64_t instructions) {
+LockstepResult run_lockstep(std::uint64_t seed, std::uint64_t instructions, const std::string& cpu) {
   LockstepResult result;
+  const CpuModel& model = *find_cpu(cpu);
+  const TimeTable times = default_times(model);
   for (; result.instructions < instructions && !result.difference; ++seed, ++result.programs) {
-    Generator generator(seed);
+    Generator generator(seed, model);
     std::string text = generator.program();
-    const auto program = accepted(text);
+    const auto program = accepted(text, model, times);
     if (!program) {
       result.difference = fmt::format("seed {}: the checker accepts no part of\n{}", seed, text);
       break;

@@ -16,8 +16,8 @@ struct LockstepResult {
   std::optional<std::string> difference;          ///< the first: program, instruction, both states, seed
 };
 
-/// Runs random programs until this many instructions have been compared or a difference is found.
+/// Runs random programs on a CPU 214 or 224 until this many instructions have been compared or a difference is found.
 /// Program `i` of a run is made from `seed + i`: a run with the reported seed and one instruction shows it again.
-LockstepResult run_lockstep(std::uint64_t seed, std::uint64_t instructions);
+LockstepResult run_lockstep(std::uint64_t seed, std::uint64_t instructions, const std::string& cpu = "214");
 
 }  // namespace s7200::reference

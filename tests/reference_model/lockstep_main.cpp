@@ -1,4 +1,4 @@
-// lockstep [--seed S] [--instructions N]: interpreter against reference model over random programs.
+// lockstep [--cpu 224] [--seed S] [--instructions N]: interpreter against reference model over random programs.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,12 +10,14 @@ int main(int argc, char** argv) {
   CLI::App app{
       "Runs random programs on the interpreter and on the reference model and compares them after each instruction"};
   std::uint64_t seed = 1, instructions = 10'000'000;
+  std::string cpu = "214";
+  app.add_option("--cpu", cpu, "214 or 224")->capture_default_str()->check(CLI::IsMember({"214", "224"}));
   app.add_option("--seed", seed, "of the first program; each further one adds 1")->capture_default_str();
   app.add_option("--instructions", instructions, "to compare")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
   const auto start = std::chrono::steady_clock::now();
-  const auto result = s7200::reference::run_lockstep(seed, instructions);
+  const auto result = s7200::reference::run_lockstep(seed, instructions, cpu);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   if (result.difference) {
     fmt::print("{}", *result.difference);

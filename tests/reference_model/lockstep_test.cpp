@@ -25,13 +25,19 @@ TEST_P(Lockstep, InterpreterAgreesWithReferenceModel) {
   EXPECT_FALSE(result.difference) << *result.difference;
 }
 
+TEST_P(Lockstep, InterpreterAgreesWithReferenceModelOnACpu224) {
+  const LockstepResult result = run_lockstep(GetParam() * 1'000'000, instructions_of_a_test() / 2, "224");
+  EXPECT_FALSE(result.difference) << *result.difference;
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, Lockstep, testing::Range<std::uint64_t>(1, 5));
 
-/// Interrupts, Freeport, high-speed counters, pulse outputs and the clock are left to other tests.
+/// Interrupts, Freeport, ports, high-speed counters, pulse outputs, PID and the clock are left to other tests.
 TEST(ReferenceModel, KnowsEveryInstructionButThoseLeftToOtherTests) {
-  static const std::set<std::string_view> kOthers{"XMT", "CRETI", "HDEF", "HSC", "PLS", "TODR", "TODW"};
+  static const std::set<std::string_view> kOthers{"XMT",  "CRETI", "HDEF", "HSC", "PLS", "TODR",
+                                                  "TODW", "PID",   "GPA",  "SPA", "DLED"};
   for (const auto& instruction : all_instructions()) {
-    if (!instruction.modelled() || !(instruction.cpus & kCpu214)) continue;
+    if (!instruction.modelled() || !(instruction.cpus & (kCpu214 | kCpu224))) continue;
     EXPECT_NE(instructions().contains(std::string(instruction.mnemonic)), kOthers.contains(instruction.mnemonic))
         << instruction.mnemonic;
   }
@@ -39,7 +45,7 @@ TEST(ReferenceModel, KnowsEveryInstructionButThoseLeftToOtherTests) {
 
 TEST(ReferenceModel, RandomProgramsExecuteEveryInstructionItKnows) {
   static const std::set<std::string> kNotExecuted{"INT", "RETI"};
-  const LockstepResult result = run_lockstep(500'000, 500'000);
+  const LockstepResult result = run_lockstep(500'000, 1'000'000, "224");
   for (const auto& [mnemonic, instruction] : instructions()) {
     const auto found = result.executed.find(mnemonic);
     const std::uint64_t times = found == result.executed.end() ? 0 : found->second;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <set>
 #include <stdexcept>
 
 #include "tests/reference_model/instructions.hpp"
@@ -10,7 +11,6 @@ namespace s7200::reference {
 namespace {
 
 constexpr std::int64_t kMillisecond = 1'000'000, kSecond = 1000 * kMillisecond;
-constexpr std::int64_t kWatchdog = 300 * kMillisecond;
 constexpr std::int64_t kStopStep = 10'000;
 
 /// How many bytes an element of an area takes, if the area is addressed by element numbers.
@@ -22,10 +22,26 @@ std::size_t element_size(const std::string& area) {
 
 bool clock_is_high(std::int64_t time, std::int64_t half_period) { return time / half_period % 2 == 0; }
 
-std::string area_of_first_operand(const stl::Statement& statement) {
-  if (statement.operands.empty()) return "";
-  const auto* address = std::get_if<stl::Address>(&statement.operands[0].value);
-  return address ? address->area : "";
+std::vector<std::string> areas_of_operands(const stl::Statement& statement) {
+  std::vector<std::string> areas;
+  for (const stl::Operand& operand : statement.operands) {
+    const auto* address = std::get_if<stl::Address>(&operand.value);
+    areas.push_back(address ? address->area : "");
+  }
+  return areas;
+}
+
+bool is_in_local_memory(const stl::Operand& operand) {
+  if (const auto* address = std::get_if<stl::Address>(&operand.value)) return address->area == "L";
+  const auto* indirect = std::get_if<stl::Indirect>(&operand.value);
+  return indirect && indirect->pointer.area == "L";
+}
+
+/// Of what needs power flow, coils and what changes the course of the program have no ENO (facts 10.7).
+bool has_eno(const std::string& mnemonic, const Instruction& instruction) {
+  static const std::set<std::string> kWithout{"S",    "R",   "SI",   "RI",    "JMP",   "CRET", "END",
+                                              "STOP", "WDR", "SCRT", "CSCRE", "CRETI", "ENI",  "DISI"};
+  return instruction.needs_power && !kWithout.contains(mnemonic);
 }
 
 std::int64_t count_pointers(const stl::Statement& statement) {
@@ -35,15 +51,23 @@ std::int64_t count_pointers(const stl::Statement& statement) {
 
 }  // namespace
 
-Machine::Machine(const stl::Source& source, const Times& times)
-    : no_power_flow_(times.of("(no power flow)").base), scan_overhead_(times.of("(scan overhead)").base) {
+Machine::Machine(const stl::Source& source, const CpuKind& which)
+    : kind(which),
+      memory(which),
+      no_power_flow_(which.times->of("(no power flow)").base),
+      scan_overhead_(which.times->of("(scan overhead)").base) {
+  const Times& times = *kind.times;
   for (const stl::Line& line : source.lines)
     if (const auto* statement = std::get_if<stl::Statement>(&line)) statements_.push_back(*statement);
   for (std::size_t i = 0; i < statements_.size(); ++i) {
     const stl::Statement& statement = statements_[i];
     instruction_.push_back(&instructions().at(statement.mnemonic));
-    Cost cost = times.of(statement.mnemonic, area_of_first_operand(statement));
+    has_eno_.push_back(has_eno(statement.mnemonic, *instruction_.back()));
+    uses_local_ = uses_local_ || std::ranges::any_of(statement.operands, is_in_local_memory);
     const stl::Statement& with_operands = statement.mnemonic == "NEXT" ? statements_[find_for(i)] : statement;
+    const auto areas = areas_of_operands(with_operands);
+    Cost cost = times.of(statement.mnemonic, areas.empty() ? "" : areas[0]);
+    cost.base += times.added_by(statement.mnemonic, areas);
     cost.base += count_pointers(with_operands) * times.of("(indirect operand)").base;
     cost_.push_back(cost);
   }
@@ -52,7 +76,9 @@ Machine::Machine(const stl::Source& source, const Times& times)
 // --- scan ---
 
 void Machine::power_up() {
-  memory = Memory{};
+  memory = Memory(kind);
+  local_.fill(Bytes(kind.L));
+  level_ = 0;
   stack = {};
   errors.clear();
   calls.clear();
@@ -69,11 +95,11 @@ void Machine::power_up() {
   first_scan_ = true;
   running = true;
   in_program = false;
-  memory.SM[0] = 0b1011'1011;            // always 1, first scan, RUN from power-up, both clocks high, mode switch in RUN
-  memory.SM[4] = 0b0110'0000;            // transmitters idle
-  memory.SM[6] = 0x20;                   // CPU 214
+  memory.SM[0] = 0b1011'1011;  // always 1, first scan, RUN from power-up, both clocks high, mode switch in RUN
+  memory.SM[4] = 0b0110'0000;  // transmitters idle
+  memory.SM[6] = kind.identification;
   memory.SM[66] = memory.SM[76] = 0x80;  // pulse outputs idle
-  watchdog_ = kWatchdog;
+  watchdog_ = kind.watchdog;
 }
 
 void Machine::step() {
@@ -110,7 +136,9 @@ void Machine::system_part() {
   position = 0;
   stack = {};
   rail = true;
+  eno = true;
   calls.clear();
+  enter_level(0);
 }
 
 void Machine::end_scan() {
@@ -127,7 +155,7 @@ void Machine::end_scan() {
   write(Place{&memory.SM, 24}, 2, static_cast<std::uint32_t>(shortest_scan_));
   write(Place{&memory.SM, 26}, 2, static_cast<std::uint32_t>(longest_scan_));
   scan_begin_ = time;
-  watchdog_ = time + kWatchdog;
+  watchdog_ = time + kind.watchdog;
 }
 
 void Machine::read_inputs() {
@@ -146,12 +174,16 @@ void Machine::execute() {
   next = position + 1;
   if (!has_power()) {
     time += no_power_flow_;
+    if (has_eno_[position]) eno = false;
     if (statement().mnemonic == "FOR") next = find_next(position) + 1;
   } else {
     time += cost_[position].base;
+    if (has_eno_[position]) eno = true;
     try {
       instruction.execute(*this);
+      if (has_eno_[position] && has_failed()) eno = false;
     } catch (const RunTimeError& error) {
+      if (has_eno_[position]) eno = false;
       report(error.code);
     }
   }
@@ -159,16 +191,36 @@ void Machine::execute() {
   position = next;
 }
 
+/// Whether the box just executed says in SM1 that it has failed; a shift does not, whatever it has shifted out.
+bool Machine::has_failed() const {
+  static const std::map<std::string, std::uint8_t> kFailures{
+      {"+I", 2},    {"-I", 2},   {"+D", 2},    {"-D", 2},    {"*I", 10},  {"/I", 10},  {"*D", 10},   {"/D", 10},
+      {"MUL", 10},  {"DIV", 10}, {"INCW", 2},  {"DECW", 2},  {"INCD", 2}, {"DECD", 2}, {"INCB", 2},  {"DECB", 2},
+      {"+R", 2},    {"-R", 2},   {"*R", 2},    {"/R", 10},   {"SQRT", 2}, {"SIN", 2},  {"COS", 2},   {"TAN", 2},
+      {"LN", 2},    {"EXP", 2},  {"TRUNC", 2}, {"ROUND", 2}, {"ITB", 2},  {"DTI", 2},  {"BCDI", 64}, {"IBCD", 64},
+      {"ATH", 128}, {"ATT", 16}, {"FIFO", 32}, {"LIFO", 32}, {"STI", 2},  {"STD", 2},  {"STR", 2}};
+  const auto flags = kFailures.find(statement().mnemonic);
+  return flags != kFailures.end() && (memory.SM[1] & flags->second) != 0;
+}
+
+void Machine::enter_level(std::size_t calls_open) {
+  if (!uses_local_ || calls_open == level_) return;
+  local_.at(level_) = memory.L;
+  memory.L = local_.at(calls_open);
+  level_ = calls_open;
+}
+
 void Machine::end_program() { in_program = false; }
 
 void Machine::stop() {
   running = in_program = false;
+  enter_level(0);
   interrupts_enabled = false;
   memory.SM[4] = static_cast<std::uint8_t>((memory.SM[4] & 0b1110'1000) | 0b0010'0000);
   std::fill(memory.output_points.begin(), memory.output_points.end(), std::uint8_t{0});
 }
 
-void Machine::restart_watchdog() { watchdog_ = time + kWatchdog; }
+void Machine::restart_watchdog() { watchdog_ = time + kind.watchdog; }
 
 void Machine::enable_interrupts(bool enabled) {
   interrupts_enabled = enabled;
@@ -209,6 +261,7 @@ Bytes& Machine::area(const std::string& name) {
   if (name == "AI") return memory.AI;
   if (name == "AQ") return memory.AQ;
   if (name == "HC") return memory.HC;
+  if (name == "L") return memory.L;
   throw std::invalid_argument("area " + name);
 }
 
@@ -348,6 +401,7 @@ bool is_10_ms(std::size_t timer) { return is_one_of(timer, {{1, 4}, {33, 36}, {6
 }  // namespace
 
 bool is_100_ms(std::size_t timer) {
+  if (timer >= 101) return true;
   const std::size_t in_half = timer % 64;
   return (in_half >= 5 && in_half <= 31) || in_half >= 37;
 }
@@ -355,13 +409,17 @@ bool is_100_ms(std::size_t timer) {
 void Machine::count_timer(std::size_t timer, std::int64_t ticks) {
   const Place current{&memory.T, 2 * timer};
   const std::int64_t before = static_cast<std::int16_t>(read(current, 2));
-  write(current, 2, static_cast<std::uint32_t>(std::min<std::int64_t>(before + ticks, 32767)));
+  std::int64_t now = std::min<std::int64_t>(before + ticks, 32767);
+  if (timers[timer].off_delay && now > timers[timer].preset) now = std::max<std::int64_t>(before, timers[timer].preset);
+  write(current, 2, static_cast<std::uint32_t>(now));
   compare_timer(timer);
 }
 
 void Machine::compare_timer(std::size_t timer) {
   const auto current = static_cast<std::int16_t>(read(Place{&memory.T, 2 * timer}, 2));
-  write(BitPlace{&memory.timer_bits, timer}, current >= timers[timer].preset);
+  const bool reached = current >= timers[timer].preset;
+  write(BitPlace{&memory.timer_bits, timer}, timers[timer].off_delay ? !reached : reached);
+  if (timers[timer].off_delay && reached) timers[timer].enabled = false;  // it stands still at its preset
 }
 
 void Machine::count_milliseconds() {

@@ -1,4 +1,4 @@
-// The reference model: one CPU 214 that executes the statements of an STL source directly.
+// The reference model: one CPU 214 or 224 that executes the statements of an STL source directly.
 //
 // Slow and plain on purpose, and written from the rulebook (facts 1, 4, 5, 6, 9), not from the interpreter: nothing is
 // decoded in advance except the times. No interrupts, no Freeport, no high-speed counters, pulse outputs or clock.
@@ -31,7 +31,7 @@ bool is_100_ms(std::size_t timer);
 
 class Machine {
  public:
-  Machine(const stl::Source& source, const Times& times);
+  Machine(const stl::Source& source, const CpuKind& kind);
 
   /// Clears everything and goes to RUN.
   void power_up();
@@ -41,6 +41,7 @@ class Machine {
 
   // --- what can be seen ---
 
+  const CpuKind& kind;
   Memory memory;
   Stack stack{};
   std::size_t position = 0;  ///< index of the statement to execute next
@@ -60,6 +61,7 @@ class Machine {
   std::optional<std::size_t> fatal_position;
 
   bool rail = true;  ///< whether the power rail of the segment has power
+  bool eno = true;   ///< of the last box (facts 10.7)
 
   struct Call {
     std::size_t return_to;
@@ -103,6 +105,9 @@ class Machine {
 
   void spend_units(std::uint32_t units) { time += cost_[position].per_unit * static_cast<std::int64_t>(units); }
 
+  /// The routine that runs, by how many calls are open, has local memory of its own.
+  void enter_level(std::size_t calls);
+
   void fatal_error(int code, std::optional<std::size_t> where);
   void stop();
   void end_program();
@@ -117,11 +122,13 @@ class Machine {
 
   struct Timer {
     bool enabled = false;
+    bool off_delay = false;  ///< a TOF: enabled while it times
+    bool input = false;      ///< of a TOF
     std::int16_t preset = 0;
     std::int64_t enabled_at = 0;  ///< end of the execution that enabled it
   };
-  std::array<Timer, 128> timers{};
-  std::array<bool, 128> counter_up{}, counter_down{};  ///< inputs as the counters saw them last
+  std::array<Timer, 256> timers{};
+  std::array<bool, 256> counter_up{}, counter_down{};  ///< inputs as the counters saw them last
   std::int64_t hundred_ms_ticks = 0;                   ///< in the scan before this one
 
   /// Adds to the current value of a timer, up to 32767, and compares.
@@ -138,12 +145,17 @@ class Machine {
   void read_inputs();
   void count_ten_milliseconds();
   void execute();
+  bool has_failed() const;
   void report(int code);
   std::size_t find(const std::string& mnemonic, std::size_t number) const;
 
   std::vector<stl::Statement> statements_;
   std::vector<const Instruction*> instruction_;
   std::vector<Cost> cost_;
+  std::vector<bool> has_eno_;
+  std::array<Bytes, 9> local_{};  ///< of the levels that do not run now
+  std::size_t level_ = 0;
+  bool uses_local_ = false;
   std::int64_t no_power_flow_ = 0, scan_overhead_ = 0;
 
   std::int64_t scan_begin_ = 0, inputs_read_ = 0, watchdog_ = 0;

@@ -1,4 +1,4 @@
-// Memory of the reference CPU 214: each area is a byte vector of its own, with its real size (facts 1.1).
+// Memory of the reference CPU: each area is a byte vector of its own, with its real size (facts 1.1, 1.2).
 #pragma once
 
 #include <cstddef>
@@ -6,17 +6,36 @@
 #include <string>
 #include <vector>
 
+#include "tests/reference_model/cpu_kind.hpp"
+
 namespace s7200::reference {
 
 using Bytes = std::vector<std::uint8_t>;
 
 struct Memory {
-  Bytes I = Bytes(8), Q = Bytes(8), M = Bytes(32), SM = Bytes(86), S = Bytes(16), V = Bytes(4096);
-  Bytes AI = Bytes(32), AQ = Bytes(32);
-  Bytes T = Bytes(256), C = Bytes(256);  ///< current values, two bytes each
-  Bytes timer_bits = Bytes(16), counter_bits = Bytes(16);
+  explicit Memory(const CpuKind& kind)
+      : I(kind.points),
+        Q(kind.points),
+        SM(kind.SM),
+        S(kind.S),
+        V(kind.V),
+        L(kind.L),
+        AI(kind.analog),
+        AQ(kind.analog),
+        T(2 * kind.timers),
+        C(2 * kind.timers),
+        timer_bits(kind.timers / 8),
+        counter_bits(kind.timers / 8),
+        input_points(kind.points),
+        output_points(kind.points) {}
+
+  Bytes I, Q, M = Bytes(32), SM, S, V;
+  Bytes L;  ///< of the routine that runs
+  Bytes AI, AQ;
+  Bytes T, C;  ///< current values, two bytes each
+  Bytes timer_bits, counter_bits;
   Bytes HC = Bytes(12), AC = Bytes(16);  ///< four bytes each; the low byte of AC0 is the fourth
-  Bytes input_points = Bytes(8), output_points = Bytes(8);
+  Bytes input_points, output_points;
 };
 
 /// Where a value is.

@@ -92,6 +92,10 @@ void add_shifts(Instructions& all) {
   all["RRW"] = {true, [](Machine& m) { rotate(m, 2, false); }};
   all["RLD"] = {true, [](Machine& m) { rotate(m, 4, true); }};
   all["RRD"] = {true, [](Machine& m) { rotate(m, 4, false); }};
+  all["SLB"] = {true, [](Machine& m) { shift(m, 1, true); }};
+  all["SRB"] = {true, [](Machine& m) { shift(m, 1, false); }};
+  all["RLB"] = {true, [](Machine& m) { rotate(m, 1, true); }};
+  all["RRB"] = {true, [](Machine& m) { rotate(m, 1, false); }};
   all["SHRB"] = {true, shift_register};
 }
 

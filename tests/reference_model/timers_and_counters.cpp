@@ -27,6 +27,31 @@ void time(Machine& m, bool retentive) {
   m.compare_timer(number);
 }
 
+/// TOF (facts 6.4): times after its input has gone off. In a segment without power it is reset.
+void time_off(Machine& m) {
+  const std::size_t number = m.address(0).number;
+  Machine::Timer& timer = m.timers[number];
+  timer.off_delay = true;
+  timer.preset = static_cast<std::int16_t>(m.in(1, 2));
+  const bool input = m.stack[0] && m.rail, went_off = timer.input && !m.stack[0] && m.rail;
+  timer.input = input;
+  if (input || !m.rail) {
+    timer.enabled = false;
+    write(Place{&m.memory.T, 2 * number}, 2, 0);
+    return write(BitPlace{&m.memory.timer_bits, number}, input);
+  }
+  if (went_off) {
+    timer.enabled = true;
+    timer.enabled_at = m.time;
+    write(Place{&m.memory.T, 2 * number}, 2, 0);
+  } else if (!timer.enabled) {
+    return write(BitPlace{&m.memory.timer_bits, number}, false);
+  } else if (is_100_ms(number)) {
+    m.count_timer(number, m.hundred_ms_ticks);
+  }
+  if (timer.enabled) m.compare_timer(number);
+}
+
 void compare_counter(Machine& m, std::size_t number, std::uint32_t preset) {
   const std::int32_t current = signed16(read(Place{&m.memory.C, 2 * number}, 2));
   write(BitPlace{&m.memory.counter_bits, number}, current >= signed16(preset));
@@ -56,6 +81,20 @@ void count_up(Machine& m) {
   compare_counter(m, number, preset);
 }
 
+void count_down(Machine& m) {
+  const std::size_t number = m.address(0).number;
+  const std::uint32_t preset = m.in(1, 2);
+  const bool load = m.stack[0];
+  const bool rising = rises(m.counter_down[number], m.stack[1]);
+  m.pop();
+  const Place current{&m.memory.C, 2 * number};
+  if (load)
+    write(current, 2, preset);
+  else if (rising && signed16(read(current, 2)) > 0)
+    write(current, 2, read(current, 2) - 1);
+  write(BitPlace{&m.memory.counter_bits, number}, !load && signed16(read(current, 2)) <= 0);
+}
+
 void count_up_and_down(Machine& m) {
   const std::size_t number = m.address(0).number;
   const std::uint32_t preset = m.in(1, 2);
@@ -76,6 +115,8 @@ void count_up_and_down(Machine& m) {
 void add_timers_and_counters(Instructions& all) {
   all["TON"] = {false, [](Machine& m) { time(m, false); }};
   all["TONR"] = {false, [](Machine& m) { time(m, true); }};
+  all["TOF"] = {false, time_off};
+  all["CTD"] = {false, count_down};
   all["CTU"] = {false, count_up};
   all["CTUD"] = {false, count_up_and_down};
 }

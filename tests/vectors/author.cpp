@@ -20,7 +20,8 @@ struct NamedArea {
   Bytes Memory::*bytes;
 };
 
-const std::array<NamedArea, 16> kAreas{{{"V", &Memory::V},
+const std::array<NamedArea, 17> kAreas{{{"V", &Memory::V},
+                                        {"L", &Memory::L},
                                         {"I", &Memory::I},
                                         {"Q", &Memory::Q},
                                         {"M", &Memory::M},
@@ -65,8 +66,8 @@ Levels levels_of(const reference::Stack& stack) {
 }
 
 /// At the start of the first scan's program, with memory and logic stack as the case wants them.
-Machine prepared(const Case& what, std::uint8_t smb1) {
-  Machine machine(source_of(what), reference::cpu214_times());
+Machine prepared(const Case& what, std::uint8_t smb1, const std::string& cpu) {
+  Machine machine(source_of(what), reference::cpu_kind(cpu));
   machine.power_up();
   machine.step();
   machine.stack = stack_of(what.stack);
@@ -86,9 +87,9 @@ void run(Machine& machine, const Case& what) {
 }
 
 /// How the flags concerned must be before, so that each of them changes; the others are as in `others`.
-std::uint8_t opposite_flags(const Case& what, std::uint8_t others) {
+std::uint8_t opposite_flags(const Case& what, std::uint8_t others, const std::string& cpu) {
   if (what.flags == 0) return 0;
-  Machine machine = prepared(what, others);
+  Machine machine = prepared(what, others, cpu);
   run(machine, what);
   return static_cast<std::uint8_t>((others & ~what.flags) | (~machine.memory.SM[1] & what.flags));
 }
@@ -170,14 +171,15 @@ void assign(Memory& memory, const Assignment& a) {
     write(reference::Place{&bytes, a.at}, a.width, a.value);
 }
 
-Vector execute(const Case& what, const std::string& source) {
-  const std::uint8_t smb1 = opposite_flags(what, what.flags != 0 && what.before.size() % 2 == 0 ? 0xFF : 0x00);
-  Machine machine = prepared(what, smb1);
+Vector execute(const Case& what, const std::string& source, const std::string& cpu) {
+  const std::uint8_t smb1 = opposite_flags(what, what.flags != 0 && what.before.size() % 2 == 0 ? 0xFF : 0x00, cpu);
+  Machine machine = prepared(what, smb1, cpu);
   const Memory before = machine.memory;
   const std::int64_t start = machine.time;
   run(machine, what);
 
   Vector vector;
+  vector.cpu = cpu;
   vector.title = what.title;
   vector.ops = what.ops;
   for (const std::string& text : what.before) vector.before.push_back(*parse_assignment(text));

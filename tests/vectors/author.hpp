@@ -21,8 +21,8 @@ struct Case {
   std::uint8_t flags = 0;  ///< bits of SM1 that the instruction sets and resets: each starts opposite to its result
 };
 
-/// The complete vector.
-Vector execute(const Case& what, const std::string& source);
+/// The complete vector, on a CPU that the reference model can be.
+Vector execute(const Case& what, const std::string& source, const std::string& cpu);
 
 /// Values of the assignments as they are in the reference model's memory.
 void assign(reference::Memory& memory, const Assignment& assignment);

@@ -16,8 +16,10 @@ using s7200::OperandRule;
 
 /// How an operand is written.
 struct Form {
-  enum Kind { Direct, Constant, AddressOf, PointerInV, PointerInAc } kind = Direct;
+  enum Kind { Direct, Constant, AddressOf, PointerInV, PointerInAc, PointerInL } kind = Direct;
   Area area = Area::V;
+
+  bool operator==(const Form&) const = default;
 };
 
 /// What an operand is called in a vector, and what must be there before.
@@ -33,6 +35,8 @@ char letter(Width width) { return width == Width::Byte ? 'B' : width == Width::W
 std::uint32_t first_number(Area area, const OperandRule& rule, std::size_t operand) {
   switch (area) {
     case Area::V:
+      return 10 + 10 * static_cast<std::uint32_t>(operand);
+    case Area::L:
       return 10 + 10 * static_cast<std::uint32_t>(operand);
     case Area::M:
       return 4;
@@ -90,6 +94,27 @@ std::vector<std::string> elements_at(Area area, Width width, std::uint32_t first
   return result;
 }
 
+/// The pointer to a place, and what is there: inputs or outputs for an operand that can be nothing else.
+struct Target {
+  Area area;
+  std::uint32_t first;
+
+  std::uint32_t pointer() const { return std::uint32_t{*info(area).pointer_code} << 24 | first; }
+};
+
+Target target_of(const OperandRule& rule, Target usual) {
+  for (const Area points : {Area::I, Area::Q})
+    if (rule.areas == set_of(points)) return {points, 4};
+  return usual;
+}
+
+/// A string from its length and its characters.
+std::string string_text(const Elements& elements) {
+  std::string text = "\"";
+  for (std::size_t i = 1; i < elements.size() && i <= elements[0]; ++i) text += static_cast<char>(elements[i]);
+  return text + "\"";
+}
+
 std::string constant_text(const OperandRule& rule, std::uint32_t value) {
   if (rule.kind != OperandKind::Memory) return std::to_string(value);
   if (rule.real) return fmt::format("{:.1f}", static_cast<double>(std::bit_cast<float>(value)));
@@ -97,24 +122,26 @@ std::string constant_text(const OperandRule& rule, std::uint32_t value) {
   return value < 100 || rule.name == "N" ? std::to_string(value) : fmt::format("16#{:X}", value);
 }
 
-Written pointed(const std::string& holder, std::uint32_t pointer, Area area, std::uint32_t first, Width width,
-                const Elements& elements) {
-  Written written{"*" + holder, {fmt::format("{}=16#{:08X}", holder, pointer)}};
-  std::ranges::copy(elements_at(area, width, first, elements), std::back_inserter(written.before));
+Written pointed(const std::string& holder, const Target& target, Width width, const Elements& elements) {
+  Written written{"*" + holder, {fmt::format("{}=16#{:08X}", holder, target.pointer())}};
+  std::ranges::copy(elements_at(target.area, width, target.first, elements), std::back_inserter(written.before));
   return written;
 }
 
 Written write_operand(const Form& form, const OperandRule& rule, std::size_t operand, const Elements& elements) {
   const auto i = static_cast<std::uint32_t>(operand);
+  const Target in_v = target_of(rule, {Area::V, 60 + 20 * i}), in_m = target_of(rule, {Area::M, 4 + 8 * i});
   switch (form.kind) {
     case Form::Constant:
-      return {constant_text(rule, elements.at(0)), {}};
+      return {rule.text ? string_text(elements) : constant_text(rule, elements.at(0)), {}};
     case Form::AddressOf:
       return {"&VB100", {}};
     case Form::PointerInV:
-      return pointed(fmt::format("VD{}", 40 + 4 * i), 0x0800'003C + 20 * i, Area::V, 60 + 20 * i, rule.width, elements);
+      return pointed(fmt::format("VD{}", 40 + 4 * i), in_v, rule.width, elements);
     case Form::PointerInAc:
-      return pointed(fmt::format("AC{}", 1 + i), 0x0200'0004 + 8 * i, Area::M, 4 + 8 * i, rule.width, elements);
+      return pointed(fmt::format("AC{}", 1 + i), in_m, rule.width, elements);
+    case Form::PointerInL:
+      return pointed(fmt::format("LD{}", 40 + 4 * i), in_v, rule.width, elements);
     case Form::Direct:
       break;
   }
@@ -125,37 +152,47 @@ Written write_operand(const Form& form, const OperandRule& rule, std::size_t ope
 // --- forms ---
 
 bool is_count(const OperandRule& rule) { return rule.name == "N" || rule.name == "LEN"; }
+bool is_format(const OperandRule& rule) { return rule.name == "FMT"; }
 
 /// How an operand is written if the case is not about its form.
 Form usual_form(const OperandRule& rule) {
-  if (rule.kind != OperandKind::Memory || is_count(rule)) return {Form::Constant};
+  if (rule.kind != OperandKind::Memory || is_count(rule) || is_format(rule)) return {Form::Constant};
   if (contains(rule.areas, Area::V)) return {Form::Direct, Area::V};
   for (const AreaInfo& area : all_areas())
     if (contains(rule.areas, area.area)) return {Form::Direct, area.area};
   return {Form::Constant};
 }
 
-std::vector<Form> forms_of(const OperandRule& rule) {
+std::vector<Form> forms_of(const OperandRule& rule, const CpuModel& model) {
   std::vector<Form> forms;
   if (rule.kind != OperandKind::Memory) return forms;
   for (const AreaInfo& area : all_areas())
-    if (contains(rule.areas, area.area) && cpu214().size_of(area.area) != 0) forms.push_back({Form::Direct, area.area});
+    if (contains(rule.areas, area.area) && model.size_of(area.area) != 0) forms.push_back({Form::Direct, area.area});
   if (rule.constant) forms.push_back({Form::Constant});
   if (rule.address_of) forms.push_back({Form::AddressOf});
   if (rule.pointer) forms.push_back({Form::PointerInV});
   if (rule.pointer) forms.push_back({Form::PointerInAc});
+  if (rule.pointer && model.size_of(Area::L) != 0) forms.push_back({Form::PointerInL});
   return forms;
 }
 
 /// Puts the cases of one instruction together.
 class Cases {
  public:
-  explicit Cases(const Instruction& instruction) : instruction_(instruction), values_(values_of(instruction.mnemonic)) {}
+  Cases(const Instruction& instruction, const CpuModel& model)
+      : instruction_(instruction), model_(model), values_(values_of(instruction.mnemonic)) {}
 
   std::vector<Case> all() {
-    for (const Case& program : programs_of(instruction_.mnemonic)) cases_.push_back(program);
+    const bool adds = &model_ != &cpu214() && (instruction_.cpus & kCpu214);
+    if (!adds)
+      for (const Case& program : programs_of(instruction_.mnemonic)) cases_.push_back(program);
     if (values_.empty()) return std::move(cases_);
     for (const Values& values : values_) add(values, usual_forms());
+    if (adds) {
+      for (std::size_t i = 0; i < instruction_.rules().size(); ++i)
+        vary_form(i, forms_of(instruction_.operand[i], cpu214()));
+      return std::move(cases_);
+    }
     for (std::size_t i = 0; i < instruction_.rules().size(); ++i) vary_form(i);
     all_pointers();
     for (std::size_t i = 0; i < instruction_.rules().size(); ++i) bad_pointers(i);
@@ -203,6 +240,13 @@ class Cases {
         return;
       }
     }
+    if (instruction_.mnemonic == "BIR")
+      for (std::string& text : result.before) {
+        Assignment point = *parse_assignment(text);
+        if (point.area != "I") continue;
+        point.area = "PI";
+        text = to_text(point);
+      }
     if (instruction_.hidden != Hidden::OutputPoint) return;
     result.before.insert(result.before.begin(), instruction_.mnemonic == "RI" ? "PQB0=16#FF" : "PQB0=16#00");
   }
@@ -217,8 +261,10 @@ class Cases {
     }
   }
 
-  void vary_form(std::size_t i) {
-    for (const Form& form : forms_of(instruction_.operand[i])) {
+  /// Each form but the usual one, and those in `known`.
+  void vary_form(std::size_t i, const std::vector<Form>& known = {}) {
+    for (const Form& form : forms_of(instruction_.operand[i], model_)) {
+      if (std::ranges::find(known, form) != known.end()) continue;
       const Form usual = usual_form(instruction_.operand[i]);
       if (form.kind == usual.kind && (form.kind == Form::Constant || form.area == usual.area)) continue;
       std::vector<Form> forms = usual_forms();
@@ -250,7 +296,7 @@ class Cases {
         if (text.starts_with(holder)) text = fmt::format("{}16#{:08X}", holder, pointer);
     };
     with_pointer(0x0300'0000, "a pointer to no area");
-    with_pointer(0x0800'1000 - bytes_of(rule.width) + 1, "a pointer across the end of V memory");
+    with_pointer(0x0800'0000 + model_.size_of(Area::V) - bytes_of(rule.width) + 1, "a pointer across the end of V memory");
   }
 
   /// N in memory: 0, and more than the area holds from its last element.
@@ -280,10 +326,10 @@ class Cases {
     Case& added = add(values, forms, "beyond the end of the area: nothing is done");
     const OperandRule& rule = instruction_.operand[i];
     const std::string here = write_operand(forms[i], rule, i, values.operand[i]).text;
-    const std::string end = forms[i].area == Area::Q ? "Q7.6"
+    const std::string end = forms[i].area == Area::Q ? fmt::format("Q{}.6", model_.size_of(Area::Q) - 1)
                             : rule.width == Width::Bit
-                                ? "V4095.6"
-                                : fmt::format("V{}{}", letter(rule.width), 4096 - bytes_of(rule.width));
+                                ? fmt::format("V{}.6", model_.size_of(Area::V) - 1)
+                                : fmt::format("V{}{}", letter(rule.width), model_.size_of(Area::V) - bytes_of(rule.width));
     added.ops[0].replace(added.ops[0].find(here), here.size(), end);
   }
 
@@ -295,23 +341,31 @@ class Cases {
   }
 
   const Instruction& instruction_;
+  const CpuModel& model_;
   std::vector<Values> values_;
   std::vector<Case> cases_;
 };
 
 }  // namespace
 
-std::vector<Case> cases_of(const Instruction& instruction) { return Cases(instruction).all(); }
+std::vector<Case> cases_of(const Instruction& instruction, const CpuModel& model) { return Cases(instruction, model).all(); }
 
 std::string source_of(const Instruction& instruction) {
-  static const std::map<std::string_view, std::string_view> kSections{
-      {"Bit logic", "6.2"},           {"Compare contacts", "6.3"},
-      {"Timers and counters", "6.4"}, {"Move", "6.5"},
-      {"Integer arithmetic", "6.6"},  {"Real arithmetic", "6.6"},
-      {"Logic operations", "6.7"},    {"Shift and rotate", "6.8"},
-      {"Conversion", "6.9"},          {"Tables", "6.10"},
-      {"Program control", "6.12"},    {"Sequence control relays", "6.12"},
-      {"Interrupts", "3.3"}};
+  static const std::map<std::string_view, std::string_view> kSections{{"Bit logic", "6.2"},
+                                                                      {"Compare contacts", "6.3"},
+                                                                      {"Timers and counters", "6.4"},
+                                                                      {"Move", "6.5"},
+                                                                      {"Integer arithmetic", "6.6"},
+                                                                      {"Real arithmetic", "6.6"},
+                                                                      {"Logic operations", "6.7"},
+                                                                      {"Shift and rotate", "6.8"},
+                                                                      {"Conversion", "6.9"},
+                                                                      {"Tables", "6.10"},
+                                                                      {"Strings", "10.7"},
+                                                                      {"Clock, high-speed counters, pulse outputs", "10.7"},
+                                                                      {"Program control", "6.12"},
+                                                                      {"Sequence control relays", "6.12"},
+                                                                      {"Interrupts", "3.3"}};
   const auto found = kSections.find(instruction.group);
   if (found == kSections.end()) throw std::runtime_error(fmt::format("no section for group {}", instruction.group));
   return fmt::format("facts {}", found->second);

@@ -27,8 +27,9 @@ std::vector<Values> values_of(std::string_view mnemonic);
 /// Programs of several instructions, for what a single one cannot show.
 std::vector<Case> programs_of(std::string_view mnemonic);
 
-/// All cases of an instruction.
-std::vector<Case> cases_of(const Instruction& instruction);
+/// All cases of an instruction on the smallest CPU of those tested that has it; on a larger one what it adds: the same
+/// values in its times and with its rules, and the forms of operands that the smaller one has not.
+std::vector<Case> cases_of(const Instruction& instruction, const CpuModel& model);
 
 /// Where the rulebook describes it.
 std::string source_of(const Instruction& instruction);

@@ -186,6 +186,56 @@ std::vector<Case> overlapping_characters() {
           overlap("characters further on", "HTA VB10, VB11, 4", {"VB10=16#12", "VB11=16#AB"})};
 }
 
+constexpr std::string_view kCountDown = "LBL 0|LD V0.0|LD V0.1|CTD C1, 2|LDN V0.0|= V0.0|LD SM0.0|JMP 0|MEND";
+constexpr std::string_view kLeave = "LSCR S1.0|LD V0.0|CSCRE|LD SM0.0|INCW VW10|SCRE|LD SM0.0|MEND";
+constexpr std::string_view kEno = "LD V0.0|LD V0.1|ITB VW10, VB20|LPP|AENO|= V1.0|MEND";
+
+std::vector<Case> off_delays() {
+  std::vector<Case> cases{
+      steps("the bit is on with the input", "LD V0.0|TOF T37, 3|MEND", 2, {"V0.0=1", "T37=7"}),
+      steps("an input that was never on does not start it", "LD V0.0|TOF T37, 3|MEND", 2, {"T37=2"}),
+      steps("R: it needs the input to go on and off again",
+            "LBL 0|LD V0.0|TOF T37, 3|LD SM0.0|R V0.0, 1|R T37, 1|JMP 0|MEND", 10, {"V0.0=1"}),
+      steps("a preset of 0: off at once", "LBL 0|LD V0.0|TOF T37, VW10|LDN V0.0|= V0.0|LD SM0.0|JMP 0|MEND", 10, {"V0.0=1"}),
+      steps("in a segment that is off: value and bit are 0", "LSCR S1.0|LD SM0.0|TOF T37, 3|SCRE|MEND", 3,
+            {"T37=7", "T37.bit=1"}),
+      steps("in a segment that goes off it does not time",
+            "LD SM0.0|LBL 0|LSCR S1.0|LD SM0.0|TOF T37, 3|SCRT S1.1|SCRE|LD SM0.0|JMP 0|MEND", 15, {"S1.0=1"})};
+  for (const auto& [timer, base] : {std::pair{"T32", 1}, {"T33", 10}, {"T37", 100}}) {
+    const std::string program = std::string("LD V0.0|TOF ") + timer + ", 3|LD SM0.0|R V0.0, 1|MEND";
+    cases.push_back(until(std::string(timer) + " times after the input has gone off", program,
+                          (base * 5 / 2 + 1) * kMillisecond, {"V0.0=1"}));
+    cases.push_back(until(std::string(timer) + " stops at its preset, its bit goes off", program,
+                          (base * 6 + 2) * kMillisecond, {"V0.0=1"}));
+  }
+  return cases;
+}
+
+std::vector<Case> counts_down() {
+  return {steps("a 1 at the first execution is not an edge", kCountDown, 4, {"V0.0=1", "C1=5"}),
+          steps("one rising edge", kCountDown, 12, {"C1=5"}), steps("to 0: the bit is on", kCountDown, 28, {"C1=2"}),
+          steps("stops at 0", kCountDown, 28, {"C1=1"}),
+          steps("load: the preset, the bit off", kCountDown, 12, {"V0.1=1", "C1=0", "C1.bit=1"})};
+}
+
+std::vector<Case> enos() {
+  return {
+      steps("a box without error: 1", kEno, 6, {"V0.0=1", "V0.1=1"}, {false}),
+      steps("a box that has failed: 0", kEno, 6, {"V0.0=1", "V0.1=1", "VW10=16#0100", "V1.0=1"}, {false}),
+      steps("a box without power flow: 0", kEno, 6, {"V0.0=1", "V1.0=1"}, {false}),
+      steps("the top of the stack stays 0", kEno, 6, {"V0.1=1"}, {false}),
+      steps("a run-time error: 0", "LD SM0.0|MOVB *VD10, VB20|AENO|= V1.0|MEND", 4, {"VD10=16#FF000000", "V1.0=1"}, {false}),
+      steps("the last bit of a shift is no failure", "LD SM0.0|SRW VW10, 1|AENO|= V1.0|MEND", 4, {"VW10=16#0003"}, {false}),
+      steps("contacts and coils leave it alone", "LD SM0.0|ITB VW10, VB20|= V1.1|A V0.0|S V1.2, 1|LD SM0.0|AENO|= V1.0|MEND",
+            8, {"VW10=16#0100", "V1.0=1"}, {false}),
+      steps("after RET: 1", "LD SM0.0|CALL 0|AENO|= V1.0|MEND|SBR 0|ITB VW10, VB20|RET", 7, {"VW10=16#0100"}, {false})};
+}
+
+std::vector<Case> intervals() {
+  return {until("milliseconds since power-up", "LD SM0.0|BITIM VD10|MEND", 123 * kMillisecond),
+          until("milliseconds since IN", "LD SM0.1|BITIM VD10|LD SM0.0|CITIM VD10, VD20|MEND", 123 * kMillisecond)};
+}
+
 const std::map<std::string_view, std::vector<Case>>& programs() {
   static const std::map<std::string_view, std::vector<Case>> kPrograms{
       {"BMB", overlapping_moves("BMB", "VB", 1)},
@@ -217,6 +267,15 @@ const std::map<std::string_view, std::vector<Case>>& programs() {
       {"CTU", counts_up()},
       {"CTUD", counts_both()},
       {"INT", {}},
+      {"TOF", off_delays()},
+      {"CTD", counts_down()},
+      {"AENO", enos()},
+      {"BITIM", intervals()},
+      {"CITIM", intervals()},
+      {"CSCRE",
+       {steps("to the SCRE", kLeave, 4, {"S1.0=1", "V0.0=1"}), steps("no power flow", kLeave, 5, {"S1.0=1"}),
+        steps("a segment that is off", kLeave, 5, {"S1.0=0", "V0.0=1"}),
+        steps("contacts have power again", kLeave, 5, {"S1.0=1", "V0.0=1"})}},
       {"DTCH",
        {steps("not attached: nothing", "LD SM0.0|DTCH 0|MEND", 2), steps("no power flow", "LDN SM0.0|DTCH 0|MEND", 2)}},
       {"ATCH",

@@ -193,6 +193,128 @@ List table_finds() {
 
 Elements characters(std::string_view text) { return {text.begin(), text.end()}; }
 
+/// A string: its length and its characters.
+Elements string(std::string_view text) {
+  Elements elements{static_cast<std::uint32_t>(text.size())};
+  elements.insert(elements.end(), text.begin(), text.end());
+  return elements;
+}
+
+const Elements kTooLong{255};
+
+List word_products() {
+  return singles(
+      {{3, 4}, {0xFFFF, 5}, {0, 7}, {200, 200}, {0x8000, 0xFFFF}, {0xFF49, 0x00B3}, {2, 0x4000}, {0xFFFF, 0x7FFF}});
+}
+List double_products() {
+  return singles({{3, 4},
+                  {0xFFFF'FFFF, 5},
+                  {0, 7},
+                  {0x1'0000, 0x1'0000},
+                  {0x8000'0000, 0xFFFF'FFFF},
+                  {2, 0x4000'0000},
+                  {0xFFFF, 0x8000}});
+}
+List word_quotients() {
+  return singles(
+      {{7, 100}, {7, 0xFF9C}, {0xFFF9, 100}, {0, 100}, {0xFFFF, 0x8000}, {100, 7}, {0xFFFF, 0x7FFF}, {1, 0x8000}});
+}
+List double_quotients() {
+  return singles({{7, 100},
+                  {7, 0xFFFF'FF9C},
+                  {0xFFFF'FFF9, 100},
+                  {0, 100},
+                  {0xFFFF'FFFF, 0x8000'0000},
+                  {100, 7},
+                  {0xFFFF'FFFF, 0x7FFF'FFFF},
+                  {0x1'0000, 0x7FFF'FFFF}});
+}
+
+List byte_logic() { return singles({{0xF0, 0x3C}, {0, 0xFF}, {0xFF, 0xFF}, {0xAA, 0x55}, {0, 0}}); }
+List byte_shifts() {
+  return singles({{0x12, 4},
+                  {0x81, 1},
+                  {0x81, 0},
+                  {0x40, 2},
+                  {0x02, 2},
+                  {0xFF, 7},
+                  {0x81, 8},
+                  {0xFF, 9},
+                  {0x01, 255},
+                  {0, 3},
+                  {0x80, 16},
+                  {0, 8},
+                  {0, 0}});
+}
+
+List angles() {
+  return singles({{real(0.5f), 0},
+                  {real(0.0f), 1},
+                  {real(-0.0f), 1},
+                  {real(-1.0f), 0},
+                  {real(3.14159265f), 1},
+                  {real(1.57079633f), 1},
+                  {real(1e10f), 1},
+                  {real(1e-40f), 1},
+                  {real(kNoNumber), 1},
+                  {real(kInfinity), 1},
+                  {real(-kInfinity), 1}});
+}
+
+/// A number, and a format.
+List numbers_as_text(std::size_t size, const std::vector<std::uint32_t>& numbers) {
+  List list;
+  const Elements out(size, 0x2A);
+  for (const std::uint32_t format : {3u, 0u, 8u, 11u, 5u, 13u, 6u, 7u, 0x10u, 0x83u})
+    for (const std::uint32_t number : numbers)
+      if (list.size() < numbers.size() || number == numbers[0] || number == numbers[1])
+        list.push_back({{{number}, out, {format}}});
+  for (const std::uint32_t number : numbers) list.push_back({{{number}, out, {0}}});
+  return list;
+}
+
+List reals_as_text() {
+  List list;
+  const auto add = [&](float value, std::uint32_t format) {
+    list.push_back({{{real(value)}, Elements(16, 0x2A), {format}}});
+  };
+  // The example of the manual: six characters, one decimal.
+  for (const float value : {1234.5f, -0.0004f, -3.67526f, 1.95f, 12345.6f, -1234.5f}) add(value, 0x61);
+  for (const std::uint32_t format : {0x30u, 0x31u, 0x20u, 0x00u, 0x41u, 0x32u, 0x52u, 0xF5u, 0xFDu, 0xF6u, 0x84u, 0x85u})
+    add(2.5f, format);
+  for (const float value : {0.5f, 1.5f, -0.5f, 0.0f, -0.0f, 999.5f, 1e10f, 1e20f, kNoNumber, kInfinity}) add(value, 0x40);
+  for (const float value : {0.005f, 0.015625f, -123.456f, 16777216.0f, 1e-40f}) add(value, 0xF5);
+  return list;
+}
+
+List strings_as_numbers(std::initializer_list<std::string_view> texts) {
+  List list;
+  for (const std::string_view text : texts) list.push_back({{string(text), {1}, {7}}});
+  list.push_back({{string("AB-12C"), {3}, {7}}});
+  list.push_back({{string("123"), {3}, {7}}});
+  list.push_back({{string("123"), {4}, {7}}});
+  list.push_back({{string("123"), {255}, {7}}});
+  list.push_back({{string("123"), {0}, {7}}});
+  list.push_back({{kTooLong, {1}, {7}}});
+  return list;
+}
+
+List string_finds() {
+  return {
+      {{string("HALLO"), string("L"), {1}}},  {{string("HALLO"), string("LO"), {1}}}, {{string("HALLO"), string("L"), {4}}},
+      {{string("HALLO"), string("L"), {5}}},  {{string("HALLO"), string("X"), {1}}},  {{string("HALLO"), string("OL"), {1}}},
+      {{string("HALLO"), string("H"), {1}}},  {{string("HALLO"), string("H"), {2}}},  {{string("HALLO"), string("O"), {5}}},
+      {{string("HALLO"), string("O"), {6}}},  {{string("HALLO"), string(""), {1}}},   {{string(""), string("A"), {1}}},
+      {{string("LO"), string("HALLO"), {1}}}, {{string("HALLO"), string("L"), {0}}},  {{kTooLong, string("L"), {1}}},
+      {{string("HALLO"), kTooLong, {1}}}};
+}
+
+List string_compares() {
+  return {{{string("ABC"), string("ABC")}}, {{string("ABC"), string("ABD")}}, {{string("AB"), string("ABC")}},
+          {{string("ABC"), string("AB")}},  {{string(""), string("")}},       {{string(""), string("A")}},
+          {{string("BBC"), string("ABC")}}, {{kTooLong, string("A")}},        {{string("A"), kTooLong}}};
+}
+
 List seven_segments() {
   List list;
   for (std::uint32_t digit = 0; digit < 16; ++digit) list.push_back({{{digit}, {0}}});
@@ -403,6 +525,178 @@ const std::map<std::string_view, std::function<List()>>& lists() {
        [] {
          return on({{false, true, true}, {false, false, true}, {true, true, true}}, singles({{7, 10}, {10, 10}}));
        }},
+      {"*I", word_products},
+      {"*D", double_products},
+      {"/I", word_quotients},
+      {"/D", double_quotients},
+      {"ANDB", byte_logic},
+      {"ORB", byte_logic},
+      {"XORB", byte_logic},
+      {"INVB",
+       [] {
+         return singles({{0x12}, {0}, {0xFF}});
+       }},
+      {"SLB", byte_shifts},
+      {"SRB", byte_shifts},
+      {"RLB", byte_shifts},
+      {"RRB", byte_shifts},
+      {"INCB",
+       [] {
+         return singles({{0x12}, {0}, {1}, {0xFF}, {0x7F}, {0x80}});
+       }},
+      {"DECB",
+       [] {
+         return singles({{0x12}, {0}, {1}, {0xFF}, {0x7F}, {0x80}});
+       }},
+      {"BMD",
+       [] {
+         return List{{{{0x1111'1111, 0x2222'2222}, {0xAAAA'AAAA, 0xBBBB'BBBB}, {2}}},
+                     {{{0x1111'1111}, {0xAAAA'AAAA}, {1}}},
+                     {{{0x1111'1111}, {0xAAAA'AAAA}, {255}}}};
+       }},
+      {"SIN", angles},
+      {"COS", angles},
+      {"TAN", angles},
+      {"LN",
+       [] {
+         return singles({{real(2.0f), 0},
+                         {real(1.0f), 1},
+                         {real(0.5f), 1},
+                         {real(0.0f), 1},
+                         {real(-0.0f), 1},
+                         {real(-1.0f), 1},
+                         {real(1e-40f), 1},
+                         {real(kLargest), 1},
+                         {real(kInfinity), 1},
+                         {real(kNoNumber), 1}});
+       }},
+      {"EXP",
+       [] {
+         return singles({{real(1.0f), 0},
+                         {real(0.0f), 1},
+                         {real(-1.0f), 1},
+                         {real(88.7f), 1},
+                         {real(88.8f), 1},
+                         {real(-200.0f), 1},
+                         {real(-kInfinity), 1},
+                         {real(kNoNumber), 1}});
+       }},
+      {"ROUND",
+       [] {
+         return singles({{real(2.5f), 0},
+                         {real(-2.5f), 0},
+                         {real(2.4f), 0},
+                         {real(0.5f), 1},
+                         {real(-0.4f), 1},
+                         {real(0.49999997f), 1},
+                         {real(8388609.0f), 1},
+                         {real(2147483520.0f), 0},
+                         {real(2147483648.0f), 0},
+                         {real(-2147483648.0f), 0},
+                         {real(-2147483904.0f), 0},
+                         {real(kNoNumber), 0},
+                         {real(kInfinity), 0}});
+       }},
+      {"BTI",
+       [] {
+         return singles({{0x12, 0xFFFF}, {0, 0xFFFF}, {0x80, 0}, {0xFF, 0}});
+       }},
+      {"ITB",
+       [] {
+         return singles({{0x12, 0xFF}, {0, 0xFF}, {0xFF, 0}, {0x100, 0x55}, {0xFFFF, 0x55}, {0x8000, 0x55}});
+       }},
+      {"ITD",
+       [] {
+         return singles({{0x1234, 0}, {0, 0xFFFF'FFFF}, {0x7FFF, 0}, {0x8000, 0}, {0xFFFF, 0}});
+       }},
+      {"DTI",
+       [] {
+         return singles({{0x12, 0},
+                         {0, 0xFFFF},
+                         {0x7FFF, 0},
+                         {0x8000, 0x55},
+                         {0xFFFF'8000, 0},
+                         {0xFFFF'7FFF, 0x55},
+                         {0x7FFF'FFFF, 0x55},
+                         {0x8000'0000, 0x55},
+                         {0xFFFF'FFFF, 0}});
+       }},
+      {"ITA",
+       [] {
+         return numbers_as_text(8, {12, 0xFF85, 1234, 0xCFC7, 0, 0x8000, 0x7FFF});
+       }},
+      {"DTA",
+       [] {
+         return numbers_as_text(12, {12, 0xFFFE'9C9D, 1234567, 0, 0x8000'0000, 0x7FFF'FFFF});
+       }},
+      {"ITS",
+       [] {
+         return numbers_as_text(9, {12, 0xFF85, 1234, 0xCFC7, 0, 0x8000, 0x7FFF});
+       }},
+      {"DTS",
+       [] {
+         return numbers_as_text(13, {12, 0xFFFE'9C9D, 1234567, 0, 0x8000'0000, 0x7FFF'FFFF});
+       }},
+      {"RTA", reals_as_text},
+      {"RTS", reals_as_text},
+      {"STI",
+       [] {
+         return strings_as_numbers({"123", "-00456", "123.45", "+2345", "00012ABCD", "32767", "32768", "-32768", "-32769",
+                                    "  7", "A1", "", "++1", "+-1", "+ 1", "-", "99999999"});
+       }},
+      {"STD",
+       [] {
+         return strings_as_numbers({"123", "-00456", "123.45", "+2345", "40000", "  7", "A1", "", "+-1", "-"});
+       }},
+      {"STR",
+       [] {
+         return strings_as_numbers(
+             {"123", "-00456", "123.45", "+2345", "1,5", ".5", "5.", ".", "-", "", "1.2.3", "1E5", "  -0.1", "A1", "-0"});
+       }},
+      {"SLEN",
+       [] {
+         return List{{{string("HALLO"), {0}}}, {{string(""), {9}}}, {{{254}, {0}}}, {{kTooLong, {9}}}};
+       }},
+      {"SCPY",
+       [] {
+         return List{
+             {{string("HALLO"), string("AB")}}, {{string(""), string("AB")}}, {{{254, 1, 2}, {0}}}, {{kTooLong, {0}}}};
+       }},
+      {"SCAT",
+       [] {
+         return List{{{string("DE"), string("ABC")}}, {{string(""), string("ABC")}}, {{string("DE"), string("")}},
+                     {{string("D"), {253}}},          {{string("D"), {254}}},        {{kTooLong, {0}}},
+                     {{string("D"), kTooLong}}};
+       }},
+      {"SFND", string_finds},
+      {"CFND", string_finds},
+      {"LDS",
+       [] {
+         return on({{true, false, true, false, false, false, true, false, true}, {false, true}},
+                   singles({{0}, {1}, {2}, {8}}));
+       }},
+      {"AENO", [] { return stacks_only(kBoth); }},
+      {"BIR",
+       [] {
+         return singles({{0x5A, 0}, {0, 0xFF}});
+       }},
+      {"BIW",
+       [] {
+         return singles({{0x5A, 0}, {0, 0xFF}, {0xFF, 0}});
+       }},
+      {"BITIM", [] { return singles({{5}}); }},
+      {"CITIM",
+       [] {
+         return singles({{5, 7}, {0, 7}});
+       }},
+      {"TOF",
+       [] {
+         return on(kBoth, singles({{7, 10}, {7, 0}, {7, 0xFFFF}}));
+       }},
+      {"CTD",
+       [] {
+         return on({{false, true}, {false, false}, {true, true}}, singles({{7, 10}, {0, 10}, {1, 10}, {0x8000, 0x8001}}));
+       }},
       {"WDR", [] { return stacks_only({{true}}); }},
   };
   return kLists;
@@ -423,7 +717,9 @@ std::string_view like(std::string_view mnemonic) {
 std::vector<Values> values_of(std::string_view mnemonic) {
   if (const Instruction* instruction = find_instruction(mnemonic);
       instruction && instruction->structure == Structure::Compare)
-    return compare(mnemonic);
+    return mnemonic.ends_with("S=") || mnemonic.ends_with("S<>")
+               ? on(mnemonic.starts_with("LD") ? std::vector<Levels>{{true}} : kBoth, string_compares())
+               : compare(mnemonic);
   const auto found = lists().find(like(mnemonic));
   return found == lists().end() ? List{} : found->second();
 }

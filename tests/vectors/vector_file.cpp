@@ -73,7 +73,7 @@ std::optional<Assignment> parse_in_bytes(std::string_view text, std::string_view
 std::optional<Assignment> parse_address(std::string_view text) {
   for (const std::string_view area : {"AC", "HC", "T", "C"})
     if (text.starts_with(area)) return parse_numbered(text, area);
-  for (const std::string_view area : {"AI", "AQ", "PI", "PQ", "SM", "S", "I", "Q", "M", "V"})
+  for (const std::string_view area : {"AI", "AQ", "PI", "PQ", "SM", "S", "I", "Q", "M", "V", "L"})
     if (text.starts_with(area)) return parse_in_bytes(text, area);
   return {};
 }
@@ -184,6 +184,10 @@ class Reader {
     in >> key >> std::ws;
     std::getline(in, rest);
     if (vector_.ops.empty()) vector_.line = number;
+    if (key == "cpu" && in_heading_) {
+      file_.cpu = rest;
+      return;
+    }
     read_line(key, rest, vector_);
   }
 
@@ -203,6 +207,7 @@ class Reader {
 
   void finish() {
     in_heading_ = false;
+    vector_.cpu = file_.cpu;
     if (!vector_.ops.empty()) file_.vectors.push_back(std::move(vector_));
     vector_ = {};
   }
@@ -268,6 +273,7 @@ File parse(std::string_view text, const std::string& name) {
 std::string to_text(const File& file) {
   std::string text;
   for (const std::string& line : file.heading) text += "# " + line + "\n";
+  if (file.cpu != "214") text += fmt::format("cpu    {}\n", file.cpu);
   for (const Vector& v : file.vectors) {
     text += "\n";
     if (!v.title.empty()) text += "# " + v.title + "\n";
@@ -306,10 +312,11 @@ void keep_marks(const File& from, File& to) {
   }
 }
 
-std::string file_name(std::string_view mnemonic) {
+std::string file_name(std::string_view mnemonic, std::string_view cpu) {
+  if (cpu != "214") return file_name(mnemonic).append(".").append(cpu);
   static const std::map<std::string_view, std::string> kWhole{
-      {"=", "OUT"},    {"=I", "OUT_I"}, {"+I", "ADD_I"}, {"+D", "ADD_D"}, {"+R", "ADD_R"},
-      {"-I", "SUB_I"}, {"-D", "SUB_D"}, {"-R", "SUB_R"}, {"*R", "MUL_R"}, {"/R", "DIV_R"}};
+      {"=", "OUT"},    {"=I", "OUT_I"}, {"+I", "ADD_I"}, {"+D", "ADD_D"}, {"+R", "ADD_R"}, {"-I", "SUB_I"}, {"-D", "SUB_D"},
+      {"-R", "SUB_R"}, {"*R", "MUL_R"}, {"/R", "DIV_R"}, {"*I", "MUL_I"}, {"/I", "DIV_I"}, {"*D", "MUL_D"}, {"/D", "DIV_D"}};
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kRelations{
       {{">=", "_GE"}, {"<=", "_LE"}, {"<>", "_NE"}, {"=", "_EQ"}, {"<", "_LT"}, {">", "_GT"}}};
   if (const auto whole = kWhole.find(mnemonic); whole != kWhole.end()) return whole->second;

@@ -9,10 +9,10 @@
 
 namespace s7200::vectors {
 
-/// `VW100=16#1234`, `M0.3=1`, `T33=5`, `T33.bit=1`, `AC0=16#12345678`, `PIB0=16#01` (input points), `PQB0=16#01` (output
-/// points).
+/// `VW100=16#1234`, `M0.3=1`, `LD4=16#1`, `T33=5`, `T33.bit=1`, `AC0=16#12345678`, `PIB0=16#01` (input points), `PQB0=16#01`
+/// (output points).
 struct Assignment {
-  std::string area;        ///< I Q M SM S V AI AQ T C HC AC PI PQ; T.bit and C.bit
+  std::string area;        ///< I Q M SM S V L AI AQ T C HC AC PI PQ; T.bit and C.bit
   std::uint32_t at = 0;    ///< byte in the area
   std::uint8_t width = 1;  ///< bytes; 0: one bit
   std::uint8_t bit = 0;
@@ -29,6 +29,7 @@ std::string to_text(const Assignment& assignment);
 using Levels = std::vector<bool>;
 
 struct Vector {
+  std::string cpu{"214"};        ///< of the file
   std::string title;             ///< a line of comment in front of it
   std::vector<std::string> ops;  ///< one instruction, or a whole program
   std::vector<Assignment> before, after;
@@ -50,6 +51,7 @@ struct Vector {
 
 struct File {
   std::vector<std::string> heading;  ///< comment lines at the top
+  std::string cpu{"214"};            ///< `cpu 224` after the heading: of all vectors in the file
   std::vector<Vector> vectors;
 };
 
@@ -63,7 +65,7 @@ std::string judged(const Vector& vector, const std::string& wrong);
 /// Puts the marks of `from` on the same vectors of `to`: what is generated anew keeps them.
 void keep_marks(const File& from, File& to);
 
-/// Name of the file for a mnemonic, without extension: `ADD_I` for `+I`, `LDW_GE` for `LDW>=`.
-std::string file_name(std::string_view mnemonic);
+/// Name of the file for a mnemonic, without extension: `ADD_I` for `+I`, `LDW_GE` for `LDW>=`; `ADD_I.224` for a CPU 224.
+std::string file_name(std::string_view mnemonic, std::string_view cpu = "214");
 
 }  // namespace s7200::vectors

@@ -30,12 +30,14 @@ Texts together(Texts a, const Texts& b) {
   return a;
 }
 
-const Texts kOf22xOnly{"TOF",  "CTD",   "*I",   "/I",    "*D",   "/D",   "BTI",   "ITB",  "ITD",  "DTI",   "ROUND",
-                       "ITA",  "DTA",   "RTA",  "BIR",   "BIW",  "LDS",  "AENO",  "SIN",  "COS",  "TAN",   "LN",
-                       "EXP",  "GPA",   "SPA",  "LDB<>", "AB<>", "OB<>", "LDW<>", "AW<>", "OW<>", "LDD<>", "AD<>",
-                       "OD<>", "LDR<>", "AR<>", "OR<>",  "LDB>", "AB>",  "OB>",   "LDW>", "AW>",  "OW>",   "LDD>",
-                       "AD>",  "OD>",   "LDR>", "AR>",   "OR>",  "LDB<", "AB<",   "OB<",  "LDW<", "AW<",   "OW<",
-                       "LDD<", "AD<",   "OD<",  "LDR<",  "AR<",  "OR<"};
+const Texts kOf22xOnly{
+    "TOF",  "CTD",  "*I",    "/I",    "*D",    "/D",    "BTI",  "ITB",  "ITD",   "DTI",   "ROUND", "ITA",  "DTA",
+    "RTA",  "BIR",  "BIW",   "LDS",   "AENO",  "SIN",   "COS",  "TAN",  "LN",    "EXP",   "GPA",   "SPA",  "LDB<>",
+    "AB<>", "OB<>", "LDW<>", "AW<>",  "OW<>",  "LDD<>", "AD<>", "OD<>", "LDR<>", "AR<>",  "OR<>",  "LDB>", "AB>",
+    "OB>",  "LDW>", "AW>",   "OW>",   "LDD>",  "AD>",   "OD>",  "LDR>", "AR>",   "OR>",   "LDB<",  "AB<",  "OB<",
+    "LDW<", "AW<",  "OW<",   "LDD<",  "AD<",   "OD<",   "LDR<", "AR<",  "OR<",   "CSCRE", "SLEN",  "SCPY", "SSCPY",
+    "SCAT", "SFND", "CFND",  "ITS",   "DTS",   "RTS",   "STI",  "STD",  "STR",   "LDS=",  "AS=",   "OS=",  "LDS<>",
+    "AS<>", "OS<>", "TODRX", "TODWX", "BITIM", "CITIM", "DLED"};
 const Texts kFrom215On{"RCV", "BMD", "PID", "INCB", "DECB", "ANDB", "ORB", "XORB", "INVB", "SLB", "SRB", "RLB", "RRB"};
 const Texts kFrom214On{"LDR=", "AR=",   "OR=",  "LDR>=", "AR>=", "OR>=",  "LDR<=", "AR<=", "OR<=", "MOVR", "+R",
                        "-R",   "*R",    "/R",   "SQRT",  "DTR",  "TRUNC", "FOR",   "NEXT", "ATT",  "FIFO", "LIFO",

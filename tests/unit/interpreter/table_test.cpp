@@ -23,12 +23,21 @@ const TimeTable& times() {
   return kTimes;
 }
 
-std::vector<const Instruction*> modelled_on_214() {
+std::vector<const Instruction*> modelled_on(const CpuModel& model) {
   std::vector<const Instruction*> result;
   for (const Instruction& instruction : all_instructions())
-    if (instruction.modelled() && (instruction.cpus & kCpu214)) result.push_back(&instruction);
+    if (instruction.modelled() && (instruction.cpus & model.self)) result.push_back(&instruction);
   return result;
 }
+
+/// The CPUs that have vectors: the one that the vectors began with, and one with all instructions.
+class InstructionsOf : public testing::TestWithParam<const CpuModel*> {
+ protected:
+  const CpuModel& model() const { return *GetParam(); }
+};
+
+INSTANTIATE_TEST_SUITE_P(InstructionTable, InstructionsOf, testing::Values(&cpu214(), &cpu224()),
+                         [](const auto& cpu) { return std::string(cpu.param->name); });
 
 TEST(InstructionTable, MnemonicsAreUnique) {
   std::set<std::string_view> seen;
@@ -51,18 +60,19 @@ TEST(InstructionTable, EveryModelledRowSaysWhatItDoes) {
   }
 }
 
-TEST(InstructionTable, EveryModelledRowHasATimeForEachAreaOfItsFirstOperand) {
-  for (const Instruction* instruction : modelled_on_214()) {
-    EXPECT_TRUE(!instruction->rules().empty() || times().cost(instruction->mnemonic, {})) << instruction->mnemonic;
-    if (instruction->rules().empty()) continue;
-    const OperandRule& first = instruction->operand[0];
-    for (const AreaInfo& area : all_areas()) {
-      if (contains(first.areas, area.area) && cpu214().size_of(area.area) != 0) {
-        EXPECT_TRUE(times().cost(instruction->mnemonic, area.area)) << instruction->mnemonic << " " << area.name;
+TEST(InstructionTable, EveryModelledRowHasATimeOnEachCpuForEachAreaOfItsFirstOperand) {
+  for (const CpuModel* model : all_cpus()) {
+    const TimeTable times = default_times(*model);
+    for (const Instruction* instruction : modelled_on(*model)) {
+      const auto has_time = [&](std::optional<Area> area) { return times.cost(instruction->mnemonic, area).has_value(); };
+      const OperandRule& first = instruction->operand[0];
+      for (const AreaInfo& area : all_areas())
+        if (contains(first.areas, area.area) && model->size_of(area.area) != 0) {
+          EXPECT_TRUE(has_time(area.area)) << model->name << " " << instruction->mnemonic << " " << area.name;
+        }
+      if (instruction->rules().empty() || first.constant || first.pointer || first.kind != OperandKind::Memory) {
+        EXPECT_TRUE(has_time({})) << model->name << " " << instruction->mnemonic;
       }
-    }
-    if (first.constant || first.pointer || first.kind != OperandKind::Memory) {
-      EXPECT_TRUE(times().cost(instruction->mnemonic, {})) << instruction->mnemonic;
     }
   }
 }
@@ -93,9 +103,9 @@ TEST(InstructionTable, RowsThatCpu214LacksAreRefusedByName) {
 
 /// How many levels an instruction needs and how many more it leaves, if its kind does not decide that.
 TEST(InstructionTable, WhatEachInstructionFindsOnTheLogicStackAndLeavesThere) {
-  static const std::map<std::string_view, std::pair<int, int>> kOwn{{"ALD", {2, -1}},  {"OLD", {2, -1}}, {"LPP", {2, -1}},
-                                                                    {"LRD", {2, 0}},   {"LPS", {1, 1}},  {"CTU", {2, -1}},
-                                                                    {"CTUD", {3, -2}}, {"LSCR", {0, 1}}};
+  static const std::map<std::string_view, std::pair<int, int>> kOwn{
+      {"ALD", {2, -1}}, {"OLD", {2, -1}},  {"LPP", {2, -1}}, {"LRD", {2, 0}},  {"LPS", {1, 1}},
+      {"CTU", {2, -1}}, {"CTUD", {3, -2}}, {"LSCR", {0, 1}}, {"CTD", {2, -1}}, {"LDS", {1, 1}}};
   static const std::set<std::string_view> kAlone{"NOP", "LBL", "SBR", "INT", "NEXT", "MEND", "RET", "RETI", "SCRE"};
   for (const Instruction& instruction : all_instructions()) {
     if (!instruction.modelled()) continue;
@@ -125,7 +135,8 @@ TEST(InstructionTable, WhatIsAllowedInTheMainProgramInSubroutinesAndInInterruptR
                                                       {"HDEF", kMain | kSubroutine},
                                                       {"LSCR", kMain | kSubroutine},
                                                       {"SCRT", kMain | kSubroutine},
-                                                      {"SCRE", kMain | kSubroutine}};
+                                                      {"SCRE", kMain | kSubroutine},
+                                                      {"CSCRE", kMain | kSubroutine}};
   for (const Instruction& instruction : all_instructions()) {
     const auto part = kParts.find(instruction.mnemonic);
     EXPECT_EQ(instruction.allowed.on(kCpu214), part == kParts.end() ? kAnywhere : part->second) << instruction.mnemonic;
@@ -149,40 +160,43 @@ TEST(InstructionTable, OnlyContactsHaveABodyForSegments) {
 
 // --- forms of operands in the vectors ---
 
-/// `V`, `AC`, `constant`, `*VD`, `*AC`, `&`: how an operand is written.
+/// `V`, `AC`, `constant`, `*VD`, `*LD`, `*AC`, `&`: how an operand is written.
 std::string form_of(const stl::Operand& operand) {
   if (const auto* address = std::get_if<stl::Address>(&operand.value)) return address->area;
   if (const auto* indirect = std::get_if<stl::Indirect>(&operand.value))
-    return indirect->pointer.area == "AC" ? "*AC" : "*VD";
+    return indirect->pointer.area == "AC" ? "*AC" : indirect->pointer.area == "L" ? "*LD" : "*VD";
   return std::holds_alternative<stl::AddressOf>(operand.value) ? "&" : "constant";
 }
 
-std::set<std::string> forms_of(const OperandRule& rule) {
+std::set<std::string> forms_of(const OperandRule& rule, const CpuModel& model) {
   std::set<std::string> forms;
   if (rule.kind != OperandKind::Memory) return {"constant"};
   for (const AreaInfo& area : all_areas())
-    if (contains(rule.areas, area.area) && cpu214().size_of(area.area) != 0) forms.emplace(area.name);
+    if (contains(rule.areas, area.area) && model.size_of(area.area) != 0) forms.emplace(area.name);
   if (rule.constant) forms.insert("constant");
   if (rule.pointer) forms.insert({"*VD", "*AC"});
+  if (rule.pointer && model.size_of(Area::L) != 0) forms.insert("*LD");
   if (rule.address_of) forms.insert("&");
   return forms;
 }
 
-/// All vectors in the files of a mnemonic: `ADD_I.txt`, `ADD_I.hand.txt`.
-std::vector<vectors::Vector> vectors_of(const Instruction& instruction) {
+/// All vectors in the files of a mnemonic: `ADD_I.txt`, `ADD_I.hand.txt`, and for a CPU 224 also `ADD_I.224.txt` ….
+std::vector<vectors::Vector> vectors_of(const Instruction& instruction, const CpuModel& model) {
   std::vector<vectors::Vector> result;
-  for (const char* extension : {".txt", ".hand.txt"}) {
-    const std::string path = test::source_path("tests/vectors/" + vectors::file_name(instruction.mnemonic) + extension);
-    std::ifstream in(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    std::ranges::move(vectors::parse(text, path).vectors, std::back_inserter(result));
-  }
+  for (const std::string_view cpu : std::set<std::string_view>{"214", model.name})
+    for (const char* extension : {".txt", ".hand.txt"}) {
+      const std::string path =
+          test::source_path("tests/vectors/" + vectors::file_name(instruction.mnemonic, cpu) + extension);
+      std::ifstream in(path, std::ios::binary);
+      const std::string text{std::istreambuf_iterator<char>(in), {}};
+      std::ranges::move(vectors::parse(text, path).vectors, std::back_inserter(result));
+    }
   return result;
 }
 
-std::vector<stl::Statement> statements_in_vectors(const Instruction& instruction) {
+std::vector<stl::Statement> statements_in_vectors(const Instruction& instruction, const CpuModel& model) {
   std::vector<stl::Statement> result;
-  for (const vectors::Vector& vector : vectors_of(instruction))
+  for (const vectors::Vector& vector : vectors_of(instruction, model))
     for (const std::string& op : vector.ops)
       for (const stl::Line& line : stl::parse(op, "vector").source.lines)
         if (const auto* statement = std::get_if<stl::Statement>(&line);
@@ -191,12 +205,12 @@ std::vector<stl::Statement> statements_in_vectors(const Instruction& instruction
   return result;
 }
 
-TEST(InstructionTable, EveryFormOfEveryOperandHasAVector) {
-  for (const Instruction* instruction : modelled_on_214()) {
-    const auto statements = statements_in_vectors(*instruction);
+TEST_P(InstructionsOf, EveryFormOfEveryOperandHasAVector) {
+  for (const Instruction* instruction : modelled_on(model())) {
+    const auto statements = statements_in_vectors(*instruction, model());
     EXPECT_FALSE(statements.empty()) << instruction->mnemonic << " has no vector";
     for (std::size_t i = 0; i < instruction->rules().size() && !statements.empty(); ++i) {
-      std::set<std::string> missing = forms_of(instruction->operand[i]);
+      std::set<std::string> missing = forms_of(instruction->operand[i], model());
       for (const stl::Statement& statement : statements) missing.erase(form_of(statement.operands.at(i)));
       EXPECT_TRUE(missing.empty()) << fmt::format("{}: no vector with {} as {}", instruction->mnemonic,
                                                   fmt::join(missing, ", "), instruction->operand[i].name);
@@ -205,9 +219,9 @@ TEST(InstructionTable, EveryFormOfEveryOperandHasAVector) {
 }
 
 /// The bits of SM1 that change in any vector that has only this instruction.
-int flags_in_vectors(const Instruction& instruction) {
+int flags_in_vectors(const Instruction& instruction, const CpuModel& model) {
   int flags = 0;
-  for (const vectors::Vector& vector : vectors_of(instruction)) {
+  for (const vectors::Vector& vector : vectors_of(instruction, model)) {
     if (vector.is_program()) continue;
     for (const vectors::Assignment& after : vector.after)
       if (after.area == "SM" && after.at == 1) flags |= after.width == 0 ? 1 << after.bit : 0xFF;
@@ -215,14 +229,14 @@ int flags_in_vectors(const Instruction& instruction) {
   return flags;
 }
 
-TEST(InstructionTable, FlagsAreThoseThatTheVectorsShowToChange) {
-  for (const Instruction* instruction : modelled_on_214())
-    EXPECT_EQ(flags_in_vectors(*instruction), instruction->flags) << instruction->mnemonic;
+TEST_P(InstructionsOf, FlagsAreThoseThatTheVectorsShowToChange) {
+  for (const Instruction* instruction : modelled_on(model()))
+    EXPECT_EQ(flags_in_vectors(*instruction, model()), instruction->flags) << instruction->mnemonic;
 }
 
-TEST(InstructionTable, StatementsPrintAndReadBackToThemselves) {
-  for (const Instruction* instruction : modelled_on_214())
-    for (const stl::Statement& statement : statements_in_vectors(*instruction)) {
+TEST_P(InstructionsOf, StatementsPrintAndReadBackToThemselves) {
+  for (const Instruction* instruction : modelled_on(model()))
+    for (const stl::Statement& statement : statements_in_vectors(*instruction, model())) {
       const stl::Source printed{{"test", {}}, {statement}};
       const stl::ParseResult read = stl::parse(stl::to_text(printed), "test");
       EXPECT_TRUE(read.diagnostics.empty() && stl::same_program(printed, read.source)) << stl::to_text(statement);

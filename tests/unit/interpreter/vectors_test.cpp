@@ -32,15 +32,16 @@ std::vector<std::string> vector_files() {
 
 std::uint32_t base_of(const std::string& area) {
   static const std::map<std::string, std::uint32_t> kBases{
-      {"V", image::kV},   {"I", image::kI},         {"Q", image::kQ},       {"M", image::kM},
-      {"SM", image::kSM}, {"S", image::kS},         {"T", image::kT},       {"T.bit", image::kTBits},
-      {"C", image::kC},   {"C.bit", image::kCBits}, {"HC", image::kHC},     {"AC", image::kAC},
-      {"AI", image::kAI}, {"AQ", image::kAQ},       {"PI", image::kInputs}, {"PQ", image::kOutputs}};
+      {"V", image::kV},         {"L", image::kL},       {"I", image::kI},   {"Q", image::kQ},         {"M", image::kM},
+      {"SM", image::kSM},       {"S", image::kS},       {"T", image::kT},   {"T.bit", image::kTBits}, {"C", image::kC},
+      {"C.bit", image::kCBits}, {"HC", image::kHC},     {"AC", image::kAC}, {"AI", image::kAI},       {"AQ", image::kAQ},
+      {"PI", image::kInputs},   {"PQ", image::kOutputs}};
   return kBases.at(area);
 }
 
 std::string name_of_place(std::uint32_t at) {
-  static const std::pair<std::uint32_t, std::string_view> kNames[] = {{image::kV, "VB"},
+  static const std::pair<std::uint32_t, std::string_view> kNames[] = {{image::kL, "LB"},
+                                                                      {image::kV, "VB"},
                                                                       {image::kOutputs, "PQB"},
                                                                       {image::kInputs, "PIB"},
                                                                       {image::kCBits, "C bits, byte "},
@@ -75,6 +76,12 @@ std::uint16_t bits_of(const vectors::Levels& levels) {
   return bits;
 }
 
+const TimeTable& times_of(const CpuModel& model) {
+  static std::map<std::string_view, TimeTable> tables;
+  const auto found = tables.find(model.name);
+  return found != tables.end() ? found->second : tables.emplace(model.name, default_times(model)).first->second;
+}
+
 /// Lets one instruction through at a time.
 class OneInstruction : public TraceSink {
  public:
@@ -91,8 +98,8 @@ class Execution {
  public:
   explicit Execution(const Vector& vector) : vector_(vector) {
     const std::string text = program_text();
-    static const TimeTable kTimes = default_times(cpu214());
-    checked_ = check_text(text, "vector", cpu214(), kTimes);
+    const CpuModel& model = *find_cpu(vector.cpu);
+    checked_ = check_text(text, "vector", model, times_of(model));
   }
 
   /// What is wrong; empty if nothing is.
@@ -123,6 +130,7 @@ class Execution {
       const std::string mnemonic = vector_.ops[0].substr(0, vector_.ops[0].find(' '));
       const Instruction* instruction = find_instruction(mnemonic);
       prefix_ = instruction ? static_cast<std::uint32_t>(std::max<int>(0, instruction->rung.stack.needs)) : 0;
+      if (mnemonic == "LDS") prefix_ = 9;  // any level that it may copy
       for (std::uint32_t i = 0; i < prefix_; ++i) text += "LD SM0.0\n";
     }
     for (const std::string& op : vector_.ops) text += op + "\n";
