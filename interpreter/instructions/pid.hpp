@@ -2,6 +2,7 @@
 //
 // The loop table holds real numbers: PV and SP (scaled to 0 … 1), M, KC, TS in seconds, TI and TD in minutes, the bias MX
 // and the previous PV. PV and SP are not checked. A rising power flow makes the change from manual to automatic bumpless.
+// Two PIDs of the same LOOP disturb each other on a CPU; here each has its own memory of power flow.
 //
 // Not documented, modelled so:
 // - A term that is not a finite number sets SM1.1 and ends PID: what has been stored by then stays. An infinite TI switches

@@ -236,18 +236,19 @@ constexpr Instruction kShiftAndRotate[] = {
 };
 
 constexpr Instruction kProgramControl[] = {
-    {.mnemonic = "JMP",  .operand = {kLabel},                       .rung = kPowered,                                             .outside_segments = true, .structure = Structure::Jump,                                             .body = jump,                   .meaning = "go on at LBL n of the same routine"},
-    {.mnemonic = "LBL",  .operand = {kLabel},                       .rung = kMark,                                                                          .structure = Structure::Label,                                            .body = no_operation,           .meaning = "place that JMP n goes to"},
-    {.mnemonic = "FOR",  .operand = {kLoopIndex, kInitial, kFinal}, .rung = kBox,     .cpus = kFrom214, .allowed = kInterrupt22x, .outside_segments = true, .structure = Structure::For,                                              .body = begin_loop,             .meaning = "repeat up to NEXT with INDX from INIT to FINAL"},
-    {.mnemonic = "NEXT",                                            .rung = kMark,    .cpus = kFrom214, .allowed = kInterrupt22x, .outside_segments = true, .structure = Structure::Next,                                             .body = next_pass,              .meaning = "end of a FOR loop; leaves the top of the stack at 1"},
-    {.mnemonic = "CALL", .operand = {kSubroutineNumber},            .rung = kBox,                       .allowed = kInterrupt22x,                           .structure = Structure::Call,                                             .body = call,                   .meaning = "call subroutine n"},
-    {.mnemonic = "SBR",  .operand = {kSubroutineNumber},            .rung = kMark,                                                                          .structure = Structure::SubroutineHead,                                   .body = no_operation,           .meaning = "head of subroutine n"},
-    {.mnemonic = "RET",                                             .rung = kMark,                      .allowed = kSubroutine,                             .structure = Structure::SubroutineEnd,                                    .body = return_from_subroutine, .meaning = "end of a subroutine"},
-    {.mnemonic = "CRET",                                            .rung = kPowered,                   .allowed = kSubroutine,                                                                     .effect = Effect::ConditionalEnd, .body = return_from_subroutine, .meaning = "return from a subroutine"},
-    {.mnemonic = "END",                                             .rung = kPowered,                   .allowed = kMain,         .outside_segments = true,                                         .effect = Effect::ConditionalEnd, .body = end_main_program,       .meaning = "end the main program of this scan"},
-    {.mnemonic = "MEND",                                            .rung = kMark,                      .allowed = kMain,                                   .structure = Structure::MainEnd,                                          .body = end_main_program,       .meaning = "end of the main program"},
-    {.mnemonic = "STOP",                                            .rung = kPowered,                                                                                                               .effect = Effect::ConditionalEnd, .body = stop,                   .meaning = "go to STOP"},
-    {.mnemonic = "WDR",                                             .rung = kPowered,                                                                                                                                                 .body = reset_watchdog,         .meaning = "restart the scan watchdog"},
+    {.mnemonic = "JMP",  .operand = {kLabel},                       .rung = kPowered,                                                    .outside_segments = true, .structure = Structure::Jump,                                             .body = jump,                   .meaning = "go on at LBL n of the same routine"},
+    {.mnemonic = "LBL",  .operand = {kLabel},                       .rung = kMark,                                                                                 .structure = Structure::Label,                                            .body = no_operation,           .meaning = "place that JMP n goes to"},
+    {.mnemonic = "FOR",  .operand = {kLoopIndex, kInitial, kFinal}, .rung = kBox,     .cpus = kFrom214,        .allowed = kInterrupt22x, .outside_segments = true, .structure = Structure::For,                                              .body = begin_loop,             .meaning = "repeat up to NEXT with INDX from INIT to FINAL"},
+    {.mnemonic = "NEXT",                                            .rung = kMark,    .cpus = kFrom214,        .allowed = kInterrupt22x, .outside_segments = true, .structure = Structure::Next,                                             .body = next_pass,              .meaning = "end of a FOR loop; leaves the top of the stack at 1"},
+    {.mnemonic = "CALL", .operand = {kSubroutineNumber},            .rung = kBox,                              .allowed = kInterrupt22x,                           .structure = Structure::Call,                                             .body = call,                   .meaning = "call subroutine n"},
+    {.mnemonic = "SBR",  .operand = {kSubroutineNumber},            .rung = kMark,                                                                                 .structure = Structure::SubroutineHead,                                   .body = no_operation,           .meaning = "head of subroutine n"},
+    {.mnemonic = "RET",                                             .rung = kMark,                             .allowed = kSubroutine,                             .structure = Structure::SubroutineEnd,                                    .body = return_from_subroutine, .meaning = "end of a subroutine"},
+    {.mnemonic = "CRET",                                            .rung = kPowered,                          .allowed = kSubroutine,                                                                     .effect = Effect::ConditionalEnd, .body = return_from_subroutine, .meaning = "return from a subroutine"},
+    {.mnemonic = "END",                                             .rung = kPowered,                          .allowed = kMain,         .outside_segments = true,                                         .effect = Effect::ConditionalEnd, .body = end_main_program,       .meaning = "end the main program of this scan"},
+    {.mnemonic = "MEND",                                            .rung = kMark,                             .allowed = kMain,                                   .structure = Structure::MainEnd,                                          .body = end_main_program,       .meaning = "end of the main program"},
+    {.mnemonic = "STOP",                                            .rung = kPowered,                                                                                                                      .effect = Effect::ConditionalEnd, .body = stop,                   .meaning = "go to STOP"},
+    {.mnemonic = "WDR",                                             .rung = kPowered,                                                                                                                                                        .body = reset_watchdog,         .meaning = "restart the scan watchdog"},
+    {.mnemonic = "DLED", .operand = {kInByte},                      .rung = kBox,     .cpus = kCpu22xRelease2,                                                                                                                               .body = switch_diagnostic_led,  .meaning = "diagnostic LED off if IN is 0, otherwise yellow"},
 };
 
 constexpr Instruction kInterrupts[] = {
@@ -261,19 +262,23 @@ constexpr Instruction kInterrupts[] = {
 };
 
 constexpr Instruction kCommunication[] = {
-    {.mnemonic = "XMT",  .operand = {kMessage, kPort},  .rung = kBox,                   .effect = Effect::Transmits, .body = transmit, .meaning = "Freeport: send the characters of TBL, their number in its first byte"},
-    {.mnemonic = "RCV",  .operand = {kReceived, kPort}, .rung = kBox, .cpus = kFrom215, .effect = Effect::Receives,  .body = receive,  .meaning = "Freeport: receive a message into TBL, the number of its characters in the first byte"},
-    {.mnemonic = "NETR",                                              .cpus = kFrom214,                                                .meaning = "PPI master: read from another station"},
-    {.mnemonic = "NETW",                                              .cpus = kFrom214,                                                .meaning = "PPI master: write to another station"},
+    {.mnemonic = "XMT",  .operand = {kMessage, kPort},    .rung = kBox,                   .effect = Effect::Transmits, .body = transmit,         .meaning = "Freeport: send the characters of TBL, their number in its first byte"},
+    {.mnemonic = "RCV",  .operand = {kReceived, kPort},   .rung = kBox, .cpus = kFrom215, .effect = Effect::Receives,  .body = receive,          .meaning = "Freeport: receive a message into TBL, the number of its characters in the first byte"},
+    {.mnemonic = "NETR",                                                .cpus = kFrom214,                                                        .meaning = "PPI master: read from another station"},
+    {.mnemonic = "NETW",                                                .cpus = kFrom214,                                                        .meaning = "PPI master: write to another station"},
+    {.mnemonic = "GPA",  .operand = {kAddressOut, kPort}, .rung = kBox, .cpus = kCpu22x,                               .body = get_port_address, .meaning = "station address of a port to ADDR"},
+    {.mnemonic = "SPA",  .operand = {kAddressIn, kPort},  .rung = kBox, .cpus = kCpu22x,                               .body = set_port_address, .meaning = "ADDR becomes the station address of a port"},
 };
 
 constexpr Instruction kTimersAndCounters[] = {
-    {.mnemonic = "TON",  .operand = {kOnDelayTimer, kPresetTime},   .rung = kCoil,                         .hidden = Hidden::Number, .body = time_on<false>, .meaning = "on-delay timer: counts while the top of the stack is 1, else 0"},
-    {.mnemonic = "TONR", .operand = {kRetentiveTimer, kPresetTime}, .rung = kCoil,                         .hidden = Hidden::Number, .body = time_on<true>,  .meaning = "retentive on-delay timer: keeps its value until it is reset"},
-    {.mnemonic = "TOF",  .operand = {kOffDelayTimer, kPresetTime},  .rung = kCoil,        .cpus = kCpu22x, .hidden = Hidden::Number, .body = time_off,       .meaning = "off-delay timer: its bit goes off PT after the top of the stack has gone off"},
-    {.mnemonic = "CTU",  .operand = {kCounter, kPresetValue},       .rung = kTwoInputs,                    .hidden = Hidden::Number, .body = count_up,       .meaning = "count up: second level counts, top resets"},
-    {.mnemonic = "CTD",  .operand = {kCounter, kPresetValue},       .rung = kTwoInputs,   .cpus = kCpu22x, .hidden = Hidden::Number, .body = count_down,     .meaning = "count down: second level counts, top loads PV"},
-    {.mnemonic = "CTUD", .operand = {kCounter, kPresetInt},         .rung = kThreeInputs,                  .hidden = Hidden::Number, .body = count_up_down,  .meaning = "count up and down: third level up, second down, top resets"},
+    {.mnemonic = "TON",   .operand = {kOnDelayTimer, kPresetTime},   .rung = kCoil,                                 .hidden = Hidden::Number, .body = time_on<false>, .meaning = "on-delay timer: counts while the top of the stack is 1, else 0"},
+    {.mnemonic = "TONR",  .operand = {kRetentiveTimer, kPresetTime}, .rung = kCoil,                                 .hidden = Hidden::Number, .body = time_on<true>,  .meaning = "retentive on-delay timer: keeps its value until it is reset"},
+    {.mnemonic = "TOF",   .operand = {kOffDelayTimer, kPresetTime},  .rung = kCoil,        .cpus = kCpu22x,         .hidden = Hidden::Number, .body = time_off,       .meaning = "off-delay timer: its bit goes off PT after the top of the stack has gone off"},
+    {.mnemonic = "CTU",   .operand = {kCounter, kPresetValue},       .rung = kTwoInputs,                            .hidden = Hidden::Number, .body = count_up,       .meaning = "count up: second level counts, top resets"},
+    {.mnemonic = "CTD",   .operand = {kCounter, kPresetValue},       .rung = kTwoInputs,   .cpus = kCpu22x,         .hidden = Hidden::Number, .body = count_down,     .meaning = "count down: second level counts, top loads PV"},
+    {.mnemonic = "CTUD",  .operand = {kCounter, kPresetInt},         .rung = kThreeInputs,                          .hidden = Hidden::Number, .body = count_up_down,  .meaning = "count up and down: third level up, second down, top resets"},
+    {.mnemonic = "BITIM", .operand = {kOutDword},                    .rung = kBox,         .cpus = kCpu22xRelease2,                           .body = begin_interval, .meaning = "the CPU's milliseconds to OUT"},
+    {.mnemonic = "CITIM", .operand = {kInDword, kOutDword},          .rung = kBox,         .cpus = kCpu22xRelease2,                           .body = read_interval,  .meaning = "milliseconds since IN, which BITIM has written, to OUT"},
 };
 
 constexpr Instruction kRealArithmetic[] = {
@@ -349,16 +354,11 @@ constexpr Instruction kSequenceControl[] = {
 };
 
 constexpr Instruction kPeripherals[] = {
-    {.mnemonic = "TODR",  .operand = {kClockOut},                .rung = kBox, .cpus = kFrom214,                                                                           .body = read_clock,            .meaning = "read the clock into the 8 bytes at T"},
-    {.mnemonic = "TODW",  .operand = {kClockIn},                 .rung = kBox, .cpus = kFrom214,                                                                           .body = write_clock,           .meaning = "set the clock from the 8 bytes at T"},
-    {.mnemonic = "BITIM", .operand = {kOutDword},                .rung = kBox, .cpus = kCpu22xRelease2,                                                                    .body = begin_interval,        .meaning = "the CPU's milliseconds to OUT"},
-    {.mnemonic = "CITIM", .operand = {kInDword, kOutDword},      .rung = kBox, .cpus = kCpu22xRelease2,                                                                    .body = read_interval,         .meaning = "milliseconds since IN, which BITIM has written, to OUT"},
-    {.mnemonic = "HDEF",  .operand = {kHighSpeedCounter, kMode}, .rung = kBox,                          .allowed = kNotInInterrupt, .structure = Structure::DefineCounter, .body = define_counter,        .meaning = "give a high-speed counter its mode, once"},
-    {.mnemonic = "HSC",   .operand = {kHighSpeedCounter},        .rung = kBox,                                                                                             .body = program_counter,       .meaning = "take over the counter's control byte, values and enable"},
-    {.mnemonic = "PLS",   .operand = {kPulseOutput},             .rung = kBox, .cpus = kFrom214,                                                                           .body = program_pulses,        .meaning = "start the pulse train or PWM of Q0.X"},
-    {.mnemonic = "GPA",   .operand = {kAddressOut, kPort},       .rung = kBox, .cpus = kCpu22x,                                                                            .body = get_port_address,      .meaning = "station address of a port to ADDR"},
-    {.mnemonic = "SPA",   .operand = {kAddressIn, kPort},        .rung = kBox, .cpus = kCpu22x,                                                                            .body = set_port_address,      .meaning = "ADDR becomes the station address of a port"},
-    {.mnemonic = "DLED",  .operand = {kInByte},                  .rung = kBox, .cpus = kCpu22xRelease2,                                                                    .body = switch_diagnostic_led, .meaning = "diagnostic LED off if IN is 0, otherwise yellow"},
+    {.mnemonic = "TODR", .operand = {kClockOut},                .rung = kBox, .cpus = kFrom214,                                                                    .body = read_clock,      .meaning = "read the clock into the 8 bytes at T"},
+    {.mnemonic = "TODW", .operand = {kClockIn},                 .rung = kBox, .cpus = kFrom214,                                                                    .body = write_clock,     .meaning = "set the clock from the 8 bytes at T"},
+    {.mnemonic = "HDEF", .operand = {kHighSpeedCounter, kMode}, .rung = kBox,                   .allowed = kNotInInterrupt, .structure = Structure::DefineCounter, .body = define_counter,  .meaning = "give a high-speed counter its mode, once"},
+    {.mnemonic = "HSC",  .operand = {kHighSpeedCounter},        .rung = kBox,                                                                                      .body = program_counter, .meaning = "take over the counter's control byte, values and enable"},
+    {.mnemonic = "PLS",  .operand = {kPulseOutput},             .rung = kBox, .cpus = kFrom214,                                                                    .body = program_pulses,  .meaning = "start the pulse train or PWM of Q0.X"},
 };
 
 // Known by name, so that a program that uses them is told so.

@@ -51,7 +51,9 @@ IN_BODIES = [
     (r"std::int16_t", "std::uint16_t"), (r"std::int32_t", "std::uint32_t"),
 ]
 IN_ROWS = [
-    (r"\bkBox\b", "kCoil"), (r"\bkPush\b", "kTop"), (r"\bkTop\b", "kPush"), (r"\bkTwoToOne\b", "kTop"), (r"\bkTwoInputs\b", "kCoil"),
+    (r"\bkBox\b", "kCoil"), (r"\bkBox\b", "kPowered"), (r"\bkShiftBox\b", "kCoil"), (r"\bkShiftBox\b", "kBox"), (r"\bkPowered\b", "kCoil"),
+    (r"\bkPowered\b", "kBox"), (r"\bkLoop\b", "kCoil"), (r"\bkCpu22x\b", "kEveryCpu"), (r"\bkCpu22xRelease2\b", "kCpu22x"),
+    (r"\bkPush\b", "kTop"), (r"\bkTop\b", "kPush"), (r"\bkTwoToOne\b", "kTop"), (r"\bkTwoInputs\b", "kCoil"),
     (r"\bkThreeInputs\b", "kTwoInputs"), (r"\bkFrom214\b", "kEveryCpu"), (r"\bkFrom215\b", "kEveryCpu"), (r"\bkZero\b", "0"),
     (r"\bkOverflow\b", "0"), (r"\bkArithmetic\b", "0"), (r"\bkUnsignedArithmetic\b", "kZero"), (r"\bkMultiplyDivide\b", "kArithmetic"),
     (r"\bkShiftFlags\b", "kZero"), (r"\bkNotInInterrupt\b", "kAnywhere"), (r"allowed = k(Main|Subroutine|Interrupt)\b", "allowed = kAnywhere"),

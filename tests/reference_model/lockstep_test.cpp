@@ -26,7 +26,7 @@ TEST_P(Lockstep, InterpreterAgreesWithReferenceModel) {
 }
 
 TEST_P(Lockstep, InterpreterAgreesWithReferenceModelOnACpu224) {
-  const LockstepResult result = run_lockstep(GetParam() * 1'000'000, instructions_of_a_test() / 2, "224");
+  const LockstepResult result = run_lockstep(GetParam() * 1'000'000, instructions_of_a_test() / 4, "224");
   EXPECT_FALSE(result.difference) << *result.difference;
 }
 

@@ -362,7 +362,6 @@ std::string source_of(const Instruction& instruction) {
                                                                       {"Conversion", "6.9"},
                                                                       {"Tables", "6.10"},
                                                                       {"Strings", "10.7"},
-                                                                      {"Clock, high-speed counters, pulse outputs", "10.7"},
                                                                       {"Program control", "6.12"},
                                                                       {"Sequence control relays", "6.12"},
                                                                       {"Interrupts", "3.3"}};

@@ -50,6 +50,15 @@ TEST(CpuModels, EachCpuLacksTheInstructionsOfTheLargerOnes) {
   EXPECT_EQ(lacking(cpu212()), together(together(kOf22xOnly, kFrom215On), kFrom214On));
 }
 
+// Facts 10.7.
+TEST(CpuModels, InstructionsThatCameWithRelease2OfTheCpus22x) {
+  const Texts new_ones{"TODRX", "TODWX", "BITIM", "CITIM", "DLED"};
+  for (const CpuModel* model : all_cpus())
+    if (model->self & kCpu22x) {
+      EXPECT_EQ(lacking(*model), model->self & kCpu22xRelease1 ? new_ones : Texts{}) << model->name;
+    }
+}
+
 TEST(CpuModels, AnInstructionOfALargerCpuIsRefusedByName) {
   EXPECT_EQ(refusal("LD SM0.0\nMOVR 1.0, VD0\nMEND\n", cpu212()), "CPU 212 has no MOVR");
   EXPECT_EQ(refusal("LD SM0.0\nFOR VW0, 1, 2\nNEXT\nMEND\n", cpu212()), "CPU 212 has no FOR");

@@ -111,7 +111,7 @@ TEST(Check22x, AStringConstantStandsInDoubleQuotes) {
   EXPECT_EQ(refusal_of(fmt::format("SLEN \"{}\", VB0", std::string(126, 'x'))), "");
   EXPECT_NE(refusal_of(fmt::format("SLEN \"{}\", VB0", std::string(127, 'x'))), "");
   EXPECT_EQ(refusal_of("SCPY \"A\", \"B\""), "OUT of SCPY cannot be the constant \"B\"");
-  EXPECT_EQ(refusal_of("MOVB \"A\", VB0"), "'\"A\"' is not an address");
+  EXPECT_EQ(refusal_of("MOVB \"A\", VB0"), "'\"A\"' is neither an address nor a defined symbol");
 }
 
 TEST(Check22x, WhatIsNotModelledIsRefusedByName) {

@@ -118,6 +118,22 @@ TEST(InstructionTable, WhatEachInstructionFindsOnTheLogicStackAndLeavesThere) {
   }
 }
 
+/// Facts 10.7: boxes have ENO, which power flow, run-time errors and failures decide; of shifts SM1.1 says nothing about
+/// that.
+TEST(InstructionTable, EveryBoxHasEnoButNoContactCoilOrJump) {
+  static const std::set<std::string_view> kPoweredCoils{"S",   "R",    "SI",   "RI",    "JMP",   "CRET", "END",
+                                                        "WDR", "SCRT", "STOP", "CSCRE", "CRETI", "ENI",  "DISI"};
+  for (const Instruction& instruction : all_instructions()) {
+    if (!instruction.modelled()) continue;
+    const bool box = instruction.rung.needs_power_flow && !kPoweredCoils.contains(instruction.mnemonic);
+    const Eno expected = instruction.mnemonic == "PID"             ? Eno::ErrorsAndFlags
+                         : !box                                    ? Eno::None
+                         : instruction.group == "Shift and rotate" ? Eno::Errors
+                                                                   : Eno::ErrorsAndFlags;
+    EXPECT_EQ(instruction.rung.eno, expected) << instruction.mnemonic;
+  }
+}
+
 // --- where an instruction is allowed (facts 3.5) ---
 
 TEST(InstructionTable, WhatIsAllowedInTheMainProgramInSubroutinesAndInInterruptRoutines) {

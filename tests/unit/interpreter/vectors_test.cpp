@@ -130,7 +130,7 @@ class Execution {
       const std::string mnemonic = vector_.ops[0].substr(0, vector_.ops[0].find(' '));
       const Instruction* instruction = find_instruction(mnemonic);
       prefix_ = instruction ? static_cast<std::uint32_t>(std::max<int>(0, instruction->rung.stack.needs)) : 0;
-      if (mnemonic == "LDS") prefix_ = 9;  // any level that it may copy
+      if (mnemonic == "LDS") prefix_ += static_cast<std::uint32_t>(std::stoul(vector_.ops[0].substr(4)));  // its level
       for (std::uint32_t i = 0; i < prefix_; ++i) text += "LD SM0.0\n";
     }
     for (const std::string& op : vector_.ops) text += op + "\n";
