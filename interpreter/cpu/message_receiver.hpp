@@ -10,29 +10,34 @@
 // The start condition is idle line, then start character; or break, then start character; each also alone. Another character
 // than the start character makes it look for the idle line or the break again. All parameters are taken over when RCV is
 // executed. Each character of a message is looked at in this order: error, store, end character, count. What the manuals
-// leave open is in ReceiveChoices, as a field each.
+// leave open has a field in ReceiveChoices, named in brackets below.
 //
 // Not documented, modelled so:
 // - The times end at ticks of the CPU's millisecond clock: the first one at which they have passed, so a time of 0 ends at
 //   the next tick. [Receive.TimesEndAtTheFirstTickOfTheClockAtWhichTheyHavePassed]
 // - Idle time and time between characters run from the end of a character to the end of the next: the receiver knows whole
 //   characters only. [Receive.TheIdleTimeRunsToTheEndOfACharacter]
-// - If idle line and break are both asked for, either is enough, whichever comes first.
+// - If idle line and break are both asked for, either is enough, whichever comes first (idle_or_break).
 //   [Receive.IdleLineOrBreakWhicheverComesFirst]
 // - An idle time of 0 with a start character asks for that character alone; without one, any character starts the message,
 //   and its time runs from RCV. [Receive.EachStartConditionTakesItsFirstCharacter,
 //   Receive.OnlyWithAnyCharacterTheTimeOfTheMessageEndsItWithoutOne]
 // - RCV with SM87.7 = 0 while nothing is received only sets the status. [Receive.RcvThatIsNotEnabledSetsOnlyItsStatus]
 // - What a refused XMT or RCV has found running goes on. [Receive.XmtAndRcvExcludeEachOtherInAllFourPairs]
-// - A start character that is also the end character does not end the message. [Receive.TheStartCharacterIsNotTheEnd]
-// - The character that ends the message with an error is not stored. [Receive.ABadCharacterEndsTheMessageAndIsNotStored]
+// - A start character that is also the end character does not end the message (start_may_end).
+//   [Receive.TheStartCharacterIsNotTheEnd]
+// - The character that ends the message with an error is not stored (stores_bad_character).
+//   [Receive.ABadCharacterEndsTheMessageAndIsNotStored]
 // - An error counts once the start condition is met: where a start character is asked for, a bad one is dropped. A break
 //   before the message is always dropped. [Receive.ABadCharacterIsNotAStartCharacter,
 //   Receive.ABreakBeforeTheMessageIsDropped]
-// - End character and count reached together set both bits. [Receive.EndCharacterAndCountTogetherSetBothBits]
-// - There is no event after RCV with SM87.7 = 0 and none after bad parameters. [Receive.TheUserEndsItWithoutEvent,
+// - End character and count reached together set both bits (end_and_count).
+//   [Receive.EndCharacterAndCountTogetherSetBothBits]
+// - There is no event after RCV with SM87.7 = 0 (event_after_user_end) and none after bad parameters
+//   (event_after_bad_parameters). [Receive.TheUserEndsItWithoutEvent,
 //   Receive.WithoutAStartConditionOrRoomItIsRefusedInTheStatus]
-// - Event 8 or 25 is not raised while RCV receives. [Receive.TheCharacterEventIsNotRaisedWhileItReceives]
+// - Event 8 or 25 is not raised while RCV receives (character_events).
+//   [Receive.TheCharacterEventIsNotRaisedWhileItReceives]
 // - STOP and leaving Freeport mode end RCV silently: the status stays 0. [Receive.StopEndsItSilently,
 //   Receive.LeavingFreeportModeEndsItSilently]
 // - The number in the first byte of the table grows with each character. [Receive.TheNumberInTheTableGrows]

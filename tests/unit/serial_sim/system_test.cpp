@@ -555,7 +555,7 @@ TEST(System, ASimulationMayPutItsMasterOnPort1) {
   simulation.run_until(20 * kMillisecond);
   EXPECT_EQ(simulation.port_format().parity, Parity::Even);
   simulation.master_uart().configure(simulation.port_format());
-  simulation.master().start({.frame = to_frame({0x41, 0x42})}, simulation.time());
+  simulation.master().start({.frame = to_frame(Bytes{0x41, 0x42})}, simulation.time());
   EXPECT_EQ(to_hex(simulation.finish_exchange().response_bytes()), "41 42");
 }
 
