@@ -11,7 +11,7 @@ namespace s7200::reference {
 
 struct CpuKind {
   std::string name;
-  std::size_t points, V, SM, S, analog, timers, L;  ///< bytes; timers, and as many counters
+  std::size_t points, V, SM, S, analog, timers, L, HC;  ///< bytes; timers, and as many counters
   std::uint8_t identification;
   std::int64_t watchdog;  ///< ns
   bool keeps_operands;    ///< of +I, -I, +D, -D and DIV if the result does not fit

@@ -26,6 +26,7 @@ struct Memory {
         C(2 * kind.timers),
         timer_bits(kind.timers / 8),
         counter_bits(kind.timers / 8),
+        HC(kind.HC),
         input_points(kind.points),
         output_points(kind.points) {}
 
@@ -34,7 +35,7 @@ struct Memory {
   Bytes AI, AQ;
   Bytes T, C;  ///< current values, two bytes each
   Bytes timer_bits, counter_bits;
-  Bytes HC = Bytes(12), AC = Bytes(16);  ///< four bytes each; the low byte of AC0 is the fourth
+  Bytes HC, AC = Bytes(16);  ///< four bytes each; the low byte of AC0 is the fourth
   Bytes input_points, output_points;
 };
 

@@ -33,6 +33,8 @@ std::string_view number_text(OperandKind kind) {
       return "number of a port";
     case OperandKind::Counter:
       return "number of a high-speed counter";
+    case OperandKind::StackLevel:
+      return "level of the logic stack, 0 to 8";
     default:
       return "a number";
   }
@@ -47,17 +49,20 @@ std::string sample(const OperandRule& rule, std::size_t i) {
       return "10";
     case OperandKind::Port:
     case OperandKind::Number:
+    case OperandKind::StackLevel:
       return "0";
     default:
       return "1";
   }
-  if (rule.timer == TimerKind::OnDelay) return "T37";
+  if (rule.timer == TimerKind::OnDelay || rule.timer == TimerKind::OffDelay) return "T37";
   if (rule.timer == TimerKind::Retentive) return "T5";
   if (rule.areas == set_of(Area::C)) return "C1";
   if (rule.width == Width::Bit) {
     if (!contains(rule.areas, Area::I)) return contains(rule.areas, Area::Q) ? "Q0.0" : "S0.1";
     return rule.role == Role::In ? "I0.0" : "Q0.0";
   }
+  if (rule.areas == set_of(Area::I)) return "IB0";
+  if (rule.areas == set_of(Area::Q)) return "QB0";
   if (rule.count) return "4";
   for (const std::string_view number : {"N", "PT", "PV", "FINAL"})
     if (rule.name == number) return "4";
@@ -67,6 +72,7 @@ std::string sample(const OperandRule& rule, std::size_t i) {
 
 std::string constant_text(const OperandRule& rule) {
   if (rule.real) return "real constant";
+  if (rule.text) return "constant in double quotes";
   if (rule.min == std::numeric_limits<std::int64_t>::min())
     return rule.sign == Sign::Either ? "constant" : rule.sign == Sign::Signed ? "signed constant" : "unsigned constant";
   return fmt::format("constant {}…{}{}", rule.min, rule.max, rule.not_zero ? " but 0" : "");
@@ -93,12 +99,17 @@ std::string time_column(const Instruction& instruction, const TimeTable& times) 
   return row ? time_text(*row) : "";
 }
 
+/// PID looks at its power flow itself, to see when it returns; it does nothing without.
+bool needs_power_flow(const Instruction& instruction) {
+  return instruction.rung.needs_power_flow || instruction.rung.eno != Eno::None;
+}
+
 std::string markdown_row(const Instruction& instruction, const TimeTable& of_21x, const TimeTable& of_22x) {
   std::vector<std::string> operands;
   for (const OperandRule& rule : instruction.rules())
     operands.push_back(fmt::format("**{}**: {}", rule.name, operand_text(rule)));
   return fmt::format("| `{}` | {} | {} | {} | {} | {} | {} | {} |\n", syntax(instruction), instruction.meaning,
-                     fmt::join(operands, "<br>"), flags_text(instruction), instruction.rung.needs_power_flow ? "needed" : "",
+                     fmt::join(operands, "<br>"), flags_text(instruction), needs_power_flow(instruction) ? "needed" : "",
                      instruction.cpus & kCpu21x ? time_column(instruction, of_21x) : "",
                      instruction.cpus & kCpu22x ? time_column(instruction, of_22x) : "", to_text(instruction.cpus));
 }
@@ -186,9 +197,9 @@ std::string explain(const Instruction& instruction, const TimeTable& times) {
     for (const CpuModel* model : all_cpus())
       if (model->self & instruction.cpus) text += fmt::format("    CPU {}   {}\n", model->name, ranges_text(rule, *model));
   }
-  text += fmt::format("  power flow  {}\n", instruction.rung.needs_power_flow
-                                                ? "needed: skipped while the top of the logic stack is 0"
-                                                : "not needed");
+  text +=
+      fmt::format("  power flow  {}\n",
+                  needs_power_flow(instruction) ? "needed: skipped while the top of the logic stack is 0" : "not needed");
   text += fmt::format("  SM1 flags   {}\n  allowed in  {}\n  available   {}\n", flags_text(instruction),
                       parts_text(instruction), to_text(instruction.cpus));
   for (const TimeRow* row : times_of(times, instruction))

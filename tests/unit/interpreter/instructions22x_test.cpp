@@ -312,7 +312,7 @@ TEST(Pid, WithoutPowerFlowItTakesTheTimeOfASkippedBox) {
   ASSERT_TRUE(result.program);
   EventQueue queue;
   Port port(queue);
-  Cpu cpu(result.program, queue, kCpu, port);
+  Cpu cpu(result.program, queue, kCpu, {&port});
   cpu.power_up();
   cpu.run(56 * us);
   EXPECT_EQ(cpu.time(), 55 * us + 800 + 1 * us) << "input read, LD, PID";
