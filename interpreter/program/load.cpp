@@ -155,7 +155,7 @@ bool is_mnemonic(std::string_view word) {
 
 SourceKind kind_of(std::string_view text, bool force_document) {
   if (stl::is_block_export(text)) return SourceKind::Blocks;
-  if (force_document) return SourceKind::Document;
+  if (force_document || stl::has_routine_headings(text)) return SourceKind::Document;
   if (stl::is_data_block(text)) return SourceKind::DataBlock;
   if (stl::is_symbol_table(text, is_mnemonic)) return SourceKind::SymbolTable;
   if (stl::is_status_chart(text)) return SourceKind::StatusChart;
@@ -165,7 +165,8 @@ SourceKind kind_of(std::string_view text, bool force_document) {
 stl::ParseResult read_as(SourceKind kind, std::string_view text, const std::string& name) {
   switch (kind) {
     case SourceKind::Document:
-      return stl::read_document(text, name, instruction_set());
+      return stl::has_routine_headings(text) ? stl::read_headed_document(text, name)
+                                             : stl::read_document(text, name, instruction_set());
     case SourceKind::Blocks:
       return stl::read_blocks(text, name);
     case SourceKind::SymbolTable:

@@ -51,6 +51,47 @@ bool opens_block(std::string_view keyword) {
 
 bool closes_block(std::string_view keyword) { return keyword.starts_with("END_") && opens_block(keyword.substr(4)); }
 
+// ---- Headings of published listings
+// ----------------------------------------------------------------------------------------
+
+struct HeadingWord {
+  std::string_view word;
+  Block::Kind kind;
+};
+
+// In short and long characters, for PRC and Taiwan. The longer of two that end alike comes first.
+constexpr std::array kHeadingWords{
+    HeadingWord{"主程序", Block::Kind::Main},
+    HeadingWord{"主程式", Block::Kind::Main},
+    HeadingWord{"中断服务程序", Block::Kind::Interrupt},
+    HeadingWord{"中斷服務程序", Block::Kind::Interrupt},
+    HeadingWord{"中断子程序", Block::Kind::Interrupt},
+    HeadingWord{"中斷子程序", Block::Kind::Interrupt},
+    HeadingWord{"中断程序", Block::Kind::Interrupt},
+    HeadingWord{"中斷程序", Block::Kind::Interrupt},
+    HeadingWord{"中斷程式", Block::Kind::Interrupt},
+    HeadingWord{"子程序", Block::Kind::Subroutine},
+    HeadingWord{"子程式", Block::Kind::Subroutine},
+};
+
+struct Heading {
+  Block::Kind kind;
+  std::string_view name;
+};
+
+/// A line that is nothing but a name and what it is the name of, perhaps with a colon; the main program has none.
+std::optional<Heading> heading_of(std::string_view line) {
+  std::string_view text = trim(line);
+  for (const std::string_view colon : {":", "："})
+    if (text.ends_with(colon)) text = trim(text.substr(0, text.size() - colon.size()));
+  const auto row = std::ranges::find_if(kHeadingWords, [&](const HeadingWord& each) { return text.ends_with(each.word); });
+  if (row == kHeadingWords.end()) return std::nullopt;
+  const std::string_view name = trim(text.substr(0, text.size() - row->word.size()));
+  const bool plain = std::ranges::all_of(name, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
+  if (!plain || name.empty() != (row->kind == Block::Kind::Main)) return std::nullopt;
+  return Heading{row->kind, name};
+}
+
 std::optional<Variable::Kind> declaration_kind(std::string_view keyword) {
   if (keyword == "VAR_INPUT") return Variable::Kind::Input;
   if (keyword == "VAR_IN_OUT") return Variable::Kind::InOut;
@@ -103,7 +144,12 @@ constexpr std::uint32_t kLocalBytes = 64;
 
 class BlockReader {
  public:
-  BlockReader(std::string_view text, std::string name) : lines_(split_lines(text)) { result_.source.name = std::move(name); }
+  enum class Heads : std::uint8_t { Keywords, Headings };
+
+  BlockReader(std::string_view text, std::string name, Heads heads)
+      : lines_(split_lines(text)), in_document_(heads == Heads::Headings) {
+    result_.source.name = std::move(name);
+  }
 
   ParseResult result() {
     find_begins();
@@ -159,6 +205,10 @@ class BlockReader {
   void read_line(std::string_view line) {
     const std::string_view code = code_of(line);
     const std::string keyword = keyword_of(code);
+    if (in_document_) {
+      if (const auto heading = heading_of(line)) return open_block(*heading, line);
+      if (state_ == State::Outside) return;  // text before the listing
+    }
     if (opens_block(keyword)) return open_block(keyword, code);
     if (closes_block(keyword)) return end_block(keyword, code);
     switch (state_) {
@@ -262,11 +312,25 @@ class BlockReader {
       return;
     }
     const auto kind = std::ranges::find(kKinds, keyword, &BlockKind::keyword) - kKinds.begin();
-    open_ = true;
-    state_ = State::Head;
     result_.source.blocks.push_back({.kind = static_cast<Block::Kind>(kind), .position = position_of(code)});
     const bool numbered = read_name(trim(code.substr(keyword.size())), code);
     if (!numbered) without_number_.push_back(block_index());
+    begin_block();
+  }
+
+  void open_block(const Heading& heading, std::string_view line) {
+    if (open_) close_block(number_ - 1, false);
+    begins_later_ = false;
+    networks_ = 0;
+    result_.source.blocks.push_back(
+        {.kind = heading.kind, .name = std::string(heading.name), .position = position_of(trim(line))});
+    without_number_.push_back(block_index());
+    begin_block();
+  }
+
+  void begin_block() {
+    open_ = true;
+    state_ = State::Head;
     if (block().kind == Block::Kind::Main && std::exchange(has_main_, true))
       error(block().position, "the main program is defined twice", "a program has one ORGANIZATION_BLOCK");
     marks_.push_back({Mark::Kind::Head, number_, block_index()});
@@ -331,7 +395,7 @@ class BlockReader {
 
   void close_block(std::uint32_t line, bool ended) {
     if (state_ == State::Declarations) unclosed_declarations();
-    if (!ended)
+    if (!ended && !in_document_)
       error(block().position, fmt::format("{} has no END_{}", name_of(block()), row(block().kind).keyword),
             "the export is not complete: export it again");
     place_variables();
@@ -491,6 +555,7 @@ class BlockReader {
   }
 
   std::vector<std::string> lines_;
+  bool in_document_;  // blocks have headings in place of keywords, and no ends
   std::vector<bool> has_begin_;
   std::vector<std::string_view> code_lines_;  // of `lines_`; what is not STL is empty
   std::vector<Mark> marks_;
@@ -521,6 +586,22 @@ bool is_block_export(std::string_view text) {
   return false;
 }
 
-ParseResult read_blocks(std::string_view text, std::string name) { return BlockReader(text, std::move(name)).result(); }
+ParseResult read_blocks(std::string_view text, std::string name) {
+  return BlockReader(text, std::move(name), BlockReader::Heads::Keywords).result();
+}
+
+bool has_routine_headings(std::string_view text) {
+  bool after_main = false;
+  for (const std::string& line : split_lines(text)) {
+    const auto heading = heading_of(line);
+    if (after_main && !trim(line).empty() && keyword_of(code_of(line)) == "NETWORK") return true;
+    if (heading || !trim(line).empty()) after_main = heading && heading->kind == Block::Kind::Main;
+  }
+  return false;
+}
+
+ParseResult read_headed_document(std::string_view text, std::string name) {
+  return BlockReader(text, std::move(name), BlockReader::Heads::Headings).result();
+}
 
 }  // namespace s7200::stl

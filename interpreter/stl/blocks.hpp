@@ -2,7 +2,8 @@
 //
 // Each block becomes a routine of a linear listing: a subroutine begins with its SBR and ends with RET, an interrupt routine
 // begins with its INT and ends with RETI, the main program ends with MEND and comes first, wherever it stood in the text.
-// What follows the reader knows no blocks, except for the names in their heads and their local variables.
+// Published listings have headings in place of the keywords: a name and the Chinese word for subroutine or interrupt
+// routine. What follows the reader knows no blocks, except for the names in their heads and their local variables.
 #pragma once
 
 #include <string>
@@ -22,5 +23,13 @@ bool is_block_export(std::string_view text);
 ///   [Blocks.VariablesAreInLocalMemoryInTheOrderOfTheirKinds]
 /// - A STRING takes four bytes: it is a pointer to the string. [Blocks.AStringTakesFourBytesOfLocalMemory]
 ParseResult read_blocks(std::string_view text, std::string name);
+
+/// Whether it is a document with the listing of a CPU 22x as Micro/WIN shows it: the Chinese heading of the main program,
+/// and below it the first network.
+bool has_routine_headings(std::string_view text);
+
+/// Reads the listing of one: each heading begins a routine, which ends at the next; what stands before the first is text.
+/// Routines have names and get the numbers from 0 on, in their order.
+ParseResult read_headed_document(std::string_view text, std::string name);
 
 }  // namespace s7200::stl

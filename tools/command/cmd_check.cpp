@@ -69,7 +69,11 @@ int run_check(const CheckOptions& options) {
   if (!times) return kUnusable;
   int exit_code = kFine;
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  for (const auto& [path, text] : read_programs(options.paths, exit_code)) {
+  for (auto& [path, text] : read_programs(options.paths, exit_code)) {
+    if (!repair(text, options.cpu.repairs)) {
+      exit_code = kUnusable;
+      continue;
+    }
     const CheckResult result = check_with(options, text, *model, *times);
     if (!result.program) exit_code = std::max<int>(exit_code, kCheckFailed);
     if (options.json) {

@@ -4,6 +4,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/stl/symbols.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/program_options.hpp"
@@ -18,6 +19,7 @@ namespace {
 struct ImportOptions {
   std::string document, output;
   bool force = false, json = false;
+  Repairs repairs;
 };
 
 std::size_t count_statements(const stl::Source& source) {
@@ -58,7 +60,9 @@ int run_import(const ImportOptions& options) {
     print_error("nothing was written");
     return kCheckFailed;
   }
+  if (!repair(*text, options.repairs)) return kUnusable;
   print_note_if_any(left_out_note(*text));
+  stl::resolve_symbols(text->parsed);  // a listing without blocks knows no routine by its name
   const std::string stl = stl::to_text(text->parsed.source);
   if (options.output.empty() || options.output == "-") {
     if (options.json)
@@ -83,6 +87,7 @@ void add_import(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("import", "write the STL of a published document as a clean .stl file");
   verb->add_option("DOCUMENT", options->document, "document with an STL listing; - is standard input")->required();
   verb->add_option("-o,--output", options->output, "file to write; standard output if not given")->type_name("FILE.stl");
+  add_repair_option(*verb, options->repairs);
   verb->add_flag("--force", options->force, "overwrite an existing file");
   verb->add_flag("--json", options->json, "print what was imported as JSON, with the STL if no file is written");
   verb->footer("Example: s7200 import tip41.txt -o tip41.stl");

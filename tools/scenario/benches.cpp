@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "interpreter/program/slips.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/slave/slave_target.hpp"
 
@@ -30,12 +31,12 @@ std::string Programs::Loaded::why() const {
 }
 
 const Programs::Loaded& Programs::get(const std::string& path, const std::vector<std::string>& with, const std::string& cpu,
-                                      const std::string& times_file) {
+                                      const std::string& times_file, const std::string& repairs) {
   std::vector<std::string> files{path};
   files.insert(files.end(), with.begin(), with.end());
-  const auto key = std::tuple(files, cpu, times_file);
+  const auto key = std::tuple(files, cpu, times_file, repairs);
   const auto known = known_.find(key);
-  return known != known_.end() ? known->second : known_.emplace(key, load(files, cpu, times_file)).first->second;
+  return known != known_.end() ? known->second : known_.emplace(key, load(files, cpu, times_file, repairs)).first->second;
 }
 
 /// What comes through a pipe can be read once, by whatever name.
@@ -51,8 +52,8 @@ const Programs::Text& Programs::text_of(const std::string& path) {
   return found->second;
 }
 
-Programs::Loaded Programs::load(const std::vector<std::string>& files, const std::string& cpu,
-                                const std::string& times_file) {
+Programs::Loaded Programs::load(const std::vector<std::string>& files, const std::string& cpu, const std::string& times_file,
+                                const std::string& repairs) {
   Loaded loaded;
   std::vector<SourceText> texts;
   for (const std::string& file : files) {
@@ -73,7 +74,16 @@ Programs::Loaded Programs::load(const std::vector<std::string>& files, const std
       for (const std::string& error : times.add(*csv, times_file)) add_error(loaded.messages, error);
     if (!loaded.messages.empty()) return loaded;
   }
-  CheckResult result = check(join_files(std::move(texts)).parsed, model, times);
+  SourceText project = join_files(std::move(texts));
+  if (!repairs.empty()) {
+    std::string why;
+    std::vector<std::string> unknown;
+    repair(project.parsed.source, parse_repairs(repairs, why), unknown);
+    for (const std::string& id : unknown)
+      add_error(loaded.messages, fmt::format("repair {}: {} has no such slip", id, project.parsed.source.name));
+    if (!loaded.messages.empty()) return loaded;
+  }
+  CheckResult result = check(std::move(project.parsed), model, times);
   loaded.program = std::move(result.program);
   if (loaded.program) return loaded;
   std::erase_if(result.diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
@@ -113,8 +123,8 @@ class ProgramBenches {
       bench.problem = "it names no program, and there is no --target";
       return true;
     }
-    const Programs::Loaded& loaded =
-        programs_.get(path, target_.empty() ? scenario.with : std::vector<std::string>{}, scenario.cpu, scenario.times_file);
+    const Programs::Loaded& loaded = programs_.get(path, target_.empty() ? scenario.with : std::vector<std::string>{},
+                                                   scenario.cpu, scenario.times_file, scenario.repair);
     bench.program = loaded.program;
     if (!loaded.program && same_for_all_) {
       messages.insert(messages.end(), loaded.messages.begin(), loaded.messages.end());

@@ -28,7 +28,7 @@ class Programs {
 
   /// `with`: the other files of the program's project.
   const Loaded& get(const std::string& path, const std::vector<std::string>& with, const std::string& cpu,
-                    const std::string& times_file);
+                    const std::string& times_file, const std::string& repairs = {});
 
  private:
   struct Text {
@@ -37,10 +37,11 @@ class Programs {
   };
 
   const Text& text_of(const std::string& path);
-  Loaded load(const std::vector<std::string>& files, const std::string& cpu, const std::string& times_file);
+  Loaded load(const std::vector<std::string>& files, const std::string& cpu, const std::string& times_file,
+              const std::string& repairs);
 
   std::map<std::string, Text> texts_;
-  std::map<std::tuple<std::vector<std::string>, std::string, std::string>, Loaded> known_;
+  std::map<std::tuple<std::vector<std::string>, std::string, std::string, std::string>, Loaded> known_;
 };
 
 /// A bench for each scenario.

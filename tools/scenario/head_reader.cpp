@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "interpreter/program/load.hpp"
+#include "interpreter/program/slips.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/scenario/memory_values.hpp"
 
@@ -32,6 +33,12 @@ class HeadReader {
     }
     if (const auto path = optional_path(map, "program")) scenario.program = *path;
     if (const YamlNode* with = map.find("with")) read_parts(*with, scenario.with);
+    if (const auto repair = values_.optional_text(map, "repair")) {
+      std::string why;
+      parse_repairs(*repair, why);
+      if (!why.empty()) values_.wrong(*map.find("repair"), why, "`s7200 check` names the slips of a listing that is known");
+      scenario.repair = *repair;
+    }
     if (const auto path = optional_path(map, "skip_without")) {
       scenario.may_be_missing = *path == scenario.program;
       if (!std::filesystem::exists(*path)) scenario.skipped = *path + " is not there";

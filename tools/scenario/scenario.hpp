@@ -42,6 +42,7 @@ struct Scenario {
   std::shared_ptr<const stl::SourceLines> source{};  ///< the file it is from
 
   std::vector<std::string> with{};  ///< paths of the other files of its project
+  std::string repair{};             ///< slips of its listing to be repaired: `R1,R2`, `all`
   std::string program{};            ///< path; empty if only --target names one
   bool may_be_missing = false;      ///< skip_without names it
   std::string cpu = "214";

@@ -80,6 +80,7 @@ void TranscriptWriter::head(const Scenario& scenario) {
     for (const std::string& file : scenario.with) files += (files.empty() ? "" : ", ") + near(file);
     line(4, "with: [" + files + "]");
   }
+  if (!scenario.repair.empty()) line(4, "repair: " + scenario.repair);
   if (!scenario.program.empty() && scenario.may_be_missing) line(4, "skip_without: " + near(scenario.program));
   if (scenario.cpu != "214") line(4, "cpu: " + scenario.cpu);
   if (!scenario.times_file.empty()) line(4, "times: " + near(scenario.times_file));

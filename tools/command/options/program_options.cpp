@@ -29,10 +29,38 @@ void add_cpu_option(CLI::App& app, std::string& cpu, const std::string& text) {
       ->type_name("TYPE");
 }
 
+void add_repair_option(CLI::App& app, Repairs& repairs) {
+  app.add_option_function<std::string>(
+         "--repair",
+         [&repairs](const std::string& text) {
+           std::string why;
+           repairs = parse_repairs(text, why);
+         },
+         "slips of a published listing to repair, by their numbers as `s7200 check` names them: R1,R2 or all")
+      ->check([](const std::string& text) {
+        std::string why;
+        parse_repairs(text, why);
+        return why;
+      })
+      ->type_name("LIST");
+}
+
+bool repair(SourceText& text, const Repairs& repairs) {
+  stl::Source& source = text.parsed.source;
+  std::vector<std::string> unknown;
+  const std::vector<Slip> slips = repair(source, repairs, unknown);
+  for (const Slip& slip : slips) print_note(to_text(slip, source));
+  for (const std::string& id : unknown)
+    print_error(fmt::format("--repair {}: {} has no such slip{}", id, source.name,
+                            slips.empty() ? "; it is not a listing that is known here" : ""));
+  return unknown.empty();
+}
+
 void CpuOptions::add_to(CLI::App& app) {
   add_cpu_option(app, cpu, "CPU to run on");
   app.add_option("--times", times_file, "corrected execution times, a CSV file as `s7200 times --csv` writes it")
       ->type_name("FILE");
+  add_repair_option(app, repairs);
 }
 
 const CpuModel* CpuOptions::model() const {
@@ -84,16 +112,17 @@ void ProgramOptions::add_parts_to(CLI::App& app) {
 
 std::shared_ptr<const Program> ProgramOptions::load(int& exit_code) const {
   exit_code = kUnusable;
-  const auto text = model() ? read_project(path, parts) : std::nullopt;
-  return text ? load(*text, exit_code) : nullptr;
+  auto text = model() ? read_project(path, parts) : std::nullopt;
+  return text ? load(std::move(*text), exit_code) : nullptr;
 }
 
-std::shared_ptr<const Program> ProgramOptions::load(const SourceText& text, int& exit_code) const {
+std::shared_ptr<const Program> ProgramOptions::load(SourceText text, int& exit_code) const {
   exit_code = kUnusable;
   const CpuModel* cpu_model = model();
   if (!cpu_model) return nullptr;
   const auto table = times(*cpu_model);
   if (!table) return nullptr;
+  if (!repair(text, repairs)) return nullptr;
   print_note_if_any(left_out_note(text));
   CheckResult result = check(text.parsed, *cpu_model, *table);
   std::erase_if(result.diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "interpreter/program/load.hpp"
+#include "interpreter/program/slips.hpp"
 
 namespace CLI {
 class App;
@@ -17,9 +18,16 @@ namespace s7200::tools {
 /// --cpu, with one of the CPUs that are modelled.
 void add_cpu_option(CLI::App& app, std::string& cpu, const std::string& text);
 
+/// --repair, for slips of published listings.
+void add_repair_option(CLI::App& app, Repairs& repairs);
+
+/// Repairs what is asked for, with a note for each slip. False after a message if the text does not have one of them.
+bool repair(SourceText& text, const Repairs& repairs);
+
 struct CpuOptions {
   std::string cpu = "214";
   std::string times_file;  ///< empty: the model's own
+  Repairs repairs;
 
   void add_to(CLI::App& app);
 
@@ -45,7 +53,7 @@ struct ProgramOptions : CpuOptions {
   std::shared_ptr<const Program> load(int& exit_code) const;
 
   /// The same of a text that has been read.
-  std::shared_ptr<const Program> load(const SourceText& text, int& exit_code) const;
+  std::shared_ptr<const Program> load(SourceText text, int& exit_code) const;
 };
 
 /// Reads a source as the verbs do, "-" from standard input, and that only once; nothing after a message.
