@@ -35,9 +35,9 @@ inline std::string changed(std::string text, std::string_view from, std::string_
   return text;
 }
 
-/// A checked program; null, and the test fails, when the text has errors.
+/// A checked program, for the CPU that its first line names or the 214; null, and the test fails, when the text has errors.
 inline std::shared_ptr<const Program> compile(const std::string& text) {
-  const CpuModel& model = *find_cpu("214");
+  const CpuModel& model = *find_cpu(cpu_named_in(text));
   CheckResult result = check_text(text, "test", model, default_times(model));
   for (const stl::Diagnostic& diagnostic : result.diagnostics)
     ADD_FAILURE() << stl::render(diagnostic, result.source, false);

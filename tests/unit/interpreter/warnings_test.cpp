@@ -43,7 +43,7 @@ TEST(Warnings, ProgramsThatWorkWellHaveNone) {
     std::string why;
     const auto bytes = read_file(entry.path().string(), why);
     ASSERT_TRUE(bytes) << why;
-    EXPECT_EQ(warnings_of(*bytes), "") << entry.path();
+    EXPECT_EQ(warnings_of(*bytes, *find_cpu(test::cpu_named_in(*bytes))), "") << entry.path();
   }
 }
 
