@@ -5,6 +5,7 @@
 #include "interpreter/cpu/eeprom.hpp"
 #include "interpreter/cpu/interrupts.hpp"
 #include "interpreter/cpu/local_memory.hpp"
+#include "interpreter/cpu/parameters.hpp"
 #include "interpreter/cpu/points.hpp"
 #include "interpreter/cpu/units.hpp"
 
@@ -173,24 +174,32 @@ void reset_watchdog(Core& core) {
   core.attend();
 }
 
-void call(Core& core, std::uint32_t target) {
+bool call(Core& core, std::uint32_t target) {
   State& s = core.s;
   const std::uint32_t deepest =
       s.in_interrupt ? s.saved.call_depth + core.model().interrupt_call_depth : core.model().call_depth;
-  if (s.call_depth == deepest) return core.run_error(RunError::CallDepth);
+  if (s.call_depth == deepest) {
+    core.run_error(RunError::CallDepth);
+    return false;
+  }
   local_memory::put_aside(core);
   s.calls[s.call_depth++] = {s.pc, s.stack, s.rail};
   local_memory::take_up(core);
   s.stack = LogicStack::on_entry();
   s.rail = true;
   s.pc = target;
+  return true;
 }
 
 void return_from_subroutine(Core& core) {
   State& s = core.s;
+  const CallFrame& frame = s.calls[s.call_depth - 1];
+  const Op& call = core.program().ops[frame.return_to - 1];
+  const parameters::Values results = parameters::results(core, call);
   local_memory::put_aside(core);
-  const CallFrame& frame = s.calls[--s.call_depth];
+  --s.call_depth;
   local_memory::take_up(core);
+  parameters::hand_back(core, call, results);
   s.pc = frame.return_to;
   s.stack = frame.stack;
   s.rail = frame.rail;

@@ -32,8 +32,8 @@ void stop(Core& core);
 /// WDR: restarts the watchdog.
 void reset_watchdog(Core& core);
 
-/// CALL: `target` is the first op of the subroutine. Error 0008 if it is nested deeper than the model allows.
-void call(Core& core, std::uint32_t target);
+/// CALL: `target` is the first op of the subroutine. False after error 0008, if it is nested deeper than the model allows.
+bool call(Core& core, std::uint32_t target);
 /// RET and CRET.
 void return_from_subroutine(Core& core);
 

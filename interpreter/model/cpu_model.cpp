@@ -78,6 +78,14 @@ const std::vector<InterruptEvent>& all_events() {
   return kTable;
 }
 
+std::string needs(std::string_view what, CpuSet cpus) {
+  std::string text(what);
+  text.append(" ").append(to_text(cpus));
+  const CpuModel* usual = cpus & kCpu224 ? &cpu224() : smallest_cpu([&](const CpuModel& m) { return (m.self & cpus) != 0; });
+  if (usual && (cpus & kCpu21x) == 0) text.append("; choose one: --cpu ").append(usual->name);
+  return text;
+}
+
 const InterruptEvent* find_event(std::int64_t number) {
   if (number < 0 || number >= static_cast<std::int64_t>(kEvents)) return nullptr;
   return &all_events()[static_cast<std::size_t>(number)];

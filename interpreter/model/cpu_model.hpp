@@ -34,6 +34,9 @@ inline constexpr CpuSet kTwoPorts = kCpu216 | kCpu226r1 | kCpu226xm | kCpu224xp 
 /// "CPU 214, 215, 216 or 22x"; "CPU 22x of release 2"
 std::string to_text(CpuSet cpus);
 
+/// What to do if something is only on some CPUs: "LDW<> needs CPU 22x; choose one: --cpu 224". `what` with its verb.
+std::string needs(std::string_view what, CpuSet cpus);
+
 /// The three interrupt queues, in order of priority (S7-200 manual C230-02, 10-120).
 enum class Queue : std::uint8_t { Communication, Io, Timed };
 inline constexpr std::size_t kQueues = 3;

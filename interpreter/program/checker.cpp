@@ -12,6 +12,7 @@
 #include "interpreter/program/data_block.hpp"
 #include "interpreter/program/german.hpp"
 #include "interpreter/program/operands.hpp"
+#include "interpreter/program/parameters.hpp"
 #include "interpreter/program/structure.hpp"
 #include "interpreter/program/warnings.hpp"
 #include "interpreter/stl/printer.hpp"
@@ -23,7 +24,10 @@ namespace {
 class Checker {
  public:
   Checker(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times)
-      : source_(std::move(parsed.source)), diagnostics_(std::move(parsed.diagnostics)), model_(model), times_(times) {}
+      : source_(std::move(parsed.source)), diagnostics_(std::move(parsed.diagnostics)), model_(model), times_(times) {
+    for (const stl::Block& block : source_.blocks)
+      if (block.kind == stl::Block::Kind::Subroutine) subroutine_blocks_.emplace(block.number, &block);
+  }
 
   CheckResult run() {
     read_statements();
@@ -85,7 +89,7 @@ class Checker {
     }
     if (!(instruction->cpus & model_.self)) {
       error(statement.position, fmt::format("CPU {} has no {}", model_.name, mnemonic),
-            fmt::format("{} needs {}", mnemonic, to_text(instruction->cpus)), cause);
+            needs(mnemonic + " needs", instruction->cpus), cause);
       return nullptr;
     }
     if (!instruction->modelled()) {
@@ -134,7 +138,8 @@ class Checker {
   bool place_operands(const Instruction& instruction, const stl::Statement& statement) {
     const std::size_t given = statement.operands.size(), taken = instruction.rules().size();
     if (has_decimal_comma(instruction, statement)) return false;
-    if (given != taken) {
+    const stl::Block* called = called_block(instruction, statement);
+    if (given != taken && !called) {
       const stl::Position at = given > taken ? statement.operands[taken].position : statement.position;
       error(at, fmt::format("{} takes {}, not {}", instruction.mnemonic, counted(taken), given),
             fmt::format("write {}", syntax(instruction)));
@@ -142,13 +147,29 @@ class Checker {
     }
     bool good = true;
     auto& placed = placed_.back();
-    for (std::size_t i = 0; i < given; ++i) {
+    for (std::size_t i = 0; i < taken; ++i) {
       const auto operand =
           place_operand(instruction, instruction.operand[i], statement.operands[i], model_, constants_, diagnostics_);
       if (operand) placed[i] = *operand;
       good = good && operand;
     }
+    if (called && good) return pass_parameters(instruction, statement, *called);
     return good && blocks_fit(instruction, statement) && mode_fits(instruction, statement);
+  }
+
+  /// The block that a CALL calls; null if the program has no blocks, whose listing has no parameters.
+  const stl::Block* called_block(const Instruction& instruction, const stl::Statement& statement) const {
+    if (instruction.structure != Structure::Call || statement.operands.empty()) return nullptr;
+    const auto* number = std::get_if<stl::Integer>(&statement.operands[0].value);
+    const auto found = number ? subroutine_blocks_.find(number->value) : subroutine_blocks_.end();
+    return found == subroutine_blocks_.end() ? nullptr : found->second;
+  }
+
+  bool pass_parameters(const Instruction& call, const stl::Statement& statement, const stl::Block& block) {
+    auto parameters = place_parameters(call, statement, block, model_, constants_, diagnostics_);
+    if (!parameters) return false;
+    if (!parameters->empty()) parameters_.emplace(statements_.size(), std::move(*parameters));
+    return true;
   }
 
   static std::string counted(std::size_t operands) {
@@ -273,6 +294,8 @@ class Checker {
     for (std::uint32_t i = 0; i < statements_.size(); ++i) {
       program->statements.push_back(*statements_[i].statement);
       program->ops.push_back(decode(i, structure));
+      if (const auto found = parameters_.find(i); found != parameters_.end())
+        add_parameters(program->ops.back(), found->second, *program);
       note_timer(program->ops.back(), *program);
       note_reals(placed_[i], program->ops.back(), *program);
       program->uses_local_memory |= std::ranges::any_of(program->ops.back().operand, is_local);
@@ -290,6 +313,15 @@ class Checker {
     const Time overhead = times_[SystemTime::ScanOverhead];
     program->scan_phase = {overhead / 4, overhead / 4, overhead / 4, overhead - 3 * (overhead / 4)};
     return program;
+  }
+
+  /// Operands 1 and 2 of a CALL are where its parameters are.
+  static void add_parameters(Op& op, const std::vector<Parameter>& parameters, Program& program) {
+    op.operand[1].at = static_cast<std::uint32_t>(program.parameters.size());
+    op.operand[2].at = static_cast<std::uint32_t>(parameters.size());
+    op.body = run_with_parameters;
+    program.parameters.insert(program.parameters.end(), parameters.begin(), parameters.end());
+    program.uses_local_memory = true;
   }
 
   Op decode(std::uint32_t i, const ProgramStructure& structure) {
@@ -399,6 +431,8 @@ class Checker {
   const CpuModel& model_;
   const TimeTable& times_;
   ConstantPool constants_;
+  std::map<std::int64_t, const stl::Block*> subroutine_blocks_;  // of source_
+  std::map<std::size_t, std::vector<Parameter>> parameters_;     // of the CALLs among statements_
   std::vector<InitialData> data_;
   std::vector<CheckedStatement> statements_;
   std::vector<std::array<PlacedOperand, 3>> placed_;  // one for each of statements_

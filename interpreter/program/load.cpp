@@ -156,9 +156,9 @@ bool is_mnemonic(std::string_view word) {
 SourceKind kind_of(std::string_view text, bool force_document) {
   if (stl::is_block_export(text)) return SourceKind::Blocks;
   if (force_document || stl::has_routine_headings(text)) return SourceKind::Document;
+  if (stl::is_status_chart(text)) return SourceKind::StatusChart;
   if (stl::is_data_block(text)) return SourceKind::DataBlock;
   if (stl::is_symbol_table(text, is_mnemonic)) return SourceKind::SymbolTable;
-  if (stl::is_status_chart(text)) return SourceKind::StatusChart;
   return stl::is_document(text, instruction_set()) ? SourceKind::Document : SourceKind::Listing;
 }
 
@@ -204,7 +204,11 @@ SourceText join_files(std::vector<SourceText> files) {
 std::optional<SourceText> read_source(std::string_view bytes, const std::string& name, std::string& why,
                                       bool force_document) {
   const auto decoded = stl::decode(bytes, why);
-  if (!decoded) return {};
+  if (!decoded) {
+    if (stl::upper_case(name).ends_with(".MWP"))
+      why = "it is a Micro/WIN project; open it in Micro/WIN and export each block (File, Export) as .awl";
+    return {};
+  }
   const SourceKind kind = kind_of(decoded->text, force_document);
   SourceText source{read_as(kind, decoded->text, name), decoded->encoding, kind};
   if (kind != SourceKind::Listing || can_be_stl(source.parsed.source.text)) return source;

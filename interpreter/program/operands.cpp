@@ -169,7 +169,7 @@ class Placing {
     const InterruptEvent* event = find_event(number);
     if ((event->cpus & model_.self) != 0) return true;
     error(fmt::format("CPU {} has no event {} ({})", model_.name, number, event->cause),
-          fmt::format("it needs {}", to_text(event->cpus)), fmt::format("no event {}", number));
+          needs("it needs", event->cpus), fmt::format("no event {}", number));
     return false;
   }
 
@@ -257,8 +257,7 @@ class Placing {
     const auto area = area_named(address.area);
     if (!area || model_.size_of(*area) == 0) {
       error(fmt::format("CPU {} has no {} memory", model_.name, address.area),
-            address.area == "L" ? fmt::format("local memory needs {}", to_text(kCpu22x)) : "",
-            fmt::format("no {} memory", address.area));
+            address.area == "L" ? needs("local memory needs", kCpu22x) : "", fmt::format("no {} memory", address.area));
       return {};
     }
     if (!names_width(address, *area)) {

@@ -60,6 +60,10 @@ void run_with_eno(Core& core, const Op& op);
 /// For an instruction that writes analog outputs: they have no image, so a change goes to the module at once.
 void run_with_analog_output(Core& core, const Op& op);
 
+/// For a CALL with parameters: copies them into the local memory of the subroutine. Operands 1 and 2 are not of the
+/// instruction: they say where its parameters are in Program::parameters, and how many there are.
+void run_with_parameters(Core& core, const Op& op);
+
 inline constexpr std::uint32_t kNoRoutine = 0xFFFF'FFFF;
 
 inline constexpr std::size_t kReaches = 16;  ///< pointer codes are below this
@@ -68,6 +72,16 @@ inline constexpr std::size_t kReaches = 16;  ///< pointer codes are below this
 struct Reach {
   std::uint32_t base = 0;  ///< in the image
   std::uint32_t size = 0;  ///< bytes; 0: nothing
+};
+
+inline constexpr std::size_t kMostParameters = 16;  ///< of a subroutine
+
+/// A parameter of a CALL.
+struct Parameter {
+  Operand actual;  ///< the caller's
+  Operand local;   ///< in the local memory of the subroutine
+  Width width = Width::Byte;
+  Role role = Role::In;
 };
 
 /// Bytes of V memory that the data block sets.
@@ -84,6 +98,7 @@ struct Program {
   std::vector<Op> ops;
   std::vector<Body> box_body;                  ///< what run_with_eno() calls, for each op; empty in a program without AENO
   std::vector<std::uint8_t> constants;         ///< content of the image from image::kConstants
+  std::vector<Parameter> parameters{};         ///< of all CALLs
   std::vector<InitialData> data{};             ///< downloaded with the program
   std::array<std::uint32_t, 64> subroutine{};  ///< op of each SBR; kNoRoutine where there is none
   std::array<std::uint32_t, 128> interrupt{};  ///< op of each INT

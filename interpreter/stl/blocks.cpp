@@ -175,14 +175,28 @@ class BlockReader {
 
   // --- places ---
 
-  Position position_of(std::string_view part) const {
-    const std::string& line = lines_[number_ - 1];
+  /// Parts of a line are mostly asked for in order, so the line is counted only once.
+  Position position_of(std::string_view part) {
+    const std::string_view line = lines_[number_ - 1];
     const auto before = static_cast<std::size_t>(part.data() - line.data());
-    return {number_, static_cast<std::uint32_t>(count_characters(std::string_view(line).substr(0, before)) + 1),
+    if (counted_line_ != number_ || before < counted_) {
+      counted_line_ = number_;
+      counted_ = 0;
+      column_ = 1;
+    }
+    column_ += count_characters(line.substr(counted_, before - counted_));
+    counted_ = before;
+    return {number_, static_cast<std::uint32_t>(column_),
             static_cast<std::uint32_t>(std::max<std::size_t>(1, count_characters(part)))};
   }
 
+  // A line full of wrong declarations must not drown the other messages.
+  static constexpr std::size_t kMostErrorsOfALine = 10;
+
   void error(const Position& at, std::string message, std::string hint = {}, std::string cause = {}) {
+    if (std::exchange(error_line_, at.line) != at.line) errors_ = 0;
+    if (++errors_ > kMostErrorsOfALine + 1) return;
+    if (errors_ > kMostErrorsOfALine) message = "there are more errors in this line";
     result_.diagnostics.push_back({Severity::Error, at, std::move(message), std::move(hint), std::move(cause)});
   }
 
@@ -296,7 +310,7 @@ class BlockReader {
   void section(std::string name) { result_.source.sections.push_back({number_, std::move(name)}); }
 
   static std::string name_of(const Block& block) {
-    return block.name.empty() ? fmt::format("{}{}", row(block.kind).letters, block.number) : block.name;
+    return block.name.empty() ? fmt::format("{}{}", row(block.kind).letters, block.number) : shortened(block.name);
   }
 
   // --- heads and ends ---
@@ -544,14 +558,14 @@ class BlockReader {
     return statement.position.line > block.position.line && statement.mnemonic == row(block.kind).end;
   }
 
+  /// What stands before all blocks stays there.
   void main_program_first() {
     const auto& blocks = result_.source.blocks;
     const auto main = std::ranges::find(blocks, Block::Kind::Main, &Block::kind);
     if (main == blocks.end()) return;
     const auto index = static_cast<std::size_t>(main - blocks.begin());
-    auto& lines = result_.source.lines;
-    std::rotate(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(begin_of_[index]),
-                lines.begin() + static_cast<std::ptrdiff_t>(end_of_[index]));
+    const auto place = [&](std::size_t line) { return result_.source.lines.begin() + static_cast<std::ptrdiff_t>(line); };
+    std::rotate(place(begin_of_[0]), place(begin_of_[index]), place(end_of_[index]));
   }
 
   std::vector<std::string> lines_;
@@ -563,6 +577,9 @@ class BlockReader {
   ParseResult result_;
 
   std::uint32_t number_ = 0;  // of the line that is being read
+  std::uint32_t counted_line_ = 0, error_line_ = 0;
+  std::size_t errors_ = 0;                // of error_line_
+  std::size_t counted_ = 0, column_ = 1;  // how far it is counted, and to which column
   State state_ = State::Outside;
   bool open_ = false;            // a block that is not the data block
   bool begins_later_ = false;    // the open block has a BEGIN

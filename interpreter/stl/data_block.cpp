@@ -103,7 +103,7 @@ bool is_data_block(std::string_view text) {
     if (data + other == 0 && !address) return false;
     ++(address || begins_with_value(word) ? data : other);
   }
-  return data > other;
+  return data > 0 && data >= other;
 }
 
 void read_data_line(std::string_view line, std::uint32_t number, ParseResult& result) {

@@ -124,7 +124,7 @@ bool has_box_drawing(std::string_view bytes) {
   return bytes.find("\xC4\xC4\xC4"sv) != std::string_view::npos || bytes.find("\xCD\xCD\xCD"sv) != std::string_view::npos;
 }
 
-/// Read as GBK, most pairs must be common characters (GB 2312 level 1) or punctuation.
+/// Read as GBK, most pairs must be common characters (GB 2312 level 1) or punctuation. A pair inside an ASCII word is none.
 bool looks_like_gbk(std::string_view bytes) {
   std::size_t common = 0;
   std::size_t other = 0;
@@ -132,10 +132,49 @@ bool looks_like_gbk(std::string_view bytes) {
     const std::uint8_t lead = byte_at(bytes, i);
     if (lead < 0x80) continue;
     const std::uint8_t trail = byte_at(bytes, ++i);
-    const bool everyday = (lead >= 0xB0 && lead <= 0xD7) || (lead >= 0xA1 && lead <= 0xA3);
+    const bool inside_word = i >= 2 && is_ascii_letter(bytes, i - 2) && is_ascii_letter(bytes, i + 1);
+    const bool everyday = !inside_word && ((lead >= 0xB0 && lead <= 0xD7) || (lead >= 0xA1 && lead <= 0xA3));
     ++(everyday && trail >= 0xA1 && trail <= 0xFE ? common : other);
   }
   return common > 4 * other;
+}
+
+/// Read as Shift-JIS, most pairs must be kana or kanji of level 1. Pairs whose second byte is ASCII do not count: in CP437
+/// these are German words.
+bool looks_like_shift_jis(std::string_view bytes) {
+  std::size_t common = 0;
+  std::size_t other = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const std::uint8_t lead = byte_at(bytes, i);
+    const bool half_width_kana = lead >= 0xA1 && lead <= 0xDF;
+    if (lead < 0x80 || half_width_kana) continue;
+    const std::uint8_t trail = byte_at(bytes, ++i);
+    const bool everyday = lead >= 0x81 && lead <= 0x97;
+    if (everyday && trail >= 0x80 && trail <= 0xFC)
+      ++common;
+    else if (!everyday || trail < 0x40)
+      ++other;
+  }
+  return common >= 2 && common > 4 * other;
+}
+
+/// Letters of Cyrillic and Greek stand beside each other, those of Western Europe one by one between ASCII letters.
+bool has_runs_of_letters(std::string_view bytes) {
+  std::size_t in_runs = 0;
+  std::size_t alone = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    if (byte_at(bytes, i) < 0xC0) continue;
+    const bool beside = byte_at(bytes, i + 1) >= 0xC0 || (i > 0 && byte_at(bytes, i - 1) >= 0xC0);
+    ++(beside ? in_runs : alone);
+  }
+  return in_runs > 4 * alone;
+}
+
+std::size_t count_within_words(std::string_view bytes, std::string_view letters) {
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < bytes.size(); ++i)
+    if (letters.find(bytes[i]) != std::string_view::npos && is_ascii_letter(bytes, i - 1)) ++count;
+  return count;
 }
 
 /// Whether more bytes look like CP437 umlauts in German words than like Windows-1252 letters anywhere in a word.
@@ -158,16 +197,34 @@ struct Encoding {
   const char* iconv_name;
 };
 constexpr Encoding kWindows1252{"Windows-1252", "WINDOWS-1252"};
+constexpr Encoding kWindows1250{"Windows-1250", "WINDOWS-1250"};
+constexpr Encoding kWindows1251{"Windows-1251", "WINDOWS-1251"};
+constexpr Encoding kWindows1253{"Windows-1253", "WINDOWS-1253"};
+constexpr Encoding kWindows1254{"Windows-1254", "WINDOWS-1254"};
+constexpr Encoding kShiftJis{"Shift-JIS", "CP932"};
 constexpr Encoding kCp437{"CP437", "CP437"};
 constexpr Encoding kGbk{"GBK", "GBK"};
 constexpr Encoding kUtf16Little{"UTF-16", "UTF-16LE"};
 constexpr Encoding kUtf16Big{"UTF-16", "UTF-16BE"};
 
+/// Of the Windows code pages by letters that the others do not have, or that are common in only one language.
+Encoding guess_windows(std::string_view bytes) {
+  if (has_runs_of_letters(bytes)) {
+    const auto count = [&](char letter) { return std::count(bytes.begin(), bytes.end(), letter); };
+    const auto cyrillic = count('\xE0') + count('\xEE'), greek = count('\xE1') + count('\xEF');  // а о, α ο
+    return greek > cyrillic ? kWindows1253 : kWindows1251;
+  }
+  if (count_within_words(bytes, "\x9A\x9D\x9E\x9F\xB3\xB9\xBF"sv) > 0) return kWindows1250;  // š ť ž ź ł ą ż
+  if (count_within_words(bytes, "\xF0\xFE"sv) > 0) return kWindows1254;                      // ğ ş
+  return kWindows1252;
+}
+
 Encoding guess_8_bit(std::string_view bytes) {
   if (has_box_drawing(bytes)) return kCp437;
+  if (looks_like_shift_jis(bytes)) return kShiftJis;
   if (looks_like_gbk(bytes)) return kGbk;
   if (has_cp437_words(bytes)) return kCp437;
-  return kWindows1252;
+  return guess_windows(bytes);
 }
 
 std::optional<DecodedText> decode_from(std::string_view bytes, Encoding encoding, std::string& why) {

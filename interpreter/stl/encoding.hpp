@@ -9,7 +9,7 @@ namespace s7200::stl {
 
 struct DecodedText {
   std::string text;      ///< valid UTF-8, without a byte order mark
-  std::string encoding;  ///< what it was taken for: "UTF-8", "UTF-16", "Windows-1252", "CP437" or "GBK"
+  std::string encoding;  ///< what it was taken for: "UTF-8", "UTF-16", "Windows-1250" to "-1254", "CP437", "GBK", "Shift-JIS"
 };
 
 /// Guesses the encoding of a source file and converts it. Returns nothing for a file that is not text (NUL bytes, a picture,

@@ -37,6 +37,12 @@ std::string address_text(const Address& address) {
   return {};
 }
 
+const Address* address_in(const OperandValue& value) {
+  if (const auto* target = std::get_if<AddressOf>(&value)) return &target->target;
+  if (const auto* pointer = std::get_if<Indirect>(&value)) return &pointer->pointer;
+  return std::get_if<Address>(&value);
+}
+
 std::string ascii_text(const Integer& constant) {
   std::string text = "'";
   for (int i = constant.characters - 1; i >= 0; --i) {
@@ -147,6 +153,10 @@ std::vector<const Line*> program_lines(const Source& source) {
 }  // namespace
 
 std::string to_text(const Operand& operand) {
+  if (!operand.symbol.empty()) {
+    const Address* address = address_in(operand.value);
+    if (address) return fmt::format("{}:{}", operand.symbol, address_text(*address));
+  }
   return std::visit(Overloaded{[](const Integer& constant) { return integer_text(constant); },
                                [](const Real& constant) { return to_text(constant); },
                                [](const Address& address) { return address_text(address); },

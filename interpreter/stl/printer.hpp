@@ -8,7 +8,7 @@
 namespace s7200::stl {
 
 /// `16#49`, `VB100`, `*AC1`, `&VB0`, `'AB'`: international addresses, constants in the form in which they were written (K4
-/// becomes 4, KHFF becomes 16#FF).
+/// becomes 4, KHFF becomes 16#FF), a symbol before its address: `Pump:Q0.0`.
 std::string to_text(const Operand& operand);
 
 /// `1.5`, `1E+10`, `INF`, `NAN`: the shortest form that reads back as the same value, with a point or an exponent to mark it

@@ -30,6 +30,15 @@ char separator_of(std::string_view text) {
   return first == std::string_view::npos ? ',' : text[first];
 }
 
+std::string without_doubled_quotes(std::string_view text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    plain += text[i];
+    if (text[i] == '"' && text.substr(i + 1).starts_with('"')) ++i;
+  }
+  return plain;
+}
+
 std::vector<Cell> cells_of(std::string_view line, char separator) {
   std::vector<Cell> cells;
   while (true) {
@@ -42,10 +51,8 @@ std::vector<Cell> cells_of(std::string_view line, char separator) {
     end = std::min(line.find(separator, end), line.size());
     const std::string_view written = trim_end(line.substr(0, end));
     std::string text(written);
-    if (written.size() > 1 && written.front() == '"' && written.back() == '"') {
-      text = written.substr(1, written.size() - 2);
-      for (std::size_t at = 0; (at = text.find("\"\"", at)) != std::string::npos; ++at) text.erase(at, 1);
-    }
+    if (written.size() > 1 && written.front() == '"' && written.back() == '"')
+      text = without_doubled_quotes(written.substr(1, written.size() - 2));
     cells.push_back({std::move(text), written});
     if (end == line.size()) return cells;
     line.remove_prefix(end + 1);
@@ -410,7 +417,11 @@ bool is_symbol_table(std::string_view text, const std::function<bool(std::string
     return !statement && !is_mnemonic(upper_case(name.text));
   };
   std::size_t rows = 0, other = 0;
-  for (const std::string_view line : first_rows(text)) ++(is_row(cells_of(line, separator)) ? rows : other);
+  for (const std::string_view line : first_rows(text)) {
+    const std::vector<Cell> cells = cells_of(line, separator);
+    if (rows + other == 0 && headings(cells)) return true;
+    ++(is_row(cells) ? rows : other);
+  }
   return rows > other;
 }
 

@@ -17,6 +17,7 @@ import xml.etree.ElementTree
 
 S7200, SOURCE, GROUP = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
 SLAVE = str(SOURCE / "stl_programs/modbus_slave.stl")
+EXPORTS = SOURCE / "tests/exports"
 TIP = SOURCE.parent / "shared/seeds/tip41_modbus_rtu_slave.txt"
 VERBS = re.findall(r"^void add_(\w+)\(CLI::App", (SOURCE / "tools/command/commands.hpp").read_text(encoding="utf-8"), re.M)
 FINE, FAILED, UNUSABLE, FATAL = range(4)
@@ -323,7 +324,7 @@ class Options(Case):
     what is not in it ends with exit code 2 and a message that names the option."""
     NONSENSE = ("nan", "-nan", "inf", "-1", "1e999", "0x10", "1_000", "5,0", "99999999999999999999999", "-")
     ANY_TEXT = ("FILE", "FILE.stl", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS", "TEXT")  # by their type in the help
-    BEGINNING = {"check": [SLAVE], "import": [SLAVE], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
+    BEGINNING = {"check": [SLAVE], "import": [SLAVE], "convert": [SLAVE, "--to", "iec"], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
                  "master": [SLAVE, "slave-id"], "debug": [SLAVE, "-x", "quit"], "instructions": [], "times": [], "bench": []}
 
     @staticmethod
@@ -997,6 +998,7 @@ class JsonPage(Case):
         self.addCleanup(os.close, secondary)
         plant = ["--dump", "VD20", "--dump", "VB0:4", "--fault", "flip:exchange=9", "--set", "VD100=16#7F000000"]
         yield from (["check", echo, wrong], ["import", self.program(Files.DOCUMENT, "page.txt")], ["run", faulty, *plant],
+                    ["check", EXPORTS / "broken.awl", EXPORTS / "pump_symbols.txt"], ["convert", SLAVE, "--to", "microdos"],
                     ["run", faulty, "--for", "20ms", "--realtime"], ["send", faulty, "01", "--timeout", "10ms", *plant],
                     ["master", faulty, "slave-id", "--timeout", "10ms", *plant],
                     ["master", SLAVE, "read", "40001", "write", "40001=1", "slave-id"],
@@ -1081,14 +1083,59 @@ class Files(Case):
         self.assertEqual(self.json(FINE, "import", path, "--json")["left_out"], [6, 7])
         self.assertEqual(self.ends(FINE, "run", path, "--scans", "2").stderr, said)
 
-    def test_a_block_export_is_named_as_such_and_nothing_else_is_said(self):
-        export = self.program("ORGANIZATION_BLOCK MAIN:OB1\nTITLE=A lamp\nBEGIN\nNetwork 1 // a lamp\nLD I0.0\n= Q0.0\n"
-                              "END_ORGANIZATION_BLOCK\n", "export.awl")
-        said = [self.ends(FAILED, verb, export).stderr.replace("s7200: error: nothing was written\n", "")
-                for verb in ("check", "import")]
-        self.assertEqual(said[0], said[1])
-        self.assertEqual(len(re.findall(": error: ", said[0])), 1)
-        self.assertIn("block export, which is not supported yet", said[0])
+    PUMP = [EXPORTS / "pump.awl", EXPORTS / "pump_symbols.txt", EXPORTS / "pump_data.txt"]
+    NEEDS_WITH = (["send", "--text", "x", "--timeout", "10ms"], ["master", "slave-id", "--timeout", "10ms"])
+
+    def test_an_export_with_its_symbols_and_data_is_a_program_for_every_verb(self):
+        self.assertIn("fine, 33 instructions", self.ends(FINE, "check", *self.PUMP).stdout)
+        self.assertIn("fine, 33 instructions", self.ends(FINE, "check", *reversed(self.PUMP)).stdout)
+        run = self.ends(FINE, "run", *self.PUMP, "--scans", "2", "--dump", "VW100", "--dump", "VB220:9").stdout
+        self.assertRegex(run, r"VW100 .* 300\n")
+        self.assertIn("05 44 52 41 49 4e 01 02 03", run)
+        self.ends(FINE, "debug", *self.PUMP, "-x", "list")
+        with_parts = [word for part in self.PUMP[1:] for word in ("--with", part)]
+        for verb, *rest in self.NEEDS_WITH:
+            done = self.ends(FAILED, verb, self.PUMP[0], *rest, *with_parts)  # it does not talk on its port
+            self.assertNotIn("symbol", done.stderr)
+        scenario = self.program(f"program: {self.PUMP[0]}\nwith: [{self.PUMP[1]}, {self.PUMP[2]}]\n"
+                                "steps: [{wait: 10ms}, {memory: {VW100: 300}}]\n", "pump.yaml")
+        self.ends(FINE, "test", scenario)
+
+    def test_a_symbol_table_may_be_csv_and_a_status_chart_is_left_out_with_a_note(self):
+        self.ends(FINE, "check", EXPORTS / "pump.awl", EXPORTS / "pump_symbols.csv")
+        done = self.ends(FINE, "run", EXPORTS / "pump.awl", EXPORTS / "pump_symbols.csv", EXPORTS / "pump_chart.txt", "--scans", "1")
+        self.assertIn("pump_chart.txt is a status chart: nothing of it is part of the program", done.stderr)
+
+    def test_messages_name_the_file_the_block_and_the_network(self):
+        done = self.ends(FAILED, "check", EXPORTS / "broken.awl", EXPORTS / "pump_symbols.txt")
+        self.assertIn(f"{EXPORTS}/broken.awl:6:16: error: the bits of a byte are 0 to 7 (MAIN, network 2)\n", done.stderr)
+        self.assertIn("on import Micro/WIN would leave out 2 networks: MAIN, network 2; Work, network 1", done.stderr)
+        twice = self.program("Pump\tQ0.0\nPump\tQ0.1\n", "twice.txt")
+        self.assertIn(f"{twice}:2:1: error: Pump is defined twice", self.ends(FAILED, "check", SLAVE, twice).stderr)
+
+    def test_exports_come_in_the_encodings_of_their_countries(self):
+        text = (EXPORTS / "pump.awl").read_text(encoding="utf-8").replace("// Pump", "// {}").replace("\n", "\r\n")
+        for encoding, comment in (("utf-8-sig", "Pumpe für Öl"), ("utf-16", "Pumpe"), ("cp1252", "Pumpe für Öl"), ("gbk", "水泵运行"),
+                                  ("cp932", "ポンプ運転中"), ("cp1251", "Насос включён")):
+            path = self.folder / f"{encoding}.awl"
+            path.write_bytes(text.replace("{}", comment).encode(encoding))
+            self.assertIn(comment, self.ends(FINE, "import", path).stdout)
+            self.ends(FINE, "run", path, EXPORTS / "pump_symbols.txt", "--scans", "1")
+
+    def test_parameters_need_a_cpu_22x_and_run_on_it(self):
+        path = EXPORTS / "parameters.awl"
+        self.assertIn("they need CPU 22x; choose one: --cpu 224", self.ends(FAILED, "check", path).stderr)
+        self.assertRegex(self.ends(FINE, "run", path, "--cpu", "224", "--scans", "2", "--dump", "VW20").stdout, r"VW20 .* 10\n")
+
+    def test_convert_reads_back_as_the_same_program(self):
+        for notation in ("iec", "microdos", "microwin", "german"):
+            out = self.folder / f"{notation}.awl"
+            self.ends(FINE, "convert", SLAVE, "--to", notation, "-o", out)
+            self.assertIn("--force", self.ends(UNUSABLE, "convert", SLAVE, "--to", notation, "-o", out).stderr)
+            answer = self.ends(FINE, "send", out, "--crc", "0103000a0002").stdout
+            self.assertEqual(answer, self.ends(FINE, "send", SLAVE, "--crc", "0103000a0002").stdout)
+        self.assertIn("neither an address", self.ends(FAILED, "convert", EXPORTS / "pump.awl", "--to", "iec").stderr)
+        self.ends(FINE, "convert", *self.PUMP, "--to", "iec")
 
     def test_a_byte_order_mark_is_no_part_of_a_text(self):
         mark = "\ufeff"

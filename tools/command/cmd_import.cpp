@@ -55,6 +55,7 @@ void print_json(const ImportOptions& options, const SourceText& text, const std:
 int run_import(const ImportOptions& options) {
   auto text = read_program_text(options.document, true);
   if (!text) return kUnusable;
+  if (text->kind == SourceKind::Blocks) stl::resolve_symbols(text->parsed);
   if (has_errors(text->parsed.diagnostics)) {
     print_diagnostics(text->parsed.diagnostics, text->parsed.source);
     print_error("nothing was written");

@@ -34,6 +34,7 @@ int run_command(int argc, char** argv) {
   int exit_code = kFine;
   add_check(app, exit_code);
   add_import(app, exit_code);
+  add_convert(app, exit_code);
   add_run(app, exit_code);
   add_send(app, exit_code);
   add_test(app, exit_code);

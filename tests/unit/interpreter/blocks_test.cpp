@@ -166,7 +166,7 @@ TEST(Blocks, NamesOfBlocksAndVariablesBecomeNumbersAndAddresses) {
   resolve_symbols(result);
   std::string text = to_text(result.source);
   for (const char* expected :
-       {"CALL    5\n", "CALL    1\nCALL    1\n", "ATCH    3, 0\n", "INCW    LW0\nINCW    LW0\n", "MOVD    &LW0, AC1"})
+       {"CALL    5\n", "CALL    1\nCALL    1\n", "ATCH    3, 0\n", "INCW    #x:LW0\nINCW    x:LW0\n", "MOVD    &x:LW0, AC1"})
     EXPECT_NE(text.find(expected), std::string::npos) << expected << text;
 }
 

@@ -1,6 +1,7 @@
 #include "interpreter/stl/encoding.hpp"
 
 #include <gtest/gtest.h>
+#include <iconv.h>
 
 namespace s7200::stl {
 namespace {
@@ -54,6 +55,43 @@ TEST(Encoding, RecognisesCp437ByItsDrawingsAndItsUmlauts) {
   const DecodedText words = decoded("LD I0.0 // St\x94rung l\x94schen, T\x81r auf\n");
   EXPECT_EQ(words.encoding, "CP437");
   EXPECT_EQ(words.text, "LD I0.0 // Störung löschen, Tür auf\n");
+}
+
+/// A text in another encoding.
+std::string encoded(std::string text, const char* encoding) {
+  const iconv_t converter = iconv_open(encoding, "UTF-8");
+  std::string bytes(4 * text.size(), '\0');
+  char *from = text.data(), *to = bytes.data();
+  std::size_t left = text.size(), room = bytes.size();
+  EXPECT_NE(iconv(converter, &from, &left, &to, &room), static_cast<std::size_t>(-1)) << encoding;
+  iconv_close(converter);
+  bytes.resize(bytes.size() - room);
+  return bytes;
+}
+
+TEST(Encoding, RecognisesTheCodePagesOfWindowsAndShiftJis) {
+  struct Row {
+    const char *name, *iconv_name, *text;
+  };
+  for (const Row& row : {
+           Row{"Windows-1250", "WINDOWS-1250", "LD I0.0 // czujnik wysokiego poziomu, załączony\n"},
+           Row{"Windows-1250", "WINDOWS-1250", "LD I0.0 // čerpadlo běží, ventil uzavřen, nejvyšší hladina\n"},
+           Row{"Windows-1251", "WINDOWS-1251", "LD I0.0 // Насос включён, верхний уровень\n"},
+           Row{"Windows-1252", "WINDOWS-1252", "LD I0.0 // Störung, größer als à côté, niño, più\n"},
+           Row{"Windows-1253", "WINDOWS-1253", "LD I0.0 // αντλία σε λειτουργία, υψηλή στάθμη\n"},
+           Row{"Windows-1254", "WINDOWS-1254", "LD I0.0 // düğme basılı, işlem başladı\n"},
+           Row{"Shift-JIS", "CP932", "LD I0.0 // ポンプ運転中、水位が高い\n"},
+           Row{"GBK", "GBK", "LD I0.0 // 水泵运行,高水位开关\n"},
+       }) {
+    const DecodedText result = decoded(encoded(row.text, row.iconv_name));
+    EXPECT_EQ(result.encoding, row.name);
+    EXPECT_EQ(result.text, row.text);
+  }
+}
+
+TEST(Encoding, AMicroWinProjectIsRefusedWithWhatToDo) {
+  EXPECT_NE(refused("\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"s + std::string(600, '\0')).find("export each block"),
+            std::string::npos);
 }
 
 TEST(Encoding, RecognisesGbk) {

@@ -111,7 +111,7 @@ TEST(Symbols, WithoutAnAddressAreReportedOnlyWhereTheyAreUsed) {
 
 TEST(Symbols, UndefinedOnesShareACauseOnlyWithoutATable) {
   const auto causes = [](const std::string& table) {
-    std::vector<SourceText> files{file("LD A1\nA A2\n= Q0.0\nMEND\n", "p")};
+    std::vector<SourceText> files{file("LD P1\nA P2\n= Q0.0\nMEND\n", "p")};
     if (!table.empty()) files.push_back(file(table, "t"));
     return count_causes(check(join_files(std::move(files)).parsed, cpu214(), default_times(cpu214())).diagnostics);
   };
@@ -120,7 +120,7 @@ TEST(Symbols, UndefinedOnesShareACauseOnlyWithoutATable) {
 }
 
 TEST(Symbols, NameBlocksInCallAndAtch) {
-  EXPECT_EQ(said("LD SM0.0\nCALL Prepare\nATCH Edge, 0\nMEND\nSBR 4\nRET\nINT 2\nRETI\n", "Prepare\tSBR4\nEdge\tINT2\n"),
+  EXPECT_EQ(said("LD SM0.0\nCALL Prepare\nATCH Edge, 0\nENI\nMEND\nSBR 4\nRET\nINT 2\nRETI\n", "Prepare\tSBR4\nEdge\tINT2\n"),
             Lines{});
   EXPECT_EQ(said("LD SM0.0\nCALL Edge\nMEND\nINT 2\nRETI\n", "Edge\tINT2\n").at(0).substr(0, 53),
             "p.awl:2:6: error: Edge is not a subroutine; subroutin");

@@ -8,6 +8,7 @@ namespace s7200::tools {
 
 void DebugOptions::add_to(CLI::App& app) {
   program.add_files_to(app);
+  program.CpuOptions::add_to(app);
   app.add_option("--commands", commands_file, "commands to execute, one a line; # begins a comment")->type_name("FILE");
   app.add_option("-x,--execute", commands, "commands to execute, separated by ; (repeatable; after --commands)")
       ->type_name("COMMANDS")

@@ -101,7 +101,6 @@ void ProgramOptions::add_files_to(CLI::App& app) {
          "STL file (.stl, .awl, .txt) or published document with STL in it, and the other files of its project: symbol "
          "tables, data blocks, blocks; - is standard input")
       ->required();
-  CpuOptions::add_to(app);
 }
 
 void ProgramOptions::add_parts_to(CLI::App& app) {

@@ -42,7 +42,7 @@ struct ProgramOptions : CpuOptions {
 
   void add_to(CLI::App& app);
 
-  /// The same for a verb with no other words: all of them are files of the project.
+  /// The PROGRAM of a verb with no other words, all of which are files of the project.
   void add_files_to(CLI::App& app);
 
   /// --with, which names the parts.

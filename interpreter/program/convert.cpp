@@ -1,0 +1,281 @@
+#include "interpreter/program/convert.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/model/instruction.hpp"
+#include "interpreter/program/german.hpp"
+#include "interpreter/stl/printer.hpp"
+#include "interpreter/stl/symbols.hpp"
+
+namespace s7200 {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Notation>, 4> kNotations{{{"iec", Notation::Iec},
+                                                                           {"microdos", Notation::MicroDos},
+                                                                           {"microwin", Notation::MicroWin},
+                                                                           {"german", Notation::German}}};
+
+// ---- One statement
+// ---------------------------------------------------------------------------------------------------------
+
+bool is_one_of(std::string_view mnemonic, std::initializer_list<std::string_view> mnemonics) {
+  return std::ranges::find(mnemonics, mnemonic) != mnemonics.end();
+}
+
+/// Local variables keep their names among blocks, which declare them; other symbols become addresses.
+void leave_out_symbols(stl::Statement& statement, Notation notation) {
+  for (stl::Operand& operand : statement.operands) {
+    const std::string symbol = std::exchange(operand.symbol, {});
+    const bool local = symbol.find('#') == symbol.find_first_not_of("&*") && !symbol.empty();
+    if (notation == Notation::MicroWin && local) operand.value = stl::Name{symbol};
+  }
+}
+
+/// Texts that have no notation of their own in the AST are printed as names.
+void put_text(stl::Operand& operand, std::string text) { operand.value = stl::Name{std::move(text)}; }
+
+void to_micro_dos(stl::Statement& statement) {
+  if (is_one_of(statement.mnemonic, {"LBL", "JMP", "SBR", "INT", "CALL"})) return;
+  for (stl::Operand& operand : statement.operands) {
+    const auto* constant = std::get_if<stl::Integer>(&operand.value);
+    if (!constant) continue;
+    const bool decimal = constant->form == stl::Integer::Form::Decimal;
+    put_text(operand, decimal ? fmt::format("K{}", constant->value) : fmt::format("KH{:X}", constant->value));
+  }
+}
+
+void to_german(stl::Address& address) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kLetters{
+      {{"I", "E"}, {"Q", "A"}, {"AI", "AE"}, {"AQ", "AA"}, {"C", "Z"}, {"HC", "HZ"}}};
+  const auto found = std::ranges::find(kLetters, address.area, &std::pair<std::string_view, std::string_view>::first);
+  if (found != kLetters.end()) address.area = found->second;
+}
+
+void to_german(stl::Statement& statement) {
+  for (stl::Operand& operand : statement.operands) {
+    if (auto* address = std::get_if<stl::Address>(&operand.value)) to_german(*address);
+    if (auto* address = std::get_if<stl::AddressOf>(&operand.value)) to_german(address->target);
+    if (auto* address = std::get_if<stl::Indirect>(&operand.value)) to_german(address->pointer);
+  }
+  if (!statement.mnemonic.starts_with('A')) return;
+  std::string german = "U" + statement.mnemonic.substr(1);
+  if (find_german_instruction(german)) statement.mnemonic = std::move(german);
+}
+
+// ---- Blocks
+// ----------------------------------------------------------------------------------------------------------------
+
+struct BlockWords {
+  std::string_view keyword, letters, name, head, end;
+};
+
+// By stl::Block::Kind.
+constexpr std::array kBlockWords{
+    BlockWords{"ORGANIZATION_BLOCK", "OB", "MAIN", "", "MEND"},
+    BlockWords{"SUBROUTINE_BLOCK", "SBR", "SBR_", "SBR", "RET"},
+    BlockWords{"INTERRUPT_BLOCK", "INT", "INT_", "INT", "RETI"},
+};
+
+const BlockWords& words(stl::Block::Kind kind) { return kBlockWords[static_cast<std::size_t>(kind)]; }
+
+/// The lines of a routine without its head and its end.
+struct Routine {
+  stl::Block block;
+  std::vector<stl::Line> lines;
+};
+
+/// The main program of an export has its name and title as a comment; blocks have them in their heads.
+bool is_head_of_main(const stl::Line& line, const stl::Source& source) {
+  const auto* comment = std::get_if<stl::CommentLine>(&line);
+  return comment && std::ranges::any_of(source.blocks, [&](const stl::Block& block) {
+           return block.kind == stl::Block::Kind::Main && block.position.line == comment->line;
+         });
+}
+
+/// Where one routine ends, the next one begins, with the comments and the network above its head.
+std::vector<Routine> routines_of(const stl::Source& source) {
+  std::vector<Routine> routines;
+  Routine routine{{.kind = stl::Block::Kind::Main, .number = 1}, {}};
+  const auto finish = [&] {
+    const auto known = std::ranges::find_if(source.blocks, [&](const stl::Block& b) {
+      return b.kind == routine.block.kind && b.number == routine.block.number;
+    });
+    if (known != source.blocks.end()) routine.block = *known;
+    if (routine.block.name.empty()) {
+      const BlockWords& of_kind = words(routine.block.kind);
+      routine.block.name = routine.block.kind == stl::Block::Kind::Main
+                               ? std::string(of_kind.name)
+                               : fmt::format("{}{}", of_kind.name, routine.block.number);
+    }
+    routines.push_back(std::exchange(routine, {}));
+  };
+  for (const stl::Line& line : source.lines) {
+    const auto* statement = std::get_if<stl::Statement>(&line);
+    if (statement && is_one_of(statement->mnemonic, {"SBR", "INT"}) && statement->operands.size() == 1) {
+      const auto* number = std::get_if<stl::Integer>(&statement->operands[0].value);
+      routine.block.title = stl::trim(statement->comment);
+      routine.block.kind = statement->mnemonic == "SBR" ? stl::Block::Kind::Subroutine : stl::Block::Kind::Interrupt;
+      routine.block.number = number ? static_cast<std::uint32_t>(number->value) : 0;
+    } else if (statement && is_one_of(statement->mnemonic, {"MEND", "RET", "RETI"})) {
+      if (!statement->comment.empty())
+        routine.lines.emplace_back(stl::CommentLine{statement->comment, statement->position.line});
+      finish();
+    } else if (!is_head_of_main(line, source)) {
+      routine.lines.push_back(line);
+    }
+  }
+  const auto is_code = [](const stl::Line& line) { return std::holds_alternative<stl::Statement>(line); };
+  if (std::ranges::any_of(routine.lines, is_code)) finish();
+  return routines;
+}
+
+std::string quoted_if_needed(const std::string& name) {
+  const bool plain = std::ranges::all_of(name, [](char c) { return stl::is_letter(c) || stl::is_digit(c) || c == '_'; });
+  return plain && !name.empty() && !stl::is_digit(name.front()) ? name : fmt::format("\"{}\"", name);
+}
+
+std::string_view type_name(stl::Variable::Type type) {
+  constexpr std::array<std::string_view, 9> kNames{"BOOL", "BYTE", "CHAR", "WORD", "INT", "DWORD", "DINT", "REAL", "STRING"};
+  return kNames[static_cast<std::size_t>(type)];
+}
+
+std::string declarations_text(const std::vector<stl::Variable>& variables) {
+  constexpr std::array<std::string_view, 4> kSections{"VAR_INPUT", "VAR_IN_OUT", "VAR_OUTPUT", "VAR"};
+  std::string text;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const stl::Variable& variable = variables[i];
+    if (i == 0 || variables[i - 1].kind != variable.kind)
+      text += fmt::format("{}\n", kSections[static_cast<std::size_t>(variable.kind)]);
+    text += fmt::format(" {} : {};{}\n", quoted_if_needed(variable.name), type_name(variable.type),
+                        variable.comment.empty() ? "" : "  // " + variable.comment);
+    if (i + 1 == variables.size() || variables[i + 1].kind != variable.kind) text += "END_VAR\n";
+  }
+  return text;
+}
+
+std::string hex_text(const std::string& bytes) {
+  std::string text;
+  for (const char byte : bytes)
+    text += fmt::format("{}16#{:02X}", text.empty() ? "" : ", ", static_cast<unsigned char>(byte));
+  return text;
+}
+
+std::string data_text(const std::vector<stl::DataLine>& data) {
+  if (data.empty()) return {};
+  std::string text = "DATA_BLOCK DB1:DB1\nBEGIN\n";
+  for (const stl::DataLine& line : data) {
+    std::string values;
+    for (const stl::DataLine::Value& value : line.values) {
+      if (!values.empty()) values += ", ";
+      if (const auto* characters = std::get_if<stl::Text>(&value.value))
+        values += hex_text(characters->bytes);
+      else if (const auto* real = std::get_if<stl::Real>(&value.value))
+        values += stl::to_text(*real);
+      else
+        values += stl::to_text(stl::Operand{std::get<stl::Integer>(value.value), {}});
+    }
+    text += fmt::format("{} {}\n", line.address ? stl::to_text(*line.address) : "", values);
+  }
+  return text + "END_DATA_BLOCK\n";
+}
+
+/// CALL and ATCH name the block that they mean.
+void name_blocks(stl::Statement& statement, const std::vector<Routine>& routines) {
+  if (!is_one_of(statement.mnemonic, {"CALL", "ATCH"}) || statement.operands.empty()) return;
+  const auto kind = statement.mnemonic == "CALL" ? stl::Block::Kind::Subroutine : stl::Block::Kind::Interrupt;
+  const auto* number = std::get_if<stl::Integer>(&statement.operands[0].value);
+  const auto called = std::ranges::find_if(routines, [&](const Routine& r) {
+    return number && r.block.kind == kind && std::int64_t{r.block.number} == number->value;
+  });
+  if (called != routines.end()) put_text(statement.operands[0], quoted_if_needed(called->block.name));
+}
+
+std::string blocks_text(const stl::Source& source) {
+  const std::vector<Routine> routines = routines_of(source);
+  std::string text;
+  for (const Routine& routine : routines) {
+    const BlockWords& of_kind = words(routine.block.kind);
+    text +=
+        fmt::format("{} {}:{}{}\nTITLE={}\n{}BEGIN\n", of_kind.keyword, quoted_if_needed(routine.block.name),
+                    of_kind.letters, routine.block.number, routine.block.title, declarations_text(routine.block.variables));
+    stl::Source part;
+    for (const stl::Line& line : routine.lines) {
+      part.lines.push_back(line);
+      if (auto* statement = std::get_if<stl::Statement>(&part.lines.back())) name_blocks(*statement, routines);
+    }
+    text += stl::to_text(part) + fmt::format("END_{}\n", of_kind.keyword);
+  }
+  return text + data_text(source.data);
+}
+
+// ---- Whether it can be printed
+// ---------------------------------------------------------------------------------------------
+
+class Printable {
+ public:
+  Printable(stl::ParseResult& parsed, Notation notation) : parsed_(parsed), blocks_(notation == Notation::MicroWin) {}
+
+  bool check() {
+    for (const stl::Line& line : parsed_.source.lines)
+      if (const auto* statement = std::get_if<stl::Statement>(&line)) check(*statement);
+    return !has_errors(parsed_.diagnostics);
+  }
+
+ private:
+  void error(const stl::Position& at, std::string message, std::string hint) {
+    parsed_.diagnostics.push_back({stl::Severity::Error, at, std::move(message), std::move(hint)});
+  }
+
+  void check(const stl::Statement& statement) {
+    for (const stl::Operand& operand : statement.operands)
+      if (const auto* name = std::get_if<stl::Name>(&operand.value)) check(operand, *name);
+    if (!blocks_ && statement.mnemonic == "CALL" && statement.operands.size() > 1)
+      error(statement.operands[1].position, "parameters of CALL have no notation outside of blocks", "use --to microwin");
+  }
+
+  void check(const stl::Operand& operand, const stl::Name& name) {
+    const std::string upper = stl::upper_case(name.text);
+    if (is_one_of(upper, {"TRUE", "FALSE", "ON", "OFF"})) return;
+    error(operand.position,
+          name.reason.empty() ? fmt::format("'{}' is neither an address nor a defined symbol", stl::shortened(name.text))
+                              : name.reason,
+          "give its symbol table too, --with SYMBOLS, or write the address itself");
+  }
+
+  stl::ParseResult& parsed_;
+  bool blocks_;
+};
+
+}  // namespace
+
+std::optional<Notation> notation_named(std::string_view name) {
+  const auto found = std::ranges::find(kNotations, name, &std::pair<std::string_view, Notation>::first);
+  if (found == kNotations.end()) return {};
+  return found->second;
+}
+
+std::string_view name_of(Notation notation) { return kNotations[static_cast<std::size_t>(notation)].first; }
+
+std::optional<std::string> convert(stl::ParseResult& parsed, Notation notation) {
+  read_german(parsed);
+  stl::resolve_symbols(parsed);
+  if (!Printable(parsed, notation).check()) return {};
+  stl::Source source = parsed.source;
+  for (stl::Line& line : source.lines)
+    if (auto* statement = std::get_if<stl::Statement>(&line)) leave_out_symbols(*statement, notation);
+  if (notation == Notation::MicroWin) return blocks_text(source);
+  for (stl::Line& line : source.lines) {
+    auto* statement = std::get_if<stl::Statement>(&line);
+    if (statement && notation == Notation::MicroDos) to_micro_dos(*statement);
+    if (statement && notation == Notation::German) to_german(*statement);
+  }
+  return stl::to_text(source);
+}
+
+}  // namespace s7200

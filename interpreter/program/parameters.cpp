@@ -1,0 +1,131 @@
+#include "interpreter/program/parameters.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "interpreter/base/text.hpp"
+
+namespace s7200 {
+namespace {
+
+using Kind = stl::Variable::Kind;
+using Type = stl::Variable::Type;
+
+constexpr Areas kBytes = set_of(Area::I) | set_of(Area::Q) | set_of(Area::M) | set_of(Area::SM) | set_of(Area::S) |
+                         set_of(Area::V) | set_of(Area::L);
+constexpr Areas kTimers = set_of(Area::T) | set_of(Area::C);
+
+struct TypeRow {
+  std::string_view name;
+  Width width;
+  Areas read, written;  ///< besides kBytes
+  Sign sign;
+};
+
+// By stl::Variable::Type.
+constexpr std::array kTypes{
+    TypeRow{"BOOL", Width::Bit, kTimers, kTimers, Sign::Either},
+    TypeRow{"BYTE", Width::Byte, set_of(Area::AC), set_of(Area::AC), Sign::Either},
+    TypeRow{"CHAR", Width::Byte, set_of(Area::AC), set_of(Area::AC), Sign::Either},
+    TypeRow{"WORD", Width::Word, kTimers | set_of(Area::AC) | set_of(Area::AI), kTimers | set_of(Area::AC), Sign::Either},
+    TypeRow{"INT", Width::Word, kTimers | set_of(Area::AC) | set_of(Area::AI), kTimers | set_of(Area::AC), Sign::Signed},
+    TypeRow{"DWORD", Width::Double, set_of(Area::AC) | set_of(Area::HC), set_of(Area::AC), Sign::Either},
+    TypeRow{"DINT", Width::Double, set_of(Area::AC) | set_of(Area::HC), set_of(Area::AC), Sign::Signed},
+    TypeRow{"REAL", Width::Double, set_of(Area::AC), set_of(Area::AC), Sign::Either},
+    TypeRow{"STRING", Width::Double, 0, 0, Sign::Either},
+};
+
+const TypeRow& row(Type type) { return kTypes[static_cast<std::size_t>(type)]; }
+
+Role role_of(Kind kind) { return kind == Kind::Input ? Role::In : kind == Kind::Output ? Role::Out : Role::InOut; }
+
+OperandRule rule_of(const stl::Variable& variable) {
+  const TypeRow& type = row(variable.type);
+  const Role role = role_of(variable.kind);
+  const bool input = role == Role::In, bit = type.width == Width::Bit, string = variable.type == Type::String;
+  OperandRule rule{.name = variable.name, .width = type.width, .role = role, .sign = type.sign};
+  rule.areas = static_cast<Areas>(string ? 0 : kBytes | (input ? type.read : type.written));
+  rule.constant = input && !string;
+  rule.pointer = !bit && !string;
+  rule.address_of = input && (variable.type == Type::DWord || string);
+  rule.real = variable.type == Type::Real;
+  if (bit) {
+    rule.min = 0;
+    rule.max = 1;
+  }
+  return rule;
+}
+
+/// What is written for some types stands for something else: TRUE for 1, and the address of a string for a pointer to it.
+stl::Operand as_meant(stl::Operand written, Type type) {
+  if (const auto* name = std::get_if<stl::Name>(&written.value); name && type == Type::Bool) {
+    const std::string upper = stl::upper_case(name->text);
+    if (upper == "TRUE" || upper == "ON") written.value = stl::Integer{1};
+    if (upper == "FALSE" || upper == "OFF") written.value = stl::Integer{0};
+  }
+  if (const auto* address = std::get_if<stl::Address>(&written.value); address && type == Type::String)
+    written.value = stl::AddressOf{*address};
+  return written;
+}
+
+std::vector<const stl::Variable*> formal_parameters(const stl::Block& block) {
+  std::vector<const stl::Variable*> formal;
+  for (const stl::Variable& variable : block.variables)
+    if (variable.kind != Kind::Temporary) formal.push_back(&variable);
+  return formal;
+}
+
+std::string declarations(const std::vector<const stl::Variable*>& formal) {
+  std::vector<std::string> all;
+  for (const stl::Variable* variable : formal)
+    all.push_back(fmt::format("{} : {}", stl::shortened(variable->name), row(variable->type).name));
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+Operand place_of(const stl::Address& local, Width width) {
+  return {.at = info(Area::L).base + local.number, .bit = local.bit, .width = static_cast<std::uint16_t>(bytes_of(width))};
+}
+
+}  // namespace
+
+std::optional<std::vector<Parameter>> place_parameters(const Instruction& call, const stl::Statement& statement,
+                                                       const stl::Block& block, const CpuModel& model,
+                                                       ConstantPool& constants, stl::Diagnostics& diagnostics) {
+  const auto error = [&](const stl::Position& at, std::string message, std::string hint, std::string cause = {}) {
+    diagnostics.push_back({stl::Severity::Error, at, std::move(message), std::move(hint), std::move(cause)});
+    return std::nullopt;
+  };
+  const auto formal = formal_parameters(block);
+  const std::size_t given = statement.operands.size() - 1;
+  const std::string name = stl::shortened(block.name.empty() ? fmt::format("SBR{}", block.number) : block.name);
+  if (given != formal.size())
+    return error(given > formal.size() ? statement.operands[formal.size() + 1].position : statement.position,
+                 fmt::format("CALL of {} takes {} parameter{}, not {}", name,
+                             formal.empty() ? "no" : std::to_string(formal.size()), formal.size() == 1 ? "" : "s", given),
+                 formal.empty() ? "" : fmt::format("they are {}", declarations(formal)));
+  if (given > kMostParameters)
+    return error(statement.operands[kMostParameters + 1].position,
+                 fmt::format("a subroutine has at most {} parameters", kMostParameters),
+                 "pass a pointer to a table instead");
+  if (given > 0 && model.size_of(Area::L) == 0)
+    return error(statement.operands[1].position, fmt::format("CPU {} has no parameters of subroutines", model.name),
+                 needs("they need", kCpu22x), "parameters of subroutines");
+  std::vector<Parameter> parameters;
+  bool good = true;
+  for (std::size_t i = 0; i < given; ++i) {
+    const stl::Variable& variable = *formal[i];
+    const OperandRule rule = rule_of(variable);
+    const auto placed =
+        place_operand(call, rule, as_meant(statement.operands[i + 1], variable.type), model, constants, diagnostics);
+    good = good && placed;
+    if (placed) parameters.push_back({placed->operand, place_of(variable.address, rule.width), rule.width, rule.role});
+  }
+  if (!good) return {};
+  return parameters;
+}
+
+}  // namespace s7200

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/program/convert.hpp"
+#include "tools/command/commands.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/command/options/program_options.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
+#include "tools/host/written_files.hpp"
+#include "tools/views/results_json.hpp"
+
+namespace s7200::tools {
+namespace {
+
+struct ConvertOptions {
+  ProgramOptions program;
+  std::string notation, output;
+  bool force = false, json = false;
+
+  bool to_file() const { return !output.empty() && output != "-"; }
+};
+
+int write(const ConvertOptions& options, const std::string& text) {
+  WrittenFiles files;
+  files.reads(options.program.path);
+  for (const std::string& part : options.program.parts) files.reads(part);
+  std::string why;
+  const auto destination = files.claim("-o", options.output, {"STL"}, options.force ? Replace::Judged : Replace::Never, why);
+  if (!destination) return print_error(why), kUnusable;
+  catch_interruption();  // the file is written to its end
+  if (write_result(*destination, text, why)) return kFine;
+  print_error(why);
+  return kUnusable;
+}
+
+void print_json(const ConvertOptions& options, const SourceText& source, const std::string& text) {
+  auto results = results_of("convert");
+  results["program"] = options.program.path;
+  results["encoding"] = source.encoding;
+  results["notation"] = options.notation;
+  results["output"] = options.to_file() ? nlohmann::ordered_json(options.output) : nullptr;
+  results["stl"] = options.to_file() ? nullptr : nlohmann::ordered_json(text);
+  fmt::print("{}", lines_of(results));
+}
+
+int run_convert(const ConvertOptions& options) {
+  auto source = read_project(options.program.path, options.program.parts);
+  if (!source) return kUnusable;
+  print_note_if_any(left_out_note(*source));
+  const Notation notation = *notation_named(options.notation);
+  const auto text = convert(source->parsed, notation);
+  if (!text) {
+    print_diagnostics(source->parsed.diagnostics, source->parsed.source);
+    print_error("nothing was written");
+    return kCheckFailed;
+  }
+  if (notation != Notation::MicroWin && !source->parsed.source.data.empty())
+    print_note("the data block is not part of a listing: give its file beside the new one");
+  const int exit_code = options.to_file() ? write(options, *text) : kFine;
+  if (exit_code == kFine && options.json)
+    print_json(options, *source, *text);
+  else if (!options.to_file())
+    print_file(*text);
+  return exit_code;
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ConvertOptions>();
+  CLI::App* verb =
+      app.add_subcommand("convert", "print a program in another notation, which reads back as the same program");
+  options->program.add_files_to(*verb);
+  verb->add_option("--to", options->notation,
+                   "iec (one listing, 16#FF), microdos (K4, KHFF), microwin (the blocks of an export), german (E, A, U)")
+      ->required()
+      ->check([](const std::string& name) {
+        return notation_named(name) ? std::string()
+                                    : fmt::format("there is no notation '{}'; there are iec, microdos, microwin and german",
+                                                  stl::shortened(name));
+      })
+      ->type_name("NOTATION");
+  verb->add_option("-o,--output", options->output, "file to write; standard output if not given")->type_name("FILE");
+  verb->add_flag("--force", options->force, "overwrite an existing file");
+  verb->add_flag("--json", options->json, "print what was converted as JSON, with the STL if no file is written");
+  verb->footer("Example: s7200 convert stl_programs/modbus_slave.stl --to microwin");
+  verb->callback([options, &exit_code] { exit_code = run_convert(*options); });
+}
+
+}  // namespace s7200::tools
