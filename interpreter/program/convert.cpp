@@ -162,7 +162,7 @@ std::string declarations_text(const std::vector<stl::Variable>& variables) {
 std::string hex_text(const std::string& bytes) {
   std::string text;
   for (const char byte : bytes)
-    text += fmt::format("{}16#{:02X}", text.empty() ? "" : ", ", static_cast<unsigned char>(byte));
+    text += fmt::format("{}16#{:X}", text.empty() ? "" : ", ", static_cast<unsigned char>(byte));
   return text;
 }
 

@@ -138,7 +138,7 @@ TEST(Convert, AnExportKeepsItsNamesVariablesAndData) {
   const std::string once = printed(kExport, Notation::MicroWin);
   EXPECT_EQ(printed(once, Notation::MicroWin), once);
   for (const char* part : {"CALL    \"Do it\", VW0, M0.0\n", "VAR_INPUT\n x : INT;  // in\nEND_VAR\n", "TITLE=Work\n",
-                           "LDW>=   #x, 0\n", "VB0 1, 16#61, 16#62, 16#01, 16#63\n"})
+                           "LDW>=   #x, 0\n", "VB0 1, 16#61, 16#62, 16#1, 16#63\n"})
     EXPECT_NE(once.find(part), std::string::npos) << part << once;
 }
 
