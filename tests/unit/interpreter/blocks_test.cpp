@@ -79,7 +79,7 @@ TEST(Blocks, CommentsAreKept) {
       "Network 1 // lamp\n// on while the switch is\n\n// closed\nLD I0.0 // switch\n= Q0.0\nEND_ORGANIZATION_BLOCK\n");
   EXPECT_EQ(
       to_text(result.source),
-      "// exported today\n// MAIN: A lamp\n//What it is for,\n// in two lines\n\nNETWORK 1 // lamp\n// on while the switch "
+      "// exported today\n// MAIN: A lamp\n//What it is for,\n// in two lines\nNETWORK 1 // lamp\n// on while the switch "
       "is\n\n// closed\nLD      I0.0                    // switch\n=       Q0.0\nMEND\n");
 }
 
