@@ -5,8 +5,8 @@
 namespace s7200 {
 
 // Pointer codes of I, Q, M and V: facts section 9, taken from real programs.
-// Not documented, modelled so: pointers to S, T and C have the codes 04, 05 and 06. No program seen so far writes these as
-// numbers. [Choices.PointerCodesOfTheAreas]
+// Not documented, modelled so: pointers to S, T and C have the codes 04, 07 and 06. No program seen so far writes these as
+// numbers; a published one for a CPU 22x takes 05 for an area that does not exist. [Choices.PointerCodesOfTheAreas]
 static constexpr std::array<AreaInfo, kAreas> kAreaTable{{
     {Area::I, "I", image::kI, image::kI, 0, 0x00, "inputs (image register)"},
     {Area::Q, "Q", image::kQ, image::kQ, 0, 0x01, "outputs (image register)"},
@@ -15,7 +15,7 @@ static constexpr std::array<AreaInfo, kAreas> kAreaTable{{
     {Area::S, "S", image::kS, image::kS, 0, 0x04, "sequence control relays"},
     {Area::AI, "AI", image::kAI, kNoBits, 0, {}, "analog inputs"},
     {Area::AQ, "AQ", image::kAQ, kNoBits, 0, {}, "analog outputs"},
-    {Area::T, "T", image::kT, image::kTBits, 2, 0x05, "timers"},
+    {Area::T, "T", image::kT, image::kTBits, 2, 0x07, "timers"},
     {Area::C, "C", image::kC, image::kCBits, 2, 0x06, "counters"},
     {Area::HC, "HC", image::kHC, kNoBits, 4, {}, "high-speed counters"},
     {Area::AC, "AC", image::kAC, kNoBits, 4, {}, "accumulators"},

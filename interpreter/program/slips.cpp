@@ -108,7 +108,7 @@ std::vector<Slip> find_slips(const stl::Source& source) {
 
 Repairs parse_repairs(std::string_view text, std::string& why) {
   Repairs repairs{.all = text == "all"};
-  while (!repairs.all) {
+  while (!repairs.all && text != "none") {
     const std::size_t end = std::min(text.find(','), text.size());
     const std::string id = stl::upper_case(stl::trim(text.substr(0, end)));
     const bool number = id.size() > 1 && id.front() == 'R' && std::all_of(id.begin() + 1, id.end(), stl::is_digit);

@@ -34,7 +34,7 @@ struct Repairs {
   bool operator==(const Repairs&) const = default;
 };
 
-/// `R1,R2` or `all`. Sets `why` if it is neither.
+/// `R1,R2`, `all` or `none`. Sets `why` if it is neither.
 Repairs parse_repairs(std::string_view text, std::string& why);
 
 /// Repairs what is asked for, and returns all slips of the source, the repaired ones marked. Ids that the source does not

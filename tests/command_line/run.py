@@ -1320,7 +1320,7 @@ class Readme(Case):
             for block in self.blocks(readme):
                 background = []
                 for command, shown in block:
-                    if not TIP.exists() and "tip41" in command:
+                    if not TIP.exists() and any(word in command for word in ("tip41", "seeds", "freeport_pc")):
                         print(f"skipped, there is no {TIP}: {command}")
                         continue
                     if command.split()[0] in missing:
@@ -1367,7 +1367,7 @@ class Readme(Case):
         tree = self.folder / "s7200"
         if not tree.exists():
             tree.mkdir()
-            for name in ("stl_programs", "tests"):
+            for name in ("stl_programs", "tests", "tools"):
                 (tree / name).symlink_to(SOURCE / name)
             (self.folder / "shared").symlink_to(TIP.parent.parent)
         return tree

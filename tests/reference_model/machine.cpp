@@ -303,11 +303,11 @@ Place Machine::follow_pointer(const stl::Address& pointer, std::size_t width) {
     case 0x04:
       place.bytes = &memory.S;
       break;
-    case 0x05:
-      place.bytes = &memory.T;
-      break;
     case 0x06:
       place.bytes = &memory.C;
+      break;
+    case 0x07:
+      place.bytes = &memory.T;
       break;
     case 0x08:
       place.bytes = &memory.V;
@@ -322,7 +322,7 @@ Place Machine::follow_pointer(const stl::Address& pointer, std::size_t width) {
 
 std::uint32_t Machine::pointer_to(const stl::Address& target) const {
   static const std::map<std::string, std::uint32_t> kCode{{"I", 0x00}, {"Q", 0x01}, {"M", 0x02}, {"S", 0x04},
-                                                          {"T", 0x05}, {"C", 0x06}, {"V", 0x08}};
+                                                          {"T", 0x07}, {"C", 0x06}, {"V", 0x08}};
   return kCode.at(target.area) << 24 | static_cast<std::uint32_t>(target.number * element_size(target.area));
 }
 

@@ -27,7 +27,7 @@ const ScenarioKey kBeforeActions[] = {
     {Where::Scenario, "name", "", "TEXT", "one line, for reports; the name of the file if left out"},
     {Where::Scenario, "program", "", "PATH", "STL file or published document, from the folder of this file, or `\"-\"` for standard input; `--target` comes before it"},
     {Where::Scenario, "with", "", "LIST", "paths of the other files of the program's project: symbol tables, data blocks, blocks"},
-    {Where::Scenario, "repair", "", "TEXT", "slips of a published listing to repair, as `s7200 check` names them: `R1,R2` or `all`"},
+    {Where::Scenario, "repair", "", "TEXT", "slips of a published listing to repair, as `s7200 check` names them: `R1,R2`, `all` or `none`"},
     {Where::Scenario, "skip_without", "", "PATH", "a file without which the scenario is skipped, such as a document that is not ours"},
     {Where::Scenario, "cpu", "", "TYPE", "`214` if left out"},
     {Where::Scenario, "times", "", "PATH", "execution times, CSV as of `s7200 times --csv`"},

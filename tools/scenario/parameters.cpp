@@ -105,7 +105,7 @@ std::optional<GivenParameters> read_parameters(const std::string& text, const st
   if (!root) return {};
   Complaints complaints(diagnostics);
   read_parameter_tree(take_expected_failures(*root, given, complaints), given.parameters, given.names, complaints);
-  for (const char* name : {"program", "times"})
+  for (const char* name : {"program", "times", "skip_without"})
     if (const auto found = given.parameters.values.find(name); found != given.parameters.values.end())
       found->second = beside(path, found->second);
   stl::sort(diagnostics);

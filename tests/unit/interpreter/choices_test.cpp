@@ -124,7 +124,7 @@ TEST(Choices, PointerCodesOfTheAreas) {
       "LD SM0.0\nMOVD &IB1, VD0\nMOVD &QB2, VD4\nMOVD &MB3, VD8\nMOVD &SB4, VD12\nMOVD &T5, VD16\nMOVD &C6, VD20\n"
       "MOVD &VB100, VD24\nMEND\n");
   plc.run_scans(1);
-  const std::uint32_t expected[] = {0x00000001, 0x01000002, 0x02000003, 0x04000004, 0x0500000A, 0x0600000C, 0x08000064};
+  const std::uint32_t expected[] = {0x00000001, 0x01000002, 0x02000003, 0x04000004, 0x0700000A, 0x0600000C, 0x08000064};
   for (std::uint32_t i = 0; i < std::size(expected); ++i)
     EXPECT_EQ(static_cast<std::uint32_t>(plc.value(fmt::format("VD{}", 4 * i))), expected[i]);
 }
