@@ -29,7 +29,7 @@ ParseResult read_blocks(std::string_view text, std::string name);
 bool has_routine_headings(std::string_view text);
 
 /// Reads the listing of one: each heading begins a routine, which ends at the next; what stands before the first is text.
-/// Routines have names and get the numbers from 0 on, in their order.
+/// Routines have names and get free numbers.
 ParseResult read_headed_document(std::string_view text, std::string name);
 
 }  // namespace s7200::stl

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "interpreter/model/cpu_model.hpp"
@@ -56,7 +57,6 @@ TEST(HeadedDocument, RoutinesAreFoundByTheirHeadings) {
   EXPECT_EQ(blocks[2].number, 1U);
   EXPECT_EQ(blocks[3].kind, stl::Block::Kind::Interrupt);
   EXPECT_EQ(blocks[3].name, "Tick");
-  EXPECT_EQ(blocks[3].number, 0U);
 }
 
 TEST(HeadedDocument, ItNeedsNoEndsAndCallsRoutinesByName) {
@@ -85,8 +85,10 @@ TEST(HeadedDocument, AnUnknownRoutineIsNamed) {
   std::string text = kListing;
   text.replace(text.find("CALL Count"), 10, "CALL Comet");
   const CheckResult result = checked(source_of(text));
-  ASSERT_FALSE(result.diagnostics.empty());
-  EXPECT_EQ(result.diagnostics.front().position.line, 15U);
+  EXPECT_FALSE(result.program);
+  EXPECT_TRUE(std::ranges::any_of(result.diagnostics, [](const stl::Diagnostic& diagnostic) {
+    return diagnostic.severity == stl::Severity::Error && diagnostic.position.line == 15;
+  }));
 }
 
 TEST(HeadedDocument, AHeadingAloneDoesNotMakeOne) {
@@ -144,7 +146,6 @@ TEST(Slips, AreRepairedByTheirNumbers) {
   EXPECT_EQ(notes[3].substr(0, 58), "listing.txt: slip R6 in line 22: R SM87.2, 1 is left out: ");
   const CheckResult result = checked(text);
   EXPECT_TRUE(result.program) << (result.diagnostics.empty() ? "" : result.diagnostics.front().message);
-  std::vector<std::string> unknown;
   EXPECT_EQ(find_slips(text.parsed.source).size(), 4U);
 }
 

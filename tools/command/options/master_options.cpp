@@ -111,9 +111,9 @@ void MasterOptions::add_protocol_options(CLI::App& app) {
         continue;
       }
       app.add_option_function<std::string>(
-             name, [this, name](const std::string& value) { given_[name] = value; },
-             option.standard.empty() ? option.meaning : fmt::format("{} [{}]", option.meaning, option.standard))
+             name, [this, name](const std::string& value) { given_[name] = value; }, option.meaning)
           ->check([check = option.check](const std::string& value) { return check(value); })
+          ->default_str(option.standard)
           ->type_name(std::string(option.value))
           ->group(group);
     }
