@@ -7,10 +7,12 @@
 #include "interpreter/stl/symbols.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/options/input.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/host/written_files.hpp"
+#include "tools/views/import_report.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
@@ -18,15 +20,10 @@ namespace {
 
 struct ImportOptions {
   std::string document, output;
-  bool force = false, json = false;
+  std::string from = "stl";
+  bool compare = false, force = false, json = false;
   Repairs repairs;
 };
-
-std::size_t count_statements(const stl::Source& source) {
-  return static_cast<std::size_t>(std::count_if(source.lines.begin(), source.lines.end(), [](const stl::Line& line) {
-    return std::holds_alternative<stl::Statement>(line);
-  }));
-}
 
 int write(const ImportOptions& options, const std::string& text) {
   WrittenFiles files;
@@ -41,26 +38,38 @@ int write(const ImportOptions& options, const std::string& text) {
 }
 
 void print_json(const ImportOptions& options, const SourceText& text, const std::string& stl) {
-  const bool to_file = !options.output.empty() && options.output != "-";
   auto results = results_of("import");
   results["document"] = options.document;
-  results["encoding"] = text.encoding;
-  results["instructions"] = count_statements(text.parsed.source);
-  results["left_out"] = text.parsed.left_out;
-  results["output"] = to_file ? nlohmann::ordered_json(options.output) : nullptr;
-  results["stl"] = to_file ? nullptr : nlohmann::ordered_json(stl);
+  add_import_results(results, text, options.output == "-" ? "" : options.output, stl);
   fmt::print("{}", lines_of(results));
 }
 
+int run_compare(const ImportOptions& options) {
+  std::string name, why;
+  const auto bytes = read_input(options.document, name);
+  if (!bytes) return kUnusable;
+  const auto comparison = compare_drawings(*bytes, name, why);
+  if (!comparison) return print_error(fmt::format("cannot read {}: {}", name, why)), kUnusable;
+  if (options.json) {
+    auto results = results_of("import");
+    results["document"] = options.document;
+    add_comparison(results, *comparison);
+    fmt::print("{}", lines_of(results));
+  } else {
+    print_diagnostics(comparison->diagnostics, comparison->source);
+    fmt::print("{}", comparison_summary(*comparison));
+  }
+  return has_errors(comparison->diagnostics) ? kCheckFailed : kFine;
+}
+
 int run_import(const ImportOptions& options) {
-  auto text = read_program_text(options.document, true);
+  if (options.compare) return run_compare(options);
+  auto text = options.from == "ladder" ? read_drawings(options.document) : read_program_text(options.document, true);
   if (!text) return kUnusable;
   if (text->kind == SourceKind::Blocks) stl::resolve_symbols(text->parsed);
-  if (has_errors(text->parsed.diagnostics)) {
+  if (options.from == "ladder" || has_errors(text->parsed.diagnostics))
     print_diagnostics(text->parsed.diagnostics, text->parsed.source);
-    print_error("nothing was written");
-    return kCheckFailed;
-  }
+  if (has_errors(text->parsed.diagnostics)) return print_error("nothing was written"), kCheckFailed;
   if (!repair(*text, options.repairs)) return kUnusable;
   print_note_if_any(left_out_note(*text));
   stl::resolve_symbols(text->parsed);  // a listing without blocks knows no routine by its name
@@ -85,13 +94,25 @@ int run_import(const ImportOptions& options) {
 
 void add_import(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ImportOptions>();
-  CLI::App* verb = app.add_subcommand("import", "write the STL of a published document as a clean .stl file");
-  verb->add_option("DOCUMENT", options->document, "document with an STL listing; - is standard input")->required();
-  verb->add_option("-o,--output", options->output, "file to write; standard output if not given")->type_name("FILE.stl");
+  CLI::App* verb =
+      app.add_subcommand("import", "write the STL of a published document, or of its ladder drawings, as a clean .stl file");
+  verb->add_option("DOCUMENT", options->document, "document with an STL listing or ladder drawings; - is standard input")
+      ->required();
+  auto* from =
+      verb->add_option("--from", options->from, "what to read of the document: its STL listing or its ladder drawings")
+          ->check(CLI::IsMember({"stl", "ladder"}))
+          ->capture_default_str()
+          ->type_name("WHAT");
+  auto* output =
+      verb->add_option("-o,--output", options->output, "file to write; standard output if not given")->type_name("FILE.stl");
+  verb->add_flag("--compare", options->compare,
+                 "write nothing: set the drawings against the STL beside them, network by network")
+      ->excludes(from)
+      ->excludes(output);
   add_repair_option(*verb, options->repairs);
   verb->add_flag("--force", options->force, "overwrite an existing file");
   verb->add_flag("--json", options->json, "print what was imported as JSON, with the STL if no file is written");
-  verb->footer("Example: s7200 import tip41.txt -o tip41.stl");
+  verb->footer("Example: s7200 import tip41.txt -o tip41.stl\nExample: s7200 import --compare tip41.txt");
   verb->callback([options, &exit_code] { exit_code = run_import(*options); });
 }
 

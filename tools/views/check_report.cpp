@@ -79,12 +79,21 @@ std::string counted(stl::Severity severity, const stl::Diagnostics& all) {
 
 }  // namespace
 
+nlohmann::ordered_json to_json(const stl::Diagnostics& diagnostics, const stl::SourceLines& source) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const stl::Diagnostic& d : diagnostics) all.push_back(to_json(d, source));
+  return all;
+}
+
+std::string counted(const stl::Diagnostics& diagnostics) {
+  return fmt::format("{}, {}", counted(stl::Severity::Error, diagnostics), counted(stl::Severity::Warning, diagnostics));
+}
+
 std::string check_summary(const SourceText& text, const CheckResult& result, const CpuModel& model) {
   const std::string name = stl::printable(result.source.name);
   const std::string warnings = counted(stl::Severity::Warning, result.diagnostics);
   if (!result.program) {
-    return fmt::format("{}: {}, {} for CPU {}{}\n", name, counted(stl::Severity::Error, result.diagnostics), warnings,
-                       model.name, other_cpus_text(text, model));
+    return fmt::format("{}: {} for CPU {}{}\n", name, counted(result.diagnostics), model.name, other_cpus_text(text, model));
   }
   return fmt::format("{}: fine, {} for CPU {}{}{}\n", name, counted(result.program->ops.size(), "instruction"),
                      result.program->model->name, text.as_document() ? ", out of a document" : "",
@@ -110,8 +119,6 @@ std::string dropped_networks_note(const CheckResult& result) {
 
 nlohmann::ordered_json check_json(const std::string& path, const SourceText& text, const CheckResult& result,
                                   const CpuModel& model) {
-  nlohmann::ordered_json diagnostics = nlohmann::ordered_json::array();
-  for (const stl::Diagnostic& d : result.diagnostics) diagnostics.push_back(to_json(d, result.source));
   return {{"file", path},
           {"ok", result.program != nullptr},
           {"cpu", model.name},
@@ -120,7 +127,7 @@ nlohmann::ordered_json check_json(const std::string& path, const SourceText& tex
           {"encoding", text.encoding},
           {"instructions", result.program ? result.program->ops.size() : 0},
           {"left_out", text.parsed.left_out},
-          {"diagnostics", diagnostics}};
+          {"diagnostics", to_json(result.diagnostics, result.source)}};
 }
 
 }  // namespace s7200::tools

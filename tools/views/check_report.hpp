@@ -8,6 +8,11 @@
 
 namespace s7200::tools {
 
+nlohmann::ordered_json to_json(const stl::Diagnostics& diagnostics, const stl::SourceLines& source);
+
+/// `2 errors with 1 cause, 0 warnings`
+std::string counted(const stl::Diagnostics& diagnostics);
+
 /// One line: how many errors and warnings, and for which CPUs it is fine.
 std::string check_summary(const SourceText& text, const CheckResult& result, const CpuModel& model);
 

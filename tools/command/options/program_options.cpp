@@ -5,10 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <span>
-#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/options/input.hpp"
 #include "tools/command/terminal.hpp"
 
 namespace s7200::tools {
@@ -131,26 +131,11 @@ std::shared_ptr<const Program> ProgramOptions::load(SourceText text, int& exit_c
   return result.program;
 }
 
-namespace {
-
-/// What came through a pipe is gone when it has been read.
-std::optional<std::string> read_standard_input_once(std::string& why) {
-  static bool read = false;
-  if (std::exchange(read, true)) {
-    why = "it has been read already";
-    return {};
-  }
-  return read_standard_input(why);
-}
-
-}  // namespace
-
 std::optional<SourceText> read_program_text(const std::string& path, bool force_document) {
-  const bool from_input = is_standard_input(path);
-  const std::string name = from_input ? "standard input" : path;
-  std::string why;
-  const auto bytes = from_input ? read_standard_input_once(why) : read_file(path, why);
-  auto text = bytes ? read_source(*bytes, name, why, force_document) : std::nullopt;
+  std::string name, why;
+  const auto bytes = read_input(path, name);
+  if (!bytes) return {};
+  auto text = read_source(*bytes, name, why, force_document);
   if (!text) print_error(fmt::format("cannot read {}: {}", name, why));
   return text;
 }

@@ -1,0 +1,25 @@
+// What was read of a document, and what the comparison of its drawings with its STL has found.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "interpreter/program/ladder_compare.hpp"
+#include "interpreter/program/load.hpp"
+
+namespace s7200::tools {
+
+std::size_t count_statements(const stl::Source& source);
+
+/// The keys of an import but `document`. `output`: the file that was written, or nothing, and then `stl` is among the
+/// results.
+void add_import_results(nlohmann::ordered_json& results, const SourceText& text, const std::string& output,
+                        const std::string& stl);
+
+/// One line: how many networks are drawn, how many do what the STL does, and how much was found.
+std::string comparison_summary(const LadderComparison& comparison);
+
+/// The same and all diagnostics.
+void add_comparison(nlohmann::ordered_json& results, const LadderComparison& comparison);
+
+}  // namespace s7200::tools
