@@ -997,7 +997,8 @@ class JsonPage(Case):
         self.addCleanup(os.close, primary)
         self.addCleanup(os.close, secondary)
         plant = ["--dump", "VD20", "--dump", "VB0:4", "--fault", "flip:exchange=9", "--set", "VD100=16#7F000000"]
-        yield from (["check", echo, wrong], ["import", self.program(Files.DOCUMENT, "page.txt")], ["run", faulty, *plant],
+        yield from (["check", echo, wrong], ["import", self.program(Files.DOCUMENT, "page.txt")],
+                    ["import", "--compare", self.program(Files.DRAWING.replace("LD", "LDN"), "drawn.txt")], ["run", faulty, *plant],
                     ["check", EXPORTS / "broken.awl", EXPORTS / "pump_symbols.txt"], ["convert", SLAVE, "--to", "microdos"],
                     ["run", faulty, "--for", "20ms", "--realtime"], ["send", faulty, "01", "--timeout", "10ms", *plant],
                     ["master", faulty, "slave-id", "--timeout", "10ms", *plant],
@@ -1042,6 +1043,20 @@ class Files(Case):
         self.assertNotIn("prose", written)
         self.ends(FINE, "check", out)
         self.assertEqual(self.ends(FINE, "import", out).stdout, written)
+
+    DRAWING = "    │ I0.0             Q0.0\n1   ├─┤   ├──────────(     )\n    │\n2   ├────────────────( MEND  )\n\nLD I0.0\n= Q0.0\nMEND\n"
+
+    def test_drawings_are_read_and_set_against_the_stl(self):
+        page = self.program(self.DRAWING, "page.txt")
+        self.assertEqual(self.ends(FINE, "import", "--from", "ladder", page).stdout, "NETWORK 1\nLD      I0.0\n=       Q0.0\n\nNETWORK 2\nMEND\n")
+        self.assertEqual(self.ends(FINE, "import", "--compare", page).stdout,
+                         f"{page}: 2 networks drawn, 2 of them like the STL; 0 errors, 0 warnings\n")
+        other = self.program(self.DRAWING.replace("LD I0.0", "LDN I0.0"), "other.txt")
+        done = self.ends(FAILED, "import", "--compare", other)
+        self.assertIn(f"{other}:1:", done.stderr.replace(f"{other}:2:", f"{other}:1:"))
+        self.assertIn("runs under different conditions", done.stderr)
+        self.assertEqual(self.json(FAILED, "import", "--compare", other, "--json")["same"], 1)
+        self.assertIn("no ladder drawing", self.ends(FAILED, "import", "--from", "ladder", SLAVE).stderr)
 
     def test_import_leaves_existing_files_alone(self):
         document, out = self.program(self.DOCUMENT, "page.txt"), self.folder / "out.stl"
