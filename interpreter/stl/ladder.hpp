@@ -9,8 +9,8 @@
 //       │                                K5┤IN   OUT├VW0
 //       │                                    └────────┘
 //
-// Not documented, modelled so: no description of the drawings was found; the shapes are those of a published tip. A wire
-// that the page lost is an error and is not guessed at.
+// No description of these drawings was found: the shapes are those of a published tip. A wire that the page lost is an error
+// and is not guessed at.
 #pragma once
 
 #include <cstdint>
