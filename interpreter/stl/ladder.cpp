@@ -116,7 +116,7 @@ bool can_be_operands(const LadderRow& row, std::size_t rail) {
                       [](char32_t cell) { return (wire_sides(cell) & kUp) != 0; });
 }
 
-bool has_long_wire(const LadderRow& row) { return row.cells.find(U"───") != std::u32string::npos; }
+bool has_wire(const LadderRow& row) { return row.cells.find(U"──") != std::u32string::npos; }
 
 /// A rule across the page.
 bool is_rule(const LadderRow& row) {
@@ -160,7 +160,7 @@ class PageReader {
     if (!frame_.empty()) finish_frame();
     if (is_frame_top(row)) return begin_frame(std::move(row));
     if (is_rung(row) || is_rung(row = with_debris(std::move(row)))) return add_row(std::move(row));
-    if (!is_rule(row) && (has_long_wire(row) || is_only_wires(row))) return damaged_row(row);
+    if (!is_rule(row) && (has_wire(row) || is_only_wires(row))) return damaged_row(row);
     comments_.clear();
   }
 
@@ -243,8 +243,8 @@ class PageReader {
   void finish_network() {
     if (open_) {
       LadderNetwork& network = page_.networks.back();
-      if (damaged_) network.readable = false;
-      read_network(rows_, rail_, network, page_.diagnostics);
+      network.readable = !damaged_;
+      if (!damaged_) read_network(rows_, rail_, network, page_.diagnostics);
     } else if (const auto stray = std::ranges::find_if_not(rows_, is_only_wires); stray != rows_.end()) {
       complain(place_of(*stray, first_cell(*stray), 1), "this line of a drawing belongs to no network",
                "expected a rung with its number below it: 1   ├──");

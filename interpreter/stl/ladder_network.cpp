@@ -86,8 +86,8 @@ class NetworkReader {
       return std::pair(a.span.row, a.span.from) < std::pair(b.span.row, b.span.from);
     });
     claim_operands();
-    find_strays();
-    join_wires();
+    if (network_.readable) join_wires();   // what is damaged has loose ends
+    if (network_.readable) find_strays();  // and leaves its operands over
     if (!network_.readable) return;
     network_.rail = branches_of(graph(), [this](const Position& at, std::string message, std::string hint) {
       complain(at, std::move(message), std::move(hint));

@@ -100,7 +100,7 @@ TEST(Ladder, BranchesToOutputsSaveThePowerFlow) {
 }
 
 std::string box(const std::string& name, const std::string& pins) {
-  return "    │ I0.0                 " + name + "\n1   ├─┤   ├───────────────┤EN      │\n" + pins +
+  return "    │ I0.0                 " + name + "\n1   ├─┤   ├────────────────┤EN      │\n" + pins +
          "    │                      └────────┘\n";
 }
 
@@ -175,7 +175,7 @@ TEST(Ladder, DamageIsNamedWhereItIs) {
   EXPECT_EQ(complaint(with(kLamp, "/", "?")), "2: network 1: there is no contact ┤?├");
   EXPECT_EQ(complaint(with(kLamp, "(     )", "( FROB)")), "2: network 1: there is no coil 'FROB'");
   EXPECT_EQ(complaint(with(kLamp, "I0.1", "I0,1")), "1: network 1: 'I0,1' is not an operand");
-  EXPECT_EQ(complaint(with(kBranches, "    ├─┤   ├─────┤   ├──┘\n", "")).substr(0, 14), "6: network 1: ");
+  EXPECT_EQ(complaint(with(kBranches, "    ├─┤   ├─────┤   ├──┘\n", "")).substr(0, 14), "7: network 1: ");
   EXPECT_EQ(complaint(with(kBranches, "    ├─┤   ├─┘ ", "     ─┤   ├─┘ ")), "5: this line of a drawing has no power rail");
   EXPECT_EQ(complaint(with(kLamp, "    │\n", "3   ├─────(  END  )\n")),
             "3: network 3 follows network 1: network 2 is missing");
@@ -267,7 +267,7 @@ TEST(LadderComparison, DifferentOutputsAreNamedOnBothSides) {
 TEST(LadderComparison, AContactThatIsOffInOneOfManyValuesIsFound) {
   std::string operands = "    │", contacts = "1   ├", stl;
   for (int i = 0; i < 20; ++i) {
-    operands += " M" + std::to_string(i / 8) + "." + std::to_string(i % 8) + "  ";
+    operands += " M" + std::to_string(i / 8) + "." + std::to_string(i % 8) + " ";
     contacts += "─┤   ├";
     stl += std::string(i == 0 ? "LD" : "A") + " M" + std::to_string(i / 8) + "." + std::to_string(i % 8) + "\n";
   }
