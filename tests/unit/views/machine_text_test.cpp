@@ -17,7 +17,7 @@ std::string ports_of(const CpuModel& model, std::string_view text, std::uint8_t 
 
 TEST(MachineText, ACpuWithOnePortShowsOne) {
   EXPECT_EQ(ports_of(*find_cpu("224"), "LD SM0.1\nMOVB 9, SMB30\nMEND\n"),
-            "SMB30      16#09 = 2#00001001: Freeport, 9600 baud, 8N1\n"
+            "SMB30      16#09 = 2#00001001: Freeport, 9600 baud, 8 data bits, no parity, 1 stop bit\n"
             "receiver   on; event 8 is not attached; SMB2 = 16#00, parity error SM3.0 = 0\n"
             "transmitter idle; event 9 is not attached\n"
             "master     has sent nothing\n");
@@ -31,7 +31,7 @@ TEST(MachineText, ACpuWithTwoPortsShowsBothAndTheMasterWhereItIs) {
       "receiver   off: not in Freeport mode; event 8 is not attached; SMB2 = 16#00, parity error SM3.0 = 0\n"
       "transmitter idle; event 9 is not attached\n";
   const std::string port1 =
-      "SMB130     16#05 = 2#00000101: Freeport, 19200 baud, 8N1\n"
+      "SMB130     16#05 = 2#00000101: Freeport, 19200 baud, 8 data bits, no parity, 1 stop bit\n"
       "receiver   on; event 25 is not attached; SMB2 = 16#00, parity error SM3.0 = 0\n"
       "RCV        waits for the start of a message; event 24 → INT 0\n"
       "transmitter idle; event 26 is not attached\n";

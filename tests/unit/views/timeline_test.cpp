@@ -1,6 +1,7 @@
 // What `--timeline` shows of an exchange, and that it keeps no more than that.
 #include "tools/views/timeline.hpp"
 
+#include <array>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -97,7 +98,7 @@ TEST_F(TimelineOf, AnInterruptFindsItsEventHoweverMuchWasSentMeanwhile) {
 }
 
 TEST_F(TimelineOf, EachPortHasItsOwnRows) {
-  for (const std::uint8_t port : {0, 1, 1}) {
+  for (const std::uint8_t port : std::array<std::uint8_t, 3>{0, 1, 1}) {
     timeline_.record({.at = kMillisecond, .kind = TraceKind::CharacterSent, .byte = 0x41, .port = port});
     timeline_.record({.at = kMillisecond, .kind = TraceKind::CharacterIgnored, .byte = 0x42, .port = port});
   }

@@ -98,8 +98,7 @@ void ProgramOptions::add_files_to(CLI::App& app) {
            path = files.front();
            parts.insert(parts.end(), std::next(files.begin()), files.end());
          },
-         "STL file (.stl, .awl, .txt) or published document with STL in it, and the other files of its project: symbol "
-         "tables, data blocks, blocks; - is standard input")
+         "STL file (.stl, .awl, .txt) or published document, and the other files of its project; - is standard input")
       ->required();
 }
 
