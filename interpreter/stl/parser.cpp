@@ -196,12 +196,14 @@ const auto address = named<struct AddressRule, RawAddress>("an address") = (char
                                                                            no_case[address_letters] >> raw[+digit] >>
                                                                            -(lit('.') > bit_number) >> end_of_word;
 
-// "Pump 1", Motor_On, #count, and as Micro/WIN prints symbol and address together: "Pump 1":Q0.0, #count:LW2, *#next:*LD4
+// "Pump 1", Motor_On, #count, and as Micro/WIN prints symbol and address together: "Pump 1":Q0.0, #count:LW2, *#next:*LD4;
+// a symbol may stand for a constant, too: Request_Error:4
 const auto plain_name = -char_("&*") >> -lit('#') >> (letter | char_('_') | beyond_ascii) >> *word_character;
 const auto quoted_name = -char_("&*") >> lit('"') >> *(char_ - lit('"')) >> lit('"');
 const auto address_of_name = lit(':') >> plain_name >> -(lit('.') >> +digit);
+const auto constant_of_name = lit(':') >> -sign >> digit >> *(word_character | char_("#.+-"));
 const auto name = named<struct NameRule, RawWord>("a name") =
-    attr(Size::None) >> attr(Kind::Name) >> raw[(quoted_name | plain_name) >> -address_of_name];
+    attr(Size::None) >> attr(Kind::Name) >> raw[(quoted_name | plain_name) >> -(constant_of_name | address_of_name)];
 
 struct OperandRule {
   template <typename Context>
@@ -480,7 +482,7 @@ class LineReader {
     return Operand{std::move(*value), position(raw.text)};
   }
 
-  /// A name; if its address stands beside it, the address.
+  /// A name; if its address or constant stands beside it, that.
   std::optional<Operand> named_operand(std::string_view text, const Range& range) {
     const std::size_t name_end = text.find(text.find('"') < 2 ? "\":" : ":");
     const std::size_t colon = name_end == std::string_view::npos ? name_end : text.find(':', name_end);
@@ -492,7 +494,21 @@ class LineReader {
       if (!value) return std::nullopt;
       return Operand{std::move(*value), position(range), std::string(text.substr(0, colon))};
     }
+    if (const auto constant = constant_beside(text, colon)) {
+      auto value = value_of(*constant);
+      if (!value) return std::nullopt;
+      return Operand{std::move(*value), position(range), std::string(text.substr(0, colon))};
+    }
     return Operand{Name{std::string(text)}, position(range)};
+  }
+
+  static std::optional<RawOperand> constant_beside(std::string_view text, std::size_t colon) {
+    if (colon == std::string_view::npos) return std::nullopt;
+    RawOperand operand;
+    Place at = text.data() + colon + 1;
+    if (!x3::parse(at, end_of(text), grammar::operand >> x3::eoi, operand)) return std::nullopt;
+    const auto* word = boost::get<RawWord>(&operand.get());
+    return word && word->kind != Kind::Name ? std::optional(operand) : std::nullopt;
   }
 
   static Place end_of(std::string_view text) { return text.data() + text.size(); }
