@@ -257,6 +257,14 @@ TEST(Parser, ReadsTheAddressThatStandsBesideASymbol) {
   EXPECT_EQ(error("LD level:I0.9").message, "the bits of a byte are 0 to 7");
 }
 
+TEST(Parser, ReadsTheConstantThatStandsBesideASymbol) {
+  const auto beside = [](const char* text) { return statement(std::string("MOVW ") + text + ", VW0").operands.at(0); };
+  EXPECT_EQ(beside("Request_Error:4").value, statement("MOVW 4, VW0").operands.at(0).value);
+  EXPECT_EQ(beside("Request_Error:4").symbol, "Request_Error");
+  EXPECT_EQ(beside("\"Mask 1\":16#FF").value, statement("MOVW 16#FF, VW0").operands.at(0).value);
+  EXPECT_EQ(beside("#low:-5").value, statement("MOVW -5, VW0").operands.at(0).value);
+}
+
 TEST(Parser, ReadsOneOperandByItself) {
   std::string why;
   EXPECT_EQ(parse_operand("VB10", why)->value, OperandValue(Address{"V", Size::Byte, 10, 0}));

@@ -1,9 +1,9 @@
 // What `--timeline` shows of an exchange, and that it keeps no more than that.
 #include "tools/views/timeline.hpp"
 
-#include <array>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/slave_bench.hpp"

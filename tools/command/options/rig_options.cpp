@@ -53,8 +53,7 @@ void RigOptions::add_to(CLI::App& app) {
          "time of day at the start")
       ->type_name("\"YYYY-MM-DD HH:MM:SS\"");
   app.add_flag("--strict", strict_, "end with exit code 1 at the first run-time error of the program");
-  add_whole_number(app, "--port", settings_.port, {0, 1}, "the port of the PLC that all this is about", "0")
-      ->type_name("NUMBER");
+  add_whole_number(app, "--port", settings_.port, {0, 1}, "the port of the PLC that all this is about", "0");
   faults_.add_to(app);
   auto* trace = app.add_option("--trace", settings_.trace,
                                "write interrupts, characters, attachments and errors to FILE; - is standard output")
