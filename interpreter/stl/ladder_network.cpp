@@ -304,7 +304,7 @@ class NetworkReader {
     for (Placed& placed : elements_) {
       if (placed.span.row != row) column = 0;
       row = placed.span.row;
-      const auto [_, from, to] = placed.span;
+      const std::size_t from = placed.span.from, to = placed.span.to;
       const auto before = [&](std::size_t distance) { return from - std::min(from, distance); };
       switch (placed.element.kind) {
         case LadderElement::Kind::Contact:
