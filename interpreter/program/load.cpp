@@ -157,7 +157,7 @@ SourceKind kind_of(std::string_view text, bool force_document) {
   if (stl::is_block_export(text)) return SourceKind::Blocks;
   if (force_document || stl::has_routine_headings(text)) return SourceKind::Document;
   if (stl::is_status_chart(text)) return SourceKind::StatusChart;
-  if (stl::is_data_block(text)) return SourceKind::DataBlock;
+  if (stl::is_data_block(text, is_mnemonic)) return SourceKind::DataBlock;
   if (stl::is_symbol_table(text, is_mnemonic)) return SourceKind::SymbolTable;
   return stl::is_document(text, instruction_set()) ? SourceKind::Document : SourceKind::Listing;
 }
@@ -187,7 +187,14 @@ stl::ParseResult read_as(SourceKind kind, std::string_view text, const std::stri
 }  // namespace
 
 bool SourceText::is_program() const {
-  if (kind == SourceKind::Listing || kind == SourceKind::Document) return true;
+  if (kind == SourceKind::Document) return true;
+  if (kind == SourceKind::Listing)  // not if it is all comments, as the data block of a new project is
+    return std::ranges::any_of(parsed.source.lines,
+                               [](const stl::Line& line) {
+                                 return std::holds_alternative<stl::Statement>(line) ||
+                                        std::holds_alternative<stl::NetworkHead>(line);
+                               }) ||
+           !parsed.diagnostics.empty();
   const auto& blocks = parsed.source.blocks;
   return kind == SourceKind::Blocks && std::ranges::find(blocks, stl::Block::Kind::Main, &stl::Block::kind) != blocks.end();
 }

@@ -94,16 +94,21 @@ std::optional<DataLine::Value> value_of(std::string_view word, const Position& a
 
 }  // namespace
 
-bool is_data_block(std::string_view text) {
-  std::size_t data = 0, other = 0;
+bool is_data_block(std::string_view text, const std::function<bool(std::string_view word)>& is_mnemonic) {
+  std::size_t addresses = 0, values = 0, other = 0;
   for (const std::string& line : split_lines(text)) {
-    const std::string_view word = Words(line).next();
+    Words words(line);
+    const std::string_view word = words.next(), next = words.next();
     if (word.empty()) continue;
     const bool address = begins_with_v_address(word);
-    if (data + other == 0 && !address) return false;
-    ++(address || begins_with_value(word) ? data : other);
+    const bool symbol = !address && !next.empty() && begins_with_value(next) && !is_mnemonic(upper_case(word));
+    if (addresses + values + other == 0 && !address && !symbol) return false;
+    if (address)
+      ++addresses;
+    else
+      ++(symbol || begins_with_value(word) ? values : other);
   }
-  return data > 0 && data >= other;
+  return addresses > 0 && addresses + values >= other;
 }
 
 void read_data_line(std::string_view line, std::uint32_t number, ParseResult& result) {

@@ -7,6 +7,7 @@
 // and whether they fit is for program/data_block to say.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -14,8 +15,9 @@
 
 namespace s7200::stl {
 
-/// Whether `text` (UTF-8) is a data block: most of its lines begin with an address of V memory or with a value.
-bool is_data_block(std::string_view text);
+/// Whether `text` (UTF-8) is a data block: most of its lines begin with an address of V memory, with a value, or with a
+/// symbol and a value; at least one has an address. `is_mnemonic` tells symbols from instructions.
+bool is_data_block(std::string_view text, const std::function<bool(std::string_view word)>& is_mnemonic);
 
 ParseResult read_data_block(std::string_view text, std::string name);
 

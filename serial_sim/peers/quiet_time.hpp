@@ -11,16 +11,15 @@
 namespace s7200::serial {
 
 // More than the time-outs of programs that look for 3.5 characters of silence with a timer of whole milliseconds.
-inline constexpr int kQuietCharacters = 7;
+inline constexpr int kQuietSilences = 2;  ///< of 3.5 characters
+inline constexpr int kQuietCharacters = 7 * kQuietSilences / 2;
 inline constexpr Time kQuietMilliseconds = 10;
 
 constexpr Time default_quiet(const SerialFormat& format) {
-  return kQuietCharacters * format.silence() * 2 / 7 + kQuietMilliseconds * kMillisecond;
+  return kQuietSilences * format.silence() + kQuietMilliseconds * kMillisecond;
 }
 
 /// For help texts and reports.
-inline std::string default_quiet_text() {
-  return fmt::format("{} characters + {}ms", kQuietCharacters, kQuietMilliseconds);
-}
+inline std::string default_quiet_text() { return fmt::format("{} characters + {}ms", kQuietCharacters, kQuietMilliseconds); }
 
 }  // namespace s7200::serial

@@ -51,7 +51,8 @@ def s7200(*arguments, **options):
 def file_outputs(verb):
     """Every option of a verb that writes a file, as its help tells."""
     text = s7200(verb, "--help").stdout.decode()
-    return set(re.findall(r"(?m)^  (-[-\w]+)(?:,--\w+)? FILE\S*(?: \.\.\.)?\s+.*\b(?:write|written)\b", text))
+    return set(re.findall(r"(?m)^  (-[-\w]+)(?:,--\w+)? FILE\S*(?: \.\.\.)?(?: (?:Excludes|Needs): .*)?\s+.*\b(?:write|written)\b",
+                          text))
 
 
 class Case(unittest.TestCase):
@@ -102,12 +103,14 @@ class Case(unittest.TestCase):
         records = {"run.trace": "--trace", "outputs.csv": "--output", "line.vcd": "--capture", "line.pcap": "--capture",
                    "memory.json": "--memory"}
         return {"run": records, "send": records, "master": records, "debug": records, "import": {"listing.stl": "-o"},
+                "convert": {"converted.stl": "-o"},
                 "test": {"junit.xml": "--junit", "transcript.yaml": "--record"}}.get(verb, {})
 
     def command(self, verb, out=None):
         """A command of each verb that does something; with all its files, if `out` is a folder for them."""
         files = [] if out is None else [word for name, option in self.outputs(verb).items() for word in (option, out / name)]
-        return {"check": ["check", self.echo], "import": ["import", self.page], "run": ["run", self.blinking, "--for", "2s"],
+        return {"check": ["check", self.echo], "import": ["import", self.page],
+                "convert": ["convert", self.echo, "--to", "iec"], "run": ["run", self.blinking, "--for", "2s"],
                 "send": ["send", self.echo, "ab", "cd"], "test": ["test", self.good], "master": ["master", SLAVE, *SESSION],
                 "debug": ["debug", self.echo, "-x", "step 3; regs"], "instructions": ["instructions"], "times": ["times"],
                 "bench": ["bench", "--each", "1ms"]}[verb] + files
@@ -609,7 +612,7 @@ class Files(Case):
                 os.link(path, kept)
                 before = kept.read_bytes()
                 longer = {"run": ["--dump", "VB0"], "send": ["ef"], "master": ["read", "40009"]}.get(verb, [])
-                if verb in ("import", "test"):
+                if verb in ("import", "convert", "test"):
                     longer = [] if option == "--junit" else ["--force"]
                 self.ends(FINE, *command, *longer, option, path)
                 self.assertEqual(kept.read_bytes(), before)

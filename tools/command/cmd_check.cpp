@@ -105,8 +105,7 @@ void add_check(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CheckOptions>();
   CLI::App* verb = app.add_subcommand("check", "check STL programs: every error with its place and what to do about it");
   verb->add_option("PROGRAM", options->paths,
-                   "STL files or published documents; symbol tables, data blocks and blocks among them belong to all; - is "
-                   "standard input")
+                   "STL files or published documents, with symbol tables and data blocks for all; - is standard input")
       ->required();
   options->cpu.add_to(*verb);
   verb->add_option("--no-warn", options->unwanted, "leave out a warning, see below (repeatable)")

@@ -81,10 +81,21 @@ TEST(DataBlock, AByteIsSetOnce) {
 }
 
 TEST(DataBlock, IsToldFromAListing) {
-  EXPECT_TRUE(stl::is_data_block("// data\nVB0 1\n2, 3\nVW10 5\n"));
-  EXPECT_FALSE(stl::is_data_block("LD SM0.0\nMEND\n"));
-  EXPECT_FALSE(stl::is_data_block("1, 2, 3\n"));
-  EXPECT_FALSE(stl::is_data_block(""));
+  const auto is_mnemonic = [](std::string_view word) { return word == "NETWORK" || find_instruction(word); };
+  for (const char* text : {"// data\nVB0 1\n2, 3\nVW10 5\n", "Delay 25\nVB300 1\n", "VB300 1\nDelay 25\n\"Per cent\" 2.5\n",
+                           "\"Delay 1\" 25\nVB300 1\n"})
+    EXPECT_TRUE(stl::is_data_block(text, is_mnemonic)) << text;
+  for (const char* text : {"LD SM0.0\nMEND\n", "1, 2, 3\n", "", "Delay 25\n", "JMP 5\nVB300 1\n", "NETWORK 1\nVB0 1\n"})
+    EXPECT_FALSE(stl::is_data_block(text, is_mnemonic)) << text;
+}
+
+TEST(DataBlock, OneThatIsAllCommentsBelongsToTheProgramItIsGivenWith) {
+  std::string why;
+  std::vector<SourceText> files{*read_source("// data page\n//\n", "d", why),
+                                *read_source("LD SM0.0\n= Q0.0\nMEND\n", "p", why)};
+  EXPECT_FALSE(files[0].is_program());
+  const CheckResult result = check(join_files(std::move(files)).parsed, cpu214(), default_times(cpu214()));
+  EXPECT_TRUE(result.program) << render(result.diagnostics, result.source, false);
 }
 
 TEST(DataBlock, NamesOfSymbolsStandForItsAddresses) {
