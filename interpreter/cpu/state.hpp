@@ -80,7 +80,7 @@ struct SavedContext {
   bool eno = true;
   std::array<std::uint8_t, 16> accumulators{};
   std::uint8_t smb1 = 0;
-  std::uint8_t call_depth = 0;  ///< not restored from here: it is where an interrupt routine's own calls begin
+  std::uint8_t call_depth = 0;  ///< where an interrupt routine's own calls begin
   bool operator==(const SavedContext&) const = default;
 };
 

@@ -7,9 +7,8 @@
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/stl_output.hpp"
 #include "tools/command/terminal.hpp"
-#include "tools/host/interruption.hpp"
-#include "tools/host/written_files.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
@@ -22,19 +21,6 @@ struct ConvertOptions {
 
   bool to_file() const { return !output.empty() && output != "-"; }
 };
-
-int write(const ConvertOptions& options, const std::string& text) {
-  WrittenFiles files;
-  files.reads(options.program.path);
-  for (const std::string& part : options.program.parts) files.reads(part);
-  std::string why;
-  const auto destination = files.claim("-o", options.output, {"STL"}, options.force ? Replace::Judged : Replace::Never, why);
-  if (!destination) return print_error(why), kUnusable;
-  catch_interruption();  // the file is written to its end
-  if (write_result(*destination, text, why)) return kFine;
-  print_error(why);
-  return kUnusable;
-}
 
 void print_json(const ConvertOptions& options, const SourceText& source, const std::string& text) {
   auto results = results_of("convert");
@@ -59,7 +45,9 @@ int run_convert(const ConvertOptions& options) {
   }
   if (notation != Notation::MicroWin && !source->parsed.source.data.empty())
     print_note("the data block is not part of a listing: give its file beside the new one");
-  const int exit_code = options.to_file() ? write(options, *text) : kFine;
+  std::vector<std::string> inputs = options.program.parts;
+  inputs.push_back(options.program.path);
+  const int exit_code = options.to_file() ? write_stl(options.output, inputs, options.force, *text) : kFine;
   if (exit_code == kFine && options.json)
     print_json(options, *source, *text);
   else if (!options.to_file())

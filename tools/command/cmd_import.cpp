@@ -9,9 +9,8 @@
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/input.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/stl_output.hpp"
 #include "tools/command/terminal.hpp"
-#include "tools/host/interruption.hpp"
-#include "tools/host/written_files.hpp"
 #include "tools/views/import_report.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -24,18 +23,6 @@ struct ImportOptions {
   bool compare = false, force = false, json = false;
   Repairs repairs;
 };
-
-int write(const ImportOptions& options, const std::string& text) {
-  WrittenFiles files;
-  files.reads(options.document);
-  std::string why;
-  const auto destination = files.claim("-o", options.output, {"STL"}, options.force ? Replace::Judged : Replace::Never, why);
-  if (!destination) return print_error(why), kUnusable;
-  catch_interruption();  // the file is written to its end
-  if (write_result(*destination, text, why)) return kFine;
-  print_error(why);
-  return kUnusable;
-}
 
 void print_json(const ImportOptions& options, const SourceText& text, const std::string& stl) {
   auto results = results_of("import");
@@ -81,7 +68,7 @@ int run_import(const ImportOptions& options) {
       print_file(stl);
     return kFine;
   }
-  const int exit_code = write(options, stl);
+  const int exit_code = write_stl(options.output, {options.document}, options.force, stl);
   if (exit_code == kFine && options.json)
     print_json(options, *text, stl);
   else if (exit_code == kFine)
