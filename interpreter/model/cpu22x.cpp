@@ -121,7 +121,11 @@ const CpuModel& cpu226r1() {
 }
 
 const CpuModel& cpu226xm() {
-  static const CpuModel kModel = release1("226XM", kCpu226xm, {10240, 550, 64}, 2, 8192, 0x90);
+  static const CpuModel kModel = [] {
+    CpuModel model = release1("226XM", kCpu226xm, {10240, 550, 64}, 2, 8192, 0x90);
+    model.subroutines = 128;
+    return model;
+  }();
   return kModel;
 }
 

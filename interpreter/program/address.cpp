@@ -8,6 +8,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/operands.hpp"
 #include "interpreter/stl/parser.hpp"
+#include "interpreter/stl/symbols.hpp"
 
 namespace s7200 {
 namespace {
@@ -20,6 +21,15 @@ std::optional<stl::OperandValue> parse_operand(std::string_view text) {
   const auto* statement = std::get_if<stl::Statement>(&parsed.source.lines[0]);
   if (!statement || statement->operands.size() != 1) return {};
   return statement->operands[0].value;
+}
+
+/// An address as written, or that of a symbol.
+std::optional<stl::Address> find_address(std::string_view text, const AddressSpace& space) {
+  const auto operand = parse_operand(text);
+  if (const auto* address = operand ? std::get_if<stl::Address>(&*operand) : nullptr) return *address;
+  const stl::Symbol* symbol = space.symbols ? stl::find_symbol(*space.symbols, text) : nullptr;
+  const auto* address = symbol && symbol->value ? std::get_if<stl::Address>(&*symbol->value) : nullptr;
+  return address ? std::optional(*address) : std::nullopt;
 }
 
 std::uint32_t place_of(const MemoryRange& range) {
@@ -51,14 +61,13 @@ std::string MemoryRange::name_of(std::uint32_t i) const {
   return address_text(area, width, number + i * step, bit);
 }
 
-std::optional<MemoryRange> parse_range(std::string_view text, const CpuModel& model, std::string& why) {
-  const std::size_t colon = text.find(':');
-  const auto operand = parse_operand(text.substr(0, colon));
-  const auto* address = operand ? std::get_if<stl::Address>(&*operand) : nullptr;
+std::optional<MemoryRange> parse_range(std::string_view text, const AddressSpace& space, std::string& why) {
+  const std::size_t colon = text.find(':', text.starts_with('"') ? text.find('"', 1) : 0);
+  const auto address = find_address(text.substr(0, colon), space);
   const auto area = address ? area_named(address->area) : std::nullopt;
   if (!area || !names_width(*address, *area)) {
-    why =
-        fmt::format("'{}' is not an address; write for example VB100, VW100:4, M31.7, AC0, VD20:real", stl::shortened(text));
+    why = fmt::format("'{}' is not an address{}; write for example VB100, VW100:4, M31.7, AC0, VD20:real",
+                      stl::shortened(text), space.symbols && !space.symbols->empty() ? " or a symbol of one" : "");
     return {};
   }
   MemoryRange range{*area, width_of(*address, *area).value_or(Width::Double), address->number, address->bit};
@@ -67,11 +76,11 @@ std::optional<MemoryRange> parse_range(std::string_view text, const CpuModel& mo
                       stl::shortened(text));
     return {};
   }
-  const std::uint64_t size = model.size_of(*area);
+  const std::uint64_t size = space.model.size_of(*area);
   const std::uint64_t needed = info(*area).element != 0 ? std::uint64_t{range.number} + range.count
                                                         : range.number + std::uint64_t{range.count} * bytes_of(range.width);
   if (needed > size) {
-    why = fmt::format("'{}' does not exist on CPU {}: {} memory has {} {}", stl::shortened(text), model.name,
+    why = fmt::format("'{}' does not exist on CPU {}: {} memory has {} {}", stl::shortened(text), space.model.name,
                       info(*area).name, size, info(*area).element ? "elements" : "bytes");
     return {};
   }
@@ -79,27 +88,32 @@ std::optional<MemoryRange> parse_range(std::string_view text, const CpuModel& mo
   return range;
 }
 
-std::optional<Assignment> parse_assignment(std::string_view text, const CpuModel& model, std::string& why) {
-  const std::size_t equals = text.find('=');
-  const auto place = parse_range(text.substr(0, equals), model, why);
-  if (!place) return {};
-  const auto value = equals == std::string_view::npos ? std::nullopt : parse_operand(text.substr(equals + 1));
-  if (value && place->count == 1) {
-    if (const auto* real = std::get_if<stl::Real>(&*value); real && place->width == Width::Double) {
-      Assignment assignment{*place, std::bit_cast<std::uint32_t>(real->value)};
-      assignment.place.real = true;
-      return assignment;
-    }
-    const int bits = place->width == Width::Bit ? 1 : 8 * static_cast<int>(bytes_of(place->width));
-    const auto* integer = std::get_if<stl::Integer>(&*value);
-    if (integer && place->real) return Assignment{*place, std::bit_cast<std::uint32_t>(static_cast<float>(integer->value))};
-    const std::int64_t lowest = bits == 1 ? 0 : -(std::int64_t{1} << (bits - 1));
-    if (integer && integer->value >= lowest && integer->value < (std::int64_t{1} << bits))
-      return Assignment{*place, static_cast<std::uint32_t>(integer->value)};
+std::optional<Assignment> parse_value(const MemoryRange& place, std::string_view text) {
+  const auto value = parse_operand(text);
+  if (!value || place.count != 1) return {};
+  if (const auto* real = std::get_if<stl::Real>(&*value); real && place.width == Width::Double) {
+    Assignment assignment{place, std::bit_cast<std::uint32_t>(real->value)};
+    assignment.place.real = true;
+    return assignment;
   }
-  why = fmt::format("'{}': write one address, =, and a value that fits it, for example VW100=5 or M31.7=1",
-                    stl::shortened(text));
-  return {};
+  const auto* integer = std::get_if<stl::Integer>(&*value);
+  if (!integer) return {};
+  if (place.real) return Assignment{place, std::bit_cast<std::uint32_t>(static_cast<float>(integer->value))};
+  const int bits = place.width == Width::Bit ? 1 : 8 * static_cast<int>(bytes_of(place.width));
+  const std::int64_t lowest = bits == 1 ? 0 : -(std::int64_t{1} << (bits - 1));
+  if (integer->value < lowest || integer->value >= (std::int64_t{1} << bits)) return {};
+  return Assignment{place, static_cast<std::uint32_t>(integer->value)};
+}
+
+std::optional<Assignment> parse_assignment(std::string_view text, const AddressSpace& space, std::string& why) {
+  const std::size_t equals = text.find('=', text.starts_with('"') ? text.find('"', 1) : 0);
+  const auto place = parse_range(text.substr(0, equals), space, why);
+  if (!place) return {};
+  const auto assignment = equals == std::string_view::npos ? std::nullopt : parse_value(*place, text.substr(equals + 1));
+  if (!assignment)
+    why = fmt::format("'{}': write one address, =, and a value that fits it, for example VW100=5 or M31.7=1",
+                      stl::shortened(text));
+  return assignment;
 }
 
 }  // namespace s7200

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "interpreter/model/cpu_model.hpp"
+#include "interpreter/program/program.hpp"
 
 namespace s7200 {
 
@@ -25,9 +26,18 @@ struct MemoryRange {
   std::string name_of(std::uint32_t i) const;
 };
 
-/// `VB0:16`, `M31.7`, `AC0`, `T5`, `VD20:real`, `VD20:4:real`. Bits have no count. Returns nothing and sets `why` if the
-/// text is not an address of this CPU.
-std::optional<MemoryRange> parse_range(std::string_view text, const CpuModel& model, std::string& why);
+/// Where addresses are looked up: in the areas of a CPU, and among the symbols of its program if there is one.
+struct AddressSpace {
+  AddressSpace(const CpuModel& of_cpu) : model(of_cpu) {}
+  AddressSpace(const Program& program) : model(*program.model), symbols(&program.source.symbols) {}
+
+  const CpuModel& model;
+  const std::vector<stl::Symbol>* symbols = nullptr;
+};
+
+/// `VB0:16`, `M31.7`, `AC0`, `T5`, `VD20:real`, `VD20:4:real`; `Speed`, `"Pump 1"` for a symbol's address. Bits have no
+/// count. Returns nothing and sets `why` if the text is not an address of this CPU.
+std::optional<MemoryRange> parse_range(std::string_view text, const AddressSpace& space, std::string& why);
 
 struct Assignment {
   MemoryRange place;  ///< real if the value was written as one
@@ -35,6 +45,9 @@ struct Assignment {
 };
 
 /// `VW100=5`, `VB0=16#FF`, `I0.3=1`, `VD4=1.5`, `VD4:real=2`.
-std::optional<Assignment> parse_assignment(std::string_view text, const CpuModel& model, std::string& why);
+std::optional<Assignment> parse_assignment(std::string_view text, const AddressSpace& space, std::string& why);
+
+/// The value alone, for a place that is known.
+std::optional<Assignment> parse_value(const MemoryRange& place, std::string_view value);
 
 }  // namespace s7200

@@ -322,6 +322,9 @@ class Checker {
     op.body = run_with_parameters;
     program.parameters.insert(program.parameters.end(), parameters.begin(), parameters.end());
     program.uses_local_memory = true;
+    for (const Parameter& parameter : parameters)
+      if (parameter.real && !parameter.actual.pointer && parameter.actual.at < image::kConstants)
+        program.reals.push_back(parameter.actual.at);
   }
 
   Op decode(std::uint32_t i, const ProgramStructure& structure) {

@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "interpreter/program/program.hpp"
 #include "interpreter/base/diagnostic.hpp"
+#include "interpreter/program/program.hpp"
 #include "interpreter/stl/parser.hpp"
 
 namespace s7200 {

@@ -161,8 +161,7 @@ std::string declarations_text(const std::vector<stl::Variable>& variables) {
 
 std::string hex_text(const std::string& bytes) {
   std::string text;
-  for (const char byte : bytes)
-    text += fmt::format("{}16#{:X}", text.empty() ? "" : ", ", static_cast<unsigned char>(byte));
+  for (const char byte : bytes) text += fmt::format("{}16#{:X}", text.empty() ? "" : ", ", static_cast<unsigned char>(byte));
   return text;
 }
 
@@ -170,6 +169,11 @@ std::string data_text(const std::vector<stl::DataLine>& data) {
   if (data.empty()) return {};
   std::string text = "DATA_BLOCK DB1:DB1\nBEGIN\n";
   for (const stl::DataLine& line : data) {
+    const std::string comment = line.comment.empty() ? "" : "//" + line.comment;
+    if (line.only_comment()) {
+      text += comment + "\n";
+      continue;
+    }
     std::string values;
     for (const stl::DataLine::Value& value : line.values) {
       if (!values.empty()) values += ", ";
@@ -180,7 +184,8 @@ std::string data_text(const std::vector<stl::DataLine>& data) {
       else
         values += stl::to_text(stl::Operand{std::get<stl::Integer>(value.value), {}});
     }
-    text += fmt::format("{} {}\n", line.address ? stl::to_text(*line.address) : "", values);
+    text += fmt::format("{} {}{}{}\n", line.address ? stl::to_text(*line.address) : "", values, comment.empty() ? "" : "  ",
+                        comment);
   }
   return text + "END_DATA_BLOCK\n";
 }
@@ -201,14 +206,16 @@ std::string blocks_text(const stl::Source& source) {
   std::string text;
   for (const Routine& routine : routines) {
     const BlockWords& of_kind = words(routine.block.kind);
-    text +=
-        fmt::format("{} {}:{}{}\nTITLE={}\n{}BEGIN\n", of_kind.keyword, quoted_if_needed(routine.block.name),
-                    of_kind.letters, routine.block.number, routine.block.title, declarations_text(routine.block.variables));
-    stl::Source part;
-    for (const stl::Line& line : routine.lines) {
-      part.lines.push_back(line);
-      if (auto* statement = std::get_if<stl::Statement>(&part.lines.back())) name_blocks(*statement, routines);
-    }
+    text += fmt::format("{} {}:{}{}\nTITLE={}\n", of_kind.keyword, quoted_if_needed(routine.block.name), of_kind.letters,
+                        routine.block.number, routine.block.title);
+    const auto first = std::ranges::find_if_not(
+        routine.lines, [](const stl::Line& line) { return std::holds_alternative<stl::CommentLine>(line); });
+    stl::Source comment, part;
+    comment.lines.assign(routine.lines.begin(), first);
+    part.lines.assign(first, routine.lines.end());
+    text += stl::to_text(comment) + declarations_text(routine.block.variables) + "BEGIN\n";
+    for (stl::Line& line : part.lines)
+      if (auto* statement = std::get_if<stl::Statement>(&line)) name_blocks(*statement, routines);
     text += stl::to_text(part) + fmt::format("END_{}\n", of_kind.keyword);
   }
   return text + data_text(source.data);
@@ -269,6 +276,8 @@ std::optional<std::string> convert(stl::ParseResult& parsed, Notation notation) 
   stl::Source source = parsed.source;
   for (stl::Line& line : source.lines)
     if (auto* statement = std::get_if<stl::Statement>(&line)) leave_out_symbols(*statement, notation);
+  for (stl::DataLine& line : source.data)
+    if (line.address) line.address->symbol.clear();
   if (notation == Notation::MicroWin) return blocks_text(source);
   for (stl::Line& line : source.lines) {
     auto* statement = std::get_if<stl::Statement>(&line);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <optional>
+#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/operands.hpp"
@@ -39,16 +40,23 @@ class DataPlacing {
   }
 
   void place(const stl::DataLine& line) {
+    if (line.only_comment()) return;
+    const bool first = std::exchange(first_, false);
     if (line.address) {
       width_ = width_of_line(*line.address);
       next_ = width_ ? std::get<stl::Address>(line.address->value).number : 0;
-    } else if (&line == source_.data.data()) {
+    } else if (first) {
       error(line.position, "the first line of a data block has no address",
             "begin it with the address of its first value, VB0");
     }
     if (!width_) return;
-    for (const stl::DataLine::Value& value : line.values)
-      if (!place(value, line)) return;
+    for (const stl::DataLine::Value& value : line.values) {
+      const auto bytes = bytes_of_value(value);
+      if (!bytes)
+        next_ += bytes_of(*width_);
+      else if (!put(*bytes, value.position, line))
+        return;
+    }
   }
 
   std::optional<Width> width_of_line(const stl::Operand& written) {
@@ -74,34 +82,36 @@ class DataPlacing {
     return {};
   }
 
-  /// False after a message.
-  bool place(const stl::DataLine::Value& value, const stl::DataLine& line) {
+  /// As they will lie in memory; nothing after a message.
+  std::optional<std::string> bytes_of_value(const stl::DataLine::Value& value) {
+    const auto refuse = [&](std::string message, std::string hint) {
+      error(value.position, std::move(message), std::move(hint));
+      return std::nullopt;
+    };
     if (const auto* text = std::get_if<stl::Text>(&value.value)) {
-      if (*width_ != Width::Byte)
-        return error(value.position, "a text is set from a byte on", "begin the line with VB and its number"), false;
-      return put(text->bytes, value.position, line);
+      if (*width_ != Width::Byte) return refuse("a text is set from a byte on", "begin the line with VB and its number");
+      return text->bytes;
     }
     std::uint32_t bits = 0;
     if (const auto* real = std::get_if<stl::Real>(&value.value)) {
       if (*width_ != Width::Double)
-        return error(value.position, "a real number needs a double word", "begin the line with VD and its number"), false;
+        return refuse("a real number needs a double word", "begin the line with VD and its number");
       bits = std::bit_cast<std::uint32_t>(real->value);
     } else {
       const std::int64_t number = std::get<stl::Integer>(value.value).value;
       const std::int64_t values = std::int64_t{1} << (8 * bytes_of(*width_));
       if (number < -values / 2 || number >= values)
-        return error(
-                   value.position,
-                   fmt::format("{} does not fit in {} byte{}", number, bytes_of(*width_), bytes_of(*width_) == 1 ? "" : "s"),
-                   "begin the line with VW for words, with VD for double words"),
-               false;
+        return refuse(
+            fmt::format("{} does not fit in {} byte{}", number, bytes_of(*width_), bytes_of(*width_) == 1 ? "" : "s"),
+            "begin the line with VW for words, with VD for double words");
       bits = static_cast<std::uint32_t>(number);
     }
     std::string bytes;
     for (std::uint32_t shift = 8 * bytes_of(*width_); shift > 0; shift -= 8) bytes += static_cast<char>(bits >> (shift - 8));
-    return put(bytes, value.position, line);
+    return bytes;
   }
 
+  /// False after a message.
   bool put(std::string_view bytes, const stl::Position& at, const stl::DataLine& line) {
     if (next_ + bytes.size() > bytes_.size()) {
       error(at,
@@ -133,6 +143,7 @@ class DataPlacing {
   stl::Diagnostics& diagnostics_;
   std::vector<std::uint8_t> bytes_;
   std::vector<const stl::DataLine*> set_by_;
+  bool first_ = true;           // line with values
   std::optional<Width> width_;  // of the line that is being placed; nothing after an error
   std::uint64_t next_ = 0;
 };

@@ -1,7 +1,8 @@
 // From drawn networks to STL: which instruction a contact, a coil or a box stands for.
 //
-// A box with a result of its own becomes a move and an instruction that changes the result, as in the STL beside the published
-// drawings: IN1 and IN2 of ADD_I give MOVW IN1, OUT and +I IN2, OUT. Where OUT is one of the inputs, no move is needed.
+// A box with a result of its own becomes a move and an instruction that changes the result, as in the STL beside the
+// published drawings: IN1 and IN2 of ADD_I give MOVW IN1, OUT and +I IN2, OUT. Where OUT is one of the inputs, no move is
+// needed.
 #pragma once
 
 #include <optional>

@@ -6,7 +6,10 @@
 #include <cstdlib>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <set>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "interpreter/model/ports.hpp"
@@ -40,9 +43,7 @@ class Flow {
       on = !in_segment && on_after(i, on);
       ways_.push_back(ways_from(i));
     }
-    comes_from_.resize(count_);
-    for (std::uint32_t i = 0; i < count_; ++i)
-      for (const std::uint32_t next : ways_[i].to) comes_from_[next].push_back(i);
+    find_necessary();
   }
 
   /// The head of an op's routine; 0 for the main program.
@@ -51,9 +52,7 @@ class Flow {
 
   /// Whether both belong to the same routine and it never ends between the first and the second.
   bool leads_to(std::uint32_t first, std::uint32_t second) const {
-    if (head_[first] != head_[second] || ways_[first].end) return false;
-    const std::vector<bool> around = ways_around(second);
-    return std::ranges::none_of(ways_[first].to, [&](std::uint32_t next) { return around[next]; });
+    return head_[first] == head_[second] && first != second && necessary(second, first);
   }
 
   /// The ops that may be executed between the first and the second.
@@ -72,7 +71,7 @@ class Flow {
   }
 
   /// Whether every scan executes it.
-  bool in_every_scan(std::uint32_t op) { return !ways_around(op)[head_[op]] && routine_in_every_scan(head_[op]); }
+  bool in_every_scan(std::uint32_t op) { return necessary(op, head_[op]) && routine_in_every_scan(head_[op]); }
 
  private:
   struct Ways {
@@ -115,20 +114,73 @@ class Flow {
     return on_[i] ? Ways{{}, true} : Ways{{i + 1}, true};
   }
 
-  /// The ops from which the routine may end without executing `op`.
-  std::vector<bool> ways_around(std::uint32_t op) const {
-    std::vector<bool> around(count_);
-    std::vector<std::uint32_t> open;
-    for (std::uint32_t i = 0; i < count_; ++i)
-      if (ways_[i].end) open.push_back(i);
-    while (!open.empty()) {
-      const std::uint32_t i = open.back();
-      open.pop_back();
-      if (i == op || around[i]) continue;
-      around[i] = true;
-      open.insert(open.end(), comes_from_[i].begin(), comes_from_[i].end());
+  /// Whether no way from `op` to the end of its routine leads around `other`; each op is on its own ways.
+  bool necessary(std::uint32_t other, std::uint32_t op) const {
+    return !ends_[op] || (ends_[other] && span_[other].first <= span_[op].first && span_[op].second <= span_[other].second);
+  }
+
+  /// The tree of post-dominators (Cooper, Harvey, Kennedy, "A Simple, Fast Dominance Algorithm", 2001): the parent of an op
+  /// is the next one that all its ways to the end have in common, `count_` the end of all routines.
+  void find_necessary() {
+    constexpr std::uint32_t kUnknown = 0xFFFF'FFFF;
+    const std::vector<std::uint32_t> order = from_the_end();
+    std::vector<std::uint32_t> parent(count_ + 1, kUnknown), rank(count_ + 1, 0);
+    for (std::uint32_t i = 0; i < order.size(); ++i) rank[order[i]] = i;
+    parent[count_] = count_;
+    const auto meet = [&](std::uint32_t a, std::uint32_t b) {
+      while (a != b) (rank[a] > rank[b] ? a : b) = parent[rank[a] > rank[b] ? a : b];
+      return a;
+    };
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const std::uint32_t op : std::span(order).subspan(1)) {
+        std::uint32_t common = ways_[op].end ? count_ : kUnknown;
+        for (const std::uint32_t next : ways_[op].to)
+          if (parent[next] != kUnknown) common = common == kUnknown ? next : meet(common, next);
+        changed |= std::exchange(parent[op], common) != common;
+      }
     }
-    return around;
+    number_tree(order, parent);
+  }
+
+  /// The end and all ops with a way to it, each after one that it leads to.
+  std::vector<std::uint32_t> from_the_end() const {
+    std::vector<std::vector<std::uint32_t>> comes_from(count_ + 1);
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      for (const std::uint32_t next : ways_[i].to) comes_from[next].push_back(i);
+      if (ways_[i].end) comes_from[count_].push_back(i);
+    }
+    std::vector<bool> seen(count_ + 1);
+    std::vector<std::uint32_t> order;
+    std::vector<std::pair<std::uint32_t, std::size_t>> open{{count_, 0}};  // op, how many of those before it are done
+    seen[count_] = true;
+    while (!open.empty()) {
+      auto& [op, done] = open.back();
+      if (done == comes_from[op].size()) {
+        order.push_back(op);
+        open.pop_back();
+      } else if (const std::uint32_t before = comes_from[op][done++]; !seen[before]) {
+        seen[before] = true;
+        open.emplace_back(before, 0);
+      }
+    }
+    std::ranges::reverse(order);
+    return order;
+  }
+
+  /// Numbers the ops so that those below an op in the tree have the numbers of its span.
+  void number_tree(const std::vector<std::uint32_t>& order, const std::vector<std::uint32_t>& parent) {
+    ends_.assign(count_ + 1, false);
+    span_.assign(count_ + 1, {0, 0});
+    std::vector<std::uint32_t> below(count_ + 1, 1), next(count_ + 1, 0);
+    for (const std::uint32_t op : std::views::reverse(std::span(order).subspan(1))) below[parent[op]] += below[op];
+    for (const std::uint32_t op : order) {
+      const std::uint32_t first = op == count_ ? 0 : next[parent[op]];
+      ends_[op] = true;
+      span_[op] = {first, first + below[op] - 1};
+      if (op != count_) next[parent[op]] = first + below[op];
+      next[op] = first + 1;
+    }
   }
 
   bool routine_in_every_scan(std::uint32_t head) {
@@ -145,8 +197,9 @@ class Flow {
   std::vector<std::uint32_t> head_;
   std::vector<bool> on_;  // whether the top of the stack is known to be 1 before each op
   std::vector<Ways> ways_;
-  std::vector<std::vector<std::uint32_t>> comes_from_;
-  std::map<std::uint32_t, bool> called_;  // by routine: whether every scan calls it
+  std::vector<bool> ends_;                                     // whether some way leads from an op to the end of its routine
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> span_;  // of an op's numbers in the tree of post-dominators
+  std::map<std::uint32_t, bool> called_;                       // by routine: whether every scan calls it
 };
 
 /// The instructions seen so far that work on the same coil, timer or counter.
@@ -233,17 +286,15 @@ std::vector<std::uint32_t> attachments(const Program& program) {
 constexpr Bits kOutputBits{image::kQ * 8u, image::kPointBytes * 8u};
 
 /// Whether anything may use what a coil writes before the other coil writes the same bit again.
-bool used_between(const Program& program, const Flow& flow, std::uint32_t coil, std::uint32_t again) {
+bool used_between(const Program& program, const Flow& flow, const std::vector<std::uint32_t>& in_interrupts,
+                  std::uint32_t coil, std::uint32_t again) {
   const Bits bit = bits_of(program, program.ops[coil], 0);
   const auto uses = [&](std::uint32_t i) {
     const Op& op = program.ops[i];
     return op.instruction->structure == Structure::Call ||
            (op.instruction->effect != Effect::Coil && touches(program, op, bit, false));
   };
-  if (std::ranges::any_of(flow.between(coil, again), uses)) return true;
-  for (std::uint32_t i = 0; i < program.ops.size(); ++i)
-    if (flow.in_interrupt(i) && uses(i)) return true;
-  return false;
+  return std::ranges::any_of(flow.between(coil, again), uses) || std::ranges::any_of(in_interrupts, uses);
 }
 
 // --- timers and counters ---
@@ -304,13 +355,16 @@ bool points_at_steps(const Program& program) {
 
 void find_double_coils(const Program& program, stl::Diagnostics& diagnostics) {
   Flow flow(program);
+  std::vector<std::uint32_t> in_interrupts;
+  for (std::uint32_t i = 0; i < program.ops.size(); ++i)
+    if (flow.in_interrupt(i)) in_interrupts.push_back(i);
   std::map<std::uint64_t, Earlier> coils;
   for (const std::uint32_t coil : ops_with(program, Effect::Coil)) {
     const Bits bit = bits_of(program, program.ops[coil], 0);
     const bool output = bit.overlap(kOutputBits);
     Earlier& earlier = coils[bit.first];
     auto other = earlier.before(flow, coil);
-    if (other && !output && used_between(program, flow, *other, coil)) other.reset();
+    if (other && !output && used_between(program, flow, in_interrupts, *other, coil)) other.reset();
     if (!other && output) other = earlier.beside(flow, coil);
     if (other)
       diagnostics.push_back(warn(Warning::DoubleCoil, place(program, coil),

@@ -4,8 +4,8 @@
 // program does one without the other; not if JMP, CRET, END, FOR or a conditional CALL may leave one out.
 #pragma once
 
-#include "interpreter/program/program.hpp"
 #include "interpreter/base/diagnostic.hpp"
+#include "interpreter/program/program.hpp"
 
 namespace s7200 {
 

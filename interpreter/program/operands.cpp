@@ -9,6 +9,7 @@
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/warnings.hpp"
+#include "interpreter/stl/parser.hpp"
 #include "interpreter/stl/printer.hpp"
 
 namespace s7200 {
@@ -168,8 +169,8 @@ class Placing {
   bool event_exists(std::int64_t number) {
     const InterruptEvent* event = find_event(number);
     if ((event->cpus & model_.self) != 0) return true;
-    error(fmt::format("CPU {} has no event {} ({})", model_.name, number, event->cause),
-          needs("it needs", event->cpus), fmt::format("no event {}", number));
+    error(fmt::format("CPU {} has no event {} ({})", model_.name, number, event->cause), needs("it needs", event->cpus),
+          fmt::format("no event {}", number));
     return false;
   }
 
@@ -377,16 +378,15 @@ class Placing {
   // --- strings ---
 
   /// A constant: its length byte and its characters.
-  Result string(const std::string& characters) {
+  Result string(const std::string& written) {
     if (!rule_.constant) return constant_refused();
-    if (characters.size() > kLongestStringConstant)
-      return error(fmt::format("{} has {} characters", text(), characters.size()),
+    std::string why;
+    const auto characters = stl::parse_characters(written, why);
+    if (!characters) return error(why);
+    if (characters->size() > kLongestStringConstant)
+      return error(fmt::format("{} has {} characters", text(), characters->size()),
                    fmt::format("a string constant has {} at most", kLongestStringConstant));
-    const bool plain = std::ranges::all_of(characters, [](char c) { return c >= 0x20 && c <= 0x7E && c != '$'; });
-    if (!plain)
-      return error(fmt::format("{}: only plain ASCII characters without $ are possible in a string constant", text()),
-                   "put other characters into V memory with MOVB");
-    return PlacedOperand{{.at = constants_.place(characters)}, {}, {}};
+    return PlacedOperand{{.at = constants_.place(*characters)}, {}, {}};
   }
 
   Result name(const stl::Name& name) {

@@ -122,7 +122,8 @@ std::optional<std::vector<Parameter>> place_parameters(const Instruction& call, 
     const auto placed =
         place_operand(call, rule, as_meant(statement.operands[i + 1], variable.type), model, constants, diagnostics);
     good = good && placed;
-    if (placed) parameters.push_back({placed->operand, place_of(variable.address, rule.width), rule.width, rule.role});
+    if (placed)
+      parameters.push_back({placed->operand, place_of(variable.address, rule.width), rule.width, rule.role, rule.real});
   }
   if (!good) return {};
   return parameters;

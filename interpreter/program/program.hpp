@@ -82,6 +82,7 @@ struct Parameter {
   Operand local;   ///< in the local memory of the subroutine
   Width width = Width::Byte;
   Role role = Role::In;
+  bool real = false;  ///< of type REAL
 };
 
 /// Bytes of V memory that the data block sets.
@@ -96,12 +97,12 @@ struct Program {
   stl::Source source;
   std::vector<stl::Statement> statements;  ///< one for each op
   std::vector<Op> ops;
-  std::vector<Body> box_body;                  ///< what run_with_eno() calls, for each op; empty in a program without AENO
-  std::vector<std::uint8_t> constants;         ///< content of the image from image::kConstants
-  std::vector<Parameter> parameters{};         ///< of all CALLs
-  std::vector<InitialData> data{};             ///< downloaded with the program
-  std::array<std::uint32_t, 64> subroutine{};  ///< op of each SBR; kNoRoutine where there is none
-  std::array<std::uint32_t, 128> interrupt{};  ///< op of each INT
+  std::vector<Body> box_body;                   ///< what run_with_eno() calls, for each op; empty in a program without AENO
+  std::vector<std::uint8_t> constants;          ///< content of the image from image::kConstants
+  std::vector<Parameter> parameters{};          ///< of all CALLs
+  std::vector<InitialData> data{};              ///< downloaded with the program
+  std::array<std::uint32_t, 128> subroutine{};  ///< op of each SBR; kNoRoutine where there is none
+  std::array<std::uint32_t, 128> interrupt{};   ///< op of each INT
 
   std::vector<std::uint8_t> timers_1ms, timers_10ms;  ///< numbers of the timers that the program uses
   bool uses_timers = false;

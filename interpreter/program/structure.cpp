@@ -96,10 +96,16 @@ class StructureCheck {
         if (s.operands_good) jumps_.push_back({i, routine_});
         return;
       case Structure::Call:
-        if (s.operands_good) calls_.push_back({i, routine_});
+        if (s.operands_good)
+          calls_.push_back({i, routine_});
+        else
+          all_calls_known_ = false;
         return;
       case Structure::Attach:
-        if (s.operands_good) attachments_.push_back({i, routine_});
+        if (s.operands_good)
+          attachments_.push_back({i, routine_});
+        else
+          all_attachments_known_ = false;
         return;
       case Structure::For:
         return begin_loop(i);
@@ -320,14 +326,15 @@ class StructureCheck {
     }
   }
 
+  /// A CALL or ATCH with a mistake may mean any routine.
   void warn_of_unused() {
     std::set<std::uint32_t> called;
     for (const auto& [routine, numbers] : called_) called.insert(numbers.begin(), numbers.end());
     for (const auto& [number, i] : subroutines_)
-      if (!called.contains(number))
+      if (all_calls_known_ && !called.contains(number))
         warning(Warning::UnusedRoutine, position(i), fmt::format("SBR {} is never called", number));
     for (const auto& [number, i] : interrupts_)
-      if (!attached_.contains(number))
+      if (all_attachments_known_ && !attached_.contains(number))
         warning(Warning::UnusedRoutine, position(i), fmt::format("INT {} is never attached to an event", number));
   }
 
@@ -364,6 +371,7 @@ class StructureCheck {
   std::vector<Place> jumps_, calls_, attachments_;
   std::map<Routine, std::set<std::uint32_t>> called_;
   std::set<std::uint32_t> attached_;
+  bool all_calls_known_ = true, all_attachments_known_ = true;
 };
 
 /// The depth of the logic stack within a network, and how much of it the current rung has put there.

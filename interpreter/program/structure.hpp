@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "interpreter/program/program.hpp"
 #include "interpreter/base/diagnostic.hpp"
+#include "interpreter/program/program.hpp"
 
 namespace s7200 {
 
@@ -22,7 +22,7 @@ struct ProgramStructure {
   std::vector<std::uint32_t> target;  ///< of JMP, CALL, FOR (after its NEXT), NEXT (first of its loop)
   std::vector<std::uint32_t> head;    ///< of NEXT: its FOR; of SCRT: the enclosing LSCR
   std::vector<bool> in_segment;       ///< between LSCR and SCRE
-  std::array<std::uint32_t, 64> subroutine{};
+  std::array<std::uint32_t, 128> subroutine{};
   std::array<std::uint32_t, 128> interrupt{};
 };
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "interpreter/program/program.hpp"
 #include "interpreter/base/diagnostic.hpp"
+#include "interpreter/program/program.hpp"
 
 namespace s7200 {
 

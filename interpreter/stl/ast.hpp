@@ -129,7 +129,8 @@ struct Text {
   bool operator==(const Text&) const = default;
 };
 
-/// A line of a data block: `VW2 100, 200`, or only values, which follow those of the line before.
+/// A line of a data block: `VW2 100, 200  // comment`, only values, which follow those of the line before, or only a
+/// comment.
 struct DataLine {
   struct Value {
     std::variant<Integer, Real, Text> value;
@@ -139,6 +140,9 @@ struct DataLine {
   std::optional<Operand> address;
   std::vector<Value> values;
   Position position{};
+  std::string comment{};  ///< UTF-8, without the `//`, trimmed at the end
+
+  bool only_comment() const { return !address && values.empty(); }
 };
 
 struct Source : SourceLines {

@@ -22,7 +22,7 @@ class Words {
   /// The next word; empty at the end of the line or at its comment.
   std::string_view next() {
     rest_.remove_prefix(std::min(rest_.find_first_not_of(kSeparators), rest_.size()));
-    if (rest_.starts_with("//")) rest_ = {};
+    if (rest_.starts_with("//")) comment_ = std::exchange(rest_, {}).substr(2);
     std::size_t end = 0;
     while (end < rest_.size() && kSeparators.find(rest_[end]) == std::string_view::npos &&
            !rest_.substr(end).starts_with("//"))
@@ -31,6 +31,9 @@ class Words {
     rest_.remove_prefix(end);
     return word;
   }
+
+  /// What stands after `//`, once there are no more words.
+  std::string_view comment() const { return trim_end(comment_); }
 
   /// Words are asked for in order, so the line is counted only once.
   Position position(std::string_view word, std::uint32_t line) {
@@ -48,7 +51,7 @@ class Words {
     return std::min(end + 1, text.size());
   }
 
-  std::string_view line_, rest_;
+  std::string_view line_, rest_, comment_{};
   std::size_t counted_ = 0, column_ = 1;
 };
 
@@ -121,8 +124,12 @@ void read_data_line(std::string_view line, std::uint32_t number, ParseResult& re
   constexpr const char* kValues = "values are 65, -5, 16#FF, 2#1010, 3.14, 'text' and \"string\"";
   Words words(line);
   std::string_view word = words.next();
-  if (word.empty()) return;
   DataLine data;
+  if (word.empty()) {
+    data.comment = words.comment();
+    if (!data.comment.empty()) result.source.data.push_back(std::move(data));
+    return;
+  }
   data.position = words.position(word, number);
   std::string why;
   const bool named = is_quoted(word) && word.find("\":") != std::string_view::npos;
@@ -132,7 +139,7 @@ void read_data_line(std::string_view line, std::uint32_t number, ParseResult& re
     data.address->position = data.position;
     word = words.next();
     if (word.empty())
-      return error(data.position, fmt::format("{} has no value", shortened(line.substr(0, line.find("//")))), kValues);
+      return error(data.position, fmt::format("{} has no value", shortened(trim(line.substr(0, line.find("//"))))), kValues);
   }
   for (; !word.empty(); word = words.next()) {
     const Position at = words.position(word, number);
@@ -141,6 +148,7 @@ void read_data_line(std::string_view line, std::uint32_t number, ParseResult& re
     else
       error(at, why, kValues);
   }
+  data.comment = words.comment();
   result.source.data.push_back(std::move(data));
 }
 

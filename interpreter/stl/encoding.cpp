@@ -1,5 +1,6 @@
 #include "interpreter/stl/encoding.hpp"
 
+#include <fmt/format.h>
 #include <iconv.h>
 
 #include <algorithm>
@@ -193,7 +194,7 @@ bool has_cp437_words(std::string_view bytes) {
 }
 
 struct Encoding {
-  const char* name;
+  std::string_view name;
   const char* iconv_name;
 };
 constexpr Encoding kWindows1252{"Windows-1252", "WINDOWS-1252"};
@@ -206,6 +207,9 @@ constexpr Encoding kCp437{"CP437", "CP437"};
 constexpr Encoding kGbk{"GBK", "GBK"};
 constexpr Encoding kUtf16Little{"UTF-16", "UTF-16LE"};
 constexpr Encoding kUtf16Big{"UTF-16", "UTF-16BE"};
+constexpr Encoding kUtf8{"UTF-8", "UTF-8"};
+constexpr std::array kAllEncodings{kUtf8,        kUtf16Little, kWindows1250, kWindows1251, kWindows1252,
+                                   kWindows1253, kWindows1254, kCp437,       kGbk,         kShiftJis};
 
 /// Of the Windows code pages by letters that the others do not have, or that are common in only one language.
 Encoding guess_windows(std::string_view bytes) {
@@ -230,14 +234,14 @@ Encoding guess_8_bit(std::string_view bytes) {
 std::optional<DecodedText> decode_from(std::string_view bytes, Encoding encoding, std::string& why) {
   auto text = converted(bytes, encoding.iconv_name);
   if (!text) {
-    why = std::string("text in ") + encoding.name + ", which this system cannot convert; save it as UTF-8";
+    why = fmt::format("text in {}, which this system cannot convert; save it as UTF-8", encoding.name);
     return std::nullopt;
   }
   if (text->find('\0') != std::string::npos) {
     why = "binary data, or UTF-32 text; save it as UTF-8";
     return std::nullopt;
   }
-  return DecodedText{std::move(*text), encoding.name};
+  return DecodedText{std::move(*text), std::string(encoding.name)};
 }
 
 }  // namespace
@@ -252,6 +256,27 @@ std::optional<DecodedText> decode(std::string_view bytes, std::string& why) {
   if (marked) bytes.remove_prefix(3);
   if (marked || is_valid_utf8(bytes) || is_nearly_utf8(bytes)) return DecodedText{repaired(bytes), "UTF-8"};
   return decode_from(bytes, guess_8_bit(bytes), why);
+}
+
+std::optional<std::string> encode(std::string_view utf8, std::string_view encoding, std::string& why) {
+  const auto found = std::ranges::find(kAllEncodings, encoding, &Encoding::name);
+  const iconv_t converter = found == kAllEncodings.end() ? iconv_t(-1) : iconv_open(found->iconv_name, "UTF-8");
+  if (converter == iconv_t(-1)) {
+    why = fmt::format("this system cannot write {}", encoding);
+    return std::nullopt;
+  }
+  std::string input(utf8), bytes(4 * utf8.size(), '\0');  // no encoding needs more than four bytes for one
+  char *from = input.data(), *to = bytes.data();
+  std::size_t left = input.size(), room = bytes.size();
+  const bool complete = iconv(converter, &from, &left, &to, &room) == 0;
+  iconv_close(converter);
+  if (!complete) {
+    const auto code = static_cast<std::uint32_t>(first_character(utf8.substr(utf8.size() - left)).code);
+    why = fmt::format("the character U+{:04X} does not exist in {}", code, encoding);
+    return std::nullopt;
+  }
+  bytes.resize(bytes.size() - room);
+  return std::string(found->name == kUtf16Little.name ? "\xFF\xFE" : "") + bytes;
 }
 
 }  // namespace s7200::stl

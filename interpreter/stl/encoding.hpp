@@ -8,12 +8,17 @@
 namespace s7200::stl {
 
 struct DecodedText {
-  std::string text;      ///< valid UTF-8, without a byte order mark
-  std::string encoding;  ///< what it was taken for: "UTF-8", "UTF-16", "Windows-1250" to "-1254", "CP437", "GBK", "Shift-JIS"
+  std::string text;  ///< valid UTF-8, without a byte order mark
+  std::string
+      encoding;  ///< what it was taken for: "UTF-8", "UTF-16", "Windows-1250" to "-1254", "CP437", "GBK", "Shift-JIS"
 };
 
 /// Guesses the encoding of a source file and converts it. Returns nothing for a file that is not text (NUL bytes, a picture,
 /// an archive) and says in `why` what it looks like.
 std::optional<DecodedText> decode(std::string_view bytes, std::string& why);
+
+/// The same text in one of the encodings that decode() names. Returns nothing if the text has a character that the encoding
+/// lacks, or the system lacks the encoding, and says so in `why`.
+std::optional<std::string> encode(std::string_view utf8, std::string_view encoding, std::string& why);
 
 }  // namespace s7200::stl

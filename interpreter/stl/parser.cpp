@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/stl/encoding.hpp"
 
 namespace s7200::stl {
 namespace {
@@ -310,8 +311,17 @@ std::optional<Number> number_of(std::string_view digits, int base = 10) {
   return number;
 }
 
-// Appends the character that `rest` begins with and returns the length of its notation, 0 if it is not allowed.
+/// Appends the character that `rest` begins with and returns the length of its notation, 0 if it is not allowed.
+/// Not documented, modelled so: letters beyond ASCII have their bytes in Windows-1252, the code page of Western Europe.
+/// [Parser.LettersBeyondAsciiHaveTheirBytesInWindows1252]
 std::size_t read_ascii(std::string_view rest, std::string& bytes) {
+  if (static_cast<unsigned char>(rest.front()) >= 0x80) {
+    const std::size_t length = first_character(rest).bytes;
+    std::string why;
+    const auto byte = encode(rest.substr(0, length), "Windows-1252", why);
+    if (byte) bytes += *byte;
+    return byte ? length : 0;
+  }
   if (rest.front() != '$') {
     if (rest.front() < 0x20 || rest.front() > 0x7E) return 0;
     bytes.push_back(rest.front());

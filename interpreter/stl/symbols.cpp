@@ -114,10 +114,19 @@ std::optional<OperandValue> value_of(std::string_view text, std::string& why) {
   return operand->value;
 }
 
+/// Whether an operand may be a name all the same: S1 and E1 have no bit, K1 is a constant only for Micro/DOS.
+bool may_be_name(const OperandValue& value, std::string_view written) {
+  constexpr std::array<std::string_view, 4> kComplete{"T", "C", "HC", "AC"};
+  if (const auto* address = std::get_if<Address>(&value))
+    return address->size == Size::None && std::ranges::find(kComplete, address->area) == kComplete.end();
+  return std::holds_alternative<Integer>(value) && (written.front() == 'K' || written.front() == 'k');
+}
+
 bool is_address(std::string_view text) {
   std::string why;
   const auto value = value_of(text, why);
-  return value && (std::holds_alternative<Address>(*value) || std::holds_alternative<Name>(*value));
+  if (!value || may_be_name(*value, text)) return false;
+  return std::holds_alternative<Address>(*value) || std::holds_alternative<Name>(*value);
 }
 
 /// The languages of Micro/WIN.
@@ -183,9 +192,15 @@ class SymbolTableReader {
       headed_ = found;
       return;
     }
-    const auto columns = headed_ ? headed_ : columns_of(cells);
+    const auto columns = headed_ && fits(cells, *headed_) ? headed_ : columns_of(cells);
     if (!columns) return add_without_address(cells, line);
     add(cells, *columns, line);
+  }
+
+  /// Some tables have more columns than headings: empty ones on the left.
+  static bool fits(const std::vector<Cell>& cells, Columns columns) {
+    const auto text = [&](std::size_t i) { return i < cells.size() ? std::string_view(cells[i].text) : std::string_view(); };
+    return !text(columns.name).empty() || is_address(text(columns.address));
   }
 
   void add(const std::vector<Cell>& cells, Columns columns, std::string_view line) {
@@ -200,6 +215,10 @@ class SymbolTableReader {
     if (name.text.empty())
       return error(position(address, line), fmt::format("{} has no name", shortened(address.text)),
                    "a row of a symbol table is a name, an address and perhaps a comment");
+    if (const auto other = value_of(name.text, why);
+        other && !std::holds_alternative<Name>(*other) && !may_be_name(*other, name.text))
+      return error(position(name, line), fmt::format("{} is an address or a constant, not a name", shortened(name.text)),
+                   "give the symbol a name of its own: in the program, this would always be the address or the constant");
     std::string comment;
     const std::size_t after = std::max(columns.name, columns.address) + 1;
     for (std::size_t i = after; i < cells.size(); ++i) comment += (comment.empty() ? "" : " ") + cells[i].text;
@@ -316,8 +335,7 @@ class Resolver {
     const Locals* locals = nullptr;
     for (std::size_t i = 0; i < statement.operands.size(); ++i) {
       Operand& operand = statement.operands[i];
-      if (!std::holds_alternative<Name>(operand.value)) continue;
-      if (i == 0 && (calls || attaches)) {
+      if (i == 0 && (calls || attaches) && std::holds_alternative<Name>(operand.value)) {
         resolve_block(operand, calls ? Block::Kind::Subroutine : Block::Kind::Interrupt);
         continue;
       }
@@ -335,7 +353,7 @@ class Resolver {
 
   void resolve(Operand& operand, const Locals* locals) {
     auto* name = std::get_if<Name>(&operand.value);
-    if (!name) return;
+    if (!name) return resolve_short_name(operand);
     const WrittenName written(name->text);
     if (const Variable* variable = locals ? locals->find(written.name) : nullptr) {
       put(operand, variable->address, written.mark);
@@ -349,6 +367,19 @@ class Resolver {
       else
         put(operand, *symbol->value, written.mark);
     }
+  }
+
+  /// `S1`, `K1` and `E1`, if there are symbols of these names.
+  void resolve_short_name(Operand& operand) {
+    if (source_.symbols.empty() || operand.position.line == 0) return;
+    const Position at = operand.position;
+    const std::string written = characters_at(source_.text[at.line - 1], at.column, at.length);
+    if (written.empty() || !may_be_name(operand.value, written)) return;
+    const Symbol* symbol = symbols_.find(written);
+    if (!symbol || !symbol->value || std::holds_alternative<Name>(*symbol->value)) return;
+    operand.value = Name{written};
+    put(operand, *symbol->value, 0);
+    std::erase_if(result_.diagnostics, [&](const Diagnostic& d) { return d.cause == kGermanAddresses && d.position == at; });
   }
 
   static void put(Operand& operand, const OperandValue& value, char mark) {
@@ -439,6 +470,13 @@ bool is_status_chart(std::string_view text) {
     ++(format && cells.size() > 1 ? rows : other);
   }
   return rows > 0 && rows + 1 >= other;
+}
+
+const Symbol* find_symbol(const std::vector<Symbol>& symbols, std::string_view name) {
+  if (name.size() > 1 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+  Names<Symbol> names;
+  for (const Symbol& symbol : symbols) names.add(symbol.name, symbol);
+  return names.find(name);
 }
 
 void resolve_symbols(ParseResult& result) { Resolver(result).run(); }

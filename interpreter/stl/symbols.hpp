@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "interpreter/stl/parser.hpp"
 
@@ -19,6 +20,9 @@ ParseResult read_symbol_table(std::string_view text, std::string name);
 
 /// Whether it is a status chart: addresses with formats and values, of which nothing is part of a program.
 bool is_status_chart(std::string_view text);
+
+/// The symbol of this name, with or without quotes; written in other capitals if it can be no other. Null if there is none.
+const Symbol* find_symbol(const std::vector<Symbol>& symbols, std::string_view name);
 
 /// Puts the addresses of symbols, of local variables and of blocks in place of their names. A name that nothing defines
 /// stays, with the reason.

@@ -1152,6 +1152,23 @@ class Files(Case):
         self.assertIn("neither an address", self.ends(FAILED, "convert", EXPORTS / "pump.awl", "--to", "iec").stderr)
         self.ends(FINE, "convert", *self.PUMP, "--to", "iec")
 
+    def test_convert_writes_the_code_page_of_a_windows(self):
+        german, out = self.program("LD SM0.0 // für\n= M0.0\nMEND\n", "fuer.stl"), self.folder / "fuer.awl"
+        self.ends(FINE, "convert", german, "--to", "microwin", "--encoding", "Windows-1252", "-o", out)
+        self.assertIn("// für".encode("windows-1252"), out.read_bytes())
+        self.ends(FINE, "check", out)
+        chinese = self.program("MEND // 中\n", "chinese.stl")
+        done = self.ends(UNUSABLE, "convert", chinese, "--to", "iec", "--encoding", "Windows-1252", "-o", self.folder / "c.stl")
+        self.assertIn("the character U+4E2D does not exist in Windows-1252; nothing was written", done.stderr)
+        self.assertFalse((self.folder / "c.stl").exists())
+
+    def test_symbols_name_memory_to_set_and_to_show(self):
+        table = self.program("Speed\tVW20\n\"Pump 1\"\tQ0.3\n", "names.txt")
+        done = self.ends(FINE, "run", SLAVE, table, "--scans", "1", "--set", "Speed=7", "--dump", "speed", "--dump", '"Pump 1"')
+        self.assertRegex(done.stdout, r"VW20 .* 7\nQ0\.3 .* 0\n")
+        self.assertIn("'Spood' is not an address or a symbol of one",
+                      self.ends(UNUSABLE, "run", SLAVE, table, "--set", "Spood=1").stderr)
+
     def test_a_byte_order_mark_is_no_part_of_a_text(self):
         mark = "\ufeff"
         inputs, frames = self.program(mark + "1ms,I0.0,1\n", "in.csv"), self.program(mark + "0103000a0001\n", "frames.txt")

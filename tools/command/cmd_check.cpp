@@ -76,13 +76,14 @@ int run_check(const CheckOptions& options) {
     }
     const CheckResult result = check_with(options, text, *model, *times);
     if (!result.program) exit_code = std::max<int>(exit_code, kCheckFailed);
+    const auto others = fine_for(text, result, *model);
     if (options.json) {
-      files.push_back(check_json(path, text, result, *model));
+      files.push_back(check_json(path, text, result, *model, others));
     } else {
       print_diagnostics(result.diagnostics, result.source);
       print_note_if_any(left_out_note(text));
-      print_note_if_any(dropped_networks_note(result));
-      fmt::print("{}", check_summary(text, result, *model));
+      print_note_if_any(dropped_networks_note(result, others));
+      fmt::print("{}", check_summary(text, result, *model, others));
     }
   }
   if (options.json) {

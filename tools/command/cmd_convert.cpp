@@ -4,6 +4,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/convert.hpp"
+#include "interpreter/stl/encoding.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/program_options.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 struct ConvertOptions {
   ProgramOptions program;
-  std::string notation, output;
+  std::string notation, output, encoding = "UTF-8";
   bool force = false, json = false;
 
   bool to_file() const { return !output.empty() && output != "-"; }
@@ -45,13 +46,16 @@ int run_convert(const ConvertOptions& options) {
   }
   if (notation != Notation::MicroWin && !source->parsed.source.data.empty())
     print_note("the data block is not part of a listing: give its file beside the new one");
+  std::string why;
+  const auto encoded = stl::encode(*text, options.encoding, why);
+  if (!encoded) return print_error("--encoding: " + why + "; nothing was written"), kUnusable;
   std::vector<std::string> inputs = options.program.parts;
   inputs.push_back(options.program.path);
-  const int exit_code = options.to_file() ? write_stl(options.output, inputs, options.force, *text) : kFine;
+  const int exit_code = options.to_file() ? write_stl(options.output, inputs, options.force, *encoded) : kFine;
   if (exit_code == kFine && options.json)
     print_json(options, *source, *text);
   else if (!options.to_file())
-    print_file(*text);
+    print_file(*encoded);
   return exit_code;
 }
 
@@ -71,6 +75,11 @@ void add_convert(CLI::App& app, int& exit_code) {
                                                   stl::shortened(name));
       })
       ->type_name("NOTATION");
+  verb->add_option(
+          "--encoding", options->encoding,
+          "UTF-8, UTF-16, Windows-1250 to -1254, CP437, GBK or Shift-JIS; Micro/WIN reads the code page of its Windows")
+      ->capture_default_str()
+      ->type_name("NAME");
   verb->add_option("-o,--output", options->output, "file to write; standard output if not given")->type_name("FILE");
   verb->add_flag("--force", options->force, "overwrite an existing file");
   verb->add_flag("--json", options->json, "print what was converted as JSON, with the STL if no file is written");

@@ -18,11 +18,12 @@ std::optional<Assignment> read_assignment(ValueReader& values, const YamlNode& k
   const auto address = values.text(key), written = values.text(item);
   if (!address || !written) return {};
   std::string why;
-  if (!parse_range(*address, model, why)) {
+  const auto place = parse_range(*address, model, why);
+  if (!place) {
     values.wrong(key, why);
     return {};
   }
-  auto result = parse_assignment(fmt::format("{}={}", *address, *written), model, why);
+  auto result = parse_value(*place, *written);
   if (!result)
     values.wrong(item, fmt::format("'{}' does not fit {}", stl::shortened(*written), *address),
                  "write a number such as 5, -5, 16#1234, or 1.5 for a double word");
@@ -46,7 +47,7 @@ std::optional<MemoryExpected> limits_expected(ValueReader& values, const YamlNod
   int reals = 0, numbers = 0;
   for (const auto& [side, limit] : {std::pair(from, &limits.from), std::pair(to, &limits.to)}) {
     if (side.empty()) continue;
-    const auto assigned = parse_assignment(fmt::format("{}={}", address, side), model, why);
+    const auto assigned = parse_value(expected.range, side);
     const auto number = parse_number(side);
     if (!assigned || !(number || assigned->place.real)) return refuse(fmt::format("'{}' does not fit {}", side, address));
     *limit = assigned->place.real ? std::bit_cast<float>(assigned->value) : static_cast<double>(*number);

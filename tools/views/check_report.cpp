@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/operands.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -43,18 +44,10 @@ nlohmann::ordered_json to_json(const stl::Diagnostic& d, const stl::SourceLines&
   return json;
 }
 
-/// The CPUs, other than the one asked for, that the program is fine for.
-std::vector<const CpuModel*> other_cpus(const SourceText& text, const CpuModel& asked) {
-  std::vector<const CpuModel*> fitting;
-  for (const CpuModel* model : all_cpus())
-    if (model != &asked && check(text.parsed, *model, default_times(*model)).program) fitting.push_back(model);
-  return fitting;
-}
-
 /// `; fine for CPU 215, 216 or 22x`
-std::string other_cpus_text(const SourceText& text, const CpuModel& asked) {
+std::string other_cpus_text(const std::vector<const CpuModel*>& others) {
   CpuSet fitting = 0;
-  for (const CpuModel* model : other_cpus(text, asked)) fitting = static_cast<CpuSet>(fitting | model->self);
+  for (const CpuModel* model : others) fitting = static_cast<CpuSet>(fitting | model->self);
   return fitting == 0 ? "" : "; fine for " + to_text(fitting);
 }
 
@@ -89,23 +82,34 @@ std::string counted(const stl::Diagnostics& diagnostics) {
   return fmt::format("{}, {}", counted(stl::Severity::Error, diagnostics), counted(stl::Severity::Warning, diagnostics));
 }
 
-std::string check_summary(const SourceText& text, const CheckResult& result, const CpuModel& model) {
+std::vector<const CpuModel*> fine_for(const SourceText& text, const CheckResult& result, const CpuModel& asked) {
+  std::vector<const CpuModel*> fitting;
+  if (result.program) return fitting;
+  for (const CpuModel* model : all_cpus())
+    if (model != &asked && check(text.parsed, *model, default_times(*model)).program) fitting.push_back(model);
+  return fitting;
+}
+
+std::string check_summary(const SourceText& text, const CheckResult& result, const CpuModel& model,
+                          const std::vector<const CpuModel*>& others) {
   const std::string name = stl::printable(result.source.name);
   const std::string warnings = counted(stl::Severity::Warning, result.diagnostics);
   if (!result.program) {
-    return fmt::format("{}: {} for CPU {}{}\n", name, counted(result.diagnostics), model.name, other_cpus_text(text, model));
+    return fmt::format("{}: {} for CPU {}{}\n", name, counted(result.diagnostics), model.name, other_cpus_text(others));
   }
   return fmt::format("{}: fine, {} for CPU {}{}{}\n", name, counted(result.program->ops.size(), "instruction"),
                      result.program->model->name, text.as_document() ? ", out of a document" : "",
                      result.diagnostics.empty() ? "" : ", " + warnings);
 }
 
-std::string dropped_networks_note(const CheckResult& result) {
+std::string dropped_networks_note(const CheckResult& result, const std::vector<const CpuModel*>& others) {
   constexpr std::size_t kShown = 10;
+  if (!others.empty()) return {};
   std::vector<std::string> networks;
   for (const stl::Diagnostic& d : result.diagnostics) {
     const std::string section = stl::section_at(result.source, d.position.line);
-    const bool counts = d.severity == stl::Severity::Error && section.find(", network ") != std::string::npos;
+    const bool counts = d.severity == stl::Severity::Error && d.cause != kUndefinedSymbols &&
+                        section.find(", network ") != std::string::npos;
     if (counts && (networks.empty() || networks.back() != section)) networks.push_back(section);
   }
   if (networks.empty()) return {};
@@ -118,11 +122,11 @@ std::string dropped_networks_note(const CheckResult& result) {
 }
 
 nlohmann::ordered_json check_json(const std::string& path, const SourceText& text, const CheckResult& result,
-                                  const CpuModel& model) {
+                                  const CpuModel& model, const std::vector<const CpuModel*>& others) {
   return {{"file", path},
           {"ok", result.program != nullptr},
           {"cpu", model.name},
-          {"fine_for", result.program ? std::vector<std::string_view>{} : names_of(other_cpus(text, model))},
+          {"fine_for", names_of(others)},
           {"kind", name_of(text.kind)},
           {"encoding", text.encoding},
           {"instructions", result.program ? result.program->ops.size() : 0},

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "interpreter/program/load.hpp"
 
@@ -13,14 +14,19 @@ nlohmann::ordered_json to_json(const stl::Diagnostics& diagnostics, const stl::S
 /// `2 errors with 1 cause, 0 warnings`
 std::string counted(const stl::Diagnostics& diagnostics);
 
-/// One line: how many errors and warnings, and for which CPUs it is fine.
-std::string check_summary(const SourceText& text, const CheckResult& result, const CpuModel& model);
+/// The CPUs, other than the one asked for, that a program with errors is fine for.
+std::vector<const CpuModel*> fine_for(const SourceText& text, const CheckResult& result, const CpuModel& asked);
 
-/// Which networks of an export Micro/WIN would leave out because of their errors; empty if there are none.
-std::string dropped_networks_note(const CheckResult& result);
+/// One line: how many errors and warnings, and which other CPUs it is fine for.
+std::string check_summary(const SourceText& text, const CheckResult& result, const CpuModel& model,
+                          const std::vector<const CpuModel*>& others);
+
+/// Which networks of an export Micro/WIN would leave out because of their errors; empty if there are none, and where the
+/// right CPU or the symbol table would do.
+std::string dropped_networks_note(const CheckResult& result, const std::vector<const CpuModel*>& others);
 
 /// The same and all diagnostics.
 nlohmann::ordered_json check_json(const std::string& path, const SourceText& text, const CheckResult& result,
-                                  const CpuModel& model);
+                                  const CpuModel& model, const std::vector<const CpuModel*>& others);
 
 }  // namespace s7200::tools

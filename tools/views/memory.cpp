@@ -86,12 +86,13 @@ nlohmann::ordered_json value_json(const State& state, const MemoryRange& range, 
 namespace {
 
 template <class Parsed>
-std::optional<std::vector<Parsed>> parse_all(const std::vector<std::string>& texts, const CpuModel& model,
-                                             std::optional<Parsed> (*parse)(std::string_view, const CpuModel&, std::string&),
+std::optional<std::vector<Parsed>> parse_all(const std::vector<std::string>& texts, const AddressSpace& space,
+                                             std::optional<Parsed> (*parse)(std::string_view, const AddressSpace&,
+                                                                            std::string&),
                                              std::string& why) {
   std::vector<Parsed> all;
   for (const std::string& text : texts) {
-    const auto parsed = parse(text, model, why);
+    const auto parsed = parse(text, space, why);
     if (!parsed) return {};
     all.push_back(*parsed);
   }
@@ -100,14 +101,14 @@ std::optional<std::vector<Parsed>> parse_all(const std::vector<std::string>& tex
 
 }  // namespace
 
-std::optional<std::vector<Assignment>> parse_assignments(const std::vector<std::string>& texts, const CpuModel& model,
+std::optional<std::vector<Assignment>> parse_assignments(const std::vector<std::string>& texts, const AddressSpace& space,
                                                          std::string& why) {
-  return parse_all<Assignment>(texts, model, parse_assignment, why);
+  return parse_all<Assignment>(texts, space, parse_assignment, why);
 }
 
-std::optional<std::vector<MemoryRange>> parse_ranges(const std::vector<std::string>& texts, const CpuModel& model,
+std::optional<std::vector<MemoryRange>> parse_ranges(const std::vector<std::string>& texts, const AddressSpace& space,
                                                      std::string& why) {
-  return parse_all<MemoryRange>(texts, model, parse_range, why);
+  return parse_all<MemoryRange>(texts, space, parse_range, why);
 }
 
 void assign(serial::Simulation& simulation, const Assignment& assignment) {

@@ -5,6 +5,8 @@
 
 #include <bit>
 
+#include "interpreter/program/checker.hpp"
+
 namespace s7200 {
 namespace {
 
@@ -60,6 +62,22 @@ TEST(Address, AValueIsAnIntegerThatFitsOrARealForADoubleWord) {
   EXPECT_EQ(assignment("VD0:real=2")->value, std::bit_cast<std::uint32_t>(2.0f));
   for (const char* text : {"VB0=256", "VB0=-129", "M0.0=2", "M0.0=-1", "VW0=2.5", "VW0:2=1", "VW0", "VW0=", "VW0=VW2"})
     EXPECT_FALSE(assignment(text)) << text;
+}
+
+TEST(Address, ASymbolOfTheProgramStandsForItsAddress) {
+  stl::ParseResult parsed = stl::parse("MEND\n", "x");
+  parsed.source.symbols = {{"Speed", stl::Address{"V", stl::Size::Word, 20, 0}, {}, {}},
+                           {"Pump 1", stl::Address{"Q", stl::Size::Bit, 0, 3}, {}, {}},
+                           {"Limit", stl::Integer{5}, {}, {}}};
+  const auto program = check(parsed, cpu214(), default_times(cpu214())).program;
+  std::string why;
+  EXPECT_EQ(parse_range("Speed:2", *program, why)->name_of(1), "VW22");
+  EXPECT_EQ(parse_range("\"Pump 1\"", *program, why)->name_of(0), "Q0.3");
+  EXPECT_EQ(parse_assignment("\"Pump 1\"=1", *program, why)->value, 1U);
+  EXPECT_EQ(parse_assignment("speed=-1", *program, why)->place.name_of(0), "VW20");
+  EXPECT_FALSE(parse_range("Limit", *program, why));
+  EXPECT_EQ(why, "'Limit' is not an address or a symbol of one; write for example VB100, VW100:4, M31.7, AC0, VD20:real");
+  EXPECT_FALSE(parse_range("Speed", cpu214(), why));
 }
 
 }  // namespace

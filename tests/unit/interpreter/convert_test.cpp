@@ -153,5 +153,20 @@ TEST(Convert, UndefinedNamesAreNotPrinted) {
   EXPECT_FALSE(convert(source.parsed, Notation::MicroWin));
 }
 
+TEST(Convert, CommentsOfADataBlockStay) {
+  SourceText source = join_files({file("LD SM0.0\nMOVB VB0, VB9\nMEND\n"), file("// speeds\nVB0 1, 2  // slow\nVB2 3\n")});
+  const auto text = convert(source.parsed, Notation::MicroWin);
+  ASSERT_TRUE(text);
+  EXPECT_NE(text->find("DATA_BLOCK DB1:DB1\nBEGIN\n// speeds\nVB0 1, 2  // slow\nVB2 3\nEND_DATA_BLOCK\n"),
+            std::string::npos)
+      << *text;
+}
+
+TEST(Convert, TheCommentOfABlockStandsBetweenItsTitleAndBegin) {
+  EXPECT_EQ(printed("// what it does\nNETWORK 1\nLD SM0.0\n= M0.0\nMEND\n", Notation::MicroWin),
+            "ORGANIZATION_BLOCK MAIN:OB1\nTITLE=\n// what it does\nBEGIN\nNETWORK 1\nLD      SM0.0\n=       M0.0\n"
+            "END_ORGANIZATION_BLOCK\n");
+}
+
 }  // namespace
 }  // namespace s7200

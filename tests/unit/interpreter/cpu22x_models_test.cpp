@@ -210,5 +210,11 @@ TEST(Cpu22x, EveryModelledInstructionHasATime) {
   }
 }
 
+TEST(Cpu22x, The226XmHas128Subroutines) {
+  const std::string last = "MEND\nSBR 127\nRET\n", call = "LD SM0.0\nCALL 127\n";
+  EXPECT_TRUE(check_text(call + last, "x", *find_cpu("226XM"), default_times(*find_cpu("226XM"))).program);
+  EXPECT_FALSE(check_text(call + last, "x", *find_cpu("226"), default_times(*find_cpu("226"))).program);
+}
+
 }  // namespace
 }  // namespace s7200::test

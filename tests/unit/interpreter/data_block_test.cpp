@@ -147,5 +147,22 @@ TEST(DataBlock, TakesTimeInProportionToItsSize) {
   EXPECT_EQ(placed(many).said.size(), 10U);
 }
 
+TEST(DataBlock, EachWrongValueOfALineIsNamed) {
+  const Placed result = placed("VB0 1, 300, 2, 400\n");
+  ASSERT_EQ(result.said.size(), 2U);
+  EXPECT_EQ(result.said[0], "d.txt:1:8: error: 300 does not fit in 1 byte");
+  EXPECT_EQ(result.said[1], "d.txt:1:16: error: 400 does not fit in 1 byte");
+}
+
+TEST(DataBlock, TextsMayHaveLettersOfWindows1252) { EXPECT_EQ(bytes("VB4 'F\u00FCll'\n", 4), (Bytes{'F', 0xFC, 'l', 'l'})); }
+
+TEST(DataBlock, CommentsMayStandBeforeTheFirstAddress) {
+  EXPECT_EQ(bytes("// speeds\nVB0 1 // slow\n2\n", 0), (Bytes{1, 2}));
+}
+
+TEST(DataBlock, AnAddressWithoutValueIsNamedWithoutTheBlanksAroundIt) {
+  EXPECT_EQ(error("  VB0  // none\n"), "VB0 has no value");
+}
+
 }  // namespace
 }  // namespace s7200

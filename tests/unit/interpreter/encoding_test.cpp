@@ -130,5 +130,23 @@ TEST(Encoding, GivesValidUtf8ForAnyBytes) {
   }
 }
 
+TEST(Encoding, WritesWhatItReads) {
+  std::string why;
+  const std::string text = "NOT // f\u00FCr\n";
+  for (const char* encoding : {"UTF-8", "UTF-16", "Windows-1252", "CP437"}) {
+    const auto bytes = encode(text, encoding, why);
+    ASSERT_TRUE(bytes) << encoding << ": " << why;
+    EXPECT_EQ(decoded(*bytes).text, text) << encoding;
+  }
+}
+
+TEST(Encoding, ACharacterThatTheEncodingLacksIsNamed) {
+  std::string why;
+  EXPECT_FALSE(encode("NOT // \u4E2D\n", "Windows-1252", why));
+  EXPECT_EQ(why, "the character U+4E2D does not exist in Windows-1252");
+  EXPECT_FALSE(encode("NOT", "EBCDIC", why));
+  EXPECT_EQ(why, "this system cannot write EBCDIC");
+}
+
 }  // namespace
 }  // namespace s7200::stl

@@ -106,8 +106,9 @@ TEST(Check22x, CscreBelongsIntoASegment) { EXPECT_EQ(refusal_of("CSCRE"), "CSCRE
 TEST(Check22x, AStringConstantStandsInDoubleQuotes) {
   EXPECT_EQ(refusal_of("SLEN \"HALLO\", VB0"), "");
   EXPECT_EQ(refusal_of("SLEN 'AB', VB0"), "IN of SLEN is a string, 'AB' is a number");
-  EXPECT_EQ(refusal_of("SLEN \"$L\", VB0"),
-            "\"$L\": only plain ASCII characters without $ are possible in a string constant");
+  EXPECT_EQ(refusal_of("SLEN \"$L\", VB0"), "");
+  EXPECT_EQ(refusal_of("SLEN \"$q\", VB0"),
+            "'$' is not allowed in a text; escapes are $$ $' $\" $L $N $P $R $T and $hh with two hexadecimal digits");
   EXPECT_EQ(refusal_of(fmt::format("SLEN \"{}\", VB0", std::string(126, 'x'))), "");
   EXPECT_NE(refusal_of(fmt::format("SLEN \"{}\", VB0", std::string(127, 'x'))), "");
   EXPECT_EQ(refusal_of("SCPY \"A\", \"B\""), "OUT of SCPY cannot be the constant \"B\"");

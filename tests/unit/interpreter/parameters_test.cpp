@@ -150,5 +150,20 @@ TEST(Parameters, NeedACpuWithLocalMemory) {
             "they need CPU 22x; choose one: --cpu 224");
 }
 
+TEST(Parameters, ADoubleWordGivenToARealIsShownAsOne) {
+  const CheckResult result =
+      check_text(program("LD SM0.1\nCALL Work, VD40\n", "VAR_OUTPUT\n y : REAL;\nEND_VAR\n", "LD SM0.0\nMOVR 2.5, #y\n"),
+                 "x", cpu224(), default_times(cpu224()));
+  ASSERT_TRUE(result.program);
+  EXPECT_TRUE(result.program->is_real(image::kV + 40));
+}
+
+TEST(Parameters, AWrongCallMayMeanAnySubroutine) {
+  const CheckResult result = check_text(program("LD SM0.1\nCALL Work, VD40, 5\n", "", "LD SM0.0\nMOVW 1, VW0\n"), "x",
+                                        cpu224(), default_times(cpu224()));
+  ASSERT_EQ(result.diagnostics.size(), 1U) << render(result.diagnostics, result.source, false);
+  EXPECT_EQ(result.diagnostics[0].severity, stl::Severity::Error);
+}
+
 }  // namespace
 }  // namespace s7200::test

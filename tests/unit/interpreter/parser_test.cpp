@@ -179,7 +179,7 @@ TEST(Parser, RefusesWhatDoesNotBelongInAStatement) {
   EXPECT_EQ(error("X 'ABC'").message, "an ASCII constant cannot have 3 characters");
   EXPECT_EQ(error("X 'AB").message, "expected a closing quote, found the end of the line");
   EXPECT_EQ(error("X '$q'").message, "'$' is not allowed in an ASCII constant");
-  EXPECT_EQ(error("X 'ä'").message, "the character U+00E4 is not allowed in an ASCII constant");
+  EXPECT_EQ(error("X '中'").message, "the character U+4E2D is not allowed in an ASCII constant");
   EXPECT_EQ(error("X 1E99").message, "1E99 does not fit in a 32-bit real");
   EXPECT_EQ(error("X 1E-40").message, "1E-40 does not fit in a 32-bit real");
   EXPECT_EQ(error("X VB4294967296").message, "the number of this address is too large");
@@ -302,6 +302,13 @@ TEST(Parser, SurvivesBytesThatAreNotText) {
   }
   const ParseResult result = parse(bytes, "x");
   EXPECT_FALSE(result.diagnostics.empty());
+}
+
+TEST(Parser, LettersBeyondAsciiHaveTheirBytesInWindows1252) {
+  std::string why;
+  EXPECT_EQ(parse_characters("F\u00FCll \u20AC", why), "F\xFCll \x80");
+  EXPECT_FALSE(parse_characters("\u4E2D", why));
+  EXPECT_NE(why.find("U+4E2D"), std::string::npos) << why;
 }
 
 }  // namespace

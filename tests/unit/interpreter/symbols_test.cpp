@@ -120,8 +120,9 @@ TEST(Symbols, UndefinedOnesShareACauseOnlyWithoutATable) {
 }
 
 TEST(Symbols, NameBlocksInCallAndAtch) {
-  EXPECT_EQ(said("LD SM0.0\nCALL Prepare\nATCH Edge, 0\nENI\nMEND\nSBR 4\nRET\nINT 2\nRETI\n", "Prepare\tSBR4\nEdge\tINT2\n"),
-            Lines{});
+  EXPECT_EQ(
+      said("LD SM0.0\nCALL Prepare\nATCH Edge, 0\nENI\nMEND\nSBR 4\nRET\nINT 2\nRETI\n", "Prepare\tSBR4\nEdge\tINT2\n"),
+      Lines{});
   EXPECT_EQ(said("LD SM0.0\nCALL Edge\nMEND\nINT 2\nRETI\n", "Edge\tINT2\n").at(0).substr(0, 53),
             "p.awl:2:6: error: Edge is not a subroutine; subroutin");
 }
@@ -133,6 +134,25 @@ TEST(Symbols, TablesTakeTimeInProportionToTheirSize) {
   std::string long_table = "Symbol,Address\n";
   for (int i = 0; i < 50'000; ++i) long_table += "S" + std::to_string(i) + ",VB" + std::to_string(i) + "\n";
   EXPECT_EQ(read_symbol_table(long_table, "t").source.symbols.size(), 50'000U);
+}
+
+TEST(Symbols, ANameThatIsAnAddressOrAConstantIsRefused) {
+  for (const std::string name : {"VW5", "16#4", "T37"}) {
+    const ParseResult table = read_symbol_table("Symbol\tAddress\n" + name + "\tI0.0\n", "t");
+    ASSERT_EQ(table.diagnostics.size(), 1U) << name;
+    EXPECT_EQ(table.diagnostics[0].message, name + " is an address or a constant, not a name");
+  }
+}
+
+TEST(Symbols, NamesThatAreOnlyTheBeginningOfAnAddressStandForTheirSymbols) {
+  const std::string table = "S1\tI0.1\nK1\tQ0.0\nE1\tI0.2\n";
+  EXPECT_EQ(said("LD S1\nA E1\n= K1\nMEND\n", table), Lines{});
+  EXPECT_EQ(said("LD S2\nMEND\n", table).size(), 1U);
+}
+
+TEST(Symbols, EmptyColumnsMayStandLeftOfTheRowsAlone) {
+  EXPECT_EQ(symbols("Symbol\tAddress\tComment\n\t\tStart\tI0.0\tgreen\n\tStop\tI0.1\n"),
+            (std::vector<std::string>{"Start=I0.0 green", "Stop=I0.1"}));
 }
 
 }  // namespace

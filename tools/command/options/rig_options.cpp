@@ -19,10 +19,10 @@
 namespace s7200::tools {
 
 void RigOptions::add_to(CLI::App& app) {
-  app.add_option("--set", set_, "memory or inputs before the first scan: VW100=5, I0.3=1 (repeatable)")
+  app.add_option("--set", set_, "memory or inputs before the first scan: VW100=5, I0.3=1, Speed=7 (repeatable)")
       ->type_name("ADDRESS=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--dump", dump_, "memory to show at the end: VB0:16, VW100, AC0, VD20:real (repeatable)")
+  app.add_option("--dump", dump_, "memory to show at the end: VB0:16, VW100, AC0, VD20:real, Speed (repeatable)")
       ->type_name("ADDRESS[:COUNT]")
       ->allow_extra_args(false);
   app.add_option("--input", settings_.input, "inputs over time, CSV rows such as 10ms,I0.3,1 and 1s,I0.6,pulses,5kHz,200ms")
@@ -76,9 +76,9 @@ std::unique_ptr<Rig> RigOptions::assemble(const std::shared_ptr<const Program>& 
   }
   if (!faults_.prepare()) return nullptr;
   std::string why;
-  const auto assignments = parse_assignments(set_, *program->model, why);
+  const auto assignments = parse_assignments(set_, *program, why);
   if (!assignments) return print_error("--set: " + why), nullptr;
-  const auto dumps = parse_ranges(dump_, *program->model, why);
+  const auto dumps = parse_ranges(dump_, *program, why);
   if (!dumps) return print_error("--dump: " + why), nullptr;
   dumps_ = *dumps;
   settings_.set = *assignments;
