@@ -6,7 +6,7 @@
 //
 // Not documented, modelled so: the watchdog error names the instruction during which the time ran out.
 // [Choices.TheWatchdogNamesTheInstructionDuringWhichItRanOut]
-// Not modelled: expansion module errors (SM5, SMB8–21), forced values, memory cartridge.
+// Not modelled: expansion modules and their errors (SMB5 stays 0, SMB8–21 are refused), forced values, memory cartridge.
 #pragma once
 
 #include <cstdint>

@@ -61,6 +61,12 @@ std::string MemoryRange::name_of(std::uint32_t i) const {
   return address_text(area, width, number + i * step, bit);
 }
 
+std::vector<std::uint8_t> MemoryRange::bytes_in(std::span<const std::uint8_t> image) const {
+  if (width == Width::Bit) return {static_cast<std::uint8_t>((image[at] >> bit) & 1)};
+  const auto found = image.subspan(at, bytes());
+  return {found.begin(), found.end()};
+}
+
 std::optional<MemoryRange> parse_range(std::string_view text, const AddressSpace& space, std::string& why) {
   const std::size_t colon = text.find(':', text.starts_with('"') ? text.find('"', 1) : 0);
   const auto address = find_address(text.substr(0, colon), space);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,8 @@ struct MemoryRange {
   std::uint32_t bytes() const { return width == Width::Bit ? 1 : count * bytes_of(width); }
   /// Address of object `i` of the range.
   std::string name_of(std::uint32_t i) const;
+  /// Its bytes as they lie in an image; of a bit, 00 or 01.
+  std::vector<std::uint8_t> bytes_in(std::span<const std::uint8_t> image) const;
 };
 
 /// Where addresses are looked up: in the areas of a CPU, and among the symbols of its program if there is one.

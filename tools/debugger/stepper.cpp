@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "tools/views/memory.hpp"
 
 namespace s7200::tools {
 
@@ -32,7 +31,7 @@ Stop Stepper::run(const Goal& goal, Time limit, bool stop_at_answer) {
   executing_start_ = reached_start_ = false;
   progress_ = {.executed = 0, .left = !standing_};
   stop_ = {};
-  for (Watch& watch : watches) watch.value = bytes_of(state, watch.range);
+  for (Watch& watch : watches) watch.value = watch.range.bytes_in(state.image);
   const serial::Halt halt = drive_(kNever);
   if (halt == serial::Halt::Stopped) stop_.reason = StopReason::CpuStopped;
   if (halt == serial::Halt::Request) stop_.reason = StopReason::Request;
@@ -86,7 +85,7 @@ bool Stepper::answer_complete() {
 
 void Stepper::note_changes(const InstructionRecord* by) {
   for (Watch& watch : watches) {
-    std::vector<std::uint8_t> value = bytes_of(simulation_.cpu().state(), watch.range);
+    std::vector<std::uint8_t> value = watch.range.bytes_in(simulation_.cpu().state().image);
     if (value == watch.value) continue;
     ++watch.hits;
     stop_.changes.push_back({watch, value, by ? std::optional(*by) : std::nullopt});

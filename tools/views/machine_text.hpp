@@ -23,7 +23,7 @@ std::string stack_text(const State& state);
 /// SMB30 in words, receiver, transmitter, and what the master on the line is doing.
 std::string port_text(const serial::Simulation& simulation);
 
-/// One watched value, bytes as bytes_of() gives them: `1`, `16#05 (5)`, `16#FFFB (-5)`, several as hex bytes. A double word
+/// One watched value, bytes as MemoryRange::bytes_in() gives them: `1`, `16#05 (5)`, `16#FFFB (-5)`, several as hex bytes. A double word
 /// that the program uses as a real is shown as one too: `16#3FC00000 (1069547520, 1.5)`.
 std::string value_text(const Program& program, const MemoryRange& range, std::span<const std::uint8_t> bytes);
 

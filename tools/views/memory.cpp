@@ -129,15 +129,9 @@ void assign(serial::Simulation& simulation, const Assignment& assignment) {
   for (std::uint32_t i = 0; i < bytes.size(); ++i) cpu.set_input(place.number + i, bytes[i], cpu.time());
 }
 
-std::vector<std::uint8_t> bytes_of(const State& state, const MemoryRange& range) {
-  if (range.width == Width::Bit) return {static_cast<std::uint8_t>((state.image[range.at] >> range.bit) & 1)};
-  const auto begin = state.image.begin() + range.at;
-  return {begin, begin + range.bytes()};
-}
-
 std::string dump_text(const Cpu& cpu, const MemoryRange& range) {
   const State& state = cpu.state();
-  if (range.width == Width::Bit) return fmt::format("{:<8} {}\n", range.name_of(0), bytes_of(state, range)[0]);
+  if (range.width == Width::Bit) return fmt::format("{:<8} {}\n", range.name_of(0), range.bytes_in(state.image)[0]);
   if (range.width == Width::Byte) return bytes_text(state, range);
   std::string text;
   for (std::uint32_t i = 0; i < range.count; ++i)
@@ -146,7 +140,7 @@ std::string dump_text(const Cpu& cpu, const MemoryRange& range) {
 }
 
 nlohmann::ordered_json dump_json(const Cpu& cpu, const MemoryRange& range) {
-  nlohmann::ordered_json json{{"type", type_of(range)}, {"hex", plain_hex(bytes_of(cpu.state(), range))}};
+  nlohmann::ordered_json json{{"type", type_of(range)}, {"hex", plain_hex(range.bytes_in(cpu.state().image))}};
   auto values = nlohmann::ordered_json::array(), reals = values;
   bool any_real = false;
   for (std::uint32_t i = 0; i < range.count; ++i) {

@@ -21,9 +21,6 @@ std::optional<std::vector<MemoryRange>> parse_ranges(const std::vector<std::stri
 /// I addresses set the input points, everything else is written as a programming device would.
 void assign(serial::Simulation& simulation, const Assignment& assignment);
 
-/// Bytes of a range as they lie in memory; of a bit, 00 or 01.
-std::vector<std::uint8_t> bytes_of(const State& state, const MemoryRange& range);
-
 /// Lines `VW100  16#0005      5`: hex and decimal for each object, bytes sixteen a line with their characters. A double word
 /// that the program uses as a real is shown as one too.
 std::string dump_text(const Cpu& cpu, const MemoryRange& range);

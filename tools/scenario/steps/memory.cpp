@@ -1,6 +1,4 @@
 // memory: what must be in memory now.
-#include "tools/views/memory.hpp"
-
 #include "tools/scenario/memory_values.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/steps.hpp"
@@ -17,7 +15,7 @@ struct MemoryStep final : Action {
     run.count_check();
     const Cpu& cpu = run.plant()->cpu();
     for (const MemoryExpected& e : expected) {
-      const Bytes found = bytes_of(cpu.state(), e.range);
+      const Bytes found = e.range.bytes_in(cpu.state().image);
       if (!e.fits(found)) run.add(memory_finding(cpu.program(), e, found));
     }
   }
