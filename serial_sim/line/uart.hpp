@@ -84,6 +84,9 @@ class Uart final : public SerialPort, private LineListener {
 
   int driver() const { return driver_; }
 
+  /// Whether another station, or a disturbance, holds the line at space.
+  bool others_space(Time at) const { return !line_.level_without(driver_, at); }
+
   /// An event of this UART's owner is due.
   Report handle(const Event& event);
 

@@ -44,7 +44,7 @@ void Requester::begin(const Request& request, Time at) {
   exchange.request = request.frame;
   exchange.request_start = at;
   exchange.request_end = exchange.response_start = exchange.response_end = 0;
-  exchange.timed_out = exchange.too_long = false;
+  exchange.timed_out = exchange.too_long = exchange.early = false;
 }
 
 void Requester::listen(const Listening& listening, Time at) {
@@ -117,6 +117,7 @@ void Requester::sent(Time at) {
     return;
   }
   state_.exchange.request_end = at;
+  state_.exchange.early = !uart_.hears_itself() && uart_.others_space(at - 1);
   state_.phase = Phase::Waiting;
   uart_.enable_receiver(true, at);
   queue_.schedule(at + state_.request.timeout, owner_, kQuiet);

@@ -50,6 +50,7 @@ struct Exchange {
   Time response_end = 0;    ///< end of the last character's stop bit
   bool timed_out = false;   ///< no answer began in time
   bool too_long = false;    ///< cut off after Requester::kLongestResponse characters
+  bool early = false;       ///< another station held the line at space when the request ended: its start edge was not heard
 
   bool operator==(const Exchange&) const = default;
 

@@ -40,6 +40,9 @@ std::string remarks_on(const serial::Exchange& exchange) {
   return text;
 }
 
+constexpr std::string_view kEarly =
+    "another station began to send before the request's last stop bit ended: the master does not hear that";
+
 std::string below(const std::string& text) { return text.empty() ? "" : fmt::format("         {}\n", text); }
 
 }  // namespace
@@ -93,14 +96,15 @@ std::string exchange_text(const serial::Exchange& exchange, Time timeout) {
   const Bytes bytes = serial::bytes_of(exchange.request);
   std::string request = fmt::format("request  {}\n{}", serial::to_hex(exchange.request), below(request_text(bytes)));
   if (!exchange.echo.empty()) request += fmt::format("echo     {}\n", serial::to_hex(serial::bytes_of(exchange.echo)));
-  if (exchange.timed_out) return fmt::format("{}answer   none within {}\n", request, format_duration(timeout));
-  return fmt::format("{}answer   {}   after {}\n{}", request, serial::to_hex(exchange.response_bytes()),
-                     format_duration(*exchange.latency()), below(remarks_on(exchange)));
+  const std::string early = below(exchange.early ? std::string(kEarly) : "");
+  if (exchange.timed_out) return fmt::format("{}answer   none within {}\n{}", request, format_duration(timeout), early);
+  return fmt::format("{}answer   {}   after {}\n{}{}", request, serial::to_hex(exchange.response_bytes()),
+                     format_duration(*exchange.latency()), below(remarks_on(exchange)), early);
 }
 
 bool is_damaged(const serial::Exchange& exchange) {
   if (exchange.timed_out) return false;
-  return exchange.parity_error() || exchange.framing_error() ||
+  return exchange.early || exchange.parity_error() || exchange.framing_error() ||
          (modbus::crc_ok(serial::bytes_of(exchange.request)) && !modbus::crc_ok(exchange.response_bytes()));
 }
 
@@ -110,6 +114,7 @@ nlohmann::ordered_json exchange_json(const serial::Exchange& exchange, const Byt
   if (!unasked.empty()) json["unasked"] = plain_hex(unasked);
   if (const auto text = plain_text({}, unasked)) json["unasked_text"] = *text;
   if (!exchange.echo.empty()) json["echo"] = plain_hex(serial::bytes_of(exchange.echo));
+  if (exchange.early) json["early"] = true;
   const Bytes request = serial::bytes_of(exchange.request);
   if (const auto text = plain_text(request, request)) json["request_text"] = *text;
   if (exchange.timed_out) return json;

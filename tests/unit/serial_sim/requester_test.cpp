@@ -131,6 +131,15 @@ TEST(Requester, DoesNotHearItself) {
   EXPECT_TRUE(exchange.response.empty());
 }
 
+TEST(Requester, NoticesAnAnswerThatBeginsBeforeItsLastStopBitEnds) {
+  Conversation talk;
+  talk.answer = to_frame(kAnswer);
+  talk.delay = 0;
+  EXPECT_TRUE(talk.exchange(request_of(kRequest)).early);
+  talk.delay = k8E1.half_bits(1);
+  EXPECT_FALSE(talk.exchange(request_of(kRequest)).early);
+}
+
 TEST(Requester, SilenceEndsTheAnswer) {
   Conversation talk;
   talk.answer = to_frame(kAnswer);

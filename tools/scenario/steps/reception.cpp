@@ -47,6 +47,7 @@ void Reception::judge(Run& run, const serial::Exchange& exchange, const SerialFo
   for (std::size_t i = 1; i < expected.size(); ++i) finding.expected += " or " + in_words(expected[i], request);
   if (disturbed) add_remark(finding.expected, "with parity or framing errors");
   if (found_disturbed) add_remark(finding.found, exchange.parity_error() ? "parity errors" : "framing errors");
+  if (exchange.early) add_remark(finding.found, "it began before the request's last stop bit ended");
   run.add_exchange(std::move(finding));
 }
 
