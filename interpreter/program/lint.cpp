@@ -302,11 +302,15 @@ bool used_between(const Program& program, const Flow& flow, const std::vector<st
 /// Two instructions of the same timer or counter where every scan that executes one also executes the other.
 void find_executed_twice(const Program& program, Area area, Warning warning, std::string_view trouble,
                          stl::Diagnostics& diagnostics) {
+  const auto counts = [&](const Op& op) {
+    return op.instruction->hidden == Hidden::Number && op.instruction->operand[0].areas == set_of(area);
+  };
+  if (std::ranges::count_if(program.ops, counts) < 2) return;
   Flow flow(program);
   std::map<std::uint32_t, Earlier> executed;
   for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
     const Op& op = program.ops[i];
-    if (op.instruction->hidden != Hidden::Number || op.instruction->operand[0].areas != set_of(area)) continue;
+    if (!counts(op)) continue;
     Earlier& earlier = executed[op[2].at];
     auto other = earlier.before(flow, i);
     if (!other) other = earlier.beside(flow, i);
