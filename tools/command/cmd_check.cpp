@@ -34,34 +34,6 @@ CheckResult check_with(const CheckOptions& options, const SourceText& text, cons
   return result;
 }
 
-struct ProgramFiles {
-  std::string path;
-  SourceText text;
-};
-
-/// The programs among the files; symbol tables and other parts of a project belong to all of them. Without a program the
-/// parts are checked by themselves.
-std::vector<ProgramFiles> read_programs(const std::vector<std::string>& paths, int& exit_code) {
-  std::vector<ProgramFiles> programs, parts;
-  for (const std::string& path : paths) {
-    auto text = read_program_text(path);
-    if (text)
-      (text->is_program() ? programs : parts).push_back({path, std::move(*text)});
-    else
-      exit_code = kUnusable;
-  }
-  if (programs.empty() && !parts.empty()) {
-    programs.push_back(std::move(parts.front()));
-    parts.erase(parts.begin());
-  }
-  for (auto& [path, text] : programs) {
-    std::vector<SourceText> files{std::move(text)};
-    for (const ProgramFiles& part : parts) files.push_back(part.text);
-    text = join_files(std::move(files));
-  }
-  return programs;
-}
-
 int run_check(const CheckOptions& options) {
   const CpuModel* model = options.cpu.model();
   if (!model) return kUnusable;

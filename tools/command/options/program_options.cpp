@@ -155,6 +155,27 @@ std::optional<SourceText> read_project(const std::string& path, const std::vecto
   return join_files(std::move(files));
 }
 
+std::vector<ProgramFiles> read_programs(const std::vector<std::string>& paths, int& exit_code) {
+  std::vector<ProgramFiles> programs, parts;
+  for (const std::string& path : paths) {
+    auto text = read_program_text(path);
+    if (text)
+      (text->is_program() ? programs : parts).push_back({path, std::move(*text)});
+    else
+      exit_code = kUnusable;
+  }
+  if (programs.empty() && !parts.empty()) {
+    programs.push_back(std::move(parts.front()));
+    parts.erase(parts.begin());
+  }
+  for (auto& [path, text] : programs) {
+    std::vector<SourceText> files{std::move(text)};
+    for (const ProgramFiles& part : parts) files.push_back(part.text);
+    text = join_files(std::move(files));
+  }
+  return programs;
+}
+
 std::string left_out_note(const SourceText& text) {
   constexpr std::size_t kShown = 20;
   const std::vector<std::uint32_t>& lines = text.parsed.left_out;

@@ -62,6 +62,15 @@ std::optional<SourceText> read_program_text(const std::string& path, bool force_
 /// The same of a program and its parts.
 std::optional<SourceText> read_project(const std::string& path, const std::vector<std::string>& parts);
 
+struct ProgramFiles {
+  std::string path;  ///< of the program
+  SourceText text;   ///< with its parts
+};
+
+/// The programs among the files; symbol tables and other parts of a project belong to all of them. Without a program the
+/// parts are checked by themselves. What cannot be read makes `exit_code` kUnusable, after a message.
+std::vector<ProgramFiles> read_programs(const std::vector<std::string>& paths, int& exit_code);
+
 /// Which lines of the listing of a document were left out as text; empty if none were.
 std::string left_out_note(const SourceText& text);
 
