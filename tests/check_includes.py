@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Who may include whom, which libraries each room sees, and which words it does not use.
+"""Who may include whom, which libraries each room sees, which words it does not use; and each type's name is its own.
 
 A folder is a room; ROOMS says what each sees besides itself. There are no exceptions: a file that cannot stand in its room
 belongs in another. Run without arguments; every offence is printed, the exit code is 1 if there is any.
@@ -120,8 +120,34 @@ def offences_of(path):
                 yield f"{name}:{code.count(chr(10), 0, match.start()) + 1}: '{match.group()}' belongs in {', '.join(allowed)}"
 
 
+DEFINITION = re.compile(r"^(?:struct|class|enum class|union) (\w+)\b[^;]*$|^namespace ([\w:]+) \{")
+
+
+def types_defined_in(path):
+    """Of a header, with their namespaces; those inside other types stand further right."""
+    namespace = ""
+    for number, line in enumerate(path.read_text(encoding="utf-8").split("\n"), 1):
+        if match := DEFINITION.match(line):
+            namespace = match[2] or namespace
+            if match[1]:
+                yield f"{namespace}::{match[1]}", number
+
+
+def offences_of_types():
+    """Two types of one name break C++'s one-definition rule, and no compiler sees it."""
+    first = {}
+    for path in sources():
+        if path.suffix != ".hpp" or path.is_relative_to(TOP / "tests"):
+            continue
+        name = path.relative_to(TOP).as_posix()
+        for defined, number in types_defined_in(path):
+            if defined in first:
+                yield f"{name}:{number}: {defined} is defined in {first[defined]} too"
+            first.setdefault(defined, f"{name}:{number}")
+
+
 def main():
-    found = [offence for path in sources() for offence in offences_of(path)]
+    found = [offence for path in sources() for offence in offences_of(path)] + list(offences_of_types())
     for line in found:
         print(line)
     print(f"{len(list(sources()))} files, {len(found)} offences")

@@ -13,20 +13,11 @@
 namespace s7200 {
 namespace {
 
-/// One operand in STL notation.
-std::optional<stl::OperandValue> parse_operand(std::string_view text) {
-  if (text.find_first_of("\n\r,;/ \t") != std::string_view::npos) return {};
-  const stl::ParseResult parsed = stl::parse(std::string("LD ").append(text), "");
-  if (!parsed.diagnostics.empty() || parsed.source.lines.size() != 1) return {};
-  const auto* statement = std::get_if<stl::Statement>(&parsed.source.lines[0]);
-  if (!statement || statement->operands.size() != 1) return {};
-  return statement->operands[0].value;
-}
-
 /// An address as written, or that of a symbol.
 std::optional<stl::Address> find_address(std::string_view text, const AddressSpace& space) {
-  const auto operand = parse_operand(text);
-  if (const auto* address = operand ? std::get_if<stl::Address>(&*operand) : nullptr) return *address;
+  std::string why;
+  const auto operand = stl::parse_operand(text, why);
+  if (const auto* address = operand ? std::get_if<stl::Address>(&operand->value) : nullptr) return *address;
   const stl::Symbol* symbol = space.symbols ? stl::find_symbol(*space.symbols, text) : nullptr;
   const auto* address = symbol && symbol->value ? std::get_if<stl::Address>(&*symbol->value) : nullptr;
   return address ? std::optional(*address) : std::nullopt;
@@ -95,14 +86,15 @@ std::optional<MemoryRange> parse_range(std::string_view text, const AddressSpace
 }
 
 std::optional<Assignment> parse_value(const MemoryRange& place, std::string_view text) {
-  const auto value = parse_operand(text);
+  std::string why;
+  const auto value = stl::parse_operand(text, why);
   if (!value || place.count != 1) return {};
-  if (const auto* real = std::get_if<stl::Real>(&*value); real && place.width == Width::Double) {
+  if (const auto* real = std::get_if<stl::Real>(&value->value); real && place.width == Width::Double) {
     Assignment assignment{place, std::bit_cast<std::uint32_t>(real->value)};
     assignment.place.real = true;
     return assignment;
   }
-  const auto* integer = std::get_if<stl::Integer>(&*value);
+  const auto* integer = std::get_if<stl::Integer>(&value->value);
   if (!integer) return {};
   if (place.real) return Assignment{place, std::bit_cast<std::uint32_t>(static_cast<float>(integer->value))};
   const int bits = place.width == Width::Bit ? 1 : 8 * static_cast<int>(bytes_of(place.width));

@@ -10,6 +10,8 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/program/german.hpp"
+#include "interpreter/stl/block_words.hpp"
+#include "interpreter/stl/german_letters.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/stl/symbols.hpp"
 
@@ -21,8 +23,7 @@ constexpr std::array<std::pair<std::string_view, Notation>, 4> kNotations{{{"iec
                                                                            {"microwin", Notation::MicroWin},
                                                                            {"german", Notation::German}}};
 
-// ---- One statement
-// ---------------------------------------------------------------------------------------------------------
+// --- one statement ---
 
 bool is_one_of(std::string_view mnemonic, std::initializer_list<std::string_view> mnemonics) {
   return std::ranges::find(mnemonics, mnemonic) != mnemonics.end();
@@ -51,10 +52,8 @@ void to_micro_dos(stl::Statement& statement) {
 }
 
 void to_german(stl::Address& address) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kLetters{
-      {{"I", "E"}, {"Q", "A"}, {"AI", "AE"}, {"AQ", "AA"}, {"C", "Z"}, {"HC", "HZ"}}};
-  const auto found = std::ranges::find(kLetters, address.area, &std::pair<std::string_view, std::string_view>::first);
-  if (found != kLetters.end()) address.area = found->second;
+  const auto found = std::ranges::find(stl::kGermanLetters, address.area, &stl::GermanLetters::international);
+  if (found != stl::kGermanLetters.end()) address.area = found->german;
 }
 
 void to_german(stl::Statement& statement) {
@@ -68,21 +67,7 @@ void to_german(stl::Statement& statement) {
   if (find_german_instruction(german)) statement.mnemonic = std::move(german);
 }
 
-// ---- Blocks
-// ----------------------------------------------------------------------------------------------------------------
-
-struct BlockWords {
-  std::string_view keyword, letters, name, head, end;
-};
-
-// By stl::Block::Kind.
-constexpr std::array kBlockWords{
-    BlockWords{"ORGANIZATION_BLOCK", "OB", "MAIN", "", "MEND"},
-    BlockWords{"SUBROUTINE_BLOCK", "SBR", "SBR_", "SBR", "RET"},
-    BlockWords{"INTERRUPT_BLOCK", "INT", "INT_", "INT", "RETI"},
-};
-
-const BlockWords& words(stl::Block::Kind kind) { return kBlockWords[static_cast<std::size_t>(kind)]; }
+// --- blocks ---
 
 /// The lines of a routine without its head and its end.
 struct Routine {
@@ -108,7 +93,7 @@ std::vector<Routine> routines_of(const stl::Source& source) {
     });
     if (known != source.blocks.end()) routine.block = *known;
     if (routine.block.name.empty()) {
-      const BlockWords& of_kind = words(routine.block.kind);
+      const stl::BlockWords& of_kind = stl::words(routine.block.kind);
       routine.block.name = routine.block.kind == stl::Block::Kind::Main
                                ? std::string(of_kind.name)
                                : fmt::format("{}{}", of_kind.name, routine.block.number);
@@ -140,19 +125,12 @@ std::string quoted_if_needed(const std::string& name) {
   return plain && !name.empty() && !stl::is_digit(name.front()) ? name : fmt::format("\"{}\"", name);
 }
 
-std::string_view type_name(stl::Variable::Type type) {
-  constexpr std::array<std::string_view, 9> kNames{"BOOL", "BYTE", "CHAR", "WORD", "INT", "DWORD", "DINT", "REAL", "STRING"};
-  return kNames[static_cast<std::size_t>(type)];
-}
-
 std::string declarations_text(const std::vector<stl::Variable>& variables) {
-  constexpr std::array<std::string_view, 4> kSections{"VAR_INPUT", "VAR_IN_OUT", "VAR_OUTPUT", "VAR"};
   std::string text;
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const stl::Variable& variable = variables[i];
-    if (i == 0 || variables[i - 1].kind != variable.kind)
-      text += fmt::format("{}\n", kSections[static_cast<std::size_t>(variable.kind)]);
-    text += fmt::format(" {} : {};{}\n", quoted_if_needed(variable.name), type_name(variable.type),
+    if (i == 0 || variables[i - 1].kind != variable.kind) text += fmt::format("{}\n", stl::word(variable.kind));
+    text += fmt::format(" {} : {};{}\n", quoted_if_needed(variable.name), stl::word(variable.type).name,
                         variable.comment.empty() ? "" : "  // " + variable.comment);
     if (i + 1 == variables.size() || variables[i + 1].kind != variable.kind) text += "END_VAR\n";
   }
@@ -205,7 +183,7 @@ std::string blocks_text(const stl::Source& source) {
   const std::vector<Routine> routines = routines_of(source);
   std::string text;
   for (const Routine& routine : routines) {
-    const BlockWords& of_kind = words(routine.block.kind);
+    const stl::BlockWords& of_kind = stl::words(routine.block.kind);
     text += fmt::format("{} {}:{}{}\nTITLE={}\n", of_kind.keyword, quoted_if_needed(routine.block.name), of_kind.letters,
                         routine.block.number, routine.block.title);
     const auto first = std::ranges::find_if_not(
@@ -221,8 +199,7 @@ std::string blocks_text(const stl::Source& source) {
   return text + data_text(source.data);
 }
 
-// ---- Whether it can be printed
-// ---------------------------------------------------------------------------------------------
+// --- whether it can be printed ---
 
 class Printable {
  public:
@@ -265,6 +242,13 @@ std::optional<Notation> notation_named(std::string_view name) {
   const auto found = std::ranges::find(kNotations, name, &std::pair<std::string_view, Notation>::first);
   if (found == kNotations.end()) return {};
   return found->second;
+}
+
+std::string notation_names() {
+  std::string names;
+  for (std::size_t i = 0; i < kNotations.size(); ++i)
+    names += fmt::format("{}{}", i == 0 ? "" : i + 1 == kNotations.size() ? " and " : ", ", kNotations[i].first);
+  return names;
 }
 
 std::string_view name_of(Notation notation) { return kNotations[static_cast<std::size_t>(notation)].first; }

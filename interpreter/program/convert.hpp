@@ -20,6 +20,8 @@ enum class Notation : std::uint8_t {
 /// `iec`, `microdos`, `microwin`, `german`.
 std::optional<Notation> notation_named(std::string_view name);
 std::string_view name_of(Notation notation);
+/// `iec, microdos, microwin and german`
+std::string notation_names();
 
 /// The source in a notation. Names become addresses; the data block is printed among blocks only. Returns nothing and adds
 /// diagnostics to `parsed` if it cannot be printed: names that nothing defines, parameters of CALL outside of blocks.

@@ -1,13 +1,13 @@
 #include "interpreter/program/german.hpp"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <string_view>
 #include <utility>
 #include <variant>
 
 #include "interpreter/model/instruction.hpp"
+#include "interpreter/stl/german_letters.hpp"
 
 namespace s7200 {
 namespace {
@@ -21,8 +21,8 @@ const stl::Address* address_in(const stl::OperandValue& value) {
 
 /// Areas whose letters differ in the German set.
 bool has_german_letters(const stl::Address& address) {
-  constexpr std::array<std::string_view, 6> kAreas{"I", "Q", "AI", "AQ", "C", "HC"};
-  return std::ranges::find(kAreas, address.area) != kAreas.end();
+  return std::ranges::find(stl::kGermanLetters, address.area, &stl::GermanLetters::international) !=
+         stl::kGermanLetters.end();
 }
 
 using Place = std::pair<std::uint32_t, std::uint32_t>;

@@ -9,7 +9,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/instruction.hpp"
-#include "interpreter/program/memory_range.hpp"
+#include "interpreter/program/operand_memory.hpp"
 #include "interpreter/stl/encoding.hpp"
 #include "interpreter/stl/parser.hpp"
 #include "interpreter/stl/printer.hpp"

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "interpreter/model/instruction.hpp"
-#include "interpreter/program/memory_range.hpp"
+#include "interpreter/program/operand_memory.hpp"
 #include "interpreter/stl/printer.hpp"
 
 namespace s7200 {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/stl/block_words.hpp"
 
 namespace s7200 {
 namespace {
@@ -20,7 +21,6 @@ constexpr Areas kBytes = set_of(Area::I) | set_of(Area::Q) | set_of(Area::M) | s
 constexpr Areas kTimers = set_of(Area::T) | set_of(Area::C);
 
 struct TypeRow {
-  std::string_view name;
   Width width;
   Areas read, written;  ///< besides kBytes
   Sign sign;
@@ -28,15 +28,15 @@ struct TypeRow {
 
 // By stl::Variable::Type.
 constexpr std::array kTypes{
-    TypeRow{"BOOL", Width::Bit, kTimers, kTimers, Sign::Either},
-    TypeRow{"BYTE", Width::Byte, set_of(Area::AC), set_of(Area::AC), Sign::Either},
-    TypeRow{"CHAR", Width::Byte, set_of(Area::AC), set_of(Area::AC), Sign::Either},
-    TypeRow{"WORD", Width::Word, kTimers | set_of(Area::AC) | set_of(Area::AI), kTimers | set_of(Area::AC), Sign::Either},
-    TypeRow{"INT", Width::Word, kTimers | set_of(Area::AC) | set_of(Area::AI), kTimers | set_of(Area::AC), Sign::Signed},
-    TypeRow{"DWORD", Width::Double, set_of(Area::AC) | set_of(Area::HC), set_of(Area::AC), Sign::Either},
-    TypeRow{"DINT", Width::Double, set_of(Area::AC) | set_of(Area::HC), set_of(Area::AC), Sign::Signed},
-    TypeRow{"REAL", Width::Double, set_of(Area::AC), set_of(Area::AC), Sign::Either},
-    TypeRow{"STRING", Width::Double, 0, 0, Sign::Either},
+    TypeRow{Width::Bit, kTimers, kTimers, Sign::Either},
+    TypeRow{Width::Byte, set_of(Area::AC), set_of(Area::AC), Sign::Either},
+    TypeRow{Width::Byte, set_of(Area::AC), set_of(Area::AC), Sign::Either},
+    TypeRow{Width::Word, kTimers | set_of(Area::AC) | set_of(Area::AI), kTimers | set_of(Area::AC), Sign::Either},
+    TypeRow{Width::Word, kTimers | set_of(Area::AC) | set_of(Area::AI), kTimers | set_of(Area::AC), Sign::Signed},
+    TypeRow{Width::Double, set_of(Area::AC) | set_of(Area::HC), set_of(Area::AC), Sign::Either},
+    TypeRow{Width::Double, set_of(Area::AC) | set_of(Area::HC), set_of(Area::AC), Sign::Signed},
+    TypeRow{Width::Double, set_of(Area::AC), set_of(Area::AC), Sign::Either},
+    TypeRow{Width::Double, 0, 0, Sign::Either},
 };
 
 const TypeRow& row(Type type) { return kTypes[static_cast<std::size_t>(type)]; }
@@ -82,7 +82,7 @@ std::vector<const stl::Variable*> formal_parameters(const stl::Block& block) {
 std::string declarations(const std::vector<const stl::Variable*>& formal) {
   std::vector<std::string> all;
   for (const stl::Variable* variable : formal)
-    all.push_back(fmt::format("{} : {}", stl::shortened(variable->name), row(variable->type).name));
+    all.push_back(fmt::format("{} : {}", stl::shortened(variable->name), stl::word(variable->type).name));
   return fmt::format("{}", fmt::join(all, ", "));
 }
 

@@ -89,6 +89,11 @@ class StructureCheck {
       result_.in_segment[i] = true;
       if (s.instruction->outside_segments) not_allowed_in_segment(i);
     }
+    note(i, s);
+  }
+
+  /// What a statement is for the structure of its routine.
+  void note(std::uint32_t i, const CheckedStatement& s) {
     switch (s.instruction->structure) {
       case Structure::Label:
         return label(i);

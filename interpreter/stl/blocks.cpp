@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/stl/block_words.hpp"
 #include "interpreter/stl/data_block.hpp"
 
 namespace s7200::stl {
@@ -19,22 +20,10 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// ---- The keywords --------------------------------------------------------------------------------------------------------
+// --- the keywords ---
 
-/// What a kind of block is called, and what its routine begins and ends with in a listing.
-struct BlockKind {
-  std::string_view keyword, letters, head, end;
-};
-
-constexpr std::array kKinds{
-    BlockKind{"ORGANIZATION_BLOCK", "OB", "", "MEND"},
-    BlockKind{"SUBROUTINE_BLOCK", "SBR", "SBR", "RET"},
-    BlockKind{"INTERRUPT_BLOCK", "INT", "INT", "RETI"},
-};
 constexpr std::string_view kDataBlock = "DATA_BLOCK";
 constexpr std::size_t kLongestKeyword = 22;  // END_ORGANIZATION_BLOCK
-
-const BlockKind& row(Block::Kind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
 
 std::string_view code_of(std::string_view line) { return trim(line.substr(0, line.find("//"))); }
 
@@ -46,13 +35,12 @@ std::string keyword_of(std::string_view code) {
 }
 
 bool opens_block(std::string_view keyword) {
-  return keyword == kDataBlock || std::ranges::find(kKinds, keyword, &BlockKind::keyword) != kKinds.end();
+  return keyword == kDataBlock || std::ranges::find(kBlockWords, keyword, &BlockWords::keyword) != kBlockWords.end();
 }
 
 bool closes_block(std::string_view keyword) { return keyword.starts_with("END_") && opens_block(keyword.substr(4)); }
 
-// ---- Headings of published listings
-// ----------------------------------------------------------------------------------------
+// --- headings of published listings ---
 
 struct HeadingWord {
   std::string_view word;
@@ -93,26 +81,13 @@ std::optional<Heading> heading_of(std::string_view line) {
 }
 
 std::optional<Variable::Kind> declaration_kind(std::string_view keyword) {
-  if (keyword == "VAR_INPUT") return Variable::Kind::Input;
-  if (keyword == "VAR_IN_OUT") return Variable::Kind::InOut;
-  if (keyword == "VAR_OUTPUT") return Variable::Kind::Output;
-  if (keyword == "VAR" || keyword == "VAR_TEMP") return Variable::Kind::Temporary;
-  return std::nullopt;
+  if (keyword == "VAR_TEMP") return Variable::Kind::Temporary;
+  const auto found = std::ranges::find(kDeclarationWords, keyword);
+  if (found == kDeclarationWords.end()) return std::nullopt;
+  return static_cast<Variable::Kind>(found - kDeclarationWords.begin());
 }
 
-// ---- The types of variables ----------------------------------------------------------------------------------------------
-
-struct TypeRow {
-  std::string_view name;
-  Size size;
-};
-
-// By Variable::Type. A string is a pointer to it.
-constexpr std::array kTypes{
-    TypeRow{"BOOL", Size::Bit},    TypeRow{"BYTE", Size::Byte},   TypeRow{"CHAR", Size::Byte},
-    TypeRow{"WORD", Size::Word},   TypeRow{"INT", Size::Word},    TypeRow{"DWORD", Size::Double},
-    TypeRow{"DINT", Size::Double}, TypeRow{"REAL", Size::Double}, TypeRow{"STRING", Size::Double},
-};
+// --- local memory ---
 
 std::uint32_t bytes_of(Size size) { return size == Size::Double ? 4 : size == Size::Word ? 2 : 1; }
 
@@ -140,7 +115,7 @@ class LocalMemory {
 
 constexpr std::uint32_t kLocalBytes = 64;
 
-// ---- The reader ----------------------------------------------------------------------------------------------------------
+// --- the reader ---
 
 class BlockReader {
  public:
@@ -310,7 +285,7 @@ class BlockReader {
   void section(std::string name) { result_.source.sections.push_back({number_, std::move(name)}); }
 
   static std::string name_of(const Block& block) {
-    return block.name.empty() ? fmt::format("{}{}", row(block.kind).letters, block.number) : shortened(block.name);
+    return block.name.empty() ? fmt::format("{}{}", words(block.kind).letters, block.number) : shortened(block.name);
   }
 
   // --- heads and ends ---
@@ -325,7 +300,7 @@ class BlockReader {
       section("data block");
       return;
     }
-    const auto kind = std::ranges::find(kKinds, keyword, &BlockKind::keyword) - kKinds.begin();
+    const auto kind = std::ranges::find(kBlockWords, keyword, &BlockWords::keyword) - kBlockWords.begin();
     result_.source.blocks.push_back({.kind = static_cast<Block::Kind>(kind), .position = position_of(code)});
     const bool numbered = read_name(trim(code.substr(keyword.size())), code);
     if (!numbered) without_number_.push_back(block_index());
@@ -355,7 +330,7 @@ class BlockReader {
 
   /// `SBR_0:SBR0`, `"Pump control":SBR0`, `SBR0`, `0`. False after a message if there is no number.
   bool read_name(std::string_view text, std::string_view head) {
-    const BlockKind& kind = row(block().kind);
+    const BlockWords& kind = words(block().kind);
     const std::size_t colon = text.rfind(':');
     std::string_view number = colon == std::string_view::npos ? text : trim(text.substr(colon + 1));
     std::string_view name = colon == std::string_view::npos ? std::string_view{} : trim(text.substr(0, colon));
@@ -377,7 +352,7 @@ class BlockReader {
   }
 
   void number_blocks_without_number() {
-    std::array<std::set<std::uint32_t>, kKinds.size()> taken;
+    std::array<std::set<std::uint32_t>, kBlockWords.size()> taken;
     auto& blocks = result_.source.blocks;
     for (std::size_t i = 0, missing = 0; i < blocks.size(); ++i) {
       if (missing < without_number_.size() && without_number_[missing] == i)
@@ -394,7 +369,9 @@ class BlockReader {
   }
 
   void end_block(const std::string& keyword, std::string_view code) {
-    const std::string_view own = open_ ? row(block().kind).keyword : state_ == State::Data ? kDataBlock : std::string_view{};
+    const std::string_view own = open_                   ? words(block().kind).keyword
+                                 : state_ == State::Data ? kDataBlock
+                                                         : std::string_view{};
     if (own.empty()) {
       error(position_of(code), fmt::format("{} does not end any block", keyword), "its head is missing");
       return;
@@ -410,7 +387,7 @@ class BlockReader {
   void close_block(std::uint32_t line, bool ended) {
     if (state_ == State::Declarations) unclosed_declarations();
     if (!ended && !in_document_)
-      error(block().position, fmt::format("{} has no END_{}", name_of(block()), row(block().kind).keyword),
+      error(block().position, fmt::format("{} has no END_{}", name_of(block()), words(block().kind).keyword),
             "the export is not complete: export it again");
     place_variables();
     block().last_line = line;
@@ -446,8 +423,8 @@ class BlockReader {
   void declare(std::string_view text, const std::string& comment) {
     const std::size_t colon = text.rfind(':');
     const std::string_view type_name = colon == std::string_view::npos ? std::string_view{} : trim(text.substr(colon + 1));
-    const auto type = std::ranges::find(kTypes, upper_case(type_name), &TypeRow::name);
-    if (type == kTypes.end()) {
+    const auto type = std::ranges::find(kTypeWords, upper_case(type_name), &TypeWord::name);
+    if (type == kTypeWords.end()) {
       constexpr std::string_view kHint = "write NAME : TYPE; with BOOL BYTE CHAR WORD INT DWORD DINT REAL or STRING";
       if (type_name.empty())
         error(position_of(text), fmt::format("'{}' does not declare a variable", shortened(text)), std::string(kHint));
@@ -457,7 +434,7 @@ class BlockReader {
     }
     for (std::string_view names = text.substr(0, colon); !names.empty();) {
       const std::size_t end = std::min(names.find(','), names.size());
-      add_variable(trim(names.substr(0, end)), static_cast<Variable::Type>(type - kTypes.begin()), comment);
+      add_variable(trim(names.substr(0, end)), static_cast<Variable::Type>(type - kTypeWords.begin()), comment);
       names.remove_prefix(std::min(end + 1, names.size()));
     }
   }
@@ -478,7 +455,7 @@ class BlockReader {
     LocalMemory memory;
     bool reported = false;
     for (Variable& variable : variables) {
-      variable.address = memory.place(kTypes[static_cast<std::size_t>(variable.type)].size);
+      variable.address = memory.place(word(variable.type).size);
       if (memory.used() <= kLocalBytes || std::exchange(reported, true)) continue;
       error(variable.position,
             fmt::format("{} does not fit: the local memory of a block has {} bytes", shortened(variable.name), kLocalBytes),
@@ -530,7 +507,7 @@ class BlockReader {
       begin_of_[mark.block] = lines.size();
       add_head(block);
     } else if (!is_ended(block)) {
-      lines.emplace_back(Statement{std::string(row(block.kind).end), {mark.line, 1, 1}, {}, {}});
+      lines.emplace_back(Statement{std::string(words(block.kind).end), {mark.line, 1, 1}, {}, {}});
     }
     if (mark.kind == Mark::Kind::End) end_of_[mark.block] = lines.size();
   }
@@ -539,7 +516,7 @@ class BlockReader {
     std::string comment = block.name;
     if (!block.title.empty()) comment += (comment.empty() ? "" : ": ") + block.title;
     if (!comment.empty()) comment.insert(0, " ");
-    const std::string_view head = row(block.kind).head;
+    const std::string_view head = words(block.kind).head;
     if (head.empty()) {
       if (!comment.empty()) result_.source.lines.emplace_back(CommentLine{comment, block.position.line});
       return;
@@ -555,7 +532,7 @@ class BlockReader {
         std::find_if(lines.rbegin(), lines.rend(), [](const Line& l) { return std::holds_alternative<Statement>(l); });
     if (last == lines.rend()) return false;
     const auto& statement = std::get<Statement>(*last);
-    return statement.position.line > block.position.line && statement.mnemonic == row(block.kind).end;
+    return statement.position.line > block.position.line && statement.mnemonic == words(block.kind).end;
   }
 
   /// What stands before all blocks stays there.

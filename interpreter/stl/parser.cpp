@@ -14,6 +14,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/encoding.hpp"
+#include "interpreter/stl/german_letters.hpp"
 
 namespace s7200::stl {
 namespace {
@@ -36,7 +37,7 @@ struct RawWord {
 };
 
 struct AddressLetters {
-  const char* area = "";
+  std::string_view area;
   Size size = Size::None;
   bool german = false;
 };
@@ -92,37 +93,30 @@ constexpr x3::rule<Id, Attribute> named(const char* name) {
 // Keys of no_case symbols are lower case.
 struct AddressTable : x3::symbols<AddressLetters> {
   AddressTable() {
-    for (const char* area : {"I", "Q", "V", "M", "SM", "S", "L"}) add_sizes(area, area, false);
+    for (const std::string_view area : {"I", "Q", "V", "M", "SM", "S", "L", "T", "C", "HC", "AC", "AI", "AQ"})
+      add_area(area, area, false);
+    for (const GermanLetters& letters : kGermanLetters) add_area(letters.german, letters.international, true);
     add_sizes("DB", "V", false);
-    add_sizes("E", "I", true);
-    add_sizes("A", "Q", true);
-    for (const char* area : {"T", "C", "HC", "AC"}) add_letters(area, {area, Size::None, false});
-    add_letters("Z", {"C", Size::None, true});
-    add_letters("HZ", {"HC", Size::None, true});
-    add_letters("ACB", {"AC", Size::Byte, false});
-    add_letters("ACW", {"AC", Size::Word, false});
-    add_letters("ACD", {"AC", Size::Double, false});
-    add_analog("AI", "AI", false);
-    add_analog("AQ", "AQ", false);
-    add_analog("AE", "AI", true);
-    add_analog("AA", "AQ", true);
+    for (const auto& [letter, size] : {std::pair('B', Size::Byte), std::pair('W', Size::Word), std::pair('D', Size::Double)})
+      add_letters(std::string("AC") + letter, {"AC", size, false});
   }
 
  private:
-  void add_letters(std::string written, AddressLetters letters) {
-    for (char& c : written) c = static_cast<char>(c - 'A' + 'a');
-    add(written, letters);
+  void add_area(std::string_view written, std::string_view area, bool german) {
+    const bool analog = area == "AI" || area == "AQ", numbered = area == "T" || area == "C" || area == "HC" || area == "AC";
+    add_letters(written, {area, analog ? Size::Word : Size::None, german});
+    if (analog) add_letters(std::string(written) + "W", {area, Size::Word, german});
+    if (!analog && !numbered) add_sizes(written, area, german);
   }
-  void add_sizes(const std::string& written, const char* area, bool german) {
-    if (written != "DB") add_letters(written, {area, Size::None, german});
-    add_letters(written + "X", {area, Size::Bit, german});
-    add_letters(written + "B", {area, Size::Byte, german});
-    add_letters(written + "W", {area, Size::Word, german});
-    add_letters(written + "D", {area, Size::Double, german});
+  void add_sizes(std::string_view written, std::string_view area, bool german) {
+    for (const auto& [letter, size] :
+         {std::pair('X', Size::Bit), std::pair('B', Size::Byte), std::pair('W', Size::Word), std::pair('D', Size::Double)})
+      add_letters(std::string(written) + letter, {area, size, german});
   }
-  void add_analog(const std::string& written, const char* area, bool german) {
-    add_letters(written, {area, Size::Word, german});
-    add_letters(written + "W", {area, Size::Word, german});
+  void add_letters(std::string_view written, AddressLetters letters) {
+    std::string key(written);
+    for (char& c : key) c = static_cast<char>(c - 'A' + 'a');
+    add(key, letters);
   }
 };
 
@@ -590,7 +584,7 @@ class LineReader {
     if (letters.german) report_german(raw, text);
     const auto number = number_of<std::uint32_t>(view(raw.number));
     if (!number) return refuse(raw.number, "the number of this address is too large", "");
-    Address address{letters.area, letters.size, *number, 0};
+    Address address{std::string(letters.area), letters.size, *number, 0};
     if (raw.bit.empty()) {
       if (letters.size == Size::Bit)
         return refuse(text, fmt::format("{} has no bit number", shown(text)), "write VX10.3 or V10.3");

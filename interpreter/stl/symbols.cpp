@@ -16,7 +16,7 @@ namespace s7200::stl {
 
 namespace {
 
-// ---- Rows and cells ------------------------------------------------------------------------------------------------------
+// --- rows and cells ---
 
 struct Cell {
   std::string text;        // without quotes
@@ -77,7 +77,7 @@ std::vector<std::string_view> first_rows(std::string_view text) {
   return rows;
 }
 
-// ---- What a cell is ------------------------------------------------------------------------------------------------------
+// --- what a cell is ---
 
 bool is_name(std::string_view text) {
   return !text.empty() &&
@@ -129,18 +129,18 @@ bool is_address(std::string_view text) {
   return std::holds_alternative<Address>(*value) || std::holds_alternative<Name>(*value);
 }
 
-/// The languages of Micro/WIN.
 bool is_heading(const std::string& text, std::span<const std::string_view> words) {
   const std::string upper = upper_case(text);
   return std::ranges::find(words, upper) != words.end();
 }
 
+// In the languages of Micro/WIN.
 constexpr std::array<std::string_view, 9> kNameHeadings{"SYMBOL",  "NAME", "SYMBOL NAME", "SYMBOLE", "SÍMBOLO",
                                                         "SIMBOLO", "符号", "符號",        "名称"};
 constexpr std::array<std::string_view, 10> kAddressHeadings{"ADDRESS",   "ADDR", "ADRESSE",   "DIRECCIÓN", "DIRECCION",
                                                             "INDIRIZZO", "地址", "DIRECCIóN", "ADRESS",    "OPERAND"};
 
-// ---- Symbol tables -------------------------------------------------------------------------------------------------------
+// --- symbol tables ---
 
 struct Columns {
   std::size_t name = 0, address = 1;
@@ -247,7 +247,7 @@ class SymbolTableReader {
   std::optional<Columns> headed_;
 };
 
-// ---- Names and what they stand for ---------------------------------------------------------------------------------------
+// --- names and what they stand for ---
 
 /// A name as it is written in a statement: `*#next`, `"Pump 1"`, `SBR_0:SBR0`.
 struct WrittenName {
@@ -428,7 +428,7 @@ class Resolver {
   std::vector<Locals> locals_;  // of each block
 };
 
-// ---- Status charts -------------------------------------------------------------------------------------------------------
+// --- status charts ---
 
 constexpr std::array<std::string_view, 14> kFormats{"SIGNED", "UNSIGNED", "HEXADECIMAL", "HEX",      "BINARY",
                                                     "BIT",    "BOOL",     "ASCII",       "STRING",   "FLOATING POINT",

@@ -70,9 +70,9 @@ void add_convert(CLI::App& app, int& exit_code) {
                    "iec (one listing, 16#FF), microdos (K4, KHFF), microwin (the blocks of an export), german (E, A, U)")
       ->required()
       ->check([](const std::string& name) {
-        return notation_named(name) ? std::string()
-                                    : fmt::format("there is no notation '{}'; there are iec, microdos, microwin and german",
-                                                  stl::shortened(name));
+        return notation_named(name)
+                   ? std::string()
+                   : fmt::format("there is no notation '{}'; there are {}", stl::shortened(name), notation_names());
       })
       ->type_name("NOTATION");
   verb->add_option(

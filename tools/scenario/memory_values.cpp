@@ -12,44 +12,50 @@
 namespace s7200::tools {
 namespace {
 
-/// `map` without its key would do: an address has colons, blanks and points.
-std::optional<Assignment> read_assignment(ValueReader& values, const YamlNode& key, const YamlNode& item,
-                                          const CpuModel& model) {
-  const auto address = values.text(key), written = values.text(item);
-  if (!address || !written) return {};
+struct PlaceAndValue {
+  std::string address, value;  ///< as they were written
+  MemoryRange range;
+};
+
+std::optional<PlaceAndValue> read_place(ValueReader& values, const YamlNode& key, const YamlNode& item,
+                                        const CpuModel& model) {
+  const auto address = values.text(key), value = values.text(item);
+  if (!address || !value) return {};
   std::string why;
-  const auto place = parse_range(*address, model, why);
-  if (!place) {
+  const auto range = parse_range(*address, model, why);
+  if (!range) {
     values.wrong(key, why);
     return {};
   }
-  auto result = parse_value(*place, *written);
+  return PlaceAndValue{*address, *value, *range};
+}
+
+std::optional<Assignment> read_assignment(ValueReader& values, const YamlNode& item, const PlaceAndValue& written) {
+  auto result = parse_value(written.range, written.value);
   if (!result)
-    values.wrong(item, fmt::format("'{}' does not fit {}", stl::shortened(*written), *address),
+    values.wrong(item, fmt::format("'{}' does not fit {}", stl::shortened(written.value), written.address),
                  "write a number such as 5, -5, 16#1234, or 1.5 for a double word");
   return result;
 }
 
-std::optional<MemoryExpected> limits_expected(ValueReader& values, const YamlNode& key, const YamlNode& item,
-                                              const std::string& written, const CpuModel& model) {
+std::optional<MemoryExpected> limits_expected(ValueReader& values, const YamlNode& item, const PlaceAndValue& written) {
   const auto refuse = [&](std::string_view why) {
-    values.wrong(item, fmt::format("'{}': {}", stl::shortened(written), why),
+    values.wrong(item, fmt::format("'{}': {}", stl::shortened(written.value), why),
                  "write for example 5..10, 5.., -5..5, or 1.0..2.5 for a double word");
     return std::nullopt;
   };
-  const std::string address = *values.text(key);
-  std::string why;
-  MemoryExpected expected{.range = *parse_range(address, model, why), .address = address, .written = written};
+  MemoryExpected expected{.range = written.range, .address = written.address, .written = written.value};
   if (expected.range.width == Width::Bit) return refuse("a bit is 0 or 1");
   constexpr double kUnlimited = std::numeric_limits<double>::infinity();
   MemoryExpected::Limits limits{.from = -kUnlimited, .to = kUnlimited};
-  const auto [from, to, range] = sides(written);
+  const auto [from, to, range] = sides(written.value);
   int reals = 0, numbers = 0;
   for (const auto& [side, limit] : {std::pair(from, &limits.from), std::pair(to, &limits.to)}) {
     if (side.empty()) continue;
     const auto assigned = parse_value(expected.range, side);
     const auto number = parse_number(side);
-    if (!assigned || !(number || assigned->place.real)) return refuse(fmt::format("'{}' does not fit {}", side, address));
+    if (!assigned || !(number || assigned->place.real))
+      return refuse(fmt::format("'{}' does not fit {}", side, written.address));
     *limit = assigned->place.real ? std::bit_cast<float>(assigned->value) : static_cast<double>(*number);
     ++(assigned->place.real ? reals : numbers);
   }
@@ -66,14 +72,11 @@ std::optional<MemoryExpected> limits_expected(ValueReader& values, const YamlNod
   return expected;
 }
 
-/// `5`, `16#1234`, `1.5`, and from … to: `5..10`, `5..`, `..1.5`
-std::optional<MemoryExpected> value_expected(ValueReader& values, const YamlNode& key, const YamlNode& item,
-                                             const CpuModel& model) {
-  const auto written = values.text(item);
-  if (written && sides(*written).range) return limits_expected(values, key, item, *written, model);
-  const auto one = read_assignment(values, key, item, model);
+/// `5`, `16#1234`, `1.5`
+std::optional<MemoryExpected> value_expected(ValueReader& values, const YamlNode& item, const PlaceAndValue& written) {
+  const auto one = read_assignment(values, item, written);
   if (!one) return {};
-  MemoryExpected expected{.range = one->place, .address = *values.text(key), .written = *written};
+  MemoryExpected expected{.range = one->place, .address = written.address, .written = written.value};
   if (one->place.real) {
     const double value = std::bit_cast<float>(one->value);
     expected.limits = {.from = value, .to = value};
@@ -85,25 +88,31 @@ std::optional<MemoryExpected> value_expected(ValueReader& values, const YamlNode
   return expected;
 }
 
-std::optional<MemoryExpected> read_expected(ValueReader& values, const YamlNode& key, const YamlNode& item,
-                                            const CpuModel& model) {
-  const auto address = values.text(key);
+/// `01 02 .. 04`
+std::optional<MemoryExpected> bytes_expected(ValueReader& values, const YamlNode& item, const PlaceAndValue& written) {
   std::string why;
-  const auto range = address ? parse_range(*address, model, why) : std::nullopt;
-  if (address && !range) values.wrong(key, why);
-  if (!range) return {};
-  if (range->count == 1) return value_expected(values, key, item, model);
-  const auto written = values.text(item);
-  auto pattern = written ? parse_pattern(*written, why) : std::nullopt;
-  if (written && !pattern)
-    values.wrong(item, fmt::format("'{}' are not bytes: {}", stl::shortened(*written), why),
+  auto pattern = parse_pattern(written.value, why);
+  if (!pattern) {
+    values.wrong(item, fmt::format("'{}' are not bytes: {}", stl::shortened(written.value), why),
                  "write for example 01 02 .. 04");
-  if (pattern && pattern->size() != range->bytes()) {
-    values.wrong(item, fmt::format("{} bytes for {}, which has {}", pattern->size(), *address, range->bytes()));
     return {};
   }
-  if (!pattern) return {};
-  return MemoryExpected{.range = *range, .bytes = std::move(*pattern), .address = *address, .written = *written};
+  if (pattern->size() != written.range.bytes()) {
+    values.wrong(item,
+                 fmt::format("{} bytes for {}, which has {}", pattern->size(), written.address, written.range.bytes()));
+    return {};
+  }
+  return MemoryExpected{
+      .range = written.range, .bytes = std::move(*pattern), .address = written.address, .written = written.value};
+}
+
+std::optional<MemoryExpected> read_expected(ValueReader& values, const YamlNode& key, const YamlNode& item,
+                                            const CpuModel& model) {
+  const auto written = read_place(values, key, item, model);
+  if (!written) return {};
+  if (written->range.count > 1) return bytes_expected(values, item, *written);
+  const bool limits = written->value.find("..") != std::string::npos;
+  return limits ? limits_expected(values, item, *written) : value_expected(values, item, *written);
 }
 
 /// As an instruction reads the value.
@@ -136,7 +145,8 @@ std::vector<Assignment> read_assignments(ValueReader& values, const YamlNode& ma
   if (!map.is_map())
     values.wrong(map, "addresses and values are a map, not " + to_text(map), "write for example {VW20: 16#1234, I0.3: 1}");
   for (std::size_t i = 0; i < map.keys.size() && i < map.items.size(); ++i)
-    if (const auto one = read_assignment(values, map.keys[i], map.items[i], model)) assignments.push_back(*one);
+    if (const auto written = read_place(values, map.keys[i], map.items[i], model))
+      if (const auto one = read_assignment(values, map.items[i], *written)) assignments.push_back(*one);
   return assignments;
 }
 

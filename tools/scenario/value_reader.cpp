@@ -29,6 +29,7 @@ std::optional<std::string> ValueReader::text(const YamlNode& node) {
     wrong(node, "one value is needed here, not " + to_text(node));
     return {};
   }
+  if (node.text.find("${") == std::string::npos) return node.text;
   std::string why;
   auto result = substitute(node.text, parameters, why);
   if (!result) wrong(node, why, "parameters: " + parameter_names());

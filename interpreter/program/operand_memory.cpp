@@ -1,9 +1,9 @@
-#include "interpreter/program/memory_range.hpp"
+#include "interpreter/program/operand_memory.hpp"
 
 namespace s7200 {
 namespace {
 
-MemoryRange range_of(const stl::Address& address) {
+OperandMemory range_of(const stl::Address& address) {
   switch (address.size) {
     case stl::Size::None:
       return {address.area, address.number, std::uint64_t{address.number} + 1};
@@ -28,7 +28,7 @@ bool is_constant(const stl::Operand& operand) {
 
 }  // namespace
 
-std::optional<MemoryRange> memory_of(const stl::Operand& operand) {
+std::optional<OperandMemory> memory_of(const stl::Operand& operand) {
   const auto* address = std::get_if<stl::Address>(&operand.value);
   return address ? std::optional(range_of(*address)) : std::nullopt;
 }

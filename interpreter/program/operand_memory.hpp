@@ -9,15 +9,15 @@
 namespace s7200 {
 
 /// Bits of an area, or numbers of timers, counters and accumulators: from `from` until before `to`.
-struct MemoryRange {
+struct OperandMemory {
   std::string area;
   std::uint64_t from = 0, to = 0;
 
-  bool overlaps(const MemoryRange& other) const { return area == other.area && from < other.to && other.from < to; }
+  bool overlaps(const OperandMemory& other) const { return area == other.area && from < other.to && other.from < to; }
 };
 
 /// The memory of a direct address; nothing for a constant, a pointer or a symbol.
-std::optional<MemoryRange> memory_of(const stl::Operand& operand);
+std::optional<OperandMemory> memory_of(const stl::Operand& operand);
 
 /// Whether writing `written` changes what `read` is: they overlap, or `read` goes through a pointer that is overwritten.
 bool changes(const stl::Operand& written, const stl::Operand& read);
