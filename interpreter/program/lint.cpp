@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <map>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <span>
 #include <utility>
@@ -173,7 +172,7 @@ class Flow {
     ends_.assign(count_ + 1, false);
     span_.assign(count_ + 1, {0, 0});
     std::vector<std::uint32_t> below(count_ + 1, 1), next(count_ + 1, 0);
-    for (const std::uint32_t op : std::views::reverse(std::span(order).subspan(1))) below[parent[op]] += below[op];
+    for (std::size_t i = order.size(); --i > 0;) below[parent[order[i]]] += below[order[i]];
     for (const std::uint32_t op : order) {
       const std::uint32_t first = op == count_ ? 0 : next[parent[op]];
       ends_[op] = true;
