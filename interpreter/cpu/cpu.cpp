@@ -124,11 +124,9 @@ std::optional<std::uint32_t> Cpu::peek(const Op& op, std::size_t i) const {
   Operand operand = op[i];
   const OperandRule& rule = op.instruction->operand[i];
   if (rule.kind != OperandKind::Memory) return operand.at;
-  if (operand.pointer) {
-    const auto place = core_.resolve(load32(&core_.s.image[operand.at]), operand.width);
-    if (!place) return {};
-    operand.at = *place;
-  }
+  const auto place = place_of(operand);
+  if (!place) return {};
+  operand.at = *place;
   switch (rule.width) {
     case Width::Bit:
       return core_.bit(operand);

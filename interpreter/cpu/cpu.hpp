@@ -74,6 +74,12 @@ class Cpu {
   /// The value of operand `i` as the instruction would find it now; nothing for a bad pointer.
   std::optional<std::uint32_t> peek(const Op& op, std::size_t i) const;
 
+  /// The place in the image that an operand means now; nothing for a bad pointer.
+  std::optional<std::uint32_t> place_of(const Operand& operand) const {
+    if (!operand.pointer) return operand.at;
+    return core_.resolve(load32(&core_.s.image[operand.at]), operand.width);
+  }
+
   /// For making one unit act on its own, as tests do.
   Core& core() { return core_; }
 

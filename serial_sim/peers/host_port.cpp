@@ -9,20 +9,24 @@ HostPort::HostPort(Uart& uart) : uart_(uart) { uart_.enable_receiver(false, 0); 
 
 void HostPort::attach(const SerialFormat& format, Time at) {
   assert(!state_.attached);
+  note({.what = HostCall::What::Attach, .format = format, .characters = {}});
+  receive_as(format);
   state_.attached = true;
   uart_.plug_in();
-  receive_as(format);
   uart_.enable_receiver(true, at);
 }
 
 void HostPort::receive_as(const SerialFormat& format) {
   if (state_.format == format && uart_.state().format == format) return;
+  const bool changes = state_.format != format || !sending();
+  if (state_.attached && changes) note({.what = HostCall::What::ReceiveAs, .format = format, .characters = {}});
   state_.format = format;
   if (!sending()) uart_.configure(format);
 }
 
 void HostPort::send(std::span<const HostCharacter> characters, Time at) {
   assert(state_.attached);
+  note({.what = HostCall::What::Send, .characters = {characters.begin(), characters.end()}});
   state_.to_send.insert(state_.to_send.end(), characters.begin(), characters.end());
   for (const HostCharacter& character : characters) ++state_.waiting[character.sender];
   if (sending() || state_.to_send.empty()) return;
@@ -51,11 +55,37 @@ std::size_t HostPort::waiting(std::uint64_t sender) const {
 }
 
 std::size_t HostPort::drop(std::uint64_t sender) {
+  if (waiting(sender) != 0) note({.what = HostCall::What::Drop, .characters = {}, .sender = sender});
   state_.waiting.erase(sender);
   return std::erase_if(state_.to_send, [&](const HostCharacter& character) { return character.sender == sender; });
 }
 
-std::vector<ReceivedCharacter> HostPort::take_received() { return std::exchange(state_.received, {}); }
+std::vector<ReceivedCharacter> HostPort::take_received() {
+  if (!state_.received.empty()) note({.what = HostCall::What::TakeReceived, .characters = {}});
+  return std::exchange(state_.received, {});
+}
+
+void HostPort::repeat(const HostCall& call, Time at) {
+  HostJournal* const journal = std::exchange(journal_, nullptr);
+  switch (call.what) {
+    case HostCall::What::Attach:
+      attach(call.format, at);
+      break;
+    case HostCall::What::ReceiveAs:
+      receive_as(call.format);
+      break;
+    case HostCall::What::Send:
+      send(call.characters, at);
+      break;
+    case HostCall::What::Drop:
+      drop(call.sender);
+      break;
+    case HostCall::What::TakeReceived:
+      take_received();
+      break;
+  }
+  journal_ = journal;
+}
 
 void HostPort::on(const Uart::Report& report) {
   if (report.received) state_.received.push_back(*report.received);

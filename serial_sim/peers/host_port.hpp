@@ -23,6 +23,27 @@ struct HostCharacter {
   bool operator==(const HostCharacter&) const = default;
 };
 
+/// What was asked of a port from outside the simulation, as plain data: it can be done again.
+struct HostCall {
+  enum class What : std::uint8_t { Attach, ReceiveAs, Send, Drop, TakeReceived };
+
+  What what{};
+  SerialFormat format{};                  ///< Attach, ReceiveAs
+  std::vector<HostCharacter> characters;  ///< Send
+  std::uint64_t sender = 0;               ///< Drop
+
+  bool operator==(const HostCall&) const = default;
+};
+
+/// Is told of each call that changes something, before it does.
+class HostJournal {
+ public:
+  virtual void host_called(const HostCall& call) = 0;
+
+ protected:
+  ~HostJournal() = default;
+};
+
 /// Half duplex, as an adapter to RS-485 is: what comes in while it sends is not heard, its own characters neither, unless
 /// the line gives an echo. To whoever handles the events: reports of the UART go to on().
 class HostPort {
@@ -68,6 +89,12 @@ class HostPort {
 
   void on(const Uart::Report& report);
 
+  /// Null: no one is told. Not owned.
+  void set_journal(HostJournal* journal) { journal_ = journal; }
+
+  /// Does the same again, at `at`; the journal is not told.
+  void repeat(const HostCall& call, Time at);
+
   const State& state() const { return state_; }
   void restore(const State& state) {
     state_ = state;
@@ -76,9 +103,13 @@ class HostPort {
 
  private:
   void send_next(Time at);
+  void note(HostCall call) const {
+    if (journal_) journal_->host_called(call);
+  }
 
   Uart& uart_;
   State state_;
+  HostJournal* journal_ = nullptr;
 };
 
 }  // namespace s7200::serial

@@ -51,10 +51,8 @@ Debugger::Debugger(serial::Simulation& simulation, std::ostream& out, const Debu
       out_(out),
       options_(options),
       listing_(simulation.cpu().program()),
-      stepper_(
-          simulation, options.records, options.stop_request,
-          options.drive ? options.drive : [&simulation](Time end) { return simulation.run_until(end); }),
-      power_up_(simulation.snapshot()) {
+      history_(simulation, options.history),
+      stepper_(simulation, history_, options.stop_request) {
   stepper_.on_record = [this](const TraceRecord& record) { print_trace(record); };
   stepper_.on_instruction = [this](const InstructionRecord& record, bool started_at) {
     print_instruction(record, started_at);
@@ -106,7 +104,8 @@ void Debugger::show_place() {
 
 void Debugger::go(const Run& run) {
   if (simulation_.cpu().state().mode == Mode::Stop) {
-    out_ << "the CPU is in STOP and executes nothing; 'back' returns to before that, 'restart' powers it up again\n";
+    out_ << "the CPU is in STOP and executes nothing; 'rstep' and 'back' return to before that, 'restart' powers it up "
+            "again\n";
     return;
   }
   remember();
@@ -120,7 +119,45 @@ void Debugger::go(const Run& run) {
 
 void Debugger::remember() {
   if (kept_.size() == kKeptStates) kept_.pop_front();
-  kept_.push_back({command_, simulation_.snapshot()});
+  kept_.push_back({command_, history_.here()});
+}
+
+void Debugger::go_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer) {
+  remember();
+  first_error_.reset();
+  const Stop stop = stepper_.run_back(goal, count, stop_at_answer);
+  last_op_.reset();
+  for (const Change& change : stop.changes) report_change(change);
+  report_reason(stop, {});
+  if (stop.reason == StopReason::Answer) print_answer(simulation_.master().exchange());
+  show_place();
+  note_the_past();
+}
+
+/// Says it once each time that someone goes back.
+void Debugger::note_the_past() {
+  if (!history_.in_the_past()) return;
+  out_ << fmt::format("  in the past; going forward plays what has run, up to {}\n", moment_text(history_.newest().time));
+}
+
+void Debugger::act(Action action) {
+  const bool branches = history_.in_the_past();
+  const Time left = history_.newest().time;
+  if (branches) remember();
+  history_.act(std::move(action));
+  if (!branches) return;
+  out_ << fmt::format("a new branch begins here; what ran up to {} is on the old one, to which 'back' returns\n",
+                      moment_text(left));
+  note_new_branch();
+}
+
+/// A record of what went on cannot go back: a capture ends, a trace says so by its times.
+void Debugger::note_new_branch() {
+  simulation_.set_wire_sink(nullptr);
+  if (options_.files.empty()) return;
+  out_ << fmt::format("{}: traces go on with what is new, after what ran before; captures of the line end\n",
+                      options_.files);
+  options_.files.clear();
 }
 
 void Debugger::report(const Stop& stop, const Run& run, std::uint64_t errors) {
@@ -141,7 +178,7 @@ void Debugger::report_reason(const Stop& stop, const Run& run) {
       return;
     case StopReason::Breakpoint:
       out_ << fmt::format("breakpoint {}, hit {}\n", stop.breakpoint.number,
-                          stop.breakpoint.hits == 1 ? "for the first time" : fmt::format("{} times", stop.breakpoint.hits));
+                          stop.breakpoint.hits <= 1 ? "for the first time" : fmt::format("{} times", stop.breakpoint.hits));
       return;
     case StopReason::Limit:
       out_ << fmt::format("{} of simulated time passed with nothing to stop for{}\n", format_duration(run.limit),
@@ -152,6 +189,9 @@ void Debugger::report_reason(const Stop& stop, const Run& run) {
       return;
     case StopReason::CpuStopped:
       report_cpu_stop();
+      return;
+    case StopReason::Oldest:
+      out_ << "this is the oldest moment: the session begins at power-up\n";
       return;
   }
 }

@@ -1,7 +1,7 @@
 // The command language of `s7200 debug`: line in, text out.
 //
-// A command that ran something can be taken back: the state before it is kept. Commands that only look change nothing, and
-// neither does stepping: the program does what it does in one go.
+// Every moment since power-up can be reached again (history.hpp), and a command that ran something can be taken back.
+// Commands that only look change nothing, and neither does stepping: the program does what it does in one go.
 #pragma once
 
 #include <atomic>
@@ -15,6 +15,8 @@
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/requester.hpp"
 #include "serial_sim/system/simulation.hpp"
+#include "tools/debugger/history.hpp"
+#include "tools/debugger/last_write.hpp"
 #include "tools/debugger/stepper.hpp"
 #include "tools/views/listing.hpp"
 
@@ -23,8 +25,8 @@ namespace s7200::tools {
 struct DebuggerOptions {
   serial::MasterSettings master{};                  ///< how `send` talks
   const std::atomic<bool>* stop_request = nullptr;  ///< ends a run when it becomes true; may be set by a signal handler
-  TraceSink* records = nullptr;                     ///< watch the CPU too; what is taken back stays in them
-  Stepper::Drive drive{};                           ///< none: as fast as the computer can
+  History::Settings history{};                      ///< with the records, which watch the CPU too
+  std::string files{};                              ///< that the records and captures write: "the trace"; "" for none
 };
 
 struct ScriptError {
@@ -94,6 +96,17 @@ class Debugger {
   Error port(const Arguments& arguments);
   Error errors(const Arguments& arguments);
   Error back(const Arguments& arguments);
+  Error back_step(const Arguments& arguments);
+  Error back_over(const Arguments& arguments);
+  Error back_out(const Arguments& arguments);
+  Error back_scan(const Arguments& arguments);
+  Error back_continue(const Arguments& arguments);
+  Error back_until(const Arguments& arguments);
+  Error at(const Arguments& arguments);
+  Error who(const Arguments& arguments);
+  Error back_to_write(const Arguments& arguments);
+  Error branch(const Arguments& arguments);
+  Error past(const Arguments& arguments);
   Error display(const Arguments& arguments);
   Error trace(const Arguments& arguments);
   Error restart(const Arguments& arguments);
@@ -109,7 +122,14 @@ class Debugger {
     Show show = Show::None;
   };
   void go(const Run& run);
+  void go_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer = false);
   void remember();
+  void act(Action action);
+  void note_new_branch();
+  void note_the_past();
+  std::optional<LastWrite> find_write(const MemoryRange& range, std::string_view name);
+  void report_write(const LastWrite& write, const MemoryRange& range, std::string_view name);
+  std::optional<MemoryRange> one_range(const Arguments& arguments, std::string_view command, std::string& why) const;
   void report(const Stop& stop, const Run& run, std::uint64_t errors);
   void report_reason(const Stop& stop, const Run& run);
   void report_change(const Change& change);
@@ -130,15 +150,15 @@ class Debugger {
 
   struct Kept {
     std::string command;
-    serial::Simulation::Snapshot snapshot;
+    History::Place place;
   };
 
   serial::Simulation& simulation_;
   std::ostream& out_;
   DebuggerOptions options_;
   Listing listing_;
+  History history_;
   Stepper stepper_;
-  serial::Simulation::Snapshot power_up_;
   std::deque<Kept> kept_;  ///< newest last
   std::vector<MemoryRange> displayed_;
   std::optional<std::uint32_t> last_op_;    ///< executed last

@@ -6,6 +6,7 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/views/machine_text.hpp"
@@ -50,6 +51,8 @@ std::string expects(std::string_view command, std::string_view what) { return fm
 
 std::string no_argument(std::string_view command) { return fmt::format("{} takes no argument", command); }
 
+constexpr std::string_view kBackwards = "It stops at breakpoints and watches on the way. Hits are not counted backwards.";
+
 constexpr std::string_view kPlaces = "a line number, SBR n or INT n";
 
 }  // namespace
@@ -69,9 +72,36 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        &Debugger::continue_run, true},
       {"until", "t", "until LINE | SBR n | INT n", "run to a place", "", &Debugger::until, true},
       {"back", "k", "back [n]", "back to the state before the last command that ran something, or the last n",
-       "The last 64 states are kept. Breakpoints, watches and their counts stay as they are.", &Debugger::back},
-      {"restart", "", "restart", "power up again; breakpoints, watches and displays are kept", "back takes it back.",
-       &Debugger::restart},
+       "The last 64 are kept. Breakpoints, watches and their counts stay as they are. Going forward again plays what has "
+       "run, "
+       "with what was done to the PLC; 'set', 'input', 'send' in the past begin a new branch.",
+       &Debugger::back},
+      {"rstep", "rs", "rstep [n]", "back by one instruction, or n, into subroutines and interrupt routines", kBackwards,
+       &Debugger::back_step, true},
+      {"rover", "ro", "rover", "back by one instruction; a CALL with all that it called, interrupts in between too",
+       kBackwards, &Debugger::back_over, true},
+      {"rout", "ru", "rout", "back to the CALL of this subroutine, or to what this interrupt routine interrupted",
+       kBackwards, &Debugger::back_out, true},
+      {"rscan", "rn", "rscan [n]", "back to the start of the scan's program, then of the one before, or of the nth",
+       kBackwards, &Debugger::back_scan, true},
+      {"rcontinue", "rc", "rcontinue", "back to the last breakpoint, change of a watch, or end of an answer", kBackwards,
+       &Debugger::back_continue, true},
+      {"runtil", "rt", "runtil LINE | SBR n | INT n", "back to the last time that it was at a place", kBackwards,
+       &Debugger::back_until, true},
+      {"at", "", "at TIME | -TIME | start | end", "to a moment: at 15.193ms, or so long before now: at -5ms",
+       "It stands in front of the first instruction at or after it. start is power-up, end the newest moment.",
+       &Debugger::at},
+      {"who", "", "who ADDRESS", "the instruction that wrote an address last, without going there",
+       "With its operands, the interrupt and the time; also if the value stayed the same. Entries of tables, strings and "
+       "messages only if they changed it. 'rwho' goes there.",
+       &Debugger::who},
+      {"rwho", "rw", "rwho ADDRESS", "back to in front of the instruction that wrote an address last", kBackwards,
+       &Debugger::back_to_write, true},
+      {"branch", "", "branch", "forget what has run after this moment: going forward is new from here on",
+       "What was done to the PLC later is not done again. back takes it back.", &Debugger::branch},
+      {"past", "", "past", "how far back it can go, and what that takes", "", &Debugger::past},
+      {"restart", "", "restart", "power up again; breakpoints, watches and displays are kept",
+       "A new branch: back takes it back.", &Debugger::restart},
       {"break", "b", "break [LINE | SBR n | INT n]", "stop in front of an instruction; alone: list breakpoints and watches",
        "A line without an instruction stands for the next one that has one.", &Debugger::set_break},
       {"watch", "w", "watch ADDRESS[:COUNT]…", "stop after the instruction that changes M31.7, VB100, VW100, AC0 …",
@@ -200,18 +230,186 @@ Debugger::Error Debugger::back(const Arguments& arguments) {
   }
   if (*count > kept_.size()) out_ << fmt::format("only {} earlier states are kept\n", kept_.size());
   kept_.resize(kept_.size() - std::min<std::size_t>(*count, kept_.size()) + 1);
-  simulation_.restore(kept_.back().snapshot);
+  const History::BranchPtr left = history_.here().branch;
+  history_.return_to(kept_.back().place);
   out_ << fmt::format("back to before '{}'\n", stl::printable(kept_.back().command));
   kept_.pop_back();
   last_op_.reset();
+  if (history_.here().branch != left) note_new_branch();
   show_place();
+  return {};
+}
+
+Debugger::Error Debugger::back_step(const Arguments& arguments) {
+  const auto count = parse_count(arguments);
+  if (!count) return expects("rstep", "how many instructions, for example: rstep 5");
+  go_back([](const State&, std::uint32_t, const Stepper::Progress&) { return true; }, *count);
+  return {};
+}
+
+Debugger::Error Debugger::back_over(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("rover");
+  const State& now = simulation_.cpu().state();
+  go_back(
+      [in_interrupt = now.in_interrupt, since = now.serving_since, depth = now.call_depth](const State& state, std::uint32_t,
+                                                                                           const Stepper::Progress&) {
+        if (state.in_interrupt) return in_interrupt && state.serving_since == since && state.call_depth <= depth;
+        return in_interrupt || state.call_depth <= depth;
+      },
+      1);
+  return {};
+}
+
+Debugger::Error Debugger::back_out(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("rout");
+  const State& now = simulation_.cpu().state();
+  const bool in_subroutine = now.call_depth > (now.in_interrupt ? now.saved.call_depth : 0);
+  if (!now.in_interrupt && !in_subroutine) {
+    out_ << "this is the main program, in no subroutine and no interrupt routine; 'rscan' goes to the start of its scan\n";
+    return {};
+  }
+  go_back(
+      [in_interrupt = now.in_interrupt && !in_subroutine, since = now.serving_since, in_any = now.in_interrupt,
+       depth = now.call_depth](const State& state, std::uint32_t, const Stepper::Progress&) {
+        if (in_interrupt) return !state.in_interrupt;
+        return state.in_interrupt == in_any && (!in_any || state.serving_since == since) && state.call_depth < depth;
+      },
+      1);
+  return {};
+}
+
+Debugger::Error Debugger::back_scan(const Arguments& arguments) {
+  const auto count = parse_count(arguments);
+  if (!count) return expects("rscan", "how many scans, for example: rscan 3");
+  go_back(
+      [seen = std::optional<std::uint64_t>()](const State& state, std::uint32_t op, const Stepper::Progress&) mutable {
+        if (state.in_interrupt) return false;
+        const bool begins = seen && *seen <= state.scans ? *seen != state.scans : op == 0;
+        seen = state.scans;
+        return begins;
+      },
+      *count);
+  return {};
+}
+
+Debugger::Error Debugger::back_continue(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("rcontinue");
+  go_back([](const State&, std::uint32_t, const Stepper::Progress&) { return false; }, 1, true);
+  return {};
+}
+
+Debugger::Error Debugger::back_until(const Arguments& arguments) {
+  std::string why;
+  const auto target = find_place(arguments, "runtil", why);
+  if (!target) return why;
+  go_back([target = *target](const State&, std::uint32_t op, const Stepper::Progress&) { return op == target; }, 1);
+  return {};
+}
+
+Debugger::Error Debugger::at(const Arguments& arguments) {
+  constexpr std::string_view kTimes = "a moment, for example: at 15.193ms, at -5ms, at start, at end";
+  std::string text = joined(arguments);
+  const bool before_now = text.starts_with('-');
+  if (before_now) text.erase(0, 1);
+  auto time = parse_duration(text);
+  if (lower_case(text) == "start") time = 0;
+  if (lower_case(text) == "end") time = history_.newest().time;
+  if (!time) return expects("at", kTimes);
+  if (before_now) time = simulation_.time() - std::min(*time, simulation_.time());
+  if (*time > history_.newest().time)
+    return fmt::format("nothing has run after {}; 'continue TIME' goes on", moment_text(history_.newest().time));
+  remember();
+  if (*time == 0)
+    history_.go_to(history_.usage().oldest);
+  else
+    history_.go_to(*time);
+  last_op_.reset();
+  show_place();
+  note_the_past();
+  return {};
+}
+
+std::optional<MemoryRange> Debugger::one_range(const Arguments& arguments, std::string_view command,
+                                               std::string& why) const {
+  if (arguments.size() == 1) return parse_range(arguments[0], simulation_.cpu().program(), why);
+  why = expects(command, fmt::format("one address, for example: {} VW100", command));
+  return {};
+}
+
+std::optional<LastWrite> Debugger::find_write(const MemoryRange& range, std::string_view name) {
+  const WriteSearch search = find_last_write(simulation_, history_, range, options_.stop_request);
+  if (search.interrupted) out_ << "interrupted by Ctrl-C\n";
+  if (!search.write && !search.interrupted)
+    out_ << fmt::format("nothing has written {} since power-up; it is {}\n", name, value_of(range));
+  return search.write;
+}
+
+void Debugger::report_write(const LastWrite& write, const MemoryRange& range, std::string_view name) {
+  const Program& program = simulation_.cpu().program();
+  out_ << fmt::format("{} was {}, became {}, at {}\n", name, value_text(program, range, write.before),
+                      value_text(program, range, write.after), moment_text(write.at));
+  if (write.by)
+    out_ << fmt::format("  by {} {}{}\n", listing_.routine_of(write.by->op), describe(*write.by, program),
+                        write.in_interrupt ? fmt::format(", serving {}", event_text(write.event)) : "");
+  else if (write.action)
+    out_ << fmt::format("  by '{}', from outside\n", describe(history_.actions()[*write.action]));
+  else
+    out_ << "  by the system, between two instructions\n";
+}
+
+Debugger::Error Debugger::who(const Arguments& arguments) {
+  std::string why;
+  const auto range = one_range(arguments, "who", why);
+  if (!range) return why;
+  const std::string name = stl::upper_case(arguments[0]);
+  if (const auto write = find_write(*range, name)) report_write(*write, *range, name);
+  return {};
+}
+
+Debugger::Error Debugger::back_to_write(const Arguments& arguments) {
+  std::string why;
+  const auto range = one_range(arguments, "rwho", why);
+  if (!range) return why;
+  const std::string name = stl::upper_case(arguments[0]);
+  const auto write = find_write(*range, name);
+  if (!write) return {};
+  report_write(*write, *range, name);
+  remember();
+  history_.go_to(write->moment);
+  last_op_.reset();
+  show_place();
+  note_the_past();
+  return {};
+}
+
+Debugger::Error Debugger::branch(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("branch");
+  if (!history_.in_the_past()) {
+    out_ << "this is the newest moment: nothing has run after it\n";
+    return {};
+  }
+  act(SetMemory{});
+  return {};
+}
+
+Debugger::Error Debugger::past(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("past");
+  const History::Usage usage = history_.usage();
+  constexpr double kMegabyte = 1 << 20;
+  out_ << fmt::format(
+      "from {}, where this session powered the CPU up, to {}; now {}\n"
+      "{} checkpoints, one every {} or more; {:.1f} of {:.0f} MB; {} actions from outside\n",
+      moment_text(usage.oldest.time), moment_text(history_.newest().time), moment_text(simulation_.time()),
+      usage.checkpoints, format_duration(usage.interval), static_cast<double>(usage.bytes) / kMegabyte,
+      static_cast<double>(options_.history.bound) / kMegabyte, history_.actions().size());
   return {};
 }
 
 Debugger::Error Debugger::restart(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("restart");
   remember();
-  simulation_.restore(power_up_);
+  history_.restart();
+  note_new_branch();
   last_op_.reset();
   for (Breakpoint& breakpoint : stepper_.breakpoints) breakpoint.hits = 0;
   for (Watch& watch : stepper_.watches) watch.hits = 0;
@@ -356,7 +554,7 @@ Debugger::Error Debugger::stack(const Arguments& arguments) {
 Debugger::Error Debugger::ranges_of(const Arguments& arguments, std::vector<MemoryRange>& ranges) const {
   for (const std::string& text : arguments) {
     std::string why;
-    const auto range = parse_range(text, *simulation_.cpu().program().model, why);
+    const auto range = parse_range(text, simulation_.cpu().program(), why);
     if (!range) return why;
     ranges.push_back(*range);
   }
@@ -433,14 +631,14 @@ Debugger::Error Debugger::assign_all(const Arguments& arguments, bool inputs_onl
   std::vector<Assignment> assignments;
   for (const std::string& text : assignments_of(arguments)) {
     std::string why;
-    const auto assignment = parse_assignment(text, *simulation_.cpu().program().model, why);
+    const auto assignment = parse_assignment(text, simulation_.cpu().program(), why);
     if (!assignment) return why;
     if (inputs_only && assignment->place.area != Area::I)
       return fmt::format("'{}' is not an input; 'input' expects for example I0.3=1, and 'set' writes other memory",
                          stl::shortened(text));
     assignments.push_back(*assignment);
   }
-  for (const Assignment& assignment : assignments) assign(simulation_, assignment);
+  act(SetMemory{assignments});
   const auto is_input = [](const Assignment& a) { return a.place.area == Area::I; };
   if (std::any_of(assignments.begin(), assignments.end(), is_input) && standing_at(simulation_.cpu().state()))
     out_ << "the input points are set; the program finds them in I when the next scan reads its inputs\n";
@@ -477,9 +675,7 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
     out_ << "the last frame is still under way or waiting for its answer; 'continue' runs to its end\n";
     return {};
   }
-  simulation_.master_uart().configure(format);
-  const serial::MasterSettings& master = options_.master;
-  simulation_.master().start(master.request(parsed.frame), simulation_.time());
+  act(SendFrame{format, options_.master.request(parsed.frame)});
   const std::string text = request_text(serial::bytes_of(parsed.frame));
   out_ << fmt::format("on the line from now on: {}{} ({})\n", serial::to_hex(parsed.frame), text.empty() ? "" : "  " + text,
                       format_text(format));

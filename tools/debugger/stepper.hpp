@@ -1,7 +1,8 @@
-// Runs a simulation until there is something to look at. It only watches: what happens is what happens without it.
+// Runs a simulation until there is something to look at, forwards or backwards. It only watches: what happens is what
+// happens without it.
 //
 // Every stop but the change to STOP is in front of an instruction. What lies between two instructions (interrupts being
-// taken, the system's part of the scan) is over by then.
+// taken, the system's part of the scan) is over by then. Backwards it stops where a run forwards would have stopped last.
 #pragma once
 
 #include <atomic>
@@ -10,8 +11,7 @@
 #include <vector>
 
 #include "interpreter/program/address.hpp"
-#include "interpreter/trace/fan_out.hpp"
-#include "serial_sim/system/simulation.hpp"
+#include "tools/debugger/history.hpp"
 
 namespace s7200::tools {
 
@@ -36,7 +36,7 @@ struct Change {
   std::optional<InstructionRecord> by;  ///< nothing: it changed between two instructions
 };
 
-enum class StopReason : std::uint8_t { Goal, Breakpoint, Watch, Answer, Limit, Request, CpuStopped };
+enum class StopReason : std::uint8_t { Goal, Breakpoint, Watch, Answer, Limit, Request, CpuStopped, Oldest };
 
 struct Stop {
   StopReason reason{};
@@ -44,7 +44,7 @@ struct Stop {
   std::vector<Change> changes{};  ///< of all watches, whatever the reason
 };
 
-class Stepper final : public TraceSink {
+class Stepper final : public Observer {
  public:
   struct Progress {
     std::uint64_t executed = 0;  ///< instructions in this run
@@ -53,42 +53,49 @@ class Stepper final : public TraceSink {
   /// Asked in front of each instruction: true stops there.
   using Goal = std::function<bool(const State& state, std::uint32_t op, const Progress& progress)>;
 
-  /// Runs until the end, a pause, a stop: Simulation::run_until(), or the same at the pace of a clock.
-  using Drive = std::function<serial::Halt(Time end)>;
-
-  /// Hangs itself on the simulation's CPU, after `records`, which may be null. `stop_request` may be set from a signal
-  /// handler; it may be null.
-  Stepper(serial::Simulation& simulation, TraceSink* records, const std::atomic<bool>* stop_request, Drive drive);
-  ~Stepper() override;
-  Stepper(const Stepper&) = delete;
-  Stepper& operator=(const Stepper&) = delete;
+  /// `stop_request` may be set from a signal handler; it may be null. Nothing is owned.
+  Stepper(serial::Simulation& simulation, History& history, const std::atomic<bool>* stop_request);
 
   /// Runs a CPU that is in RUN. A breakpoint on the instruction it stands at does not count.
   Stop run(const Goal& goal, Time limit, bool stop_at_answer);
 
+  /// Goes back to where the goal was last met, or to the `count`th time before now; or to the last stop, if that is later.
+  /// Hits are not counted. To the oldest moment if there is nothing of the kind; nowhere after a stop request.
+  Stop run_back(const Goal& goal, std::uint64_t count, bool stop_at_answer);
+
   std::vector<Breakpoint> breakpoints;
   std::vector<Watch> watches;
 
-  // Told while running; all must be set.
+  // Told while running forwards; all must be set.
   std::function<void(const TraceRecord&)> on_record;
   std::function<void(const InstructionRecord&, bool started_at)> on_instruction;
   std::function<void(const serial::Exchange&)> on_answer;
 
-  void record(const TraceRecord& record) override { on_record(record); }
+  void record(const TraceRecord& record) override;
   bool before(std::uint32_t op) override;
   void instruction(const InstructionRecord& record) override;
   bool wants_instructions() const override { return true; }
+  void acted() override;
 
  private:
+  /// Where a run forwards would have stopped.
+  struct Found {
+    Moment moment;
+    std::optional<Stop> stop;  ///< nothing: the goal
+  };
+
+  void begin_watching();
+  bool note_place(std::uint32_t op);
   std::optional<StopReason> reason_to_stop(std::uint32_t op, bool at_start);
   bool hits_breakpoint(std::uint32_t op);
+  std::optional<StopReason> reason_between();
   bool answer_complete();
   void note_changes(const InstructionRecord* by);
+  bool asked_to_stop() const { return stop_request_ && *stop_request_; }
 
   serial::Simulation& simulation_;
-  FanOut sinks_;
+  History& history_;
   const std::atomic<bool>* stop_request_;
-  Drive drive_;
 
   // Of the run under way.
   Goal goal_;
@@ -100,6 +107,9 @@ class Stepper final : public TraceSink {
   std::uint32_t start_op_ = 0;
   bool started_in_interrupt_ = false;
   bool executing_start_ = false;  ///< the instruction being executed is the one it started at
+  bool backwards_ = false;
+  std::optional<Moment> first_place_;  ///< backwards: of the part being played
+  std::vector<Found> found_;           ///< backwards: in the part being played
   Progress progress_;
   Stop stop_;
 };

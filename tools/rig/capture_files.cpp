@@ -80,10 +80,13 @@ void CaptureFiles::close(std::vector<std::string>& problems) {
 }
 
 void CaptureFiles::edge(serial::Wire wire, Time at, bool mark) {
+  if (at < told_until_) return;
   for (Capture& capture : captures_) capture.sink->edge(wire, at, mark);
 }
 
 void CaptureFiles::settled(Time until, const SerialFormat& port) {
+  if (until <= told_until_) return;
+  told_until_ = until;
   for (Capture& capture : captures_) capture.sink->settled(until, port);
 }
 

@@ -11,7 +11,8 @@
 
 namespace s7200::tools {
 
-/// Any number of captures of one line; the end of a file's name says which kind it is.
+/// Any number of captures of one line; the end of a file's name says which kind it is. What is run again after the
+/// simulation has been restored is not captured again.
 class CaptureFiles final : private serial::WireSink {
  public:
   /// Return false and set `why` if a capture cannot be written as it was asked for.
@@ -37,6 +38,7 @@ class CaptureFiles final : private serial::WireSink {
   void finish() override;
 
   std::list<Capture> captures_;  // sinks hold on to the files' streams
+  Time told_until_ = 0;
 };
 
 }  // namespace s7200::tools

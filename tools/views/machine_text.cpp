@@ -14,13 +14,6 @@ namespace {
 
 constexpr std::uint8_t kTimed0 = event::kTimed0;
 
-std::string event_text(std::uint8_t event) { return fmt::format("event {} ({})", event, find_event(event)->cause); }
-
-std::string time_text(Time time) {
-  const std::string clock = clock_text(time);
-  return clock.substr(clock.find_first_not_of(' ')) + " ms";
-}
-
 std::string scan_text(const State& state) { return fmt::format("scan {}", state.scans + 1); }
 
 std::string_view phase_text(Phase phase) {
@@ -60,7 +53,7 @@ std::string where_text(const State& state, const Listing& listing) {
       state.phase == Phase::Program ? calls_text(state, listing, op) : std::string(phase_text(state.phase));
   if (!state.in_interrupt) return scan;
   return fmt::format("{}, serving {} since {}\n           interrupted: {}", line_text(listing, state.pc),
-                     event_text(state.serving_event), time_text(state.serving_since), scan);
+                     event_text(state.serving_event), moment_text(state.serving_since), scan);
 }
 
 std::string real_text(std::uint32_t value) { return stl::to_text(stl::Real{std::bit_cast<float>(value)}); }
@@ -91,7 +84,7 @@ std::string queue_text(const State& state, std::size_t queue, const CpuModel& mo
   for (std::size_t i = 0; i < waiting.count; ++i) {
     const QueuedInterrupt& entry = waiting.entry[i];
     text += fmt::format("\n           {}{} since {}", event_text(entry.event),
-                        is_receive_event(entry.event) ? fmt::format(" {:02x}", entry.byte) : "", time_text(entry.at));
+                        is_receive_event(entry.event) ? fmt::format(" {:02x}", entry.byte) : "", moment_text(entry.at));
   }
   return text;
 }
@@ -175,9 +168,16 @@ std::string master_text(const serial::Requester::State& master) {
 
 }  // namespace
 
+std::string moment_text(Time time) {
+  const std::string clock = clock_text(time);
+  return clock.substr(clock.find_first_not_of(' ')) + " ms";
+}
+
+std::string event_text(std::uint8_t event) { return fmt::format("event {} ({})", event, find_event(event)->cause); }
+
 std::string place_text(const Cpu& cpu, const Listing& listing) {
   const State& state = cpu.state();
-  const std::string when = fmt::format("{}  {}", time_text(state.time), scan_text(state));
+  const std::string when = fmt::format("{}  {}", moment_text(state.time), scan_text(state));
   if (state.mode == Mode::Stop) return fmt::format("{}  STOP\n", when);
   const auto op = standing_at(state);
   if (!op)
@@ -191,7 +191,7 @@ std::string place_text(const Cpu& cpu, const Listing& listing) {
 std::string registers_text(const Cpu& cpu, const Listing& listing) {
   const State& state = cpu.state();
   std::string text =
-      fmt::format("time       {}, {}, {} instructions\n", time_text(state.time), scan_text(state), state.instructions);
+      fmt::format("time       {}, {}, {} instructions\n", moment_text(state.time), scan_text(state), state.instructions);
   text += fmt::format("where      {}\n", where_text(state, listing));
   text += accumulators_text(cpu);
   text += fmt::format("flags      {}\n", flags_text(state.image[sm::kFlags]));

@@ -11,6 +11,12 @@
 
 namespace s7200::tools {
 
+/// `412.345678 ms`
+std::string moment_text(Time time);
+
+/// `event 8 (port 0: character received)`
+std::string event_text(std::uint8_t event);
+
 /// `412.345678 ms  scan 7  INT 123  S0=1`, and the line it stands in front of: `>  1242  INCB VB101   // one more`.
 std::string place_text(const Cpu& cpu, const Listing& listing);
 

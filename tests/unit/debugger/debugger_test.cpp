@@ -343,6 +343,150 @@ TEST(Debugger, RestartKeepsBreakpointsAndIsTakenBack) {
   EXPECT_EQ(session.simulation.snapshot(), before);
 }
 
+// --- back in time ---
+
+TEST(Debugger, StepsBackwardsUndoStepsForwards) {
+  Session session(kNested);
+  session("step 3");
+  std::vector<serial::Simulation::Snapshot> states;
+  for (int i = 0; i < 300; ++i) {
+    states.push_back(session.simulation.snapshot());
+    session("step");
+  }
+  for (; !states.empty(); states.pop_back()) {
+    session("rs");
+    ASSERT_TRUE(session.simulation.snapshot() == states.back()) << states.size();
+  }
+  const auto start = session.simulation.snapshot();
+  session("step 250; rstep 250");
+  EXPECT_TRUE(session.simulation.snapshot() == start);
+}
+
+TEST(Debugger, BackwardsOverACallPassesAllThatItCalled) {
+  Session session(kNested);
+  session("until 3; ro");
+  EXPECT_EQ(session.line(), 2U);
+  session("until 18; ru");
+  EXPECT_EQ(session.line(), 13U);
+  session("ru");
+  EXPECT_EQ(session.line(), 2U);
+  EXPECT_TRUE(has(session("ru"), "this is the main program"));
+}
+
+TEST(Debugger, BackwardsOutOfAnInterruptRoutineIsWhatItInterrupted) {
+  Session session(kNested);
+  session("until 21; ru");
+  EXPECT_FALSE(session.state().in_interrupt);
+  EXPECT_EQ(session.vw(30), 0U);
+}
+
+TEST(Debugger, BackwardsOverNeverStopsInAnInterruptThatCameInBetween) {
+  Session session(kNested);
+  session("until 3; continue 50ms; over");
+  for (int i = 0; i < 60; ++i) {
+    session("rover");
+    ASSERT_FALSE(session.state().in_interrupt);
+  }
+}
+
+TEST(Debugger, BackwardsScanGoesToTheStartOfThisOneThenOfTheOneBefore) {
+  Session session(kNested);
+  session("scan 20; step 2; rn");
+  EXPECT_EQ(session.line(), 1U);
+  EXPECT_EQ(session.state().scans, 20U);
+  session("rn");
+  EXPECT_EQ(session.state().scans, 19U);
+  session("rn 5");
+  EXPECT_EQ(session.line(), 1U);
+  EXPECT_EQ(session.state().scans, 14U);
+}
+
+TEST(Debugger, BackwardsContinueStopsWhereContinueStopped) {
+  Session session(kNested);
+  session("watch VW30; break 17");
+  std::vector<serial::Simulation::Snapshot> stops;
+  for (int i = 0; i < 5; ++i) {
+    session("continue");
+    stops.push_back(session.simulation.snapshot());
+  }
+  session("continue 2ms");
+  for (; !stops.empty(); stops.pop_back()) {
+    session("rc");
+    EXPECT_TRUE(session.simulation.snapshot() == stops.back()) << stops.size();
+  }
+  EXPECT_TRUE(has(session("rc"), "this is the oldest moment"));
+  EXPECT_EQ(session.simulation.time(), 0);
+}
+
+TEST(Debugger, BackwardsUntilIsTheLastTimeItWasThere) {
+  Session session(kNested);
+  session("until 21; scan 3; rt INT 0");
+  EXPECT_EQ(session.line(), 19U);
+}
+
+TEST(Debugger, AtGoesToAMomentAndSaysThatItIsThePast) {
+  Session session(kNested);
+  session("continue 50ms");
+  const std::string text = session("at 15.193ms");
+  EXPECT_GE(session.simulation.time(), 15'193'000);
+  EXPECT_LT(session.simulation.time(), 16 * kMillisecond);
+  EXPECT_TRUE(has(text, "in the past; going forward plays what has run, up to 50."));
+  session("at -5ms");
+  EXPECT_LT(session.simulation.time(), 11 * kMillisecond);
+  session("at start");
+  EXPECT_EQ(session.simulation.time(), 0);
+  EXPECT_FALSE(has(session("at end"), "in the past"));
+  EXPECT_GE(session.simulation.time(), 50 * kMillisecond);
+}
+
+TEST(Debugger, WhoNamesInstructionValuesInterruptAndTimeWithoutGoingThere) {
+  Session session(kNested);
+  session("continue 12ms");
+  const auto here = session.simulation.snapshot();
+  const std::string text = session("who VW30");
+  EXPECT_TRUE(has(text, "VW30 was 16#0001 (1), became 16#0002 (2), at 10."));
+  EXPECT_TRUE(has(text, "by INT 0 line 21    INCW    VW30"));
+  EXPECT_TRUE(has(text, "VW30=16#0002, serving event 10 (timed interrupt 0, SMB34)"));
+  EXPECT_EQ(session.simulation.snapshot(), here);
+  session("rwho VW30");
+  EXPECT_EQ(session.line(), 21U);
+  EXPECT_EQ(session.vw(30), 1U);
+}
+
+TEST(Debugger, WhoKnowsWhatWasSetAndWhatTheSystemWrote) {
+  Session session(kNested);
+  session("step; set VW40=7; continue 10ms");
+  EXPECT_TRUE(has(session("who VW40"), "by 'set VW40', from outside"));
+  EXPECT_TRUE(has(session("who SM0.1"), "by the system, between two instructions"));
+  EXPECT_TRUE(has(session("who VW500"), "nothing has written VW500 since power-up; it is 16#0000 (0)"));
+}
+
+TEST(Debugger, ChangingMemoryInThePastBeginsABranchAndBackReturnsToTheOldOne) {
+  Session session(kNested);
+  session("continue 50ms");
+  const auto end = session.simulation.snapshot();
+  EXPECT_TRUE(has(session("at 20ms; set VW30=100"), "a new branch begins here; what ran up to 50."));
+  session("continue 10ms");
+  EXPECT_GT(session.vw(30), 100U);
+  session("back 3; at end");
+  EXPECT_TRUE(session.simulation.snapshot() == end);
+}
+
+TEST(Debugger, ForwardFromThePastDoesAgainWhatWasDoneUntilABranchForgetsIt) {
+  Session session(kNested);
+  session("scan 3; set VW40=7; scan 3; at start; continue 40ms");
+  EXPECT_EQ(session.vw(40), 7U);
+  session("at start; branch; continue 40ms");
+  EXPECT_EQ(session.vw(40), 0U);
+}
+
+TEST(Debugger, PastSaysHowFarBackItCanGoAndWhy) {
+  Session session(kNested);
+  const std::string text = session("continue 2s; past");
+  EXPECT_TRUE(has(text, "from 0.000000 ms, where this session powered the CPU up, to 2000."));
+  EXPECT_TRUE(has(text, "of 256 MB; 0 actions from outside"));
+}
+
 // --- observing changes nothing ---
 
 TEST(Debugger, SteppedRunAndPlainRunEndInTheSameState) {
@@ -459,6 +603,16 @@ TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
       {"over 3", "over takes no argument"},
       {"out now", "out takes no argument"},
       {"back x", "back expects how many"},
+      {"rstep x", "rstep expects how many"},
+      {"rover 1", "rover takes no argument"},
+      {"rscan 0", "rscan expects how many"},
+      {"rcontinue 5ms", "rcontinue takes no argument"},
+      {"runtil", "runtil expects a line number, SBR n or INT n"},
+      {"at", "at expects a moment"},
+      {"at 1h", "nothing has run after 0.000000 ms"},
+      {"who", "who expects one address"},
+      {"rwho VW1 VW2", "rwho expects one address"},
+      {"past 1", "takes no argument"},
       {"continue 5", "continue expects a duration"},
       {"continue 0s", "continue expects a duration"},
       {"until", "until expects a line number, SBR n or INT n"},

@@ -103,6 +103,13 @@ bool finish(Rig& rig) {
   return problems.empty();
 }
 
+std::string RigOptions::recorded_files() const {
+  std::vector<std::string> files = settings_.captures;
+  for (const std::string& file : {settings_.output, settings_.trace})
+    if (!file.empty()) files.insert(files.begin(), stl::printable(file));
+  return fmt::format("{}", fmt::join(files, ", "));
+}
+
 std::string RigOptions::dump_text(const Cpu& cpu) const {
   std::string text;
   for (const MemoryRange& range : dumps_) text += tools::dump_text(cpu, range);

@@ -27,6 +27,9 @@ class RigOptions {
   /// How a verb ends that has got no rig: as after an interruption, if there was nothing else.
   int exit_code_without_rig() const;
 
+  /// The files that are written while it runs, by their names; empty if there are none.
+  std::string recorded_files() const;
+
   /// Whether there are faults.
   bool faulted() const { return !faults_.empty(); }
 

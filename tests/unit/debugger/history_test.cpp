@@ -1,0 +1,307 @@
+#include "tools/debugger/history.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <random>
+#include <set>
+
+#include "serial_sim/modbus/crc.hpp"
+#include "tests/support/slave_bench.hpp"
+#include "tools/debugger/last_write.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Snapshot = serial::Simulation::Snapshot;
+
+/// Stops in front of the instruction of that number.
+struct StopAt final : Observer {
+  explicit StopAt(const Cpu& watched, std::uint64_t number) : cpu(watched), instructions(number) {}
+  bool before(std::uint32_t) override { return cpu.state().instructions < instructions; }
+  bool wants_instructions() const override { return true; }
+  const Cpu& cpu;
+  std::uint64_t instructions;
+};
+
+struct CountRecords final : TraceSink {
+  void record(const TraceRecord& record) override { times.push_back(record.at); }
+  std::vector<Time> times;
+};
+
+SendFrame frame(const std::string& hex) {
+  return {SerialFormat{9600, 8, Parity::Even, 1}, {.frame = serial::parse_hex_frame(hex).frame, .silence = {}}};
+}
+
+SetMemory assignment(const std::string& text) {
+  std::string why;
+  return {{*parse_assignment(text, cpu214(), why)}};
+}
+
+/// What a user may do in a session on the slave, by the instruction in front of which it is done.
+const std::vector<std::pair<std::uint64_t, Action>>& deeds() {
+  static const std::vector<std::pair<std::uint64_t, Action>> kDeeds{
+      {2000, assignment("VW20=16#1234")}, {6000, frame("0103000a0002e409")}, {6000, assignment("I0.0=1")},
+      {9000, frame("0103000a0002e408")},  {9001, assignment("VB100=7")},     {12000, assignment("I0.1=1")}};
+  return kDeeds;
+}
+constexpr std::uint64_t kEnd = 14000;
+
+/// Runs forwards only; its states in front of the instructions asked for, and after each deed.
+class Plain final : public Observer {
+ public:
+  explicit Plain(std::shared_ptr<const Program> program) : simulation(std::move(program)) { simulation.power_up(); }
+
+  void run_to(std::uint64_t instructions) {
+    stop_at_ = instructions;
+    simulation.cpu().set_sink(this);
+    simulation.run_until(kNever);
+    simulation.cpu().set_sink(nullptr);
+  }
+  bool before(std::uint32_t) override { return simulation.cpu().state().instructions < stop_at_; }
+  bool wants_instructions() const override { return true; }
+
+  serial::Simulation simulation;
+
+ private:
+  std::uint64_t stop_at_ = 0;
+};
+
+struct Recorded {
+  explicit Recorded(std::shared_ptr<const Program> program, History::Settings settings = {})
+      : simulation(std::move(program)) {
+    simulation.power_up();
+    history = std::make_unique<History>(simulation, std::move(settings));
+  }
+  void run_to(std::uint64_t instructions) {
+    StopAt stop(simulation.cpu(), instructions);
+    history->run(stop);
+  }
+  void live_through_it() {
+    for (const auto& [at, deed] : deeds()) {
+      run_to(at);
+      history->act(deed);
+    }
+    run_to(kEnd);
+  }
+
+  serial::Simulation simulation;
+  std::unique_ptr<History> history;
+};
+
+std::shared_ptr<const Program> slave() { return test::compile(test::slave_text()); }
+
+TEST(History, StateAtEveryEventOfASessionIsThatOfARunThatOnlyWentForward) {
+  const auto program = slave();
+  Recorded session(program, {.interval = 20 * kMillisecond});
+  session.live_through_it();
+  Plain plain(program);
+  std::set<std::uint64_t> places;
+  for (std::uint64_t at = 0; at <= kEnd; at += at > 5900 && at < 9100 ? 1 : 97) places.insert(at);
+  for (const auto& [at, deed] : deeds()) places.insert(at);
+  std::size_t actions = 0, compared = 0;
+  for (const std::uint64_t at : places) {
+    plain.run_to(at);
+    const std::size_t before = actions;
+    for (; actions < deeds().size() && deeds()[actions].first == at; ++actions)
+      perform(deeds()[actions].second, plain.simulation);
+    if (actions != before) plain.run_to(at);
+    session.history->go_to({.instructions = plain.simulation.cpu().state().instructions,
+                            .actions = actions,
+                            .settled = true,
+                            .time = plain.simulation.time()});
+    ASSERT_EQ(session.simulation.snapshot(), plain.simulation.snapshot()) << "in front of instruction " << at;
+    ++compared;
+  }
+  EXPECT_GT(compared, 3000U);
+}
+
+/// S7200_WALKS sets how many.
+TEST(History, RandomWalksForwardsAndBackwardsStandWhereAPlainRunStands) {
+  const char* const asked = std::getenv("S7200_WALKS");
+  const int walks = asked ? std::atoi(asked) : 3000;
+  const auto program = slave();
+  Recorded session(program, {.interval = 10 * kMillisecond});
+  session.live_through_it();
+  std::vector<std::pair<Moment, Snapshot>> plain;
+  Plain forwards(program);
+  std::size_t actions = 0;
+  std::mt19937 chance(12);
+  for (std::uint64_t at = 1; at <= kEnd; ++at) {
+    const bool deed_due = actions < deeds().size() && deeds()[actions].first == at;
+    if (!deed_due && chance() % 60 != 0) continue;
+    forwards.run_to(at);
+    for (; actions < deeds().size() && deeds()[actions].first == at; ++actions)
+      perform(deeds()[actions].second, forwards.simulation);
+    if (deed_due) forwards.run_to(at);
+    plain.push_back({{at, actions, true, false, forwards.simulation.time()}, forwards.simulation.snapshot()});
+  }
+  for (int i = 0; i < walks; ++i) {
+    const auto& [moment, state] = plain[chance() % plain.size()];
+    session.history->go_to(moment);
+    ASSERT_TRUE(session.simulation.snapshot() == state) << "walk " << i << " to instruction " << moment.instructions;
+    const auto& [next, state_then] = plain[chance() % plain.size()];
+    if (next < moment) continue;
+    session.run_to(next.instructions);  // plays what has run, as 'continue' does
+    if (session.history->now() != next) continue;
+    ASSERT_TRUE(session.simulation.snapshot() == state_then) << "walk " << i << " on to " << next.instructions;
+  }
+}
+
+TEST(History, GoingForwardFromThePastPlaysWhatHasRunAndThenGoesOn) {
+  Recorded session(slave());
+  session.live_through_it();
+  const Snapshot end = session.simulation.snapshot();
+  session.history->go_to(Time{0});
+  EXPECT_TRUE(session.history->in_the_past());
+  session.run_to(kEnd);
+  EXPECT_FALSE(session.history->in_the_past());
+  EXPECT_TRUE(session.simulation.snapshot() == end);
+  session.run_to(kEnd + 500);
+  EXPECT_EQ(session.simulation.cpu().state().instructions, kEnd + 500);
+}
+
+TEST(History, AnActionInThePastBeginsABranchAndTheOldOneCanBeReturnedTo) {
+  Recorded session(slave());
+  session.live_through_it();
+  const Snapshot end = session.simulation.snapshot();
+  const History::Place place = session.history->here();
+  session.history->go_to(session.history->action_moments()[0].time + kMillisecond);
+  session.history->act(assignment("VW20=16#4321"));
+  EXPECT_FALSE(session.history->in_the_past());
+  EXPECT_EQ(session.history->actions().size(), 2U);
+  session.run_to(kEnd);
+  EXPECT_FALSE(session.simulation.snapshot() == end);
+  session.history->return_to(place);
+  EXPECT_TRUE(session.simulation.snapshot() == end);
+}
+
+TEST(History, WhatIsPlayedAgainIsNotRecordedAgain) {
+  CountRecords records;
+  Recorded session(slave(), {.records = &records});
+  session.live_through_it();
+  const std::size_t before = records.times.size();
+  session.history->go_to(Time{0});
+  session.run_to(kEnd);
+  EXPECT_EQ(records.times.size(), before);
+  session.run_to(kEnd + 3000);
+  EXPECT_GT(records.times.size(), before);
+  EXPECT_TRUE(std::ranges::is_sorted(records.times));
+}
+
+TEST(History, CheckpointsAreThinnedWithinTheirBoundAndEveryMomentStaysReachable) {
+  constexpr std::size_t kBound = 1 << 20;
+  Recorded session(slave(), {.bound = kBound, .interval = kMillisecond});
+  session.live_through_it();
+  const Snapshot end = session.simulation.snapshot();
+  const History::Usage usage = session.history->usage();
+  EXPECT_LE(usage.bytes, kBound);
+  EXPECT_GT(usage.checkpoints, 5U);
+  EXPECT_GT(usage.interval, kMillisecond);
+  EXPECT_EQ(usage.oldest.time, 0);
+  const Moment newest = session.history->newest();
+  session.history->go_to(usage.oldest);
+  EXPECT_EQ(session.simulation.time(), 0);
+  session.history->go_to(newest);
+  EXPECT_TRUE(session.simulation.snapshot() == end);
+}
+
+TEST(History, AStoppedCpuIsPartOfThePast) {
+  const auto program = test::compile("LD SM0.0\nINCW VW0\nLDW= VW0, 5\nSTOP\nMEND\n");
+  Recorded session(program, {.interval = kMillisecond});
+  session.run_to(1'000'000);
+  ASSERT_EQ(session.simulation.cpu().state().mode, Mode::Stop);
+  const Snapshot stopped = session.simulation.snapshot();
+  const Moment end = session.history->newest();
+  session.history->go_to(Time{2 * kMillisecond});
+  EXPECT_EQ(session.simulation.cpu().state().mode, Mode::Run);
+  session.run_to(1'000'000);
+  EXPECT_TRUE(session.simulation.snapshot() == stopped);
+  session.history->go_to(Time{0});
+  session.history->go_to(end);
+  EXPECT_TRUE(session.simulation.snapshot() == stopped);
+}
+
+TEST(History, TheWatchdogOfThePastNamesTheSameInstruction) {
+  Recorded session(test::compile("LBL 1\nLD SM0.0\nJMP 1\nMEND\n"), {.interval = 10 * kMillisecond});
+  session.run_to(100'000'000);
+  const Snapshot stopped = session.simulation.snapshot();
+  ASSERT_NE(session.simulation.cpu().state().fatal_code, 0);
+  session.history->go_to(Time{290 * kMillisecond});
+  session.run_to(100'000'000);
+  EXPECT_TRUE(session.simulation.snapshot() == stopped);
+}
+
+TEST(History, WhatCameOverTheHostPortComesAgainWhenItIsPlayed) {
+  Recorded* running = nullptr;
+  int turn = 0;
+  // A bridge: it looks every millisecond, and something comes in now and then.
+  const auto drive = [&](Time end) {
+    serial::Simulation& simulation = running->simulation;
+    while (simulation.time() < end) {
+      const serial::Halt halt = simulation.run_until(std::min(end, simulation.time() + kMillisecond));
+      if (halt != serial::Halt::Time) return halt;
+      serial::HostPort& port = simulation.host_port();
+      if (!port.state().attached) port.attach({9600, 8, Parity::Even, 1}, simulation.time());
+      if (++turn % 150 == 0)
+        for (const std::uint8_t byte : Bytes{0x01, 0x03, 0x00, 0x0a, 0x00, 0x02, 0xe4, 0x09}) {
+          const serial::HostCharacter character{.byte = byte, .format = {9600, 8, Parity::Even, 1}};
+          port.send({&character, 1}, simulation.time());
+        }
+      port.take_received();
+    }
+    return serial::Halt::Time;
+  };
+  Recorded session(slave(), {.drive = drive, .interval = 20 * kMillisecond});
+  running = &session;
+  session.run_to(30'000);
+  const Snapshot end = session.simulation.snapshot();
+  const Moment newest = session.history->newest();
+  EXPECT_GT(session.history->actions().size(), 20U);
+  for (const Time to : {Time{0}, 170 * kMillisecond, 400 * kMillisecond}) {
+    session.history->go_to(to);
+    session.history->go_to(newest);
+    ASSERT_TRUE(session.simulation.snapshot() == end) << to;
+  }
+}
+
+TEST(History, TheLastWriteIsFoundAlsoOfAnEqualValueThroughAPointerAndInABlock) {
+  const auto program = test::compile(
+      "LD SM0.0\nMOVD &VB100, AC1\nMOVW 7, *AC1\nMOVW 7, *AC1\nFILL 5, VW200, 4\nR M1.0, 8\nLD SM0.1\nMOVW 9, "
+      "VW300\nMEND\n");
+  Recorded session(program);
+  session.run_to(36);
+  const auto line_of = [&](const char* address) -> std::uint32_t {
+    std::string why;
+    const Snapshot before = session.simulation.snapshot();
+    const auto search = find_last_write(session.simulation, *session.history, *parse_range(address, cpu214(), why), nullptr);
+    EXPECT_TRUE(session.simulation.snapshot() == before);
+    return search.write && search.write->by ? program->statement(search.write->by->op).position.line : 0;
+  };
+  EXPECT_EQ(line_of("VW100"), 4U);
+  EXPECT_EQ(line_of("VB101"), 4U);
+  EXPECT_EQ(line_of("VW206"), 5U);
+  EXPECT_EQ(line_of("M1.7"), 6U);
+  EXPECT_EQ(line_of("AC1"), 2U);
+  EXPECT_EQ(line_of("VW300"), 8U);
+  EXPECT_EQ(line_of("VW208"), 0U);
+}
+
+TEST(History, TheLastWriteMayBeAnActionOrTheSystem) {
+  Recorded session(test::compile("LD SM0.0\nMOVW 1, VW0\nMEND\n"));
+  session.run_to(10);
+  session.history->act(assignment("VW50=3"));
+  session.run_to(20);
+  std::string why;
+  const auto by_action = find_last_write(session.simulation, *session.history, *parse_range("VW50", cpu214(), why), nullptr);
+  ASSERT_TRUE(by_action.write.has_value());
+  EXPECT_EQ(by_action.write->action, 0U);
+  const auto by_system =
+      find_last_write(session.simulation, *session.history, *parse_range("SM0.6", cpu214(), why), nullptr);
+  ASSERT_TRUE(by_system.write.has_value());
+  EXPECT_FALSE(by_system.write->by.has_value() || by_system.write->action.has_value());
+}
+
+}  // namespace
+}  // namespace s7200::tools

@@ -1,0 +1,31 @@
+// Which memory an instruction is about to read or write.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "interpreter/cpu/cpu.hpp"
+#include "interpreter/program/address.hpp"
+
+namespace s7200::tools {
+
+/// Bits of the image, from bit 0 of its first byte on.
+struct Bits {
+  std::uint64_t first = 0, count = 0;
+
+  bool overlaps(const Bits& other) const { return first < other.first + other.count && other.first < first + count; }
+};
+
+Bits bits_of(const MemoryRange& range);
+
+enum class Access : std::uint8_t { Read, Write };
+
+/// The memory of the operands of `op` that it would read or write if it were executed now with power flow: blocks as long as
+/// their counts say, and what pointers point to. Not the entries of tables, strings and messages, nor what the system
+/// writes.
+std::vector<Bits> accessed(const Cpu& cpu, std::uint32_t op, Access access);
+
+/// Whether one of them is in `range`.
+bool accesses(const Cpu& cpu, std::uint32_t op, Access access, const Bits& range);
+
+}  // namespace s7200::tools

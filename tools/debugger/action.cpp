@@ -1,0 +1,39 @@
+#include "tools/debugger/action.hpp"
+
+#include <fmt/format.h>
+
+#include "tools/views/memory.hpp"
+
+namespace s7200::tools {
+namespace {
+
+struct Doer {
+  serial::Simulation& simulation;
+
+  void operator()(const SetMemory& set) const {
+    for (const Assignment& assignment : set.assignments) assign(simulation, assignment);
+  }
+  void operator()(const SendFrame& send) const {
+    simulation.master_uart().configure(send.format);
+    simulation.master().start(send.request, simulation.time());
+  }
+  void operator()(const serial::HostCall& call) const { simulation.host_port().repeat(call, simulation.time()); }
+};
+
+struct Teller {
+  std::string operator()(const SetMemory& set) const {
+    std::string text = "set";
+    for (const Assignment& assignment : set.assignments) text += " " + assignment.place.name_of(0);
+    return text;
+  }
+  std::string operator()(const SendFrame& send) const { return "send " + serial::to_hex(send.request.frame); }
+  std::string operator()(const serial::HostCall&) const { return "the other end of the bridge"; }
+};
+
+}  // namespace
+
+void perform(const Action& action, serial::Simulation& simulation) { std::visit(Doer{simulation}, action); }
+
+std::string describe(const Action& action) { return std::visit(Teller{}, action); }
+
+}  // namespace s7200::tools

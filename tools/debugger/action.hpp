@@ -1,0 +1,31 @@
+// What is done to a simulation from outside, as plain data: so that it can be done again, at the same moment.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "interpreter/program/address.hpp"
+#include "serial_sim/system/simulation.hpp"
+
+namespace s7200::tools {
+
+/// Memory is written as a programming device would; I addresses are the input points.
+struct SetMemory {
+  std::vector<Assignment> assignments;
+};
+
+/// The master puts a frame on the line.
+struct SendFrame {
+  SerialFormat format{};
+  serial::Request request;
+};
+
+using Action = std::variant<SetMemory, SendFrame, serial::HostCall>;
+
+void perform(const Action& action, serial::Simulation& simulation);
+
+/// `set VW100`, `send 01 03 …`: what it was, in a few words.
+std::string describe(const Action& action);
+
+}  // namespace s7200::tools

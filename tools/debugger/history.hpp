@@ -1,0 +1,173 @@
+// The past of a simulation: every moment since its beginning can be reached again.
+//
+// A run is deterministic, so the past is computed anew: from the last checkpoint before the moment, with everything that was
+// done to the simulation from outside done again where it was done. Checkpoints are thinned when they take more memory than
+// they may; the beginning always stays. What has run once is a recording: going forward from a past moment plays it up to
+// its end, and only then is anything new. Something else done to the simulation in its past begins a new branch.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "interpreter/trace/trace.hpp"
+#include "tools/debugger/action.hpp"
+
+namespace s7200::tools {
+
+/// A place in a run. Instructions may take no time, and several actions may come between two of them: so it takes more than
+/// the time to name one.
+struct Moment {
+  std::uint64_t instructions = 0;  ///< executed before
+  std::size_t actions = 0;         ///< done before
+  bool settled = false;            ///< interrupts that were due have been taken: it is exactly in front of an instruction
+  bool stopped = false;            ///< the CPU is in STOP
+  Time time = 0;
+
+  /// The order in which a run comes by; two of one run are never unordered.
+  auto operator<=>(const Moment&) const = default;
+};
+
+/// Watches a run: live, or played again.
+class Observer : public TraceSink {
+ public:
+  /// Something was done to the simulation, which is the same as it was in front of an instruction otherwise.
+  virtual void acted() {}
+};
+
+class History final : private TraceSink, private serial::HostJournal {
+ public:
+  /// Runs the simulation for real: Simulation::run_until(), or the same at the pace of a clock.
+  using Drive = std::function<serial::Halt(Time end)>;
+
+  struct Settings {
+    Drive drive{};                       ///< none: as fast as the computer can
+    TraceSink* records = nullptr;        ///< is told what happens for the first time, and nothing twice
+    std::size_t bound = 256 << 20;       ///< bytes for checkpoints
+    Time interval = 500 * kMillisecond;  ///< of checkpoints, until they have to be thinned
+  };
+
+  /// The past begins now. The simulation must live as long as this.
+  History(serial::Simulation& simulation, Settings settings);
+  ~History() override;
+  History(const History&) = delete;
+  History& operator=(const History&) = delete;
+
+  Moment now() const;
+  const Moment& newest() const;
+  bool in_the_past() const { return now() < newest(); }
+
+  /// Runs from now on until the observer stops it or the CPU goes to STOP: first what has run already, then what is new.
+  serial::Halt run(Observer& observer);
+
+  /// Plays what has run from now on until `end`, or until the observer stops it; returns whether it came to the end. The
+  /// observer is not asked about the instruction that stands there.
+  bool play(Observer& observer, const Moment& end);
+
+  /// To a moment of this branch.
+  void go_to(const Moment& moment);
+
+  /// To the first moment at or after `time` of this branch, or to its newest moment.
+  void go_to(Time time);
+
+  /// For observers, in front of an instruction: that moment.
+  Moment in_front() const;
+
+  enum class Search : std::uint8_t { Found, Oldest, Interrupted };
+
+  /// Plays ever earlier parts of what ran before `end`, each from its beginning to its end and `begin` told before it, until
+  /// something was found in one. Interrupted: the observer has stopped it. It stands anywhere afterwards, at the oldest
+  /// moment if nothing was found.
+  Search search_back(Observer& observer, Moment end, const std::function<void()>& begin, const std::function<bool()>& found);
+
+  /// Does something to the simulation now. In the past a new branch begins; what ran on the old one stays in it.
+  void act(Action action);
+
+  struct Branch;
+  using BranchPtr = std::shared_ptr<Branch>;
+
+  /// Where one may return to, whatever has been done since.
+  struct Place {
+    BranchPtr branch;
+    Moment moment;
+  };
+  Place here() const { return {branch_, now()}; }
+  void return_to(const Place& place);
+
+  /// A new branch that begins as the whole history did, or with a state of its own.
+  void restart();
+  void begin_with(serial::Simulation::Snapshot state);
+
+  const std::vector<Action>& actions() const;
+  /// When each of them was done.
+  const std::vector<Moment>& action_moments() const;
+
+  struct Usage {
+    std::size_t checkpoints = 0;  ///< of this branch
+    std::size_t bytes = 0;        ///< of all branches that can be returned to
+    Time interval = 0;
+    Moment oldest;
+  };
+  Usage usage() const;
+
+ private:
+  struct Checkpoint {
+    Moment moment;
+    serial::Simulation::Snapshot state;
+    std::uint32_t op = 0;  ///< being executed last: an error that comes now names it
+  };
+  using CheckpointPtr = std::shared_ptr<const Checkpoint>;
+
+  void record(const TraceRecord& record) override;
+  bool before(std::uint32_t op) override;
+  void instruction(const InstructionRecord& record) override;
+  bool wants_instructions() const override;
+  void host_called(const serial::HostCall& call) override;
+
+  serial::Halt run_live();
+  bool advance(const Moment& target);
+  bool reach(const Moment& moment);
+  serial::Halt drive(Time end);
+  void do_next_action();
+  void play_to(Time time);
+  Moment go_to_before(const Moment& end, Time ahead);
+  void begin_branch(serial::Simulation::Snapshot state);
+  void fork();
+  CheckpointPtr checkpoint_of(serial::Simulation::Snapshot state);
+  void keep_checkpoint();
+  void thin();
+  void restore(const Checkpoint& checkpoint);
+  const Checkpoint& checkpoint_before(const Moment& moment) const;
+
+  serial::Simulation& simulation_;
+  Settings settings_;
+  std::shared_ptr<std::size_t> bytes_;  ///< of all checkpoints
+  CheckpointPtr origin_;
+  BranchPtr branch_;
+  std::vector<std::weak_ptr<Branch>> branches_;
+
+  // Where it is.
+  std::size_t actions_ = 0;
+  bool settled_ = false;
+
+  // Of the run under way.
+  Observer* observer_ = nullptr;
+  bool live_ = false;
+  std::optional<std::uint64_t> goal_;  ///< instructions
+  bool stopped_by_observer_ = false;
+};
+
+/// What ran, from the beginning of the history: until `end`, and once or again.
+struct History::Branch {
+  std::vector<CheckpointPtr> checkpoints;  ///< in order; the first is the beginning
+  std::vector<Action> actions;
+  std::vector<Moment> moments;  ///< of the actions
+  Moment end;
+  Time interval = 0;
+};
+
+}  // namespace s7200::tools

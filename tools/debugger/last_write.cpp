@@ -1,0 +1,98 @@
+#include "tools/debugger/last_write.hpp"
+
+#include <utility>
+
+#include "tools/debugger/access.hpp"
+
+namespace s7200::tools {
+namespace {
+
+class WriteFinder final : public Observer {
+ public:
+  WriteFinder(serial::Simulation& simulation, const History& history, const MemoryRange& range,
+              const std::atomic<bool>* stop_request)
+      : cpu_(simulation.cpu()), history_(history), range_(range), bits_(bits_of(range)), stop_request_(stop_request) {}
+
+  void begin() {
+    value_ = range_.bytes_in(cpu_.state().image);
+    acted_.reset();
+  }
+  /// Whether there was a write, in this part or between its last instruction and its end.
+  bool found() {
+    in_front_ = history_.now();
+    note_change_between();
+    return last_.has_value();
+  }
+  const std::optional<LastWrite>& last() const { return last_; }
+
+  bool wants_instructions() const override { return true; }
+
+  void acted() override {
+    const std::size_t action = history_.now().actions - 1;
+    if (range_.bytes_in(cpu_.state().image) != value_) acted_ = action;
+  }
+
+  bool before(std::uint32_t op) override {
+    if (stop_request_ && *stop_request_) return false;
+    in_front_ = history_.in_front();
+    note_change_between();
+    writes_ = accesses(cpu_, op, Access::Write, bits_);
+    errors_ = cpu_.state().error_count;
+    in_interrupt_ = cpu_.state().in_interrupt;
+    return true;
+  }
+
+  void instruction(const InstructionRecord& record) override {
+    std::vector<std::uint8_t> value = range_.bytes_in(cpu_.state().image);
+    const bool wrote = writes_ && record.powered && errors_ == cpu_.state().error_count;
+    if (wrote || value != value_) note(record, std::move(value), record.end);
+  }
+
+ private:
+  void note_change_between() {
+    if (std::vector<std::uint8_t> value = range_.bytes_in(cpu_.state().image); value != value_) {
+      note(std::nullopt, std::move(value), cpu_.time());
+      last_->action = acted_;
+    }
+    acted_.reset();
+  }
+
+  void note(const std::optional<InstructionRecord>& by, std::vector<std::uint8_t> value, Time at) {
+    const State& state = cpu_.state();
+    last_ = {.moment = in_front_,
+             .by = by,
+             .action = {},
+             .at = at,
+             .in_interrupt = by && in_interrupt_,
+             .event = state.serving_event,
+             .routine = state.serving_routine,
+             .before = std::exchange(value_, value),
+             .after = std::move(value)};
+  }
+
+  const Cpu& cpu_;
+  const History& history_;
+  MemoryRange range_;
+  Bits bits_;
+  const std::atomic<bool>* stop_request_;
+  std::vector<std::uint8_t> value_;
+  std::optional<std::size_t> acted_;  ///< action that has changed it since the last instruction
+  Moment in_front_;
+  bool writes_ = false, in_interrupt_ = false;
+  std::uint64_t errors_ = 0;
+  std::optional<LastWrite> last_;
+};
+
+}  // namespace
+
+WriteSearch find_last_write(serial::Simulation& simulation, History& history, const MemoryRange& range,
+                            const std::atomic<bool>* stop_request) {
+  const Moment start = history.now();
+  WriteFinder finder(simulation, history, range, stop_request);
+  const auto search = history.search_back(
+      finder, start, [&] { finder.begin(); }, [&] { return finder.found(); });
+  history.go_to(start);
+  return {search == History::Search::Found ? finder.last() : std::nullopt, search == History::Search::Interrupted};
+}
+
+}  // namespace s7200::tools
