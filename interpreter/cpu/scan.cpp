@@ -115,6 +115,8 @@ void enter_run(Core& core) {
   std::uint8_t& status = s.image[sm::kScanStatus];
   status = static_cast<std::uint8_t>((status & kKept) | sm::kAlwaysOn | sm::kFirstScan | sm::kModeSwitchRun);
   update_clocks(s);
+  for (const Op& op : core.program().ops)
+    if (op.instruction->hidden == Hidden::LoopMemory) core.put_bit(op[2].at, op[2].bit, true);
   core.trace({.at = s.time, .kind = TraceKind::ModeChange, .code = 1});
   units::enter_run(core);
 }

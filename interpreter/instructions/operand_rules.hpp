@@ -182,7 +182,7 @@ inline constexpr OperandRule
     kEvent           {.name = "EVNT", .kind = OperandKind::Event},
     kPort            {.name = "PORT", .kind = OperandKind::Port},
     kHighSpeedCounter{.name = "HSC",  .kind = OperandKind::Counter},
-    kMode            {.name = "MODE", .kind = OperandKind::Number,    .max = 11},
+    kMode            {.name = "MODE", .kind = OperandKind::Number,    .max = 12},
     kStackLevel      {.name = "n",    .kind = OperandKind::StackLevel},
     kLoopNumber      {.name = "LOOP", .kind = OperandKind::Number,    .max = 7},
     kPulseOutput     {.name = "X",    .kind = OperandKind::Number,    .max = 1},

@@ -1,7 +1,8 @@
 // Body: PID (facts 10.8).
 //
 // The loop table holds real numbers: PV and SP (scaled to 0 … 1), M, KC, TS in seconds, TI and TD in minutes, the bias MX
-// and the previous PV. PV and SP are not checked. A rising power flow makes the change from manual to automatic bumpless.
+// and the previous PV. PV and SP are not checked. A rising power flow makes the change from manual to automatic bumpless; at the
+// first execution after the change to RUN there is none: the memory of power flow is set then (S7-200 manual, PID: modes).
 // Two PIDs of the same LOOP disturb each other on a CPU; here each has its own memory of power flow.
 //
 // Not documented, modelled so:

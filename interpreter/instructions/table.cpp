@@ -292,7 +292,7 @@ constexpr Instruction kRealArithmetic[] = {
     {.mnemonic = "TAN",  .operand = {kInReal, kOutReal},     .rung = kBox,  .flags = kArithmetic,     .cpus = kCpu22x,                                   .body = real_function<Function::Tangent>,         .meaning = "tangent of IN, in radians, to OUT"},
     {.mnemonic = "LN",   .operand = {kInReal, kOutReal},     .rung = kBox,  .flags = kArithmetic,     .cpus = kCpu22x,                                   .body = real_function<Function::Logarithm>,       .meaning = "natural logarithm of IN to OUT"},
     {.mnemonic = "EXP",  .operand = {kInReal, kOutReal},     .rung = kBox,  .flags = kArithmetic,     .cpus = kCpu22x,                                   .body = real_function<Function::Exponential>,     .meaning = "e to the power of IN to OUT"},
-    {.mnemonic = "PID",  .operand = {kPidLoop, kLoopNumber}, .rung = kLoop, .flags = kOverflow,       .cpus = kFrom215, .hidden = Hidden::FallingMemory, .body = control_loop,                             .meaning = "one sample of a PID loop, from and to its table"},
+    {.mnemonic = "PID",  .operand = {kPidLoop, kLoopNumber}, .rung = kLoop, .flags = kOverflow,       .cpus = kFrom215, .hidden = Hidden::LoopMemory,    .body = control_loop,                             .meaning = "one sample of a PID loop, from and to its table"},
 };
 
 constexpr Instruction kConversion[] = {

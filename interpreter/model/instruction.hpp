@@ -125,6 +125,7 @@ enum class Hidden : std::uint8_t {
   OutputPoint,    ///< operand 2: the output point of operand 0
   RisingMemory,   ///< operand 2: a memory bit of its own; 1 at power-up
   FallingMemory,  ///< operand 2: a memory bit of its own; 0 at power-up
+  LoopMemory,     ///< operand 2: a memory bit of its own; 1 at each change to RUN
   Number,         ///< operand 2: number of the timer or counter that is operand 0
   SegmentBit,     ///< operand 2: the S bit of the enclosing LSCR
 };

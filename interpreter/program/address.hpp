@@ -32,6 +32,7 @@ struct MemoryRange {
 /// Where addresses are looked up: in the areas of a CPU, and among the symbols of its program if there is one.
 struct AddressSpace {
   AddressSpace(const CpuModel& of_cpu) : model(of_cpu) {}
+  AddressSpace(const CpuModel& of_cpu, const std::vector<stl::Symbol>& of_program) : model(of_cpu), symbols(&of_program) {}
   AddressSpace(const Program& program) : model(*program.model), symbols(&program.source.symbols) {}
 
   const CpuModel& model;

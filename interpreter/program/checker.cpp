@@ -31,10 +31,13 @@ class Checker {
 
   CheckResult run() {
     read_statements();
-    if (statements_.empty() && !has_errors(diagnostics_))
-      error({1, 1, 1}, "no STL statement in the file", "a program needs at least MEND");
+    if (statements_.empty() && !has_errors(diagnostics_)) no_statement();
+    if (lacks_main_program())
+      error(source_.blocks.front().position, "there is no main program (ORGANIZATION_BLOCK)",
+            "give the file that has it too");
     const bool all_known = !has_errors(diagnostics_);
-    ProgramStructure structure = check_structure(statements_, model_, diagnostics_);
+    ProgramStructure structure;
+    if (!lacks_main_program()) structure = check_structure(statements_, model_, diagnostics_);
     if (all_known || !unknown_mnemonics_) check_logic_stack(statements_, diagnostics_);
     check_size();
     data_ = place_data(source_, model_, diagnostics_);
@@ -60,6 +63,17 @@ class Checker {
     if (source_.symbols.empty()) return;
     for (stl::Diagnostic& diagnostic : diagnostics_)
       if (diagnostic.cause == kUndefinedSymbols) diagnostic.cause = diagnostic.message;
+  }
+
+  void no_statement() {
+    const bool part = !source_.symbols.empty() || !source_.data.empty();
+    error({1, 1, 1}, "no STL statement in the file",
+          part ? "it is a part of a project: give the file with the program too" : "a program needs at least MEND");
+  }
+
+  bool lacks_main_program() const {
+    return !source_.blocks.empty() &&
+           std::ranges::find(source_.blocks, stl::Block::Kind::Main, &stl::Block::kind) == source_.blocks.end();
   }
 
   void read_statements() {
@@ -138,6 +152,7 @@ class Checker {
   bool place_operands(const Instruction& instruction, const stl::Statement& statement) {
     const std::size_t given = statement.operands.size(), taken = instruction.rules().size();
     if (has_decimal_comma(instruction, statement)) return false;
+    if (is_missing_block(instruction, statement)) return false;
     const stl::Block* called = called_block(instruction, statement);
     if (given != taken && !called) {
       const stl::Position at = given > taken ? statement.operands[taken].position : statement.position;
@@ -155,6 +170,16 @@ class Checker {
     }
     if (called && good) return pass_parameters(instruction, statement, *called);
     return good && blocks_fit(instruction, statement) && mode_fits(instruction, statement);
+  }
+
+  /// A CALL or ATCH of a name that no block has. True after a message.
+  bool is_missing_block(const Instruction& instruction, const stl::Statement& statement) {
+    const bool names = instruction.structure == Structure::Call || instruction.structure == Structure::Attach;
+    const auto* name = names && !statement.operands.empty() ? std::get_if<stl::Name>(&statement.operands[0].value) : nullptr;
+    if (!name || name->reason.empty()) return false;
+    error(statement.operands[0].position, name->reason,
+          "give the file with its block too; the blocks of Micro/WIN's own libraries are in no export");
+    return true;
   }
 
   /// The block that a CALL calls; null if the program has no blocks, whose listing has no parameters.
@@ -216,6 +241,10 @@ class Checker {
     if (instruction.structure != Structure::DefineCounter) return true;
     const auto& placed = placed_.back();
     const auto counter = static_cast<std::size_t>(*placed[0].constant);
+    if (*placed[1].constant == 12) {
+      error(statement.operands[1].position, "mode 12 of a high-speed counter is not modelled yet");
+      return false;
+    }
     const CounterModes modes = model_.counter_modes[counter];
     if (modes >> *placed[1].constant & 1) return true;
     error(statement.operands[1].position, fmt::format("HSC{} has no mode {}", counter, *placed[1].constant),
@@ -245,24 +274,46 @@ class Checker {
     return placed.operand.at - area.base + count * placed.operand.width <= size * std::max(1u, area.element);
   }
 
+  /// What a statement takes in program memory at least: a word, and its constants where they cannot be part of that.
+  static std::size_t least_words(const CheckedStatement& s) {
+    std::size_t words = 1;
+    const auto rules = s.instruction->rules();
+    for (std::size_t i = 0; i < std::min(rules.size(), s.statement->operands.size()); ++i) {
+      const stl::OperandValue& value = s.statement->operands[i].value;
+      const auto* integer = std::get_if<stl::Integer>(&value);
+      const bool number = integer && rules[i].kind == OperandKind::Memory;
+      if (std::holds_alternative<stl::Real>(value) ||
+          (number && (integer->value < INT16_MIN || integer->value > UINT16_MAX)))
+        words += 2;
+      else if (number && (integer->value < INT8_MIN || integer->value > UINT8_MAX))
+        words += 1;
+    }
+    return words;
+  }
+
   void check_size() {
-    if (statements_.size() > model_.program_words)
-      error(
-          statements_[model_.program_words].statement->position,
-          fmt::format(
-              "the program is too large: {} instructions of at least one word each, CPU {} has {} words (compile rule 0080)",
-              statements_.size(), model_.name, model_.program_words),
-          larger_cpu());
+    std::size_t words = 0;
+    const stl::Statement* beyond = nullptr;
+    for (const CheckedStatement& s : statements_) {
+      words += least_words(s);
+      if (!beyond && words > model_.program_words) beyond = s.statement;
+    }
+    if (beyond)
+      error(beyond->position,
+            fmt::format("the program is too large: at least {} words for {} instructions and their constants, CPU {} has {} "
+                        "words (compile rule 0080)",
+                        words, statements_.size(), model_.name, model_.program_words),
+            larger_cpu(words));
     if (constants_.bytes().size() > image::kSize - image::kConstants)
       error({1, 1, 1}, "the program has too many different constants (compile rule 0080)");
   }
 
   /// Which CPU may hold the program. It may still be too large for that one: its words are not counted exactly.
-  std::string larger_cpu() const {
-    const CpuModel* larger = smallest_cpu([&](const CpuModel& model) { return model.program_words >= statements_.size(); });
-    return larger ? fmt::format("{} bytes at least; CPU {} holds {}: --cpu {}", 2 * statements_.size(), larger->name,
+  std::string larger_cpu(std::size_t words) const {
+    const CpuModel* larger = smallest_cpu([&](const CpuModel& model) { return model.program_words >= words; });
+    return larger ? fmt::format("{} bytes at least; CPU {} holds {}: --cpu {}", 2 * words, larger->name,
                                 2 * larger->program_words, larger->name)
-                  : fmt::format("{} bytes at least: no CPU that is modelled holds them", 2 * statements_.size());
+                  : fmt::format("{} bytes at least: no CPU that is modelled holds them", 2 * words);
   }
 
   /// A timer is a TON or a TOF, not both: they share their numbers (facts 1.1).
@@ -407,6 +458,7 @@ class Checker {
         break;
       case Hidden::RisingMemory:
       case Hidden::FallingMemory:
+      case Hidden::LoopMemory:
         hidden = {.at = image::kEdges + edges_ / 8, .bit = static_cast<std::uint8_t>(edges_ % 8)};
         ++edges_;
         break;

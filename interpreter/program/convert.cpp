@@ -191,6 +191,8 @@ std::string blocks_text(const stl::Source& source) {
     stl::Source comment, part;
     comment.lines.assign(routine.lines.begin(), first);
     part.lines.assign(first, routine.lines.end());
+    const auto is_network = [](const stl::Line& line) { return std::holds_alternative<stl::NetworkHead>(line); };
+    if (std::ranges::none_of(part.lines, is_network)) part.lines.insert(part.lines.begin(), stl::NetworkHead{1, {}, {}});
     text += stl::to_text(comment) + declarations_text(routine.block.variables) + "BEGIN\n";
     for (stl::Line& line : part.lines)
       if (auto* statement = std::get_if<stl::Statement>(&line)) name_blocks(*statement, routines);

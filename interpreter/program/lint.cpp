@@ -389,6 +389,20 @@ void find_double_counters(const Program& program, stl::Diagnostics& diagnostics)
                       diagnostics);
 }
 
+void find_double_loops(const Program& program, stl::Diagnostics& diagnostics) {
+  std::map<std::uint32_t, std::uint32_t> first;  // by loop
+  for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
+    if (program.ops[i].instruction->hidden != Hidden::LoopMemory) continue;
+    const std::uint32_t loop = program.ops[i][1].at;
+    const auto [found, added] = first.emplace(loop, i);
+    if (!added)
+      diagnostics.push_back(warn(Warning::DoubleLoop, place(program, i),
+                                 fmt::format("loop {} already has a PID in line {}; they would disturb each other", loop,
+                                             line(program, found->second)),
+                                 "give each PID a loop of its own", fmt::format("loop {}", loop)));
+  }
+}
+
 void find_missing_eni(const Program& program, stl::Diagnostics& diagnostics) {
   if (!ops_with(program, Effect::EnablesInterrupts).empty()) return;
   for (const std::uint32_t attach : attachments(program))

@@ -18,6 +18,7 @@ void find_double_timers(const Program& program, stl::Diagnostics& diagnostics);
 void find_double_counters(const Program& program, stl::Diagnostics& diagnostics);
 
 /// Interrupts are disabled when the CPU enters RUN (facts 3.3).
+void find_double_loops(const Program& program, stl::Diagnostics& diagnostics);
 void find_missing_eni(const Program& program, stl::Diagnostics& diagnostics);
 
 /// SMB30 is 0 when the CPU enters RUN: the port speaks PPI.

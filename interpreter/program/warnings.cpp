@@ -11,6 +11,7 @@ std::span<const WarningInfo> all_warnings() {
   static constexpr std::array kTable{
       WarningInfo{Warning::DoubleCoil, "double-coil", "a coil that another one always overwrites", find_double_coils},
       WarningInfo{Warning::DoubleCounter, "double-counter", "a counter that counts twice in a scan", find_double_counters},
+      WarningInfo{Warning::DoubleLoop, "double-loop", "two PIDs of the same loop", find_double_loops},
       WarningInfo{Warning::DoubleTimer, "double-timer", "a timer that is executed twice in a scan", find_double_timers},
       WarningInfo{Warning::LogicStack, "logic-stack", "a rung that leaves more than one value on the logic stack"},
       WarningInfo{Warning::NoEni, "no-eni", "ATCH in a program without ENI: no interrupt is ever served", find_missing_eni},

@@ -14,6 +14,7 @@ enum class Warning : std::uint8_t {
   DoubleCoil,
   DoubleTimer,
   DoubleCounter,
+  DoubleLoop,
   LogicStack,
   NoEni,
   NoFreeport,

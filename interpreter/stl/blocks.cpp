@@ -117,6 +117,20 @@ constexpr std::uint32_t kLocalBytes = 64;
 
 // --- the reader ---
 
+/// `LD I0.0`, but not `Version 2` or `Pump M1`: a mnemonic, and operands one of which is a whole address.
+bool is_statement(std::string_view code) {
+  const ParseResult parsed = parse(code, {});
+  const auto* statement = parsed.source.lines.empty() ? nullptr : std::get_if<Statement>(&parsed.source.lines.front());
+  const auto is_name = [](const Operand& operand) { return std::holds_alternative<Name>(operand.value); };
+  const auto is_whole = [](const Operand& operand) {
+    const auto* address = std::get_if<Address>(&operand.value);
+    return address ? address->size != Size::None
+                   : std::holds_alternative<AddressOf>(operand.value) || std::holds_alternative<Indirect>(operand.value);
+  };
+  return statement && std::ranges::none_of(statement->operands, is_name) &&
+         std::ranges::any_of(statement->operands, is_whole);
+}
+
 class BlockReader {
  public:
   enum class Heads : std::uint8_t { Keywords, Headings };
@@ -227,12 +241,23 @@ class BlockReader {
     } else if (keyword == "TITLE") {
       read_title(code, line);
     } else if (const auto kind = declaration_kind(keyword)) {
+      if (block().kind == Block::Kind::Interrupt && *kind != Variable::Kind::Temporary)
+        error(position_of(code), "an interrupt routine has no parameters", "declare its variables with VAR");
       kind_ = *kind;
       state_ = State::Declarations;
       declaration_start_ = position_of(code);
     } else if (keyword == "NETWORK" || (!code.empty() && !begins_later_)) {
       state_ = State::Code;
       read_code(keyword, code, line);
+    } else if (keyword.starts_with("VAR_") || keyword == "END_VAR") {
+      error(position_of(code), fmt::format("{} does not begin declarations", shortened(code)),
+            "they begin with VAR_INPUT, VAR_IN_OUT, VAR_OUTPUT, or VAR for those that are no parameters");
+      state_ = keyword == "END_VAR" ? State::Head : State::Declarations;
+      kind_ = Variable::Kind::Temporary;
+      declaration_start_ = position_of(code);
+    } else if (is_statement(code)) {
+      error(position_of(code), "a statement before BEGIN is not part of the program",
+            "BEGIN comes before the first network; in front of a comment write //", "before BEGIN");
     } else if (!trim(line).empty()) {
       std::string_view text = trim(line);
       if (text.starts_with("//")) text.remove_prefix(2);

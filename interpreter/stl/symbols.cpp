@@ -8,9 +8,11 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/stl/printer.hpp"
 
 namespace s7200::stl {
 
@@ -114,11 +116,15 @@ std::optional<OperandValue> value_of(std::string_view text, std::string& why) {
   return operand->value;
 }
 
-/// Whether an operand may be a name all the same: S1 and E1 have no bit, K1 is a constant only for Micro/DOS.
+/// Whether an operand may be a name all the same: S1 has no bit, Z1 and AW1 are addresses only in the German set, K1 is a
+/// constant only for Micro/DOS.
 bool may_be_name(const OperandValue& value, std::string_view written) {
   constexpr std::array<std::string_view, 4> kComplete{"T", "C", "HC", "AC"};
-  if (const auto* address = std::get_if<Address>(&value))
-    return address->size == Size::None && std::ranges::find(kComplete, address->area) == kComplete.end();
+  if (const auto* address = std::get_if<Address>(&value)) {
+    const bool german = !upper_case(written).starts_with(address->area) && !upper_case(written).starts_with("DB");
+    const bool complete = address->size != Size::None || std::ranges::find(kComplete, address->area) != kComplete.end();
+    return !complete || (german && address->size != Size::Bit);
+  }
   return std::holds_alternative<Integer>(value) && (written.front() == 'K' || written.front() == 'k');
 }
 
@@ -335,6 +341,7 @@ class Resolver {
     const Locals* locals = nullptr;
     for (std::size_t i = 0; i < statement.operands.size(); ++i) {
       Operand& operand = statement.operands[i];
+      if (i == 0 && (calls || attaches)) take_for_block_name(operand);
       if (i == 0 && (calls || attaches) && std::holds_alternative<Name>(operand.value)) {
         resolve_block(operand, calls ? Block::Kind::Subroutine : Block::Kind::Interrupt);
         continue;
@@ -353,6 +360,7 @@ class Resolver {
 
   void resolve(Operand& operand, const Locals* locals) {
     auto* name = std::get_if<Name>(&operand.value);
+    if (!name && !operand.symbol.empty()) return compare_with_symbol(operand, locals);
     if (!name) return resolve_short_name(operand);
     const WrittenName written(name->text);
     if (const Variable* variable = locals ? locals->find(written.name) : nullptr) {
@@ -369,17 +377,64 @@ class Resolver {
     }
   }
 
+  std::string written_at(const Position& at) const {
+    return at.line == 0 ? "" : characters_at(source_.text[at.line - 1], at.column, at.length);
+  }
+
+  void forget_german(const Position& at) {
+    std::erase_if(result_.diagnostics, [&](const Diagnostic& d) { return d.cause == kGermanAddresses && d.position == at; });
+  }
+
   /// `S1`, `K1` and `E1`, if there are symbols of these names.
   void resolve_short_name(Operand& operand) {
-    if (source_.symbols.empty() || operand.position.line == 0) return;
-    const Position at = operand.position;
-    const std::string written = characters_at(source_.text[at.line - 1], at.column, at.length);
+    if (source_.symbols.empty()) return;
+    const std::string written = written_at(operand.position);
     if (written.empty() || !may_be_name(operand.value, written)) return;
     const Symbol* symbol = symbols_.find(written);
     if (!symbol || !symbol->value || std::holds_alternative<Name>(*symbol->value)) return;
     operand.value = Name{written};
     put(operand, *symbol->value, 0);
-    std::erase_if(result_.diagnostics, [&](const Diagnostic& d) { return d.cause == kGermanAddresses && d.position == at; });
+    forget_german(operand.position);
+  }
+
+  /// `CALL E1`, if there is a block of this name.
+  void take_for_block_name(Operand& operand) {
+    if (!std::holds_alternative<Address>(operand.value) || !operand.symbol.empty()) return;
+    const std::string written = written_at(operand.position);
+    if (written.empty() || !blocks_.find(written)) return;
+    operand.value = Name{written};
+    forget_german(operand.position);
+  }
+
+  /// `Pump:Q0.0`: the same as the table says, and as in all other places.
+  void compare_with_symbol(const Operand& operand, const Locals* locals) {
+    const WrittenName written(operand.symbol);
+    const std::string here = to_text({without_mark(operand.value), {}});
+    const Variable* variable = locals ? locals->find(written.name) : nullptr;
+    const Symbol* symbol = written.local || variable ? nullptr : symbols_.find(written.name);
+    std::string elsewhere;
+    std::uint32_t line = 0;
+    if (variable) {
+      elsewhere = to_text({variable->address, {}});
+      line = variable->position.line;
+    } else if (symbol && symbol->value && !std::holds_alternative<Name>(*symbol->value)) {
+      elsewhere = to_text({*symbol->value, {}});
+      line = symbol->position.line;
+    } else if (!written.local) {
+      const auto [first, added] = seen_.try_emplace(std::string(written.name), here, operand.position.line);
+      std::tie(elsewhere, line) = first->second;
+    }
+    if (elsewhere.empty() || elsewhere == here) return;
+    result_.diagnostics.push_back({Severity::Error, operand.position,
+                                   fmt::format("{} is {} here", shortened(written.name), here),
+                                   fmt::format("it is {} in {}", elsewhere, line_text(source_, line, operand.position.line)),
+                                   fmt::format("{} is not {}", written.name, here)});
+  }
+
+  static OperandValue without_mark(const OperandValue& value) {
+    if (const auto* target = std::get_if<AddressOf>(&value)) return target->target;
+    if (const auto* pointer = std::get_if<Indirect>(&value)) return pointer->pointer;
+    return value;
   }
 
   static void put(Operand& operand, const OperandValue& value, char mark) {
@@ -425,7 +480,8 @@ class Resolver {
   Source& source_;
   Names<Symbol> symbols_;
   Names<Block> blocks_;
-  std::vector<Locals> locals_;  // of each block
+  std::map<std::string, std::pair<std::string, std::uint32_t>> seen_;  // names with addresses beside them, without a table
+  std::vector<Locals> locals_;                                         // of each block
 };
 
 // --- status charts ---

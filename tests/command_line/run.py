@@ -1152,6 +1152,29 @@ class Files(Case):
         self.assertIn("neither an address", self.ends(FAILED, "convert", EXPORTS / "pump.awl", "--to", "iec").stderr)
         self.ends(FINE, "convert", *self.PUMP, "--to", "iec")
 
+    def test_convert_prints_no_program_that_is_wrong(self):
+        wrong = self.program("MOVB 1000, VW0\nXYZ 5\n", "wrong.stl")
+        done = self.ends(FAILED, "convert", wrong, "--to", "microwin")
+        self.assertEqual(done.stdout, "")
+        self.assertIn("unknown instruction 'XYZ'", done.stderr)
+
+    def test_parts_of_a_project_alone_ask_for_the_rest(self):
+        table = self.program("Pump\tQ0.0\n", "table.txt")
+        self.assertIn("give the file with the program too", self.ends(FAILED, "check", table).stderr)
+        block = self.program("SUBROUTINE_BLOCK S:SBR0\nBEGIN\nNETWORK 1\nLD SM0.0\n= M0.0\nEND_SUBROUTINE_BLOCK\n", "s.awl")
+        done = self.ends(FAILED, "check", block)
+        self.assertIn("there is no main program (ORGANIZATION_BLOCK)", done.stderr)
+        self.assertNotIn("MEND", done.stderr)
+        library = self.program("LD SM0.1\nCALL MBUS_INIT, 1, 1, M0.0\nMEND\n", "library.stl")
+        self.assertIn("there is no subroutine MBUS_INIT", self.ends(FAILED, "check", library, "--cpu", "224").stderr)
+
+    def test_symbols_name_memory_in_scenarios_too(self):
+        program = self.program("LD SM0.0\nINCW VW20\nMEND\n", "count.stl")
+        table = self.program("Counter\tVW20\n", "names.txt")
+        scenario = self.program(f"program: {program}\nwith: [{table}]\nset: {{Counter: 5}}\n"
+                                "steps: [{wait: 10ms}, {memory: {Counter: 6..}}]\n", "counter.yaml")
+        self.ends(FINE, "test", scenario)
+
     def test_convert_writes_the_code_page_of_a_windows(self):
         german, out = self.program("LD SM0.0 // für\n= M0.0\nMEND\n", "fuer.stl"), self.folder / "fuer.awl"
         self.ends(FINE, "convert", german, "--to", "microwin", "--encoding", "Windows-1252", "-o", out)

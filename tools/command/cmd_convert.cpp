@@ -33,10 +33,34 @@ void print_json(const ConvertOptions& options, const SourceText& source, const s
   fmt::print("{}", lines_of(results));
 }
 
+/// Otherwise its mistakes are printed, for the CPU that it has the fewest for.
+bool is_fine_for_any_cpu(const SourceText& source) {
+  std::optional<CheckResult> best;
+  for (const CpuModel* model : all_cpus()) {
+    CheckResult result = check(source.parsed, *model, default_times(*model));
+    if (result.program) return true;
+    if (!best || result.diagnostics.size() < best->diagnostics.size()) best = std::move(result);
+  }
+  std::erase_if(best->diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
+  print_diagnostics(best->diagnostics, best->source);
+  return false;
+}
+
+/// What reads the file again guesses its encoding.
+std::string encoding_note(const std::string& text, const std::string& encoded, const std::string& encoding) {
+  std::string why;
+  const auto again = stl::decode(encoded, why);
+  if (!again || again->text == text) return {};
+  return fmt::format("when this is read again it is taken for {}, not for {}: comments and texts will look different",
+                     again->encoding, encoding);
+}
+
 int run_convert(const ConvertOptions& options) {
   auto source = read_project(options.program.path, options.program.parts);
   if (!source) return kUnusable;
+  if (!repair(*source, options.program.repairs)) return kUnusable;
   print_note_if_any(left_out_note(*source));
+  if (!is_fine_for_any_cpu(*source)) return print_error("nothing was written"), kCheckFailed;
   const Notation notation = *notation_named(options.notation);
   const auto text = convert(source->parsed, notation);
   if (!text) {
@@ -49,6 +73,7 @@ int run_convert(const ConvertOptions& options) {
   std::string why;
   const auto encoded = stl::encode(*text, options.encoding, why);
   if (!encoded) return print_error("--encoding: " + why + "; nothing was written"), kUnusable;
+  print_note_if_any(encoding_note(*text, *encoded, options.encoding));
   std::vector<std::string> inputs = options.program.parts;
   inputs.push_back(options.program.path);
   const int exit_code = options.to_file() ? write_stl(options.output, inputs, options.force, *encoded) : kFine;
@@ -66,6 +91,7 @@ void add_convert(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("convert", "print a program in another notation, which reads back as the same program");
   options->program.add_files_to(*verb);
+  add_repair_option(*verb, options->program.repairs);
   verb->add_option("--to", options->notation,
                    "iec (one listing, 16#FF), microdos (K4, KHFF), microwin (the blocks of an export), german (E, A, U)")
       ->required()

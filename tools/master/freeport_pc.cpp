@@ -27,6 +27,8 @@ class PcRequest final : public ProtocolRequest {
 
   serial::Answer judge(Data request, Data response) const override {
     serial::Answer answer = pc_protocol::check_answer(request, response, end_character_);
+    if (answer.fault.starts_with("end character"))
+      answer.fault += fmt::format("; {} 16#{:02X} would take it", kEndCharacter, response.back());
     if (command_ && command_->type == Type::Read && !answer.bytes.empty())
       answer.values.assign(answer.bytes.begin(), answer.bytes.begin() + static_cast<std::ptrdiff_t>(count_));
     return answer;

@@ -33,6 +33,7 @@ class HeadReader {
     }
     if (const auto path = optional_path(map, "program")) scenario.program = *path;
     if (const YamlNode* with = map.find("with")) read_parts(*with, scenario.with);
+    read_symbols(scenario);
     if (const auto repair = values_.optional_text(map, "repair")) {
       std::string why;
       parse_repairs(*repair, why);
@@ -47,7 +48,7 @@ class HeadReader {
     if (const YamlNode* line = map.find("line")) read_line(*line, scenario.line);
     if (const auto station = values_.number(map.find("station"), 0, 255))
       scenario.station = static_cast<std::uint8_t>(*station);
-    if (const YamlNode* set = map.find("set")) scenario.set = read_assignments(values_, *set, *find_cpu(scenario.cpu));
+    if (const YamlNode* set = map.find("set")) scenario.set = read_assignments(values_, *set, scenario.addresses());
     if (const auto path = optional_path(map, "input")) read_field(*map.find("input"), *path, scenario);
     if (const YamlNode* clock = map.find("clock"))
       scenario.clock = values_.value(clock, "a time from 1990 to 2089", "2026-11-21 10:00:00",
@@ -81,6 +82,18 @@ class HeadReader {
                            "write for example with: [symbols.txt]");
     for (const YamlNode& part : parts.items)
       if (const auto path = values_.text(part)) with.push_back(beside(scenario_file_, *path));
+  }
+
+  /// A file that cannot be read is complained about when the program is.
+  static void read_symbols(Scenario& scenario) {
+    for (const std::string& path : scenario.with) {
+      std::string why;
+      const auto bytes = read_file(path, why);
+      auto source = bytes ? read_source(*bytes, path, why) : std::nullopt;
+      if (!source) continue;
+      auto& symbols = source->parsed.source.symbols;
+      scenario.symbols.insert(scenario.symbols.end(), symbols.begin(), symbols.end());
+    }
   }
 
   void read_rule(const YamlNode& map, Rule& rule) {

@@ -18,11 +18,11 @@ struct PlaceAndValue {
 };
 
 std::optional<PlaceAndValue> read_place(ValueReader& values, const YamlNode& key, const YamlNode& item,
-                                        const CpuModel& model) {
+                                        const AddressSpace& space) {
   const auto address = values.text(key), value = values.text(item);
   if (!address || !value) return {};
   std::string why;
-  const auto range = parse_range(*address, model, why);
+  const auto range = parse_range(*address, space, why);
   if (!range) {
     values.wrong(key, why);
     return {};
@@ -107,8 +107,8 @@ std::optional<MemoryExpected> bytes_expected(ValueReader& values, const YamlNode
 }
 
 std::optional<MemoryExpected> read_expected(ValueReader& values, const YamlNode& key, const YamlNode& item,
-                                            const CpuModel& model) {
-  const auto written = read_place(values, key, item, model);
+                                            const AddressSpace& space) {
+  const auto written = read_place(values, key, item, space);
   if (!written) return {};
   if (written->range.count > 1) return bytes_expected(values, item, *written);
   const bool limits = written->value.find("..") != std::string::npos;
@@ -140,17 +140,17 @@ std::string real_text(const std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
-std::vector<Assignment> read_assignments(ValueReader& values, const YamlNode& map, const CpuModel& model) {
+std::vector<Assignment> read_assignments(ValueReader& values, const YamlNode& map, const AddressSpace& space) {
   std::vector<Assignment> assignments;
   if (!map.is_map())
     values.wrong(map, "addresses and values are a map, not " + to_text(map), "write for example {VW20: 16#1234, I0.3: 1}");
   for (std::size_t i = 0; i < map.keys.size() && i < map.items.size(); ++i)
-    if (const auto written = read_place(values, map.keys[i], map.items[i], model))
+    if (const auto written = read_place(values, map.keys[i], map.items[i], space))
       if (const auto one = read_assignment(values, map.items[i], *written)) assignments.push_back(*one);
   return assignments;
 }
 
-std::vector<MemoryExpected> read_memory_expected(ValueReader& values, const YamlNode& map, const CpuModel& model) {
+std::vector<MemoryExpected> read_memory_expected(ValueReader& values, const YamlNode& map, const AddressSpace& space) {
   std::vector<MemoryExpected> expected;
   if (!map.is_map() || map.keys.empty()) {
     values.wrong(map, "addresses and values are a map, not " + (map.is_map() ? "an empty one" : to_text(map)),
@@ -158,7 +158,7 @@ std::vector<MemoryExpected> read_memory_expected(ValueReader& values, const Yaml
     return expected;
   }
   for (std::size_t i = 0; i < map.keys.size() && i < map.items.size(); ++i)
-    if (auto one = read_expected(values, map.keys[i], map.items[i], model)) expected.push_back(std::move(*one));
+    if (auto one = read_expected(values, map.keys[i], map.items[i], space)) expected.push_back(std::move(*one));
   return expected;
 }
 

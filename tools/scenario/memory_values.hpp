@@ -13,7 +13,7 @@
 namespace s7200::tools {
 
 /// `{VW20: 16#1234, I0.3: 1}`
-std::vector<Assignment> read_assignments(ValueReader& values, const YamlNode& map, const CpuModel& model);
+std::vector<Assignment> read_assignments(ValueReader& values, const YamlNode& map, const AddressSpace& space);
 
 struct MemoryExpected {
   /// From … to, both included, as an instruction reads the value: bytes without a sign, words and double words with one,
@@ -33,7 +33,7 @@ struct MemoryExpected {
 };
 
 /// `{VW20: 16#1234, VW22: 5..10, VD24: 1.5, VB0:4: 01 02 .. 04}`
-std::vector<MemoryExpected> read_memory_expected(ValueReader& values, const YamlNode& map, const CpuModel& model);
+std::vector<MemoryExpected> read_memory_expected(ValueReader& values, const YamlNode& map, const AddressSpace& space);
 
 /// What memory was to hold and holds. Of reals and of limits the bytes say little.
 Finding memory_finding(const Program& program, const MemoryExpected& expected, const Bytes& found);

@@ -41,10 +41,11 @@ struct Scenario {
   stl::Position position{};
   std::shared_ptr<const stl::SourceLines> source{};  ///< the file it is from
 
-  std::vector<std::string> with{};  ///< paths of the other files of its project
-  std::string repair{};             ///< slips of its listing to be repaired: `R1,R2`, `all`
-  std::string program{};            ///< path; empty if only --target names one
-  bool may_be_missing = false;      ///< skip_without names it
+  std::vector<std::string> with{};     ///< paths of the other files of its project
+  std::vector<stl::Symbol> symbols{};  ///< of those
+  std::string repair{};                ///< slips of its listing to be repaired: `R1,R2`, `all`
+  std::string program{};               ///< path; empty if only --target names one
+  bool may_be_missing = false;         ///< skip_without names it
   std::string cpu = "214";
   std::string times_file{};  ///< empty: the model's own
   std::vector<Assignment> set{};
@@ -62,6 +63,9 @@ struct Scenario {
   std::string expected_failure{};  ///< a known gap, and why; empty: it must pass
   std::string skipped{};           ///< the reason why it is not to be run; empty if it is
   std::vector<Step> steps{};
+
+  /// Where its addresses are looked up.
+  AddressSpace addresses() const { return {*find_cpu(cpu), symbols}; }
 };
 
 }  // namespace s7200::tools

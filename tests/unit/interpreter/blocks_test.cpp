@@ -184,5 +184,18 @@ TEST(Blocks, AreRecognisedByTheirHeads) {
   EXPECT_FALSE(is_block_export(""));
 }
 
+TEST(Blocks, WhatStandsBeforeBeginIsNeverLostInSilence) {
+  const std::string head = "ORGANIZATION_BLOCK MAIN:OB1\nTITLE=\n",
+                    rest = "BEGIN\nNetwork 1\nLD I0.0\n= Q0.0\nEND_ORGANIZATION_BLOCK\n";
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(messages(head + "LD I0.0\n" + rest),
+            Lines{"x.awl:3:1: error: a statement before BEGIN is not part of the program (MAIN)"});
+  EXPECT_EQ(messages(head + "VAR_CONST\n x : INT;\nEND_VAR\n" + rest),
+            Lines{"x.awl:3:1: error: VAR_CONST does not begin declarations (MAIN)"});
+  EXPECT_EQ(messages(head + "Version 2 of M1, see I0\n" + rest), Lines{});
+  EXPECT_EQ(messages("INTERRUPT_BLOCK I:INT0\nVAR_INPUT\n x : INT;\nEND_VAR\nBEGIN\nNETWORK 1\nEND_INTERRUPT_BLOCK\n"),
+            Lines{"x.awl:2:1: error: an interrupt routine has no parameters (I)"});
+}
+
 }  // namespace
 }  // namespace s7200::stl

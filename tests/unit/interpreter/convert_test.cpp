@@ -168,5 +168,10 @@ TEST(Convert, TheCommentOfABlockStandsBetweenItsTitleAndBegin) {
             "END_ORGANIZATION_BLOCK\n");
 }
 
+TEST(Convert, AListingWithoutNetworksBecomesOneNetworkOfItsBlock) {
+  EXPECT_EQ(printed("LD SM0.0\n= M0.0\nMEND\n", Notation::MicroWin),
+            "ORGANIZATION_BLOCK MAIN:OB1\nTITLE=\nBEGIN\nNETWORK 1\nLD      SM0.0\n=       M0.0\nEND_ORGANIZATION_BLOCK\n");
+}
+
 }  // namespace
 }  // namespace s7200

@@ -356,7 +356,8 @@ TEST(CpuModels, AProgramMayHaveAsManyInstructionsAsThereAreWords) {
     EXPECT_EQ(
         refusal(program + "NOP 0\nMEND\n", *model),
         fmt::format(
-            "the program is too large: {} instructions of at least one word each, CPU {} has {} words (compile rule 0080)",
+            "the program is too large: at least {0} words for {0} instructions and their constants, CPU {1} has {2} words "
+            "(compile rule 0080)",
             words + 1, model->name, words));
   }
 }
@@ -385,6 +386,14 @@ TEST(CpuModels, OnlyTheFirstPartOfVCanBeSaved) {
     EXPECT_EQ(errors(bytes - 1), Ints{}) << model->name;
     EXPECT_EQ(errors(bytes), Ints{0x94}) << model->name;
   }
+}
+
+TEST(CpuModels, ConstantsThatAreNoPartOfTheirInstructionCountForTheSizeOfAProgram) {
+  std::string text = "LD SM0.0\n";
+  for (int i = 0; i < 700; ++i) text += "MOVD 16#12345678, VD0\n";  // three words each
+  const CheckResult result = check_text(text + "MEND\n", "x", cpu214(), default_times(cpu214()));
+  ASSERT_FALSE(result.program);
+  EXPECT_EQ(result.diagnostics[0].position.line, 684U);
 }
 
 }  // namespace

@@ -205,7 +205,7 @@ TEST(Timer22x, ATofRaisesTheEventOfT32AtItsPreset) {
 class Loop : public Plc {
  public:
   explicit Loop(std::string_view stl, const CpuModel& model = cpu224()) : Plc(stl, model) {
-    const float start[] = {0.5f, 0, 0.25f, 2, 60, 4, 0, 0, 0};
+    const float start[] = {0.5f, 0.5f, 0.25f, 2, 60, 4, 0, 0.25f, 0.5f};
     for (std::uint32_t i = 0; i < std::size(start); ++i) put(4 * i, start[i]);
   }
   void put(std::uint32_t offset, float to) { set(fmt::format("VD{}", 100 + offset), std::bit_cast<std::uint32_t>(to)); }
@@ -218,9 +218,21 @@ class Loop : public Plc {
 constexpr std::uint32_t kPv = 0, kSp = 4, kM = 8, kKc = 12, kTs = 16, kTi = 20, kTd = 24, kMx = 28, kLastPv = 32;
 constexpr std::string_view kAlways = "LD SM0.0\nPID VB100, 0\nMEND\n";
 
-TEST(Pid, TheFirstSampleIsBumpless) {
+TEST(Pid, PowerFlowAtTheFirstExecutionAfterAChangeToRunIsNoTransition) {
   Loop loop(kAlways);
   loop.put(kSp, 0.75f);
+  loop.put(kMx, 0.0f);
+  loop.scan();
+  EXPECT_EQ(loop.real(kSp), 0.75f);
+  EXPECT_EQ(loop.real(kM), 0.5f + 0.125f);
+}
+
+TEST(Pid, PowerFlowThatComesLaterIsBumpless) {
+  Loop loop("LD V0.0\nPID VB100, 0\nMEND\n");
+  loop.put(kSp, 0.75f);
+  loop.scan();
+  EXPECT_EQ(loop.real(kSp), 0.75f) << "manual: untouched";
+  loop.set("V0.0", 1);
   loop.scan();
   EXPECT_EQ(loop.real(kSp), 0.5f) << "SP := PV";
   EXPECT_EQ(loop.real(kM), 0.25f);

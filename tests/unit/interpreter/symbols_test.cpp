@@ -155,5 +155,21 @@ TEST(Symbols, EmptyColumnsMayStandLeftOfTheRowsAlone) {
             (std::vector<std::string>{"Start=I0.0 green", "Stop=I0.1"}));
 }
 
+TEST(Symbols, AnAddressBesideANameMustBeTheOneItStandsFor) {
+  EXPECT_EQ(said("LD Pump:Q0.1\nMEND\n", "Pump\tQ0.0\n"),
+            Lines{"p.awl:1:4: error: Pump is Q0.1 here; it is Q0.0 in t.txt:1"});
+  EXPECT_EQ(said("LD Pump:Q0.1\nA Pump:Q0.1\n= Pump:Q0.0\nMEND\n", ""),
+            Lines{"p.awl:3:3: error: Pump is Q0.0 here; it is Q0.1 in line 1"});
+  EXPECT_EQ(said("LD Pump:Q0.0\nMOVD &Speed:VB4, VD0\nMOVD Speed:VB4, VD0\nMEND\n", "Pump\tQ0.0\nSpeed\tVB4\n").size(), 1U);
+}
+
+TEST(Symbols, GermanLettersMayBeNamesInAnInternationalProgram) {
+  EXPECT_EQ(said("LD Z1\nMOVW AW1, VW0\nMEND\n", "Z1\tI0.1\nAW1\tVW4\n"), Lines{});
+  EXPECT_EQ(said("ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.0\nCALL E1\nEND_ORGANIZATION_BLOCK\n"
+                 "SUBROUTINE_BLOCK E1:SBR0\nBEGIN\nNETWORK 1\nLD SM0.0\n= M0.0\nEND_SUBROUTINE_BLOCK\n",
+                 ""),
+            Lines{});
+}
+
 }  // namespace
 }  // namespace s7200::stl

@@ -25,7 +25,7 @@ struct MemoryStep final : Action {
 
 std::shared_ptr<const Action> read_memory(const StepSource& source) {
   auto step = std::make_shared<MemoryStep>();
-  step->expected = read_memory_expected(source.values, source.is, source.cpu());
+  step->expected = read_memory_expected(source.values, source.is, source.addresses());
   return step;
 }
 

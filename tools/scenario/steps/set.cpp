@@ -29,7 +29,7 @@ std::shared_ptr<const Action> read_set(const StepSource& source) {
   auto step = std::make_shared<SetStep>();
   if (source.is.is_map() && source.is.keys.empty())
     source.values.wrong(source.is, "nothing to set", "write for example {VW20: 16#1234, I0.3: 1}");
-  step->assignments = read_assignments(source.values, source.is, source.cpu());
+  step->assignments = read_assignments(source.values, source.is, source.addresses());
   return step;
 }
 

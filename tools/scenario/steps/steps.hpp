@@ -21,7 +21,7 @@ struct StepSource {
 
   /// What stands beside its key; null if it does not.
   const YamlNode* beside(std::string_view key) const { return node.find(key); }
-  const CpuModel& cpu() const { return *find_cpu(scenario.cpu); }
+  AddressSpace addresses() const { return scenario.addresses(); }
 };
 
 /// Complains about what is wrong; the action is not run then.

@@ -56,7 +56,7 @@ bool WaitUntilStep::write(TranscriptWriter& writer) const {
 
 std::shared_ptr<const Action> read_wait_until(const StepSource& source) {
   auto step = std::make_shared<WaitUntilStep>();
-  step->expected = read_memory_expected(source.values, source.is, source.cpu());
+  step->expected = read_memory_expected(source.values, source.is, source.addresses());
   step->timeout = source.values.time(source.beside("timeout"));
   return step;
 }
