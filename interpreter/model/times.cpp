@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <ranges>
 #include <sstream>
 
 #include "interpreter/base/numbers.hpp"
@@ -13,6 +15,14 @@ namespace s7200 {
 namespace {
 
 constexpr std::string_view kHeader = "mnemonic,form,base_us,per_unit_us,unit,marker";
+
+/// What a figure can be, and by how many percent it may be wrong if its line does not say.
+struct Marker {
+  std::string_view name;
+  double uncertainty;
+};
+constexpr std::array<Marker, 5> kMarkers{
+    {{"manual", 5}, {"measured", 5}, {"calibrated", 25}, {"remembered", 25}, {"estimate", 50}}};
 
 std::vector<std::string> words(std::string_view text) {
   std::istringstream in{std::string(text)};
@@ -90,10 +100,16 @@ std::string read_row(std::string_view line, TimeRow& row) {
   row.per_unit = *per_unit;
   row.unit = field[4];
   row.marker = field[5];
-  static constexpr std::string_view kMarkers[] = {"manual", "estimate", "calibrated", "remembered"};
-  if (std::ranges::find(kMarkers, row.marker) == std::end(kMarkers))
-    return fmt::format("'{}' is not a marker; there are {}", stl::shortened(row.marker), fmt::join(kMarkers, ", "));
+  const auto* const marker = std::ranges::find(kMarkers, row.marker, &Marker::name);
+  if (marker == kMarkers.end())
+    return fmt::format("'{}' is not a marker; there are {}", stl::shortened(row.marker),
+                       fmt::join(kMarkers | std::views::transform(&Marker::name), ", "));
   row.source = field.size() > 6 ? field[6] : "";
+  const bool has_uncertainty = field.size() > 7 && !field[7].empty();
+  const auto uncertainty = has_uncertainty ? parse_decimal<double>(field[7]) : marker->uncertainty;
+  if (!uncertainty || !Between<double>{0, 1000}.has(*uncertainty))
+    return fmt::format("'{}' is not an uncertainty in percent (0 to 1000)", stl::shortened(field[7]));
+  row.uncertainty = *uncertainty;
   if (row.base == 0 && !may_be_free(row)) return fmt::format("{}: an execution time must be above 0", field[0]);
   return {};
 }
@@ -138,8 +154,8 @@ std::vector<std::string> TimeTable::add(std::string_view csv, const std::string&
     if (!header_seen) {
       header_seen = true;
       if (stl::trim(line).starts_with(kHeader)) continue;
-      return {
-          fmt::format("{}:{}: not a table of execution times: the first line must be {}[,source]", name, number, kHeader)};
+      return {fmt::format("{}:{}: not a table of execution times: the first line must be {}[,source[,uncertainty_percent]]",
+                          name, number, kHeader)};
     }
     TimeRow row;
     if (const std::string error = read_row(line, row); !error.empty())
@@ -150,6 +166,10 @@ std::vector<std::string> TimeTable::add(std::string_view csv, const std::string&
   if (!header_seen) errors.push_back(fmt::format("{}: the table is empty", name));
   if (errors.empty()) rows_.insert(rows_.begin(), rows.begin(), rows.end());
   return errors;
+}
+
+void TimeTable::add(const TimeTable& correction) {
+  rows_.insert(rows_.begin(), correction.rows_.begin(), correction.rows_.end());
 }
 
 const TimeRow* TimeTable::find(std::string_view mnemonic, std::optional<Area> first_operand) const {
@@ -182,10 +202,11 @@ Time TimeTable::added_by(std::string_view mnemonic, std::span<const std::optiona
 std::string in_microseconds(Time time) { return fmt::format("{:g}", static_cast<double>(time) / 1000); }
 
 std::string to_csv(const TimeTable& times) {
-  std::string text = std::string(kHeader) + ",source\n";
+  std::string text = std::string(kHeader) + ",source,uncertainty_percent\n";
   for (const TimeRow& row : times.rows())
-    text += fmt::format("{},{},{},{},{},{},{}\n", fmt::join(row.mnemonics, " "), quoted(row.form), in_microseconds(row.base),
-                        row.per_unit ? in_microseconds(row.per_unit) : "", quoted(row.unit), row.marker, quoted(row.source));
+    text += fmt::format("{},{},{},{},{},{},{},{:g}\n", fmt::join(row.mnemonics, " "), quoted(row.form),
+                        in_microseconds(row.base), row.per_unit ? in_microseconds(row.per_unit) : "", quoted(row.unit),
+                        row.marker, quoted(row.source), row.uncertainty);
   return text;
 }
 

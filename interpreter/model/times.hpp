@@ -14,13 +14,15 @@ namespace s7200 {
 
 /// One line of a table of times.
 ///
-///   mnemonic,form,base_us,per_unit_us,unit,marker,source
-///   = ,I Q,0.8,,,estimate,…
+///   mnemonic,form,base_us,per_unit_us,unit,marker,source,uncertainty_percent
+///   = ,I Q,0.8,,,estimate,…,330
 ///
 /// `mnemonic`: one or more, separated by blanks, all with the same time; or a name of a SystemTime, which is in brackets.
 /// A trailing `(and A O)` adds the A and O forms of each LD form. `form`: the areas of the first operand for which the line
-/// holds, or any words that say what the figure means. `marker`: manual, estimate, calibrated, or remembered
-/// (from the manual, but not read there again). `source` may be left out.
+/// holds, or any words that say what the figure means. `marker`: manual, measured (on a real CPU), calibrated, remembered
+/// (from the manual, but not read there again), or estimate. `source` may be left out. `uncertainty_percent`: with 25, the
+/// true figures lie between those of the line / 1.25 and those of the line × 1.25; left out, the marker says how sure they
+/// are.
 struct TimeRow {
   std::vector<std::string> mnemonics;
   std::string form;
@@ -28,6 +30,7 @@ struct TimeRow {
   Time base = 0;      ///< with power flow and direct operands
   Time per_unit = 0;  ///< for each `unit`: bit shifted, byte moved …
   std::string unit, marker, source;
+  double uncertainty = 0;  ///< percent
 };
 
 struct Cost {
@@ -47,6 +50,9 @@ class TimeTable {
   /// 0), unknown markers, missing columns. A text with errors changes nothing.
   std::vector<std::string> add(std::string_view csv, const std::string& name);
 
+  /// The same with the lines of another table.
+  void add(const TimeTable& correction);
+
   /// Nothing if no line gives a time.
   std::optional<Cost> cost(std::string_view mnemonic, std::optional<Area> first_operand) const;
   const TimeRow* find(std::string_view mnemonic, std::optional<Area> first_operand) const;
@@ -58,6 +64,23 @@ class TimeTable {
   Time added_by(std::string_view mnemonic, std::span<const std::optional<Area>> operands) const;
 
   const std::vector<TimeRow>& rows() const { return rows_; }
+
+  /// The lines for which `wanted` holds.
+  template <class Wanted>
+  TimeTable filtered(Wanted wanted) const {
+    TimeTable kept;
+    for (const TimeRow& row : rows_)
+      if (wanted(row)) kept.rows_.push_back(row);
+    return kept;
+  }
+
+  /// The table with other figures in its lines: `change` gets each line.
+  template <class Change>
+  TimeTable with(Change change) const {
+    TimeTable changed = *this;
+    for (TimeRow& row : changed.rows_) change(row);
+    return changed;
+  }
 
  private:
   std::vector<TimeRow> rows_;

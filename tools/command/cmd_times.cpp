@@ -1,63 +1,130 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+#include <algorithm>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/load_times.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/rig/statements.hpp"
 #include "tools/views/results_json.hpp"
+#include "tools/views/times_text.hpp"
 
 namespace s7200::tools {
 namespace {
 
 struct TimesOptions {
   CpuOptions cpu;
+  std::vector<std::string> tables;
+  std::string checked, tip41;  ///< --check
   bool csv = false, json = false;
 };
 
-void print_table(const CpuModel& model, const TimeTable& times) {
-  fmt::print(
-      "Execution times of CPU {} in microseconds. Only a figure marked 'manual' was read in a manual.\n"
-      "To correct them: s7200 times --csv > my_times.csv, edit, and give --times my_times.csv to any verb.\n\n"
-      "{:<40} {:<28} {:>9} {:>9}  {:<10} {:<11} {}\n",
-      model.name, "instructions", "form", "base", "per unit", "unit", "marker", "source");
-  for (const TimeRow& row : times.rows())
-    fmt::print("{:<40} {:<28} {:>9} {:>9}  {:<10} {:<11} {}\n",
-               stl::printable(fmt::format("{}", fmt::join(row.mnemonics, " "))), stl::printable(row.form),
-               in_microseconds(row.base), row.per_unit ? in_microseconds(row.per_unit) : "", stl::printable(row.unit),
-               row.marker, stl::printable(row.source));
+/// Nothing after messages.
+std::optional<std::vector<TitledTimes>> load_all(const std::vector<std::string>& tables, const CpuModel& model) {
+  std::vector<TitledTimes> loaded;
+  std::vector<std::string> errors;
+  for (const std::string& table : tables)
+    if (auto times = load_times(model, table, errors)) loaded.push_back({table, std::move(*times)});
+  for (const std::string& error : errors) print_error(error);
+  return errors.empty() ? std::optional(loaded) : std::nullopt;
 }
 
-nlohmann::ordered_json to_json(const CpuModel& model, const TimeTable& times) {
-  auto results = results_of("times");
-  results["cpu"] = model.name;
-  auto& rows = results["times"] = nlohmann::ordered_json::array();
-  for (const TimeRow& row : times.rows())
-    rows.push_back({{"mnemonics", row.mnemonics},
-                    {"form", row.form},
-                    {"base_us", static_cast<double>(row.base) / kMicrosecond},
-                    {"per_unit_us", static_cast<double>(row.per_unit) / kMicrosecond},
-                    {"unit", row.unit},
-                    {"marker", row.marker},
-                    {"source", row.source}});
-  return results;
+int show_side_by_side(const TimesOptions& options, const CpuModel& model) {
+  const auto tables = load_all(options.tables, model);
+  if (!tables) return kUnusable;
+  if (options.json) {
+    auto results = results_of("times");
+    results["cpu"] = model.name;
+    results["side_by_side"] = side_by_side_json(model, *tables);
+    fmt::print("{}", lines_of(results));
+  } else {
+    fmt::print("{}", side_by_side_text(model, *tables));
+  }
+  return kFine;
+}
+
+int show_table(const TimesOptions& options, const CpuModel& model) {
+  const auto times = options.cpu.times(model);
+  if (!times) return kUnusable;
+  if (options.json) {
+    auto results = results_of("times");
+    results["cpu"] = model.name;
+    results["tables"] = tables_json(model);
+    results["times"] = table_json(*times);
+    fmt::print("{}", lines_of(results));
+  } else if (options.csv) {
+    print_file(to_csv(*times));
+  } else {
+    fmt::print("{}\n{}", table_text(model, *times), tables_text(model));
+  }
+  return kFine;
+}
+
+using Verdict = Statement::Verdict;
+
+std::size_t count(const std::vector<Statement>& statements, Verdict verdict) {
+  return static_cast<std::size_t>(std::ranges::count(statements, verdict, &Statement::verdict));
+}
+
+std::string statements_text(const CpuModel& model, const std::string& table, const std::vector<Statement>& statements) {
+  std::string text = fmt::format("What is known of the times of CPU {}, with {}:\n", model.name, stl::printable(table));
+  for (const Statement& each : statements) {
+    static constexpr const char* kVerdicts[] = {"holds", "FAILS", "not checked"};
+    text += fmt::format("  {:<11}  {}: {}   ({})\n", kVerdicts[static_cast<std::size_t>(each.verdict)], each.says,
+                        each.found, each.source);
+  }
+  text += fmt::format("{} hold, {} fail", count(statements, Verdict::Holds), count(statements, Verdict::Fails));
+  if (const auto left = count(statements, Verdict::NotChecked)) text += fmt::format(", {} not checked", left);
+  return text + '\n';
+}
+
+nlohmann::ordered_json statements_json(const std::vector<Statement>& statements) {
+  auto json = nlohmann::ordered_json::array();
+  for (const Statement& each : statements) {
+    static constexpr const char* kVerdicts[] = {"holds", "fails", "not_checked"};
+    json.push_back({{"statement", each.says},
+                    {"source", each.source},
+                    {"found", each.found},
+                    {"verdict", kVerdicts[static_cast<std::size_t>(each.verdict)]}});
+  }
+  return json;
+}
+
+/// Nothing after a message: it cannot be read, or is another program.
+std::optional<SourceText> read_tip41(const std::string& path) {
+  auto text = read_program_text(path);
+  if (!text || is_tip41(*text)) return text;
+  print_error(fmt::format("--tip41: {} is not Application Tip 41: it has other routines", path));
+  return {};
+}
+
+int check_table(const TimesOptions& options, const CpuModel& model) {
+  const auto tables = load_all({options.checked}, model);
+  if (!tables) return kUnusable;
+  std::optional<SourceText> tip41;
+  if (!options.tip41.empty() && !(tip41 = read_tip41(options.tip41))) return kUnusable;
+  const auto statements = check_statements(model, tables->front().times, tip41 ? &*tip41 : nullptr);
+  if (options.json) {
+    auto results = results_of("times");
+    results["cpu"] = model.name;
+    results["statements"] = statements_json(statements);
+    fmt::print("{}", lines_of(results));
+  } else {
+    fmt::print("{}", statements_text(model, options.checked, statements));
+  }
+  if (statements.empty()) print_note(fmt::format("nothing is known of the times of CPU {}", model.name));
+  return count(statements, Verdict::Fails) == 0 ? kFine : kCheckFailed;
 }
 
 int run_times(const TimesOptions& options) {
   const CpuModel* model = options.cpu.model();
   if (!model) return kUnusable;
-  const auto times = options.cpu.times(*model);
-  if (!times) return kUnusable;
-  if (options.json)
-    fmt::print("{}", lines_of(to_json(*model, *times)));
-  else if (options.csv)
-    print_file(to_csv(*times));
-  else
-    print_table(*model, *times);
-  return kFine;
+  if (!options.checked.empty()) return check_table(options, *model);
+  return options.tables.empty() ? show_table(options, *model) : show_side_by_side(options, *model);
 }
 
 }  // namespace
@@ -65,10 +132,24 @@ int run_times(const TimesOptions& options) {
 void add_times(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<TimesOptions>();
   CLI::App* verb = app.add_subcommand("times", "the execution times in use, each with where it comes from");
+  auto* tables = verb->add_option("TABLE", options->tables, "names of tables, or CSV files, to show side by side");
   options->cpu.add_to(*verb);
-  auto* csv = verb->add_flag("--csv", options->csv, "print as CSV, the form --times reads");
+  auto* check = verb->add_option("--check", options->checked, "say which statements known from real CPUs hold with a table")
+                    ->type_name("TABLE");
+  verb->add_option("--tip41", options->tip41, "with --check: the document of Application Tip 41, for what it says of itself")
+      ->type_name("FILE")
+      ->needs(check);
+  for (CLI::Option* other : {tables, verb->get_option("--times")}) check->excludes(other);
+  verb->get_option("--times")->excludes(tables);
+  auto* csv =
+      verb->add_flag("--csv", options->csv, "print as CSV, the form --times reads")->excludes(tables)->excludes(check);
   verb->add_flag("--json", options->json, "print as JSON")->excludes(csv);
-  verb->footer("Example: s7200 times --csv > my_times.csv");
+  verb->footer(
+      "A figure is within so many percent: the true one lies between it / 1.25 and it × 1.25 if that says 25%.\n"
+      "Example: s7200 times --csv > my_times.csv\n"
+      "         s7200 times cpu214 cpu214_from_22x my_times.csv\n"
+      "         s7200 times --check cpu214_from_22x --tip41 tip41.txt\n"
+      "Exit code 1 if a statement of --check does not hold.");
   verb->callback([options, &exit_code] { exit_code = run_times(*options); });
 }
 

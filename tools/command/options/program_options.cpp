@@ -7,6 +7,7 @@
 #include <span>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/load_times.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/input.hpp"
 #include "tools/command/terminal.hpp"
@@ -58,7 +59,8 @@ bool repair(SourceText& text, const Repairs& repairs) {
 
 void CpuOptions::add_to(CLI::App& app) {
   add_cpu_option(app, cpu, "CPU to run on");
-  app.add_option("--times", times_file, "corrected execution times, a CSV file as `s7200 times --csv` writes it")
+  app.add_option("--times", times_table,
+                 "execution times: the name of a table, or a CSV file; both as `s7200 times` has them")
       ->type_name("FILE");
   add_repair_option(app, repairs);
 }
@@ -70,18 +72,10 @@ const CpuModel* CpuOptions::model() const {
 }
 
 std::optional<TimeTable> CpuOptions::times(const CpuModel& model) const {
-  TimeTable table = default_times(model);
-  if (times_file.empty()) return table;
-  std::string why;
-  const auto csv = read_text(times_file, why);
-  if (!csv) {
-    print_error(fmt::format("cannot read {}: {}", times_file, why));
-    return {};
-  }
-  const auto errors = table.add(*csv, times_file);
+  std::vector<std::string> errors;
+  auto times = load_times(model, times_table, errors);
   for (const std::string& error : errors) print_error(error);
-  if (!errors.empty()) return {};
-  return table;
+  return times;
 }
 
 void ProgramOptions::add_to(CLI::App& app) {

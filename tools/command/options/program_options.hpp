@@ -26,7 +26,7 @@ bool repair(SourceText& text, const Repairs& repairs);
 
 struct CpuOptions {
   std::string cpu = "214";
-  std::string times_file;  ///< empty: the model's own
+  std::string times_table;  ///< a name or a file; empty: the CPU's own
   Repairs repairs;
 
   void add_to(CLI::App& app);

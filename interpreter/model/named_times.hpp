@@ -1,0 +1,29 @@
+// The tables of execution times that have a name: those of the CPUs, and others of the same CPUs from other sources.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/model/cpu_model.hpp"
+#include "interpreter/model/times.hpp"
+
+namespace s7200 {
+
+struct NamedTimes {
+  std::string_view name;   ///< cpu214_from_22x
+  std::string_view about;  ///< where its figures come from, in one line
+  CpuSet cpus;             ///< whose times these are
+  bool own;                ///< they are what these CPUs run with if nothing else is asked for
+  TimeTable table;
+};
+
+const std::vector<NamedTimes>& named_times();
+
+/// Null for a name that no table has.
+const NamedTimes* find_times(std::string_view name);
+
+/// `cpu214, cpu214_from_22x`: those for a CPU.
+std::string names_of_times(const CpuModel& model);
+
+}  // namespace s7200

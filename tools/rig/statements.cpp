@@ -1,0 +1,210 @@
+#include "tools/rig/statements.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <set>
+
+#include "interpreter/base/numbers.hpp"
+#include "serial_sim/modbus/request.hpp"
+#include "serial_sim/peers/quiet_time.hpp"
+#include "serial_sim/system/simulation.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Verdict = Statement::Verdict;
+
+Verdict verdict_of(bool holds) { return holds ? Verdict::Holds : Verdict::Fails; }
+
+// --- what manuals print ---
+
+/// A figure that a manual prints for some CPUs.
+struct Figure {
+  CpuSet cpus;
+  std::string_view mnemonic;
+  std::optional<Area> area;
+  std::string_view what;
+  Time least, most;
+  std::string_view source;
+};
+
+constexpr std::string_view kGerman2002 = "S7-200 manual, German edition 2002, 448";
+constexpr std::string_view kFrench2004 = "S7-200 manual, French edition 2004, appendix F";
+
+/// Five percent to each side of a figure: a measurement that is farther off contradicts it.
+constexpr Figure about(CpuSet cpus, std::string_view mnemonic, std::optional<Area> area, std::string_view what, Time figure,
+                       std::string_view source) {
+  return {cpus, mnemonic, area, what, figure * 95 / 100, figure * 105 / 100, source};
+}
+
+const std::array kFigures{
+    Figure{kCpu21x,
+           name_of(SystemTime::EepromSave),
+           {},
+           "saving a value to EEPROM takes 15 to 20 ms",
+           15 * kMillisecond,
+           20 * kMillisecond,
+           "S7-200 manual C230-02, 7-16"},
+    about(kCpu22xRelease1, "RCV", {}, "RCV takes 80 us", 80 * kMicrosecond, kGerman2002),
+    about(kCpu22xRelease1, "RET", {}, "RET takes 13 us", 13 * kMicrosecond, kGerman2002),
+    about(kCpu22xRelease1, "RETI", {}, "RETI takes 23 us", 23 * kMicrosecond, kGerman2002),
+    about(kCpu22xRelease1, "PID", {}, "PID takes 750 us", 750 * kMicrosecond, kGerman2002),
+    about(kCpu22xRelease2, "LD", Area::I, "LD of an input takes 0.22 us", 220, "S7-200 manual, table 1-1, second hand"),
+    about(kCpu22xRelease2, name_of(SystemTime::IndirectOperand), {}, "a pointer operand adds 14 us", 14 * kMicrosecond,
+          kFrench2004),
+    about(kCpu22xRelease2, name_of(SystemTime::NoPowerFlow), {}, "an instruction without power flow takes 1 us",
+          kMicrosecond, kFrench2004),
+};
+
+void check_figures(const CpuModel& model, const TimeTable& times, std::vector<Statement>& statements) {
+  for (const Figure& figure : kFigures) {
+    if (!(figure.cpus & model.self)) continue;
+    const Time found = times.cost(figure.mnemonic, figure.area).value_or(Cost{}).base;
+    statements.push_back({std::string(figure.what), std::string(figure.source), in_microseconds(found) + " us",
+                          verdict_of(found >= figure.least && found <= figure.most)});
+  }
+}
+
+// --- what Application Tip 41 says of itself ---
+
+/// A row of the table in the tip's SBR 50.
+struct Rate {
+  std::uint32_t baud;
+  std::int64_t port_control, quiet_ms;  ///< SMB30 and SMB34
+};
+constexpr std::array<Rate, 7> kRates{{{300, 0x5D, 166},
+                                      {600, 0x59, 84},
+                                      {1200, 0x55, 43},
+                                      {2400, 0x51, 22},
+                                      {4800, 0x4D, 12},
+                                      {9600, 0x49, 6},
+                                      {19200, 0x45, 5}}};
+constexpr Rate k38400{38400, 0x41, 5};
+
+/// Sets what the program moves into a byte of special memory.
+void set_byte(stl::Source& source, std::uint32_t number, std::int64_t value) {
+  for (stl::Line& line : source.lines) {
+    auto* statement = std::get_if<stl::Statement>(&line);
+    if (!statement || statement->mnemonic != "MOVB" || statement->operands.size() != 2) continue;
+    const auto* to = std::get_if<stl::Address>(&statement->operands[1].value);
+    auto* constant = std::get_if<stl::Integer>(&statement->operands[0].value);
+    if (to && constant && to->area == "SM" && to->number == number) constant->value = value;
+  }
+}
+
+struct LostCharacters : TraceSink {
+  void record(const TraceRecord& record) override { count += record.kind == TraceKind::EventLost; }
+  std::size_t count = 0;
+};
+
+/// How the slave serves the longest request that it takes, 60 registers, and a read.
+struct Served {
+  bool all_answered = false;
+  std::size_t lost = 0;  ///< characters
+};
+
+class Tip41 {
+ public:
+  Tip41(const SourceText& text, const CpuModel& model, const TimeTable& times) : text_(text), model_(model), times_(times) {}
+
+  Time first_scan() const {
+    serial::Simulation simulation(program({9600, 0x49, 6}));
+    start(simulation);
+    return simulation.cpu().state().longest_scan;
+  }
+
+  Served serve(const Rate& rate) const {
+    serial::Simulation simulation(program(rate));
+    LostCharacters lost;
+    simulation.cpu().set_sink(&lost);
+    if (!start(simulation)) return {};
+    const std::vector<std::uint16_t> values(60, 0x5AA5);
+    bool answered = true;
+    for (const Bytes& request : {modbus::write_registers(0, values), modbus::read_holding_registers(0, 2)}) {
+      simulation.master().start({.frame = serial::to_frame(modbus::rtu_frame(1, request))}, simulation.time());
+      answered &= !simulation.finish_exchange().timed_out;
+      simulation.run_until(simulation.time() + serial::default_quiet(simulation.freeport().format));
+    }
+    return {answered, lost.count};
+  }
+
+ private:
+  std::shared_ptr<const Program> program(const Rate& rate) const {
+    stl::ParseResult parsed = text_.parsed;
+    set_byte(parsed.source, 30, rate.port_control);
+    set_byte(parsed.source, 34, rate.quiet_ms);
+    return check(std::move(parsed), model_, times_).program;
+  }
+
+  static bool start(serial::Simulation& simulation) {
+    simulation.power_up();
+    const bool ready =
+        simulation.run_until_ready([&] { return serial::default_quiet(simulation.freeport().format); }, 60 * kSecond);
+    simulation.master_uart().configure(simulation.freeport().format);
+    return ready;
+  }
+
+  const SourceText& text_;
+  const CpuModel& model_;
+  const TimeTable& times_;
+};
+
+std::string in_milliseconds(Time time) { return fmt::format("{:.1f} ms", static_cast<double>(time) / kMillisecond); }
+
+/// Its text rounds: 690 in one place, 700 in another.
+constexpr Between<Time> kFirstScan{655 * kMillisecond, 735 * kMillisecond};
+
+void check_tip41(const CpuModel& model, const TimeTable& times, const SourceText* text, std::vector<Statement>& statements) {
+  const std::string says_of_itself = "Application Tip 41, ";
+  Statement scan{"the first scan takes about 690 ms, elsewhere about 700", says_of_itself + "SBR 62 and text"};
+  Statement slow{"it serves from 300 to 19200 baud", says_of_itself + "SBR 50"};
+  Statement fast{"it does not work correctly at 38400 baud", says_of_itself + "SBR 50"};
+  if (text) {
+    const Tip41 tip(*text, model, times);
+    const Time first = tip.first_scan();
+    scan.found = in_milliseconds(first);
+    scan.verdict = verdict_of(kFirstScan.has(first));
+    slow.verdict = Verdict::Holds;
+    slow.found = "60 registers written and 2 read at each rate, no character lost";
+    for (const Rate& rate : kRates) {
+      const Served served = tip.serve(rate);
+      if (served.all_answered && served.lost == 0) continue;
+      slow.verdict = Verdict::Fails;
+      slow.found = fmt::format("{} at {} baud, {} characters lost", served.all_answered ? "answers" : "no answer", rate.baud,
+                               served.lost);
+      break;
+    }
+    const Served served = tip.serve(k38400);
+    fast.verdict = verdict_of(!served.all_answered || served.lost > 0);
+    fast.found = fmt::format("{}, {} characters of a request for 60 registers lost",
+                             served.all_answered ? "answers" : "no answer", served.lost);
+  } else {
+    scan.found = slow.found = fast.found = "needs the document: --tip41 FILE";
+  }
+  for (Statement* each : {&scan, &slow, &fast}) statements.push_back(std::move(*each));
+}
+
+}  // namespace
+
+std::vector<Statement> check_statements(const CpuModel& model, const TimeTable& times, const SourceText* tip41) {
+  std::vector<Statement> statements;
+  if (model.self == kCpu214) check_tip41(model, times, tip41, statements);
+  check_figures(model, times, statements);
+  return statements;
+}
+
+bool is_tip41(const SourceText& text) {
+  std::set<std::int64_t> subroutines, interrupts;
+  for (const stl::Line& line : text.parsed.source.lines) {
+    const auto* statement = std::get_if<stl::Statement>(&line);
+    if (!statement || statement->operands.empty()) continue;
+    const auto* number = std::get_if<stl::Integer>(&statement->operands[0].value);
+    if (number && statement->mnemonic == "SBR") subroutines.insert(number->value);
+    if (number && statement->mnemonic == "INT") interrupts.insert(number->value);
+  }
+  return subroutines == std::set<std::int64_t>{50, 51, 52, 53, 54, 55, 56, 57, 61, 62, 63} &&
+         interrupts == std::set<std::int64_t>{120, 121, 122, 123, 124, 125};
+}
+
+}  // namespace s7200::tools

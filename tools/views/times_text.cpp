@@ -1,0 +1,200 @@
+#include "tools/views/times_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/model/instruction.hpp"
+#include "interpreter/model/named_times.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// What has one figure in each table.
+struct Line {
+  std::vector<std::string_view> mnemonics;
+  Areas areas = 0;                    ///< of the first operand; 0: any
+  std::vector<const TimeRow*> found;  ///< in each table; null if it has no figure
+};
+
+bool same_figures(const std::vector<const TimeRow*>& a, const std::vector<const TimeRow*>& b) {
+  return std::ranges::equal(a, b, [](const TimeRow* x, const TimeRow* y) {
+    return (!x && !y) || (x && y && x->base == y->base && x->per_unit == y->per_unit && x->marker == y->marker &&
+                          x->uncertainty == y->uncertainty);
+  });
+}
+
+bool depends_on_area(std::string_view mnemonic, const std::vector<TitledTimes>& tables) {
+  return std::ranges::any_of(tables, [&](const TitledTimes& table) {
+    return std::ranges::any_of(table.times.rows(), [&](const TimeRow& row) {
+      return row.areas != 0 && std::ranges::find(row.mnemonics, mnemonic) != row.mnemonics.end();
+    });
+  });
+}
+
+/// The lines of one name: for each set of areas with the same figures one.
+std::vector<Line> lines_of_name(std::string_view name, const std::vector<Area>& areas,
+                                const std::vector<TitledTimes>& tables) {
+  const auto found_in_all = [&](std::optional<Area> area) {
+    std::vector<const TimeRow*> found;
+    for (const TitledTimes& table : tables) found.push_back(table.times.find(name, area));
+    return found;
+  };
+  if (areas.empty()) return {{{name}, 0, found_in_all({})}};
+  std::vector<Line> lines;
+  for (const Area area : areas) {
+    const auto found = found_in_all(area);
+    const auto same = std::ranges::find_if(lines, [&](const Line& line) { return same_figures(line.found, found); });
+    if (same == lines.end())
+      lines.push_back({{name}, set_of(area), found});
+    else
+      same->areas |= set_of(area);
+  }
+  return lines;
+}
+
+void add_to(std::vector<Line>& lines, const Line& line) {
+  if (std::ranges::all_of(line.found, [](const TimeRow* row) { return row == nullptr; })) return;
+  const auto same = std::ranges::find_if(
+      lines, [&](const Line& other) { return other.areas == line.areas && same_figures(other.found, line.found); });
+  if (same == lines.end())
+    lines.push_back(line);
+  else
+    same->mnemonics.insert(same->mnemonics.end(), line.mnemonics.begin(), line.mnemonics.end());
+}
+
+std::vector<Area> areas_of(const Instruction& instruction, const CpuModel& model) {
+  std::vector<Area> areas;
+  if (instruction.rules().empty()) return areas;
+  for (const AreaInfo& area : all_areas())
+    if (contains(instruction.operand[0].areas, area.area) && model.size_of(area.area) > 0) areas.push_back(area.area);
+  return areas;
+}
+
+std::vector<Line> lines_of_all(const CpuModel& model, const std::vector<TitledTimes>& tables) {
+  std::vector<Line> lines;
+  for (const SystemTime what : {SystemTime::NoPowerFlow, SystemTime::IndirectOperand, SystemTime::OperandArea,
+                                SystemTime::InterruptEntry, SystemTime::ScanOverhead, SystemTime::EepromSave}) {
+    std::vector<Area> areas;
+    if (what == SystemTime::OperandArea)
+      for (const AreaInfo& area : all_areas())
+        if (model.size_of(area.area) > 0) areas.push_back(area.area);
+    for (const Line& line : lines_of_name(name_of(what), areas, tables)) add_to(lines, line);
+  }
+  for (const Instruction& instruction : all_instructions()) {
+    if (!instruction.modelled() || !(instruction.cpus & model.self)) continue;
+    const bool by_area = depends_on_area(instruction.mnemonic, tables);
+    const auto areas = by_area ? areas_of(instruction, model) : std::vector<Area>{};
+    for (const Line& line : lines_of_name(instruction.mnemonic, areas, tables)) add_to(lines, line);
+  }
+  return lines;
+}
+
+std::string names_of(Areas areas) {
+  std::string names;
+  for (const AreaInfo& area : all_areas())
+    if (contains(areas, area.area)) names.append(names.empty() ? "" : " ").append(area.name);
+  return names;
+}
+
+/// `76 + 4`: base and per unit.
+std::string figure_text(const TimeRow* row) {
+  if (!row) return "–";
+  if (row->per_unit == 0) return in_microseconds(row->base);
+  return fmt::format("{} + {}", in_microseconds(row->base), in_microseconds(row->per_unit));
+}
+
+/// In how many columns the title and each figure fit.
+constexpr int kColumn = 16;
+
+nlohmann::ordered_json in_us(Time time) { return static_cast<double>(time) / kMicrosecond; }
+
+}  // namespace
+
+std::string table_text(const CpuModel& model, const TimeTable& times) {
+  std::string text = fmt::format(
+      "Execution times of CPU {} in microseconds. Only a figure marked 'manual' was read in a manual.\n"
+      "To correct them: s7200 times --csv > my_times.csv, edit, and give --times my_times.csv to any verb.\n\n"
+      "{:<40} {:<28} {:>9} {:>9}  {:<10} {:<11} {:>7}  {}\n",
+      model.name, "instructions", "form", "base", "per unit", "unit", "marker", "within", "source");
+  for (const TimeRow& row : times.rows())
+    text +=
+        fmt::format("{:<40} {:<28} {:>9} {:>9}  {:<10} {:<11} {:>6}%  {}\n",
+                    stl::printable(fmt::format("{}", fmt::join(row.mnemonics, " "))), stl::printable(row.form),
+                    in_microseconds(row.base), row.per_unit ? in_microseconds(row.per_unit) : "", stl::printable(row.unit),
+                    row.marker, fmt::format("{:g}", row.uncertainty), stl::printable(row.source));
+  return text;
+}
+
+nlohmann::ordered_json table_json(const TimeTable& times) {
+  auto rows = nlohmann::ordered_json::array();
+  for (const TimeRow& row : times.rows())
+    rows.push_back({{"mnemonics", row.mnemonics},
+                    {"form", row.form},
+                    {"base_us", in_us(row.base)},
+                    {"per_unit_us", in_us(row.per_unit)},
+                    {"unit", row.unit},
+                    {"marker", row.marker},
+                    {"source", row.source},
+                    {"uncertainty_percent", row.uncertainty}});
+  return rows;
+}
+
+std::string tables_text(const CpuModel& model) {
+  std::string text = fmt::format("Tables for CPU {}, for --times:\n", model.name);
+  for (const NamedTimes& times : named_times())
+    if (times.cpus & model.self)
+      text += fmt::format("  {:<18} {}{}\n", times.name, times.about, times.own ? "; the CPU's own" : "");
+  return text;
+}
+
+nlohmann::ordered_json tables_json(const CpuModel& model) {
+  auto tables = nlohmann::ordered_json::array();
+  for (const NamedTimes& times : named_times())
+    if (times.cpus & model.self) tables.push_back({{"name", times.name}, {"about", times.about}, {"own", times.own}});
+  return tables;
+}
+
+std::string side_by_side_text(const CpuModel& model, const std::vector<TitledTimes>& tables) {
+  std::string text = fmt::format(
+      "Execution times of CPU {} in microseconds, base + per unit, and the largest by the smallest base.\n\n", model.name);
+  std::string heading;
+  for (const TitledTimes& table : tables) heading += fmt::format("  {:>{}}", stl::shortened(table.title), kColumn);
+  text += fmt::format("{:<42} {:<22}{}   ratio\n", "instructions", "first operand", heading);
+  for (const Line& line : lines_of_all(model, tables)) {
+    std::string figures;
+    Time smallest = kNever, largest = 0;
+    for (const TimeRow* row : line.found) {
+      figures += fmt::format("  {:>{}}", figure_text(row), kColumn);
+      if (!row) continue;
+      smallest = std::min(smallest, row->base);
+      largest = std::max(largest, row->base);
+    }
+    const std::string ratio = smallest > 0 && smallest != kNever
+                                  ? fmt::format("{:.2f}", static_cast<double>(largest) / static_cast<double>(smallest))
+                                  : "";
+    text += fmt::format("{:<42} {:<22}{}  {:>6}\n", fmt::format("{}", fmt::join(line.mnemonics, " ")), names_of(line.areas),
+                        figures, ratio);
+  }
+  return text;
+}
+
+nlohmann::ordered_json side_by_side_json(const CpuModel& model, const std::vector<TitledTimes>& tables) {
+  auto lines = nlohmann::ordered_json::array();
+  for (const Line& line : lines_of_all(model, tables)) {
+    auto figures = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      const TimeRow* row = line.found[i];
+      figures.push_back({{"table", tables[i].title},
+                         {"base_us", row ? in_us(row->base) : nlohmann::ordered_json()},
+                         {"per_unit_us", row ? in_us(row->per_unit) : nlohmann::ordered_json()},
+                         {"marker", row ? nlohmann::ordered_json(row->marker) : nlohmann::ordered_json()}});
+    }
+    lines.push_back({{"mnemonics", line.mnemonics}, {"areas", names_of(line.areas)}, {"figures", std::move(figures)}});
+  }
+  return lines;
+}
+
+}  // namespace s7200::tools
