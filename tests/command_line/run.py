@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|files|scenarios|input|readme"""
+"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|files|scenarios|input|readme|times"""
 import itertools
 import json
 import os
@@ -572,7 +572,7 @@ class Json(Case):
             self.assertIn(key, row)
         self.assertGreater(len(self.json(FINE, "instructions", "--json")["instructions"]), 100)
         for row in self.json(FINE, "times", "--json")["times"]:
-            self.assertEqual(list(row), ["mnemonics", "form", "base_us", "per_unit_us", "unit", "marker", "source"])
+            self.assertEqual(list(row), ["mnemonics", "form", "base_us", "per_unit_us", "unit", "marker", "source", "uncertainty_percent"])
 
     def test_reals_are_shown_where_they_are(self):
         path = self.program("LD SM0.0\nMOVR 1.5, VD20\nMOVD VD20, VD24\nMOVR VD20, AC1\nMEND\n")
@@ -1004,7 +1004,9 @@ class JsonPage(Case):
                     ["master", faulty, "slave-id", "--timeout", "10ms", *plant],
                     ["master", SLAVE, "read", "40001", "write", "40001=1", "slave-id"],
                     ["send", SOURCE / "stl_programs/text_commands.stl", "--text", "GET\\r"],
-                    ["instructions"], ["instructions", "MOVB"], ["times"], ["bench", "--each", "1ms"],
+                    ["instructions"], ["instructions", "MOVB"], ["times"], ["times", "cpu214", "cpu214_from_22x"], ["times", "--check", "cpu214"],
+                    ["send", SLAVE, "--crc", "0103000a0001", "--times-band", "2"], ["master", SLAVE, "read", "40001", "--times-band", "2"],
+                    ["test", good, "--times-band", "2"], ["bench", "--each", "1ms"],
                     ["test", good, bad, gap], ["test", good, "--against", SLAVE], ["test", "--conformance", slave, "--only", "SL-crc"],
                     ["test", good, "--list"])
         yield from (["run", SLAVE, "--for", "50ms", *bridge]
@@ -1360,6 +1362,112 @@ class Files(Case):
         self.assertIn(f"{frames}:2: column 1", done.stderr)
 
 
+class Times(Case):
+    def test_tables_with_a_name_are_listed_for_the_cpu(self):
+        listed = lambda cpu: [table["name"] for table in self.json(FINE, "times", "--cpu", cpu, "--json")["tables"]]
+        self.assertEqual(listed("214"), ["cpu214", "cpu214_from_22x"])
+        self.assertEqual(listed("216"), ["cpu215", "cpu214_from_22x"])
+        self.assertEqual((listed("224r1"), listed("224")), (["cpu22x_release1"], ["cpu22x"]))
+        self.assertIn("cpu214_from_22x", self.ends(FINE, "times").stdout)
+
+    def test_tables_stand_side_by_side(self):
+        mine = self.program("mnemonic,form,base_us,per_unit_us,unit,marker\nMOVB,,37,,,measured\n", "mine.csv")
+        lines = self.json(FINE, "times", "cpu214", "cpu214_from_22x", mine, "--json")["side_by_side"]
+        (line,) = [line for line in lines if "MOVB" in line["mnemonics"]]
+        self.assertEqual([(f["table"], f["base_us"], f["marker"]) for f in line["figures"]],
+                         [("cpu214", 30, "estimate"), ("cpu214_from_22x", 55.274, "remembered"), (str(mine), 37, "measured")])
+        ld = {line["areas"]: [f["base_us"] for f in line["figures"][:2]] for line in lines if "LD" in line["mnemonics"]}
+        self.assertEqual(ld, {"I": [0.8, 0.705], "Q": [0.8, 2.097], "M": [2, 2.097], "SM S T C V": [3.2, 2.097]})
+        text = self.ends(FINE, "times", "cpu214", "cpu214_from_22x").stdout
+        self.assertRegex(text, r"(?m)^MOVB +30 +55.274 +1.84$")
+
+    def test_a_table_is_chosen_by_its_name_wherever_times_are(self):
+        path = self.program("LD SM0.0\nMOVB 1, VB0\nMEND\n")
+        scan = lambda *times: self.json(FINE, "run", path, "--scans", "1", "--json", *times)["time_ns"]
+        self.assertEqual(scan("--times", "cpu214"), scan())
+        self.assertEqual(scan("--times", "cpu214_from_22x") - scan(), (55_274 - 30_000) + (2_097 - 3_200) + (0))
+        scenario = self.program(f"program: {SLAVE}\ntimes: cpu214_from_22x\nsteps:\n  - {{read: holding 0, expect: [0]}}\n", "s.yaml")
+        (other,) = self.json(FINE, "test", scenario, "--json")["scenarios"]
+        scenario.write_text(scenario.read_text(encoding="utf-8").replace("times: cpu214_from_22x\n", ""), encoding="utf-8")
+        (usual,) = self.json(FINE, "test", scenario, "--json")["scenarios"]
+        self.assertGreater(other["exchanges"][0]["latency_us"], usual["exchanges"][0]["latency_us"])
+        self.assertIn("tables for CPU 224: cpu22x", self.ends(UNUSABLE, "run", path, "--cpu", "224", "--times", "cpu214").stderr)
+
+    def test_statements_known_from_real_cpus_hold_or_not(self):
+        done = self.ends(FINE, "times", "--check", "cpu214")
+        self.assertIn("holds        saving a value to EEPROM takes 15 to 20 ms: 17500 us", done.stdout)
+        self.assertIn("not checked  the first scan takes about 690 ms", done.stdout)
+        wrong = self.program("mnemonic,form,base_us,per_unit_us,unit,marker\n(EEPROM save),,9000,,,measured\n", "mine.csv")
+        self.assertIn("FAILS        saving a value to EEPROM", self.ends(FAILED, "times", "--check", wrong).stdout)
+        self.assertIn("is not Application Tip 41", self.ends(UNUSABLE, "times", "--check", "cpu214", "--tip41", SLAVE).stderr)
+        for cpu in ("224", "224r1"):
+            self.assertIn(" 0 fail", self.ends(FINE, "times", "--cpu", cpu, "--check", {"224": "cpu22x", "224r1": "cpu22x_release1"}[cpu]).stdout)
+
+    @unittest.skipUnless(TIP.exists(), "the document is not part of this project")
+    def test_the_tip_holds_with_both_tables_and_not_with_a_faster_cpu(self):
+        for table in ("cpu214", "cpu214_from_22x"):
+            done = self.ends(FINE, "times", "--check", table, "--tip41", TIP)
+            self.assertIn("4 hold, 0 fail\n", done.stdout)
+        rows = self.json(FINE, "times", "--json")["times"]
+        fast = self.program("mnemonic,form,base_us,per_unit_us,unit,marker\n" + "".join(
+            f"{' '.join(row['mnemonics'])},{row['form']},{row['base_us'] / 3},{row['per_unit_us'] / 3},,measured\n" for row in rows
+            if "EEPROM" not in row["mnemonics"][0]), "fast.csv")
+        done = self.ends(FAILED, "times", "--check", fast, "--tip41", TIP)
+        self.assertIn("FAILS        the first scan takes about 690 ms", done.stdout)
+        self.assertIn("FAILS        it does not work correctly at 38400 baud", done.stdout)
+
+    def test_a_band_gives_ranges_and_says_with_how_many_tables(self):
+        arguments = ["send", SLAVE, "--crc", "0103000a0002", "--times-band", "20"]
+        done = self.ends(FINE, *arguments)
+        self.assertRegex(done.stdout, r"^execution times: cpu214, cpu214_from_22x, and 20 random tables within the uncertainty of the "
+                                      r"first \(seed 1\)\n")
+        self.assertRegex(done.stdout, r"(?m)^  after 1\d\.\d … \d\d\.\d ms   answered: 22 of 22 tables$")
+        (band,) = self.json(FINE, *arguments, "--json")["band"]["exchanges"]
+        latency = self.json(FINE, *arguments[:4], "--json")["exchanges"][0]["latency_us"]
+        self.assertTrue(band["latency_us"]["least"] < latency < band["latency_us"]["most"])
+        self.assertEqual(self.ends(FINE, *arguments, "--jobs", "1").stdout, done.stdout, "the same with one job")
+        self.assertNotEqual(self.ends(FINE, *arguments, "--band-seed", "2").stdout, done.stdout)
+        self.assertIn("--trace is about one run", self.ends(UNUSABLE, *arguments, "--trace", "-").stderr)
+
+    def test_a_band_of_a_file_is_within_its_uncertainty(self):
+        sure = self.program("mnemonic,form,base_us,per_unit_us,unit,marker,source,uncertainty_percent\n" + "".join(
+            f"{' '.join(row['mnemonics'])},{row['form']},{row['base_us']},{row['per_unit_us'] or ''},,measured,,0\n"
+            for row in self.json(FINE, "times", "--json")["times"]), "sure.csv")
+        (band,) = self.json(FINE, "send", SLAVE, "--crc", "0103000a0002", "--times-band", "5", "--times", sure, "--json")["band"]["exchanges"]
+        self.assertEqual((band["tables"], band["latency_us"]["least"]), (6, band["latency_us"]["most"]))
+
+    def test_a_master_says_how_sure_its_answers_are(self):
+        done = self.ends(FINE, "master", SLAVE, "write", "40011=1", "read", "40011:2", "--times-band", "10")
+        self.assertEqual(len(re.findall(r"(?m)^  after .* … .* ms   right: 12 of 12 tables$", done.stdout)), 2)
+        self.assertIn("give no --every", self.ends(UNUSABLE, "master", SLAVE, "read", "40001", "--every", "1s", "--count", "2",
+                                                   "--times-band", "2").stderr)
+
+    def test_characters_that_are_lost_with_some_tables_are_counted(self):
+        fast = self.program((SOURCE / "stl_programs/modbus_slave.stl").read_text(encoding="utf-8").replace(
+            "MOVB    6, SMB34 ", "MOVB    5, SMB34 ").replace("MOVB    16#49, SMB30", "MOVB    16#41, SMB30"), "fast.stl")
+        long_request = "0110000000" + "3c78" + "5a" * 120
+        done = self.ends(FAILED, "send", fast, "--crc", long_request, "--times-band", "50")
+        self.assertRegex(done.stdout, r"answered: \d+ of 52 tables; no answer: \d+ of 52; characters or events lost: \d+ of 52")
+
+    def test_a_scenario_passes_with_a_share_of_the_tables(self):
+        text = f"program: {SLAVE}\nrobust: 100%\nsteps:\n  - {{read: holding 0, expect: [0], latency: ..16ms}}\n"
+        scenario = self.program(text, "share.yaml")
+        done = self.ends(FAILED, "test", scenario, "--times-band", "20")
+        self.assertRegex(done.stdout, r"FAIL .* \(\d+ of 22 tables, answers after \d+\.\d … \d+\.\d ms\)")
+        self.assertIn("expected  to pass with 100% of the tables of execution times", done.stdout)
+        scenario.write_text(text.replace("100%", "10%"), encoding="utf-8")
+        self.ends(FINE, "test", scenario)
+        (of_one,) = self.json(FINE, "test", scenario, "--json")["scenarios"]
+        self.assertEqual(of_one["band"]["tables"], 202, "a scenario that asks for a share is run with the usual number of tables")
+        self.assertIn("'95' is not a share", self.ends(UNUSABLE, "test", self.program(text.replace("100%", "95"), "x.yaml")).stderr)
+        self.assertIn("are about one", self.ends(UNUSABLE, "test", scenario, "--times-band", "2", "--record", self.folder / "t.yaml").stderr)
+
+    def test_rules_of_conformance_say_with_how_many_tables(self):
+        slave = self.program(f"program: {SLAVE}\nfunctions: [3]\nholding_registers: {{count: 1000}}\n", "slave.yaml")
+        done = s7200("test", "--conformance", slave, "--only", "SL-crc", "--times-band", "3")
+        self.assertRegex(done.stdout, r"(?m)^        5 of 5 tables, answers after")
+
+
 class Readme(Case):
     """Every line `$ …` in a block ```sh of a README is run, in a folder that has what the tree has. What is shown below a
     command is what it prints; a line that is `…` stands for anything. A command with `&` runs until the end of its block."""
@@ -1444,6 +1552,6 @@ class Readme(Case):
 
 if __name__ == "__main__":
     group = {"verbs": Verbs, "options": Options, "json": Json, "json_page": JsonPage, "files": Files, "readme": Readme, "scenarios": Scenarios,
-             "input": StandardInput}[GROUP]
+             "input": StandardInput, "times": Times}[GROUP]
     result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
     sys.exit(0 if result.wasSuccessful() else 1)

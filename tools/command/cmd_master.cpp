@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/command/band_output.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/master_output.hpp"
@@ -37,6 +38,27 @@ int run_session(const MasterOptions& options, MasterSession& session, const std:
   const bool cut_short = interrupted() && !options.open_ended();
   if (cut_short) print_interruption();
   return session.statistics().any_failed() || cut_short ? kCheckFailed : kFine;
+}
+
+int run_on_program_band(MasterOptions& options, const std::vector<MasterAction>& actions) {
+  options.program.path = options.target;
+  BandExchanges exchanges{.verb = "master", .labels = {}, .good = verdict_name(serial::Verdict::Right), .run = {}};
+  for (const MasterAction& action : actions)
+    if (action.request) exchanges.labels.push_back(action.text);
+  exchanges.run = [&](Rig& rig, const std::string& name, LostEvents& lost) {
+    SimulatedSlave slave(rig.simulation(), options.master, name);
+    MasterSession session(slave, actions, options.session(true));
+    std::vector<BandOutcome> outcomes;
+    std::string why;
+    if (!slave.wait_until_ready(options.after, why)) return outcomes;
+    lost.take();
+    const auto add = [&](const MasterResult& result) {
+      outcomes.push_back({result.exchange, verdict_name(result.answer.verdict), lost.take()});
+    };
+    session.run({add, [] {}}, [] { return false; });
+    return outcomes;
+  };
+  return run_band(options.band, options.program, options.rig, options.json, exchanges);
 }
 
 int run_on_program(MasterOptions& options, const std::vector<MasterAction>& actions) {
@@ -84,7 +106,8 @@ int run_master(MasterOptions& options) {
   const bool over_tcp = target.kind == SlaveTarget::Kind::ModbusTcp;
   const std::vector<MasterAction> actions = options.actions(over_tcp);
   catch_interruption();
-  if (target.kind == SlaveTarget::Kind::Program) return run_on_program(options, actions);
+  if (target.kind == SlaveTarget::Kind::Program)
+    return options.band.wanted() ? run_on_program_band(options, actions) : run_on_program(options, actions);
   std::unique_ptr<Slave> slave;
   try {
     slave = connect(target, options.master.over(options.protocol->format), options.protocol->is_complete);

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "serial_sim/peers/quiet_time.hpp"
+#include "tools/command/band_output.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/frame_options.hpp"
@@ -29,9 +30,49 @@ struct SendOptions {
   Time pause = kNever;  // kNever: serial::default_quiet
   serial::MasterSettings master;
   RigOptions rig;
+  BandOptions band;
 };
 
+/// The exchanges with one table.
+std::vector<BandOutcome> outcomes(const SendOptions& options, serial::Simulation& simulation, LostEvents& lost,
+                                  const std::vector<serial::Frame>& frames, const std::string& name) {
+  SimulatedSlave slave(simulation, options.master, name);
+  std::vector<BandOutcome> outcomes;
+  std::string why;
+  bool going = slave.wait_until_ready(options.after, why);
+  for (const serial::Frame& frame : frames) {
+    if (!going) break;
+    lost.take();
+    const serial::Exchange exchange = slave.exchange(options.master.request(frame));
+    going = !simulation.master().busy();
+    if (going) slave.wait(options.pause == kNever ? slave.pause() : options.pause);
+    const char* const verdict = exchange.timed_out ? "no answer" : is_damaged(exchange) ? "damaged" : "answered";
+    outcomes.push_back({exchange, verdict, lost.take()});
+  }
+  return outcomes;
+}
+
+std::string shortened(const serial::Frame& frame) {
+  constexpr std::size_t kShown = 32;
+  if (frame.size() <= kShown) return serial::to_hex(frame);
+  return fmt::format("{} … {} characters", serial::to_hex(serial::Frame(frame.begin(), frame.begin() + kShown)),
+                     frame.size());
+}
+
+int run_send_band(SendOptions& options) {
+  std::string why;
+  const auto frames = options.frames.read(why);
+  if (!frames) return print_error(why), kUnusable;
+  BandExchanges exchanges{.verb = "send", .labels = {}, .good = "answered", .run = {}};
+  for (const serial::Frame& frame : *frames) exchanges.labels.push_back("request  " + shortened(frame));
+  exchanges.run = [&](Rig& rig, const std::string& name, LostEvents& lost) {
+    return outcomes(options, rig.simulation(), lost, *frames, name);
+  };
+  return run_band(options.band, options.program, options.rig, options.json, exchanges);
+}
+
 int run_send(SendOptions& options) {
+  if (options.band.wanted()) return run_send_band(options);
   int exit_code = kFine;
   const auto program = options.program.load(exit_code);
   if (!program) return exit_code;
@@ -108,12 +149,16 @@ void add_send(CLI::App& app, int& exit_code) {
   add_duration(*verb, "--pause", options->pause, fmt::format("pause between an answer and the next frame [{}]", quiet));
   add_master_options(*verb, options->master);
   options->rig.add_to(*verb);
-  verb->add_flag("--timeline", options->timeline, "show what the CPU did during each exchange: characters, interrupts, XMT");
+  options->band.add_to(*verb);
+  auto* timeline = verb->add_flag("--timeline", options->timeline,
+                                  "show what the CPU did during each exchange: characters, interrupts, XMT");
+  timeline->excludes(verb->get_option("--times-band"));
   verb->add_flag("--json", options->json, "print the exchanges and the results as JSON");
   verb->footer(
       fault_help() +
       "Exit code 1 if a frame was not answered or the answer was damaged: parity or framing errors, or a wrong CRC\n"
-      "in answer to a right one. What an answer says is not judged here but by 's7200 master'.\n"
+      "in answer to a right one. What an answer says is not judged here but by 's7200 master'. With --times-band it is\n"
+      "0 only if all were answered with every table.\n"
       "Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");
   verb->callback([options, &exit_code] { exit_code = run_send(*options); });
 }

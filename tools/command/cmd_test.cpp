@@ -67,6 +67,8 @@ int run_test(TestOptions& options) {
   }
   options.check();
   const TestOptions::Destinations to = options.claim_files();
+  options.suite.band = options.band.settings();
+  options.suite.jobs = options.jobs > 0 ? options.jobs : options.band.wanted() ? options.band.jobs() : 1;
   options.suite.exchanges_wanted = options.json || to.record || !options.against.empty();
   Messages messages;
   auto suite = Suite::collect(options.suite, messages);

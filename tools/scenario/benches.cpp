@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "interpreter/program/load_times.hpp"
 #include "interpreter/program/slips.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/slave/slave_target.hpp"
@@ -31,12 +32,12 @@ std::string Programs::Loaded::why() const {
 }
 
 const Programs::Loaded& Programs::get(const std::string& path, const std::vector<std::string>& with, const std::string& cpu,
-                                      const std::string& times_file, const std::string& repairs) {
+                                      const std::string& times_table, const std::string& repairs) {
   std::vector<std::string> files{path};
   files.insert(files.end(), with.begin(), with.end());
-  const auto key = std::tuple(files, cpu, times_file, repairs);
+  const auto key = std::tuple(files, cpu, times_table, repairs);
   const auto known = known_.find(key);
-  return known != known_.end() ? known->second : known_.emplace(key, load(files, cpu, times_file, repairs)).first->second;
+  return known != known_.end() ? known->second : known_.emplace(key, load(files, cpu, times_table, repairs)).first->second;
 }
 
 /// What comes through a pipe can be read once, by whatever name.
@@ -52,38 +53,39 @@ const Programs::Text& Programs::text_of(const std::string& path) {
   return found->second;
 }
 
-Programs::Loaded Programs::load(const std::vector<std::string>& files, const std::string& cpu, const std::string& times_file,
-                                const std::string& repairs) {
-  Loaded loaded;
+std::optional<stl::ParseResult> Programs::read(const std::vector<std::string>& files, const std::string& repairs,
+                                               Messages& messages) {
   std::vector<SourceText> texts;
   for (const std::string& file : files) {
     const Text& source = text_of(file);
     if (source.text)
       texts.push_back(*source.text);
     else
-      add_error(loaded.messages, source.why);
+      add_error(messages, source.why);
   }
-  if (!loaded.messages.empty()) return loaded;
-  const CpuModel& model = *find_cpu(cpu);
-  TimeTable times = default_times(model);
-  if (!times_file.empty()) {
-    std::string why;
-    const auto csv = read_text(times_file, why);
-    if (!csv) add_error(loaded.messages, fmt::format("cannot read {}: {}", times_file, why));
-    if (csv)
-      for (const std::string& error : times.add(*csv, times_file)) add_error(loaded.messages, error);
-    if (!loaded.messages.empty()) return loaded;
-  }
+  if (!messages.empty()) return {};
   SourceText project = join_files(std::move(texts));
   if (!repairs.empty()) {
     std::string why;
     std::vector<std::string> unknown;
     repair(project.parsed.source, parse_repairs(repairs, why), unknown);
     for (const std::string& id : unknown)
-      add_error(loaded.messages, fmt::format("repair {}: {} has no such slip", id, project.parsed.source.name));
-    if (!loaded.messages.empty()) return loaded;
+      add_error(messages, fmt::format("repair {}: {} has no such slip", id, project.parsed.source.name));
   }
-  CheckResult result = check(std::move(project.parsed), model, times);
+  return messages.empty() ? std::optional(std::move(project.parsed)) : std::nullopt;
+}
+
+Programs::Loaded Programs::load(const std::vector<std::string>& files, const std::string& cpu,
+                                const std::string& times_table, const std::string& repairs) {
+  Loaded loaded;
+  const CpuModel& model = *find_cpu(cpu);
+  auto parsed = read(files, repairs, loaded.messages);
+  if (!parsed) return loaded;
+  std::vector<std::string> errors;
+  const auto times = load_times(model, times_table, errors);
+  for (const std::string& error : errors) add_error(loaded.messages, error);
+  if (!times) return loaded;
+  CheckResult result = check(std::move(*parsed), model, *times);
   loaded.program = std::move(result.program);
   if (loaded.program) return loaded;
   std::erase_if(result.diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
@@ -93,6 +95,20 @@ Programs::Loaded Programs::load(const std::vector<std::string>& files, const std
                       .source = std::make_shared<stl::SourceLines>(std::move(result.source))},
                      {.text = fmt::format("{} has errors; nothing was run", name)}};
   return loaded;
+}
+
+std::shared_ptr<const ProgramBand> Programs::band(const std::string& path, const std::vector<std::string>& with,
+                                                  const std::string& cpu, const std::string& times_table,
+                                                  const std::string& repairs, const BandSettings& settings) {
+  std::vector<std::string> files{path};
+  files.insert(files.end(), with.begin(), with.end());
+  auto& known = bands_[{files, cpu, times_table, repairs}];
+  if (known) return known;
+  Messages messages;
+  std::vector<std::string> errors;
+  auto parsed = read(files, repairs, messages);
+  auto tables = load_band(*find_cpu(cpu), times_table, settings, errors);
+  return known = std::make_shared<ProgramBand>(std::move(*parsed), *find_cpu(cpu), std::move(*tables));
 }
 
 namespace {
@@ -113,8 +129,11 @@ bool all_without_program(const std::vector<Scenario>& scenarios, Messages& messa
 /// On programs: that of the target for all, or each one's own.
 class ProgramBenches {
  public:
-  ProgramBenches(const std::string& target, bool is_conformance, Programs& programs)
-      : target_(target), same_for_all_(!target.empty() || is_conformance), programs_(programs) {}
+  ProgramBenches(const std::string& target, const SuiteSettings& settings, Programs& programs)
+      : target_(target),
+        same_for_all_(!target.empty() || !settings.conformance.empty()),
+        settings_(settings),
+        programs_(programs) {}
 
   /// False, with messages, if there is none and there will be none for all others either.
   bool add_to(Bench& bench, const Scenario& scenario, std::string& name, Messages& messages) {
@@ -123,9 +142,11 @@ class ProgramBenches {
       bench.problem = "it names no program, and there is no --target";
       return true;
     }
-    const Programs::Loaded& loaded = programs_.get(path, target_.empty() ? scenario.with : std::vector<std::string>{},
-                                                   scenario.cpu, scenario.times_file, scenario.repair);
+    const auto with = target_.empty() ? scenario.with : std::vector<std::string>{};
+    const Programs::Loaded& loaded = programs_.get(path, with, scenario.cpu, scenario.times, scenario.repair);
     bench.program = loaded.program;
+    if (loaded.program && (scenario.robust || settings_.band.random > 0))
+      bench.band = programs_.band(path, with, scenario.cpu, scenario.times, scenario.repair, band_settings());
     if (!loaded.program && same_for_all_) {
       messages.insert(messages.end(), loaded.messages.begin(), loaded.messages.end());
       return false;
@@ -136,8 +157,15 @@ class ProgramBenches {
   }
 
  private:
+  /// What a scenario gets that asks for a band if none is asked for on the command line.
+  static constexpr std::size_t kUsualTables = 200;
+  BandSettings band_settings() const {
+    return {settings_.band.random > 0 ? settings_.band.random : kUsualTables, settings_.band.seed};
+  }
+
   const std::string& target_;
   bool same_for_all_;
+  const SuiteSettings& settings_;
   Programs& programs_;
 };
 
@@ -154,6 +182,10 @@ std::optional<Benches> make_benches(const std::vector<Scenario>& scenarios, cons
               "device or tcp://");
     return {};
   }
+  if (parsed.kind != SlaveTarget::Kind::Program && settings.band.random > 0) {
+    add_error(messages, "--times-band is about execution times in simulation; the target must be a program");
+    return {};
+  }
   if (target.empty() && all_without_program(scenarios, messages)) return {};
   SerialFormat format;
   if (parsed.kind != SlaveTarget::Kind::Program) {
@@ -162,7 +194,7 @@ std::optional<Benches> make_benches(const std::vector<Scenario>& scenarios, cons
     benches.slave = connect(parsed, format);
     benches.name = benches.slave->name();
   }
-  ProgramBenches of_programs(parsed.path, is_conformance, programs);
+  ProgramBenches of_programs(parsed.path, settings, programs);
   for (const Scenario& scenario : scenarios) {
     Bench bench{.slave = benches.slave.get(), .format = format, .exchanges_wanted = settings.exchanges_wanted};
     if (!bench.slave && is_to_run(scenario) && !of_programs.add_to(bench, scenario, benches.name, messages)) return {};

@@ -28,7 +28,12 @@ class Programs {
 
   /// `with`: the other files of the program's project.
   const Loaded& get(const std::string& path, const std::vector<std::string>& with, const std::string& cpu,
-                    const std::string& times_file, const std::string& repairs = {});
+                    const std::string& times_table, const std::string& repairs = {});
+
+  /// The same program, which has no errors, with a band of times.
+  std::shared_ptr<const ProgramBand> band(const std::string& path, const std::vector<std::string>& with,
+                                          const std::string& cpu, const std::string& times_table, const std::string& repairs,
+                                          const BandSettings& settings);
 
  private:
   struct Text {
@@ -36,12 +41,17 @@ class Programs {
     std::string why{};
   };
 
+  using Key = std::tuple<std::vector<std::string>, std::string, std::string, std::string>;
+
   const Text& text_of(const std::string& path);
-  Loaded load(const std::vector<std::string>& files, const std::string& cpu, const std::string& times_file,
+  std::optional<stl::ParseResult> read(const std::vector<std::string>& files, const std::string& repairs,
+                                       Messages& messages);
+  Loaded load(const std::vector<std::string>& files, const std::string& cpu, const std::string& times_table,
               const std::string& repairs);
 
   std::map<std::string, Text> texts_;
-  std::map<std::tuple<std::vector<std::string>, std::string, std::string, std::string>, Loaded> known_;
+  std::map<Key, Loaded> known_;
+  std::map<Key, std::shared_ptr<const ProgramBand>> bands_;
 };
 
 /// A bench for each scenario.

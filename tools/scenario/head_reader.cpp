@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/model/named_times.hpp"
 #include "interpreter/program/load.hpp"
 #include "interpreter/program/slips.hpp"
 #include "tools/rig/clock_text.hpp"
@@ -9,6 +11,13 @@
 
 namespace s7200::tools {
 namespace {
+
+/// `95%`
+std::optional<double> parse_share(const std::string& text) {
+  if (!text.ends_with('%')) return {};
+  const auto share = parse_decimal<double>(std::string_view(text).substr(0, text.size() - 1));
+  return share && Between<double>{0, 100}.has(*share) ? share : std::nullopt;
+}
 
 class HeadReader {
  public:
@@ -44,7 +53,8 @@ class HeadReader {
       scenario.may_be_missing = *path == scenario.program;
       if (!std::filesystem::exists(*path)) scenario.skipped = *path + " is not there";
     }
-    if (const auto path = optional_path(map, "times")) scenario.times_file = *path;
+    if (const auto times = values_.optional_text(map, "times"))
+      scenario.times = find_times(*times) ? *times : *optional_path(map, "times");
     if (const YamlNode* line = map.find("line")) read_line(*line, scenario.line);
     if (const auto station = values_.number(map.find("station"), 0, 255))
       scenario.station = static_cast<std::uint8_t>(*station);
@@ -56,6 +66,8 @@ class HeadReader {
     if (const auto after = values_.time(map.find("after"))) scenario.after = *after;
     if (const auto pause = values_.span(map.find("pause"))) scenario.pause = *pause;
     if (const auto timeout = values_.time(map.find("timeout"))) scenario.line.timeout = *timeout;
+    if (const YamlNode* robust = map.find("robust"))
+      scenario.robust = values_.value(robust, "a share of the tables of execution times", "95%", parse_share);
     if (const auto tolerance = values_.time(map.find("tolerance"))) scenario.tolerance = *tolerance;
     return true;
   }

@@ -109,6 +109,11 @@ std::string in_one_line(std::string_view text) {
 
 }  // namespace
 
+std::string band_text(const BandResult& band) {
+  const std::string share = fmt::format("{} of {} tables", band.passed, band.tables);
+  return band.latency.any() ? fmt::format("{}, answers after {}", share, to_text(band.latency)) : share;
+}
+
 const Step* step_of(const Scenario& scenario, const Finding& finding) {
   return finding.step ? &scenario.steps[*finding.step] : nullptr;
 }
@@ -166,6 +171,7 @@ std::string report_text(const Report& report, bool colour, std::size_t most) {
   if (result.skipped_steps)
     remark += fmt::format("   ({} of {} steps skipped: they need the inside of the PLC or its line)", result.skipped_steps,
                           report.scenario->steps.size());
+  if (result.band) remark += fmt::format("   ({})", band_text(*result.band));
   const std::string time = result.outcome == Outcome::Skipped ? "" : format_duration(result.time, 1);
   return fmt::format("  {}  {:>10}  {}{}\n", outcome_text(result.outcome, colour), time,
                      stl::printable(report.scenario->name), stl::printable(remark)) +
@@ -198,6 +204,7 @@ std::string conformance_text(const std::vector<Report>& reports, const std::stri
     text += fmt::format("  {}  {:<6}  {:<{}}  {:<{}}  {}\n", outcome, severity_text(rule.severity), stl::printable(rule.id),
                         id_width, stl::printable(rule.source), source_width, stl::printable(report.scenario->name));
     if (!result.reason.empty()) text += fmt::format("        {}\n", stl::printable(reason_text(result)));
+    if (result.band) text += fmt::format("        {}\n", band_text(*result.band));
     if (result.outcome == Outcome::ExpectedFailure) continue;
     constexpr std::size_t kMost = 3;
     for (std::size_t i = 0; i < std::min(kMost, result.findings.size()); ++i)

@@ -29,6 +29,9 @@ std::size_t count(const std::vector<Report>& reports, ScenarioResult::Outcome ou
 
 std::string_view severity_text(Rule::Severity severity);
 
+/// `163 of 202 tables, answers after 15.8 … 19.6 ms`
+std::string band_text(const BandResult& band);
+
 /// Why it was skipped, or that it failed as was expected.
 std::string reason_text(const ScenarioResult& result);
 

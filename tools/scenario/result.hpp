@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "serial_sim/peers/requester.hpp"
+#include "tools/rig/band.hpp"
 #include "tools/scenario/text.hpp"
 
 namespace s7200::tools {
@@ -36,6 +37,12 @@ struct Seen {
   serial::Exchange exchange{};
 };
 
+/// How a scenario went with all tables of a band of execution times.
+struct BandResult {
+  std::size_t tables = 0, passed = 0;
+  LatencyRange latency{};  ///< of all its answers
+};
+
 struct ScenarioResult {
   enum class Outcome : std::uint8_t {
     Passed,
@@ -51,6 +58,7 @@ struct ScenarioResult {
   std::size_t skipped_steps = 0;  ///< that look inside, or cannot go this way, on a slave that is not a program
   Time time = 0;                  ///< on the slave's clock
   double host_seconds = 0;
+  std::optional<BandResult> band{};  ///< all else is of the first table
 };
 
 }  // namespace s7200::tools

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "interpreter/program/program.hpp"
+#include "tools/rig/band.hpp"
 #include "tools/scenario/result.hpp"
 #include "tools/scenario/scenario.hpp"
 #include "tools/slave/slave.hpp"
@@ -12,11 +13,12 @@ namespace s7200::tools {
 
 /// What a scenario is run on.
 struct Bench {
-  std::shared_ptr<const Program> program{};  ///< in simulation
-  Slave* slave = nullptr;                    ///< instead of a program; not owned
-  SerialFormat format{};                     ///< of the slave's line
-  bool exchanges_wanted = true;              ///< all of them are in the result
-  std::string problem{};                     ///< why there is neither; the scenario fails then
+  std::shared_ptr<const Program> program{};   ///< in simulation
+  std::shared_ptr<const ProgramBand> band{};  ///< the program with other times too; null: with its own only
+  Slave* slave = nullptr;                     ///< instead of a program; not owned
+  SerialFormat format{};                      ///< of the slave's line
+  bool exchanges_wanted = true;               ///< all of them are in the result
+  std::string problem{};                      ///< why there is neither; the scenario fails then
 };
 
 /// Runs a scenario to its end, findings or not; a slave that is lost is a finding and ends it. SlaveUnreachable passes

@@ -47,7 +47,7 @@ struct Scenario {
   std::string program{};               ///< path; empty if only --target names one
   bool may_be_missing = false;         ///< skip_without names it
   std::string cpu = "214";
-  std::string times_file{};  ///< empty: the model's own
+  std::string times{};  ///< a name or a file; empty: the CPU's own
   std::vector<Assignment> set{};
   std::string input_file{};  ///< of `field`; empty if there is none
   serial::FieldScript field{};
@@ -58,6 +58,8 @@ struct Scenario {
   serial::MasterSettings line{};  ///< with the time-out
   Span pause{serial::kQuietMilliseconds * kMillisecond, 1000 * serial::kQuietCharacters};
   Time tolerance = 0;  ///< by which a latency given as one figure may be missed
+
+  std::optional<double> robust{};  ///< percent of the tables of a band of execution times with which it must pass
 
   Rule rule{};
   std::string expected_failure{};  ///< a known gap, and why; empty: it must pass

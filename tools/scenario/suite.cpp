@@ -1,12 +1,14 @@
 #include "tools/scenario/suite.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "tools/host/interruption.hpp"
-#include "tools/scenario/parallel_run.hpp"
+#include "tools/rig/parallel_run.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -52,6 +54,54 @@ std::optional<Benches> Suite::benches_on(const std::string& target, Messages& me
   return make_benches(scenarios_, target, settings_, programs_, messages);
 }
 
+namespace {
+
+/// A scenario with one table of execution times.
+struct Turn {
+  std::size_t scenario, table;
+  bool last;  ///< of this scenario
+};
+
+std::vector<Turn> turns_of(const std::vector<Bench>& benches) {
+  std::vector<Turn> turns;
+  for (std::size_t i = 0; i < benches.size(); ++i) {
+    const std::size_t tables = benches[i].band ? benches[i].band->size() : 1;
+    for (std::size_t table = 0; table < tables; ++table) turns.push_back({i, table, table + 1 == tables});
+  }
+  return turns;
+}
+
+ScenarioResult run_turn(const Scenario& scenario, const Bench& bench, std::size_t table) {
+  if (!bench.band) return run_scenario(scenario, bench);
+  Bench of_table = bench;
+  of_table.program = bench.band->program(table);
+  of_table.exchanges_wanted = true;  // for their latencies
+  return run_scenario(scenario, of_table);
+}
+
+bool went_as_expected(Outcome outcome) { return outcome == Outcome::Passed || outcome == Outcome::ExpectedFailure; }
+
+void add_to(BandResult& band, const ScenarioResult& of_table) {
+  ++band.tables;
+  band.passed += went_as_expected(of_table.outcome);
+  for (const Seen& seen : of_table.seen)
+    if (const auto latency = latency_of(seen.exchange)) band.latency.add(*latency);
+}
+
+/// A scenario that passes with too few tables fails.
+void judge_robustness(const Scenario& scenario, ScenarioResult& result) {
+  if (!scenario.robust || !result.band || !went_as_expected(result.outcome)) return;
+  const double share = 100.0 * static_cast<double>(result.band->passed) / static_cast<double>(result.band->tables);
+  if (share >= *scenario.robust) return;
+  result.outcome = Outcome::Failed;
+  result.findings.push_back(
+      {.what = "robustness",
+       .expected = fmt::format("to pass with {:g}% of the tables of execution times", *scenario.robust),
+       .found = fmt::format("{} of {}: {:.1f}%", result.band->passed, result.band->tables, share)});
+}
+
+}  // namespace
+
 /// A slave that is not a program is one for all.
 unsigned Suite::jobs_on(const Benches& benches) const { return benches.slave ? 1 : std::max(1U, settings_.jobs); }
 
@@ -63,14 +113,29 @@ std::optional<SuiteResult> Suite::run(const Watcher<Report>& watcher, Messages& 
   if (!settings_.target.empty())
     for (Scenario& scenario : scenarios_) scenario.program = result.live ? "" : settings_.target;
   try {
-    ParallelRun run(scenarios_, benches->of, jobs_on(*benches));
+    const std::vector<Turn> turns = turns_of(benches->of);
+    ParallelRun<ScenarioResult> run(turns.size(), jobs_on(*benches), [&](std::size_t i) {
+      return run_turn(scenarios_[turns[i].scenario], benches->of[turns[i].scenario], turns[i].table);
+    });
+    ScenarioResult of_one;
     run.each(
-        [&](std::size_t i, ScenarioResult of_one) {
-          result.reports.push_back({&scenarios_[i], std::move(of_one)});
+        [&](std::size_t i, ScenarioResult of_table) {
+          const auto& [scenario, table, last] = turns[i];
+          const bool banded = benches->of[scenario].band && of_table.outcome != Outcome::Skipped;
+          BandResult band = table == 0 ? BandResult{} : of_one.band.value_or(BandResult{});
+          if (banded) add_to(band, of_table);
+          if (table == 0) of_one = std::move(of_table);
+          if (banded) of_one.band = band;
+          if (!last && !interrupted()) return true;
+          if (!settings_.exchanges_wanted) of_one.seen.clear();
+          judge_robustness(scenarios_[scenario], of_one);
+          result.reports.push_back({&scenarios_[scenario], std::move(of_one)});
           if (watcher.finished) watcher.finished(result.reports.back());
           return !interrupted() && !(settings_.fail_fast && counts_as_failed(result.reports.back()));
         },
-        watcher.waiting);
+        [&](std::size_t i) {
+          if (watcher.waiting) watcher.waiting(turns[i].scenario);
+        });
   } catch (const SlaveUnreachable& error) {
     result.unreachable = error.what();
   }
@@ -88,7 +153,10 @@ std::optional<ComparisonResult> Suite::compare(const std::string& other, Time to
   const bool live = one_benches->slave || other_benches->slave;
   const Comparison comparison{!ignore_timing, tolerance_for(tolerance, live)};
   std::vector<ScenarioResult> of_other;
-  ParallelRun(scenarios_, other_benches->of, jobs_on(*other_benches))
+  const auto run_on = [&](const Benches& benches) {
+    return [&](std::size_t i) { return run_scenario(scenarios_[i], benches.of[i]); };
+  };
+  ParallelRun<ScenarioResult>(scenarios_.size(), jobs_on(*other_benches), run_on(*other_benches))
       .each(
           [&](std::size_t, ScenarioResult result) {
             of_other.push_back(std::move(result));
@@ -96,7 +164,7 @@ std::optional<ComparisonResult> Suite::compare(const std::string& other, Time to
           },
           watcher.waiting);
   ComparisonResult all;
-  ParallelRun(scenarios_, one_benches->of, jobs_on(*one_benches))
+  ParallelRun<ScenarioResult>(scenarios_.size(), jobs_on(*one_benches), run_on(*one_benches))
       .each(
           [&](std::size_t i, const ScenarioResult& result) {
             if (interrupted()) return false;

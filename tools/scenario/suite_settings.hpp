@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/model/times_band.hpp"
 #include "serial_sim/peers/requester.hpp"
 
 namespace s7200::tools {
@@ -21,6 +22,7 @@ struct SuiteSettings {
   serial::MasterSettings line{};     ///< over those of the scenarios
 
   unsigned jobs = 1;              ///< scenarios at a time, on programs
+  BandSettings band{};            ///< of execution times, for all scenarios on programs; none: for those that ask for it
   bool fail_fast = false;         ///< ends at the first failure
   bool exchanges_wanted = false;  ///< all of them are in the results
 };

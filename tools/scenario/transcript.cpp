@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "interpreter/model/named_times.hpp"
 #include "interpreter/program/load.hpp"
 #include "tools/scenario/transcript_writer.hpp"
 
@@ -83,7 +84,7 @@ void TranscriptWriter::head(const Scenario& scenario) {
   if (!scenario.repair.empty()) line(4, "repair: " + scenario.repair);
   if (!scenario.program.empty() && scenario.may_be_missing) line(4, "skip_without: " + near(scenario.program));
   if (scenario.cpu != "214") line(4, "cpu: " + scenario.cpu);
-  if (!scenario.times_file.empty()) line(4, "times: " + near(scenario.times_file));
+  if (!scenario.times.empty()) line(4, "times: " + (find_times(scenario.times) ? scenario.times : near(scenario.times)));
   line_settings(scenario.line);
   if (transcript_.tolerance > 0) line(4, "tolerance: " + exact(transcript_.tolerance));
   if (transcript_.live) return;

@@ -92,6 +92,7 @@ void MasterOptions::add_to(CLI::App& app) {
     program.add_parts_to(app);
     program.CpuOptions::add_to(app);
     rig.add_to(app);
+    band.add_to(app);
     add_duration(app, "--after", after,
                  fmt::format("when to send the first request [after the first scan and {} of silence]", quiet));
   });
@@ -120,6 +121,9 @@ void MasterOptions::add_protocol_options(CLI::App& app) {
 }
 
 void MasterOptions::refuse_what_does_not_fit(Kind kind) const {
+  if (band.wanted() && (polls() || continuous || count > 1 || verbose))
+    throw std::invalid_argument(
+        "--times-band does all actions once with each table: give no --every, --continuous, --count or --verbose");
   // In simulation nothing but the reader slows down what would be written for ever.
   const bool floods = open_ended() && (polls() || json || verbose) && !isatty(STDOUT_FILENO);
   if (kind == Kind::Program && floods)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/command/master_output.hpp"
+#include "tools/command/options/band_options.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/options/rig_options.hpp"
 #include "tools/master/protocol.hpp"
@@ -33,6 +34,7 @@ struct MasterOptions {
   serial::MasterSettings master;
   ProgramOptions program;
   RigOptions rig;
+  BandOptions band;
 
   void add_to(CLI::App& app);
 

@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <stdexcept>
+#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "tools/command/exit_code.hpp"
@@ -90,6 +92,17 @@ std::unique_ptr<Rig> RigOptions::assemble(const std::shared_ptr<const Program>& 
   for (const std::string& problem : problems) print_error(problem);
   only_interrupted_ = problems.empty() && interrupted();
   return rig;
+}
+
+void RigOptions::refuse_what_is_of_one_run(std::string_view because) const {
+  const std::pair<const char*, bool> of_one_run[] = {{"--dump", !dump_.empty()},
+                                                     {"--output", !settings_.output.empty()},
+                                                     {"--trace", !settings_.trace.empty()},
+                                                     {"--capture", !settings_.captures.empty()},
+                                                     {"--memory", !settings_.memory.path.empty()},
+                                                     {"--strict", strict_}};
+  for (const auto& [option, given] : of_one_run)
+    if (given) throw std::invalid_argument(fmt::format("{} is about one run; {}", option, because));
 }
 
 int RigOptions::exit_code_without_rig() const {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/command/options/fault_options.hpp"
@@ -23,6 +24,15 @@ class RigOptions {
   /// Reads and opens what the options name. Null after messages. `json`: standard output is taken; `link`: so is this name,
   /// by --pty.
   std::unique_ptr<Rig> assemble(const std::shared_ptr<const Program>& program, bool json, const std::string& link = {});
+
+  /// Throws std::invalid_argument if an option asks for something that is written, or shown, of one run.
+  void refuse_what_is_of_one_run(std::string_view because) const;
+
+  /// Another one like the rig that was assembled, from any thread. Null, and why, if it cannot be had or a signal came.
+  std::unique_ptr<Rig> assemble_another(const std::shared_ptr<const Program>& program,
+                                        std::vector<std::string>& problems) const {
+    return Rig::assemble(program, settings_, problems);
+  }
 
   /// How a verb ends that has got no rig: as after an interruption, if there was nothing else.
   int exit_code_without_rig() const;

@@ -47,7 +47,9 @@ void TestOptions::add_to(CLI::App& app) {
       ->type_name("PATTERN");
   app.add_flag("--list", list, "name the scenarios and run none");
   app.add_flag("--fail-fast", suite.fail_fast, "end at the first failure");
-  add_whole_number(app, "--jobs", suite.jobs, {1, 64}, "scenarios at a time; the output is the same", "1");
+  band.add_tables_to(app);
+  add_whole_number(app, "--jobs", jobs, {1, 64}, "scenarios at a time, or tables of --times-band; the output is the same",
+                   "1; with --times-band every core");
   app.add_option("--junit", junit, "write the results as JUnit XML, too")->type_name("FILE");
   app.add_flag("--json", json, "print the results as JSON");
   app.add_flag("--keys", keys, "print what a scenario may contain, as Markdown")->excludes("--json");
@@ -64,6 +66,8 @@ void TestOptions::check() const {
   refuse_if(tolerance != kNever && !compared && record.empty(),
             "--tolerance goes with --against or --record; a scenario has 'tolerance:'");
   refuse_if(compared && (!record.empty() || !junit.empty()), "--against neither records nor writes JUnit");
+  refuse_if(band.wanted() && (compared || !record.empty()),
+            "--times-band runs scenarios with many tables; --against and --record are about one");
   refuse_if(record == "-" || junit == "-", "--record and --junit write files; '-' is none");
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "tools/command/options/band_options.hpp"
 #include "tools/host/written_files.hpp"
 #include "tools/scenario/suite_settings.hpp"
 
@@ -16,6 +17,8 @@ namespace s7200::tools {
 struct TestOptions {
   SuiteSettings suite;
   std::string against, record, junit;
+  BandOptions band;
+  unsigned jobs = 0;        ///< 0: not given
   Time tolerance = kNever;  ///< kNever: not given
   bool ignore_timing = false, force = false, json = false, list = false, keys = false;
 

@@ -1,0 +1,73 @@
+#include "tools/command/band_output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "interpreter/base/text.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
+#include "tools/rig/parallel_run.hpp"
+#include "tools/views/results_json.hpp"
+
+namespace s7200::tools {
+namespace {
+
+void print_bands(const BandExchanges& exchanges, const std::string& title, const std::vector<ExchangeBand>& bands) {
+  fmt::print("{}\n", title);
+  for (std::size_t i = 0; i < bands.size(); ++i)
+    fmt::print("{}\n  {}\n", stl::printable(exchanges.labels[i]), bands[i].text());
+}
+
+void print_json(const BandExchanges& exchanges, const std::string& title, const std::vector<ExchangeBand>& bands) {
+  auto results = results_of(exchanges.verb);
+  results["band"] = {{"times", title}, {"exchanges", nlohmann::ordered_json::array()}};
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    nlohmann::ordered_json exchange{{"exchange", exchanges.labels[i]}};
+    exchange.update(bands[i].json());
+    results["band"]["exchanges"].push_back(std::move(exchange));
+  }
+  fmt::print("{}", lines_of(results));
+}
+
+}  // namespace
+
+int run_band(const BandOptions& band, const ProgramOptions& program, RigOptions& rig_options, bool json,
+             const BandExchanges& exchanges) {
+  rig_options.refuse_what_is_of_one_run("--times-band makes many");
+  int exit_code = kFine;
+  const auto programs = band.load(program, exit_code);
+  if (!programs) return exit_code;
+  if (!rig_options.assemble(programs->program(0), json)) return rig_options.exit_code_without_rig();
+  const auto with_table = [&](std::size_t table) {
+    const auto of_table = programs->program(table);
+    std::vector<std::string> problems;
+    const auto rig = rig_options.assemble_another(of_table, problems);
+    if (!rig) throw std::runtime_error(problems.empty() ? "interrupted" : problems.front());
+    LostEvents lost;
+    rig->sinks().add(&lost);
+    rig->power_up();
+    return exchanges.run(*rig, of_table->source.name, lost);
+  };
+  std::vector<ExchangeBand> bands(exchanges.labels.size());
+  BandProgress progress(programs->size());
+  ParallelRun<std::vector<BandOutcome>> run(programs->size(), band.jobs(), with_table);
+  run.each(
+      [&](std::size_t, const std::vector<BandOutcome>& found) {
+        if (interrupted()) return false;
+        for (std::size_t i = 0; i < bands.size(); ++i)
+          bands[i].add(i < found.size() ? found[i] : BandOutcome{{}, "not sent"});
+        return true;
+      },
+      std::ref(progress));
+  progress.clear();
+  (json ? print_json : print_bands)(exchanges, band_title(program, band.settings()), bands);
+  print_interruption();
+  const bool always =
+      std::ranges::all_of(bands, [&](const ExchangeBand& each) { return each.count(exchanges.good) == programs->size(); });
+  return always ? kFine : kCheckFailed;
+}
+
+}  // namespace s7200::tools

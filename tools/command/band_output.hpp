@@ -1,0 +1,27 @@
+// Exchanges with every table of a band: how `send` and `master` run them and what they show.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tools/command/options/band_options.hpp"
+#include "tools/command/options/rig_options.hpp"
+
+namespace s7200::tools {
+
+struct BandExchanges {
+  std::string verb;                 ///< for the JSON
+  std::vector<std::string> labels;  ///< of each exchange: its request, its action
+  std::string good;                 ///< the verdict that is wanted
+
+  /// Does them on a rig that has been powered up; those not come to may be missing at the end.
+  std::function<std::vector<BandOutcome>(Rig& rig, const std::string& program, LostEvents& lost)> run;
+};
+
+/// Does them with each table and prints what came of it. Returns how to end: kFine if all went well with every table.
+/// Throws std::invalid_argument for options that are about one run.
+int run_band(const BandOptions& band, const ProgramOptions& program, RigOptions& rig, bool json,
+             const BandExchanges& exchanges);
+
+}  // namespace s7200::tools

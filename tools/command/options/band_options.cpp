@@ -1,0 +1,65 @@
+#include "tools/command/options/band_options.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <thread>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/model/named_times.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/command/options/number_option.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/host/host_time.hpp"
+
+namespace s7200::tools {
+
+unsigned BandOptions::every_core() { return std::max(1U, std::thread::hardware_concurrency()); }
+
+void BandOptions::add_tables_to(CLI::App& app) {
+  auto* band = add_whole_number(app, "--times-band", settings_.random, {1, 100'000},
+                                "how sure it is: with every table of times and N random ones within their uncertainty");
+  add_whole_number(app, "--band-seed", settings_.seed, {0, UINT32_MAX}, "seed of the random tables", "1")->needs(band);
+}
+
+void BandOptions::add_to(CLI::App& app) {
+  add_tables_to(app);
+  add_whole_number(app, "--jobs", jobs_, {1, 64}, "tables at a time; the output is the same", "every core")
+      ->needs(app.get_option("--times-band"));
+}
+
+std::unique_ptr<ProgramBand> BandOptions::load(const ProgramOptions& program, int& exit_code) const {
+  exit_code = kUnusable;
+  const CpuModel* model = program.model();
+  auto text = model ? read_project(program.path, program.parts) : std::nullopt;
+  if (!text || !program.load(*text, exit_code)) return nullptr;
+  std::vector<std::string> errors, unknown;
+  auto tables = load_band(*model, program.times_table, settings_, errors);
+  if (!tables) return nullptr;  // load() has said why
+  repair(text->parsed.source, program.repairs, unknown);
+  return std::make_unique<ProgramBand>(std::move(text->parsed), *model, std::move(*tables));
+}
+
+std::string band_title(const CpuOptions& cpu, const BandSettings& settings) {
+  const std::string names = cpu.times_table.empty() ? names_of_times(*cpu.model()) : stl::printable(cpu.times_table);
+  return fmt::format("execution times: {}, and {} random table{} within the uncertainty of the first (seed {})", names,
+                     settings.random, settings.random == 1 ? "" : "s", settings.seed);
+}
+
+BandProgress::BandProgress(std::size_t all) : all_(all), from_(host_time() + 2 * kSecond), wanted_(isatty(STDERR_FILENO)) {}
+
+void BandProgress::operator()(std::size_t done) {
+  if (!wanted_ || host_time() < from_) return;
+  fmt::print(stderr, "\r{} of {} tables", done, all_);
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+void BandProgress::clear() {
+  if (shown_) fmt::print(stderr, "\r\x1b[K");
+  shown_ = false;
+}
+
+}  // namespace s7200::tools

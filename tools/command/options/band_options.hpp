@@ -1,0 +1,51 @@
+// --times-band on the command line: how sure results are that depend on execution times.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "tools/command/options/program_options.hpp"
+#include "tools/rig/band.hpp"
+
+namespace s7200::tools {
+
+class BandOptions {
+ public:
+  /// --times-band, --band-seed and --jobs.
+  void add_to(CLI::App& app);
+
+  /// The first two.
+  void add_tables_to(CLI::App& app);
+
+  bool wanted() const { return settings_.random > 0; }
+  const BandSettings& settings() const { return settings_; }
+  unsigned jobs() const { return jobs_; }
+
+  /// A program, checked, with each table. Null after messages: `exit_code` says which way to end.
+  std::unique_ptr<ProgramBand> load(const ProgramOptions& program, int& exit_code) const;
+
+ private:
+  BandSettings settings_;
+  unsigned jobs_ = every_core();
+
+  static unsigned every_core();
+};
+
+/// `under 202 tables of execution times: cpu214, cpu214_from_22x, 200 random ones (seed 1)`
+std::string band_title(const CpuOptions& cpu, const BandSettings& settings);
+
+/// How far the work has come: on a terminal, from the second second on.
+class BandProgress {
+ public:
+  explicit BandProgress(std::size_t all);
+  ~BandProgress() { clear(); }
+  void operator()(std::size_t done);
+  void clear();
+
+ private:
+  std::size_t all_;
+  Time from_;  ///< of the host
+  bool wanted_, shown_ = false;
+};
+
+}  // namespace s7200::tools

@@ -1,0 +1,88 @@
+#include "tools/rig/band.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "interpreter/model/named_times.hpp"
+#include "interpreter/program/load_times.hpp"
+
+namespace s7200::tools {
+
+std::optional<std::vector<TimeTable>> load_band(const CpuModel& model, const std::string& table,
+                                                const BandSettings& settings, std::vector<std::string>& errors) {
+  const auto in_use = load_times(model, table, errors);
+  if (!in_use) return {};
+  std::vector<TimeTable> others;
+  if (table.empty())
+    for (const NamedTimes& named : named_times())
+      if (!named.own && (named.cpus & model.self))
+        if (auto other = load_times(model, std::string(named.name), errors)) others.push_back(std::move(*other));
+  return times_band(*in_use, others, settings);
+}
+
+ProgramBand::ProgramBand(stl::ParseResult parsed, const CpuModel& model, std::vector<TimeTable> tables)
+    : parsed_(std::move(parsed)), model_(model), tables_(std::move(tables)), programs_(tables_.size()) {}
+
+std::shared_ptr<const Program> ProgramBand::program(std::size_t table) const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (programs_[table]) return programs_[table];
+  }
+  auto program = check(parsed_, model_, tables_[table]).program;
+  const std::lock_guard lock(mutex_);
+  return programs_[table] = std::move(program);
+}
+
+void LatencyRange::add(Time latency) { add({latency, latency}); }
+
+void LatencyRange::add(const LatencyRange& other) {
+  least = std::min(least, other.least);
+  most = std::max(most, other.most);
+}
+
+std::string to_text(const LatencyRange& range) {
+  if (!range.any()) return "";
+  const auto ms = [](Time time) { return static_cast<double>(time) / kMillisecond; };
+  return fmt::format("{:.1f} … {:.1f} ms", ms(range.least), ms(range.most));
+}
+
+nlohmann::ordered_json to_json(const LatencyRange& range) {
+  if (!range.any()) return nullptr;
+  const auto us = [](Time time) { return static_cast<double>(time) / kMicrosecond; };
+  return {{"least", us(range.least)}, {"most", us(range.most)}};
+}
+
+void ExchangeBand::add(const BandOutcome& outcome) {
+  ++tables_;
+  losing_ += outcome.lost > 0;
+  const auto known = std::ranges::find(counts_, outcome.verdict, &Count::verdict);
+  if (known == counts_.end())
+    counts_.push_back({outcome.verdict, 1});
+  else
+    ++known->tables;
+  if (!outcome.exchange) return;
+  if (const auto latency = outcome.exchange->latency()) latency_.add(*latency);
+}
+
+std::size_t ExchangeBand::count(const std::string& verdict) const {
+  const auto known = std::ranges::find(counts_, verdict, &Count::verdict);
+  return known == counts_.end() ? 0 : known->tables;
+}
+
+std::string ExchangeBand::text() const {
+  std::string text = latency_.any() ? fmt::format("after {}   ", to_text(latency_)) : "";
+  for (std::size_t i = 0; i < counts_.size(); ++i)
+    text += fmt::format("{}{}: {} of {}{}", i == 0 ? "" : "; ", counts_[i].verdict, counts_[i].tables, tables_,
+                        i == 0 ? " tables" : "");
+  if (losing_ > 0) text += fmt::format("; characters or events lost: {} of {}", losing_, tables_);
+  return text;
+}
+
+nlohmann::ordered_json ExchangeBand::json() const {
+  auto verdicts = nlohmann::ordered_json::array();
+  for (const Count& count : counts_) verdicts.push_back({{"verdict", count.verdict}, {"tables", count.tables}});
+  return {{"tables", tables_}, {"verdicts", verdicts}, {"losing", losing_}, {"latency_us", to_json(latency_)}};
+}
+
+}  // namespace s7200::tools

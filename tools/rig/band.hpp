@@ -1,0 +1,100 @@
+// A program with each table of execution times that may be the true one, and what came of its exchanges with all of them.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "interpreter/model/times_band.hpp"
+#include "interpreter/program/checker.hpp"
+#include "interpreter/trace/trace.hpp"
+#include "serial_sim/peers/requester.hpp"
+
+namespace s7200::tools {
+
+/// The tables of a CPU for `table`, a name or a file as load_times() takes it: that one and random ones; without it the
+/// CPU's own, the others of the same CPU that have a name, and random ones. Nothing, with errors, as load_times().
+std::optional<std::vector<TimeTable>> load_band(const CpuModel& model, const std::string& table,
+                                                const BandSettings& settings, std::vector<std::string>& errors);
+
+/// A program that has no errors, with each of the tables. It is checked for a table when that is first asked for, from any
+/// thread.
+class ProgramBand {
+ public:
+  ProgramBand(stl::ParseResult parsed, const CpuModel& model, std::vector<TimeTable> tables);
+
+  std::size_t size() const { return tables_.size(); }
+  std::shared_ptr<const Program> program(std::size_t table) const;
+
+ private:
+  stl::ParseResult parsed_;
+  const CpuModel& model_;
+  std::vector<TimeTable> tables_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::shared_ptr<const Program>> programs_;
+};
+
+/// From the shortest to the longest.
+struct LatencyRange {
+  Time least = kNever, most = 0;
+
+  void add(Time latency);
+  void add(const LatencyRange& other);
+  bool any() const { return least <= most; }
+};
+
+/// `15.8 … 19.6 ms`; empty if there is none.
+std::string to_text(const LatencyRange& range);
+/// {"least": …, "most": …}; null if there is none.
+nlohmann::ordered_json to_json(const LatencyRange& range);
+
+/// What came of one exchange with one table.
+struct BandOutcome {
+  std::optional<serial::Exchange> exchange{};  ///< nothing: it was not come to
+  std::string verdict{};                       ///< in a word or two: `answered`, `no answer`
+  std::size_t lost = 0;                        ///< characters whose event the CPU's queue had no room for
+};
+
+/// The same with all tables.
+class ExchangeBand {
+ public:
+  void add(const BandOutcome& outcome);
+
+  std::size_t tables() const { return tables_; }
+  const LatencyRange& latency() const { return latency_; }
+
+  /// With how many tables.
+  std::size_t count(const std::string& verdict) const;
+
+  /// `after 15.8 … 19.6 ms   answered: 202 of 202 tables; characters lost: 3 of 202`
+  std::string text() const;
+  nlohmann::ordered_json json() const;
+
+ private:
+  struct Count {
+    std::string verdict;
+    std::size_t tables;
+  };
+
+  std::size_t tables_ = 0, losing_ = 0;
+  LatencyRange latency_;
+  std::vector<Count> counts_;
+};
+
+/// Hears of the events that a CPU loses.
+class LostEvents final : public TraceSink {
+ public:
+  void record(const TraceRecord& record) override { count_ += record.kind == TraceKind::EventLost; }
+
+  /// Since it was last asked.
+  std::size_t take() { return std::exchange(count_, 0); }
+
+ private:
+  std::size_t count_ = 0;
+};
+
+}  // namespace s7200::tools

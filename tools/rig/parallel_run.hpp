@@ -1,0 +1,77 @@
+// Independent pieces of work done several at a time; their results come one after the other.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace s7200::tools {
+
+/// Begins at once, `jobs` at a time, and ends with the object.
+template <class Result>
+class ParallelRun {
+ public:
+  ParallelRun(std::size_t count, unsigned jobs, std::function<Result(std::size_t)> work)
+      : work_(std::move(work)), results_(count) {
+    for (unsigned i = 0; i < std::min<std::size_t>(std::max(1U, jobs), count); ++i)
+      threads_.emplace_back([this] { do_work(); });
+  }
+  ParallelRun(const ParallelRun&) = delete;
+  ParallelRun& operator=(const ParallelRun&) = delete;
+  ~ParallelRun() {
+    stop_ = true;
+    for (std::thread& thread : threads_) thread.join();
+  }
+
+  /// Hands over each result, in their order and in this thread. `finished` returns false to end it there. `waiting` hears
+  /// every 200 ms how many are done; it may be left out. Throws what the work threw.
+  void each(const std::function<bool(std::size_t, Result)>& finished, const std::function<void(std::size_t)>& waiting) {
+    for (std::size_t i = 0; i < results_.size(); ++i)
+      if (!finished(i, take(i, waiting))) return;
+  }
+
+ private:
+  Result take(std::size_t i, const std::function<void(std::size_t)>& waiting) {
+    std::unique_lock lock(mutex_);
+    while (!ready_.wait_for(lock, std::chrono::milliseconds(200), [&] { return results_[i] || failed_; }))
+      if (waiting) waiting(i);
+    if (!results_[i]) std::rethrow_exception(failed_);
+    return std::move(*results_[i]);
+  }
+
+  void do_work() {
+    for (std::size_t i; !stop_ && (i = next_++) < results_.size();) {
+      std::optional<Result> result;
+      std::exception_ptr failed;
+      try {
+        result = work_(i);
+      } catch (...) {
+        failed = std::current_exception();
+      }
+      const std::lock_guard lock(mutex_);
+      results_[i] = std::move(result);
+      if (failed && !failed_) failed_ = failed;
+      if (failed) stop_ = true;
+      ready_.notify_all();
+    }
+  }
+
+  std::function<Result(std::size_t)> work_;
+  std::mutex mutex_;
+  std::condition_variable ready_;
+  std::vector<std::optional<Result>> results_;
+  std::exception_ptr failed_;
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<bool> stop_ = false;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace s7200::tools
