@@ -129,7 +129,7 @@ TEST(NamedTimes, ATableIsForItsOwnCpus) {
   EXPECT_EQ(errors, Errors{"cpu214_from_22x has times of CPU 212, 214, 215 or 216; tables for CPU 224: cpu22x"});
   errors.clear();
   EXPECT_FALSE(load_times(cpu214(), "cpu214_from_23x", errors));
-  EXPECT_EQ(errors, Errors{"cannot read cpu214_from_23x: no such file or directory; tables for CPU 214 that have a name: "
+  EXPECT_EQ(errors, Errors{"cannot read cpu214_from_23x: No such file or directory; tables for CPU 214 that have a name: "
                            "cpu214, cpu214_from_22x"});
   const auto times = load_times(cpu214(), "cpu214_from_22x", errors = {});
   ASSERT_TRUE(times);
