@@ -120,7 +120,7 @@ def offences_of(path):
                 yield f"{name}:{code.count(chr(10), 0, match.start()) + 1}: '{match.group()}' belongs in {', '.join(allowed)}"
 
 
-DEFINITION = re.compile(r"^(?:struct|class|enum class|union) (\w+)\b[^;]*$|^namespace ([\w:]+) \{")
+DEFINITION = re.compile(r"^(?:struct|class|enum class|union) (\w+)\b(?!::)[^;]*$|^namespace ([\w:]+) \{")
 
 
 def types_defined_in(path):

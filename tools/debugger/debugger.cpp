@@ -40,12 +40,6 @@ std::vector<std::string> split(std::string_view text, std::string_view separator
 
 }  // namespace
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
 Debugger::Debugger(serial::Simulation& simulation, std::ostream& out, const DebuggerOptions& options)
     : simulation_(simulation),
       out_(out),
@@ -57,6 +51,7 @@ Debugger::Debugger(serial::Simulation& simulation, std::ostream& out, const Debu
   stepper_.on_instruction = [this](const InstructionRecord& record, bool started_at) {
     print_instruction(record, started_at);
   };
+  stepper_.on_message = [this](const StopPoint& stop) { print_message(stop); };
   stepper_.on_answer = [this](const serial::Exchange& exchange) { print_answer(exchange); };
 }
 
@@ -127,7 +122,7 @@ void Debugger::go_back(const Stepper::Goal& goal, std::uint64_t count, bool stop
   first_error_.reset();
   const Stop stop = stepper_.run_back(goal, count, stop_at_answer);
   last_op_.reset();
-  for (const Change& change : stop.changes) report_change(change);
+  report_hits(stop);
   report_reason(stop, {});
   if (stop.reason == StopReason::Answer) print_answer(simulation_.master().exchange());
   show_place();
@@ -165,7 +160,7 @@ void Debugger::report(const Stop& stop, const Run& run, std::uint64_t errors) {
     out_ << describe(*first_error_, simulation_.cpu().program());
     out_ << (errors > 1 ? fmt::format(" and {} more; 'errors' lists them\n", errors - 1) : "\n");
   }
-  for (const Change& change : stop.changes) report_change(change);
+  report_hits(stop);
   report_reason(stop, run);
   show_place();
 }
@@ -173,12 +168,8 @@ void Debugger::report(const Stop& stop, const Run& run, std::uint64_t errors) {
 void Debugger::report_reason(const Stop& stop, const Run& run) {
   switch (stop.reason) {
     case StopReason::Goal:
-    case StopReason::Watch:
+    case StopReason::StopPoint:
     case StopReason::Answer:
-      return;
-    case StopReason::Breakpoint:
-      out_ << fmt::format("breakpoint {}, hit {}\n", stop.breakpoint.number,
-                          stop.breakpoint.hits <= 1 ? "for the first time" : fmt::format("{} times", stop.breakpoint.hits));
       return;
     case StopReason::Limit:
       out_ << fmt::format("{} of simulated time passed with nothing to stop for{}\n", format_duration(run.limit),
@@ -194,18 +185,6 @@ void Debugger::report_reason(const Stop& stop, const Run& run) {
       out_ << "this is the oldest moment: the session begins at power-up\n";
       return;
   }
-}
-
-void Debugger::report_change(const Change& change) {
-  const Program& program = simulation_.cpu().program();
-  out_ << fmt::format("watch {}: {} was {}, is {}\n", change.watch.number, change.watch.address,
-                      value_text(program, change.watch.range, change.watch.value),
-                      value_text(program, change.watch.range, change.value));
-  if (change.by)
-    out_ << fmt::format("  by {} {}\n", listing_.routine_of(change.by->op),
-                        describe(*change.by, simulation_.cpu().program()));
-  else
-    out_ << "  by the system, between two instructions\n";
 }
 
 void Debugger::report_cpu_stop() {

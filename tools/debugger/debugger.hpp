@@ -18,6 +18,7 @@
 #include "tools/debugger/history.hpp"
 #include "tools/debugger/last_write.hpp"
 #include "tools/debugger/stepper.hpp"
+#include "tools/debugger/words.hpp"
 #include "tools/views/listing.hpp"
 
 namespace s7200::tools {
@@ -33,9 +34,6 @@ struct ScriptError {
   std::size_t line = 0;
   std::string message;
 };
-
-/// The words with a blank between them.
-std::string joined(const std::vector<std::string>& words);
 
 class Debugger {
  public:
@@ -132,18 +130,23 @@ class Debugger {
   std::optional<MemoryRange> one_range(const Arguments& arguments, std::string_view command, std::string& why) const;
   void report(const Stop& stop, const Run& run, std::uint64_t errors);
   void report_reason(const Stop& stop, const Run& run);
-  void report_change(const Change& change);
+  void report_hits(const Stop& stop);
+  void report_breakpoint(const Hit& hit);
+  void report_access(const Hit& hit);
+  void print_message(const StopPoint& stop);
   void report_cpu_stop();
   void print_answer(const serial::Exchange& exchange);
   void print_trace(const TraceRecord& record);
   void print_instruction(const InstructionRecord& record, bool started_at);
 
   void list_stops();
+  std::optional<StopPoint> stop_of(const Arguments& words, std::string& why);
   std::string value_of(const MemoryRange& range) const;
   std::string op_text(std::uint32_t op) const;  ///< `INT 123 line 40: MOVB SMB2, VB1 // …`
   std::optional<std::uint32_t> current_op() const;
   std::optional<std::uint32_t> find_place(const Arguments& arguments, std::string_view command, std::string& why);
   std::optional<std::uint32_t> op_of_line(const std::string& text, std::string_view command, std::string& why);
+  std::optional<std::uint32_t> op_of_network(const std::string& text, std::string_view command, std::string& why);
   std::string mark_of(std::uint32_t op) const;
   Error assign_all(const Arguments& arguments, bool inputs_only);
   Error ranges_of(const Arguments& arguments, std::vector<MemoryRange>& ranges) const;

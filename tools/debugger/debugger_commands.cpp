@@ -19,13 +19,6 @@ namespace {
 
 constexpr std::size_t kListed = 15, kListedBefore = 6;
 
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower)
-    if (stl::is_upper(c)) c = static_cast<char>(c - 'A' + 'a');
-  return lower;
-}
-
 /// The optional `[n]` of a command: 1 when it is not there, nothing when it is not a number above 0 or more follows.
 std::optional<std::uint32_t> parse_count(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return 1;
@@ -47,13 +40,11 @@ std::vector<std::string> assignments_of(const std::vector<std::string>& argument
   return texts;
 }
 
-std::string expects(std::string_view command, std::string_view what) { return fmt::format("{} expects {}", command, what); }
-
 std::string no_argument(std::string_view command) { return fmt::format("{} takes no argument", command); }
 
 constexpr std::string_view kBackwards = "It stops at breakpoints and watches on the way. Hits are not counted backwards.";
 
-constexpr std::string_view kPlaces = "a line number, SBR n or INT n";
+constexpr std::string_view kPlaces = "a line number, SBR n, INT n or NETWORK n";
 
 }  // namespace
 
@@ -70,7 +61,7 @@ const std::vector<Debugger::Command>& Debugger::commands() {
       {"continue", "c", "continue [TIME]", "run until a breakpoint, a watch, an answer, STOP, or TIME has passed (10 s)",
        "TIME is simulated: 250ms, 2s, 1min. It ends in front of the first instruction after it. Ctrl-C stops it too.",
        &Debugger::continue_run, true},
-      {"until", "t", "until LINE | SBR n | INT n", "run to a place", "", &Debugger::until, true},
+      {"until", "t", "until LINE | SBR n | INT n | NETWORK n", "run to a place", "", &Debugger::until, true},
       {"back", "k", "back [n]", "back to the state before the last command that ran something, or the last n",
        "The last 64 are kept. Breakpoints, watches and their counts stay as they are. Going forward again plays what has "
        "run, "
@@ -86,7 +77,7 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        kBackwards, &Debugger::back_scan, true},
       {"rcontinue", "rc", "rcontinue", "back to the last breakpoint, change of a watch, or end of an answer", kBackwards,
        &Debugger::back_continue, true},
-      {"runtil", "rt", "runtil LINE | SBR n | INT n", "back to the last time that it was at a place", kBackwards,
+      {"runtil", "rt", "runtil LINE | SBR n | INT n | NETWORK n", "back to the last time that it was at a place", kBackwards,
        &Debugger::back_until, true},
       {"at", "", "at TIME | -TIME | start | end", "to a moment: at 15.193ms, or so long before now: at -5ms",
        "It stands in front of the first instruction at or after it. start is power-up, end the newest moment.",
@@ -102,10 +93,23 @@ const std::vector<Debugger::Command>& Debugger::commands() {
       {"past", "", "past", "how far back it can go, and what that takes", "", &Debugger::past},
       {"restart", "", "restart", "power up again; breakpoints, watches and displays are kept",
        "A new branch: back takes it back.", &Debugger::restart},
-      {"break", "b", "break [LINE | SBR n | INT n]", "stop in front of an instruction; alone: list breakpoints and watches",
-       "A line without an instruction stands for the next one that has one.", &Debugger::set_break},
-      {"watch", "w", "watch ADDRESS[:COUNT]…", "stop after the instruction that changes M31.7, VB100, VW100, AC0 …",
-       "Interrupt routines too. The system changes memory as well: inputs, SM bits, SMB2 before INT of event 8.",
+      {"break", "b", "break [PLACE | WHAT] [always] [if CONDITION] [hits N] [log 'TEXT']",
+       "stop at a place or when something happens; alone: list",
+       "PLACE: LINE, SBR n, INT n or NETWORK n. A line without an instruction stands for the next one that has one; boxes "
+       "and "
+       "coils stop only with power flow, or 'always'.\n"
+       "  WHAT: event N [occurs | served], received or sent (a frame), xmt, rcv (its end), error [CODE], overflow (of a "
+       "queue), "
+       "lost (a character), mode, unanswered (a request).\n"
+       "  CONDITION in STL terms: break 40 if VW3300 > 8 and M31.7. hits N stops from the Nth time on. log prints a line "
+       "and "
+       "goes on: break INT 123 log '{SMB2} at {time}'; also {scan} {line} {event}.",
+       &Debugger::set_break},
+      {"watch", "w", "watch ADDRESS[:COUNT]… [read | write | change] [if …] [hits N] [log …]",
+       "stop after the instruction that changes M31.7, VB100, VW100, AC0 …, or reads or writes it",
+       "Interrupt routines too. The system changes memory as well: inputs, SM bits, SMB2 before INT of event 8. 'write' "
+       "stops "
+       "also if the value stays the same. Entries of tables, strings and messages count only if they change.",
        &Debugger::watch},
       {"delete", "d", "delete N… | all", "remove breakpoints and watches", "", &Debugger::delete_stop},
       {"list", "l", "list [LINE | SBR n | INT n]", "the program around the current place or elsewhere",
@@ -411,8 +415,7 @@ Debugger::Error Debugger::restart(const Arguments& arguments) {
   history_.restart();
   note_new_branch();
   last_op_.reset();
-  for (Breakpoint& breakpoint : stepper_.breakpoints) breakpoint.hits = 0;
-  for (Watch& watch : stepper_.watches) watch.hits = 0;
+  for (StopPoint& stop : stepper_.stops) stop.hits = 0;
   show_place();
   return {};
 }
@@ -422,6 +425,7 @@ Debugger::Error Debugger::restart(const Arguments& arguments) {
 /// A place that a command names; nothing, and `why`, when there is no such place.
 std::optional<std::uint32_t> Debugger::find_place(const Arguments& arguments, std::string_view command, std::string& why) {
   const std::string text = stl::upper_case(joined(arguments));
+  if (text.starts_with("NETWORK")) return op_of_network(text, command, why);
   const bool subroutine = text.starts_with("SBR"), interrupt = text.starts_with("INT");
   if (!subroutine && !interrupt) return op_of_line(text, command, why);
   const auto number = parse_decimal<std::uint32_t>(arguments.size() == 1 ? std::string_view(text).substr(3) : arguments[1]);
@@ -451,75 +455,16 @@ std::optional<std::uint32_t> Debugger::op_of_line(const std::string& text, std::
   return op;
 }
 
-Debugger::Error Debugger::set_break(const Arguments& arguments) {
-  if (arguments.empty()) {
-    list_stops();
-    return {};
-  }
-  std::string why;
-  const auto op = find_place(arguments, "break", why);
-  if (!op) return why;
-  std::vector<Breakpoint>& all = stepper_.breakpoints;
-  const auto same = std::find_if(all.begin(), all.end(), [&](const Breakpoint& b) { return b.op == *op; });
-  if (same != all.end()) {
-    out_ << fmt::format("breakpoint {} is already in {}\n", same->number, op_text(*op));
-    return {};
-  }
-  all.push_back({.number = next_number_++, .op = *op});
-  out_ << fmt::format("breakpoint {} in {}\n", all.back().number, op_text(*op));
-  return {};
-}
-
-Debugger::Error Debugger::watch(const Arguments& arguments) {
-  std::vector<MemoryRange> ranges;
-  if (arguments.empty()) return expects("watch", "an address, for example: watch VW100");
-  if (Error error = ranges_of(arguments, ranges)) return error;
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const Watch added{.number = next_number_++, .range = ranges[i], .address = stl::upper_case(arguments[i])};
-    out_ << fmt::format("watch {}: {} is {}\n", added.number, added.address, value_of(added.range));
-    stepper_.watches.push_back(added);
-  }
-  return {};
-}
-
-std::string Debugger::value_of(const MemoryRange& range) const {
-  const Cpu& cpu = simulation_.cpu();
-  return value_text(cpu.program(), range, range.bytes_in(cpu.state().image));
-}
-
-void Debugger::list_stops() {
-  const auto hits = [](std::uint64_t n) { return fmt::format("{} hit{}", n, n == 1 ? "" : "s"); };
-  for (const Breakpoint& b : stepper_.breakpoints)
-    out_ << fmt::format("{:<3} break  {:>8}  {}\n", b.number, hits(b.hits), op_text(b.op));
-  for (const Watch& w : stepper_.watches)
-    out_ << fmt::format("{:<3} watch  {:>8}  {} is {}\n", w.number, hits(w.hits), w.address, value_of(w.range));
-  if (stepper_.breakpoints.empty() && stepper_.watches.empty()) out_ << "no breakpoints and no watches\n";
-}
-
-Debugger::Error Debugger::delete_stop(const Arguments& arguments) {
-  if (arguments.empty()) return expects("delete", "numbers that 'break' lists, or all");
-  if (arguments.size() == 1 && lower_case(arguments[0]) == "all") {
-    stepper_.breakpoints.clear();
-    stepper_.watches.clear();
-    return {};
-  }
-  for (const std::string& argument : arguments) {
-    const auto number = parse_decimal<std::uint32_t>(argument);
-    if (!number) return expects("delete", "numbers that 'break' lists, or all");
-    const auto is_it = [&](const auto& stop) { return stop.number == static_cast<int>(*number); };
-    if (std::erase_if(stepper_.breakpoints, is_it) + std::erase_if(stepper_.watches, is_it) == 0)
-      return fmt::format("there is no breakpoint or watch {}; 'break' lists them", *number);
-  }
-  return {};
+std::optional<std::uint32_t> Debugger::op_of_network(const std::string& text, std::string_view command, std::string& why) {
+  const std::size_t digit = text.find_first_of("0123456789");
+  const auto number = digit == std::string::npos ? std::nullopt : parse_decimal<std::uint32_t>(text.substr(digit));
+  const auto op = number ? listing_.op_of_network(*number) : std::nullopt;
+  if (!op)
+    why = number ? fmt::format("the program has no NETWORK {} with an instruction", *number) : expects(command, kPlaces);
+  return op;
 }
 
 // --- looking ---
-
-std::string Debugger::mark_of(std::uint32_t op) const {
-  const auto& all = stepper_.breakpoints;
-  const bool breakpoint = std::any_of(all.begin(), all.end(), [&](const Breakpoint& b) { return b.op == op; });
-  return std::string(breakpoint ? "*" : " ") + (op == current_op() ? ">" : " ");
-}
 
 Debugger::Error Debugger::list(const Arguments& arguments) {
   const auto mark = [this](std::uint32_t op) { return mark_of(op); };

@@ -1,7 +1,9 @@
 #include "tools/debugger/stepper.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "tools/debugger/access.hpp"
 
 namespace s7200::tools {
 
@@ -9,6 +11,7 @@ Stepper::Stepper(serial::Simulation& simulation, History& history, const std::at
     : on_record([](const TraceRecord&) {}),
       on_instruction([](const InstructionRecord&, bool) {}),
       on_answer([](const serial::Exchange&) {}),
+      on_message([](const StopPoint&) {}),
       simulation_(simulation),
       history_(history),
       stop_request_(stop_request) {}
@@ -70,22 +73,39 @@ Stop Stepper::run_back(const Goal& goal, std::uint64_t count, bool stop_at_answe
 
 void Stepper::begin_watching() {
   stop_ = {};
+  accessed_.clear();
+  coming_in_.clear();
+  silent_ = simulation_.line_quiet_for(simulation_.port_format().silence());
+  came_in_ = simulation_.master_uart().state().send_end >= simulation_.last_activity();
   awaiting_answer_ = simulation_.master().busy();
-  for (Watch& watch : watches) watch.value = watch.range.bytes_in(simulation_.cpu().state().image);
+  if (!backwards_)
+    for (StopPoint& stop : stops) stop.skipped = 0;
+  read_values();
+}
+
+void Stepper::read_values() {
+  for (StopPoint& stop : stops)
+    if (stop.range) stop.value = stop.range->bytes_in(simulation_.cpu().state().image);
 }
 
 void Stepper::acted() {
   awaiting_answer_ |= simulation_.master().busy();
-  for (Watch& watch : watches) watch.value = watch.range.bytes_in(simulation_.cpu().state().image);
+  read_values();
 }
 
 void Stepper::record(const TraceRecord& record) {
+  note_record(record);
   if (!backwards_) on_record(record);
 }
 
 bool Stepper::before(std::uint32_t op) {
   note_changes(nullptr);
-  if (backwards_) return note_place(op);
+  note_silence();
+  if (backwards_) {
+    const bool goes_on = note_place(op);
+    note_accesses(op);
+    return goes_on;
+  }
   const bool in_interrupt = simulation_.cpu().state().in_interrupt;
   const bool at_start = !reached_start_ && op == start_op_ && in_interrupt == started_in_interrupt_;
   if (const auto reason = reason_to_stop(op, at_start)) {
@@ -94,6 +114,7 @@ bool Stepper::before(std::uint32_t op) {
   }
   executing_start_ = at_start;
   if (at_start) reached_start_ = progress_.left = true;
+  note_accesses(op);
   return true;
 }
 
@@ -102,7 +123,7 @@ bool Stepper::note_place(std::uint32_t op) {
   if (!first_place_) first_place_ = history_.in_front();
   if (const auto reason = reason_to_stop(op, false)) {
     stop_.reason = *reason;
-    const bool goal = *reason == StopReason::Goal && stop_.changes.empty();
+    const bool goal = *reason == StopReason::Goal && stop_.hits.empty();
     found_.push_back({history_.in_front(), goal ? std::nullopt : std::optional(stop_)});
   }
   stop_ = {};
@@ -111,8 +132,9 @@ bool Stepper::note_place(std::uint32_t op) {
 
 std::optional<StopReason> Stepper::reason_to_stop(std::uint32_t op, bool at_start) {
   const State& state = simulation_.cpu().state();
-  if (const auto reason = reason_between()) return reason;
-  if (!(at_start && standing_) && hits_breakpoint(op)) return StopReason::Breakpoint;
+  if (const auto reason = reason_between(); reason == StopReason::Answer) return reason;
+  if (!(at_start && standing_)) hit_places(op);
+  if (!stop_.hits.empty()) return StopReason::StopPoint;
   if (goal_(state, op, progress_)) return StopReason::Goal;
   if (state.time >= limit_) return StopReason::Limit;
   if (asked_to_stop()) return StopReason::Request;
@@ -122,8 +144,7 @@ std::optional<StopReason> Stepper::reason_to_stop(std::uint32_t op, bool at_star
 /// A reason that has come up since the last instruction.
 std::optional<StopReason> Stepper::reason_between() {
   if (answer_complete() && stop_at_answer_) return StopReason::Answer;
-  if (!stop_.changes.empty()) return StopReason::Watch;
-  return {};
+  return stop_.hits.empty() ? std::nullopt : std::optional(StopReason::StopPoint);
 }
 
 void Stepper::instruction(const InstructionRecord& record) {
@@ -133,28 +154,110 @@ void Stepper::instruction(const InstructionRecord& record) {
   on_instruction(record, executing_start_);
 }
 
-bool Stepper::hits_breakpoint(std::uint32_t op) {
-  const auto found = std::find_if(breakpoints.begin(), breakpoints.end(), [&](const Breakpoint& b) { return b.op == op; });
-  if (found == breakpoints.end()) return false;
-  if (!backwards_) ++found->hits;
-  stop_.breakpoint = *found;
-  return true;
+/// Counts, and stops unless there is a reason not to. Backwards every hit counts, whatever its number.
+void Stepper::hit(StopPoint& stop, Hit with) {
+  if (stop.condition && !stop.condition->holds(simulation_.cpu())) return;
+  if (!backwards_ && ++stop.hits < stop.from_hit) return;
+  if (!stop.log.empty()) {
+    if (!backwards_) on_message(stop);
+    return;
+  }
+  with.stop = stop;
+  stop_.hits.push_back(std::move(with));
+}
+
+void Stepper::hit_places(std::uint32_t op) {
+  const Cpu& cpu = simulation_.cpu();
+  for (StopPoint& stop : stops) {
+    if (stop.on != StopPoint::On::Place || stop.op != op) continue;
+    const bool idle = stop.needs_power && is_box_or_coil(cpu.program().ops[op]) && !cpu.state().stack.top();
+    if (!idle) hit(stop, {});
+    if (idle && !backwards_) ++stop.skipped;
+  }
+}
+
+void Stepper::note_accesses(std::uint32_t op) {
+  accessed_.clear();
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    const auto on = stops[i].on;
+    if (on != StopPoint::On::Read && on != StopPoint::On::Write) continue;
+    const Access access = on == StopPoint::On::Read ? Access::Read : Access::Write;
+    if (accesses(simulation_.cpu(), op, access, bits_of(*stops[i].range))) accessed_.push_back(i);
+  }
+}
+
+bool Stepper::is_meant(const StopPoint& stop, const TraceRecord& record) {
+  using On = StopPoint::On;
+  const bool event = !stop.event || *stop.event == record.event;
+  switch (record.kind) {
+    case TraceKind::EventOccurred:
+      return stop.on == On::EventOccurs && event;
+    case TraceKind::ServiceBegin:
+      return stop.on == On::EventServed && event;
+    case TraceKind::EventLost:
+      return stop.on == On::QueueOverflow || (stop.on == On::LostCharacter && is_receive_event(record.event));
+    case TraceKind::CharacterIgnored:
+      return stop.on == On::LostCharacter;
+    case TraceKind::Transmit:
+      return stop.on == On::Transmit;
+    case TraceKind::TransmitEnd:
+      return stop.on == On::FrameSent;
+    case TraceKind::ReceiveEnd:
+      return stop.on == On::ReceiveEnd;
+    case TraceKind::RuntimeError:
+      return stop.on == On::RuntimeError && (!stop.code || *stop.code == record.code);
+    case TraceKind::ModeChange:
+      return stop.on == On::ModeChange;
+    default:
+      return false;
+  }
+}
+
+void Stepper::note_record(const TraceRecord& record) {
+  const bool received = record.kind == TraceKind::CharacterReceived || record.kind == TraceKind::CharacterIgnored ||
+                        record.kind == TraceKind::CharacterDropped;
+  if (received) coming_in_.push_back(record.byte);
+  if (received || record.kind == TraceKind::CharacterSent) came_in_ = received;
+  for (StopPoint& stop : stops)
+    if (is_meant(stop, record)) hit(stop, {.record = record});
+}
+
+/// A frame has ended when nothing came for 3.5 characters.
+void Stepper::note_silence() {
+  const bool silent = simulation_.line_quiet_for(simulation_.port_format().silence());
+  const bool begins = silent && !std::exchange(silent_, silent);
+  if (!begins || !came_in_) return;
+  const std::vector<std::uint8_t> frame = backwards_ ? std::vector<std::uint8_t>{} : std::exchange(coming_in_, {});
+  for (StopPoint& stop : stops)
+    if (stop.on == StopPoint::On::FrameReceived) hit(stop, {.frame = frame});
+}
+
+void Stepper::note_unanswered(const serial::Exchange& exchange) {
+  if (!exchange.timed_out) return;
+  for (StopPoint& stop : stops)
+    if (stop.on == StopPoint::On::Unanswered) hit(stop, {});
 }
 
 bool Stepper::answer_complete() {
   if (!awaiting_answer_ || simulation_.master().busy()) return false;
   awaiting_answer_ = false;
+  note_unanswered(simulation_.master().exchange());
   if (!backwards_) on_answer(simulation_.master().exchange());
   return true;
 }
 
 void Stepper::note_changes(const InstructionRecord* by) {
-  for (Watch& watch : watches) {
-    std::vector<std::uint8_t> value = watch.range.bytes_in(simulation_.cpu().state().image);
-    if (value == watch.value) continue;
-    if (!backwards_) ++watch.hits;
-    stop_.changes.push_back({watch, value, by ? std::optional(*by) : std::nullopt});
-    watch.value = std::move(value);
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    StopPoint& stop = stops[i];
+    if (!stop.range) continue;
+    std::vector<std::uint8_t> value = stop.range->bytes_in(simulation_.cpu().state().image);
+    const bool changed = value != stop.value;
+    const bool touched = by && by->powered && std::ranges::find(accessed_, i) != accessed_.end();
+    const bool meant = stop.on == StopPoint::On::Read    ? touched
+                       : stop.on == StopPoint::On::Write ? touched || (by && changed)
+                                                         : changed;
+    if (meant) hit(stop, {.value = value, .by = by ? std::optional(*by) : std::nullopt});
+    stop.value = std::move(value);
   }
 }
 

@@ -10,38 +10,16 @@
 #include <optional>
 #include <vector>
 
-#include "interpreter/program/address.hpp"
 #include "tools/debugger/history.hpp"
+#include "tools/debugger/stop_point.hpp"
 
 namespace s7200::tools {
 
-struct Breakpoint {
-  int number = 0;
-  std::uint32_t op = 0;
-  std::uint64_t hits = 0;
-};
-
-struct Watch {
-  int number = 0;
-  MemoryRange range;
-  std::string address;  ///< as the user wrote it
-  std::uint64_t hits = 0;
-  std::vector<std::uint8_t> value{};  ///< as last seen, like bytes_of()
-};
-
-/// A watched value is another one now.
-struct Change {
-  Watch watch;  ///< with the old value
-  std::vector<std::uint8_t> value;
-  std::optional<InstructionRecord> by;  ///< nothing: it changed between two instructions
-};
-
-enum class StopReason : std::uint8_t { Goal, Breakpoint, Watch, Answer, Limit, Request, CpuStopped, Oldest };
+enum class StopReason : std::uint8_t { Goal, StopPoint, Answer, Limit, Request, CpuStopped, Oldest };
 
 struct Stop {
   StopReason reason{};
-  Breakpoint breakpoint{};        ///< of StopReason::Breakpoint
-  std::vector<Change> changes{};  ///< of all watches, whatever the reason
+  std::vector<Hit> hits{};  ///< whatever the reason
 };
 
 class Stepper final : public Observer {
@@ -63,13 +41,13 @@ class Stepper final : public Observer {
   /// Hits are not counted. To the oldest moment if there is nothing of the kind; nowhere after a stop request.
   Stop run_back(const Goal& goal, std::uint64_t count, bool stop_at_answer);
 
-  std::vector<Breakpoint> breakpoints;
-  std::vector<Watch> watches;
+  std::vector<StopPoint> stops;
 
   // Told while running forwards; all must be set.
   std::function<void(const TraceRecord&)> on_record;
   std::function<void(const InstructionRecord&, bool started_at)> on_instruction;
   std::function<void(const serial::Exchange&)> on_answer;
+  std::function<void(const StopPoint&)> on_message;  ///< instead of stopping
 
   void record(const TraceRecord& record) override;
   bool before(std::uint32_t op) override;
@@ -85,12 +63,19 @@ class Stepper final : public Observer {
   };
 
   void begin_watching();
+  void read_values();
   bool note_place(std::uint32_t op);
   std::optional<StopReason> reason_to_stop(std::uint32_t op, bool at_start);
-  bool hits_breakpoint(std::uint32_t op);
+  void hit_places(std::uint32_t op);
+  void hit(StopPoint& stop, Hit with);
+  void note_accesses(std::uint32_t op);
+  void note_record(const TraceRecord& record);
+  void note_silence();
+  static bool is_meant(const StopPoint& stop, const TraceRecord& record);
   std::optional<StopReason> reason_between();
   bool answer_complete();
   void note_changes(const InstructionRecord* by);
+  void note_unanswered(const serial::Exchange& exchange);
   bool asked_to_stop() const { return stop_request_ && *stop_request_; }
 
   serial::Simulation& simulation_;
@@ -108,8 +93,12 @@ class Stepper final : public Observer {
   bool started_in_interrupt_ = false;
   bool executing_start_ = false;  ///< the instruction being executed is the one it started at
   bool backwards_ = false;
-  std::optional<Moment> first_place_;  ///< backwards: of the part being played
-  std::vector<Found> found_;           ///< backwards: in the part being played
+  std::vector<std::size_t> accessed_;    ///< stops on memory that the instruction being executed reads or writes
+  std::vector<std::uint8_t> coming_in_;  ///< characters since the last silence
+  bool silent_ = true;                   ///< the line has been quiet for 3.5 characters
+  bool came_in_ = false;                 ///< the last character on the line was received
+  std::optional<Moment> first_place_;    ///< backwards: of the part being played
+  std::vector<Found> found_;             ///< backwards: in the part being played
   Progress progress_;
   Stop stop_;
 };

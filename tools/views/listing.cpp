@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "interpreter/stl/printer.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/stl/printer.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -50,6 +50,19 @@ Listing::Listing(const Program& program) : program_(program), routine_(routines_
 std::optional<std::uint32_t> Listing::op_from_line(std::uint32_t line) const {
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.op && e.line >= line; });
   return found == entries_.end() ? std::nullopt : found->op;
+}
+
+std::optional<std::uint32_t> Listing::op_of_network(std::uint32_t number) const {
+  for (const stl::Line& line : program_.source.lines)
+    if (const auto* head = std::get_if<stl::NetworkHead>(&line); head && head->number == number && number != 0) {
+      const auto op = op_from_line(head->position.line);
+      const auto is_head = [&](const stl::Line& l) {
+        const auto* other = std::get_if<stl::NetworkHead>(&l);
+        return other && op && other->position.line > head->position.line && other->position.line < line_of(*op);
+      };
+      return std::any_of(program_.source.lines.begin(), program_.source.lines.end(), is_head) ? std::nullopt : op;
+    }
+  return {};
 }
 
 std::uint32_t Listing::last_line() const { return line_of(static_cast<std::uint32_t>(program_.ops.size()) - 1); }

@@ -18,6 +18,8 @@ class Listing {
 
   /// The instruction of a line, or the next one after it.
   std::optional<std::uint32_t> op_from_line(std::uint32_t line) const;
+  /// The first instruction of a network.
+  std::optional<std::uint32_t> op_of_network(std::uint32_t number) const;
   std::uint32_t line_of(std::uint32_t op) const { return program_.statement(op).position.line; }
   std::uint32_t last_line() const;
 

@@ -250,6 +250,128 @@ TEST(Debugger, InputEdgeCausesItsInterruptBeforeTheNextInstruction) {
   EXPECT_EQ(session.line(), 2U);
 }
 
+// --- stops ---
+
+TEST(Debugger, BoxWithoutPowerFlowIsPassedAndItSaysSoUnlessAlwaysWasAsked) {
+  constexpr std::string_view kText = "LD M0.0\nINCW VW10\nLD SM0.0\nINCW VW20\nMEND\n";
+  Session session(kText);
+  EXPECT_TRUE(has(session("break 2; break 4 if VW20 = 5; continue"),
+                  "breakpoint 2, hit for the first time\n"
+                  "breakpoint 1 was passed 6 times without power flow"));
+  EXPECT_EQ(session.line(), 4U);
+  session("set M0.0=1; continue");
+  EXPECT_EQ(session.line(), 2U);
+  Session other(kText);
+  other("break 2 always; continue");
+  EXPECT_EQ(other.line(), 2U);
+  EXPECT_FALSE(other.state().stack.top());
+}
+
+TEST(Debugger, ConditionIsInStlTerms) {
+  Session session(kNested);
+  session("break 4 if VW10 >= 7 and (VW20 = 16#07 or not SM0.0); continue");
+  EXPECT_EQ(session.vw(10), 7U);
+  EXPECT_TRUE(has(session("break"), "1 hit  main line 4: INCW    VW10                 // one more scan, if VW10 >= 7 and"));
+}
+
+TEST(Debugger, HitCountStopsFromThatHitOn) {
+  Session session(kNested);
+  session("break 4 hits 5; continue");
+  EXPECT_EQ(session.vw(10), 4U);
+  session("continue");
+  EXPECT_EQ(session.vw(10), 5U);
+}
+
+TEST(Debugger, LogPrintsALineAndGoesOn) {
+  Session session(kNested);
+  const std::string text =
+      session("break INT 0 log 'VW30 is {VW30}, twice {2*VW30}, line {line}, event {event} at {time}'; continue 12ms");
+  EXPECT_TRUE(has(text, "VW30 is 0, twice 0, line 19, event 10 at 5."));
+  EXPECT_TRUE(has(text, "VW30 is 1, twice 2, line 19, event 10 at 10."));
+  EXPECT_GE(session.simulation.time(), 12 * kMillisecond);
+}
+
+TEST(Debugger, StopsAtANetwork) {
+  Session session("NETWORK 1\nLD SM0.0\nNETWORK 2 // second\nLDN SM0.0\nINCW VW0\nNETWORK 3\nMEND\n");
+  session("break network 2; continue");
+  EXPECT_EQ(session.line(), 4U);
+  EXPECT_TRUE(has(session.error_of("break network 7"), "the program has no NETWORK 7"));
+}
+
+TEST(Debugger, StopsWhenAnEventOccursAndWhenItIsServed) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("break event 10; continue"), "breakpoint 1, event 10, hit for the first time\n  5."));
+  EXPECT_EQ(session.line(), 19U);
+  EXPECT_TRUE(has(session.out.str(), "INT 0 begins: event 10 (timed interrupt 0, SMB34)"));
+  EXPECT_TRUE(has(session("delete all; break event 10 occurs; continue"), "event 10 (timed interrupt 0, SMB34) occurred"));
+}
+
+TEST(Debugger, StopsAtFramesReceivedAndSentAndAtXmt) {
+  Session session(kEcho);
+  const std::string text = session("scan 3; send 5a; break received; break sent; break xmt; continue; continue; continue");
+  EXPECT_TRUE(has(text, "breakpoint 3, xmt, hit for the first time\n"));
+  EXPECT_TRUE(has(text, "XMT: 1 characters"));
+  EXPECT_TRUE(has(text, "breakpoint 2, sent, hit for the first time\n"));
+  Session listening("LD SM0.1\nMOVB 16#09, SMB30\nMEND\n");
+  EXPECT_TRUE(has(listening("scan 3; send 01 02 03; break received; break lost; continue; delete 2; continue"),
+                  "breakpoint 2, lost, hit for the first time\n"));
+  EXPECT_TRUE(has(listening.out.str(), "breakpoint 1, received, hit for the first time\n  "));
+  EXPECT_TRUE(has(listening("break unanswered; continue"), "breakpoint 3, unanswered, hit for the first time"));
+}
+
+TEST(Debugger, StopsAtRunTimeErrorsOfACodeOrAny) {
+  Session session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100\nMOVB 1, *VD100\nMEND\n");
+  EXPECT_TRUE(has(session("break error 0091; break error; continue"), "breakpoint 2, error, hit for the first time\n  "));
+  EXPECT_TRUE(has(session.out.str(), "run-time error 0006"));
+  EXPECT_TRUE(has(session("delete 2; break error 6; continue"), "breakpoint 3, error 6"));
+}
+
+TEST(Debugger, StopsWhenTheModeChanges) {
+  Session session("LD SM0.0\nINCW VW0\nAW= VW0, 3\nSTOP\nMEND\n");
+  EXPECT_TRUE(has(session("break mode; continue"), "breakpoint 1, mode, hit for the first time\n"));
+  EXPECT_EQ(session.state().mode, Mode::Stop);
+}
+
+TEST(Debugger, WatchTellsReadsAndWritesEvenOfAnEqualValue) {
+  Session session("LD SM0.0\nMOVW 5, VW0\nMOVW VW0, VW2\nMOVW 5, VW0\nMEND\n");
+  EXPECT_TRUE(
+      has(session("step 2; watch VW0 write; continue"), "watch 1: VW0 write is 16#0005 (5) as before\n  by main line 4"));
+  EXPECT_TRUE(
+      has(session("delete all; watch VB1 read; continue"), "watch 2: VB1 read is 16#05 (5) as before\n  by main line 3"));
+  EXPECT_TRUE(has(session("delete all; watch VW2 if VW2 > 7; continue 20ms"), "nothing to stop for"));
+}
+
+TEST(Debugger, StopsWithConditionsWorkBackwardsToo) {
+  Session session(kNested);
+  session("continue 60ms; break 4 if VW10 = 12; rc");
+  EXPECT_EQ(session.vw(10), 12U);
+  EXPECT_EQ(session.line(), 4U);
+  session("delete all; watch VW30 if VW30 = 2; at end; rc");
+  EXPECT_EQ(session.vw(30), 2U);
+  session("delete all; break event 10 if VW30 = 3; at end; rc");
+  EXPECT_EQ(session.line(), 19U);
+  EXPECT_EQ(session.vw(30), 3U);
+}
+
+TEST(Debugger, StopsAndObserversNeverChangeTheRun) {
+  const auto program = program_of(kEcho);
+  Session plain(program), watched(program);
+  plain("scan 3; send 5a 5b; continue; continue 500ms");
+  watched("scan 3; send 5a 5b");
+  watched(
+      "break event 8 occurs; break event 8; break received; break sent; break xmt; break lost; break overflow; break "
+      "unanswered;"
+      "watch VB0:4 read; watch SMB2 write; watch AC0; break 9 log '{VB1}'; trace on");
+  const Time end = plain.simulation.time();
+  while (watched.simulation.time() < end) watched("continue 1ms; step");
+  plain("delete all");
+  const Time then = watched.simulation.time() + kMillisecond;
+  plain.simulation.run_until(then);
+  watched.debugger.reset();
+  watched.simulation.run_until(then);
+  EXPECT_TRUE(plain.simulation.snapshot() == watched.simulation.snapshot());
+}
+
 // --- the line ---
 
 TEST(Debugger, ContinueStopsWhenTheAnswerIsCompleteAndShowsIt) {
@@ -607,7 +729,7 @@ TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
       {"rover 1", "rover takes no argument"},
       {"rscan 0", "rscan expects how many"},
       {"rcontinue 5ms", "rcontinue takes no argument"},
-      {"runtil", "runtil expects a line number, SBR n or INT n"},
+      {"runtil", "runtil expects a line number, SBR n, INT n or NETWORK n"},
       {"at", "at expects a moment"},
       {"at 1h", "nothing has run after 0.000000 ms"},
       {"who", "who expects one address"},
@@ -615,11 +737,22 @@ TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
       {"past 1", "takes no argument"},
       {"continue 5", "continue expects a duration"},
       {"continue 0s", "continue expects a duration"},
-      {"until", "until expects a line number, SBR n or INT n"},
-      {"break main", "break expects a line number, SBR n or INT n"},
-      {"break SBR", "break expects a line number, SBR n or INT n"},
-      {"break INT x", "break expects a line number, SBR n or INT n"},
+      {"until", "until expects a line number, SBR n, INT n or NETWORK n"},
+      {"break main", "break expects a line number, SBR n, INT n or NETWORK n"},
+      {"break SBR", "break expects a line number, SBR n, INT n or NETWORK n"},
+      {"break INT x", "break expects a line number, SBR n, INT n or NETWORK n"},
       {"break SBR 9", "the program has no SBR 9"},
+      {"break if VW0 = 1", "break expects a place or what happens first"},
+      {"break 4 if", "after what it stops at come: always"},
+      {"break 4 if VW0 >", "'VW0 >', column 6: an address or a number is missing"},
+      {"break 4 if VW0 = 1 2", "column 9: an operator is missing"},
+      {"break 4 if (VW0", "the closing ) is missing"},
+      {"break 4 if VX", "is not an address"},
+      {"break 4 hits 0", "after what it stops at come: always"},
+      {"break 4 log '{VX}'", "is not an address"},
+      {"break event 99", "break event expects the number of an event"},
+      {"break error xyz", "break error expects nothing or a code in hex"},
+      {"break network", "break expects a line number"},
       {"break 99", "the last instruction is in line 22"},
       {"list 99", "the last instruction is in line 22"},
       {"watch", "watch expects an address"},

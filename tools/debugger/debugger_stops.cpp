@@ -1,0 +1,242 @@
+// Where to stop: the commands break, watch and delete, and what is said when a run comes to a stop.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ostream>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/trace/text_trace.hpp"
+#include "tools/debugger/debugger.hpp"
+#include "tools/debugger/words.hpp"
+#include "tools/views/machine_text.hpp"
+#include "tools/views/memory.hpp"
+#include "tools/views/text_frame.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using On = StopPoint::On;
+using Words = std::vector<std::string>;
+
+struct Happening {
+  std::string_view word;
+  On on;
+};
+constexpr Happening kHappenings[] = {
+    {"received", On::FrameReceived}, {"sent", On::FrameSent},     {"xmt", On::Transmit},
+    {"rcv", On::ReceiveEnd},         {"error", On::RuntimeError}, {"overflow", On::QueueOverflow},
+    {"lost", On::LostCharacter},     {"mode", On::ModeChange},    {"unanswered", On::Unanswered}};
+
+constexpr std::string_view kOptions[] = {"always", "if", "hits", "log"};
+
+bool is_option(const std::string& word) { return std::ranges::find(kOptions, lower_case(word)) != std::end(kOptions); }
+
+/// The words up to the next option.
+Words take_words(Words& words) {
+  const auto end = std::find_if(words.begin(), words.end(), is_option);
+  Words taken(words.begin(), end);
+  words.erase(words.begin(), end);
+  return taken;
+}
+
+std::string without_quotes(std::string text) {
+  const bool quoted = text.size() >= 2 && text.front() == text.back() && (text.front() == '\'' || text.front() == '"');
+  return quoted ? text.substr(1, text.size() - 2) : text;
+}
+
+/// `always`, `if …`, `hits N`, `log …` after what a stop is set on.
+bool read_options(Words words, const CpuModel& model, StopPoint& stop, std::string& why) {
+  while (!words.empty()) {
+    const std::string option = lower_case(words.front());
+    words.erase(words.begin());
+    const Words given = option == "log" ? std::exchange(words, {}) : take_words(words);
+    if (option == "always" && given.empty()) {
+      stop.needs_power = false;
+    } else if (option == "if" && !given.empty()) {
+      const auto condition = Expression::parse(joined(given), model, why);
+      if (!condition) return false;
+      stop.condition = *condition;
+    } else if (const auto hits = parse_decimal<std::uint64_t>(joined(given)); option == "hits" && hits && *hits != 0) {
+      stop.from_hit = *hits;
+    } else if (option == "log" && !given.empty()) {
+      stop.log = without_quotes(joined(given));
+      if (!check_message(stop.log, model, why)) return false;
+    } else {
+      why = "after what it stops at come: always, if CONDITION, hits N, log 'TEXT'";
+      return false;
+    }
+  }
+  return true;
+}
+
+std::string times_text(std::uint64_t n) { return n == 1 ? "for the first time" : fmt::format("{} times", n); }
+
+std::string options_text(const StopPoint& stop) {
+  std::string text;
+  if (stop.on == On::Place && !stop.needs_power) text += ", always";
+  if (stop.condition) text += fmt::format(", if {}", stl::printable(stop.condition->text()));
+  if (stop.from_hit > 1) text += fmt::format(", from hit {}", stop.from_hit);
+  if (!stop.log.empty()) text += fmt::format(", logs '{}'", stl::printable(stop.log));
+  return text;
+}
+
+}  // namespace
+
+std::optional<StopPoint> Debugger::stop_of(const Arguments& words, std::string& why) {
+  const std::string first = lower_case(words.front());
+  StopPoint stop{.name = lower_case(joined(words))};
+  for (const Happening& happening : kHappenings) {
+    if (first != happening.word) continue;
+    stop.on = happening.on;
+    if (words.size() == 1) return stop;
+    const auto code = words.size() == 2 && stop.on == On::RuntimeError ? parse_integer("16#" + words[1]) : std::nullopt;
+    if (code && *code > 0 && *code <= 0xFFFF) {
+      stop.code = static_cast<std::uint16_t>(*code);
+      return stop;
+    }
+    why = expects("break error", "nothing or a code in hex, for example: break error 0006");
+    return {};
+  }
+  if (first != "event") {
+    const auto op = find_place(words, "break", why);
+    if (!op) return {};
+    stop.on = On::Place;
+    stop.op = *op;
+    stop.needs_power = true;
+    return stop;
+  }
+  const auto number = words.size() >= 2 ? parse_decimal<std::uint8_t>(words[1]) : std::nullopt;
+  const std::string what = words.size() == 3 ? lower_case(words[2]) : words.size() == 2 ? "served" : "";
+  if (!number || !find_event(*number) || (what != "served" && what != "occurs")) {
+    why = expects("break event", "the number of an event, and occurs or served, for example: break event 8 occurs");
+    return {};
+  }
+  stop.event = *number;
+  stop.on = what == "served" ? On::EventServed : On::EventOccurs;
+  return stop;
+}
+
+Debugger::Error Debugger::set_break(const Arguments& arguments) {
+  if (arguments.empty()) {
+    list_stops();
+    return {};
+  }
+  Words words = arguments;
+  const Words place = take_words(words);
+  std::string why;
+  if (place.empty()) return expects("break", "a place or what happens first, for example: break 40 if VW2 > 8");
+  auto stop = stop_of(place, why);
+  if (!stop || !read_options(words, *simulation_.cpu().program().model, *stop, why)) return why;
+  std::vector<StopPoint>& all = stepper_.stops;
+  const auto same = std::ranges::find_if(all, [&](const StopPoint& s) { return s.on == On::Place && s.op == stop->op; });
+  if (stop->on == On::Place && same != all.end() && words.empty()) {
+    out_ << fmt::format("breakpoint {} is already in {}\n", same->number, op_text(stop->op));
+    return {};
+  }
+  stop->number = next_number_++;
+  out_ << fmt::format("breakpoint {} {}{}\n", stop->number,
+                      stop->on == On::Place ? "in " + op_text(stop->op) : "at " + stop->name, options_text(*stop));
+  all.push_back(std::move(*stop));
+  return {};
+}
+
+Debugger::Error Debugger::watch(const Arguments& arguments) {
+  Words words = arguments;
+  Words addresses = take_words(words);
+  if (addresses.empty()) return expects("watch", "an address, for example: watch VW100");
+  StopPoint pattern{.on = On::Change};
+  const std::string access = lower_case(addresses.back());
+  if (access == "read" || access == "write" || access == "change") {
+    pattern.on = access == "read" ? On::Read : access == "write" ? On::Write : On::Change;
+    addresses.pop_back();
+  }
+  std::vector<MemoryRange> ranges;
+  if (Error error = ranges_of(addresses, ranges)) return error;
+  std::string why;
+  if (!read_options(words, *simulation_.cpu().program().model, pattern, why)) return why;
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    StopPoint added = pattern;
+    added.number = next_number_++;
+    added.range = ranges[i];
+    added.name = stl::upper_case(addresses[i]) + (added.on == On::Change ? "" : " " + access);
+    out_ << fmt::format("watch {}: {} is {}{}\n", added.number, added.name, value_of(ranges[i]), options_text(added));
+    stepper_.stops.push_back(std::move(added));
+  }
+  return {};
+}
+
+std::string Debugger::value_of(const MemoryRange& range) const {
+  const Cpu& cpu = simulation_.cpu();
+  return value_text(cpu.program(), range, bytes_of(cpu.state(), range));
+}
+
+void Debugger::list_stops() {
+  for (const bool watches : {false, true})
+    for (const StopPoint& s : stepper_.stops) {
+      if (s.is_watch() != watches) continue;
+      std::string what = s.on == On::Place ? op_text(s.op) : s.name;
+      if (watches) what += " is " + value_of(*s.range);
+      out_ << fmt::format("{:<3} {}  {:>8}  {}{}\n", s.number, watches ? "watch" : "break",
+                          fmt::format("{} hit{}", s.hits, s.hits == 1 ? "" : "s"), what, options_text(s));
+    }
+  if (stepper_.stops.empty()) out_ << "no breakpoints and no watches\n";
+}
+
+Debugger::Error Debugger::delete_stop(const Arguments& arguments) {
+  if (arguments.empty()) return expects("delete", "numbers that 'break' lists, or all");
+  if (arguments.size() == 1 && lower_case(arguments[0]) == "all") {
+    stepper_.stops.clear();
+    return {};
+  }
+  for (const std::string& argument : arguments) {
+    const auto number = parse_decimal<std::uint32_t>(argument);
+    if (!number) return expects("delete", "numbers that 'break' lists, or all");
+    if (std::erase_if(stepper_.stops, [&](const StopPoint& s) { return s.number == static_cast<int>(*number); }) == 0)
+      return fmt::format("there is no breakpoint or watch {}; 'break' lists them", *number);
+  }
+  return {};
+}
+
+std::string Debugger::mark_of(std::uint32_t op) const {
+  const bool breakpoint =
+      std::ranges::any_of(stepper_.stops, [&](const StopPoint& s) { return s.on == On::Place && s.op == op; });
+  return std::string(breakpoint ? "*" : " ") + (op == current_op() ? ">" : " ");
+}
+
+// --- a run has come to a stop ---
+
+void Debugger::report_hits(const Stop& stop) {
+  for (const Hit& hit : stop.hits) hit.stop.is_watch() ? report_access(hit) : report_breakpoint(hit);
+  for (const StopPoint& s : stepper_.stops)
+    if (s.skipped != 0)
+      out_ << fmt::format("breakpoint {} was passed {} without power flow; 'break {} always' stops there then too\n",
+                          s.number, s.skipped == 1 ? "once" : fmt::format("{} times", s.skipped), s.name);
+}
+
+void Debugger::report_breakpoint(const Hit& hit) {
+  const Program& program = simulation_.cpu().program();
+  const std::string hits = hit.stop.hits == 0 ? "" : ", hit " + times_text(hit.stop.hits);
+  const std::string name = hit.stop.on == On::Place ? "" : ", " + hit.stop.name;
+  out_ << fmt::format("breakpoint {}{}{}\n", hit.stop.number, name, hits);
+  if (hit.record) out_ << fmt::format("  {}  {}\n", moment_text(hit.record->at), describe(*hit.record, program));
+  if (!hit.frame.empty()) out_ << fmt::format("  {}\n", serial::to_hex(hit.frame));
+}
+
+void Debugger::report_access(const Hit& hit) {
+  const Program& program = simulation_.cpu().program();
+  const std::string was = value_text(program, *hit.stop.range, hit.stop.value);
+  const std::string is = value_text(program, *hit.stop.range, hit.value);
+  out_ << (was == is ? fmt::format("watch {}: {} is {} as before\n", hit.stop.number, hit.stop.name, is)
+                     : fmt::format("watch {}: {} was {}, is {}\n", hit.stop.number, hit.stop.name, was, is));
+  if (hit.by)
+    out_ << fmt::format("  by {} {}\n", listing_.routine_of(hit.by->op), describe(*hit.by, program));
+  else
+    out_ << "  by the system, between two instructions\n";
+}
+
+void Debugger::print_message(const StopPoint& stop) {
+  out_ << fmt::format("{}\n", stl::printable(filled_in(stop.log, simulation_.cpu())));
+}
+
+}  // namespace s7200::tools

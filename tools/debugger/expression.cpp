@@ -1,0 +1,285 @@
+#include "tools/debugger/expression.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "interpreter/base/bytes.hpp"
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr std::string_view kPointers = "a pointer is *VD100, *AC1 or *LD0, with :word, :dword, :real or a count after it";
+
+bool read_pointer_suffix(std::string_view text, Place& place) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(':'), text.size());
+    const std::string_view part = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (part == "BYTE") {
+      place.width = Width::Byte;
+    } else if (part == "WORD") {
+      place.width = Width::Word;
+    } else if (part == "DWORD" || part == "REAL") {
+      place.width = Width::Double;
+      place.real = part == "REAL";
+    } else if (const auto count = parse_decimal<std::uint32_t>(part); count && *count != 0) {
+      place.count = *count;
+    } else {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The area and number that a place of the image belongs to.
+std::optional<MemoryRange> range_at(std::uint32_t at, Width width, const CpuModel& model) {
+  for (const AreaInfo& area : all_areas()) {
+    const std::uint32_t size = model.size_of(area.area) * area.step();
+    if (at < area.base || at + bytes_of(width) > area.base + size) continue;
+    return MemoryRange{area.area, width, (at - area.base) / area.step(), 0, 1, at};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<Place> parse_place(std::string_view text, const CpuModel& model, std::string& why) {
+  Place place;
+  if (!text.starts_with('*')) {
+    const auto range = parse_range(text, model, why);
+    if (!range) return {};
+    place.range = *range;
+    return place;
+  }
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const auto pointer = parse_range(text.substr(1, colon - 1), model, why);
+  if (!pointer) return {};
+  place.range = *pointer;
+  place.pointer = true;
+  const std::string suffix = stl::upper_case(text.substr(std::min(colon + 1, text.size())));
+  if (pointer->width == Width::Double && read_pointer_suffix(suffix, place)) return place;
+  why = fmt::format("'{}': {}", stl::shortened(text), kPointers);
+  return {};
+}
+
+std::uint32_t pointer_value(const Place& place, const Cpu& cpu) { return load32(&cpu.state().image[place.range.at]); }
+
+std::optional<MemoryRange> range_now(const Place& place, const Cpu& cpu) {
+  if (!place.pointer) return place.range;
+  const Operand operand{place.range.at, 0, true, static_cast<std::uint16_t>(bytes_of(place.width))};
+  const auto at = cpu.place_of(operand);
+  auto range = at ? range_at(*at, place.width, *cpu.program().model) : std::nullopt;
+  if (!range) return {};
+  const AreaInfo& area = info(range->area);
+  const std::uint32_t left = area.base + cpu.program().model->size_of(range->area) * area.step() - range->at;
+  range->count = std::min(place.count, left / bytes_of(place.width));
+  range->real = place.real;
+  return range;
+}
+
+struct Expression::Node {
+  enum class Kind : std::uint8_t { Constant, Memory, Not, Negate, Binary };
+  Kind kind{};
+  std::string_view op{};
+  Value constant{};
+  Place place{};
+  std::shared_ptr<const Node> left{}, right{};
+};
+
+namespace {
+
+using Node = Expression::Node;
+using NodePtr = std::shared_ptr<const Node>;
+
+/// From the weakest to the strongest.
+constexpr std::array<std::array<std::string_view, 6>, 5> kLevels{
+    {{"or"}, {"and"}, {"<=", ">=", "<>", "=", "<", ">"}, {"+", "-"}, {"*", "/"}}};
+
+class Reader {
+ public:
+  Reader(std::string_view text, const CpuModel& model) : text_(text), model_(model) {}
+
+  NodePtr read() {
+    NodePtr root = binary(0);
+    skip_blanks();
+    if (root && at_ != text_.size()) fail("an operator is missing");
+    return why_.empty() ? root : nullptr;
+  }
+  std::string why() const { return why_; }
+
+ private:
+  NodePtr binary(std::size_t level) {
+    if (level == kLevels.size()) return unary();
+    NodePtr left = binary(level + 1);
+    while (left) {
+      const std::string_view op = take_operator(level);
+      if (op.empty()) break;
+      NodePtr right = binary(level + 1);
+      if (!right) return nullptr;
+      left = std::make_shared<Node>(Node{.kind = Node::Kind::Binary, .op = op, .left = left, .right = right});
+    }
+    return left;
+  }
+
+  NodePtr unary() {
+    skip_blanks();
+    if (take_word("not")) return around(Node::Kind::Not, unary());
+    if (text_.substr(at_).starts_with('-')) return ++at_, around(Node::Kind::Negate, unary());
+    if (!text_.substr(at_).starts_with('(')) return operand();
+    ++at_;
+    NodePtr inside = binary(0);
+    skip_blanks();
+    if (!inside) return nullptr;
+    if (!text_.substr(at_).starts_with(')')) return fail("the closing ) is missing");
+    ++at_;
+    return inside;
+  }
+
+  static NodePtr around(Node::Kind kind, NodePtr inside) {
+    if (!inside) return nullptr;
+    return std::make_shared<Node>(Node{.kind = kind, .left = std::move(inside)});
+  }
+
+  NodePtr operand() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && (at_ == begin || text_[at_] != '*') &&
+           std::string_view(" \t+-/()=<>").find(text_[at_]) == std::string_view::npos)
+      ++at_;
+    const std::string_view word = text_.substr(begin, at_ - begin);
+    if (word.empty() || word == "*") return fail("an address or a number is missing");
+    if (const auto integer = parse_integer(word))
+      return std::make_shared<Node>(Node{.constant = {static_cast<double>(*integer)}});
+    if (const auto real = parse_real(word)) return std::make_shared<Node>(Node{.constant = {*real, true}});
+    std::string why;
+    const auto place = parse_place(word, model_, why);
+    if (!place) {
+      at_ = begin;
+      return fail(why);
+    }
+    return std::make_shared<Node>(Node{.kind = Node::Kind::Memory, .place = *place});
+  }
+
+  static std::optional<double> parse_real(std::string_view word) {
+    if (word.empty() || !stl::is_digit(word[0]) || word.find('.') == std::string_view::npos) return {};
+    const std::string text(word);
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    return *end == '\0' ? std::optional(value) : std::nullopt;
+  }
+
+  std::string_view take_operator(std::size_t level) {
+    skip_blanks();
+    for (const std::string_view op : kLevels[level]) {
+      if (op.empty()) break;
+      if (stl::is_upper(stl::upper_case(op)[0]) ? take_word(op) : text_.substr(at_).starts_with(op)) {
+        if (!stl::is_upper(stl::upper_case(op)[0])) at_ += op.size();
+        return op;
+      }
+    }
+    return {};
+  }
+
+  bool take_word(std::string_view word) {
+    const std::string_view rest = text_.substr(at_);
+    const bool ends = rest.size() == word.size() ||
+                      (rest.size() > word.size() && (stl::is_blank(rest[word.size()]) || rest[word.size()] == '('));
+    if (!ends || stl::upper_case(rest.substr(0, word.size())) != stl::upper_case(word)) return false;
+    at_ += word.size();
+    return true;
+  }
+
+  void skip_blanks() {
+    while (at_ < text_.size() && stl::is_blank(text_[at_])) ++at_;
+  }
+
+  NodePtr fail(std::string_view what) {
+    if (why_.empty()) why_ = fmt::format("'{}', column {}: {}", stl::shortened(text_), at_ + 1, what);
+    return nullptr;
+  }
+
+  std::string_view text_;
+  const CpuModel& model_;
+  std::size_t at_ = 0;
+  std::string why_;
+};
+
+std::optional<Value> value_of(const Place& place, const Cpu& cpu) {
+  const auto range = range_now(place, cpu);
+  if (!range) return {};
+  const std::uint8_t* const from = &cpu.state().image[range->at];
+  switch (range->width) {
+    case Width::Bit:
+      return Value{static_cast<double>(*from >> range->bit & 1), false, 1};
+    case Width::Byte:
+      return Value{static_cast<double>(*from), false, 8};
+    case Width::Word:
+      return Value{static_cast<double>(static_cast<std::int16_t>(load16(from))), false, 16};
+    case Width::Double:
+      if (range->real) return Value{std::bit_cast<float>(load32(from)), true, 32};
+      return Value{static_cast<double>(static_cast<std::int32_t>(load32(from))), false, 32};
+  }
+  return {};
+}
+
+/// 16#FFFF beside a word is -1: the same bits.
+double beside(const Value& constant, const Value& memory) {
+  const double range = std::ldexp(1, memory.bits);
+  const bool wraps = constant.bits == 0 && !constant.real && (memory.bits == 16 || memory.bits == 32) && !memory.real &&
+                     constant.number >= range / 2 && constant.number < range;
+  return wraps ? constant.number - range : constant.number;
+}
+
+std::optional<Value> compute(std::string_view op, const Value& left, const Value& right) {
+  const double a = beside(left, right), b = beside(right, left);
+  const bool real = left.real || right.real;
+  if (op == "or") return Value{left.truth() || right.truth() ? 1.0 : 0.0};
+  if (op == "and") return Value{left.truth() && right.truth() ? 1.0 : 0.0};
+  if (op == "=") return Value{a == b ? 1.0 : 0.0};
+  if (op == "<>") return Value{a != b ? 1.0 : 0.0};
+  if (op == "<") return Value{a < b ? 1.0 : 0.0};
+  if (op == "<=") return Value{a <= b ? 1.0 : 0.0};
+  if (op == ">") return Value{a > b ? 1.0 : 0.0};
+  if (op == ">=") return Value{a >= b ? 1.0 : 0.0};
+  if (op == "+") return Value{a + b, real};
+  if (op == "-") return Value{a - b, real};
+  if (op == "*") return Value{a * b, real};
+  if (b == 0) return {};
+  return Value{real ? a / b : std::trunc(a / b), real};
+}
+
+std::optional<Value> evaluate(const Node& node, const Cpu& cpu) {
+  if (node.kind == Node::Kind::Constant) return node.constant;
+  if (node.kind == Node::Kind::Memory) return value_of(node.place, cpu);
+  const auto left = evaluate(*node.left, cpu);
+  if (!left) return {};
+  if (node.kind == Node::Kind::Not) return Value{left->truth() ? 0.0 : 1.0};
+  if (node.kind == Node::Kind::Negate) return Value{-left->number, left->real};
+  if (node.op == "and" && !left->truth()) return Value{0};
+  if (node.op == "or" && left->truth()) return Value{1};
+  const auto right = evaluate(*node.right, cpu);
+  return right ? compute(node.op, *left, *right) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Expression> Expression::parse(std::string_view text, const CpuModel& model, std::string& why) {
+  Reader reader(text, model);
+  Expression expression;
+  expression.text_ = text;
+  expression.root_ = reader.read();
+  if (expression.root_) return expression;
+  why = reader.why();
+  return {};
+}
+
+std::optional<Value> Expression::value(const Cpu& cpu) const { return evaluate(*root_, cpu); }
+
+}  // namespace s7200::tools

@@ -1,0 +1,74 @@
+#include "tools/debugger/stop_point.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+
+#include "tools/views/machine_text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+std::optional<std::string> word_text(std::string_view word, const Cpu& cpu) {
+  const State& state = cpu.state();
+  if (word == "time") return moment_text(state.time);
+  if (word == "scan") return fmt::format("{}", state.scans + 1);
+  if (word == "line") {
+    const auto op = standing_at(state);
+    return op ? fmt::format("{}", cpu.program().statement(*op).position.line) : "-";
+  }
+  if (word == "event") return state.in_interrupt ? fmt::format("{}", state.serving_event) : "-";
+  return {};
+}
+
+constexpr std::string_view kWords[] = {"time", "scan", "line", "event"};
+
+std::string number_text(const std::optional<Value>& value) {
+  if (!value) return "?";
+  return value->real ? fmt::format("{:.7g}", value->number) : fmt::format("{:.0f}", value->number);
+}
+
+/// Each piece of text outside braces, and of those inside.
+void split(const std::string& text, const std::function<void(std::string_view)>& outside,
+           const std::function<void(std::string_view)>& inside) {
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    const std::size_t open = std::min(rest.find('{'), rest.size());
+    const std::size_t close = rest.find('}', open);
+    if (close == std::string_view::npos) return outside(rest);
+    outside(rest.substr(0, open));
+    inside(rest.substr(open + 1, close - open - 1));
+    rest.remove_prefix(close + 1);
+  }
+}
+
+}  // namespace
+
+bool is_box_or_coil(const Op& op) { return op.instruction->rung.needs_power_flow || op.instruction->rung.writes_output; }
+
+std::string filled_in(const std::string& text, const Cpu& cpu) {
+  std::string filled;
+  split(
+      text, [&](std::string_view part) { filled += part; },
+      [&](std::string_view part) {
+        std::string why;
+        const auto word = word_text(part, cpu);
+        const auto expression = word ? std::nullopt : Expression::parse(part, *cpu.program().model, why);
+        filled += word ? *word : expression ? number_text(expression->value(cpu)) : fmt::format("{{{}}}", part);
+      });
+  return filled;
+}
+
+bool check_message(const std::string& text, const CpuModel& model, std::string& why) {
+  bool good = true;
+  split(
+      text, [](std::string_view) {},
+      [&](std::string_view part) {
+        for (const std::string_view word : kWords)
+          if (part == word) return;
+        good = good && Expression::parse(part, model, why).has_value();
+      });
+  return good;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,70 @@
+// Where a run stops: a place, something that happens, or an access to memory.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/trace/trace.hpp"
+#include "tools/debugger/expression.hpp"
+
+namespace s7200::tools {
+
+struct StopPoint {
+  enum class On : std::uint8_t {
+    Place,          ///< in front of an instruction
+    EventOccurs,    ///< an attached event
+    EventServed,    ///< its routine begins
+    FrameReceived,  ///< the line has been silent for 3.5 characters after characters came in
+    FrameSent,      ///< the transmitter has sent all characters
+    Transmit,       ///< XMT begins
+    ReceiveEnd,     ///< RCV ends
+    RuntimeError,
+    QueueOverflow,
+    LostCharacter,  ///< the program does not get it: its queue is full, or its event is not attached
+    ModeChange,
+    Unanswered,  ///< a request of the master
+    Read,        ///< access to memory by an instruction
+    Write,
+    Change  ///< of memory, whoever did it
+  };
+
+  int number = 0;
+  On on{};
+  std::uint32_t op = 0;                 ///< Place
+  std::optional<std::uint8_t> event{};  ///< EventOccurs, EventServed; any without
+  std::optional<std::uint16_t> code{};  ///< RuntimeError; any without
+  std::optional<MemoryRange> range{};   ///< Read, Write, Change
+  std::string name{};                   ///< as the user wrote it: `VW30`, `event 8 served`
+  bool needs_power = false;             ///< Place: not in front of a box or coil without power flow
+  std::optional<Expression> condition{};
+  std::uint64_t from_hit = 1;  ///< the first that stops
+  std::string log{};           ///< a line to print instead of stopping
+
+  std::uint64_t hits = 0;
+  std::uint64_t skipped = 0;          ///< times that it had no power flow, since the last stop
+  std::vector<std::uint8_t> value{};  ///< of the memory as last seen, like bytes_of()
+
+  bool is_watch() const { return range.has_value(); }
+};
+
+/// One that a run has come to.
+struct Hit {
+  StopPoint stop{};                       ///< with the old value
+  std::vector<std::uint8_t> value{};      ///< new
+  std::optional<InstructionRecord> by{};  ///< of an access; nothing: it changed between two instructions
+  std::optional<TraceRecord> record{};    ///< what happened
+  std::vector<std::uint8_t> frame{};      ///< FrameReceived
+};
+
+/// Whether an instruction is a box or a coil, which does nothing or writes 0 without power flow.
+bool is_box_or_coil(const Op& op);
+
+/// `{VW20} at {time}` filled in: expressions, and time, scan, line, event. What cannot be read stays as it is.
+std::string filled_in(const std::string& text, const Cpu& cpu);
+
+/// Whether all in braces can be read; sets `why` if not.
+bool check_message(const std::string& text, const CpuModel& model, std::string& why);
+
+}  // namespace s7200::tools
