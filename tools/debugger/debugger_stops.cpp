@@ -168,7 +168,7 @@ Debugger::Error Debugger::watch(const Arguments& arguments) {
 
 std::string Debugger::value_of(const MemoryRange& range) const {
   const Cpu& cpu = simulation_.cpu();
-  return value_text(cpu.program(), range, bytes_of(cpu.state(), range));
+  return value_text(cpu.program(), range, range.bytes_in(cpu.state().image));
 }
 
 void Debugger::list_stops() {
