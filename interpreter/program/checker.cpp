@@ -176,7 +176,7 @@ class Checker {
   bool is_missing_block(const Instruction& instruction, const stl::Statement& statement) {
     const bool names = instruction.structure == Structure::Call || instruction.structure == Structure::Attach;
     const auto* name = names && !statement.operands.empty() ? std::get_if<stl::Name>(&statement.operands[0].value) : nullptr;
-    if (!name || name->reason.empty()) return false;
+    if (!name || !name->reason.starts_with("there is no")) return false;
     error(statement.operands[0].position, name->reason,
           "give the file with its block too; the blocks of Micro/WIN's own libraries are in no export");
     return true;
@@ -241,8 +241,10 @@ class Checker {
     if (instruction.structure != Structure::DefineCounter) return true;
     const auto& placed = placed_.back();
     const auto counter = static_cast<std::size_t>(*placed[0].constant);
-    if (*placed[1].constant == 12) {
-      error(statement.operands[1].position, "mode 12 of a high-speed counter is not modelled yet");
+    if (*placed[1].constant == 12) {  // facts 10.4: of HSC0 and HSC3 on late CPUs 22x
+      const bool known = (model_.self & kCpu22x) != 0 && (counter == 0 || counter == 3);
+      error(statement.operands[1].position,
+            known ? "mode 12 of a high-speed counter is not modelled yet" : "MODE of HDEF must be 0 to 11, not 12");
       return false;
     }
     const CounterModes modes = model_.counter_modes[counter];

@@ -323,7 +323,7 @@ class Options(Case):
     """Every option of every verb, from the lists that --help prints: each number and each text with a form has its range, and
     what is not in it ends with exit code 2 and a message that names the option."""
     NONSENSE = ("nan", "-nan", "inf", "-1", "1e999", "0x10", "1_000", "5,0", "99999999999999999999999", "-")
-    ANY_TEXT = ("FILE", "FILE.stl", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS", "TEXT")  # by their type in the help
+    ANY_TEXT = ("TABLE", "FILE", "FILE.stl", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS", "TEXT")  # by their type in the help
     BEGINNING = {"check": [SLAVE], "import": [SLAVE], "convert": [SLAVE, "--to", "iec"], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
                  "master": [SLAVE, "slave-id"], "debug": [SLAVE, "-x", "quit"], "instructions": [], "times": [], "bench": []}
 

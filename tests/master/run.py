@@ -335,7 +335,7 @@ class FreeportPc(Case):
     def test_the_end_character_is_as_agreed(self):
         peer = self.peer(PtyPeer, PcModel(end=26), is_pc_command)
         self.assertEqual(self.only(FAILED, peer.path, "--protocol", "freeport-pc", "read", "VB0", *PATIENT)["fault"],
-                         "end character 16#1A, expected 16#26")
+                         "end character 16#1A, expected 16#26; --end-character 16#1A would take it")
         self.only(FINE, peer.path, "--protocol", "freeport-pc", "read", "VB0", "--end-character", "26", *PATIENT)
 
     def test_what_the_station_refuses_is_an_exception(self):

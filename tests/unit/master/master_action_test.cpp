@@ -231,7 +231,7 @@ TEST(FreeportPcAction, AnAnswerIsJudgedWithTheEndCharacterThatWasAgreed) {
     const auto request = parsed("read VB1000:2", use, freeport_pc_protocol()).at(0).request;
     return request->judge(serial::bytes_of(request->frame()), response);
   };
-  EXPECT_EQ(judged({.station = 2}).fault, "end character 16#1A, expected 16#26");
+  EXPECT_EQ(judged({.station = 2}).fault, "end character 16#1A, expected 16#26; --end-character 16#1A would take it");
   const serial::Answer right = judged({.station = 2, .given = {{"--end-character", "26"}}});
   EXPECT_EQ(right.verdict, serial::Verdict::Right);
   EXPECT_EQ(right.values, (std::vector<std::uint16_t>{0x01, 0x23}));

@@ -48,7 +48,7 @@ void TestOptions::add_to(CLI::App& app) {
   app.add_flag("--list", list, "name the scenarios and run none");
   app.add_flag("--fail-fast", suite.fail_fast, "end at the first failure");
   band.add_tables_to(app);
-  add_whole_number(app, "--jobs", jobs, {1, 64}, "scenarios at a time, or tables of --times-band; the output is the same",
+  add_whole_number(app, "--jobs", jobs, {1, 64}, "scenarios, or tables of --times-band, at a time",
                    "1; with --times-band every core");
   app.add_option("--junit", junit, "write the results as JUnit XML, too")->type_name("FILE");
   app.add_flag("--json", json, "print the results as JSON");
