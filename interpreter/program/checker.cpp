@@ -155,6 +155,11 @@ class Checker {
     if (is_missing_block(instruction, statement)) return false;
     const stl::Block* called = called_block(instruction, statement);
     if (given != taken && !called) {
+      const auto* name = given == 0 ? nullptr : std::get_if<stl::Name>(&statement.operands[0].value);
+      if (name && !name->reason.empty()) {
+        error(statement.operands[0].position, name->reason, "a listing calls its routines by their numbers");
+        return false;
+      }
       const stl::Position at = given > taken ? statement.operands[taken].position : statement.position;
       error(at, fmt::format("{} takes {}, not {}", instruction.mnemonic, counted(taken), given),
             fmt::format("write {}", syntax(instruction)));
@@ -176,7 +181,7 @@ class Checker {
   bool is_missing_block(const Instruction& instruction, const stl::Statement& statement) {
     const bool names = instruction.structure == Structure::Call || instruction.structure == Structure::Attach;
     const auto* name = names && !statement.operands.empty() ? std::get_if<stl::Name>(&statement.operands[0].value) : nullptr;
-    if (!name || !name->reason.starts_with("there is no")) return false;
+    if (!name || !name->reason.starts_with("there is no") || source_.blocks.empty()) return false;
     error(statement.operands[0].position, name->reason,
           "give the file with its block too; the blocks of Micro/WIN's own libraries are in no export");
     return true;

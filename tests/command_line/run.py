@@ -307,7 +307,9 @@ class Verbs(Case):
         wrong = self.program("FROB\n")
         for environment, coloured in (({"NO_COLOR": ""}, True), ({"NO_COLOR": "1"}, False)):
             try:
-                primary, secondary = os.openpty()
+                hasty = self.program("LD SM0.1\nMOVB 16#1D, SMB30\nATCH 0, 8\nENI\nMEND\nINT 0\nMOVB 1, VB0\nMOVB 65, VB1\nXMT VB0, 0\nRETI\n",
+                             "hasty.stl")  # answers at 300 baud before the stop bit of the request has ended
+        primary, secondary = os.openpty()
             except OSError as error:
                 self.skipTest(f"no terminal can be opened here: {error}")
             done = s7200("check", wrong, capture_output=False, stdout=subprocess.DEVNULL, stderr=secondary,
@@ -1004,7 +1006,7 @@ class JsonPage(Case):
                     ["master", faulty, "slave-id", "--timeout", "10ms", *plant],
                     ["master", SLAVE, "read", "40001", "write", "40001=1", "slave-id"],
                     ["send", SOURCE / "stl_programs/text_commands.stl", "--text", "GET\\r"],
-                    ["instructions"], ["instructions", "MOVB"], ["times"], ["times", "cpu214", "cpu214_from_22x"], ["times", "--check", "cpu214"],
+                    ["send", hasty, "41", "--baud", "300", "--parity", "none"], ["instructions"], ["instructions", "MOVB"], ["times"], ["times", "cpu214", "cpu214_from_22x"], ["times", "--check", "cpu214"],
                     ["send", SLAVE, "--crc", "0103000a0001", "--times-band", "2"], ["master", SLAVE, "read", "40001", "--times-band", "2"],
                     ["test", good, "--times-band", "2"], ["bench", "--each", "1ms"],
                     ["test", good, bad, gap], ["test", good, "--against", SLAVE], ["test", "--conformance", slave, "--only", "SL-crc"],
