@@ -85,6 +85,7 @@ void Requester::handle(const Event& event) {
     case kBegin:
       uart_.begin_exchange(event.at);
       uart_.enable_receiver(uart_.hears_itself(), event.at);
+      drive_sync(true, event.at);
       send_next(event.at);
       break;
     case kQuiet:
@@ -116,6 +117,7 @@ void Requester::sent(Time at) {
     send_next(at + state_.request.gap);
     return;
   }
+  drive_sync(false, at);
   state_.exchange.request_end = at;
   state_.exchange.early = !uart_.hears_itself() && uart_.others_space(at - 1);
   state_.phase = Phase::Waiting;
@@ -153,6 +155,10 @@ void Requester::quiet(Time now) {
 void Requester::finish() {
   queue_.cancel(owner_, kQuiet);
   state_.phase = Phase::Idle;
+}
+
+void Requester::drive_sync(bool high, Time at) const {
+  if (state_.request.sync && sync_wire_) sync_wire_(high, at);
 }
 
 Time Requester::silence() const { return state_.request.silence.value_or(uart_.state().format.silence()); }

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "interpreter/base/event_queue.hpp"
@@ -18,6 +20,7 @@ struct Request {
   Time timeout = kSecond;         ///< from the end of the request to the start edge of the answer
   Time gap = 0;                   ///< between the characters of the request
   std::optional<Time> silence{};  ///< that ends an answer; 3.5 characters of the master's format if not given
+  bool sync = false;              ///< the sync signal beside the data is high from its first start bit to its last stop bit
 
   bool operator==(const Request&) const = default;
 };
@@ -97,6 +100,9 @@ class Requester {
 
   const std::vector<ReceivedCharacter>& heard() const { return state_.heard; }
 
+  /// `wire` is told of each edge of the sync signal; an empty function ends that. Wiring, not state.
+  void when_sync(std::function<void(bool high, Time at)> wire) { sync_wire_ = std::move(wire); }
+
   /// The one under way, or the last one.
   const Exchange& exchange() const { return state_.exchange; }
 
@@ -116,12 +122,14 @@ class Requester {
   void received(const ReceivedCharacter& character);
   void quiet(Time now);
   void finish();
+  void drive_sync(bool high, Time at) const;
   Time silence() const;
 
   Uart& uart_;
   EventQueue& queue_;
   EventOwner owner_;
   State state_;
+  std::function<void(bool high, Time at)> sync_wire_{};
 };
 
 }  // namespace s7200::serial

@@ -1,5 +1,7 @@
 #include "serial_sim/system/stations.hpp"
 
+#include <utility>
+
 namespace s7200::serial {
 
 RequesterStation::RequesterStation(Dispatcher& events, SharedLine& line)
@@ -17,6 +19,25 @@ void RequesterStation::handle(const Event& event) {
 void RequesterStation::restore(const State& state) {
   uart_.restore(state.uart);
   requester_.restore(state.requester);
+}
+
+ResponderStation::ResponderStation(Dispatcher& events, SharedLine& line, std::unique_ptr<Automaton> automaton)
+    : line_(line),
+      uart_(line.line(), events.queue(), events.add(Rank::Uart, *this), line.add_driver()),
+      responder_(uart_, events.queue(), events.add(Rank::Peer, *this), std::move(automaton)) {
+  line.faults().add_plc(uart_);
+}
+
+void ResponderStation::handle(const Event& event) {
+  if (Dispatcher::rank_of(event.owner) == Rank::Peer) return responder_.handle(event);
+  const Uart::Report report = uart_.handle(event);
+  line_.note_activity(report);
+  responder_.on(report);
+}
+
+void ResponderStation::restore(const State& state) {
+  uart_.restore(state.uart);
+  responder_.restore(state.responder);
 }
 
 HostStation::HostStation(Dispatcher& events, SharedLine& line)

@@ -4,6 +4,7 @@
 #include "serial_sim/line/uart.hpp"
 #include "serial_sim/peers/host_port.hpp"
 #include "serial_sim/peers/requester.hpp"
+#include "serial_sim/peers/responder.hpp"
 #include "serial_sim/system/dispatcher.hpp"
 #include "serial_sim/system/shared_line.hpp"
 
@@ -36,6 +37,35 @@ class RequesterStation final : private EventHandler {
   SharedLine& line_;
   Uart uart_;
   Requester requester_;
+};
+
+class ResponderStation final : private EventHandler {
+ public:
+  /// Plain, so that a snapshot is a copy.
+  struct State {
+    Uart::State uart;
+    Responder::State responder;
+    bool operator==(const State&) const = default;
+  };
+
+  /// Neither reference is owned.
+  ResponderStation(Dispatcher& events, SharedLine& line, std::unique_ptr<Automaton> automaton);
+  ResponderStation(const ResponderStation&) = delete;
+  ResponderStation& operator=(const ResponderStation&) = delete;
+
+  Uart& uart() { return uart_; }
+  Responder& responder() { return responder_; }
+  const Responder& responder() const { return responder_; }
+
+  State state() const { return {uart_.state(), responder_.state()}; }
+  void restore(const State& state);
+
+ private:
+  void handle(const Event& event) override;
+
+  SharedLine& line_;
+  Uart uart_;
+  Responder responder_;
 };
 
 class HostStation final : private EventHandler {

@@ -52,12 +52,16 @@ RequesterStation& System::add_requester(SharedLine& line) { return add(requester
 
 HostStation& System::add_host_port(SharedLine& line) { return add(host_ports_, events_, line); }
 
+ResponderStation& System::add_responder(SharedLine& line, std::unique_ptr<Automaton> automaton) {
+  return add(responders_, events_, line, std::move(automaton));
+}
+
 void System::power_up() {
   for (const auto& plc : plcs_) plc->power_up();
 }
 
 Time System::time() const {
-  assert(!plcs_.empty());
+  if (plcs_.empty()) return clock_;
   Time earliest = kNever;
   for (const auto& plc : plcs_) earliest = std::min(earliest, plc->cpu().time());
   return earliest;
@@ -80,11 +84,18 @@ System::Turn System::next_turn() const {
 
 Halt System::step(Time end) {
   if (stop_requested()) return Halt::Request;
+  if (plcs_.empty()) return step_without_plc(end);
   const Turn turn = next_turn();
   Cpu& cpu = turn.plc.cpu();
   cpu.run(std::min({end, turn.until, next_look(cpu.time())}));
   handle_due_events();
   return cpu.paused() ? Halt::Paused : Halt::Time;
+}
+
+Halt System::step_without_plc(Time end) {
+  clock_ = std::min({end, std::max(clock_, events_.queue().next()), next_look(clock_)});
+  handle_due_events();
+  return Halt::Time;
 }
 
 Halt System::run_until(Time end) {
@@ -114,7 +125,13 @@ void System::settle(Time until) {
 }
 
 System::Snapshot System::snapshot() const {
-  return {events_.queue(), states_of(lines_), states_of(plcs_), states_of(requesters_), states_of(host_ports_)};
+  return {events_.queue(),
+          states_of(lines_),
+          states_of(plcs_),
+          states_of(requesters_),
+          states_of(host_ports_),
+          states_of(responders_),
+          clock_};
 }
 
 void System::restore(const Snapshot& snapshot) {
@@ -125,6 +142,8 @@ void System::restore(const Snapshot& snapshot) {
   restore_all(plcs_, snapshot.plcs, now);
   restore_all(requesters_, snapshot.requesters);
   restore_all(host_ports_, snapshot.host_ports);
+  restore_all(responders_, snapshot.responders);
+  clock_ = snapshot.clock;
 }
 
 }  // namespace s7200::serial

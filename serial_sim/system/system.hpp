@@ -42,14 +42,15 @@ class System {
   System(const System&) = delete;
   System& operator=(const System&) = delete;
 
-  /// Lines and stations live as long as the system. A PLC comes before anything runs; there is at least one, because
-  /// time is what the clocks of the CPUs say.
+  /// Lines and stations live as long as the system. A PLC comes before anything runs. Time is what the clocks of the CPUs
+  /// say; without any it goes from event to event.
   SharedLine& add_line();
   Plc& add_plc(std::span<SharedLine* const> lines, std::shared_ptr<const Program> program, FieldScript field = {});
   /// With port 0 on `line`; a second port is alone on a line of its own.
   Plc& add_plc(SharedLine& line, std::shared_ptr<const Program> program, FieldScript field = {});
   RequesterStation& add_requester(SharedLine& line);
   HostStation& add_host_port(SharedLine& line);
+  ResponderStation& add_responder(SharedLine& line, std::unique_ptr<Automaton> automaton);
 
   /// All that runs ends early once `request` is true; it is looked at every 100 ms. Not owned; null: nothing ends it.
   void stop_when(const std::atomic<bool>* request) { stop_request_ = request; }
@@ -78,6 +79,8 @@ class System {
     std::vector<Plc::State> plcs;
     std::vector<RequesterStation::State> requesters;
     std::vector<HostStation::State> host_ports;
+    std::vector<ResponderStation::State> responders{};
+    Time clock = 0;  ///< without CPUs
     bool operator==(const Snapshot&) const = default;
   };
   Snapshot snapshot() const;
@@ -94,6 +97,7 @@ class System {
     Time until;  ///< another may act then
   };
   Turn next_turn() const;
+  Halt step_without_plc(Time end);
   void handle_due_events();
   void settle(Time until);
   bool stop_requested() const { return stop_request_ && *stop_request_; }
@@ -103,6 +107,8 @@ class System {
   Parts<Plc> plcs_;
   Parts<RequesterStation> requesters_;
   Parts<HostStation> host_ports_;
+  Parts<ResponderStation> responders_;
+  Time clock_ = 0;  // of a system without CPUs
   const std::atomic<bool>* stop_request_ = nullptr;
 };
 

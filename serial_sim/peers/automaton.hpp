@@ -1,0 +1,91 @@
+// A station that answers, without wires: characters and time in, characters out.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "interpreter/base/bytes.hpp"
+#include "interpreter/base/serial_port.hpp"
+
+namespace s7200::serial {
+
+/// Characters that follow each other back to back.
+struct Transmission {
+  Bytes bytes;
+  Time at = 0;  ///< the first start bit
+
+  bool operator==(const Transmission&) const = default;
+};
+
+/// Whoever gives it characters, edges of its sync signal and the time takes from it what it has to say and looks when it
+/// wants to be woken. Its state is a value: a copy goes on as the original would.
+class Automaton {
+ public:
+  virtual ~Automaton() = default;
+
+  virtual std::unique_ptr<Automaton> clone() const = 0;
+  virtual bool equals(const Automaton& other) const = 0;
+
+  virtual SerialFormat format() const = 0;
+
+  /// In the middle of its stop bit.
+  virtual void hear(const ReceivedCharacter& character) = 0;
+
+  /// The signal beside the data that some lines have.
+  virtual void sync(bool /*high*/, Time /*at*/) {}
+
+  /// due() has come, and no character is just coming in.
+  virtual void wake(Time /*now*/) {}
+
+  /// What is heard while it sends matters too: its line has wires of its own for either direction.
+  virtual bool full_duplex() const { return false; }
+
+  Time due() const { return due_; }
+
+  /// Nothing if it has nothing to say. What it says begins after all it has been told.
+  std::optional<Transmission> take_answer() { return std::exchange(answer_, std::nullopt); }
+
+  /// What it is saying ends with the character on the line.
+  bool take_abort() { return std::exchange(abort_, false); }
+
+  bool operator==(const Automaton&) const = default;
+
+ protected:
+  Automaton() = default;
+  Automaton(const Automaton&) = default;
+  Automaton& operator=(const Automaton&) = default;
+
+  void wake_at(Time at) { due_ = at; }
+  void answer(Bytes bytes, Time at) { answer_ = Transmission{std::move(bytes), at}; }
+  void abort() { abort_ = true; }
+
+ private:
+  Time due_ = kNever;
+  std::optional<Transmission> answer_;
+  bool abort_ = false;
+};
+
+/// A copy of an automaton, whatever it is.
+class AutomatonValue {
+ public:
+  explicit AutomatonValue(std::unique_ptr<Automaton> automaton) : automaton_(std::move(automaton)) {}
+  AutomatonValue(const AutomatonValue& other) : automaton_(other.automaton_->clone()) {}
+  AutomatonValue& operator=(const AutomatonValue& other) {
+    automaton_ = other.automaton_->clone();
+    return *this;
+  }
+  AutomatonValue(AutomatonValue&&) noexcept = default;
+  AutomatonValue& operator=(AutomatonValue&&) noexcept = default;
+  ~AutomatonValue() = default;
+
+  bool operator==(const AutomatonValue& other) const { return automaton_->equals(*other.automaton_); }
+
+  Automaton* operator->() const { return automaton_.get(); }
+  Automaton& operator*() const { return *automaton_; }
+
+ private:
+  std::unique_ptr<Automaton> automaton_;
+};
+
+}  // namespace s7200::serial
