@@ -13,7 +13,7 @@ TOP = pathlib.Path(__file__).resolve().parent.parent
 INTERPRETER = ["interpreter/base", "interpreter/stl", "interpreter/model", "interpreter/program", "interpreter/trace",
                "interpreter/cpu", "interpreter/instructions"]
 SERIAL_SIM = ["serial_sim/line", "serial_sim/faults", "serial_sim/peers", "serial_sim/modbus", "serial_sim/pc_protocol",
-              "serial_sim/field", "serial_sim/system", "serial_sim/record"]
+              "serial_sim/westinghouse", "serial_sim/field", "serial_sim/system", "serial_sim/record"]
 CORE = INTERPRETER + SERIAL_SIM
 
 ROOMS = {
@@ -29,6 +29,7 @@ ROOMS = {
     "serial_sim/peers": ["interpreter/base", "serial_sim/line"],
     "serial_sim/modbus": ["interpreter/base", "serial_sim/line", "serial_sim/faults", "serial_sim/peers"],
     "serial_sim/pc_protocol": ["interpreter/base", "serial_sim/line", "serial_sim/peers"],
+    "serial_sim/westinghouse": ["interpreter/base", "serial_sim/line", "serial_sim/peers", "serial_sim/modbus"],
     "serial_sim/field": INTERPRETER,
     "serial_sim/system": INTERPRETER + ["serial_sim/line", "serial_sim/faults", "serial_sim/peers", "serial_sim/field"],
     "serial_sim/record": CORE,
@@ -61,8 +62,9 @@ LIBRARIES = {
 WORDS = {
     r"\bstderr\b|\bstd::c(err|log|out)\b|\bstdout\b|\bfmt::print\b": ["tools/command", "tests"],
     r"\bk(Fine|CheckFailed|Unusable|CpuFatal)\b|\b_?exit\(": ["tools/command", "tests"],
-    r"\bmodbus\b": ["serial_sim/modbus", "serial_sim/record", "tools", "tests"],
+    r"\bmodbus\b": ["serial_sim/modbus", "serial_sim/westinghouse", "serial_sim/record", "tools", "tests"],
     r"\bpc_protocol\b": ["serial_sim/pc_protocol", "tools/master", "tests"],
+    r"\bwestinghouse\b": ["serial_sim/westinghouse", "tools/master", "tools/command", "tests"],
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

@@ -1,0 +1,74 @@
+// The six-byte messages of the PC1000 LAN and of the Westnet II highway, and the blocks of data after them.
+//
+//   opcode, four bytes, check    a check is the sum of the bytes before it; that of a block is the sum of its data only
+//
+// Words are low byte first.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "interpreter/base/bytes.hpp"
+#include "serial_sim/peers/answer.hpp"
+
+namespace s7200::westinghouse {
+
+enum class Opcode : std::uint8_t {
+  BitWrite = 0x03,
+  ReadBlock = 0x05,
+  WriteBlock = 0x07,
+  Highway = 0x09,  ///< Westnet II
+  SetUnitAddress = 0x0A,
+  Erase = 0x0F,
+};
+
+/// The second byte of a message with Opcode::Highway.
+enum class HighwayCommand : std::uint8_t {
+  SetAddress,
+  ReadRemoteAddress,
+  ReadHighwayStatus,
+  OpenSession,
+  CloseSession,
+  ReadSessionStatus,
+  ReadLocalAddress,
+};
+
+inline constexpr std::size_t kMessageLength = 6, kEraseKeyLength = 16, kMostBlockBytes = 256;
+inline constexpr std::uint8_t kHighwayError = 0xFF;  ///< the first of two bytes [W5]
+inline constexpr std::uint8_t kNoSession = 0x80;     ///< of a session status
+inline constexpr std::uint16_t kRetestWord = 0x8205;
+inline constexpr std::uint8_t kRetestBit = 1;
+
+std::uint8_t sum(std::span<const std::uint8_t> bytes);
+
+Bytes message(Opcode opcode, std::uint8_t b1 = 0, std::uint8_t b2 = 0, std::uint8_t b3 = 0, std::uint8_t b4 = 0);
+
+/// What the second to the sixth byte of the messages are; `bytes` is 1 to 256, `data` as long.
+Bytes set_unit_address(std::uint8_t unit);
+Bytes read_block(std::uint16_t address, std::size_t bytes);
+Bytes write_block(std::uint16_t address, std::span<const std::uint8_t> data);
+Bytes write_bit(std::uint16_t address, std::uint8_t bit, bool on);
+Bytes erase();
+Bytes highway(HighwayCommand command, std::uint8_t highway = 0, std::uint8_t drop = 0, std::uint8_t subdrop = 0);
+
+/// The bytes that PLCs want to see before they erase.
+std::span<const std::uint8_t> erase_key();
+
+/// Whether there is as much of an answer as its beginning says.
+bool is_whole_answer(std::span<const std::uint8_t> response);
+
+/// `bytes` of the result: of a read the data, of a set unit address keyswitch and fault register, of a highway command the
+/// three bytes after it. An exception is a two-byte error of the highway.
+serial::Answer check_block_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response);
+
+/// What `bytes` of the answer to a set unit address say: `keyswitch in stop, fault register 16#0204`.
+std::string unit_text(std::span<const std::uint8_t> bytes);
+
+/// What `bytes` of the answer to a highway command say: `session of 00.22.00`.
+std::string highway_text(std::span<const std::uint8_t> request, std::span<const std::uint8_t> bytes);
+
+/// `invalid drop addressed`
+std::string_view highway_error_name(std::uint8_t code);
+
+}  // namespace s7200::westinghouse

@@ -1,0 +1,81 @@
+// Messages of the HPPC loader.
+//
+//   0–1   length of the whole message, low byte first     4   00
+//   2     destination                                     5   opcode; an answer repeats it, or has 10
+//   3     source                                          6…  operands, then the frame check, high byte first
+//
+// Addresses have three bytes, low byte first.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/base/bytes.hpp"
+#include "serial_sim/peers/answer.hpp"
+
+namespace s7200::westinghouse {
+
+/// Both are CCITT's but for one entry of the document's table, which is not a misprint according to its text.
+enum class FcsTable : std::uint8_t { Document, Polynomial };
+
+std::uint16_t hppc_fcs(std::span<const std::uint8_t> bytes, FcsTable table);
+
+enum class HppcOpcode : std::uint8_t {
+  Monitor = 0x09,
+  BitWrite = 0x0A,
+  Write = 0x0B,
+  Read = 0x0C,
+  Parameters = 0x0D,
+  Error = 0x10
+};
+
+/// How the layouts that the document leaves open are read [H4] [H5] [H6].
+struct HppcLayout {
+  enum class ReadRequest : std::uint8_t { AddressAndNumber, Number };
+  enum class BitWrite : std::uint8_t { PatternFirst, MaskFirst };
+
+  ReadRequest read_request = ReadRequest::AddressAndNumber;  ///< [H4]
+  BitWrite bit_write = BitWrite::PatternFirst;               ///< [H5]
+  std::uint8_t monitor_address_bytes = 3;                    ///< [H6]
+
+  bool operator==(const HppcLayout&) const = default;
+};
+
+inline constexpr std::uint8_t kIop = 0x20, kApl = 0x40, kAll = 0xFF;
+inline constexpr std::size_t kShortestHppc = 8, kLongestHppc = 0x400, kHppcHeader = 6;
+inline constexpr std::uint32_t kHppcMemory = 0x100000, kParameterTable = 0x80000;
+inline constexpr std::size_t kMostMonitored = 256;
+
+/// With length and frame check.
+Bytes hppc_message(std::uint8_t destination, std::uint8_t source, HppcOpcode opcode, std::span<const std::uint8_t> operands,
+                   FcsTable table);
+
+/// Operands of the requests.
+Bytes hppc_read(std::uint32_t address, std::uint8_t count);
+Bytes hppc_write(std::uint32_t address, std::span<const std::uint8_t> data);
+Bytes hppc_bit_write(std::uint32_t address, std::uint16_t pattern, std::uint16_t mask);
+Bytes hppc_monitor(std::uint32_t network, std::span<const std::uint32_t> bytes, std::span<const std::uint32_t> words,
+                   std::span<const std::uint32_t> double_words);
+
+std::uint32_t hppc_address(std::span<const std::uint8_t> bytes);
+void add_hppc_address(Bytes& to, std::uint32_t address);
+
+/// Whether there is as much as the length says.
+bool is_whole_hppc(std::span<const std::uint8_t> message);
+
+/// `bytes` of the result: the operands of the answer. An exception is an error response.
+serial::Answer check_hppc_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response,
+                                 FcsTable table);
+
+/// Where holding register 1 is, by the first 34 (hex) bytes of the parameter table or more: at offset 2E, or at 2C where the
+/// table is as the document's example [H10]. Nothing if neither is an address of a register.
+std::optional<std::uint32_t> holding_register_base(std::span<const std::uint8_t> table);
+
+/// `illegal opcode`
+std::string_view hppc_error_name(std::uint8_t code);
+
+}  // namespace s7200::westinghouse

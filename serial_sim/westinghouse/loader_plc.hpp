@@ -1,0 +1,85 @@
+// A PC503 at its loader port, the programming port of PC500 and PC2000.
+//
+// [S1] … [S5] name the choices of ../shared/reference/westinghouse_protocols.md.
+#pragma once
+
+#include "serial_sim/westinghouse/loader_session.hpp"
+#include "serial_sim/westinghouse/memory.hpp"
+#include "serial_sim/westinghouse/plc.hpp"
+
+namespace s7200::westinghouse {
+
+struct LoaderSettings {
+  enum class Directory : std::uint8_t { Db0, Db1 };
+  enum class Nak : std::uint8_t { Sent, Silent };
+  enum class Writable : std::uint8_t { All, Areas };
+
+  SerialFormat line{};             ///< 8E1, as the document says
+  std::uint16_t latency_us = 400;  ///< of an answer; below 500 in the document
+
+  Directory directory = Directory::Db0;  ///< [S1] whose address is first in the block directory
+  std::uint8_t head_bytes = 5;           ///< [S2] 00, before the pointers of opcode 18
+  std::uint8_t tail_bytes = 0;           ///< [S2] 00, after them
+  Dle dle = Dle::Doubled;                ///< [S3]
+  std::uint16_t timeout_ms = 500;        ///< [S4] for each byte within a session
+  Nak nak = Nak::Sent;                   ///< [S4] to what does not fit
+  Writable writable = Writable::All;     ///< [S5]
+
+  bool operator==(const LoaderSettings&) const = default;
+};
+
+class LoaderPlc final : public PlcOf<LoaderPlc> {
+ public:
+  LoaderPlc();
+
+  static const std::vector<Setting<LoaderPlc>>& settings();
+  static const std::vector<Cells<LoaderPlc>>& cells();
+
+  SerialFormat format() const override { return settings_.line; }
+  void hear(const ReceivedCharacter& character) override;
+  void wake(Time now) override;
+
+  bool operator==(const LoaderPlc&) const = default;
+
+ private:
+  /// What the session waits for.
+  enum class Stage : std::uint8_t {
+    Idle,
+    Opcode,
+    AckOfStart,
+    AckOfHeader,
+    Arguments,
+    AckBeforeData,
+    AckAfterData,
+    AckBeforeEnd,
+    AckOfEnd
+  };
+
+  void take(std::uint8_t byte, Time end);
+  void take_acknowledgement(std::uint8_t byte, Time end);
+  void take_argument(std::uint8_t byte, Time end);
+  void acknowledged(Time end);
+  void carry_out(Time end);
+  void refuse(Time end);
+  void say(Bytes bytes, Time request_end);
+  void go_idle();
+
+  /// Does what the arguments say. False if they are wrong.
+  bool run();
+  bool read();
+  bool write();
+  bool describe_block();
+  void add_memory(std::uint32_t first, std::uint32_t count);
+  std::uint16_t word(std::uint32_t address) const;
+  void put(std::uint32_t address, std::span<const std::uint8_t> bytes);
+
+  LoaderSettings settings_;
+  ByteMemory memory_;
+  Stage stage_ = Stage::Idle;
+  std::uint8_t opcode_ = 0;
+  bool dle_ = false;  // was the byte before
+  Bytes arguments_;
+  Bytes data_;  // of the answer
+};
+
+}  // namespace s7200::westinghouse

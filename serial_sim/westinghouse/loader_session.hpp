@@ -1,0 +1,82 @@
+// Sessions of the PC500 and PC2000 loader port: one operation, byte by byte in a hand-shake.
+//
+//   computer  02        opcode    DLE ACK          DLE ACK, arguments, DLE EOT            DLE ACK
+//   PLC          DLE ACK       02         16 DLE ETX                           DLE ACK 02
+//
+//   and if there is data:            data, DLE ETX          02           12 DLE ETX
+//                            DLE ACK               DLE ACK      DLE ACK              DLE ACK
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "interpreter/base/bytes.hpp"
+#include "serial_sim/peers/answer.hpp"
+
+namespace s7200::westinghouse {
+
+enum class LoaderOpcode : std::uint8_t { Write = 0x03, Read = 0x04, Pointers = 0x18, Block = 0x1A, Directory = 0x1B };
+
+/// Whether the PLC doubles a data byte 10 in its answers [S3]; the computer does always.
+enum class Dle : std::uint8_t { Doubled, Plain };
+
+inline constexpr std::uint8_t kStx = 0x02, kEtx = 0x03, kEot = 0x04, kAck = 0x06, kDle = 0x10, kNak = 0x15;
+inline constexpr std::uint8_t kHeader = 0x16, kEnd = 0x12;
+inline constexpr std::uint8_t kDataBlocks = 0x01;  ///< type of block
+inline constexpr std::size_t kMostLoaderBytes = 512;
+inline constexpr std::size_t kReadHead = 5;  ///< 00 bytes before the data of a read
+
+/// What a session asks for.
+struct LoaderOperation {
+  LoaderOpcode opcode = LoaderOpcode::Read;
+  Bytes arguments{};
+  std::size_t data = 0;  ///< bytes that come back; 0 for a write
+};
+
+bool has_data(LoaderOpcode opcode);
+
+LoaderOperation loader_read(std::uint16_t first, std::size_t count);
+LoaderOperation loader_write(std::uint16_t first, std::span<const std::uint8_t> data);
+LoaderOperation loader_pointers();
+LoaderOperation loader_block(std::uint8_t number);
+LoaderOperation loader_directory();
+
+/// `bytes`, with each 10 doubled.
+Bytes stuffed(std::span<const std::uint8_t> bytes);
+
+/// The computer's part of a session, step by step.
+class LoaderSteps {
+ public:
+  LoaderSteps(LoaderOperation operation, Dle dle) : operation_(std::move(operation)), dle_(dle) {}
+
+  /// Begins anew, with 02.
+  Bytes first();
+
+  /// What to send after `response`. Nothing if the session is over, or the response does not fit.
+  std::optional<Bytes> next(std::span<const std::uint8_t> response);
+
+  /// The last step is not answered.
+  bool answered() const { return step_ != steps() - 1; }
+
+  /// All that a PLC answered in a session. `bytes` of the result: the data. An exception 15 is a refusal.
+  serial::Answer judge(std::span<const std::uint8_t> response) const;
+
+  const LoaderOperation& operation() const { return operation_; }
+
+ private:
+  /// How much of `response` is the answer to a step; nothing if it does not fit. Data goes to `data`.
+  std::optional<std::size_t> answer_to(int step, std::span<const std::uint8_t> response, Bytes& data) const;
+  std::optional<std::size_t> take_data(std::span<const std::uint8_t> response, Bytes& data) const;
+  int steps() const { return has_data(operation_.opcode) ? 8 : 6; }
+
+  LoaderOperation operation_;
+  Dle dle_;
+  int step_ = 0;
+};
+
+/// Whether a PLC says no more until it is told something.
+bool is_whole_step(std::span<const std::uint8_t> response);
+
+}  // namespace s7200::westinghouse

@@ -1,0 +1,137 @@
+// A PLC of the PC1000 family behind its port: memory, keyswitch, fault register, and the commands on them.
+//
+// [L4] … [L9] name the choices of ../shared/reference/westinghouse_protocols.md.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "serial_sim/westinghouse/block_message.hpp"
+#include "serial_sim/westinghouse/memory.hpp"
+#include "serial_sim/westinghouse/plc.hpp"
+
+namespace s7200::westinghouse {
+
+struct Pc1000Settings {
+  enum class Model : std::uint8_t { Pc1200, Pc1250, Pc1100 };
+  enum class Key : std::uint8_t { Stop, Protect, Modify };
+  enum class DataCheck : std::uint8_t { Sum, Xor };
+  enum class Addresses : std::uint8_t { Words, Bytes };
+  enum class RetestIn : std::uint8_t { Stop, Always };
+  enum class WriteIn : std::uint8_t { Always, Unprotected };
+  enum class Erases : std::uint8_t { Memory, Registers };
+
+  Model plc = Model::Pc1200;
+  Key key = Key::Stop;
+  std::uint16_t fault = 0;          ///< the fault register
+  std::uint16_t lasting_fault = 0;  ///< that comes back after a retest
+
+  DataCheck data_check = DataCheck::Sum;   ///< [L4]
+  std::uint8_t key_upper_bits = 0;         ///< [L5]
+  std::uint8_t set_nibble = 1;             ///< [L6] of a bit write that sets; 0 resets
+  Addresses addresses = Addresses::Words;  ///< [L7]
+  std::uint8_t error = 0;                  ///< [L8] answered as FF and this; 0: silence
+  RetestIn retest = RetestIn::Stop;        ///< [L9]
+  WriteIn write = WriteIn::Always;         ///< [L9]
+  Erases erases = Erases::Memory;          ///< [L9]
+
+  bool operator==(const Pc1000Settings&) const = default;
+};
+
+class Pc1000 {
+ public:
+  /// How many bytes a message has that begins like this: six or more; 0 if no opcode has this number.
+  static std::size_t length(std::span<const std::uint8_t> begin);
+
+  /// Does what a whole message says, and returns the answer; empty for silence. Set unit address and the highway's commands
+  /// are not for the PLC.
+  Bytes carry_out(std::span<const std::uint8_t> message);
+
+  /// Whether the check of a message's first six bytes is right.
+  static bool check_right(std::span<const std::uint8_t> message);
+
+  std::uint8_t key_byte() const;
+
+  /// Silence, or what is answered instead of it [L8].
+  Bytes refusal() const;
+
+  Pc1000Settings settings{};
+  WordMemory words{};
+
+  bool operator==(const Pc1000&) const = default;
+
+ private:
+  using Data = std::span<const std::uint8_t>;
+
+  Bytes read(Data message) const;
+  Bytes write(Data message);
+  Bytes write_bit(Data message);
+  Bytes erase(Data message);
+  std::uint8_t data_check(Data data) const;
+  /// The first byte of a block among all of memory; nothing if the block runs past the end.
+  std::optional<std::uint32_t> first_byte(Data message) const;
+  std::uint8_t byte(std::uint32_t address) const;
+  void set_byte(std::uint32_t address, std::uint8_t value);
+};
+
+/// Messages out of characters.
+class MessageReader {
+ public:
+  enum class State : std::uint8_t {
+    Part,
+    Whole,  ///< its first six bytes have a right check
+    Wrong,  ///< no such opcode, or a wrong check; what follows is not taken for a message
+    Deaf,   ///< after that, and after a damaged character, until begin_anew()
+  };
+
+  State take(const ReceivedCharacter& character);
+  void begin_anew() { *this = {}; }
+  const Bytes& message() const { return message_; }
+
+  bool operator==(const MessageReader&) const = default;
+
+ private:
+  Bytes message_;
+  bool deaf_ = false;
+};
+
+/// The rows of its settings and its memory, for a PLC `Self` that reaches it by `pc`.
+template <class Self, class Pc>
+void add_pc1000_settings(std::vector<Setting<Self>>& rows, Pc pc) {
+  using enum SettingForm::Notation;
+  using S = Pc1000Settings;
+  const auto add = [&](SettingForm form, auto member) {
+    rows.push_back({std::move(form), [=](const Self& plc) { return static_cast<std::uint32_t>(pc(plc).settings.*member); },
+                    [=](Self& plc, std::uint32_t value) {
+                      pc(plc).settings.*member = static_cast<std::remove_cvref_t<decltype(pc(plc).settings.*member)>>(value);
+                    }});
+  };
+  add({"plc", "", "model; a PC1100 does not erase", Word, {"pc1200", "pc1250", "pc1100"}}, &S::plc);
+  add({"key", "", "keyswitch", Word, {"stop", "protect", "modify"}}, &S::key);
+  add({"fault", "", "the fault register", Hex, {}, 0, UINT16_MAX}, &S::fault);
+  add({"lasting_fault", "", "what comes back into it after a retest", Hex, {}, 0, UINT16_MAX}, &S::lasting_fault);
+  add({"data_check", "L4", "of a block of data", Word, {"sum", "xor"}}, &S::data_check);
+  add({"key_upper_bits", "L5", "bits 4 to 7 of the keyswitch byte", Hex, {}, 0, 15}, &S::key_upper_bits);
+  add({"set_nibble", "L6", "high nibble of a bit write that sets the bit; 0 resets it", Hex, {}, 1, 15}, &S::set_nibble);
+  add({"addresses", "L7", "what addresses count", Word, {"words", "bytes"}}, &S::addresses);
+  add({"error", "L8", "answered as FF and this to what is wrong or refused; 00 for silence"}, &S::error);
+  add({"retest", "L9", "keyswitch that lets a retest clear the fault register", Word, {"stop", "always"}}, &S::retest);
+  add({"write", "L9", "keyswitch that lets blocks and bits be written", Word, {"always", "unprotected"}}, &S::write);
+  add({"erases", "L9", "what is erased: all memory, or the holding registers 1 to 2048", Word, {"memory", "registers"}},
+      &S::erases);
+}
+
+template <class Self, class Pc>
+Cells<Self> pc1000_words(Pc pc) {
+  return {
+      "W",
+      true,
+      0,
+      UINT16_MAX,
+      UINT16_MAX,
+      "words of the memory",
+      [=](const Self& plc, std::uint32_t a) { return std::uint32_t{pc(plc).words.read(a)}; },
+      [=](Self& plc, std::uint32_t a, std::uint32_t value) { pc(plc).words.write(a, static_cast<std::uint16_t>(value)); }};
+}
+
+}  // namespace s7200::westinghouse

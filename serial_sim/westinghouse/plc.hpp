@@ -1,0 +1,141 @@
+// What the simulated PLCs of this family have in common: they are set, and looked at, by texts.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "interpreter/base/text.hpp"
+#include "serial_sim/peers/automaton.hpp"
+#include "serial_sim/westinghouse/setting.hpp"
+
+namespace s7200::westinghouse {
+
+class Plc : public serial::Automaton {
+ public:
+  /// A setting, or cells of memory: `key=modify`, `HR1=1234,0001`. Returns false and sets `why` for anything else.
+  virtual bool set(std::string_view text, std::string& why) = 0;
+
+  /// Whether it holds what such a text says. Sets `why` if it does not.
+  virtual bool holds(std::string_view text, std::string& why) const = 0;
+
+  bool operator==(const Plc&) const = default;
+
+ protected:
+  Plc() = default;
+  Plc(const Plc&) = default;
+  Plc& operator=(const Plc&) = default;
+};
+
+/// The line as settings: `baud`, `parity`, `data_bits`, `stop_bits`. `line` is a member of the PLC.
+template <class Self, class Line>
+void add_line_settings(std::vector<Setting<Self>>& rows, std::string_view choice, Line line) {
+  using enum SettingForm::Notation;
+  const auto add = [&](SettingForm form, auto member) {
+    rows.push_back({std::move(form), [=](const Self& plc) { return static_cast<std::uint32_t>(line(plc).*member); },
+                    [=](Self& plc, std::uint32_t value) {
+                      using Value = std::remove_reference_t<decltype(line(plc).*member)>;
+                      line(plc).*member = static_cast<Value>(value);
+                    }});
+  };
+  add({"baud", choice, "rate of its port", Decimal, {}, 50, 1'000'000}, &SerialFormat::baud);
+  add({"parity", choice, "of its characters", Word, {kParityWords.begin(), kParityWords.end()}}, &SerialFormat::parity);
+  add({"data_bits", choice, "of its characters", Decimal, {}, 7, 8}, &SerialFormat::data_bits);
+  add({"stop_bits", choice, "of its characters", Decimal, {}, 1, 2}, &SerialFormat::stop_bits);
+}
+
+/// `Self` has `static const std::vector<Setting<Self>>& settings()`, `static const std::vector<Cells<Self>>& cells()`, and
+/// ==.
+template <class Self>
+class PlcOf : public Plc {
+ public:
+  std::unique_ptr<serial::Automaton> clone() const final { return std::make_unique<Self>(self()); }
+  bool equals(const serial::Automaton& other) const final {
+    const auto* const same_kind = dynamic_cast<const Self*>(&other);
+    return same_kind != nullptr && *same_kind == self();
+  }
+
+  bool set(std::string_view text, std::string& why) final {
+    if (const auto cells = parse_cells(text)) {
+      if (const Cells<Self>* row = find(*cells, why)) {
+        std::uint32_t place = cells->first;
+        for (const std::uint32_t value : cells->values) row->write(self(), place++, value);
+        return true;
+      }
+      if (!why.empty()) return false;
+    }
+    const Setting<Self>* setting = nullptr;
+    const auto value = parse(text, setting, why);
+    if (value) setting->set(self(), *value);
+    return value.has_value();
+  }
+
+  bool holds(std::string_view text, std::string& why) const final {
+    if (const auto cells = parse_cells(text)) {
+      if (const Cells<Self>* row = find(*cells, why)) {
+        std::uint32_t place = cells->first;
+        for (const std::uint32_t value : cells->values) {
+          const std::uint32_t found = row->read(self(), place);
+          if (found != value) why += fmt::format("{} {:X} holds {:X}, not {:X}; ", row->name, place, found, value);
+          ++place;
+        }
+        return why.empty();
+      }
+      if (!why.empty()) return false;
+    }
+    const Setting<Self>* setting = nullptr;
+    const auto value = parse(text, setting, why);
+    if (!value) return false;
+    const std::uint32_t found = setting->get(self());
+    if (found != *value) why = fmt::format("{} is {}", setting->form.name, value_text(setting->form, found));
+    return found == *value;
+  }
+
+  bool operator==(const PlcOf&) const = default;
+
+ private:
+  Self& self() { return static_cast<Self&>(*this); }
+  const Self& self() const { return static_cast<const Self&>(*this); }
+
+  /// Null if there are none of this name, and, with `why`, if they do not take the values.
+  static const Cells<Self>* find(const CellsText& text, std::string& why) {
+    for (const Cells<Self>& row : Self::cells()) {
+      if (row.name != text.name || row.by_address != text.by_address) continue;
+      const bool inside =
+          text.first >= row.least && text.first <= row.most && text.values.size() <= row.most - text.first + 1;
+      if (!inside) {
+        why = row.by_address ? fmt::format("{}: addresses are from {:X} to {:X}", row.name, row.least, row.most)
+                             : fmt::format("{}: numbers are from {} to {}", row.name, row.least, row.most);
+        return nullptr;
+      }
+      for (const std::uint32_t value : text.values)
+        if (value > row.largest) {
+          why = fmt::format("{}: {:X} is more than {:X}", row.name, value, row.largest);
+          return nullptr;
+        }
+      return &row;
+    }
+    return nullptr;
+  }
+
+  static std::optional<std::uint32_t> parse(std::string_view text, const Setting<Self>*& setting, std::string& why) {
+    const std::size_t equals = text.find('=');
+    const std::string_view name = text.substr(0, equals);
+    for (const Setting<Self>& row : Self::settings())
+      if (equals != std::string_view::npos && row.form.name == name) {
+        setting = &row;
+        return parse_value(row.form, text.substr(equals + 1), why);
+      }
+    std::string known;
+    for (const Setting<Self>& row : Self::settings()) known.append(known.empty() ? "" : ", ").append(row.form.name);
+    for (const Cells<Self>& row : Self::cells())
+      known +=
+          fmt::format(", {}", row.by_address ? fmt::format("{}[ADDRESS]", row.name) : fmt::format("{}NUMBER", row.name));
+    why = fmt::format("'{}' is not a setting of this PLC; there are {}", stl::shortened(text), known);
+    return {};
+  }
+};
+
+}  // namespace s7200::westinghouse

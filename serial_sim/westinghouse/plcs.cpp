@@ -1,0 +1,81 @@
+#include "serial_sim/westinghouse/plcs.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "serial_sim/westinghouse/hppc_plc.hpp"
+#include "serial_sim/westinghouse/lan_plc.hpp"
+#include "serial_sim/westinghouse/loader_plc.hpp"
+#include "serial_sim/westinghouse/modbus_plc.hpp"
+#include "serial_sim/westinghouse/westnet_plc.hpp"
+
+namespace s7200::westinghouse {
+namespace {
+
+template <class Kind>
+std::vector<std::string> settings_of() {
+  const Kind bench;
+  std::vector<std::string> lines;
+  for (const Setting<Kind>& row : Kind::settings()) {
+    const SettingForm& form = row.form;
+    std::string values = value_text(form, row.get(bench));
+    for (std::size_t i = 0; i < form.words.size(); ++i)
+      if (i != row.get(bench)) values.append("|").append(form.words[i]);
+    lines.push_back(fmt::format("  {:<38}{}{}\n", fmt::format("{}={}", form.name, values), form.meaning,
+                                form.choice.empty() ? "" : fmt::format(" [{}]", form.choice)));
+  }
+  for (const Cells<Kind>& row : Kind::cells())
+    lines.push_back(fmt::format("  {:<38}{}, in hex\n",
+                                fmt::format("{}{}=VALUE,…", row.name, row.by_address ? "[ADDRESS]" : "NUMBER"),
+                                row.meaning));
+  return lines;
+}
+
+template <class Kind>
+std::unique_ptr<Plc> make() {
+  return std::make_unique<Kind>();
+}
+
+template <class Kind>
+PlcRow row(std::string_view name, std::vector<std::string_view> models) {
+  return {name, std::move(models), make<Kind>, settings_of<Kind>};
+}
+
+const std::vector<PlcRow>& rows() {
+  static const std::vector<PlcRow> kRows{
+      row<ModbusPlc>("modbus", {"pc503", "pc1200", "pc1250", "pc2000", "ncmz", "hppc"}),
+      row<LanPlc>("lan", {"pc1200", "pc1250", "pc1100"}),
+      row<HppcPlc>("hppc", {"hppc"}),
+      row<LoaderPlc>("loader", {"pc503"}),
+      row<WestnetPlc>("westnet", {"pc1200", "pc1250", "pc1100"}),
+  };
+  return kRows;
+}
+
+}  // namespace
+
+std::span<const PlcRow> plcs() { return rows(); }
+
+const PlcRow* find_plc(std::string_view protocol) {
+  const auto found = std::ranges::find(rows(), protocol, &PlcRow::name);
+  return found == rows().end() ? nullptr : &*found;
+}
+
+std::unique_ptr<Plc> make_plc(const PlcRow& row, std::string_view model, std::string& why) {
+  if (std::ranges::find(row.models, model) == row.models.end()) {
+    why = fmt::format("'{}' is not a PLC of this family that speaks this protocol; there are {}", stl::shortened(model),
+                      fmt::join(row.models, ", "));
+    return nullptr;
+  }
+  std::unique_ptr<Plc> plc = row.make();
+  if (row.models.size() > 1 && !plc->set(fmt::format("plc={}", model), why)) return nullptr;
+  return plc;
+}
+
+std::string settings_help(const PlcRow& row) {
+  std::string text;
+  for (const std::string& line : row.settings()) text += line;
+  return text;
+}
+
+}  // namespace s7200::westinghouse

@@ -1,0 +1,70 @@
+// Settings of a simulated PLC, as texts: `key=modify`, `slave=01`, `HR1=1234,0001`, `W[4000]=0BB8`.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/base/serial_format.hpp"
+
+namespace s7200::westinghouse {
+
+inline constexpr std::uint32_t kNowhere = UINT32_MAX;  ///< a drop that is not given
+
+/// A setting's values as texts.
+struct SettingForm {
+  enum class Notation : std::uint8_t {
+    Word,  ///< one of `words`
+    Decimal,
+    Hex,
+    Drop,  ///< highway, drop and subdrop, in hex: `00.11.00`; empty for none
+  };
+
+  std::string_view name;
+  std::string_view choice;   ///< `L7` in the reference; empty where the document leaves no choice
+  std::string_view meaning;  ///< for the help
+  Notation notation = Notation::Hex;
+  std::vector<std::string_view> words{};
+  std::uint32_t least = 0, most = UINT8_MAX;
+};
+
+/// Returns nothing and sets `why` for what is not a value of the setting.
+std::optional<std::uint32_t> parse_value(const SettingForm& form, std::string_view text, std::string& why);
+
+std::string value_text(const SettingForm& form, std::uint32_t value);
+
+/// A setting of a PLC, or a part of its state that can be set.
+template <class Plc>
+struct Setting {
+  SettingForm form;
+  std::function<std::uint32_t(const Plc&)> get;
+  std::function<void(Plc&, std::uint32_t)> set;
+};
+
+/// Memory of a PLC that texts name.
+template <class Plc>
+struct Cells {
+  std::string_view name;      ///< `HR`, `W`
+  bool by_address;            ///< `W[4000]`, in hex; else by number in decimal: `HR1`
+  std::uint32_t least, most;  ///< addresses or numbers
+  std::uint32_t largest;      ///< value
+  std::string_view meaning;
+  std::function<std::uint32_t(const Plc&, std::uint32_t)> read;
+  std::function<void(Plc&, std::uint32_t, std::uint32_t)> write;
+};
+
+/// `W[4000]=0BB8,00FF`, taken apart.
+struct CellsText {
+  std::string name;
+  bool by_address = false;
+  std::uint32_t first = 0;
+  std::vector<std::uint32_t> values{};  ///< in hex
+};
+
+/// Returns nothing if the text does not name a cell.
+std::optional<CellsText> parse_cells(std::string_view text);
+
+}  // namespace s7200::westinghouse
