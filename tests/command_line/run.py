@@ -143,6 +143,117 @@ class Verbs(Case):
             self.assertIn("without --count never ends", done.stderr)
             self.ends(FINE, "master", SLAVE, "read", "40001", *options, "--count", "2")
 
+    def test_a_simulated_plc_of_another_make_is_a_target(self):
+        result = self.json(FINE, "master", "westinghouse:pc1200", "--plc", "HR1=1234,FFFB", "--plc", "slave=02", "--station", 2, "--json",
+                           "read", "40001:2", "write", "40003=7", "read", "40003", "exception-status", "general-read", "0:0:4")
+        self.assertEqual([e["verdict"] for e in result["exchanges"]], ["right"] * 5)
+        self.assertEqual([e["values"] for e in result["exchanges"]], [[0x1234, 0xFFFB], None, [7], None, None])
+        self.assertEqual(result["exchanges"][4]["bytes"], "3412fbff")
+        self.assertEqual((result["target"], result["mode"]), ("westinghouse:pc1200", None))
+        self.assertIn("illegal function", self.ends(FAILED, "master", "westinghouse:pc503", "read", "30001").stdout)
+
+    def test_a_line_with_a_simulated_plc_has_its_faults(self):
+        result = self.json(FAILED, "master", "westinghouse:pc1200", "--fault", "flip:character=2,bit=0,exchange=2", "--json",
+                           "exception-status", "exception-status", "exception-status")
+        self.assertEqual([e["verdict"] for e in result["exchanges"]], ["right", "silent", "right"])
+        self.assertEqual([f["count"] for f in result["faults"]], [1])
+
+    def test_a_line_with_a_simulated_plc_is_set_on_both_ends(self):
+        self.ends(FINE, "master", "westinghouse:pc1200", "--plc", "baud=19200", "slave-id")
+        self.ends(FAILED, "master", "westinghouse:pc1200", "--plc", "baud=19200", "--baud", 9600, "slave-id")
+
+    def test_what_makes_no_sense_for_a_simulated_plc_is_refused(self):
+        for arguments, why in ((["westinghouse:pc9", "slave-id"], "'pc9' is not a PLC of this family that speaks this protocol; there are pc503,"),
+                               (["westinghouse:", "slave-id"], "'' is not a PLC of this family"),
+                               (["westinghouse:pc1200", "--plc", "slave=0", "slave-id"],
+                                "--plc: slave: '0' is not a hexadecimal number from 01 to FF"),
+                               (["westinghouse:pc1200", "--plc", "frob=1", "slave-id"], "'frob=1' is not a setting of this PLC; there are slave,"),
+                               ([SLAVE, "--plc", "slave=02", "slave-id"], "--plc needs westinghouse:MODEL"),
+                               (["westinghouse:pc1200", "--protocol", "freeport-pc", "read", "VB0"],
+                                "PLCs of westinghouse:MODEL do not speak freeport-pc; they speak modbus, pc1000-lan, westnet, pc500-loader, hppc"),
+                               (["westinghouse:pc1200", "--set", "VW0=1", "slave-id"], "--set needs a PROGRAM to run in simulation"),
+                               (["westinghouse:pc1200", "slave-id", "--continuous", "--json"], "without --count never ends")):
+            with self.subTest(arguments):
+                self.assertIn(why, self.ends(UNUSABLE, "master", *arguments).stderr)
+
+    def test_a_plc_on_the_pc1000_lan_is_read_and_written(self):
+        lan = ["master", "--protocol", "pc1000-lan", "westinghouse:pc1200"]
+        out = self.ends(FINE, *lan, "--plc", "fault=0204", "unit", "5", "write", "16#4000=16#1234,-1", "read", "16#4000:2", "set", "16#4000.0",
+                        "reset", "16#4000.2", "retest", "unit", "erase", "read", "16#4000").stdout.split("\n")
+        self.assertEqual(out[1], "  keyswitch in stop, fault mode, fault register 16#0204")
+        self.assertEqual(out[3], "  words 16#4000…4001 written")
+        self.assertEqual(out[5:7], ["  16#4000  16#1234   4660", "  16#4001  16#FFFF  65535"])
+        self.assertEqual([out[8], out[10], out[12]], ["  bit set", "  bit reset", "  retest accepted"])
+        self.assertEqual([out[14], out[16], out[18]],
+                         ["  keyswitch in stop, fault register 16#0000", "  memory erased", "  16#4000  16#0000      0"])
+        result = self.json(FAILED, *lan, "--json", "read", "16#4000", "unit", "6", "unit", "5", "read", "0")
+        self.assertEqual([(e["verdict"], e["attempts"]) for e in result["exchanges"]], [("silent", 3), ("silent", 3), ("right", 1), ("right", 1)])
+        self.assertEqual([e["station"] for e in result["exchanges"]], [None, 6, 5, None])
+        without = [*lan, "--no-sync", "unit", "5"]
+        self.ends(FAILED, *without)
+        self.ends(FINE, *without, "--plc", "sync=ignored")
+        for words, why in ((["read", "16#4000:129"], "129 words; a block has 128 at most"), (["read", "65535:2"], "run past 16#FFFF"),
+                           (["write", "5"], "a value is missing"), (["set", "5"], "a bit is missing"), (["set", "5.16"], "bit 16 is not from 0 to 15"),
+                           (["unit", "256"], "unit 256 is not from 0 to 255"), (["write", "5=65536"], "value 65536 is not from")):
+            self.assertIn(why, self.ends(UNUSABLE, *lan, *words).stderr)
+
+    def test_a_plc_over_westnet_is_addressed_and_taken_in_session(self):
+        westnet = ["master", "--protocol", "westnet", "westinghouse:pc1200"]
+        out = self.ends(FINE, *westnet, "local", "address", "17", "session", "open", "session", "write", "0=16#1234", "read", "0", "close",
+                        "remote", "status").stdout.split("\n")
+        self.assertEqual(out[1::2][:6], ["  this computer is at 00.01.00", "  PLC 00.11.00 addressed", "  no session", "  session open",
+                                         "  session of 00.01.00", "  word 16#0000 written"])
+        self.assertEqual(out[13], "  16#0000  16#1234   4660")
+        self.assertEqual(out[15::2][:3], ["  session closed", "  addressed is 00.11.00", "  no error"])
+        result = self.json(FAILED, *westnet, "--plc", "session=00.22.00", "--json", "address", "17", "read", "0", "status", "address", "18.1",
+                           "open")
+        self.assertEqual([e["verdict"] for e in result["exchanges"]], ["right", "exception", "right", "right", "exception"])
+        self.assertEqual(result["exchanges"][1]["exception"], {"code": 0x12, "name": "PLC in session with another computer"})
+        self.assertEqual(result["exchanges"][4]["exception"], {"code": 2, "name": "invalid drop addressed"})
+        for words, why in ((["address", "255"], "drop 255 is not from 1 to 254"), (["address", "1.2"], "subdrop 2 is not from 0 to 1")):
+            self.assertIn(why, self.ends(UNUSABLE, *westnet, *words).stderr)
+
+    def test_a_plc_at_its_loader_port_is_read_and_written_in_sessions(self):
+        loader = ["master", "--protocol", "pc500-loader", "westinghouse:pc503"]
+        out = self.ends(FINE, *loader, "read", "QB0:2", "write", "QB1=16,3", "read", "QB1:2", "block", "1", "blocks", "parameters").stdout
+        for line in ("  16#EF80  16#12     18", "  16#EF81  16#34     52", "  bytes 16#EF81…EF82 written", "  16#EF81  16#10     16",
+                     "  16#EF82  16#03      3", "  DB001 at 16#8024, 2 data words", "  DB001 at 16#8024", "  PIQ          16#EF80",
+                     "  program end  16#CFFF"):
+            self.assertIn(line + "\n", out)
+        plain = self.json(FINE, *loader, "--plc", "dle=plain", "--dle", "plain", "--plc", "M[9000]=10,03", "--json", "read", "16#9000:2")
+        self.assertEqual(plain["exchanges"][0]["values"], [0x10, 3])
+        refused = self.json(FAILED, *loader, "--json", "block", "2")["exchanges"][0]
+        self.assertEqual((refused["exception"], refused["attempts"]), ({"code": 0x15, "name": "refused (NAK)"}, 3))
+        self.assertEqual(self.json(FINE, *loader, "--json", "raw", "02")["exchanges"][0]["response"], "1006")
+        noisy = self.json(FINE, *loader, "--fault", "parity:character=1,exchange=3", "--json", "read", "QB0")["exchanges"][0]
+        self.assertEqual((noisy["attempts"], noisy["values"]), (2, [0x12]))
+        for words, why in ((["read", "QB128"], "QB128 128 is not from 0 to 127"), (["read", "16#8000:513"], "513 bytes; a session has 512 at most"),
+                           (["read", "16#FFFF:2"], "run past 16#FFFF"), (["write", "QB0"], "a value is missing")):
+            self.assertIn(why, self.ends(UNUSABLE, *loader, *words).stderr)
+        self.assertIn("'x' is not a way to send", self.ends(UNUSABLE, *loader, "--dle", "x", "blocks").stderr)
+
+    def test_an_hppc_at_its_loader_port_has_registers_bytes_and_monitors(self):
+        hppc = ["master", "--protocol", "hppc", "westinghouse:hppc"]
+        out = self.ends(FINE, *hppc, "write-register", "1=16#1234,5", "read-register", "1:2", "read", "16#ABFFC:4", "bits",
+                        "16#ABFFE=16#F000/16#FF00", "monitor", "w:16#ABFFE", "b:16#ABFFC", "resync", "parameters", "0").stdout
+        for line in ("  registers 1…2 written", "  R00001  16#1234   4660", "  R00002  16#0005      5", "  16#ABFFC  16#05      5",
+                     "  16#ABFFF  16#12     18", "  bits of the word at 16#ABFFE written", "  status 16#00", "  16#ABFFE  16#F034  61492",
+                     "  in step", "  parameter table at 16#80000"):
+            self.assertIn(line + "\n", out)
+        example = self.json(FINE, *hppc, "--plc", "table=example", "--plc", "M[ABFFE]=34,12", "--json", "read-register", "1")["exchanges"][0]
+        self.assertEqual((example["values"], example["notation"]), ([0x1234], "R00001"))
+        wrong = self.json(FAILED, *hppc, "--json", "read", "16#FFFFF:2", "raw", "08 00 20 40 00 30 1f e2")["exchanges"]
+        self.assertEqual([e["exception"]["name"] for e in wrong], ["invalid operand", "illegal opcode"])
+        self.assertEqual([e["attempts"] for e in wrong], [1, 1])
+        self.ends(FINE, *hppc, "--plc", "fcs=polynomial", "--fcs", "polynomial", "read", "16#80002:2")
+        self.ends(FAILED, *hppc, "--fcs", "polynomial", "read", "16#80002:2")
+        noisy = self.json(FINE, *hppc, "--fault", "flip:character=7,bit=0,exchange=1", "--json", "read", "16#80000:2")["exchanges"][0]
+        self.assertEqual((noisy["attempts"], noisy["values"]), (2, [0x8A, 0]))
+        for words, why in ((["read", "16#100000"], "is not from 0 to 1048575"), (["monitor", "x:1"], "is not a size with an address"),
+                           (["bits", "1=2"], "is not a pattern with its mask"), (["read-register", "0"], "register 0 is not from 1")):
+            self.assertIn(why, self.ends(UNUSABLE, *hppc, *words).stderr)
+        self.assertIn("'x' is not a frame check", self.ends(UNUSABLE, *hppc, "--fcs", "x", "resync").stderr)
+
     def test_strict_ends_at_the_first_run_time_error(self):
         wrong = self.program("LD SM0.0\nINCW VW0\nMOVD 0, *VD100\nINCW VW2\nMEND\n")
         preset = ["--set", "VD100=16#7F000000"]

@@ -9,6 +9,7 @@
 #include "tools/command/options/master_options.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/slave/peer_slave.hpp"
 #include "tools/slave/simulated_slave.hpp"
 #include "tools/views/faults.hpp"
 #include "tools/views/report.hpp"
@@ -100,6 +101,29 @@ int run_on_program(MasterOptions& options, const std::vector<MasterAction>& acti
   return kCheckFailed;
 }
 
+/// A simulated PLC of another make, alone on a line.
+int run_on_peer(MasterOptions& options, const std::string& model, const std::vector<MasterAction>& actions) {
+  std::string why;
+  std::unique_ptr<westinghouse::Plc> plc = westinghouse::make_plc(*options.protocol->plcs, model, why);
+  if (!plc) throw std::invalid_argument(why);
+  for (const std::string& setting : options.plc)
+    if (!plc->set(setting, why)) throw std::invalid_argument("--plc: " + why);
+  const auto faults = options.rig.faults();
+  if (!faults) return kUnusable;
+  PeerSlave slave(std::move(plc), options.master, *faults, options.target);
+  MasterSession session(slave, actions, options.session(true));
+  MasterOutput output(options.output(), slave.name());
+  const int exit_code = run_session(
+      options, session, actions, output, [] { return false; },
+      [&] {
+        nlohmann::ordered_json json = RigOptions::no_json();
+        json["faults"] = faults_json(slave.faults());
+        return json;
+      });
+  print_notes(fault_notes(slave.faults()));
+  return exit_code;
+}
+
 int run_master(MasterOptions& options) {
   const SlaveTarget target = parse_slave_target(options.target);
   options.refuse_what_does_not_fit(target.kind);
@@ -108,6 +132,7 @@ int run_master(MasterOptions& options) {
   catch_interruption();
   if (target.kind == SlaveTarget::Kind::Program)
     return options.band.wanted() ? run_on_program_band(options, actions) : run_on_program(options, actions);
+  if (target.kind == SlaveTarget::Kind::Peer) return run_on_peer(options, target.path, actions);
   std::unique_ptr<Slave> slave;
   try {
     slave = connect(target, options.master.over(options.protocol->format), options.protocol->is_complete);

@@ -450,7 +450,8 @@ const Protocol& modbus_protocol() {
                                              {kBeyondLimits, "", "send what the specification forbids, to test a slave"}},
                                  .actions_help = actions_help(),
                                  .actions = actions,
-                                 .is_complete = modbus::crc_ok};
+                                 .is_complete = modbus::crc_ok,
+                                 .plcs = westinghouse::find_plc("modbus")};
   return protocol;
 }
 

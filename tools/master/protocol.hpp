@@ -13,6 +13,7 @@
 #include "interpreter/base/serial_format.hpp"
 #include "serial_sim/line/frame.hpp"
 #include "serial_sim/peers/answer.hpp"
+#include "serial_sim/westinghouse/plcs.hpp"
 
 namespace s7200::tools {
 
@@ -23,6 +24,16 @@ class ProtocolRequest {
 
   /// What to send next. Mostly the same each time.
   virtual serial::Frame frame() = 0;
+
+  /// Of a request in several steps: what to send after this answer to the last step. Nothing when it is over. An exchange
+  /// then has the characters of all steps.
+  virtual std::optional<serial::Frame> next(std::span<const std::uint8_t> /*response*/) { return {}; }
+
+  /// Whether anything comes after the step that was sent last.
+  virtual bool answered() const { return true; }
+
+  /// The line has a sync signal, which is high while the request is sent.
+  virtual bool with_sync() const { return false; }
 
   /// For a request that none answers, a broadcast: how long the line is left to the slaves.
   virtual std::optional<Time> turnaround() const { return {}; }
@@ -80,6 +91,15 @@ struct ProtocolUse {
   bool has(std::string_view option) const { return given.contains(option); }
 };
 
+/// How a master waits for answers, and what it does before it asks again, unless options say otherwise.
+struct Patience {
+  Time timeout = kSecond;
+  int retries = 0;
+  Time pause = 0;                                     ///< before it asks again
+  serial::Frame (*first)() = nullptr;                 ///< is sent before that, whatever is answered
+  bool (*repeats)(std::uint8_t exception) = nullptr;  ///< an exception that it asks again after; null: none
+};
+
 struct Protocol {
   std::string_view name, meaning;  ///< on the command line, and in its help
   std::uint8_t station;            ///< that is asked if none is named
@@ -93,6 +113,11 @@ struct Protocol {
 
   /// Whether characters are a complete answer: nothing more has to be waited for.
   bool (*is_complete)(std::span<const std::uint8_t> response);
+
+  Patience patience{};
+
+  /// PLCs of another make that speak it, in simulation; null: none.
+  const westinghouse::PlcRow* plcs = nullptr;
 };
 
 /// All of them; the first is spoken if none is named.
@@ -109,5 +134,9 @@ std::string protocols_help();
 
 const Protocol& modbus_protocol();
 const Protocol& freeport_pc_protocol();
+const Protocol& pc1000_lan_protocol();
+const Protocol& westnet_protocol();
+const Protocol& pc500_loader_protocol();
+const Protocol& hppc_protocol();
 
 }  // namespace s7200::tools

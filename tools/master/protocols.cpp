@@ -8,7 +8,8 @@
 namespace s7200::tools {
 
 std::span<const Protocol* const> protocols() {
-  static const std::array kProtocols{&modbus_protocol(), &freeport_pc_protocol()};
+  static const std::array kProtocols{&modbus_protocol(),  &freeport_pc_protocol(),  &pc1000_lan_protocol(),
+                                     &westnet_protocol(), &pc500_loader_protocol(), &hppc_protocol()};
   return kProtocols;
 }
 
@@ -29,6 +30,11 @@ std::string protocols_help() {
   std::string text = "Protocols:\n";
   for (const Protocol* protocol : protocols()) text += fmt::format("  {:<38}{}\n", protocol->name, protocol->meaning);
   for (const Protocol* protocol : protocols()) text += protocol->actions_help;
+  for (const Protocol* protocol : protocols())
+    if (protocol->plcs != nullptr)
+      text +=
+          fmt::format("Settings of westinghouse:MODEL with --protocol {}, {}; in brackets choices of ours:\n{}",
+                      protocol->name, fmt::join(protocol->plcs->models, ", "), westinghouse::settings_help(*protocol->plcs));
   return text;
 }
 

@@ -1,6 +1,7 @@
 #include "tools/master/session.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "tools/host/interruption.hpp"
 
@@ -15,21 +16,52 @@ serial::Request MasterSession::request_of(const MasterAction& action) const {
   serial::Request request = settings_.master.request(action.request->frame());
   if (const auto turnaround = action.request->turnaround()) request.timeout = std::min(request.timeout, *turnaround);
   request.silence = settings_.silence;
+  request.sync = action.request->with_sync();
   return request;
 }
 
+serial::Exchange MasterSession::exchange(const MasterAction& action) {
+  serial::Request request = request_of(action);
+  serial::Exchange all = slave_.exchange(request);
+  for (auto next = action.request->next(all.response_bytes()); next && !interrupted();) {
+    request.frame = std::move(*next);
+    if (!action.request->answered()) request.timeout = 0;
+    const serial::Exchange step = slave_.exchange(request);
+    all.request.insert(all.request.end(), step.request.begin(), step.request.end());
+    all.response.insert(all.response.end(), step.response.begin(), step.response.end());
+    all.too_long = all.too_long || step.too_long;
+    if (!step.response.empty()) all.response_end = step.response_end;
+    next = action.request->next(step.response_bytes());
+  }
+  return all;
+}
+
+bool MasterSession::settled(const serial::Answer& answer) const {
+  if (answer.verdict != Verdict::Exception) return answer.verdict == Verdict::Right;
+  return settings_.patience.repeats == nullptr || !settings_.patience.repeats(answer.exception);
+}
+
+void MasterSession::prepare_to_repeat(const MasterAction& action) {
+  if (settings_.patience.pause > 0) slave_.wait(settings_.patience.pause);
+  if (settings_.patience.first == nullptr) return;
+  serial::Request request = request_of(action);
+  request.frame = settings_.patience.first();
+  slave_.exchange(request);
+  slave_.wait(settings_.pause == kNever ? slave_.pause() : settings_.pause);
+}
+
 std::optional<MasterResult> MasterSession::perform(const MasterAction& action) {
-  const serial::Request request = request_of(action);
   MasterResult result{.action = &action};
   for (;; ++result.attempts) {
     const bool last = result.attempts > settings_.retries;
     try {
-      result.exchange = slave_.exchange(request);
+      result.exchange = exchange(action);
       if (interrupted()) return {};
       result.remark = slave_.remark();
       result.answer = assess(action, result.exchange, settings_.broadcasts_are_silent);
       slave_.wait(settings_.pause == kNever ? slave_.pause() : settings_.pause);
-      if (last || result.answer.verdict == Verdict::Right || result.answer.verdict == Verdict::Exception) break;
+      if (last || settled(result.answer)) break;
+      prepare_to_repeat(action);
     } catch (const SlaveUnreachable&) {
       if (last || interrupted()) throw;
       slave_.wait(settings_.master.timeout);

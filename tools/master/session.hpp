@@ -19,6 +19,7 @@ struct SessionSettings {
   Time pause = kNever;            ///< between an answer and the next request; kNever: Slave::pause()
   std::optional<Time> silence{};  ///< that ends an answer; as the slave has it if not given
   bool broadcasts_are_silent = true;
+  Patience patience{};  ///< what is done before a request is repeated
 };
 
 class MasterSession {
@@ -42,6 +43,10 @@ class MasterSession {
   /// Nothing after an interruption.
   std::optional<MasterResult> perform(const MasterAction& action);
   serial::Request request_of(const MasterAction& action) const;
+  /// All its steps.
+  serial::Exchange exchange(const MasterAction& action);
+  bool settled(const serial::Answer& answer) const;
+  void prepare_to_repeat(const MasterAction& action);
 
   Slave& slave_;
   const std::vector<MasterAction>& actions_;

@@ -5,7 +5,9 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -107,6 +109,13 @@ void SerialLink::read(std::vector<Character>& characters) {
   std::string why;
   if (!device_->read(characters, why)) gone(why);
 }
+
+bool SerialLink::drive_sync(bool high) {
+  int lines = TIOCM_DTR;
+  return ioctl(device_->fd(), high ? TIOCMBIS : TIOCMBIC, &lines) == 0;
+}
+
+void SerialLink::drain() { tcdrain(device_->fd()); }
 
 std::size_t SerialLink::write_some(std::span<const std::uint8_t> bytes) {
   std::string why;

@@ -32,6 +32,12 @@ class HostLink {
   /// 0 where characters take no time of their own.
   virtual Time character_time() const = 0;
 
+  /// The signal beside the data of a serial line: DTR. False where there is none.
+  virtual bool drive_sync(bool /*high*/) { return false; }
+
+  /// Returns when what was written is on its way.
+  virtual void drain() {}
+
   /// Appends what has come in; never waits.
   virtual void read(std::vector<Character>& characters) = 0;
 
@@ -60,6 +66,8 @@ class SerialLink final : public HostLink {
   bool is_open() const override { return device_ != nullptr; }
   std::string name() const override;
   Time character_time() const override { return format_.character_time(); }
+  bool drive_sync(bool high) override;
+  void drain() override;
   void read(std::vector<Character>& characters) override;
 
  private:

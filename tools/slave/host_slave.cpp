@@ -101,7 +101,13 @@ serial::Exchange RtuSlave::exchange(const serial::Request& request) {
   serial::Exchange exchange;
   exchange.request = request.frame;
   exchange.request_start = now();
+  const bool synchronised = request.sync && link_->drive_sync(true);
+  if (request.sync && !synchronised) remark("there is no DTR here to drive the sync signal");
   send(serial::bytes_of(request.frame), request.gap);
+  if (synchronised) {
+    link_->drain();
+    link_->drive_sync(false);
+  }
   const Time character_time = link_->character_time();
   const auto length = static_cast<Time>(request.frame.size());
   exchange.request_end = std::max(now(), exchange.request_start + length * character_time + (length - 1) * request.gap);

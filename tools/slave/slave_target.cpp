@@ -12,7 +12,7 @@
 namespace s7200::tools {
 namespace {
 
-constexpr std::string_view kTcp = "tcp://", kModbusTcp = "modbus-tcp://";
+constexpr std::string_view kTcp = "tcp://", kModbusTcp = "modbus-tcp://", kPeer = "westinghouse:";
 constexpr const char* kModbusPort = "502";  // Modbus Messaging on TCP/IP, 2.1
 
 void split(const std::string& text, std::string_view address, SlaveTarget& target) {
@@ -51,6 +51,9 @@ SlaveTarget parse_slave_target(const std::string& text) {
   } else if (text.starts_with(kModbusTcp)) {
     target.kind = SlaveTarget::Kind::ModbusTcp;
     split(text, std::string_view(text).substr(kModbusTcp.size()), target);
+  } else if (text.starts_with(kPeer)) {
+    target.kind = SlaveTarget::Kind::Peer;
+    target.path = text.substr(kPeer.size());
   } else if (text.find("://") != std::string::npos) {
     throw std::invalid_argument(fmt::format("'{}': there is no such way to a slave; write {}HOST:PORT or {}HOST:PORT",
                                             stl::shortened(text), kTcp, kModbusTcp));
@@ -66,14 +69,18 @@ SlaveTarget parse_slave_target(const std::string& text) {
 std::string slave_targets_help() {
   return "Targets:\n"
          "  PROGRAM                               an STL file or document, in simulation; - is standard input\n"
-         "  /dev/ttyUSB0, or a pty by its link    a serial line, for Modbus 9600 8E1 unless --baud and the others say otherwise\n"
+         "  /dev/ttyUSB0, or a pty by its link    a serial line, for Modbus 9600 8E1 unless --baud and the others say "
+         "otherwise\n"
          "  tcp://HOST:PORT                       the characters of a serial line over TCP, as serial servers offer it\n"
-         "  modbus-tcp://HOST[:PORT]              Modbus TCP, port 502 unless one is given\n";
+         "  modbus-tcp://HOST[:PORT]              Modbus TCP, port 502 unless one is given\n"
+         "  westinghouse:MODEL                    a simulated PLC of the Westinghouse family, alone on a line; --plc sets "
+         "it\n";
 }
 
 std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format, IsComplete is_complete) {
   switch (target.kind) {
     case SlaveTarget::Kind::Program:
+    case SlaveTarget::Kind::Peer:
       break;
     case SlaveTarget::Kind::Device:
       return std::make_unique<RtuSlave>(target.path, format, is_complete);

@@ -16,20 +16,21 @@ struct SlaveTarget {
     Device,     ///< a character device, or a link to one: a pty; whatever begins with /dev/tty
     Tcp,        ///< tcp://HOST:PORT, the characters of a serial line over TCP
     ModbusTcp,  ///< modbus-tcp://HOST[:PORT], port 502 if none is given
+    Peer,       ///< westinghouse:MODEL, a simulated PLC of another make
   };
 
   Kind kind = Kind::Program;
-  std::string path;        ///< of a program or device
+  std::string path;        ///< of a program or device; a model
   std::string host, port;  ///< an IPv6 address without its brackets
 };
 
 /// Throws std::invalid_argument for an address without host or port, and for a scheme that is neither.
 SlaveTarget parse_slave_target(const std::string& text);
 
-/// The four, one a line, for --help.
+/// All of them, one a line, for --help.
 std::string slave_targets_help();
 
-/// Connects to a target that is not a program; `format` is for devices, `is_complete` for characters. Throws
+/// Connects to a target outside simulation; `format` is for devices, `is_complete` for characters. Throws
 /// SlaveUnreachable.
 std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format,
                                IsComplete is_complete = modbus::crc_ok);

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
@@ -38,10 +39,20 @@ std::string protocol_names() {
   return text;
 }
 
-/// `1; freeport-pc: 2`
-std::string usual_stations() {
-  std::string text = std::to_string(protocols().front()->station);
-  for (const Protocol* protocol : protocols().subspan(1)) text += fmt::format("; {}: {}", protocol->name, protocol->station);
+/// What holds without an option: `0; pc1000-lan, hppc: 2`.
+std::string usual(std::string (*of)(const Protocol&)) {
+  const std::string first = of(*protocols().front());
+  std::vector<std::pair<std::string, std::string>> others;  // value, names
+  for (const Protocol* protocol : protocols().subspan(1)) {
+    if (of(*protocol) == first) continue;
+    const auto known = std::ranges::find(others, of(*protocol), &std::pair<std::string, std::string>::first);
+    if (known == others.end())
+      others.emplace_back(of(*protocol), protocol->name);
+    else
+      known->second.append(", ").append(protocol->name);
+  }
+  std::string text = first;
+  for (const auto& [value, names] : others) text += fmt::format("; {}: {}", names, value);
   return text;
 }
 
@@ -65,15 +76,18 @@ void MasterOptions::add_to(CLI::App& app) {
       ->type_name("NAME");
   add_whole_number(
       app, "--station", [this](std::uint64_t given) { station_ = static_cast<std::uint8_t>(given); }, {0, UINT8_MAX},
-      "station to ask; in Modbus 0 is all of them, and above 247 needs Modbus TCP", usual_stations());
+      "station to ask; in Modbus 0 is all of them, above 247 needs Modbus TCP",
+      usual([](const Protocol& one) { return std::to_string(one.station); }));
   add_protocol_options(app);
   auto* interval = add_duration(app, "--every", every, "repeat all actions at this interval, in a table",
                                 {kMicrosecond, kLongestDuration});
   app.add_flag("--continuous", continuous, "repeat all actions without a pause; only failures and statistics are shown")
       ->excludes(interval);
   add_whole_number(app, "--count", count, {1, UINT64_MAX}, "how often to repeat", "until Ctrl-C");
-  add_whole_number(app, "--retries", retries, {0, 1'000'000},
-                   "ask again so often after silence, a wrong answer, or a lost connection", "0");
+  add_whole_number(
+      app, "--retries", [this](std::uint64_t given) { retries_ = static_cast<int>(given); }, {0, 1'000'000},
+      "repeat after silence, a wrong answer, a lost connection",
+      usual([](const Protocol& one) { return std::to_string(one.patience.retries); }));
   const std::string quiet = serial::default_quiet_text();
   add_duration(app, "--pause", pause, fmt::format("pause between an answer and the next request [in simulation {}]", quiet));
   app.add_flag("-v,--verbose", verbose,
@@ -83,11 +97,17 @@ void MasterOptions::add_to(CLI::App& app) {
   const auto line = added_by(app, [&] { add_master_options(app, master); });
   for (CLI::Option* option : line) {
     const std::string name = option->get_name();
+    if (name == "--timeout") timeout_ = option;
     if (name == "--gap") for_rtu_.push_back(option);
     if (name != "--gap" && name != "--timeout") for_lines_.push_back(option);
   }
+  timeout_->description(fmt::format("how long to wait for an answer to start [{}]",
+                                    usual([](const Protocol& one) { return format_duration(one.patience.timeout); })));
   for_rtu_.push_back(add_duration(app, "--silence", silence,
                                   "silence that ends an answer [3.5 characters; outside simulation 20ms if that is more]"));
+  plc_ = app.add_option("--plc", plc, "setting of a simulated PLC of another make, see below (repeatable)")
+             ->type_name("NAME=VALUE")
+             ->allow_extra_args(false);
   for_programs_ = added_by(app, [&] {
     program.add_parts_to(app);
     program.CpuOptions::add_to(app);
@@ -126,7 +146,7 @@ void MasterOptions::refuse_what_does_not_fit(Kind kind) const {
         "--times-band does all actions once with each table: give no --every, --continuous, --count or --verbose");
   // In simulation nothing but the reader slows down what would be written for ever.
   const bool floods = open_ended() && (polls() || json || verbose) && !isatty(STDOUT_FILENO);
-  if (kind == Kind::Program && floods)
+  if ((kind == Kind::Program || kind == Kind::Peer) && floods)
     throw std::invalid_argument(
         fmt::format("{} without --count never ends, and a simulation writes as fast as it can: say how often with --count N",
                     polls() ? "--every" : "--continuous"));
@@ -138,10 +158,27 @@ void MasterOptions::refuse_what_does_not_fit(Kind kind) const {
     throw std::invalid_argument(fmt::format(
         "modbus-tcp:// carries nothing but Modbus; --protocol {} needs a PROGRAM, a serial device, or tcp://HOST:PORT",
         protocol->name));
-  if (kind != Kind::Program) refuse_options(for_programs_, "a PROGRAM to run in simulation");
+  refuse_what_a_peer_does_not_take(kind);
   if (kind == Kind::Tcp || kind == Kind::ModbusTcp)
     refuse_options(for_lines_, "a serial line; the target is a connection over TCP");
   if (kind == Kind::ModbusTcp) refuse_options(for_rtu_, "Modbus RTU; Modbus TCP sends whole frames");
+}
+
+/// A line with a simulated PLC of another make has its faults, but no program.
+void MasterOptions::refuse_what_a_peer_does_not_take(Kind kind) const {
+  const bool peer = kind == Kind::Peer;
+  if (!peer) refuse_options({plc_}, "westinghouse:MODEL");
+  if (peer && protocol->plcs == nullptr) {
+    std::string names;
+    for (const Protocol* one : protocols())
+      if (one->plcs != nullptr) names.append(names.empty() ? "" : ", ").append(one->name);
+    throw std::invalid_argument(
+        fmt::format("PLCs of westinghouse:MODEL do not speak {}; they speak {}", protocol->name, names));
+  }
+  if (kind == Kind::Program) return;
+  std::vector<CLI::Option*> refused = for_programs_;
+  if (peer) std::erase_if(refused, [](const CLI::Option* option) { return option->get_name() == "--fault"; });
+  refuse_options(refused, "a PROGRAM to run in simulation");
 }
 
 std::vector<MasterAction> MasterOptions::actions(bool over_tcp) const {
@@ -151,13 +188,16 @@ std::vector<MasterAction> MasterOptions::actions(bool over_tcp) const {
 std::uint64_t MasterOptions::rounds() const { return open_ended() ? UINT64_MAX : std::max<std::uint64_t>(count, 1); }
 
 SessionSettings MasterOptions::session(bool broadcasts_are_silent) const {
-  return {master,
+  serial::MasterSettings settings = master;
+  if (timeout_->count() == 0) settings.timeout = protocol->patience.timeout;
+  return {settings,
           rounds(),
           every,
-          retries,
+          retries_.value_or(protocol->patience.retries),
           pause,
           silence == kNever ? std::nullopt : std::optional(silence),
-          broadcasts_are_silent};
+          broadcasts_are_silent,
+          protocol->patience};
 }
 
 MasterOutputSettings MasterOptions::output() const { return {json, verbose, continuous, every, rounds()}; }

@@ -27,11 +27,11 @@ struct MasterOptions {
   bool verbose = false, json = false, continuous = false;
   Time every = kNever;      ///< kNever: no polling
   std::uint64_t count = 0;  ///< rounds; 0: one, or until Ctrl-C
-  int retries = 0;
-  Time pause = kNever;    ///< kNever: Slave::pause
-  Time after = kNever;    ///< kNever: when the program is ready
-  Time silence = kNever;  ///< kNever: as the slave has it
+  Time pause = kNever;      ///< kNever: Slave::pause
+  Time after = kNever;      ///< kNever: when the program is ready
+  Time silence = kNever;    ///< kNever: as the slave has it
   serial::MasterSettings master;
+  std::vector<std::string> plc;  ///< settings of a simulated PLC of another make
   ProgramOptions program;
   RigOptions rig;
   BandOptions band;
@@ -52,9 +52,12 @@ struct MasterOptions {
 
  private:
   void add_protocol_options(CLI::App& app);
+  void refuse_what_a_peer_does_not_take(SlaveTarget::Kind kind) const;
   std::uint64_t rounds() const;
 
   std::optional<std::uint8_t> station_;
+  std::optional<int> retries_;
+  CLI::Option *timeout_ = nullptr, *plc_ = nullptr;
   std::map<std::string, std::string, std::less<>> given_;  // options of protocols, by name
 
   std::vector<CLI::Option*> for_programs_, for_lines_, for_rtu_;  // that other targets have no use for

@@ -105,6 +105,11 @@ void RigOptions::refuse_what_is_of_one_run(std::string_view because) const {
     if (given) throw std::invalid_argument(fmt::format("{} is about one run; {}", option, because));
 }
 
+std::optional<std::vector<serial::Fault>> RigOptions::faults() {
+  if (!faults_.prepare()) return {};
+  return faults_.faults();
+}
+
 int RigOptions::exit_code_without_rig() const {
   print_interruption();
   return only_interrupted_ ? kCheckFailed : kUnusable;

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,9 @@ class RigOptions {
 
   /// The files that are written while it runs, by their names; empty if there are none.
   std::string recorded_files() const;
+
+  /// The faults alone, for a line without a program. Nothing after messages.
+  std::optional<std::vector<serial::Fault>> faults();
 
   /// Whether there are faults.
   bool faulted() const { return !faults_.empty(); }

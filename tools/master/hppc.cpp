@@ -1,0 +1,461 @@
+// The loader port of HPPC1500 and HPPC1700.
+#include <array>
+
+#include "serial_sim/westinghouse/hppc_message.hpp"
+#include "tools/master/words.hpp"
+#include "tools/views/register_text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using westinghouse::FcsTable;
+using westinghouse::HppcOpcode;
+using Data = std::span<const std::uint8_t>;
+
+constexpr std::string_view kFcs = "--fcs";
+constexpr std::array<std::string_view, 2> kFcsWords{"document", "polynomial"};
+constexpr std::uint8_t kWholeTable = 0x34;  // bytes of the parameter table up to the number of holding registers
+constexpr std::size_t kOperands = westinghouse::kHppcHeader, kCheck = 2, kAddress = 3;
+constexpr std::uint32_t kLastAddress = westinghouse::kHppcMemory - 1;
+
+serial::Frame frame_of(HppcOpcode opcode, const Bytes& operands, FcsTable table) {
+  return serial::to_frame(westinghouse::hppc_message(westinghouse::kIop, westinghouse::kApl, opcode, operands, table));
+}
+
+/// Holding registers n to n + count - 1 lie downwards from where register 1 is.
+struct Registers {
+  std::uint16_t first = 1;
+  std::uint16_t count = 1;
+  std::vector<std::uint16_t> values{};  ///< to be written
+
+  std::uint32_t lowest(std::uint32_t base) const { return base - 2U * (first - 1U + count - 1U); }
+};
+
+class HppcRequest final : public ProtocolRequest {
+ public:
+  struct About {
+    HppcOpcode opcode = HppcOpcode::Read;
+    Bytes operands{};
+    std::string subject{};
+    std::optional<std::uint32_t> first{};  ///< address of bytes that are read or written
+    std::size_t count = 0;
+    std::optional<Registers> registers{};                   ///< then the first step reads the parameter table
+    std::array<std::vector<std::uint32_t>, 3> monitored{};  ///< bytes, words, double words
+  };
+
+  HppcRequest(About about, FcsTable table) : about_(std::move(about)), table_(table) {}
+  HppcRequest(serial::Frame raw, FcsTable table) : raw_(std::move(raw)), table_(table) {}
+
+  serial::Frame frame() override {
+    if (!raw_.empty()) return raw_;
+    step_ = 1;
+    if (about_.registers) return frame_of(HppcOpcode::Parameters, {kWholeTable}, table_);
+    return frame_of(about_.opcode, about_.operands, table_);
+  }
+
+  std::optional<serial::Frame> next(Data response) override;
+  serial::Answer judge(Data request, Data response) const override;
+  std::string_view exception_name(std::uint8_t code) const override { return westinghouse::hppc_error_name(code); }
+  std::string subject() const override { return about_.subject; }
+  std::string in_short(const serial::Answer& answer, Data request, Data response) const override;
+  std::vector<std::string> in_lines(const serial::Answer& answer, Data request, Data response) const override;
+  nlohmann::ordered_json subject_json(Data request) const override;
+  nlohmann::ordered_json decoded_json(const serial::Answer& answer) const override { return answer.values; }
+
+ private:
+  /// What the operands of the last answer say; empty if they are right.
+  std::string take(serial::Answer& answer) const;
+  std::vector<std::string> monitored_lines(const serial::Answer& answer) const;
+  std::string parameters_text(Data operands) const;
+
+  serial::Frame raw_;
+  About about_;
+  FcsTable table_;
+  int step_ = 1;
+};
+
+/// The first message of a stream of them, by its length.
+Data first_message(Data stream) {
+  const std::size_t length = stream.size() < 2 ? stream.size() : stream[0] + stream[1] * 256U;
+  return stream.first(std::min(std::max<std::size_t>(length, 1), stream.size()));
+}
+
+std::optional<serial::Frame> HppcRequest::next(Data response) {
+  if (!about_.registers || step_ != 1) return {};
+  const serial::Answer answer = westinghouse::check_hppc_answer({}, response, table_);
+  if (answer.verdict != serial::Verdict::Right || answer.bytes.size() < kAddress) return {};
+  const auto base = westinghouse::holding_register_base(Data(answer.bytes).subspan(kAddress));
+  if (!base) return {};
+  ++step_;
+  const Registers& registers = *about_.registers;
+  const std::uint32_t lowest = registers.lowest(*base);
+  if (registers.values.empty())
+    return frame_of(HppcOpcode::Read, westinghouse::hppc_read(lowest, static_cast<std::uint8_t>(2 * registers.count)),
+                    table_);
+  Bytes data;
+  for (auto value = registers.values.rbegin(); value != registers.values.rend(); ++value) {
+    data.push_back(static_cast<std::uint8_t>(*value & 0xFF));
+    data.push_back(static_cast<std::uint8_t>(*value >> 8));
+  }
+  return frame_of(HppcOpcode::Write, westinghouse::hppc_write(lowest, data), table_);
+}
+
+serial::Answer HppcRequest::judge(Data request, Data response) const {
+  if (about_.registers) {
+    const Data asked = first_message(request), answered = first_message(response);
+    serial::Answer answer = westinghouse::check_hppc_answer(asked, answered, table_);
+    if (answer.verdict != serial::Verdict::Right) return answer;
+    request = request.subspan(asked.size());
+    response = response.subspan(answered.size());
+    if (request.empty()) {
+      answer.verdict = serial::Verdict::Wrong;
+      answer.fault = "the parameter table does not say where the holding registers are";
+      return answer;
+    }
+  }
+  serial::Answer answer = westinghouse::check_hppc_answer(request, response, table_);
+  if (answer.verdict == serial::Verdict::Silent && about_.registers) {
+    answer.verdict = serial::Verdict::Wrong;
+    answer.fault = "no answer to the second of two steps";
+  }
+  if (answer.verdict != serial::Verdict::Right || !raw_.empty()) return answer;
+  if (std::string fault = take(answer); !fault.empty()) {
+    answer = {};
+    answer.verdict = serial::Verdict::Wrong;
+    answer.fault = std::move(fault);
+  }
+  return answer;
+}
+
+std::string HppcRequest::take(serial::Answer& answer) const {
+  const auto wrong_length = [&](std::size_t expected) {
+    return answer.bytes.size() == expected
+               ? std::string()
+               : fmt::format("wrong length: {} bytes of data, expected {}", answer.bytes.size(), expected);
+  };
+  const bool registers = about_.registers.has_value();
+  const bool reads = registers ? about_.registers->values.empty() : about_.opcode == HppcOpcode::Read;
+  if (reads) {
+    const std::size_t count = registers ? 2U * about_.registers->count : about_.count;
+    if (std::string fault = wrong_length(1 + count); !fault.empty()) return fault;
+    if (answer.bytes[0] != count) return fmt::format("wrong number: {}, expected {}", answer.bytes[0], count);
+    answer.bytes.erase(answer.bytes.begin());
+    if (!registers) {
+      answer.values.assign(answer.bytes.begin(), answer.bytes.end());
+      return {};
+    }
+    for (std::size_t i = answer.bytes.size(); i > 0; i -= 2)
+      answer.values.push_back(static_cast<std::uint16_t>(answer.bytes[i - 2] | answer.bytes[i - 1] << 8));
+    answer.bytes.clear();
+    return {};
+  }
+  switch (registers ? HppcOpcode::Write : about_.opcode) {
+    case HppcOpcode::Write:
+    case HppcOpcode::BitWrite:
+      return wrong_length(0);
+    case HppcOpcode::Parameters:
+      return wrong_length(kAddress + about_.count);
+    case HppcOpcode::Monitor: {
+      const auto& [bytes, words, double_words] = about_.monitored;
+      return wrong_length(1 + bytes.size() + 2 * words.size() + 4 * double_words.size());
+    }
+    default:
+      return {};
+  }
+}
+
+std::string HppcRequest::parameters_text(Data operands) const {
+  std::string text = fmt::format("parameter table at 16#{:05X}", westinghouse::hppc_address(operands));
+  if (const auto base = westinghouse::holding_register_base(operands.subspan(kAddress)))
+    text += fmt::format(", holding register 1 at 16#{:05X}", *base);
+  return operands.size() == kAddress ? text : fmt::format("{}: {}", text, serial::to_hex(operands.subspan(kAddress)));
+}
+
+std::string HppcRequest::in_short(const serial::Answer& answer, Data, Data) const {
+  if (!raw_.empty()) return answer.bytes.empty() ? "done" : serial::to_hex(answer.bytes);
+  if (about_.opcode == HppcOpcode::Parameters && !about_.registers) return parameters_text(answer.bytes);
+  if (about_.opcode == HppcOpcode::Monitor) return fmt::format("{}", fmt::join(monitored_lines(answer), " "));
+  std::string text;
+  for (const std::uint16_t value : answer.values)
+    text += fmt::format("{}16#{:0{}X}", text.empty() ? "" : " ", value, about_.registers ? 4 : 2);
+  if (!text.empty()) return text;
+  return about_.count == 0 && !about_.registers ? "in step" : about_.subject + " written";
+}
+
+std::vector<std::string> HppcRequest::in_lines(const serial::Answer& answer, Data request, Data response) const {
+  if (raw_.empty() && about_.opcode == HppcOpcode::Monitor) return monitored_lines(answer);
+  if (answer.values.empty()) return {"  " + in_short(answer, request, response)};
+  std::vector<std::string> lines;
+  std::uint32_t place = about_.registers ? about_.registers->first : *about_.first;
+  for (const std::uint16_t value : answer.values)
+    lines.push_back(about_.registers ? fmt::format("  R{:05}  16#{:04X} {:>6}", place++, value, value)
+                                     : fmt::format("  16#{:05X}  16#{:02X} {:>6}", place++, value, value));
+  return lines;
+}
+
+std::vector<std::string> HppcRequest::monitored_lines(const serial::Answer& answer) const {
+  constexpr std::array<std::string_view, 5> kStatus{"special function data valid", "network not found",
+                                                    "controlled by an MCR", "controlled by a skip", "processor not running"};
+  std::string status;
+  for (std::size_t bit = 0; bit < kStatus.size(); ++bit)
+    if ((answer.bytes[0] >> bit & 1) != 0) status.append(status.empty() ? "" : ", ").append(kStatus[bit]);
+  std::vector<std::string> lines{fmt::format("  status 16#{:02X}{}{}", answer.bytes[0], status.empty() ? "" : ": ", status)};
+  std::size_t place = 1;
+  for (std::size_t size = 0; size < about_.monitored.size(); ++size)
+    for (const std::uint32_t address : about_.monitored[size]) {
+      const std::size_t bytes = std::size_t{1} << size;
+      std::uint32_t value = 0;
+      for (std::size_t i = bytes; i-- > 0;) value = value << 8 | answer.bytes[place + i];
+      lines.push_back(fmt::format("  16#{:05X}  16#{:0{}X} {:>6}", address, value, 2 * bytes, value));
+      place += bytes;
+    }
+  return lines;
+}
+
+nlohmann::ordered_json HppcRequest::subject_json(Data request) const {
+  nlohmann::ordered_json json{{"station", nullptr}, {"function", nullptr}, {"area", nullptr},
+                              {"first", nullptr},   {"notation", nullptr}, {"count", nullptr}};
+  if (!raw_.empty()) return json;
+  json["function"] = request[westinghouse::kHppcHeader - 1];
+  if (about_.registers) {
+    json["area"] = "holding";
+    json["first"] = about_.registers->first;
+    json["notation"] = fmt::format("R{:05}", about_.registers->first);
+    json["count"] = about_.registers->count;
+  } else if (about_.first) {
+    json["area"] = "bytes";
+    json["first"] = *about_.first;
+    json["notation"] = fmt::format("16#{:05X}", *about_.first);
+    json["count"] = about_.count;
+  }
+  return json;
+}
+
+FcsTable fcs_of(const ProtocolUse& use) {
+  const auto given = use.given.find(kFcs);
+  return given != use.given.end() && given->second == kFcsWords[1] ? FcsTable::Polynomial : FcsTable::Document;
+}
+
+std::string fault_of_fcs(const std::string& word) {
+  return std::ranges::find(kFcsWords, word) != kFcsWords.end()
+             ? std::string()
+             : fmt::format("'{}' is not a frame check; there are document, polynomial", stl::shortened(word));
+}
+
+std::uint32_t address_of(const std::string& text) {
+  return static_cast<std::uint32_t>(parse_number(text, 0, kLastAddress, "address"));
+}
+
+std::vector<std::int64_t> values_of(const std::string& text, std::int64_t least, std::int64_t most) {
+  std::vector<std::int64_t> values;
+  for (std::optional rest{text}; rest;) {
+    const auto next = split_at(*rest, ',');
+    values.push_back(parse_number(next ? next->first : *rest, least, most, "value"));
+    rest = next ? std::optional(next->second) : std::nullopt;
+  }
+  return values;
+}
+
+class Parser final : public WordParser {
+ public:
+  explicit Parser(const ProtocolUse& use) : WordParser(use.station, UINT8_MAX), table_(fcs_of(use)) {}
+
+  std::vector<MasterAction> parse(const Words& words);
+
+  void read(const Words& operands);
+  void write(const Words& operands);
+  void bits(const Words& operands);
+  void registers(const Words& operands);
+  void set_registers(const Words& operands);
+  void parameters(const Words& operands);
+  void monitor(const Words& operands);
+  void resync(const Words&) { add({.operands = westinghouse::hppc_read(0, 0), .first = 0}); }
+  void raw(const Words& operands);
+
+ private:
+  void add(HppcRequest::About about) { WordParser::add(std::make_shared<HppcRequest>(std::move(about), table_)); }
+  void add_registers(Registers registers);
+
+  FcsTable table_;
+};
+
+using HppcVerb = Verb<Parser>;
+
+constexpr std::array kVerbs{
+    HppcVerb{"read", "ADDRESS[:COUNT]…", "bytes of memory, up to 255 at once: read 16#80000:4 (0C)", 1, kMany,
+             &Parser::read},
+    HppcVerb{"write", "ADDRESS=BYTE,…", "the same, written (0B)", 1, kMany, &Parser::write},
+    HppcVerb{"bits", "ADDRESS=PATTERN/MASK…", "those bits of a word that are in the mask (0A)", 1, kMany, &Parser::bits},
+    HppcVerb{"read-register", "NUMBER[:COUNT]…", "holding registers from 1, where the parameter table says they are", 1,
+             kMany, &Parser::registers},
+    HppcVerb{"write-register", "NUMBER=VALUE,…", "the same, written", 1, kMany, &Parser::set_registers},
+    HppcVerb{"parameters", "[COUNT]", "where the parameter table is, and that many bytes of it [52] (0D)", 0, 1,
+             &Parser::parameters},
+    HppcVerb{"monitor", "[NETWORK] SIZE:ADDRESS…", "values of one scan; SIZE is b, w or d for 1, 2 or 4 bytes (09)", 1,
+             kMany, &Parser::monitor},
+    HppcVerb{"resync", "", "reads nothing, to be in step again", 0, 0, &Parser::resync},
+    HppcVerb{"raw", "HEX…", "messages as they are", 1, kMany, &Parser::raw},
+    HppcVerb{"wait", "TIME", "before the next action", 1, 1, &Parser::wait},
+};
+
+std::vector<MasterAction> Parser::parse(const Words& words) {
+  return parse_with(*this, std::span<const HppcVerb>(kVerbs), words, "read-register 1:2");
+}
+
+std::string bytes_text(std::uint32_t first, std::size_t count) {
+  if (count == 1) return fmt::format("byte 16#{:05X}", first);
+  return fmt::format("bytes 16#{:05X}…{:05X}", first, first + count - 1);
+}
+
+void Parser::read(const Words& operands) {
+  for (const std::string& operand : operands) {
+    const auto parts = split_at(operand, ':');
+    text_ = "read " + operand;
+    const std::uint32_t first = address_of(parts ? parts->first : operand);
+    const auto count = static_cast<std::uint8_t>(parts ? parse_number(parts->second, 1, UINT8_MAX, "count") : 1);
+    add({.operands = westinghouse::hppc_read(first, count),
+         .subject = bytes_text(first, count),
+         .first = first,
+         .count = count});
+  }
+}
+
+void Parser::write(const Words& operands) {
+  for (const std::string& operand : operands) {
+    const auto parts = split_at(operand, '=');
+    if (!parts) refuse(fmt::format("'{}': a value is missing; write for example 16#ABFFE=5", stl::shortened(operand)));
+    text_ = "write " + operand;
+    const std::uint32_t first = address_of(parts->first);
+    Bytes data;
+    for (const std::int64_t value : values_of(parts->second, INT8_MIN, UINT8_MAX))
+      data.push_back(static_cast<std::uint8_t>(value));
+    if (data.size() > UINT8_MAX) refuse(fmt::format("{}: {} bytes; a message writes 255 at most", text_, data.size()));
+    add({.opcode = HppcOpcode::Write,
+         .operands = westinghouse::hppc_write(first, data),
+         .subject = bytes_text(first, data.size()),
+         .first = first,
+         .count = data.size()});
+  }
+}
+
+void Parser::bits(const Words& operands) {
+  for (const std::string& operand : operands) {
+    const auto sides = split_at(operand, '=');
+    const auto words = sides ? split_at(sides->second, '/') : std::nullopt;
+    if (!words)
+      refuse(fmt::format("'{}' is not a pattern with its mask; write for example 16#ABFFE=16#01/16#0F",
+                         stl::shortened(operand)));
+    text_ = "bits " + operand;
+    const std::uint32_t first = address_of(sides->first);
+    const auto pattern = static_cast<std::uint16_t>(parse_number(words->first, 0, UINT16_MAX, "pattern"));
+    const auto mask = static_cast<std::uint16_t>(parse_number(words->second, 0, UINT16_MAX, "mask"));
+    add({.opcode = HppcOpcode::BitWrite,
+         .operands = westinghouse::hppc_bit_write(first, pattern, mask),
+         .subject = fmt::format("bits of the word at 16#{:05X}", first),
+         .first = first,
+         .count = 2});
+  }
+}
+
+void Parser::add_registers(Registers registers) {
+  constexpr std::uint16_t kMost = UINT8_MAX / 2;
+  if (registers.count > kMost)
+    refuse(fmt::format("{}: {} registers; a message has {} at most", text_, registers.count, kMost));
+  std::string subject = fmt::format("register {}", registers.first);
+  if (registers.count > 1) subject = fmt::format("registers {}…{}", registers.first, registers.first + registers.count - 1);
+  add({.subject = std::move(subject), .registers = std::move(registers)});
+}
+
+void Parser::registers(const Words& operands) {
+  for (const std::string& operand : operands) {
+    const auto parts = split_at(operand, ':');
+    text_ = "read-register " + operand;
+    add_registers({static_cast<std::uint16_t>(parse_number(parts ? parts->first : operand, 1, UINT16_MAX, "register")),
+                   static_cast<std::uint16_t>(parts ? parse_number(parts->second, 1, UINT16_MAX, "count") : 1)});
+  }
+}
+
+void Parser::set_registers(const Words& operands) {
+  for (const std::string& operand : operands) {
+    const auto parts = split_at(operand, '=');
+    if (!parts) refuse(fmt::format("'{}': a value is missing; write for example 1=5", stl::shortened(operand)));
+    text_ = "write-register " + operand;
+    Registers registers{.first = static_cast<std::uint16_t>(parse_number(parts->first, 1, UINT16_MAX, "register"))};
+    for (const std::int64_t value : values_of(parts->second, INT16_MIN, UINT16_MAX))
+      registers.values.push_back(static_cast<std::uint16_t>(value));
+    registers.count = static_cast<std::uint16_t>(registers.values.size());
+    add_registers(std::move(registers));
+  }
+}
+
+void Parser::parameters(const Words& operands) {
+  const auto count =
+      static_cast<std::uint8_t>(operands.empty() ? kWholeTable : parse_number(operands[0], 0, UINT8_MAX, "count"));
+  add({.opcode = HppcOpcode::Parameters, .operands = {count}, .count = count});
+}
+
+void Parser::monitor(const Words& operands) {
+  constexpr std::string_view kSizes = "bwd";
+  HppcRequest::About about{.opcode = HppcOpcode::Monitor};
+  std::uint32_t network = 0;
+  for (const std::string& operand : operands) {
+    const auto parts = split_at(operand, ':');
+    const std::size_t size = parts && parts->first.size() == 1 ? kSizes.find(parts->first[0]) : std::string_view::npos;
+    if (!parts && &operand == &operands.front()) {
+      network = address_of(operand);
+      continue;
+    }
+    if (size == std::string_view::npos)
+      refuse(fmt::format("'{}' is not a size with an address; write for example w:16#ABFFE", stl::shortened(operand)));
+    about.monitored[size].push_back(address_of(parts->second));
+  }
+  const auto& [bytes, words, double_words] = about.monitored;
+  const std::size_t sum = bytes.size() + 2 * words.size() + 4 * double_words.size();
+  if (sum == 0 || sum > UINT8_MAX + 1U) refuse(fmt::format("{}: {} bytes; a monitor takes 1 to 256", text_, sum));
+  if (bytes.size() > UINT8_MAX) refuse(fmt::format("{}: {} addresses of one size; there may be 255", text_, bytes.size()));
+  about.operands = westinghouse::hppc_monitor(network, bytes, words, double_words);
+  if (network != 0) about.subject = fmt::format("network {}", network);
+  add(std::move(about));
+}
+
+void Parser::raw(const Words& operands) {
+  for (const std::string& operand : operands) {
+    serial::Frame frame = parse_hex(operand);
+    const std::uint8_t first = frame.front().byte;
+    add_raw(operand, first, std::make_shared<HppcRequest>(std::move(frame), table_));
+  }
+}
+
+std::vector<MasterAction> actions(const Words& words, const ProtocolUse& use) { return Parser(use).parse(words); }
+
+serial::Frame resynchronisation() {
+  return frame_of(HppcOpcode::Read, westinghouse::hppc_read(0, 0), FcsTable::Document);  // the same with either table
+}
+
+constexpr std::uint8_t kLinkError = 0x01;
+
+}  // namespace
+
+const Protocol& hppc_protocol() {
+  static const Protocol protocol{
+      .name = "hppc",
+      .meaning = "Westinghouse HPPC1500 and HPPC1700 at their loader port",
+      .station = 1,
+      .format = {.parity = Parity::None},
+      .over_modbus_tcp = false,
+      .options = {{kFcs, "TABLE", "frame check: document, with the odd entry of its table, or polynomial", "document",
+                   fault_of_fcs}},
+      .actions_help =
+          "Actions of --protocol hppc; in brackets its opcodes:\n" + verbs_help(std::span<const HppcVerb>(kVerbs)),
+      .actions = actions,
+      .is_complete = westinghouse::is_whole_hppc,
+      .patience = {.timeout = kSecond,  // [H9]
+                   .retries = 2,
+                   .pause = 500 * kMillisecond,
+                   .first = resynchronisation,
+                   .repeats = [](std::uint8_t code) { return code == kLinkError; }},
+      .plcs = westinghouse::find_plc("hppc")};
+  return protocol;
+}
+
+}  // namespace s7200::tools

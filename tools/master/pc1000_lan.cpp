@@ -1,0 +1,63 @@
+// The PC1000 LAN: six-byte messages with a sync signal beside the data.
+#include "serial_sim/westinghouse/block_message.hpp"
+#include "tools/master/block_request.hpp"
+#include "tools/views/register_text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr std::string_view kNoSync = "--no-sync";
+constexpr std::uint8_t kUnit = 5;
+
+class Parser final : public BlockParser {
+ public:
+  explicit Parser(const ProtocolUse& use) : BlockParser(use, !use.has(kNoSync)) {}
+
+  std::vector<MasterAction> parse(const Words& words);
+
+  void unit(const Words& operands);
+  void erase(const Words&) { add(westinghouse::erase(), {.done = "memory erased"}); }
+};
+
+using LanVerb = Verb<Parser>;
+
+constexpr std::array kOwnVerbs{
+    LanVerb{"unit", "[NUMBER]", "the PLC that all actions after it are for; shows its keyswitch and fault register", 0, 1,
+            &Parser::unit},
+    LanVerb{"erase", "", "ladder, output and holding registers; only in stop, and not on a PC1100", 0, 0, &Parser::erase},
+};
+constexpr auto kVerbs = joined(kOwnVerbs, block_verbs<Parser>());
+
+std::vector<MasterAction> Parser::parse(const Words& words) {
+  return parse_with(*this, std::span<const LanVerb>(kVerbs), words, "unit 5 read 16#1234:2");
+}
+
+void Parser::unit(const Words& operands) {
+  if (!operands.empty()) station_ = static_cast<std::uint8_t>(parse_number(operands[0], 0, UINT8_MAX, "unit"));
+  const std::string subject = operands.empty() ? fmt::format("unit {}", station_) : std::string();
+  add(westinghouse::set_unit_address(station_), {.subject = subject});
+}
+
+std::vector<MasterAction> actions(const Words& words, const ProtocolUse& use) { return Parser(use).parse(words); }
+
+}  // namespace
+
+const Protocol& pc1000_lan_protocol() {
+  static const Protocol protocol{
+      .name = "pc1000-lan",
+      .meaning = "Westinghouse PC1100, PC1200 and PC1250 on their local network",
+      .station = kUnit,
+      .format = {.parity = Parity::None},
+      .over_modbus_tcp = false,
+      .options =
+          {{kNoSync, "", "the line has no sync signal; without this option it is DTR of a serial device", {}, nullptr}},
+      .actions_help = "Actions of --protocol pc1000-lan; a PLC listens once it was addressed by its unit:\n" +
+                      verbs_help(std::span<const LanVerb>(kVerbs)),
+      .actions = actions,
+      .is_complete = westinghouse::is_whole_answer,
+      .patience = {.timeout = 500 * kMillisecond, .retries = 2},  // [L10]
+      .plcs = westinghouse::find_plc("lan")};
+  return protocol;
+}
+
+}  // namespace s7200::tools

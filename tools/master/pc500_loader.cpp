@@ -1,0 +1,289 @@
+// The loader port of PC500 and PC2000: an operation is a session of several steps.
+#include <array>
+
+#include "serial_sim/westinghouse/loader_session.hpp"
+#include "tools/master/words.hpp"
+#include "tools/views/register_text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using westinghouse::Dle;
+using westinghouse::LoaderOpcode;
+using westinghouse::LoaderOperation;
+using Data = std::span<const std::uint8_t>;
+
+constexpr std::string_view kDle = "--dle";
+constexpr std::array<std::string_view, 2> kDleWords{"doubled", "plain"};
+
+/// Bytes that have names beside their addresses.
+struct Area {
+  std::string_view name;
+  std::uint16_t first, count;
+};
+constexpr std::array kAreas{Area{"IB", 0xEF00, 0x80}, Area{"QB", 0xEF80, 0x80}, Area{"FY", 0xEE00, 0x80}};
+
+constexpr std::array<std::string_view, 8> kPointers{"PII",      "PIQ",         "flags",   "timers",
+                                                    "counters", "system data", "release", "program end"};
+
+class LoaderRequest final : public ProtocolRequest {
+ public:
+  struct About {
+    std::string subject{};
+    std::uint16_t first = 0;  ///< address of bytes that are read or written
+    std::size_t count = 0;
+  };
+
+  LoaderRequest(LoaderOperation operation, Dle dle, About about)
+      : steps_(std::move(operation), dle), about_(std::move(about)) {}
+
+  serial::Frame frame() override { return serial::to_frame(steps_.first()); }
+  std::optional<serial::Frame> next(Data response) override {
+    const auto bytes = steps_.next(response);
+    return bytes ? std::optional(serial::to_frame(*bytes)) : std::nullopt;
+  }
+  bool answered() const override { return steps_.answered(); }
+  serial::Answer judge(Data request, Data response) const override;
+  std::string_view exception_name(std::uint8_t) const override { return "refused (NAK)"; }
+  std::string subject() const override { return about_.subject; }
+  std::string in_short(const serial::Answer& answer, Data request, Data response) const override;
+  std::vector<std::string> in_lines(const serial::Answer& answer, Data request, Data response) const override;
+  nlohmann::ordered_json subject_json(Data request) const override;
+  nlohmann::ordered_json decoded_json(const serial::Answer& answer) const override { return answer.values; }
+
+ private:
+  LoaderOpcode opcode() const { return steps_.operation().opcode; }
+  std::vector<std::string> texts(const serial::Answer& answer) const;
+
+  westinghouse::LoaderSteps steps_;
+  About about_;
+};
+
+/// A raw step of a session.
+class RawStep final : public ProtocolRequest {
+ public:
+  explicit RawStep(serial::Frame frame) : frame_(std::move(frame)) {}
+
+  serial::Frame frame() override { return frame_; }
+  serial::Answer judge(Data, Data response) const override {
+    serial::Answer answer;
+    if (response.empty()) return answer;
+    answer.verdict = serial::Verdict::Right;
+    answer.bytes.assign(response.begin(), response.end());
+    return answer;
+  }
+  std::string_view exception_name(std::uint8_t) const override { return {}; }
+  std::string subject() const override { return {}; }
+  std::string in_short(const serial::Answer& answer, Data, Data) const override { return serial::to_hex(answer.bytes); }
+  std::vector<std::string> in_lines(const serial::Answer& answer, Data request, Data response) const override {
+    return {"  " + in_short(answer, request, response)};
+  }
+  nlohmann::ordered_json subject_json(Data) const override {
+    return {{"station", nullptr}, {"function", nullptr}, {"area", nullptr},
+            {"first", nullptr},   {"notation", nullptr}, {"count", nullptr}};
+  }
+  nlohmann::ordered_json decoded_json(const serial::Answer& answer) const override { return answer.values; }
+
+ private:
+  serial::Frame frame_;
+};
+
+serial::Answer LoaderRequest::judge(Data, Data response) const {
+  serial::Answer answer = steps_.judge(response);
+  if (answer.verdict != serial::Verdict::Right) return answer;
+  if (opcode() == LoaderOpcode::Read) {
+    answer.bytes.erase(answer.bytes.begin(), answer.bytes.begin() + westinghouse::kReadHead);
+    answer.values.assign(answer.bytes.begin(), answer.bytes.end());
+  }
+  return answer;
+}
+
+std::uint16_t word_at(Data bytes, std::size_t place) {
+  return static_cast<std::uint16_t>(bytes[place] << 8 | bytes[place + 1]);
+}
+
+std::vector<std::string> LoaderRequest::texts(const serial::Answer& answer) const {
+  std::vector<std::string> texts;
+  const Data bytes = answer.bytes;
+  switch (opcode()) {
+    case LoaderOpcode::Write:
+      return {about_.subject + " written"};
+    case LoaderOpcode::Read:
+      for (std::size_t i = 0; i < answer.values.size(); ++i)
+        texts.push_back(fmt::format("16#{:04X}  16#{:02X} {:>6}", about_.first + i, answer.values[i], answer.values[i]));
+      return texts;
+    case LoaderOpcode::Pointers:
+      for (std::size_t i = 0; i < kPointers.size(); ++i)
+        texts.push_back(fmt::format("{:<12} 16#{:04X}", kPointers[i], word_at(bytes, westinghouse::kReadHead + 2 * i)));
+      return texts;
+    case LoaderOpcode::Block: {
+      constexpr std::size_t kNumber = 6, kLength = 11, kHeaderWords = 5;
+      return {fmt::format("DB{:03} at 16#{:04X}, {} data words", bytes[kNumber], word_at(bytes, 1),
+                          word_at(bytes, kLength) - kHeaderWords)};
+    }
+    case LoaderOpcode::Directory:
+      for (std::size_t block = 0; 2 * block + 2 < bytes.size(); ++block)
+        if (const std::uint16_t address = word_at(bytes, 1 + 2 * block); address != 0)
+          texts.push_back(fmt::format("DB{:03} at 16#{:04X}", block, address));
+      if (texts.empty()) texts.emplace_back("no data blocks");
+      return texts;
+  }
+  return texts;
+}
+
+std::string LoaderRequest::in_short(const serial::Answer& answer, Data, Data) const {
+  if (answer.values.empty()) return fmt::format("{}", fmt::join(texts(answer), ", "));
+  std::string text;
+  for (const std::uint16_t value : answer.values) text += fmt::format("{}16#{:02X}", text.empty() ? "" : " ", value);
+  return text;
+}
+
+std::vector<std::string> LoaderRequest::in_lines(const serial::Answer& answer, Data, Data) const {
+  std::vector<std::string> lines;
+  for (const std::string& text : texts(answer)) lines.push_back("  " + text);
+  return lines;
+}
+
+nlohmann::ordered_json LoaderRequest::subject_json(Data) const {
+  nlohmann::ordered_json json{{"station", nullptr},  {"function", static_cast<int>(opcode())},
+                              {"area", nullptr},     {"first", nullptr},
+                              {"notation", nullptr}, {"count", nullptr}};
+  if (about_.count == 0) return json;
+  json["area"] = "bytes";
+  json["first"] = about_.first;
+  json["notation"] = fmt::format("16#{:04X}", about_.first);
+  json["count"] = about_.count;
+  return json;
+}
+
+Dle dle_of(const ProtocolUse& use) {
+  const auto given = use.given.find(kDle);
+  return given != use.given.end() && given->second == kDleWords[1] ? Dle::Plain : Dle::Doubled;
+}
+
+std::string fault_of_dle(const std::string& word) {
+  return std::ranges::find(kDleWords, word) != kDleWords.end()
+             ? std::string()
+             : fmt::format("'{}' is not a way to send a byte 10; there are doubled, plain", stl::shortened(word));
+}
+
+/// `QB3`, `16#EF83`
+std::uint16_t address_of(const std::string& text) {
+  const std::string upper = stl::upper_case(text);
+  for (const Area& area : kAreas)
+    if (upper.starts_with(area.name))
+      return static_cast<std::uint16_t>(area.first + parse_number(upper.substr(area.name.size()), 0, area.count - 1, text));
+  return static_cast<std::uint16_t>(parse_number(text, 0, UINT16_MAX, "address"));
+}
+
+class Parser final : public WordParser {
+ public:
+  explicit Parser(const ProtocolUse& use) : WordParser(use.station, UINT8_MAX), dle_(dle_of(use)) {}
+
+  std::vector<MasterAction> parse(const Words& words);
+
+  void read(const Words& operands);
+  void write(const Words& operands);
+  void pointers(const Words&) { add(westinghouse::loader_pointers(), {}); }
+  void block(const Words& operands);
+  void directory(const Words&) { add(westinghouse::loader_directory(), {}); }
+  void raw(const Words& operands);
+
+ private:
+  void add(LoaderOperation operation, LoaderRequest::About about) {
+    WordParser::add(std::make_shared<LoaderRequest>(std::move(operation), dle_, std::move(about)));
+  }
+  LoaderRequest::About about(std::uint16_t first, std::size_t count) const;
+
+  Dle dle_;
+};
+
+using LoaderVerb = Verb<Parser>;
+
+constexpr std::array kVerbs{
+    LoaderVerb{"read", "ADDRESS[:COUNT]…", "bytes, up to 512 at once: 16#EF80:4, IB0, QB3, FY10 (04)", 1, kMany,
+               &Parser::read},
+    LoaderVerb{"write", "ADDRESS=BYTE,…", "the same, written (03)", 1, kMany, &Parser::write},
+    LoaderVerb{"parameters", "", "where the PLC keeps what (18)", 0, 0, &Parser::pointers},
+    LoaderVerb{"block", "NUMBER", "a data block: where it is and how long (1A)", 1, 1, &Parser::block},
+    LoaderVerb{"blocks", "", "all data blocks (1B)", 0, 0, &Parser::directory},
+    LoaderVerb{"raw", "HEX…", "single steps of a session, as they are", 1, kMany, &Parser::raw},
+    LoaderVerb{"wait", "TIME", "before the next action", 1, 1, &Parser::wait},
+};
+
+std::vector<MasterAction> Parser::parse(const Words& words) {
+  return parse_with(*this, std::span<const LoaderVerb>(kVerbs), words, "read QB0:4");
+}
+
+LoaderRequest::About Parser::about(std::uint16_t first, std::size_t count) const {
+  if (count > westinghouse::kMostLoaderBytes)
+    refuse(fmt::format("{}: {} bytes; a session has {} at most", text_, count, westinghouse::kMostLoaderBytes));
+  if (first + count - 1 > UINT16_MAX) refuse(fmt::format("{}: the bytes run past 16#FFFF", text_));
+  if (count == 1) return {fmt::format("byte 16#{:04X}", first), first, count};
+  return {fmt::format("bytes 16#{:04X}…{:04X}", first, first + count - 1), first, count};
+}
+
+void Parser::read(const Words& operands) {
+  for (const std::string& operand : operands) {
+    const auto parts = split_at(operand, ':');
+    text_ = "read " + operand;
+    const std::uint16_t first = address_of(parts ? parts->first : operand);
+    const auto count = static_cast<std::size_t>(parts ? parse_number(parts->second, 1, UINT16_MAX, "count") : 1);
+    add(westinghouse::loader_read(first, count), about(first, count));
+  }
+}
+
+void Parser::write(const Words& operands) {
+  for (const std::string& operand : operands) {
+    const auto parts = split_at(operand, '=');
+    if (!parts) refuse(fmt::format("'{}': a value is missing; write for example QB0=16#7F", stl::shortened(operand)));
+    text_ = "write " + operand;
+    const std::uint16_t first = address_of(parts->first);
+    Bytes data;
+    for (std::optional rest{parts->second}; rest;) {
+      const auto next = split_at(*rest, ',');
+      data.push_back(static_cast<std::uint8_t>(parse_number(next ? next->first : *rest, INT8_MIN, UINT8_MAX, "value")));
+      rest = next ? std::optional(next->second) : std::nullopt;
+    }
+    add(westinghouse::loader_write(first, data), about(first, data.size()));
+  }
+}
+
+void Parser::block(const Words& operands) {
+  const auto number = static_cast<std::uint8_t>(parse_number(operands[0], 0, UINT8_MAX, "data block"));
+  add(westinghouse::loader_block(number), {.subject = fmt::format("DB{:03}", number)});
+}
+
+void Parser::raw(const Words& operands) {
+  for (const std::string& operand : operands) {
+    serial::Frame frame = parse_hex(operand);
+    const std::uint8_t first = frame.front().byte;
+    add_raw(operand, first, std::make_shared<RawStep>(std::move(frame)));
+  }
+}
+
+std::vector<MasterAction> actions(const Words& words, const ProtocolUse& use) { return Parser(use).parse(words); }
+
+}  // namespace
+
+const Protocol& pc500_loader_protocol() {
+  static const Protocol protocol{
+      .name = "pc500-loader",
+      .meaning = "Westinghouse PC500 and PC2000 at their loader port",
+      .station = 1,
+      .format = {},
+      .over_modbus_tcp = false,
+      .options = {{kDle, "FORM", "a byte 10 in what the PLC sends: doubled, plain", "doubled", fault_of_dle}},
+      .actions_help = "Actions of --protocol pc500-loader; in brackets its operations:\n" +
+                      verbs_help(std::span<const LoaderVerb>(kVerbs)),
+      .actions = actions,
+      .is_complete = westinghouse::is_whole_step,
+      .patience = {.timeout = 500 * kMillisecond,  // [S4]
+                   .retries = 2,
+                   .pause = 500 * kMillisecond,
+                   .repeats = [](std::uint8_t) { return true; }},
+      .plcs = westinghouse::find_plc("loader")};
+  return protocol;
+}
+
+}  // namespace s7200::tools

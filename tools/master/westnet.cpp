@@ -1,0 +1,72 @@
+// Westnet II: the commands of the data highway, and blocks of the PLC that is addressed.
+#include "serial_sim/westinghouse/block_message.hpp"
+#include "tools/master/block_request.hpp"
+#include "tools/views/register_text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using westinghouse::HighwayCommand;
+
+class Parser final : public BlockParser {
+ public:
+  explicit Parser(const ProtocolUse& use) : BlockParser(use, false) {}
+
+  std::vector<MasterAction> parse(const Words& words);
+
+  void address(const Words& operands);
+  void remote(const Words&) { add(westinghouse::highway(HighwayCommand::ReadRemoteAddress), {}); }
+  void local(const Words&) { add(westinghouse::highway(HighwayCommand::ReadLocalAddress), {}); }
+  void status(const Words&) { add(westinghouse::highway(HighwayCommand::ReadHighwayStatus), {}); }
+  void open(const Words&) { add(westinghouse::highway(HighwayCommand::OpenSession), {}); }
+  void close(const Words&) { add(westinghouse::highway(HighwayCommand::CloseSession), {}); }
+  void session(const Words&) { add(westinghouse::highway(HighwayCommand::ReadSessionStatus), {}); }
+};
+
+using WestnetVerb = Verb<Parser>;
+
+constexpr std::array kOwnVerbs{
+    WestnetVerb{"address", "DROP[.SUBDROP]", "the PLC that all actions after it are for: address 17", 1, 1,
+                &Parser::address},
+    WestnetVerb{"open", "", "a session with it", 0, 0, &Parser::open},
+    WestnetVerb{"close", "", "the session", 0, 0, &Parser::close},
+    WestnetVerb{"session", "", "who is in session with it", 0, 0, &Parser::session},
+    WestnetVerb{"status", "", "of the highway: the last error", 0, 0, &Parser::status},
+    WestnetVerb{"remote", "", "drop that is addressed", 0, 0, &Parser::remote},
+    WestnetVerb{"local", "", "drop of this computer", 0, 0, &Parser::local},
+};
+constexpr auto kVerbs = joined(kOwnVerbs, block_verbs<Parser>());
+
+std::vector<MasterAction> Parser::parse(const Words& words) {
+  return parse_with(*this, std::span<const WestnetVerb>(kVerbs), words, "address 17 read 16#1234:2");
+}
+
+void Parser::address(const Words& operands) {
+  constexpr std::int64_t kLastDrop = 254;
+  const auto parts = split_at(operands[0], '.');
+  const auto drop = static_cast<std::uint8_t>(parse_number(parts ? parts->first : operands[0], 1, kLastDrop, "drop"));
+  const auto subdrop = static_cast<std::uint8_t>(parts ? parse_number(parts->second, 0, 1, "subdrop") : 0);
+  add(westinghouse::highway(HighwayCommand::SetAddress, 0, drop, subdrop),
+      {.subject = fmt::format("drop {}, subdrop {}", drop, subdrop)});
+}
+
+std::vector<MasterAction> actions(const Words& words, const ProtocolUse& use) { return Parser(use).parse(words); }
+
+}  // namespace
+
+const Protocol& westnet_protocol() {
+  static const Protocol protocol{.name = "westnet",
+                                 .meaning = "Westinghouse PLCs over the data highway Westnet II",
+                                 .station = 1,
+                                 .format = {.parity = Parity::None},
+                                 .over_modbus_tcp = false,
+                                 .options = {},
+                                 .actions_help = "Actions of --protocol westnet; the PLC is addressed first:\n" +
+                                                 verbs_help(std::span<const WestnetVerb>(kVerbs)),
+                                 .actions = actions,
+                                 .is_complete = westinghouse::is_whole_answer,
+                                 .plcs = westinghouse::find_plc("westnet")};
+  return protocol;
+}
+
+}  // namespace s7200::tools
