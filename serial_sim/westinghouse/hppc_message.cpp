@@ -58,7 +58,9 @@ void add_hppc_address(Bytes& to, std::uint32_t address) {
   for (int byte = 0; byte < 3; ++byte) to.push_back(static_cast<std::uint8_t>(address >> 8 * byte & 0xFF));
 }
 
-std::uint32_t hppc_address(std::span<const std::uint8_t> bytes) { return bytes[0] | bytes[1] << 8 | bytes[2] << 16; }
+std::uint32_t hppc_address(std::span<const std::uint8_t> bytes) {
+  return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8 | static_cast<std::uint32_t>(bytes[2]) << 16;
+}
 
 Bytes hppc_read(std::uint32_t address, std::uint8_t count) {
   Bytes operands;

@@ -162,7 +162,8 @@ HppcPlc::Reply HppcPlc::write_bits(Data operands) {
   if (operands.size() != 7) return {.error = kInvalidLength};
   const std::uint32_t address = hppc_address(operands);
   if (address + 2 > kHppcMemory) return {.error = kInvalidOperand};
-  std::uint32_t pattern = operands[3] | operands[4] << 8, mask = operands[5] | operands[6] << 8;
+  const auto word_at = [&](std::size_t place) { return operands[place] + operands[place + 1] * 256U; };
+  std::uint32_t pattern = word_at(3), mask = word_at(5);
   if (settings_.layout.bit_write == HppcLayout::BitWrite::MaskFirst) std::swap(pattern, mask);
   put(address, (value(address, 2) & ~mask) | (pattern & mask), 2);
   return {};

@@ -76,7 +76,7 @@ void MasterOptions::add_to(CLI::App& app) {
       ->type_name("NAME");
   add_whole_number(
       app, "--station", [this](std::uint64_t given) { station_ = static_cast<std::uint8_t>(given); }, {0, UINT8_MAX},
-      "station to ask; in Modbus 0 is all of them, above 247 needs Modbus TCP",
+      "station to ask; in Modbus 0 is all, above 247 needs Modbus TCP",
       usual([](const Protocol& one) { return std::to_string(one.station); }));
   add_protocol_options(app);
   auto* interval = add_duration(app, "--every", every, "repeat all actions at this interval, in a table",
