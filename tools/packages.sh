@@ -17,14 +17,28 @@ needed_to_build=(
   /usr/include/benchmark/benchmark.h:libbenchmark-dev
 )
 
-# What the tests need besides: masters and decoders of others, that s7200 has to agree with.
+# What cpack needs for the Debian package besides.
+needed_to_package=(
+  dpkg-shlibdeps:dpkg-dev
+  file:file
+)
+
+# What the tests need besides: masters and decoders of others, that s7200 has to agree with, and what shows its manual pages,
+# completes its command lines and runs it in the pipelines of others.
 needed_to_test=(
+  "${needed_to_package[@]}"
   /usr/include/modbus/modbus.h:libmodbus-dev
   /usr/lib/python3/dist-packages/pymodbus:python3-pymodbus
   /usr/lib/python3/dist-packages/serial_asyncio:python3-serial-asyncio
   mbpoll:mbpoll
   sigrok-cli:sigrok-cli
   tshark:tshark
+  bash:bash
+  fish:fish
+  groff:groff-base
+  zsh:zsh
+  pytest-3:python3-pytest
+  /usr/lib/python3/dist-packages/yaml:python3-yaml
 )
 
 # install_missing_packages COMMAND:PACKAGE...

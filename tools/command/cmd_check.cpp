@@ -9,6 +9,7 @@
 #include "interpreter/program/warnings.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/options/choices.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/views/check_report.hpp"
@@ -81,7 +82,9 @@ void add_check(CLI::App& app, int& exit_code) {
                    "STL files or published documents, with symbol tables and data blocks for all; - is standard input")
       ->required();
   options->cpu.add_to(*verb);
-  verb->add_option("--no-warn", options->unwanted, "leave out a warning, see below (repeatable)")
+  std::vector<std::string> warnings;
+  for (const WarningInfo& warning : all_warnings()) warnings.emplace_back(warning.name);
+  offer(verb->add_option("--no-warn", options->unwanted, "leave out a warning, see below (repeatable)"), warnings)
       ->check([](const std::string& name) {
         return std::ranges::find(all_warnings(), name, &WarningInfo::name) != all_warnings().end()
                    ? std::string()

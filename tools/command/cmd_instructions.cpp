@@ -6,6 +6,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/options/choices.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/views/instruction_text.hpp"
@@ -103,7 +104,9 @@ int run_instructions(const InstructionsOptions& options) {
 void add_instructions(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<InstructionsOptions>();
   CLI::App* verb = app.add_subcommand("instructions", "the instruction table, or single instructions explained");
-  verb->add_option("MNEMONIC", options->mnemonics, "instructions to explain; all if none is given");
+  std::vector<std::string> mnemonics;
+  for (const Instruction& instruction : all_instructions()) mnemonics.emplace_back(instruction.mnemonic);
+  offer(verb->add_option("MNEMONIC", options->mnemonics, "instructions to explain; all if none is given"), mnemonics);
   options->cpu.add_to(*verb);
   verb->add_flag("--json", options->json, "print as JSON");
   verb->add_flag("--markdown", options->markdown, "print the reference page")->excludes("--json");

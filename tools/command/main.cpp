@@ -8,6 +8,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "tools/command/commands.hpp"
+#include "tools/command/derived_verbs.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/standard_streams.hpp"
 #include "tools/command/terminal.hpp"
@@ -43,6 +44,8 @@ int run_command(int argc, char** argv) {
   add_instructions(app, exit_code);
   add_times(app, exit_code);
   add_bench(app, exit_code);
+  derive_manual(app, exit_code);
+  derive_complete(app, exit_code);
   refuse_empty_values(app);
 
   try {

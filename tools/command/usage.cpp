@@ -12,10 +12,10 @@
 namespace s7200::tools {
 namespace {
 
-std::vector<std::string> verbs_of(const CLI::App& app) {
-  std::vector<std::string> verbs;
-  for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
-  return verbs;
+std::vector<std::string> names_of(const std::vector<const CLI::App*>& verbs) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : verbs) names.push_back(verb->get_name());
+  return names;
 }
 
 /// `'chek' is not a verb; is check meant?`
@@ -47,9 +47,13 @@ bool is_help_word(const std::string& word) { return word == "help" || word == "v
 
 }  // namespace
 
+std::vector<const CLI::App*> listed_verbs(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App* verb) { return !verb->get_group().empty(); });
+}
+
 std::vector<std::string> as_options(const CLI::App& app, std::vector<std::string> arguments) {
-  const std::vector<std::string> verbs = verbs_of(app);
-  const auto is_verb = [&](const std::string& word) { return std::find(verbs.begin(), verbs.end(), word) != verbs.end(); };
+  const std::vector<std::string> verbs = names_of(listed_verbs(app)), all = names_of(app.get_subcommands({}));
+  const auto is_verb = [&](const std::string& word) { return std::find(all.begin(), all.end(), word) != all.end(); };
   if (arguments.empty())
     throw CLI::ParseError(fmt::format("the verb is missing; there are {}", fmt::join(verbs, ", ")),
                           CLI::ExitCodes::RequiredError);

@@ -10,6 +10,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
+#include "tools/command/options/choices.hpp"
 #include "tools/command/options/line_options.hpp"
 #include "tools/command/options/number_option.hpp"
 
@@ -65,9 +66,12 @@ bool has_option(const Protocol& protocol, std::string_view name) {
 void MasterOptions::add_to(CLI::App& app) {
   app.add_option("TARGET", target, "a PROGRAM to run in simulation, a device, or an address; see below")->required();
   app.add_option("ACTION", words, "what to do, see below");
-  app.add_option_function<std::string>(
-         "--protocol", [this](const std::string& name) { protocol = find_protocol(name); },
-         fmt::format("what to speak: {} [{}]", protocol_names(), protocol->name))
+  std::vector<std::string> names;
+  for (const Protocol* one : protocols()) names.emplace_back(one->name);
+  offer(app.add_option_function<std::string>(
+            "--protocol", [this](const std::string& name) { protocol = find_protocol(name); },
+            fmt::format("what to speak: {} [{}]", protocol_names(), protocol->name)),
+        names)
       ->check([](const std::string& name) {
         return find_protocol(name) != nullptr
                    ? std::string()

@@ -9,6 +9,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/load_times.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/options/choices.hpp"
 #include "tools/command/options/input.hpp"
 #include "tools/command/terminal.hpp"
 
@@ -24,7 +25,9 @@ std::string unknown_cpu(std::string_view name) {
 }  // namespace
 
 void add_cpu_option(CLI::App& app, std::string& cpu, const std::string& text) {
-  app.add_option("--cpu", cpu, text)
+  std::vector<std::string> names;
+  for (const CpuModel* each : all_cpus()) names.emplace_back(each->name);
+  offer(app.add_option("--cpu", cpu, text), names)
       ->check([](const std::string& name) { return find_cpu(name) ? "" : unknown_cpu(name); })
       ->capture_default_str()
       ->type_name("TYPE");
