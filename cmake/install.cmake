@@ -1,5 +1,6 @@
 # What `cmake --install` puts where. Headers keep their folders below include/s7200, so that the lines
 # `#include "interpreter/cpu/cpu.hpp"` are the same inside and outside of this tree.
+# The component `command` is what the Debian package has (package.cmake): the command and what it reads and is explained by.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -16,9 +17,20 @@ foreach(library interpreter serial_sim)
   target_include_directories(${library} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/s7200>)
   install(DIRECTORY ${library} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/s7200 FILES_MATCHING PATTERN *.hpp)
 endforeach()
-install(TARGETS s7200)
+install(TARGETS s7200 COMPONENT command)
 install(TARGETS ${libraries} EXPORT s7200-targets)
-install(DIRECTORY stl_programs tools/conformance DESTINATION ${CMAKE_INSTALL_DATADIR}/s7200)
+install(DIRECTORY stl_programs tools/conformance DESTINATION ${CMAKE_INSTALL_DATADIR}/s7200 COMPONENT command)
+
+set(pages ${PROJECT_BINARY_DIR}/manual_pages)
+install(CODE "execute_process(
+  COMMAND ${CMAKE_COMMAND} -DS7200=$<TARGET_FILE:s7200> -DINTO=${pages} -P ${PROJECT_SOURCE_DIR}/cmake/manual_pages.cmake
+  COMMAND_ERROR_IS_FATAL ANY)" COMPONENT command)
+install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
+install(FILES tools/completion/s7200.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+  RENAME s7200 COMPONENT command)
+install(FILES tools/completion/_s7200 DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT command)
+install(FILES tools/completion/s7200.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT command)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT command)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/s7200)
 install(EXPORT s7200-targets NAMESPACE s7200:: DESTINATION ${package_dir})
