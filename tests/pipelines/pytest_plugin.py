@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+"""The plug-in of pytest and its example: pytest_plugin.py S7200 SOURCE_DIR BUILD_DIR"""
+import os
+import shutil
+import subprocess
+import tomllib
+import unittest
+
+from support import ENVIRONMENT, FAILED, FINE, SOURCE, Case, main
+
+FOLDER = SOURCE / "tools/pipelines/pytest"
+QUIET = {**ENVIRONMENT, "PYTHONDONTWRITEBYTECODE": "1"}
+
+
+def can_import(module):
+    return shutil.which("pytest-3") and subprocess.run(["/usr/bin/python3", "-c", f"import {module}"], capture_output=True, check=False).returncode == 0
+
+
+@unittest.skipUnless(shutil.which("pytest-3"), "python3-pytest is not installed")
+class Plugin(Case):
+    def pytest(self, code, text, environment=QUIET):
+        (self.folder / "test_it.py").write_text(f"SLAVE = {str(SOURCE / 'stl_programs/modbus_slave.stl')!r}\n{text}", encoding="utf-8")
+        return self.ends(code, "pytest-3", "-p", "pytest_s7200", "-p", "no:cacheprovider", self.folder,
+                         env={**environment, "PYTHONPATH": str(FOLDER)}).stdout
+
+    @unittest.skipUnless(can_import("pymodbus"), "python3-pymodbus is not installed")
+    def test_the_example_passes(self):
+        self.assertIn("3 passed", self.ends(FINE, "pytest-3", FOLDER / "example", env=QUIET).stdout)
+
+    def test_a_plc_has_a_port_while_the_test_runs_and_none_after_it(self):
+        self.pytest(FINE, "import os\nports = []\n"
+                          "def test_one(s7200_plc):\n"
+                          "    ports.extend([s7200_plc(SLAVE).port, s7200_plc(SLAVE, speed=1, ready=0).port])\n"
+                          "    assert ports[0] != ports[1] and all(map(os.path.exists, ports))\n"
+                          "def test_two():\n    assert ports and not any(map(os.path.lexists, ports))\n")
+
+    def test_what_a_plc_printed_is_returned_when_it_is_stopped(self):
+        self.pytest(FINE, "def test_it(s7200_plc):\n"
+                          "    plc = s7200_plc(SLAVE, '--set', 'VW20=1234', '--dump', 'VW20')\n"
+                          "    assert '1234' in plc.stop() and plc.stop() == plc.stop()\n")
+
+    def test_a_program_with_errors_fails_the_test_with_what_s7200_says(self):
+        (self.folder / "wrong.stl").write_text("FROB\n", encoding="utf-8")
+        shown = self.pytest(FAILED, f"def test_it(s7200_plc):\n    s7200_plc({str(self.folder / 'wrong.stl')!r})\n")
+        self.assertIn("unknown instruction 'FROB'", shown)
+
+    @unittest.skipIf(shutil.which("s7200", path=os.environ["PATH"]), "s7200 is installed here")
+    def test_without_the_command_the_test_fails_and_says_so(self):
+        shown = self.pytest(FAILED, "def test_it(s7200_plc):\n    pass\n", {**QUIET, "PATH": os.environ["PATH"]})
+        self.assertIn("s7200 is not on PATH", shown)
+
+
+class Metadata(Case):
+    def test_the_entry_point_is_the_plug_in(self):
+        project = tomllib.loads((FOLDER / "pyproject.toml").read_text(encoding="utf-8"))
+        (module,) = project["project"]["entry-points"]["pytest11"].values()
+        self.assertEqual(project["tool"]["setuptools"]["py-modules"], [module])
+        self.assertTrue((FOLDER / f"{module}.py").exists())
+
+
+main()
