@@ -19,6 +19,7 @@ foreach(library interpreter serial_sim)
 endforeach()
 install(TARGETS s7200 COMPONENT command)
 install(TARGETS ${libraries} EXPORT s7200-targets)
+install(FILES tools/pipelines/ctest/S7200Test.cmake DESTINATION ${CMAKE_INSTALL_DATADIR}/s7200/cmake COMPONENT command)
 install(DIRECTORY stl_programs tools/conformance DESTINATION ${CMAKE_INSTALL_DATADIR}/s7200 COMPONENT command)
 
 set(pages ${PROJECT_BINARY_DIR}/manual_pages)

@@ -1585,7 +1585,7 @@ class Readme(Case):
     """Every line `$ …` in a block ```sh of a README is run, in a folder that has what the tree has. What is shown below a
     command is what it prints; a line that is `…` stands for anything. A command with `&` runs until the end of its block."""
 
-    TOOLS = ("sigrok-cli", "tshark", "mbpoll")  # of others; skipped where they are not installed
+    TOOLS = ("sigrok-cli", "tshark", "mbpoll", "pytest-3")  # of others; skipped where they are not installed
 
     def test_commands(self):
         missing = [name for name in self.TOOLS if not shutil.which(name)]

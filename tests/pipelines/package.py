@@ -42,7 +42,8 @@ class Package(Case):
         expected = {"usr/bin/s7200", "usr/share/doc/s7200/copyright", "usr/share/man/man1/s7200.1.gz",
                     *(f"usr/share/man/man1/s7200-{verb}.1.gz" for verb in listed_verbs()),
                     "usr/share/bash-completion/completions/s7200", "usr/share/zsh/vendor-completions/_s7200",
-                    "usr/share/fish/vendor_completions.d/s7200.fish", "usr/share/s7200/stl_programs/modbus_slave.stl"}
+                    "usr/share/fish/vendor_completions.d/s7200.fish", "usr/share/s7200/stl_programs/modbus_slave.stl",
+                    "usr/share/s7200/cmake/S7200Test.cmake"}
         self.assertEqual(expected - files, set())
         beside = {file for file in files - expected if not file.startswith("usr/share/s7200/")}
         self.assertEqual(beside, set())
