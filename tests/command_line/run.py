@@ -1353,6 +1353,33 @@ class Files(Case):
         self.assertGreater(len(files["--capture"].read_bytes()), 24)  # more than the head of a file of frames
         self.assertEqual(json.loads(files["--memory"].read_text(encoding="utf-8"))["clock"]["year"], 26)
 
+    def test_what_the_debugger_plays_again_is_recorded_once(self):
+        records = []
+        for commands in ("continue 100ms; send 01 03 00 0a 00 02 crc; continue; continue 100ms",
+                         "continue 100ms; at 20ms; rs; step 3; at end; send 01 03 00 0a 00 02 crc; continue; at 110ms; rc; who SMB2; "
+                         "at end; continue 100ms"):
+            names = [self.folder / f"{len(records)}.{kind}" for kind in ("trace", "vcd", "pcap")]
+            self.ends(FINE, "debug", SLAVE, "--trace", names[0], "--capture", names[1], "--capture", names[2], "-x", commands)
+            records.append([name.read_bytes() for name in names])
+        self.assertEqual(records[0], records[1])
+
+    def test_a_branch_goes_on_in_traces_and_ends_captures_and_says_so(self):
+        trace, vcd = self.folder / "run.trace", self.folder / "line.vcd"
+        done = self.ends(FINE, "debug", SLAVE, "--trace", trace, "--capture", vcd, "-x",
+                         "continue 100ms; at 20ms; set VW0=1; send 01; continue 90ms")
+        self.assertIn("a new branch begins here; what ran up to 100.", done.stdout)
+        self.assertIn("run.trace, ", done.stdout)
+        self.assertIn("traces go on with what is new, after what ran before; captures of the line end", done.stdout)
+        times = [int(line[1:]) for line in vcd.read_text(encoding="utf-8").split("\n") if line.startswith("#")]
+        self.assertEqual(times, sorted(times))
+        self.assertLess(times[-1], 101_000_000)
+
+    def test_a_script_of_the_debugger_with_expectations_is_a_test(self):
+        good = self.program("continue 100ms\nsend 01 03 00 0a 00 01 crc\ncontinue\nexpect VW3300 = 7\n", "good")
+        self.ends(FINE, "debug", SLAVE, "--commands", good)
+        bad = self.program("continue 100ms\nexpect VW3290 = 66\n", "bad")
+        self.assertIn("bad:2: expected VW3290 = 66, which does not hold here", self.ends(UNUSABLE, "debug", SLAVE, "--commands", bad).stderr)
+
     def test_captures_overwrite_only_captures_of_their_kind(self):
         path = self.program(Json.ECHO)
         for name in ("line.vcd", "line.pcap"):

@@ -15,6 +15,7 @@
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/requester.hpp"
 #include "serial_sim/system/simulation.hpp"
+#include "tools/debugger/attachment.hpp"
 #include "tools/debugger/history.hpp"
 #include "tools/debugger/last_write.hpp"
 #include "tools/debugger/stepper.hpp"
@@ -87,6 +88,8 @@ class Debugger {
   Error delete_stop(const Arguments& arguments);
   Error registers(const Arguments& arguments);
   Error stack(const Arguments& arguments);
+  Error status(const Arguments& arguments);
+  Error expect(const Arguments& arguments);
   Error print(const Arguments& arguments);
   Error set(const Arguments& arguments);
   Error input(const Arguments& arguments);
@@ -103,6 +106,7 @@ class Debugger {
   Error at(const Arguments& arguments);
   Error who(const Arguments& arguments);
   Error back_to_write(const Arguments& arguments);
+  Error history(const Arguments& arguments);
   Error branch(const Arguments& arguments);
   Error past(const Arguments& arguments);
   Error display(const Arguments& arguments);
@@ -126,6 +130,9 @@ class Debugger {
   void note_new_branch();
   void note_the_past();
   std::optional<LastWrite> find_write(const MemoryRange& range, std::string_view name);
+  std::optional<LastAttachment> find_attachment(std::uint8_t event);
+  std::string instruction_text(const InstructionRecord& record) const;
+  void go_to(const Moment& moment);
   void report_write(const LastWrite& write, const MemoryRange& range, std::string_view name);
   std::optional<MemoryRange> one_range(const Arguments& arguments, std::string_view command, std::string& why) const;
   void report(const Stop& stop, const Run& run, std::uint64_t errors);
@@ -139,6 +146,7 @@ class Debugger {
   void print_trace(const TraceRecord& record);
   void print_instruction(const InstructionRecord& record, bool started_at);
 
+  void print_place(const Place& place, const std::string& name, char form);
   void list_stops();
   std::optional<StopPoint> stop_of(const Arguments& words, std::string& why);
   std::string value_of(const MemoryRange& range) const;

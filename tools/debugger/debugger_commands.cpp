@@ -19,13 +19,6 @@ namespace {
 
 constexpr std::size_t kListed = 15, kListedBefore = 6;
 
-/// The optional `[n]` of a command: 1 when it is not there, nothing when it is not a number above 0 or more follows.
-std::optional<std::uint32_t> parse_count(const std::vector<std::string>& arguments) {
-  if (arguments.empty()) return 1;
-  const auto number = parse_decimal<std::uint32_t>(arguments[0]);
-  return arguments.size() == 1 && number && *number > 0 ? number : std::nullopt;
-}
-
 /// `VW100 = 5` is written with or without blanks.
 std::vector<std::string> assignments_of(const std::vector<std::string>& arguments) {
   std::vector<std::string> texts;
@@ -39,8 +32,6 @@ std::vector<std::string> assignments_of(const std::vector<std::string>& argument
   }
   return texts;
 }
-
-std::string no_argument(std::string_view command) { return fmt::format("{} takes no argument", command); }
 
 constexpr std::string_view kBackwards = "It stops at breakpoints and watches on the way. Hits are not counted backwards.";
 
@@ -82,13 +73,17 @@ const std::vector<Debugger::Command>& Debugger::commands() {
       {"at", "", "at TIME | -TIME | start | end", "to a moment: at 15.193ms, or so long before now: at -5ms",
        "It stands in front of the first instruction at or after it. start is power-up, end the newest moment.",
        &Debugger::at},
-      {"who", "", "who ADDRESS", "the instruction that wrote an address last, without going there",
+      {"who", "", "who ADDRESS | event N",
+       "the instruction that wrote an address last, or attached an event, without going there",
        "With its operands, the interrupt and the time; also if the value stayed the same. Entries of tables, strings and "
        "messages only if they changed it. 'rwho' goes there.",
        &Debugger::who},
-      {"rwho", "rw", "rwho ADDRESS", "back to in front of the instruction that wrote an address last", kBackwards,
+      {"rwho", "rw", "rwho ADDRESS | event N", "back to in front of the instruction that 'who' names",
+       "rwho event 8 goes to where the program last changed which routine gets the characters: where it dropped a frame.",
        &Debugger::back_to_write, true},
-      {"branch", "", "branch", "forget what has run after this moment: going forward is new from here on",
+      {"history", "", "history [n]", "the last 10 instructions before now, or n, with their operands and comments", "",
+       &Debugger::history},
+      {"fork", "", "fork", "forget what has run after this moment: going forward is new from here on",
        "What was done to the PLC later is not done again. back takes it back.", &Debugger::branch},
       {"past", "", "past", "how far back it can go, and what that takes", "", &Debugger::past},
       {"restart", "", "restart", "power up again; breakpoints, watches and displays are kept",
@@ -114,10 +109,20 @@ const std::vector<Debugger::Command>& Debugger::commands() {
       {"delete", "d", "delete N… | all", "remove breakpoints and watches", "", &Debugger::delete_stop},
       {"list", "l", "list [LINE | SBR n | INT n]", "the program around the current place or elsewhere",
        "> is the current line, * a breakpoint.", &Debugger::list},
+      {"status", "", "status [LINE | SBR n | INT n | NETWORK n]",
+       "the program with power flow and operands of each instruction's last execution",
+       "Of the last 2 s at least. S0 is the top of the logic stack after it.", &Debugger::status},
       {"regs", "r", "regs", "time, place, calls, accumulators, flags, interrupts", "", &Debugger::registers},
-      {"stack", "", "stack", "the nine levels of the logic stack", "", &Debugger::stack},
-      {"print", "p", "print ADDRESS[:COUNT]…", "memory: VB100:16, VW100, VD20:real, M31.7, AC0, T5",
-       "A double word that the program uses as a real is shown as one too.", &Debugger::print},
+      {"stack", "sta", "stack", "the nine levels of the logic stack", "", &Debugger::stack},
+      {"print", "p", "print [/x | /d | /b | /c] ADDRESS… | EXPRESSION",
+       "memory: VB100:16, VW100, VD20:real, M31.7, AC0, T37, HC0, *VD3570:8, *AC1:word; or VW2 * 2 + 1",
+       "/x hex, /d decimal, /b binary, /c characters. What a pointer points to is a byte unless :word, :dword or :real is "
+       "asked for; of one that points nowhere it says who wrote it. SMB30 is shown in words, timers with bit, preset and "
+       "base. "
+       "A double word that the program uses as a real is shown as one too.",
+       &Debugger::print},
+      {"expect", "", "expect EXPRESSION", "a wrong command unless it holds: a script with such lines is a test",
+       "expect VW20 = 5 and M0.1. A script ends at the first that does not hold, with exit code 2.", &Debugger::expect},
       {"display", "", "display [ADDRESS[:COUNT]… | off]", "print memory after each stop",
        "Further ones are added. Alone: print them now.", &Debugger::display},
       {"port", "", "port", "SMB30 in words, receiver, transmitter, and the master on the line", "", &Debugger::port},
@@ -225,201 +230,6 @@ Debugger::Error Debugger::until(const Arguments& arguments) {
   return {};
 }
 
-Debugger::Error Debugger::back(const Arguments& arguments) {
-  const auto count = parse_count(arguments);
-  if (!count) return expects("back", "how many commands, for example: back 2");
-  if (kept_.empty()) {
-    out_ << "there is no earlier state: nothing has run since power-up, or all states kept have been used\n";
-    return {};
-  }
-  if (*count > kept_.size()) out_ << fmt::format("only {} earlier states are kept\n", kept_.size());
-  kept_.resize(kept_.size() - std::min<std::size_t>(*count, kept_.size()) + 1);
-  const History::BranchPtr left = history_.here().branch;
-  history_.return_to(kept_.back().place);
-  out_ << fmt::format("back to before '{}'\n", stl::printable(kept_.back().command));
-  kept_.pop_back();
-  last_op_.reset();
-  if (history_.here().branch != left) note_new_branch();
-  show_place();
-  return {};
-}
-
-Debugger::Error Debugger::back_step(const Arguments& arguments) {
-  const auto count = parse_count(arguments);
-  if (!count) return expects("rstep", "how many instructions, for example: rstep 5");
-  go_back([](const State&, std::uint32_t, const Stepper::Progress&) { return true; }, *count);
-  return {};
-}
-
-Debugger::Error Debugger::back_over(const Arguments& arguments) {
-  if (!arguments.empty()) return no_argument("rover");
-  const State& now = simulation_.cpu().state();
-  go_back(
-      [in_interrupt = now.in_interrupt, since = now.serving_since, depth = now.call_depth](const State& state, std::uint32_t,
-                                                                                           const Stepper::Progress&) {
-        if (state.in_interrupt) return in_interrupt && state.serving_since == since && state.call_depth <= depth;
-        return in_interrupt || state.call_depth <= depth;
-      },
-      1);
-  return {};
-}
-
-Debugger::Error Debugger::back_out(const Arguments& arguments) {
-  if (!arguments.empty()) return no_argument("rout");
-  const State& now = simulation_.cpu().state();
-  const bool in_subroutine = now.call_depth > (now.in_interrupt ? now.saved.call_depth : 0);
-  if (!now.in_interrupt && !in_subroutine) {
-    out_ << "this is the main program, in no subroutine and no interrupt routine; 'rscan' goes to the start of its scan\n";
-    return {};
-  }
-  go_back(
-      [in_interrupt = now.in_interrupt && !in_subroutine, since = now.serving_since, in_any = now.in_interrupt,
-       depth = now.call_depth](const State& state, std::uint32_t, const Stepper::Progress&) {
-        if (in_interrupt) return !state.in_interrupt;
-        return state.in_interrupt == in_any && (!in_any || state.serving_since == since) && state.call_depth < depth;
-      },
-      1);
-  return {};
-}
-
-Debugger::Error Debugger::back_scan(const Arguments& arguments) {
-  const auto count = parse_count(arguments);
-  if (!count) return expects("rscan", "how many scans, for example: rscan 3");
-  go_back(
-      [seen = std::optional<std::uint64_t>()](const State& state, std::uint32_t op, const Stepper::Progress&) mutable {
-        if (state.in_interrupt) return false;
-        const bool begins = seen && *seen <= state.scans ? *seen != state.scans : op == 0;
-        seen = state.scans;
-        return begins;
-      },
-      *count);
-  return {};
-}
-
-Debugger::Error Debugger::back_continue(const Arguments& arguments) {
-  if (!arguments.empty()) return no_argument("rcontinue");
-  go_back([](const State&, std::uint32_t, const Stepper::Progress&) { return false; }, 1, true);
-  return {};
-}
-
-Debugger::Error Debugger::back_until(const Arguments& arguments) {
-  std::string why;
-  const auto target = find_place(arguments, "runtil", why);
-  if (!target) return why;
-  go_back([target = *target](const State&, std::uint32_t op, const Stepper::Progress&) { return op == target; }, 1);
-  return {};
-}
-
-Debugger::Error Debugger::at(const Arguments& arguments) {
-  constexpr std::string_view kTimes = "a moment, for example: at 15.193ms, at -5ms, at start, at end";
-  std::string text = joined(arguments);
-  const bool before_now = text.starts_with('-');
-  if (before_now) text.erase(0, 1);
-  auto time = parse_duration(text);
-  if (lower_case(text) == "start") time = 0;
-  if (lower_case(text) == "end") time = history_.newest().time;
-  if (!time) return expects("at", kTimes);
-  if (before_now) time = simulation_.time() - std::min(*time, simulation_.time());
-  if (*time > history_.newest().time)
-    return fmt::format("nothing has run after {}; 'continue TIME' goes on", moment_text(history_.newest().time));
-  remember();
-  if (*time == 0)
-    history_.go_to(history_.usage().oldest);
-  else
-    history_.go_to(*time);
-  last_op_.reset();
-  show_place();
-  note_the_past();
-  return {};
-}
-
-std::optional<MemoryRange> Debugger::one_range(const Arguments& arguments, std::string_view command,
-                                               std::string& why) const {
-  if (arguments.size() == 1) return parse_range(arguments[0], simulation_.cpu().program(), why);
-  why = expects(command, fmt::format("one address, for example: {} VW100", command));
-  return {};
-}
-
-std::optional<LastWrite> Debugger::find_write(const MemoryRange& range, std::string_view name) {
-  const WriteSearch search = find_last_write(simulation_, history_, range, options_.stop_request);
-  if (search.interrupted) out_ << "interrupted by Ctrl-C\n";
-  if (!search.write && !search.interrupted)
-    out_ << fmt::format("nothing has written {} since power-up; it is {}\n", name, value_of(range));
-  return search.write;
-}
-
-void Debugger::report_write(const LastWrite& write, const MemoryRange& range, std::string_view name) {
-  const Program& program = simulation_.cpu().program();
-  out_ << fmt::format("{} was {}, became {}, at {}\n", name, value_text(program, range, write.before),
-                      value_text(program, range, write.after), moment_text(write.at));
-  if (write.by)
-    out_ << fmt::format("  by {} {}{}\n", listing_.routine_of(write.by->op), describe(*write.by, program),
-                        write.in_interrupt ? fmt::format(", serving {}", event_text(write.event)) : "");
-  else if (write.action)
-    out_ << fmt::format("  by '{}', from outside\n", describe(history_.actions()[*write.action]));
-  else
-    out_ << "  by the system, between two instructions\n";
-}
-
-Debugger::Error Debugger::who(const Arguments& arguments) {
-  std::string why;
-  const auto range = one_range(arguments, "who", why);
-  if (!range) return why;
-  const std::string name = stl::upper_case(arguments[0]);
-  if (const auto write = find_write(*range, name)) report_write(*write, *range, name);
-  return {};
-}
-
-Debugger::Error Debugger::back_to_write(const Arguments& arguments) {
-  std::string why;
-  const auto range = one_range(arguments, "rwho", why);
-  if (!range) return why;
-  const std::string name = stl::upper_case(arguments[0]);
-  const auto write = find_write(*range, name);
-  if (!write) return {};
-  report_write(*write, *range, name);
-  remember();
-  history_.go_to(write->moment);
-  last_op_.reset();
-  show_place();
-  note_the_past();
-  return {};
-}
-
-Debugger::Error Debugger::branch(const Arguments& arguments) {
-  if (!arguments.empty()) return no_argument("branch");
-  if (!history_.in_the_past()) {
-    out_ << "this is the newest moment: nothing has run after it\n";
-    return {};
-  }
-  act(SetMemory{});
-  return {};
-}
-
-Debugger::Error Debugger::past(const Arguments& arguments) {
-  if (!arguments.empty()) return no_argument("past");
-  const History::Usage usage = history_.usage();
-  constexpr double kMegabyte = 1 << 20;
-  out_ << fmt::format(
-      "from {}, where this session powered the CPU up, to {}; now {}\n"
-      "{} checkpoints, one every {} or more; {:.1f} of {:.0f} MB; {} actions from outside\n",
-      moment_text(usage.oldest.time), moment_text(history_.newest().time), moment_text(simulation_.time()),
-      usage.checkpoints, format_duration(usage.interval), static_cast<double>(usage.bytes) / kMegabyte,
-      static_cast<double>(options_.history.bound) / kMegabyte, history_.actions().size());
-  return {};
-}
-
-Debugger::Error Debugger::restart(const Arguments& arguments) {
-  if (!arguments.empty()) return no_argument("restart");
-  remember();
-  history_.restart();
-  note_new_branch();
-  last_op_.reset();
-  for (StopPoint& stop : stepper_.stops) stop.hits = 0;
-  show_place();
-  return {};
-}
-
 // --- where to stop ---
 
 /// A place that a command names; nothing, and `why`, when there is no such place.
@@ -503,14 +313,6 @@ Debugger::Error Debugger::ranges_of(const Arguments& arguments, std::vector<Memo
     if (!range) return why;
     ranges.push_back(*range);
   }
-  return {};
-}
-
-Debugger::Error Debugger::print(const Arguments& arguments) {
-  if (arguments.empty()) return expects("print", "addresses, for example: print VB100:16 M31.7 AC0");
-  std::vector<MemoryRange> ranges;
-  if (Error error = ranges_of(arguments, ranges)) return error;
-  for (const MemoryRange& range : ranges) out_ << dump_text(simulation_.cpu(), range);
   return {};
 }
 

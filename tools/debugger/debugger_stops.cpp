@@ -46,7 +46,7 @@ std::string without_quotes(std::string text) {
 }
 
 /// `always`, `if …`, `hits N`, `log …` after what a stop is set on.
-bool read_options(Words words, const CpuModel& model, StopPoint& stop, std::string& why) {
+bool read_options(Words words, const Program& program, StopPoint& stop, std::string& why) {
   while (!words.empty()) {
     const std::string option = lower_case(words.front());
     words.erase(words.begin());
@@ -54,14 +54,14 @@ bool read_options(Words words, const CpuModel& model, StopPoint& stop, std::stri
     if (option == "always" && given.empty()) {
       stop.needs_power = false;
     } else if (option == "if" && !given.empty()) {
-      const auto condition = Expression::parse(joined(given), model, why);
+      const auto condition = Expression::parse(joined(given), program, why);
       if (!condition) return false;
       stop.condition = *condition;
     } else if (const auto hits = parse_decimal<std::uint64_t>(joined(given)); option == "hits" && hits && *hits != 0) {
       stop.from_hit = *hits;
     } else if (option == "log" && !given.empty()) {
       stop.log = without_quotes(joined(given));
-      if (!check_message(stop.log, model, why)) return false;
+      if (!check_message(stop.log, program, why)) return false;
     } else {
       why = "after what it stops at come: always, if CONDITION, hits N, log 'TEXT'";
       return false;
@@ -127,7 +127,7 @@ Debugger::Error Debugger::set_break(const Arguments& arguments) {
   std::string why;
   if (place.empty()) return expects("break", "a place or what happens first, for example: break 40 if VW2 > 8");
   auto stop = stop_of(place, why);
-  if (!stop || !read_options(words, *simulation_.cpu().program().model, *stop, why)) return why;
+  if (!stop || !read_options(words, simulation_.cpu().program(), *stop, why)) return why;
   std::vector<StopPoint>& all = stepper_.stops;
   const auto same = std::ranges::find_if(all, [&](const StopPoint& s) { return s.on == On::Place && s.op == stop->op; });
   if (stop->on == On::Place && same != all.end() && words.empty()) {
@@ -154,7 +154,7 @@ Debugger::Error Debugger::watch(const Arguments& arguments) {
   std::vector<MemoryRange> ranges;
   if (Error error = ranges_of(addresses, ranges)) return error;
   std::string why;
-  if (!read_options(words, *simulation_.cpu().program().model, pattern, why)) return why;
+  if (!read_options(words, simulation_.cpu().program(), pattern, why)) return why;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     StopPoint added = pattern;
     added.number = next_number_++;

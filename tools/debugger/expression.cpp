@@ -51,16 +51,16 @@ std::optional<MemoryRange> range_at(std::uint32_t at, Width width, const CpuMode
 
 }  // namespace
 
-std::optional<Place> parse_place(std::string_view text, const CpuModel& model, std::string& why) {
+std::optional<Place> parse_place(std::string_view text, const Program& program, std::string& why) {
   Place place;
   if (!text.starts_with('*')) {
-    const auto range = parse_range(text, model, why);
+    const auto range = parse_range(text, program, why);
     if (!range) return {};
     place.range = *range;
     return place;
   }
   const std::size_t colon = std::min(text.find(':'), text.size());
-  const auto pointer = parse_range(text.substr(1, colon - 1), model, why);
+  const auto pointer = parse_range(text.substr(1, colon - 1), program, why);
   if (!pointer) return {};
   place.range = *pointer;
   place.pointer = true;
@@ -105,7 +105,7 @@ constexpr std::array<std::array<std::string_view, 6>, 5> kLevels{
 
 class Reader {
  public:
-  Reader(std::string_view text, const CpuModel& model) : text_(text), model_(model) {}
+  Reader(std::string_view text, const Program& program) : text_(text), program_(program) {}
 
   NodePtr read() {
     NodePtr root = binary(0);
@@ -159,7 +159,7 @@ class Reader {
       return std::make_shared<Node>(Node{.constant = {static_cast<double>(*integer)}});
     if (const auto real = parse_real(word)) return std::make_shared<Node>(Node{.constant = {*real, true}});
     std::string why;
-    const auto place = parse_place(word, model_, why);
+    const auto place = parse_place(word, program_, why);
     if (!place) {
       at_ = begin;
       return fail(why);
@@ -206,7 +206,7 @@ class Reader {
   }
 
   std::string_view text_;
-  const CpuModel& model_;
+  const Program& program_;
   std::size_t at_ = 0;
   std::string why_;
 };
@@ -270,8 +270,8 @@ std::optional<Value> evaluate(const Node& node, const Cpu& cpu) {
 
 }  // namespace
 
-std::optional<Expression> Expression::parse(std::string_view text, const CpuModel& model, std::string& why) {
-  Reader reader(text, model);
+std::optional<Expression> Expression::parse(std::string_view text, const Program& program, std::string& why) {
+  Reader reader(text, program);
   Expression expression;
   expression.text_ = text;
   expression.root_ = reader.read();

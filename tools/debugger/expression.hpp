@@ -25,7 +25,7 @@ struct Place {
 };
 
 /// `VB0:16`, `VD20:real`, `*VD3570:4`, `*AC1:word`. Returns nothing and sets `why` if it is not an address of this CPU.
-std::optional<Place> parse_place(std::string_view text, const CpuModel& model, std::string& why);
+std::optional<Place> parse_place(std::string_view text, const Program& program, std::string& why);
 
 /// Where that is now; nothing for a pointer that points nowhere.
 std::optional<MemoryRange> range_now(const Place& place, const Cpu& cpu);
@@ -46,7 +46,7 @@ class Expression {
   struct Node;
 
   /// Returns nothing and sets `why`, with the column, if it cannot be read.
-  static std::optional<Expression> parse(std::string_view text, const CpuModel& model, std::string& why);
+  static std::optional<Expression> parse(std::string_view text, const Program& program, std::string& why);
 
   /// Nothing where a pointer points nowhere, or by division by 0.
   std::optional<Value> value(const Cpu& cpu) const;

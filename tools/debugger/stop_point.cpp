@@ -53,20 +53,20 @@ std::string filled_in(const std::string& text, const Cpu& cpu) {
       [&](std::string_view part) {
         std::string why;
         const auto word = word_text(part, cpu);
-        const auto expression = word ? std::nullopt : Expression::parse(part, *cpu.program().model, why);
+        const auto expression = word ? std::nullopt : Expression::parse(part, cpu.program(), why);
         filled += word ? *word : expression ? number_text(expression->value(cpu)) : fmt::format("{{{}}}", part);
       });
   return filled;
 }
 
-bool check_message(const std::string& text, const CpuModel& model, std::string& why) {
+bool check_message(const std::string& text, const Program& program, std::string& why) {
   bool good = true;
   split(
       text, [](std::string_view) {},
       [&](std::string_view part) {
         for (const std::string_view word : kWords)
           if (part == word) return;
-        good = good && Expression::parse(part, model, why).has_value();
+        good = good && Expression::parse(part, program, why).has_value();
       });
   return good;
 }

@@ -65,6 +65,6 @@ bool is_box_or_coil(const Op& op);
 std::string filled_in(const std::string& text, const Cpu& cpu);
 
 /// Whether all in braces can be read; sets `why` if not.
-bool check_message(const std::string& text, const CpuModel& model, std::string& why);
+bool check_message(const std::string& text, const Program& program, std::string& why);
 
 }  // namespace s7200::tools

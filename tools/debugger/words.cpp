@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 
 namespace s7200::tools {
@@ -20,5 +21,13 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 std::string expects(std::string_view command, std::string_view what) { return fmt::format("{} expects {}", command, what); }
+
+std::string no_argument(std::string_view command) { return fmt::format("{} takes no argument", command); }
+
+std::optional<std::uint32_t> parse_count(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) return 1;
+  const auto number = parse_decimal<std::uint32_t>(arguments[0]);
+  return arguments.size() == 1 && number && *number > 0 ? number : std::nullopt;
+}
 
 }  // namespace s7200::tools

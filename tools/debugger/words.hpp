@@ -1,6 +1,8 @@
 // What the commands of the debugger have in common when they read their arguments.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,5 +16,11 @@ std::string joined(const std::vector<std::string>& words);
 
 /// `break expects a line number`
 std::string expects(std::string_view command, std::string_view what);
+
+/// `regs takes no argument`
+std::string no_argument(std::string_view command);
+
+/// The optional `[n]` of a command: 1 when it is not there, nothing when it is not a number above 0 or more follows.
+std::optional<std::uint32_t> parse_count(const std::vector<std::string>& arguments);
 
 }  // namespace s7200::tools

@@ -1,0 +1,88 @@
+#include "tests/unit/debugger/session.hpp"
+
+namespace s7200::tools {
+namespace {
+
+TEST(Seeing, HistoryListsTheLastInstructionsWithOperandsAndCommentsWithoutGoingThere) {
+  Session session(kNested);
+  session("scan 3; step 4");
+  const auto here = session.simulation.snapshot();
+  const std::string text = session("history 3");
+  EXPECT_TRUE(has(text, "main    line 2     CALL    1"));
+  EXPECT_TRUE(has(text, "main    line 4     INCW    VW10                 S0=1 VW10=16#0004  // one more scan"));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
+  EXPECT_EQ(session.simulation.snapshot(), here);
+  EXPECT_EQ(session("history 10000").substr(0, 12), "    0.200000");
+}
+
+TEST(Seeing, WhoKnowsWhichInstructionAttachedAnEvent) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("continue 50ms; who event 10"),
+                  "ATCH: INT 0 to event 10 (timed interrupt 0, SMB34), every 5 ms\n"
+                  "  by SBR 1 line 11    ATCH    0, 10"));
+  session("rwho event 10");
+  EXPECT_EQ(session.line(), 11U);
+  EXPECT_TRUE(has(session("who event 8"), "no instruction has attached or detached event 8 (port 0: character received)"));
+}
+
+TEST(Seeing, PrintTakesPointersFormsAndExpressions) {
+  Session session("LD SM0.0\nMOVD &VB100, VD20\nMOVD &VB102, AC1\nMOVD 16#41424344, VD100\nTON T37, 50\nMEND\n");
+  session("step 5");
+  EXPECT_TRUE(has(session("print *VD20"), "*VD20 is VB100\nVB100    41 "));
+  EXPECT_TRUE(has(session("print *AC1:word"), "*AC1:WORD is VW102\nVW102    16#4344"));
+  EXPECT_TRUE(has(session("print /c VD100"), "VD100    'ABCD'\n"));
+  EXPECT_TRUE(has(session("print /b VB100:2"), "VB100    2#0100_0001\nVB101    2#0100_0010\n"));
+  EXPECT_TRUE(has(session("print /x VW100"), "VW100    16#4142\n"));
+  EXPECT_TRUE(has(session("print /d VW100"), "VW100    16706\n"));
+  EXPECT_TRUE(has(session("print VB100 * 2 + 1"), "VB100 * 2 + 1 = 131 (16#00000083)\n"));
+  EXPECT_TRUE(has(session("print *AC1 = 16#43 and SM0.0"), " = 1 (16#00000001)\n"));
+  EXPECT_TRUE(has(session("print T37"), "T37: bit 0, preset 50, counts 100 ms\n"));
+  EXPECT_TRUE(has(session("print SMB30"), "SMB30      16#00 = 2#00000000: PPI slave"));
+  EXPECT_TRUE(has(session("print HC0"), "HSC0 is not defined"));
+}
+
+TEST(Seeing, StatusHasPowerFlowAndOperandsOfTheLastExecutionBesideEachLine) {
+  Session session(kNested);
+  session("scan 3; step 2");
+  const auto here = session.simulation.snapshot();
+  const std::string text = session("status");
+  EXPECT_TRUE(has(text, "   line 1     LD      SM0.1                S0=0 SM0.1=0"));
+  EXPECT_TRUE(has(text, "   line 2     CALL    1                    S0=0 no power flow"));
+  EXPECT_TRUE(has(text, " > line 3     LD      SM0.0                S0=1 SM0.0=1"));
+  EXPECT_TRUE(has(text, "   line 21    INCW    VW30                 not executed within "));
+  EXPECT_EQ(session.simulation.snapshot(), here);
+  EXPECT_TRUE(has(session("status SBR 2"), "   line 17    MOVW    7, VW20              S0=1 VW20=16#0007"));
+}
+
+TEST(Seeing, ExpectIsAWrongCommandUnlessItHolds) {
+  Session session(kNested);
+  session("scan 3; expect VW10 = 3 and SM0.0");
+  EXPECT_EQ(session.error_of("expect VW10 = 4"), "expected VW10 = 4, which does not hold here");
+  std::istringstream script("scan 2\nexpect VW10 = 5\nexpect VW10 = 6\nstep\n");
+  const auto error = session.debugger->run_script(script);
+  ASSERT_TRUE(error.has_value());
+  EXPECT_EQ(error->line, 3U);
+}
+
+TEST(Seeing, APointerThatPointsNowhereSaysWhoWroteIt) {
+  Session session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100 // wrong\nMOVB 1, *VD100\nMEND\n");
+  const std::string text = session("step 3; print *VD100");
+  EXPECT_TRUE(
+      has(text, "*VD100: VD100 is 16#7FFFFFFF, which points nowhere\nVD100 was 16#00000000 (0), became 16#7FFFFFFF"));
+  EXPECT_TRUE(has(text, "by main line 2     MOVD    16#7FFFFFFF, VD100"));
+}
+
+TEST(Seeing, WrongCommandsTellWhatIsExpected) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session.error_of("status 99"), "the last instruction is in line 22"));
+  EXPECT_TRUE(has(session.error_of("expect"), "expect expects what must hold"));
+  EXPECT_TRUE(has(session.error_of("print /q VB0"), "print expects /x, /d, /b or /c"));
+  EXPECT_TRUE(has(session.error_of("print *VW0"), "a pointer is *VD100"));
+  EXPECT_TRUE(has(session.error_of("print VB0 +"), "column 6: an address or a number is missing"));
+  EXPECT_TRUE(has(session.error_of("history x"), "history expects how many"));
+  EXPECT_TRUE(has(session.error_of("history 99999"), "history expects how many"));
+  EXPECT_TRUE(has(session.error_of("who event 99"), "who expects one address, or event and a number"));
+}
+
+}  // namespace
+}  // namespace s7200::tools

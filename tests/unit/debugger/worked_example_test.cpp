@@ -1,0 +1,58 @@
+// "The slave does not answer this frame": from the symptom backwards to the instruction that dropped it, as in the README.
+#include "tests/support/tip41.hpp"
+#include "tests/unit/debugger/session.hpp"
+
+namespace s7200::tools {
+namespace {
+
+struct Drop {
+  const char* frame;
+  const char* back;         ///< from the ATCH that left the frame to the instruction that decided it
+  const char* place;        ///< of that ATCH
+  const char* instruction;  ///< that dropped it
+  const char* reason;       ///< seen in what ran before
+};
+
+void five_commands_lead_to(Session& session, const Drop& drop) {
+  SCOPED_TRACE(drop.frame);
+  session(std::string("continue 2s; break unanswered; send ") + drop.frame);
+  EXPECT_TRUE(has(session("continue"), "breakpoint 1, unanswered"));
+  EXPECT_TRUE(has(session("rwho event 8"), "ATCH: INT 122 to event 8"));
+  const std::string left = session("rwho event 8");
+  EXPECT_TRUE(has(left, "ATCH: INT 121 to event 8"));
+  EXPECT_TRUE(has(left, drop.place));
+  EXPECT_TRUE(has(session(drop.back), drop.instruction));
+  EXPECT_TRUE(has(session("history 20"), drop.reason));
+}
+
+TEST(WorkedExample, FiveCommandsFindWhatDroppedAFrameInOurSlave) {
+  const auto program = test::compile(test::slave_text());
+  for (const Drop& drop : {Drop{"01 03 00 0a 00 01 00 00", "rstep 3", "by SBR 51 line 188",
+                                "JMP     255                  // a disturbed", "LDW=    AC0, 0               S0=0"},
+                           Drop{"02 03 00 0a 00 01 crc", "rstep 3", "by INT 122 line 671", "CRETI",
+                                "LDB=    SMB2, VB4095         S0=0 SMB2=16#02 VB4095=16#01"},
+                           Drop{"01 03p 00 0a 00 01 crc", "rstep 3", "by INT 123 line 686", "CRETI",
+                                "LDN     SM3.0                S0=0 SM3.0=1"},
+                           Drop{"01 03 00", "rstep 3", "by SBR 51 line 188", "JMP     255                  // fewer are not",
+                                "LDW<=   VW3300, 3            S0=1 VW3300=16#0003"}}) {
+    Session session(program);
+    five_commands_lead_to(session, drop);
+  }
+}
+
+TEST(WorkedExample, FiveCommandsFindWhatDroppedAFrameInTheTip) {
+  if (!test::tip41::available()) GTEST_SKIP() << "the tip document is not here";
+  const auto program = test::compile(test::tip41::text());
+  for (const Drop& drop :
+       {Drop{"01 03 00 00 00 01 00 00", "rstep 4", "by SBR 51", "JMP     255", "LDW=    0, AC2               S0=0"},
+        Drop{"02 03 00 00 00 01 crc", "rstep 3", "by INT 122", "CRETI",
+             "LDB=    SMB2, VB4095         S0=0 SMB2=16#02 VB4095=16#01"},
+        Drop{"01 03p 00 00 00 01 crc", "rstep 3", "by INT 123", "LD      SM3.0", "INCW    VW3300"},
+        Drop{"01 03 00", "rstep 4", "by SBR 51", "JMP     255", "LDW=    0, AC2               S0=0"}}) {
+    Session session(program);
+    five_commands_lead_to(session, drop);
+  }
+}
+
+}  // namespace
+}  // namespace s7200::tools

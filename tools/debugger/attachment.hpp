@@ -1,0 +1,30 @@
+// What the program did last: which instruction attached or detached an event, and the last instructions in order.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <vector>
+
+#include "tools/debugger/history.hpp"
+
+namespace s7200::tools {
+
+struct LastAttachment {
+  Moment moment;       ///< in front of the instruction
+  TraceRecord what{};  ///< Attach or Detach
+  InstructionRecord by{};
+};
+
+struct AttachmentSearch {
+  std::optional<LastAttachment> attachment;
+  bool interrupted = false;
+};
+
+/// The last ATCH or DTCH of an event before now; the simulation stands where it stood.
+AttachmentSearch find_last_attachment(History& history, std::uint8_t event, const std::atomic<bool>* stop_request);
+
+/// The last instructions before now, oldest first, at most `count`; fewer after a stop request too. The simulation stands
+/// where it stood.
+std::vector<InstructionRecord> last_instructions(History& history, std::size_t count, const std::atomic<bool>* stop_request);
+
+}  // namespace s7200::tools

@@ -1,0 +1,258 @@
+// Back in time: the commands that go to another moment, and those that look there.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ostream>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/trace/text_trace.hpp"
+#include "tools/debugger/debugger.hpp"
+#include "tools/views/machine_text.hpp"
+
+namespace s7200::tools {
+
+Debugger::Error Debugger::back(const Arguments& arguments) {
+  const auto count = parse_count(arguments);
+  if (!count) return expects("back", "how many commands, for example: back 2");
+  if (kept_.empty()) {
+    out_ << "there is no earlier state: nothing has run since power-up, or all states kept have been used\n";
+    return {};
+  }
+  if (*count > kept_.size()) out_ << fmt::format("only {} earlier states are kept\n", kept_.size());
+  kept_.resize(kept_.size() - std::min<std::size_t>(*count, kept_.size()) + 1);
+  const History::BranchPtr left = history_.here().branch;
+  history_.return_to(kept_.back().place);
+  out_ << fmt::format("back to before '{}'\n", stl::printable(kept_.back().command));
+  kept_.pop_back();
+  last_op_.reset();
+  if (history_.here().branch != left) note_new_branch();
+  show_place();
+  return {};
+}
+
+Debugger::Error Debugger::back_step(const Arguments& arguments) {
+  const auto count = parse_count(arguments);
+  if (!count) return expects("rstep", "how many instructions, for example: rstep 5");
+  go_back([](const State&, std::uint32_t, const Stepper::Progress&) { return true; }, *count);
+  return {};
+}
+
+Debugger::Error Debugger::back_over(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("rover");
+  const State& now = simulation_.cpu().state();
+  go_back(
+      [in_interrupt = now.in_interrupt, since = now.serving_since, depth = now.call_depth](const State& state, std::uint32_t,
+                                                                                           const Stepper::Progress&) {
+        if (state.in_interrupt) return in_interrupt && state.serving_since == since && state.call_depth <= depth;
+        return in_interrupt || state.call_depth <= depth;
+      },
+      1);
+  return {};
+}
+
+Debugger::Error Debugger::back_out(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("rout");
+  const State& now = simulation_.cpu().state();
+  const bool in_subroutine = now.call_depth > (now.in_interrupt ? now.saved.call_depth : 0);
+  if (!now.in_interrupt && !in_subroutine) {
+    out_ << "this is the main program, in no subroutine and no interrupt routine; 'rscan' goes to the start of its scan\n";
+    return {};
+  }
+  go_back(
+      [in_interrupt = now.in_interrupt && !in_subroutine, since = now.serving_since, in_any = now.in_interrupt,
+       depth = now.call_depth](const State& state, std::uint32_t, const Stepper::Progress&) {
+        if (in_interrupt) return !state.in_interrupt;
+        return state.in_interrupt == in_any && (!in_any || state.serving_since == since) && state.call_depth < depth;
+      },
+      1);
+  return {};
+}
+
+Debugger::Error Debugger::back_scan(const Arguments& arguments) {
+  const auto count = parse_count(arguments);
+  if (!count) return expects("rscan", "how many scans, for example: rscan 3");
+  go_back(
+      [seen = std::optional<std::uint64_t>()](const State& state, std::uint32_t op, const Stepper::Progress&) mutable {
+        if (state.in_interrupt) return false;
+        const bool begins = seen && *seen <= state.scans ? *seen != state.scans : op == 0;
+        seen = state.scans;
+        return begins;
+      },
+      *count);
+  return {};
+}
+
+Debugger::Error Debugger::back_continue(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("rcontinue");
+  go_back([](const State&, std::uint32_t, const Stepper::Progress&) { return false; }, 1, true);
+  return {};
+}
+
+Debugger::Error Debugger::back_until(const Arguments& arguments) {
+  std::string why;
+  const auto target = find_place(arguments, "runtil", why);
+  if (!target) return why;
+  go_back([target = *target](const State&, std::uint32_t op, const Stepper::Progress&) { return op == target; }, 1);
+  return {};
+}
+
+Debugger::Error Debugger::at(const Arguments& arguments) {
+  constexpr std::string_view kTimes = "a moment, for example: at 15.193ms, at -5ms, at start, at end";
+  std::string text = joined(arguments);
+  const bool before_now = text.starts_with('-');
+  if (before_now) text.erase(0, 1);
+  auto time = parse_duration(text);
+  if (lower_case(text) == "start") time = 0;
+  if (lower_case(text) == "end") time = history_.newest().time;
+  if (!time) return expects("at", kTimes);
+  if (before_now) time = simulation_.time() - std::min(*time, simulation_.time());
+  if (*time > history_.newest().time)
+    return fmt::format("nothing has run after {}; 'continue TIME' goes on", moment_text(history_.newest().time));
+  remember();
+  if (*time == 0)
+    history_.go_to(history_.usage().oldest);
+  else
+    history_.go_to(*time);
+  last_op_.reset();
+  show_place();
+  note_the_past();
+  return {};
+}
+
+std::optional<MemoryRange> Debugger::one_range(const Arguments& arguments, std::string_view command,
+                                               std::string& why) const {
+  if (arguments.size() == 1) return parse_range(arguments[0], simulation_.cpu().program(), why);
+  why = expects(command, fmt::format("one address, or event and a number, for example: {} VW100", command));
+  return {};
+}
+
+std::optional<LastWrite> Debugger::find_write(const MemoryRange& range, std::string_view name) {
+  const WriteSearch search = find_last_write(simulation_, history_, range, options_.stop_request);
+  if (search.interrupted) out_ << "interrupted by Ctrl-C\n";
+  if (!search.write && !search.interrupted)
+    out_ << fmt::format("nothing has written {} since power-up; it is {}\n", name, value_of(range));
+  return search.write;
+}
+
+void Debugger::report_write(const LastWrite& write, const MemoryRange& range, std::string_view name) {
+  const Program& program = simulation_.cpu().program();
+  out_ << fmt::format("{} was {}, became {}, at {}\n", name, value_text(program, range, write.before),
+                      value_text(program, range, write.after), moment_text(write.at));
+  if (write.by)
+    out_ << fmt::format("  by {} {}{}\n", listing_.routine_of(write.by->op), describe(*write.by, program),
+                        write.in_interrupt ? fmt::format(", serving {}", event_text(write.event)) : "");
+  else if (write.action)
+    out_ << fmt::format("  by '{}', from outside\n", describe(history_.actions()[*write.action]));
+  else
+    out_ << "  by the system, between two instructions\n";
+}
+
+/// The number in `event 8`; nothing if the words are something else.
+static std::optional<std::uint8_t> event_of(const std::vector<std::string>& words) {
+  if (words.size() != 2 || lower_case(words[0]) != "event") return {};
+  const auto number = parse_decimal<std::uint8_t>(words[1]);
+  return number && find_event(*number) ? number : std::nullopt;
+}
+
+std::optional<LastAttachment> Debugger::find_attachment(std::uint8_t event) {
+  const AttachmentSearch search = find_last_attachment(history_, event, options_.stop_request);
+  if (search.interrupted) out_ << "interrupted by Ctrl-C\n";
+  if (!search.attachment) {
+    if (!search.interrupted)
+      out_ << fmt::format("no instruction has attached or detached {} since power-up\n", event_text(event));
+    return {};
+  }
+  out_ << fmt::format("{}  {}\n  by {} {}\n", moment_text(search.attachment->what.at),
+                      describe(search.attachment->what, simulation_.cpu().program()),
+                      listing_.routine_of(search.attachment->by.op), instruction_text(search.attachment->by));
+  return search.attachment;
+}
+
+std::string Debugger::instruction_text(const InstructionRecord& record) const {
+  const Program& program = simulation_.cpu().program();
+  const std::string& comment = program.statement(record.op).comment;
+  return describe(record, program) + (comment.empty() ? "" : "  //" + stl::printable(comment));
+}
+
+Debugger::Error Debugger::history(const Arguments& arguments) {
+  constexpr std::uint32_t kShown = 10, kMost = 10'000;
+  const auto count = arguments.empty() ? kShown : parse_count(arguments);
+  if (!count || *count > kMost) return expects("history", "how many instructions, up to 10000, for example: history 30");
+  for (const InstructionRecord& record : last_instructions(history_, *count, options_.stop_request))
+    out_ << fmt::format("{}  {:<7} {}\n", clock_text(record.at), listing_.routine_of(record.op), instruction_text(record));
+  return {};
+}
+
+void Debugger::go_to(const Moment& moment) {
+  remember();
+  history_.go_to(moment);
+  last_op_.reset();
+  show_place();
+  note_the_past();
+}
+
+Debugger::Error Debugger::who(const Arguments& arguments) {
+  if (const auto event = event_of(arguments)) {
+    find_attachment(*event);
+    return {};
+  }
+  std::string why;
+  const auto range = one_range(arguments, "who", why);
+  if (!range) return why;
+  const std::string name = stl::upper_case(arguments[0]);
+  if (const auto write = find_write(*range, name)) report_write(*write, *range, name);
+  return {};
+}
+
+Debugger::Error Debugger::back_to_write(const Arguments& arguments) {
+  if (const auto event = event_of(arguments)) {
+    if (const auto attachment = find_attachment(*event)) go_to(attachment->moment);
+    return {};
+  }
+  std::string why;
+  const auto range = one_range(arguments, "rwho", why);
+  if (!range) return why;
+  const std::string name = stl::upper_case(arguments[0]);
+  const auto write = find_write(*range, name);
+  if (!write) return {};
+  report_write(*write, *range, name);
+  go_to(write->moment);
+  return {};
+}
+
+Debugger::Error Debugger::branch(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("fork");
+  if (!history_.in_the_past()) {
+    out_ << "this is the newest moment: nothing has run after it\n";
+    return {};
+  }
+  act(SetMemory{});
+  return {};
+}
+
+Debugger::Error Debugger::past(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("past");
+  const History::Usage usage = history_.usage();
+  constexpr double kMegabyte = 1 << 20;
+  out_ << fmt::format(
+      "from {}, where this session powered the CPU up, to {}; now {}\n"
+      "{} checkpoints, one every {} or more; {:.1f} of {:.0f} MB; {} actions from outside\n",
+      moment_text(usage.oldest.time), moment_text(history_.newest().time), moment_text(simulation_.time()),
+      usage.checkpoints, format_duration(usage.interval), static_cast<double>(usage.bytes) / kMegabyte,
+      static_cast<double>(options_.history.bound) / kMegabyte, history_.actions().size());
+  return {};
+}
+
+Debugger::Error Debugger::restart(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("restart");
+  remember();
+  history_.restart();
+  note_new_branch();
+  last_op_.reset();
+  for (StopPoint& stop : stepper_.stops) stop.hits = 0;
+  show_place();
+  return {};
+}
+
+}  // namespace s7200::tools

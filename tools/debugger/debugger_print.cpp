@@ -1,0 +1,140 @@
+// The command print: memory, what pointers point to, and expressions.
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "interpreter/base/bytes.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/model/ports.hpp"
+#include "tools/debugger/debugger.hpp"
+#include "tools/views/machine_text.hpp"
+#include "tools/views/memory.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr std::string_view kForms = "xdbc";
+
+std::string binary_text(std::uint32_t value, unsigned bits) {
+  std::string text = "2#";
+  for (unsigned bit = bits; bit-- > 0;)
+    text.append(value >> bit & 1 ? "1" : "0").append(bit % 4 == 0 && bit != 0 ? "_" : "");
+  return text;
+}
+
+std::string character_text(std::uint32_t value, unsigned bytes) {
+  std::string text = "'";
+  for (unsigned i = bytes; i-- > 0;) {
+    const auto byte = static_cast<std::uint8_t>(value >> 8 * i);
+    text += byte >= 0x20 && byte < 0x7F ? std::string(1, static_cast<char>(byte)) : fmt::format("\\x{:02x}", byte);
+  }
+  return text + "'";
+}
+
+/// `x` hex, `d` decimal with a sign where there is one, `b` binary, `c` characters.
+std::string number_text(std::uint32_t value, Width width, char form) {
+  const unsigned bytes = s7200::bytes_of(width);
+  if (width == Width::Bit) return fmt::format("{}", value);
+  if (form == 'x') return fmt::format("16#{:0{}X}", value, 2 * bytes);
+  if (form == 'b') return binary_text(value, 8 * bytes);
+  if (form == 'c') return character_text(value, bytes);
+  if (width == Width::Byte) return fmt::format("{}", value);
+  return fmt::format("{}", width == Width::Word ? static_cast<std::int16_t>(value) : static_cast<std::int32_t>(value));
+}
+
+std::uint32_t object_of(const State& state, const MemoryRange& range, std::uint32_t i) {
+  const std::uint32_t step = range.area == Area::AC ? 4 : s7200::bytes_of(range.width);
+  const std::uint8_t* const from = &state.image[range.at + i * step];
+  if (range.width == Width::Bit) return *from >> range.bit & 1;
+  if (range.width == Width::Byte) return *from;
+  return range.width == Width::Word ? load16(from) : load32(from);
+}
+
+std::string range_text(const Cpu& cpu, const MemoryRange& range, char form) {
+  if (form == 0) return dump_text(cpu, range);
+  std::string text;
+  for (std::uint32_t i = 0; i < range.count; ++i)
+    text += fmt::format("{:<8} {}\n", range.name_of(i), number_text(object_of(cpu.state(), range, i), range.width, form));
+  return text;
+}
+
+bool bit_of(const State& state, std::uint32_t bits, std::uint32_t number) {
+  return state.image[bits + number / 8] >> number % 8 & 1;
+}
+
+/// What belongs to a timer or counter besides its current value.
+std::string element_text(const State& state, const MemoryRange& range) {
+  std::string text;
+  for (std::uint32_t n = range.number; n < range.number + range.count; ++n) {
+    if (range.area == Area::T)
+      text += fmt::format("         T{}: bit {}, preset {}, counts {}\n", n, bit_of(state, image::kTBits, n) ? 1 : 0,
+                          state.timer[n].preset, format_duration(timer_base(n).base));
+    if (range.area == Area::C) text += fmt::format("         C{}: bit {}\n", n, bit_of(state, image::kCBits, n) ? 1 : 0);
+    if (range.area != Area::HC) continue;
+    const HighSpeedCounter& counter = state.counter[n];
+    text += counter.defined ? fmt::format("         HSC{}: mode {}, preset {}, {}{}\n", n, counter.mode, counter.preset,
+                                          counter.up ? "up" : "down", counter.enabled ? "" : ", not enabled")
+                            : fmt::format("         HSC{} is not defined\n", n);
+  }
+  return text;
+}
+
+/// The control byte of the port on the line, in words.
+std::string control_text(const serial::Simulation& simulation, const MemoryRange& range) {
+  const std::uint32_t control = kPorts[simulation.port()].control;
+  if (range.width == Width::Bit || control < range.at || control >= range.at + range.bytes()) return {};
+  const std::string port = port_text(simulation);
+  return "         " + port.substr(0, port.find('\n') + 1);
+}
+
+std::string number_text(const std::optional<Value>& value, char form) {
+  if (!value) return "cannot be computed: a pointer points nowhere, or a division by 0";
+  if (value->real) return fmt::format("{:.7g}", value->number);
+  const auto integer = static_cast<std::int64_t>(value->number);
+  const std::string text = number_text(static_cast<std::uint32_t>(integer), Width::Double, form == 0 ? 'x' : form);
+  return form == 0 ? fmt::format("{} ({})", integer, text) : text;
+}
+
+}  // namespace
+
+void Debugger::print_place(const Place& place, const std::string& name, char form) {
+  const Cpu& cpu = simulation_.cpu();
+  const auto range = range_now(place, cpu);
+  if (!range) {
+    out_ << fmt::format("{}: {} is 16#{:08X}, which points nowhere\n", name, place.range.name_of(0),
+                        pointer_value(place, cpu));
+    if (const auto write = find_write(place.range, place.range.name_of(0)))
+      report_write(*write, place.range, place.range.name_of(0));
+    return;
+  }
+  if (place.pointer) out_ << fmt::format("{} is {}\n", name, range->name_of(0));
+  out_ << range_text(cpu, *range, form) << element_text(cpu.state(), *range) << control_text(simulation_, *range);
+}
+
+Debugger::Error Debugger::print(const Arguments& arguments) {
+  Arguments words = arguments;
+  char form = 0;
+  if (!words.empty() && words[0].size() == 2 && words[0][0] == '/') {
+    form = lower_case(words[0])[1];
+    if (kForms.find(form) == std::string_view::npos) return expects("print", "/x, /d, /b or /c, then addresses");
+    words.erase(words.begin());
+  }
+  if (words.empty()) return expects("print", "addresses or an expression, for example: print VB100:16 M31.7 *AC1");
+  const Program& program = simulation_.cpu().program();
+  std::string why;
+  std::vector<Place> places;
+  for (const std::string& word : words)
+    if (const auto place = parse_place(word, program, why)) places.push_back(*place);
+  if (places.size() == words.size()) {
+    for (std::size_t i = 0; i < places.size(); ++i) print_place(places[i], stl::upper_case(words[i]), form);
+    return {};
+  }
+  std::string why_no_expression;
+  const auto expression = Expression::parse(joined(words), program, why_no_expression);
+  if (!expression) return words.size() == 1 ? why : why_no_expression;
+  out_ << fmt::format("{} = {}\n", stl::printable(expression->text()),
+                      number_text(expression->value(simulation_.cpu()), form));
+  return {};
+}
+
+}  // namespace s7200::tools
