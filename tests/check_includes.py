@@ -39,6 +39,7 @@ ROOMS = {
     "tools/slave": CORE + ["tools/host", "tools/views", "tools/rig"],
     "tools/bridge": CORE + ["tools/host", "tools/views", "tools/rig"],
     "tools/master": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
+    "tools/calibration": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
     "tools/scenario": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
     "tools/debugger": CORE + ["tools/host", "tools/views", "tools/rig"],
 }

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|files|scenarios|input|readme|times"""
+import csv
 import itertools
 import json
 import os
 import pathlib
+import random
 import re
 import shlex
 import shutil
@@ -17,6 +19,7 @@ import xml.etree.ElementTree
 
 S7200, SOURCE, GROUP = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
 SLAVE = str(SOURCE / "stl_programs/modbus_slave.stl")
+MEASURE = str(SOURCE / "stl_programs/measure_times.stl")
 EXPORTS = SOURCE / "tests/exports"
 TIP = SOURCE.parent / "shared/seeds/tip41_modbus_rtu_slave.txt"
 VERBS = re.findall(r"^void add_(\w+)\(CLI::App", (SOURCE / "tools/command/commands.hpp").read_text(encoding="utf-8"), re.M)
@@ -438,7 +441,7 @@ class Options(Case):
     NONSENSE = ("nan", "-nan", "inf", "-1", "1e999", "0x10", "1_000", "5,0", "99999999999999999999999", "-")
     ANY_TEXT = ("TABLE", "FILE", "FILE.stl", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS", "TEXT")  # by their type in the help
     BEGINNING = {"check": [SLAVE], "import": [SLAVE], "convert": [SLAVE, "--to", "iec"], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
-                 "master": [SLAVE, "slave-id"], "debug": [SLAVE, "-x", "quit"], "instructions": [], "times": [], "bench": []}
+                 "master": [SLAVE, "slave-id"], "debug": [SLAVE, "-x", "quit"], "instructions": [], "times": [], "calibrate": [MEASURE], "bench": []}
 
     @staticmethod
     def listed(verb):
@@ -1118,6 +1121,7 @@ class JsonPage(Case):
                     ["master", SLAVE, "read", "40001", "write", "40001=1", "slave-id"],
                     ["send", SOURCE / "stl_programs/text_commands.stl", "--text", "GET\\r"],
                     ["send", hasty, "41", "--baud", "300", "--parity", "none"], ["instructions"], ["instructions", "MOVB"], ["times"], ["times", "cpu214", "cpu214_from_22x"], ["times", "--check", "cpu214"],
+                    ["calibrate", MEASURE, "--each", "1s"],
                     ["send", SLAVE, "--crc", "0103000a0001", "--times-band", "2"], ["master", SLAVE, "read", "40001", "--times-band", "2"],
                     ["test", good, "--times-band", "2"], ["bench", "--each", "1ms"],
                     ["test", good, bad, gap], ["test", good, "--against", SLAVE], ["test", "--conformance", slave, "--only", "SL-crc"],
@@ -1601,6 +1605,53 @@ class Times(Case):
         self.assertEqual(of_one["band"]["tables"], 202, "a scenario that asks for a share is run with the usual number of tables")
         self.assertIn("'95' is not a share", self.ends(UNUSABLE, "test", self.program(text.replace("100%", "95"), "x.yaml")).stderr)
         self.assertIn("are about one", self.ends(UNUSABLE, "test", scenario, "--times-band", "2", "--record", self.folder / "t.yaml").stderr)
+
+    def test_a_measured_cpu_gives_its_table_back_within_the_stated_uncertainty(self):
+        """A simulated CPU with random times is measured through its line. The command knows nothing of them but the answers."""
+        random.seed(13)
+        within = lambda figure, percent: round(figure * (1 + percent / 100) ** random.uniform(-1, 1), 3)
+        rows = self.json(FINE, "times", "--json")["times"]
+        truth = {}
+        text = "mnemonic,form,base_us,per_unit_us,unit,marker\n"
+        for row in rows:
+            base = within(row["base_us"], row["uncertainty_percent"]) if row["base_us"] else 0
+            unit = within(row["per_unit_us"], row["uncertainty_percent"]) if row["per_unit_us"] else 0
+            text += f"{' '.join(row['mnemonics'])},{row['form']},{base},{unit or ''},{row['unit']},measured\n"
+            for mnemonic in row["mnemonics"]:
+                truth[mnemonic, row["form"]] = base, unit
+        hidden = self.program(text, "hidden.csv")
+        out = self.folder / "measured.csv"
+        done = self.ends(FINE, "calibrate", MEASURE, "--times", hidden, "--each", "10s", "-o", out, "--firmware", "1.10")
+        found = 0
+        for line in csv.DictReader(out.open(encoding="utf-8")):
+            form, = [form for mnemonic, form in truth if mnemonic == line["mnemonic"] and
+                     (not line["form"] or form.split() == [] or set(line["form"].split()) == set(form.split()) or
+                      not set(form.split()) & {"I", "Q", "M", "SM", "V"})][:1]
+            factor = 1 + float(line["uncertainty_percent"]) / 100
+            for figure, true in zip((line["base_us"], line["per_unit_us"]), truth[line["mnemonic"], form]):
+                if figure:
+                    found += 1
+                    self.assertTrue(float(figure) / factor - 0.001 <= true <= float(figure) * factor + 0.001, (line, true))
+            self.assertLess(factor, 1.15, line)
+            self.assertEqual(line["marker"], "measured")
+            self.assertRegex(line["source"], r"^CPU 214 \(SMB6 = 16#20, firmware 1\.10\), measured \d{4}-\d\d-\d\d, loops agree within 0\.00 us$")
+        self.assertGreater(found, 140)
+        for name in ("(interrupt entry)", "(scan overhead)", "XMT", "TODW", "HSC", "=I", "CALL"):
+            self.assertIn(f" {name}", " " + done.stderr, "what cannot be measured is listed")
+        listed = set(done.stderr.split(": ", 1)[1].split())
+        measured = {line["mnemonic"] for line in csv.DictReader(out.open(encoding="utf-8"))}
+        known = {mnemonic for row in rows for mnemonic in row["mnemonics"]}
+        self.assertEqual(measured & listed, set())
+        self.ends(FINE, "times", "--check", out)
+        self.assertIn("exists", self.ends(UNUSABLE, "calibrate", MEASURE, "-o", out).stderr)
+        self.assertLess({"LD", "MOVB", "NEXT", "WDR", "SLW", "ATCH", "TON"}, measured)
+
+    def test_what_is_not_the_measuring_program_is_said_with_how_to_download_it(self):
+        done = self.ends(UNUSABLE, "calibrate", SLAVE)
+        self.assertIn("no answer from measure_times.stl", done.stderr)
+        self.assertIn("--to microwin", done.stderr)
+        self.assertIn("does not speak Modbus", self.ends(UNUSABLE, "calibrate", "modbus-tcp://localhost:1").stderr)
+        self.ends(FINE, "check", MEASURE, "--cpu", "224")
 
     def test_rules_of_conformance_say_with_how_many_tables(self):
         slave = self.program(f"program: {SLAVE}\nfunctions: [3]\nholding_registers: {{count: 1000}}\n", "slave.yaml")

@@ -18,6 +18,7 @@ void add_master(CLI::App& app, int& exit_code);
 void add_debug(CLI::App& app, int& exit_code);
 void add_instructions(CLI::App& app, int& exit_code);
 void add_times(CLI::App& app, int& exit_code);
+void add_calibrate(CLI::App& app, int& exit_code);
 void add_bench(CLI::App& app, int& exit_code);
 
 }  // namespace s7200::tools

@@ -43,6 +43,7 @@ int run_command(int argc, char** argv) {
   add_debug(app, exit_code);
   add_instructions(app, exit_code);
   add_times(app, exit_code);
+  add_calibrate(app, exit_code);
   add_bench(app, exit_code);
   derive_manual(app, exit_code);
   derive_complete(app, exit_code);

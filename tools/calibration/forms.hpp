@@ -1,0 +1,35 @@
+// What the loops of measure_times.stl are made of: which figures of a table of times one repetition of each consists of.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "interpreter/program/checker.hpp"
+
+namespace s7200::tools {
+
+/// A figure that repetitions consist of: of an instruction in some areas, or of a system time.
+struct Form {
+  std::string mnemonic;
+  const TimeRow* row = nullptr;  ///< of the table that is corrected
+  bool per_unit = false;         ///< its figure per unit, not the base
+
+  bool operator==(const Form&) const = default;
+};
+
+/// A loop: how often a repetition takes each of the forms.
+using Repetition = std::vector<double>;
+
+struct Loops {
+  std::vector<Form> forms;
+  std::vector<Repetition> loops;  ///< by their numbers
+};
+
+/// The program that this version of the command knows, for a CPU; null if the CPU cannot run it.
+std::shared_ptr<const Program> measuring_program(const CpuModel& model, const TimeTable& times);
+
+/// Runs each loop in simulation, twice and once, and takes the instructions that one repetition more consists of. The forms
+/// are of `times`, which outlives them.
+Loops find_loops(const CpuModel& model, const TimeTable& times);
+
+}  // namespace s7200::tools
