@@ -30,6 +30,7 @@ serial::Exchange MasterSession::exchange(const MasterAction& action) {
     all.request.insert(all.request.end(), step.request.begin(), step.request.end());
     all.response.insert(all.response.end(), step.response.begin(), step.response.end());
     all.too_long = all.too_long || step.too_long;
+    all.early = all.early || step.early;
     if (!step.response.empty()) all.response_end = step.response_end;
     next = action.request->next(step.response_bytes());
   }
