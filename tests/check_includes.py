@@ -149,8 +149,20 @@ def offences_of_types():
             first.setdefault(defined, f"{name}:{number}")
 
 
+LONGEST_VERB = 119  # lines
+
+
+def offences_of_verbs():
+    """A verb is its options, a call and what it prints."""
+    for path in sorted((TOP / "tools/command").glob("cmd_*.cpp")):
+        lines = path.read_text(encoding="utf-8").count("\n")
+        if lines > LONGEST_VERB:
+            yield f"{path.relative_to(TOP)}:1: {lines} lines, {LONGEST_VERB} are enough for a verb"
+
+
 def main():
     found = [offence for path in sources() for offence in offences_of(path)] + list(offences_of_types())
+    found += offences_of_verbs()
     for line in found:
         print(line)
     print(f"{len(list(sources()))} files, {len(found)} offences")

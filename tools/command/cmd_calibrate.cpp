@@ -6,15 +6,15 @@
 
 #include "interpreter/base/text.hpp"
 #include "tools/calibration/fit.hpp"
+#include "tools/command/calibrate_output.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/measuring_target.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/stl_output.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
-#include "tools/rig/rig.hpp"
-#include "tools/slave/simulated_slave.hpp"
 #include "tools/slave/slave_target.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -42,45 +42,10 @@ std::string today() {
   return fmt::format("{}-{:02}-{:02}", local.tm_year + 1900, local.tm_mon + 1, local.tm_mday);
 }
 
-/// The measuring program in simulation, with the line it is asked over.
-struct SimulatedTarget {
-  std::unique_ptr<Rig> rig;
-  std::unique_ptr<SimulatedSlave> slave;
-};
-
-SimulatedTarget simulate(const std::shared_ptr<const Program>& program) {
-  std::vector<std::string> problems;
-  SimulatedTarget target{Rig::assemble(program, {}, problems), nullptr};
-  if (!target.rig) throw std::runtime_error(problems.empty() ? "interrupted" : problems.front());
-  target.rig->power_up();
-  target.slave = std::make_unique<SimulatedSlave>(target.rig->simulation(), serial::MasterSettings{}, program->source.name);
-  std::string why;
-  if (!target.slave->wait_until_ready(kNever, why)) throw std::runtime_error(why.empty() ? "the CPU went to STOP" : why);
-  return target;
-}
-
 void show_progress(std::size_t done, std::size_t all) {
   if (!can_redraw(stderr)) return;
   fmt::print(stderr, "\r{} of {} loops{}", done, all, done == all ? "\r\x1b[K" : "");
   std::fflush(stderr);
-}
-
-nlohmann::ordered_json to_json(const CpuModel& model, const Measurement& measurement, const Fit& fit) {
-  auto results = results_of("calibrate");
-  results["cpu"] = model.name;
-  results["identification"] = measurement.identification;
-  results["loops"] = measurement.loops.size();
-  results["contradiction_us"] = std::max(0.0, fit.contradiction) / 1000;
-  results["found"] = nlohmann::ordered_json::array();
-  for (const Fitted& each : fit.forms)
-    if (each.found)
-      results["found"].push_back({{"mnemonic", each.form.mnemonic},
-                                  {"form", each.form.row->form},
-                                  {"per_unit", each.form.per_unit},
-                                  {"us", each.ns / 1000},
-                                  {"within_us", each.within / 1000}});
-  results["not_measured"] = not_measured(fit, model);
-  return results;
 }
 
 int run_calibrate(CalibrateOptions& options) {
@@ -93,25 +58,12 @@ int run_calibrate(CalibrateOptions& options) {
   if (loops.loops.empty())
     return print_error(fmt::format("measure_times.stl does not run on CPU {}", model->name)), kUnusable;
   catch_interruption();
-  const SlaveTarget target = parse_slave_target(options.target);
-  if (target.kind == SlaveTarget::Kind::ModbusTcp)
-    throw std::invalid_argument("measure_times.stl does not speak Modbus; name a device, a pty or tcp://HOST:PORT");
-  SimulatedTarget simulated;
-  std::unique_ptr<Slave> connected;
-  if (target.kind == SlaveTarget::Kind::Program) {
-    int exit_code = kFine;
-    options.program.path = options.target;
-    const auto program = options.program.load(exit_code);
-    if (!program) return exit_code;
-    simulated = simulate(program);
-  } else {
-    connected = connect(target, {.baud = 9600, .data_bits = 8, .parity = Parity::Even, .stop_bits = 1},
-                        [](std::span<const std::uint8_t> answer) { return answer.size() == 11; });
-  }
-  Slave& slave = simulated.slave ? static_cast<Slave&>(*simulated.slave) : *connected;
+  int exit_code = kFine;
+  const auto target = MeasuringTarget::open(options.target, options.program, exit_code);
+  if (!target) return exit_code;
   Measurement measurement;
   try {
-    measurement = measure_loops(slave, loops.loops.size(), options.each,
+    measurement = measure_loops(target->slave(), loops.loops.size(), options.each,
                                 [&](std::size_t done) { show_progress(done, loops.loops.size()); });
   } catch (const std::runtime_error& error) {
     print_error(error.what());

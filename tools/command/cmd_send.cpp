@@ -3,14 +3,11 @@
 #include <CLI/CLI.hpp>
 
 #include "serial_sim/peers/quiet_time.hpp"
-#include "tools/command/band_output.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
-#include "tools/command/options/frame_options.hpp"
 #include "tools/command/options/line_options.hpp"
 #include "tools/command/options/number_option.hpp"
-#include "tools/command/options/program_options.hpp"
-#include "tools/command/options/rig_options.hpp"
+#include "tools/command/send_band.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/slave/simulated_slave.hpp"
@@ -21,55 +18,6 @@
 
 namespace s7200::tools {
 namespace {
-
-struct SendOptions {
-  ProgramOptions program;
-  FrameOptions frames;
-  bool json = false, timeline = false;
-  Time after = kNever;  // kNever: when the first scan has ended and the line is quiet
-  Time pause = kNever;  // kNever: serial::default_quiet
-  serial::MasterSettings master;
-  RigOptions rig;
-  BandOptions band;
-};
-
-/// The exchanges with one table.
-std::vector<BandOutcome> outcomes(const SendOptions& options, serial::Simulation& simulation, LostEvents& lost,
-                                  const std::vector<serial::Frame>& frames, const std::string& name) {
-  SimulatedSlave slave(simulation, options.master, name);
-  std::vector<BandOutcome> outcomes;
-  std::string why;
-  bool going = slave.wait_until_ready(options.after, why);
-  for (const serial::Frame& frame : frames) {
-    if (!going) break;
-    lost.take();
-    const serial::Exchange exchange = slave.exchange(options.master.request(frame));
-    going = !simulation.master().busy();
-    if (going) slave.wait(options.pause == kNever ? slave.pause() : options.pause);
-    const char* const verdict = exchange.timed_out ? "no answer" : is_damaged(exchange) ? "damaged" : "answered";
-    outcomes.push_back({exchange, verdict, lost.take()});
-  }
-  return outcomes;
-}
-
-std::string shortened(const serial::Frame& frame) {
-  constexpr std::size_t kShown = 32;
-  if (frame.size() <= kShown) return serial::to_hex(frame);
-  return fmt::format("{} … {} characters", serial::to_hex(serial::Frame(frame.begin(), frame.begin() + kShown)),
-                     frame.size());
-}
-
-int run_send_band(SendOptions& options) {
-  std::string why;
-  const auto frames = options.frames.read(why);
-  if (!frames) return print_error(why), kUnusable;
-  BandExchanges exchanges{.verb = "send", .labels = {}, .good = "answered", .run = {}};
-  for (const serial::Frame& frame : *frames) exchanges.labels.push_back("request  " + shortened(frame));
-  exchanges.run = [&](Rig& rig, const std::string& name, LostEvents& lost) {
-    return outcomes(options, rig.simulation(), lost, *frames, name);
-  };
-  return run_band(options.band, options.program, options.rig, options.json, exchanges);
-}
 
 int run_send(SendOptions& options) {
   if (options.band.wanted()) return run_send_band(options);

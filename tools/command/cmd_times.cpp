@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
-#include "interpreter/base/text.hpp"
 #include "interpreter/program/load_times.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/statements_output.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/rig/statements.hpp"
 #include "tools/views/results_json.hpp"
@@ -22,16 +21,6 @@ struct TimesOptions {
   std::string checked, tip41;  ///< --check
   bool csv = false, json = false;
 };
-
-/// Nothing after messages.
-std::optional<std::vector<TitledTimes>> load_all(const std::vector<std::string>& tables, const CpuModel& model) {
-  std::vector<TitledTimes> loaded;
-  std::vector<std::string> errors;
-  for (const std::string& table : tables)
-    if (auto times = load_times(model, table, errors)) loaded.push_back({table, std::move(*times)});
-  for (const std::string& error : errors) print_error(error);
-  return errors.empty() ? std::optional(loaded) : std::nullopt;
-}
 
 int show_side_by_side(const TimesOptions& options, const CpuModel& model) {
   const auto tables = load_all(options.tables, model);
@@ -64,36 +53,6 @@ int show_table(const TimesOptions& options, const CpuModel& model) {
   return kFine;
 }
 
-using Verdict = Statement::Verdict;
-
-std::size_t count(const std::vector<Statement>& statements, Verdict verdict) {
-  return static_cast<std::size_t>(std::ranges::count(statements, verdict, &Statement::verdict));
-}
-
-std::string statements_text(const CpuModel& model, const std::string& table, const std::vector<Statement>& statements) {
-  std::string text = fmt::format("What is known of the times of CPU {}, with {}:\n", model.name, stl::printable(table));
-  for (const Statement& each : statements) {
-    static constexpr const char* kVerdicts[] = {"holds", "FAILS", "not checked"};
-    text += fmt::format("  {:<11}  {}: {}   ({})\n", kVerdicts[static_cast<std::size_t>(each.verdict)], each.says,
-                        each.found, each.source);
-  }
-  text += fmt::format("{} hold, {} fail", count(statements, Verdict::Holds), count(statements, Verdict::Fails));
-  if (const auto left = count(statements, Verdict::NotChecked)) text += fmt::format(", {} not checked", left);
-  return text + '\n';
-}
-
-nlohmann::ordered_json statements_json(const std::vector<Statement>& statements) {
-  auto json = nlohmann::ordered_json::array();
-  for (const Statement& each : statements) {
-    static constexpr const char* kVerdicts[] = {"holds", "fails", "not_checked"};
-    json.push_back({{"statement", each.says},
-                    {"source", each.source},
-                    {"found", each.found},
-                    {"verdict", kVerdicts[static_cast<std::size_t>(each.verdict)]}});
-  }
-  return json;
-}
-
 /// Nothing after a message: it cannot be read, or is another program.
 std::optional<SourceText> read_tip41(const std::string& path) {
   auto text = read_program_text(path);
@@ -117,7 +76,7 @@ int check_table(const TimesOptions& options, const CpuModel& model) {
     fmt::print("{}", statements_text(model, options.checked, statements));
   }
   if (statements.empty()) print_note(fmt::format("nothing is known of the times of CPU {}", model.name));
-  return count(statements, Verdict::Fails) == 0 ? kFine : kCheckFailed;
+  return any_fails(statements) ? kCheckFailed : kFine;
 }
 
 int run_times(const TimesOptions& options) {

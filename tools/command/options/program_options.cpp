@@ -127,6 +127,15 @@ std::shared_ptr<const Program> ProgramOptions::load(SourceText text, int& exit_c
   return result.program;
 }
 
+std::optional<std::vector<TitledTimes>> load_all(const std::vector<std::string>& tables, const CpuModel& model) {
+  std::vector<TitledTimes> loaded;
+  std::vector<std::string> errors;
+  for (const std::string& table : tables)
+    if (auto times = load_times(model, table, errors)) loaded.push_back({table, std::move(*times)});
+  for (const std::string& error : errors) print_error(error);
+  return errors.empty() ? std::optional(loaded) : std::nullopt;
+}
+
 std::optional<SourceText> read_program_text(const std::string& path, bool force_document) {
   std::string name, why;
   const auto bytes = read_input(path, name);

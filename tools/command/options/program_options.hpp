@@ -8,6 +8,7 @@
 
 #include "interpreter/program/load.hpp"
 #include "interpreter/program/slips.hpp"
+#include "tools/views/times_text.hpp"
 
 namespace CLI {
 class App;
@@ -55,6 +56,9 @@ struct ProgramOptions : CpuOptions {
   /// The same of a text that has been read.
   std::shared_ptr<const Program> load(SourceText text, int& exit_code) const;
 };
+
+/// Tables of execution times, by their names or files; nothing after messages.
+std::optional<std::vector<TitledTimes>> load_all(const std::vector<std::string>& tables, const CpuModel& model);
 
 /// Reads a source as the verbs do, "-" from standard input, and that only once; nothing after a message.
 std::optional<SourceText> read_program_text(const std::string& path, bool force_document = false);

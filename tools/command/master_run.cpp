@@ -1,0 +1,122 @@
+#include "tools/command/master_run.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "tools/command/band_output.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
+#include "tools/slave/peer_slave.hpp"
+#include "tools/slave/simulated_slave.hpp"
+#include "tools/views/faults.hpp"
+#include "tools/views/report.hpp"
+
+namespace s7200::tools {
+
+int run_session(const MasterOptions& options, MasterSession& session, const std::vector<MasterAction>& actions,
+                MasterOutput& output, const std::function<bool()>& over,
+                const std::function<nlohmann::ordered_json()>& plant) {
+  std::string error;
+  output.begin();
+  try {
+    session.run({[&](const MasterResult& result) { output.show(result); }, [&] { output.end_round(session.statistics()); }},
+                over);
+  } catch (const std::exception& end) {  // SlaveUnreachable, or a frame that cannot be sent to this slave
+    error = end.what();
+  }
+  output.end(session.statistics(), error, plant());
+  if (!error.empty()) {
+    print_error(error);
+    return kUnusable;
+  }
+  if (!session.statistics().latency()) print_note_if_any(torn_frame_note(raw_frames(actions)));
+  const bool cut_short = interrupted() && !options.open_ended();
+  if (cut_short) print_interruption();
+  return session.statistics().any_failed() || cut_short ? kCheckFailed : kFine;
+}
+
+int run_on_program_band(MasterOptions& options, const std::vector<MasterAction>& actions) {
+  options.program.path = options.target;
+  BandExchanges exchanges{.verb = "master", .labels = {}, .good = verdict_name(serial::Verdict::Right), .run = {}};
+  for (const MasterAction& action : actions)
+    if (action.request) exchanges.labels.push_back(action.text);
+  exchanges.run = [&](Rig& rig, const std::string& name, LostEvents& lost) {
+    SimulatedSlave slave(rig.simulation(), options.master, name);
+    MasterSession session(slave, actions, options.session(true));
+    std::vector<BandOutcome> outcomes;
+    std::string why;
+    if (!slave.wait_until_ready(options.after, why)) return outcomes;
+    lost.take();
+    const auto add = [&](const MasterResult& result) {
+      outcomes.push_back({result.exchange, verdict_name(result.answer.verdict), lost.take()});
+    };
+    session.run({add, [] {}}, [] { return false; });
+    return outcomes;
+  };
+  return run_band(options.band, options.program, options.rig, options.json, exchanges);
+}
+
+int run_on_program(MasterOptions& options, const std::vector<MasterAction>& actions) {
+  int exit_code = kFine;
+  options.program.path = options.target;
+  const auto program = options.program.load(exit_code);
+  if (!program) return exit_code;
+  const auto rig = options.rig.assemble(program, options.json);
+  if (!rig) return options.rig.exit_code_without_rig();
+  rig->power_up();
+  const auto plant = [&] { return options.rig.json(rig->simulation()); };
+  SimulatedSlave slave(rig->simulation(), options.master, program->source.name);
+  MasterSession session(slave, actions, options.session(true));
+  MasterOutput output(options.output(), slave.name());
+  std::string why;
+  const bool ready = slave.wait_until_ready(options.after, why);
+  if (ready) {
+    print_note_if_any(slave.note_on_port());
+    exit_code = run_session(
+        options, session, actions, output, [&] { return options.rig.failed_strictly(rig->cpu()); }, plant);
+  } else {
+    if (!why.empty()) print_error(why);
+    output.begin();
+    if (options.json) output.end(session.statistics(), "the program was not ready for the first request", plant());
+    exit_code = kCheckFailed;
+  }
+  const bool all_written = finish(*rig);
+  if (ready && !options.json) fmt::print("{}", options.rig.dump_text(rig->cpu()));
+  fmt::print(stderr, "{}", errors_text(rig->cpu()));
+  const bool fatal = rig->cpu().state().fatal_code != 0, stopped = rig->cpu().state().mode == Mode::Stop;
+  if (!ready && stopped && !fatal) print_error("the CPU went to STOP before the first request");
+  if (!ready) print_interruption();
+  if (ready) print_notes(fault_notes(rig->simulation().faults()));
+  if (ready && stopped) print_note("the CPU is in STOP");
+  if (!all_written) return kUnusable;
+  if (fatal) return kCpuFatal;
+  if (!ready || !options.rig.failed_strictly(rig->cpu())) return exit_code;
+  print_error("--strict: a run-time error ended the session");
+  return kCheckFailed;
+}
+
+int run_on_peer(MasterOptions& options, const std::string& model, const std::vector<MasterAction>& actions) {
+  std::string why;
+  std::unique_ptr<westinghouse::Plc> plc = westinghouse::make_plc(*options.protocol->plcs, model, why);
+  if (!plc) throw std::invalid_argument(why);
+  for (const std::string& setting : options.plc)
+    if (!plc->set(setting, why)) throw std::invalid_argument("--plc: " + why);
+  const auto faults = options.rig.faults();
+  if (!faults) return kUnusable;
+  PeerSlave slave(std::move(plc), options.master, *faults, options.target);
+  MasterSession session(slave, actions, options.session(true));
+  MasterOutput output(options.output(), slave.name());
+  const int exit_code = run_session(
+      options, session, actions, output, [] { return false; },
+      [&] {
+        nlohmann::ordered_json json = RigOptions::no_json();
+        json["faults"] = faults_json(slave.faults());
+        return json;
+      });
+  print_notes(fault_notes(slave.faults()));
+  return exit_code;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,27 @@
+// A master at work, from its first exchange to what is said at the end; each returns the exit code.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/command/master_output.hpp"
+#include "tools/command/options/master_options.hpp"
+
+namespace s7200::tools {
+
+/// Whichever way it ends. `over`: whether it is to end now. `plant` then says what the JSON has of the plant around the CPU.
+int run_session(const MasterOptions& options, MasterSession& session, const std::vector<MasterAction>& actions,
+                MasterOutput& output, const std::function<bool()>& over,
+                const std::function<nlohmann::ordered_json()>& plant);
+
+int run_on_program(MasterOptions& options, const std::vector<MasterAction>& actions);
+
+/// The same with every table of a band of execution times.
+int run_on_program_band(MasterOptions& options, const std::vector<MasterAction>& actions);
+
+/// On a simulated PLC of another make, alone on a line.
+int run_on_peer(MasterOptions& options, const std::string& model, const std::vector<MasterAction>& actions);
+
+}  // namespace s7200::tools
