@@ -23,7 +23,7 @@ LINES = (
     ("s7200 run --parity e", ["even"]),
     ("s7200 run --parity=o", ["odd"]),
     ("s7200 check --cpu 21", ["212", "214", "215", "216"]),
-    ("s7200 check --no-warn double-", ["double-coil", "double-counter", "double-timer"]),
+    ("s7200 check --no-warn double-t", ["double-timer"]),
     ("s7200 master --protocol free", ["freeport-pc"]),
     ("s7200 instructions MOV", ["MOVB", "MOVW", "MOVD", "MOVR"]),
     ("s7200 manual instr", ["instructions"]),
