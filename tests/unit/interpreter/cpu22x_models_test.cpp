@@ -230,5 +230,10 @@ TEST(Cpu22x, TwoPidsOfOneLoopAreWarnedOf) {
   EXPECT_EQ(result.diagnostics[0].position.line, 4U);
 }
 
+TEST(Cpu22x, EnteringAnInterruptTakes47usOnRelease1And24usOnRelease2) {
+  EXPECT_EQ(default_times(*find_cpu("224r1"))[SystemTime::InterruptEntry], 47 * kMicrosecond);
+  EXPECT_EQ(default_times(cpu224())[SystemTime::InterruptEntry], 24 * kMicrosecond);
+}
+
 }  // namespace
 }  // namespace s7200::test
