@@ -27,14 +27,14 @@ void five_commands_lead_to(Session& session, const Drop& drop) {
 
 TEST(WorkedExample, FiveCommandsFindWhatDroppedAFrameInOurSlave) {
   const auto program = test::compile(test::slave_text());
-  for (const Drop& drop : {Drop{"01 03 00 0a 00 01 00 00", "rstep 3", "by SBR 51 line 188",
-                                "JMP     255                  // a disturbed", "LDW=    AC0, 0               S0=0"},
-                           Drop{"02 03 00 0a 00 01 crc", "rstep 3", "by INT 122 line 671", "CRETI",
-                                "LDB=    SMB2, VB4095         S0=0 SMB2=16#02 VB4095=16#01"},
-                           Drop{"01 03p 00 0a 00 01 crc", "rstep 3", "by INT 123 line 686", "CRETI",
-                                "LDN     SM3.0                S0=0 SM3.0=1"},
-                           Drop{"01 03 00", "rstep 3", "by SBR 51 line 188", "JMP     255                  // fewer are not",
-                                "LDW<=   VW3300, 3            S0=1 VW3300=16#0003"}}) {
+  for (const Drop& drop :
+       {Drop{"01 03 00 0a 00 01 00 00", "rstep 3", "by SBR 51 line", "JMP     255                  // a disturbed",
+             "LDW=    AC0, 0               S0=0"},
+        Drop{"02 03 00 0a 00 01 crc", "rstep 3", "by INT 122 line", "CRETI",
+             "LDB=    SMB2, VB4095         S0=0 SMB2=16#02 VB4095=16#01"},
+        Drop{"01 03p 00 0a 00 01 crc", "rstep 3", "by INT 123 line", "CRETI", "LDN     SM3.0                S0=0 SM3.0=1"},
+        Drop{"01 03 00", "rstep 3", "by SBR 51 line", "JMP     255                  // fewer are not",
+             "LDW<=   VW3300, 3            S0=1 VW3300=16#0003"}}) {
     Session session(program);
     five_commands_lead_to(session, drop);
   }
