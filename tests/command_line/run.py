@@ -421,9 +421,7 @@ class Verbs(Case):
         wrong = self.program("FROB\n")
         for environment, coloured in (({"NO_COLOR": ""}, True), ({"NO_COLOR": "1"}, False)):
             try:
-                hasty = self.program("LD SM0.1\nMOVB 16#1D, SMB30\nATCH 0, 8\nENI\nMEND\nINT 0\nMOVB 1, VB0\nMOVB 65, VB1\nXMT VB0, 0\nRETI\n",
-                             "hasty.stl")  # answers at 300 baud before the stop bit of the request has ended
-        primary, secondary = os.openpty()
+                primary, secondary = os.openpty()
             except OSError as error:
                 self.skipTest(f"no terminal can be opened here: {error}")
             done = s7200("check", wrong, capture_output=False, stdout=subprocess.DEVNULL, stderr=secondary,
@@ -1108,6 +1106,8 @@ class JsonPage(Case):
         faulty = self.program("LD SM0.0\nMOVR 1.5, VD20\nMOVD 0, *VD100\nMEND\n", "faulty.stl")
         good, bad = self.program(Scenarios.GOOD, "good.yaml"), self.program(Scenarios.BAD, "bad.yaml")
         gap = self.program(Scenarios.BAD + "expected_failure: not yet\n", "gap.yaml")
+        hasty = self.program("LD SM0.1\nMOVB 16#1D, SMB30\nATCH 0, 8\nENI\nMEND\nINT 0\nMOVB 1, VB0\nMOVB 65, VB1\nXMT VB0, 0\nRETI\n",
+                             "hasty.stl")  # answers at 300 baud before the stop bit of the request has ended
         slave = self.program(f"program: {SLAVE}\nfunctions: [3]\nholding_registers: {{count: 1000}}\n", "slave.yaml")
         primary, secondary = os.openpty()
         self.addCleanup(os.close, primary)
