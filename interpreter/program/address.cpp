@@ -13,14 +13,26 @@
 namespace s7200 {
 namespace {
 
-/// An address as written, or that of a symbol.
+/// An address as written, or that of a symbol. `S1`, `E1` and the like are symbols if there are any of these names.
 std::optional<stl::Address> find_address(std::string_view text, const AddressSpace& space) {
   std::string why;
   const auto operand = stl::parse_operand(text, why);
-  if (const auto* address = operand ? std::get_if<stl::Address>(&operand->value) : nullptr) return *address;
-  const stl::Symbol* symbol = space.symbols ? stl::find_symbol(*space.symbols, text) : nullptr;
-  const auto* address = symbol && symbol->value ? std::get_if<stl::Address>(&*symbol->value) : nullptr;
+  const bool complete =
+      operand && std::holds_alternative<stl::Address>(operand->value) && !stl::may_be_name(operand->value, text);
+  const stl::Symbol* symbol = space.symbols && !complete ? stl::find_symbol(*space.symbols, text) : nullptr;
+  if (const auto* address = symbol && symbol->value ? std::get_if<stl::Address>(&*symbol->value) : nullptr) return *address;
+  const auto* address = operand ? std::get_if<stl::Address>(&operand->value) : nullptr;
   return address ? std::optional(*address) : std::nullopt;
+}
+
+/// `Pump` of `Pump:Q0.0`, with the address beside it; otherwise nothing.
+std::optional<std::string_view> beside_symbol(std::string_view text, std::size_t colon, const AddressSpace& space) {
+  if (colon == std::string_view::npos || !space.symbols || !stl::find_symbol(*space.symbols, text.substr(0, colon)))
+    return {};
+  std::string why;
+  const std::string_view rest = text.substr(colon + 1);
+  const auto operand = stl::parse_operand(rest.substr(0, rest.find(':')), why);
+  return operand && std::holds_alternative<stl::Address>(operand->value) ? std::optional(rest) : std::nullopt;
 }
 
 std::uint32_t place_of(const MemoryRange& range) {
@@ -60,6 +72,7 @@ std::vector<std::uint8_t> MemoryRange::bytes_in(std::span<const std::uint8_t> im
 
 std::optional<MemoryRange> parse_range(std::string_view text, const AddressSpace& space, std::string& why) {
   const std::size_t colon = text.find(':', text.starts_with('"') ? text.find('"', 1) : 0);
+  if (const auto address = beside_symbol(text, colon, space)) return parse_range(*address, space.model, why);
   const auto address = find_address(text.substr(0, colon), space);
   const auto area = address ? area_named(address->area) : std::nullopt;
   if (!area || !names_width(*address, *area)) {

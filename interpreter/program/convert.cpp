@@ -120,9 +120,13 @@ std::vector<Routine> routines_of(const stl::Source& source) {
   return routines;
 }
 
+/// Quotes for what a listing would take for something else: `K1` is a constant, `E1` an address.
 std::string quoted_if_needed(const std::string& name) {
-  const bool plain = std::ranges::all_of(name, [](char c) { return stl::is_letter(c) || stl::is_digit(c) || c == '_'; });
-  return plain && !name.empty() && !stl::is_digit(name.front()) ? name : fmt::format("\"{}\"", name);
+  std::string why;
+  const auto read = stl::parse_operand(name, why);
+  const auto* plain = read ? std::get_if<stl::Name>(&read->value) : nullptr;
+  const bool word = std::ranges::all_of(name, [](char c) { return stl::is_letter(c) || stl::is_digit(c) || c == '_'; });
+  return plain && word ? name : fmt::format("\"{}\"", name);
 }
 
 std::string declarations_text(const std::vector<stl::Variable>& variables) {
@@ -192,7 +196,11 @@ std::string blocks_text(const stl::Source& source) {
     comment.lines.assign(routine.lines.begin(), first);
     part.lines.assign(first, routine.lines.end());
     const auto is_network = [](const stl::Line& line) { return std::holds_alternative<stl::NetworkHead>(line); };
-    if (std::ranges::none_of(part.lines, is_network)) part.lines.insert(part.lines.begin(), stl::NetworkHead{1, {}, {}});
+    const auto code = std::ranges::find_if(
+        part.lines, [&](const stl::Line& line) { return is_network(line) || std::holds_alternative<stl::Statement>(line); });
+    const bool any_network = std::ranges::any_of(part.lines, is_network);
+    if (code == part.lines.end() ? !any_network : !is_network(*code))
+      part.lines.insert(part.lines.begin(), stl::NetworkHead{any_network ? 0U : 1U, {}, {}});
     text += stl::to_text(comment) + declarations_text(routine.block.variables) + "BEGIN\n";
     for (stl::Line& line : part.lines)
       if (auto* statement = std::get_if<stl::Statement>(&line)) name_blocks(*statement, routines);

@@ -168,7 +168,7 @@ stl::ParseResult read_as(SourceKind kind, std::string_view text, const std::stri
       return stl::has_routine_headings(text) ? stl::read_headed_document(text, name)
                                              : stl::read_document(text, name, instruction_set());
     case SourceKind::Blocks:
-      return stl::read_blocks(text, name);
+      return stl::read_blocks(text, name, instruction_set().has);
     case SourceKind::SymbolTable:
       return stl::read_symbol_table(text, name);
     case SourceKind::DataBlock:
@@ -224,7 +224,8 @@ std::optional<SourceText> read_source(std::string_view bytes, const std::string&
 }
 
 CheckResult check_text(std::string_view utf8, const std::string& name, const CpuModel& model, const TimeTable& times) {
-  return check(stl::is_block_export(utf8) ? stl::read_blocks(utf8, name) : stl::parse(utf8, name), model, times);
+  return check(stl::is_block_export(utf8) ? stl::read_blocks(utf8, name, instruction_set().has) : stl::parse(utf8, name),
+               model, times);
 }
 
 }  // namespace s7200

@@ -117,26 +117,29 @@ constexpr std::uint32_t kLocalBytes = 64;
 
 // --- the reader ---
 
-/// `LD I0.0`, but not `Version 2` or `Pump M1`: a mnemonic, and operands one of which is a whole address.
-bool is_statement(std::string_view code) {
+/// `LD I0.0`, but not `Version 2` or `Pump M1`: an instruction, or a mnemonic and operands one of which is a whole address.
+bool is_statement(std::string_view code, const IsInstruction& is_instruction) {
   const ParseResult parsed = parse(code, {});
   const auto* statement = parsed.source.lines.empty() ? nullptr : std::get_if<Statement>(&parsed.source.lines.front());
+  if (!statement) return false;
+  const std::size_t operands = statement->operands.size();
+  if (is_instruction && is_instruction(statement->mnemonic, operands)) return true;
+  if (is_instruction && statement->mnemonic == "CALL" && operands > 0) return true;
   const auto is_name = [](const Operand& operand) { return std::holds_alternative<Name>(operand.value); };
   const auto is_whole = [](const Operand& operand) {
     const auto* address = std::get_if<Address>(&operand.value);
     return address ? address->size != Size::None
                    : std::holds_alternative<AddressOf>(operand.value) || std::holds_alternative<Indirect>(operand.value);
   };
-  return statement && std::ranges::none_of(statement->operands, is_name) &&
-         std::ranges::any_of(statement->operands, is_whole);
+  return std::ranges::none_of(statement->operands, is_name) && std::ranges::any_of(statement->operands, is_whole);
 }
 
 class BlockReader {
  public:
   enum class Heads : std::uint8_t { Keywords, Headings };
 
-  BlockReader(std::string_view text, std::string name, Heads heads)
-      : lines_(split_lines(text)), in_document_(heads == Heads::Headings) {
+  BlockReader(std::string_view text, std::string name, Heads heads, const IsInstruction& is_instruction)
+      : lines_(split_lines(text)), in_document_(heads == Heads::Headings), is_instruction_(is_instruction) {
     result_.source.name = std::move(name);
   }
 
@@ -255,7 +258,7 @@ class BlockReader {
       state_ = keyword == "END_VAR" ? State::Head : State::Declarations;
       kind_ = Variable::Kind::Temporary;
       declaration_start_ = position_of(code);
-    } else if (is_statement(code)) {
+    } else if (is_statement(code, is_instruction_)) {
       error(position_of(code), "a statement before BEGIN is not part of the program",
             "BEGIN comes before the first network; in front of a comment write //", "before BEGIN");
     } else if (!trim(line).empty()) {
@@ -572,6 +575,7 @@ class BlockReader {
 
   std::vector<std::string> lines_;
   bool in_document_;  // blocks have headings in place of keywords, and no ends
+  const IsInstruction& is_instruction_;
   std::vector<bool> has_begin_;
   std::vector<std::string_view> code_lines_;  // of `lines_`; what is not STL is empty
   std::vector<Mark> marks_;
@@ -605,8 +609,8 @@ bool is_block_export(std::string_view text) {
   return false;
 }
 
-ParseResult read_blocks(std::string_view text, std::string name) {
-  return BlockReader(text, std::move(name), BlockReader::Heads::Keywords).result();
+ParseResult read_blocks(std::string_view text, std::string name, const IsInstruction& is_instruction) {
+  return BlockReader(text, std::move(name), BlockReader::Heads::Keywords, is_instruction).result();
 }
 
 bool has_routine_headings(std::string_view text) {
@@ -620,7 +624,7 @@ bool has_routine_headings(std::string_view text) {
 }
 
 ParseResult read_headed_document(std::string_view text, std::string name) {
-  return BlockReader(text, std::move(name), BlockReader::Heads::Headings).result();
+  return BlockReader(text, std::move(name), BlockReader::Heads::Headings, {}).result();
 }
 
 }  // namespace s7200::stl

@@ -6,6 +6,7 @@
 // routine. What follows the reader knows no blocks, except for the names in their heads and their local variables.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -16,13 +17,17 @@ namespace s7200::stl {
 /// Whether some line begins with a word such as ORGANIZATION_BLOCK.
 bool is_block_export(std::string_view text);
 
-/// Reads one. Messages about its lines name block and network (Source::sections).
+/// Whether a mnemonic with so many operands is an instruction.
+using IsInstruction = std::function<bool(std::string_view mnemonic, std::size_t operands)>;
+
+/// Reads one. Messages about its lines name block and network (Source::sections). With `is_instruction`, statements before
+/// BEGIN are told from comments there; without it, only those with addresses.
 ///
 /// Not documented, modelled so:
 /// - Input, in-out, output and temporary variables are in local memory in this order, whichever way the text has them.
 ///   [Blocks.VariablesAreInLocalMemoryInTheOrderOfTheirKinds]
 /// - A STRING takes four bytes: it is a pointer to the string. [Blocks.AStringTakesFourBytesOfLocalMemory]
-ParseResult read_blocks(std::string_view text, std::string name);
+ParseResult read_blocks(std::string_view text, std::string name, const IsInstruction& is_instruction = {});
 
 /// Whether it is a document with the listing of a CPU 22x as Micro/WIN shows it: the Chinese heading of the main program,
 /// and below it the first network.

@@ -153,6 +153,7 @@ const auto never_in_names = lit("\xEF\xBF\xBD") | lit("\xC2\xA0") | lit("\xE3\x8
 const auto beyond_ascii = !never_in_names >> char_("\x80-\xff");
 const auto word_character = char_("A-Za-z0-9_") | beyond_ascii;
 const auto end_of_word = !word_character;
+const auto end_of_address = end_of_word >> !lit(':');  // S1:I0.0 is a symbol with its address
 
 const auto end_of_constant = named<struct EndOfConstant>("the end of the constant") = end_of_word >> !char_("#.'\"");
 const auto hex_digits = named<struct HexDigits, Range>("hexadecimal digits") =
@@ -180,16 +181,16 @@ const auto ascii = named<struct Ascii, RawWord>("a constant") =
 
 // S7-Micro/DOS: K4, K-5, KHFF. Other letters after the K are not known.
 const auto k_decimal = named<struct KDecimal, RawWord>("a constant") =
-    attr(Size::None) >> attr(Kind::Decimal) >> no_case[lit('k')] >> decimal_digits >> end_of_word;
+    attr(Size::None) >> attr(Kind::Decimal) >> no_case[lit('k')] >> decimal_digits >> end_of_address;
 const auto k_hexadecimal = named<struct KHexadecimal, RawWord>("a constant") =
-    attr(Size::None) >> attr(Kind::Hex) >> no_case[lit("kh")] >> hex_digits >> end_of_word;
+    attr(Size::None) >> attr(Kind::Hex) >> no_case[lit("kh")] >> hex_digits >> end_of_address;
 const auto k_unknown = named<struct KUnknown, RawWord>("a constant") =
-    attr(Size::None) >> attr(Kind::UnknownK) >> raw[char_("Kk") >> char_("BbWwDd") >> -sign >> +digit] >> end_of_word;
+    attr(Size::None) >> attr(Kind::UnknownK) >> raw[char_("Kk") >> char_("BbWwDd") >> -sign >> +digit] >> end_of_address;
 
 const auto bit_number = named<struct BitNumber, Range>("a bit number") = raw[+digit];
 const auto address = named<struct AddressRule, RawAddress>("an address") = (char_("&*") | attr('\0')) >>
                                                                            no_case[address_letters] >> raw[+digit] >>
-                                                                           -(lit('.') > bit_number) >> end_of_word;
+                                                                           -(lit('.') > bit_number) >> end_of_address;
 
 // "Pump 1", Motor_On, #count, and as Micro/WIN prints symbol and address together: "Pump 1":Q0.0, #count:LW2, *#next:*LD4;
 // a symbol may stand for a constant, too: Request_Error:4

@@ -16,6 +16,16 @@
 
 namespace s7200::stl {
 
+bool may_be_name(const OperandValue& value, std::string_view written) {
+  constexpr std::array<std::string_view, 4> kComplete{"T", "C", "HC", "AC"};
+  if (const auto* address = std::get_if<Address>(&value)) {
+    const bool german = !upper_case(written).starts_with(address->area) && !upper_case(written).starts_with("DB");
+    const bool complete = address->size != Size::None || std::ranges::find(kComplete, address->area) != kComplete.end();
+    return !complete || (german && address->size != Size::Bit);
+  }
+  return std::holds_alternative<Integer>(value) && (written.front() == 'K' || written.front() == 'k');
+}
+
 namespace {
 
 // --- rows and cells ---
@@ -114,18 +124,6 @@ std::optional<OperandValue> value_of(std::string_view text, std::string& why) {
   const auto operand = parse_operand(text, why);
   if (!operand || std::holds_alternative<Name>(operand->value)) return std::nullopt;
   return operand->value;
-}
-
-/// Whether an operand may be a name all the same: S1 has no bit, Z1 and AW1 are addresses only in the German set, K1 is a
-/// constant only for Micro/DOS.
-bool may_be_name(const OperandValue& value, std::string_view written) {
-  constexpr std::array<std::string_view, 4> kComplete{"T", "C", "HC", "AC"};
-  if (const auto* address = std::get_if<Address>(&value)) {
-    const bool german = !upper_case(written).starts_with(address->area) && !upper_case(written).starts_with("DB");
-    const bool complete = address->size != Size::None || std::ranges::find(kComplete, address->area) != kComplete.end();
-    return !complete || (german && address->size != Size::Bit);
-  }
-  return std::holds_alternative<Integer>(value) && (written.front() == 'K' || written.front() == 'k');
 }
 
 bool is_address(std::string_view text) {
@@ -361,7 +359,7 @@ class Resolver {
   void resolve(Operand& operand, const Locals* locals) {
     auto* name = std::get_if<Name>(&operand.value);
     if (!name && !operand.symbol.empty()) return compare_with_symbol(operand, locals);
-    if (!name) return resolve_short_name(operand);
+    if (!name) return resolve_short_name(operand, locals);
     const WrittenName written(name->text);
     if (const Variable* variable = locals ? locals->find(written.name) : nullptr) {
       put(operand, variable->address, written.mark);
@@ -385,23 +383,24 @@ class Resolver {
     std::erase_if(result_.diagnostics, [&](const Diagnostic& d) { return d.cause == kGermanAddresses && d.position == at; });
   }
 
-  /// `S1`, `K1` and `E1`, if there are symbols of these names.
-  void resolve_short_name(Operand& operand) {
-    if (source_.symbols.empty()) return;
+  /// `S1`, `K1` and `E1`, if there are variables or symbols of these names.
+  void resolve_short_name(Operand& operand, const Locals* locals) {
+    if (source_.symbols.empty() && !locals) return;
     const std::string written = written_at(operand.position);
     if (written.empty() || !may_be_name(operand.value, written)) return;
-    const Symbol* symbol = symbols_.find(written);
-    if (!symbol || !symbol->value || std::holds_alternative<Name>(*symbol->value)) return;
+    const Variable* variable = locals ? locals->find(written) : nullptr;
+    const Symbol* symbol = variable ? nullptr : symbols_.find(written);
+    if (!variable && (!symbol || !symbol->value || std::holds_alternative<Name>(*symbol->value))) return;
     operand.value = Name{written};
-    put(operand, *symbol->value, 0);
+    put(operand, variable ? OperandValue{variable->address} : *symbol->value, 0);
     forget_german(operand.position);
   }
 
   /// `CALL E1`, if there is a block of this name.
   void take_for_block_name(Operand& operand) {
-    if (!std::holds_alternative<Address>(operand.value) || !operand.symbol.empty()) return;
+    if (std::holds_alternative<Name>(operand.value) || !operand.symbol.empty() || source_.blocks.empty()) return;
     const std::string written = written_at(operand.position);
-    if (written.empty() || !blocks_.find(written)) return;
+    if (written.empty() || !may_be_name(operand.value, written) || !blocks_.find(written)) return;
     operand.value = Name{written};
     forget_german(operand.position);
   }

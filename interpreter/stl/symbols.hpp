@@ -21,6 +21,10 @@ ParseResult read_symbol_table(std::string_view text, std::string name);
 /// Whether it is a status chart: addresses with formats and values, of which nothing is part of a program.
 bool is_status_chart(std::string_view text);
 
+/// Whether an operand may be a name all the same: S1 has no bit, Z1 and AW1 are addresses only in the German set, K1 is a
+/// constant only for Micro/DOS.
+bool may_be_name(const OperandValue& value, std::string_view written);
+
 /// The symbol of this name, with or without quotes; written in other capitals if it can be no other. Null if there is none.
 const Symbol* find_symbol(const std::vector<Symbol>& symbols, std::string_view name);
 

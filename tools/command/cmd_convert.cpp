@@ -10,6 +10,7 @@
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/stl_output.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/views/check_report.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
@@ -33,17 +34,11 @@ void print_json(const ConvertOptions& options, const SourceText& source, const s
   fmt::print("{}", lines_of(results));
 }
 
-/// Otherwise its mistakes are printed, for the CPU that it has the fewest for.
-bool is_fine_for_any_cpu(const SourceText& source) {
-  std::optional<CheckResult> best;
-  for (const CpuModel* model : all_cpus()) {
-    CheckResult result = check(source.parsed, *model, default_times(*model));
-    if (result.program) return true;
-    if (!best || result.diagnostics.size() < best->diagnostics.size()) best = std::move(result);
-  }
-  std::erase_if(best->diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
-  print_diagnostics(best->diagnostics, best->source);
-  return false;
+/// False after the mistakes are printed, for the CPU that it has the fewest for. What is not modelled can be converted.
+bool is_right_for_any_cpu(const SourceText& source) {
+  const CheckResult best = check_for_best_cpu(source);
+  print_diagnostics(best.diagnostics, best.source);
+  return best.diagnostics.empty();
 }
 
 /// What reads the file again guesses its encoding.
@@ -60,7 +55,7 @@ int run_convert(const ConvertOptions& options) {
   if (!source) return kUnusable;
   if (!repair(*source, options.program.repairs)) return kUnusable;
   print_note_if_any(left_out_note(*source));
-  if (!is_fine_for_any_cpu(*source)) return print_error("nothing was written"), kCheckFailed;
+  if (!is_right_for_any_cpu(*source)) return print_error("nothing was written"), kCheckFailed;
   const Notation notation = *notation_named(options.notation);
   const auto text = convert(source->parsed, notation);
   if (!text) {

@@ -150,6 +150,7 @@ class Reader {
 
   NodePtr operand() {
     const std::size_t begin = at_;
+    if (text_.substr(at_).starts_with('"')) at_ = std::min(text_.find('"', at_ + 1), text_.size() - 1) + 1;
     while (at_ < text_.size() && (at_ == begin || text_[at_] != '*') &&
            std::string_view(" \t+-/()=<>").find(text_[at_]) == std::string_view::npos)
       ++at_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "interpreter/base/text.hpp"
@@ -88,6 +89,20 @@ std::vector<const CpuModel*> fine_for(const SourceText& text, const CheckResult&
   for (const CpuModel* model : all_cpus())
     if (model != &asked && check(text.parsed, *model, default_times(*model)).program) fitting.push_back(model);
   return fitting;
+}
+
+CheckResult check_for_best_cpu(const SourceText& text) {
+  const auto is_no_mistake = [](const stl::Diagnostic& d) {
+    return d.severity == stl::Severity::Warning || d.message.find("not modelled") != std::string::npos;
+  };
+  std::optional<CheckResult> best;
+  for (const CpuModel* model : all_cpus()) {
+    CheckResult result = check(text.parsed, *model, default_times(*model));
+    std::erase_if(result.diagnostics, is_no_mistake);
+    if (!best || result.diagnostics.size() < best->diagnostics.size()) best = std::move(result);
+    if (best->diagnostics.empty()) break;
+  }
+  return *best;
 }
 
 std::string check_summary(const SourceText& text, const CheckResult& result, const CpuModel& model,

@@ -68,6 +68,7 @@ TEST(Address, ASymbolOfTheProgramStandsForItsAddress) {
   stl::ParseResult parsed = stl::parse("MEND\n", "x");
   parsed.source.symbols = {{"Speed", stl::Address{"V", stl::Size::Word, 20, 0}, {}, {}},
                            {"Pump 1", stl::Address{"Q", stl::Size::Bit, 0, 3}, {}, {}},
+                           {"E1", stl::Address{"V", stl::Size::Word, 30, 0}, {}, {}},
                            {"Limit", stl::Integer{5}, {}, {}}};
   const auto program = check(parsed, cpu214(), default_times(cpu214())).program;
   std::string why;
@@ -75,6 +76,9 @@ TEST(Address, ASymbolOfTheProgramStandsForItsAddress) {
   EXPECT_EQ(parse_range("\"Pump 1\"", *program, why)->name_of(0), "Q0.3");
   EXPECT_EQ(parse_assignment("\"Pump 1\"=1", *program, why)->value, 1U);
   EXPECT_EQ(parse_assignment("speed=-1", *program, why)->place.name_of(0), "VW20");
+  EXPECT_EQ(parse_range("E1", *program, why)->name_of(0), "VW30");
+  EXPECT_EQ(parse_range("Speed:VW20", *program, why)->name_of(0), "VW20");
+  EXPECT_EQ(parse_assignment("Speed:VW20=3", *program, why)->value, 3U);
   EXPECT_FALSE(parse_range("Limit", *program, why));
   EXPECT_EQ(why, "'Limit' is not an address or a symbol of one; write for example VB100, VW100:4, M31.7, AC0, VD20:real");
   EXPECT_FALSE(parse_range("Speed", cpu214(), why));

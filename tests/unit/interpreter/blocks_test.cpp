@@ -197,5 +197,16 @@ TEST(Blocks, WhatStandsBeforeBeginIsNeverLostInSilence) {
             Lines{"x.awl:2:1: error: an interrupt routine has no parameters (I)"});
 }
 
+TEST(Blocks, AStatementOfSymbolsBeforeBeginIsNoComment) {
+  const auto is_instruction = [](std::string_view mnemonic, std::size_t operands) {
+    return (mnemonic == "LD" && operands == 1) || (mnemonic == "ENI" && operands == 0);
+  };
+  for (const std::string line : {"LD Pump", "ENI", "CALL Prepare, 1, 2"}) {
+    const std::string text = "ORGANIZATION_BLOCK MAIN:OB1\n" + line + "\nBEGIN\nNetwork 1\nEND_ORGANIZATION_BLOCK\n";
+    EXPECT_EQ(read_blocks(text, "x", is_instruction).diagnostics.size(), 1U) << line;
+    EXPECT_EQ(read_blocks(text, "x").diagnostics.size(), 0U) << line;
+  }
+}
+
 }  // namespace
 }  // namespace s7200::stl

@@ -173,5 +173,13 @@ TEST(Convert, AListingWithoutNetworksBecomesOneNetworkOfItsBlock) {
             "ORGANIZATION_BLOCK MAIN:OB1\nTITLE=\nBEGIN\nNETWORK 1\nLD      SM0.0\n=       M0.0\nEND_ORGANIZATION_BLOCK\n");
 }
 
+TEST(Convert, NamesThatAListingWouldTakeForSomethingElseAreQuoted) {
+  const std::string text = printed(
+      "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.0\nCALL \"K1\"\nEND_ORGANIZATION_BLOCK\n"
+      "SUBROUTINE_BLOCK \"K1\":SBR3\nBEGIN\nNETWORK 1\nLD SM0.0\n= M0.0\nEND_SUBROUTINE_BLOCK\n",
+      Notation::MicroWin);
+  EXPECT_NE(text.find("CALL    \"K1\""), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace s7200

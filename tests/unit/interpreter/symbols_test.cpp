@@ -171,5 +171,27 @@ TEST(Symbols, GermanLettersMayBeNamesInAnInternationalProgram) {
             Lines{});
 }
 
+TEST(Symbols, BlocksAndVariablesMayHaveNamesThatAreOnlyTheBeginningOfAnAddress) {
+  const std::string program =
+      "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.0\nCALL K1\nEND_ORGANIZATION_BLOCK\n"
+      "SUBROUTINE_BLOCK One:SBR1\nBEGIN\nNETWORK 1\nEND_SUBROUTINE_BLOCK\n"
+      "SUBROUTINE_BLOCK K1:SBR3\nVAR\n K7 : WORD;\nEND_VAR\nBEGIN\nNETWORK 1\nLD SM0.0\nMOVW K7, VW0\n"
+      "END_SUBROUTINE_BLOCK\n";
+  ParseResult parsed = file(program, "p.awl").parsed;
+  resolve_symbols(parsed);
+  std::vector<std::string> operands;
+  for (const Line& line : parsed.source.lines)
+    if (const auto* statement = std::get_if<Statement>(&line))
+      for (Operand operand : statement->operands) operands.push_back((operand.symbol.clear(), to_text(operand)));
+  EXPECT_EQ(operands, (Lines{"SM0.0", "3", "1", "3", "SM0.0", "LW0", "VW0"}));
+}
+
+TEST(Symbols, NamesThatBeginLikeAnAddressMayHaveTheirAddressBesideThem) {
+  EXPECT_EQ(said("LD S1:I0.0\nA E1:I0.1\n= K1:Q0.1\nMOVW AW1:VW10, VW0\nCTU Z1:C1, 5\nMEND\n",
+                 "S1\tI0.0\nE1\tI0.1\nK1\tQ0.1\nAW1\tVW10\nZ1\tC1\n")
+                .size(),
+            1U);  // CTU lacks its second LD
+}
+
 }  // namespace
 }  // namespace s7200::stl
