@@ -101,9 +101,11 @@ std::string read_row(std::string_view line, TimeRow& row) {
   row.unit = field[4];
   row.marker = field[5];
   const auto* const marker = std::ranges::find(kMarkers, row.marker, &Marker::name);
-  if (marker == kMarkers.end())
-    return fmt::format("'{}' is not a marker; there are {}", stl::shortened(row.marker),
-                       fmt::join(kMarkers | std::views::transform(&Marker::name), ", "));
+  if (marker == kMarkers.end()) {
+    std::string known;
+    for (const Marker& each : kMarkers) known.append(known.empty() ? "" : ", ").append(each.name);
+    return fmt::format("'{}' is not a marker; there are {}", stl::shortened(row.marker), known);
+  }
   row.source = field.size() > 6 ? field[6] : "";
   const bool has_uncertainty = field.size() > 7 && !field[7].empty();
   const auto uncertainty = has_uncertainty ? parse_decimal<double>(field[7]) : marker->uncertainty;

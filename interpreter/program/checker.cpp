@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cstdlib>
 #include <map>
+#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/data_block.hpp"
@@ -478,14 +479,24 @@ class Checker {
     }
   }
 
-  void set_cost(Op& op, const std::array<PlacedOperand, 3>& placed) const {
-    const auto cost = times_.cost(op.instruction->mnemonic, placed[0].area);
+  using OperandAreas = std::array<std::optional<Area>, 3>;
+
+  /// Without what pointers add. Many statements have the same: the table is searched once for each.
+  Cost cost_of(const Instruction& instruction, const OperandAreas& areas) {
+    const auto [found, added] = costs_.try_emplace({&instruction, areas});
+    if (!added) return found->second;
+    const auto cost = times_.cost(instruction.mnemonic, areas[0]);
     assert(cost && "the table of times has a line for every instruction");
+    found->second = {cost->base + times_.added_by(instruction.mnemonic, areas), cost->per_unit};
+    return found->second;
+  }
+
+  void set_cost(Op& op, const std::array<PlacedOperand, 3>& placed) {
+    const Cost cost = cost_of(*op.instruction, {placed[0].area, placed[1].area, placed[2].area});
     const auto pointers = std::count_if(op.operand.begin(), op.operand.end(), [](const Operand& o) { return o.pointer; });
-    const std::array<std::optional<Area>, 3> areas{placed[0].area, placed[1].area, placed[2].area};
-    op.cost = static_cast<std::int32_t>(cost->base + pointers * times_[SystemTime::IndirectOperand] +
-                                        times_.added_by(op.instruction->mnemonic, areas));
-    op.unit_cost = static_cast<std::int32_t>(cost->per_unit);
+    const Time of_pointers = pointers == 0 ? 0 : pointers * times_[SystemTime::IndirectOperand];
+    op.cost = static_cast<std::int32_t>(cost.base + of_pointers);
+    op.unit_cost = static_cast<std::int32_t>(cost.per_unit);
   }
 
   stl::Source source_;
@@ -496,6 +507,7 @@ class Checker {
   std::map<std::int64_t, const stl::Block*> subroutine_blocks_;  // of source_
   std::map<std::size_t, std::vector<Parameter>> parameters_;     // of the CALLs among statements_
   std::vector<InitialData> data_;
+  std::map<std::pair<const Instruction*, OperandAreas>, Cost> costs_;
   std::vector<CheckedStatement> statements_;
   std::vector<std::array<PlacedOperand, 3>> placed_;  // one for each of statements_
   std::uint32_t edges_ = 0;

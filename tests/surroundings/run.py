@@ -113,7 +113,8 @@ class Case(unittest.TestCase):
                 "convert": ["convert", self.echo, "--to", "iec"], "run": ["run", self.blinking, "--for", "2s"],
                 "send": ["send", self.echo, "ab", "cd"], "test": ["test", self.good], "master": ["master", SLAVE, *SESSION],
                 "debug": ["debug", self.echo, "-x", "step 3; regs"], "instructions": ["instructions"], "times": ["times"],
-                "bench": ["bench", "--each", "1ms"]}[verb] + files
+                "bench": ["bench", "--each", "1ms"],
+                "calibrate": ["calibrate", SOURCE / "stl_programs/measure_times.stl", "--each", "1s"]}[verb] + files
 
     def written(self, verb, out):
         return {name: (out / name).read_bytes() for name in self.outputs(verb)}

@@ -15,7 +15,7 @@ using Data = std::span<const std::uint8_t>;
 constexpr std::string_view kFcs = "--fcs";
 constexpr std::array<std::string_view, 2> kFcsWords{"document", "polynomial"};
 constexpr std::uint8_t kWholeTable = 0x34;  // bytes of the parameter table up to the number of holding registers
-constexpr std::size_t kOperands = westinghouse::kHppcHeader, kCheck = 2, kAddress = 3;
+constexpr std::size_t kAddress = 3;
 constexpr std::uint32_t kLastAddress = westinghouse::kHppcMemory - 1;
 
 serial::Frame frame_of(HppcOpcode opcode, const Bytes& operands, FcsTable table) {
