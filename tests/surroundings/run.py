@@ -103,7 +103,7 @@ class Case(unittest.TestCase):
         records = {"run.trace": "--trace", "outputs.csv": "--output", "line.vcd": "--capture", "line.pcap": "--capture",
                    "memory.json": "--memory"}
         return {"run": records, "send": records, "master": records, "debug": records, "import": {"listing.stl": "-o"},
-                "convert": {"converted.stl": "-o"},
+                "convert": {"converted.stl": "-o"}, "calibrate": {"times.csv": "-o"},
                 "test": {"junit.xml": "--junit", "transcript.yaml": "--record"}}.get(verb, {})
 
     def command(self, verb, out=None):
@@ -114,7 +114,7 @@ class Case(unittest.TestCase):
                 "send": ["send", self.echo, "ab", "cd"], "test": ["test", self.good], "master": ["master", SLAVE, *SESSION],
                 "debug": ["debug", self.echo, "-x", "step 3; regs"], "instructions": ["instructions"], "times": ["times"],
                 "bench": ["bench", "--each", "1ms"],
-                "calibrate": ["calibrate", SOURCE / "stl_programs/measure_times.stl", "--each", "1s"]}[verb] + files
+                "calibrate": ["calibrate", SOURCE / "stl_programs/measure_times.stl", "--each", "1s", "--json"]}[verb] + files
 
     def written(self, verb, out):
         return {name: (out / name).read_bytes() for name in self.outputs(verb)}
