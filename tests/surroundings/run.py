@@ -613,7 +613,7 @@ class Files(Case):
                 os.link(path, kept)
                 before = kept.read_bytes()
                 longer = {"run": ["--dump", "VB0"], "send": ["ef"], "master": ["read", "40009"]}.get(verb, [])
-                if verb in ("import", "convert", "test"):
+                if verb in ("import", "convert", "calibrate", "test"):
                     longer = [] if option == "--junit" else ["--force"]
                 self.ends(FINE, *command, *longer, option, path)
                 self.assertEqual(kept.read_bytes(), before)
