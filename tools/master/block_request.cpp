@@ -60,8 +60,7 @@ std::vector<std::string> BlockRequest::in_lines(const serial::Answer& answer, Da
 }
 
 nlohmann::ordered_json BlockRequest::subject_json(Data request) const {
-  nlohmann::ordered_json json{{"station", nullptr}, {"function", nullptr}, {"area", nullptr},
-                              {"first", nullptr},   {"notation", nullptr}, {"count", nullptr}};
+  nlohmann::ordered_json json = empty_subject();
   if (about_.raw) return json;
   json["function"] = request[0];
   if (request[0] == static_cast<std::uint8_t>(westinghouse::Opcode::SetUnitAddress)) json["station"] = request[1];

@@ -27,7 +27,7 @@ class PcRequest final : public ProtocolRequest {
 
   serial::Answer judge(Data request, Data response) const override {
     serial::Answer answer = pc_protocol::check_answer(request, response, end_character_);
-    if (answer.fault.starts_with("end character"))
+    if (response.size() == pc_protocol::kAnswerLength && response.back() != end_character_)
       answer.fault += fmt::format("; {} 16#{:02X} would take it", kEndCharacter, response.back());
     if (command_ && command_->type == Type::Read && !answer.bytes.empty())
       answer.values.assign(answer.bytes.begin(), answer.bytes.begin() + static_cast<std::ptrdiff_t>(count_));
@@ -80,8 +80,7 @@ std::vector<std::string> PcRequest::in_lines(const serial::Answer& answer, Data 
 }
 
 nlohmann::ordered_json PcRequest::subject_json(Data) const {
-  nlohmann::ordered_json json{{"station", nullptr}, {"function", nullptr}, {"area", nullptr},
-                              {"first", nullptr},   {"notation", nullptr}, {"count", nullptr}};
+  nlohmann::ordered_json json = empty_subject();
   if (!command_) return json;
   json["station"] = command_->station;
   json["function"] = command_->type;

@@ -213,8 +213,7 @@ std::vector<std::string> HppcRequest::monitored_lines(const serial::Answer& answ
 }
 
 nlohmann::ordered_json HppcRequest::subject_json(Data request) const {
-  nlohmann::ordered_json json{{"station", nullptr}, {"function", nullptr}, {"area", nullptr},
-                              {"first", nullptr},   {"notation", nullptr}, {"count", nullptr}};
+  nlohmann::ordered_json json = empty_subject();
   if (!raw_.empty()) return json;
   json["function"] = request[westinghouse::kHppcHeader - 1];
   if (about_.registers) {

@@ -115,8 +115,8 @@ std::vector<std::string> ModbusRequest::in_lines(const serial::Answer& answer, D
 }
 
 nlohmann::ordered_json ModbusRequest::subject_json(Data request) const {
-  nlohmann::ordered_json json{{"station", request[0]}, {"function", nullptr}, {"area", nullptr},
-                              {"first", nullptr},      {"notation", nullptr}, {"count", nullptr}};
+  nlohmann::ordered_json json = empty_subject();
+  json["station"] = request[0];
   if (request.size() > 1) json["function"] = request[1];
   if (!about_.first) return json;
   json["area"] = modbus::row_of(about_.first->area).word;

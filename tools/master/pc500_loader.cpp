@@ -78,10 +78,7 @@ class RawStep final : public ProtocolRequest {
   std::vector<std::string> in_lines(const serial::Answer& answer, Data request, Data response) const override {
     return {"  " + in_short(answer, request, response)};
   }
-  nlohmann::ordered_json subject_json(Data) const override {
-    return {{"station", nullptr}, {"function", nullptr}, {"area", nullptr},
-            {"first", nullptr},   {"notation", nullptr}, {"count", nullptr}};
-  }
+  nlohmann::ordered_json subject_json(Data) const override { return empty_subject(); }
   nlohmann::ordered_json decoded_json(const serial::Answer& answer) const override { return answer.values; }
 
  private:
@@ -145,9 +142,8 @@ std::vector<std::string> LoaderRequest::in_lines(const serial::Answer& answer, D
 }
 
 nlohmann::ordered_json LoaderRequest::subject_json(Data) const {
-  nlohmann::ordered_json json{{"station", nullptr},  {"function", static_cast<int>(opcode())},
-                              {"area", nullptr},     {"first", nullptr},
-                              {"notation", nullptr}, {"count", nullptr}};
+  nlohmann::ordered_json json = empty_subject();
+  json["function"] = static_cast<int>(opcode());
   if (about_.count == 0) return json;
   json["area"] = "bytes";
   json["first"] = about_.first;

@@ -123,6 +123,9 @@ struct Protocol {
 /// All of them; the first is spoken if none is named.
 std::span<const Protocol* const> protocols();
 
+/// The keys of ProtocolRequest::subject_json(), all null: what a request does not have stays so.
+nlohmann::ordered_json empty_subject();
+
 /// Null if there is none of this name.
 const Protocol* find_protocol(std::string_view name);
 

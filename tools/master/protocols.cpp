@@ -13,6 +13,11 @@ std::span<const Protocol* const> protocols() {
   return kProtocols;
 }
 
+nlohmann::ordered_json empty_subject() {
+  return {{"station", nullptr}, {"function", nullptr}, {"area", nullptr},
+          {"first", nullptr},   {"notation", nullptr}, {"count", nullptr}};
+}
+
 const Protocol* find_protocol(std::string_view name) {
   const auto found = std::ranges::find_if(protocols(), [&](const Protocol* protocol) { return protocol->name == name; });
   return found == protocols().end() ? nullptr : *found;
