@@ -25,6 +25,8 @@ struct SerialFormat {
 
   bool operator==(const SerialFormat&) const = default;
 
+  static constexpr int kMostBits = 12;  ///< 8E2
+
   /// Start bit, data bits, parity bit, stop bits: 11 for 8E1, 10 for 8N1.
   constexpr int bits() const { return 1 + data_bits + (parity == Parity::None ? 0 : 1) + stop_bits; }
 

@@ -44,6 +44,11 @@ void set(Core& core, const ClockTime& to) {
 
 ClockTime now(const Core& core) { return advanced(core.s.clock, (core.s.time - core.s.clock_set_at) / kSecond); }
 
+Time next_second(const Core& core) {
+  const Time begin = core.s.clock_set_at;
+  return begin + ((core.s.time - begin) / kSecond + 1) * kSecond;
+}
+
 void read(Core& core, std::uint32_t buffer) {
   if (!core.in_area(buffer, kBufferBytes)) return core.run_error(RunError::OperandRange);
   const ClockTime t = now(core);

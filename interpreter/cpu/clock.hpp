@@ -15,6 +15,8 @@ namespace s7200::clock {
 
 void set(Core& core, const ClockTime& to);
 ClockTime now(const Core& core);
+/// When it changes.
+Time next_second(const Core& core);
 
 /// TODR and TODW: `buffer` is the place of the eight bytes. Error 0091 if they run past the end of their area, 0007 if TODW
 /// finds a byte that is not BCD.

@@ -76,7 +76,7 @@ void run_with_eno(Core& core, const Op& op) {
   const Instruction& box = *op.instruction;
   const std::uint64_t errors = core.s.error_count;
   core.s.eno = true;
-  core.program().box_body[op.statement](core, op);
+  core.program().box_body[core.loop.op](core, op);
   const bool failed = box.rung.eno == Eno::ErrorsAndFlags && (core.s.image[sm::kFlags] & box.flags & kFailures) != 0;
   if (failed || core.s.error_count != errors) core.s.eno = false;
 }

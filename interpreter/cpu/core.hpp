@@ -42,15 +42,23 @@ class Core {
  public:
   /// Owns nothing but the program.
   Core(std::shared_ptr<const Program> program, EventQueue& queue, EventOwner owner, const Ports& ports)
-      : program_(std::move(program)), reach_(program_->reach.data()), queue_(queue), owner_(owner), port_(ports) {
+      : program_(std::move(program)),
+        reach_(program_->reach.data()),
+        contacts_(program_->contacts.data()),
+        queue_(queue),
+        owner_(owner),
+        port_(ports) {
     assert(std::all_of(port_.begin(), port_.begin() + port_count(), [](const SerialPort* port) { return port != nullptr; }));
   }
 
   State s;
   Loop loop;
+  /// Set by whatever is done to the CPU from outside, and by whatever it does to the outside; cleared by who watches for it.
+  mutable bool touched = false;
 
   const Program& program() const { return *program_; }
   const CpuModel& model() const { return *program_->model; }
+  const Contact* contacts() const { return contacts_; }
 
   // --- operands ---
 
@@ -110,22 +118,33 @@ class Core {
   // --- the outside ---
 
   /// Wakes the unit that `what` belongs to (UnitEvent). Each is pending at most once.
-  void schedule(Time at, std::uint8_t what) { queue_.schedule(at, owner_, what); }
-  void cancel(std::uint8_t what) { queue_.cancel(owner_, what); }
+  void schedule(Time at, std::uint8_t what) {
+    touched = true;
+    queue_.schedule(at, owner_, what);
+  }
+  void cancel(std::uint8_t what) {
+    touched = true;
+    queue_.cancel(owner_, what);
+  }
   Time next_event() const { return queue_.next(); }
 
   std::uint8_t port_count() const { return static_cast<std::uint8_t>(model().ports); }
-  SerialPort& port(std::size_t number) { return *port_[number]; }
+  SerialPort& port(std::size_t number) {
+    touched = true;
+    return *port_[number];
+  }
 
   void set_sink(TraceSink* sink) { sink_ = sink; }
   TraceSink* sink() const { return sink_; }
   void trace(const TraceRecord& record) const {
+    touched |= record.kind != TraceKind::ScanBegin;
     if (sink_) sink_->record(record);
   }
 
  private:
   std::shared_ptr<const Program> program_;
-  const Reach* reach_;  // of the program
+  const Reach* reach_;       // of the program
+  const Contact* contacts_;  // of the program
   EventQueue& queue_;
   EventOwner owner_;
   Ports port_;

@@ -16,22 +16,31 @@ namespace s7200 {
 Cpu::Cpu(std::shared_ptr<const Program> program, EventQueue& queue, EventOwner owner, const Ports& ports)
     : core_(std::move(program), queue, owner, ports) {}
 
-void Cpu::power_up(bool run, const RetentiveMemory* memory) { power::up(core_, run, memory); }
+void Cpu::power_up(bool run, const RetentiveMemory* memory) {
+  core_.touched = true;
+  power::up(core_, run, memory);
+}
 RetentiveMemory Cpu::retentive_memory() const { return power::retentive_memory(core_); }
 
-void Cpu::run(Time limit) {
+void Cpu::run(Time limit, Time work) {
   const State& s = core_.s;
   core_.loop.paused = false;
   const Mode mode = s.mode;
-  while (s.time < limit && !core_.loop.paused && s.mode == mode) {
+  Time worked = work < kNever - s.time ? s.time + work : kNever;
+  while (s.time < std::min(limit, worked) && !core_.loop.paused && s.mode == mode) {
     const Time event = core_.next_event();
     if (event <= s.time) return;
     if (s.watchdog <= s.time) {
       core_.fatal_error(FatalError::Watchdog);
       continue;
     }
-    core_.loop.until = std::min({limit, event, s.watchdog});
+    core_.loop.until = std::min({limit, worked, event, s.watchdog});
     if (interrupts::due(core_)) interrupts::take(core_);
+    if (!s.in_interrupt && s.phase == Phase::Communication) {
+      const Time passed = steady_scans_.pass_over(core_, limit);
+      if (worked != kNever) worked += passed;
+      if (passed != 0) continue;
+    }
     if (!s.in_interrupt && s.phase != Phase::Program)
       scan::advance(core_);
     else if (core_.sink() && core_.sink()->wants_instructions())
@@ -41,10 +50,12 @@ void Cpu::run(Time limit) {
   }
 }
 
+/// The fast loop goes as far as whole chains go.
 void Cpu::execute_plain() {
   State& s = core_.s;
   Loop& loop = core_.loop;
   const Op* const ops = core_.program().ops.data();
+  if (const Op& op = ops[s.pc]; op.link && s.time < loop.until) op.link(core_, &op, loop.until - s.time, s.stack.bits(), 0);
   const Time no_power_flow = core_.program().no_power_flow;
   std::uint64_t executed = 0;
   while (s.time < loop.until) {
@@ -103,19 +114,33 @@ Time Cpu::next_action() const {
   return std::max(s.time, std::min(s.time + s.phase_left, s.watchdog));
 }
 
-void Cpu::handle(const Event& event) { units::handle(core_, event.what, event.at); }
+void Cpu::handle(const Event& event) {
+  core_.touched = true;
+  units::handle(core_, event.what, event.at);
+}
 
 void Cpu::character_received(const ReceivedCharacter& character, std::uint8_t port) {
+  core_.touched = true;
   freeport::character_received(core_, port, character);
 }
-void Cpu::character_sent(Time at, std::uint8_t port) { freeport::character_sent(core_, port, at); }
+void Cpu::character_sent(Time at, std::uint8_t port) {
+  core_.touched = true;
+  freeport::character_sent(core_, port, at);
+}
 
-void Cpu::set_input(std::uint32_t byte, std::uint8_t value, Time at) { points::set_inputs(core_, byte, value, at); }
+void Cpu::set_input(std::uint32_t byte, std::uint8_t value, Time at) {
+  core_.touched = true;
+  points::set_inputs(core_, byte, value, at);
+}
 
-void Cpu::set_clock(const ClockTime& to) { clock::set(core_, to); }
+void Cpu::set_clock(const ClockTime& to) {
+  core_.touched = true;
+  clock::set(core_, to);
+}
 ClockTime Cpu::clock() const { return clock::now(core_); }
 
 void Cpu::poke(std::uint32_t at, std::span<const std::uint8_t> bytes) {
+  core_.touched = true;
   std::copy(bytes.begin(), bytes.end(), core_.s.image.begin() + at);
   if (core_.s.mode == Mode::Run) freeport::follow_control(core_);
 }

@@ -15,6 +15,7 @@
 #include <span>
 
 #include "interpreter/cpu/core.hpp"
+#include "interpreter/cpu/steady_scans.hpp"
 
 namespace s7200 {
 
@@ -33,8 +34,13 @@ class Cpu {
 
   /// Runs until its clock reaches `limit`, an event of the queue is due, the sink stops it, the mode changes, or (on
   /// request) a scan has ended or a run-time error has occurred. The caller then handles the events that are due at or
-  /// before time().
-  void run(Time limit);
+  /// before time(). Also returns after `work` of simulated time, in which scans that were passed over do not count.
+  void run(Time limit, Time work = kNever);
+
+  /// Whether scans that are all alike are passed over (steady_scans.hpp). What is computed does not depend on it.
+  void use_steady_scans(SteadyScansUse use) { steady_scans_.use(use); }
+  /// Simulated time in scans that were passed over so far.
+  Time passed_over() const { return steady_scans_.passed_over(); }
 
   /// Whether run() stops at the end of each scan.
   void pause_at_scan_end(bool on) { core_.loop.pause_at_scan_end = on; }
@@ -58,7 +64,10 @@ class Cpu {
   ClockTime clock() const;
 
   const State& state() const { return core_.s; }
-  void restore(const State& state) { core_.s = state; }
+  void restore(const State& state) {
+    core_.touched = true;
+    core_.s = state;
+  }
   const Program& program() const { return core_.program(); }
   Time time() const { return core_.s.time; }
 
@@ -88,6 +97,7 @@ class Cpu {
   void execute_observed();
 
   Core core_;
+  SteadyScans steady_scans_;
 };
 
 }  // namespace s7200

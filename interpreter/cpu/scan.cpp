@@ -24,10 +24,10 @@ std::uint16_t whole_milliseconds(Time time) {
   return static_cast<std::uint16_t>(std::min<Time>(time / kMillisecond, 0xFFFF));
 }
 
-void update_clocks(State& s) {
+void update_clocks(State& s, Time at) {
   std::uint8_t& status = s.image[sm::kScanStatus];
-  status = static_cast<std::uint8_t>((status & ~(sm::kClock1min | sm::kClock1s)) | clock_bits(s.time));
-  s.next_clock = (s.time / kHalfSecond + 1) * kHalfSecond;
+  status = static_cast<std::uint8_t>((status & ~(sm::kClock1min | sm::kClock1s)) | clock_bits(at));
+  s.next_clock = (at / kHalfSecond + 1) * kHalfSecond;
 }
 
 /// SMB0 is updated at the end of each scan (S7-200 manual, SMB0): SM0.1–SM0.3 last one scan, SM0.6 alternates.
@@ -35,7 +35,7 @@ void update_status(State& s) {
   std::uint8_t& status = s.image[sm::kScanStatus];
   constexpr std::uint8_t kOneScan = sm::kFirstScan | sm::kRetentiveLost | sm::kFromPowerUp;
   status = static_cast<std::uint8_t>((status & ~kOneScan) ^ sm::kAlternatingScan);
-  if (s.time >= s.next_clock) update_clocks(s);
+  if (s.time >= s.next_clock) update_clocks(s, s.time);
 }
 
 void update_times(State& s) {
@@ -114,7 +114,7 @@ void enter_run(Core& core) {
   constexpr std::uint8_t kKept = sm::kRetentiveLost | sm::kFromPowerUp;
   std::uint8_t& status = s.image[sm::kScanStatus];
   status = static_cast<std::uint8_t>((status & kKept) | sm::kAlwaysOn | sm::kFirstScan | sm::kModeSwitchRun);
-  update_clocks(s);
+  update_clocks(s, s.time);
   for (const Op& op : core.program().ops)
     if (op.instruction->hidden == Hidden::LoopMemory) core.put_bit(op[2].at, op[2].bit, true);
   core.trace({.at = s.time, .kind = TraceKind::ModeChange, .code = 1});
@@ -157,6 +157,11 @@ void advance(Core& core) {
     s.phase_left = 0;
     finish_phase(core);
   }
+}
+
+void pass(State& s, Time by) {
+  s.scan_begin += by;  // and the end of the scan before, when the clock bits were looked at
+  if (s.scan_begin >= s.next_clock) update_clocks(s, s.scan_begin);
 }
 
 void end_main_program(Core& core) {

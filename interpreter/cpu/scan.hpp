@@ -24,6 +24,9 @@ void begin(Core& core);
 /// Goes through the parts of the scan other than the program, up to the loop's `until`.
 void advance(Core& core);
 
+/// What goes on by itself over scans that are all alike.
+void pass(State& s, Time by);
+
 /// END and MEND.
 void end_main_program(Core& core);
 /// STOP: at once in the program. In an interrupt routine it ends the routine and drops waiting interrupts, and the scan is

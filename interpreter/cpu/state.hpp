@@ -18,13 +18,19 @@ namespace s7200 {
 class LogicStack {
  public:
   static constexpr int kLevels = 9;
+  static constexpr std::uint16_t kAll = (1 << kLevels) - 1;
 
   bool top() const { return bits_ & 1; }
   bool level(int n) const { return (bits_ >> n) & 1; }
   std::uint16_t bits() const { return bits_; }
-  void push(bool value) { bits_ = static_cast<std::uint16_t>(((bits_ << 1) | (value ? 1 : 0)) & ((1 << kLevels) - 1)); }
+  void push(bool value) { bits_ = static_cast<std::uint16_t>(((bits_ << 1) | (value ? 1 : 0)) & kAll); }
   void pop() { bits_ >>= 1; }
   void set_top(bool value) { bits_ = static_cast<std::uint16_t>((bits_ & ~1) | (value ? 1 : 0)); }
+  static LogicStack from_bits(std::uint64_t bits) {
+    LogicStack s;
+    s.bits_ = static_cast<std::uint16_t>(bits);
+    return s;
+  }
   /// At the start of a subroutine or interrupt routine: S0 = 1, all others 0.
   static LogicStack on_entry() {
     LogicStack s;

@@ -14,20 +14,25 @@ std::int64_t ticks(Time base, Time from, Time to) {
   return std::min(to / base - from / base, kLongest / base);
 }
 
-void put_bit(Core& core, std::uint32_t timer, bool value) {
-  core.put_bit(image::kTBits + timer / 8, static_cast<std::uint8_t>(timer % 8), value);
+void put_bit(State& s, std::uint32_t timer, bool value) {
+  std::uint8_t& byte = s.image[image::kTBits + timer / 8];
+  const auto mask = static_cast<std::uint8_t>(1u << timer % 8);
+  byte = static_cast<std::uint8_t>(value ? byte | mask : byte & ~mask);
+}
+
+std::int16_t value_of(const State& s, std::uint32_t timer) {
+  return static_cast<std::int16_t>(load16(&s.image[image::kT + 2 * timer]));
 }
 
 /// A TOF stops at its preset and its bit goes off; others count on to 32767, with their bit on from the preset on.
-void add_ticks(Core& core, std::uint32_t number, std::int64_t ticks) {
-  TimerState& timer = core.s.timer[number];
-  std::uint8_t* const current = &core.s.image[image::kT + 2 * number];
-  const std::int64_t before = static_cast<std::int16_t>(load16(current));
+void add_ticks(State& s, std::uint32_t number, std::int64_t ticks) {
+  TimerState& timer = s.timer[number];
+  const std::int64_t before = value_of(s, number);
   const std::int64_t last = timer.off_delay ? std::max<std::int64_t>(before, timer.preset) : 32767;
   const std::int64_t value = std::min(before + ticks, last);
   const bool reached = value >= timer.preset;
-  store16(current, static_cast<std::uint16_t>(value));
-  put_bit(core, number, reached != timer.off_delay);
+  store16(&s.image[image::kT + 2 * number], static_cast<std::uint16_t>(value));
+  put_bit(s, number, reached != timer.off_delay);
   if (timer.off_delay && reached) timer.enabled = false;
 }
 
@@ -55,8 +60,8 @@ void execute(Core& core, std::uint32_t number, bool enabled, std::int16_t preset
   timer = {.preset = preset, .enabled = enabled, .since = was_enabled ? timer.since : s.time};
   if (!enabled && retentive) return;
   if (!retentive && !(enabled && was_enabled)) store16(&s.image[image::kT + 2 * number], 0);
-  if (!enabled) return put_bit(core, number, false);
-  add_ticks(core, number, was_enabled && base == 100 * kMillisecond ? s.ticks_100ms : 0);
+  if (!enabled) return put_bit(s, number, false);
+  add_ticks(s, number, was_enabled && base == 100 * kMillisecond ? s.ticks_100ms : 0);
   if (base == kMillisecond && s.next_tick_1ms == kNever) await_tick_1ms(core, s.time);
 }
 
@@ -70,9 +75,9 @@ void execute_off_delay(Core& core, std::uint32_t number, bool input, std::int16_
            .input = input && powered,
            .since = was_enabled ? timer.since : s.time};
   if (input || goes_off || !powered) store16(&s.image[image::kT + 2 * number], 0);
-  if (!timer.enabled) return put_bit(core, number, timer.input);
+  if (!timer.enabled) return put_bit(s, number, timer.input);
   const Time base = timer_base(number).base;
-  add_ticks(core, number, was_enabled && base == 100 * kMillisecond ? s.ticks_100ms : 0);
+  add_ticks(s, number, was_enabled && base == 100 * kMillisecond ? s.ticks_100ms : 0);
   if (base == kMillisecond && s.next_tick_1ms == kNever) await_tick_1ms(core, s.time);
 }
 
@@ -101,7 +106,35 @@ void begin_scan(Core& core) {
   s.previous_scan_begin = to;
   s.ticks_100ms = static_cast<std::int16_t>(ticks(100 * kMillisecond, from, to));
   for (const std::uint8_t timer : core.program().timers_10ms)
-    if (s.timer[timer].enabled) add_ticks(core, timer, ticks(10 * kMillisecond, from, to));
+    if (s.timer[timer].enabled) add_ticks(s, timer, ticks(10 * kMillisecond, from, to));
+}
+
+Time next_change(const Core& core) {
+  const State& s = core.s;
+  const Program& program = core.program();
+  Time next = kNever;
+  for (const auto* timers : {&program.timers_10ms, &program.timers_100ms})
+    for (const std::uint8_t number : *timers) {
+      const TimerState& timer = s.timer[number];
+      if (!timer.enabled) continue;
+      const std::int64_t left = timer.preset - value_of(s, number);
+      const std::int64_t ticks = program.looks.every_tick.test(number) ? 1 : left;
+      const Time base = timer_base(number).base;
+      if (ticks > 0) next = std::min(next, (s.previous_scan_begin / base + ticks) * base);
+    }
+  return next;
+}
+
+void pass(const Program& program, State& s, Time by, Time last_scan) {
+  if (!program.uses_timers) return;
+  const Time from = s.previous_scan_begin, to = from + by;
+  s.previous_scan_begin = to;
+  s.ticks_100ms = static_cast<std::int16_t>(ticks(100 * kMillisecond, to - last_scan, to));
+  for (const auto* timers : {&program.timers_10ms, &program.timers_100ms})
+    for (const std::uint8_t number : *timers) {
+      const Time base = timer_base(number).base;
+      if (s.timer[number].enabled) add_ticks(s, number, to / base - from / base);
+    }
 }
 
 /// A millisecond has passed.
@@ -113,8 +146,8 @@ void handle(Core& core, std::uint8_t, Time at) {
     if (!s.timer[timer].enabled) continue;
     any = true;
     if (s.timer[timer].since >= at) continue;
-    add_ticks(core, timer, 1);
-    const bool reached = static_cast<std::int16_t>(load16(&s.image[image::kT + 2u * timer])) == s.timer[timer].preset;
+    add_ticks(s, timer, 1);
+    const bool reached = value_of(s, timer) == s.timer[timer].preset;
     if (reached && timer == 32) interrupts::occurred(core, event::kT32Reached, at);
     if (reached && timer == 96) interrupts::occurred(core, event::kT96Reached, at);
   }

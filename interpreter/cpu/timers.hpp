@@ -17,6 +17,13 @@ void execute_off_delay(Core& core, std::uint32_t number, bool input, std::int16_
 /// and 10-15). A TOF starts again when its input goes off again.
 void clear_current_values(Core& core, const Operand& first, std::uint32_t count);
 
+// Over scans that are all alike.
+
+/// When the timers next change something that the program looks at; kNever if none does.
+Time next_change(const Core& core);
+/// Moves the timers on. `last_scan`: from the begin of the program in one scan to that in the last.
+void pass(const Program& program, State& s, Time by, Time last_scan);
+
 // For the table of units.
 void power_up(Core& core, const RetentiveMemory* memory);
 void enter_stop(Core& core);

@@ -4,11 +4,9 @@
 #include "interpreter/cpu/core.hpp"
 #include "interpreter/cpu/points.hpp"
 #include "interpreter/cpu/timers.hpp"
+#include "interpreter/instructions/linked.hpp"
 
 namespace s7200::bodies {
-
-/// How a contact combines with what is on the logic stack.
-enum class Join { Load, And, Or };
 
 template <Join join>
 inline void combine(LogicStack& stack, bool value) {
@@ -36,7 +34,8 @@ void contact(Core& core, const Op& op) {
 }
 
 template <Join join, bool negated>
-inline constexpr Bodies kContact{contact<join, negated>, contact<join, negated, Rail::Segment>};
+inline constexpr Bodies kContact{
+    contact<join, negated>, contact<join, negated, Rail::Segment>, nullptr, {ChainPart::Kind::Contact, join, negated}};
 
 inline void invert_top(Core& core, const Op&) { core.s.stack.set_top(!core.s.stack.top()); }
 
@@ -79,6 +78,7 @@ void edge(Core& core, const Op& op) {
 }
 
 inline void coil(Core& core, const Op& op) { core.put_bit(op[0].at, op[0].bit, core.s.stack.top()); }
+inline constexpr Bodies kCoilBody{coil, nullptr, nullptr, {.kind = ChainPart::Kind::Coil}};
 
 /// =I writes the image register and the output point (operand 2, added at load).
 inline void immediate_coil(Core& core, const Op& op) {

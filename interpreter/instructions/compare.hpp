@@ -41,6 +41,7 @@ void compare(Core& core, const Op& op) {
 }
 
 template <Join join, Relation relation, class Value>
-inline constexpr Bodies kCompare{compare<join, relation, Value>, compare<join, relation, Value, Rail::Segment>};
+inline constexpr Bodies kCompare{compare<join, relation, Value>, compare<join, relation, Value, Rail::Segment>,
+                                 std::is_integral_v<Value> ? linked::on_stack<compare<join, relation, Value>> : nullptr};
 
 }  // namespace s7200::bodies

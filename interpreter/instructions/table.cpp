@@ -8,6 +8,7 @@
 
 #include "interpreter/instructions/bit_logic.hpp"
 #include "interpreter/instructions/compare.hpp"
+#include "interpreter/instructions/contact_chains.hpp"
 #include "interpreter/instructions/control.hpp"
 #include "interpreter/instructions/conversion.hpp"
 #include "interpreter/instructions/math.hpp"
@@ -71,24 +72,24 @@ constexpr Instruction kBitLogic[] = {
     {.mnemonic = "OI",   .operand = {kInputPoint}, .rung = kTop,  .hidden = Hidden::InputPoint,                             .body = kContact<Or, false>,   .meaning = "top of stack OR the input point BIT"},
     {.mnemonic = "ONI",  .operand = {kInputPoint}, .rung = kTop,  .hidden = Hidden::InputPoint,                             .body = kContact<Or, true>,    .meaning = "top of stack OR NOT the input point BIT"},
 
-    {.mnemonic = "NOT",                            .rung = kTop,                                                                                      .body = invert_top,         .meaning = "invert the top of the stack"},
-    {.mnemonic = "EU",                             .rung = kTop,                         .hidden = Hidden::RisingMemory,                              .body = edge<true>,         .meaning = "1 for one execution when the top of the stack went from 0 to 1"},
-    {.mnemonic = "ED",                             .rung = kTop,                         .hidden = Hidden::FallingMemory,                             .body = edge<false>,        .meaning = "1 for one execution when the top of the stack went from 1 to 0"},
-    {.mnemonic = "ALD",                            .rung = kTwoToOne,                                                                                 .body = combine_loads<And>, .meaning = "AND the two upper levels into one"},
-    {.mnemonic = "OLD",                            .rung = kTwoToOne,                                                                                 .body = combine_loads<Or>,  .meaning = "OR the two upper levels into one"},
-    {.mnemonic = "LPS",                            .rung = kOneToTwo,                                                                                 .body = push_copy,          .meaning = "push a copy of the top of the stack"},
-    {.mnemonic = "LRD",                            .rung = kReadSecond,                                                                               .body = read_second,        .meaning = "copy the second level to the top"},
-    {.mnemonic = "LPP",                            .rung = kTwoToOne,                                                                                 .body = pop_stack,          .meaning = "pop the stack"},
-    {.mnemonic = "LDS",  .operand = {kStackLevel}, .rung = kOneToTwo,   .cpus = kCpu22x,                                                              .body = push_level,         .meaning = "push a copy of level n"},
-    {.mnemonic = "AENO",                           .rung = kTop,        .cpus = kCpu22x,                                  .effect = Effect::ReadsEno, .body = and_eno,            .meaning = "top of stack AND ENO, which the last box has set"},
+    {.mnemonic = "NOT",                            .rung = kTop,                                                                                      .body = kOnStack<invert_top>,         .meaning = "invert the top of the stack"},
+    {.mnemonic = "EU",                             .rung = kTop,                         .hidden = Hidden::RisingMemory,                              .body = kOnStack<edge<true>>,         .meaning = "1 for one execution when the top of the stack went from 0 to 1"},
+    {.mnemonic = "ED",                             .rung = kTop,                         .hidden = Hidden::FallingMemory,                             .body = kOnStack<edge<false>>,        .meaning = "1 for one execution when the top of the stack went from 1 to 0"},
+    {.mnemonic = "ALD",                            .rung = kTwoToOne,                                                                                 .body = kOnStack<combine_loads<And>>, .meaning = "AND the two upper levels into one"},
+    {.mnemonic = "OLD",                            .rung = kTwoToOne,                                                                                 .body = kOnStack<combine_loads<Or>>,  .meaning = "OR the two upper levels into one"},
+    {.mnemonic = "LPS",                            .rung = kOneToTwo,                                                                                 .body = kOnStack<push_copy>,          .meaning = "push a copy of the top of the stack"},
+    {.mnemonic = "LRD",                            .rung = kReadSecond,                                                                               .body = kOnStack<read_second>,        .meaning = "copy the second level to the top"},
+    {.mnemonic = "LPP",                            .rung = kTwoToOne,                                                                                 .body = kOnStack<pop_stack>,          .meaning = "pop the stack"},
+    {.mnemonic = "LDS",  .operand = {kStackLevel}, .rung = kOneToTwo,   .cpus = kCpu22x,                                                              .body = kOnStack<push_level>,         .meaning = "push a copy of level n"},
+    {.mnemonic = "AENO",                           .rung = kTop,        .cpus = kCpu22x,                                  .effect = Effect::ReadsEno, .body = and_eno,                      .meaning = "top of stack AND ENO, which the last box has set"},
 
-    {.mnemonic = "=",   .operand = {kBitOut},               .rung = kCoil,                                   .effect = Effect::Coil,     .body = coil,                   .meaning = "write the top of the stack to BIT"},
+    {.mnemonic = "=",   .operand = {kBitOut},               .rung = kCoil,                                   .effect = Effect::Coil,     .body = kCoilBody,              .meaning = "write the top of the stack to BIT"},
     {.mnemonic = "=I",  .operand = {kOutputPoint},          .rung = kCoil,    .hidden = Hidden::OutputPoint,                             .body = immediate_coil,         .meaning = "write the top of the stack to the output point and its image"},
     {.mnemonic = "S",   .operand = {kBits, kCount},         .rung = kPowered,                                .effect = Effect::SetsBits, .body = set_bits<true, false>,  .meaning = "set N bits from BIT on"},
     {.mnemonic = "R",   .operand = {kBits, kCount},         .rung = kPowered,                                                            .body = set_bits<false, false>, .meaning = "reset N bits from BIT on; of timers and counters the current values too"},
     {.mnemonic = "SI",  .operand = {kOutputPoints, kCount}, .rung = kPowered, .hidden = Hidden::OutputPoint,                             .body = set_bits<true, true>,   .meaning = "set N output points and their image"},
     {.mnemonic = "RI",  .operand = {kOutputPoints, kCount}, .rung = kPowered, .hidden = Hidden::OutputPoint,                             .body = set_bits<false, true>,  .meaning = "reset N output points and their image"},
-    {.mnemonic = "NOP", .operand = {kAnyNumber},                                                                                         .body = no_operation,           .meaning = "nothing"},
+    {.mnemonic = "NOP", .operand = {kAnyNumber},                                                                                         .body = kOnStack<no_operation>, .meaning = "nothing"},
 };
 
 constexpr Instruction kCompareContacts[] = {
@@ -172,51 +173,51 @@ constexpr Instruction kCompareContacts[] = {
 };
 
 constexpr Instruction kMove[] = {
-    {.mnemonic = "MOVB", .operand = {kInByte, kOutByte},             .rung = kBox,                   .body = move<std::uint8_t>,        .meaning = "copy byte IN to OUT"},
-    {.mnemonic = "MOVW", .operand = {kInWord, kOutWordOrAnalog},     .rung = kBox,                   .body = move<std::uint16_t>,       .meaning = "copy word IN to OUT"},
-    {.mnemonic = "MOVD", .operand = {kInDwordOrAddress, kOutDword},  .rung = kBox,                   .body = move<std::uint32_t>,       .meaning = "copy double word IN to OUT"},
-    {.mnemonic = "MOVR", .operand = {kInReal, kOutReal},             .rung = kBox, .cpus = kFrom214, .body = move<std::uint32_t>,       .meaning = "copy real IN to OUT"},
-    {.mnemonic = "BMB",  .operand = {kInBytes, kOutBytes, kCount},   .rung = kBox,                   .body = move_block<std::uint8_t>,  .meaning = "copy N bytes from IN on to OUT on"},
-    {.mnemonic = "BMW",  .operand = {kInWords, kOutWords, kCount},   .rung = kBox,                   .body = move_block<std::uint16_t>, .meaning = "copy N words from IN on to OUT on"},
-    {.mnemonic = "BMD",  .operand = {kInDwords, kOutDwords, kCount}, .rung = kBox, .cpus = kFrom215, .body = move_block<std::uint32_t>, .meaning = "copy N double words from IN on to OUT on"},
-    {.mnemonic = "FILL", .operand = {kInWord, kOutWords, kCount},    .rung = kBox,                   .body = fill,                      .meaning = "write word IN to N words from OUT on"},
-    {.mnemonic = "SWAP", .operand = {kSwapped},                      .rung = kBox,                   .body = swap_bytes,                .meaning = "exchange the two bytes of a word"},
-    {.mnemonic = "BIR",  .operand = {kInputByte, kOutByte},          .rung = kBox, .cpus = kCpu22x,  .body = read_points,               .meaning = "copy eight input points to OUT"},
-    {.mnemonic = "BIW",  .operand = {kInByte, kOutputByte},          .rung = kBox, .cpus = kCpu22x,  .body = write_points,              .meaning = "copy IN to eight output points and their image"},
+    {.mnemonic = "MOVB", .operand = {kInByte, kOutByte},             .rung = kBox,                   .body = kOnMemory<move<std::uint8_t>>,  .meaning = "copy byte IN to OUT"},
+    {.mnemonic = "MOVW", .operand = {kInWord, kOutWordOrAnalog},     .rung = kBox,                   .body = kOnMemory<move<std::uint16_t>>, .meaning = "copy word IN to OUT"},
+    {.mnemonic = "MOVD", .operand = {kInDwordOrAddress, kOutDword},  .rung = kBox,                   .body = kOnMemory<move<std::uint32_t>>, .meaning = "copy double word IN to OUT"},
+    {.mnemonic = "MOVR", .operand = {kInReal, kOutReal},             .rung = kBox, .cpus = kFrom214, .body = kOnMemory<move<std::uint32_t>>, .meaning = "copy real IN to OUT"},
+    {.mnemonic = "BMB",  .operand = {kInBytes, kOutBytes, kCount},   .rung = kBox,                   .body = move_block<std::uint8_t>,       .meaning = "copy N bytes from IN on to OUT on"},
+    {.mnemonic = "BMW",  .operand = {kInWords, kOutWords, kCount},   .rung = kBox,                   .body = move_block<std::uint16_t>,      .meaning = "copy N words from IN on to OUT on"},
+    {.mnemonic = "BMD",  .operand = {kInDwords, kOutDwords, kCount}, .rung = kBox, .cpus = kFrom215, .body = move_block<std::uint32_t>,      .meaning = "copy N double words from IN on to OUT on"},
+    {.mnemonic = "FILL", .operand = {kInWord, kOutWords, kCount},    .rung = kBox,                   .body = fill,                           .meaning = "write word IN to N words from OUT on"},
+    {.mnemonic = "SWAP", .operand = {kSwapped},                      .rung = kBox,                   .body = kOnMemory<swap_bytes>,          .meaning = "exchange the two bytes of a word"},
+    {.mnemonic = "BIR",  .operand = {kInputByte, kOutByte},          .rung = kBox, .cpus = kCpu22x,  .body = read_points,                    .meaning = "copy eight input points to OUT"},
+    {.mnemonic = "BIW",  .operand = {kInByte, kOutputByte},          .rung = kBox, .cpus = kCpu22x,  .body = write_points,                   .meaning = "copy IN to eight output points and their image"},
 };
 
 constexpr Instruction kIntegerArithmetic[] = {
-    {.mnemonic = "+I",   .operand = {kIn1Word, kInOutWord},   .rung = kBox, .flags = kArithmetic,                           .body = add<std::int16_t>,             .meaning = "OUT + IN1 to OUT, 16 bits"},
-    {.mnemonic = "-I",   .operand = {kIn1Word, kInOutWord},   .rung = kBox, .flags = kArithmetic,                           .body = subtract<std::int16_t>,        .meaning = "OUT - IN1 to OUT, 16 bits"},
-    {.mnemonic = "+D",   .operand = {kIn1Dword, kInOutDword}, .rung = kBox, .flags = kArithmetic,                           .body = add<std::int32_t>,             .meaning = "OUT + IN1 to OUT, 32 bits"},
-    {.mnemonic = "-D",   .operand = {kIn1Dword, kInOutDword}, .rung = kBox, .flags = kArithmetic,                           .body = subtract<std::int32_t>,        .meaning = "OUT - IN1 to OUT, 32 bits"},
-    {.mnemonic = "MUL",  .operand = {kIn1Int, kInOutDword},   .rung = kBox, .flags = kMultiplyDivide,                       .body = multiply,                      .meaning = "IN1 × low word of OUT to OUT, 32 bits"},
-    {.mnemonic = "DIV",  .operand = {kIn1Int, kInOutDword},   .rung = kBox, .flags = kMultiplyDivide,                       .body = divide,                        .meaning = "low word of OUT / IN1: quotient to its low word, remainder to its high word"},
-    {.mnemonic = "*I",   .operand = {kIn1Int, kInOutWord},    .rung = kBox, .flags = kMultiplyDivide,     .cpus = kCpu22x,  .body = multiply_narrow<std::int16_t>, .meaning = "OUT × IN1 to OUT, 16 bits"},
-    {.mnemonic = "/I",   .operand = {kIn1Int, kInOutWord},    .rung = kBox, .flags = kMultiplyDivide,     .cpus = kCpu22x,  .body = divide_narrow<std::int16_t>,   .meaning = "OUT / IN1 to OUT, 16 bits, without remainder"},
-    {.mnemonic = "*D",   .operand = {kIn1Dint, kInOutDword},  .rung = kBox, .flags = kMultiplyDivide,     .cpus = kCpu22x,  .body = multiply_narrow<std::int32_t>, .meaning = "OUT × IN1 to OUT, 32 bits"},
-    {.mnemonic = "/D",   .operand = {kIn1Dint, kInOutDword},  .rung = kBox, .flags = kMultiplyDivide,     .cpus = kCpu22x,  .body = divide_narrow<std::int32_t>,   .meaning = "OUT / IN1 to OUT, 32 bits, without remainder"},
-    {.mnemonic = "INCW", .operand = {kInOutWord},             .rung = kBox, .flags = kArithmetic,                           .body = increment<std::int16_t, 1>,    .meaning = "OUT + 1 to OUT, 16 bits"},
-    {.mnemonic = "DECW", .operand = {kInOutWord},             .rung = kBox, .flags = kArithmetic,                           .body = increment<std::int16_t, -1>,   .meaning = "OUT - 1 to OUT, 16 bits"},
-    {.mnemonic = "INCD", .operand = {kInOutDword},            .rung = kBox, .flags = kArithmetic,                           .body = increment<std::int32_t, 1>,    .meaning = "OUT + 1 to OUT, 32 bits"},
-    {.mnemonic = "DECD", .operand = {kInOutDword},            .rung = kBox, .flags = kArithmetic,                           .body = increment<std::int32_t, -1>,   .meaning = "OUT - 1 to OUT, 32 bits"},
-    {.mnemonic = "INCB", .operand = {kInOutByte},             .rung = kBox, .flags = kUnsignedArithmetic, .cpus = kFrom215, .body = increment_byte<1>,             .meaning = "OUT + 1 to OUT, unsigned byte"},
-    {.mnemonic = "DECB", .operand = {kInOutByte},             .rung = kBox, .flags = kUnsignedArithmetic, .cpus = kFrom215, .body = increment_byte<-1>,            .meaning = "OUT - 1 to OUT, unsigned byte"},
+    {.mnemonic = "+I",   .operand = {kIn1Word, kInOutWord},   .rung = kBox, .flags = kArithmetic,                           .body = kOnMemory<add<std::int16_t>>,             .meaning = "OUT + IN1 to OUT, 16 bits"},
+    {.mnemonic = "-I",   .operand = {kIn1Word, kInOutWord},   .rung = kBox, .flags = kArithmetic,                           .body = kOnMemory<subtract<std::int16_t>>,        .meaning = "OUT - IN1 to OUT, 16 bits"},
+    {.mnemonic = "+D",   .operand = {kIn1Dword, kInOutDword}, .rung = kBox, .flags = kArithmetic,                           .body = kOnMemory<add<std::int32_t>>,             .meaning = "OUT + IN1 to OUT, 32 bits"},
+    {.mnemonic = "-D",   .operand = {kIn1Dword, kInOutDword}, .rung = kBox, .flags = kArithmetic,                           .body = kOnMemory<subtract<std::int32_t>>,        .meaning = "OUT - IN1 to OUT, 32 bits"},
+    {.mnemonic = "MUL",  .operand = {kIn1Int, kInOutDword},   .rung = kBox, .flags = kMultiplyDivide,                       .body = kOnMemory<multiply>,                      .meaning = "IN1 × low word of OUT to OUT, 32 bits"},
+    {.mnemonic = "DIV",  .operand = {kIn1Int, kInOutDword},   .rung = kBox, .flags = kMultiplyDivide,                       .body = kOnMemory<divide>,                        .meaning = "low word of OUT / IN1: quotient to its low word, remainder to its high word"},
+    {.mnemonic = "*I",   .operand = {kIn1Int, kInOutWord},    .rung = kBox, .flags = kMultiplyDivide,     .cpus = kCpu22x,  .body = kOnMemory<multiply_narrow<std::int16_t>>, .meaning = "OUT × IN1 to OUT, 16 bits"},
+    {.mnemonic = "/I",   .operand = {kIn1Int, kInOutWord},    .rung = kBox, .flags = kMultiplyDivide,     .cpus = kCpu22x,  .body = kOnMemory<divide_narrow<std::int16_t>>,   .meaning = "OUT / IN1 to OUT, 16 bits, without remainder"},
+    {.mnemonic = "*D",   .operand = {kIn1Dint, kInOutDword},  .rung = kBox, .flags = kMultiplyDivide,     .cpus = kCpu22x,  .body = kOnMemory<multiply_narrow<std::int32_t>>, .meaning = "OUT × IN1 to OUT, 32 bits"},
+    {.mnemonic = "/D",   .operand = {kIn1Dint, kInOutDword},  .rung = kBox, .flags = kMultiplyDivide,     .cpus = kCpu22x,  .body = kOnMemory<divide_narrow<std::int32_t>>,   .meaning = "OUT / IN1 to OUT, 32 bits, without remainder"},
+    {.mnemonic = "INCW", .operand = {kInOutWord},             .rung = kBox, .flags = kArithmetic,                           .body = kOnMemory<increment<std::int16_t, 1>>,    .meaning = "OUT + 1 to OUT, 16 bits"},
+    {.mnemonic = "DECW", .operand = {kInOutWord},             .rung = kBox, .flags = kArithmetic,                           .body = kOnMemory<increment<std::int16_t, -1>>,   .meaning = "OUT - 1 to OUT, 16 bits"},
+    {.mnemonic = "INCD", .operand = {kInOutDword},            .rung = kBox, .flags = kArithmetic,                           .body = kOnMemory<increment<std::int32_t, 1>>,    .meaning = "OUT + 1 to OUT, 32 bits"},
+    {.mnemonic = "DECD", .operand = {kInOutDword},            .rung = kBox, .flags = kArithmetic,                           .body = kOnMemory<increment<std::int32_t, -1>>,   .meaning = "OUT - 1 to OUT, 32 bits"},
+    {.mnemonic = "INCB", .operand = {kInOutByte},             .rung = kBox, .flags = kUnsignedArithmetic, .cpus = kFrom215, .body = kOnMemory<increment_byte<1>>,             .meaning = "OUT + 1 to OUT, unsigned byte"},
+    {.mnemonic = "DECB", .operand = {kInOutByte},             .rung = kBox, .flags = kUnsignedArithmetic, .cpus = kFrom215, .body = kOnMemory<increment_byte<-1>>,            .meaning = "OUT - 1 to OUT, unsigned byte"},
 };
 
 constexpr Instruction kLogicOperations[] = {
-    {.mnemonic = "ANDW", .operand = {kIn1Word, kInOutWord},   .rung = kBox, .flags = kZero,                   .body = combine_words<Logic::And, std::uint16_t>, .meaning = "OUT AND IN1 to OUT"},
-    {.mnemonic = "ORW",  .operand = {kIn1Word, kInOutWord},   .rung = kBox, .flags = kZero,                   .body = combine_words<Logic::Or, std::uint16_t>,  .meaning = "OUT OR IN1 to OUT"},
-    {.mnemonic = "XORW", .operand = {kIn1Word, kInOutWord},   .rung = kBox, .flags = kZero,                   .body = combine_words<Logic::Xor, std::uint16_t>, .meaning = "OUT XOR IN1 to OUT"},
-    {.mnemonic = "INVW", .operand = {kInOutWord},             .rung = kBox, .flags = kZero,                   .body = invert<std::uint16_t>,                    .meaning = "NOT OUT to OUT"},
-    {.mnemonic = "ANDD", .operand = {kIn1Dword, kInOutDword}, .rung = kBox, .flags = kZero,                   .body = combine_words<Logic::And, std::uint32_t>, .meaning = "OUT AND IN1 to OUT"},
-    {.mnemonic = "ORD",  .operand = {kIn1Dword, kInOutDword}, .rung = kBox, .flags = kZero,                   .body = combine_words<Logic::Or, std::uint32_t>,  .meaning = "OUT OR IN1 to OUT"},
-    {.mnemonic = "XORD", .operand = {kIn1Dword, kInOutDword}, .rung = kBox, .flags = kZero,                   .body = combine_words<Logic::Xor, std::uint32_t>, .meaning = "OUT XOR IN1 to OUT"},
-    {.mnemonic = "INVD", .operand = {kInOutDword},            .rung = kBox, .flags = kZero,                   .body = invert<std::uint32_t>,                    .meaning = "NOT OUT to OUT"},
-    {.mnemonic = "ANDB", .operand = {kIn1Byte, kInOutByte},   .rung = kBox, .flags = kZero, .cpus = kFrom215, .body = combine_words<Logic::And, std::uint8_t>,  .meaning = "OUT AND IN1 to OUT"},
-    {.mnemonic = "ORB",  .operand = {kIn1Byte, kInOutByte},   .rung = kBox, .flags = kZero, .cpus = kFrom215, .body = combine_words<Logic::Or, std::uint8_t>,   .meaning = "OUT OR IN1 to OUT"},
-    {.mnemonic = "XORB", .operand = {kIn1Byte, kInOutByte},   .rung = kBox, .flags = kZero, .cpus = kFrom215, .body = combine_words<Logic::Xor, std::uint8_t>,  .meaning = "OUT XOR IN1 to OUT"},
-    {.mnemonic = "INVB", .operand = {kInOutByte},             .rung = kBox, .flags = kZero, .cpus = kFrom215, .body = invert<std::uint8_t>,                     .meaning = "NOT OUT to OUT"},
+    {.mnemonic = "ANDW", .operand = {kIn1Word, kInOutWord},   .rung = kBox, .flags = kZero,                   .body = kOnMemory<combine_words<Logic::And, std::uint16_t>>, .meaning = "OUT AND IN1 to OUT"},
+    {.mnemonic = "ORW",  .operand = {kIn1Word, kInOutWord},   .rung = kBox, .flags = kZero,                   .body = kOnMemory<combine_words<Logic::Or, std::uint16_t>>,  .meaning = "OUT OR IN1 to OUT"},
+    {.mnemonic = "XORW", .operand = {kIn1Word, kInOutWord},   .rung = kBox, .flags = kZero,                   .body = kOnMemory<combine_words<Logic::Xor, std::uint16_t>>, .meaning = "OUT XOR IN1 to OUT"},
+    {.mnemonic = "INVW", .operand = {kInOutWord},             .rung = kBox, .flags = kZero,                   .body = kOnMemory<invert<std::uint16_t>>,                    .meaning = "NOT OUT to OUT"},
+    {.mnemonic = "ANDD", .operand = {kIn1Dword, kInOutDword}, .rung = kBox, .flags = kZero,                   .body = kOnMemory<combine_words<Logic::And, std::uint32_t>>, .meaning = "OUT AND IN1 to OUT"},
+    {.mnemonic = "ORD",  .operand = {kIn1Dword, kInOutDword}, .rung = kBox, .flags = kZero,                   .body = kOnMemory<combine_words<Logic::Or, std::uint32_t>>,  .meaning = "OUT OR IN1 to OUT"},
+    {.mnemonic = "XORD", .operand = {kIn1Dword, kInOutDword}, .rung = kBox, .flags = kZero,                   .body = kOnMemory<combine_words<Logic::Xor, std::uint32_t>>, .meaning = "OUT XOR IN1 to OUT"},
+    {.mnemonic = "INVD", .operand = {kInOutDword},            .rung = kBox, .flags = kZero,                   .body = kOnMemory<invert<std::uint32_t>>,                    .meaning = "NOT OUT to OUT"},
+    {.mnemonic = "ANDB", .operand = {kIn1Byte, kInOutByte},   .rung = kBox, .flags = kZero, .cpus = kFrom215, .body = kOnMemory<combine_words<Logic::And, std::uint8_t>>,  .meaning = "OUT AND IN1 to OUT"},
+    {.mnemonic = "ORB",  .operand = {kIn1Byte, kInOutByte},   .rung = kBox, .flags = kZero, .cpus = kFrom215, .body = kOnMemory<combine_words<Logic::Or, std::uint8_t>>,   .meaning = "OUT OR IN1 to OUT"},
+    {.mnemonic = "XORB", .operand = {kIn1Byte, kInOutByte},   .rung = kBox, .flags = kZero, .cpus = kFrom215, .body = kOnMemory<combine_words<Logic::Xor, std::uint8_t>>,  .meaning = "OUT XOR IN1 to OUT"},
+    {.mnemonic = "INVB", .operand = {kInOutByte},             .rung = kBox, .flags = kZero, .cpus = kFrom215, .body = kOnMemory<invert<std::uint8_t>>,                     .meaning = "NOT OUT to OUT"},
 };
 
 constexpr Instruction kShiftAndRotate[] = {
@@ -237,11 +238,11 @@ constexpr Instruction kShiftAndRotate[] = {
 
 constexpr Instruction kProgramControl[] = {
     {.mnemonic = "JMP",  .operand = {kLabel},                       .rung = kPowered,                                                    .outside_segments = true, .structure = Structure::Jump,                                             .body = jump,                   .meaning = "go on at LBL n of the same routine"},
-    {.mnemonic = "LBL",  .operand = {kLabel},                       .rung = kMark,                                                                                 .structure = Structure::Label,                                            .body = no_operation,           .meaning = "place that JMP n goes to"},
+    {.mnemonic = "LBL",  .operand = {kLabel},                       .rung = kMark,                                                                                 .structure = Structure::Label,                                            .body = kOnStack<no_operation>, .meaning = "place that JMP n goes to"},
     {.mnemonic = "FOR",  .operand = {kLoopIndex, kInitial, kFinal}, .rung = kBox,     .cpus = kFrom214,        .allowed = kInterrupt22x, .outside_segments = true, .structure = Structure::For,                                              .body = begin_loop,             .meaning = "repeat up to NEXT with INDX from INIT to FINAL"},
     {.mnemonic = "NEXT",                                            .rung = kMark,    .cpus = kFrom214,        .allowed = kInterrupt22x, .outside_segments = true, .structure = Structure::Next,                                             .body = next_pass,              .meaning = "end of a FOR loop; leaves the top of the stack at 1"},
     {.mnemonic = "CALL", .operand = {kSubroutineNumber},            .rung = kBox,                              .allowed = kInterrupt22x,                           .structure = Structure::Call,                                             .body = call,                   .meaning = "call subroutine n"},
-    {.mnemonic = "SBR",  .operand = {kSubroutineNumber},            .rung = kMark,                                                                                 .structure = Structure::SubroutineHead,                                   .body = no_operation,           .meaning = "head of subroutine n"},
+    {.mnemonic = "SBR",  .operand = {kSubroutineNumber},            .rung = kMark,                                                                                 .structure = Structure::SubroutineHead,                                   .body = kOnStack<no_operation>, .meaning = "head of subroutine n"},
     {.mnemonic = "RET",                                             .rung = kMark,                             .allowed = kSubroutine,                             .structure = Structure::SubroutineEnd,                                    .body = return_from_subroutine, .meaning = "end of a subroutine"},
     {.mnemonic = "CRET",                                            .rung = kPowered,                          .allowed = kSubroutine,                                                                     .effect = Effect::ConditionalEnd, .body = return_from_subroutine, .meaning = "return from a subroutine"},
     {.mnemonic = "END",                                             .rung = kPowered,                          .allowed = kMain,         .outside_segments = true,                                         .effect = Effect::ConditionalEnd, .body = end_main_program,       .meaning = "end the main program of this scan"},
@@ -252,7 +253,7 @@ constexpr Instruction kProgramControl[] = {
 };
 
 constexpr Instruction kInterrupts[] = {
-    {.mnemonic = "INT",   .operand = {kRoutineNumber},   .rung = kMark,                                .structure = Structure::InterruptHead,                                      .body = no_operation,             .meaning = "head of interrupt routine n"},
+    {.mnemonic = "INT",   .operand = {kRoutineNumber},   .rung = kMark,                                .structure = Structure::InterruptHead,                                      .body = kOnStack<no_operation>,   .meaning = "head of interrupt routine n"},
     {.mnemonic = "RETI",                                 .rung = kMark,    .allowed = kInterrupt,      .structure = Structure::InterruptEnd,                                       .body = return_from_interrupt,    .meaning = "end of an interrupt routine"},
     {.mnemonic = "CRETI",                                .rung = kPowered, .allowed = kInterrupt,                                             .effect = Effect::ConditionalEnd,    .body = return_from_interrupt,    .meaning = "return from an interrupt routine"},
     {.mnemonic = "ENI",                                  .rung = kPowered, .allowed = kNotInInterrupt,                                        .effect = Effect::EnablesInterrupts, .body = enable_interrupts<true>,  .meaning = "enable interrupts"},
@@ -271,14 +272,14 @@ constexpr Instruction kCommunication[] = {
 };
 
 constexpr Instruction kTimersAndCounters[] = {
-    {.mnemonic = "TON",   .operand = {kOnDelayTimer, kPresetTime},   .rung = kCoil,                                 .hidden = Hidden::Number, .body = time_on<false>, .meaning = "on-delay timer: counts while the top of the stack is 1, else 0"},
-    {.mnemonic = "TONR",  .operand = {kRetentiveTimer, kPresetTime}, .rung = kCoil,                                 .hidden = Hidden::Number, .body = time_on<true>,  .meaning = "retentive on-delay timer: keeps its value until it is reset"},
-    {.mnemonic = "TOF",   .operand = {kOffDelayTimer, kPresetTime},  .rung = kCoil,        .cpus = kCpu22x,         .hidden = Hidden::Number, .body = time_off,       .meaning = "off-delay timer: its bit goes off PT after the top of the stack has gone off"},
-    {.mnemonic = "CTU",   .operand = {kCounter, kPresetValue},       .rung = kTwoInputs,                            .hidden = Hidden::Number, .body = count_up,       .meaning = "count up: second level counts, top resets"},
-    {.mnemonic = "CTD",   .operand = {kCounter, kPresetValue},       .rung = kTwoInputs,   .cpus = kCpu22x,         .hidden = Hidden::Number, .body = count_down,     .meaning = "count down: second level counts, top loads PV"},
-    {.mnemonic = "CTUD",  .operand = {kCounter, kPresetInt},         .rung = kThreeInputs,                          .hidden = Hidden::Number, .body = count_up_down,  .meaning = "count up and down: third level up, second down, top resets"},
-    {.mnemonic = "BITIM", .operand = {kOutDword},                    .rung = kBox,         .cpus = kCpu22xRelease2,                           .body = begin_interval, .meaning = "the CPU's milliseconds to OUT"},
-    {.mnemonic = "CITIM", .operand = {kInDword, kOutDword},          .rung = kBox,         .cpus = kCpu22xRelease2,                           .body = read_interval,  .meaning = "milliseconds since IN, which BITIM has written, to OUT"},
+    {.mnemonic = "TON",   .operand = {kOnDelayTimer, kPresetTime},   .rung = kCoil,                                 .hidden = Hidden::Number,                                      .body = time_on<false>, .meaning = "on-delay timer: counts while the top of the stack is 1, else 0"},
+    {.mnemonic = "TONR",  .operand = {kRetentiveTimer, kPresetTime}, .rung = kCoil,                                 .hidden = Hidden::Number,                                      .body = time_on<true>,  .meaning = "retentive on-delay timer: keeps its value until it is reset"},
+    {.mnemonic = "TOF",   .operand = {kOffDelayTimer, kPresetTime},  .rung = kCoil,        .cpus = kCpu22x,         .hidden = Hidden::Number,                                      .body = time_off,       .meaning = "off-delay timer: its bit goes off PT after the top of the stack has gone off"},
+    {.mnemonic = "CTU",   .operand = {kCounter, kPresetValue},       .rung = kTwoInputs,                            .hidden = Hidden::Number,                                      .body = count_up,       .meaning = "count up: second level counts, top resets"},
+    {.mnemonic = "CTD",   .operand = {kCounter, kPresetValue},       .rung = kTwoInputs,   .cpus = kCpu22x,         .hidden = Hidden::Number,                                      .body = count_down,     .meaning = "count down: second level counts, top loads PV"},
+    {.mnemonic = "CTUD",  .operand = {kCounter, kPresetInt},         .rung = kThreeInputs,                          .hidden = Hidden::Number,                                      .body = count_up_down,  .meaning = "count up and down: third level up, second down, top resets"},
+    {.mnemonic = "BITIM", .operand = {kOutDword},                    .rung = kBox,         .cpus = kCpu22xRelease2,                           .effect = Effect::ReadsMilliseconds, .body = begin_interval, .meaning = "the CPU's milliseconds to OUT"},
+    {.mnemonic = "CITIM", .operand = {kInDword, kOutDword},          .rung = kBox,         .cpus = kCpu22xRelease2,                           .effect = Effect::ReadsMilliseconds, .body = read_interval,  .meaning = "milliseconds since IN, which BITIM has written, to OUT"},
 };
 
 constexpr Instruction kRealArithmetic[] = {
@@ -296,18 +297,18 @@ constexpr Instruction kRealArithmetic[] = {
 };
 
 constexpr Instruction kConversion[] = {
-    {.mnemonic = "BCDI",  .operand = {kInOutWord},                    .rung = kBox, .flags = kNotBcd,                     .body = from_bcd,                                           .meaning = "four BCD digits to an integer"},
-    {.mnemonic = "IBCD",  .operand = {kInOutWord},                    .rung = kBox, .flags = kNotBcd,                     .body = to_bcd,                                             .meaning = "integer 0 to 9999 to BCD"},
-    {.mnemonic = "DTR",   .operand = {kInDint, kOutReal},             .rung = kBox,                     .cpus = kFrom214, .body = integer_to_real,                                    .meaning = "double integer to real"},
-    {.mnemonic = "TRUNC", .operand = {kInReal, kOutDword},            .rung = kBox, .flags = kOverflow, .cpus = kFrom214, .body = to_integer<false>,                                  .meaning = "real to double integer, toward zero"},
-    {.mnemonic = "ROUND", .operand = {kInReal, kOutDword},            .rung = kBox, .flags = kOverflow, .cpus = kCpu22x,  .body = to_integer<true>,                                   .meaning = "real to double integer, to the nearest"},
-    {.mnemonic = "BTI",   .operand = {kInUsint, kOutWord},            .rung = kBox,                     .cpus = kCpu22x,  .body = widen<std::uint8_t, std::int16_t>,                  .meaning = "unsigned byte to integer"},
-    {.mnemonic = "ITB",   .operand = {kInInt, kOutByte},              .rung = kBox, .flags = kOverflow, .cpus = kCpu22x,  .body = narrow<std::int16_t, std::uint8_t>,                 .meaning = "integer 0 to 255 to byte"},
-    {.mnemonic = "ITD",   .operand = {kInInt, kOutDword},             .rung = kBox,                     .cpus = kCpu22x,  .body = widen<std::int16_t, std::int32_t>,                  .meaning = "integer to double integer"},
-    {.mnemonic = "DTI",   .operand = {kInDint, kOutWord},             .rung = kBox, .flags = kOverflow, .cpus = kCpu22x,  .body = narrow<std::int32_t, std::int16_t>,                 .meaning = "double integer to integer, if it fits"},
-    {.mnemonic = "DECO",  .operand = {kInByte, kOutWord},             .rung = kBox,                                       .body = decode_bit,                                         .meaning = "set the one bit of OUT that the low half of IN numbers"},
-    {.mnemonic = "ENCO",  .operand = {kInWord, kOutByte},             .rung = kBox,                                       .body = encode_bit,                                         .meaning = "number of the lowest bit set in IN to OUT"},
-    {.mnemonic = "SEG",   .operand = {kInByte, kOutByte},             .rung = kBox,                                       .body = seven_segments,                                     .meaning = "seven-segment pattern of the low half of IN"},
+    {.mnemonic = "BCDI",  .operand = {kInOutWord},                    .rung = kBox, .flags = kNotBcd,                     .body = kOnMemory<from_bcd>,                                .meaning = "four BCD digits to an integer"},
+    {.mnemonic = "IBCD",  .operand = {kInOutWord},                    .rung = kBox, .flags = kNotBcd,                     .body = kOnMemory<to_bcd>,                                  .meaning = "integer 0 to 9999 to BCD"},
+    {.mnemonic = "DTR",   .operand = {kInDint, kOutReal},             .rung = kBox,                     .cpus = kFrom214, .body = kOnMemory<integer_to_real>,                         .meaning = "double integer to real"},
+    {.mnemonic = "TRUNC", .operand = {kInReal, kOutDword},            .rung = kBox, .flags = kOverflow, .cpus = kFrom214, .body = kOnMemory<to_integer<false>>,                       .meaning = "real to double integer, toward zero"},
+    {.mnemonic = "ROUND", .operand = {kInReal, kOutDword},            .rung = kBox, .flags = kOverflow, .cpus = kCpu22x,  .body = kOnMemory<to_integer<true>>,                        .meaning = "real to double integer, to the nearest"},
+    {.mnemonic = "BTI",   .operand = {kInUsint, kOutWord},            .rung = kBox,                     .cpus = kCpu22x,  .body = kOnMemory<widen<std::uint8_t, std::int16_t>>,       .meaning = "unsigned byte to integer"},
+    {.mnemonic = "ITB",   .operand = {kInInt, kOutByte},              .rung = kBox, .flags = kOverflow, .cpus = kCpu22x,  .body = kOnMemory<narrow<std::int16_t, std::uint8_t>>,      .meaning = "integer 0 to 255 to byte"},
+    {.mnemonic = "ITD",   .operand = {kInInt, kOutDword},             .rung = kBox,                     .cpus = kCpu22x,  .body = kOnMemory<widen<std::int16_t, std::int32_t>>,       .meaning = "integer to double integer"},
+    {.mnemonic = "DTI",   .operand = {kInDint, kOutWord},             .rung = kBox, .flags = kOverflow, .cpus = kCpu22x,  .body = kOnMemory<narrow<std::int32_t, std::int16_t>>,      .meaning = "double integer to integer, if it fits"},
+    {.mnemonic = "DECO",  .operand = {kInByte, kOutWord},             .rung = kBox,                                       .body = kOnMemory<decode_bit>,                              .meaning = "set the one bit of OUT that the low half of IN numbers"},
+    {.mnemonic = "ENCO",  .operand = {kInWord, kOutByte},             .rung = kBox,                                       .body = kOnMemory<encode_bit>,                              .meaning = "number of the lowest bit set in IN to OUT"},
+    {.mnemonic = "SEG",   .operand = {kInByte, kOutByte},             .rung = kBox,                                       .body = kOnMemory<seven_segments>,                          .meaning = "seven-segment pattern of the low half of IN"},
     {.mnemonic = "ATH",   .operand = {kInBytes, kOutDigits, kLength}, .rung = kBox, .flags = kNotHex,                     .body = ascii_to_hex,                                       .meaning = "LEN characters to hexadecimal digits"},
     {.mnemonic = "HTA",   .operand = {kInDigits, kOutBytes, kLength}, .rung = kBox,                                       .body = hex_to_ascii,                                       .meaning = "LEN hexadecimal digits to characters"},
     {.mnemonic = "ITA",   .operand = {kInInt, kOutText8, kFormat},    .rung = kBox,                     .cpus = kCpu22x,  .body = integer_to_text<std::int16_t, kIntegerText, false>, .meaning = "integer to 8 characters"},
@@ -354,11 +355,11 @@ constexpr Instruction kSequenceControl[] = {
 };
 
 constexpr Instruction kPeripherals[] = {
-    {.mnemonic = "TODR", .operand = {kClockOut},                .rung = kBox, .cpus = kFrom214,                                                                    .body = read_clock,      .meaning = "read the clock into the 8 bytes at T"},
-    {.mnemonic = "TODW", .operand = {kClockIn},                 .rung = kBox, .cpus = kFrom214,                                                                    .body = write_clock,     .meaning = "set the clock from the 8 bytes at T"},
-    {.mnemonic = "HDEF", .operand = {kHighSpeedCounter, kMode}, .rung = kBox,                   .allowed = kNotInInterrupt, .structure = Structure::DefineCounter, .body = define_counter,  .meaning = "give a high-speed counter its mode, once"},
-    {.mnemonic = "HSC",  .operand = {kHighSpeedCounter},        .rung = kBox,                                                                                      .body = program_counter, .meaning = "take over the counter's control byte, values and enable"},
-    {.mnemonic = "PLS",  .operand = {kPulseOutput},             .rung = kBox, .cpus = kFrom214,                                                                    .body = program_pulses,  .meaning = "start the pulse train or PWM of Q0.X"},
+    {.mnemonic = "TODR", .operand = {kClockOut},                .rung = kBox, .cpus = kFrom214,                                                                    .effect = Effect::ReadsTimeOfDay, .body = read_clock,      .meaning = "read the clock into the 8 bytes at T"},
+    {.mnemonic = "TODW", .operand = {kClockIn},                 .rung = kBox, .cpus = kFrom214,                                                                                                      .body = write_clock,     .meaning = "set the clock from the 8 bytes at T"},
+    {.mnemonic = "HDEF", .operand = {kHighSpeedCounter, kMode}, .rung = kBox,                   .allowed = kNotInInterrupt, .structure = Structure::DefineCounter,                                   .body = define_counter,  .meaning = "give a high-speed counter its mode, once"},
+    {.mnemonic = "HSC",  .operand = {kHighSpeedCounter},        .rung = kBox,                                                                                                                        .body = program_counter, .meaning = "take over the counter's control byte, values and enable"},
+    {.mnemonic = "PLS",  .operand = {kPulseOutput},             .rung = kBox, .cpus = kFrom214,                                                                                                      .body = program_pulses,  .meaning = "start the pulse train or PWM of Q0.X"},
 };
 
 // Known by name, so that a program that uses them is told so.
@@ -440,5 +441,10 @@ static_assert(std::ranges::all_of(kInstructions, has_room_for_a_hidden_operand))
 }  // namespace
 
 std::span<const Instruction> all_instructions() { return kInstructions; }
+
+Link link_of_chain(std::size_t contacts, std::size_t joins, std::size_t coils) {
+  return linked::find_chain(contacts, joins, coils, std::make_index_sequence<kMostCoils + 1>{});
+}
+Link link_of_any() { return linked::kTailCalls ? linked::any : nullptr; }
 
 }  // namespace s7200

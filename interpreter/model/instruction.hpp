@@ -23,6 +23,11 @@ struct Op;
 /// instruction's basic time; the body adds the time that depends on counts.
 using Body = void (*)(Core& core, const Op& op);
 
+/// Executes an op, or a chain of them, and goes on with the next one by a tail call (instructions/linked.hpp), so that what
+/// each needs stays in registers: `left`, ns until the CPU has to look for other work; `stack`, the bits of the logic stack;
+/// `executed`, the number of instructions so far.
+using Link = void (*)(Core& core, const Op* op, Time left, std::uint64_t stack, std::uint64_t executed);
+
 enum class OperandKind : std::uint8_t {
   Memory,      ///< a value: direct, through a pointer, or a constant, as the rule allows
   Label,       ///< a number that is part of the instruction: LBL, JMP
@@ -105,7 +110,8 @@ enum class Structure : std::uint8_t {
   Compare  ///< its errors stop the CPU
 };
 
-/// What the warnings about a whole program look for (program/lint.hpp).
+/// What the warnings about a whole program (program/lint.hpp), and the search for what it looks at (program/looks.hpp), look
+/// for.
 enum class Effect : std::uint8_t {
   None,
   LoadsBit,  ///< LD
@@ -115,7 +121,9 @@ enum class Effect : std::uint8_t {
   EnablesInterrupts,
   Transmits,
   Receives,
-  ReadsEno  ///< AENO
+  ReadsEno,           ///< AENO
+  ReadsTimeOfDay,     ///< TODR
+  ReadsMilliseconds,  ///< BITIM, CITIM
 };
 
 /// What the decoder adds to the operands of an instruction.
@@ -155,13 +163,29 @@ struct Rung {
   bool operator==(const Rung&) const = default;
 };
 
+/// How a contact combines with what is on the logic stack: LD, A, O.
+enum class Join : std::uint8_t { Load, And, Or };
+inline constexpr std::size_t kJoins = 3;
+
+/// What a contact or a coil does as part of a chain, which is executed in one go (program/chains.hpp).
+struct ChainPart {
+  enum class Kind : std::uint8_t { None, Contact, Coil };
+
+  Kind kind = Kind::None;
+  Join join = Join::Load;
+  bool inverted = false;  ///< LDN, AN, ON
+};
+
 /// What executes an instruction.
 struct Bodies {
   constexpr Bodies() = default;
-  constexpr Bodies(Body everywhere, Body fed_by_segment = nullptr) : usual(everywhere), in_segment(fed_by_segment) {}
+  constexpr Bodies(Body everywhere, Body fed_by_segment = nullptr, Link in_link = nullptr, ChainPart in_chain = {})
+      : usual(everywhere), in_segment(fed_by_segment), link(in_link), part(in_chain) {}
 
   Body usual = nullptr;       ///< null: not modelled, refused by name
   Body in_segment = nullptr;  ///< between LSCR and SCRE, if different: a contact on the segment's power rail
+  Link link = nullptr;        ///< a faster way to do what `usual` does; null: there is none
+  ChainPart part{};
 };
 
 /// A row of the table, in the order of its columns. What a row leaves out is as it stands here.
@@ -191,6 +215,14 @@ struct Instruction {
 
 /// The table, in the order of the manual's groups.
 std::span<const Instruction> all_instructions();
+
+inline constexpr std::size_t kMostContacts = 4, kMostCoils = 2;  ///< of a chain
+
+/// The link of a chain: up to kMostContacts contacts, joined as the digits of `joins` say, the first contact's the lowest;
+/// and up to kMostCoils coils that end it.
+Link link_of_chain(std::size_t contacts, std::size_t joins, std::size_t coils);
+/// The link of any op: calls its body. Null in builds without tail calls.
+Link link_of_any();
 
 /// Null for an unknown mnemonic (upper case).
 const Instruction* find_instruction(std::string_view mnemonic);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/chains.hpp"
 #include "interpreter/program/data_block.hpp"
 #include "interpreter/program/german.hpp"
 #include "interpreter/program/operands.hpp"
@@ -360,12 +361,14 @@ class Checker {
       program->uses_local_memory |= std::ranges::any_of(program->ops.back().operand, is_local);
     }
     follow_eno(*program);
+    link(*program);
     std::sort(program->reals.begin(), program->reals.end());
     program->constants = constants_.bytes();
     program->data = std::move(data_);
     for (const AreaInfo& area : all_areas())
       if (area.pointer_code)
         program->reach[*area.pointer_code] = {area.base, model_.size_of(area.area) * std::max(1u, area.element)};
+    program->looks = looks_of(*program);
     program->no_power_flow = times_[SystemTime::NoPowerFlow];
     program->interrupt_entry = times_[SystemTime::InterruptEntry];
     program->eeprom_save = times_[SystemTime::EepromSave];
@@ -392,7 +395,6 @@ class Checker {
     const auto& placed = placed_[is_next ? structure.head[i] : i];  // NEXT works on the operands of its FOR
     Op op;
     op.instruction = &instruction;
-    op.statement = i;
     op.power_mask = instruction.rung.needs_power_flow;
     op.in_segment = structure.in_segment[i];
     op.target = structure.target[i];
@@ -439,9 +441,11 @@ class Checker {
     if (op.instruction->hidden != Hidden::Number || op.instruction->operand[0].areas != set_of(Area::T)) return;
     const auto number = static_cast<std::uint8_t>(op[2].at);
     program.uses_timers = true;
-    auto& timers = timer_base(number).base == kMillisecond ? program.timers_1ms : program.timers_10ms;
-    if (timer_base(number).base < 100 * kMillisecond && std::find(timers.begin(), timers.end(), number) == timers.end())
-      timers.push_back(number);
+    const Time base = timer_base(number).base;
+    auto& timers = base == kMillisecond        ? program.timers_1ms
+                   : base == 10 * kMillisecond ? program.timers_10ms
+                                               : program.timers_100ms;
+    if (std::find(timers.begin(), timers.end(), number) == timers.end()) timers.push_back(number);
   }
 
   /// Double words that are real numbers.

@@ -9,6 +9,7 @@
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/model/times.hpp"
+#include "interpreter/program/looks.hpp"
 #include "interpreter/stl/ast.hpp"
 
 namespace s7200 {
@@ -23,19 +24,20 @@ struct Operand {
   bool operator==(const Operand&) const = default;
 };
 
-/// A decoded instruction: one cache line.
+/// A decoded instruction.
 struct Op {
-  Body body = nullptr;         ///< what the loop calls: direct_body(), or a step around it
-  std::int32_t cost = 0;       ///< ns, with power flow and for these operands
-  std::int32_t unit_cost = 0;  ///< additional ns for each bit, byte, word … (see the table of times)
-  std::uint32_t skip_to = 0;   ///< next op if power flow is needed and missing
-  std::uint32_t target = 0;    ///< next op of JMP, CALL, NEXT (loop body), FOR (after its NEXT)
+  Body body = nullptr;          ///< what the loop calls: direct_body(), or a step around it
+  Link link = nullptr;          ///< the same for the fast loop, alone or as a chain that begins here
+  std::int32_t cost = 0;        ///< ns, with power flow and for these operands
+  std::int32_t unit_cost = 0;   ///< additional ns for each bit, byte, word … (see the table of times)
+  std::uint32_t skip_to = 0;    ///< next op if power flow is needed and missing
+  std::uint32_t target = 0;     ///< next op of JMP, CALL, NEXT (loop body), FOR (after its NEXT); of a contact: in contacts
+  std::int32_t chain_cost = 0;  ///< ns, of the chain that begins here
   std::array<Operand, 3> operand{};
   std::uint8_t power_mask = 0;  ///< 1: needs power flow
   bool has_pointer = false;     ///< some operand is a pointer
   bool in_segment = false;      ///< between LSCR and SCRE
   bool sets_eno = false;        ///< a box with an ENO output, in a program that reads it
-  std::uint32_t statement = 0;  ///< in Program::statements
   const Instruction* instruction = nullptr;
 
   const Operand& operator[](std::size_t i) const { return operand[i]; }
@@ -44,6 +46,13 @@ struct Op {
     const Bodies& own = instruction->body;
     return in_segment && own.in_segment ? own.in_segment : own.usual;
   }
+};
+
+/// A contact or a coil of a chain.
+struct Contact {
+  std::uint32_t at = 0;   ///< of its byte in the image
+  std::uint8_t mask = 0;  ///< of its bit in the byte
+  bool inverted = false;  ///< LDN, AN, ON
 };
 
 // Steps around a body, chosen at load if the operands need one; the CPU defines them.
@@ -97,6 +106,7 @@ struct Program {
   stl::Source source;
   std::vector<stl::Statement> statements;  ///< one for each op
   std::vector<Op> ops;
+  std::vector<Contact> contacts{};              ///< of the chains
   std::vector<Body> box_body;                   ///< what run_with_eno() calls, for each op; empty in a program without AENO
   std::vector<std::uint8_t> constants;          ///< content of the image from image::kConstants
   std::vector<Parameter> parameters{};          ///< of all CALLs
@@ -104,8 +114,9 @@ struct Program {
   std::array<std::uint32_t, 128> subroutine{};  ///< op of each SBR; kNoRoutine where there is none
   std::array<std::uint32_t, 128> interrupt{};   ///< op of each INT
 
-  std::vector<std::uint8_t> timers_1ms, timers_10ms;  ///< numbers of the timers that the program uses
+  std::vector<std::uint8_t> timers_1ms, timers_10ms, timers_100ms;  ///< numbers of the timers that the program uses
   bool uses_timers = false;
+  Looks looks{};
   bool uses_local_memory = false;
   std::array<Reach, kReaches> reach{};  ///< by the top byte of a pointer
   std::vector<std::uint32_t> reals;     ///< double words that some instruction uses as a real: places in the image, sorted
@@ -114,7 +125,7 @@ struct Program {
   Time no_power_flow = 0, interrupt_entry = 0, eeprom_save = 0;
   std::array<Time, 4> scan_phase{};  ///< input read, communication, self-test, output write
 
-  const stl::Statement& statement(std::uint32_t op) const { return statements[ops[op].statement]; }
+  const stl::Statement& statement(std::uint32_t op) const { return statements[op]; }
 
   /// Whether some instruction uses the double word at this place of the image as a real number.
   bool is_real(std::uint32_t at) const { return std::binary_search(reals.begin(), reals.end(), at); }

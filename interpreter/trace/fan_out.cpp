@@ -30,4 +30,8 @@ bool FanOut::wants_instructions() const {
   return std::any_of(sinks_.begin(), sinks_.end(), [](const TraceSink* sink) { return sink->wants_instructions(); });
 }
 
+bool FanOut::wants_scans() const {
+  return std::any_of(sinks_.begin(), sinks_.end(), [](const TraceSink* sink) { return sink->wants_scans(); });
+}
+
 }  // namespace s7200

@@ -18,6 +18,7 @@ class OutputRecord final : public TraceSink {
 
   explicit OutputRecord(std::ostream& out);
   void record(const TraceRecord& record) override;
+  bool wants_scans() const override { return false; }
 
  private:
   std::ostream& out_;

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <bit>
+#include <iterator>
 #include <ostream>
 
 #include "interpreter/model/errors.hpp"
@@ -38,24 +38,6 @@ std::string status_text(std::uint8_t status) {
     before = ", ";
   }
   return text + ')';
-}
-
-bool is_constant(const stl::Operand& operand) {
-  return std::holds_alternative<stl::Integer>(operand.value) || std::holds_alternative<stl::Real>(operand.value);
-}
-
-std::string value_text(std::uint32_t value, Width width) {
-  switch (width) {
-    case Width::Bit:
-      return fmt::format("{}", value);
-    case Width::Byte:
-      return fmt::format("16#{:02X}", value);
-    case Width::Word:
-      return fmt::format("16#{:04X}", value);
-    case Width::Double:
-      return fmt::format("16#{:08X}", value);
-  }
-  return {};
 }
 
 /// Port 0 goes without saying: most CPUs have no other.
@@ -115,39 +97,31 @@ std::string what_text(const TraceRecord& r, const Program& program) {
 
 }  // namespace
 
-std::string clock_text(Time at) { return fmt::format("{:>7}.{:06}", at / kMillisecond, at % kMillisecond); }
+std::string clock_text(Time at) {
+  fmt::memory_buffer text;
+  append_clock(text, at);
+  return fmt::to_string(text);
+}
 
 std::string describe(const TraceRecord& r, const Program& program) { return port_text(r) + what_text(r, program); }
 
-std::string describe(const InstructionRecord& r, const Program& program) {
-  const Op& op = program.ops[r.op];
-  const stl::Statement& statement = program.statement(r.op);
-  std::string values;
-  for (std::size_t i = 0; i < statement.operands.size(); ++i) {
-    const OperandRule& rule = op.instruction->operand[i];
-    if (rule.kind != OperandKind::Memory || is_constant(statement.operands[i])) continue;
-    values +=
-        fmt::format(" {}={}", stl::to_text(statement.operands[i]), r.value[i] ? value_text(*r.value[i], rule.width) : "?");
-    const bool real = rule.real || (rule.width == Width::Double && !op[i].pointer && program.is_real(op[i].at));
-    if (real && r.value[i]) values += fmt::format(" ({})", stl::to_text(stl::Real{std::bit_cast<float>(*r.value[i])}));
-  }
-  return fmt::format("line {:<5} {:<28} S0={}{}{}", statement.position.line, stl::to_text(statement), r.top ? 1 : 0,
-                     r.powered ? "" : " no power flow", r.powered ? values : "");
-}
-
 TextTrace::TextTrace(std::ostream& out, std::shared_ptr<const Program> program, bool instructions)
-    : out_(out), program_(std::move(program)), instructions_(instructions) {
+    : out_(out), program_(std::move(program)), instructions_(instructions), instruction_lines_(*program_) {
   out_ << kFirstLine << '\n';
 }
 
 void TextTrace::record(const TraceRecord& record) {
   if (record.kind == TraceKind::ScanBegin && !instructions_) return;
-  out_ << clock_text(record.at) << "  " << describe(record, *program_) << '\n';
+  line_.clear();
+  append_clock(line_, record.at);
+  fmt::format_to(std::back_inserter(line_), "  {}\n", describe(record, *program_));
+  out_.write(line_.data(), static_cast<std::streamsize>(line_.size()));
 }
 
 void TextTrace::instruction(const InstructionRecord& record) {
-  out_ << clock_text(record.at) << "  " << describe(record, *program_)
-       << fmt::format("  {}\n", format_duration(record.end - record.at));
+  line_.clear();
+  instruction_lines_.append_line(line_, record);
+  out_.write(line_.data(), static_cast<std::streamsize>(line_.size()));
 }
 
 }  // namespace s7200

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "interpreter/program/program.hpp"
+#include "interpreter/trace/instruction_lines.hpp"
 #include "interpreter/trace/trace.hpp"
 
 namespace s7200 {
@@ -16,9 +17,6 @@ std::string clock_text(Time at);
 
 /// One line for a record, without the time and the line end: `INT 122 begins: event 8 (…), waited 12 us`.
 std::string describe(const TraceRecord& record, const Program& program);
-
-/// `line 42  MOVW    VW3300, AC0     VW3300=16#0006 AC0=16#0006`
-std::string describe(const InstructionRecord& record, const Program& program);
 
 /// Writes each record as it comes. Does not own the stream.
 class TextTrace final : public TraceSink {
@@ -30,11 +28,14 @@ class TextTrace final : public TraceSink {
   void record(const TraceRecord& record) override;
   void instruction(const InstructionRecord& record) override;
   bool wants_instructions() const override { return instructions_; }
+  bool wants_scans() const override { return instructions_; }
 
  private:
   std::ostream& out_;
   std::shared_ptr<const Program> program_;
   bool instructions_;
+  InstructionLines instruction_lines_;
+  fmt::memory_buffer line_;
 };
 
 }  // namespace s7200

@@ -70,6 +70,9 @@ class TraceSink {
   virtual void instruction(const InstructionRecord&) {}
   /// Whether before() and instruction() are to be called at all.
   virtual bool wants_instructions() const { return false; }
+  /// Whether every scan matters, because the begin of each is recorded. Otherwise scans that are all alike may be passed
+  /// over.
+  virtual bool wants_scans() const { return true; }
 };
 
 }  // namespace s7200

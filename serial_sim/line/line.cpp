@@ -11,6 +11,18 @@ std::size_t Line::Driver::edges_until(Time at) const {
   return count;
 }
 
+unsigned Line::Driver::levels(std::span<const Time> at) const {
+  if (edges.empty()) return mark_before ? ~0U : 0U;
+  unsigned levels = 0;
+  bool mark = mark_before;
+  auto edge = edges.begin();
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    for (; edge != edges.end() && *edge <= at[i]; ++edge) mark = !mark;
+    levels |= static_cast<unsigned>(mark) << i;
+  }
+  return levels;
+}
+
 Time Line::Driver::next_edge(Time from, bool mark) const {
   std::size_t next = edges_until(from - 1);
   if (level_after(next) == mark) ++next;
@@ -92,12 +104,22 @@ void Line::Periods::forget(Time before) {
   changes.erase(changes.begin(), present);
 }
 
-void Line::drive(int driver, Time at, bool mark) {
-  assert(driver >= 0 && driver < kDrivers);
-  const auto number = static_cast<std::size_t>(driver);
-  if (number >= drivers_.all.size() && !mark) drivers_.all.resize(number + 1);
-  if (number < drivers_.all.size()) drivers_.all[number].add(at, mark);
+Line::Driver& Line::driver(int number) {
+  assert(number >= 0 && number < kDrivers);
+  const auto place = static_cast<std::size_t>(number);
+  if (place >= drivers_.all.size()) drivers_.all.resize(place + 1);
+  return drivers_.all[place];
+}
+
+void Line::drive(int number, Time at, bool mark) {
+  driver(number).add(at, mark);
   tell(at);
+}
+
+void Line::drive(int number, std::span<const Time> changes) {
+  Driver& own = driver(number);
+  for (const Time at : changes) own.add(at, !own.level_after(own.edges.size()));
+  if (!changes.empty()) tell(changes.front());
 }
 
 void Line::disturb(const Disturbance& disturbance) {
@@ -124,6 +146,17 @@ void Line::note_whether_disturbed() {
 }
 
 bool Line::level(Time at) const { return disturbed_ ? disturbed_level(driven_level(at), at) : driven_level(at); }
+
+unsigned Line::levels(std::span<const Time> at) const {
+  unsigned levels = ~0U;
+  if (!disturbed_) {
+    for (const Driver& driver : drivers_.all) levels &= driver.levels(at);
+  } else {
+    for (std::size_t i = 0; i < at.size(); ++i)
+      if (!level(at[i])) levels &= ~(1U << i);
+  }
+  return levels;
+}
 
 bool Line::driven_level(Time at) const {
   return std::all_of(drivers_.all.begin(), drivers_.all.end(), [at](const Driver& driver) { return driver.level(at); });

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "interpreter/base/time.hpp"
@@ -15,7 +16,7 @@ class Interference;
 /// Whoever hears the line.
 class LineListener {
  public:
-  /// A driver has got a new edge at `at`, which may lie in the future.
+  /// A driver has got new edges, the first at `at`, which may lie in the future.
   virtual void line_changed(Time at) = 0;
 
   /// Levels before this instant matter no more to this listener; kNever when only those to come do.
@@ -54,6 +55,9 @@ class Line {
   /// Every listener is told, so that this is all it takes to send, to collide or to make noise.
   void drive(int driver, Time at, bool mark);
 
+  /// The same for a whole character: at each of these instants, in order of time, the driver changes to the other level.
+  void drive(int driver, std::span<const Time> changes);
+
   /// What listeners have heard before this was called stands: `from` should not lie before now. Every listener is told. One
   /// that ends as it begins is none.
   void disturb(const Disturbance& disturbance);
@@ -67,6 +71,9 @@ class Line {
 
   /// The level at an instant; an edge counts from its own instant on.
   bool level(Time at) const;
+
+  /// The level at each of at most 32 instants, in order of time: that at the first one in bit 0.
+  unsigned levels(std::span<const Time> at) const;
 
   /// What driver `driver` holds, whatever the others do.
   bool level_of(int driver, Time at) const;
@@ -98,6 +105,7 @@ class Line {
     bool level_after(std::size_t edge_count) const { return mark_before != (edge_count % 2 != 0); }
     std::size_t edges_until(Time at) const;
     bool level(Time at) const { return level_after(edges_until(at)); }
+    unsigned levels(std::span<const Time> at) const;
     Time next_edge(Time from, bool mark) const;
     void add(Time at, bool mark);
     void forget(Time before);
@@ -137,6 +145,7 @@ class Line {
     bool operator==(const Wiring&) const { return true; }
   };
 
+  Driver& driver(int number);
   bool driven_level(Time at) const;
   bool disturbed_level(bool driven, Time at) const;
   Time driven_falling_edge(Time from) const;

@@ -9,10 +9,11 @@ std::uint8_t data_of(std::uint8_t byte, const SerialFormat& format) {
   return format.data_bits == 7 ? static_cast<std::uint8_t>(byte & 0x7F) : byte;
 }
 
-/// Middle of bit `bit` after the start edge; the start bit is bit 0.
-Time middle_of_bit(int bit, const BitClock& clock) { return clock.half_bits(2 * bit + 1); }
-
 }  // namespace
+
+BitTimes::BitTimes(const BitClock& of) : clock(of) {
+  for (std::size_t count = 0; count < half_bits.size(); ++count) half_bits[count] = clock.half_bits(static_cast<int>(count));
+}
 
 unsigned character_levels(const SerialFormat& format, std::uint8_t data, bool parity_bit) {
   const int stop_bit = first_stop_bit(format);
@@ -109,17 +110,25 @@ void Uart::put_character_with_mishaps(unsigned levels, Time at) {
 
 /// Back with its end. A character without stop bit takes a bit longer, at mark.
 Time Uart::drive_character(unsigned levels, const BitClock& clock, Time at) {
+  const BitTimes& times = times_of(clock, sending_times_);
+  const int bits = clock.format.bits();
+  std::array<Time, SerialFormat::kMostBits + 1> changes{};
+  std::size_t count = 0;
   bool mark = true;
-  const int stop_bit = first_stop_bit(clock.format);
-  for (int bit = 0; bit <= stop_bit; ++bit) {
+  for (int bit = 0; bit <= first_stop_bit(clock.format); ++bit) {
     const bool next = (levels >> bit & 1U) != 0;
-    if (next != mark) line_.drive(driver_, at + clock.bit_times(bit), next);
+    if (next != mark) changes[count++] = at + times.begin_of_bit(bit);
     mark = next;
   }
-  const int bits = clock.format.bits();
-  if (mark) return at + clock.bit_times(bits);
-  line_.drive(driver_, at + clock.bit_times(bits), true);
-  return at + clock.bit_times(bits + 1);
+  if (!mark) changes[count++] = at + times.begin_of_bit(bits);
+  line_.drive(driver_, {changes.data(), count});
+  return at + times.begin_of_bit(mark ? bits : bits + 1);
+}
+
+/// Worked out once for a clock.
+const BitTimes& Uart::times_of(const BitClock& clock, BitTimes& known) {
+  if (!(known.clock == clock)) known = BitTimes(clock);
+  return known;
 }
 
 void Uart::sends_until(Time end) {
@@ -170,22 +179,23 @@ void Uart::check_start_bit(Time now) {
 }
 
 ReceivedCharacter Uart::take_character() {
-  const BitClock& clock = state_.receiving_as;
-  const SerialFormat& format = clock.format;
+  const SerialFormat& format = state_.receiving_as.format;
+  const BitTimes& times = times_of(state_.receiving_as, receiving_times_);
   const Time start = state_.start_edge;
-  const auto sample = [&](int bit) { return line_.level(start + middle_of_bit(bit, clock)); };
+  const int stop_bit = first_stop_bit(format);
+  std::array<Time, SerialFormat::kMostBits> middles{};
+  for (int bit = 0; bit <= stop_bit; ++bit) middles[static_cast<std::size_t>(bit)] = start + times.middle_of_bit(bit);
+  const unsigned levels = line_.levels({middles.data(), static_cast<std::size_t>(stop_bit + 1)});
+  const auto sample = [levels](int bit) { return (levels >> bit & 1U) != 0; };
 
   ReceivedCharacter character;
-  for (int bit = 0; bit < format.data_bits; ++bit) {
-    if (sample(1 + bit)) character.byte = static_cast<std::uint8_t>(character.byte | 1U << bit);
-  }
-  const int stop_bit = first_stop_bit(format);
+  character.byte = static_cast<std::uint8_t>(levels >> 1 & ((1U << format.data_bits) - 1));
   const bool bit_before_stop = sample(stop_bit - 1);
   if (format.parity != Parity::None) character.parity_error = bit_before_stop != format.parity_bit(character.byte);
   character.framing_error = !sample(stop_bit);
   character.line_break = character.byte == 0 && !bit_before_stop && character.framing_error;
   character.start = start;
-  character.end = start + middle_of_bit(stop_bit, clock);
+  character.end = middles[static_cast<std::size_t>(stop_bit)];
 
   state_.listen_from = character.end;
   await_start_edge();
@@ -195,13 +205,14 @@ ReceivedCharacter Uart::take_character() {
 /// When the start bit is to be verified or, once it was, the stop bit to be sampled.
 Time Uart::next_sample() const {
   if (state_.start_edge == kNever) return kNever;
-  return state_.receiving ? character_due() : state_.start_edge + middle_of_bit(0, {state_.format, state_.clock_error});
+  if (state_.receiving) return character_due();
+  return state_.start_edge + times_of({state_.format, state_.clock_error}, receiving_times_).middle_of_bit(0);
 }
 
 Time Uart::character_due() const {
   if (state_.start_edge == kNever) return kNever;
   const BitClock clock = state_.receiving ? state_.receiving_as : BitClock{state_.format, state_.clock_error};
-  return state_.start_edge + middle_of_bit(first_stop_bit(clock.format), clock);
+  return state_.start_edge + times_of(clock, receiving_times_).middle_of_bit(first_stop_bit(clock.format));
 }
 
 void Uart::expect(What what, Time at) {

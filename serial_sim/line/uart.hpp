@@ -1,6 +1,7 @@
 // Characters to edges, and edges to characters.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -17,6 +18,18 @@ constexpr int first_stop_bit(const SerialFormat& format) { return format.bits() 
 
 /// The levels of a character from its start bit, in bit 0, to its first stop bit: 1 is mark. `data` fits the format.
 unsigned character_levels(const SerialFormat& format, std::uint8_t data, bool parity_bit);
+
+/// When the bits of a character are, worked out once for a clock; from its start edge on.
+struct BitTimes {
+  BitTimes() : BitTimes(BitClock{}) {}
+  explicit BitTimes(const BitClock& of);
+
+  Time begin_of_bit(int bit) const { return half_bits[static_cast<std::size_t>(2 * bit)]; }
+  Time middle_of_bit(int bit) const { return half_bits[static_cast<std::size_t>(2 * bit + 1)]; }
+
+  BitClock clock;
+  std::array<Time, 2 * (SerialFormat::kMostBits + 1) + 1> half_bits{};  ///< so many
+};
 
 /// One UART on the line: a sender and a receiver. Wrong baud rates, wrong parity, noise, breaks and collisions need no code
 /// of their own, they are levels.
@@ -113,6 +126,7 @@ class Uart final : public SerialPort, private LineListener {
   Time drive_character(unsigned levels, const BitClock& clock, Time at);
   std::int32_t clock_error() const;
   void sends_until(Time end);
+  static const BitTimes& times_of(const BitClock& clock, BitTimes& known);
 
   Line& line_;
   EventQueue& queue_;
@@ -120,6 +134,8 @@ class Uart final : public SerialPort, private LineListener {
   int driver_;
   bool plugged_in_ = false;
   State state_;
+  BitTimes sending_times_{};
+  mutable BitTimes receiving_times_{};
 };
 
 }  // namespace s7200::serial

@@ -87,7 +87,7 @@ Halt System::step(Time end) {
   if (plcs_.empty()) return step_without_plc(end);
   const Turn turn = next_turn();
   Cpu& cpu = turn.plc.cpu();
-  cpu.run(std::min({end, turn.until, next_look(cpu.time())}));
+  cpu.run(std::min(end, turn.until), kLookEvery);
   handle_due_events();
   return cpu.paused() ? Halt::Paused : Halt::Time;
 }

@@ -8,12 +8,13 @@
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tests/support/source_path.hpp"
+#include "tools/rig/mixed_program.hpp"
 
 namespace s7200 {
 namespace {
 
-std::shared_ptr<const Program> load(std::string_view text) {
-  CheckResult result = check_text(text, "bench.stl", cpu214(), default_times(cpu214()));
+std::shared_ptr<const Program> load(std::string_view text, const CpuModel& model = cpu214()) {
+  CheckResult result = check_text(text, "bench.stl", model, default_times(model));
   if (!result.program) throw std::logic_error(stl::render(result.diagnostics.front(), result.source, false));
   return result.program;
 }
@@ -47,6 +48,7 @@ BENCHMARK(first_scan);
 
 void idle_scans(benchmark::State& bench) {
   serial::Simulation simulation(slave());
+  simulation.cpu().use_steady_scans(SteadyScansUse::Off);
   simulation.power_up();
   simulation.run_until(kSecond);
   const std::uint64_t before = simulation.cpu().state().instructions;
@@ -81,6 +83,7 @@ void statement(benchmark::State& bench, const char* text) {
   std::string program = "LD SM0.0\nMOVD &VB100, VD0\nMOVW 1, VW4\n";
   for (int i = 0; i < 400; ++i) program.append(text).append("\n");
   serial::Simulation simulation(load(program.append("MEND\n")));
+  simulation.cpu().use_steady_scans(SteadyScansUse::Off);
   simulation.power_up();
   const std::uint64_t before = simulation.cpu().state().instructions;
   for (auto _ : bench) simulation.run_until(simulation.time() + 100 * kMillisecond);
@@ -98,6 +101,21 @@ BENCHMARK_CAPTURE(statement, add, "+I VW4, VW8");
 BENCHMARK_CAPTURE(statement, divide, "DIV VW4, VD12");
 BENCHMARK_CAPTURE(statement, combine_words, "XORW VW4, VW8");
 BENCHMARK_CAPTURE(statement, shift, "SLW VW8, 3");
+
+/// A program of so many instructions, scan after scan, in an input image that changes now and then.
+void mixed(benchmark::State& bench) {
+  serial::Simulation simulation(load(tools::mixed_program(static_cast<std::uint32_t>(bench.range(0))), *find_cpu("226XM")));
+  simulation.cpu().use_steady_scans(SteadyScansUse::Off);
+  simulation.power_up();
+  const std::uint64_t before = simulation.cpu().state().instructions;
+  std::uint8_t inputs = 0;
+  for (auto _ : bench) {
+    simulation.cpu().set_input(0, ++inputs, simulation.time());
+    simulation.run_until(simulation.time() + 100 * kMillisecond);
+  }
+  count_instructions(bench, simulation, before);
+}
+BENCHMARK(mixed)->Arg(340)->Arg(1900)->Arg(4000);
 
 }  // namespace
 }  // namespace s7200

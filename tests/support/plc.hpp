@@ -84,7 +84,10 @@ class Port final : public SerialPort {
 
 class Records final : public TraceSink {
  public:
-  void record(const TraceRecord& record) override { all.push_back(record); }
+  void record(const TraceRecord& record) override {
+    if (scans || record.kind != TraceKind::ScanBegin) all.push_back(record);
+  }
+  bool wants_scans() const override { return scans; }
 
   std::vector<TraceRecord> of(TraceKind kind) const {
     std::vector<TraceRecord> found;
@@ -108,6 +111,7 @@ class Records final : public TraceSink {
   }
 
   std::vector<TraceRecord> all;
+  bool scans = false;  ///< whether it wants the begin of each
 };
 
 class Plc {

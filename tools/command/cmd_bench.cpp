@@ -1,14 +1,18 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/load.hpp"
 #include "tools/command/bench_program.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/terminal.hpp"
 #include "tools/rig/measure.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -18,8 +22,41 @@ namespace {
 struct BenchOptions {
   ProgramOptions program;  // without a path: the slave program that is built in
   Time each = kSecond;     // host time for each figure
+  std::string against;     // an earlier --json
   bool json = false;
 };
+
+/// By the names of their figures.
+using Rates = std::map<std::string, double>;
+
+/// Nothing after a message.
+std::optional<Rates> read_rates(const std::string& path) {
+  std::string why;
+  const auto text = read_text(path, why);
+  const auto json = nlohmann::json::parse(text.value_or(""), nullptr, false);
+  Rates rates;
+  if (text && json.is_object() && json.contains("figures") && json["figures"].is_array())
+    for (const auto& figure : json["figures"])
+      if (figure.is_object() && figure.value("name", nlohmann::json()).is_string() &&
+          figure.value("per_second", nlohmann::json()).is_number())
+        rates[figure["name"]] = figure["per_second"];
+  if (!rates.empty()) return rates;
+  print_error(fmt::format("cannot read {}: {}", path, text ? "it is not what `s7200 bench --json` printed" : why));
+  return {};
+}
+
+/// Nothing if there was no such figure.
+std::optional<double> ratio_of(const Figure& figure, const Rates& before) {
+  const auto found = before.find(std::string(figure.name));
+  return found == before.end() || found->second <= 0 ? std::nullopt : std::optional(figure.per_second / found->second);
+}
+
+void print_line(const Figure& figure, const Rates& before) {
+  const bool millions = figure.per_second >= 1e6;
+  const auto ratio = ratio_of(figure, before);
+  fmt::print("  {:<26} {:>9.1f} {} {} a second{}\n", figure.name, figure.per_second / (millions ? 1e6 : 1e3),
+             millions ? "million " : "thousand", figure.unit, ratio ? fmt::format("  {:.2f} times", *ratio) : "");
+}
 
 std::optional<SourceText> read_bench_program(const std::string& path) {
   std::string why;
@@ -31,21 +68,25 @@ int run_bench(const BenchOptions& options) {
   const auto text = read_bench_program(options.program.path);
   const auto program = text ? options.program.load(*text, exit_code) : nullptr;
   if (!program) return exit_code;
-  const std::vector<Figure> figures = measure(program, options.each);
+  const auto before = options.against.empty() ? Rates{} : read_rates(options.against);
+  if (!before) return kUnusable;
+  std::vector<Figure> figures = measure(program, options.each);
+  if (options.program.path.empty()) std::ranges::copy(measure_mixed(options.each), std::back_inserter(figures));
   if (options.json) {
     auto results = results_of("bench");
     results["program"] = program->source.name;
-    for (const Figure& f : figures)
-      results["figures"].push_back({{"name", f.name}, {"unit", f.unit}, {"per_second", f.per_second}});
+    for (const Figure& f : figures) {
+      const auto ratio = ratio_of(f, *before);
+      results["figures"].push_back({{"name", f.name},
+                                    {"unit", f.unit},
+                                    {"per_second", f.per_second},
+                                    {"ratio", ratio ? nlohmann::ordered_json(*ratio) : nullptr}});
+    }
     fmt::print("{}", lines_of(results));
     return kFine;
   }
   fmt::print("{}: best of five rounds on one core\n", stl::printable(program->source.name));
-  for (const Figure& f : figures) {
-    const bool millions = f.per_second >= 1e6;
-    fmt::print("  {:<26} {:>9.1f} {} {} a second\n", f.name, f.per_second / (millions ? 1e6 : 1e3),
-               millions ? "million " : "thousand", f.unit);
-  }
+  for (const Figure& f : figures) print_line(f, *before);
   return kFine;
 }
 
@@ -58,6 +99,8 @@ void add_bench(CLI::App& app, int& exit_code) {
                    "a Modbus slave at address 1 (default: our modbus_slave.stl, built in)");
   options->program.CpuOptions::add_to(*verb);
   add_duration(*verb, "--each", options->each, "time to spend on each figure [1s]", {kMillisecond, 3600 * kSecond});
+  verb->add_option("--against", options->against, "an earlier result of --json: how many times as fast it is now")
+      ->type_name("FILE");
   verb->add_flag("--json", options->json, "print as JSON");
   verb->footer("Example: s7200 bench");
   verb->callback([options, &exit_code] { exit_code = run_bench(*options); });

@@ -14,6 +14,7 @@
 #include "tools/views/faults.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
+#include "tools/views/streamed_results.hpp"
 #include "tools/views/timeline.hpp"
 
 namespace s7200::tools {
@@ -34,8 +35,7 @@ int run_send(SendOptions& options) {
   TraceSink* const records = rig->sinks().empty() ? nullptr : &rig->sinks();
   Timeline timeline(program, records);
 
-  auto results = results_of("send");
-  nlohmann::ordered_json& exchanges = results["exchanges"] = nlohmann::ordered_json::array();
+  StreamedResults results(results_of("send"), "exchanges");
   SimulatedSlave slave(simulation, options.master, program->source.name);
   const bool ready = slave.wait_until_ready(options.after, why);
   if (ready) print_note_if_any(slave.note_on_port());
@@ -53,9 +53,10 @@ int run_send(SendOptions& options) {
     answered += !exchange.timed_out;
     damaged += is_damaged(exchange);
     if (options.json) {
-      exchanges.push_back(exchange_json(exchange, unasked));
-      if (options.rig.faulted()) exchanges.back()["faults"] = faults_json(simulation.faults(), faults_before);
-      if (options.timeline) exchanges.back()["timeline"] = to_json(timeline.report(), exchange);
+      auto json = exchange_json(exchange, unasked);
+      if (options.rig.faulted()) json["faults"] = faults_json(simulation.faults(), faults_before);
+      if (options.timeline) json["timeline"] = to_json(timeline.report(), exchange);
+      fmt::print("{}", results.entry(json));
     } else {
       fmt::print("{}{}", unasked_text(unasked), exchange_text(exchange, options.master.timeout));
       if (options.timeline) fmt::print("{}\n", to_text(timeline.report(), exchange, colour_wanted(stdout)));
@@ -64,8 +65,7 @@ int run_send(SendOptions& options) {
   }
   const bool all_written = finish(*rig);
   if (options.json) {
-    results.update(options.rig.json(simulation));
-    fmt::print("{}", lines_of(results));
+    fmt::print("{}", results.end(options.rig.json(simulation)));
   } else {
     fmt::print("{}", options.rig.dump_text(simulation.cpu()));
   }

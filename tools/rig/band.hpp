@@ -89,6 +89,7 @@ class ExchangeBand {
 class LostEvents final : public TraceSink {
  public:
   void record(const TraceRecord& record) override { count_ += record.kind == TraceKind::EventLost; }
+  bool wants_scans() const override { return false; }
 
   /// Since it was last asked.
   std::size_t take() { return std::exchange(count_, 0); }

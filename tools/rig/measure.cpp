@@ -4,9 +4,11 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
+#include "tools/rig/mixed_program.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -166,10 +168,29 @@ Lap first_scans(serial::Simulation& simulation) {
   return {with.work, with.time - without.time};
 }
 
+/// With every scan run.
 double idle_scans(serial::Simulation& simulation) {
   const std::uint64_t before = simulation.cpu().state().instructions;
   simulation.run_until(simulation.time() + kSecond);
   return static_cast<double>(simulation.cpu().state().instructions - before);
+}
+
+/// Simulated seconds.
+double idle_minutes(serial::Simulation& simulation) {
+  constexpr Time kMinutes = 60 * kSecond;
+  for (int i = 0; i < 100; ++i) simulation.run_until(simulation.time() + kMinutes);
+  return 100.0 * static_cast<double>(kMinutes) / static_cast<double>(kSecond);
+}
+
+/// A second, in which an input changes ten times.
+double mixed_scans(serial::Simulation& simulation) {
+  Cpu& cpu = simulation.cpu();
+  const std::uint64_t before = cpu.state().instructions;
+  for (std::uint8_t inputs = 0; inputs < 10; ++inputs) {
+    cpu.set_input(0, inputs, cpu.time());
+    simulation.run_until(cpu.time() + 100 * kMillisecond);
+  }
+  return static_cast<double>(cpu.state().instructions - before);
 }
 
 }  // namespace
@@ -183,14 +204,34 @@ std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time 
   const auto quiet = [&] { return serial::default_quiet(simulation.freeport().format); };
   simulation.run_until_ready(quiet, 60 * kSecond);
   simulation.master_uart().configure(simulation.freeport().format);
+  simulation.cpu().use_steady_scans(SteadyScansUse::Off);
   figures.push_back(
       {"idle scans", "instructions", best_rate(each, [&] { return timed([&] { return idle_scans(simulation); }); })});
+  simulation.cpu().use_steady_scans(SteadyScansUse::On);
+  figures.push_back(
+      {"nobody talking", "seconds", best_rate(each, [&] { return timed([&] { return idle_minutes(simulation); }); })});
 
   Serving serving(program);
   figures.push_back({"serving requests", "instructions", best_rate(each, [&] { return timed([&] { return serving(); }); })});
 
   figures.push_back({"10 registers, whole line", "exchanges",
                      best_rate(each, [&] { return timed([&] { return exchange(simulation), 1.0; }); })});
+  return figures;
+}
+
+std::vector<Figure> measure_mixed(Time each) {
+  const CpuModel& model = *find_cpu("226XM");
+  std::vector<Figure> figures;
+  const auto mixed = [&](std::string_view name, std::uint32_t instructions) {
+    serial::Simulation simulation(check_text(mixed_program(instructions), "mixed.stl", model, default_times(model)).program);
+    simulation.cpu().use_steady_scans(SteadyScansUse::Off);
+    simulation.power_up();
+    figures.push_back(
+        {name, "instructions", best_rate(each, [&] { return timed([&] { return mixed_scans(simulation); }); })});
+  };
+  mixed("340 instructions, mixed", 340);
+  mixed("1900 instructions, mixed", 1900);
+  mixed("4000 instructions, mixed", 4000);
   return figures;
 }
 

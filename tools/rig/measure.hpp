@@ -18,4 +18,7 @@ struct Figure {
 /// 1; throws std::runtime_error if it does not answer.
 std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time each);
 
+/// The same of mixed programs of three lengths (mixed_program.hpp), every scan run.
+std::vector<Figure> measure_mixed(Time each);
+
 }  // namespace s7200::tools

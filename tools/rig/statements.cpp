@@ -95,6 +95,7 @@ void set_byte(stl::Source& source, std::uint32_t number, std::int64_t value) {
 
 struct LostCharacters : TraceSink {
   void record(const TraceRecord& record) override { count += record.kind == TraceKind::EventLost; }
+  bool wants_scans() const override { return false; }
   std::size_t count = 0;
 };
 

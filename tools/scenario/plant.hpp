@@ -23,6 +23,7 @@ class InterruptCounter final : public TraceSink {
   std::uint64_t lost() const { return lost_; }
 
   void record(const TraceRecord& record) override;
+  bool wants_scans() const override { return false; }
 
  private:
   std::array<std::uint64_t, 256> routine_{}, event_{};

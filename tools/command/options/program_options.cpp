@@ -66,6 +66,7 @@ void CpuOptions::add_to(CLI::App& app) {
                  "execution times: the name of a table, or a CSV file; both as `s7200 times` has them")
       ->type_name("FILE");
   add_repair_option(app, repairs);
+  app.add_flag("--no-skip", every_scan, "run every scan, instead of passing over those that are all alike; only slower");
 }
 
 const CpuModel* CpuOptions::model() const {
@@ -105,6 +106,12 @@ void ProgramOptions::add_parts_to(CLI::App& app) {
       ->allow_extra_args(false);
 }
 
+static std::shared_ptr<const Program> with_every_scan(const Program& program) {
+  const auto same = std::make_shared<Program>(program);
+  same->looks.every_scan = true;
+  return same;
+}
+
 std::shared_ptr<const Program> ProgramOptions::load(int& exit_code) const {
   exit_code = kUnusable;
   auto text = model() ? read_project(path, parts) : std::nullopt;
@@ -124,7 +131,7 @@ std::shared_ptr<const Program> ProgramOptions::load(SourceText text, int& exit_c
   print_diagnostics(result.diagnostics, result.source);
   if (!result.program) print_error(fmt::format("{} has errors; nothing was run", result.source.name));
   exit_code = result.program ? kFine : kCheckFailed;
-  return result.program;
+  return every_scan && result.program ? with_every_scan(*result.program) : result.program;
 }
 
 std::optional<std::vector<TitledTimes>> load_all(const std::vector<std::string>& tables, const CpuModel& model) {

@@ -29,6 +29,7 @@ struct CpuOptions {
   std::string cpu = "214";
   std::string times_table;  ///< a name or a file; empty: the CPU's own
   Repairs repairs;
+  bool every_scan = false;  ///< scans that are all alike are run, too
 
   void add_to(CLI::App& app);
 

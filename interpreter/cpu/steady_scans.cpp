@@ -1,0 +1,141 @@
+#include "interpreter/cpu/steady_scans.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "interpreter/cpu/clock.hpp"
+#include "interpreter/cpu/scan.hpp"
+#include "interpreter/cpu/timers.hpp"
+
+namespace s7200 {
+namespace {
+
+/// Instructions after which it is asked again whether a look is worth it.
+constexpr std::uint64_t kAskAgain = 1'000;
+
+/// Instructions until the horizon, at the rate so far.
+double to_come(const State& s, Time horizon) {
+  const double rate = static_cast<double>(s.instructions) / static_cast<double>(std::max<Time>(s.time, 1));
+  return rate * static_cast<double>(horizon - s.time);
+}
+
+/// Until when scans that are alike stay alike, whatever comes from outside.
+Time next_change(const Core& core) {
+  const State& s = core.s;
+  const Looks& looks = core.program().looks;
+  Time next = timers::next_change(core);
+  if (looks.clock_bits) next = std::min(next, s.next_clock);
+  if (looks.time_of_day) next = std::min(next, clock::next_second(core));
+  return next == kNever ? kNever : next - 1;
+}
+
+bool may_pass(const Core& core) {
+  const TraceSink* const sink = core.sink();
+  return core.s.mode == Mode::Run && !core.s.in_interrupt && !core.loop.pause_at_scan_end &&
+         !core.program().looks.every_scan && !(sink && sink->wants_scans()) &&
+         core.s.phase_left == core.program().scan_phase[1];
+}
+
+}  // namespace
+
+void SteadyScans::use(SteadyScansUse use) {
+  use_ = use;
+  known_ = Known::Nothing;
+  look_at_ = use == SteadyScansUse::Off ? std::numeric_limits<std::uint64_t>::max() : 0;
+  stake_ = kFirstStake;
+  expected_.reset();
+}
+
+void SteadyScans::move_on(const Program& program, State& s, std::uint64_t pairs) const {
+  const Time by = static_cast<Time>(pairs) * length_;
+  s.time += by;
+  s.watchdog += by;
+  s.scans += 2 * pairs;
+  s.instructions += pairs * instructions_;
+  scan::pass(s, by);
+  timers::pass(program, s, by, second_);
+}
+
+Time SteadyScans::go_on(Core& core, Time limit) {
+  if (!may_pass(core)) {
+    known_ = Known::Nothing;
+    expected_.reset();
+    look_at_ = core.s.instructions + kAskAgain;
+    return 0;
+  }
+  if (core.touched) known_ = Known::Nothing;
+  if (expected_) check(core);
+  const Time change = next_change(core), horizon = std::min({limit, core.next_event(), change});
+  if (known_ == Known::Pair && change != change_) known_ = Known::Nothing;
+  switch (known_) {
+    case Known::Nothing:
+      begin_look(core, horizon);
+      return 0;
+    case Known::Before:
+      middle_ = core.s.previous_scan_begin;
+      known_ = Known::Middle;
+      return 0;
+    case Known::Middle:
+      change_ = change;
+      end_look(core);
+      return known_ == Known::Pair ? pass(core, horizon) : 0;
+    case Known::Pair:
+      return (core.s.scans - before_->scans) % 2 == 0 ? pass(core, horizon) : 0;
+  }
+  return 0;
+}
+
+void SteadyScans::begin_look(const Core& core, Time horizon) {
+  if (use_ != SteadyScansUse::Eager && to_come(core.s, horizon) < static_cast<double>(stake_)) {
+    look_at_ = core.s.instructions + kAskAgain;
+    return;
+  }
+  if (!before_) before_ = std::make_unique<State>();
+  *before_ = core.s;
+  core.touched = false;
+  known_ = Known::Before;
+}
+
+void SteadyScans::end_look(const Core& core) {
+  length_ = core.s.time - before_->time;
+  second_ = core.s.previous_scan_begin - middle_;
+  instructions_ = core.s.instructions - before_->instructions;
+  move_on(core.program(), *before_, 1);
+  if (*before_ == core.s) {
+    known_ = Known::Pair;
+    stake_ = std::max(stake_ / 2, kLeastStake);
+  } else {
+    in_vain(core);
+  }
+}
+
+void SteadyScans::in_vain(const Core& core) {
+  known_ = Known::Nothing;
+  if (use_ == SteadyScansUse::Eager) return;
+  look_at_ = core.s.instructions + stake_;
+  stake_ = std::min(2 * stake_, kMostStake);
+}
+
+Time SteadyScans::pass(Core& core, Time horizon) {
+  const Time before = core.s.time;
+  const auto pairs = static_cast<std::uint64_t>(std::max<Time>(horizon - before, 0) / length_);
+  if (pairs == 0 || expected_) return 0;
+  if (use_ == SteadyScansUse::Check) {
+    expected_ = std::make_unique<State>(core.s);
+    move_on(core.program(), *expected_, pairs);
+    return 0;
+  }
+  move_on(core.program(), core.s, pairs);
+  passed_ += core.s.time - before;
+  return core.s.time - before;
+}
+
+void SteadyScans::check(const Core& core) {
+  if (!core.touched && core.s.time < expected_->time) return;
+  if (!core.touched && !(core.s == *expected_))
+    throw std::logic_error("steady scans: the prediction is not what the CPU does");
+  expected_.reset();
+}
+
+}  // namespace s7200

@@ -1,0 +1,76 @@
+// Passes over scans that are all alike, exactly.
+//
+// When may scans be passed over? A pair of scans (SM0.6 alternates) is run and looked at, from the end of the program in one
+// scan to the same place two scans later. They are steady if the whole state afterwards is the state before, moved on by
+// the rules for what goes on by itself (move_on): clock, counts of scans and instructions, deadlines, timers, clock
+// bits; and if nothing was done to the CPU meanwhile and the CPU did nothing to the outside (Core::touched).
+//
+// Why is it exact? The next pair begins with the same state, but for what goes on by itself. Of that, the program looks only
+// at what Looks says; as long as none of it changes, the pair does the same again. So whole pairs are passed over until
+// before the earliest of: the end of the run, the next event, the next change of a clock bit or of the time of day that the
+// program reads, the tick that brings a timer to its preset, or any tick of a timer of which every tick may matter. The scan
+// in which something happens is run.
+//
+// The same function moves the state on by one pair for the comparison, and by many to pass them over.
+//
+// When does it pay? A look costs about as much as a thousand instructions. What it may bring, the instructions until the
+// horizon, has to be worth a stake, which doubles with each look that was in vain and is halved with each that was not.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "interpreter/cpu/core.hpp"
+
+namespace s7200 {
+
+enum class SteadyScansUse : std::uint8_t {
+  Off,
+  On,     ///< where it pays
+  Eager,  ///< wherever it is possible: for tests
+  Check   ///< passes over nothing: predicts the state, runs every scan, and compares. A difference is a std::logic_error
+};
+
+class SteadyScans {
+ public:
+  void use(SteadyScansUse use);
+
+  /// At the end of the program's part of a scan. Moves the CPU on by scans that end before `limit`, and returns by how much.
+  Time pass_over(Core& core, Time limit) {
+    return known_ == Known::Nothing && core.s.instructions < look_at_ ? 0 : go_on(core, limit);
+  }
+  /// Simulated time that was passed over so far.
+  Time passed_over() const { return passed_; }
+
+ private:
+  enum class Known : std::uint8_t { Nothing, Before, Middle, Pair };
+
+  Time go_on(Core& core, Time limit);
+  void begin_look(const Core& core, Time horizon);
+  void in_vain(const Core& core);
+  void end_look(const Core& core);
+  Time pass(Core& core, Time horizon);
+  void check(const Core& core);
+  void move_on(const Program& program, State& s, std::uint64_t pairs) const;
+
+#ifdef S7200_CHECK_STEADY_SCANS
+  SteadyScansUse use_ = SteadyScansUse::Check;
+#else
+  SteadyScansUse use_ = SteadyScansUse::On;
+#endif
+  Known known_ = Known::Nothing;
+  std::unique_ptr<State> before_{};  // the pair
+  Time middle_ = 0;                  // when the program of the pair's first scan began
+  Time length_ = 0;                  // of a pair
+  Time second_ = 0;                  // from the begin of the program in the first scan to that in the second
+  std::uint64_t instructions_ = 0;   // in a pair
+  Time change_ = 0;                  // until when nothing changes by itself
+  std::uint64_t look_at_ = 0;        // number of instructions executed before the next look
+  std::uint64_t stake_ = kFirstStake;
+  Time passed_ = 0;
+  std::unique_ptr<State> expected_{};  // of Check
+
+  static constexpr std::uint64_t kLeastStake = 2'000, kFirstStake = 20'000, kMostStake = 1'000'000;
+};
+
+}  // namespace s7200

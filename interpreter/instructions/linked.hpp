@@ -1,0 +1,88 @@
+// The fast loop: every op has a link, which executes it and calls the link of the next op as its last act. The compiler
+// makes that call a jump, so clock, logic stack and count stay in registers, and the processor predicts each jump by itself.
+//
+// A link that would reach the end of its time leaves before it does anything. The plain loop (cpu.cpp) executes what is
+// left, op by op: it decides what happens at a deadline, and nothing here knows of deadlines inside a chain.
+//
+// A build that does not make jumps of these calls would run out of stack, so it has no links and only the plain loop: GCC
+// without optimisation. [FastLoop.NeedsNoMoreStackForMoreInstructions]
+#pragma once
+
+#include "interpreter/cpu/core.hpp"
+
+#if defined(__clang__)
+#define S7200_TAIL_CALL [[clang::musttail]] return
+#else
+#define S7200_TAIL_CALL return
+#endif
+
+namespace s7200::linked {
+
+#if defined(__clang__) || defined(__OPTIMIZE__)
+inline constexpr bool kTailCalls = true;
+#else
+inline constexpr bool kTailCalls = false;
+#endif
+
+/// Back to the CPU, with the state as it is before `op`.
+inline void leave(Core& core, const Op* op, Time left, std::uint64_t stack, std::uint64_t executed) {
+  core.s.time = core.loop.until - left;
+  core.s.pc = static_cast<std::uint32_t>(op - core.program().ops.data());
+  core.s.stack = LogicStack::from_bits(stack);
+  core.s.instructions += executed;
+}
+
+/// An op whose body may do anything: it finds and leaves the state as the plain loop has it.
+inline void any(Core& core, const Op* op, Time left, std::uint64_t stack, std::uint64_t executed) {
+  const bool powered = !(op->power_mask & ~stack);
+  const Time time = powered ? op->cost : core.program().no_power_flow;
+  if (left <= time) return leave(core, op, left, stack, executed);
+  const Op* const ops = core.program().ops.data();
+  if (!powered) {
+    core.s.eno &= !op->sets_eno;
+    const Op* const next = ops + op->skip_to;
+    S7200_TAIL_CALL next->link(core, next, left - time, stack, executed + 1);
+  }
+  core.s.time = core.loop.until - left + time;
+  core.s.stack = LogicStack::from_bits(stack);
+  core.loop.op = static_cast<std::uint32_t>(op - ops);
+  core.s.pc = core.loop.op + 1;
+  op->body(core, *op);
+  const Op* const next = ops + core.s.pc;
+  left = core.loop.until - core.s.time;
+  if (left <= 0) return leave(core, next, left, core.s.stack.bits(), executed + 1);
+  S7200_TAIL_CALL next->link(core, next, left, core.s.stack.bits(), executed + 1);
+}
+
+/// A body that needs no power flow, and works on nothing but the logic stack and memory.
+template <Body body>
+void on_stack(Core& core, const Op* op, Time left, std::uint64_t stack, std::uint64_t executed) {
+  if (left <= op->cost) return leave(core, op, left, stack, executed);
+  core.s.stack = LogicStack::from_bits(stack);
+  body(core, *op);
+  const Op* const next = op + 1;
+  S7200_TAIL_CALL next->link(core, next, left - op->cost, core.s.stack.bits(), executed + 1);
+}
+
+/// A box that works on nothing but memory.
+template <Body body>
+void on_memory(Core& core, const Op* op, Time left, std::uint64_t stack, std::uint64_t executed) {
+  const bool powered = stack & 1;
+  const Time time = powered ? op->cost : core.program().no_power_flow;
+  if (left <= time) return leave(core, op, left, stack, executed);
+  if (powered) body(core, *op);
+  const Op* const next = op + 1;
+  S7200_TAIL_CALL next->link(core, next, left - time, stack, executed + 1);
+}
+
+}  // namespace s7200::linked
+
+namespace s7200::bodies {
+
+/// A row's body with the link for what it works on.
+template <Body body>
+inline constexpr Bodies kOnStack{body, nullptr, linked::on_stack<body>};
+template <Body body>
+inline constexpr Bodies kOnMemory{body, nullptr, linked::on_memory<body>};
+
+}  // namespace s7200::bodies

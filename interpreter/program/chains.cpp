@@ -1,0 +1,63 @@
+#include "interpreter/program/chains.hpp"
+
+#include <algorithm>
+#include <ranges>
+
+namespace s7200 {
+namespace {
+
+using Kind = ChainPart::Kind;
+
+struct Chain {
+  std::size_t contacts = 0, joins = 0, coils = 0;
+};
+
+/// What the op is in a chain. Some need a step around their body, and have no part in any.
+ChainPart part_of(const Op& op) { return op.body == op.instruction->body.usual ? op.instruction->body.part : ChainPart{}; }
+
+/// The chain that begins with `part`, if the next op begins `next`.
+Chain with(const ChainPart& part, const Chain& next) {
+  const auto join = static_cast<std::size_t>(part.join);
+  switch (part.kind) {
+    case Kind::None:
+      return {};
+    case Kind::Coil:
+      return {0, 0, next.contacts == 0 ? std::min(next.coils + 1, kMostCoils) : 1};
+    case Kind::Contact:
+      if (next.contacts == kMostContacts) return {1, join, 0};
+      return {next.contacts + 1, next.joins * kJoins + join, next.coils};
+  }
+  return {};
+}
+
+Link link_of(const Op& op, const Chain& chain) {
+  if (chain.contacts + chain.coils > 0) return link_of_chain(chain.contacts, chain.joins, chain.coils);
+  const Link own = op.instruction->body.link;
+  return own && op.body == op.instruction->body.usual ? own : link_of_any();
+}
+
+void add_contacts(Program& program) {
+  for (Op& op : program.ops) {
+    const ChainPart part = part_of(op);
+    if (part.kind == Kind::None) continue;
+    op.target = static_cast<std::uint32_t>(program.contacts.size());
+    program.contacts.push_back({op[0].at, static_cast<std::uint8_t>(1u << op[0].bit), part.inverted});
+  }
+}
+
+}  // namespace
+
+void link(Program& program) {
+  if (!link_of_any()) return;
+  add_contacts(program);
+  Chain chain;
+  for (auto op = program.ops.end(); op != program.ops.begin();) {
+    --op;
+    chain = with(part_of(*op), chain);
+    op->link = link_of(*op, chain);
+    for (const Op& each : std::ranges::subrange(op, op + static_cast<std::ptrdiff_t>(chain.contacts + chain.coils)))
+      op->chain_cost += each.cost;
+  }
+}
+
+}  // namespace s7200

@@ -1,0 +1,45 @@
+#include "tools/views/streamed_results.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace s7200::tools {
+namespace {
+
+/// As a part of something that is indented by so much already.
+std::string text_of(const nlohmann::ordered_json& json, std::size_t indent) {
+  std::string text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1))
+    text.insert(at + 1, indent, ' ');
+  return text;
+}
+
+std::string key_and_value(const std::string& key, const nlohmann::ordered_json& value) {
+  return fmt::format("  {}: {}", nlohmann::ordered_json(key).dump(), text_of(value, 2));
+}
+
+}  // namespace
+
+StreamedResults::StreamedResults(nlohmann::ordered_json results, std::string_view list)
+    : results_(std::move(results)), list_(list) {}
+
+std::string StreamedResults::head() {
+  std::string text = "{\n";
+  for (const auto& [key, value] : results_.items()) text += key_and_value(key, value) + ",\n";
+  return text + fmt::format("  \"{}\": [", list_);
+}
+
+std::string StreamedResults::entry(const nlohmann::ordered_json& entry) {
+  const std::string before = any_ ? "," : head();
+  any_ = true;
+  return fmt::format("{}\n    {}", before, text_of(entry, 4));
+}
+
+std::string StreamedResults::end(const nlohmann::ordered_json& rest) {
+  std::string text = any_ ? "\n  ]" : head() + "]";
+  for (const auto& [key, value] : rest.items()) text += ",\n" + key_and_value(key, value);
+  return text + "\n}\n";
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,29 @@
+// The results of a verb whose list grows as long as it runs: printed as they come, so that they need no memory. The text is
+// what lines_of() would make of the whole.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace s7200::tools {
+
+class StreamedResults {
+ public:
+  /// `list`: the key of the list, which follows what `results` has.
+  StreamedResults(nlohmann::ordered_json results, std::string_view list);
+
+  /// The text to print next: for one more entry of the list, ...
+  std::string entry(const nlohmann::ordered_json& entry);
+  /// ... and for the end, with the keys that follow the list.
+  std::string end(const nlohmann::ordered_json& rest);
+
+ private:
+  std::string head();
+
+  nlohmann::ordered_json results_;
+  std::string list_;
+  bool any_ = false;
+};
+
+}  // namespace s7200::tools
