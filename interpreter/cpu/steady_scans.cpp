@@ -11,6 +11,9 @@
 namespace s7200 {
 namespace {
 
+/// In one step, so that no time overflows in a run that nothing limits.
+constexpr Time kFurthest = 24 * 3600 * kSecond;
+
 /// Instructions after which it is asked again whether a look is worth it.
 constexpr std::uint64_t kAskAgain = 1'000;
 
@@ -66,7 +69,8 @@ Time SteadyScans::go_on(Core& core, Time limit) {
   }
   if (core.touched) known_ = Known::Nothing;
   if (expected_) check(core);
-  const Time change = next_change(core), horizon = std::min({limit, core.next_event(), change});
+  const Time change = next_change(core);
+  const Time horizon = std::min({limit, core.next_event(), change, core.s.time + kFurthest});
   if (known_ == Known::Pair && change != change_) known_ = Known::Nothing;
   switch (known_) {
     case Known::Nothing:

@@ -11,7 +11,10 @@ namespace {
 /// computed does not depend on it.
 constexpr Time kLookEvery = 100 * kMillisecond;
 
-Time next_look(Time now) { return now < kNever - kLookEvery ? now + kLookEvery : kNever; }
+/// The same when scans are passed over, which is a moment however many they are.
+constexpr Time kLookEveryHour = 3600 * kSecond;
+
+Time after(Time now, Time time) { return now < kNever - time ? now + time : kNever; }
 
 template <class Part, class... Arguments>
 Part& add(std::vector<std::unique_ptr<Part>>& to, Arguments&&... arguments) {
@@ -87,13 +90,13 @@ Halt System::step(Time end) {
   if (plcs_.empty()) return step_without_plc(end);
   const Turn turn = next_turn();
   Cpu& cpu = turn.plc.cpu();
-  cpu.run(std::min(end, turn.until), kLookEvery);
+  cpu.run(std::min({end, turn.until, after(cpu.time(), kLookEveryHour)}), kLookEvery);
   handle_due_events();
   return cpu.paused() ? Halt::Paused : Halt::Time;
 }
 
 Halt System::step_without_plc(Time end) {
-  clock_ = std::min({end, std::max(clock_, events_.queue().next()), next_look(clock_)});
+  clock_ = std::min({end, std::max(clock_, events_.queue().next()), after(clock_, kLookEvery)});
   handle_due_events();
   return Halt::Time;
 }

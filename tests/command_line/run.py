@@ -742,8 +742,26 @@ class Json(Case):
             self.assertEqual("modbus_slave.stl has errors" in fits.stderr, model == "212")
         silent = self.program("LD SM0.0\nMEND\n")
         self.assertIn("did not answer", self.ends(UNUSABLE, "bench", silent, "--each", "1ms").stderr)
-        for figure in self.json(FINE, "bench", "--each", "1ms", "--json")["figures"]:
-            self.assertEqual(list(figure), ["name", "unit", "per_second"])
+        before = self.json(FINE, "bench", "--each", "1ms", "--json")
+        for figure in before["figures"]:
+            self.assertEqual(list(figure), ["name", "unit", "per_second", "ratio"])
+            self.assertIsNone(figure["ratio"])
+        self.assertIn("1900 instructions, mixed", [figure["name"] for figure in before["figures"]])
+        del before["figures"][1]
+        file = self.program(json.dumps(before), "before.json")
+        for figure, name in zip(self.json(FINE, "bench", "--each", "1ms", "--json", "--against", file)["figures"], range(20)):
+            self.assertEqual(figure["ratio"] is None, name == 1, "it has no figure to compare with")
+        self.assertRegex(self.ends(FINE, "bench", "--each", "1ms", "--against", file).stdout, r"first scan .* \d+\.\d\d times\n")
+        for wrong in ("missing.json", self.program("[1]", "list.json"), self.program("{", "half.json")):
+            self.assertIn("cannot read", self.ends(UNUSABLE, "bench", "--each", "1ms", "--against", wrong).stderr)
+
+    def test_every_scan_run_gives_the_same_as_scans_passed_over(self):
+        timers = self.program("LD SM0.5\nTON T37, 3\nLD T37\n= Q0.0\nMEND\n")
+        for arguments in (["run", SLAVE, "--for", "30s", "--json"], ["run", timers, "--for", "30s", "--json", "--dump", "T37"],
+                          ["run", timers, "--for", "5s", "--trace", "-"], ["master", SLAVE, "read", "40001", "--json"],
+                          ["send", SLAVE, "--crc", "0103000a0001", "0103000a0001", "--pause", "5s", "--json"]):
+            with self.subTest(arguments):
+                self.assertEqual(self.ends(FINE, *arguments).stdout, self.ends(FINE, *arguments, "--no-skip").stdout)
 
 
 class StandardInput(Case):

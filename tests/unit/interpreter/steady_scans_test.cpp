@@ -70,10 +70,20 @@ TEST(SteadyScans, AScanThatIsPausedForIsNotPassedOver) {
   PlcThat plc(SteadyScansUse::Eager, kContactsOnly);
   plc.run_until(kSecond);
   plc.cpu.pause_at_scan_end(true);
-  const std::uint64_t scans = plc.cpu.state().scans;
-  plc.cpu.run(kNever);
-  EXPECT_TRUE(plc.cpu.paused());
-  EXPECT_EQ(plc.cpu.state().scans, scans + 1);
+  const std::uint64_t before = plc.cpu.state().scans;
+  for (std::uint64_t scan = before + 1; scan < before + 8; ++scan) {
+    plc.cpu.run(kNever);
+    EXPECT_TRUE(plc.cpu.paused());
+    EXPECT_EQ(plc.cpu.state().scans, scan);
+  }
+}
+
+TEST(SteadyScans, OfTwoHundredAndFiftyYearsOverflowNothing) {
+  PlcThat plc(SteadyScansUse::Eager, kContactsOnly);
+  const Time years = 250 * 365 * 24 * 3600 * kSecond;
+  plc.cpu.run(years);
+  EXPECT_EQ(plc.cpu.state().mode, Mode::Run);
+  EXPECT_GE(plc.cpu.time(), years);
 }
 
 TEST(SteadyScans, ACountingProgramHasNone) {
@@ -190,6 +200,25 @@ TEST(SteadyScans, AProgramThatReadsMillisecondsHasNone) {
   Both both("LD SM0.0\nBITIM VD0\nCITIM VD0, VD4\nMEND\n", *find_cpu("224"));
   both.run_until(20 * kSecond);
   EXPECT_EQ(both.passed(), 0);
+}
+
+TEST(SteadyScans, AProgramOfWhichEveryScanIsWantedHasNone) {
+  EventQueue queue;
+  Port port(queue), port1(queue, 1);
+  const auto program = std::make_shared<Program>(*program_of(kContactsOnly));
+  program->looks.every_scan = true;
+  Cpu cpu(program, queue, kCpu, {&port, &port1});
+  cpu.use_steady_scans(SteadyScansUse::Eager);
+  cpu.power_up();
+  cpu.run(10 * kSecond);
+  EXPECT_EQ(cpu.passed_over(), 0);
+}
+
+// SM0.6 makes every second scan 5 ms longer.
+TEST(SteadyScans, ScansThatDifferInTurnArePassedOverInPairs) {
+  Both both("LD SM0.6\nSQRT VD100, VD104\nLD SM0.0\nTON T37, 1000\nLD T37\n= Q0.0\nMEND\n");
+  for (int i = 1; i <= 300; ++i) both.run_until(i * 334 * ms + i % 7 * ms);
+  EXPECT_GT(both.passed(), 50 * kSecond);
 }
 
 TEST(SteadyScans, ATimedInterruptComesOnTime) {
