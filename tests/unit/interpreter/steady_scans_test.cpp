@@ -80,7 +80,7 @@ TEST(SteadyScans, AScanThatIsPausedForIsNotPassedOver) {
 
 TEST(SteadyScans, OfTwoHundredAndFiftyYearsOverflowNothing) {
   PlcThat plc(SteadyScansUse::Eager, kContactsOnly);
-  const Time years = 250 * 365 * 24 * 3600 * kSecond;
+  const Time years = Time{250} * 365 * 24 * 3600 * kSecond;
   plc.cpu.run(years);
   EXPECT_EQ(plc.cpu.state().mode, Mode::Run);
   EXPECT_GE(plc.cpu.time(), years);
