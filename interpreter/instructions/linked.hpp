@@ -32,8 +32,9 @@ inline void leave(Core& core, const Op* op, Time left, std::uint64_t stack, std:
   core.s.instructions += executed;
 }
 
-/// An op whose body may do anything: it finds and leaves the state as the plain loop has it.
-inline void any(Core& core, const Op* op, Time left, std::uint64_t stack, std::uint64_t executed) {
+/// A body that may do anything: it finds and leaves the state as the plain loop has it. Null: the body that the op names.
+template <Body body>
+void on_core(Core& core, const Op* op, Time left, std::uint64_t stack, std::uint64_t executed) {
   const bool powered = !(op->power_mask & ~stack);
   const Time time = powered ? op->cost : core.program().no_power_flow;
   if (left <= time) return leave(core, op, left, stack, executed);
@@ -47,7 +48,10 @@ inline void any(Core& core, const Op* op, Time left, std::uint64_t stack, std::u
   core.s.stack = LogicStack::from_bits(stack);
   core.loop.op = static_cast<std::uint32_t>(op - ops);
   core.s.pc = core.loop.op + 1;
-  op->body(core, *op);
+  if constexpr (body == nullptr)
+    op->body(core, *op);
+  else
+    body(core, *op);
   const Op* const next = ops + core.s.pc;
   left = core.loop.until - core.s.time;
   if (left <= 0) return leave(core, next, left, core.s.stack.bits(), executed + 1);
@@ -79,7 +83,9 @@ void on_memory(Core& core, const Op* op, Time left, std::uint64_t stack, std::ui
 
 namespace s7200::bodies {
 
-/// A row's body with the link for what it works on.
+/// A row's body with the link for what it works on. A body without any of them is called by link_of_any().
+template <Body body>
+inline constexpr Bodies kOnCore{body, nullptr, linked::on_core<body>};
 template <Body body>
 inline constexpr Bodies kOnStack{body, nullptr, linked::on_stack<body>};
 template <Body body>

@@ -83,13 +83,13 @@ constexpr Instruction kBitLogic[] = {
     {.mnemonic = "LDS",  .operand = {kStackLevel}, .rung = kOneToTwo,   .cpus = kCpu22x,                                                              .body = kOnStack<push_level>,         .meaning = "push a copy of level n"},
     {.mnemonic = "AENO",                           .rung = kTop,        .cpus = kCpu22x,                                  .effect = Effect::ReadsEno, .body = and_eno,                      .meaning = "top of stack AND ENO, which the last box has set"},
 
-    {.mnemonic = "=",   .operand = {kBitOut},               .rung = kCoil,                                   .effect = Effect::Coil,     .body = kCoilBody,              .meaning = "write the top of the stack to BIT"},
-    {.mnemonic = "=I",  .operand = {kOutputPoint},          .rung = kCoil,    .hidden = Hidden::OutputPoint,                             .body = immediate_coil,         .meaning = "write the top of the stack to the output point and its image"},
-    {.mnemonic = "S",   .operand = {kBits, kCount},         .rung = kPowered,                                .effect = Effect::SetsBits, .body = set_bits<true, false>,  .meaning = "set N bits from BIT on"},
-    {.mnemonic = "R",   .operand = {kBits, kCount},         .rung = kPowered,                                                            .body = set_bits<false, false>, .meaning = "reset N bits from BIT on; of timers and counters the current values too"},
-    {.mnemonic = "SI",  .operand = {kOutputPoints, kCount}, .rung = kPowered, .hidden = Hidden::OutputPoint,                             .body = set_bits<true, true>,   .meaning = "set N output points and their image"},
-    {.mnemonic = "RI",  .operand = {kOutputPoints, kCount}, .rung = kPowered, .hidden = Hidden::OutputPoint,                             .body = set_bits<false, true>,  .meaning = "reset N output points and their image"},
-    {.mnemonic = "NOP", .operand = {kAnyNumber},                                                                                         .body = kOnStack<no_operation>, .meaning = "nothing"},
+    {.mnemonic = "=",   .operand = {kBitOut},               .rung = kCoil,                                   .effect = Effect::Coil,     .body = kCoilBody,                       .meaning = "write the top of the stack to BIT"},
+    {.mnemonic = "=I",  .operand = {kOutputPoint},          .rung = kCoil,    .hidden = Hidden::OutputPoint,                             .body = immediate_coil,                  .meaning = "write the top of the stack to the output point and its image"},
+    {.mnemonic = "S",   .operand = {kBits, kCount},         .rung = kPowered,                                .effect = Effect::SetsBits, .body = kOnCore<set_bits<true, false>>,  .meaning = "set N bits from BIT on"},
+    {.mnemonic = "R",   .operand = {kBits, kCount},         .rung = kPowered,                                                            .body = kOnCore<set_bits<false, false>>, .meaning = "reset N bits from BIT on; of timers and counters the current values too"},
+    {.mnemonic = "SI",  .operand = {kOutputPoints, kCount}, .rung = kPowered, .hidden = Hidden::OutputPoint,                             .body = kOnCore<set_bits<true, true>>,   .meaning = "set N output points and their image"},
+    {.mnemonic = "RI",  .operand = {kOutputPoints, kCount}, .rung = kPowered, .hidden = Hidden::OutputPoint,                             .body = kOnCore<set_bits<false, true>>,  .meaning = "reset N output points and their image"},
+    {.mnemonic = "NOP", .operand = {kAnyNumber},                                                                                         .body = kOnStack<no_operation>,          .meaning = "nothing"},
 };
 
 constexpr Instruction kCompareContacts[] = {
@@ -173,17 +173,17 @@ constexpr Instruction kCompareContacts[] = {
 };
 
 constexpr Instruction kMove[] = {
-    {.mnemonic = "MOVB", .operand = {kInByte, kOutByte},             .rung = kBox,                   .body = kOnMemory<move<std::uint8_t>>,  .meaning = "copy byte IN to OUT"},
-    {.mnemonic = "MOVW", .operand = {kInWord, kOutWordOrAnalog},     .rung = kBox,                   .body = kOnMemory<move<std::uint16_t>>, .meaning = "copy word IN to OUT"},
-    {.mnemonic = "MOVD", .operand = {kInDwordOrAddress, kOutDword},  .rung = kBox,                   .body = kOnMemory<move<std::uint32_t>>, .meaning = "copy double word IN to OUT"},
-    {.mnemonic = "MOVR", .operand = {kInReal, kOutReal},             .rung = kBox, .cpus = kFrom214, .body = kOnMemory<move<std::uint32_t>>, .meaning = "copy real IN to OUT"},
-    {.mnemonic = "BMB",  .operand = {kInBytes, kOutBytes, kCount},   .rung = kBox,                   .body = move_block<std::uint8_t>,       .meaning = "copy N bytes from IN on to OUT on"},
-    {.mnemonic = "BMW",  .operand = {kInWords, kOutWords, kCount},   .rung = kBox,                   .body = move_block<std::uint16_t>,      .meaning = "copy N words from IN on to OUT on"},
-    {.mnemonic = "BMD",  .operand = {kInDwords, kOutDwords, kCount}, .rung = kBox, .cpus = kFrom215, .body = move_block<std::uint32_t>,      .meaning = "copy N double words from IN on to OUT on"},
-    {.mnemonic = "FILL", .operand = {kInWord, kOutWords, kCount},    .rung = kBox,                   .body = fill,                           .meaning = "write word IN to N words from OUT on"},
-    {.mnemonic = "SWAP", .operand = {kSwapped},                      .rung = kBox,                   .body = kOnMemory<swap_bytes>,          .meaning = "exchange the two bytes of a word"},
-    {.mnemonic = "BIR",  .operand = {kInputByte, kOutByte},          .rung = kBox, .cpus = kCpu22x,  .body = read_points,                    .meaning = "copy eight input points to OUT"},
-    {.mnemonic = "BIW",  .operand = {kInByte, kOutputByte},          .rung = kBox, .cpus = kCpu22x,  .body = write_points,                   .meaning = "copy IN to eight output points and their image"},
+    {.mnemonic = "MOVB", .operand = {kInByte, kOutByte},             .rung = kBox,                   .body = kOnMemory<move<std::uint8_t>>,      .meaning = "copy byte IN to OUT"},
+    {.mnemonic = "MOVW", .operand = {kInWord, kOutWordOrAnalog},     .rung = kBox,                   .body = kOnMemory<move<std::uint16_t>>,     .meaning = "copy word IN to OUT"},
+    {.mnemonic = "MOVD", .operand = {kInDwordOrAddress, kOutDword},  .rung = kBox,                   .body = kOnMemory<move<std::uint32_t>>,     .meaning = "copy double word IN to OUT"},
+    {.mnemonic = "MOVR", .operand = {kInReal, kOutReal},             .rung = kBox, .cpus = kFrom214, .body = kOnMemory<move<std::uint32_t>>,     .meaning = "copy real IN to OUT"},
+    {.mnemonic = "BMB",  .operand = {kInBytes, kOutBytes, kCount},   .rung = kBox,                   .body = kOnCore<move_block<std::uint8_t>>,  .meaning = "copy N bytes from IN on to OUT on"},
+    {.mnemonic = "BMW",  .operand = {kInWords, kOutWords, kCount},   .rung = kBox,                   .body = kOnCore<move_block<std::uint16_t>>, .meaning = "copy N words from IN on to OUT on"},
+    {.mnemonic = "BMD",  .operand = {kInDwords, kOutDwords, kCount}, .rung = kBox, .cpus = kFrom215, .body = kOnCore<move_block<std::uint32_t>>, .meaning = "copy N double words from IN on to OUT on"},
+    {.mnemonic = "FILL", .operand = {kInWord, kOutWords, kCount},    .rung = kBox,                   .body = kOnCore<fill>,                      .meaning = "write word IN to N words from OUT on"},
+    {.mnemonic = "SWAP", .operand = {kSwapped},                      .rung = kBox,                   .body = kOnMemory<swap_bytes>,              .meaning = "exchange the two bytes of a word"},
+    {.mnemonic = "BIR",  .operand = {kInputByte, kOutByte},          .rung = kBox, .cpus = kCpu22x,  .body = read_points,                        .meaning = "copy eight input points to OUT"},
+    {.mnemonic = "BIW",  .operand = {kInByte, kOutputByte},          .rung = kBox, .cpus = kCpu22x,  .body = write_points,                       .meaning = "copy IN to eight output points and their image"},
 };
 
 constexpr Instruction kIntegerArithmetic[] = {
@@ -221,45 +221,45 @@ constexpr Instruction kLogicOperations[] = {
 };
 
 constexpr Instruction kShiftAndRotate[] = {
-    {.mnemonic = "SLW",  .operand = {kInOutWord, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags,                   .body = shift<std::uint16_t, true>,   .meaning = "shift OUT left by N, at most 16"},
-    {.mnemonic = "SRW",  .operand = {kInOutWord, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags,                   .body = shift<std::uint16_t, false>,  .meaning = "shift OUT right by N, at most 16"},
-    {.mnemonic = "SLD",  .operand = {kInOutDword, kPlaces},                  .rung = kShiftBox, .flags = kShiftFlags,                   .body = shift<std::uint32_t, true>,   .meaning = "shift OUT left by N, at most 32"},
-    {.mnemonic = "SRD",  .operand = {kInOutDword, kPlaces},                  .rung = kShiftBox, .flags = kShiftFlags,                   .body = shift<std::uint32_t, false>,  .meaning = "shift OUT right by N, at most 32"},
-    {.mnemonic = "RLW",  .operand = {kInOutWord, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags,                   .body = rotate<std::uint16_t, true>,  .meaning = "rotate OUT left by N modulo 16"},
-    {.mnemonic = "RRW",  .operand = {kInOutWord, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags,                   .body = rotate<std::uint16_t, false>, .meaning = "rotate OUT right by N modulo 16"},
-    {.mnemonic = "RLD",  .operand = {kInOutDword, kPlaces},                  .rung = kShiftBox, .flags = kShiftFlags,                   .body = rotate<std::uint32_t, true>,  .meaning = "rotate OUT left by N modulo 32"},
-    {.mnemonic = "SLB",  .operand = {kInOutByte, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags, .cpus = kFrom215, .body = shift<std::uint8_t, true>,    .meaning = "shift OUT left by N, at most 8"},
-    {.mnemonic = "SRB",  .operand = {kInOutByte, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags, .cpus = kFrom215, .body = shift<std::uint8_t, false>,   .meaning = "shift OUT right by N, at most 8"},
-    {.mnemonic = "RLB",  .operand = {kInOutByte, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags, .cpus = kFrom215, .body = rotate<std::uint8_t, true>,   .meaning = "rotate OUT left by N modulo 8"},
-    {.mnemonic = "RRB",  .operand = {kInOutByte, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags, .cpus = kFrom215, .body = rotate<std::uint8_t, false>,  .meaning = "rotate OUT right by N modulo 8"},
-    {.mnemonic = "SHRB", .operand = {kDataBit, kShiftRegister, kShiftCount}, .rung = kShiftBox, .flags = kOverflow,                     .body = shift_register,               .meaning = "shift DATA into the |N| bits from S_BIT on; N < 0: from the far end"},
-    {.mnemonic = "RRD",  .operand = {kInOutDword, kPlaces},                  .rung = kShiftBox, .flags = kShiftFlags,                   .body = rotate<std::uint32_t, false>, .meaning = "rotate OUT right by N modulo 32"},
+    {.mnemonic = "SLW",  .operand = {kInOutWord, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags,                   .body = kOnCore<shift<std::uint16_t, true>>,   .meaning = "shift OUT left by N, at most 16"},
+    {.mnemonic = "SRW",  .operand = {kInOutWord, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags,                   .body = kOnCore<shift<std::uint16_t, false>>,  .meaning = "shift OUT right by N, at most 16"},
+    {.mnemonic = "SLD",  .operand = {kInOutDword, kPlaces},                  .rung = kShiftBox, .flags = kShiftFlags,                   .body = kOnCore<shift<std::uint32_t, true>>,   .meaning = "shift OUT left by N, at most 32"},
+    {.mnemonic = "SRD",  .operand = {kInOutDword, kPlaces},                  .rung = kShiftBox, .flags = kShiftFlags,                   .body = kOnCore<shift<std::uint32_t, false>>,  .meaning = "shift OUT right by N, at most 32"},
+    {.mnemonic = "RLW",  .operand = {kInOutWord, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags,                   .body = kOnCore<rotate<std::uint16_t, true>>,  .meaning = "rotate OUT left by N modulo 16"},
+    {.mnemonic = "RRW",  .operand = {kInOutWord, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags,                   .body = kOnCore<rotate<std::uint16_t, false>>, .meaning = "rotate OUT right by N modulo 16"},
+    {.mnemonic = "RLD",  .operand = {kInOutDword, kPlaces},                  .rung = kShiftBox, .flags = kShiftFlags,                   .body = kOnCore<rotate<std::uint32_t, true>>,  .meaning = "rotate OUT left by N modulo 32"},
+    {.mnemonic = "SLB",  .operand = {kInOutByte, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags, .cpus = kFrom215, .body = kOnCore<shift<std::uint8_t, true>>,    .meaning = "shift OUT left by N, at most 8"},
+    {.mnemonic = "SRB",  .operand = {kInOutByte, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags, .cpus = kFrom215, .body = kOnCore<shift<std::uint8_t, false>>,   .meaning = "shift OUT right by N, at most 8"},
+    {.mnemonic = "RLB",  .operand = {kInOutByte, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags, .cpus = kFrom215, .body = kOnCore<rotate<std::uint8_t, true>>,   .meaning = "rotate OUT left by N modulo 8"},
+    {.mnemonic = "RRB",  .operand = {kInOutByte, kPlaces},                   .rung = kShiftBox, .flags = kShiftFlags, .cpus = kFrom215, .body = kOnCore<rotate<std::uint8_t, false>>,  .meaning = "rotate OUT right by N modulo 8"},
+    {.mnemonic = "SHRB", .operand = {kDataBit, kShiftRegister, kShiftCount}, .rung = kShiftBox, .flags = kOverflow,                     .body = shift_register,                        .meaning = "shift DATA into the |N| bits from S_BIT on; N < 0: from the far end"},
+    {.mnemonic = "RRD",  .operand = {kInOutDword, kPlaces},                  .rung = kShiftBox, .flags = kShiftFlags,                   .body = kOnCore<rotate<std::uint32_t, false>>, .meaning = "rotate OUT right by N modulo 32"},
 };
 
 constexpr Instruction kProgramControl[] = {
-    {.mnemonic = "JMP",  .operand = {kLabel},                       .rung = kPowered,                                                    .outside_segments = true, .structure = Structure::Jump,                                             .body = jump,                   .meaning = "go on at LBL n of the same routine"},
-    {.mnemonic = "LBL",  .operand = {kLabel},                       .rung = kMark,                                                                                 .structure = Structure::Label,                                            .body = kOnStack<no_operation>, .meaning = "place that JMP n goes to"},
-    {.mnemonic = "FOR",  .operand = {kLoopIndex, kInitial, kFinal}, .rung = kBox,     .cpus = kFrom214,        .allowed = kInterrupt22x, .outside_segments = true, .structure = Structure::For,                                              .body = begin_loop,             .meaning = "repeat up to NEXT with INDX from INIT to FINAL"},
-    {.mnemonic = "NEXT",                                            .rung = kMark,    .cpus = kFrom214,        .allowed = kInterrupt22x, .outside_segments = true, .structure = Structure::Next,                                             .body = next_pass,              .meaning = "end of a FOR loop; leaves the top of the stack at 1"},
-    {.mnemonic = "CALL", .operand = {kSubroutineNumber},            .rung = kBox,                              .allowed = kInterrupt22x,                           .structure = Structure::Call,                                             .body = call,                   .meaning = "call subroutine n"},
-    {.mnemonic = "SBR",  .operand = {kSubroutineNumber},            .rung = kMark,                                                                                 .structure = Structure::SubroutineHead,                                   .body = kOnStack<no_operation>, .meaning = "head of subroutine n"},
-    {.mnemonic = "RET",                                             .rung = kMark,                             .allowed = kSubroutine,                             .structure = Structure::SubroutineEnd,                                    .body = return_from_subroutine, .meaning = "end of a subroutine"},
-    {.mnemonic = "CRET",                                            .rung = kPowered,                          .allowed = kSubroutine,                                                                     .effect = Effect::ConditionalEnd, .body = return_from_subroutine, .meaning = "return from a subroutine"},
-    {.mnemonic = "END",                                             .rung = kPowered,                          .allowed = kMain,         .outside_segments = true,                                         .effect = Effect::ConditionalEnd, .body = end_main_program,       .meaning = "end the main program of this scan"},
-    {.mnemonic = "MEND",                                            .rung = kMark,                             .allowed = kMain,                                   .structure = Structure::MainEnd,                                          .body = end_main_program,       .meaning = "end of the main program"},
-    {.mnemonic = "STOP",                                            .rung = kPowered,                                                                                                                      .effect = Effect::ConditionalEnd, .body = stop,                   .meaning = "go to STOP"},
-    {.mnemonic = "WDR",                                             .rung = kPowered,                                                                                                                                                        .body = reset_watchdog,         .meaning = "restart the scan watchdog"},
-    {.mnemonic = "DLED", .operand = {kInByte},                      .rung = kBox,     .cpus = kCpu22xRelease2,                                                                                                                               .body = switch_diagnostic_led,  .meaning = "diagnostic LED off if IN is 0, otherwise yellow"},
+    {.mnemonic = "JMP",  .operand = {kLabel},                       .rung = kPowered,                                                    .outside_segments = true, .structure = Structure::Jump,                                             .body = kOnCore<jump>,                   .meaning = "go on at LBL n of the same routine"},
+    {.mnemonic = "LBL",  .operand = {kLabel},                       .rung = kMark,                                                                                 .structure = Structure::Label,                                            .body = kOnStack<no_operation>,          .meaning = "place that JMP n goes to"},
+    {.mnemonic = "FOR",  .operand = {kLoopIndex, kInitial, kFinal}, .rung = kBox,     .cpus = kFrom214,        .allowed = kInterrupt22x, .outside_segments = true, .structure = Structure::For,                                              .body = kOnCore<begin_loop>,             .meaning = "repeat up to NEXT with INDX from INIT to FINAL"},
+    {.mnemonic = "NEXT",                                            .rung = kMark,    .cpus = kFrom214,        .allowed = kInterrupt22x, .outside_segments = true, .structure = Structure::Next,                                             .body = kOnCore<next_pass>,              .meaning = "end of a FOR loop; leaves the top of the stack at 1"},
+    {.mnemonic = "CALL", .operand = {kSubroutineNumber},            .rung = kBox,                              .allowed = kInterrupt22x,                           .structure = Structure::Call,                                             .body = kOnCore<call>,                   .meaning = "call subroutine n"},
+    {.mnemonic = "SBR",  .operand = {kSubroutineNumber},            .rung = kMark,                                                                                 .structure = Structure::SubroutineHead,                                   .body = kOnStack<no_operation>,          .meaning = "head of subroutine n"},
+    {.mnemonic = "RET",                                             .rung = kMark,                             .allowed = kSubroutine,                             .structure = Structure::SubroutineEnd,                                    .body = kOnCore<return_from_subroutine>, .meaning = "end of a subroutine"},
+    {.mnemonic = "CRET",                                            .rung = kPowered,                          .allowed = kSubroutine,                                                                     .effect = Effect::ConditionalEnd, .body = kOnCore<return_from_subroutine>, .meaning = "return from a subroutine"},
+    {.mnemonic = "END",                                             .rung = kPowered,                          .allowed = kMain,         .outside_segments = true,                                         .effect = Effect::ConditionalEnd, .body = kOnCore<end_main_program>,       .meaning = "end the main program of this scan"},
+    {.mnemonic = "MEND",                                            .rung = kMark,                             .allowed = kMain,                                   .structure = Structure::MainEnd,                                          .body = kOnCore<end_main_program>,       .meaning = "end of the main program"},
+    {.mnemonic = "STOP",                                            .rung = kPowered,                                                                                                                      .effect = Effect::ConditionalEnd, .body = stop,                            .meaning = "go to STOP"},
+    {.mnemonic = "WDR",                                             .rung = kPowered,                                                                                                                                                        .body = reset_watchdog,                  .meaning = "restart the scan watchdog"},
+    {.mnemonic = "DLED", .operand = {kInByte},                      .rung = kBox,     .cpus = kCpu22xRelease2,                                                                                                                               .body = switch_diagnostic_led,           .meaning = "diagnostic LED off if IN is 0, otherwise yellow"},
 };
 
 constexpr Instruction kInterrupts[] = {
-    {.mnemonic = "INT",   .operand = {kRoutineNumber},   .rung = kMark,                                .structure = Structure::InterruptHead,                                      .body = kOnStack<no_operation>,   .meaning = "head of interrupt routine n"},
-    {.mnemonic = "RETI",                                 .rung = kMark,    .allowed = kInterrupt,      .structure = Structure::InterruptEnd,                                       .body = return_from_interrupt,    .meaning = "end of an interrupt routine"},
-    {.mnemonic = "CRETI",                                .rung = kPowered, .allowed = kInterrupt,                                             .effect = Effect::ConditionalEnd,    .body = return_from_interrupt,    .meaning = "return from an interrupt routine"},
-    {.mnemonic = "ENI",                                  .rung = kPowered, .allowed = kNotInInterrupt,                                        .effect = Effect::EnablesInterrupts, .body = enable_interrupts<true>,  .meaning = "enable interrupts"},
-    {.mnemonic = "DISI",                                 .rung = kPowered, .allowed = kNotInInterrupt,                                                                             .body = enable_interrupts<false>, .meaning = "disable interrupts: events wait in their queues"},
-    {.mnemonic = "ATCH",  .operand = {kRoutine, kEvent}, .rung = kBox,                                 .structure = Structure::Attach,                                             .body = attach,                   .meaning = "attach interrupt routine INT to event EVNT"},
-    {.mnemonic = "DTCH",  .operand = {kEvent},           .rung = kBox,                                                                                                             .body = detach,                   .meaning = "detach event EVNT: it is ignored"},
+    {.mnemonic = "INT",   .operand = {kRoutineNumber},   .rung = kMark,                                .structure = Structure::InterruptHead,                                      .body = kOnStack<no_operation>,         .meaning = "head of interrupt routine n"},
+    {.mnemonic = "RETI",                                 .rung = kMark,    .allowed = kInterrupt,      .structure = Structure::InterruptEnd,                                       .body = kOnCore<return_from_interrupt>, .meaning = "end of an interrupt routine"},
+    {.mnemonic = "CRETI",                                .rung = kPowered, .allowed = kInterrupt,                                             .effect = Effect::ConditionalEnd,    .body = kOnCore<return_from_interrupt>, .meaning = "return from an interrupt routine"},
+    {.mnemonic = "ENI",                                  .rung = kPowered, .allowed = kNotInInterrupt,                                        .effect = Effect::EnablesInterrupts, .body = enable_interrupts<true>,        .meaning = "enable interrupts"},
+    {.mnemonic = "DISI",                                 .rung = kPowered, .allowed = kNotInInterrupt,                                                                             .body = enable_interrupts<false>,       .meaning = "disable interrupts: events wait in their queues"},
+    {.mnemonic = "ATCH",  .operand = {kRoutine, kEvent}, .rung = kBox,                                 .structure = Structure::Attach,                                             .body = attach,                         .meaning = "attach interrupt routine INT to event EVNT"},
+    {.mnemonic = "DTCH",  .operand = {kEvent},           .rung = kBox,                                                                                                             .body = detach,                         .meaning = "detach event EVNT: it is ignored"},
 };
 
 constexpr Instruction kCommunication[] = {
@@ -272,14 +272,14 @@ constexpr Instruction kCommunication[] = {
 };
 
 constexpr Instruction kTimersAndCounters[] = {
-    {.mnemonic = "TON",   .operand = {kOnDelayTimer, kPresetTime},   .rung = kCoil,                                 .hidden = Hidden::Number,                                      .body = time_on<false>, .meaning = "on-delay timer: counts while the top of the stack is 1, else 0"},
-    {.mnemonic = "TONR",  .operand = {kRetentiveTimer, kPresetTime}, .rung = kCoil,                                 .hidden = Hidden::Number,                                      .body = time_on<true>,  .meaning = "retentive on-delay timer: keeps its value until it is reset"},
-    {.mnemonic = "TOF",   .operand = {kOffDelayTimer, kPresetTime},  .rung = kCoil,        .cpus = kCpu22x,         .hidden = Hidden::Number,                                      .body = time_off,       .meaning = "off-delay timer: its bit goes off PT after the top of the stack has gone off"},
-    {.mnemonic = "CTU",   .operand = {kCounter, kPresetValue},       .rung = kTwoInputs,                            .hidden = Hidden::Number,                                      .body = count_up,       .meaning = "count up: second level counts, top resets"},
-    {.mnemonic = "CTD",   .operand = {kCounter, kPresetValue},       .rung = kTwoInputs,   .cpus = kCpu22x,         .hidden = Hidden::Number,                                      .body = count_down,     .meaning = "count down: second level counts, top loads PV"},
-    {.mnemonic = "CTUD",  .operand = {kCounter, kPresetInt},         .rung = kThreeInputs,                          .hidden = Hidden::Number,                                      .body = count_up_down,  .meaning = "count up and down: third level up, second down, top resets"},
-    {.mnemonic = "BITIM", .operand = {kOutDword},                    .rung = kBox,         .cpus = kCpu22xRelease2,                           .effect = Effect::ReadsMilliseconds, .body = begin_interval, .meaning = "the CPU's milliseconds to OUT"},
-    {.mnemonic = "CITIM", .operand = {kInDword, kOutDword},          .rung = kBox,         .cpus = kCpu22xRelease2,                           .effect = Effect::ReadsMilliseconds, .body = read_interval,  .meaning = "milliseconds since IN, which BITIM has written, to OUT"},
+    {.mnemonic = "TON",   .operand = {kOnDelayTimer, kPresetTime},   .rung = kCoil,                                 .hidden = Hidden::Number,                                      .body = kOnCore<time_on<false>>, .meaning = "on-delay timer: counts while the top of the stack is 1, else 0"},
+    {.mnemonic = "TONR",  .operand = {kRetentiveTimer, kPresetTime}, .rung = kCoil,                                 .hidden = Hidden::Number,                                      .body = kOnCore<time_on<true>>,  .meaning = "retentive on-delay timer: keeps its value until it is reset"},
+    {.mnemonic = "TOF",   .operand = {kOffDelayTimer, kPresetTime},  .rung = kCoil,        .cpus = kCpu22x,         .hidden = Hidden::Number,                                      .body = kOnCore<time_off>,       .meaning = "off-delay timer: its bit goes off PT after the top of the stack has gone off"},
+    {.mnemonic = "CTU",   .operand = {kCounter, kPresetValue},       .rung = kTwoInputs,                            .hidden = Hidden::Number,                                      .body = kOnCore<count_up>,       .meaning = "count up: second level counts, top resets"},
+    {.mnemonic = "CTD",   .operand = {kCounter, kPresetValue},       .rung = kTwoInputs,   .cpus = kCpu22x,         .hidden = Hidden::Number,                                      .body = kOnCore<count_down>,     .meaning = "count down: second level counts, top loads PV"},
+    {.mnemonic = "CTUD",  .operand = {kCounter, kPresetInt},         .rung = kThreeInputs,                          .hidden = Hidden::Number,                                      .body = kOnCore<count_up_down>,  .meaning = "count up and down: third level up, second down, top resets"},
+    {.mnemonic = "BITIM", .operand = {kOutDword},                    .rung = kBox,         .cpus = kCpu22xRelease2,                           .effect = Effect::ReadsMilliseconds, .body = begin_interval,          .meaning = "the CPU's milliseconds to OUT"},
+    {.mnemonic = "CITIM", .operand = {kInDword, kOutDword},          .rung = kBox,         .cpus = kCpu22xRelease2,                           .effect = Effect::ReadsMilliseconds, .body = read_interval,           .meaning = "milliseconds since IN, which BITIM has written, to OUT"},
 };
 
 constexpr Instruction kRealArithmetic[] = {
@@ -445,6 +445,11 @@ std::span<const Instruction> all_instructions() { return kInstructions; }
 Link link_of_chain(std::size_t contacts, std::size_t joins, std::size_t coils) {
   return linked::find_chain(contacts, joins, coils, std::make_index_sequence<kMostCoils + 1>{});
 }
-Link link_of_any() { return linked::kTailCalls ? linked::any : nullptr; }
+Link link_of_any() { return linked::kTailCalls ? linked::on_core<nullptr> : nullptr; }
+Link link_of_step(Body step) {
+  if (step == run_with_pointer_first) return linked::on_core<run_with_pointer_first>;
+  if (step == run_with_pointer_second) return linked::on_core<run_with_pointer_second>;
+  return link_of_any();
+}
 
 }  // namespace s7200

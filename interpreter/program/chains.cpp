@@ -32,8 +32,9 @@ Chain with(const ChainPart& part, const Chain& next) {
 
 Link link_of(const Op& op, const Chain& chain) {
   if (chain.contacts + chain.coils > 0) return link_of_chain(chain.contacts, chain.joins, chain.coils);
+  if (op.body != op.instruction->body.usual) return link_of_step(op.body);
   const Link own = op.instruction->body.link;
-  return own && op.body == op.instruction->body.usual ? own : link_of_any();
+  return own ? own : link_of_any();
 }
 
 void add_contacts(Program& program) {

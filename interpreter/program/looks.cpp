@@ -42,8 +42,8 @@ class Finder {
     const auto rules = instruction.rules();
     for (std::size_t k = is_timer ? 1 : 0; k < rules.size(); ++k) {
       if (rules[k].kind != OperandKind::Memory) continue;
-      const bool unknown = rules[k].counted != 0 || rules[k].elements != 1 || rules[k].text;
-      operand(op[k], rules[k].role, rules[k].width == Width::Bit, reach_of(op[k], unknown));
+      const bool counted = rules[k].counted != 0 || rules[k].elements != 1 || rules[k].text;
+      operand(op[k], rules[k].role, rules[k].width == Width::Bit, reach_of(op[k], counted));
     }
   }
 
@@ -66,9 +66,19 @@ class Finder {
     seen_.set(timer);
   }
 
-  /// What an operand reaches: its own bytes, or everything behind it if a count says how far it goes.
-  static Bytes reach_of(const Operand& operand, bool unknown) {
-    return {operand.at, unknown ? image::kSize : operand.at + operand.width};
+  /// What an operand reaches: its own bytes or, if a count says how far it goes, all of its area from there on.
+  Bytes reach_of(const Operand& operand, bool counted) const {
+    return {operand.at, counted ? end_of_area(operand.at) : operand.at + operand.width};
+  }
+
+  std::uint32_t end_of_area(std::uint32_t at) const {
+    for (const AreaInfo& area : all_areas()) {
+      const std::uint32_t size = program_.model->size_of(area.area);
+      const std::uint32_t end = area.base + size * std::max(1u, area.element), end_of_bits = area.bits + (size + 7) / 8;
+      if (at >= area.base && at < end) return end;
+      if (area.element && area.bits != kNoBits && at >= area.bits && at < end_of_bits) return end_of_bits;
+    }
+    return image::kSize;
   }
 
   void operand(const Operand& operand, Role role, bool is_bit, Bytes bytes) {
