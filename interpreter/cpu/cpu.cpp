@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "interpreter/cpu/clock.hpp"
+#include "interpreter/cpu/forcing.hpp"
 #include "interpreter/cpu/freeport.hpp"
 #include "interpreter/cpu/interrupts.hpp"
 #include "interpreter/cpu/points.hpp"
@@ -142,7 +143,24 @@ ClockTime Cpu::clock() const { return clock::now(core_); }
 void Cpu::poke(std::uint32_t at, std::span<const std::uint8_t> bytes) {
   core_.touched = true;
   std::copy(bytes.begin(), bytes.end(), core_.s.image.begin() + at);
+  if (at >= image::kAI && at < image::kAQ)
+    std::copy(bytes.begin(), bytes.end(), core_.s.analog_terminals.begin() + (at - image::kAI));
+  forcing::apply(core_);
   if (core_.s.mode == Mode::Run) freeport::follow_control(core_);
+}
+
+bool Cpu::force(const MemoryRange& place, std::uint32_t value) {
+  core_.touched = true;
+  const bool room = forcing::force(core_, place, value);
+  if (room && core_.s.mode == Mode::Stop) points::enter_stop(core_);
+  return room;
+}
+
+bool Cpu::unforce(const MemoryRange& place) {
+  core_.touched = true;
+  const bool any = forcing::unforce(core_, place);
+  if (any && core_.s.mode == Mode::Stop) points::enter_stop(core_);
+  return any;
 }
 
 std::optional<std::uint32_t> Cpu::peek(const Op& op, std::size_t i) const {

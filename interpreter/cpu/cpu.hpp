@@ -6,7 +6,7 @@
 //
 // Not documented, modelled so: the watchdog error names the instruction during which the time ran out.
 // [Choices.TheWatchdogNamesTheInstructionDuringWhichItRanOut]
-// Not modelled: expansion modules and their errors (SMB5 stays 0, SMB8–21 are refused), forced values, memory cartridge.
+// Not modelled: expansion modules and their errors (SMB5 stays 0, SMB8–21 are refused), memory cartridge.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,7 @@
 
 #include "interpreter/cpu/core.hpp"
 #include "interpreter/cpu/steady_scans.hpp"
+#include "interpreter/program/address.hpp"
 
 namespace s7200 {
 
@@ -77,6 +78,15 @@ class Cpu {
 
   /// Writes memory as a programming device would. `at` is a place in the image.
   void poke(std::uint32_t at, std::span<const std::uint8_t> bytes);
+
+  /// Forces points or a value of memory as a programming device does (forcing.hpp says which can be); false if sixteen
+  /// values of memory are forced already.
+  bool force(const MemoryRange& place, std::uint32_t value);
+  /// Takes back what is forced there; whether there was anything.
+  bool unforce(const MemoryRange& place);
+
+  /// What is wired to an input byte, whatever is forced.
+  std::uint8_t terminals(std::uint32_t byte) const { return core_.s.terminals[byte]; }
 
   void set_sink(TraceSink* sink) { core_.set_sink(sink); }
 

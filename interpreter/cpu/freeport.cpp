@@ -19,7 +19,7 @@ SerialFormat format_of(std::uint8_t control, const CpuModel& model) {
           .stop_bits = 1};
 }
 
-void take_control(Core& core, std::uint8_t number) {
+void take_control(Core& core, std::uint8_t number, std::uint32_t op) {
   Freeport& port = core.s.port[number];
   port.control = core.s.image[kPorts[number].control];
   port.active = is_freeport(port.control);
@@ -27,7 +27,7 @@ void take_control(Core& core, std::uint8_t number) {
   port.format = format_of(port.control, core.model());
   core.port(number).configure(port.format);
   core.port(number).enable_receiver(port.active && !port.transmitting, core.s.time);
-  core.trace({.at = core.s.time, .kind = TraceKind::PortControl, .byte = port.control, .port = number});
+  core.trace({.at = core.s.time, .kind = TraceKind::PortControl, .byte = port.control, .port = number, .op = op});
   core.attend();
 }
 
@@ -38,7 +38,7 @@ void control_written(Core& core, std::uint8_t number, std::uint8_t before) {
     control = before;
     return core.run_error(RunError::FreeportInInterrupt);
   }
-  take_control(core, number);
+  take_control(core, number, core.loop.op);
 }
 
 void send_next_character(Core& core, std::uint8_t number, Time at) {
@@ -60,12 +60,14 @@ ControlBytes control_bytes(const Core& core) {
 }  // namespace
 
 void trace_character(Core& core, std::uint8_t number, const ReceivedCharacter& character, TraceKind kind) {
+  const bool no_freeport = kind == TraceKind::CharacterIgnored && !core.s.port[number].active;
   core.trace({.at = character.end,
               .kind = kind,
               .byte = character.byte,
               .parity_error = character.parity_error,
               .framing_error = character.framing_error,
               .port = number,
+              .code = static_cast<std::uint16_t>(no_freeport ? 1 : 0),
               .since = character.start});
 }
 
@@ -84,7 +86,7 @@ void transmit(Core& core, std::uint8_t number, std::uint32_t table) {
   port.left = count;
   core.put_mask(sm::kInterruptStatus, kPorts[number].idle, false);
   core.port(number).enable_receiver(false, core.s.time);
-  core.trace({.at = core.s.time, .kind = TraceKind::Transmit, .port = number, .count = count});
+  core.trace({.at = core.s.time, .kind = TraceKind::Transmit, .port = number, .op = core.loop.op, .count = count});
   port.sending_break = count == 0;
   if (port.sending_break)
     core.port(number).send_break(kBreakBits, core.s.time);
@@ -120,7 +122,7 @@ void follow_control(Core& core) {
   for (std::uint8_t number = 0; number < core.port_count(); ++number) {
     const std::uint8_t control = core.s.image[kPorts[number].control];
     const Freeport& port = core.s.port[number];
-    if (control != port.control || port.active != is_freeport(control)) take_control(core, number);
+    if (control != port.control || port.active != is_freeport(control)) take_control(core, number, kNoRoutine);
   }
 }
 

@@ -41,9 +41,7 @@ std::uint32_t points_with_interrupts(const State& s) {
   return points;
 }
 
-bool input_point(const State& s, std::uint8_t point) {
-  return (s.image[image::kInputs + point / 8] >> (point % 8) & 1) != 0;
-}
+bool input_point(const State& s, std::uint8_t point) { return (s.terminals[point / 8] >> (point % 8) & 1) != 0; }
 
 /// Writes the current value to HC, and the status byte.
 void show(State& s, std::uint8_t number) {
@@ -154,7 +152,7 @@ void program(Core& core, std::uint8_t number) {
 
 void inputs_changed(Core& core, std::uint32_t byte, std::uint8_t changed, Time at) {
   if (byte >= kInputBytes) return;
-  const std::uint8_t levels = core.s.image[image::kInputs + byte];
+  const std::uint8_t levels = core.s.terminals[byte];
   for (std::uint8_t number = 0; number < core.s.counter.size(); ++number) {
     if (!core.s.counter[number].defined) continue;
     for (std::uint8_t bit = 0; bit < 8; ++bit)

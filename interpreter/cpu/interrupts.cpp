@@ -41,14 +41,19 @@ void attach(Core& core, std::uint8_t event, std::uint8_t routine) {
     core.schedule(core.s.time + interval, kTimedInterrupt0 + timer);
     core.attend();
   }
-  core.trace({.at = core.s.time, .kind = TraceKind::Attach, .event = event, .routine = routine, .interval = interval});
+  core.trace({.at = core.s.time,
+              .kind = TraceKind::Attach,
+              .event = event,
+              .routine = routine,
+              .op = core.loop.op,
+              .interval = interval});
 }
 
 void detach(Core& core, std::uint8_t event) {
   State& s = core.s;
   s.attached[event] = kNotAttached;
   if (is_timed(event)) core.cancel(kTimedInterrupt0 + event - event::kTimed0);
-  core.trace({.at = s.time, .kind = TraceKind::Detach, .event = event});
+  core.trace({.at = s.time, .kind = TraceKind::Detach, .event = event, .op = core.loop.op});
   InterruptQueue& queue = s.queue[static_cast<std::size_t>(find_event(event)->queue)];
   const auto begin = queue.entry.begin(), end = begin + queue.count;
   for (auto entry = begin; entry != end; ++entry)
@@ -64,6 +69,10 @@ void detach(Core& core, std::uint8_t event) {
 void enable(Core& core, bool enabled) {
   core.s.interrupts_enabled = enabled;
   core.put_mask(sm::kInterruptStatus, sm::kInterruptsEnabled, enabled);
+  core.trace({.at = core.s.time,
+              .kind = TraceKind::Enable,
+              .code = static_cast<std::uint16_t>(enabled ? 1 : 0),
+              .op = core.loop.op});
   core.attend();
 }
 
@@ -93,6 +102,7 @@ void occurred(Core& core, std::uint8_t event, Time at, std::uint8_t byte, bool p
 void take(Core& core) {
   State& s = core.s;
   const QueuedInterrupt interrupt = next_queued(s);
+  const std::uint32_t before = core.current_op();
   local_memory::put_aside(core);
   s.saved = {s.pc, s.stack, s.rail, s.eno, {}, s.image[sm::kFlags], s.call_depth};
   std::copy_n(s.image.begin() + image::kAC, s.saved.accumulators.size(), s.saved.accumulators.begin());
@@ -110,6 +120,7 @@ void take(Core& core) {
               .kind = TraceKind::ServiceBegin,
               .event = s.serving_event,
               .routine = s.serving_routine,
+              .op = before,
               .since = interrupt.at});
   s.time += core.program().interrupt_entry;
 }
@@ -153,7 +164,7 @@ void enter_stop(Core& core) {
 void inputs_changed(Core& core, std::uint32_t byte, std::uint8_t changed, Time at) {
   for (std::uint8_t point = 0; byte == 0 && point < kEdgeInputs; ++point) {
     if (!(changed >> point & 1)) continue;
-    const bool now = core.s.image[image::kInputs] >> point & 1;
+    const bool now = core.s.terminals[0] >> point & 1;
     occurred(core, static_cast<std::uint8_t>((now ? event::kI00Rises : event::kI00Falls) + 2 * point), at);
   }
 }

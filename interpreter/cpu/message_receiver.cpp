@@ -143,7 +143,7 @@ void receive(Core& core, std::uint8_t port, std::uint32_t table) {
   s.port[port].message = asked;
   s.image[info.message] = 0;
   s.image[table] = 0;
-  core.trace({.at = s.time, .kind = TraceKind::Receive, .port = port, .count = asked.most});
+  core.trace({.at = s.time, .kind = TraceKind::Receive, .port = port, .op = core.loop.op, .count = asked.most});
   if (asks_for_silence(asked)) start_timer(core, port, s.time, asked.idle_time);
   if (times_from_the_beginning(asked)) start_timer(core, port, s.time, asked.timeout);
 }

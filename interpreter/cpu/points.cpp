@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "interpreter/cpu/forcing.hpp"
 #include "interpreter/cpu/pulse_outputs.hpp"
 #include "interpreter/cpu/units.hpp"
 
@@ -16,6 +17,7 @@ void trace_output(const Core& core, std::uint32_t byte, Time at) {
 /// Writes an output byte; points with running pulse outputs keep their level.
 void put_outputs(Core& core, std::uint32_t byte, std::uint8_t value) {
   std::uint8_t& points = core.s.image[image::kOutputs + byte];
+  value = forcing::output(core.s, byte, value);
   for (std::uint8_t output = 0; output < core.s.pulse.size(); ++output) {
     const auto mask = static_cast<std::uint8_t>(1u << output);
     if (pulse_outputs::drive(core, byte, output)) value = static_cast<std::uint8_t>((value & ~mask) | (points & mask));
@@ -33,6 +35,14 @@ AnalogOutputs analog_outputs(const Core& core) {
   return outputs;
 }
 
+void force_analog_outputs(Core& core) {
+  for (std::uint8_t i = 0; i < core.s.forcing.values; ++i) {
+    const ForcedValue& forced = core.s.forcing.memory[i];
+    if (forced.at >= image::kAQ && forced.at < image::kT)
+      store16(&core.s.image[forced.at], static_cast<std::uint16_t>(forced.value));
+  }
+}
+
 void trace_analog_changes(const Core& core, const AnalogOutputs& before) {
   for (std::uint32_t word = 0; word < core.model().size_of(Area::AQ); word += 2) {
     const std::uint16_t value = load16(&core.s.image[image::kAQ + word]);
@@ -44,9 +54,10 @@ void trace_analog_changes(const Core& core, const AnalogOutputs& before) {
 }  // namespace
 
 void set_inputs(Core& core, std::uint32_t byte, std::uint8_t value, Time at) {
-  std::uint8_t& points = core.s.image[image::kInputs + byte];
-  const std::uint8_t changed = points ^ value;
-  points = value;
+  std::uint8_t& terminals = core.s.terminals[byte];
+  const std::uint8_t changed = terminals ^ value;
+  terminals = value;
+  core.s.image[image::kInputs + byte] = forcing::input(core.s, byte);
   if (changed != 0) units::inputs_changed(core, byte, changed, at);
 }
 
@@ -57,7 +68,9 @@ void put_output(Core& core, std::uint32_t byte, std::uint8_t bit, bool value, Ti
 }
 
 void write_output(Core& core, std::uint32_t byte, std::uint8_t bit, bool value) {
-  if (!pulse_outputs::drive(core, byte, bit)) put_output(core, byte, bit, value, core.s.time);
+  if (pulse_outputs::drive(core, byte, bit)) return;
+  const auto byte_with_bit = static_cast<std::uint8_t>(value ? 1u << bit : 0u);
+  put_output(core, byte, bit, forcing::output(core.s, byte, byte_with_bit) >> bit & 1, core.s.time);
 }
 
 /// All output points go off: the default of the output table for STOP (facts 9.1).
@@ -80,6 +93,7 @@ void run_with_analog_output(Core& core, const Op& op) {
     run_with_pointers(core, op);
   else
     op.direct_body()(core, op);
+  if (core.s.forcing.values != 0) points::force_analog_outputs(core);
   points::trace_analog_changes(core, before);
 }
 

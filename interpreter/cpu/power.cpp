@@ -25,7 +25,7 @@ void up(Core& core, bool run, const RetentiveMemory* memory) {
 }
 
 RetentiveMemory retentive_memory(const Core& core) {
-  RetentiveMemory memory{.eeprom = core.s.eeprom, .clock = clock::now(core)};
+  RetentiveMemory memory{.eeprom = core.s.eeprom, .clock = clock::now(core), .forcing = core.s.forcing};
   for (const RetentiveRange& range : core.model().retentive)
     std::copy_n(core.s.image.begin() + range.at(), range.bytes(), memory.image.begin() + range.at());
   return memory;

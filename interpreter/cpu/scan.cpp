@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "interpreter/cpu/eeprom.hpp"
+#include "interpreter/cpu/forcing.hpp"
 #include "interpreter/cpu/interrupts.hpp"
 #include "interpreter/cpu/local_memory.hpp"
 #include "interpreter/cpu/parameters.hpp"
@@ -93,6 +94,7 @@ void finish_phase(Core& core) {
     case Phase::Program:
       return begin_communication(core);
     case Phase::Communication:
+      forcing::apply(core);
       return begin_phase(core, Phase::SelfTest, 2);
     case Phase::SelfTest:
       return begin_phase(core, Phase::WriteOutputs, 3);

@@ -183,6 +183,33 @@ struct RuntimeError {
   bool operator==(const RuntimeError&) const = default;
 };
 
+/// Points that a programming device has forced.
+struct ForcedPoints {
+  std::array<std::uint8_t, image::kPointBytes> mask{}, value{};
+
+  std::uint8_t over(std::uint32_t byte, std::uint8_t free) const {
+    return static_cast<std::uint8_t>((free & ~mask[byte]) | value[byte]);
+  }
+  bool any() const { return mask != decltype(mask){}; }
+  bool operator==(const ForcedPoints&) const = default;
+};
+
+/// A forced value of V, M, AI or AQ: its place in the image.
+struct ForcedValue {
+  std::uint32_t at = 0, value = 0;
+  Width width{};
+  bool operator==(const ForcedValue&) const = default;
+};
+
+/// Everything that is forced (forcing.hpp).
+struct Forcing {
+  ForcedPoints inputs{}, outputs{};
+  std::array<ForcedValue, 16> memory{};
+  std::uint8_t values = 0;  ///< how many of `memory`
+  bool any = false;         ///< of all this
+  bool operator==(const Forcing&) const = default;
+};
+
 struct State {
   Time time = 0;         ///< the CPU's clock: start of the next instruction
   std::uint32_t pc = 0;  ///< op to execute next
@@ -232,6 +259,10 @@ struct State {
   std::array<RuntimeError, 16> errors{};  ///< the first sixteen different ones
   std::uint64_t error_count = 0;
 
+  Forcing forcing{};
+  std::array<std::uint8_t, image::kPointBytes> terminals{};              ///< the inputs as they are wired
+  std::array<std::uint8_t, image::kAQ - image::kAI> analog_terminals{};  ///< the analog inputs
+
   std::array<std::uint8_t, image::kSize> image{};
 
   bool operator==(const State&) const = default;
@@ -244,6 +275,7 @@ struct RetentiveMemory {
   ClockTime clock{};                               ///< when power went off
   Time power_off = 0;                              ///< how long power was off
   bool ram_lost = false;                           ///< power was off too long: image and clock are lost
+  Forcing forcing{};                               ///< in the EEPROM too
   bool operator==(const RetentiveMemory&) const = default;
 };
 

@@ -5,6 +5,7 @@
 
 #include "interpreter/cpu/clock.hpp"
 #include "interpreter/cpu/eeprom.hpp"
+#include "interpreter/cpu/forcing.hpp"
 #include "interpreter/cpu/freeport.hpp"
 #include "interpreter/cpu/high_speed_counters.hpp"
 #include "interpreter/cpu/interrupts.hpp"
@@ -37,7 +38,8 @@ struct Unit {
 };
 
 // The order matters: input edges occur before the counters act on them; pulses end before the output points go off; the
-// points are written before a value is saved; the EEPROM fills V memory before the retentive ranges overwrite it.
+// forced values reach the image before the points are written; the points are written before a value is saved; the EEPROM
+// fills V memory before the retentive ranges overwrite it, and what is forced comes over all.
 constexpr Unit kUnits[] = {
     {.power_up = scan::power_up},
     {.enter_stop = interrupts::enter_stop,
@@ -56,9 +58,11 @@ constexpr Unit kUnits[] = {
     {.power_up = pulse_outputs::power_up,
      .enter_stop = pulse_outputs::enter_stop,
      .events = {kPulse0, 2, pulse_outputs::handle}},
+    {.end_scan = forcing::end_scan},
     {.enter_stop = points::enter_stop, .end_scan = points::end_scan},
     {.power_up = eeprom::power_up, .end_scan = eeprom::end_scan},
     {.power_up = power::recall_ranges},
+    {.power_up = forcing::power_up},
     {.power_up = clock::power_up},
 };
 

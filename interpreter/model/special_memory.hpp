@@ -54,6 +54,7 @@ enum InterruptStatus : std::uint8_t {
   kInterruptsEnabled = 0x10,  ///< SM4.4
   kPort0Idle = 0x20,          ///< SM4.5: transmitter idle
   kPort1Idle = 0x40,          ///< SM4.6
+  kForced = 0x80,             ///< SM4.7 of a CPU 22x: something is forced
 };
 
 inline constexpr std::uint32_t kIdentification = byte(6);

@@ -7,6 +7,7 @@
 
 #include "interpreter/model/errors.hpp"
 #include "interpreter/model/ports.hpp"
+#include "interpreter/model/special_bits.hpp"
 #include "interpreter/stl/printer.hpp"
 
 namespace s7200 {
@@ -26,18 +27,8 @@ std::string character_text(const TraceRecord& r) {
 
 /// Why a message has ended, after the bits of SMB86.
 std::string status_text(std::uint8_t status) {
-  static constexpr std::pair<std::uint8_t, std::string_view> kReasons[] = {
-      {sm::message::kUser, "ended by the program"},  {sm::message::kParameters, "no start condition or no room"},
-      {sm::message::kEndCharacter, "end character"}, {sm::message::kTimer, "the time has passed"},
-      {sm::message::kCount, "as many as can be"},    {sm::message::kParity, "a bad character"}};
-  std::string text = fmt::format("status 16#{:02X}", status);
-  std::string_view before = " (";
-  for (const auto& [bit, reason] : kReasons) {
-    if (!(status & bit)) continue;
-    text.append(before).append(reason);
-    before = ", ";
-  }
-  return text + ')';
+  const std::string reasons = special_meanings_text(kPorts[0].message, status);
+  return fmt::format("status 16#{:02X}{}", status, reasons.empty() ? "" : fmt::format(" ({})", reasons));
 }
 
 /// Port 0 goes without saying: most CPUs have no other.
@@ -73,6 +64,7 @@ std::string what_text(const TraceRecord& r, const Program& program) {
     case TraceKind::CharacterReceived:
       return fmt::format("received {}", character_text(r));
     case TraceKind::CharacterIgnored:
+      if (r.code == 1) return fmt::format("ignored  {}: the port is not in Freeport mode", character_text(r));
       return fmt::format("ignored  {}: event {} is not attached", character_text(r), kPorts[r.port].received);
     case TraceKind::CharacterDropped:
       return fmt::format("dropped  {}: RCV waits for the start of a message", character_text(r));
@@ -82,6 +74,8 @@ std::string what_text(const TraceRecord& r, const Program& program) {
       return fmt::format("RCV ends: {} characters, {}", r.count, status_text(r.byte));
     case TraceKind::PortControl:
       return fmt::format("SMB{} = 16#{:02X}", kPorts[r.port].control - image::kSM, r.byte);
+    case TraceKind::Enable:
+      return r.code == 1 ? "ENI: interrupts are enabled" : "DISI: interrupts are disabled";
     case TraceKind::OutputChanged:
       return fmt::format("QB{} = 2#{:08b}", r.op, r.byte);
     case TraceKind::AnalogChanged:
@@ -106,15 +100,20 @@ std::string clock_text(Time at) {
 std::string describe(const TraceRecord& r, const Program& program) { return port_text(r) + what_text(r, program); }
 
 TextTrace::TextTrace(std::ostream& out, std::shared_ptr<const Program> program, bool instructions)
-    : out_(out), program_(std::move(program)), instructions_(instructions), instruction_lines_(*program_) {
+    : out_(out),
+      program_(std::move(program)),
+      reasons_(*program_),
+      instructions_(instructions),
+      instruction_lines_(*program_) {
   out_ << kFirstLine << '\n';
 }
 
 void TextTrace::record(const TraceRecord& record) {
+  const std::string reason = reasons_.of(record);
   if (record.kind == TraceKind::ScanBegin && !instructions_) return;
   line_.clear();
   append_clock(line_, record.at);
-  fmt::format_to(std::back_inserter(line_), "  {}\n", describe(record, *program_));
+  fmt::format_to(std::back_inserter(line_), "  {}{}\n", describe(record, *program_), reason);
   out_.write(line_.data(), static_cast<std::streamsize>(line_.size()));
 }
 

@@ -9,6 +9,7 @@
 #include "interpreter/program/program.hpp"
 #include "interpreter/trace/instruction_lines.hpp"
 #include "interpreter/trace/trace.hpp"
+#include "interpreter/trace/trace_reasons.hpp"
 
 namespace s7200 {
 
@@ -33,6 +34,7 @@ class TextTrace final : public TraceSink {
  private:
   std::ostream& out_;
   std::shared_ptr<const Program> program_;
+  TraceReasons reasons_;
   bool instructions_;
   InstructionLines instruction_lines_;
   fmt::memory_buffer line_;

@@ -24,7 +24,7 @@ enum class TraceKind : std::uint8_t {
   TransmitEnd,        ///<
   CharacterSent,      ///< byte; at: end of its stop bit
   CharacterReceived,  ///< byte, parity_error, framing_error; since: its start edge
-  CharacterIgnored,   ///< like received, but the port is not in Freeport mode or its receive event is not attached
+  CharacterIgnored,   ///< like received, but its receive event is not attached or, code 1, the port is not in Freeport mode
   CharacterDropped,   ///< like received, but RCV is still waiting for the start of its message
   Receive,            ///< RCV begins its search; count: the most characters
   ReceiveEnd,         ///< byte: status SMB86 or SMB186; count: characters stored
@@ -33,6 +33,7 @@ enum class TraceKind : std::uint8_t {
   AnalogChanged,      ///< count: new value; op: number of the AQ word
   RuntimeError,       ///< code; op: where
   FatalError,         ///< code; op: where
+  Enable,             ///< code: 1 ENI, 0 DISI
 };
 
 struct TraceRecord {
@@ -45,7 +46,8 @@ struct TraceRecord {
   bool framing_error = false;
   std::uint8_t port = 0;  ///< of characters, messages and the control byte
   std::uint16_t code = 0;
-  std::uint32_t op = 0;
+  std::uint32_t op = 0;  ///< of Attach, Detach, Enable, Transmit, Receive, PortControl too: the instruction, kNoRoutine for
+                         ///< none; of ServiceBegin the one that was executed before it
   std::uint64_t count = 0;
   Time since = 0;
   Time interval = 0;

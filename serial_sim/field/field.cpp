@@ -37,8 +37,10 @@ void Field::next_edge(Running& running) {
 }
 
 void Field::put(std::uint32_t place, std::uint8_t mask, std::uint8_t value, Time at) {
-  const auto after = static_cast<std::uint8_t>((cpu_.state().image[place] & ~mask) | (value & mask));
-  if (place >= image::kInputs && place < image::kOutputs)
+  const bool input = place >= image::kInputs && place < image::kOutputs;
+  const std::uint8_t before = input ? cpu_.terminals(place - image::kInputs) : cpu_.state().image[place];
+  const auto after = static_cast<std::uint8_t>((before & ~mask) | (value & mask));
+  if (input)
     cpu_.set_input(place - image::kInputs, after, at);
   else
     cpu_.poke(place, {&after, 1});

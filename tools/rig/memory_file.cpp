@@ -8,6 +8,7 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/cpu/forcing.hpp"
 #include "interpreter/program/address.hpp"
 #include "interpreter/program/load.hpp"
 #include "tools/views/report.hpp"
@@ -98,6 +99,18 @@ std::string take_clock(const Json& json, ClockTime& clock) {
   return {};
 }
 
+/// `{"I0.0": 1, "VW10": 5}`
+std::string take_forced(const Json& values, const CpuModel& model, Forcing& forcing) {
+  for (const auto& [address, value] : values.get_ref<const Json::object_t&>()) {
+    std::string why;
+    const auto place = parse_range(address, model, why);
+    if (!place) return why;
+    if (place->count != 1 || !forcing::possible(*place) || !forcing::add(forcing, *place, value.get<std::uint32_t>()))
+      return fmt::format("'{}' cannot be forced", stl::shortened(address));
+  }
+  return {};
+}
+
 /// What is wrong, or nothing.
 std::string take(const Json& json, const CpuModel& model, RetentiveMemory& memory) {
   if (json.value("format", "") != kFormat)
@@ -106,7 +119,8 @@ std::string take(const Json& json, const CpuModel& model, RetentiveMemory& memor
     return fmt::format("it is the memory of a CPU {}, not of a CPU {}", cpu, model.name);
   if (std::string why = take_clock(json.at("clock"), memory.clock); !why.empty()) return why;
   if (std::string why = take_rows(json.at("ram"), kept_in_ram(memory, model), model); !why.empty()) return why;
-  return take_rows(json.at("eeprom"), kept_in_eeprom(memory, model), model);
+  if (std::string why = take_rows(json.at("eeprom"), kept_in_eeprom(memory, model), model); !why.empty()) return why;
+  return json.contains("forced") ? take_forced(json.at("forced"), model, memory.forcing) : "";
 }
 
 }  // namespace
@@ -117,6 +131,7 @@ std::string memory_to_json(const RetentiveMemory& memory, const CpuModel& model)
   for (const auto& [name, field] : kClockFields) json["clock"][name] = memory.clock.*field;
   json["ram"] = rows_of(kept_in_ram(copy, model));
   json["eeprom"] = rows_of(kept_in_eeprom(copy, model));
+  for (const Assignment& forced : forcing::listed(memory.forcing)) json["forced"][forced.place.name_of(0)] = forced.value;
   return json.dump(2) + "\n";
 }
 

@@ -35,7 +35,9 @@ std::optional<serial::FieldScript> read_field(const std::string& path, const Cpu
 }  // namespace
 
 Rig::Rig(std::shared_ptr<const Program> program, const RigSettings& settings, serial::FieldScript field)
-    : settings_(settings), simulation_(std::move(program), std::move(field), static_cast<std::uint8_t>(settings.port)) {}
+    : settings_(settings),
+      files_(settings.standard_output),
+      simulation_(std::move(program), std::move(field), static_cast<std::uint8_t>(settings.port)) {}
 
 std::unique_ptr<Rig> Rig::assemble(std::shared_ptr<const Program> program, const RigSettings& settings,
                                    std::vector<std::string>& problems) {
@@ -58,7 +60,7 @@ std::unique_ptr<Rig> Rig::assemble(std::shared_ptr<const Program> program, const
 }
 
 bool Rig::claim_files(const std::shared_ptr<const Program>& program, std::string& why) {
-  WrittenFiles files(settings_.standard_output);
+  WrittenFiles& files = files_;
   files.reads(program->source.name);
   for (const stl::FurtherFile& file : program->source.further_files) files.reads(file.name);
   files.reads(settings_.input);

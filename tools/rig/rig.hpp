@@ -10,6 +10,7 @@
 
 #include "interpreter/program/address.hpp"
 #include "serial_sim/system/simulation.hpp"
+#include "tools/host/written_files.hpp"
 #include "tools/rig/capture_files.hpp"
 #include "tools/rig/memory_file.hpp"
 #include "tools/rig/trace_files.hpp"
@@ -47,6 +48,9 @@ class Rig final {
   const serial::Simulation& simulation() const { return simulation_; }
   const Cpu& cpu() const { return simulation_.cpu(); }
 
+  /// What is read and written already.
+  const WrittenFiles& files() const { return files_; }
+
   /// What watches the CPU; others may be added.
   FanOut& sinks() { return traces_.sinks(); }
 
@@ -59,6 +63,7 @@ class Rig final {
   bool open_records(std::string& why);
 
   RigSettings settings_;
+  WrittenFiles files_;
   MemoryFile memory_;
   TraceFiles traces_;
   CaptureFiles captures_;  // outlives the simulation

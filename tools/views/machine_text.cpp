@@ -5,6 +5,9 @@
 #include <bit>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/model/special_bits.hpp"
+#include "interpreter/program/operands.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/modbus/request.hpp"
@@ -69,11 +72,7 @@ std::string accumulators_text(const Cpu& cpu) {
 }
 
 std::string flags_text(std::uint8_t flags) {
-  static constexpr std::string_view kNames[] = {"zero",       "overflow",    "negative", "division by zero",
-                                                "table full", "table empty", "not BCD",  "not hex"};
-  std::string text;
-  for (unsigned bit = 0; bit < 8; ++bit)
-    if (flags >> bit & 1) text += fmt::format("{}SM1.{} {}", text.empty() ? "" : ", ", bit, kNames[bit]);
+  const std::string text = special_bits_text(sm::kFlags, flags);
   return text.empty() ? "none of SM1 is set" : text;
 }
 
@@ -215,6 +214,38 @@ std::string port_text(const serial::Simulation& simulation) {
     if (port == simulation.port()) text += fmt::format("master     {}\n", master_text(simulation.master().state()));
   }
   return text;
+}
+
+std::string special_text(const Cpu& cpu, const MemoryRange& range) {
+  if (range.area != Area::SM) return {};
+  const State& state = cpu.state();
+  std::string text;
+  for (std::uint32_t at = range.at; at < range.at + range.bytes(); ++at) {
+    const auto only = static_cast<std::uint8_t>(range.width == Width::Bit ? 1u << range.bit : 0xFFu);
+    for (std::size_t port = 0; port < cpu.program().model->ports && range.width != Width::Bit; ++port)
+      if (at == kPorts[port].control) text += fmt::format("         {}\n", control_text(state, port));
+    const auto shown = static_cast<std::uint8_t>(range.width == Width::Bit ? only : state.image[at]);
+    const std::string bits = special_bits_text(at, shown);
+    if (!bits.empty()) text += fmt::format("         {}\n", bits);
+    if (bits.empty() && range.width != Width::Bit && !special_bits(at).empty())
+      text += fmt::format("         none of SMB{} is set\n", at - image::kSM);
+  }
+  return text;
+}
+
+const stl::Symbol* symbol_of(const Program& program, const MemoryRange& range) {
+  for (const stl::Symbol& symbol : program.source.symbols) {
+    const auto* address = symbol.value ? std::get_if<stl::Address>(&*symbol.value) : nullptr;
+    if (!address || area_named(address->area) != range.area || address->number != range.number) continue;
+    if (width_of(*address, range.area).value_or(Width::Double) == range.width && address->bit == range.bit) return &symbol;
+  }
+  return nullptr;
+}
+
+std::string symbol_text(const Program& program, const MemoryRange& range) {
+  const stl::Symbol* symbol = symbol_of(program, range);
+  if (!symbol) return {};
+  return stl::printable(symbol->name) + (symbol->comment.empty() ? "" : "  // " + stl::printable(symbol->comment));
 }
 
 std::string value_text(const Program& program, const MemoryRange& range, std::span<const std::uint8_t> bytes) {

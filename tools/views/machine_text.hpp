@@ -29,8 +29,17 @@ std::string stack_text(const State& state);
 /// SMB30 in words, receiver, transmitter, and what the master on the line is doing.
 std::string port_text(const serial::Simulation& simulation);
 
-/// One watched value, bytes as MemoryRange::bytes_in() gives them: `1`, `16#05 (5)`, `16#FFFB (-5)`, several as hex bytes. A double word
-/// that the program uses as a real is shown as one too: `16#3FC00000 (1069547520, 1.5)`.
+/// Special memory in words, a line for each byte that has bits: `SM0.0 always 1, SM0.1 first scan`; nothing for other areas.
+std::string special_text(const Cpu& cpu, const MemoryRange& range);
+
+/// The symbol of the address that a range begins at; null without one.
+const stl::Symbol* symbol_of(const Program& program, const MemoryRange& range);
+
+/// `Speed  // of the pump`: that symbol with its comment; nothing without one.
+std::string symbol_text(const Program& program, const MemoryRange& range);
+
+/// One watched value, bytes as MemoryRange::bytes_in() gives them: `1`, `16#05 (5)`, `16#FFFB (-5)`, several as hex bytes. A
+/// double word that the program uses as a real is shown as one too: `16#3FC00000 (1069547520, 1.5)`.
 std::string value_text(const Program& program, const MemoryRange& range, std::span<const std::uint8_t> bytes);
 
 }  // namespace s7200::tools

@@ -120,7 +120,7 @@ void assign(serial::Simulation& simulation, const Assignment& assignment) {
   std::uint8_t byte_with_bit = 0;
   if (place.width == Width::Bit) {
     const bool input = place.area == Area::I;
-    byte_with_bit = cpu.state().image[input ? place.at - image::kI + image::kInputs : place.at];
+    byte_with_bit = input ? cpu.terminals(place.number) : cpu.state().image[place.at];
     const auto mask = static_cast<std::uint8_t>(1u << place.bit);
     byte_with_bit = static_cast<std::uint8_t>(assignment.value ? byte_with_bit | mask : byte_with_bit & ~mask);
     bytes = {&byte_with_bit, 1};

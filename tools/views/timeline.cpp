@@ -36,7 +36,10 @@ void join(TimelineRow& row, const TimelineRow& next) {
   row.shortest = std::min(row.shortest, next.shortest);
   row.longest = std::max(row.longest, next.longest);
   row.in_all += next.in_all;
-  row.longest_wait = std::max(row.longest_wait, next.longest_wait);
+  if (next.longest_wait > row.longest_wait) {
+    row.longest_wait = next.longest_wait;
+    row.why = next.why;
+  }
 }
 
 /// The rows as they are shown: what belongs together is one row, and what is too much in the middle is only counted.
@@ -76,7 +79,8 @@ class Timeline::Reader {
  public:
   explicit Reader(const Program& program) : program_(program) {}
 
-  void read(const TraceRecord& r) {
+  /// `why`: an interrupt that begins has waited.
+  void read(const TraceRecord& r, const std::string& why) {
     switch (r.kind) {
       case TraceKind::ScanBegin:
         return begin_scan(r);
@@ -93,7 +97,7 @@ class Timeline::Reader {
       case TraceKind::EventLost:
         return lost(r);
       case TraceKind::ServiceBegin:
-        return begin_service(r);
+        return begin_service(r, why);
       case TraceKind::ServiceEnd:
         return end_service(r);
       case TraceKind::Transmit:
@@ -102,6 +106,7 @@ class Timeline::Reader {
         return;
       case TraceKind::Attach:
       case TraceKind::Detach:
+      case TraceKind::Enable:
       case TraceKind::TransmitEnd:
         return;
       default:
@@ -159,13 +164,14 @@ class Timeline::Reader {
     scan_begin_ = r.at;
   }
 
-  void begin_service(const TraceRecord& r) {
+  void begin_service(const TraceRecord& r, const std::string& why) {
     serving_ = nullptr;
     for (auto row = rows_.rbegin(); row != rows_.rend() && !serving_; ++row)
       if (row->event == r.event && row->at == r.since && (row->kind == Kind::Received || row->kind == Kind::Event))
         serving_ = &*row;
     if (serving_) {
       serving_->longest_wait = r.at - r.since;
+      serving_->why = why;
       report_.longest_wait = std::max(report_.longest_wait, serving_->longest_wait);
     }
     in_routine_ = true;
@@ -264,7 +270,8 @@ std::string remark(const TimelineRow& row) {
   }
   const std::string waited =
       row.longest_wait ? fmt::format("waited {}{}", row.served > 1 ? "up to " : "", format_duration(row.longest_wait)) : "";
-  return fmt::format("INT {:<4} {:<26} {}", row.routine, took, waited);
+  const std::string why = row.why.empty() ? "" : ": " + row.why;
+  return fmt::format("INT {:<4} {:<26} {}{}", row.routine, took, waited, why);
 }
 
 /// fmt counts a character of several bytes as the columns it takes.
@@ -304,7 +311,7 @@ std::string summary(const TimelineReport& report) {
 }  // namespace
 
 Timeline::Timeline(std::shared_ptr<const Program> program, TraceSink* next)
-    : program_(std::move(program)), next_(next), reader_(std::make_unique<Reader>(*program_)) {}
+    : program_(std::move(program)), next_(next), reader_(std::make_unique<Reader>(*program_)), reasons_(*program_) {}
 
 Timeline::~Timeline() = default;
 
@@ -314,7 +321,8 @@ void Timeline::begin() {
 }
 
 void Timeline::record(const TraceRecord& record) {
-  if (looking_) reader_->read(record);
+  if (looking_) reader_->read(record, record.kind == TraceKind::ServiceBegin ? reasons_.held_up_by(record) : "");
+  reasons_.note(record);
   if (next_) next_->record(record);
 }
 
@@ -358,6 +366,7 @@ nlohmann::ordered_json to_json(const TimelineReport& report, const serial::Excha
       json["shortest_us"] = microseconds(row.shortest);
       json["longest_us"] = microseconds(row.longest);
       json["longest_wait_us"] = microseconds(row.longest_wait);
+      if (!row.why.empty()) json["longest_wait_why"] = row.why;
     }
     list.push_back(json);
   }

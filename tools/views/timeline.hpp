@@ -8,6 +8,7 @@
 
 #include "interpreter/program/program.hpp"
 #include "interpreter/trace/trace.hpp"
+#include "interpreter/trace/trace_reasons.hpp"
 #include "serial_sim/peers/requester.hpp"
 
 namespace s7200::tools {
@@ -31,6 +32,7 @@ struct TimelineRow {
   /// Services by the interrupt routine.
   std::size_t served = 0;
   Time shortest = kNever, longest = 0, in_all = 0, longest_wait = 0;
+  std::string why{};  ///< of the longest wait: DISI, or other routines
 };
 
 struct TimelineReport {
@@ -69,6 +71,7 @@ class Timeline final : public TraceSink {
   std::shared_ptr<const Program> program_;
   TraceSink* next_;
   std::unique_ptr<Reader> reader_;
+  TraceReasons reasons_;
   bool looking_ = false;
 };
 

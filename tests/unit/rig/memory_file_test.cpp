@@ -197,5 +197,15 @@ TEST(MemoryFile, AFileThatIsNotMemoryOfThisCpuIsRefusedWithTheReason) {
   }
 }
 
+TEST(MemoryFile, HasWhatIsForced) {
+  Plc plc(kIdle);
+  plc.cpu.force(plc.place("I0.3"), 1);
+  plc.cpu.force(plc.place("VW10"), 7);
+  std::string why;
+  const auto memory = memory_from_json(memory_to_json(plc.cpu.retentive_memory(), cpu214()), cpu214(), why);
+  ASSERT_TRUE(memory) << why;
+  EXPECT_EQ(memory->forcing, plc.cpu.state().forcing);
+}
+
 }  // namespace
 }  // namespace s7200::test

@@ -1,0 +1,103 @@
+#include "interpreter/trace/trace_reasons.hpp"
+
+#include <fmt/format.h>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/stl/printer.hpp"
+
+namespace s7200 {
+namespace {
+
+bool has_place(const TraceRecord& r) {
+  switch (r.kind) {
+    case TraceKind::Attach:
+    case TraceKind::Detach:
+    case TraceKind::Enable:
+    case TraceKind::Transmit:
+    case TraceKind::Receive:
+    case TraceKind::PortControl:
+      return r.op != kNoRoutine;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+std::string TraceReasons::line_of(std::uint32_t op) const {
+  return fmt::format("line {}", program_.statement(op).position.line);
+}
+
+std::string TraceReasons::of(const TraceRecord& record) {
+  std::string text;
+  if (has_place(record)) {
+    const stl::Statement& statement = program_.statement(record.op);
+    text = fmt::format("  {}: {}{}", line_of(record.op), stl::to_text(statement),
+                       statement.comment.empty() ? "" : "  //" + stl::printable(statement.comment));
+  }
+  if (record.kind == TraceKind::ServiceBegin)
+    if (const std::string why = cause_of(record); !why.empty()) text = ": " + why;
+  note(record);
+  return text;
+}
+
+/// Or the instruction that was not over.
+std::string TraceReasons::cause_of(const TraceRecord& begin) const {
+  std::string why = held_up_by(begin);
+  if (!why.empty() || begin.at <= begin.since || begin.op == kNoRoutine) return why;
+  return fmt::format("{} was being executed: {}", line_of(begin.op), stl::to_text(program_.statement(begin.op)));
+}
+
+std::string TraceReasons::held_up_by(const TraceRecord& begin) const {
+  if (begin.at <= begin.since) return {};
+  std::string why;
+  if (enabled_ && enabled_->at > begin.since)
+    why = fmt::format("{} until ENI in {}", disabled_by_ ? "DISI in " + line_of(*disabled_by_) : "no ENI",
+                      line_of(enabled_->op));
+  std::size_t others = 0;
+  for (const Service& service : services_) others += service.end > begin.since ? 1 : 0;
+  if (others > 0) {
+    const Service& last = services_.back();
+    const std::string name = fmt::format("INT {} of event {}", last.routine, last.event);
+    why += why.empty() ? "" : ", then ";
+    why += others == 1 ? name + " until then" : fmt::format("{} others first, the last {}", others, name);
+  }
+  return why;
+}
+
+void TraceReasons::note(const TraceRecord& record) {
+  switch (record.kind) {
+    case TraceKind::ModeChange:
+      forget();
+      disabled_ = true;
+      return;
+    case TraceKind::Enable:
+      if (record.code == 1) {
+        if (disabled_ == true) enabled_ = record;
+        disabled_ = false;
+      } else {
+        if (disabled_ != true) disabled_by_ = record.op;
+        disabled_ = true;
+        enabled_.reset();
+      }
+      return;
+    case TraceKind::ServiceBegin:
+      services_.push_back({kNever, record.event, record.routine});
+      if (services_.size() > kServices) services_.pop_front();
+      return;
+    case TraceKind::ServiceEnd:
+      if (!services_.empty()) services_.back().end = record.at;
+      return;
+    default:
+      return;
+  }
+}
+
+void TraceReasons::forget() {
+  disabled_.reset();
+  disabled_by_.reset();
+  enabled_.reset();
+  services_.clear();
+}
+
+}  // namespace s7200

@@ -1,0 +1,81 @@
+// Why: the line of the program beside a record, and what an interrupt waited for. Times: plc.hpp.
+#include "interpreter/trace/trace_reasons.hpp"
+
+#include <sstream>
+
+#include "interpreter/trace/text_trace.hpp"
+#include "tests/support/plc.hpp"
+
+namespace s7200::test {
+namespace {
+
+/// The trace of a program whose I0.0 and I0.1 rise when they are told to.
+std::string traced(std::string_view stl, std::initializer_list<Time> i00, std::initializer_list<Time> i01 = {}) {
+  Plc plc(stl);
+  std::ostringstream out;
+  TextTrace trace(out, program_of(stl), false);
+  trace.record({.kind = TraceKind::ModeChange, .code = 1});
+  plc.cpu.set_sink(&trace);
+  std::vector<std::pair<Time, std::string_view>> edges;
+  for (const Time at : i00) edges.emplace_back(at, "I0.0");
+  for (const Time at : i01) edges.emplace_back(at, "I0.1");
+  std::sort(edges.begin(), edges.end());
+  for (const auto& [at, point] : edges) plc.input_at(at, point, true);
+  plc.run_until(20 * ms);
+  return out.str();
+}
+
+testing::AssertionResult has(const std::string& text, std::string_view part) {
+  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "'" << part << "' is not in:\n" << text;
+}
+
+constexpr std::string_view kRoutine = "INT 0\nLD SM0.0\nINCW VW0\nRETI\n";
+
+TEST(TraceReasons, TheLineAndItsCommentStandBesideWhatTheProgramDoesWithInterruptsAndThePort) {
+  const std::string text = traced(
+      "LD SM0.1\nMOVB 9, SMB30 // Freeport\nATCH 0, 0 // the light barrier\nENI\nDTCH 0\nDISI // busy\nXMT VB0, "
+      "0\nMEND\n" +
+          std::string(kRoutine),
+      {});
+  EXPECT_TRUE(has(text, "SMB30 = 16#09  line 2: MOVB    9, SMB30  // Freeport\n"));
+  EXPECT_TRUE(has(text, "ATCH: INT 0 to event 0 (rising edge of I0.0)  line 3: ATCH    0, 0  // the light barrier\n"));
+  EXPECT_TRUE(has(text, "ENI: interrupts are enabled  line 4: ENI\n"));
+  EXPECT_TRUE(has(text, "DTCH: event 0 (rising edge of I0.0)  line 5: DTCH    0\n"));
+  EXPECT_TRUE(has(text, "DISI: interrupts are disabled  line 6: DISI  // busy\n"));
+  EXPECT_TRUE(has(text, "XMT: break  line 7: XMT     VB0, 0\n"));
+}
+
+TEST(TraceReasons, AnInterruptThatWaitedForEniNamesDisiAndEni) {
+  const std::string program =
+      "LD SM0.1\nATCH 0, 0\nENI\nLD SM0.0\nDISI\nSQRT VD8, VD12\nENI\nMEND\n" + std::string(kRoutine);
+  EXPECT_TRUE(has(traced(program, {2 * ms}), "waited 3.26 ms: DISI in line 5 until ENI in line 7\n"));
+}
+
+TEST(TraceReasons, AnInterruptBeforeTheFirstEniSaysSo) {
+  const std::string program = "LD SM0.1\nATCH 0, 0\nSQRT VD8, VD12\nENI\nMEND\n" + std::string(kRoutine);
+  EXPECT_TRUE(has(traced(program, {2 * ms}), ": no ENI until ENI in line 4\n"));
+}
+
+TEST(TraceReasons, AnInterruptBehindAnotherNamesItsRoutine) {
+  const std::string program =
+      "LD SM0.1\nATCH 0, 0\nATCH 1, 2\nENI\nMEND\nINT 0\nLD SM0.0\nSQRT VD8, VD12\nRETI\nINT 1\nLD SM0.0\nRETI\n";
+  EXPECT_TRUE(has(traced(program, {2 * ms}, {3 * ms}), ": INT 0 of event 0 until then\n"));
+}
+
+TEST(TraceReasons, AnInterruptThatWaitedForALongInstructionNamesIt) {
+  const std::string program = "LD SM0.1\nATCH 0, 0\nENI\nLD SM0.0\nSQRT VD8, VD12\nMEND\n" + std::string(kRoutine);
+  EXPECT_TRUE(has(traced(program, {2 * ms}), ": line 5 was being executed: SQRT    VD8, VD12\n"));
+}
+
+TEST(TraceReasons, ACharacterThatNobodyWantedSaysWhy) {
+  Plc plc("LD SM0.0\nMEND\n");
+  plc.character_at(1 * ms, 0x41);
+  plc.run_until(2 * ms);
+  const auto ignored = plc.records.of(TraceKind::CharacterIgnored);
+  ASSERT_EQ(ignored.size(), 1U);
+  EXPECT_EQ(describe(ignored[0], plc.cpu.program()), "ignored  41: the port is not in Freeport mode");
+}
+
+}  // namespace
+}  // namespace s7200::test
