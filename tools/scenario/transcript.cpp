@@ -114,8 +114,8 @@ std::string transcript_text(const std::vector<Report>& reports, const Transcript
   TranscriptWriter writer(transcript);
   for (const Report& report : reports)
     if (report.result.outcome != ScenarioResult::Outcome::Skipped) writer.write(report);
-  return fmt::format("{} {} by s7200 test --record. Replayed by s7200 test.\nscenarios:\n{}", kTranscriptBeginning,
-                     transcript.recorded_from, writer.text());
+  return fmt::format("{} {} by {}. Replayed by s7200 test.\nscenarios:\n{}", kTranscriptBeginning, transcript.recorded_from,
+                     transcript.by, writer.text());
 }
 
 }  // namespace s7200::tools

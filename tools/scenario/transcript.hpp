@@ -14,6 +14,7 @@ struct Transcript {
   std::string recorded_from{};  ///< what answered, for the heading
   Time tolerance = 0;           ///< 0 for programs: their times are exact
   bool live = false;            ///< from a slave that is not a program
+  std::string by = "s7200 test --record";
 };
 
 /// Every request as it was sent, when, what came and after how long, and what was done to the plant in between.

@@ -152,6 +152,7 @@ TEST(ScenarioReader, SpansFollowTheFormatOfTheLine) {
 TEST(ScenarioReader, StepsThatDriveThePlant) {
   EXPECT_EQ(written("wait: 3 scans"), "wait: 3 scans\n");
   EXPECT_EQ(written("wait: 20ms"), "wait: 20 ms\n");
+  EXPECT_EQ(written("wait: until 1.5s"), "wait: until 1.5 s\n");
   EXPECT_EQ(written("set: {VD4: 1.5}"), "set: {VD4: 16#3FC00000}\n");
   EXPECT_EQ(written("power_cycle: memory lost"), "power_cycle: memory lost\n");
   EXPECT_EQ(written("{power_cycle: memory kept, power_off: 8h}"), "power_cycle: memory kept\n        power_off: 8 h\n");

@@ -8,6 +8,12 @@ namespace {
 
 std::optional<WaitStep> parse_wait(const std::string& text) {
   WaitStep step;
+  if (constexpr std::string_view kUntil = "until "; text.starts_with(kUntil)) {
+    const auto end = parse_span(text.substr(kUntil.size()));
+    if (!end || end->millicharacters != 0) return {};
+    step.until = end->fixed;
+    return step;
+  }
   if (const auto span = parse_span(text)) {
     step.time = *span;
     return step;
@@ -22,7 +28,16 @@ std::optional<WaitStep> parse_wait(const std::string& text) {
 
 }  // namespace
 
+void WaitStep::wait_until(Run& run) const {
+  const Time end = run.begin() + *until, now = run.slave().now();
+  if (end >= now) return run.slave().wait(end - now);
+  run.add({.what = "wait",
+           .expected = fmt::format("to go on at {}", format_duration(*until, 6)),
+           .found = fmt::format("it is {} already", format_duration(now - run.begin(), 6))});
+}
+
 void WaitStep::act(Run& run) const {
+  if (until) return wait_until(run);
   if (scans == 0) return run.slave().wait(time.in(run.format()));
   if (run.plant()->wait_scans(scans)) return;
   const bool stopped = run.plant()->cpu().state().mode == Mode::Stop;
@@ -32,12 +47,16 @@ void WaitStep::act(Run& run) const {
 }
 
 bool WaitStep::write(TranscriptWriter& writer) const {
-  writer.step("wait: " + (scans ? fmt::format("{} scans", scans) : exact(time)));
+  if (until)
+    writer.step("wait: until " + exact(*until));
+  else
+    writer.step("wait: " + (scans ? fmt::format("{} scans", scans) : exact(time)));
   return true;
 }
 
 std::shared_ptr<const Action> read_wait(const StepSource& source) {
-  const auto step = source.values.value(&source.is, ValueReader::kDuration, "20ms, 3.5 characters, 2 scans", parse_wait);
+  const auto step =
+      source.values.value(&source.is, ValueReader::kDuration, "20ms, 3.5 characters, 2 scans, until 1.5s", parse_wait);
   return std::make_shared<WaitStep>(step.value_or(WaitStep{}));
 }
 
