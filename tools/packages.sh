@@ -10,6 +10,8 @@ needed_to_build=(
   python3:python3
   /usr/include/boost/spirit/home/x3.hpp:libboost-dev
   /usr/include/fmt/format.h:libfmt-dev
+  /usr/include/histedit.h:libedit-dev
+  /usr/include/curses.h:libncurses-dev
   /usr/include/CLI/CLI.hpp:libcli11-dev
   /usr/include/nlohmann/json.hpp:nlohmann-json3-dev
   /usr/include/yaml-cpp/yaml.h:libyaml-cpp-dev

@@ -9,6 +9,7 @@
 #include "tools/bridge/live_run.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/console.hpp"
+#include "tools/command/debug_session.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/debug_options.hpp"
 #include "tools/command/terminal.hpp"
@@ -74,11 +75,7 @@ int run_debug(DebugOptions& options) {
     if (!live.start(why)) return print_error(why), kUnusable;
     History::Settings history{.records = &rig->sinks()};
     if (options.bridge.bridge()) history.drive = [&live](Time end) { return live.run_until(end); };
-    Debugger debugger(rig->simulation(), std::cout,
-                      {.master = options.master,
-                       .stop_request = &interruption(),
-                       .history = history,
-                       .files = options.rig.recorded_files()});
+    Debugger debugger(rig->simulation(), std::cout, session_options(options, *rig, program, history));
     good = run_commands(debugger, *script, options);
     if (!live.failure().empty()) print_error(live.failure());
     good &= live.failure().empty();

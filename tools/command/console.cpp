@@ -1,42 +1,66 @@
 #include "tools/command/console.hpp"
 
-#include <cstdio>
 #include <iostream>
 
 #include "interpreter/base/text.hpp"
+#include "tools/command/line_editor.hpp"
+#include "tools/command/screen.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
 namespace {
 
 /// A line from the terminal; an empty one stands for `last`. Ctrl-C ends a run, and at the prompt the line being typed:
-/// reading is not taken up again, and an empty prompt comes with nothing to repeat. False at the end of the input, and when
-/// something else than Ctrl-C ends the command.
-bool read_line(std::string& line, std::string& last) {
+/// reading is not taken up again, and an empty prompt comes with nothing to repeat. Nothing at the end of the input, and
+/// when something else than Ctrl-C ends the command.
+std::optional<std::string> read_line(LineEditor& editor, std::string& last) {
   while (true) {
     forget_ctrl_c();
-    if (interrupted()) return false;
-    std::cout << Debugger::kPrompt << std::flush;
-    if (std::getline(std::cin, line)) {
-      if (line.empty()) line = last;
-      return true;
-    }
+    if (interrupted()) return {};
+    std::cout << std::flush;
+    if (auto line = editor.read()) return line->empty() ? last : *line;
     std::cout << '\n';
-    if (!interrupted()) return false;
+    if (!interrupted()) return {};
     last.clear();
-    std::clearerr(stdin);
-    std::cin.clear();
   }
+}
+
+Debugger::Error switch_layout(Screen& screen, bool on) {
+  std::string why;
+  if (!on) screen.switch_off();
+  if (on && !screen.on() && !screen.switch_on(why)) return why;
+  return {};
+}
+
+/// The terminal has another size, or the process has been stopped and goes on.
+void fit(Screen& screen, Debugger& debugger) {
+  std::string why;
+  if (!screen.on()) return;
+  if (screen.fit(why))
+    screen.draw(debugger.view(Screen::kViewRows - 1));
+  else
+    std::cout << why << '\n' << std::flush;
 }
 
 }  // namespace
 
 void talk(Debugger& debugger) {
+  LineEditor editor(Debugger::kPrompt, [&debugger](std::string_view before) {
+    auto [word, candidates] = debugger.completions(before);
+    return Completions{word, std::move(candidates)};
+  });
+  Screen screen;
+  debugger.set_layout([&screen](bool on) { return switch_layout(screen, on); });
+  editor.when_changed([&screen, &debugger] { fit(screen, debugger); });
   std::string last;
-  for (std::string line; !debugger.quit_asked() && read_line(line, last);) {
-    if (const auto error = debugger.execute(line)) std::cout << stl::printable(*error) << '\n';
+  while (!debugger.quit_asked()) {
+    if (screen.on()) screen.draw(debugger.view(Screen::kViewRows - 1));
+    const auto line = read_line(editor, last);
+    if (!line) break;
+    if (const auto error = debugger.execute(*line)) std::cout << stl::printable(*error) << '\n';
     last = debugger.repeatable();
   }
+  debugger.set_layout({});
 }
 
 }  // namespace s7200::tools

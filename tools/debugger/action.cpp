@@ -17,6 +17,12 @@ struct Doer {
     simulation.master_uart().configure(send.format);
     simulation.master().start(send.request, simulation.time());
   }
+  void operator()(const Force& force) const {
+    for (const Assignment& assignment : force.assignments) simulation.cpu().force(assignment.place, assignment.value);
+  }
+  void operator()(const Unforce& unforce) const {
+    for (const MemoryRange& place : unforce.places) simulation.cpu().unforce(place);
+  }
   void operator()(const serial::HostCall& call) const { simulation.host_port().repeat(call, simulation.time()); }
 };
 
@@ -24,6 +30,16 @@ struct Teller {
   std::string operator()(const SetMemory& set) const {
     std::string text = "set";
     for (const Assignment& assignment : set.assignments) text += " " + assignment.place.name_of(0);
+    return text;
+  }
+  std::string operator()(const Force& force) const {
+    std::string text = "force";
+    for (const Assignment& assignment : force.assignments) text += " " + assignment.place.name_of(0);
+    return text;
+  }
+  std::string operator()(const Unforce& unforce) const {
+    std::string text = "unforce";
+    for (const MemoryRange& place : unforce.places) text += " " + place.name_of(0);
     return text;
   }
   std::string operator()(const SendFrame& send) const { return "send " + serial::to_hex(send.request.frame); }

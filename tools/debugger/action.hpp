@@ -21,7 +21,15 @@ struct SendFrame {
   serial::Request request;
 };
 
-using Action = std::variant<SetMemory, SendFrame, serial::HostCall>;
+/// Points and memory that hold a value until they are released.
+struct Force {
+  std::vector<Assignment> assignments;  ///< each is forcing::possible()
+};
+struct Unforce {
+  std::vector<MemoryRange> places;
+};
+
+using Action = std::variant<SetMemory, SendFrame, serial::HostCall, Force, Unforce>;
 
 void perform(const Action& action, serial::Simulation& simulation);
 

@@ -38,6 +38,12 @@ std::vector<std::string> split(std::string_view text, std::string_view separator
   return parts;
 }
 
+History::Settings settings_of(const DebuggerOptions& options) {
+  History::Settings settings = options.history;
+  settings.stop_request = options.stop_request;
+  return settings;
+}
+
 }  // namespace
 
 Debugger::Debugger(serial::Simulation& simulation, std::ostream& out, const DebuggerOptions& options)
@@ -45,8 +51,9 @@ Debugger::Debugger(serial::Simulation& simulation, std::ostream& out, const Debu
       out_(out),
       options_(options),
       listing_(simulation.cpu().program()),
-      history_(simulation, options.history),
-      stepper_(simulation, history_, options.stop_request) {
+      history_(simulation, settings_of(options)),
+      stepper_(simulation, history_, options.stop_request),
+      reasons_(simulation.cpu().program()) {
   stepper_.on_record = [this](const TraceRecord& record) { print_trace(record); };
   stepper_.on_instruction = [this](const InstructionRecord& record, bool started_at) {
     print_instruction(record, started_at);
@@ -94,7 +101,7 @@ bool Debugger::stop_requested() const { return options_.stop_request && *options
 
 void Debugger::show_place() {
   out_ << place_text(simulation_.cpu(), listing_);
-  for (const MemoryRange& range : displayed_) out_ << dump_text(simulation_.cpu(), range);
+  for (const MemoryRange& range : displayed_) out_ << memory_text(range);
 }
 
 void Debugger::go(const Run& run) {
@@ -112,6 +119,12 @@ void Debugger::go(const Run& run) {
   report(stop, run, simulation_.cpu().state().error_count - errors_before);
 }
 
+/// What ran before says nothing of what comes.
+void Debugger::note_going_elsewhere() {
+  last_op_.reset();
+  reasons_.forget();
+}
+
 void Debugger::remember() {
   if (kept_.size() == kKeptStates) kept_.pop_front();
   kept_.push_back({command_, history_.here()});
@@ -121,7 +134,7 @@ void Debugger::go_back(const Stepper::Goal& goal, std::uint64_t count, bool stop
   remember();
   first_error_.reset();
   const Stop stop = stepper_.run_back(goal, count, stop_at_answer);
-  last_op_.reset();
+  note_going_elsewhere();
   report_hits(stop);
   report_reason(stop, {});
   if (stop.reason == StopReason::Answer) print_answer(simulation_.master().exchange());
@@ -159,6 +172,7 @@ void Debugger::report(const Stop& stop, const Run& run, std::uint64_t errors) {
   if (first_error_) {
     out_ << describe(*first_error_, simulation_.cpu().program());
     out_ << (errors > 1 ? fmt::format(" and {} more; 'errors' lists them\n", errors - 1) : "\n");
+    if (first_error_->op != kNoRoutine) print_bad_pointers(first_error_->op);
   }
   report_hits(stop);
   report_reason(stop, run);
@@ -182,7 +196,9 @@ void Debugger::report_reason(const Stop& stop, const Run& run) {
       report_cpu_stop();
       return;
     case StopReason::Oldest:
-      out_ << "this is the oldest moment: the session begins at power-up\n";
+      out_ << fmt::format("this is the oldest moment: {}\n", history_.usage().forgotten == 0
+                                                                 ? "the session begins at power-up"
+                                                                 : oldest_text(history_.usage()));
       return;
   }
 }
@@ -206,8 +222,10 @@ void Debugger::print_answer(const serial::Exchange& exchange) { out_ << exchange
 
 void Debugger::print_trace(const TraceRecord& record) {
   if (record.kind == TraceKind::RuntimeError && !first_error_) first_error_ = record;
-  if (!tracing_ || record.kind == TraceKind::ScanBegin) return;
-  out_ << fmt::format("  {}  {}\n", clock_text(record.at), describe(record, simulation_.cpu().program()));
+  if (!tracing_) return reasons_.note(record);
+  const std::string reason = reasons_.of(record);
+  if (record.kind == TraceKind::ScanBegin) return;
+  out_ << fmt::format("  {}  {}{}\n", clock_text(record.at), describe(record, simulation_.cpu().program()), reason);
 }
 
 void Debugger::print_instruction(const InstructionRecord& record, bool started_at) {

@@ -6,20 +6,25 @@
 
 #include <atomic>
 #include <deque>
+#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "interpreter/trace/trace_reasons.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/requester.hpp"
 #include "serial_sim/system/simulation.hpp"
+#include "tools/debugger/access.hpp"
 #include "tools/debugger/attachment.hpp"
 #include "tools/debugger/history.hpp"
 #include "tools/debugger/last_write.hpp"
+#include "tools/debugger/session_file.hpp"
 #include "tools/debugger/stepper.hpp"
 #include "tools/debugger/words.hpp"
+#include "tools/host/written_files.hpp"
 #include "tools/views/listing.hpp"
 
 namespace s7200::tools {
@@ -29,6 +34,12 @@ struct DebuggerOptions {
   const std::atomic<bool>* stop_request = nullptr;  ///< ends a run when it becomes true; may be set by a signal handler
   History::Settings history{};                      ///< with the records, which watch the CPU too
   std::string files{};                              ///< that the records and captures write: "the trace"; "" for none
+  bool colour = false;                              ///< what is forced is shown in red
+  WrittenFiles written{};                           ///< that are read and written already
+
+  /// Writes a session as a scenario. False, and why not.
+  std::function<bool(const SessionRecord& record, const Destination& to, std::string& why)> write_scenario{};
+  std::string_view scenario_beginning{};  ///< of such files
 };
 
 struct ScriptError {
@@ -57,6 +68,20 @@ class Debugger {
   /// Executes line by line, each command echoed after the prompt, to the first wrong one, to `quit`, to a stop request or
   /// the end.
   std::optional<ScriptError> run_script(std::istream& in);
+
+  /// What the word that ends `line` may become: commands, addresses and symbols, places, files. It is `word` long.
+  struct Offers {
+    std::size_t word = 0;
+    std::vector<std::string> candidates{};
+  };
+  Offers completions(std::string_view line) const;
+
+  /// Who shows view() steadily: switches that on or off, and returns why that cannot be. Without it there is no layout.
+  void set_layout(std::function<Error(bool on)> layout) { layout_ = std::move(layout); }
+
+  /// Where it stands, the instructions around with power flow and operands, and the memory that is displayed: up to `rows`
+  /// lines.
+  std::vector<std::string> view(std::size_t rows);
 
   bool quit_asked() const { return quit_asked_; }
 
@@ -93,6 +118,8 @@ class Debugger {
   Error print(const Arguments& arguments);
   Error set(const Arguments& arguments);
   Error input(const Arguments& arguments);
+  Error force(const Arguments& arguments);
+  Error unforce(const Arguments& arguments);
   Error send(const Arguments& arguments);
   Error port(const Arguments& arguments);
   Error errors(const Arguments& arguments);
@@ -109,8 +136,13 @@ class Debugger {
   Error history(const Arguments& arguments);
   Error branch(const Arguments& arguments);
   Error past(const Arguments& arguments);
+  Error save(const Arguments& arguments);
+  Error load(const Arguments& arguments);
+  Error record(const Arguments& arguments);
+  Error power(const Arguments& arguments);
   Error display(const Arguments& arguments);
   Error trace(const Arguments& arguments);
+  Error layout(const Arguments& arguments);
   Error restart(const Arguments& arguments);
   Error help(const Arguments& arguments);
   Error quit(const Arguments& arguments);
@@ -126,11 +158,13 @@ class Debugger {
   void go(const Run& run);
   void go_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer = false);
   void remember();
+  void note_going_elsewhere();
   void act(Action action);
   void note_new_branch();
   void note_the_past();
   std::optional<LastWrite> find_write(const MemoryRange& range, std::string_view name);
   std::optional<LastAttachment> find_attachment(std::uint8_t event);
+  std::string comment_text(std::uint32_t op) const;
   std::string instruction_text(const InstructionRecord& record) const;
   void go_to(const Moment& moment);
   void report_write(const LastWrite& write, const MemoryRange& range, std::string_view name);
@@ -146,11 +180,22 @@ class Debugger {
   void print_trace(const TraceRecord& record);
   void print_instruction(const InstructionRecord& record, bool started_at);
 
+  std::string name_of(const MemoryRange& range, std::string_view written) const;
+  void print_bad_pointer(const std::string& name, const MemoryRange& pointer);
+  void print_bad_pointers(std::uint32_t op);
   void print_place(const Place& place, const std::string& name, char form);
   void list_stops();
   std::optional<StopPoint> stop_of(const Arguments& words, std::string& why);
   std::string value_of(const MemoryRange& range) const;
-  std::string op_text(std::uint32_t op) const;  ///< `INT 123 line 40: MOVB SMB2, VB1 // …`
+  std::vector<Bits> operands_of(std::uint32_t op) const;
+  std::string red(std::string text) const;  ///< on a terminal
+  std::optional<Destination> destination(const Arguments& arguments, std::string_view command, FileKind kind,
+                                         std::string& why) const;
+  std::string oldest_text(const History::Usage& usage) const;
+  std::string memory_text(const MemoryRange& range) const;  ///< with what of it is forced
+  std::vector<std::string> status_lines(std::uint32_t first, std::uint32_t end, Time within);
+  std::string forced_text(const std::vector<Bits>& places) const;  ///< `  forced: VW10=5`; nothing if nothing is
+  std::string op_text(std::uint32_t op) const;                     ///< `INT 123 line 40: MOVB SMB2, VB1 // …`
   std::optional<std::uint32_t> current_op() const;
   std::optional<std::uint32_t> find_place(const Arguments& arguments, std::string_view command, std::string& why);
   std::optional<std::uint32_t> op_of_line(const std::string& text, std::string_view command, std::string& why);
@@ -172,7 +217,8 @@ class Debugger {
   Stepper stepper_;
   std::deque<Kept> kept_;  ///< newest last
   std::vector<MemoryRange> displayed_;
-  std::optional<std::uint32_t> last_op_;    ///< executed last
+  std::optional<std::uint32_t> last_op_;  ///< executed last
+  TraceReasons reasons_;
   std::optional<TraceRecord> first_error_;  ///< run-time error of the run under way
   Show show_ = Show::None;
   int next_number_ = 1;  ///< of a breakpoint or watch
@@ -181,6 +227,7 @@ class Debugger {
   bool echoing_ = false;  ///< commands are printed after the prompt
   std::string command_;   ///< being executed, as written
   std::string repeatable_;
+  std::function<Error(bool on)> layout_{};
 };
 
 }  // namespace s7200::tools

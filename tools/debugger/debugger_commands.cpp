@@ -19,20 +19,6 @@ namespace {
 
 constexpr std::size_t kListed = 15, kListedBefore = 6;
 
-/// `VW100 = 5` is written with or without blanks.
-std::vector<std::string> assignments_of(const std::vector<std::string>& arguments) {
-  std::vector<std::string> texts;
-  bool open = false;
-  for (const std::string& argument : arguments) {
-    if ((open || argument.front() == '=') && !texts.empty())
-      texts.back() += argument;
-    else
-      texts.push_back(argument);
-    open = argument.back() == '=';
-  }
-  return texts;
-}
-
 constexpr std::string_view kBackwards = "It stops at breakpoints and watches on the way. Hits are not counted backwards.";
 
 constexpr std::string_view kPlaces = "a line number, SBR n, INT n or NETWORK n";
@@ -86,6 +72,19 @@ const std::vector<Debugger::Command>& Debugger::commands() {
       {"fork", "", "fork", "forget what has run after this moment: going forward is new from here on",
        "What was done to the PLC later is not done again. back takes it back.", &Debugger::branch},
       {"past", "", "past", "how far back it can go, and what that takes", "", &Debugger::past},
+      {"power", "", "power [TIME] [lost]", "switch power off and on again: the CPU begins with what it has kept",
+       "TIME is how long it was off; the clock goes on: power 8h. lost: too long for the RAM, only the EEPROM is left. A "
+       "new "
+       "branch, from time 0: back takes it back.",
+       &Debugger::power},
+      {"save", "", "save FILE [!]",
+       "write where this session stands, and its past; 'load' returns there, in another session too",
+       "The file has all that was done to the PLC, and when; 'load' runs that again, which comes to the same state to the "
+       "bit. It fits the same program, CPU, execution times and version of s7200, started with the same options. An "
+       "existing "
+       "file is replaced if save has written it; ! replaces any.",
+       &Debugger::save},
+      {"load", "", "load FILE", "go to where 'save' was given", "back returns to here.", &Debugger::load},
       {"restart", "", "restart", "power up again; breakpoints, watches and displays are kept",
        "A new branch: back takes it back.", &Debugger::restart},
       {"break", "b", "break [PLACE | WHAT] [always] [if CONDITION] [hits N] [log 'TEXT']",
@@ -113,6 +112,12 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "the program with power flow and operands of each instruction's last execution",
        "Of the last 2 s at least. S0 is the top of the logic stack after it.", &Debugger::status},
       {"regs", "r", "regs", "time, place, calls, accumulators, flags, interrupts", "", &Debugger::registers},
+      {"record", "", "record FILE.yaml [!]", "write this session, up to now, as a scenario that 's7200 test' replays",
+       "Frames, memory and inputs that were set, each at its time, and the answers that came. Displayed memory is expected "
+       "to "
+       "have its values at the end. What no scenario can do is refused: force, a bridge, something set while a frame or its "
+       "answer was under way.",
+       &Debugger::record},
       {"stack", "sta", "stack", "the nine levels of the logic stack", "", &Debugger::stack},
       {"print", "p", "print [/x | /d | /b | /c] ADDRESS… | EXPRESSION",
        "memory: VB100:16, VW100, VD20:real, M31.7, AC0, T37, HC0, *VD3570:8, *AC1:word; or VW2 * 2 + 1",
@@ -128,11 +133,26 @@ const std::vector<Debugger::Command>& Debugger::commands() {
       {"port", "", "port", "SMB30 in words, receiver, transmitter, and the master on the line", "", &Debugger::port},
       {"errors", "e", "errors", "run-time and fatal errors up to now", "", &Debugger::errors},
       {"trace", "", "trace on | off", "print interrupts, characters and errors while running", "", &Debugger::trace},
+      {"layout", "", "layout on | off", "keep program, status and memory in view, in the upper part of a terminal",
+       "It needs 80×24 or more. Above: where it stands, the instructions around it with their last execution, and the "
+       "memory "
+       "that 'display' names, or the registers. Below: the prompt.",
+       &Debugger::layout},
       {"set", "", "set ADDRESS=VALUE…", "write memory: set VW100=5 M0.3=1 VB4=16#FF; I addresses are the input points", "",
        &Debugger::set},
       {"input", "i", "input I0.3=1…", "switch input points; edges of I0.0 to I0.3 cause events 0 to 7",
        "The program finds the new level when the inputs are next read, or at once with an immediate instruction.",
        &Debugger::input},
+      {"force", "", "force [ADDRESS=VALUE…]", "hold points of I and Q, V and M memory, AI and AQ at a value; alone: list",
+       "As a programming device forces: force I0.3=1 Q0.0=0 VW100=5. Inputs have the value when they are read, outputs when "
+       "they are written (end of scan, immediate, STOP), memory after each program: in between the program may change it. "
+       "Up to "
+       "16 values of memory: bytes, words, double words; AI and AQ words. Shown in red. Edges and counters see the "
+       "terminal. "
+       "The CPU keeps it without power; going back undoes it.",
+       &Debugger::force},
+      {"unforce", "", "unforce ADDRESS… | all", "release what is forced",
+       "Inputs follow their terminals again, outputs their image; memory keeps what it has.", &Debugger::unforce},
       {"send", "", "send HEX… | 'TEXT' [crc]", "put a frame on the line from now on; crc appends the Modbus CRC",
        "p after a byte sends it with wrong parity. TEXT is ASCII, with \\r \\n \\t \\\\ \\' and \\xHH. 'continue' runs "
        "while it "
@@ -325,7 +345,7 @@ Debugger::Error Debugger::display(const Arguments& arguments) {
   if (Error error = ranges_of(arguments, ranges)) return error;
   displayed_.insert(displayed_.end(), ranges.begin(), ranges.end());
   if (displayed_.empty()) out_ << "nothing is displayed; 'display VW100' adds to it\n";
-  for (const MemoryRange& range : displayed_) out_ << dump_text(simulation_.cpu(), range);
+  for (const MemoryRange& range : displayed_) out_ << memory_text(range);
   return {};
 }
 
@@ -349,12 +369,27 @@ Debugger::Error Debugger::trace(const Arguments& arguments) {
   return {};
 }
 
+Debugger::Error Debugger::layout(const Arguments& arguments) {
+  const std::string word = arguments.size() == 1 ? lower_case(arguments[0]) : "";
+  if (word != "on" && word != "off") return expects("layout", "on or off");
+  if (!layout_) return "layout needs a terminal";
+  return layout_(word == "on");
+}
+
 Debugger::Error Debugger::help(const Arguments& arguments) {
   if (arguments.empty()) {
     for (const Command& command : commands())
       out_ << fmt::format("{:<3} {:<33} {}\n", command.short_form, command.syntax, command.meaning);
     out_ << "A name may be cut short while it stays clear. ';' separates commands, '#' begins a comment.\n"
-            "On a terminal an empty line repeats step, over, out, scan, continue and until.\n";
+            "On a terminal an empty line repeats step, over, out, scan, continue and until; the tab key completes commands, "
+            "addresses, places and files.\n"
+            "Examples:\n"
+            "  continue 2s; send 01 03 00 0a 00 01 crc; continue      what a slave answers\n"
+            "  break unanswered; continue; rwho event 8; history 9    why it did not answer\n"
+            "  watch VW100 if VW100 > 8; continue; who VW100          who writes an address\n"
+            "  force I0.3=1; scan 2; status NETWORK 2                 what the program does with an input\n"
+            "  display VW100; layout on                               keep an eye on memory\n"
+            "  save here.json; record here.yaml                       keep this session; make a test of it\n";
     return {};
   }
   std::string why;
@@ -386,6 +421,10 @@ Debugger::Error Debugger::assign_all(const Arguments& arguments, bool inputs_onl
     assignments.push_back(*assignment);
   }
   act(SetMemory{assignments});
+  for (const Assignment& assignment : assignments)
+    if (const std::string forced = forced_text({bits_of(assignment.place)}); !forced.empty())
+      out_ << fmt::format("{} keeps what is forced until 'unforce {}':{}\n", assignment.place.name_of(0),
+                          assignment.place.name_of(0), forced);
   const auto is_input = [](const Assignment& a) { return a.place.area == Area::I; };
   if (std::any_of(assignments.begin(), assignments.end(), is_input) && standing_at(simulation_.cpu().state()))
     out_ << "the input points are set; the program finds them in I when the next scan reads its inputs\n";

@@ -6,6 +6,7 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/views/machine_text.hpp"
@@ -25,7 +26,7 @@ Debugger::Error Debugger::back(const Arguments& arguments) {
   history_.return_to(kept_.back().place);
   out_ << fmt::format("back to before '{}'\n", stl::printable(kept_.back().command));
   kept_.pop_back();
-  last_op_.reset();
+  note_going_elsewhere();
   if (history_.here().branch != left) note_new_branch();
   show_place();
   return {};
@@ -107,14 +108,19 @@ Debugger::Error Debugger::at(const Arguments& arguments) {
   if (lower_case(text) == "end") time = history_.newest().time;
   if (!time) return expects("at", kTimes);
   if (before_now) time = simulation_.time() - std::min(*time, simulation_.time());
+  if (const History::Usage usage = history_.usage(); *time < usage.oldest.time && lower_case(text) != "start")
+    return fmt::format("the oldest moment is {}, {}", moment_text(usage.oldest.time), oldest_text(usage));
   if (*time > history_.newest().time)
     return fmt::format("nothing has run after {}; 'continue TIME' goes on", moment_text(history_.newest().time));
   remember();
-  if (*time == 0)
+  if (lower_case(text) == "start" || *time == 0) {
     history_.go_to(history_.usage().oldest);
-  else
-    history_.go_to(*time);
-  last_op_.reset();
+  } else if (!history_.go_to(*time)) {
+    kept_.pop_back();
+    out_ << "interrupted by Ctrl-C\n";
+    return {};
+  }
+  note_going_elsewhere();
   show_place();
   note_the_past();
   return {};
@@ -140,12 +146,13 @@ void Debugger::report_write(const LastWrite& write, const MemoryRange& range, st
   out_ << fmt::format("{} was {}, became {}, at {}\n", name, value_text(program, range, write.before),
                       value_text(program, range, write.after), moment_text(write.at));
   if (write.by)
-    out_ << fmt::format("  by {} {}{}\n", listing_.routine_of(write.by->op), describe(*write.by, program),
-                        write.in_interrupt ? fmt::format(", serving {}", event_text(write.event)) : "");
-  else if (write.action)
-    out_ << fmt::format("  by '{}', from outside\n", describe(history_.actions()[*write.action]));
+    out_ << fmt::format("  by {} {}{}{}\n", listing_.routine_of(write.by->op), describe(*write.by, program),
+                        write.in_interrupt ? fmt::format(", serving {}", event_text(write.event)) : "",
+                        comment_text(write.by->op));
+  else if (const Action* action = write.action ? history_.action(*write.action) : nullptr)
+    out_ << fmt::format("  by '{}', from outside\n", describe(*action));
   else
-    out_ << "  by the system, between two instructions\n";
+    out_ << "  by the system, between two instructions" << forced_text({bits_of(range)}) << '\n';
 }
 
 /// The number in `event 8`; nothing if the words are something else.
@@ -170,9 +177,24 @@ std::optional<LastAttachment> Debugger::find_attachment(std::uint8_t event) {
 }
 
 std::string Debugger::instruction_text(const InstructionRecord& record) const {
+  return describe(record, simulation_.cpu().program()) + comment_text(record.op);
+}
+
+/// `  // of the line  [Q0.0 Pump // contactor]`: its comment, and the symbols of its addresses.
+std::string Debugger::comment_text(std::uint32_t op) const {
   const Program& program = simulation_.cpu().program();
-  const std::string& comment = program.statement(record.op).comment;
-  return describe(record, program) + (comment.empty() ? "" : "  //" + stl::printable(comment));
+  const std::string& comment = program.statement(op).comment;
+  std::string text;
+  for (const stl::Operand& operand : program.statement(op).operands) {
+    const auto* address = std::get_if<stl::Address>(&operand.value);
+    std::string why;
+    const auto range =
+        address ? parse_range(stl::to_text(stl::Operand{.value = *address}), *program.model, why) : std::nullopt;
+    const std::string symbol = range ? symbol_text(program, *range) : "";
+    if (!symbol.empty()) text += fmt::format("{}{} {}", text.empty() ? "  [" : ", ", range->name_of(0), symbol);
+  }
+  if (!text.empty()) text += "]";
+  return (comment.empty() ? "" : "  //" + stl::printable(comment)) + text;
 }
 
 Debugger::Error Debugger::history(const Arguments& arguments) {
@@ -187,7 +209,7 @@ Debugger::Error Debugger::history(const Arguments& arguments) {
 void Debugger::go_to(const Moment& moment) {
   remember();
   history_.go_to(moment);
-  last_op_.reset();
+  note_going_elsewhere();
   show_place();
   note_the_past();
 }
@@ -200,7 +222,7 @@ Debugger::Error Debugger::who(const Arguments& arguments) {
   std::string why;
   const auto range = one_range(arguments, "who", why);
   if (!range) return why;
-  const std::string name = stl::upper_case(arguments[0]);
+  const std::string name = name_of(*range, arguments[0]);
   if (const auto write = find_write(*range, name)) report_write(*write, *range, name);
   return {};
 }
@@ -213,7 +235,7 @@ Debugger::Error Debugger::back_to_write(const Arguments& arguments) {
   std::string why;
   const auto range = one_range(arguments, "rwho", why);
   if (!range) return why;
-  const std::string name = stl::upper_case(arguments[0]);
+  const std::string name = name_of(*range, arguments[0]);
   const auto write = find_write(*range, name);
   if (!write) return {};
   report_write(*write, *range, name);
@@ -231,16 +253,24 @@ Debugger::Error Debugger::branch(const Arguments& arguments) {
   return {};
 }
 
+/// Why nothing before the oldest moment can be reached.
+std::string Debugger::oldest_text(const History::Usage& usage) const {
+  if (usage.forgotten == 0) return "where this session powered the CPU up";
+  return fmt::format("before which what came over the bridge is forgotten: {} actions, more than {} MB", usage.forgotten,
+                     options_.history.log_bound >> 20);
+}
+
 Debugger::Error Debugger::past(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("past");
   const History::Usage usage = history_.usage();
   constexpr double kMegabyte = 1 << 20;
   out_ << fmt::format(
-      "from {}, where this session powered the CPU up, to {}; now {}\n"
+      "from {}, {}, to {}; now {}\n"
       "{} checkpoints, one every {} or more; {:.1f} of {:.0f} MB; {} actions from outside\n",
-      moment_text(usage.oldest.time), moment_text(history_.newest().time), moment_text(simulation_.time()),
-      usage.checkpoints, format_duration(usage.interval), static_cast<double>(usage.bytes) / kMegabyte,
-      static_cast<double>(options_.history.bound) / kMegabyte, history_.actions().size());
+      moment_text(usage.oldest.time), oldest_text(usage), moment_text(history_.newest().time),
+      moment_text(simulation_.time()), usage.checkpoints, format_duration(usage.interval),
+      static_cast<double>(usage.bytes) / kMegabyte, static_cast<double>(options_.history.bound) / kMegabyte,
+      history_.actions().size());
   return {};
 }
 
@@ -249,7 +279,7 @@ Debugger::Error Debugger::restart(const Arguments& arguments) {
   remember();
   history_.restart();
   note_new_branch();
-  last_op_.reset();
+  note_going_elsewhere();
   for (StopPoint& stop : stepper_.stops) stop.hits = 0;
   show_place();
   return {};

@@ -79,14 +79,6 @@ std::string element_text(const State& state, const MemoryRange& range) {
   return text;
 }
 
-/// The control byte of the port on the line, in words.
-std::string control_text(const serial::Simulation& simulation, const MemoryRange& range) {
-  const std::uint32_t control = kPorts[simulation.port()].control;
-  if (range.width == Width::Bit || control < range.at || control >= range.at + range.bytes()) return {};
-  const std::string port = port_text(simulation);
-  return "         " + port.substr(0, port.find('\n') + 1);
-}
-
 std::string number_text(const std::optional<Value>& value, char form) {
   if (!value) return "cannot be computed: a pointer points nowhere, or a division by 0";
   if (value->real) return fmt::format("{:.7g}", value->number);
@@ -97,18 +89,43 @@ std::string number_text(const std::optional<Value>& value, char form) {
 
 }  // namespace
 
+void Debugger::print_bad_pointer(const std::string& name, const MemoryRange& pointer) {
+  const std::string address = name_of(pointer, pointer.name_of(0));
+  out_ << fmt::format("{}: {} is 16#{:08X}, which points nowhere\n", name, address,
+                      load32(&simulation_.cpu().state().image[pointer.at]));
+  if (const auto write = find_write(pointer, address)) report_write(*write, pointer, address);
+}
+
+/// The pointers of an instruction that it could not follow.
+void Debugger::print_bad_pointers(std::uint32_t number) {
+  const Cpu& cpu = simulation_.cpu();
+  const Op& op = cpu.program().ops[number];
+  for (std::size_t i = 0; i < op.instruction->rules().size(); ++i) {
+    if (op.instruction->rules()[i].kind != OperandKind::Memory || !op[i].pointer || cpu.place_of(op[i])) continue;
+    if (const auto pointer = range_at(op[i].at, Width::Double, *cpu.program().model))
+      print_bad_pointer("*" + pointer->name_of(0), *pointer);
+  }
+}
+
+/// `VW100 (Speed)`, or as it was written.
+std::string Debugger::name_of(const MemoryRange& range, std::string_view written) const {
+  const stl::Symbol* symbol = symbol_of(simulation_.cpu().program(), range);
+  if (!symbol) return stl::upper_case(written);
+  return fmt::format("{} ({})", range.name_of(0), stl::printable(symbol->name));
+}
+
 void Debugger::print_place(const Place& place, const std::string& name, char form) {
   const Cpu& cpu = simulation_.cpu();
   const auto range = range_now(place, cpu);
   if (!range) {
-    out_ << fmt::format("{}: {} is 16#{:08X}, which points nowhere\n", name, place.range.name_of(0),
-                        pointer_value(place, cpu));
-    if (const auto write = find_write(place.range, place.range.name_of(0)))
-      report_write(*write, place.range, place.range.name_of(0));
+    print_bad_pointer(name, place.range);
     return;
   }
   if (place.pointer) out_ << fmt::format("{} is {}\n", name, range->name_of(0));
-  out_ << range_text(cpu, *range, form) << element_text(cpu.state(), *range) << control_text(simulation_, *range);
+  out_ << range_text(cpu, *range, form);
+  if (const std::string forced = forced_text({bits_of(*range)}); !forced.empty()) out_ << "       " << forced << '\n';
+  if (const std::string symbol = symbol_text(cpu.program(), *range); !symbol.empty()) out_ << "         " << symbol << '\n';
+  out_ << element_text(cpu.state(), *range) << special_text(cpu, *range);
 }
 
 Debugger::Error Debugger::print(const Arguments& arguments) {

@@ -7,6 +7,7 @@
 
 #include "interpreter/stl/printer.hpp"
 #include "tools/debugger/debugger.hpp"
+#include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -43,17 +44,11 @@ class Status final : public Observer {
 
 }  // namespace
 
-Debugger::Error Debugger::status(const Arguments& arguments) {
-  std::string why;
-  const auto place = arguments.empty() ? current_op() : find_place(arguments, "status", why);
-  if (!why.empty()) return why;
-  const auto ops = static_cast<std::uint32_t>(simulation_.cpu().program().ops.size());
-  const std::uint32_t at = place.value_or(0);
-  const std::uint32_t first = arguments.empty() ? at - std::min(at, kBefore) : at;
-  const std::uint32_t end = std::min(ops, first + kShown);
+/// A line for each instruction of [first, end), as it was executed last within `within`.
+std::vector<std::string> Debugger::status_lines(std::uint32_t first, std::uint32_t end, Time within) {
   Status status(first, end, options_.stop_request);
   const Moment start = history_.now();
-  const Time oldest = start.time - std::min(start.time, kLookedAt);
+  const Time oldest = start.time - std::min(start.time, within);
   Time looked_at = start.time;
   history_.search_back(
       status, start, [&] { looked_at = simulation_.time(); },
@@ -63,15 +58,65 @@ Debugger::Error Debugger::status(const Arguments& arguments) {
       });
   history_.go_to(start);
   const Program& program = simulation_.cpu().program();
+  std::vector<std::string> lines;
   for (std::uint32_t op = first; op < end; ++op) {
     const auto found = status.last.find(op);
-    out_ << fmt::format("{:>2} {}\n", mark_of(op),
-                        found != status.last.end()
-                            ? instruction_text(found->second)
-                            : fmt::format("line {:<5} {:<28} not executed within {}", listing_.line_of(op),
-                                          stl::to_text(program.statement(op)), format_duration(start.time - looked_at)));
+    lines.push_back(
+        fmt::format("{:>2} {}{}", mark_of(op),
+                    found != status.last.end()
+                        ? instruction_text(found->second)
+                        : fmt::format("line {:<5} {:<28} not executed within {}", listing_.line_of(op),
+                                      stl::to_text(program.statement(op)), format_duration(start.time - looked_at)),
+                    forced_text(operands_of(op))));
   }
+  return lines;
+}
+
+Debugger::Error Debugger::status(const Arguments& arguments) {
+  std::string why;
+  const auto place = arguments.empty() ? current_op() : find_place(arguments, "status", why);
+  if (!why.empty()) return why;
+  const auto ops = static_cast<std::uint32_t>(simulation_.cpu().program().ops.size());
+  const std::uint32_t at = place.value_or(0);
+  const std::uint32_t first = arguments.empty() ? at - std::min(at, kBefore) : at;
+  for (const std::string& line : status_lines(first, std::min(ops, first + kShown), kLookedAt)) out_ << line << '\n';
   return {};
+}
+
+std::vector<std::string> Debugger::view(std::size_t rows) {
+  constexpr std::uint32_t kOps = 7, kOpsBefore = 3;
+  constexpr Time kWithin = 100 * kMillisecond;
+  const Cpu& cpu = simulation_.cpu();
+  const std::string place = place_text(cpu, listing_);
+  std::vector<std::string> lines{place.substr(0, place.find('\n'))};
+  const auto ops = static_cast<std::uint32_t>(cpu.program().ops.size());
+  const std::uint32_t at = current_op().value_or(0), first = at - std::min(at, kOpsBefore);
+  for (std::string& line : status_lines(first, std::min(ops, first + kOps), kWithin)) lines.push_back(std::move(line));
+  lines.resize(kOps + 1);
+  std::string memory;
+  for (const MemoryRange& range : displayed_) memory += memory_text(range);
+  if (displayed_.empty()) memory = registers_text(cpu, listing_) + "'display VW100' shows memory here\n";
+  for (std::size_t begin = 0; begin < memory.size() && lines.size() < rows;) {
+    const std::size_t end = std::min(memory.find('\n', begin), memory.size());
+    lines.push_back(memory.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return lines;
+}
+
+/// The memory of the direct operands of an instruction.
+std::vector<Bits> Debugger::operands_of(std::uint32_t number) const {
+  const Op& op = simulation_.cpu().program().ops[number];
+  const auto rules = op.instruction->rules();
+  std::vector<Bits> all;
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    if (rules[i].kind != OperandKind::Memory || op[i].pointer) continue;
+    const bool point = op[i].at >= image::kInputs && op[i].at < image::kInputs + image::kPointBytes;
+    const std::uint64_t at = point ? op[i].at - image::kInputs + image::kI : op[i].at;
+    const bool bit = rules[i].width == Width::Bit;
+    all.push_back({at * 8 + (bit ? op[i].bit : 0), bit ? 1 : std::uint64_t{8} * s7200::bytes_of(rules[i].width)});
+  }
+  return all;
 }
 
 Debugger::Error Debugger::expect(const Arguments& arguments) {

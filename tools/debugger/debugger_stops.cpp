@@ -159,7 +159,7 @@ Debugger::Error Debugger::watch(const Arguments& arguments) {
     StopPoint added = pattern;
     added.number = next_number_++;
     added.range = ranges[i];
-    added.name = stl::upper_case(addresses[i]) + (added.on == On::Change ? "" : " " + access);
+    added.name = name_of(ranges[i], addresses[i]) + (added.on == On::Change ? "" : " " + access);
     out_ << fmt::format("watch {}: {} is {}{}\n", added.number, added.name, value_of(ranges[i]), options_text(added));
     stepper_.stops.push_back(std::move(added));
   }
@@ -230,7 +230,7 @@ void Debugger::report_access(const Hit& hit) {
   out_ << (was == is ? fmt::format("watch {}: {} is {} as before\n", hit.stop.number, hit.stop.name, is)
                      : fmt::format("watch {}: {} was {}, is {}\n", hit.stop.number, hit.stop.name, was, is));
   if (hit.by)
-    out_ << fmt::format("  by {} {}\n", listing_.routine_of(hit.by->op), describe(*hit.by, program));
+    out_ << fmt::format("  by {} {}\n", listing_.routine_of(hit.by->op), instruction_text(*hit.by));
   else
     out_ << "  by the system, between two instructions\n";
 }

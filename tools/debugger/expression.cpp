@@ -39,7 +39,8 @@ bool read_pointer_suffix(std::string_view text, Place& place) {
   return true;
 }
 
-/// The area and number that a place of the image belongs to.
+}  // namespace
+
 std::optional<MemoryRange> range_at(std::uint32_t at, Width width, const CpuModel& model) {
   for (const AreaInfo& area : all_areas()) {
     const std::uint32_t size = model.size_of(area.area) * area.step();
@@ -48,8 +49,6 @@ std::optional<MemoryRange> range_at(std::uint32_t at, Width width, const CpuMode
   }
   return {};
 }
-
-}  // namespace
 
 std::optional<Place> parse_place(std::string_view text, const Program& program, std::string& why) {
   Place place;

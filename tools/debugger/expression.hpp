@@ -24,6 +24,9 @@ struct Place {
   bool real = false;
 };
 
+/// The area and number that a place of the image belongs to.
+std::optional<MemoryRange> range_at(std::uint32_t at, Width width, const CpuModel& model);
+
 /// `VB0:16`, `VD20:real`, `*VD3570:4`, `*AC1:word`. Returns nothing and sets `why` if it is not an address of this CPU.
 std::optional<Place> parse_place(std::string_view text, const Program& program, std::string& why);
 

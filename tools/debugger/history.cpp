@@ -11,6 +11,15 @@ std::size_t bytes_of(const serial::Exchange& exchange) {
          (exchange.echo.size() + exchange.response.size()) * sizeof(ReceivedCharacter);
 }
 
+std::size_t bytes_of(const serial::HostCall& call) {
+  return sizeof(Action) + sizeof(Moment) + call.characters.size() * sizeof call.characters[0];
+}
+
+std::size_t bytes_of(const Action& action) {
+  const auto* call = std::get_if<serial::HostCall>(&action);
+  return call ? bytes_of(*call) : 0;
+}
+
 /// About what a snapshot takes; the CPUs are nearly all of it.
 std::size_t bytes_of(const serial::Simulation::Snapshot& state) {
   std::size_t bytes = sizeof state + state.plcs.size() * sizeof state.plcs[0];
@@ -23,6 +32,8 @@ std::size_t bytes_of(const serial::Simulation::Snapshot& state) {
              host.port.received.size() * sizeof(ReceivedCharacter);
   return bytes;
 }
+
+constexpr Time kSlice = 100 * kMillisecond;  // a stop request is heard in between
 
 /// Comes to the first instruction.
 struct StopAtOnce final : Observer {
@@ -91,14 +102,18 @@ bool History::play(Observer& observer, const Moment& end) {
 
 bool History::advance(const Moment& target) {
   while (actions_ < target.actions) {
-    if (!reach(branch_->moments[actions_])) return false;
+    if (!reach(next_action())) return false;
     do_next_action();
   }
   return reach(target);
 }
 
+bool History::has_next_action() const { return actions_ - branch_->forgotten < branch_->actions.size(); }
+
+const Moment& History::next_action() const { return branch_->moments[actions_ - branch_->forgotten]; }
+
 void History::do_next_action() {
-  perform(branch_->actions[actions_++], simulation_);
+  perform(branch_->actions[actions_++ - branch_->forgotten], simulation_);
   settled_ = false;
   if (observer_) observer_->acted();
 }
@@ -167,26 +182,38 @@ void History::go_to(const Moment& moment) {
   advance(moment);
 }
 
-void History::go_to(Time time) {
-  if (time >= newest().time) return go_to(newest());
+bool History::go_to(Time time) {
+  const Moment start = now();
+  if (time >= newest().time) {
+    go_to(newest());
+    return true;
+  }
   const auto& all = branch_->checkpoints;
   const auto after =
       std::upper_bound(all.begin() + 1, all.end(), time, [](Time t, const CheckpointPtr& c) { return t < c->moment.time; });
   restore(**(after - 1));
-  play_to(time);
+  if (!play_to(time)) {
+    go_to(start);
+    return false;
+  }
   StopAtOnce here;
   play(here, newest());
+  return true;
 }
 
-/// Plays all that has run before `time`, and what was done until then.
-void History::play_to(Time time) {
-  while (actions_ < branch_->actions.size() && branch_->moments[actions_].time <= time) {
-    reach(branch_->moments[actions_]);
+/// Plays all that has run before `time`, and what was done until then. False after a stop request.
+bool History::play_to(Time time) {
+  while (has_next_action() && next_action().time <= time) {
+    if (stop_requested()) return false;
+    reach(next_action());
     do_next_action();
   }
-  if (simulation_.time() >= time || simulation_.cpu().state().mode == Mode::Stop) return;
-  simulation_.run_until(time);
-  settled_ = false;
+  while (simulation_.time() < time && simulation_.cpu().state().mode != Mode::Stop) {
+    if (stop_requested()) return false;
+    simulation_.run_until(std::min(time, simulation_.time() + kSlice));
+    settled_ = false;
+  }
+  return true;
 }
 
 /// To the moment `ahead` of `end`, or to the checkpoint before `end` if that is later.
@@ -242,6 +269,7 @@ void History::host_called(const serial::HostCall& call) {
   const Moment* const last = branch_->moments.empty() ? nullptr : &branch_->moments.back();
   const bool just_acted = last && last->instructions == moment.instructions && last->time == moment.time;
   moment.settled = simulation_.cpu().paused() && !just_acted;
+  branch_->log_bytes += bytes_of(call);
   branch_->actions.emplace_back(call);
   branch_->moments.push_back(moment);
   ++actions_;
@@ -251,14 +279,41 @@ void History::fork() {
   auto branch = std::make_shared<Branch>(*branch_);
   const Moment here = now();
   std::erase_if(branch->checkpoints, [&](const CheckpointPtr& checkpoint) { return here < checkpoint->moment; });
-  branch->actions.resize(actions_);
-  branch->moments.resize(actions_);
+  branch->actions.resize(actions_ - branch->forgotten);
+  branch->moments.resize(actions_ - branch->forgotten);
   branch->end = here;
   branches_.push_back(branch);
   branch_ = std::move(branch);
 }
 
 void History::restart() { begin_with(origin_->state); }
+
+void History::power_up(const RetentiveMemory& memory) {
+  simulation_.restore(origin_->state);
+  simulation_.power_up(&memory);
+  begin_branch(simulation_.snapshot());
+  branch_->memory = memory;
+}
+
+Recording History::recording() const { return {branch_->memory, branch_->actions, branch_->moments, branch_->end, now()}; }
+
+bool History::replay(Recording recording) {
+  if (recording.memory)
+    power_up(*recording.memory);
+  else
+    restart();
+  branch_->actions = std::move(recording.actions);
+  branch_->moments = std::move(recording.moments);
+  branch_->end = recording.end;
+  for (Time time = branch_->interval; time < recording.end.time; time += branch_->interval) {
+    if (!play_to(time)) return false;
+    if (simulation_.cpu().state().mode == Mode::Run) keep_checkpoint();
+  }
+  go_to(recording.end);
+  if (now() != recording.end) return false;
+  go_to(recording.now);
+  return now() == recording.now;
+}
 
 void History::begin_with(serial::Simulation::Snapshot state) {
   simulation_.restore(state);
@@ -277,6 +332,9 @@ void History::begin_branch(serial::Simulation::Snapshot state) {
 
 const Moment& History::newest() const { return branch_->end; }
 const std::vector<Action>& History::actions() const { return branch_->actions; }
+const Action* History::action(std::size_t number) const {
+  return number < branch_->forgotten ? nullptr : &branch_->actions.at(number - branch_->forgotten);
+}
 const std::vector<Moment>& History::action_moments() const { return branch_->moments; }
 
 // --- checkpoints ---
@@ -294,6 +352,26 @@ History::CheckpointPtr History::checkpoint_of(serial::Simulation::Snapshot state
 void History::keep_checkpoint() {
   branch_->checkpoints.push_back(checkpoint_of(simulation_.snapshot()));
   if (*bytes_ > settings_.bound) thin();
+  if (branch_->log_bytes > settings_.log_bound) forget();
+}
+
+/// The older half of what came in over a bridge, and all that was before a checkpoint that is then the oldest.
+void History::forget() {
+  Branch& branch = *branch_;
+  std::size_t bytes = 0, actions = branch.forgotten;
+  for (const Action& action : branch.actions) {
+    if (bytes > branch.log_bytes / 2) break;
+    bytes += bytes_of(action);
+    ++actions;
+  }
+  const auto oldest = std::find_if(branch.checkpoints.begin(), branch.checkpoints.end() - 1,
+                                   [&](const CheckpointPtr& checkpoint) { return checkpoint->moment.actions >= actions; });
+  const std::size_t gone = (*oldest)->moment.actions - branch.forgotten;
+  branch.checkpoints.erase(branch.checkpoints.begin(), oldest);
+  for (std::size_t i = 0; i < gone; ++i) branch.log_bytes -= bytes_of(branch.actions[i]);
+  branch.actions.erase(branch.actions.begin(), branch.actions.begin() + static_cast<std::ptrdiff_t>(gone));
+  branch.moments.erase(branch.moments.begin(), branch.moments.begin() + static_cast<std::ptrdiff_t>(gone));
+  branch.forgotten += gone;
 }
 
 /// Every second checkpoint of every branch goes, but not its beginning.
@@ -309,7 +387,7 @@ void History::thin() {
 }
 
 History::Usage History::usage() const {
-  return {branch_->checkpoints.size(), *bytes_, branch_->interval, branch_->checkpoints.front()->moment};
+  return {branch_->checkpoints.size(), *bytes_, branch_->interval, branch_->checkpoints.front()->moment, branch_->forgotten};
 }
 
 }  // namespace s7200::tools

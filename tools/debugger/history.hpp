@@ -2,10 +2,13 @@
 //
 // A run is deterministic, so the past is computed anew: from the last checkpoint before the moment, with everything that was
 // done to the simulation from outside done again where it was done. Checkpoints are thinned when they take more memory than
-// they may; the beginning always stays. What has run once is a recording: going forward from a past moment plays it up to
-// its end, and only then is anything new. Something else done to the simulation in its past begins a new branch.
+// they may; the beginning stays, unless what came in over a bridge takes more memory than it may: then the older half of it
+// is forgotten, and the past begins at a checkpoint after it. What has run once is a recording: going forward from a past
+// moment plays it up to its end, and only then is anything new. Something else done to the simulation in its past begins a
+// new branch.
 #pragma once
 
+#include <atomic>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -32,6 +35,15 @@ struct Moment {
   auto operator<=>(const Moment&) const = default;
 };
 
+/// All that it takes to run a history again, and where it stands.
+struct Recording {
+  std::optional<RetentiveMemory> memory;  ///< it begins with power coming back; otherwise as the simulation was given
+  std::vector<Action> actions;
+  std::vector<Moment> moments;  ///< of the actions
+  Moment end, now;
+  bool complete = true;  ///< false: its beginning is forgotten, and it cannot be run again
+};
+
 /// Watches a run: live, or played again.
 class Observer : public TraceSink {
  public:
@@ -45,10 +57,12 @@ class History final : private TraceSink, private serial::HostJournal {
   using Drive = std::function<serial::Halt(Time end)>;
 
   struct Settings {
-    Drive drive{};                       ///< none: as fast as the computer can
-    TraceSink* records = nullptr;        ///< is told what happens for the first time, and nothing twice
-    std::size_t bound = 256 << 20;       ///< bytes for checkpoints
-    Time interval = 500 * kMillisecond;  ///< of checkpoints, until they have to be thinned
+    Drive drive{};                                    ///< none: as fast as the computer can
+    TraceSink* records = nullptr;                     ///< is told what happens for the first time, and nothing twice
+    std::size_t bound = 256 << 20;                    ///< bytes for checkpoints
+    std::size_t log_bound = 64 << 20;                 ///< bytes for what came in over a bridge
+    Time interval = 500 * kMillisecond;               ///< of checkpoints, until they have to be thinned
+    const std::atomic<bool>* stop_request = nullptr;  ///< ends what plays for long: go_to() a time, replay()
   };
 
   /// The past begins now. The simulation must live as long as this.
@@ -71,8 +85,9 @@ class History final : private TraceSink, private serial::HostJournal {
   /// To a moment of this branch.
   void go_to(const Moment& moment);
 
-  /// To the first moment at or after `time` of this branch, or to its newest moment.
-  void go_to(Time time);
+  /// To the first moment at or after `time` of this branch, or to its newest moment. False after a stop request; it stands
+  /// where it stood then.
+  bool go_to(Time time);
 
   /// For observers, in front of an instruction: that moment.
   Moment in_front() const;
@@ -98,19 +113,33 @@ class History final : private TraceSink, private serial::HostJournal {
   Place here() const { return {branch_, now()}; }
   void return_to(const Place& place);
 
-  /// A new branch that begins as the whole history did, or with a state of its own.
+  /// A new branch that begins as the whole history did, with a state of its own, or with power coming back.
   void restart();
   void begin_with(serial::Simulation::Snapshot state);
+  void power_up(const RetentiveMemory& memory);
 
+  Recording recording() const;
+
+  /// Of the CPU, when all this began.
+  const State& origin() const { return origin_->state.plcs.front().cpu; }
+
+  /// A new branch: runs the recording, and stands where it stood. False if it cannot come there, or after a stop request; it
+  /// stands anywhere then.
+  bool replay(Recording recording);
+
+  /// Those that are not forgotten.
   const std::vector<Action>& actions() const;
   /// When each of them was done.
   const std::vector<Moment>& action_moments() const;
+  /// By its number, which counts those that are forgotten; null if it is one of them.
+  const Action* action(std::size_t number) const;
 
   struct Usage {
     std::size_t checkpoints = 0;  ///< of this branch
     std::size_t bytes = 0;        ///< of all branches that can be returned to
     Time interval = 0;
     Moment oldest;
+    std::size_t forgotten = 0;  ///< actions before it: not null if it is not the beginning
   };
   Usage usage() const;
 
@@ -132,8 +161,12 @@ class History final : private TraceSink, private serial::HostJournal {
   bool advance(const Moment& target);
   bool reach(const Moment& moment);
   serial::Halt drive(Time end);
+  const Moment& next_action() const;
+  bool has_next_action() const;
+  void forget();
   void do_next_action();
-  void play_to(Time time);
+  bool play_to(Time time);
+  bool stop_requested() const { return settings_.stop_request && *settings_.stop_request; }
   Moment go_to_before(const Moment& end, Time ahead);
   void begin_branch(serial::Simulation::Snapshot state);
   void fork();
@@ -166,8 +199,11 @@ struct History::Branch {
   std::vector<CheckpointPtr> checkpoints;  ///< in order; the first is the beginning
   std::vector<Action> actions;
   std::vector<Moment> moments;  ///< of the actions
+  std::size_t forgotten = 0;    ///< actions before these
+  std::size_t log_bytes = 0;    ///< of the actions
   Moment end;
   Time interval = 0;
+  std::optional<RetentiveMemory> memory{};  ///< it begins with power coming back
 };
 
 }  // namespace s7200::tools

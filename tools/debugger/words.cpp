@@ -20,6 +20,19 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+std::vector<std::string> assignments_of(const std::vector<std::string>& arguments) {
+  std::vector<std::string> texts;
+  bool open = false;
+  for (const std::string& argument : arguments) {
+    if ((open || argument.front() == '=') && !texts.empty())
+      texts.back() += argument;
+    else
+      texts.push_back(argument);
+    open = argument.back() == '=';
+  }
+  return texts;
+}
+
 std::string expects(std::string_view command, std::string_view what) { return fmt::format("{} expects {}", command, what); }
 
 std::string no_argument(std::string_view command) { return fmt::format("{} takes no argument", command); }

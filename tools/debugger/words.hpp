@@ -14,6 +14,9 @@ std::string lower_case(std::string_view text);
 /// The words with a blank between them.
 std::string joined(const std::vector<std::string>& words);
 
+/// `VW100 = 5` is written with or without blanks.
+std::vector<std::string> assignments_of(const std::vector<std::string>& arguments);
+
 /// `break expects a line number`
 std::string expects(std::string_view command, std::string_view what);
 

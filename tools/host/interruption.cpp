@@ -9,6 +9,7 @@ namespace {
 std::atomic<bool> noted = false;  // asked by several threads
 std::atomic<int> noted_signal = 0;
 std::atomic<bool> output_lost = false;
+std::atomic<void (*)()> restoring = nullptr;
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
               "a signal handler writes them");
 
@@ -29,6 +30,7 @@ bool is_ignored(int number) {
 
 void note(int number) {
   if (noted_signal.exchange(number) != 0 && number == SIGINT) {
+    if (void (*const restore)() = restoring) restore();
     handle(SIGINT, SIG_DFL);
     raise(SIGINT);
   }
@@ -62,6 +64,8 @@ bool forget_ctrl_c() {
   alarm(0);
   return true;
 }
+
+void before_the_kill(void (*restore)()) { restoring = restore; }
 
 bool interrupted_by_signal() { return noted_signal != 0; }
 

@@ -25,6 +25,9 @@ const std::atomic<bool>& interruption();
 /// Takes a Ctrl-C back, which at a prompt gives a new one. False if there was none, and for all that ends the command.
 bool forget_ctrl_c();
 
+/// Called by a second Ctrl-C just before it kills: `restore` may do what a signal handler may. Null: nothing is called.
+void before_the_kill(void (*restore)());
+
 /// Whether a signal was the reason, not interrupt_quietly().
 bool interrupted_by_signal();
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <random>
 #include <set>
@@ -264,6 +265,48 @@ TEST(History, WhatCameOverTheHostPortComesAgainWhenItIsPlayed) {
     session.history->go_to(newest);
     ASSERT_TRUE(session.simulation.snapshot() == end) << to;
   }
+}
+
+TEST(History, WhatCameOverTheHostPortIsForgottenFromItsBeginningWhenItTakesTooMuch) {
+  Recorded* running = nullptr;
+  const auto drive = [&](Time end) {
+    serial::Simulation& simulation = running->simulation;
+    const serial::HostCharacter character{.byte = 0x55, .format = {9600, 8, Parity::Even, 1}};
+    serial::Halt halt = serial::Halt::Time;
+    if (!simulation.host_port().state().attached) simulation.host_port().attach(character.format, simulation.time());
+    while (halt == serial::Halt::Time && simulation.time() < end) {
+      halt = simulation.run_until(std::min(end, simulation.time() + 10 * kMillisecond));
+      if (halt == serial::Halt::Time) simulation.host_port().send({&character, 1}, simulation.time());
+    }
+    return halt;
+  };
+  Recorded session(slave(),
+                   {.drive = drive, .log_bound = 20 * (sizeof(Action) + sizeof(Moment)), .interval = 20 * kMillisecond});
+  running = &session;
+  session.run_to(30'000);
+  const Snapshot end = session.simulation.snapshot();
+  const Moment newest = session.history->newest();
+  const History::Usage usage = session.history->usage();
+  EXPECT_GT(usage.forgotten, 0U);
+  EXPECT_GT(usage.oldest.time, 0);
+  EXPECT_LT(session.history->actions().size(), 25U);
+  EXPECT_FALSE(session.history->recording().complete);
+  session.history->go_to(usage.oldest);
+  EXPECT_EQ(session.history->now(), usage.oldest);
+  session.history->go_to(newest);
+  EXPECT_TRUE(session.simulation.snapshot() == end);
+}
+
+TEST(History, ATimeIsNotReachedAfterAStopRequest) {
+  std::atomic<bool> stop = false;
+  Recorded session(slave(), {.interval = kSecond, .stop_request = &stop});
+  session.live_through_it();
+  const Snapshot here = session.simulation.snapshot();
+  stop = true;
+  EXPECT_FALSE(session.history->go_to(Time{300 * kMillisecond}));
+  EXPECT_TRUE(session.simulation.snapshot() == here);
+  stop = false;
+  EXPECT_TRUE(session.history->go_to(Time{300 * kMillisecond}));
 }
 
 TEST(History, TheLastWriteIsFoundAlsoOfAnEqualValueThroughAPointerAndInABlock) {

@@ -54,6 +54,55 @@ TEST(Seeing, StatusHasPowerFlowAndOperandsOfTheLastExecutionBesideEachLine) {
   EXPECT_TRUE(has(session("status SBR 2"), "   line 17    MOVW    7, VW20              S0=1 VW20=16#0007"));
 }
 
+TEST(Seeing, PrintShowsSpecialMemoryInWords) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("step; print SMB0"), "SM0.0 always 1, SM0.1 first scan, SM0.3 first scan after power-up"));
+  EXPECT_TRUE(has(session("print SM0.1"), "SM0.1 first scan"));
+  EXPECT_TRUE(has(session("print SMB1"), "none of SMB1 is set"));
+  EXPECT_TRUE(has(session("set SMB37=16#88; print SMB37"), "SM37.3 up, SM37.7 enabled"));
+  EXPECT_TRUE(has(session("print SMB67"), "none of SMB67 is set"));
+}
+
+TEST(Seeing, SymbolsAndTheirCommentsAreShownBesideAddresses) {
+  std::string why;
+  const auto read = [&why](std::string_view text, const char* name) { return *read_source(std::string(text), name, why); };
+  const CheckResult checked = check(join_files({read("LD SM0.0\nMOVW 5, Speed // set it\nINCW VW100\nMEND\n", "p.awl"),
+                                                read("Symbol\tAddress\tComment\nSpeed\tVW100\tin rpm\n", "t.txt")})
+                                        .parsed,
+                                    cpu214(), default_times(cpu214()));
+  ASSERT_TRUE(checked.program);
+  Session session(checked.program);
+  session("scan; step 3");
+  EXPECT_TRUE(has(session("print VW100"), "         Speed  // in rpm\n"));
+  EXPECT_TRUE(has(session("print speed"), "VW100    16#0006"));
+  EXPECT_TRUE(has(session("who VW100"), "VW100 (Speed) was 16#0005 (5), became 16#0006 (6)"));
+  EXPECT_TRUE(has(session("history 2"), "MOVW    5, Speed:VW100"));
+  EXPECT_TRUE(has(session("history 2"), "// set it  [VW100 Speed  // in rpm]"));
+  EXPECT_TRUE(has(session("watch VW100"), "watch 1: VW100 (Speed) is 16#0006 (6)"));
+}
+
+TEST(Seeing, ARunTimeErrorOfABadPointerTellsItsValueAndWhoWroteIt) {
+  Session session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100 // wrong\nMOVB 1, *VD100\nMEND\n");
+  const std::string text = session("break error; continue");
+  EXPECT_TRUE(
+      has(text, "*VD100: VD100 is 16#7FFFFFFF, which points nowhere\nVD100 was 16#00000000 (0), became 16#7FFFFFFF"));
+  EXPECT_TRUE(has(text, "by main line 2     MOVD    16#7FFFFFFF, VD100"));
+}
+
+TEST(Seeing, CompletionOffersCommandsAddressesPlacesAndFiles) {
+  Session session(kNested);
+  using Words = std::vector<std::string>;
+  const auto offered = [&](std::string_view line) { return session.debugger->completions(line).candidates; };
+  EXPECT_EQ(offered("conti"), Words{"continue"});
+  EXPECT_EQ(offered("step; print vw1"), Words{"VW10"});
+  EXPECT_EQ(offered("p VW"), (Words{"VW10", "VW20", "VW30"}));
+  EXPECT_EQ(offered("break SBR "), (Words{"1", "2"}));
+  EXPECT_EQ(offered("until i"), Words{"INT"});
+  EXPECT_EQ(offered("trace o"), (Words{"on", "off"}));
+  EXPECT_EQ(offered("help unf"), Words{"unforce"});
+  EXPECT_EQ(offered("step 1"), Words{});
+}
+
 TEST(Seeing, ExpectIsAWrongCommandUnlessItHolds) {
   Session session(kNested);
   session("scan 3; expect VW10 = 3 and SM0.0");

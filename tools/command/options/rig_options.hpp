@@ -29,6 +29,8 @@ class RigOptions {
   /// Throws std::invalid_argument if an option asks for something that is written, or shown, of one run.
   void refuse_what_is_of_one_run(std::string_view because) const;
 
+  const RigSettings& settings() const { return settings_; }
+
   /// Another one like the rig that was assembled, from any thread. Null, and why, if it cannot be had or a signal came.
   std::unique_ptr<Rig> assemble_another(const std::shared_ptr<const Program>& program,
                                         std::vector<std::string>& problems) const {

@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+
+#include "tests/unit/debugger/session.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr std::string_view kCopy =
+    "LD      I0.0\n"     // 1
+    "=       Q0.0\n"     // 2
+    "LD      SM0.0\n"    // 3
+    "MOVW    1, VW10\n"  // 4
+    "INCW    VW20\n"     // 5
+    "MEND\n";            // 6
+
+TEST(ForceCommand, HoldsAcrossScansUntilItIsTakenBack) {
+  Session session(kCopy);
+  session("scan; force I0.0=1 VW10 = 7; scan 5");
+  EXPECT_EQ(session.vw(10), 7U);
+  EXPECT_EQ(session.state().image[image::kQ], 1);
+  session("unforce all; scan 2");
+  EXPECT_EQ(session.vw(10), 1U);
+  EXPECT_EQ(session.state().image[image::kQ], 0);
+}
+
+TEST(ForceCommand, AloneListsWhatIsForced) {
+  Session session(kCopy);
+  EXPECT_TRUE(has(session("force"), "nothing is forced"));
+  session("force VW10=7 I0.0=1");
+  EXPECT_EQ(session("force"), "I0.0     1\nVW10     16#0007 (7)\n");
+}
+
+TEST(ForceCommand, GoingBackUndoesItAndGoingForwardDoesItAgain) {
+  Session session(kCopy);
+  session("scan 3; force VW10=7; scan 3");
+  session("at start; expect VW10 = 0");
+  EXPECT_TRUE(has(session("force"), "nothing is forced"));
+  session("at end; expect VW10 = 7");
+  EXPECT_TRUE(has(session("force"), "VW10"));
+}
+
+TEST(ForceCommand, InThePastBeginsANewBranch) {
+  Session session(kCopy);
+  EXPECT_TRUE(has(session("scan 3; rscan; force I0.0=1"), "a new branch begins here"));
+}
+
+TEST(ForceCommand, PrintStatusAndWhoShowWhatIsForced) {
+  Session session(kCopy);
+  session("force VW10=7 Q0.0=0; scan 3");
+  EXPECT_TRUE(has(session("print VB10:4"), "forced: VW10=16#0007 (7)"));
+  EXPECT_TRUE(has(session("status"), "Q0.0=0  forced: Q0.0=0"));
+  EXPECT_TRUE(has(session("who VW10"), "by the system, between two instructions  forced: VW10=16#0007 (7)"));
+  EXPECT_TRUE(has(session("set VW10=3"), "VW10 keeps what is forced until 'unforce VW10'"));
+}
+
+TEST(ForceCommand, RefusesWhatACpuCannotForceAndSaysWhatItCan) {
+  Session session(kCopy);
+  EXPECT_TRUE(has(session.error_of("force M0.3=1"), "'M0.3=1' cannot be forced: the CPU forces points of I and Q"));
+  EXPECT_TRUE(has(session.error_of("force I0.3"), "write one address, =, and a value"));
+  EXPECT_TRUE(has(session.error_of("unforce VW10"), "VW10 is not forced"));
+  for (int i = 0; i < 16; ++i) session(fmt::format("force VB{}=1", 100 + i));
+  EXPECT_TRUE(has(session.error_of("force VB200=1"), "16 values of memory are forced already"));
+}
+
+TEST(ForceCommand, IsRedOnATerminalOnly) {
+  serial::Simulation simulation(program_of(kCopy));
+  simulation.power_up();
+  std::ostringstream out;
+  Debugger debugger(simulation, out, DebuggerOptions{.colour = true});
+  debugger.execute("force Q0.0=1; print Q0.0");
+  EXPECT_TRUE(has(out.str(), "\x1b[31m  forced: Q0.0=1\x1b[0m"));
+}
+
+}  // namespace
+}  // namespace s7200::tools

@@ -1,0 +1,115 @@
+// Saved sessions, and power that goes off and comes back.
+#include "tools/debugger/session_file.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/unit/debugger/session.hpp"
+
+namespace s7200::tools {
+namespace {
+
+class SavedSession : public testing::Test {
+ protected:
+  SavedSession() { std::filesystem::create_directory(folder_); }
+  ~SavedSession() override { std::filesystem::remove_all(folder_); }
+
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(file(name)) << text; }
+  std::string read(const std::string& name) const {
+    std::ifstream in(file(name));
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+ private:
+  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / fmt::format("s7200_session_{}", getpid());
+};
+
+TEST_F(SavedSession, IsLoadedBitByBitIntoAnotherSession) {
+  Session session(kEcho);
+  session("continue 50ms; set VW100=7; input I0.0=1; force VB200=3; send 41 42; continue; continue 1s; at 60ms");
+  const auto here = session.simulation.snapshot();
+  session("save " + file("a.json"));
+  Session other(kEcho);
+  EXPECT_TRUE(has(other("scan 3; load " + file("a.json")), "in the past; going forward plays what has run, up to"));
+  EXPECT_EQ(other.simulation.snapshot(), here);
+  session("at end");
+  other("at end");
+  EXPECT_EQ(other.simulation.snapshot(), session.simulation.snapshot());
+  EXPECT_TRUE(has(other("at start; back 3; back"), "back to before 'scan 3'"));
+}
+
+TEST_F(SavedSession, KeepsAPowerCycleThatItBeganWith) {
+  Session session(kNested);
+  session("scan 5; set MB14=9; power 1s; scan 2; save " + file("a.json"));
+  Session other(kNested);
+  other("load " + file("a.json") + "; expect MB14 = 9");
+  EXPECT_EQ(other.simulation.snapshot(), session.simulation.snapshot());
+}
+
+TEST_F(SavedSession, OfAnotherProgramCpuVersionOrBeginningIsRefused) {
+  Session session(kEcho);
+  session("scan 2; save " + file("a.json"));
+  Session another(kNested);
+  EXPECT_TRUE(has(another.error_of("load " + file("a.json")), "it is of another program, or of other execution times"));
+  Session cpu(check_text(kEcho, "test.stl", cpu215(), default_times(cpu215())).program);
+  EXPECT_TRUE(has(cpu.error_of("load " + file("a.json")), "it is of a CPU 214, not of a CPU 215"));
+  serial::Simulation simulation(program_of(kEcho));
+  simulation.power_up();
+  const std::uint8_t byte = 1;
+  simulation.cpu().poke(image::kV, {&byte, 1});
+  std::ostringstream out;
+  Debugger otherwise(simulation, out, {});
+  EXPECT_TRUE(has(otherwise.execute("load " + file("a.json")).value_or(""), "it began with other memory, inputs or time"));
+}
+
+TEST_F(SavedSession, DamagedIsRefusedWhereverTheDamageIs) {
+  Session session(kEcho);
+  session("scan 2; set VW100=7; save " + file("a.json"));
+  const std::string whole = read("a.json");
+  const auto here = session.simulation.snapshot();
+  for (std::size_t i = 0; i + 2 < whole.size(); i += 7) {
+    std::string damaged = whole;
+    damaged[i] = damaged[i] == '3' ? '4' : '3';
+    write("b.json", damaged);
+    EXPECT_TRUE(has(session.error_of("load " + file("b.json")), "cannot load")) << i;
+    write("b.json", whole.substr(0, i));
+    EXPECT_TRUE(has(session.error_of("load " + file("b.json")), "cannot load")) << i;
+  }
+  EXPECT_EQ(session.simulation.snapshot(), here);
+  EXPECT_TRUE(has(session.error_of("load " + file("none.json")), "cannot read"));
+}
+
+TEST_F(SavedSession, ReplacesItsOwnKindOfFileAndOthersOnlyWhenToldTo) {
+  Session session(kNested);
+  session("save " + file("a.json") + "; scan; save " + file("a.json"));
+  write("mine.txt", "mine");
+  EXPECT_TRUE(has(session.error_of("save " + file("mine.txt")), "exists and is not a saved session; it is left alone"));
+  EXPECT_EQ(read("mine.txt"), "mine");
+  session("save " + file("mine.txt") + " !");
+  EXPECT_TRUE(read("mine.txt").starts_with(session_beginning()));
+}
+
+TEST(PowerCommand, KeepsWhatTheCpuKeepsAndBackTakesItBack) {
+  Session session(kNested);
+  session("scan 5; set MB0=5 MB14=9");
+  EXPECT_TRUE(has(session("power"), "retentive memory, EEPROM and clock are kept"));
+  session("expect MB0 = 0 and MB14 = 9");
+  EXPECT_EQ(session.state().time, 0);
+  EXPECT_TRUE(has(session("power lost"), "the EEPROM is left, RAM and clock are lost"));
+  session("expect MB14 = 0 and SM0.2; back 2; expect MB0 = 5");
+}
+
+TEST(PowerCommand, WrongWordsTellWhatIsExpected) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session.error_of("power soon"), "power expects how long it was off"));
+  EXPECT_TRUE(has(session.error_of("load"), "load expects a file"));
+  EXPECT_TRUE(has(session.error_of("save"), "save expects a file"));
+  EXPECT_TRUE(has(session.error_of("record a.yaml"), "scenarios cannot be written here"));
+}
+
+}  // namespace
+}  // namespace s7200::tools

@@ -1,0 +1,15 @@
+// A session of the debugger as the verb begins it; and as a scenario: it is run once as one, and what came is expected.
+#pragma once
+
+#include <memory>
+
+#include "tools/command/options/debug_options.hpp"
+#include "tools/debugger/debugger.hpp"
+
+namespace s7200::tools {
+
+/// All that is given must live as long as the session.
+DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, const std::shared_ptr<const Program>& program,
+                                const History::Settings& history);
+
+}  // namespace s7200::tools

@@ -1,0 +1,144 @@
+// What a word of a command may become: for the tab key, and for editors.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/stl/printer.hpp"
+#include "tools/debugger/debugger.hpp"
+
+namespace s7200::tools {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+bool begins(std::string_view word, std::string_view with) {
+  return word.size() >= with.size() && stl::upper_case(word.substr(0, with.size())) == stl::upper_case(with);
+}
+
+/// `SBR 1`, `INT 0`, `NETWORK 3`: what there is of each.
+Words numbers_of(std::string_view head, const Program& program) {
+  std::set<std::uint32_t> numbers;
+  if (head == "SBR" || head == "INT") {
+    const auto& heads = head == "SBR" ? program.subroutine : program.interrupt;
+    for (std::uint32_t n = 0; n < heads.size(); ++n)
+      if (heads[n] != kNoRoutine) numbers.insert(n);
+  } else {
+    for (const stl::Line& line : program.source.lines)
+      if (const auto* network = std::get_if<stl::NetworkHead>(&line)) numbers.insert(network->number);
+    numbers.erase(0);
+  }
+  Words words;
+  for (const std::uint32_t n : numbers) words.push_back(fmt::format("{}", n));
+  return words;
+}
+
+/// Symbols, the addresses that the program uses, and the areas of the CPU.
+Words addresses_of(const Program& program) {
+  std::set<std::string> words;
+  for (const stl::Symbol& symbol : program.source.symbols)
+    if (symbol.value && std::holds_alternative<stl::Address>(*symbol.value) && symbol.name.find(' ') == std::string::npos)
+      words.insert(symbol.name);
+  for (const stl::Statement& statement : program.statements)
+    for (const stl::Operand& operand : statement.operands) {
+      if (const auto* address = std::get_if<stl::Address>(&operand.value))
+        words.insert(stl::to_text(stl::Operand{.value = *address}));
+      if (const auto* pointer = std::get_if<stl::Indirect>(&operand.value))
+        words.insert(stl::to_text(stl::Operand{.value = *pointer}));
+    }
+  return {words.begin(), words.end()};
+}
+
+/// Files and folders that begin so; folders end with `/`.
+Words files_of(std::string_view word) {
+  const std::size_t slash = word.rfind('/');
+  const std::string folder(word.substr(0, slash == std::string_view::npos ? 0 : slash + 1));
+  Words words;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    std::error_code ignored;
+    if (name.find(' ') == std::string::npos && (!name.starts_with('.') || word.ends_with('.')))
+      words.push_back(folder + name + (entry->is_directory(ignored) ? "/" : ""));
+  }
+  std::sort(words.begin(), words.end());
+  return words;
+}
+
+Words words_of(std::string_view line) {
+  Words words(1);
+  for (const char c : line) {
+    if (c == ';')
+      words.assign(1, "");
+    else if (c != ' ' && c != '\t')
+      words.back() += c;
+    else if (!words.back().empty())
+      words.emplace_back();
+  }
+  return words;
+}
+
+enum class Takes : std::uint8_t { Nothing, Addresses, Places, Files, Commands, Switch };
+
+constexpr std::pair<std::string_view, Takes> kTakes[]{
+    {"help", Takes::Commands},    {"save", Takes::Files},        {"load", Takes::Files},        {"record", Takes::Files},
+    {"trace", Takes::Switch},     {"layout", Takes::Switch},     {"break", Takes::Places},      {"until", Takes::Places},
+    {"runtil", Takes::Places},    {"list", Takes::Places},       {"status", Takes::Places},     {"print", Takes::Addresses},
+    {"expect", Takes::Addresses}, {"display", Takes::Addresses}, {"watch", Takes::Addresses},   {"set", Takes::Addresses},
+    {"input", Takes::Addresses},  {"force", Takes::Addresses},   {"unforce", Takes::Addresses}, {"who", Takes::Addresses},
+    {"rwho", Takes::Addresses}};
+
+constexpr std::string_view kHappenings[]{"event", "received", "sent", "xmt",  "rcv",
+                                         "error", "overflow", "lost", "mode", "unanswered"};
+
+}  // namespace
+
+Debugger::Offers Debugger::completions(std::string_view line) const {
+  const Words words = words_of(line);
+  const std::string& last = words.back();
+  const Program& program = simulation_.cpu().program();
+  Words all;
+  const auto add_commands = [&] {
+    for (const Command& command : commands()) all.emplace_back(command.name);
+  };
+  std::string why;
+  const Command* command = words.size() > 1 ? find_command(words.front(), why) : nullptr;
+  Takes takes = words.size() == 1 ? Takes::Commands : Takes::Nothing;
+  for (const auto& [name, what] : kTakes)
+    if (command && command->name == name) takes = what;
+  const std::string before = words.size() > 1 ? stl::upper_case(words[words.size() - 2]) : "";
+  switch (takes) {
+    case Takes::Nothing:
+      break;
+    case Takes::Commands:
+      add_commands();
+      break;
+    case Takes::Switch:
+      all = {"on", "off"};
+      break;
+    case Takes::Files:
+      all = files_of(last);
+      break;
+    case Takes::Addresses:
+      all = addresses_of(program);
+      if (command->name == "who" || command->name == "rwho") all.emplace_back("event");
+      break;
+    case Takes::Places:
+      if (before == "SBR" || before == "INT" || before == "NETWORK") {
+        all = numbers_of(before, program);
+      } else if (before == "IF" || before == "AND" || before == "OR") {
+        all = addresses_of(program);
+      } else {
+        all = {"SBR", "INT", "NETWORK"};
+        if (command->name == "break") all.insert(all.end(), std::begin(kHappenings), std::end(kHappenings));
+      }
+  }
+  std::erase_if(all, [&](const std::string& word) { return !begins(word, last); });
+  return {last.size(), all};
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,281 @@
+#include "tools/debugger/session_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/cpu/forcing.hpp"
+#include "interpreter/stl/printer.hpp"
+#include "serial_sim/line/frame.hpp"
+#include "tools/rig/memory_file.hpp"
+#include "tools/views/results_json.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kFormat = "s7200 session 1", kAnyFormat = "s7200 session ";
+
+/// FNV-1a.
+class Digest {
+ public:
+  void add(const void* data, std::size_t size) {
+    for (const auto* byte = static_cast<const std::uint8_t*>(data); size > 0; --size, ++byte)
+      sum_ = (sum_ ^ *byte) * 0x100000001B3;
+  }
+  void add(std::string_view text) { add(text.data(), text.size()); }
+  void add(std::uint64_t number) { add(&number, sizeof number); }
+  std::string text() const { return fmt::format("{:016x}", sum_); }
+
+ private:
+  std::uint64_t sum_ = 0xCBF29CE484222325;
+};
+
+std::string sum_of(const Json& json) {
+  Digest digest;
+  digest.add(json.dump());
+  return digest.text();
+}
+
+// --- moments and formats ---
+
+Json json_of(const Moment& moment) {
+  return {moment.instructions, moment.actions, moment.settled, moment.stopped, moment.time};
+}
+
+Moment moment_from(const Json& json) {
+  return {json.at(0).get<std::uint64_t>(), json.at(1).get<std::size_t>(), json.at(2).get<bool>(), json.at(3).get<bool>(),
+          json.at(4).get<Time>()};
+}
+
+Json json_of(const SerialFormat& format) {
+  return {format.baud, format.data_bits, word_of(format.parity), format.stop_bits};
+}
+
+SerialFormat format_from(const Json& json) {
+  SerialFormat format{.baud = json.at(0).get<std::uint32_t>(), .data_bits = json.at(1).get<std::uint8_t>()};
+  const auto word = json.at(2).get<std::string>();
+  for (std::size_t parity = 0; parity < kParityWords.size(); ++parity)
+    if (kParityWords[parity] == word) format.parity = static_cast<Parity>(parity);
+  format.stop_bits = json.at(3).get<std::uint8_t>();
+  return format;
+}
+
+// --- actions ---
+
+Json json_of(const std::vector<Assignment>& assignments) {
+  Json all = Json::object();
+  for (const Assignment& assignment : assignments) all[assignment.place.name_of(0)] = assignment.value;
+  return all;
+}
+
+struct Writer {
+  Json operator()(const SetMemory& set) const { return {{"set", json_of(set.assignments)}}; }
+  Json operator()(const Force& force) const { return {{"force", json_of(force.assignments)}}; }
+  Json operator()(const Unforce& unforce) const {
+    Json places = Json::array();
+    for (const MemoryRange& place : unforce.places)
+      places.push_back(place.name_of(0) + (place.count > 1 ? fmt::format(":{}", place.count) : ""));
+    return {{"unforce", places}};
+  }
+  Json operator()(const SendFrame& send) const {
+    Json json{{"send", serial::to_hex(send.request.frame)},
+              {"format", json_of(send.format)},
+              {"timeout", send.request.timeout},
+              {"gap", send.request.gap},
+              {"sync", send.request.sync}};
+    if (send.request.silence) json["silence"] = *send.request.silence;
+    return json;
+  }
+  Json operator()(const serial::HostCall& call) const {
+    Json characters = Json::array();
+    for (const serial::HostCharacter& c : call.characters)
+      characters.push_back({c.byte, static_cast<int>(c.fault), c.sender, json_of(c.format)});
+    return {{"host", static_cast<int>(call.what)},
+            {"format", json_of(call.format)},
+            {"characters", characters},
+            {"sender", call.sender}};
+  }
+};
+
+MemoryRange place_from(const std::string& text, const CpuModel& model) {
+  std::string why;
+  const auto place = parse_range(text, model, why);
+  if (!place) throw std::runtime_error(why);
+  return *place;
+}
+
+std::vector<Assignment> assignments_from(const Json& json, const CpuModel& model) {
+  std::vector<Assignment> all;
+  for (const auto& [address, value] : json.get_ref<const Json::object_t&>())
+    all.push_back({place_from(address, model), value.get<std::uint32_t>()});
+  return all;
+}
+
+SendFrame send_from(const Json& json) {
+  const serial::ParsedFrame parsed = serial::parse_hex_frame(json.at("send").get<std::string>());
+  if (!parsed.ok()) throw std::runtime_error(parsed.errors[0].message);
+  SendFrame send{.format = format_from(json.at("format")),
+                 .request = {.frame = parsed.frame,
+                             .timeout = json.at("timeout").get<Time>(),
+                             .gap = json.at("gap").get<Time>(),
+                             .silence = {},
+                             .sync = json.at("sync").get<bool>()}};
+  if (json.contains("silence")) send.request.silence = json.at("silence").get<Time>();
+  return send;
+}
+
+serial::HostCall call_from(const Json& json) {
+  using Call = serial::HostCall;
+  using Fault = serial::HostCharacter::Fault;
+  const int what = json.at("host").get<int>();
+  if (what < 0 || what > static_cast<int>(Call::What::TakeReceived)) throw std::runtime_error("an unknown call of a bridge");
+  Call call{.what = static_cast<Call::What>(what),
+            .format = format_from(json.at("format")),
+            .characters = {},
+            .sender = json.at("sender").get<std::uint64_t>()};
+  for (const Json& c : json.at("characters")) {
+    const int fault = c.at(1).get<int>();
+    if (fault < 0 || fault > static_cast<int>(Fault::NoStopBit)) throw std::runtime_error("an unknown fault of a character");
+    call.characters.push_back(
+        {c.at(0).get<std::uint8_t>(), format_from(c.at(3)), static_cast<Fault>(fault), c.at(2).get<std::uint64_t>()});
+  }
+  return call;
+}
+
+Action action_from(const Json& json, const CpuModel& model) {
+  if (json.contains("set")) return SetMemory{assignments_from(json.at("set"), model)};
+  if (json.contains("send")) return send_from(json);
+  if (json.contains("host")) return call_from(json);
+  if (json.contains("force")) {
+    Force force{assignments_from(json.at("force"), model)};
+    for (const Assignment& assignment : force.assignments)
+      if (!forcing::possible(assignment.place)) throw std::runtime_error("something that cannot be forced");
+    return force;
+  }
+  Unforce unforce;
+  for (const Json& place : json.at("unforce")) unforce.places.push_back(place_from(place.get<std::string>(), model));
+  return unforce;
+}
+
+Recording recording_from(const Json& json, const CpuModel& model) {
+  Recording recording;
+  if (json.contains("memory")) {
+    std::string why;
+    recording.memory = memory_from_json(json.at("memory").dump(), model, why);
+    if (!recording.memory) throw std::runtime_error(why);
+    recording.memory->ram_lost = json.at("memory_lost").get<bool>();
+    recording.memory->power_off = json.at("power_off").get<Time>();
+  }
+  for (const Json& action : json.at("actions")) {
+    recording.moments.push_back(moment_from(action.at("at")));
+    recording.actions.push_back(action_from(action, model));
+  }
+  recording.end = moment_from(json.at("end"));
+  recording.now = moment_from(json.at("now"));
+  return recording;
+}
+
+SessionFile file_from(const Json& json, const CpuModel& model) {
+  return {.cpu = json.at("cpu").get<std::string>(),
+          .program = json.at("program").get<std::string>(),
+          .begin = json.at("begin").get<std::string>(),
+          .recording = recording_from(json, model),
+          .state = json.at("state").get<std::string>()};
+}
+
+}  // namespace
+
+std::string session_beginning() { return fmt::format("{{\n  \"format\": \"{}", kAnyFormat); }
+
+std::string digest_of(const Program& program) {
+  Digest digest;
+  digest.add(program.model->name);
+  for (const Op& op : program.ops) {
+    const stl::Statement& statement = program.statements[op.statement];
+    digest.add(stl::to_text(statement));
+    for (const std::uint64_t number : {std::uint64_t{statement.position.line}, static_cast<std::uint64_t>(op.cost),
+                                       static_cast<std::uint64_t>(op.unit_cost), std::uint64_t{op.target}})
+      digest.add(number);
+  }
+  digest.add(program.constants.data(), program.constants.size());
+  for (const InitialData& data : program.data) {
+    digest.add(std::uint64_t{data.offset});
+    digest.add(data.bytes.data(), data.bytes.size());
+  }
+  for (const Time time : {program.no_power_flow, program.interrupt_entry, program.eeprom_save})
+    digest.add(static_cast<std::uint64_t>(time));
+  for (const Time time : program.scan_phase) digest.add(static_cast<std::uint64_t>(time));
+  return digest.text();
+}
+
+std::string digest_of(const State& state) {
+  Digest digest;
+  for (const std::uint64_t number :
+       {static_cast<std::uint64_t>(state.time), std::uint64_t{state.pc}, std::uint64_t{state.stack.bits()},
+        state.instructions, state.scans, state.error_count, std::uint64_t{state.waiting}, std::uint64_t{state.call_depth}})
+    digest.add(number);
+  digest.add(state.image.data(), state.image.size());
+  digest.add(state.eeprom.data(), state.eeprom.size());
+  digest.add(state.attached.data(), state.attached.size());
+  return digest.text();
+}
+
+std::string to_text(const SessionFile& file) {
+  const Recording& recording = file.recording;
+  Json json{
+      {"format", kFormat}, {"version", version()}, {"cpu", file.cpu}, {"program", file.program}, {"begin", file.begin}};
+  if (recording.memory) {
+    json["memory"] = Json::parse(memory_to_json(*recording.memory, *find_cpu(file.cpu)));
+    json["memory_lost"] = recording.memory->ram_lost;
+    json["power_off"] = recording.memory->power_off;
+  }
+  json["actions"] = Json::array();
+  for (std::size_t i = 0; i < recording.actions.size(); ++i) {
+    Json action = std::visit(Writer{}, recording.actions[i]);
+    action["at"] = json_of(recording.moments[i]);
+    json["actions"].push_back(std::move(action));
+  }
+  json["end"] = json_of(recording.end);
+  json["now"] = json_of(recording.now);
+  json["state"] = file.state;
+  json["sum"] = sum_of(json);
+  return json.dump(2) + "\n";
+}
+
+std::optional<SessionFile> session_from_text(std::string_view text, const CpuModel& model, std::string& why) {
+  Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object() || !json.contains("format") || !json["format"].is_string() ||
+      !json["format"].get_ref<const std::string&>().starts_with(kAnyFormat)) {
+    why = text.starts_with(session_beginning()) ? "it is damaged" : "it is not a saved session";
+    return {};
+  }
+  if (json["format"] != kFormat) {
+    why =
+        fmt::format("it is \"{}\", and this s7200 reads \"{}\"", stl::shortened(json["format"].get<std::string>()), kFormat);
+    return {};
+  }
+  const Json sum = json.value("sum", Json());
+  json.erase("sum");
+  if (sum != sum_of(json)) {
+    why = "it is damaged: its check sum is wrong";
+    return {};
+  }
+  try {
+    if (const auto by = json.at("version").get<std::string>(); by != version())
+      why = fmt::format("s7200 {} has written it, and this is s7200 {}: they may run differently", by, version());
+    else if (const auto cpu = json.at("cpu").get<std::string>(); cpu != model.name)
+      why = fmt::format("it is of a CPU {}, not of a CPU {}", cpu, model.name);
+    else
+      return file_from(json, model);
+  } catch (const std::exception& error) {
+    why = fmt::format("it is damaged: {}", error.what());
+  }
+  return {};
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,43 @@
+// A position of a session as a file. A run is deterministic, so the file has no memory in it: it has the program's digest,
+// what the session began with, all that was done to the PLC from outside with its moments, and where the session stood. Who
+// loads it replays that, and compares the state it comes to.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "tools/debugger/history.hpp"
+
+namespace s7200::tools {
+
+/// How the file begins: it is known by this.
+std::string session_beginning();
+
+/// Of the instructions with their operands, places and times: two programs with the same digest run alike.
+std::string digest_of(const Program& program);
+
+/// Of memory, clock and position: two runs with the same digest have come to the same state.
+std::string digest_of(const State& state);
+
+/// A session as it is to be written as a scenario.
+struct SessionRecord {
+  Recording session;               ///< up to now
+  std::vector<Assignment> memory;  ///< that is displayed, with its values
+  bool stopped = false;
+  std::uint16_t fatal_code = 0;
+  std::optional<serial::Exchange> last{};  ///< if it is over
+};
+
+struct SessionFile {
+  std::string cpu, program, begin;  ///< model; digests of the program, and of the state that the session began with
+  Recording recording;
+  std::string state;  ///< digest of where it stood
+};
+
+std::string to_text(const SessionFile& file);
+
+/// Returns nothing and sets `why` if it is not such a file, damaged, of another version of the file, or of another CPU.
+std::optional<SessionFile> session_from_text(std::string_view text, const CpuModel& model, std::string& why);
+
+}  // namespace s7200::tools
