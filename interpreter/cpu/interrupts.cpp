@@ -69,10 +69,11 @@ void detach(Core& core, std::uint8_t event) {
 void enable(Core& core, bool enabled) {
   core.s.interrupts_enabled = enabled;
   core.put_mask(sm::kInterruptStatus, sm::kInterruptsEnabled, enabled);
-  core.trace({.at = core.s.time,
-              .kind = TraceKind::Enable,
-              .code = static_cast<std::uint16_t>(enabled ? 1 : 0),
-              .op = core.loop.op});
+  if (core.sink())
+    core.trace({.at = core.s.time,
+                .kind = TraceKind::Enable,
+                .code = static_cast<std::uint16_t>(enabled ? 1 : 0),
+                .op = core.loop.op});
   core.attend();
 }
 

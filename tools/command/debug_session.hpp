@@ -1,4 +1,4 @@
-// A session of the debugger as the verb begins it; and as a scenario: it is run once as one, and what came is expected.
+// A session of the debugger as the verb begins it.
 #pragma once
 
 #include <memory>

@@ -159,6 +159,7 @@ void LineEditor::when_changed(std::function<void()> changed) { editor_->when_cha
 
 std::optional<std::string> LineEditor::read() {
   std::fflush(stdout);
+  el_set(editor_->edit, EL_PREP_TERM, 1);  // before the prompt is there: keys that follow it at once are not lost
   int count = 0;
   const char* typed = el_gets(editor_->edit, &count);
   if (!typed || count <= 0) return {};

@@ -129,7 +129,7 @@ Debugger::Error Debugger::power(const Arguments& arguments) {
   remember();
   history_.power_up(memory);
   out_ << fmt::format(
-      "power was off for {}: {}\n", format_duration(*off),
+      "power was off{}: {}\n", *off == 0 ? "" : " for " + format_duration(*off),
       memory.ram_lost ? "the EEPROM is left, RAM and clock are lost" : "retentive memory, EEPROM and clock are kept");
   note_new_branch();
   note_going_elsewhere();

@@ -295,7 +295,9 @@ void History::power_up(const RetentiveMemory& memory) {
   branch_->memory = memory;
 }
 
-Recording History::recording() const { return {branch_->memory, branch_->actions, branch_->moments, branch_->end, now()}; }
+Recording History::recording() const {
+  return {branch_->memory, branch_->actions, branch_->moments, branch_->end, now(), branch_->forgotten == 0};
+}
 
 bool History::replay(Recording recording) {
   if (recording.memory)

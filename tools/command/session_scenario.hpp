@@ -1,0 +1,38 @@
+// A session of the debugger as a scenario: it is run once as one, and what came is expected. Knows nothing of the debugger.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "serial_sim/peers/requester.hpp"
+#include "tools/command/options/debug_options.hpp"
+#include "tools/host/written_files.hpp"
+
+namespace s7200::tools {
+
+struct SessionSteps {
+  /// Memory is set, or a frame is sent.
+  struct Step {
+    Time at = 0;
+    std::vector<Assignment> set{};
+    std::optional<serial::Request> send{};
+  };
+
+  std::vector<Step> steps{};
+  Time end = 0;
+  std::vector<Assignment> memory{};  ///< as it must be at the end
+  bool stopped = false;
+  std::uint16_t fatal_code = 0;
+  std::optional<serial::Exchange> last{};  ///< the last exchange, if it is over
+};
+
+/// Writes it. False, and why not, if no scenario can do what was done.
+bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<const Program>& program,
+                            const SessionSteps& session, const Destination& to, std::string& why);
+
+/// How such a file begins.
+std::string_view session_scenario_beginning();
+
+}  // namespace s7200::tools
