@@ -81,12 +81,9 @@ void TraceReasons::note(const TraceRecord& record) {
         enabled_.reset();
       }
       return;
-    case TraceKind::ServiceBegin:
-      services_.push_back({kNever, record.event, record.routine});
-      if (services_.size() > kServices) services_.pop_front();
-      return;
     case TraceKind::ServiceEnd:
-      if (!services_.empty()) services_.back().end = record.at;
+      services_.push_back({record.at, record.event, record.routine});
+      if (services_.size() > kServices) services_.pop_front();
       return;
     default:
       return;

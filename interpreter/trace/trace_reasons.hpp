@@ -32,7 +32,7 @@ class TraceReasons {
 
  private:
   struct Service {
-    Time end = kNever;
+    Time end = 0;
     std::uint8_t event = 0, routine = 0;
   };
   static constexpr std::size_t kServices = 32;  ///< more than all queues hold

@@ -1126,6 +1126,8 @@ class JsonPage(Case):
         gap = self.program(Scenarios.BAD + "expected_failure: not yet\n", "gap.yaml")
         hasty = self.program("LD SM0.1\nMOVB 16#1D, SMB30\nATCH 0, 8\nENI\nMEND\nINT 0\nMOVB 1, VB0\nMOVB 65, VB1\nXMT VB0, 0\nRETI\n",
                              "hasty.stl")  # answers at 300 baud before the stop bit of the request has ended
+        waits = self.program("LD SM0.1\nMOVB 16#09, SMB30\nMOVB 5, SMB34\nATCH 0, 8\nATCH 1, 10\nENI\nMEND\nINT 0\nRETI\nINT 1\n"
+                             "LD SM0.0\nFILL 0, VW100, 200\nFILL 0, VW100, 200\nRETI\n", "waits.stl")  # INT 0 waits for INT 1
         slave = self.program(f"program: {SLAVE}\nfunctions: [3]\nholding_registers: {{count: 1000}}\n", "slave.yaml")
         primary, secondary = os.openpty()
         self.addCleanup(os.close, primary)
@@ -1138,6 +1140,7 @@ class JsonPage(Case):
                     ["master", faulty, "slave-id", "--timeout", "10ms", *plant],
                     ["master", SLAVE, "read", "40001", "write", "40001=1", "slave-id"],
                     ["send", SOURCE / "stl_programs/text_commands.stl", "--text", "GET\\r"],
+                    ["send", waits, "01020304050607", "--timeline", "--timeout", "10ms"],
                     ["send", hasty, "41", "--baud", "300", "--parity", "none"], ["instructions"], ["instructions", "MOVB"], ["times"], ["times", "cpu214", "cpu214_from_22x"], ["times", "--check", "cpu214"],
                     ["calibrate", MEASURE, "--each", "1s"],
                     ["send", SLAVE, "--crc", "0103000a0001", "--times-band", "2"], ["master", SLAVE, "read", "40001", "--times-band", "2"],

@@ -46,6 +46,19 @@ TEST_F(TimelineOf, ScansAreCountedAndNotKept) {
   EXPECT_EQ(report.shortest_scan, kMillisecond);
 }
 
+TEST_F(TimelineOf, AWaitForEniOrForAnotherRoutineSaysSo) {
+  timeline_.record({.kind = TraceKind::ModeChange, .code = 1});
+  timeline_.record({.at = kMillisecond, .kind = TraceKind::EventOccurred, .event = kTimed});
+  timeline_.record({.at = 2 * kMillisecond, .kind = TraceKind::Enable, .code = 1});
+  service(kMillisecond, kTimed, kMillisecond);
+  character(2 * kMillisecond + 5 * kMicrosecond);
+  service(2 * kMillisecond + 5 * kMicrosecond, kReceived, 5 * kMicrosecond);
+  const TimelineReport report = timeline_.report();
+  ASSERT_EQ(report.rows.size(), 3U);
+  EXPECT_EQ(report.rows[1].why, "no ENI until ENI in line 1");
+  EXPECT_EQ(report.rows[2].why, "INT 1 of event 10 until then");
+}
+
 TEST_F(TimelineOf, CharactersInARowAreOneRowAndTheirInterruptsToo) {
   for (Time at = kMillisecond; at <= 3 * kMillisecond; at += kMillisecond) {
     character(at);
