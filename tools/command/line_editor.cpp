@@ -155,7 +155,7 @@ LineEditor::LineEditor(std::string_view prompt, Complete complete)
 
 LineEditor::~LineEditor() = default;
 
-void LineEditor::when_changed(std::function<void()> changed) { editor_->when_changed = std::move(changed); }
+void LineEditor::when_changed(std::function<void()> told) { editor_->when_changed = std::move(told); }
 
 std::optional<std::string> LineEditor::read() {
   std::fflush(stdout);

@@ -29,7 +29,7 @@ class LineEditor {
   LineEditor& operator=(const LineEditor&) = delete;
 
   /// Told when the terminal has another size, or the process was stopped and goes on.
-  void when_changed(std::function<void()> changed);
+  void when_changed(std::function<void()> told);
 
   /// Nothing at the end of the input, or when a signal was noted.
   std::optional<std::string> read();
