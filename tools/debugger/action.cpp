@@ -23,6 +23,9 @@ struct Doer {
   void operator()(const Unforce& unforce) const {
     for (const MemoryRange& place : unforce.places) simulation.cpu().unforce(place);
   }
+  void operator()(const Jump& jump) const {
+    if (jump.to < simulation.cpu().program().ops.size()) simulation.cpu().go_to(jump.to);
+  }
   void operator()(const serial::HostCall& call) const { simulation.host_port().repeat(call, simulation.time()); }
 };
 
@@ -43,6 +46,7 @@ struct Teller {
     return text;
   }
   std::string operator()(const SendFrame& send) const { return "send " + serial::to_hex(send.request.frame); }
+  std::string operator()(const Jump&) const { return "goto"; }
   std::string operator()(const serial::HostCall&) const { return "the other end of the bridge"; }
 };
 

@@ -29,7 +29,12 @@ struct Unforce {
   std::vector<MemoryRange> places;
 };
 
-using Action = std::variant<SetMemory, SendFrame, serial::HostCall, Force, Unforce>;
+/// The next instruction is another one, of the same routine. No programming device can do that.
+struct Jump {
+  std::uint32_t to = 0;
+};
+
+using Action = std::variant<SetMemory, SendFrame, Jump, serial::HostCall, Force, Unforce>;
 
 void perform(const Action& action, serial::Simulation& simulation);
 

@@ -198,8 +198,6 @@ class Debugger {
   std::string op_text(std::uint32_t op) const;                     ///< `INT 123 line 40: MOVB SMB2, VB1 // …`
   std::optional<std::uint32_t> current_op() const;
   std::optional<std::uint32_t> find_place(const Arguments& arguments, std::string_view command, std::string& why);
-  std::optional<std::uint32_t> op_of_line(const std::string& text, std::string_view command, std::string& why);
-  std::optional<std::uint32_t> op_of_network(const std::string& text, std::string_view command, std::string& why);
   std::string mark_of(std::uint32_t op) const;
   Error assign_all(const Arguments& arguments, bool inputs_only);
   Error ranges_of(const Arguments& arguments, std::vector<MemoryRange>& ranges) const;

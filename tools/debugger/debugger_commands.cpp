@@ -9,6 +9,8 @@
 #include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "tools/debugger/debugger.hpp"
+#include "tools/debugger/goals.hpp"
+#include "tools/debugger/stop_words.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
@@ -20,8 +22,6 @@ namespace {
 constexpr std::size_t kListed = 15, kListedBefore = 6;
 
 constexpr std::string_view kBackwards = "It stops at breakpoints and watches on the way. Hits are not counted backwards.";
-
-constexpr std::string_view kPlaces = "a line number, SBR n, INT n or NETWORK n";
 
 }  // namespace
 
@@ -186,51 +186,36 @@ const Debugger::Command* Debugger::find_command(std::string_view word, std::stri
 Debugger::Error Debugger::step(const Arguments& arguments) {
   const auto count = parse_count(arguments);
   if (!count) return expects("step", "how many instructions, for example: step 5");
-  go({.goal = [n = *count](const State&, std::uint32_t, const Stepper::Progress& p) { return p.executed >= n; },
-      .show = Show::All});
+  go({.goal = goal::instructions(*count), .show = Show::All});
   return {};
 }
 
 Debugger::Error Debugger::over(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("over");
-  const State& now = simulation_.cpu().state();
-  const auto at_same_level = [in_interrupt = now.in_interrupt, since = now.serving_since, depth = now.call_depth](
-                                 const State& state, std::uint32_t, const Stepper::Progress& progress) {
-    if (!progress.left || progress.executed == 0) return false;
-    if (in_interrupt) return !state.in_interrupt || state.serving_since == since;
-    return !state.in_interrupt && state.call_depth <= depth;
-  };
-  go({.goal = at_same_level, .show = Show::Started});
+  go({.goal = goal::over(simulation_.cpu().state()), .show = Show::Started});
   return {};
 }
 
 Debugger::Error Debugger::out(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("out");
   const State& now = simulation_.cpu().state();
-  if (now.mode == Mode::Run && !now.in_interrupt && now.call_depth == 0) {
+  if (now.mode == Mode::Run && !goal::is_in_routine(now)) {
     out_ << "this is the main program, in no subroutine and no interrupt routine; 'scan' runs to the next scan\n";
     return {};
   }
-  const auto left = [in_interrupt = now.in_interrupt, depth = now.call_depth](const State& state, std::uint32_t,
-                                                                              const Stepper::Progress&) {
-    return !state.in_interrupt && (in_interrupt || state.call_depth < depth);
-  };
-  go({.goal = left});
+  go({.goal = goal::out(now)});
   return {};
 }
 
 Debugger::Error Debugger::scan(const Arguments& arguments) {
   const auto count = parse_count(arguments);
   if (!count) return expects("scan", "how many scans, for example: scan 3");
-  const std::uint64_t target = simulation_.cpu().state().scans + *count;
-  go({.goal = [target](const State& state, std::uint32_t, const Stepper::Progress&) {
-    return state.scans >= target && !state.in_interrupt;
-  }});
+  go({.goal = goal::scan(simulation_.cpu().state(), *count)});
   return {};
 }
 
 Debugger::Error Debugger::continue_run(const Arguments& arguments) {
-  Run run{.goal = [](const State&, std::uint32_t, const Stepper::Progress&) { return false; }, .stop_at_answer = true};
+  Run run{.goal = goal::none(), .stop_at_answer = true};
   if (!arguments.empty()) {
     const auto time = parse_duration(joined(arguments));
     if (!time || *time == 0) return expects("continue", "a duration, for example: continue 250ms");
@@ -244,9 +229,7 @@ Debugger::Error Debugger::until(const Arguments& arguments) {
   std::string why;
   const auto target = find_place(arguments, "until", why);
   if (!target) return why;
-  go({.goal = [target = *target](const State&, std::uint32_t op, const Stepper::Progress& progress) {
-    return op == target && progress.left;
-  }});
+  go({.goal = goal::place(*target)});
   return {};
 }
 
@@ -254,44 +237,10 @@ Debugger::Error Debugger::until(const Arguments& arguments) {
 
 /// A place that a command names; nothing, and `why`, when there is no such place.
 std::optional<std::uint32_t> Debugger::find_place(const Arguments& arguments, std::string_view command, std::string& why) {
-  const std::string text = stl::upper_case(joined(arguments));
-  if (text.starts_with("NETWORK")) return op_of_network(text, command, why);
-  const bool subroutine = text.starts_with("SBR"), interrupt = text.starts_with("INT");
-  if (!subroutine && !interrupt) return op_of_line(text, command, why);
-  const auto number = parse_decimal<std::uint32_t>(arguments.size() == 1 ? std::string_view(text).substr(3) : arguments[1]);
-  if (!number || arguments.size() > 2) {
-    why = expects(command, kPlaces);
-    return {};
-  }
-  const Program& program = simulation_.cpu().program();
-  const std::span<const std::uint32_t> heads =
-      subroutine ? std::span<const std::uint32_t>(program.subroutine) : std::span<const std::uint32_t>(program.interrupt);
-  if (*number < heads.size() && heads[*number] != kNoRoutine) return heads[*number];
-  why = fmt::format("the program has no {} {}", subroutine ? "SBR" : "INT", *number);
-  return {};
-}
-
-std::optional<std::uint32_t> Debugger::op_of_line(const std::string& text, std::string_view command, std::string& why) {
-  const auto line = parse_decimal<std::uint32_t>(text);
-  if (!line) {
-    why = expects(command, kPlaces);
-    return {};
-  }
-  const auto op = listing_.op_from_line(*line);
-  if (!op)
-    why = fmt::format("the last instruction is in line {}", listing_.last_line());
-  else if (listing_.line_of(*op) != *line)
-    out_ << fmt::format("line {} has no instruction; the next one is in line {}\n", *line, listing_.line_of(*op));
-  return op;
-}
-
-std::optional<std::uint32_t> Debugger::op_of_network(const std::string& text, std::string_view command, std::string& why) {
-  const std::size_t digit = text.find_first_of("0123456789");
-  const auto number = digit == std::string::npos ? std::nullopt : parse_decimal<std::uint32_t>(text.substr(digit));
-  const auto op = number ? listing_.op_of_network(*number) : std::nullopt;
-  if (!op)
-    why = number ? fmt::format("the program has no NETWORK {} with an instruction", *number) : expects(command, kPlaces);
-  return op;
+  const auto place = tools::find_place(arguments, simulation_.cpu().program(), listing_, command, why);
+  if (!place) return {};
+  out_ << place->note;
+  return place->op;
 }
 
 // --- looking ---

@@ -9,6 +9,7 @@
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/debugger/debugger.hpp"
+#include "tools/debugger/goals.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
@@ -35,58 +36,37 @@ Debugger::Error Debugger::back(const Arguments& arguments) {
 Debugger::Error Debugger::back_step(const Arguments& arguments) {
   const auto count = parse_count(arguments);
   if (!count) return expects("rstep", "how many instructions, for example: rstep 5");
-  go_back([](const State&, std::uint32_t, const Stepper::Progress&) { return true; }, *count);
+  go_back(goal::back_instruction(), *count);
   return {};
 }
 
 Debugger::Error Debugger::back_over(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("rover");
-  const State& now = simulation_.cpu().state();
-  go_back(
-      [in_interrupt = now.in_interrupt, since = now.serving_since, depth = now.call_depth](const State& state, std::uint32_t,
-                                                                                           const Stepper::Progress&) {
-        if (state.in_interrupt) return in_interrupt && state.serving_since == since && state.call_depth <= depth;
-        return in_interrupt || state.call_depth <= depth;
-      },
-      1);
+  go_back(goal::back_over(simulation_.cpu().state()), 1);
   return {};
 }
 
 Debugger::Error Debugger::back_out(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("rout");
   const State& now = simulation_.cpu().state();
-  const bool in_subroutine = now.call_depth > (now.in_interrupt ? now.saved.call_depth : 0);
-  if (!now.in_interrupt && !in_subroutine) {
+  if (!goal::is_in_routine(now)) {
     out_ << "this is the main program, in no subroutine and no interrupt routine; 'rscan' goes to the start of its scan\n";
     return {};
   }
-  go_back(
-      [in_interrupt = now.in_interrupt && !in_subroutine, since = now.serving_since, in_any = now.in_interrupt,
-       depth = now.call_depth](const State& state, std::uint32_t, const Stepper::Progress&) {
-        if (in_interrupt) return !state.in_interrupt;
-        return state.in_interrupt == in_any && (!in_any || state.serving_since == since) && state.call_depth < depth;
-      },
-      1);
+  go_back(goal::back_out(now), 1);
   return {};
 }
 
 Debugger::Error Debugger::back_scan(const Arguments& arguments) {
   const auto count = parse_count(arguments);
   if (!count) return expects("rscan", "how many scans, for example: rscan 3");
-  go_back(
-      [seen = std::optional<std::uint64_t>()](const State& state, std::uint32_t op, const Stepper::Progress&) mutable {
-        if (state.in_interrupt) return false;
-        const bool begins = seen && *seen <= state.scans ? *seen != state.scans : op == 0;
-        seen = state.scans;
-        return begins;
-      },
-      *count);
+  go_back(goal::back_scan(), *count);
   return {};
 }
 
 Debugger::Error Debugger::back_continue(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("rcontinue");
-  go_back([](const State&, std::uint32_t, const Stepper::Progress&) { return false; }, 1, true);
+  go_back(goal::none(), 1, true);
   return {};
 }
 
@@ -94,7 +74,7 @@ Debugger::Error Debugger::back_until(const Arguments& arguments) {
   std::string why;
   const auto target = find_place(arguments, "runtil", why);
   if (!target) return why;
-  go_back([target = *target](const State&, std::uint32_t op, const Stepper::Progress&) { return op == target; }, 1);
+  go_back(goal::place(*target), 1);
   return {};
 }
 

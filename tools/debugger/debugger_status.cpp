@@ -2,71 +2,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <ostream>
 
 #include "interpreter/stl/printer.hpp"
 #include "tools/debugger/debugger.hpp"
+#include "tools/debugger/last_executions.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {
 
 constexpr std::uint32_t kShown = 15, kBefore = 6;
-constexpr Time kLookedAt = 2 * kSecond;
-
-/// The last execution of each instruction of [first, end).
-class Status final : public Observer {
- public:
-  Status(std::uint32_t first, std::uint32_t end, const std::atomic<bool>* stop_request)
-      : first_(first), end_(end), stop_request_(stop_request) {}
-
-  bool wants_instructions() const override { return true; }
-  bool before(std::uint32_t) override { return !(stop_request_ && *stop_request_); }
-  void instruction(const InstructionRecord& record) override {
-    if (record.op >= first_ && record.op < end_) part_[record.op] = record;
-  }
-
-  /// The part that was played is over; what was found later stands.
-  void end_part() {
-    last.merge(part_);
-    part_.clear();
-  }
-  bool complete() const { return last.size() == end_ - first_; }
-
-  std::map<std::uint32_t, InstructionRecord> last;
-
- private:
-  std::uint32_t first_, end_;
-  const std::atomic<bool>* stop_request_;
-  std::map<std::uint32_t, InstructionRecord> part_;
-};
 
 }  // namespace
 
 /// A line for each instruction of [first, end), as it was executed last within `within`.
 std::vector<std::string> Debugger::status_lines(std::uint32_t first, std::uint32_t end, Time within) {
-  Status status(first, end, options_.stop_request);
-  const Moment start = history_.now();
-  const Time oldest = start.time - std::min(start.time, within);
-  Time looked_at = start.time;
-  history_.search_back(
-      status, start, [&] { looked_at = simulation_.time(); },
-      [&] {
-        status.end_part();
-        return status.complete() || looked_at <= oldest;
-      });
-  history_.go_to(start);
+  const LastExecutions last = last_executions(history_, first, end, within, options_.stop_request);
   const Program& program = simulation_.cpu().program();
   std::vector<std::string> lines;
   for (std::uint32_t op = first; op < end; ++op) {
-    const auto found = status.last.find(op);
+    const auto found = last.of.find(op);
     lines.push_back(
         fmt::format("{:>2} {}{}", mark_of(op),
-                    found != status.last.end()
+                    found != last.of.end()
                         ? instruction_text(found->second)
                         : fmt::format("line {:<5} {:<28} not executed within {}", listing_.line_of(op),
-                                      stl::to_text(program.statement(op)), format_duration(start.time - looked_at)),
+                                      stl::to_text(program.statement(op)), format_duration(simulation_.time() - last.since)),
                     forced_text(operands_of(op))));
   }
   return lines;

@@ -8,6 +8,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/debugger/debugger.hpp"
+#include "tools/debugger/stop_words.hpp"
 #include "tools/debugger/words.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
@@ -18,15 +19,6 @@ namespace {
 
 using On = StopPoint::On;
 using Words = std::vector<std::string>;
-
-struct Happening {
-  std::string_view word;
-  On on;
-};
-constexpr Happening kHappenings[] = {
-    {"received", On::FrameReceived}, {"sent", On::FrameSent},     {"xmt", On::Transmit},
-    {"rcv", On::ReceiveEnd},         {"error", On::RuntimeError}, {"overflow", On::QueueOverflow},
-    {"lost", On::LostCharacter},     {"mode", On::ModeChange},    {"unanswered", On::Unanswered}};
 
 constexpr std::string_view kOptions[] = {"always", "if", "hits", "log"};
 
@@ -84,36 +76,9 @@ std::string options_text(const StopPoint& stop) {
 }  // namespace
 
 std::optional<StopPoint> Debugger::stop_of(const Arguments& words, std::string& why) {
-  const std::string first = lower_case(words.front());
-  StopPoint stop{.name = lower_case(joined(words))};
-  for (const Happening& happening : kHappenings) {
-    if (first != happening.word) continue;
-    stop.on = happening.on;
-    if (words.size() == 1) return stop;
-    const auto code = words.size() == 2 && stop.on == On::RuntimeError ? parse_integer("16#" + words[1]) : std::nullopt;
-    if (code && *code > 0 && *code <= 0xFFFF) {
-      stop.code = static_cast<std::uint16_t>(*code);
-      return stop;
-    }
-    why = expects("break error", "nothing or a code in hex, for example: break error 0006");
-    return {};
-  }
-  if (first != "event") {
-    const auto op = find_place(words, "break", why);
-    if (!op) return {};
-    stop.on = On::Place;
-    stop.op = *op;
-    stop.needs_power = true;
-    return stop;
-  }
-  const auto number = words.size() >= 2 ? parse_decimal<std::uint8_t>(words[1]) : std::nullopt;
-  const std::string what = words.size() == 3 ? lower_case(words[2]) : words.size() == 2 ? "served" : "";
-  if (!number || !find_event(*number) || (what != "served" && what != "occurs")) {
-    why = expects("break event", "the number of an event, and occurs or served, for example: break event 8 occurs");
-    return {};
-  }
-  stop.event = *number;
-  stop.on = what == "served" ? On::EventServed : On::EventOccurs;
+  std::string note;
+  auto stop = find_stop(words, simulation_.cpu().program(), listing_, why, note);
+  out_ << note;
   return stop;
 }
 

@@ -82,6 +82,7 @@ struct Writer {
       places.push_back(place.name_of(0) + (place.count > 1 ? fmt::format(":{}", place.count) : ""));
     return {{"unforce", places}};
   }
+  Json operator()(const Jump& jump) const { return {{"goto", jump.to}}; }
   Json operator()(const SendFrame& send) const {
     Json json{{"send", serial::to_hex(send.request.frame)},
               {"format", json_of(send.format)},
@@ -151,6 +152,7 @@ Action action_from(const Json& json, const CpuModel& model) {
   if (json.contains("set")) return SetMemory{assignments_from(json.at("set"), model)};
   if (json.contains("send")) return send_from(json);
   if (json.contains("host")) return call_from(json);
+  if (json.contains("goto")) return Jump{json.at("goto").get<std::uint32_t>()};
   if (json.contains("force")) {
     Force force{assignments_from(json.at("force"), model)};
     for (const Assignment& assignment : force.assignments)
@@ -195,12 +197,13 @@ std::string session_beginning() { return fmt::format("{{\n  \"format\": \"{}", k
 std::string digest_of(const Program& program) {
   Digest digest;
   digest.add(program.model->name);
-  for (const Op& op : program.ops) {
-    const stl::Statement& statement = program.statements[op.statement];
+  for (std::uint32_t number = 0; number < program.ops.size(); ++number) {
+    const Op& op = program.ops[number];
+    const stl::Statement& statement = program.statement(number);
     digest.add(stl::to_text(statement));
-    for (const std::uint64_t number : {std::uint64_t{statement.position.line}, static_cast<std::uint64_t>(op.cost),
+    for (const std::uint64_t detail : {std::uint64_t{statement.position.line}, static_cast<std::uint64_t>(op.cost),
                                        static_cast<std::uint64_t>(op.unit_cost), std::uint64_t{op.target}})
-      digest.add(number);
+      digest.add(detail);
   }
   digest.add(program.constants.data(), program.constants.size());
   for (const InitialData& data : program.data) {

@@ -12,6 +12,7 @@ Stepper::Stepper(serial::Simulation& simulation, History& history, const std::at
       on_instruction([](const InstructionRecord&, bool) {}),
       on_answer([](const serial::Exchange&) {}),
       on_message([](const StopPoint&) {}),
+      on_search([](Time) {}),
       simulation_(simulation),
       history_(history),
       stop_request_(stop_request) {}
@@ -48,6 +49,7 @@ Stop Stepper::run_back(const Goal& goal, std::uint64_t count, bool stop_at_answe
     if (first_place_) end = first_place_;
     first_place_.reset();
     found_.clear();
+    on_search(simulation_.time());
     begin_watching();
   };
   const auto found = [&] {

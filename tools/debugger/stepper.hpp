@@ -49,6 +49,8 @@ class Stepper final : public Observer {
   std::function<void(const serial::Exchange&)> on_answer;
   std::function<void(const StopPoint&)> on_message;  ///< instead of stopping
 
+  std::function<void(Time from)> on_search;  ///< told while running backwards: an ever earlier part is being played
+
   void record(const TraceRecord& record) override;
   bool before(std::uint32_t op) override;
   void instruction(const InstructionRecord& record) override;

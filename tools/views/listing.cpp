@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
@@ -32,9 +33,37 @@ std::vector<std::string> routines_of(const Program& program) {
   return routines;
 }
 
+/// In front of which instructions a NETWORK line stands.
+std::vector<bool> heads_of(const Program& program) {
+  std::vector<bool> heads;
+  bool after_head = false;
+  for (const stl::Line& line : program.source.lines) {
+    if (std::holds_alternative<stl::NetworkHead>(line)) after_head = true;
+    if (std::holds_alternative<stl::Statement>(line)) heads.push_back(std::exchange(after_head, false));
+  }
+  return heads;
+}
+
+/// An LD after a coil or box begins a rung.
+bool begins_rung(const Program& program, std::uint32_t op) {
+  const auto& rung_before = program.ops[op - 1].instruction->rung;
+  return (rung_before.needs_power_flow || rung_before.writes_output) &&
+         program.ops[op].instruction->mnemonic.starts_with("LD");
+}
+
+std::vector<bool> networks_of(const Program& program, const std::vector<std::string>& routines) {
+  std::vector<bool> begins = heads_of(program);
+  begins.resize(program.ops.size());
+  const bool has_heads = std::ranges::find(begins, true) != begins.end();
+  for (std::uint32_t op = 0; op < begins.size(); ++op)
+    if (op == 0 || routines[op] != routines[op - 1] || (!has_heads && begins_rung(program, op))) begins[op] = true;
+  return begins;
+}
+
 }  // namespace
 
-Listing::Listing(const Program& program) : program_(program), routine_(routines_of(program)) {
+Listing::Listing(const Program& program)
+    : program_(program), routine_(routines_of(program)), begins_network_(networks_of(program, routine_)) {
   std::uint32_t op = 0;
   for (const stl::Line& line : program.source.lines) {
     if (const auto* statement = std::get_if<stl::Statement>(&line)) {

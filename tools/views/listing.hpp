@@ -26,6 +26,10 @@ class Listing {
   /// `main`, `SBR 51`, `INT 123`
   const std::string& routine_of(std::uint32_t op) const { return routine_[op]; }
 
+  /// Whether it is the first instruction of a network, or of a routine. A program without NETWORK lines has a network for
+  /// each rung.
+  bool begins_network(std::uint32_t op) const { return begins_network_[op]; }
+
   /// The instruction with its comment.
   std::string text_of(std::uint32_t op) const;
 
@@ -43,6 +47,7 @@ class Listing {
 
   const Program& program_;
   std::vector<std::string> routine_;  ///< by op
+  std::vector<bool> begins_network_;  ///< by op
   std::vector<Entry> entries_;        ///< the lines that are not blank
 };
 

@@ -1,0 +1,54 @@
+#include "tools/debugger/last_executions.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace s7200::tools {
+namespace {
+
+/// The last execution of each instruction of [first, end).
+class Status final : public Observer {
+ public:
+  Status(std::uint32_t first, std::uint32_t end, const std::atomic<bool>* stop_request)
+      : first_(first), end_(end), stop_request_(stop_request) {}
+
+  bool wants_instructions() const override { return true; }
+  bool before(std::uint32_t) override { return !(stop_request_ && *stop_request_); }
+  void instruction(const InstructionRecord& record) override {
+    if (record.op >= first_ && record.op < end_) part_[record.op] = record;
+  }
+
+  /// The part that was played is over; what was found later stands.
+  void end_part() {
+    last.merge(part_);
+    part_.clear();
+  }
+  bool complete() const { return last.size() == end_ - first_; }
+
+  std::map<std::uint32_t, InstructionRecord> last;
+
+ private:
+  std::uint32_t first_, end_;
+  const std::atomic<bool>* stop_request_;
+  std::map<std::uint32_t, InstructionRecord> part_;
+};
+
+}  // namespace
+
+LastExecutions last_executions(History& history, std::uint32_t first, std::uint32_t end, Time within,
+                               const std::atomic<bool>* stop_request) {
+  Status status(first, end, stop_request);
+  const Moment start = history.now();
+  const Time oldest = start.time - std::min(start.time, within);
+  Time looked_at = start.time;
+  history.search_back(
+      status, start, [&] { looked_at = history.now().time; },
+      [&] {
+        status.end_part();
+        return status.complete() || looked_at <= oldest;
+      });
+  history.go_to(start);
+  return {std::move(status.last), looked_at};
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,23 @@
+// What each instruction did when it was last executed, as Micro/WIN's STL status shows it.
+#pragma once
+
+#include <atomic>
+#include <map>
+
+#include "tools/debugger/history.hpp"
+
+namespace s7200::tools {
+
+struct LastExecutions {
+  std::map<std::uint32_t, InstructionRecord> of;  ///< by instruction; those that were not executed are not there
+  Time since = 0;                                 ///< how far back it was looked for them
+};
+
+/// How far back it is worth looking.
+inline constexpr Time kLookedAt = 2 * kSecond;
+
+/// Of the instructions [first, end), up to now: of the last `within` at least. The simulation stands where it stood.
+LastExecutions last_executions(History& history, std::uint32_t first, std::uint32_t end, Time within,
+                               const std::atomic<bool>* stop_request);
+
+}  // namespace s7200::tools

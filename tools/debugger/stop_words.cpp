@@ -1,0 +1,116 @@
+#include "tools/debugger/stop_words.hpp"
+
+#include <fmt/format.h>
+
+#include <span>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/model/cpu_model.hpp"
+#include "tools/debugger/words.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using On = StopPoint::On;
+
+struct Happening {
+  std::string_view word;
+  On on;
+};
+constexpr Happening kHappenings[] = {
+    {"received", On::FrameReceived}, {"sent", On::FrameSent},     {"xmt", On::Transmit},
+    {"rcv", On::ReceiveEnd},         {"error", On::RuntimeError}, {"overflow", On::QueueOverflow},
+    {"lost", On::LostCharacter},     {"mode", On::ModeChange},    {"unanswered", On::Unanswered}};
+
+constexpr std::string_view kPlaces = "a line number, SBR n, INT n or NETWORK n";
+
+std::optional<NamedPlace> place_of_line(const std::string& text, const Listing& listing, std::string_view command,
+                                        std::string& why) {
+  const auto line = parse_decimal<std::uint32_t>(text);
+  if (!line) {
+    why = expects(command, kPlaces);
+    return {};
+  }
+  const auto op = listing.op_from_line(*line);
+  if (!op) {
+    why = fmt::format("the last instruction is in line {}", listing.last_line());
+    return {};
+  }
+  if (listing.line_of(*op) == *line) return NamedPlace{*op};
+  return NamedPlace{*op,
+                    fmt::format("line {} has no instruction; the next one is in line {}\n", *line, listing.line_of(*op))};
+}
+
+std::optional<NamedPlace> place_of_network(const std::string& text, const Listing& listing, std::string_view command,
+                                           std::string& why) {
+  const std::size_t digit = text.find_first_of("0123456789");
+  const auto number = digit == std::string::npos ? std::nullopt : parse_decimal<std::uint32_t>(text.substr(digit));
+  const auto op = number ? listing.op_of_network(*number) : std::nullopt;
+  if (op) return NamedPlace{*op};
+  why = number ? fmt::format("the program has no NETWORK {} with an instruction", *number) : expects(command, kPlaces);
+  return {};
+}
+
+std::optional<StopPoint> event_stop(const std::vector<std::string>& words, std::string& why) {
+  const auto number = words.size() >= 2 ? parse_decimal<std::uint8_t>(words[1]) : std::nullopt;
+  const std::string what = words.size() == 3 ? lower_case(words[2]) : words.size() == 2 ? "served" : "";
+  if (!number || !find_event(*number) || (what != "served" && what != "occurs")) {
+    why = expects("break event", "the number of an event, and occurs or served, for example: break event 8 occurs");
+    return {};
+  }
+  return StopPoint{.on = what == "served" ? On::EventServed : On::EventOccurs, .event = *number};
+}
+
+std::optional<StopPoint> happening_stop(const Happening& happening, const std::vector<std::string>& words,
+                                        std::string& why) {
+  if (words.size() == 1) return StopPoint{.on = happening.on};
+  const auto code = words.size() == 2 && happening.on == On::RuntimeError ? parse_integer("16#" + words[1]) : std::nullopt;
+  if (code && *code > 0 && *code <= 0xFFFF) return StopPoint{.on = happening.on, .code = static_cast<std::uint16_t>(*code)};
+  why = expects("break error", "nothing or a code in hex, for example: break error 0006");
+  return {};
+}
+
+}  // namespace
+
+std::optional<NamedPlace> find_place(const std::vector<std::string>& words, const Program& program, const Listing& listing,
+                                     std::string_view command, std::string& why) {
+  const std::string text = stl::upper_case(joined(words));
+  if (text.starts_with("NETWORK")) return place_of_network(text, listing, command, why);
+  const bool subroutine = text.starts_with("SBR"), interrupt = text.starts_with("INT");
+  if (!subroutine && !interrupt) return place_of_line(text, listing, command, why);
+  const auto number = parse_decimal<std::uint32_t>(words.size() == 1 ? std::string_view(text).substr(3) : words[1]);
+  if (!number || words.size() > 2) {
+    why = expects(command, kPlaces);
+    return {};
+  }
+  const std::span<const std::uint32_t> heads =
+      subroutine ? std::span<const std::uint32_t>(program.subroutine) : std::span<const std::uint32_t>(program.interrupt);
+  if (*number < heads.size() && heads[*number] != kNoRoutine) return NamedPlace{heads[*number]};
+  why = fmt::format("the program has no {} {}", subroutine ? "SBR" : "INT", *number);
+  return {};
+}
+
+std::optional<StopPoint> find_stop(const std::vector<std::string>& words, const Program& program, const Listing& listing,
+                                   std::string& why, std::string& note) {
+  const std::string first = lower_case(words.front());
+  const auto named = [&](std::optional<StopPoint> stop) {
+    if (stop) stop->name = lower_case(joined(words));
+    return stop;
+  };
+  for (const Happening& happening : kHappenings)
+    if (first == happening.word) return named(happening_stop(happening, words, why));
+  if (first == "event") return named(event_stop(words, why));
+  const auto place = find_place(words, program, listing, "break", why);
+  if (!place) return {};
+  note = place->note;
+  return named(StopPoint{.on = On::Place, .op = place->op, .needs_power = true});
+}
+
+std::vector<std::string_view> happening_words() {
+  std::vector<std::string_view> words;
+  for (const Happening& happening : kHappenings) words.push_back(happening.word);
+  return words;
+}
+
+}  // namespace s7200::tools

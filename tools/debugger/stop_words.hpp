@@ -1,0 +1,32 @@
+// Places and happenings by the words that people use for them: `40`, `SBR 51`, `event 8 occurs`, `error 0006`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/debugger/stop_point.hpp"
+#include "tools/views/listing.hpp"
+
+namespace s7200::tools {
+
+struct NamedPlace {
+  std::uint32_t op = 0;
+  std::string note{};  ///< what is to be said: the line that was named has no instruction
+};
+
+/// `LINE`, `SBR n`, `INT n`, `NETWORK n`. Nothing, and `why`, if there is no such place; `command` is named in it.
+std::optional<NamedPlace> find_place(const std::vector<std::string>& words, const Program& program, const Listing& listing,
+                                     std::string_view command, std::string& why);
+
+/// A happening, or a place: `received`, `error 0006`, `event 8 occurs`, `INT 123`. It has no number yet. `note`: as that of
+/// the place.
+std::optional<StopPoint> find_stop(const std::vector<std::string>& words, const Program& program, const Listing& listing,
+                                   std::string& why, std::string& note);
+
+/// The words for happenings, for completion: `received`, `xmt` …
+std::vector<std::string_view> happening_words();
+
+}  // namespace s7200::tools

@@ -1,0 +1,42 @@
+#include "tools/debugger/timeline_of_past.hpp"
+
+#include <algorithm>
+
+namespace s7200::tools {
+namespace {
+
+class Teller final : public Observer {
+ public:
+  Teller(const std::shared_ptr<const Program>& program, const std::atomic<bool>* stop_request)
+      : timeline_(program, nullptr), stop_request_(stop_request) {
+    timeline_.begin();
+  }
+
+  bool wants_instructions() const override { return true; }
+  bool before(std::uint32_t) override { return !(stop_request_ && *stop_request_); }
+  void record(const TraceRecord& record) override { timeline_.record(record); }
+
+  TimelineReport report() {
+    timeline_.end();
+    return timeline_.report();
+  }
+
+ private:
+  Timeline timeline_;
+  const std::atomic<bool>* stop_request_;
+};
+
+}  // namespace
+
+std::optional<TimelineReport> timeline_of_past(History& history, const std::shared_ptr<const Program>& program, Time from,
+                                               const std::atomic<bool>* stop_request) {
+  const Moment now = history.now();
+  history.go_to(std::min(from, now.time));
+  if (now < history.now()) history.go_to(now);
+  Teller teller(program, stop_request);
+  const bool complete = history.play(teller, now);
+  history.go_to(now);
+  return complete ? std::optional(teller.report()) : std::nullopt;
+}
+
+}  // namespace s7200::tools

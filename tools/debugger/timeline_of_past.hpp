@@ -1,0 +1,17 @@
+// The timeline of what has run, put together by playing it again.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+
+#include "tools/debugger/history.hpp"
+#include "tools/views/timeline.hpp"
+
+namespace s7200::tools {
+
+/// Of what happened from `from` on up to now; nothing after a stop request. The simulation stands where it stood.
+std::optional<TimelineReport> timeline_of_past(History& history, const std::shared_ptr<const Program>& program, Time from,
+                                               const std::atomic<bool>* stop_request);
+
+}  // namespace s7200::tools
