@@ -42,6 +42,7 @@ ROOMS = {
     "tools/calibration": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
     "tools/scenario": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
     "tools/debugger": CORE + ["tools/host", "tools/views", "tools/rig"],
+    "tools/dap": CORE + ["tools/host", "tools/views", "tools/rig", "tools/debugger"],
 }
 ROOMS["tools/command"] = list(ROOMS)
 ROOMS["tests"] = list(ROOMS)

@@ -41,6 +41,8 @@ needed_to_test=(
   zsh:zsh
   pytest-3:python3-pytest
   /usr/lib/python3/dist-packages/yaml:python3-yaml
+  node:nodejs
+  npm:npm
 )
 
 # install_missing_packages COMMAND:PACKAGE...

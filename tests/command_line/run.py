@@ -439,7 +439,7 @@ class Options(Case):
     NONSENSE = ("nan", "-nan", "inf", "-1", "1e999", "0x10", "1_000", "5,0", "99999999999999999999999", "-")
     ANY_TEXT = ("TABLE", "FILE", "FILE.stl", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS", "TEXT")  # by their type in the help
     BEGINNING = {"check": [SLAVE], "import": [SLAVE], "convert": [SLAVE, "--to", "iec"], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
-                 "master": [SLAVE, "slave-id"], "debug": [SLAVE, "-x", "quit"], "instructions": [], "times": [], "calibrate": [MEASURE], "bench": []}
+                 "master": [SLAVE, "slave-id"], "debug": [SLAVE, "-x", "quit"], "dap": [SLAVE], "instructions": [], "times": [], "calibrate": [MEASURE], "bench": []}
 
     @staticmethod
     def listed(verb):
@@ -1167,9 +1167,10 @@ class JsonPage(Case):
                 printed[verb] |= self.keys(result)
         self.assertEqual({verb: keys - documented[verb] for verb, keys in printed.items()}, {verb: set() for verb in VERBS},
                          "printed, and not on the page")
-        del documented["debug"]
+        for verb in ("debug", "dap"):
+            del documented[verb]
         self.assertEqual({verb: keys - printed[verb] for verb, keys in documented.items()},
-                         {verb: set() for verb in VERBS if verb != "debug"}, "on the page, and never printed")
+                         {verb: set() for verb in VERBS if verb not in ("debug", "dap")}, "on the page, and never printed")
 
 
 class Files(Case):
@@ -1362,6 +1363,20 @@ class Files(Case):
         self.assertIn("left alone", self.ends(UNUSABLE, "run", path, "--trace", mine).stderr)
         self.assertEqual(mine.read_text(encoding="utf-8"), "mine\n")
         self.assertIn("SMB30 = 16#09", self.ends(FINE, "run", path, "--trace", "-", "--scans", "3").stdout)
+
+    def test_a_stream_that_is_not_the_protocol_is_said_with_what_is_wrong(self):
+        for stream, said in (("hello\r\n", "'hello' is not a line of a header"), ("Content-Length: 99999999\r\n\r\n", "is longer than"),
+                             ("Content-Length: 5\r\n\r\n{", "has ended within a message"),
+                             ("Content-Length: 5\r\n\r\nhello", "'hello' is not JSON")):
+            done = self.ends(UNUSABLE, "dap", stdin=None, input=stream)
+            self.assertRegex(done.stderr, f"^s7200: error: standard input .*{re.escape(said)}")
+        self.assertEqual(self.ends(FINE, "dap", stdin=None, input="").stdout, "")
+        done = self.ends(FINE, "dap", stdin=None, input='Content-Length: 54\r\n\r\n{"seq": 1, "type": "request", "command": "initialize"}')
+        self.assertTrue(done.stdout.startswith("Content-Length: "))
+        self.assertIn('"supportsStepBack":true', done.stdout)
+
+    def test_a_server_of_other_computers_is_refused(self):
+        self.assertIn("only this computer itself is served", self.ends(UNUSABLE, "dap", "--listen", "0.0.0.0:0").stderr)
 
     def test_the_debugger_has_the_plant_around_the_cpu_too(self):
         files = {option: self.folder / name for option, name in {

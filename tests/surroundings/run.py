@@ -102,7 +102,7 @@ class Case(unittest.TestCase):
         """{name of the file: the option with it}, for every file that a verb may write; the names lie in `folder`/out."""
         records = {"run.trace": "--trace", "outputs.csv": "--output", "line.vcd": "--capture", "line.pcap": "--capture",
                    "memory.json": "--memory"}
-        return {"run": records, "send": records, "master": records, "debug": records, "import": {"listing.stl": "-o"},
+        return {"run": records, "send": records, "master": records, "debug": records, "dap": records, "import": {"listing.stl": "-o"},
                 "convert": {"converted.stl": "-o"}, "calibrate": {"times.csv": "-o"},
                 "test": {"junit.xml": "--junit", "transcript.yaml": "--record"}}.get(verb, {})
 
@@ -112,7 +112,7 @@ class Case(unittest.TestCase):
         return {"check": ["check", self.echo], "import": ["import", self.page],
                 "convert": ["convert", self.echo, "--to", "iec"], "run": ["run", self.blinking, "--for", "2s"],
                 "send": ["send", self.echo, "ab", "cd"], "test": ["test", self.good], "master": ["master", SLAVE, *SESSION],
-                "debug": ["debug", self.echo, "-x", "step 3; regs"], "instructions": ["instructions"], "times": ["times"],
+                "debug": ["debug", self.echo, "-x", "step 3; regs"], "dap": ["dap", self.echo], "instructions": ["instructions"], "times": ["times"],
                 "bench": ["bench", "--each", "1ms"],
                 "calibrate": ["calibrate", SOURCE / "stl_programs/measure_times.stl", "--each", "1s", "--json"]}[verb] + files
 
@@ -239,6 +239,9 @@ class Streams(Case):
             code, printed, written = self.expected(verb)
             with self.subTest(verb):
                 done = run_with({0: "closed"}, self.command(verb, self.fresh()))
+                if verb == "dap":  # that is where it hears from its client
+                    self.assertIn(b"standard input cannot be read", done.stderr)
+                    code = UNUSABLE
                 self.assertEqual((done.returncode, self.files(verb)), (code, written), done.stderr)
                 if verb != "bench":
                     self.assertEqual(done.stdout, printed)
@@ -362,6 +365,27 @@ class Signals(Case):
                 with self.subTest(arguments=arguments, number=number):
                     process = self.start(*arguments)
                     self.assertEqual(self.noted(process, number), code, process.error)
+
+    def test_a_server_for_editors_completes_the_files_of_its_plc(self):
+        def message(number, command, **arguments):
+            content = json.dumps({"seq": number, "type": "request", "command": command, "arguments": arguments}).encode()
+            return b"Content-Length: %d\r\n\r\n%s" % (len(content), content)
+        trace = self.folder / "run.trace"
+        running = message(1, "initialize") + message(2, "attach", stopOnEntry=False) + message(3, "configurationDone")
+        for listening, said in ((False, b""), (False, running), (True, b"")):
+            for number in SIGNALS:
+                with self.subTest(listening=listening, said=said, number=number):
+                    process = self.start("dap", *(["--listen", "0"] if listening else []), self.blinking, "--trace", trace,
+                                         stdin=subprocess.PIPE)
+                    if listening:
+                        self.assertIn(b"listening", process.stderr.readline())
+                    process.stdin.write(said)
+                    process.stdin.flush()
+                    heard = b""
+                    while said and b'"process"' not in heard:
+                        heard += process.stdout.read1()
+                    self.assertEqual(self.noted(process, number), FINE if listening else FAILED, process.error)
+                    self.assertTrue(trace.read_bytes().endswith(b"\n"))
 
     def test_a_bridge_removes_its_link_and_completes_its_files(self):
         link, memory, trace = self.folder / "plc", self.folder / "memory.json", self.folder / "run.trace"

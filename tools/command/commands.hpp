@@ -16,6 +16,7 @@ void add_send(CLI::App& app, int& exit_code);
 void add_test(CLI::App& app, int& exit_code);
 void add_master(CLI::App& app, int& exit_code);
 void add_debug(CLI::App& app, int& exit_code);
+void add_dap(CLI::App& app, int& exit_code);
 void add_instructions(CLI::App& app, int& exit_code);
 void add_times(CLI::App& app, int& exit_code);
 void add_calibrate(CLI::App& app, int& exit_code);

@@ -41,6 +41,7 @@ int run_command(int argc, char** argv) {
   add_test(app, exit_code);
   add_master(app, exit_code);
   add_debug(app, exit_code);
+  add_dap(app, exit_code);
   add_instructions(app, exit_code);
   add_times(app, exit_code);
   add_calibrate(app, exit_code);

@@ -14,7 +14,13 @@ namespace {
 /// Of the streams of standard_streams.hpp, which have no descriptor of their own.
 bool is_terminal(std::FILE* stream) { return isatty(stream == stderr ? STDERR_FILENO : STDOUT_FILENO) != 0; }
 
+KeptMessages* kept = nullptr;
+
 void print_message(std::string_view kind, std::string_view message) {
+  if (kept) {
+    kept->text += fmt::format("{}\n", stl::printable(message));
+    return;
+  }
   std::fflush(stdout);
   fmt::print(stderr, "s7200: {}: {}\n", kind, stl::printable(message));
 }
@@ -22,6 +28,7 @@ void print_message(std::string_view kind, std::string_view message) {
 }  // namespace
 
 bool colour_wanted(std::FILE* stream) {
+  if (kept && stream == stderr) return false;
   const char* no_color = std::getenv("NO_COLOR");
   return is_terminal(stream) && !(no_color && *no_color);
 }
@@ -38,6 +45,17 @@ void print_file(std::string_view text) {
 void print_error(std::string_view message) { print_message("error", message); }
 
 void print_note(std::string_view message) { print_message("note", message); }
+
+void print_message_lines(std::string_view lines) {
+  if (kept)
+    kept->text += lines;
+  else
+    fmt::print(stderr, "{}", lines);
+}
+
+KeptMessages::KeptMessages() { kept = this; }
+
+KeptMessages::~KeptMessages() { kept = nullptr; }
 
 void print_note_if_any(std::string_view message) {
   if (!message.empty()) print_note(message);

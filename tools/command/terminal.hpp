@@ -25,6 +25,21 @@ void print_note(std::string_view message);
 void print_note_if_any(std::string_view message);
 void print_notes(const std::vector<std::string>& messages);
 
+/// Lines on stderr that are messages as they are, such as diagnostics.
+void print_message_lines(std::string_view lines);
+
+/// As long as it lives, messages are kept in it instead of being printed: someone else is to be told.
+class KeptMessages {
+ public:
+  KeptMessages();
+  ~KeptMessages();
+  KeptMessages(const KeptMessages&) = delete;
+  KeptMessages& operator=(const KeptMessages&) = delete;
+
+  /// A line each, without `s7200: error:`.
+  std::string text;
+};
+
 /// `s7200: note: interrupted`, if a signal ended what was going on.
 void print_interruption();
 

@@ -6,17 +6,25 @@
 
 namespace s7200::tools {
 
-void DebugOptions::add_to(CLI::App& app) {
+void DebuggeeOptions::add_program_to(CLI::App& app) {
   program.add_files_to(app);
   program.CpuOptions::add_to(app);
+}
+
+void DebuggeeOptions::add_plant_to(CLI::App& app) {
+  add_master_options(app, master);
+  bridge.add_bridges(app);
+  rig.add_to(app);
+}
+
+void DebugOptions::add_to(CLI::App& app) {
+  add_program_to(app);
   app.add_option("--commands", commands_file, "commands to execute, one a line; # begins a comment")->type_name("FILE");
   app.add_option("-x,--execute", commands, "commands to execute, separated by ; (repeatable; after --commands)")
       ->type_name("COMMANDS")
       ->allow_extra_args(false);
   app.add_flag("-i,--interactive", interactive, "go on with standard input after --commands and -x");
-  add_master_options(app, master);
-  bridge.add_bridges(app);
-  rig.add_to(app);
+  add_plant_to(app);
 }
 
 }  // namespace s7200::tools

@@ -1,4 +1,4 @@
-// The options of `s7200 debug`.
+// The options of `s7200 debug`, and of `s7200 dap`.
 #pragma once
 
 #include <string>
@@ -10,11 +10,18 @@
 
 namespace s7200::tools {
 
-struct DebugOptions {
+/// A PLC to be debugged.
+struct DebuggeeOptions {
   ProgramOptions program;
   serial::MasterSettings master;
   RigOptions rig;
   BridgeOptions bridge;
+
+  void add_program_to(CLI::App& app);
+  void add_plant_to(CLI::App& app);
+};
+
+struct DebugOptions : DebuggeeOptions {
   std::string commands_file;
   std::vector<std::string> commands;
   bool interactive = false;

@@ -200,7 +200,7 @@ std::string left_out_note(const SourceText& text) {
 }
 
 void print_diagnostics(const stl::Diagnostics& diagnostics, const stl::SourceLines& source) {
-  fmt::print(stderr, "{}", stl::render(diagnostics, source, colour_wanted(stderr)));
+  print_message_lines(stl::render(diagnostics, source, colour_wanted(stderr)));
 }
 
 }  // namespace s7200::tools

@@ -1,0 +1,74 @@
+#include "tools/dap/framing.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tools/dap/base64.hpp"
+
+namespace s7200::tools::dap {
+namespace {
+
+std::string why_not(std::string_view bytes) {
+  FrameReader reader;
+  reader.add(bytes);
+  std::string why;
+  while (reader.next(why)) continue;
+  return why;
+}
+
+TEST(Framing, MessagesAreTheSameHoweverTheStreamIsCut) {
+  const std::string stream = framed("{\"seq\":1}") + "Content-Type: x\r\ncontent-length:  2\r\n\r\n{}" + framed("");
+  for (std::size_t size = 1; size <= stream.size(); ++size) {
+    FrameReader reader;
+    std::vector<std::string> all;
+    std::string why;
+    for (std::size_t at = 0; at < stream.size(); at += size) {
+      reader.add(std::string_view(stream).substr(at, size));
+      while (const auto content = reader.next(why)) all.push_back(*content);
+    }
+    EXPECT_EQ(all, (std::vector<std::string>{"{\"seq\":1}", "{}", ""})) << size;
+    EXPECT_EQ(why, "");
+    EXPECT_FALSE(reader.is_amid());
+  }
+}
+
+TEST(Framing, WhatIsNotAHeaderIsSaidAtItsLine) {
+  EXPECT_EQ(why_not("hello\r\n"), "'hello' is not a line of a header: write for example Content-Length: 119");
+  EXPECT_EQ(why_not("Content-Length: 2\n\n{}"), "'Content-Length: 2' is not a line of a header, which ends with CR LF");
+  EXPECT_EQ(why_not("Content-Length: two\r\n\r\n"), "'two' is not the length of a message");
+  EXPECT_EQ(why_not("Content-Length: -1\r\n\r\n"), "'-1' is not the length of a message");
+  EXPECT_EQ(why_not("Content-Type: x\r\n\r\n{}"), "a header without Content-Length");
+}
+
+TEST(Framing, LengthsHaveTheirLimits) {
+  EXPECT_EQ(why_not("Content-Length: 16777217\r\n\r\n"), "a message of 16777217 bytes is longer than 16777216");
+  EXPECT_EQ(why_not("Content-Length: 16777216\r\n\r\n"), "");
+  EXPECT_EQ(why_not(std::string(5000, 'x')), "the header of a message is longer than 4096 bytes");
+  EXPECT_EQ(why_not("X: " + std::string(3000, 'x') + "\r\nY: " + std::string(3000, 'x') + "\r\n"),
+            "the header of a message is longer than 4096 bytes");
+}
+
+TEST(Framing, APartOfAMessageIsKnownAsOne) {
+  FrameReader reader;
+  std::string why;
+  reader.add("Content-Length: 2\r\n");
+  EXPECT_FALSE(reader.next(why));
+  EXPECT_TRUE(reader.is_amid());
+  reader.add("\r\n{");
+  EXPECT_FALSE(reader.next(why));
+  EXPECT_TRUE(reader.is_amid());
+}
+
+TEST(Base64, BytesComeBackAndAreAsTheStandardSays) {
+  const std::vector<std::uint8_t> bytes{'f', 'o', 'o', 'b', 'a', 'r'};
+  const std::string expected[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};  // RFC 4648, 10
+  for (std::size_t size = 0; size <= bytes.size(); ++size) {
+    const std::vector<std::uint8_t> part(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
+    EXPECT_EQ(to_base64(part), expected[size]);
+    EXPECT_EQ(from_base64(expected[size]), part);
+  }
+  EXPECT_FALSE(from_base64("Zg="));
+  EXPECT_FALSE(from_base64("Z?=="));
+}
+
+}  // namespace
+}  // namespace s7200::tools::dap

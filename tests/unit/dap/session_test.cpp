@@ -1,0 +1,564 @@
+#include <algorithm>
+
+#include "tests/unit/dap/editor.hpp"
+#include "tools/dap/base64.hpp"
+
+namespace s7200::tools::dap {
+namespace {
+
+testing::AssertionResult has(const std::string& text, std::string_view part) {
+  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "'" << part << "' is not in:\n" << text;
+}
+
+Json variable(Editor& editor, const std::string& scope, const std::string& name, int frame = 1) {
+  const Json scopes = editor("scopes", {{"frameId", frame}});
+  for (const Json& one : scopes["scopes"]) {
+    if (one["name"] != scope) continue;
+    const Json variables = editor("variables", {{"variablesReference", one["variablesReference"]}});
+    for (const Json& found : variables["variables"])
+      if (found["name"] == name) return found;
+  }
+  ADD_FAILURE() << scope << " has no " << name;
+  return {{"value", ""}, {"variablesReference", 0}};
+}
+
+// --- messages ---
+
+TEST(DapSession, EveryRequestHasOneResponseAndNumbersRise) {
+  Editor editor(kNested);
+  editor.begin();
+  editor.lines({6});
+  editor("continue", {{"threadId", 1}});
+  std::int64_t last = 0;
+  for (const Json& message : editor.messages) {
+    EXPECT_EQ(message["seq"].get<std::int64_t>(), last + 1);
+    last = message["seq"];
+  }
+}
+
+TEST(DapSession, WhatIsNotOfferedIsRefusedByNameAndNotAnnounced) {
+  Editor editor(kNested);
+  EXPECT_TRUE(has(editor.error_of("frobnicate"), "'frobnicate' is not a request that is offered"));
+  const Json capabilities = editor("initialize", {{"adapterID", "s7200"}});
+  EXPECT_TRUE(capabilities["supportsStepBack"]);
+  for (const char* other : {"supportsModulesRequest", "supportsTerminateThreadsRequest", "supportsStepInTargetsRequest",
+                            "supportsExceptionOptions", "supportsSingleThreadExecutionRequests"})
+    EXPECT_FALSE(capabilities.contains(other)) << other;
+  EXPECT_TRUE(has(editor.error_of("stackTrace", {{"threadId", 1}}), "launch or attach comes first"));
+}
+
+TEST(DapSession, WrongArgumentsAreAnErrorAndTheSessionGoesOn) {
+  Editor editor(kNested);
+  editor.begin();
+  EXPECT_TRUE(has(editor.error_of("evaluate"), "the arguments of evaluate are not as the protocol says"));
+  EXPECT_TRUE(has(editor.error_of("readMemory", {{"memoryReference", 5}, {"count", "x"}}), "arguments of readMemory"));
+  editor.session.handle(Json::array());
+  editor.session.handle({{"type", "response"}});
+  EXPECT_EQ(editor.value("1 + 1"), "2");
+}
+
+TEST(DapSession, ASessionThatDisconnectsIsCompletedOnce) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("terminate");
+  EXPECT_FALSE(editor.last("terminated").is_null());
+  EXPECT_EQ(editor.debuggee->finished, 1);
+  EXPECT_TRUE(has(editor.error_of("continue", {{"threadId", 1}}), "the session has ended"));
+  editor("disconnect");
+  EXPECT_TRUE(editor.session.is_over());
+  EXPECT_EQ(editor.debuggee->finished, 1);
+}
+
+// --- stopping ---
+
+TEST(DapSession, ItStopsAtTheEntryIfAsked) {
+  Editor editor(kNested);
+  editor.begin();
+  EXPECT_EQ(editor.stopped(), "entry");
+  EXPECT_EQ(editor.line(), 2);
+  EXPECT_EQ(editor.frame()["name"], "main");
+}
+
+TEST(DapSession, ABreakpointSaysItsLineAndStopsThere) {
+  Editor editor(kNested);
+  editor.begin();
+  const Json placed = editor.lines({4, 22, 99});
+  EXPECT_TRUE(placed[0]["verified"]);
+  EXPECT_EQ(placed[0]["line"], 5) << "NETWORK is not an instruction";
+  EXPECT_TRUE(has(placed[0]["message"], "line 4 has no instruction"));
+  EXPECT_FALSE(placed[2]["verified"]);
+  EXPECT_TRUE(has(placed[2]["message"], "has no line 99"));
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(editor.stopped(), "breakpoint");
+  EXPECT_EQ(editor.last("stopped")["hitBreakpointIds"], Json::array({placed[0]["id"]}));
+  EXPECT_EQ(editor.line(), 5);
+}
+
+TEST(DapSession, ConditionsHitsAndMessagesAreAsInTheEditor) {
+  Editor editor(kNested);
+  editor.begin();
+  editor.breakpoint({{"line", 6}, {"condition", "VW10 = 4"}});
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(editor.value("VW10"), "16#0004 (4)");
+  editor.breakpoint({{"line", 6}, {"hitCondition", "> 2"}});
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(editor.value("VW10"), "16#0007 (7)");
+  const Json log = editor.breakpoint({{"line", 6}, {"logMessage", "scan {scan} has {VW10}"}});
+  EXPECT_TRUE(log["verified"]);
+  editor("stepScan", {{"threadId", 1}, {"count", 2}});
+  EXPECT_TRUE(has(editor.printed(), "scan 9 has 8"));
+  for (const Json& wrong : {Json{{"line", 6}, {"condition", "VW10 >"}}, Json{{"line", 6}, {"hitCondition", "often"}},
+                            Json{{"line", 6}, {"logMessage", "{VW99999}"}}})
+    EXPECT_FALSE(editor.breakpoint(wrong)["verified"]) << wrong;
+}
+
+TEST(DapSession, BoxesWithoutPowerFlowAreSkippedUnlessAlways) {
+  Editor editor("LDN SM0.0\nMOVB 1, VB0\nLD SM0.0\nINCW VW2\nMEND\n");
+  editor.begin();
+  editor.lines({2, 4});
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(editor.line(), 4);
+  EXPECT_TRUE(has(editor.printed(), "was passed once without power flow"));
+  editor.breakpoint({{"line", 2}, {"condition", "always if VW2 = 1"}});
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(editor.line(), 2);
+  EXPECT_EQ(editor.value("VW2"), "16#0001 (1)");
+}
+
+TEST(DapSession, ABreakpointThatStaysKeepsItsHits) {
+  Editor editor(kNested);
+  editor.begin();
+  const Json wanted{{"line", 6}, {"hitCondition", "3"}};
+  const int id = editor.breakpoint(wanted)["id"];
+  editor.breakpoint({{"line", 6}, {"hitCondition", "3"}});
+  editor("stepScan", {{"threadId", 1}, {"count", 2}});
+  const Json both = editor("setBreakpoints", {{"source", {{"path", "test.stl"}}},
+                                              {"breakpoints", Json::array({wanted, {{"line", 22}}})}})["breakpoints"];
+  EXPECT_EQ(both[0]["id"], id);
+  EXPECT_NE(both[1]["id"], id);
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(editor.value("VW10"), "16#0002 (2)");
+}
+
+TEST(DapSession, FunctionBreakpointsTakeRoutinesAndEvents) {
+  Editor editor(kNested);
+  editor.begin();
+  const auto stop_at = [&](const std::string& name) {
+    const Json placed =
+        editor("setFunctionBreakpoints", {{"breakpoints", Json::array({{{"name", name}}})}})["breakpoints"][0];
+    EXPECT_TRUE(placed["verified"]) << placed;
+    editor("continue", {{"threadId", 1}});
+    EXPECT_EQ(editor.stopped(), "function breakpoint") << name;
+    return editor.frame()["name"].get<std::string>();
+  };
+  EXPECT_EQ(stop_at("SBR 2"), "SBR 2");
+  EXPECT_TRUE(has(stop_at("INT 0"), "INT 0 for event 10"));
+  EXPECT_TRUE(has(stop_at("event 10"), "INT 0"));
+  EXPECT_FALSE(stop_at("event 10 occurs").empty());
+  EXPECT_TRUE(has(stop_at("Timed interrupt 0, SMB34"), "INT 0"));
+  EXPECT_EQ(stop_at("NETWORK 2"), "main");
+  const Json wrong = editor("setFunctionBreakpoints", {{"breakpoints", Json::array({{{"name", "SBR 9"}}, {{"name", ""}}})}});
+  EXPECT_EQ(wrong["breakpoints"][0]["message"], "the program has no SBR 9");
+  EXPECT_FALSE(wrong["breakpoints"][1]["verified"]);
+}
+
+TEST(DapSession, DataBreakpointsStopAfterAChangeAReadOrAnyWrite) {
+  Editor editor(kNested);
+  editor.begin();
+  const auto stop_at = [&](const Json& wanted) {
+    const Json placed = editor("setDataBreakpoints", {{"breakpoints", Json::array({wanted})}})["breakpoints"][0];
+    EXPECT_TRUE(placed["verified"]) << placed;
+    editor("continue", {{"threadId", 1}});
+    EXPECT_EQ(editor.stopped(), "data breakpoint") << wanted;
+    return editor.last("stopped")["text"].get<std::string>();
+  };
+  const Json info = editor("dataBreakpointInfo", {{"name", "VW30"}});
+  EXPECT_EQ(info["dataId"], "VW30");
+  EXPECT_TRUE(
+      has(stop_at({{"dataId", "VW30"}, {"accessType", "write"}}), "VW30 was 16#0000 (0), is 16#0001 (1), by INT 0 line 22"));
+  EXPECT_TRUE(has(stop_at({{"dataId", "VW10"}, {"accessType", "read"}}), "VW10"));
+  EXPECT_TRUE(has(stop_at({{"dataId", "VW10"}, {"accessType", "readWrite"}, {"condition", "VW10 > 5"}}), "VW10"));
+  EXPECT_EQ(editor("dataBreakpointInfo", {{"name", "VB20"}, {"bytes", 4}})["dataId"], "VB20:4");
+  EXPECT_EQ(editor("dataBreakpointInfo", {{"name", "VW10 write"}})["dataId"], "VW10 write");
+  EXPECT_EQ(editor("dataBreakpointInfo", {{"name", "*VD100"}})["dataId"], "VB20");
+  EXPECT_TRUE(editor("dataBreakpointInfo", {{"name", "frob"}})["dataId"].is_null());
+  const Json memory = editor("readMemory", {{"memoryReference", "VB20"}, {"count", 1}});
+  EXPECT_EQ(editor("dataBreakpointInfo", {{"name", memory["address"]}, {"asAddress", true}, {"bytes", 2}})["dataId"],
+            "VB20:2");
+}
+
+TEST(DapSession, InstructionBreakpointsStopAtInstructionsOfTheDisassembly) {
+  Editor editor(kNested);
+  editor.begin();
+  const Json list = editor("disassemble", {{"memoryReference", editor.frame()["instructionPointerReference"]},
+                                           {"instructionOffset", -1},
+                                           {"instructionCount", 30}})["instructions"];
+  ASSERT_EQ(list.size(), 30u);
+  EXPECT_EQ(list[0]["presentationHint"], "invalid");
+  EXPECT_TRUE(has(list[1]["instruction"], "LD      SM0.1"));
+  EXPECT_EQ(list[1]["symbol"], "main");
+  EXPECT_EQ(list[4]["line"], 6);
+  editor("setInstructionBreakpoints", {{"breakpoints", Json::array({{{"instructionReference", list[4]["address"]}}})}});
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(editor.stopped(), "instruction breakpoint");
+  EXPECT_EQ(editor.line(), 6);
+  EXPECT_TRUE(has(editor("disassemble", {{"memoryReference", list[16]["address"]},
+                                         {"instructionCount", 1}})["instructions"][0]["instruction"],
+                  "*VD100 = VB20"));
+}
+
+TEST(DapSession, RunTimeErrorsStopByTheirCodes) {
+  Editor editor("LD SM0.0\nMOVD 16#7F000000, VD0\nMOVB 1, *VD0\nMEND\n");
+  editor.begin();
+  const auto filter = [&](const Json& options) {
+    return editor("setExceptionBreakpoints",
+                  {{"filters", Json::array()}, {"filterOptions", Json::array({options})}})["breakpoints"][0];
+  };
+  EXPECT_TRUE(filter({{"filterId", "error"}, {"condition", "0091, 0006"}})["verified"]);
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(editor.stopped(), "exception");
+  EXPECT_EQ(editor("exceptionInfo", {{"threadId", 1}})["exceptionId"], "run-time error 0006");
+  EXPECT_TRUE(has(editor.printed(), "0006"));
+  EXPECT_FALSE(filter({{"filterId", "error"}, {"condition", "often"}})["verified"]);
+  EXPECT_FALSE(filter({{"filterId", "frob"}})["verified"]);
+  editor("next", {{"threadId", 1}});
+  EXPECT_TRUE(has(editor.error_of("exceptionInfo", {{"threadId", 1}}), "has not stopped for an exception"));
+}
+
+TEST(DapSession, TheWatchdogStopsInFrontOfTheInstructionAndTheSessionLives) {
+  Editor editor("LD SM0.0\nLBL 1\nINCW VW0\nJMP 1\nMEND\n");
+  editor("initialize");
+  editor("launch");
+  editor("setExceptionBreakpoints", {{"filters", Json::array({"watchdog"})}});
+  editor("configurationDone");
+  EXPECT_EQ(editor.stopped(), "exception");
+  EXPECT_TRUE(has(editor.last("stopped")["text"], "fatal error 0003"));
+  EXPECT_EQ(editor.state().mode, Mode::Run) << "in front of it";
+  editor("setExceptionBreakpoints", {{"filters", Json::array()}});
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(editor.state().mode, Mode::Stop);
+  EXPECT_EQ(editor.frame()["name"], "STOP");
+  editor("stepBack", {{"threadId", 1}});
+  EXPECT_EQ(editor.state().mode, Mode::Run);
+}
+
+// --- stepping ---
+
+TEST(DapSession, StepsGoOverIntoAndOut) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("next", {{"threadId", 1}});
+  EXPECT_EQ(editor.line(), 3);
+  editor("stepIn", {{"threadId", 1}});
+  EXPECT_EQ(editor.line(), 8);
+  EXPECT_EQ(editor.frame()["name"], "SBR 1");
+  EXPECT_EQ(editor.frame(1)["line"], 3) << "the CALL";
+  editor("stepOut", {{"threadId", 1}});
+  EXPECT_EQ(editor.line(), 5);
+  EXPECT_EQ(editor.stopped(), "step");
+  EXPECT_TRUE(has(editor.error_of("stepOut", {{"threadId", 1}}), "main program"));
+}
+
+TEST(DapSession, AStatementIsANetwork) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("next", {{"threadId", 1}, {"granularity", "statement"}});
+  EXPECT_EQ(editor.line(), 5);
+  editor("stepBack", {{"threadId", 1}, {"granularity", "statement"}});
+  EXPECT_EQ(editor.line(), 16) << "the last routine that began";
+  editor("reverseStepOver", {{"threadId", 1}, {"granularity", "line"}});
+  EXPECT_EQ(editor.frame()["name"], "SBR 1");
+  Editor by_networks(kNested);
+  by_networks.begin({{"stopOnEntry", true}, {"step", "network"}});
+  by_networks("next", {{"threadId", 1}});
+  EXPECT_EQ(by_networks.line(), 5);
+  by_networks("next", {{"threadId", 1}, {"granularity", "instruction"}});
+  EXPECT_EQ(by_networks.line(), 6);
+}
+
+TEST(DapSession, EveryStepGoesBackToo) {
+  Editor editor(kNested);
+  editor.begin();
+  for (int i = 0; i < 4; ++i) editor("stepIn", {{"threadId", 1}});
+  const State there = editor.state();
+  EXPECT_EQ(editor.line(), 10);
+  editor("reverseStepOut", {{"threadId", 1}});
+  EXPECT_EQ(editor.line(), 3);
+  EXPECT_TRUE(has(editor.printed(), "in the past"));
+  editor("stepIn", {{"threadId", 1}});
+  editor("stepIn", {{"threadId", 1}});
+  editor("stepIn", {{"threadId", 1}});
+  EXPECT_EQ(editor.state(), there);
+  editor("stepBack", {{"threadId", 1}, {"count", 2}});
+  EXPECT_EQ(editor.line(), 8);
+  editor("reverseContinue", {{"threadId", 1}});
+  EXPECT_TRUE(has(editor.last("stopped")["description"], "oldest moment"));
+}
+
+TEST(DapSession, ReverseContinueGoesToTheLastStop) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("stepScan", {{"threadId", 1}, {"count", 5}});
+  editor.breakpoint({{"line", 6}, {"condition", "VW10 = 2"}});
+  editor("reverseContinue", {{"threadId", 1}});
+  EXPECT_EQ(editor.stopped(), "breakpoint");
+  EXPECT_EQ(editor.value("VW10"), "16#0002 (2)");
+  editor("reverseStepScan", {{"threadId", 1}});
+  EXPECT_EQ(editor.line(), 2);
+  editor("goToMoment", {{"time", "end"}});
+  EXPECT_EQ(editor.value("VW10"), "16#0005 (5)");
+  editor("goToMoment", {{"time", "-1us"}});
+  EXPECT_TRUE(has(editor.error_of("goToMoment", {{"time", "10s"}}), "nothing has run after"));
+  EXPECT_TRUE(has(editor.error_of("goToMoment", {{"time", "soon"}}), "a moment, for example"));
+}
+
+TEST(DapSession, LongReversalsReportTheirProgress) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("stepScan", {{"threadId", 1}, {"count", 200}});
+  editor("reverseContinue", {{"threadId", 1}});
+  const Json start = editor.last("progressStart"), end = editor.last("progressEnd");
+  ASSERT_FALSE(start.is_null());
+  EXPECT_TRUE(start["cancellable"]);
+  EXPECT_EQ(start["progressId"], end["progressId"]);
+}
+
+TEST(DapSession, ARequestToStopEndsAReversalWhereItBegan) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("stepScan", {{"threadId", 1}, {"count", 20}});
+  const State there = editor.state();
+  editor.stop = true;
+  editor("reverseContinue", {{"threadId", 1}});
+  EXPECT_EQ(editor.stopped(), "pause");
+  EXPECT_EQ(editor.state(), there);
+}
+
+TEST(DapSession, AMessageInterruptsARunThatGoesOnAndAPauseEndsIt) {
+  Editor editor(kNested);
+  editor.stop = true;  // as the reader of messages does when one comes
+  editor.begin(Json::object());
+  EXPECT_TRUE(editor.session.runs());
+  EXPECT_EQ(editor.stopped(), "not at all");
+  EXPECT_EQ(editor.value("VW10").substr(0, 3), "16#");
+  EXPECT_TRUE(has(editor.error_of("next", {{"threadId", 1}}), "the program runs: pause it first"));
+  editor("pause", {{"threadId", 1}});
+  EXPECT_EQ(editor.stopped(), "pause");
+  EXPECT_FALSE(editor.session.runs());
+}
+
+TEST(DapSession, AFailureOfThePeerStopsTheProgramAndTheSessionLives) {
+  Editor editor(kNested);
+  editor.begin();
+  editor.debuggee->failure_text = "the device has gone";
+  editor.lines({6});
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(editor.last("stopped")["description"], "the device has gone");
+  EXPECT_EQ(editor.value("1"), "1");
+}
+
+TEST(DapSession, GotoLeadsToAnotherInstructionOfTheRoutine) {
+  Editor editor(kNested);
+  editor.begin();
+  const auto targets = [&](int line) {
+    return editor("gotoTargets", {{"source", {{"path", "test.stl"}}}, {"line", line}})["targets"];
+  };
+  EXPECT_TRUE(targets(22).empty()) << "another routine";
+  const Json target = targets(6)[0];
+  editor("goto", {{"threadId", 1}, {"targetId", target["id"]}});
+  EXPECT_EQ(editor.stopped(), "goto");
+  EXPECT_EQ(editor.line(), 6);
+  editor("next", {{"threadId", 1}});
+  EXPECT_EQ(editor.line(), 7);
+  editor("stepBack", {{"threadId", 1}, {"count", 2}});
+  EXPECT_EQ(editor.line(), 2);
+  EXPECT_TRUE(has(editor.error_of("goto", {{"threadId", 1}, {"targetId", 77}}), "gotoTargets"));
+}
+
+TEST(DapSession, ARestartPowersUpAgain) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("stepScan", {{"threadId", 1}, {"count", 5}});
+  editor("restart");
+  EXPECT_EQ(editor.stopped(), "entry");
+  EXPECT_EQ(editor.state().scans, 0u);
+  EXPECT_EQ(editor.value("VW10"), "16#0000 (0)");
+}
+
+// --- seeing ---
+
+TEST(DapSession, FramesAreTheRoutinesThatAreOpen) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("setFunctionBreakpoints", {{"breakpoints", Json::array({{{"name", "SBR 2"}}})}});
+  editor("continue", {{"threadId", 1}});
+  const Json trace = editor("stackTrace", {{"threadId", 1}});
+  ASSERT_EQ(trace["totalFrames"], 3);
+  EXPECT_EQ(trace["stackFrames"][1]["name"], "SBR 1");
+  EXPECT_EQ(trace["stackFrames"][1]["line"], 14);
+  EXPECT_EQ(trace["stackFrames"][2]["name"], "main");
+  EXPECT_EQ(editor("stackTrace", {{"threadId", 1}, {"startFrame", 1}, {"levels", 1}})["stackFrames"][0]["name"], "SBR 1");
+}
+
+TEST(DapSession, ScopesShowTheMachine) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("setDataBreakpoints", {{"breakpoints", Json::array({{{"dataId", "VW30"}}})}});
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(variable(editor, "Logic stack", "S0")["value"], "1");
+  EXPECT_EQ(variable(editor, "V", "VW30")["value"], "16#0001 (1)");
+  EXPECT_EQ(variable(editor, "SM", "SMB34 timed interrupts: interval in ms")["value"], "16#05 (5)");
+  EXPECT_TRUE(has(variable(editor, "T", "T37")["value"], "counts 100 ms"));
+  EXPECT_TRUE(has(variable(editor, "Runtime", "serving")["value"], "event 10"));
+  EXPECT_TRUE(has(variable(editor, "Port", "SMB30")["value"], "PPI"));
+  EXPECT_EQ(variable(editor, "AC", "AC0")["memoryReference"], "AC0");
+  const Json byte = variable(editor, "Q", "QB0");
+  EXPECT_EQ(editor("variables", {{"variablesReference", byte["variablesReference"]}})["variables"].size(), 8u);
+  const Json block = variable(editor, "V", "VB0…VB255");
+  EXPECT_EQ(editor("variables", {{"variablesReference", block["variablesReference"]},
+                                 {"start", 20},
+                                 {"count", 1},
+                                 {"format", {{"hex", true}}}})["variables"][0]["value"],
+            "16#07");
+}
+
+TEST(DapSession, ExpressionsAreInStlTerms) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("stepScan", {{"threadId", 1}, {"count", 3}});
+  EXPECT_EQ(editor.value("VW10 * 2 + 1"), "7");
+  EXPECT_EQ(editor.value("*VD100"), "16#07 (7)");
+  EXPECT_EQ(editor.value("VB20:3"), "07 00 00");
+  EXPECT_EQ(editor("evaluate", {{"expression", "VW10"}, {"format", {{"hex", true}}}})["result"], "16#0003");
+  editor("setExpression", {{"expression", "VD200"}, {"value", "16#7F000000"}});
+  EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", "*VD200"}}), "points nowhere"));
+  EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", "frob"}}), "is not an address"));
+  EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", "1 / 0"}}), "division by 0"));
+}
+
+TEST(DapSession, CompletionsKnowTheAddressesOfTheProgram) {
+  Editor editor(kNested);
+  editor.begin();
+  const Json targets = editor("completions", {{"text", "VW10 + vw3"}, {"column", 11}})["targets"];
+  ASSERT_EQ(targets.size(), 1u);
+  EXPECT_EQ(targets[0]["label"], "VW30");
+  EXPECT_EQ(targets[0]["start"], 7);
+  EXPECT_EQ(targets[0]["length"], 3);
+}
+
+// --- doing ---
+
+TEST(DapSession, VariablesAndExpressionsAreSet) {
+  Editor editor(kNested);
+  editor.begin();
+  const Json scopes = editor("scopes", {{"frameId", 1}})["scopes"];
+  const auto v = std::ranges::find_if(scopes, [](const Json& scope) { return scope["name"] == "V"; });
+  const Json set =
+      editor("setVariable", {{"variablesReference", (*v)["variablesReference"]}, {"name", "VW10"}, {"value", "16#0102"}});
+  EXPECT_EQ(set["value"], "16#0102 (258)");
+  EXPECT_EQ(editor.value("VB11"), "16#02 (2)");
+  editor("setExpression", {{"expression", "M0.3"}, {"value", "1"}});
+  EXPECT_EQ(editor.value("MB0"), "16#08 (8)");
+  EXPECT_TRUE(
+      has(editor.error_of("setExpression", {{"expression", "VB0"}, {"value", "256"}}), "does not") ||
+      has(editor.error_of("setExpression", {{"expression", "VB0"}, {"value", "256"}}), "is not a value that fits VB0"));
+  editor("setExpression", {{"expression", "I0.0"}, {"value", "1"}});
+  EXPECT_TRUE(has(editor.printed(), "when the next scan reads its inputs"));
+}
+
+TEST(DapSession, SettingInThePastBeginsABranch) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("stepScan", {{"threadId", 1}, {"count", 5}});
+  editor("reverseStepScan", {{"threadId", 1}});
+  editor("setExpression", {{"expression", "VW10"}, {"value", "100"}});
+  EXPECT_TRUE(has(editor.printed(), "a new branch begins here"));
+  editor("stepScan", {{"threadId", 1}});
+  EXPECT_EQ(editor.value("VW10"), "16#0065 (101)");
+}
+
+TEST(DapSession, MemoryIsReadWrittenAndToldOf) {
+  Editor editor(kNested);
+  editor.begin();
+  const Json end = editor("readMemory", {{"memoryReference", "VB4090"}, {"count", 16}});
+  EXPECT_EQ(end["unreadableBytes"], 10);
+  EXPECT_EQ(from_base64(end["data"].get<std::string>())->size(), 6u);
+  editor("readMemory", {{"memoryReference", "V"}, {"offset", 20}, {"count", 2}});
+  EXPECT_EQ(editor("writeMemory", {{"memoryReference", "VB20"}, {"data", "AQI="}})["bytesWritten"], 2);
+  EXPECT_EQ(editor.value("VW20"), "16#0102 (258)");
+  EXPECT_EQ(editor.last("memory")["memoryReference"], "VB4090");
+  EXPECT_EQ(editor.last("memory")["offset"], 20 - 4090);
+  EXPECT_EQ(editor.last("memory")["count"], 2);
+  EXPECT_TRUE(has(editor.error_of("writeMemory", {{"memoryReference", "VB4095"}, {"data", "AQI="}}), "past the end"));
+  EXPECT_EQ(editor("writeMemory", {{"memoryReference", "VB4095"}, {"data", "AQI="}, {"allowPartial", true}})["bytesWritten"],
+            1);
+  EXPECT_TRUE(has(editor.error_of("readMemory", {{"memoryReference", "frob"}, {"count", 1}}), "is not memory of this CPU"));
+  EXPECT_FALSE(editor("readMemory", {{"memoryReference", "VB0"}, {"offset", -50}, {"count", 10}}).contains("data"));
+  const std::size_t before = editor.messages.size();
+  editor("stepScan", {{"threadId", 1}, {"count", 1}});
+  bool told = false;
+  for (std::size_t i = before; i < editor.messages.size(); ++i) told |= editor.messages[i].value("event", "") == "memory";
+  EXPECT_TRUE(told) << "the program has written";
+}
+
+TEST(DapSession, TheConsoleHasWordsForWhatTheEditorHasNone) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("stepScan", {{"threadId", 1}, {"count", 3}});
+  const auto console = [&](const std::string& line) {
+    return editor("evaluate", {{"expression", line}, {"context", "repl"}})["result"].get<std::string>();
+  };
+  EXPECT_TRUE(has(console("who VB20"), "by SBR 2 line 18"));
+  EXPECT_TRUE(has(console("who event 10"), "ATCH: INT 0 to event 10"));
+  EXPECT_TRUE(has(console("history 3"), "line 6"));
+  EXPECT_EQ(console("set VW40=5"), "16#0005 (5)");
+  EXPECT_TRUE(has(console("help"), "who ADDRESS"));
+  EXPECT_EQ(console("VW40 = 5"), "1");
+  editor("reverseToLastWrite", {{"expression", "VB20"}});
+  EXPECT_EQ(editor.line(), 18);
+}
+
+TEST(DapSession, TheStatusHasWhatEachLineDidLast) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("stepScan", {{"threadId", 1}, {"count", 3}});
+  const Json lines = editor("stlStatus", {{"source", {{"path", "test.stl"}}}, {"line", 1}, {"endLine", 7}})["lines"];
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_EQ(lines[1]["line"], 3);
+  EXPECT_FALSE(lines[1]["powerFlow"]);
+  EXPECT_EQ(lines[3]["text"], "S0=1 VW10=16#0003");
+}
+
+TEST(DapSession, LinesCountFromZeroForAnEditorThatCountsSo) {
+  Editor editor(kNested);
+  editor("initialize", {{"linesStartAt1", false}, {"columnsStartAt1", false}});
+  editor("launch", {{"stopOnEntry", true}});
+  EXPECT_EQ(editor.lines({5})[0]["line"], 5);
+  editor("configurationDone");
+  EXPECT_EQ(editor.line(), 1);
+  EXPECT_EQ(editor.frame()["column"], 0);
+}
+
+TEST(DapSession, RandomWalksStandWhereAPlainRunHasBeen) {
+  Editor plain(kNested), walk(kNested);
+  plain.begin();
+  walk.begin();
+  std::vector<State> states{plain.state()};
+  std::size_t at = 0;
+  std::uint32_t random = 1;
+  for (int step = 0; step < 400; ++step) {
+    random = random * 1'664'525 + 1'013'904'223;
+    const bool back = random >> 31 && at > 0;
+    walk(back ? "stepBack" : "stepIn", {{"threadId", 1}});
+    at = back ? at - 1 : at + 1;
+    while (states.size() <= at) {
+      plain("stepIn", {{"threadId", 1}});
+      states.push_back(plain.state());
+    }
+    ASSERT_EQ(walk.state(), states[at]) << step;
+  }
+}
+
+}  // namespace
+}  // namespace s7200::tools::dap

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "tools/command/commands.hpp"
+#include "tools/command/dap_debuggee.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/dap/serve.hpp"
+#include "tools/host/interruption.hpp"
+#include "tools/host/tcp_listener.hpp"
+#include "tools/host/write_all.hpp"
+
+namespace s7200::tools {
+namespace {
+
+struct DapOptions {
+  std::shared_ptr<DebuggeeOptions> debuggee = std::make_shared<DebuggeeOptions>();
+  std::string listen;
+};
+
+bool write_standard_output(std::string_view bytes) {
+  std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
+  return std::cout.good();
+}
+
+/// One client after the other, until an interruption.
+int serve_clients(const DapOptions& options, const dap::SessionSettings& settings, std::atomic<bool>& stop_request) {
+  std::string why;
+  const auto address = parse_listen_address(options.listen, why);
+  const auto listener = address ? TcpListener::open(*address, why) : nullptr;
+  if (!listener) return print_error(fmt::format("--listen {}: {}", options.listen, why)), kUnusable;
+  catch_interruption();
+  fmt::print(stderr, "listening on {}\n", to_text(listener->address()));
+  while (!interrupted()) {
+    const int client = listener->accept(why);
+    if (client < 0 && !interrupted()) return print_error(fmt::format("--listen {}: {}", options.listen, why)), kUnusable;
+    if (client < 0) break;
+    const auto write = [client](std::string_view bytes) { return write_all(client, bytes) == 0; };
+    const std::string wrong = dap::serve(client, write, settings, stop_request);
+    if (!wrong.empty()) print_note(fmt::format("the client's stream {}", wrong));
+    close(client);
+  }
+  return kFine;
+}
+
+int run_dap(const DapOptions& options) {
+  std::atomic<bool> stop_request = false;
+  int exit_code = kFine;
+  dap::SessionSettings settings{
+      .launch = [&](const dap::Json& arguments) { return launch_debuggee(arguments, stop_request); },
+      .stop_request = &stop_request};
+  if (!options.debuggee->program.path.empty()) {
+    settings.attachable = make_debuggee(options.debuggee, stop_request, exit_code);
+    if (!settings.attachable) return exit_code;
+  }
+  if (!options.listen.empty()) {
+    exit_code = serve_clients(options, settings, stop_request);
+  } else if (const std::string wrong = dap::serve(STDIN_FILENO, write_standard_output, settings, stop_request);
+             !wrong.empty()) {
+    print_error(fmt::format("standard input {}", wrong));
+    exit_code = kUnusable;
+  }
+  if (settings.attachable) print_notes(settings.attachable->finish());
+  print_interruption();
+  if (exit_code == kFine && interrupted() && options.listen.empty()) return kCheckFailed;
+  return exit_code;
+}
+
+}  // namespace
+
+void add_dap(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<DapOptions>();
+  CLI::App* verb = app.add_subcommand("dap", "serve the Debug Adapter Protocol, for VS Code and other editors");
+  options->debuggee->add_program_to(*verb);
+  verb->get_option("PROGRAM")->required(false);
+  verb->add_option("--listen", options->listen,
+                   "a TCP port of this computer, for one client after the other, instead of standard input and output")
+      ->type_name("[ADDRESS:]PORT");
+  options->debuggee->add_plant_to(*verb);
+  verb->footer(
+      "An editor starts it and launches a program: the attributes of a launch are the options of 's7200 debug' without "
+      "their\n"
+      "dashes. With a PROGRAM here, editors attach to that one, which stays as it stands when they leave. Without a bridge\n"
+      "programs run as fast as the computer can; with one as fast as the clock, and masters outside wait while it stands\n"
+      "still. tools/dap/README.md has all requests, tools/vscode-s7200 is the extension for VS Code.\n"
+      "Example: s7200 dap");
+  verb->callback([options, &exit_code] { exit_code = run_dap(*options); });
+}
+
+}  // namespace s7200::tools

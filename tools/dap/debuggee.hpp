@@ -1,0 +1,38 @@
+// What a session debugs: a PLC that is powered up, with everything attached and its past.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "serial_sim/peers/requester.hpp"
+#include "tools/debugger/history.hpp"
+
+namespace s7200::tools::dap {
+
+class Debuggee {
+ public:
+  virtual ~Debuggee() = default;
+
+  virtual serial::Simulation& simulation() = 0;
+  virtual History& history() = 0;
+  virtual std::shared_ptr<const Program> program() const = 0;
+
+  /// How the master on the line talks.
+  virtual const serial::MasterSettings& master() const = 0;
+
+  /// The files that are written while it runs, by their names; empty if there are none.
+  virtual std::string recorded_files() const = 0;
+
+  /// Why it cannot run on, such as a bridge that has failed; empty as long as it can.
+  virtual std::string failure() const = 0;
+
+  /// What there is to say while it runs, a line each.
+  virtual void when_saying(std::function<void(const std::string& text)> say) = 0;
+
+  /// Completes what is recorded and kept. Returns what there is to say at the end.
+  virtual std::vector<std::string> finish() = 0;
+};
+
+}  // namespace s7200::tools::dap

@@ -1,0 +1,38 @@
+// Messages on a stream: `Content-Length: 119`, an empty line, and as many bytes of JSON. Lines end with CR LF.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace s7200::tools::dap {
+
+/// Takes a stream apart, however it is cut.
+class FrameReader {
+ public:
+  static constexpr std::size_t kLongestHeader = 4096, kLongestBody = 16 << 20;  // bytes
+
+  void add(std::string_view bytes) { buffer_ += bytes; }
+
+  /// The content of the next message; nothing if it is not complete yet. Sets `why` if what came cannot become a message:
+  /// nothing more can be read then.
+  std::optional<std::string> next(std::string& why);
+
+  /// Whether a part of a message has come.
+  bool is_amid() const { return !buffer_.empty() || length_ || lines_ != 0; }
+
+ private:
+  bool read_header(std::string& why);
+  bool read_line(std::string_view line, std::string& why);
+
+  std::string buffer_;
+  std::optional<std::size_t> length_;
+  std::size_t lines_ = 0;  ///< of the header, read
+  std::size_t header_bytes_ = 0;
+  bool header_complete_ = false;
+};
+
+std::string framed(std::string_view content);
+
+}  // namespace s7200::tools::dap

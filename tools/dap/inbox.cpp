@@ -1,0 +1,69 @@
+#include "tools/dap/inbox.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace s7200::tools::dap {
+namespace {
+
+std::int64_t number_of(const Json& message) { return message.value("seq", std::int64_t{0}); }
+
+bool ends_what_goes_on(const Json& message) {
+  const Json command = message.value("command", Json());
+  return command == "pause" || command == "terminate" || command == "disconnect" || command == "restart" ||
+         command == "cancel";
+}
+
+}  // namespace
+
+/// A request to cancel one that waits takes that away, and ends nothing.
+bool Inbox::is_urgent(const Json& message) {
+  if (message.value("command", Json()) == "cancel" && message.contains("arguments")) {
+    const Json wanted = message["arguments"].value("requestId", Json());
+    const auto waits = std::ranges::find_if(messages_, [&](const Json& one) { return number_of(one) == wanted; });
+    if (waits != messages_.end()) {
+      cancelled_.insert(number_of(*waits));
+      return false;
+    }
+  }
+  return ends_what_goes_on(message);
+}
+
+void Inbox::put(Json message) {
+  const std::lock_guard lock(mutex_);
+  const bool well_formed = message.is_object() && message.value("command", Json("")).is_string();
+  if (runs_ || (well_formed && is_urgent(message))) stop_request_ = true;
+  messages_.push_back(well_formed ? std::move(message) : Json::object());
+  come_.notify_one();
+}
+
+void Inbox::close(const std::string& failure) {
+  const std::lock_guard lock(mutex_);
+  closed_ = true;
+  failure_ = failure;
+  stop_request_ = true;
+  come_.notify_one();
+}
+
+Inbox::Next Inbox::take(bool runs, Json& message) {
+  std::unique_lock lock(mutex_);
+  runs_ = runs;
+  if (!runs) come_.wait(lock, [this] { return closed_ || !messages_.empty(); });
+  if (messages_.empty()) {
+    if (closed_) return Next::Closed;
+    stop_request_ = false;
+    return Next::Run;
+  }
+  runs_ = false;
+  message = std::move(messages_.front());
+  messages_.pop_front();
+  stop_request_ = closed_ || std::ranges::any_of(messages_, ends_what_goes_on);
+  return cancelled_.erase(number_of(message)) != 0 ? Next::Cancelled : Next::Message;
+}
+
+std::string Inbox::failure() const {
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
+}  // namespace s7200::tools::dap

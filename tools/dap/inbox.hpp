@@ -1,0 +1,47 @@
+// The messages of a client on their way from the thread that reads them to the one that handles them.
+//
+// What is going on there ends by the stop request: a run with every message, so that it is handled soon, all else only with
+// those that ask for its end. No message is lost and none overtakes another, but one that is cancelled is not handled.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <set>
+#include <string>
+
+#include "tools/dap/sources.hpp"
+
+namespace s7200::tools::dap {
+
+class Inbox {
+ public:
+  explicit Inbox(std::atomic<bool>& stop_request) : stop_request_(stop_request) {}
+
+  // For the thread that reads.
+  void put(Json message);
+  /// No more will come. `failure`: what is wrong with the stream; empty if it has ended as it should.
+  void close(const std::string& failure = {});
+
+  enum class Next : std::uint8_t { Message, Cancelled, Run, Closed };
+
+  /// For the thread that handles: what to do next. It waits, unless the program `runs`, which goes on when there is nothing
+  /// else.
+  Next take(bool runs, Json& message);
+
+  std::string failure() const;
+
+ private:
+  bool is_urgent(const Json& message);
+
+  std::atomic<bool>& stop_request_;
+  mutable std::mutex mutex_;
+  std::condition_variable come_;
+  std::deque<Json> messages_;
+  std::set<std::int64_t> cancelled_;  ///< numbers of requests that wait
+  bool runs_ = false, closed_ = false;
+  std::string failure_;
+};
+
+}  // namespace s7200::tools::dap

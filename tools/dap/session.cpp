@@ -1,0 +1,336 @@
+#include "tools/dap/session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/trace/text_trace.hpp"
+#include "serial_sim/modbus/request.hpp"
+#include "tools/dap/frames.hpp"
+#include "tools/debugger/goals.hpp"
+#include "tools/views/machine_text.hpp"
+#include "tools/views/report.hpp"
+#include "tools/views/text_frame.hpp"
+
+namespace s7200::tools::dap {
+namespace {
+
+constexpr Time kSendAfter = kSecond;  // every program has set its port up by then
+
+struct Filter {
+  const char* id;
+  const char* label;
+  const char* description;
+  bool conditional;
+};
+constexpr Filter kFilters[] = {
+    {"error", "Run-time errors", "Stops after the instruction that causes a run-time error", true},
+    {"overflow", "Queue overflow", "An interrupt is lost because its queue is full", false},
+    {"lost", "Lost characters", "A character that the program does not get", false},
+    {"unanswered", "Unanswered requests", "The master has waited for an answer in vain", false},
+    {"watchdog", "Watchdog and other fatal errors", "Stops in front of the instruction that ends in STOP", false}};
+
+Json capabilities() {
+  Json filters = Json::array();
+  for (const Filter& filter : kFilters)
+    filters.push_back({{"filter", filter.id},
+                       {"label", filter.label},
+                       {"description", filter.description},
+                       {"default", filter.id == std::string_view("watchdog")},
+                       {"supportsCondition", filter.conditional},
+                       {"conditionDescription", filter.conditional ? "codes in hex: 0006, 0091" : ""}});
+  Json body{{"exceptionBreakpointFilters", filters}, {"completionTriggerCharacters", Json::array({"*", "B", "W", "D"})}};
+  for (const char* offered : {"supportsConfigurationDoneRequest",
+                              "supportsFunctionBreakpoints",
+                              "supportsConditionalBreakpoints",
+                              "supportsHitConditionalBreakpoints",
+                              "supportsEvaluateForHovers",
+                              "supportsStepBack",
+                              "supportsSetVariable",
+                              "supportsGotoTargetsRequest",
+                              "supportsCompletionsRequest",
+                              "supportsRestartRequest",
+                              "supportsValueFormattingOptions",
+                              "supportsExceptionInfoRequest",
+                              "supportsDelayedStackTraceLoading",
+                              "supportsLoadedSourcesRequest",
+                              "supportsLogPoints",
+                              "supportsSetExpression",
+                              "supportsTerminateRequest",
+                              "supportsDataBreakpoints",
+                              "supportsDataBreakpointBytes",
+                              "supportsReadMemoryRequest",
+                              "supportsWriteMemoryRequest",
+                              "supportsDisassembleRequest",
+                              "supportsCancelRequest",
+                              "supportsBreakpointLocationsRequest",
+                              "supportsClipboardContext",
+                              "supportsSteppingGranularity",
+                              "supportsInstructionBreakpoints",
+                              "supportsExceptionFilterOptions"})
+    body[offered] = true;
+  return body;
+}
+
+}  // namespace
+
+Session::Session(SessionSettings settings, Send send) : settings_(std::move(settings)), send_(std::move(send)) {}
+
+Session::~Session() = default;
+
+const std::vector<Session::Request>& Session::requests() {
+  static const std::vector<Request> kTable{{"initialize", &Session::initialize, false},
+                                           {"launch", &Session::launch, false},
+                                           {"attach", &Session::attach, false},
+                                           {"configurationDone", &Session::configuration_done},
+                                           {"restart", &Session::restart},
+                                           {"terminate", &Session::terminate},
+                                           {"disconnect", &Session::disconnect, false},
+                                           {"cancel", &Session::cancel, false},
+                                           {"setBreakpoints", &Session::set_breakpoints},
+                                           {"setFunctionBreakpoints", &Session::set_function_breakpoints},
+                                           {"setDataBreakpoints", &Session::set_data_breakpoints},
+                                           {"setInstructionBreakpoints", &Session::set_instruction_breakpoints},
+                                           {"setExceptionBreakpoints", &Session::set_exception_breakpoints},
+                                           {"breakpointLocations", &Session::breakpoint_locations},
+                                           {"dataBreakpointInfo", &Session::data_breakpoint_info},
+                                           {"exceptionInfo", &Session::exception_info},
+                                           {"continue", &Session::go_on, true, true},
+                                           {"next", &Session::next, true, true},
+                                           {"stepIn", &Session::step_in, true, true},
+                                           {"stepOut", &Session::step_out, true, true},
+                                           {"stepScan", &Session::step_scan, true, true},
+                                           {"pause", &Session::pause},
+                                           {"stepBack", &Session::step_back, true, true},
+                                           {"reverseContinue", &Session::reverse_continue, true, true},
+                                           {"reverseStepOver", &Session::reverse_step_over, true, true},
+                                           {"reverseStepOut", &Session::reverse_step_out, true, true},
+                                           {"reverseStepScan", &Session::reverse_step_scan, true, true},
+                                           {"gotoTargets", &Session::goto_targets},
+                                           {"goto", &Session::go_to, true, true},
+                                           {"goToMoment", &Session::go_to_moment, true, true},
+                                           {"threads", &Session::threads, false},
+                                           {"stackTrace", &Session::stack_trace},
+                                           {"scopes", &Session::scopes},
+                                           {"variables", &Session::variables},
+                                           {"loadedSources", &Session::loaded_sources},
+                                           {"evaluate", &Session::evaluate},
+                                           {"completions", &Session::completions},
+                                           {"disassemble", &Session::disassemble},
+                                           {"readMemory", &Session::read_memory},
+                                           {"writeMemory", &Session::write_memory},
+                                           {"setVariable", &Session::set_variable},
+                                           {"setExpression", &Session::set_expression},
+                                           {"sendFrame", &Session::send_frame},
+                                           {"timeline", &Session::timeline},
+                                           {"lastWrite", &Session::last_write},
+                                           {"reverseToLastWrite", &Session::reverse_to_last_write, true, true},
+                                           {"lastInstructions", &Session::last_instructions},
+                                           {"stlStatus", &Session::stl_status}};
+  return kTable;
+}
+
+// --- messages ---
+
+void Session::handle(const Json& message) {
+  if (!message.is_object() || message.value("type", "") != "request") return;  // a response to nothing we have asked
+  const std::string command = message.value("command", "");
+  const auto found = std::ranges::find(requests(), command, &Request::command);
+  handling_ = message.value("seq", std::int64_t{0});
+  later_.clear();
+  try {
+    if (found == requests().end())
+      throw Refused(fmt::format("'{}' is not a request that is offered", stl::shortened(command)));
+    const Json arguments = message.contains("arguments") ? message["arguments"] : Json::object();
+    respond(message, true, dispatch(*found, arguments));
+  } catch (const Refused& refused) {
+    respond(message, false, {}, refused.what());
+  } catch (const Json::exception& error) {
+    respond(message, false, {}, fmt::format("the arguments of {} are not as the protocol says: {}", command, error.what()));
+  }
+  for (const auto& action : std::exchange(later_, {})) action();
+}
+
+Json Session::dispatch(const Request& request, const Json& arguments) {
+  if (request.needs_program && !debuggee_) throw Refused("there is no program yet: launch or attach comes first");
+  if (request.needs_program && terminated_ && request.command != "disconnect") throw Refused("the session has ended");
+  if (request.needs_standstill && runs()) throw Refused("the program runs: pause it first");
+  return (this->*request.handler)(arguments);
+}
+
+void Session::refuse(const Json& message, const std::string& why) { respond(message, false, {}, why); }
+
+void Session::respond(const Json& request, bool success, Json body, const std::string& message) {
+  Json response{{"seq", ++sent_},
+                {"type", "response"},
+                {"request_seq", request.value("seq", std::int64_t{0})},
+                {"success", success},
+                {"command", request.value("command", "")}};
+  if (!success) {
+    response["message"] = message;
+    body = {{"error", {{"id", 1}, {"format", message}, {"showUser", true}}}};
+  }
+  if (!body.is_null()) response["body"] = std::move(body);
+  send_(response);
+}
+
+void Session::send_event(const std::string& event, Json body) {
+  Json message{{"seq", ++sent_}, {"type", "event"}, {"event", event}};
+  if (!body.is_null()) message["body"] = std::move(body);
+  send_(message);
+}
+
+void Session::print(const std::string& text, const std::string& category, std::optional<std::uint32_t> op) {
+  if (text.empty()) return;
+  Json body{{"category", category}, {"output", text.ends_with('\n') ? text : text + "\n"}};
+  if (op) body.update(client_place(*op));
+  send_event("output", std::move(body));
+}
+
+void Session::refuse_interrupted() const { throw Refused("cancelled"); }
+
+Json Session::client_place(std::uint32_t op) const {
+  const stl::Position& position = cpu().program().statement(op).position;
+  Json place = sources_->place_of(position.line);
+  place["line"] = client_line(place["line"].get<std::uint32_t>());
+  place["column"] = std::max(position.column, 1u) - 1 + column_base_;
+  return place;
+}
+
+// --- the life of a session ---
+
+Json Session::initialize(const Json& arguments) {
+  line_base_ = arguments.value("linesStartAt1", true) ? 1 : 0;
+  column_base_ = arguments.value("columnsStartAt1", true) ? 1 : 0;
+  client_shows_progress_ = arguments.value("supportsProgressReporting", false);
+  client_takes_memory_events_ = arguments.value("supportsMemoryEvent", false);
+  client_takes_invalidation_ = arguments.value("supportsInvalidatedEvent", false);
+  if (arguments.value("pathFormat", "path") != "path") throw Refused("only the path format 'path' is offered");
+  return capabilities();
+}
+
+Json Session::launch(const Json& arguments) {
+  if (debuggee_) throw Refused("a program is being debugged already");
+  begin(settings_.launch(arguments), arguments);
+  return {};
+}
+
+Json Session::attach(const Json& arguments) {
+  if (debuggee_) throw Refused("a program is being debugged already");
+  if (!settings_.attachable)
+    throw Refused(
+        "there is no PLC to attach to: it is the one that s7200 dap is started with, for example s7200 dap --listen 4711 "
+        "PROGRAM; launch brings its own");
+  attached_ = true;
+  begin(settings_.attachable, arguments);
+  return {};
+}
+
+void Session::begin(std::shared_ptr<Debuggee> debuggee, const Json& arguments) {
+  debuggee_ = std::move(debuggee);
+  stop_on_entry_ = arguments.value("stopOnEntry", attached_);
+  no_debug_ = arguments.value("noDebug", false);
+  const std::string unit = arguments.value("step", "line");
+  if (unit != "line" && unit != "network") throw Refused(fmt::format("step: '{}' is not line or network", unit));
+  steps_are_networks_ = unit == "network";
+  listing_ = std::make_unique<Listing>(*debuggee_->program());
+  sources_ = std::make_unique<Sources>(*debuggee_->program());
+  stepper_ = std::make_unique<Stepper>(debuggee_->simulation(), debuggee_->history(), settings_.stop_request);
+  read_frames(arguments);
+  debuggee_->when_saying([this](const std::string& text) { print(text, "important"); });
+  stepper_->on_message = [this](const StopPoint& stop) {
+    print(filled_in(stop.log, cpu()), "console", standing_at(cpu().state()));
+  };
+  stepper_->on_answer = [this](const serial::Exchange& exchange) {
+    print(exchange_text(exchange, debuggee_->master().timeout));
+  };
+  stepper_->on_record = [this](const TraceRecord& record) {
+    if (record.kind == TraceKind::RuntimeError && !first_error_) first_error_ = record;
+  };
+  after_response([this] { send_event("initialized", {}); });
+}
+
+/// The frames that a launch or an attach asks for.
+void Session::read_frames(const Json& arguments) {
+  const Json wanted = arguments.value("send", Json::array());
+  for (const Json& frame : wanted.is_array() ? wanted : Json::array({wanted}))
+    frames_.push_back(read_frame(frame.get<std::string>()));
+  const std::string after = arguments.value("sendAfter", "");
+  const auto time = after.empty() ? std::optional(kSendAfter) : parse_duration(after);
+  if (!time) throw Refused(fmt::format("sendAfter: '{}' is not a duration; write for example 250ms", stl::shortened(after)));
+  send_after_ = *time;
+}
+
+Json Session::configuration_done(const Json&) {
+  configured_ = true;
+  after_response([this] { start(); });
+  return {};
+}
+
+void Session::start() {
+  const std::string mode = attached_ ? "attach" : "launch";
+  send_event("process", {{"name", cpu().program().source.name}, {"isLocalProcess", false}, {"startMethod", mode}});
+  begun_ = true;
+  if (!stop_on_entry_) return run_to(goal::none(), "");
+  if (attached_ && standing_at(cpu().state())) return stopped_at("entry", "attached");
+  run_to([](const State&, std::uint32_t, const Stepper::Progress&) { return true; }, "entry");
+}
+
+Json Session::restart(const Json& arguments) {
+  if (arguments.contains("arguments")) stop_on_entry_ = arguments["arguments"].value("stopOnEntry", stop_on_entry_);
+  running_.reset();
+  pause_asked_ = false;
+  debuggee_->history().restart();
+  note_new_branch();
+  for (StopPoint& stop : stepper_->stops) stop.hits = 0;
+  frames_sent_ = 0;
+  after_response([this] {
+    if (!stop_on_entry_) send_event("continued", {{"threadId", 1}, {"allThreadsContinued", true}});
+    start();
+  });
+  return {};
+}
+
+Json Session::terminate(const Json&) {
+  running_.reset();
+  after_response([this] { end_debuggee(); });
+  return {};
+}
+
+/// The program that a launch began ends; one that was attached to stays as it stands.
+void Session::end_debuggee() {
+  if (!debuggee_ || terminated_) return;
+  terminated_ = true;
+  leave();
+  if (!attached_) send_event("exited", {{"exitCode", cpu().state().fatal_code ? 3 : 0}});
+  send_event("terminated", {});
+}
+
+void Session::leave() {
+  if (!attached_)
+    for (const std::string& text : debuggee_->finish()) print(text, "important");
+  debuggee_->when_saying([](const std::string&) {});
+}
+
+Json Session::disconnect(const Json&) {
+  running_.reset();
+  over_ = true;
+  if (debuggee_ && !terminated_) leave();
+  terminated_ = true;
+  return {};
+}
+
+void Session::abandon() {
+  running_.reset();
+  send_ = [](const Json&) {};
+  if (debuggee_ && !terminated_) leave();
+  terminated_ = over_ = true;
+}
+
+/// What was to be cancelled has been: it is interrupted, or was refused, before its turn.
+Json Session::cancel(const Json&) { return {}; }
+
+}  // namespace s7200::tools::dap

@@ -1,0 +1,236 @@
+// A session of the Debug Adapter Protocol (1.68): messages in, messages out. It knows no streams and no threads.
+//
+// One thread is shown, the CPU; its frames are the routines that are open. A line is an instruction, a statement in the
+// sense of the protocol is a network. Every step and stop has its brother that goes back in time.
+//
+// Messages may come while the program runs: whoever runs it has run() end by the stop request, hands the messages over, and
+// goes on if runs() says so. The program does what it does in one go.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/dap/debuggee.hpp"
+#include "tools/dap/sources.hpp"
+#include "tools/dap/variables.hpp"
+#include "tools/debugger/stepper.hpp"
+#include "tools/views/listing.hpp"
+
+namespace s7200::tools::dap {
+
+/// A request that cannot be done, and why.
+class Refused : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct SessionSettings {
+  /// Powers up what a launch asks for; throws Refused.
+  std::function<std::shared_ptr<Debuggee>(const Json& arguments)> launch;
+  std::shared_ptr<Debuggee> attachable{};           ///< that was there before the session, and stays
+  const std::atomic<bool>* stop_request = nullptr;  ///< ends what is going on
+  std::chrono::milliseconds patience{500};          ///< after this long progress is reported
+};
+
+class Session {
+ public:
+  using Send = std::function<void(const Json& message)>;
+
+  Session(SessionSettings settings, Send send);
+  ~Session();
+
+  void handle(const Json& message);
+
+  /// A request that was taken back before its turn.
+  void refuse(const Json& message, const std::string& why);
+
+  /// Whether the program is running, and how it goes on: until it stops, or a stop request.
+  bool runs() const { return running_.has_value(); }
+  void run();
+
+  bool is_over() const { return over_; }
+
+  /// The client has gone without a word.
+  void abandon();
+
+ private:
+  using Handler = Json (Session::*)(const Json& arguments);
+  struct Request {
+    std::string_view command;
+    Handler handler;
+    bool needs_program = true;
+    bool needs_standstill = false;
+  };
+  static const std::vector<Request>& requests();
+  Json dispatch(const Request& request, const Json& arguments);
+
+  // Life of the session (session.cpp).
+  Json initialize(const Json& arguments);
+  Json launch(const Json& arguments);
+  Json attach(const Json& arguments);
+  Json configuration_done(const Json& arguments);
+  Json restart(const Json& arguments);
+  Json terminate(const Json& arguments);
+  Json disconnect(const Json& arguments);
+  Json cancel(const Json& arguments);
+  void begin(std::shared_ptr<Debuggee> debuggee, const Json& arguments);
+  void read_frames(const Json& arguments);
+  void start();
+  void end_debuggee();
+  void leave();
+
+  // Where to stop (session_breakpoints.cpp).
+  enum class StopKind : std::uint8_t { Line, Function, Data, Instruction, Exception };
+  struct Placed {
+    StopKind kind{};
+    std::string group{};  ///< of lines: the file
+    Json wanted{};
+    Json answer{};  ///< what was said about it
+  };
+  Json set_breakpoints(const Json& arguments);
+  Json set_function_breakpoints(const Json& arguments);
+  Json set_data_breakpoints(const Json& arguments);
+  Json set_instruction_breakpoints(const Json& arguments);
+  Json set_exception_breakpoints(const Json& arguments);
+  Json breakpoint_locations(const Json& arguments);
+  Json data_breakpoint_info(const Json& arguments);
+  Json exception_info(const Json& arguments);
+  using MakeStops = std::function<std::vector<StopPoint>(const Json& wanted, Json& answer)>;
+  Json place(StopKind kind, const std::string& group, const Json& wanted, const MakeStops& make);
+  void take_away(int number);
+  StopPoint with_conditions(StopPoint stop, const Json& wanted) const;
+  StopPoint stop_at(std::uint32_t op) const;
+  std::vector<StopPoint> line_stops(const std::string& path, const Json& wanted, Json& answer) const;
+  std::vector<StopPoint> function_stops(const Json& wanted, Json& answer) const;
+  std::vector<StopPoint> data_stops(const Json& wanted) const;
+  std::vector<StopPoint> exception_stops(const Json& wanted) const;
+
+  // Running (session_steps.cpp).
+  struct Run {
+    Stepper::Goal goal;
+    std::string reason;  ///< of the stop when the goal is met
+  };
+  Json go_on(const Json& arguments);
+  Json next(const Json& arguments);
+  Json step_in(const Json& arguments);
+  Json step_out(const Json& arguments);
+  Json step_scan(const Json& arguments);
+  Json pause(const Json& arguments);
+  Json step_back(const Json& arguments);
+  Json reverse_continue(const Json& arguments);
+  Json reverse_step_over(const Json& arguments);
+  Json reverse_step_out(const Json& arguments);
+  Json reverse_step_scan(const Json& arguments);
+  Json goto_targets(const Json& arguments);
+  Json go_to(const Json& arguments);
+  Json go_to_moment(const Json& arguments);
+  bool by_networks(const Json& arguments) const;
+  void run_to(Stepper::Goal goal, const std::string& reason);
+  void run_back(Stepper::Goal goal, std::uint64_t count, bool stop_at_answer);
+  Stop searched_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer);
+  bool send_what_is_due();
+  void report(const Stop& stop, const std::string& reason);
+  void report_stopped(Json body);
+  Json body_of(const Stop& stop, const std::string& reason);
+  Json body_of_hit(const Hit& hit);
+  Json body_of_cpu_stop();
+  std::string text_of(const Hit& hit) const;
+  void stopped_at(const std::string& reason, const std::string& description);
+  void show_the_past();
+
+  // What there is to see (session_seeing.cpp).
+  Json threads(const Json& arguments);
+  Json stack_trace(const Json& arguments);
+  Json scopes(const Json& arguments);
+  Json variables(const Json& arguments);
+  Json loaded_sources(const Json& arguments);
+  Json evaluate(const Json& arguments);
+  Json completions(const Json& arguments);
+  Json disassemble(const Json& arguments);
+  Json frame_of(std::uint32_t number, std::uint32_t op, const std::string& name) const;
+  Json evaluated(const std::string& expression, bool hex);
+  std::string resolved_text(std::uint32_t op) const;
+
+  // Memory (session_memory.cpp).
+  Json read_memory(const Json& arguments);
+  Json write_memory(const Json& arguments);
+  Json set_variable(const Json& arguments);
+  Json set_expression(const Json& arguments);
+  Json assign(const std::string& expression, const std::string& value);
+  MemoryRange range_for(const std::string& expression) const;
+  std::vector<std::uint8_t> bytes_at(std::uint32_t begin, std::uint32_t end) const;
+  void act(Action action);
+  void note_new_branch();
+  void report_memory_changes();
+
+  // What the protocol has no requests for (session_extras.cpp).
+  Json send_frame(const Json& arguments);
+  Json timeline(const Json& arguments);
+  Json last_write(const Json& arguments);
+  Json reverse_to_last_write(const Json& arguments);
+  Json last_instructions(const Json& arguments);
+  Json stl_status(const Json& arguments);
+  Json console_command(const std::string& line);
+  struct Written {
+    Moment moment;
+    Json body;
+  };
+  Written find_writer(const std::string& expression);
+
+  // Sending.
+  void send_event(const std::string& event, Json body);
+  void respond(const Json& request, bool success, Json body, const std::string& message = {});
+  void print(const std::string& text, const std::string& category = "console", std::optional<std::uint32_t> op = {});
+  void after_response(std::function<void()> action) { later_.push_back(std::move(action)); }
+  [[noreturn]] void refuse_interrupted() const;
+
+  const Cpu& cpu() const { return debuggee_->simulation().cpu(); }
+  std::uint32_t client_line(std::uint32_t line) const { return line_base_ == 1 ? line : line - 1; }
+  std::uint32_t line_of_client(std::uint32_t line) const { return line_base_ == 1 ? line : line + 1; }
+  Json client_place(std::uint32_t op) const;
+
+  SessionSettings settings_;
+  Send send_;
+  std::int64_t sent_ = 0;
+  std::vector<std::function<void()>> later_;
+
+  // What the client can do.
+  std::uint32_t line_base_ = 1, column_base_ = 1;
+  bool client_shows_progress_ = false, client_takes_memory_events_ = false, client_takes_invalidation_ = false;
+
+  // What is debugged.
+  std::shared_ptr<Debuggee> debuggee_;
+  bool attached_ = false;
+  std::unique_ptr<Listing> listing_;
+  std::unique_ptr<Sources> sources_;
+  std::unique_ptr<Stepper> stepper_;
+  bool stop_on_entry_ = false, no_debug_ = false, steps_are_networks_ = false;
+  std::vector<serial::Frame> frames_;  ///< to be sent, as the launch asks for
+  std::size_t frames_sent_ = 0;
+  Time send_after_ = 0;
+  bool captures_end_ = false;  ///< has been said
+
+  // Where to stop.
+  std::map<int, Placed> placed_;
+  int next_number_ = 1;
+
+  // The run under way, and the last stop.
+  std::optional<Run> running_;
+  bool configured_ = false, begun_ = false, pause_asked_ = false, over_ = false, terminated_ = false;
+  std::optional<TraceRecord> first_error_;  ///< run-time error of the run under way
+  Json exception_;                          ///< of the last stop; null if it was none
+  std::map<std::int64_t, std::uint32_t> goto_targets_;
+  std::map<std::string, std::vector<std::uint8_t>> read_;  ///< memory that the client has read: area and its bytes then
+  std::int64_t handling_ = 0;                              ///< number of the request
+};
+
+}  // namespace s7200::tools::dap

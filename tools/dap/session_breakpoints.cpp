@@ -1,0 +1,281 @@
+// Where to stop.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/stl/printer.hpp"
+#include "tools/dap/addresses.hpp"
+#include "tools/dap/session.hpp"
+#include "tools/debugger/stop_words.hpp"
+#include "tools/debugger/words.hpp"
+
+namespace s7200::tools::dap {
+namespace {
+
+using On = StopPoint::On;
+
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words;
+  while (!(text = stl::trim(text)).empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    words.emplace_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+  return words;
+}
+
+/// `5`, `>= 5`, `> 4`: the first hit that stops.
+std::uint64_t first_hit(const std::string& text) {
+  std::string_view number = stl::trim(text);
+  const bool above = number.starts_with('>') && !number.starts_with(">=");
+  number.remove_prefix(number.starts_with(">=") ? 2 : above ? 1 : 0);
+  const auto hits = parse_decimal<std::uint64_t>(stl::trim(number));
+  if (!hits || (*hits == 0 && !above))
+    throw Refused(fmt::format("'{}' is not a number of hits; write for example 5 or > 4", stl::shortened(text)));
+  return *hits + (above ? 1 : 0);
+}
+
+/// `always`, `always if VW2 > 8`: with or without power flow. What is left of the condition.
+bool take_always(std::string& condition) {
+  constexpr std::string_view kAlways = "always";
+  const std::string_view text = stl::trim(condition);
+  if (!lower_case(text).starts_with(kAlways)) return false;
+  std::string_view rest = stl::trim(text.substr(kAlways.size()));
+  if (lower_case(rest).starts_with("if ")) rest = stl::trim(rest.substr(3));
+  condition = std::string(rest);
+  return true;
+}
+
+bool is_wanted(const Json& wanted, const char* key) {
+  return wanted.contains(key) && !wanted[key].get<std::string>().empty();
+}
+
+}  // namespace
+
+StopPoint Session::stop_at(std::uint32_t op) const {
+  return {.on = On::Place,
+          .op = op,
+          .name = fmt::format("{} line {}", listing_->routine_of(op), listing_->line_of(op)),
+          .needs_power = true};
+}
+
+StopPoint Session::with_conditions(StopPoint stop, const Json& wanted) const {
+  const Program& program = cpu().program();
+  std::string why;
+  if (is_wanted(wanted, "condition")) {
+    auto condition = wanted["condition"].get<std::string>();
+    if (take_always(condition)) stop.needs_power = false;
+    if (!condition.empty()) {
+      const auto expression = Expression::parse(condition, program, why);
+      if (!expression) throw Refused(why);
+      stop.condition = *expression;
+    }
+  }
+  if (is_wanted(wanted, "hitCondition")) stop.from_hit = first_hit(wanted["hitCondition"].get<std::string>());
+  if (is_wanted(wanted, "logMessage")) {
+    stop.log = wanted["logMessage"].get<std::string>();
+    if (!check_message(stop.log, program, why)) throw Refused(why);
+  }
+  return stop;
+}
+
+void Session::take_away(int number) {
+  placed_.erase(number);
+  std::erase_if(stepper_->stops, [&](const StopPoint& stop) { return stop.number == number; });
+}
+
+/// Replaces those of a kind and group. One that was wanted before in the same way stays, with its hits.
+Json Session::place(StopKind kind, const std::string& group, const Json& wanted, const MakeStops& make) {
+  std::map<int, Placed> before;
+  for (const auto& [number, placed] : placed_)
+    if (placed.kind == kind && placed.group == group) before.emplace(number, placed);
+  Json answers = Json::array();
+  for (const Json& one : wanted) {
+    const auto same = std::ranges::find_if(before, [&](const auto& entry) { return entry.second.wanted == one; });
+    if (same != before.end()) {
+      answers.push_back(same->second.answer);
+      before.erase(same);
+      continue;
+    }
+    const int number = next_number_++;
+    Json answer{{"id", number}, {"verified", true}};
+    try {
+      for (StopPoint& stop : make(one, answer)) {
+        stop.number = number;
+        if (stop.range) stop.value = stop.range->bytes_in(cpu().state().image);
+        if (!no_debug_) stepper_->stops.push_back(std::move(stop));
+      }
+    } catch (const Refused& refused) {
+      answer["verified"] = false;
+      answer["message"] = refused.what();
+      answer["reason"] = "failed";
+    }
+    placed_[number] = {kind, group, one, answer};
+    answers.push_back(std::move(answer));
+  }
+  for (const auto& [number, placed] : before) take_away(number);
+  return {{"breakpoints", std::move(answers)}};
+}
+
+// --- lines, routines, events, instructions ---
+
+std::vector<StopPoint> Session::line_stops(const std::string& path, const Json& wanted, Json& answer) const {
+  const auto wanted_line = wanted.at("line").get<std::uint32_t>();
+  const auto line = sources_->line_in(path, line_of_client(wanted_line));
+  if (!line) throw Refused(fmt::format("{} is not a file of this program, or has no line {}", path, wanted_line));
+  const auto op = listing_->op_from_line(*line);
+  if (!op) throw Refused(fmt::format("the last instruction is in line {}", client_line(listing_->last_line())));
+  answer.update(client_place(*op));
+  answer["instructionReference"] = instruction_reference(*op);
+  if (listing_->line_of(*op) != *line)
+    answer["message"] = fmt::format("line {} has no instruction; this is the next one", wanted_line);
+  return {with_conditions(stop_at(*op), wanted)};
+}
+
+Json Session::set_breakpoints(const Json& arguments) {
+  const std::string path = arguments.at("source").value("path", "");
+  return place(StopKind::Line, path, arguments.value("breakpoints", Json::array()),
+               [&](const Json& wanted, Json& answer) { return line_stops(path, wanted, answer); });
+}
+
+/// `SBR 51`, `INT 123`, `NETWORK 4`, `event 8 occurs`, `received` …, or what causes an event: `port 0: character received`.
+std::vector<StopPoint> Session::function_stops(const Json& wanted, Json& answer) const {
+  const auto name = wanted.at("name").get<std::string>();
+  std::vector<std::string> words = words_of(name);
+  if (words.empty()) throw Refused("the name is empty; write for example SBR 51, INT 123, event 8 or received");
+  for (const InterruptEvent& event : all_events())
+    if (lower_case(event.cause) == lower_case(stl::trim(name))) words = {"event", std::to_string(event.number), "served"};
+  if (lower_case(name) == "main") words = {std::to_string(listing_->line_of(0))};
+  std::string why, note;
+  auto stop = find_stop(words, cpu().program(), *listing_, why, note);
+  if (!stop) throw Refused(why);
+  stop->name = name;
+  if (stop->on == On::Place) {
+    answer.update(client_place(stop->op));
+    answer["instructionReference"] = instruction_reference(stop->op);
+  }
+  return {with_conditions(std::move(*stop), wanted)};
+}
+
+Json Session::set_function_breakpoints(const Json& arguments) {
+  return place(StopKind::Function, "", arguments.at("breakpoints"),
+               [&](const Json& wanted, Json& answer) { return function_stops(wanted, answer); });
+}
+
+Json Session::set_instruction_breakpoints(const Json& arguments) {
+  return place(StopKind::Instruction, "", arguments.at("breakpoints"), [&](const Json& wanted, Json& answer) {
+    const auto reference = wanted.at("instructionReference").get<std::string>();
+    const auto number = find_instruction_number(reference);
+    const std::int64_t op = number.value_or(-1) + wanted.value("offset", std::int64_t{0});
+    if (!number || op < 0 || op >= static_cast<std::int64_t>(cpu().program().ops.size()))
+      throw Refused(fmt::format("{} is not an instruction of this program", stl::shortened(reference)));
+    StopPoint stop = stop_at(static_cast<std::uint32_t>(op));
+    stop.needs_power = false;
+    answer.update(client_place(stop.op));
+    answer["instructionReference"] = instruction_reference(op);
+    return std::vector{with_conditions(std::move(stop), wanted)};
+  });
+}
+
+Json Session::breakpoint_locations(const Json& arguments) {
+  const std::string path = arguments.at("source").value("path", "");
+  const auto first = arguments.at("line").get<std::uint32_t>();
+  const auto last = arguments.value("endLine", first);
+  Json locations = Json::array();
+  for (std::uint32_t line = first; line <= last; ++line) {
+    const auto of_program = sources_->line_in(path, line_of_client(line));
+    const auto op = of_program ? listing_->op_from_line(*of_program) : std::nullopt;
+    if (op && listing_->line_of(*op) == of_program) locations.push_back({{"line", line}});
+  }
+  return {{"breakpoints", locations}};
+}
+
+// --- data ---
+
+Json Session::data_breakpoint_info(const Json& arguments) {
+  const auto name = arguments.at("name").get<std::string>();
+  std::string text = name.substr(0, name.find(' '));
+  if (arguments.value("asAddress", false)) {
+    const auto place = find_memory(text, cpu().program());
+    if (!place) throw Refused(fmt::format("'{}' is not an address of memory", stl::shortened(text)));
+    for (const AreaInfo& area : all_areas())
+      if (area.base == place->begin && area.element == 0) text = fmt::format("{}B{}", area.name, place->at - place->begin);
+  }
+  std::string why;
+  const auto where = parse_place(text, cpu().program(), why);
+  auto range = where ? range_now(*where, cpu()) : std::nullopt;
+  if (!range) return {{"dataId", nullptr}, {"description", where ? text + " points nowhere" : why}};
+  if (const auto bytes = arguments.value("bytes", 0u); bytes > 0) {
+    text = fmt::format("{}B{}:{}", info(range->area).name, range->number, bytes);
+    range = parse_range(text, cpu().program(), why);
+    if (!range) return {{"dataId", nullptr}, {"description", why}};
+  } else if (where->pointer) {
+    text = range->count > 1 ? fmt::format("{}:{}", range->name_of(0), range->count) : range->name_of(0);
+  }
+  const bool every_write = lower_case(name).ends_with(" write");
+  return {{"dataId", every_write ? text + " write" : text},
+          {"description", every_write ? text + ", each write" : text},
+          {"accessTypes", Json::array({"read", "write", "readWrite"})},
+          {"canPersist", true}};
+}
+
+/// `write` stops when the value changes, whoever changes it; with `write` in the name at each write of an instruction.
+std::vector<StopPoint> Session::data_stops(const Json& wanted) const {
+  const auto id = wanted.at("dataId").get<std::string>();
+  const std::string name = id.substr(0, id.find(' ')), access = wanted.value("accessType", "write");
+  std::string why;
+  const auto range = parse_range(name, cpu().program(), why);
+  if (!range) throw Refused(why);
+  const On written = lower_case(id).ends_with(" write") ? On::Write : On::Change;
+  std::vector<On> on;
+  if (access == "read" || access == "readWrite") on.push_back(On::Read);
+  if (access == "write" || access == "readWrite") on.push_back(written);
+  if (on.empty()) throw Refused(fmt::format("accessType: '{}' is not read, write or readWrite", stl::shortened(access)));
+  std::vector<StopPoint> stops;
+  for (const On one : on) stops.push_back(with_conditions({.on = one, .range = *range, .name = name}, wanted));
+  return stops;
+}
+
+Json Session::set_data_breakpoints(const Json& arguments) {
+  return place(StopKind::Data, "", arguments.at("breakpoints"),
+               [&](const Json& wanted, Json&) { return data_stops(wanted); });
+}
+
+// --- exceptions ---
+
+std::vector<StopPoint> Session::exception_stops(const Json& wanted) const {
+  const std::string filter = wanted.value("filterId", "");
+  if (filter == "watchdog") return {};  // the CPU goes to STOP, which ends every run
+  if (filter == "overflow") return {{.on = On::QueueOverflow, .name = "queue overflow"}};
+  if (filter == "lost") return {{.on = On::LostCharacter, .name = "lost character"}};
+  if (filter == "unanswered") return {{.on = On::Unanswered, .name = "unanswered request"}};
+  if (filter != "error") throw Refused(fmt::format("there is no exception filter '{}'", stl::shortened(filter)));
+  std::string codes = wanted.value("condition", "");
+  std::ranges::replace(codes, ',', ' ');
+  std::vector<StopPoint> stops;
+  for (const std::string& text : words_of(codes)) {
+    const auto code = parse_integer("16#" + text);
+    if (!code || *code <= 0 || *code > 0xFFFF)
+      throw Refused(
+          fmt::format("'{}' is not the code of a run-time error; write for example 0006, 0091", stl::shortened(text)));
+    stops.push_back({.on = On::RuntimeError, .code = static_cast<std::uint16_t>(*code), .name = "run-time error " + text});
+  }
+  if (stops.empty()) stops.push_back({.on = On::RuntimeError, .name = "run-time error"});
+  return stops;
+}
+
+Json Session::set_exception_breakpoints(const Json& arguments) {
+  Json wanted = arguments.value("filterOptions", Json::array());
+  for (const Json& filter : arguments.value("filters", Json::array())) wanted.push_back({{"filterId", filter}});
+  return place(StopKind::Exception, "", wanted, [&](const Json& one, Json&) { return exception_stops(one); });
+}
+
+Json Session::exception_info(const Json&) {
+  if (exception_.is_null()) throw Refused("it has not stopped for an exception");
+  return exception_;
+}
+
+}  // namespace s7200::tools::dap

@@ -1,0 +1,202 @@
+// Requests of our own: what the protocol has none for. The console has words for some of them.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/trace/text_trace.hpp"
+#include "serial_sim/modbus/crc.hpp"
+#include "serial_sim/modbus/request.hpp"
+#include "tools/dap/frames.hpp"
+#include "tools/dap/session.hpp"
+#include "tools/debugger/attachment.hpp"
+#include "tools/debugger/last_executions.hpp"
+#include "tools/debugger/last_write.hpp"
+#include "tools/debugger/timeline_of_past.hpp"
+#include "tools/debugger/words.hpp"
+#include "tools/views/machine_text.hpp"
+#include "tools/views/text_frame.hpp"
+#include "tools/views/timeline.hpp"
+
+namespace s7200::tools::dap {
+namespace {
+
+constexpr std::string_view kHelp =
+    "An expression in STL terms shows its value: VW100, VB0:16, *VD3570:word, VW2 * 2 + 1, M31.7 and VW3300 > 8.\n"
+    "set ADDRESS=VALUE      writes memory; I addresses are the input points\n"
+    "send HEX… | 'TEXT' [crc]  puts a frame on the line from now on\n"
+    "who ADDRESS | event N  the instruction that wrote an address last, or attached an event\n"
+    "history [n]            the last 10 instructions before now, or n\n"
+    "timeline               what the CPU did since the last request began\n";
+
+std::string instruction_text(const InstructionRecord& record, const Program& program) {
+  const std::string& comment = program.statement(record.op).comment;
+  return describe(record, program) + (comment.empty() ? "" : "  //" + stl::printable(comment));
+}
+
+}  // namespace
+
+serial::Frame read_frame(const std::string& text) {
+  std::string_view bytes = stl::trim(text);
+  const bool crc = lower_case(bytes).ends_with(" crc");
+  if (crc) bytes = stl::trim(bytes.substr(0, bytes.size() - 4));
+  serial::ParsedFrame parsed = parse_hex_or_quoted(bytes);
+  if (!parsed.ok() || parsed.frame.empty())
+    throw Refused(fmt::format("'{}': {}", stl::shortened(text),
+                              parsed.errors.empty()
+                                  ? "a frame in hex or in quotation marks, for example 01 03 00 0a 00 01 crc"
+                                  : parsed.errors[0].message));
+  if (crc) modbus::append_crc(parsed.frame);
+  return parsed.frame;
+}
+
+Json Session::send_frame(const Json& arguments) {
+  const serial::Frame frame = read_frame(arguments.at("frame").get<std::string>());
+  serial::Simulation& simulation = debuggee_->simulation();
+  const SerialFormat format = debuggee_->master().over(simulation.port_format());
+  if (serial::has_wrong_parity(frame) && format.parity == Parity::None)
+    throw Refused("a byte with wrong parity (p) needs a format with parity");
+  if (simulation.master().busy()) throw Refused("the last frame is still under way or waiting for its answer");
+  act(SendFrame{format, debuggee_->master().request(frame)});
+  std::string text = fmt::format("on the line from now on: {} ({})", serial::to_hex(frame), format_text(format));
+  if (!simulation.freeport().active)
+    text += fmt::format("\nport {} is not in Freeport mode: the program will not hear it", simulation.port());
+  print(text);
+  return {{"frame", serial::to_hex(frame)}};
+}
+
+/// Of the last exchange, unless `from` names an earlier moment.
+Json Session::timeline(const Json& arguments) {
+  const serial::Exchange& exchange = debuggee_->simulation().master().exchange();
+  Time from = exchange.request_start;
+  if (arguments.contains("from")) {
+    const auto time = parse_duration(arguments["from"].get<std::string>());
+    if (!time) throw Refused("from: a moment, for example 15.193ms");
+    from = *time;
+  }
+  const auto report = timeline_of_past(debuggee_->history(), debuggee_->program(), from, settings_.stop_request);
+  if (!report) refuse_interrupted();
+  return {{"text", to_text(*report, exchange, false)}, {"timeline", to_json(*report, exchange)}};
+}
+
+// --- who ---
+
+/// Of an address, or of `event 8`.
+Session::Written Session::find_writer(const std::string& expression) {
+  const Program& program = cpu().program();
+  History& history = debuggee_->history();
+  const auto body_of = [&](const InstructionRecord& by, const std::string& text) {
+    Json body{{"text", text}, {"instruction", instruction_text(by, program)}, {"routine", listing_->routine_of(by.op)}};
+    body.update(client_place(by.op));
+    return body;
+  };
+  if (lower_case(expression).starts_with("event ")) {
+    const auto event = parse_decimal<std::uint8_t>(stl::trim(std::string_view(expression).substr(6)));
+    if (!event || !find_event(*event)) throw Refused("expected the number of an event, for example event 8");
+    const AttachmentSearch search = find_last_attachment(history, *event, settings_.stop_request);
+    if (search.interrupted) refuse_interrupted();
+    if (!search.attachment)
+      throw Refused(fmt::format("no instruction has attached or detached {} since power-up", event_text(*event)));
+    const LastAttachment& found = *search.attachment;
+    return {found.moment,
+            body_of(found.by, fmt::format("{}  {}\n  by {} {}", moment_text(found.what.at), describe(found.what, program),
+                                          listing_->routine_of(found.by.op), instruction_text(found.by, program)))};
+  }
+  const MemoryRange range = range_for(expression);
+  const WriteSearch search = find_last_write(debuggee_->simulation(), history, range, settings_.stop_request);
+  if (search.interrupted) refuse_interrupted();
+  if (!search.write) throw Refused(fmt::format("nothing has written {} since power-up", expression));
+  const LastWrite& write = *search.write;
+  std::string text = fmt::format("{} was {}, became {}, at {}\n", expression, value_text(program, range, write.before),
+                                 value_text(program, range, write.after), moment_text(write.at));
+  if (write.by)
+    return {write.moment,
+            body_of(*write.by, text + fmt::format("  by {} {}{}", listing_->routine_of(write.by->op),
+                                                  instruction_text(*write.by, program),
+                                                  write.in_interrupt ? ", serving " + event_text(write.event) : ""))};
+  text += write.action ? fmt::format("  by '{}', from outside", describe(history.actions()[*write.action]))
+                       : "  by the system, between two instructions";
+  return {write.moment, {{"text", text}}};
+}
+
+Json Session::last_write(const Json& arguments) { return find_writer(arguments.at("expression").get<std::string>()).body; }
+
+Json Session::reverse_to_last_write(const Json& arguments) {
+  const Written written = find_writer(arguments.at("expression").get<std::string>());
+  after_response([this, written] {
+    print(written.body["text"].get<std::string>());
+    debuggee_->history().go_to(written.moment);
+    stopped_at("step", "in front of the last write");
+  });
+  return written.body;
+}
+
+Json Session::last_instructions(const Json& arguments) {
+  constexpr std::int64_t kUsual = 10, kMost = 10'000;
+  const auto count = arguments.value("count", kUsual);
+  if (count < 1 || count > kMost) throw Refused("count: how many instructions, up to 10000");
+  Json list = Json::array();
+  for (const InstructionRecord& record :
+       tools::last_instructions(debuggee_->history(), static_cast<std::size_t>(count), settings_.stop_request)) {
+    Json one{{"time", clock_text(record.at)},
+             {"routine", listing_->routine_of(record.op)},
+             {"text", instruction_text(record, cpu().program())}};
+    one.update(client_place(record.op));
+    list.push_back(std::move(one));
+  }
+  return {{"instructions", list}};
+}
+
+/// What each instruction of some lines did when it was last executed.
+Json Session::stl_status(const Json& arguments) {
+  const std::string path = arguments.at("source").value("path", "");
+  const auto first_line = sources_->line_in(path, line_of_client(arguments.at("line").get<std::uint32_t>()));
+  const auto last_line = sources_->line_in(path, line_of_client(arguments.at("endLine").get<std::uint32_t>()));
+  const Program& program = cpu().program();
+  const auto first = first_line ? listing_->op_from_line(*first_line) : std::nullopt;
+  Json lines = Json::array();
+  if (first) {
+    auto end = static_cast<std::uint32_t>(program.ops.size());
+    while (last_line && end > *first && listing_->line_of(end - 1) > *last_line) --end;
+    const LastExecutions last = tools::last_executions(debuggee_->history(), *first, end, kLookedAt, settings_.stop_request);
+    for (const auto& [op, record] : last.of) {
+      const std::string text = describe(record, program);
+      const std::size_t values = text.find("S0=");
+      lines.push_back({{"line", client_place(op)["line"]},
+                       {"powerFlow", record.powered},
+                       {"text", values == std::string::npos ? text : text.substr(values)}});
+    }
+  }
+  return {{"lines", lines}};
+}
+
+// --- the console ---
+
+Json Session::console_command(const std::string& line) {
+  const std::size_t blank = std::min(line.find(' '), line.size());
+  const std::string word = line.substr(0, blank), rest(stl::trim(std::string_view(line).substr(blank)));
+  const auto says = [](const std::string& text) { return Json{{"result", text}, {"variablesReference", 0}}; };
+  if (word == "help") return says(std::string(kHelp));
+  if (word == "who") return says(find_writer(rest).body["text"]);
+  if (word == "send") {
+    send_frame({{"frame", rest}});
+    return says("");
+  }
+  if (word == "timeline") return says(timeline(Json::object())["text"]);
+  if (word == "history") {
+    const auto count = rest.empty() ? std::optional<std::int64_t>(10) : parse_decimal<std::int64_t>(rest);
+    std::string text;
+    const Json all = last_instructions({{"count", count.value_or(0)}});
+    for (const Json& one : all["instructions"])
+      text += fmt::format("{}  {:<7} {}\n", one["time"].get<std::string>(), one["routine"].get<std::string>(),
+                          one["text"].get<std::string>());
+    return says(text);
+  }
+  const std::size_t equals = rest.find('=');
+  if (equals == std::string::npos) throw Refused("set expects an address and a value, for example: set VW100=5");
+  return says(
+      assign(std::string(stl::trim(rest.substr(0, equals))), std::string(stl::trim(rest.substr(equals + 1))))["value"]);
+}
+
+}  // namespace s7200::tools::dap

@@ -1,0 +1,205 @@
+// What there is to see while it stands still.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/stl/printer.hpp"
+#include "tools/dap/addresses.hpp"
+#include "tools/dap/session.hpp"
+#include "tools/debugger/call_stack.hpp"
+#include "tools/debugger/stop_words.hpp"
+#include "tools/views/machine_text.hpp"
+#include "tools/views/memory.hpp"
+
+namespace s7200::tools::dap {
+namespace {
+
+Json to_json(const Variable& variable) {
+  Json json{{"name", variable.name}, {"value", variable.value}, {"variablesReference", variable.parts}};
+  if (!variable.type.empty()) json["type"] = variable.type;
+  if (!variable.expression.empty()) json["evaluateName"] = variable.expression;
+  if (!variable.memory.empty()) json["memoryReference"] = variable.memory;
+  if (variable.expression.empty()) json["presentationHint"] = {{"attributes", Json::array({"readOnly"})}};
+  return json;
+}
+
+/// `16#05`, without what stands behind it.
+std::string hex_of(const std::string& value) { return value.substr(0, value.find(' ')); }
+
+bool wants_hex(const Json& arguments) { return arguments.contains("format") && arguments["format"].value("hex", false); }
+
+std::string number_text(const Value& value) {
+  return value.real ? fmt::format("{:.7g}", value.number) : fmt::format("{:.0f}", value.number);
+}
+
+constexpr std::string_view kCommands[] = {"set", "send", "who", "history", "timeline", "help"};
+constexpr std::string_view kForms[] = {"VB", "VW", "VD", "MB", "MW", "MD", "IB", "IW", "QB", "QW", "SMB", "SMW", "AC", "LB"};
+
+}  // namespace
+
+Json Session::threads(const Json&) {
+  const std::string name = debuggee_ ? fmt::format("CPU {}", cpu().program().model->name) : "CPU";
+  return {{"threads", Json::array({{{"id", 1}, {"name", name}}})}};
+}
+
+Json Session::frame_of(std::uint32_t number, std::uint32_t op, const std::string& name) const {
+  Json frame{{"id", number + 1}, {"name", name}};
+  frame.update(client_place(op));
+  frame["instructionPointerReference"] = instruction_reference(op);
+  return frame;
+}
+
+Json Session::stack_trace(const Json& arguments) {
+  const State& state = cpu().state();
+  Json frames = Json::array();
+  const auto add = [&](std::uint32_t op, const std::string& name) {
+    frames.push_back(frame_of(static_cast<std::uint32_t>(frames.size()), op, name));
+  };
+  for (const OpenRoutine& open : open_routines(state)) {
+    const std::string& routine = listing_->routine_of(open.op);
+    add(open.op, open.event ? fmt::format("{} for {}", routine, event_text(*open.event)) : routine);
+  }
+  if (frames.empty()) add(state.fatal_code && state.fatal_op != kNoRoutine ? state.fatal_op : 0, "STOP");
+  const auto total = frames.size();
+  const auto start = std::min(arguments.value("startFrame", std::size_t{0}), total);
+  const auto levels = arguments.value("levels", std::size_t{0});
+  const auto end = levels == 0 ? total : std::min(total, start + levels);
+  Json shown = Json::array();
+  for (std::size_t i = start; i < end; ++i) shown.push_back(frames[i]);
+  return {{"stackFrames", shown}, {"totalFrames", total}};
+}
+
+Json Session::scopes(const Json& arguments) {
+  const auto frame = arguments.at("frameId").get<std::uint32_t>();
+  Json scopes = Json::array();
+  for (const Scope& scope : scopes_of(*cpu().program().model, frame == 0 ? 0 : frame - 1)) {
+    Json json{{"name", scope.name}, {"variablesReference", scope.variables}, {"expensive", false}};
+    if (scope.registers) json["presentationHint"] = "registers";
+    if (!scope.memory.empty()) json["memoryReference"] = scope.memory;
+    scopes.push_back(std::move(json));
+  }
+  return {{"scopes", scopes}};
+}
+
+Json Session::variables(const Json& arguments) {
+  const auto container = arguments.at("variablesReference").get<Container>();
+  const auto all = variables_of(debuggee_->simulation(), debuggee_->history(), container);
+  const auto start = std::min(arguments.value("start", std::size_t{0}), all.size());
+  const auto count = arguments.value("count", std::size_t{0});
+  const auto end = count == 0 ? all.size() : std::min(all.size(), start + count);
+  Json variables = Json::array();
+  for (std::size_t i = start; i < end; ++i) {
+    variables.push_back(to_json(all[i]));
+    if (wants_hex(arguments) && !all[i].memory.empty()) variables.back()["value"] = hex_of(all[i].value);
+  }
+  return {{"variables", variables}};
+}
+
+Json Session::loaded_sources(const Json&) { return {{"sources", sources_->all()}}; }
+
+// --- expressions ---
+
+Json Session::evaluated(const std::string& expression, bool hex) {
+  std::string why, why_no_expression;
+  if (const auto place = parse_place(expression, cpu().program(), why)) {
+    const MemoryRange range = range_for(expression);
+    const Variable variable = variable_of(cpu(), range, expression);
+    return {{"result", hex ? hex_of(variable.value) : variable.value},
+            {"type", variable.type},
+            {"variablesReference", 0},
+            {"memoryReference", variable.memory}};
+  }
+  const auto parsed = Expression::parse(expression, cpu().program(), why_no_expression);
+  if (!parsed) throw Refused(expression.find(' ') == std::string::npos ? why : why_no_expression);
+  const auto value = parsed->value(cpu());
+  if (!value) throw Refused("cannot be computed: a pointer points nowhere, or a division by 0");
+  const std::string text = hex && !value->real
+                               ? fmt::format("16#{:X}", static_cast<std::uint32_t>(std::llround(value->number)))
+                               : number_text(*value);
+  return {{"result", text}, {"type", value->real ? "REAL" : "DINT"}, {"variablesReference", 0}};
+}
+
+Json Session::evaluate(const Json& arguments) {
+  const std::string expression(stl::trim(arguments.at("expression").get<std::string>()));
+  const bool console = arguments.value("context", "") == "repl";
+  const std::string word = expression.substr(0, expression.find(' '));
+  if (console && std::ranges::find(kCommands, word) != std::end(kCommands)) return console_command(expression);
+  return evaluated(expression, wants_hex(arguments));
+}
+
+/// What the last word before the cursor may become.
+Json Session::completions(const Json& arguments) {
+  const auto text = arguments.at("text").get<std::string>();
+  const auto column = arguments.at("column").get<std::size_t>();
+  const std::string before = text.substr(0, column - std::min<std::size_t>(column, column_base_));
+  const std::size_t begin = before.find_last_of(" (*=<>+-/") + 1;
+  const std::string word = stl::upper_case(before.substr(begin));
+  std::set<std::string> found;
+  const auto offer = [&](std::string_view label) {
+    if (stl::upper_case(label).starts_with(word)) found.insert(std::string(label));
+  };
+  if (begin == 0) std::ranges::for_each(kCommands, offer);
+  std::ranges::for_each(kForms, offer);
+  for (const std::string& address : addresses_in(cpu().program())) offer(address.substr(0, address.find(':')));
+  for (const stl::Symbol& symbol : cpu().program().source.symbols) offer(symbol.name);
+  Json targets = Json::array();
+  for (const std::string& label : found)
+    targets.push_back({{"label", label},
+                       {"start", begin + column_base_ - 1 + (column_base_ == 0 ? 1 : 0)},
+                       {"length", before.size() - begin}});
+  return {{"targets", targets}};
+}
+
+// --- instructions ---
+
+/// The addresses that pointers lead to now, and how long it takes.
+std::string Session::resolved_text(std::uint32_t number) const {
+  const Program& program = cpu().program();
+  const Op& op = program.ops[number];
+  const stl::Statement& statement = program.statement(number);
+  std::string text = stl::to_text(statement), resolved;
+  for (std::size_t i = 0; i < std::min<std::size_t>(statement.operands.size(), op.operand.size()); ++i) {
+    if (!std::holds_alternative<stl::Indirect>(statement.operands[i].value)) continue;
+    std::string why;
+    const std::string pointer = stl::to_text(statement.operands[i]);
+    static constexpr std::string_view kWidths[] = {"", "", ":word", "", ":dword"};
+    const auto place = parse_place(pointer + std::string(kWidths[std::min<std::size_t>(op[i].width, 4)]), program, why);
+    const auto range = place ? range_now(*place, cpu()) : std::nullopt;
+    resolved += fmt::format("{} = {}, ", pointer, range ? range->name_of(0) : "nowhere");
+  }
+  const std::string each =
+      op.unit_cost == 0 ? "" : fmt::format(" + {} each", format_duration(static_cast<Time>(op.unit_cost)));
+  return fmt::format("{:<28} // {}{}{}", text, resolved, format_duration(static_cast<Time>(op.cost)), each);
+}
+
+Json Session::disassemble(const Json& arguments) {
+  const auto reference = arguments.at("memoryReference").get<std::string>();
+  const auto number = find_instruction_number(reference);
+  if (!number) throw Refused(fmt::format("'{}' is not an instruction of this program", stl::shortened(reference)));
+  const std::int64_t first =
+      *number + arguments.value("offset", std::int64_t{0}) + arguments.value("instructionOffset", std::int64_t{0});
+  constexpr std::int64_t kMost = 10'000;
+  const auto count = std::clamp<std::int64_t>(arguments.at("instructionCount").get<std::int64_t>(), 0, kMost);
+  const auto size = static_cast<std::int64_t>(cpu().program().ops.size());
+  Json instructions = Json::array();
+  for (std::int64_t i = first; i < first + count; ++i) {
+    Json one{{"address", instruction_reference(i)}};
+    if (i < 0 || i >= size) {
+      one.update({{"instruction", "-"}, {"presentationHint", "invalid"}});
+    } else {
+      const auto op = static_cast<std::uint32_t>(i);
+      const Json place = client_place(op);
+      one["instruction"] = resolved_text(op);
+      one["location"] = place["source"];
+      one["line"] = place["line"];
+      if (op == 0 || listing_->routine_of(op) != listing_->routine_of(op - 1)) one["symbol"] = listing_->routine_of(op);
+    }
+    instructions.push_back(std::move(one));
+  }
+  return {{"instructions", instructions}};
+}
+
+}  // namespace s7200::tools::dap

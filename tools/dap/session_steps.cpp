@@ -1,0 +1,321 @@
+// Running, forwards and backwards, and what is said when it stops.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/model/errors.hpp"
+#include "interpreter/trace/text_trace.hpp"
+#include "tools/dap/addresses.hpp"
+#include "tools/dap/session.hpp"
+#include "tools/debugger/goals.hpp"
+#include "tools/views/machine_text.hpp"
+#include "tools/views/report.hpp"
+
+namespace s7200::tools::dap {
+namespace {
+
+constexpr std::string_view kOldest = "this is the oldest moment: the session begins at power-up";
+
+std::uint64_t count_in(const Json& arguments) {
+  const auto count = arguments.value("count", std::int64_t{1});
+  if (count < 1) throw Refused("count: a number above 0");
+  return static_cast<std::uint64_t>(count);
+}
+
+}  // namespace
+
+// --- forwards ---
+
+void Session::run_to(Stepper::Goal goal, const std::string& reason) {
+  running_ = Run{std::move(goal), reason};
+  first_error_.reset();
+  exception_ = nullptr;
+}
+
+Json Session::go_on(const Json&) {
+  run_to(goal::none(), "");
+  return {{"allThreadsContinued", true}};
+}
+
+/// Without a granularity a step is what the launch says: a line, or a network.
+bool Session::by_networks(const Json& arguments) const {
+  return arguments.contains("granularity") ? arguments["granularity"] == "statement" : steps_are_networks_;
+}
+
+Json Session::next(const Json& arguments) {
+  const State& now = cpu().state();
+  run_to(by_networks(arguments) ? goal::network_over(now, *listing_) : goal::over(now), "step");
+  return {};
+}
+
+Json Session::step_in(const Json& arguments) {
+  run_to(by_networks(arguments) ? goal::network_into(*listing_) : goal::instructions(1), "step");
+  return {};
+}
+
+Json Session::step_out(const Json&) {
+  if (!goal::is_in_routine(cpu().state()))
+    throw Refused("this is the main program, in no subroutine and no interrupt routine; stepScan goes to the next scan");
+  run_to(goal::out(cpu().state()), "step");
+  return {};
+}
+
+Json Session::step_scan(const Json& arguments) {
+  run_to(goal::scan(cpu().state(), count_in(arguments)), "step");
+  return {};
+}
+
+Json Session::pause(const Json&) {
+  if (runs()) pause_asked_ = true;
+  return {};
+}
+
+/// Puts the next frame of the launch on the line. False if there is none, or not yet.
+bool Session::send_what_is_due() {
+  serial::Simulation& simulation = debuggee_->simulation();
+  if (frames_sent_ == frames_.size() || debuggee_->history().in_the_past() || simulation.master().busy() ||
+      simulation.time() < send_after_ || cpu().state().mode == Mode::Stop)
+    return false;
+  const serial::MasterSettings& master = debuggee_->master();
+  debuggee_->history().act(SendFrame{master.over(simulation.port_format()), master.request(frames_[frames_sent_++])});
+  return true;
+}
+
+void Session::run() {
+  while (running_) {
+    if (pause_asked_) return report({.reason = StopReason::Request}, "pause");
+    if (cpu().state().mode == Mode::Stop && !debuggee_->history().in_the_past())
+      return report({.reason = StopReason::CpuStopped}, "");
+    send_what_is_due();
+    const bool more = frames_sent_ < frames_.size();
+    const Time now = debuggee_->simulation().time();
+    const Stop stop = stepper_->run(running_->goal, more && now < send_after_ ? send_after_ : kNever, more);
+    if (!debuggee_->failure().empty()) return report(stop, "pause");
+    if (stop.reason == StopReason::Request) {
+      if (!pause_asked_) return;
+    } else if (stop.reason != StopReason::Limit && stop.reason != StopReason::Answer) {
+      return report(stop, running_->reason);
+    }
+  }
+}
+
+// --- backwards ---
+
+Json Session::step_back(const Json& arguments) {
+  if (by_networks(arguments))
+    run_back(goal::back_network_into(*listing_), count_in(arguments), false);
+  else
+    run_back(goal::back_instruction(), count_in(arguments), false);
+  return {};
+}
+
+Json Session::reverse_continue(const Json&) {
+  run_back(goal::none(), 1, false);
+  return {{"allThreadsContinued", true}};
+}
+
+Json Session::reverse_step_over(const Json& arguments) {
+  const State& now = cpu().state();
+  run_back(by_networks(arguments) ? goal::back_network_over(now, *listing_) : goal::back_over(now), 1, false);
+  return {};
+}
+
+Json Session::reverse_step_out(const Json&) {
+  if (!goal::is_in_routine(cpu().state()))
+    throw Refused(
+        "this is the main program, in no subroutine and no interrupt routine; reverseStepScan goes back to the "
+        "start of its scan");
+  run_back(goal::back_out(cpu().state()), 1, false);
+  return {};
+}
+
+Json Session::reverse_step_scan(const Json& arguments) {
+  run_back(goal::back_scan(), count_in(arguments), false);
+  return {};
+}
+
+void Session::run_back(Stepper::Goal goal, std::uint64_t count, bool stop_at_answer) {
+  after_response([this, goal = std::move(goal), count, stop_at_answer] {
+    first_error_.reset();
+    exception_ = nullptr;
+    const Stop stop = searched_back(goal, count, stop_at_answer);
+    report(stop, stop.reason == StopReason::Request ? "pause" : "step");
+  });
+}
+
+/// With progress, if it takes long.
+Stop Session::searched_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point since = Clock::now();
+  const Time start = debuggee_->simulation().time();
+  const std::string id = fmt::format("back {}", handling_);
+  bool shown = false;
+  stepper_->on_search = [&](Time from) {
+    if (!client_shows_progress_ || Clock::now() - since < settings_.patience) return;
+    const double share =
+        start == 0 ? 100 : 100.0 * static_cast<double>(start - std::min(from, start)) / static_cast<double>(start);
+    Json body{{"progressId", id}, {"message", "at " + moment_text(from)}, {"percentage", static_cast<int>(share)}};
+    if (!shown) body.update({{"title", "Going back in time"}, {"requestId", handling_}, {"cancellable", true}});
+    send_event(shown ? "progressUpdate" : "progressStart", std::move(body));
+    shown = true;
+  };
+  const Stop stop = stepper_->run_back(goal, count, stop_at_answer);
+  stepper_->on_search = [](Time) {};
+  if (shown) send_event("progressEnd", {{"progressId", id}});
+  return stop;
+}
+
+// --- elsewhere ---
+
+Json Session::goto_targets(const Json& arguments) {
+  const auto line =
+      sources_->line_in(arguments.at("source").value("path", ""), line_of_client(arguments.at("line").get<std::uint32_t>()));
+  const auto op = line ? listing_->op_from_line(*line) : std::nullopt;
+  const auto here = standing_at(cpu().state());
+  Json targets = Json::array();
+  if (!op || !here || listing_->routine_of(*op) != listing_->routine_of(*here)) return {{"targets", targets}};
+  goto_targets_[*op + 1] = *op;
+  const Json place = client_place(*op);
+  targets.push_back({{"id", *op + 1},
+                     {"label", listing_->text_of(*op)},
+                     {"line", place["line"]},
+                     {"column", place["column"]},
+                     {"instructionPointerReference", instruction_reference(*op)}});
+  return {{"targets", targets}};
+}
+
+Json Session::go_to(const Json& arguments) {
+  const auto target = goto_targets_.find(arguments.at("targetId").get<std::int64_t>());
+  const auto here = standing_at(cpu().state());
+  if (target == goto_targets_.end() || !here || listing_->routine_of(target->second) != listing_->routine_of(*here))
+    throw Refused("goto leads only to an instruction of the routine that runs, which gotoTargets has named");
+  act(Jump{target->second});
+  after_response([this] { stopped_at("goto", "the next instruction is another one now"); });
+  return {};
+}
+
+Json Session::go_to_moment(const Json& arguments) {
+  std::string text = arguments.at("time").get<std::string>();
+  History& history = debuggee_->history();
+  const bool before_now = text.starts_with('-');
+  if (before_now) text.erase(0, 1);
+  auto time = parse_duration(text);
+  if (text == "start") time = 0;
+  if (text == "end") time = history.newest().time;
+  if (!time) throw Refused("time: a moment, for example 15.193ms, -5ms, start, end");
+  const Time now = debuggee_->simulation().time();
+  if (before_now) time = now - std::min(*time, now);
+  if (*time > history.newest().time)
+    throw Refused(fmt::format("nothing has run after {}", moment_text(history.newest().time)));
+  after_response([this, to = *time] {
+    History& past = debuggee_->history();
+    to == 0 ? past.go_to(past.usage().oldest) : past.go_to(to);
+    stopped_at("goto", fmt::format("at {}", moment_text(debuggee_->simulation().time())));
+  });
+  return {};
+}
+
+// --- it has stopped ---
+
+void Session::report(const Stop& stop, const std::string& reason) {
+  running_.reset();
+  pause_asked_ = false;
+  if (first_error_) print(describe(*first_error_, cpu().program()), "important", first_error_->op);
+  for (const StopPoint& skipped : stepper_->stops)
+    if (skipped.skipped != 0)
+      print(fmt::format("breakpoint {} was passed {} without power flow; with the condition 'always' it stops there too",
+                        skipped.number, skipped.skipped == 1 ? "once" : fmt::format("{} times", skipped.skipped)));
+  report_stopped(body_of(stop, reason));
+}
+
+void Session::stopped_at(const std::string& reason, const std::string& description) {
+  exception_ = nullptr;
+  report_stopped({{"reason", reason}, {"description", description}});
+}
+
+void Session::report_stopped(Json body) {
+  body["threadId"] = 1;
+  body["allThreadsStopped"] = true;
+  show_the_past();
+  send_event("stopped", std::move(body));
+  report_memory_changes();
+}
+
+void Session::show_the_past() {
+  const History& history = debuggee_->history();
+  if (history.in_the_past())
+    print(fmt::format("in the past, at {}; going forward plays what has run, up to {}",
+                      moment_text(debuggee_->simulation().time()), moment_text(history.newest().time)));
+}
+
+Json Session::body_of(const Stop& stop, const std::string& reason) {
+  if (const std::string failure = debuggee_->failure(); !failure.empty())
+    return {{"reason", "pause"}, {"description", failure}, {"text", failure}};
+  if (!stop.hits.empty()) {
+    Json body = body_of_hit(stop.hits.front());
+    Json ids = Json::array();
+    for (const Hit& hit : stop.hits) {
+      print(text_of(hit));
+      if (placed_[hit.stop.number].kind != StopKind::Exception) ids.push_back(hit.stop.number);
+    }
+    if (!ids.empty()) body["hitBreakpointIds"] = ids;
+    return body;
+  }
+  if (stop.reason == StopReason::CpuStopped) return body_of_cpu_stop();
+  if (stop.reason == StopReason::Oldest) {
+    print(std::string(kOldest));
+    return {{"reason", "entry"}, {"description", kOldest}};
+  }
+  return {{"reason", reason}, {"description", reason == "pause" ? "paused" : reason}};
+}
+
+Json Session::body_of_hit(const Hit& hit) {
+  static constexpr const char* kReasons[] = {"breakpoint", "function breakpoint", "data breakpoint",
+                                             "instruction breakpoint", "exception"};
+  const StopKind kind = placed_[hit.stop.number].kind;
+  const std::string text = text_of(hit);
+  if (kind == StopKind::Exception)
+    exception_ = {{"exceptionId", hit.stop.name}, {"description", text}, {"breakMode", "always"}};
+  return {{"reason", kReasons[static_cast<std::size_t>(kind)]}, {"description", hit.stop.name}, {"text", text}};
+}
+
+/// `breakpoint 2, unanswered, hit 3 times: …`
+std::string Session::text_of(const Hit& hit) const {
+  const Program& program = cpu().program();
+  std::string text = fmt::format("{} {}: {}", hit.stop.is_watch() ? "watch" : "breakpoint", hit.stop.number, hit.stop.name);
+  if (hit.record) text += fmt::format(", {}  {}", moment_text(hit.record->at), describe(*hit.record, program));
+  if (!hit.frame.empty()) text += ", " + serial::to_hex(hit.frame);
+  if (hit.stop.is_watch()) {
+    const std::string was = value_text(program, *hit.stop.range, hit.stop.value);
+    const std::string is = value_text(program, *hit.stop.range, hit.value);
+    text += was == is ? fmt::format(" is {} as before", is) : fmt::format(" was {}, is {}", was, is);
+    text += hit.by ? fmt::format(", by {} {}", listing_->routine_of(hit.by->op), describe(*hit.by, program))
+                   : ", by the system, between two instructions";
+  }
+  return text;
+}
+
+/// With the filter it stands in front of the instruction that made the CPU stop.
+Json Session::body_of_cpu_stop() {
+  const State& state = cpu().state();
+  if (state.fatal_code == 0) return {{"reason", "pause"}, {"description", "the CPU is in STOP"}};
+  const auto code = state.fatal_code;
+  const std::uint32_t op = state.fatal_op;
+  const bool between = op == kNoRoutine;
+  const std::string text = fmt::format(
+      "the CPU went to STOP: fatal error {:04X}, {}, {}", code, meaning_of(FatalError{code}),
+      between ? "between two scans" : fmt::format("in {} line {}", listing_->routine_of(op), listing_->line_of(op)));
+  print(text, "important", between ? std::nullopt : std::optional(op));
+  exception_ = {{"exceptionId", fmt::format("fatal {:04X}", code)}, {"description", text}, {"breakMode", "always"}};
+  const bool wanted = std::ranges::any_of(placed_, [](const auto& entry) {
+    return entry.second.kind == StopKind::Exception && entry.second.wanted["filterId"] == "watchdog";
+  });
+  if (!wanted || between) return {{"reason", "exception"}, {"description", text}, {"text", text}};
+  stepper_->run_back(goal::place(op), 1, false);
+  return {{"reason", "exception"}, {"description", text}, {"text", text + "; it stands in front of it"}};
+}
+
+}  // namespace s7200::tools::dap

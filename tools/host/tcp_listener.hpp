@@ -1,0 +1,32 @@
+// A TCP port of this computer that serves one client after the other.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "tools/host/listen_address.hpp"
+
+namespace s7200::tools {
+
+class TcpListener {
+ public:
+  /// Null, and `why`, if it cannot listen there, or the address is not one of this computer alone.
+  static std::unique_ptr<TcpListener> open(const ListenAddress& address, std::string& why);
+  ~TcpListener();
+  TcpListener(const TcpListener&) = delete;
+  TcpListener& operator=(const TcpListener&) = delete;
+
+  /// With the port that was free.
+  const ListenAddress& address() const { return address_; }
+
+  /// The descriptor of the next client, to be closed by the caller. -1 after an interruption, or for `why`.
+  int accept(std::string& why);
+
+ private:
+  TcpListener(int fd, ListenAddress address) : fd_(fd), address_(std::move(address)) {}
+
+  int fd_;
+  ListenAddress address_;
+};
+
+}  // namespace s7200::tools
