@@ -1,0 +1,97 @@
+// What VS Code cannot be told in package.json: where the debug adapter is, the STL status beside the lines, tasks, and commands
+// for requests that the Debug Adapter Protocol has not. Everything else is done by the command s7200.
+"use strict";
+const vscode = require("vscode");
+
+const TYPE = "s7200";
+
+const command = () => vscode.workspace.getConfiguration("s7200").get("path") || "s7200";
+
+const adapters = {
+  createDebugAdapterDescriptor(session) {
+    const { request, port } = session.configuration;
+    if (request === "attach") return new vscode.DebugAdapterServer(port, "127.0.0.1");
+    return new vscode.DebugAdapterExecutable(command(), ["dap"]);
+  },
+};
+
+// F5 without a launch.json debugs the program in the editor. What is ours of an attach is not for the server.
+const configurations = {
+  resolveDebugConfiguration(folder, configuration) {
+    if (configuration.type) return configuration;
+    const editor = vscode.window.activeTextEditor;
+    if (!editor || editor.document.languageId !== "s7200-stl") return undefined;
+    return { type: TYPE, request: "launch", name: "Debug this STL program", program: editor.document.uri.fsPath, stopOnEntry: true };
+  },
+  provideDebugConfigurations() {
+    return [{ type: TYPE, request: "launch", name: "Debug this STL program", program: "${file}", stopOnEntry: true }];
+  },
+};
+
+// STL status: power flow and operands of each line's last execution.
+const status = {
+  async provideInlineValues(document, viewport, context) {
+    const session = vscode.debug.activeDebugSession;
+    if (!session || session.type !== TYPE || !vscode.workspace.getConfiguration("s7200").get("status")) return [];
+    const { lines } = await session.customRequest("stlStatus", {
+      source: { path: document.uri.fsPath }, line: viewport.start.line + 1, endLine: viewport.end.line + 1,
+    });
+    return lines.map(({ line, text }) => new vscode.InlineValueText(document.lineAt(line - 1).range, text));
+  },
+};
+
+function task(definition) {
+  const { verb, file } = definition;
+  const execution = new vscode.ProcessExecution(command(), [verb, file, ...(definition.arguments || [])]);
+  return new vscode.Task(definition, vscode.TaskScope.Workspace, `${verb} ${file}`, TYPE, execution, "$s7200");
+}
+
+const tasks = {
+  provideTasks() {
+    const check = task({ type: TYPE, verb: "check", file: "${file}" });
+    check.group = vscode.TaskGroup.Build;
+    return [check, task({ type: TYPE, verb: "test", file: "${file}" })];
+  },
+  resolveTask: ({ definition }) => task(definition),
+};
+
+// Asks what is missing, and sends the request; what comes back as text goes to the debug console.
+async function ask(request, argument, prompt, placeHolder) {
+  const session = vscode.debug.activeDebugSession;
+  if (!session || session.type !== TYPE) return vscode.window.showInformationMessage("No S7-200 program is being debugged.");
+  const args = { threadId: 1 };
+  if (argument) {
+    args[argument] = await vscode.window.showInputBox({ prompt, placeHolder });
+    if (!args[argument]) return undefined;
+  }
+  try {
+    const body = await session.customRequest(request, args);
+    if (body && body.text) vscode.debug.activeDebugConsole.appendLine(body.text);
+  } catch (error) {
+    vscode.window.showErrorMessage(error.message);
+  }
+  return undefined;
+}
+
+const COMMANDS = {
+  reverseStepOver: [],
+  reverseStepOut: [],
+  stepScan: [],
+  reverseStepScan: [],
+  reverseToLastWrite: ["expression", "An address, or an event: who wrote it, or attached it", "VW3300, or event 8"],
+  goToMoment: ["time", "A moment since power-up", "15.193ms, -5ms, start, end"],
+  sendFrame: ["frame", "A frame in hex, or text in quotation marks", "01 03 00 0a 00 01 crc"],
+  timeline: [],
+};
+
+function activate(context) {
+  context.subscriptions.push(
+    vscode.debug.registerDebugAdapterDescriptorFactory(TYPE, adapters),
+    vscode.debug.registerDebugConfigurationProvider(TYPE, configurations),
+    vscode.languages.registerInlineValuesProvider([{ language: "s7200-stl" }, { language: "plaintext" }], status),
+    vscode.tasks.registerTaskProvider(TYPE, tasks),
+    ...Object.entries(COMMANDS).map(([name, args]) =>
+      vscode.commands.registerCommand(`s7200.${name}`, () => ask(name, ...args))));
+}
+
+module.exports = { activate, deactivate() {} };
