@@ -104,6 +104,8 @@ constexpr std::array<std::array<std::string_view, 6>, 5> kLevels{
 
 class Reader {
  public:
+  static constexpr std::size_t kMostNested = 100;  ///< parentheses, `not` and signs in each other
+
   Reader(std::string_view text, const Program& program) : text_(text), program_(program) {}
 
   NodePtr read() {
@@ -129,6 +131,14 @@ class Reader {
   }
 
   NodePtr unary() {
+    if (nested_ == kMostNested) return fail("nested too deeply");
+    ++nested_;
+    NodePtr node = unary_in();
+    --nested_;
+    return node;
+  }
+
+  NodePtr unary_in() {
     skip_blanks();
     if (take_word("not")) return around(Node::Kind::Not, unary());
     if (text_.substr(at_).starts_with('-')) return ++at_, around(Node::Kind::Negate, unary());
@@ -208,6 +218,7 @@ class Reader {
   std::string_view text_;
   const Program& program_;
   std::size_t at_ = 0;
+  std::size_t nested_ = 0;
   std::string why_;
 };
 
