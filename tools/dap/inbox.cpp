@@ -6,10 +6,8 @@
 namespace s7200::tools::dap {
 namespace {
 
-std::int64_t number_of(const Json& message) { return message.value("seq", std::int64_t{0}); }
-
 bool ends_what_goes_on(const Json& message) {
-  const Json command = message.value("command", Json());
+  const std::string command = text_in(message, "command");
   return command == "pause" || command == "terminate" || command == "disconnect" || command == "restart" ||
          command == "cancel";
 }
@@ -18,11 +16,12 @@ bool ends_what_goes_on(const Json& message) {
 
 /// A request to cancel one that waits takes that away, and ends nothing.
 bool Inbox::is_urgent(const Json& message) {
-  if (message.value("command", Json()) == "cancel" && message.contains("arguments")) {
-    const Json wanted = message["arguments"].value("requestId", Json());
-    const auto waits = std::ranges::find_if(messages_, [&](const Json& one) { return number_of(one) == wanted; });
+  const Json arguments = object_in(message, "arguments");
+  if (text_in(message, "command") == "cancel" && arguments.contains("requestId")) {
+    const std::int64_t wanted = number_in(arguments, "requestId");
+    const auto waits = std::ranges::find_if(messages_, [&](const Json& one) { return number_in(one, "seq") == wanted; });
     if (waits != messages_.end()) {
-      cancelled_.insert(number_of(*waits));
+      cancelled_.insert(wanted);
       return false;
     }
   }
@@ -31,9 +30,8 @@ bool Inbox::is_urgent(const Json& message) {
 
 void Inbox::put(Json message) {
   const std::lock_guard lock(mutex_);
-  const bool well_formed = message.is_object() && message.value("command", Json("")).is_string();
-  if (runs_ || (well_formed && is_urgent(message))) stop_request_ = true;
-  messages_.push_back(well_formed ? std::move(message) : Json::object());
+  if (runs_ || is_urgent(message)) stop_request_ = true;
+  messages_.push_back(std::move(message));
   come_.notify_one();
 }
 
@@ -58,7 +56,7 @@ Inbox::Next Inbox::take(bool runs, Json& message) {
   message = std::move(messages_.front());
   messages_.pop_front();
   stop_request_ = closed_ || std::ranges::any_of(messages_, ends_what_goes_on);
-  return cancelled_.erase(number_of(message)) != 0 ? Next::Cancelled : Next::Message;
+  return cancelled_.erase(number_in(message, "seq")) != 0 ? Next::Cancelled : Next::Message;
 }
 
 std::string Inbox::failure() const {

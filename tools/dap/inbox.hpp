@@ -11,7 +11,7 @@
 #include <set>
 #include <string>
 
-#include "tools/dap/sources.hpp"
+#include "tools/dap/messages.hpp"
 
 namespace s7200::tools::dap {
 

@@ -136,16 +136,15 @@ const std::vector<Session::Request>& Session::requests() {
 // --- messages ---
 
 void Session::handle(const Json& message) {
-  if (!message.is_object() || message.value("type", "") != "request") return;  // a response to nothing we have asked
-  const std::string command = message.value("command", "");
+  if (text_in(message, "type") != "request") return;  // a response to nothing we have asked
+  const std::string command = text_in(message, "command");
   const auto found = std::ranges::find(requests(), command, &Request::command);
-  handling_ = message.value("seq", std::int64_t{0});
+  handling_ = number_in(message, "seq");
   later_.clear();
   try {
     if (found == requests().end())
       throw Refused(fmt::format("'{}' is not a request that is offered", stl::shortened(command)));
-    const Json arguments = message.contains("arguments") ? message["arguments"] : Json::object();
-    respond(message, true, dispatch(*found, arguments));
+    respond(message, true, dispatch(*found, object_in(message, "arguments")));
   } catch (const Refused& refused) {
     respond(message, false, {}, refused.what());
   } catch (const Json::exception& error) {
@@ -166,9 +165,9 @@ void Session::refuse(const Json& message, const std::string& why) { respond(mess
 void Session::respond(const Json& request, bool success, Json body, const std::string& message) {
   Json response{{"seq", ++sent_},
                 {"type", "response"},
-                {"request_seq", request.value("seq", std::int64_t{0})},
+                {"request_seq", number_in(request, "seq")},
                 {"success", success},
-                {"command", request.value("command", "")}};
+                {"command", text_in(request, "command")}};
   if (!success) {
     response["message"] = message;
     body = {{"error", {{"id", 1}, {"format", message}, {"showUser", true}}}};
@@ -214,7 +213,8 @@ Json Session::initialize(const Json& arguments) {
 
 Json Session::launch(const Json& arguments) {
   if (debuggee_) throw Refused("a program is being debugged already");
-  begin(settings_.launch(arguments), arguments);
+  read_wishes(arguments);
+  begin(settings_.launch(arguments));
   return {};
 }
 
@@ -225,21 +225,26 @@ Json Session::attach(const Json& arguments) {
         "there is no PLC to attach to: it is the one that s7200 dap is started with, for example s7200 dap --listen 4711 "
         "PROGRAM; launch brings its own");
   attached_ = true;
-  begin(settings_.attachable, arguments);
+  read_wishes(arguments);
+  begin(settings_.attachable);
   return {};
 }
 
-void Session::begin(std::shared_ptr<Debuggee> debuggee, const Json& arguments) {
-  debuggee_ = std::move(debuggee);
+/// What a launch or an attach says to the session itself.
+void Session::read_wishes(const Json& arguments) {
   stop_on_entry_ = arguments.value("stopOnEntry", attached_);
   no_debug_ = arguments.value("noDebug", false);
   const std::string unit = arguments.value("step", "line");
   if (unit != "line" && unit != "network") throw Refused(fmt::format("step: '{}' is not line or network", unit));
   steps_are_networks_ = unit == "network";
+  read_frames(arguments);
+}
+
+void Session::begin(std::shared_ptr<Debuggee> debuggee) {
+  debuggee_ = std::move(debuggee);
   listing_ = std::make_unique<Listing>(*debuggee_->program());
   sources_ = std::make_unique<Sources>(*debuggee_->program());
   stepper_ = std::make_unique<Stepper>(debuggee_->simulation(), debuggee_->history(), settings_.stop_request);
-  read_frames(arguments);
   debuggee_->when_saying([this](const std::string& text) { print(text, "important"); });
   stepper_->on_message = [this](const StopPoint& stop) {
     print(filled_in(stop.log, cpu()), "console", standing_at(cpu().state()));
@@ -256,6 +261,7 @@ void Session::begin(std::shared_ptr<Debuggee> debuggee, const Json& arguments) {
 /// The frames that a launch or an attach asks for.
 void Session::read_frames(const Json& arguments) {
   const Json wanted = arguments.value("send", Json::array());
+  frames_.clear();
   for (const Json& frame : wanted.is_array() ? wanted : Json::array({wanted}))
     frames_.push_back(read_frame(frame.get<std::string>()));
   const std::string after = arguments.value("sendAfter", "");

@@ -82,7 +82,8 @@ class Session {
   Json terminate(const Json& arguments);
   Json disconnect(const Json& arguments);
   Json cancel(const Json& arguments);
-  void begin(std::shared_ptr<Debuggee> debuggee, const Json& arguments);
+  void read_wishes(const Json& arguments);
+  void begin(std::shared_ptr<Debuggee> debuggee);
   void read_frames(const Json& arguments);
   void start();
   void end_debuggee();

@@ -169,7 +169,7 @@ Json Session::set_instruction_breakpoints(const Json& arguments) {
   return place(StopKind::Instruction, "", arguments.at("breakpoints"), [&](const Json& wanted, Json& answer) {
     const auto reference = wanted.at("instructionReference").get<std::string>();
     const auto number = find_instruction_number(reference);
-    const std::int64_t op = number.value_or(-1) + wanted.value("offset", std::int64_t{0});
+    const std::int64_t op = number.value_or(-1) + amount_in(wanted, "offset", 0);
     if (!number || op < 0 || op >= static_cast<std::int64_t>(cpu().program().ops.size()))
       throw Refused(fmt::format("{} is not an instruction of this program", stl::shortened(reference)));
     StopPoint stop = stop_at(static_cast<std::uint32_t>(op));
@@ -183,7 +183,7 @@ Json Session::set_instruction_breakpoints(const Json& arguments) {
 Json Session::breakpoint_locations(const Json& arguments) {
   const std::string path = arguments.at("source").value("path", "");
   const auto first = arguments.at("line").get<std::uint32_t>();
-  const auto last = arguments.value("endLine", first);
+  const auto last = std::min(arguments.value("endLine", first), client_line(listing_->last_line()));
   Json locations = Json::array();
   for (std::uint32_t line = first; line <= last; ++line) {
     const auto of_program = sources_->line_in(path, line_of_client(line));

@@ -30,8 +30,8 @@ std::vector<std::uint8_t> Session::bytes_at(std::uint32_t begin, std::uint32_t e
 
 Json Session::read_memory(const Json& arguments) {
   const MemoryPlace place = memory_at(arguments, cpu().program());
-  const auto count = arguments.at("count").get<std::int64_t>();
-  const std::int64_t first = place.at + arguments.value("offset", std::int64_t{0});
+  const std::int64_t count = amount_in(arguments, "count", 0);
+  const std::int64_t first = place.at + amount_in(arguments, "offset", 0);
   const std::int64_t begin = std::clamp<std::int64_t>(first, place.begin, place.end);
   const std::int64_t end = std::clamp<std::int64_t>(first + std::max<std::int64_t>(count, 0), begin, place.end);
   const auto bytes = bytes_at(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
@@ -49,7 +49,7 @@ Json Session::write_memory(const Json& arguments) {
   const MemoryPlace place = memory_at(arguments, cpu().program());
   const auto bytes = from_base64(arguments.at("data").get<std::string>());
   if (!bytes) throw Refused("data is not base64");
-  const std::int64_t first = place.at + arguments.value("offset", std::int64_t{0});
+  const std::int64_t first = place.at + amount_in(arguments, "offset", 0);
   const bool partial = arguments.value("allowPartial", false);
   const std::int64_t room = first < place.begin ? 0 : std::max<std::int64_t>(0, place.end - first);
   const auto count = std::min(static_cast<std::int64_t>(bytes->size()), room);

@@ -179,10 +179,9 @@ Json Session::disassemble(const Json& arguments) {
   const auto reference = arguments.at("memoryReference").get<std::string>();
   const auto number = find_instruction_number(reference);
   if (!number) throw Refused(fmt::format("'{}' is not an instruction of this program", stl::shortened(reference)));
-  const std::int64_t first =
-      *number + arguments.value("offset", std::int64_t{0}) + arguments.value("instructionOffset", std::int64_t{0});
+  const std::int64_t first = *number + amount_in(arguments, "offset", 0) + amount_in(arguments, "instructionOffset", 0);
   constexpr std::int64_t kMost = 10'000;
-  const auto count = std::clamp<std::int64_t>(arguments.at("instructionCount").get<std::int64_t>(), 0, kMost);
+  const auto count = std::clamp<std::int64_t>(amount_in(arguments, "instructionCount", 0), 0, kMost);
   const auto size = static_cast<std::int64_t>(cpu().program().ops.size());
   Json instructions = Json::array();
   for (std::int64_t i = first; i < first + count; ++i) {

@@ -2,16 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "interpreter/program/program.hpp"
+#include "tools/dap/messages.hpp"
 
 namespace s7200::tools::dap {
-
-using Json = nlohmann::ordered_json;
 
 class Sources {
  public:

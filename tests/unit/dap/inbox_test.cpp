@@ -62,6 +62,16 @@ TEST(Inbox, ARequestThatIsCancelledInTimeIsNotHandled) {
   EXPECT_EQ(box.next(), Inbox::Next::Message);
 }
 
+TEST(Inbox, WhatIsNotAMessageIsHandedOverAsItIs) {
+  Box box;
+  for (const Json& wrong : {Json(), Json(5), Json::array(), Json{{"seq", "x"}, {"command", 5}}, Json{{"command", "cancel"}},
+                            Json{{"command", "cancel"}, {"arguments", 5}}, request(1, "cancel", {{"requestId", "x"}})}) {
+    box.inbox.put(wrong);
+    EXPECT_EQ(box.next(), Inbox::Next::Message);
+    EXPECT_EQ(box.message, wrong);
+  }
+}
+
 TEST(Inbox, TheEndOfTheStreamComesAfterAllMessages) {
   Box box;
   box.inbox.put(request(1, "threads"));

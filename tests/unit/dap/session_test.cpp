@@ -58,6 +58,106 @@ TEST(DapSession, WrongArgumentsAreAnErrorAndTheSessionGoesOn) {
   EXPECT_EQ(editor.value("1 + 1"), "2");
 }
 
+TEST(DapSession, NothingInAMessageIsBelieved) {
+  Editor editor(kNested);
+  editor.begin();
+  const Json values = Json::array({nullptr,
+                                   true,
+                                   -1,
+                                   5,
+                                   1e300,
+                                   INT64_MAX,
+                                   INT64_MIN,
+                                   "",
+                                   "V",
+                                   "VB0",
+                                   "(((",
+                                   Json::array(),
+                                   Json::object(),
+                                   {{"path", "test.stl"}},
+                                   std::string(100'000, '('),
+                                   Json::array({{{"line", -1}}})});
+  const char* const commands[] = {"setBreakpoints",
+                                  "setFunctionBreakpoints",
+                                  "setDataBreakpoints",
+                                  "setInstructionBreakpoints",
+                                  "setExceptionBreakpoints",
+                                  "breakpointLocations",
+                                  "dataBreakpointInfo",
+                                  "gotoTargets",
+                                  "stackTrace",
+                                  "scopes",
+                                  "variables",
+                                  "evaluate",
+                                  "completions",
+                                  "disassemble",
+                                  "readMemory",
+                                  "writeMemory",
+                                  "setVariable",
+                                  "setExpression",
+                                  "sendFrame",
+                                  "timeline",
+                                  "lastWrite",
+                                  "lastInstructions",
+                                  "stlStatus",
+                                  "goToMoment",
+                                  "stepBack",
+                                  "cancel",
+                                  "initialize",
+                                  "launch"};
+  const char* const keys[] = {"source",
+                              "breakpoints",
+                              "line",
+                              "endLine",
+                              "name",
+                              "variablesReference",
+                              "frameId",
+                              "expression",
+                              "text",
+                              "column",
+                              "memoryReference",
+                              "offset",
+                              "count",
+                              "instructionCount",
+                              "instructionOffset",
+                              "data",
+                              "value",
+                              "frame",
+                              "from",
+                              "time",
+                              "filters",
+                              "start",
+                              "startFrame",
+                              "levels",
+                              "send",
+                              "step"};
+  std::uint32_t random = 1;
+  const auto next = [&random](std::size_t below) { return (random = random * 1'664'525 + 1'013'904'223) / 65'536 % below; };
+  for (int i = 0; i < 20'000; ++i) {
+    Json arguments = Json::object();
+    for (int k = 0; k < 4; ++k) arguments[keys[next(std::size(keys))]] = values[next(values.size())];
+    arguments["memoryReference"] = next(2) ? Json("VB0") : values[next(values.size())];
+    editor.session.handle({{"seq", values[next(values.size())]},
+                           {"type", next(50) ? Json("request") : values[next(values.size())]},
+                           {"command", next(50) ? Json(commands[next(std::size(commands))]) : values[next(values.size())]},
+                           {"arguments", next(20) ? arguments : values[next(values.size())]}});
+    editor.messages.clear();
+  }
+  EXPECT_EQ(editor.value("1 + 1"), "2");
+}
+
+TEST(DapSession, ALaunchThatWasRefusedCanBeMended) {
+  Editor editor(kNested);
+  editor("initialize");
+  EXPECT_TRUE(has(editor.error_of("launch", {{"stopOnEntry", "yes"}}), "the arguments of launch"));
+  EXPECT_TRUE(has(editor.error_of("launch", {{"step", "mile"}}), "'mile' is not line or network"));
+  EXPECT_TRUE(has(editor.error_of("launch", {{"send", "frob"}}), "frob"));
+  EXPECT_TRUE(has(editor.error_of("launch", {{"sendAfter", "soon"}}), "'soon' is not a duration"));
+  editor("launch", {{"stopOnEntry", true}});
+  editor("configurationDone");
+  EXPECT_EQ(editor.stopped(), "entry");
+}
+
 TEST(DapSession, ASessionThatDisconnectsIsCompletedOnce) {
   Editor editor(kNested);
   editor.begin();
@@ -435,6 +535,8 @@ TEST(DapSession, ExpressionsAreInStlTerms) {
   EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", "*VD200"}}), "points nowhere"));
   EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", "frob"}}), "is not an address"));
   EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", "1 / 0"}}), "division by 0"));
+  EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", std::string(5000, '(') + "1"}}), "nested too deeply"));
+  EXPECT_EQ(editor.value(std::string(50, '(') + "1" + std::string(50, ')')), "1");
 }
 
 TEST(DapSession, CompletionsKnowTheAddressesOfTheProgram) {

@@ -1,0 +1,36 @@
+// What is in a message, whoever has written it: nothing of it is believed before it has been looked at.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace s7200::tools::dap {
+
+using Json = nlohmann::ordered_json;
+
+/// Empty if it is not there, or not a text.
+inline std::string text_in(const Json& message, const char* key) {
+  const auto found = message.is_object() ? message.find(key) : message.end();
+  return found != message.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+/// 0 if it is not there, or not a whole number.
+inline std::int64_t number_in(const Json& message, const char* key) {
+  const auto found = message.is_object() ? message.find(key) : message.end();
+  return found != message.end() && found->is_number_integer() ? found->get<std::int64_t>() : 0;
+}
+
+inline Json object_in(const Json& message, const char* key) {
+  const auto found = message.is_object() ? message.find(key) : message.end();
+  return found != message.end() && found->is_object() ? *found : Json::object();
+}
+
+/// A number of bytes, lines or instructions, such that sums of a few of them are numbers too.
+inline std::int64_t amount_in(const Json& arguments, const char* key, std::int64_t otherwise) {
+  constexpr std::int64_t kMost = 1'000'000'000;
+  return std::clamp<std::int64_t>(arguments.value(key, otherwise), -kMost, kMost);
+}
+
+}  // namespace s7200::tools::dap
