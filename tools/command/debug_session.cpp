@@ -18,6 +18,7 @@ struct StepOf {
   SessionSteps::Step operator()(const SetMemory& set) const { return {.at = at, .set = set.assignments}; }
   SessionSteps::Step operator()(const SendFrame& send) const { return {.at = at, .send = send.request}; }
   SessionSteps::Step operator()(const serial::HostCall&) const { return refuse("characters came over a bridge"); }
+  SessionSteps::Step operator()(const Jump&) const { return refuse("the program was made to go on elsewhere"); }
   SessionSteps::Step operator()(const Force&) const { return refuse("values were forced"); }
   SessionSteps::Step operator()(const Unforce&) const { return {}; }
 

@@ -212,7 +212,10 @@ Json Session::go_to_moment(const Json& arguments) {
     throw Refused(fmt::format("nothing has run after {}", moment_text(history.newest().time)));
   after_response([this, to = *time] {
     History& past = debuggee_->history();
-    to == 0 ? past.go_to(past.usage().oldest) : past.go_to(to);
+    if (to == 0)
+      past.go_to(past.usage().oldest);
+    else
+      past.go_to(to);
     stopped_at("goto", fmt::format("at {}", moment_text(debuggee_->simulation().time())));
   });
   return {};
