@@ -95,6 +95,20 @@ struct LineEditor::Implementation {
     }
   }
 
+  /// Where the line being edited could not be seen. Nothing at the end of the input, and when a signal was noted.
+  std::optional<std::string> read_unedited() {
+    fmt::print("{}", prompt);
+    std::fflush(stdout);
+    std::string line;
+    for (;;) {
+      char byte = 0;
+      const int got = read_byte(edit, byte);
+      if (got < 0 || (got == 0 && line.empty())) return {};
+      if (got == 0 || byte == '\n') return line;
+      line += byte;
+    }
+  }
+
   static int read_character(EditLine* edit, wchar_t* character) {
     std::mbstate_t state{};
     for (;;) {
@@ -158,6 +172,7 @@ LineEditor::~LineEditor() = default;
 void LineEditor::when_changed(std::function<void()> told) { editor_->when_changed = std::move(told); }
 
 std::optional<std::string> LineEditor::read() {
+  if (isatty(STDOUT_FILENO) == 0) return editor_->read_unedited();
   std::fflush(stdout);
   el_set(editor_->edit, EL_PREP_TERM, 1);  // before the prompt is there: keys that follow it at once are not lost
   int count = 0;
