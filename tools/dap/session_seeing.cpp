@@ -113,7 +113,8 @@ Json Session::evaluated(const std::string& expression, bool hex) {
             {"memoryReference", variable.memory}};
   }
   const auto parsed = Expression::parse(expression, cpu().program(), why_no_expression);
-  if (!parsed) throw Refused(expression.find(' ') == std::string::npos ? why : why_no_expression);
+  const bool one_word = expression.find_first_of(" (+-/<>=") == std::string::npos;
+  if (!parsed) throw Refused(one_word ? why : why_no_expression);
   const auto value = parsed->value(cpu());
   if (!value) throw Refused("cannot be computed: a pointer points nowhere, or a division by 0");
   const std::string text = hex && !value->real

@@ -504,7 +504,7 @@ TEST(ScenarioReader, TellsAllMistakesAtOnceAndThoseOfLoopsOnce) {
       stl::render(file.diagnostics[1], *file.source, false),
       "folder/file.yaml:3:11: error: '5' is not a duration of a day at most\n  - wait: 5\n          ^\nhint: write for "
       "example 20ms, 3.5 "
-      "characters, 2 scans\n");
+      "characters, 2 scans, until 1.5s\n");
 }
 
 TEST(ScenarioReader, NothingMakesItGrowWithoutBounds) {
