@@ -150,8 +150,8 @@ std::string synopsis(const CLI::App& app) {
 std::string title(std::string_view name, std::string_view meaning) {
   std::string upper(name);
   std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return std::toupper(c); });
-  // .nh: no word is divided, so that the names of pages and options can be searched for.
-  return fmt::format(".TH {} 1 \"\" \"s7200 {}\" \"User Commands\"\n.nh\n", literal(upper), version()) +
+  // .nr HY 0: no word is divided, so that the names of pages and options can be searched for.
+  return fmt::format(".TH {} 1 \"\" \"s7200 {}\" \"User Commands\"\n.nr HY 0\n", literal(upper), version()) +
          section("NAME", fmt::format("{} \\- {}\n", literal(name), literal(meaning)));
 }
 
