@@ -11,8 +11,8 @@ namespace {
 /// computed does not depend on it.
 constexpr Time kLookEvery = 100 * kMillisecond;
 
-/// The same when scans are passed over, which is a moment however many they are.
-constexpr Time kLookEveryHour = 3600 * kSecond;
+/// The same while scans are passed over, which takes a moment however many they are.
+constexpr Time kFurthestAtOnce = 3600 * kSecond;
 
 Time after(Time now, Time time) { return now < kNever - time ? now + time : kNever; }
 
@@ -90,7 +90,7 @@ Halt System::step(Time end) {
   if (plcs_.empty()) return step_without_plc(end);
   const Turn turn = next_turn();
   Cpu& cpu = turn.plc.cpu();
-  cpu.run(std::min({end, turn.until, after(cpu.time(), kLookEveryHour)}), kLookEvery);
+  cpu.run(std::min({end, turn.until, after(cpu.time(), kFurthestAtOnce)}), kLookEvery);
   handle_due_events();
   return cpu.paused() ? Halt::Paused : Halt::Time;
 }
