@@ -1,37 +1,57 @@
 #include "interpreter/base/nearest.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
-#include <utility>
-#include <vector>
+#include <cstdint>
 
 namespace s7200 {
 namespace {
 
-/// Edit distance, where two neighbours that have changed places are one change.
+constexpr std::size_t kLongestWord = 12, kMostChanges = 2;
+
+/// Edit distance, where two neighbours that have changed places are one change. Both words are short.
 std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before_last, last, row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  using Row = std::array<std::uint8_t, kLongestWord + kMostChanges + 1>;
+  std::array<Row, kLongestWord + 1> rows{};
+  for (std::size_t j = 0; j <= b.size(); ++j) rows[0][j] = static_cast<std::uint8_t>(j);
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    before_last = std::exchange(last, row);
-    row[0] = i;
+    Row& row = rows[i];
+    const Row& last = rows[i - 1];
+    row[0] = static_cast<std::uint8_t>(i);
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1), last[j] + 1, row[j - 1] + 1});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before_last[j - 2] + 1);
+      int changes = std::min({last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1), last[j] + 1, row[j - 1] + 1});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        changes = std::min(changes, rows[i - 2][j - 2] + 1);
+      row[j] = static_cast<std::uint8_t>(changes);
     }
   }
-  return row.back();
+  return rows[a.size()][b.size()];
+}
+
+/// A bit for each kind of letter.
+std::uint64_t letters_of(std::string_view word) {
+  std::uint64_t letters = 0;
+  for (const char c : word) letters |= std::uint64_t{1} << (static_cast<unsigned char>(c) % 64);
+  return letters;
+}
+
+/// A change adds one letter and takes one away at most; the length changes by one at most.
+std::size_t least_distance(std::string_view a, std::string_view b) {
+  const std::size_t longer = std::max(a.size(), b.size()) - std::min(a.size(), b.size());
+  const auto different = static_cast<std::size_t>(std::popcount(letters_of(a) ^ letters_of(b)));
+  return std::max(longer, (different + 1) / 2);
 }
 
 }  // namespace
 
 std::string_view nearest(std::string_view word, std::span<const std::string_view> known) {
-  if (word.size() < 2 || word.size() > 12) return {};
+  if (word.size() < 2 || word.size() > kLongestWord) return {};
   std::string_view found;
-  std::size_t best = word.size() < 4 ? 2 : 3;  // this many changes are too many
+  std::size_t best = word.size() < 4 ? kMostChanges : kMostChanges + 1;  // this many changes are too many
   for (const std::string_view candidate : known) {
-    const std::size_t length = candidate.size();
-    if (std::max(length, word.size()) - std::min(length, word.size()) >= best) continue;  // needs at least that many changes
+    if (least_distance(word, candidate) >= best) continue;
     const std::size_t changes = distance(word, candidate);
     if (changes >= best) continue;
     best = changes;

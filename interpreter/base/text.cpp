@@ -1,5 +1,6 @@
 #include "interpreter/base/text.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace s7200::stl {
@@ -44,7 +45,14 @@ Character first_character(std::string_view text) {
   return {code, lead.bytes};
 }
 
+bool is_ascii(std::string_view text) {
+  unsigned bits = 0;
+  for (const char c : text) bits |= static_cast<unsigned char>(c);
+  return bits < 0x80;
+}
+
 std::size_t count_characters(std::string_view text) {
+  if (is_ascii(text)) return text.size();
   std::size_t count = 0;
   for ([[maybe_unused]] const Character c : characters(text)) ++count;
   return count;
@@ -62,6 +70,7 @@ std::string characters_at(std::string_view text, std::size_t first, std::size_t 
 }
 
 bool is_valid_utf8(std::string_view text) {
+  if (is_ascii(text)) return true;
   for (const Character c : characters(text)) {
     if (c.code == kReplacement && c.bytes == 1) return false;
   }
@@ -71,9 +80,10 @@ bool is_valid_utf8(std::string_view text) {
 std::vector<std::string> split_lines(std::string_view text) {
   std::vector<std::string> lines;
   while (!text.empty()) {
-    const std::size_t end = text.find_first_of("\r\n");
+    const auto found = std::find_if(text.begin(), text.end(), [](char c) { return c == '\r' || c == '\n'; });
+    const auto end = static_cast<std::size_t>(found - text.begin());
     lines.emplace_back(text.substr(0, end));
-    if (end == std::string_view::npos) break;
+    if (end == text.size()) break;
     text.remove_prefix(end + (text.substr(end, 2) == "\r\n" ? 2 : 1));
   }
   return lines;

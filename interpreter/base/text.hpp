@@ -47,6 +47,8 @@ struct Characters {
 
 inline Characters characters(std::string_view text) { return {text}; }
 
+bool is_ascii(std::string_view text);
+
 std::size_t count_characters(std::string_view text);
 
 /// `count` characters of a text from the character number `first` on, which counts from 1.

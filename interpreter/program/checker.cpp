@@ -25,35 +25,41 @@ namespace {
 
 class Checker {
  public:
-  Checker(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times)
-      : source_(std::move(parsed.source)), diagnostics_(std::move(parsed.diagnostics)), model_(model), times_(times) {
+  /// `source` must live as long as this; `diagnostics` are those that its reader already has.
+  Checker(const stl::Source& source, stl::Diagnostics diagnostics, const CpuModel& model)
+      : source_(source), diagnostics_(std::move(diagnostics)), model_(model) {
     for (const stl::Block& block : source_.blocks)
       if (block.kind == stl::Block::Kind::Subroutine) subroutine_blocks_.emplace(block.number, &block);
   }
 
-  CheckResult run() {
-    read_statements();
-    if (statements_.empty() && !has_errors(diagnostics_)) no_statement();
-    if (lacks_main_program())
-      error(source_.blocks.front().position, "there is no main program (ORGANIZATION_BLOCK)",
-            "give the file that has it too");
-    const bool all_known = !has_errors(diagnostics_);
-    ProgramStructure structure;
-    if (!lacks_main_program()) structure = check_structure(statements_, model_, diagnostics_);
-    if (all_known || !unknown_mnemonics_) check_logic_stack(statements_, diagnostics_);
-    check_size();
-    data_ = place_data(source_, model_, diagnostics_);
-    check_timer_kinds();
+  /// Null if there are errors.
+  std::shared_ptr<const Program> program(const TimeTable& times) {
+    for (const stl::Line& line : source_.lines) read(line);
+    const ProgramStructure structure = check_whole();
     std::shared_ptr<const Program> program;
     if (!has_errors(diagnostics_)) {
-      program = decode(structure);
+      program = decode(structure, times);
       for (const WarningInfo& warning : all_warnings())
         if (warning.find) warning.find(*program, diagnostics_);
     }
     tell_undefined_symbols_apart();
     stl::sort(diagnostics_);
-    return {std::move(program), std::move(source_), std::move(diagnostics_)};
+    return program;
   }
+
+  /// Whether there are no errors, without looking for more than one.
+  bool is_fine() {
+    if (has_errors(diagnostics_)) return false;
+    for (const stl::Line& line : source_.lines) {
+      diagnostics_.clear();  // only warnings
+      read(line);
+      if (beyond_ || has_errors(diagnostics_)) return false;
+    }
+    check_whole();
+    return !has_errors(diagnostics_);
+  }
+
+  stl::Diagnostics take_diagnostics() { return std::move(diagnostics_); }
 
  private:
   void error(const stl::Position& at, std::string message, std::string hint = {}, std::string cause = {}) {
@@ -78,21 +84,35 @@ class Checker {
            std::ranges::find(source_.blocks, stl::Block::Kind::Main, &stl::Block::kind) == source_.blocks.end();
   }
 
-  void read_statements() {
-    bool begins_network = false;
-    for (const stl::Line& line : source_.lines) {
-      if (std::holds_alternative<stl::NetworkHead>(line)) begins_network = true;
-      const auto* statement = std::get_if<stl::Statement>(&line);
-      if (!statement) continue;
-      if (const Instruction* instruction = known_instruction(*statement)) {
-        placed_.emplace_back();
-        const bool good = place_operands(*instruction, *statement);
-        statements_.push_back({statement, instruction, good, begins_network});
-      } else {
-        unknown_mnemonics_ = true;
-      }
-      begins_network = false;
+  void read(const stl::Line& line) {
+    if (std::holds_alternative<stl::NetworkHead>(line)) begins_network_ = true;
+    const auto* statement = std::get_if<stl::Statement>(&line);
+    if (!statement) return;
+    if (const Instruction* instruction = known_instruction(*statement)) {
+      placed_.emplace_back();
+      const bool good = place_operands(*instruction, *statement);
+      statements_.push_back({statement, instruction, good, begins_network_});
+      count_words(statements_.back());
+    } else {
+      unknown_mnemonics_ = true;
     }
+    begins_network_ = false;
+  }
+
+  /// What can be said only when all statements are there.
+  ProgramStructure check_whole() {
+    if (statements_.empty() && !has_errors(diagnostics_)) no_statement();
+    if (lacks_main_program())
+      error(source_.blocks.front().position, "there is no main program (ORGANIZATION_BLOCK)",
+            "give the file that has it too");
+    const bool all_known = !has_errors(diagnostics_);
+    ProgramStructure structure;
+    if (!lacks_main_program()) structure = check_structure(statements_, model_, diagnostics_);
+    if (all_known || !unknown_mnemonics_) check_logic_stack(statements_, diagnostics_);
+    check_size();
+    data_ = place_data(source_, model_, diagnostics_);
+    check_timer_kinds();
+    return structure;
   }
 
   const Instruction* known_instruction(const stl::Statement& statement) {
@@ -300,19 +320,18 @@ class Checker {
     return words;
   }
 
+  void count_words(const CheckedStatement& s) {
+    words_ += least_words(s);
+    if (!beyond_ && words_ > model_.program_words) beyond_ = s.statement;
+  }
+
   void check_size() {
-    std::size_t words = 0;
-    const stl::Statement* beyond = nullptr;
-    for (const CheckedStatement& s : statements_) {
-      words += least_words(s);
-      if (!beyond && words > model_.program_words) beyond = s.statement;
-    }
-    if (beyond)
-      error(beyond->position,
+    if (beyond_)
+      error(beyond_->position,
             fmt::format("the program is too large: at least {} words for {} instructions and their constants, CPU {} has {} "
                         "words (compile rule 0080)",
-                        words, statements_.size(), model_.name, model_.program_words),
-            larger_cpu(words));
+                        words_, statements_.size(), model_.name, model_.program_words),
+            larger_cpu(words_));
     if (constants_.bytes().size() > image::kSize - image::kConstants)
       error({1, 1, 1}, "the program has too many different constants (compile rule 0080)");
   }
@@ -344,16 +363,16 @@ class Checker {
 
   // --- decoding ---
 
-  std::shared_ptr<const Program> decode(const ProgramStructure& structure) {
+  std::shared_ptr<const Program> decode(const ProgramStructure& structure, const TimeTable& times) {
     auto program = std::make_shared<Program>();
     program->model = &model_;
-    program->times = times_;
+    program->times = times;
     program->source = source_;
     program->subroutine = structure.subroutine;
     program->interrupt = structure.interrupt;
     for (std::uint32_t i = 0; i < statements_.size(); ++i) {
       program->statements.push_back(*statements_[i].statement);
-      program->ops.push_back(decode(i, structure));
+      program->ops.push_back(decode(i, structure, times));
       if (const auto found = parameters_.find(i); found != parameters_.end())
         add_parameters(program->ops.back(), found->second, *program);
       note_timer(program->ops.back(), *program);
@@ -369,10 +388,10 @@ class Checker {
       if (area.pointer_code)
         program->reach[*area.pointer_code] = {area.base, model_.size_of(area.area) * std::max(1u, area.element)};
     program->looks = looks_of(*program);
-    program->no_power_flow = times_[SystemTime::NoPowerFlow];
-    program->interrupt_entry = times_[SystemTime::InterruptEntry];
-    program->eeprom_save = times_[SystemTime::EepromSave];
-    const Time overhead = times_[SystemTime::ScanOverhead];
+    program->no_power_flow = times[SystemTime::NoPowerFlow];
+    program->interrupt_entry = times[SystemTime::InterruptEntry];
+    program->eeprom_save = times[SystemTime::EepromSave];
+    const Time overhead = times[SystemTime::ScanOverhead];
     program->scan_phase = {overhead / 4, overhead / 4, overhead / 4, overhead - 3 * (overhead / 4)};
     return program;
   }
@@ -389,7 +408,7 @@ class Checker {
         program.reals.push_back(parameter.actual.at);
   }
 
-  Op decode(std::uint32_t i, const ProgramStructure& structure) {
+  Op decode(std::uint32_t i, const ProgramStructure& structure, const TimeTable& times) {
     const Instruction& instruction = *statements_[i].instruction;
     const bool is_next = instruction.structure == Structure::Next;
     const auto& placed = placed_[is_next ? structure.head[i] : i];  // NEXT works on the operands of its FOR
@@ -408,7 +427,7 @@ class Checker {
     }
     add_hidden_operand(op, placed_[structure.head[i]]);
     op.body = body_of(op, written);
-    set_cost(op, placed);
+    set_cost(op, placed, times);
     return op;
   }
 
@@ -486,27 +505,26 @@ class Checker {
   using OperandAreas = std::array<std::optional<Area>, 3>;
 
   /// Without what pointers add. Many statements have the same: the table is searched once for each.
-  Cost cost_of(const Instruction& instruction, const OperandAreas& areas) {
+  Cost cost_of(const Instruction& instruction, const OperandAreas& areas, const TimeTable& times) {
     const auto [found, added] = costs_.try_emplace({&instruction, areas});
     if (!added) return found->second;
-    const auto cost = times_.cost(instruction.mnemonic, areas[0]);
+    const auto cost = times.cost(instruction.mnemonic, areas[0]);
     assert(cost && "the table of times has a line for every instruction");
-    found->second = {cost->base + times_.added_by(instruction.mnemonic, areas), cost->per_unit};
+    found->second = {cost->base + times.added_by(instruction.mnemonic, areas), cost->per_unit};
     return found->second;
   }
 
-  void set_cost(Op& op, const std::array<PlacedOperand, 3>& placed) {
-    const Cost cost = cost_of(*op.instruction, {placed[0].area, placed[1].area, placed[2].area});
+  void set_cost(Op& op, const std::array<PlacedOperand, 3>& placed, const TimeTable& times) {
+    const Cost cost = cost_of(*op.instruction, {placed[0].area, placed[1].area, placed[2].area}, times);
     const auto pointers = std::count_if(op.operand.begin(), op.operand.end(), [](const Operand& o) { return o.pointer; });
-    const Time of_pointers = pointers == 0 ? 0 : pointers * times_[SystemTime::IndirectOperand];
+    const Time of_pointers = pointers == 0 ? 0 : pointers * times[SystemTime::IndirectOperand];
     op.cost = static_cast<std::int32_t>(cost.base + of_pointers);
     op.unit_cost = static_cast<std::int32_t>(cost.per_unit);
   }
 
-  stl::Source source_;
+  const stl::Source& source_;
   stl::Diagnostics diagnostics_;
   const CpuModel& model_;
-  const TimeTable& times_;
   ConstantPool constants_;
   std::map<std::int64_t, const stl::Block*> subroutine_blocks_;  // of source_
   std::map<std::size_t, std::vector<Parameter>> parameters_;     // of the CALLs among statements_
@@ -514,16 +532,35 @@ class Checker {
   std::map<std::pair<const Instruction*, OperandAreas>, Cost> costs_;
   std::vector<CheckedStatement> statements_;
   std::vector<std::array<PlacedOperand, 3>> placed_;  // one for each of statements_
+  std::size_t words_ = 0;                             // of statements_, at least
+  const stl::Statement* beyond_ = nullptr;            // the first that does not fit in the CPU's program memory
   std::uint32_t edges_ = 0;
+  bool begins_network_ = false;  // the next statement
   bool unknown_mnemonics_ = false;
 };
+
+/// What the CPU has no part in.
+void read_names(stl::ParseResult& parsed) {
+  read_german(parsed);
+  stl::resolve_symbols(parsed);
+}
 
 }  // namespace
 
 CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times) {
-  read_german(parsed);
-  stl::resolve_symbols(parsed);
-  return Checker(std::move(parsed), model, times).run();
+  read_names(parsed);
+  Checker checker(parsed.source, std::move(parsed.diagnostics), model);
+  auto program = checker.program(times);
+  return {std::move(program), std::move(parsed.source), checker.take_diagnostics()};
+}
+
+std::vector<const CpuModel*> cpus_without_errors(stl::ParseResult parsed) {
+  read_names(parsed);
+  std::vector<const CpuModel*> fine;
+  if (has_errors(parsed.diagnostics)) return fine;
+  for (const CpuModel* model : all_cpus())
+    if (Checker(parsed.source, {}, *model).is_fine()) fine.push_back(model);
+  return fine;
 }
 
 TimeTable default_times(const CpuModel& model) {

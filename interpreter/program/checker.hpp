@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "interpreter/base/diagnostic.hpp"
 #include "interpreter/program/program.hpp"
@@ -18,6 +19,9 @@ struct CheckResult {
 /// Checks mnemonics, operands (count, kind, width, range on that CPU), routines, labels, loops, where instructions are
 /// allowed, and the logic stack; then decodes. `times` may be a corrected table.
 CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times);
+
+/// The CPUs on which check() finds no errors. Each is given up at the first one.
+std::vector<const CpuModel*> cpus_without_errors(stl::ParseResult parsed);
 
 /// The model's own table of times.
 TimeTable default_times(const CpuModel& model);

@@ -27,6 +27,11 @@ std::string written(const Program& program, std::uint32_t op, std::size_t operan
 
 // --- the paths through the program ---
 
+/// Ops in a row, from `from` until before `to`.
+struct Stretch {
+  std::uint32_t from = 0, to = 0;
+};
+
 /// The paths through the routines of a program.
 class Flow {
  public:
@@ -42,6 +47,7 @@ class Flow {
       on = !in_segment && on_after(i, on);
       ways_.push_back(ways_from(i));
     }
+    find_straights();
     find_necessary();
   }
 
@@ -55,16 +61,29 @@ class Flow {
   }
 
   /// The ops that may be executed between the first and the second.
-  std::vector<std::uint32_t> between(std::uint32_t first, std::uint32_t second) const {
-    std::vector<bool> seen(count_);
-    std::vector<std::uint32_t> found, open = ways_[first].to;
+  std::vector<Stretch> between(std::uint32_t first, std::uint32_t second) const {
+    std::vector<bool> seen(straight_end_.size());
+    std::vector<Stretch> found;
+    std::vector<std::uint32_t> open = ways_[first].to;
     while (!open.empty()) {
-      const std::uint32_t op = open.back();
+      const std::uint32_t from = open.back(), straight = straight_[from], end = straight_end_[straight];
       open.pop_back();
-      if (op == second || seen[op]) continue;
-      seen[op] = true;
-      found.push_back(op);
-      open.insert(open.end(), ways_[op].to.begin(), ways_[op].to.end());
+      if (seen[straight]) continue;
+      seen[straight] = is_straight_begin(from);
+      const bool ends_there = from <= second && second < end;
+      found.push_back({from, ends_there ? second : end});
+      if (!ends_there) open.insert(open.end(), ways_[end - 1].to.begin(), ways_[end - 1].to.end());
+    }
+    return found;
+  }
+
+  /// The interrupt routines.
+  std::vector<Stretch> interrupts() const {
+    std::vector<Stretch> found;
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      if (!in_interrupt(i)) continue;
+      if (found.empty() || found.back().to != i) found.push_back({i, i});
+      ++found.back().to;
     }
     return found;
   }
@@ -111,6 +130,24 @@ class Flow {
     }
     if (op.instruction->effect != Effect::ConditionalEnd) return {{i + 1}, false};
     return on_[i] ? Ways{{}, true} : Ways{{i + 1}, true};
+  }
+
+  bool is_straight_begin(std::uint32_t op) const { return op == 0 || straight_[op - 1] != straight_[op]; }
+
+  /// Ops of which each leads to the next one and nowhere else, and nothing leads into their middle.
+  void find_straights() {
+    std::vector<bool> begins(count_ + 1);
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      const bool goes_on = !ways_[i].end && ways_[i].to.size() == 1 && ways_[i].to.front() == i + 1;
+      if (goes_on) continue;
+      begins[i + 1] = true;
+      for (const std::uint32_t next : ways_[i].to) begins[next] = true;
+    }
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      if (i == 0 || begins[i]) straight_end_.push_back(i);
+      straight_.push_back(static_cast<std::uint32_t>(straight_end_.size() - 1));
+      straight_end_.back() = i + 1;
+    }
   }
 
   /// Whether no way from `op` to the end of its routine leads around `other`; each op is on its own ways.
@@ -196,6 +233,7 @@ class Flow {
   std::vector<std::uint32_t> head_;
   std::vector<bool> on_;  // whether the top of the stack is known to be 1 before each op
   std::vector<Ways> ways_;
+  std::vector<std::uint32_t> straight_, straight_end_;         // of an op: its straight; of a straight: its end
   std::vector<bool> ends_;                                     // whether some way leads from an op to the end of its routine
   std::vector<std::pair<std::uint32_t, std::uint32_t>> span_;  // of an op's numbers in the tree of post-dominators
   std::map<std::uint32_t, bool> called_;                       // by routine: whether every scan calls it
@@ -284,17 +322,62 @@ std::vector<std::uint32_t> attachments(const Program& program) {
 
 constexpr Bits kOutputBits{image::kQ * 8u, image::kPointBytes * 8u};
 
-/// Whether anything may use what a coil writes before the other coil writes the same bit again.
-bool used_between(const Program& program, const Flow& flow, const std::vector<std::uint32_t>& in_interrupts,
-                  std::uint32_t coil, std::uint32_t again) {
-  const Bits bit = bits_of(program, program.ops[coil], 0);
-  const auto uses = [&](std::uint32_t i) {
-    const Op& op = program.ops[i];
-    return op.instruction->structure == Structure::Call ||
-           (op.instruction->effect != Effect::Coil && touches(program, op, bit, false));
+/// Which ops use what the coils of a program write.
+class Uses {
+ public:
+  explicit Uses(const Program& program) : program_(program) {
+    for (const std::uint32_t coil : ops_with(program, Effect::Coil))
+      by_byte_[bits_of(program, program.ops[coil], 0).first / 8];
+    for (std::uint32_t i = 0; i < program.ops.size(); ++i) note(i);
+  }
+
+  /// Whether one of the stretches uses this bit, or calls what may use it.
+  bool any(const Bits& bit, const std::vector<Stretch>& stretches) const {
+    const std::vector<Use>& of_byte = by_byte_.at(bit.first / 8);
+    const bool by_pointer = pointers_reach(program_, bit);
+    return std::ranges::any_of(stretches, [&](const Stretch& stretch) {
+      const auto [first, last] = within(of_byte, stretch);
+      return std::any_of(first, last, [&](const Use& use) { return use.bits.overlap(bit); }) || is_any(calls_, stretch) ||
+             (by_pointer && is_any(pointers_, stretch));
+    });
+  }
+
+ private:
+  struct Use {
+    std::uint32_t op = 0;
+    Bits bits;
   };
-  return std::ranges::any_of(flow.between(coil, again), uses) || std::ranges::any_of(in_interrupts, uses);
-}
+
+  void note(std::uint32_t i) {
+    const Op& op = program_.ops[i];
+    if (op.instruction->structure == Structure::Call) calls_.push_back({i, {}});
+    if (op.instruction->effect == Effect::Coil) return;
+    for (std::size_t k = 0; k < op.instruction->rules().size(); ++k) {
+      if (op.instruction->operand[k].kind != OperandKind::Memory) continue;
+      if (op[k].pointer) {
+        pointers_.push_back({i, {}});
+        continue;
+      }
+      const Bits bits = bits_of(program_, op, k);
+      const auto end = by_byte_.lower_bound((bits.first + bits.count + 7) / 8);
+      for (auto byte = by_byte_.lower_bound(bits.first / 8); byte != end; ++byte) byte->second.push_back({i, bits});
+    }
+  }
+
+  static std::pair<std::vector<Use>::const_iterator, std::vector<Use>::const_iterator> within(const std::vector<Use>& uses,
+                                                                                              const Stretch& stretch) {
+    const auto first = std::ranges::lower_bound(uses, stretch.from, {}, &Use::op);
+    return {first, std::ranges::lower_bound(first, uses.end(), stretch.to, {}, &Use::op)};
+  }
+  static bool is_any(const std::vector<Use>& uses, const Stretch& stretch) {
+    const auto [first, last] = within(uses, stretch);
+    return first != last;
+  }
+
+  const Program& program_;
+  std::map<std::uint64_t, std::vector<Use>> by_byte_;  // of the bytes that coils write; by op
+  std::vector<Use> pointers_, calls_;                  // by op
+};
 
 // --- timers and counters ---
 
@@ -358,16 +441,16 @@ bool points_at_steps(const Program& program) {
 
 void find_double_coils(const Program& program, stl::Diagnostics& diagnostics) {
   Flow flow(program);
-  std::vector<std::uint32_t> in_interrupts;
-  for (std::uint32_t i = 0; i < program.ops.size(); ++i)
-    if (flow.in_interrupt(i)) in_interrupts.push_back(i);
+  const Uses uses(program);
+  const std::vector<Stretch> interrupts = flow.interrupts();
   std::map<std::uint64_t, Earlier> coils;
   for (const std::uint32_t coil : ops_with(program, Effect::Coil)) {
     const Bits bit = bits_of(program, program.ops[coil], 0);
     const bool output = bit.overlap(kOutputBits);
     Earlier& earlier = coils[bit.first];
     auto other = earlier.before(flow, coil);
-    if (other && !output && used_between(program, flow, in_interrupts, *other, coil)) other.reset();
+    const bool used = other && !output && (uses.any(bit, flow.between(*other, coil)) || uses.any(bit, interrupts));
+    if (used) other.reset();
     if (!other && output) other = earlier.beside(flow, coil);
     if (other)
       diagnostics.push_back(warn(Warning::DoubleCoil, place(program, coil),

@@ -153,13 +153,14 @@ bool is_mnemonic(std::string_view word) {
   return word == "NETWORK" || find_instruction(word) || !unknown_mnemonic(word).what.empty();
 }
 
-SourceKind kind_of(std::string_view text, bool force_document) {
+/// Nothing for a listing or a document, which are told apart by reading them.
+std::optional<SourceKind> kind_of(std::string_view text, bool force_document) {
   if (stl::is_block_export(text)) return SourceKind::Blocks;
   if (force_document || stl::has_routine_headings(text)) return SourceKind::Document;
   if (stl::is_status_chart(text)) return SourceKind::StatusChart;
   if (stl::is_data_block(text, is_mnemonic)) return SourceKind::DataBlock;
   if (stl::is_symbol_table(text, is_mnemonic)) return SourceKind::SymbolTable;
-  return stl::is_document(text, instruction_set()) ? SourceKind::Document : SourceKind::Listing;
+  return std::nullopt;
 }
 
 stl::ParseResult read_as(SourceKind kind, std::string_view text, const std::string& name) {
@@ -182,6 +183,14 @@ stl::ParseResult read_as(SourceKind kind, std::string_view text, const std::stri
       break;
   }
   return stl::parse(text, name);
+}
+
+SourceText read_decoded(const stl::DecodedText& decoded, const std::string& name, bool force_document) {
+  if (const auto kind = kind_of(decoded.text, force_document))
+    return {read_as(*kind, decoded.text, name), decoded.encoding, *kind};
+  if (auto listing = stl::read_listing(decoded.text, name, instruction_set()))
+    return {std::move(*listing), decoded.encoding, SourceKind::Listing};
+  return {read_as(SourceKind::Document, decoded.text, name), decoded.encoding, SourceKind::Document};
 }
 
 }  // namespace
@@ -216,9 +225,8 @@ std::optional<SourceText> read_source(std::string_view bytes, const std::string&
       why = "it is a Micro/WIN project; open it in Micro/WIN and export each block (File, Export) as .awl";
     return {};
   }
-  const SourceKind kind = kind_of(decoded->text, force_document);
-  SourceText source{read_as(kind, decoded->text, name), decoded->encoding, kind};
-  if (kind != SourceKind::Listing || can_be_stl(source.parsed.source.text)) return source;
+  SourceText source = read_decoded(*decoded, name, force_document);
+  if (source.kind != SourceKind::Listing || can_be_stl(source.parsed.source.text)) return source;
   why = "it is not an STL program: there is no instruction in its first lines";
   return {};
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <unordered_map>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/blocks.hpp"
@@ -24,6 +25,7 @@ std::size_t comment_start(std::string_view line) { return std::min(line.find("//
 /// blanks, so that columns stay as they are.
 std::string without_debris(std::string_view line) {
   constexpr std::size_t kLongestMarker = 100;
+  if (is_ascii(line) && line.find("<|") == std::string_view::npos) return std::string(line);
   std::string clean;
   while (!line.empty()) {
     const std::size_t marker = line.starts_with("<|") ? line.substr(0, kLongestMarker).find("|>") : std::string_view::npos;
@@ -42,6 +44,7 @@ std::string without_debris(std::string_view line) {
 /// Unreadable characters around a statement are debris of the document. Inside it, or directly after an operand, they may
 /// have been part of the statement; directly after the mnemonic only if the mnemonic is incomplete without them.
 bool is_damaged(std::string_view line, bool whole_mnemonic) {
+  if (is_ascii(line)) return false;
   enum { Blank, Debris, Code } previous = Blank;
   bool in_code = false;
   bool in_operands = false;
@@ -65,25 +68,27 @@ bool is_damaged(std::string_view line, bool whole_mnemonic) {
 
 /// Box-drawing characters, or what those of CP437 look like when read as Windows-1252; or a drawing in ASCII.
 bool is_drawing(std::string_view code) {
+  const auto has = [&](std::string_view mark) { return code.find(mark) != std::string_view::npos; };
+  if (has("--") && (has("|--") || has("--|") || has("+--"))) return true;
+  if (is_ascii(code)) return false;
   for (const Character c : characters(code)) {
     if (c.code >= 0x2500 && c.code <= 0x257F) return true;
   }
-  const auto has = [&](std::string_view mark) { return code.find(mark) != std::string_view::npos; };
-  return has("³") || has("ÄÄ") || has("|--") || has("--|") || has("+--");
+  return has("³") || has("ÄÄ");
 }
 
 // ---- The words of a line -----------------------------------------------------------------------------------------------
 
 std::vector<std::string_view> tokens(std::string_view code) {
-  constexpr std::string_view kSeparators = " \t\f,;";
+  const auto separates = [](char c) { return is_blank(c) || c == ',' || c == ';'; };
   std::vector<std::string_view> found;
-  while (true) {
-    code.remove_prefix(std::min(code.find_first_not_of(kSeparators), code.size()));
-    if (code.empty()) return found;
-    const std::size_t end = std::min(code.find_first_of(kSeparators), code.size());
-    found.push_back(code.substr(0, end));
-    code.remove_prefix(end);
+  for (auto end = code.begin(); end != code.end();) {
+    const auto begin = std::find_if_not(end, code.end(), separates);
+    end = std::find_if(begin, code.end(), separates);
+    if (begin != end)
+      found.push_back(code.substr(static_cast<std::size_t>(begin - code.begin()), static_cast<std::size_t>(end - begin)));
   }
+  return found;
 }
 
 /// The mnemonic a line begins with, as written; empty if the line does not begin like a statement.
@@ -239,6 +244,13 @@ class DocumentReader {
     return count(Verdict::Drawing) >= 2 || words_around() >= kWordsOfAText;
   }
 
+  /// What parse() makes of the text; nothing if not every line of it has gone through the parser as it is.
+  std::optional<ParseResult> take_parsed(std::string name) {
+    if (parsed_.source.text != text_) return std::nullopt;
+    parsed_.source.name = std::move(name);
+    return std::move(parsed_);
+  }
+
   /// The text is a listing from its first line to its last.
   void take_all_for_listing() { judge(true); }
 
@@ -266,7 +278,7 @@ class DocumentReader {
     return words;
   }
 
-  Reading first_look(std::string_view line) const {
+  Reading first_look(std::string_view line) {
     Reading reading;
     reading.clean = without_debris(line);
     const std::string_view clean = reading.clean;
@@ -302,7 +314,13 @@ class DocumentReader {
     reading.words = count_words(operands);
   }
 
-  bool is_known(const std::string& mnemonic) const {
+  bool is_known(const std::string& mnemonic) {
+    const auto [known, added] = known_.try_emplace(mnemonic);
+    if (added) known->second = takes_some_operands(mnemonic);
+    return known->second;
+  }
+
+  bool takes_some_operands(const std::string& mnemonic) const {
     constexpr std::size_t kMostOperands = 8;
     if (mnemonic.empty() || mnemonic.starts_with("VAR")) return false;  // VAR opens declarations, whatever the table says
     if (mnemonic == "NETWORK") return true;
@@ -602,6 +620,7 @@ class DocumentReader {
   const InstructionSet& instructions_;
   std::vector<std::string> text_;
   std::vector<Reading> readings_;
+  std::unordered_map<std::string, bool> known_;  // whether it is a mnemonic; of those that have come
   ParseResult parsed_;
   bool in_capitals_ = true;  // no statement of it has small letters in its mnemonic
 };
@@ -721,6 +740,13 @@ void check_completeness(ParseResult& result) {
 
 bool is_document(std::string_view text, const InstructionSet& instructions) {
   return !is_block_export(text) && DocumentReader(text, instructions).is_document();
+}
+
+std::optional<ParseResult> read_listing(std::string_view text, std::string name, const InstructionSet& instructions) {
+  DocumentReader reader(text, instructions);
+  if (reader.is_document()) return std::nullopt;
+  auto parsed = reader.take_parsed(name);
+  return parsed ? std::move(parsed) : parse(text, std::move(name));
 }
 
 ParseResult read_document(std::string_view text, std::string name, const InstructionSet& instructions) {

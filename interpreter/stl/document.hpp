@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "interpreter/stl/ast.hpp"
@@ -24,6 +26,9 @@ struct InstructionSet {
 /// Whether `text` (UTF-8) is a document and not a plain STL file: it has ladder drawings, or prose around its STL.
 /// A plain STL file with mistakes is not a document: its mistakes must be reported, not left out.
 bool is_document(std::string_view text, const InstructionSet& instructions);
+
+/// The plain STL file in a text; nothing if it is a document.
+std::optional<ParseResult> read_listing(std::string_view text, std::string name, const InstructionSet& instructions);
 
 /// Reads the STL of a document. Positions and `text` are those of the document. Reports, each with its place: a document
 /// without STL, a line of STL that is damaged, a line between the statements of a routine that may be one, a listing that

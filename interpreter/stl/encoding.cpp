@@ -254,7 +254,8 @@ std::optional<DecodedText> decode(std::string_view bytes, std::string& why) {
   if (bytes.ends_with('\x1A')) bytes.remove_suffix(1);  // the end mark of a DOS text
   const bool marked = bytes.starts_with("\xEF\xBB\xBF"sv);
   if (marked) bytes.remove_prefix(3);
-  if (marked || is_valid_utf8(bytes) || is_nearly_utf8(bytes)) return DecodedText{repaired(bytes), "UTF-8"};
+  if (is_valid_utf8(bytes)) return DecodedText{std::string(bytes), "UTF-8"};
+  if (marked || is_nearly_utf8(bytes)) return DecodedText{repaired(bytes), "UTF-8"};
   return decode_from(bytes, guess_8_bit(bytes), why);
 }
 

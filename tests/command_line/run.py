@@ -746,7 +746,9 @@ class Json(Case):
         for figure in before["figures"]:
             self.assertEqual(list(figure), ["name", "unit", "per_second", "ratio"])
             self.assertIsNone(figure["ratio"])
-        self.assertIn("1900 instructions, mixed", [figure["name"] for figure in before["figures"]])
+        names = [figure["name"] for figure in before["figures"]]
+        self.assertIn("1900 instructions, mixed", names)
+        self.assertIn("check, 100000 lines", names)
         del before["figures"][1]
         file = self.program(json.dumps(before), "before.json")
         for figure, name in zip(self.json(FINE, "bench", "--each", "1ms", "--json", "--against", file)["figures"], range(20)):

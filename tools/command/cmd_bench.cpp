@@ -71,7 +71,9 @@ int run_bench(const BenchOptions& options) {
   const auto before = options.against.empty() ? Rates{} : read_rates(options.against);
   if (!before) return kUnusable;
   std::vector<Figure> figures = measure(program, options.each);
-  if (options.program.path.empty()) std::ranges::copy(measure_mixed(options.each), std::back_inserter(figures));
+  if (options.program.path.empty())
+    for (const auto& others : {measure_mixed, measure_files})
+      std::ranges::copy(others(options.each), std::back_inserter(figures));
   if (options.json) {
     auto results = results_of("bench");
     results["program"] = program->source.name;

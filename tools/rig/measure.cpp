@@ -8,7 +8,9 @@
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
+#include "tools/rig/long_listing.hpp"
 #include "tools/rig/mixed_program.hpp"
+#include "tools/views/check_report.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -233,6 +235,20 @@ std::vector<Figure> measure_mixed(Time each) {
   mixed("1900 instructions, mixed", 1900);
   mixed("4000 instructions, mixed", 4000);
   return figures;
+}
+
+std::vector<Figure> measure_files(Time each) {
+  constexpr std::uint32_t kLines = 100'000;
+  const std::string listing = long_listing(kLines);
+  const CpuModel& model = *find_cpu("226XM");
+  const TimeTable times = default_times(model);
+  const auto check_listing = [&] {
+    std::string why;
+    const auto text = read_source(listing, "long.stl", why);
+    const CheckResult result = check(text->parsed, model, times);
+    return static_cast<double>(kLines * (fine_for(*text, result, model).empty() ? 1 : 0));
+  };
+  return {{"check, 100000 lines", "lines", best_rate(each, [&] { return timed(check_listing); })}};
 }
 
 }  // namespace s7200::tools

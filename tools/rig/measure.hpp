@@ -21,4 +21,7 @@ std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time 
 /// The same of mixed programs of three lengths (mixed_program.hpp), every scan run.
 std::vector<Figure> measure_mixed(Time each);
 
+/// How fast files are checked, as `s7200 check` does it: lines of a listing of 100,000 (long_listing.hpp).
+std::vector<Figure> measure_files(Time each);
+
 }  // namespace s7200::tools

@@ -84,10 +84,9 @@ std::string counted(const stl::Diagnostics& diagnostics) {
 }
 
 std::vector<const CpuModel*> fine_for(const SourceText& text, const CheckResult& result, const CpuModel& asked) {
-  std::vector<const CpuModel*> fitting;
-  if (result.program) return fitting;
-  for (const CpuModel* model : all_cpus())
-    if (model != &asked && check(text.parsed, *model, default_times(*model)).program) fitting.push_back(model);
+  if (result.program) return {};
+  std::vector<const CpuModel*> fitting = cpus_without_errors(text.parsed);
+  std::erase(fitting, &asked);
   return fitting;
 }
 
