@@ -1,11 +1,9 @@
 #include "interpreter/trace/instruction_lines.hpp"
 
-#include <fmt/compile.h>
-
 #include <bit>
-#include <iterator>
 
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/trace/line_parts.hpp"
 
 namespace s7200 {
 namespace {
@@ -14,31 +12,13 @@ bool is_constant(const stl::Operand& operand) {
   return std::holds_alternative<stl::Integer>(operand.value) || std::holds_alternative<stl::Real>(operand.value);
 }
 
-void append(fmt::memory_buffer& text, std::string_view more) { text.append(more.data(), more.data() + more.size()); }
-
 void append_value(fmt::memory_buffer& text, std::uint32_t value, Width width) {
-  const auto end = std::back_inserter(text);
-  switch (width) {
-    case Width::Bit:
-      text.push_back(value ? '1' : '0');
-      return;
-    case Width::Byte:
-      fmt::format_to(end, FMT_COMPILE("16#{:02X}"), value);
-      return;
-    case Width::Word:
-      fmt::format_to(end, FMT_COMPILE("16#{:04X}"), value);
-      return;
-    case Width::Double:
-      fmt::format_to(end, FMT_COMPILE("16#{:08X}"), value);
-      return;
-  }
+  if (width == Width::Bit) return append(text, value ? "1" : "0");
+  append(text, "16#");
+  append_hex(text, value, 2 * static_cast<int>(bytes_of(width)));
 }
 
 }  // namespace
-
-void append_clock(fmt::memory_buffer& text, Time at) {
-  fmt::format_to(std::back_inserter(text), FMT_COMPILE("{:>7}.{:06}"), at / kMillisecond, at % kMillisecond);
-}
 
 void InstructionLines::append_line(fmt::memory_buffer& text, const InstructionRecord& record) {
   OpText& op = ops_[record.op];
@@ -48,25 +28,23 @@ void InstructionLines::append_line(fmt::memory_buffer& text, const InstructionRe
     op.duration = fmt::format("  {}\n", format_duration(took));
   }
   append_clock(text, record.at);
-  s7200::append(text, "  ");
-  append(text, op, record);
-  s7200::append(text, op.duration);
+  append(text, "  ");
+  append_what(text, op, record);
+  append(text, op.duration);
 }
 
-void InstructionLines::append(fmt::memory_buffer& text, const OpText& op, const InstructionRecord& record) {
-  s7200::append(text, op.head);
-  text.push_back(record.top ? '1' : '0');
-  if (!record.powered) return s7200::append(text, " no power flow");
+void InstructionLines::append_what(fmt::memory_buffer& text, const OpText& op, const InstructionRecord& record) {
+  append(text, op.head, record.top ? "1" : "0");
+  if (!record.powered) return append(text, " no power flow");
   for (const Value& value : op.values) {
-    s7200::append(text, value.name);
+    append(text, value.name);
     const auto number = record.value[value.operand];
     if (!number) {
-      text.push_back('?');
+      append(text, "?");
       continue;
     }
     append_value(text, *number, value.width);
-    if (value.real)
-      fmt::format_to(std::back_inserter(text), " ({})", stl::to_text(stl::Real{std::bit_cast<float>(*number)}));
+    if (value.real) append(text, " (", stl::to_text(stl::Real{std::bit_cast<float>(*number)}), ")");
   }
 }
 
@@ -88,7 +66,7 @@ InstructionLines::OpText InstructionLines::make(const Program& program, std::uin
 
 std::string describe(const InstructionRecord& record, const Program& program) {
   fmt::memory_buffer text;
-  InstructionLines::append(text, InstructionLines::make(program, record.op), record);
+  InstructionLines::append_what(text, InstructionLines::make(program, record.op), record);
   return fmt::to_string(text);
 }
 

@@ -37,7 +37,7 @@ class InstructionLines {
   };
 
   static OpText make(const Program& program, std::uint32_t op);
-  static void append(fmt::memory_buffer& text, const OpText& op, const InstructionRecord& record);
+  static void append_what(fmt::memory_buffer& text, const OpText& op, const InstructionRecord& record);
   friend std::string describe(const InstructionRecord& record, const Program& program);
 
   const Program& program_;
@@ -46,8 +46,5 @@ class InstructionLines {
 
 /// `line 42    MOVW    VW3300, AC0   S0=1 VW3300=16#0006 AC0=16#0006`
 std::string describe(const InstructionRecord& record, const Program& program);
-
-/// `      15.193000`: milliseconds with six decimals.
-void append_clock(fmt::memory_buffer& text, Time at);
 
 }  // namespace s7200

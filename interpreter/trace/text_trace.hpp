@@ -7,17 +7,14 @@
 #include <string_view>
 
 #include "interpreter/program/program.hpp"
+#include "interpreter/trace/event_lines.hpp"
 #include "interpreter/trace/instruction_lines.hpp"
 #include "interpreter/trace/trace.hpp"
-#include "interpreter/trace/trace_reasons.hpp"
 
 namespace s7200 {
 
 /// Milliseconds with six decimals: exact to the nanosecond, and columns stay aligned for an hour.
 std::string clock_text(Time at);
-
-/// One line for a record, without the time and the line end: `INT 122 begins: event 8 (…), waited 12 us`.
-std::string describe(const TraceRecord& record, const Program& program);
 
 /// Writes each record as it comes. Does not own the stream.
 class TextTrace final : public TraceSink {
@@ -34,8 +31,8 @@ class TextTrace final : public TraceSink {
  private:
   std::ostream& out_;
   std::shared_ptr<const Program> program_;
-  TraceReasons reasons_;
   bool instructions_;
+  EventLines event_lines_;
   InstructionLines instruction_lines_;
   fmt::memory_buffer line_;
 };

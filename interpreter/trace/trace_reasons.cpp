@@ -4,6 +4,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/trace/line_parts.hpp"
 
 namespace s7200 {
 namespace {
@@ -28,23 +29,27 @@ std::string TraceReasons::line_of(std::uint32_t op) const {
   return fmt::format("line {}", program_.statement(op).position.line);
 }
 
-std::string TraceReasons::of(const TraceRecord& record) {
-  std::string text;
-  if (has_place(record)) {
-    const stl::Statement& statement = program_.statement(record.op);
-    text = fmt::format("  {}: {}{}", line_of(record.op), stl::to_text(statement),
-                       statement.comment.empty() ? "" : "  //" + stl::printable(statement.comment));
-  }
-  if (record.kind == TraceKind::ServiceBegin)
-    if (const std::string why = cause_of(record); !why.empty()) text = ": " + why;
-  note(record);
-  return text;
+/// Where the program did it.
+const std::string& TraceReasons::place_of(std::uint32_t op) {
+  const auto [known, added] = places_.try_emplace(op);
+  if (!added) return known->second;
+  const stl::Statement& statement = program_.statement(op);
+  known->second = fmt::format("  {}: {}{}", line_of(op), stl::to_text(statement),
+                              statement.comment.empty() ? "" : "  //" + stl::printable(statement.comment));
+  return known->second;
 }
 
-/// Or the instruction that was not over.
+void TraceReasons::append(fmt::memory_buffer& text, const TraceRecord& record) {
+  if (has_place(record)) append_part(text, place_of(record.op));
+  if (record.kind == TraceKind::ServiceBegin && record.at > record.since)
+    if (const std::string why = cause_of(record); !why.empty()) s7200::append(text, ": ", why);
+  note(record);
+}
+
+/// Of an interrupt that waited: or the instruction that was not over.
 std::string TraceReasons::cause_of(const TraceRecord& begin) const {
   std::string why = held_up_by(begin);
-  if (!why.empty() || begin.at <= begin.since || begin.op == kNoRoutine) return why;
+  if (!why.empty() || begin.op == kNoRoutine) return why;
   return fmt::format("{} was being executed: {}", line_of(begin.op), stl::to_text(program_.statement(begin.op)));
 }
 

@@ -3,10 +3,13 @@
 // It must be told every record, in their order. Only what it has been told it knows.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <deque>
 #include <optional>
 #include <string>
+#include <unordered_map>
 
 #include "interpreter/program/program.hpp"
 #include "interpreter/trace/trace.hpp"
@@ -18,9 +21,9 @@ class TraceReasons {
   /// The program must live as long as this.
   explicit TraceReasons(const Program& program) : program_(program) {}
 
-  /// `  line 82: DISI  // not now` of ATCH, DTCH, ENI, DISI, XMT, RCV and SMB30; `: DISI in line 82 until ENI in line 90` of
-  /// an interrupt that waited; nothing of all else.
-  std::string of(const TraceRecord& record);
+  /// Appends `  line 82: DISI  // not now` of ATCH, DTCH, ENI, DISI, XMT, RCV and SMB30; `: DISI in line 82 until ENI in
+  /// line 90` of an interrupt that waited; nothing of all else.
+  void append(fmt::memory_buffer& text, const TraceRecord& record);
 
   /// Of a ServiceBegin: that interrupts were disabled, or which other routines ran; nothing if it was neither.
   std::string held_up_by(const TraceRecord& begin) const;
@@ -37,14 +40,16 @@ class TraceReasons {
   };
   static constexpr std::size_t kServices = 32;  ///< more than all queues hold
 
+  const std::string& place_of(std::uint32_t op);
   std::string cause_of(const TraceRecord& begin) const;
   std::string line_of(std::uint32_t op) const;
 
   const Program& program_;
-  std::optional<bool> disabled_;              ///< nothing: not known
-  std::optional<std::uint32_t> disabled_by_;  ///< the last DISI
-  std::optional<TraceRecord> enabled_;        ///< the last ENI after that
-  std::deque<Service> services_;              ///< the last, newest last
+  std::unordered_map<std::uint32_t, std::string> places_;  ///< by op, as far as they have come
+  std::optional<bool> disabled_;                           ///< nothing: not known
+  std::optional<std::uint32_t> disabled_by_;               ///< the last DISI
+  std::optional<TraceRecord> enabled_;                     ///< the last ENI after that
+  std::deque<Service> services_;                           ///< the last, newest last
 };
 
 }  // namespace s7200

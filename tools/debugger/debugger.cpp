@@ -222,10 +222,11 @@ void Debugger::print_answer(const serial::Exchange& exchange) { out_ << exchange
 
 void Debugger::print_trace(const TraceRecord& record) {
   if (record.kind == TraceKind::RuntimeError && !first_error_) first_error_ = record;
-  if (!tracing_) return reasons_.note(record);
-  const std::string reason = reasons_.of(record);
-  if (record.kind == TraceKind::ScanBegin) return;
-  out_ << fmt::format("  {}  {}{}\n", clock_text(record.at), describe(record, simulation_.cpu().program()), reason);
+  if (!tracing_ || record.kind == TraceKind::ScanBegin) return reasons_.note(record);
+  fmt::memory_buffer reason;
+  reasons_.append(reason, record);
+  out_ << fmt::format("  {}  {}{}\n", clock_text(record.at), describe(record, simulation_.cpu().program()),
+                      fmt::to_string(reason));
 }
 
 void Debugger::print_instruction(const InstructionRecord& record, bool started_at) {

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -16,7 +17,8 @@
 
 namespace s7200::tools {
 
-/// Writes to a descriptor until it takes no more.
+/// Writes to a descriptor until it takes no more: whole lines, so that whoever reads the file while it grows sees no half
+/// ones. What has no line end in 64 KB is written as it comes.
 class RecordFile::Buffer final : public std::streambuf {
  public:
   explicit Buffer(int fd) : fd_(fd) { setp(bytes_.data(), bytes_.data() + bytes_.size()); }
@@ -26,18 +28,27 @@ class RecordFile::Buffer final : public std::streambuf {
 
  protected:
   int_type overflow(int_type c) override {
-    if (sync() != 0) return traits_type::eof();
+    const std::size_t lines = held().rfind('\n') + 1;
+    if (put(lines == 0 ? held().size() : lines) != 0) return traits_type::eof();
     if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
     return sputc(traits_type::to_char_type(c));
   }
 
-  int sync() override {
-    if (error_ == 0) error_ = write_all(fd_, {pbase(), static_cast<std::size_t>(pptr() - pbase())});
+  int sync() override { return put(held().size()); }
+
+ private:
+  std::string_view held() const { return {pbase(), static_cast<std::size_t>(pptr() - pbase())}; }
+
+  /// Writes the first of what is held, and goes on holding the rest.
+  int put(std::size_t count) {
+    if (error_ == 0) error_ = write_all(fd_, held().substr(0, count));
+    const std::string_view rest = held().substr(count);
+    std::copy(rest.begin(), rest.end(), bytes_.begin());
     setp(bytes_.data(), bytes_.data() + bytes_.size());
+    pbump(static_cast<int>(rest.size()));
     return error_ == 0 ? 0 : -1;
   }
 
- private:
   int fd_;
   int error_ = 0;
   std::array<char, 65536> bytes_{};

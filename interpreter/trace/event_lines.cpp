@@ -1,0 +1,124 @@
+#include "interpreter/trace/event_lines.hpp"
+
+#include "interpreter/model/errors.hpp"
+#include "interpreter/model/ports.hpp"
+#include "interpreter/model/special_bits.hpp"
+#include "interpreter/stl/printer.hpp"
+#include "interpreter/trace/line_parts.hpp"
+
+namespace s7200 {
+namespace {
+
+std::string place_text(std::uint32_t op, const Program& program) {
+  if (op == kNoRoutine) return "between two scans";
+  const stl::Statement& statement = program.statement(op);
+  return fmt::format("line {}: {}", statement.position.line, stl::to_text(statement));
+}
+
+void append_character(fmt::memory_buffer& text, const TraceRecord& r) {
+  fmt::format_to(fmt::appender(text), "{:02x}", r.byte);
+  if (r.parity_error) append(text, " parity error");
+  if (r.framing_error) append(text, " framing error");
+}
+
+/// Why a message has ended, after the bits of SMB86.
+std::string status_text(std::uint8_t status) {
+  const std::string reasons = special_meanings_text(kPorts[0].message, status);
+  return fmt::format("status 16#{:02X}{}", status, reasons.empty() ? "" : fmt::format(" ({})", reasons));
+}
+
+}  // namespace
+
+const std::string& EventLines::event(std::uint8_t number) {
+  std::string& text = events_[number];
+  if (text.empty()) text = fmt::format("event {} ({})", number, find_event(number)->cause);
+  return text;
+}
+
+const std::string& EventLines::duration(Time time) {
+  Duration& known = durations_[static_cast<std::size_t>(time) / 100 % durations_.size()];
+  if (known.time != time) known = {time, format_duration(time)};
+  return known.text;
+}
+
+void EventLines::append_line(fmt::memory_buffer& text, const TraceRecord& record) {
+  append_clock(text, record.at);
+  append(text, "  ");
+  append_what(text, record);
+  reasons_.append(text, record);
+  append(text, "\n");
+}
+
+void EventLines::append_what(fmt::memory_buffer& text, const TraceRecord& r) {
+  if (r.port != 0) append(text, "port ", r.port, ": ");  // port 0 goes without saying: most CPUs have no other
+  const auto add = [&text](const auto&... parts) { append(text, parts...); };
+  switch (r.kind) {
+    case TraceKind::ScanBegin:
+      return add("scan ", r.count, " begins");
+    case TraceKind::ModeChange:
+      return add(r.code ? "RUN" : "STOP");
+    case TraceKind::EventOccurred:
+      return add(event(r.event), " occurred, for INT ", r.routine);
+    case TraceKind::EventLost:
+      return add(event(r.event), " LOST: its queue is full");
+    case TraceKind::EventDropped:
+      add(event(r.event), " of ");
+      append_clock(text, r.since);
+      return add(" ms dropped: detached while it waited");
+    case TraceKind::ServiceBegin:
+      return add("INT ", r.routine, " begins: ", event(r.event), ", waited ", duration(r.at - r.since));
+    case TraceKind::ServiceEnd:
+      return add("INT ", r.routine, " ends: took ", duration(r.at - r.since));
+    case TraceKind::Attach:
+      add("ATCH: INT ", r.routine, " to ", event(r.event));
+      if (r.interval) add(", every ", duration(r.interval));
+      return;
+    case TraceKind::Detach:
+      return add("DTCH: ", event(r.event));
+    case TraceKind::Transmit:
+      return r.count ? add("XMT: ", r.count, " characters") : add("XMT: break");
+    case TraceKind::TransmitEnd:
+      return add("transmit complete");
+    case TraceKind::CharacterSent:
+      return add(fmt::format("sent     {:02x}", r.byte));
+    case TraceKind::CharacterReceived:
+      add("received ");
+      return append_character(text, r);
+    case TraceKind::CharacterIgnored:
+      add("ignored  ");
+      append_character(text, r);
+      if (r.code == 1) return add(": the port is not in Freeport mode");
+      return add(": event ", int{kPorts[r.port].received}, " is not attached");
+    case TraceKind::CharacterDropped:
+      add("dropped  ");
+      append_character(text, r);
+      return add(": RCV waits for the start of a message");
+    case TraceKind::Receive:
+      return add("RCV: at most ", r.count, " characters");
+    case TraceKind::ReceiveEnd:
+      return add("RCV ends: ", r.count, " characters, ", status_text(r.byte));
+    case TraceKind::PortControl:
+      add("SMB", kPorts[r.port].control - image::kSM, " = 16#");
+      return append_hex(text, r.byte, 2);
+    case TraceKind::Enable:
+      return add(r.code == 1 ? "ENI: interrupts are enabled" : "DISI: interrupts are disabled");
+    case TraceKind::OutputChanged:
+      return add(fmt::format("QB{} = 2#{:08b}", r.op, r.byte));
+    case TraceKind::AnalogChanged:
+      return add("AQW", r.op, " = ", static_cast<std::int16_t>(r.count));
+    case TraceKind::RuntimeError:
+      return add(
+          fmt::format("run-time error {:04X} ({}) in {}", r.code, meaning_of(RunError{r.code}), place_text(r.op, program_)));
+    case TraceKind::FatalError:
+      return add(
+          fmt::format("FATAL error {:04X} ({}) in {}", r.code, meaning_of(FatalError{r.code}), place_text(r.op, program_)));
+  }
+}
+
+std::string describe(const TraceRecord& record, const Program& program) {
+  fmt::memory_buffer text;
+  EventLines(program).append_what(text, record);
+  return fmt::to_string(text);
+}
+
+}  // namespace s7200

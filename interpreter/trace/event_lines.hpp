@@ -1,0 +1,45 @@
+// Trace records as text. What comes again and again, such as the name of an event, is made once.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+
+#include "interpreter/model/events.hpp"
+#include "interpreter/program/program.hpp"
+#include "interpreter/trace/trace.hpp"
+#include "interpreter/trace/trace_reasons.hpp"
+
+namespace s7200 {
+
+class EventLines {
+ public:
+  /// The program must live as long as this.
+  explicit EventLines(const Program& program) : program_(program), reasons_(program) {}
+
+  /// Appends `     154.215259  INT 123 ends: took 259.4 us` and a line end. Must be told every record, in their order: a
+  /// line says why as well (trace_reasons.hpp).
+  void append_line(fmt::memory_buffer& text, const TraceRecord& record);
+
+ private:
+  void append_what(fmt::memory_buffer& text, const TraceRecord& record);
+  const std::string& event(std::uint8_t number);
+  const std::string& duration(Time time);
+  friend std::string describe(const TraceRecord& record, const Program& program);
+
+  struct Duration {
+    Time time = -1;
+    std::string text;
+  };
+
+  const Program& program_;
+  TraceReasons reasons_;
+  std::array<std::string, kEvents> events_;
+  std::array<Duration, 64> durations_;  ///< the last ones, each at a place of its own
+};
+
+/// One line for a record, without the time and the line end: `INT 122 begins: event 8 (…), waited 12 us`.
+std::string describe(const TraceRecord& record, const Program& program);
+
+}  // namespace s7200

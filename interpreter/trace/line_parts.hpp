@@ -1,0 +1,30 @@
+// Pieces of a line of a trace, appended to it: a trace has millions of lines.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <concepts>
+#include <string_view>
+
+#include "interpreter/base/time.hpp"
+
+namespace s7200 {
+
+inline void append_part(fmt::memory_buffer& text, std::string_view part) {
+  text.append(part.data(), part.data() + part.size());
+}
+void append_part(fmt::memory_buffer& text, std::integral auto number) {
+  const fmt::format_int digits(number);
+  append_part(text, std::string_view(digits.data(), digits.size()));
+}
+
+/// Texts and decimal numbers, one after the other.
+void append(fmt::memory_buffer& text, const auto&... parts) { (append_part(text, parts), ...); }
+
+/// The last `digits` hexadecimal digits of a number, 8 at most.
+void append_hex(fmt::memory_buffer& text, std::uint32_t number, int digits);
+
+/// `      15.193000`: milliseconds with six decimals.
+void append_clock(fmt::memory_buffer& text, Time at);
+
+}  // namespace s7200

@@ -1,0 +1,66 @@
+// A record of a run is looked at while it grows.
+#include "tools/host/record_file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace s7200::tools {
+namespace {
+
+class RecordFiles : public testing::Test {
+ protected:
+  RecordFiles() { std::filesystem::create_directory(folder_); }
+  ~RecordFiles() override { std::filesystem::remove_all(folder_); }
+
+  std::ostream& open() {
+    std::string why;
+    EXPECT_TRUE(file_.claim(files_, "--trace", path(), {"a trace", "# "}, why)) << why;
+    std::ostream* const out = file_.open(why);
+    EXPECT_TRUE(out) << why;
+    EXPECT_TRUE(file_.put(why)) << why;
+    return *out;
+  }
+  std::string path() const { return (folder_ / "trace.txt").string(); }
+  std::string content() const {
+    std::ifstream in(path(), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("s7200_record_" + std::to_string(getpid()));
+  WrittenFiles files_;
+  RecordFile file_;
+};
+
+TEST_F(RecordFiles, GrowByWholeLines) {
+  std::ostream& out = open();
+  std::string all;
+  for (int i = 0; i < 20'000; ++i) {
+    const std::string line = "line " + std::to_string(i * i) + '\n';
+    out.write(line.data(), static_cast<std::streamsize>(line.size()));
+    all += line;
+    if (i % 1000 != 0) continue;
+    const std::string now = content();
+    EXPECT_TRUE(now.empty() || now.back() == '\n') << i;
+    EXPECT_TRUE(all.starts_with(now)) << i;
+  }
+  EXPECT_GT(content().size(), 200'000U) << "most of it is there before the end";
+  std::string why;
+  EXPECT_TRUE(file_.close(why)) << why;
+  EXPECT_EQ(content(), all);
+}
+
+TEST_F(RecordFiles, WithoutLineEndsGrowAllTheSame) {
+  std::ostream& out = open();
+  out << std::string(200'000, 'x');
+  EXPECT_GT(content().size(), 100'000U);
+  std::string why;
+  EXPECT_TRUE(file_.close(why)) << why;
+  EXPECT_EQ(content(), std::string(200'000, 'x'));
+}
+
+}  // namespace
+}  // namespace s7200::tools
