@@ -42,6 +42,9 @@ class Cpu {
   void use_steady_scans(SteadyScansUse use) { steady_scans_.use(use); }
   /// Simulated time in scans that were passed over so far.
   Time passed_over() const { return steady_scans_.passed_over(); }
+  /// Until when the CPU does nothing but the same scan again, unless something comes from outside; time() if that is not
+  /// known. Of use to who wants to know how long nothing will be sent.
+  Time alike_until() const { return steady_scans_.alike_until(core_); }
 
   /// Whether run() stops at the end of each scan.
   void pause_at_scan_end(bool on) { core_.loop.pause_at_scan_end = on; }

@@ -14,9 +14,11 @@
 // The same function moves the state on by one pair for the comparison, and by many to pass them over.
 //
 // When does it pay? A look costs about as much as a thousand instructions. What it may bring, the instructions until the
-// horizon, has to be worth a stake, which doubles with each look that was in vain and is halved with each that was not.
+// horizon, has to be worth a stake, which doubles with each look that was in vain and is halved with each that was not. In
+// real time a look is always worth it: it may spare waking up (alike_until).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 
@@ -27,7 +29,7 @@ namespace s7200 {
 enum class SteadyScansUse : std::uint8_t {
   Off,
   On,     ///< where it pays
-  Eager,  ///< wherever it is possible: for tests
+  Eager,  ///< wherever it is possible: for real time, and for tests
   Check   ///< passes over nothing: predicts the state, runs every scan, and compares. A difference is a std::logic_error
 };
 
@@ -41,6 +43,11 @@ class SteadyScans {
   }
   /// Simulated time that was passed over so far.
   Time passed_over() const { return passed_; }
+
+  /// Until when all scans are alike, unless something comes from outside; the CPU's time as long as that is not known.
+  Time alike_until(const Core& core) const {
+    return known_ == Known::Pair && !core.touched ? std::min(change_, core.next_event()) : core.s.time;
+  }
 
  private:
   enum class Known : std::uint8_t { Nothing, Before, Middle, Pair };

@@ -42,6 +42,8 @@ class Moments final : public TraceSink {
     if (record.kind == TraceKind::CharacterReceived && asked_ == 0) asked_ = record.since;
     if (record.kind == TraceKind::CharacterSent && asked_ != 0 && answered_ == 0) answered_ = record.at;
   }
+  bool wants_scans() const override { return false; }
+
   /// Simulated latency of the exchange that is over.
   Time take(const SerialFormat& format) {
     const std::lock_guard lock(mutex_);

@@ -18,11 +18,12 @@ using namespace std::chrono_literals;
 using Clock = Pace::Clock;
 
 /// What a character of the program may have to wait for being seen at its begin; from then on its end is known and met
-/// exactly. Shorter while something is going on.
+/// exactly. Shorter while something is going on, longer while it is known that the program sends nothing: what comes in ends
+/// the wait at once, so there is only to look who has come or gone, and whether to stop.
 constexpr auto kIdleSlice = 1ms;
 constexpr auto kBusySlice = 200us;
 constexpr auto kBusyFor = 200ms;
-constexpr auto kSliceWithoutBridge = 10ms;
+constexpr auto kQuietSlice = 10ms;
 
 constexpr int kMostAtOnce = 16;  // things that came in, before the simulation goes on
 
@@ -31,7 +32,9 @@ constexpr int kMostAtOnce = 16;  // things that came in, before the simulation g
 class LiveRun::Line final : public LiveLine {
  public:
   Line(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge)
-      : simulation_(simulation), options_(options), bridge_(bridge), pace_(simulation.time(), options.speed) {}
+      : simulation_(simulation), options_(options), bridge_(bridge), pace_(simulation.time(), options.speed) {
+    simulation.cpu().use_steady_scans(SteadyScansUse::Eager);
+  }
 
   ~Line() override {
     if (bridge_) bridge_->stop();
@@ -101,15 +104,23 @@ class LiveRun::Line final : public LiveLine {
     bridge_->received(characters);
   }
 
+  bool busy() const { return Clock::now() < busy_until_ || simulation_.host_port().sending(); }
+
+  /// Until when the program is known to send nothing; now if it is not known.
+  Time silent_until() const { return simulation_.cpu().alike_until(); }
+
   Clock::duration slice() const {
-    if (!bridge_) return kSliceWithoutBridge;
-    return Clock::now() < busy_until_ || simulation_.host_port().sending() ? kBusySlice : kIdleSlice;
+    if (!bridge_) return kQuietSlice;
+    if (busy()) return kBusySlice;
+    return silent_until() > now() ? kQuietSlice : kIdleSlice;
   }
 
   /// Until the next instant that matters, or something comes in.
   void sleep() {
-    const Time due = bridge_ ? std::min(bridge_->due(), simulation_.host_port().character_due()) : kNever;
-    planned_ = std::min(Clock::now() + slice(), pace_.when(std::min(due, end_)));
+    Time due = end_;
+    if (bridge_) due = std::min({due, bridge_->due(), simulation_.host_port().character_due()});
+    if (silent_until() > now() && !busy()) due = std::min(due, silent_until());
+    planned_ = std::min(Clock::now() + slice(), pace_.when(due));
     timer_.expires_at(planned_);
     timer_.async_wait([](const boost::system::error_code&) {});
     context_.run_one();

@@ -102,6 +102,33 @@ TEST(SteadyScans, AnInputIsSeenInItsScan) {
   EXPECT_GT(both.passed(), 60 * kSecond);
 }
 
+TEST(SteadyScans, AreKnownUntilSomethingComesFromOutside) {
+  PlcThat plc(SteadyScansUse::Eager, kContactsOnly);
+  plc.run_until(kSecond);
+  EXPECT_EQ(plc.cpu.alike_until(), kNever);
+  plc.cpu.set_input(0, 1, plc.cpu.time());
+  EXPECT_EQ(plc.cpu.alike_until(), plc.cpu.time());
+}
+
+TEST(SteadyScans, AreKnownInARunOfManyShortOnesToo) {
+  PlcThat plc(SteadyScansUse::Eager, kContactsOnly);
+  for (Time end = 0; end < kSecond; end += kMillisecond) plc.run_until(end);
+  EXPECT_EQ(plc.cpu.alike_until(), kNever);
+}
+
+TEST(SteadyScans, OfAProgramThatReadsAClockBitAreAlikeUntilItChanges) {
+  PlcThat plc(SteadyScansUse::Eager, "LD SM0.5\n= Q0.0\nMEND\n");
+  plc.run_until(1200 * kMillisecond);
+  EXPECT_GT(plc.cpu.alike_until(), 1450 * kMillisecond);
+  EXPECT_LE(plc.cpu.alike_until(), 1500 * kMillisecond);
+}
+
+TEST(SteadyScans, OfAProgramThatCountsAreNeverKnown) {
+  PlcThat plc(SteadyScansUse::Eager, "LD SM0.0\nINCW VW0\nMEND\n");
+  plc.run_until(kSecond);
+  EXPECT_EQ(plc.cpu.alike_until(), plc.cpu.time());
+}
+
 TEST(SteadyScans, AWriteFromOutsideEndsThem) {
   Both both("LD M0.0\nEU\nINCW VW0\nMEND\n");
   both.run_until(10 * kSecond);
