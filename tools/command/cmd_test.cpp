@@ -5,6 +5,7 @@
 
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/growing_transcript.hpp"
 #include "tools/command/options/test_options.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/command/test_output.hpp"
@@ -24,22 +25,38 @@ bool write(const std::optional<Destination>& to, const std::string& text) {
   return false;
 }
 
+/// False after a message.
+bool write_transcript(const Destination& to, const TestOptions& options, const SuiteResult& result) {
+  const Time tolerance = tolerance_for(options.tolerance, result.live);
+  const std::string text = transcript_text(result.reports, {options.record, result.tested, tolerance, result.live});
+  const std::string why = why_not_replayed(text.size());
+  if (why.empty()) return write(to, text);
+  print_error(fmt::format("cannot write {}: {}", options.record, why));
+  return false;
+}
+
 int run_all(Suite& suite, const TestOptions& options, const TestOptions::Destinations& to) {
   TestOutput output(suite.scenarios().size(), options.json, !options.suite.conformance.empty());
   Messages messages;
-  const auto result = suite.run(
-      {[&](const Report& report) { output.show(report); }, [&](std::size_t done) { output.show_progress(done); }}, messages);
+  Suite::Watcher<Report> watcher{.finished = [&](const Report& report) { output.show(report); },
+                                 .waiting = [&](std::size_t done) { output.show_progress(done); }};
+  std::optional<GrowingTranscript> growing;
+  if (to.record) growing.emplace(*to.record, options.record, options.tolerance);
+  if (options.is_random_alone())
+    watcher.exchange = [&](const SuiteResult& so_far, const Scenario& scenario, const Seen& seen) {
+      output.show(scenario, seen);
+      if (growing) growing->add(so_far, scenario, seen);
+    };
+  const auto result = suite.run(watcher, messages);
   print_messages(messages);
   if (!result) return kUnusable;
   output.end(*result);
   const std::string nothing = result->why_nothing_was_checked();
   if (!nothing.empty() && !to.record) print_note("nothing was checked: " + nothing);
   bool all_written = !to.junit || write(to.junit, to_junit(result->reports));
-  if (to.record) {
-    const Time tolerance = tolerance_for(options.tolerance, result->live);
-    all_written &=
-        write(to.record, transcript_text(result->reports, {options.record, result->tested, tolerance, result->live}));
-  }
+  const bool grown = growing && growing->any() && !result->reports.empty() &&
+                     result->reports.front().result.outcome != ScenarioResult::Outcome::Skipped;
+  if (to.record) all_written &= grown ? growing->complete() : write_transcript(*to.record, options, *result);
   print_interruption();
   if (!result->unreachable.empty()) print_error(result->unreachable);
   if (!all_written || !result->unreachable.empty() || !result->any_had_a_program()) return kUnusable;

@@ -97,7 +97,8 @@ bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<c
   }
   const std::string text =
       transcript_text({report}, {.path = to.path, .recorded_from = name, .by = "s7200 debug, record"}) + end_text(session);
-  return write_result(to, text, why);
+  why = why_not_replayed(text.size());
+  return why.empty() && write_result(to, text, why);
 }
 
 std::string_view session_scenario_beginning() { return kTranscriptBeginning; }

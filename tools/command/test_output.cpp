@@ -49,6 +49,16 @@ void TestOutput::show(const Report& report) {
   std::fflush(stdout);
 }
 
+void TestOutput::show(const Scenario& scenario, const Seen& seen) {
+  if (!json_) return;
+  if (!streamed_) {
+    streamed_.emplace(StreamedResults(results_of("test"), "scenarios"),
+                      StreamedResults(scenario_json(scenario), "exchanges", 4));
+    fmt::print("{}", streamed_->results.before_entry());
+  }
+  fmt::print("{}", streamed_->scenario.entry(exchange_json(scenario, seen)));
+}
+
 void TestOutput::show(const Compared& compared) {
   if (json_) return clear_progress();
   heading(*compared.scenario);
@@ -62,7 +72,12 @@ void TestOutput::show(const Compared& compared) {
 
 void TestOutput::end(const SuiteResult& result) {
   clear_progress();
-  if (json_) {
+  if (streamed_) {
+    auto rest = counts_json(result.reports);
+    rest["not_run"] = result.not_run;
+    const auto outcome = result.reports.empty() ? nlohmann::ordered_json::object() : outcome_json(result.reports.front());
+    fmt::print("{}{}", streamed_->scenario.end(outcome), streamed_->results.end(rest));
+  } else if (json_) {
     auto results = results_of("test");
     results.update(to_json(result.reports));
     results["not_run"] = result.not_run;

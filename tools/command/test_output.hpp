@@ -2,9 +2,11 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "tools/scenario/suite.hpp"
+#include "tools/views/streamed_results.hpp"
 
 namespace s7200::tools {
 
@@ -18,6 +20,8 @@ class TestOutput {
   void show_progress(std::size_t done);
 
   void show(const Report& report);
+  /// Of a scenario whose report has none: with --json.
+  void show(const Scenario& scenario, const Seen& seen);
   void show(const Compared& compared);
 
   void end(const SuiteResult& result);
@@ -32,6 +36,11 @@ class TestOutput {
   bool progress_wanted_, progress_shown_ = false;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   const stl::SourceLines* file_ = nullptr;  ///< of the last heading
+  /// The results and the scenario that is being printed.
+  struct Streamed {
+    StreamedResults results, scenario;
+  };
+  std::optional<Streamed> streamed_;
 };
 
 /// Names the scenarios.

@@ -168,23 +168,34 @@ int NewFile::close() {
   return error;
 }
 
-bool write_result(const Destination& destination, std::string_view text, std::string& why) {
-  NewFile file;
-  int error = file.create(destination);
-  if (error == 0) error = write_all(file.fd(), text);
-  if (error == 0 && fsync(file.fd()) != 0) error = errno;
-  if (error == 0) error = file.close();
-  if (error == 0) error = file.put(destination);
-  if (error != 0) {
-    why = fmt::format("cannot write {}: {}", destination.path, std::strerror(error));
-    return false;
-  }
+bool GrowingResult::check(int error, std::string& why) const {
+  if (error != 0) why = fmt::format("cannot write {}: {}", destination_.path, std::strerror(error));
+  return error == 0;
+}
+
+bool GrowingResult::begin(const Destination& destination, std::string& why) {
+  destination_ = destination;
+  return check(file_.create(destination_), why);
+}
+
+bool GrowingResult::add(std::string_view text, std::string& why) { return check(write_all(file_.fd(), text), why); }
+
+bool GrowingResult::complete(std::string& why) {
+  int error = fsync(file_.fd()) != 0 ? errno : 0;
+  if (error == 0) error = file_.close();
+  if (error == 0) error = file_.put(destination_);
+  if (!check(error, why)) return false;
   // The new name itself on the disk as well; not every file system knows how, and the content is safe already.
-  if (const int folder = open(folder_of(destination.path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); folder >= 0) {
+  if (const int folder = open(folder_of(destination_.path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); folder >= 0) {
     fsync(folder);
     close(folder);
   }
   return true;
+}
+
+bool write_result(const Destination& destination, std::string_view text, std::string& why) {
+  GrowingResult result;
+  return result.begin(destination, why) && result.add(text, why) && result.complete(why);
 }
 
 }  // namespace s7200::tools

@@ -110,6 +110,21 @@ class NewFile {
   int fd_ = -1;
 };
 
+/// A result that is written piece by piece. Each returns false and sets `why` if it fails; a result that is not completed
+/// leaves what was there before as it was.
+class GrowingResult {
+ public:
+  bool begin(const Destination& destination, std::string& why);
+  bool add(std::string_view text, std::string& why);
+  bool complete(std::string& why);
+
+ private:
+  bool check(int error, std::string& why) const;
+
+  Destination destination_;
+  NewFile file_;
+};
+
 /// Writes a result. Returns false and sets `why` if that fails; what was there before is as it was.
 bool write_result(const Destination& destination, std::string_view text, std::string& why);
 

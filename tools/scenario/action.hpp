@@ -1,6 +1,7 @@
 // What a step does.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace s7200::tools {
@@ -21,6 +22,9 @@ class Action {
   virtual ~Action() = default;
 
   virtual Needs needs() const { return Needs::Line; }
+
+  /// As how many steps it counts.
+  virtual std::size_t steps() const { return 1; }
 
   /// Does it, and adds what was not as expected.
   virtual void act(Run& run) const = 0;

@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "interpreter/program/load.hpp"
-#include "tools/scenario/comparison.hpp"
 #include "tools/scenario/conformance_suite.hpp"
 #include "tools/scenario/reader.hpp"
+#include "tools/scenario/steps/random_traffic.hpp"
 
 namespace s7200::tools {
 namespace {

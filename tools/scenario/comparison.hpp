@@ -22,8 +22,4 @@ struct Difference {
 Difference compare(const Scenario& scenario, const ScenarioResult& one, const ScenarioResult& other,
                    const std::string& one_name, const std::string& other_name, const Comparison& comparison, bool colour);
 
-/// Requests of all eight functions, mostly fine, often at a limit, sometimes wrong, disturbed or for others; the same ones
-/// for the same seed. `exchanges` from 1 to 100 000.
-Scenario random_traffic(std::size_t exchanges, std::uint32_t seed, std::uint8_t station);
-
 }  // namespace s7200::tools

@@ -13,8 +13,8 @@ using Where = ScenarioKey::Where;
 
 class Reader {
  public:
-  Reader(ScenarioFile& file, const std::string& path, const GivenParameters* given)
-      : file_(file), path_(path), given_(given), values_(file.diagnostics), steps_(values_) {}
+  Reader(ScenarioFile& file, const std::string& path, const GivenParameters* given, const Limits& limits)
+      : file_(file), path_(path), given_(given), values_(file.diagnostics), steps_(values_, limits.steps) {}
 
   void read(const YamlNode& root) {
     if (!root.is_map())
@@ -120,9 +120,10 @@ class Reader {
 ScenarioFile read_scenarios(const std::string& text, const std::string& path, const GivenParameters* given) {
   ScenarioFile file;
   file.source = source_of(text, path);
-  const auto root = read_yaml(text, *file.source, file.diagnostics);
+  const Limits limits = limits_of(text);
+  const auto root = read_yaml(text, *file.source, file.diagnostics, limits);
   if (!root) return file;
-  Reader reader(file, path, given);
+  Reader reader(file, path, given, limits);
   reader.read(*root);
   if (given && file.diagnostics.empty()) reader.mark_expected_failures();
   stl::sort(file.diagnostics);

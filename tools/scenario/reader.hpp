@@ -19,7 +19,7 @@ struct ScenarioFile {
 };
 
 /// Reads a file's text. `path` is for messages, and paths in it are relative to its folder. Loops are run out, `${…}` are
-/// put in: what comes out is plain. At most kMostSteps steps, in loops kDeepestLoop deep.
+/// put in: what comes out is plain. limits.hpp says how much it may have; loops are kDeepestLoop deep.
 ScenarioFile read_scenarios(const std::string& text, const std::string& path, const GivenParameters* given = nullptr);
 
 }  // namespace s7200::tools

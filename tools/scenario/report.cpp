@@ -170,7 +170,7 @@ std::string report_text(const Report& report, bool colour, std::size_t most) {
   if (result.outcome == Outcome::Passed && result.checks == 0) remark += "   (nothing was expected, so nothing was checked)";
   if (result.skipped_steps)
     remark += fmt::format("   ({} of {} steps skipped: they need the inside of the PLC or its line)", result.skipped_steps,
-                          report.scenario->steps.size());
+                          report.scenario->step_count());
   if (result.band) remark += fmt::format("   ({})", band_text(*result.band));
   const std::string time = result.outcome == Outcome::Skipped ? "" : format_duration(result.time, 1);
   return fmt::format("  {}  {:>10}  {}{}\n", outcome_text(result.outcome, colour), time,

@@ -31,6 +31,8 @@ nlohmann::ordered_json finding_json(const Scenario& scenario, const Finding& fin
   return json;
 }
 
+}  // namespace
+
 nlohmann::ordered_json exchange_json(const Scenario& scenario, const Seen& seen) {
   const serial::Exchange& exchange = seen.exchange;
   const Bytes request = serial::bytes_of(exchange.request), response = exchange.response_bytes();
@@ -46,10 +48,10 @@ nlohmann::ordered_json exchange_json(const Scenario& scenario, const Seen& seen)
   return json;
 }
 
-nlohmann::ordered_json report_json(const Report& report) {
+nlohmann::ordered_json outcome_json(const Report& report) {
   const Scenario& scenario = *report.scenario;
   static constexpr const char* kOutcomes[] = {"passed", "failed", "skipped", "expected_failure"};
-  nlohmann::ordered_json json = scenario_json(scenario);
+  nlohmann::ordered_json json;
   json["outcome"] = kOutcomes[static_cast<std::size_t>(report.result.outcome)];
   json["reason"] = report.result.reason;
   json["time_ns"] = report.result.time;
@@ -59,8 +61,16 @@ nlohmann::ordered_json report_json(const Report& report) {
     json["band"] = {{"tables", band->tables}, {"passed", band->passed}, {"latency_us", to_json(band->latency)}};
   json["findings"] = nlohmann::ordered_json::array();
   for (const Finding& finding : report.result.findings) json["findings"].push_back(finding_json(scenario, finding));
+  return json;
+}
+
+namespace {
+
+nlohmann::ordered_json report_json(const Report& report) {
+  nlohmann::ordered_json json = scenario_json(*report.scenario);
+  json.update(outcome_json(report));
   json["exchanges"] = nlohmann::ordered_json::array();
-  for (const Seen& seen : report.result.seen) json["exchanges"].push_back(exchange_json(scenario, seen));
+  for (const Seen& seen : report.result.seen) json["exchanges"].push_back(exchange_json(*report.scenario, seen));
   return json;
 }
 
@@ -75,13 +85,17 @@ nlohmann::ordered_json scenario_json(const Scenario& scenario) {
   return json;
 }
 
+nlohmann::ordered_json counts_json(const std::vector<Report>& reports) {
+  return {{"passed", count(reports, Outcome::Passed)},
+          {"failed", count(reports, Outcome::Failed)},
+          {"skipped", count(reports, Outcome::Skipped)},
+          {"expected_failures", count(reports, Outcome::ExpectedFailure)}};
+}
+
 nlohmann::ordered_json to_json(const std::vector<Report>& reports) {
-  nlohmann::ordered_json json{{"scenarios", nlohmann::ordered_json::array()},
-                              {"passed", count(reports, Outcome::Passed)},
-                              {"failed", count(reports, Outcome::Failed)},
-                              {"skipped", count(reports, Outcome::Skipped)},
-                              {"expected_failures", count(reports, Outcome::ExpectedFailure)}};
+  nlohmann::ordered_json json{{"scenarios", nlohmann::ordered_json::array()}};
   for (const Report& report : reports) json["scenarios"].push_back(report_json(report));
+  json.update(counts_json(reports));
   return json;
 }
 

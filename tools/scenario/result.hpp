@@ -34,6 +34,7 @@ inline constexpr std::size_t kFindingsShown = 5;
 /// An exchange as it went, or what was received.
 struct Seen {
   std::size_t step = 0;  ///< in the scenario
+  std::size_t turn = 0;  ///< of a step with many: which of them
   serial::Exchange exchange{};
 };
 

@@ -61,6 +61,12 @@ class Run {
   /// On a slave that is not a program, something about times could not be judged.
   void leave_times_unjudged() { times_unjudged_ = true; }
 
+  /// Of a step with many exchanges: the one that comes now.
+  void begin_turn(std::size_t turn) { turn_ = turn; }
+
+  /// False once nothing more is to be done: after an interruption, or without the slave.
+  bool goes_on() const;
+
   /// The mode in which the CPU may end.
   void expect_mode(std::optional<Mode> mode) { mode_expected_ = mode; }
 
@@ -74,7 +80,7 @@ class Run {
   const Scenario& scenario_;
   const Bench& bench_;
   std::unique_ptr<Plant> plant_;
-  std::size_t step_ = 0;
+  std::size_t step_ = 0, turn_ = 0;
   Time begin_ = 0;
   bool lost_ = false;            ///< the slave
   bool times_unjudged_ = false;  ///< on a slave that is not a program

@@ -29,7 +29,7 @@ ScenarioResult Run::result() {
          .found = "that never came; 'after: TIME' begins all the same",
          .of_run = true});
   } else {
-    for (; step_ < scenario_.steps.size() && !interrupted() && !lost_; ++step_) do_step(scenario_.steps[step_]);
+    for (; step_ < scenario_.steps.size() && goes_on(); ++step_) do_step(scenario_.steps[step_]);
     look_at_mode();
   }
   result_.time = plant_ ? plant_->time() : slave().now() - begin_;
@@ -43,7 +43,7 @@ void Run::settle_outcome() {
     result_.outcome = Outcome::Skipped;
     result_.reason = "interrupted";
   }
-  if (result_.skipped_steps > 0 && result_.skipped_steps == scenario_.steps.size()) {
+  if (result_.skipped_steps > 0 && result_.skipped_steps == scenario_.step_count()) {
     result_.outcome = Outcome::Skipped;
     result_.reason = "nothing of it can be tried on " + slave().name();
   } else if (!scenario_.rule.id.empty() && result_.outcome == Outcome::Passed &&
@@ -75,7 +75,10 @@ std::string Run::acted_inside() const {
   return step == scenario_.steps.end() ? "" : fmt::format("line {}, '{}'", step->position.line, step->key);
 }
 
+bool Run::goes_on() const { return !interrupted() && !lost_; }
+
 void Run::do_step(const Step& step) {
+  turn_ = 0;
   if (!plant_ && step.action->needs() == Needs::ToLook)
     skip_step();
   else
@@ -95,7 +98,8 @@ void Run::add_exchange(Finding finding) {
 }
 
 void Run::keep(const serial::Exchange& exchange) {
-  if (bench_.exchanges_wanted) result_.seen.push_back({step_, exchange});
+  if (bench_.watch) return bench_.watch({step_, turn_, exchange});
+  if (bench_.exchanges_wanted) result_.seen.push_back({step_, turn_, exchange});
 }
 
 void Run::lose_slave(const std::string& why) {

@@ -1,6 +1,7 @@
 // Runs scenarios: on programs in simulation, or on any slave.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "interpreter/program/program.hpp"
@@ -18,7 +19,10 @@ struct Bench {
   Slave* slave = nullptr;                     ///< instead of a program; not owned
   SerialFormat format{};                      ///< of the slave's line
   bool exchanges_wanted = true;               ///< all of them are in the result
-  std::string problem{};                      ///< why there is neither; the scenario fails then
+  /// Is told of each exchange when it is over, in the thread that runs the scenario, and the result has none; may be left
+  /// out.
+  std::function<void(const Seen&)> watch{};
+  std::string problem{};  ///< why there is neither; the scenario fails then
 };
 
 /// Runs a scenario to its end, findings or not; a slave that is lost is a finding and ends it. SlaveUnreachable passes

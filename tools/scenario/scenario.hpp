@@ -66,6 +66,12 @@ struct Scenario {
   std::string skipped{};           ///< the reason why it is not to be run; empty if it is
   std::vector<Step> steps{};
 
+  std::size_t step_count() const {
+    std::size_t count = 0;
+    for (const Step& step : steps) count += step.action->steps();
+    return count;
+  }
+
   /// Where its addresses are looked up.
   AddressSpace addresses() const { return {*find_cpu(cpu), symbols}; }
 };

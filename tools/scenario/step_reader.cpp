@@ -41,9 +41,9 @@ void StepReader::read_steps(const YamlNode& list, const Scenario& scenario, std:
 
 /// Steps read and turns taken are limited together, so that loops of nothing end too.
 bool StepReader::too_much(const YamlNode& node) {
-  if (++work_ <= kMostSteps) return false;
+  if (++work_ <= most_steps_) return false;
   values_.loop.clear();
-  values_.wrong(node, fmt::format("more than {} steps", kMostSteps), "fewer turns of the loops will do");
+  values_.wrong(node, fmt::format("more than {} steps", most_steps_), "fewer turns of the loops will do");
   return true;
 }
 

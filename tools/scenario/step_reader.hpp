@@ -11,13 +11,12 @@
 
 namespace s7200::tools {
 
-inline constexpr std::size_t kMostSteps = 20'000;  ///< of a file
 inline constexpr int kDeepestLoop = 5;
 
 /// Reads the steps of the scenarios of one file.
 class StepReader {
  public:
-  explicit StepReader(ValueReader& values) : values_(values) {}
+  StepReader(ValueReader& values, std::size_t most_steps) : values_(values), most_steps_(most_steps) {}
 
   /// Those of a scenario, whose head has been read. There is at least one, unless what they need is not there.
   void read_all(const YamlNode& list, Scenario& scenario);
@@ -39,7 +38,7 @@ class StepReader {
 
   ValueReader& values_;
   int depth_ = 0;
-  std::size_t work_ = 0;
+  std::size_t work_ = 0, most_steps_;
   bool left_out_ = false;  ///< a step of this scenario, for want of what it needs
 };
 

@@ -106,12 +106,15 @@ void judge_robustness(const Scenario& scenario, ScenarioResult& result) {
 unsigned Suite::jobs_on(const Benches& benches) const { return benches.slave ? 1 : std::max(1U, settings_.jobs); }
 
 std::optional<SuiteResult> Suite::run(const Watcher<Report>& watcher, Messages& messages) {
-  const auto benches = benches_on(settings_.target, messages);
+  auto benches = benches_on(settings_.target, messages);
   if (!benches) return {};
   catch_interruption();  // from here on there is something to complete
   SuiteResult result{.tested = benches->name, .live = benches->slave != nullptr};
   if (!settings_.target.empty())
     for (Scenario& scenario : scenarios_) scenario.program = result.live ? "" : settings_.target;
+  if (watcher.exchange)
+    for (std::size_t i = 0; i < scenarios_.size(); ++i)
+      benches->of[i].watch = [&, i](const Seen& seen) { watcher.exchange(result, scenarios_[i], seen); };
   try {
     const std::vector<Turn> turns = turns_of(benches->of);
     ParallelRun<ScenarioResult> run(turns.size(), jobs_on(*benches), [&](std::size_t i) {

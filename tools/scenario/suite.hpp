@@ -57,6 +57,9 @@ class Suite {
   struct Watcher {
     std::function<void(const Result&)> finished{};
     std::function<void(std::size_t done)> waiting{};  ///< every 200 ms while none finishes; may be left out
+    /// Each exchange when it is over, in the thread that runs the scenario: then reports have none. Left out: they have. Not
+    /// with a band. Of the result there is what was tested.
+    std::function<void(const SuiteResult&, const Scenario&, const Seen&)> exchange{};
   };
 
   /// Runs all of them. Nothing, with messages, if there is nothing to run them on; throws as make_benches() does then.

@@ -40,22 +40,38 @@ std::string assignments_text(const std::vector<Assignment>& assignments) {
 TranscriptWriter::TranscriptWriter(const Transcript& transcript)
     : transcript_(transcript), folder_(std::filesystem::path(transcript.path).parent_path()) {}
 
-void TranscriptWriter::write(const Report& report) {
+void TranscriptWriter::begin(const Report& report) {
   report_ = &report;
   line(2, "- name: " + in_quotes(scenario().name));
   head(scenario());
   line(4, "steps:");
   last_end.reset();
-  auto seen = report.result.seen.begin();
+}
+
+void TranscriptWriter::write(const Report& report) {
+  begin(report);
+  const std::vector<Seen>& all = report.result.seen;
+  auto seen = all.begin();
   bool any = false;
   for (step_ = 0; step_ < scenario().steps.size(); ++step_) {
-    const bool came = seen != report.result.seen.end() && seen->step == step_;
-    seen_ = came ? &(seen++)->exchange : nullptr;
-    const Action& action = *scenario().steps[step_].action;
-    const bool reached_it = !live() || action.needs() == Needs::Line;
-    any |= reached_it && action.write(*this);
+    const auto came = [&] { return seen != all.end() && seen->step == step_; };
+    do any |= write_step(came() ? &(seen++)->exchange : nullptr);
+    while (came());
   }
   if (!any) step("wait: " + exact(Time{0}));
+}
+
+void TranscriptWriter::write(const Seen& seen) {
+  step_ = seen.step;
+  write_step(&seen.exchange);
+}
+
+/// Returns false if a replay has nothing to do for it.
+bool TranscriptWriter::write_step(const serial::Exchange* seen) {
+  seen_ = seen;
+  const Action& action = *scenario().steps[step_].action;
+  const bool reached_it = !live() || action.needs() == Needs::Line;
+  return reached_it && action.write(*this);
 }
 
 std::optional<Time> TranscriptWriter::waited_in_vain() const {
@@ -110,12 +126,22 @@ void TranscriptWriter::line_settings(const serial::MasterSettings& settings) {
   if (settings.timeout != serial::MasterSettings{}.timeout) line(4, "timeout: " + exact(settings.timeout));
 }
 
+std::string transcript_heading(const Transcript& transcript) {
+  return fmt::format("{} {} by {}. Replayed by s7200 test.\nscenarios:\n", kTranscriptBeginning, transcript.recorded_from,
+                     transcript.by);
+}
+
 std::string transcript_text(const std::vector<Report>& reports, const Transcript& transcript) {
   TranscriptWriter writer(transcript);
   for (const Report& report : reports)
     if (report.result.outcome != ScenarioResult::Outcome::Skipped) writer.write(report);
-  return fmt::format("{} {} by {}. Replayed by s7200 test.\nscenarios:\n{}", kTranscriptBeginning, transcript.recorded_from,
-                     transcript.by, writer.text());
+  return transcript_heading(transcript) + writer.take();
+}
+
+std::string why_not_replayed(std::size_t bytes) {
+  if (bytes <= kLongestTranscript) return {};
+  return fmt::format("the transcript has {} bytes; {} at most can be replayed: record fewer scenarios in one file", bytes,
+                     kLongestTranscript);
 }
 
 }  // namespace s7200::tools

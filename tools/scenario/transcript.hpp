@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/scenario/limits.hpp"
 #include "tools/scenario/report.hpp"
 
 namespace s7200::tools {
@@ -21,7 +22,12 @@ struct Transcript {
 /// From a slave that is not a program, the pauses between exchanges stand for the instants, and nothing is written of the
 /// inside of a PLC that was not reached: so that it can be replayed there and in simulation. Replayed on the same program
 /// the transcript gives the same bit by bit and to the nanosecond.
-inline constexpr std::string_view kTranscriptBeginning = "# Recorded from";
 std::string transcript_text(const std::vector<Report>& reports, const Transcript& transcript);
+
+/// What stands before the scenarios.
+std::string transcript_heading(const Transcript& transcript);
+
+/// Why a transcript of so many bytes could not be replayed; empty if it can.
+std::string why_not_replayed(std::size_t bytes);
 
 }  // namespace s7200::tools

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tools/scenario/report.hpp"
@@ -19,7 +20,12 @@ class TranscriptWriter {
   /// A scenario and how it went.
   void write(const Report& report);
 
-  const std::string& text() const { return text_; }
+  /// The same of a scenario of one step with many exchanges, each as it comes, ...
+  void begin(const Report& report);
+  void write(const Seen& seen);
+
+  /// What has been written since it was last taken.
+  std::string take() { return std::exchange(text_, {}); }
 
   // --- for steps ---
 
@@ -40,6 +46,7 @@ class TranscriptWriter {
   std::optional<Time> last_end{};  ///< of the exchange before, on the slave's clock
 
  private:
+  bool write_step(const serial::Exchange* seen);
   void line(int indent, const std::string& content);
   std::string near(const std::string& path) const;
   void head(const Scenario& scenario);

@@ -110,7 +110,8 @@ stl::Diagnostic to_diagnostic(const YAML::Exception& error, const stl::SourceLin
 
 class TreeBuilder final : public YAML::EventHandler {
  public:
-  TreeBuilder(const stl::SourceLines& source, stl::Diagnostics& diagnostics) : source_(source), diagnostics_(diagnostics) {}
+  TreeBuilder(const stl::SourceLines& source, stl::Diagnostics& diagnostics, std::size_t most_nodes)
+      : source_(source), diagnostics_(diagnostics), most_nodes_(most_nodes) {}
 
   std::optional<YamlNode> take() { return std::move(root_); }
 
@@ -152,8 +153,8 @@ class TreeBuilder final : public YAML::EventHandler {
     if (anchor != 0) no_aliases(mark);
     if (!tag.empty() && tag != "?" && tag != "!")
       fail(mark, std::string(kNoTags), "put quotation marks around a text that begins with !");
-    if (++nodes_ > kMostYamlNodes)
-      fail(mark, fmt::format("more than {} values in one file", kMostYamlNodes), "divide it into several files");
+    if (++nodes_ > most_nodes_)
+      fail(mark, fmt::format("more than {} values in one file", most_nodes_), "divide it into several files");
   }
 
   void scalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, const std::string& value) {
@@ -239,7 +240,7 @@ class TreeBuilder final : public YAML::EventHandler {
   stl::Diagnostics& diagnostics_;
   std::vector<Open> open_;
   std::optional<YamlNode> root_;
-  std::size_t nodes_ = 0;
+  std::size_t nodes_ = 0, most_nodes_;
 };
 
 }  // namespace
@@ -263,16 +264,17 @@ std::shared_ptr<const stl::SourceLines> source_of(const std::string& text, const
   return source;
 }
 
-std::optional<YamlNode> read_yaml(const std::string& text, const stl::SourceLines& source, stl::Diagnostics& diagnostics) {
+std::optional<YamlNode> read_yaml(const std::string& text, const stl::SourceLines& source, stl::Diagnostics& diagnostics,
+                                  const Limits& limits) {
   const auto fail = [&](stl::Diagnostic diagnostic) {
     diagnostics.push_back(std::move(diagnostic));
     return std::nullopt;
   };
-  if (text.size() > kLongestYaml)
+  if (text.size() > limits.bytes)
     return fail(
-        {stl::Severity::Error, {}, fmt::format("longer than {} bytes", kLongestYaml), "divide it into several files"});
+        {stl::Severity::Error, {}, fmt::format("longer than {} bytes", limits.bytes), "divide it into several files"});
   if (!stl::is_valid_utf8(text)) return fail({stl::Severity::Error, {}, "not UTF-8 text", "save it as UTF-8"});
-  TreeBuilder builder(source, diagnostics);
+  TreeBuilder builder(source, diagnostics, limits.nodes);
   try {
     std::istringstream in(text);
     YAML::Parser parser(in);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "interpreter/base/diagnostic.hpp"
+#include "tools/scenario/limits.hpp"
 
 namespace s7200::tools {
 
@@ -34,15 +35,14 @@ struct YamlNode {
 /// For messages: "a map", "a list", "'text'".
 std::string to_text(const YamlNode& node);
 
-inline constexpr std::size_t kLongestYaml = 1 << 20;  ///< bytes
-inline constexpr int kDeepestYaml = 24;               ///< maps and lists inside each other
-inline constexpr std::size_t kMostYamlKeys = 500;     ///< in one map
-inline constexpr std::size_t kMostYamlNodes = 100'000;
+inline constexpr int kDeepestYaml = 24;            ///< maps and lists inside each other
+inline constexpr std::size_t kMostYamlKeys = 500;  ///< in one map
 
 /// A text with the name that messages have for it.
 std::shared_ptr<const stl::SourceLines> source_of(const std::string& text, const std::string& path);
 
 /// Returns nothing and adds errors if the text is not such YAML.
-std::optional<YamlNode> read_yaml(const std::string& text, const stl::SourceLines& source, stl::Diagnostics& diagnostics);
+std::optional<YamlNode> read_yaml(const std::string& text, const stl::SourceLines& source, stl::Diagnostics& diagnostics,
+                                  const Limits& limits = {});
 
 }  // namespace s7200::tools

@@ -10,19 +10,23 @@ namespace s7200::tools {
 
 class StreamedResults {
  public:
-  /// `list`: the key of the list, which follows what `results` has.
-  StreamedResults(nlohmann::ordered_json results, std::string_view list);
+  /// `list`: the key of the list, which follows what `results` has. `indent`: of the entry of another list that this is.
+  StreamedResults(nlohmann::ordered_json results, std::string_view list, std::size_t indent = 0);
 
   /// The text to print next: for one more entry of the list, ...
   std::string entry(const nlohmann::ordered_json& entry);
+  /// ... before an entry that comes in pieces, ...
+  std::string before_entry();
   /// ... and for the end, with the keys that follow the list.
   std::string end(const nlohmann::ordered_json& rest);
 
  private:
-  std::string head();
+  std::string head() const;
+  std::string key_and_value(const std::string& key, const nlohmann::ordered_json& value) const;
 
   nlohmann::ordered_json results_;
   std::string list_;
+  std::size_t indent_;
   bool any_ = false;
 };
 

@@ -515,11 +515,47 @@ TEST(ScenarioReader, NothingMakesItGrowWithoutBounds) {
   EXPECT_NE(read(deep + "\n").diagnostics[0].message.find("more than 20000 steps"), std::string::npos);
   EXPECT_FALSE(read(std::string(100'000, '[')).diagnostics.empty());
   EXPECT_FALSE(read(std::string(100'000, '{')).diagnostics.empty());
-  EXPECT_FALSE(read(std::string(kLongestYaml + 1, ' ')).diagnostics.empty());
+  EXPECT_FALSE(read(std::string(Limits{}.bytes + 1, ' ')).diagnostics.empty());
   EXPECT_FALSE(read("a: \xFF\n").diagnostics.empty());
   std::string keys;
   for (int i = 0; i < 600; ++i) keys += fmt::format("k{}: 1\n", i);
   EXPECT_NE(read(keys).diagnostics[0].message.find("more than 500 keys"), std::string::npos);
+}
+
+/// So many exchanges, as they are recorded.
+std::string transcript(std::size_t exchanges) {
+  std::string text =
+      "# Recorded from a slave by s7200 test --record. Replayed by s7200 test.\nscenarios:\n  - name: \"long\"\n    "
+      "steps:\n";
+  for (std::size_t i = 0; i < exchanges; ++i)
+    text += fmt::format(
+        "      - send: 01 03 00 00 00 01 84 0a\n        at: {} ms\n        expect: 01 03 02 00 00 b8 44\n"
+        "        latency: 11.7 ms\n",
+        50 * i);
+  return text;
+}
+
+TEST(ScenarioReader, ATranscriptMayBeAsLongAsWhatWasRecorded) {
+  const std::string text = transcript(25'000);
+  ASSERT_GT(text.size(), 2 * Limits{}.bytes);
+  const ScenarioFile file = read(text);
+  EXPECT_TRUE(file.diagnostics.empty()) << file.diagnostics[0].message;
+  EXPECT_EQ(file.scenarios.at(0).steps.size(), 25'000U);
+}
+
+TEST(ScenarioReader, WhatIsNotATranscriptMayNotBeSoLong) {
+  EXPECT_FALSE(read(transcript(25'000).substr(2)).diagnostics.empty());
+}
+
+TEST(ScenarioReader, ATranscriptHasNoMoreStepsThanItsTextSays) {
+  const ScenarioFile file =
+      read("# Recorded from a slave\nsteps:\n  - repeat: 4096\n    steps: [{repeat: 4096, steps: [wait: 1ms]}]\n");
+  EXPECT_NE(file.diagnostics.at(0).message.find("more than 20000 steps"), std::string::npos);
+}
+
+TEST(Transcript, ThatIsTooLongToBeReplayedIsNotOne) {
+  EXPECT_EQ(why_not_replayed(kLongestTranscript), "");
+  EXPECT_NE(why_not_replayed(kLongestTranscript + 1), "");
 }
 
 }  // namespace

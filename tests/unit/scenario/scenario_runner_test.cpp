@@ -12,6 +12,7 @@
 #include "tools/scenario/report_json.hpp"
 #include "tools/scenario/runner.hpp"
 #include "tools/scenario/steps/exchange.hpp"
+#include "tools/scenario/steps/random_traffic.hpp"
 #include "tools/scenario/transcript.hpp"
 
 namespace s7200::tools {
@@ -455,8 +456,7 @@ TEST(ScenarioCompare, TimesCountUnlessTheyAreIgnoredOrTolerated) {
 TEST(ScenarioCompare, RandomTrafficIsTheSameForTheSameSeed) {
   const auto requests = [](std::uint32_t seed) {
     std::vector<serial::Frame> all;
-    for (const Step& step : random_traffic(300, seed, 1).steps)
-      all.push_back(dynamic_cast<const ExchangeStep&>(*step.action).request);
+    for (const Seen& seen : run(random_traffic(100, seed, 1)).seen) all.push_back(seen.exchange.request);
     return all;
   };
   EXPECT_EQ(requests(7), requests(7));

@@ -24,6 +24,9 @@ struct TestOptions {
 
   void add_to(CLI::App& app);
 
+  /// Nothing but random requests, to one program or slave: there may be many.
+  bool is_random_alone() const { return suite.random > 0 && suite.files.empty() && !band.wanted(); }
+
   /// Throws std::invalid_argument for options that do not go together.
   void check() const;
 
