@@ -107,6 +107,12 @@ class Finder {
 
 }  // namespace
 
+std::shared_ptr<const Program> with_every_scan(const Program& program) {
+  const auto same = std::make_shared<Program>(program);
+  same->looks.every_scan = true;
+  return same;
+}
+
 Looks looks_of(const Program& program) { return Finder(program).find(); }
 
 }  // namespace s7200

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <bitset>
+#include <memory>
 
 namespace s7200 {
 
@@ -18,6 +19,9 @@ struct Looks {
 
   bool operator==(const Looks&) const = default;
 };
+
+/// The same program, of which every scan is wanted: none is passed over.
+std::shared_ptr<const Program> with_every_scan(const Program& program);
 
 /// `program` is decoded. What a pointer reaches counts as looked at, and as written.
 Looks looks_of(const Program& program);

@@ -761,7 +761,8 @@ class Json(Case):
         timers = self.program("LD SM0.5\nTON T37, 3\nLD T37\n= Q0.0\nMEND\n")
         for arguments in (["run", SLAVE, "--for", "30s", "--json"], ["run", timers, "--for", "30s", "--json", "--dump", "T37"],
                           ["run", timers, "--for", "5s", "--trace", "-"], ["master", SLAVE, "read", "40001", "--json"],
-                          ["send", SLAVE, "--crc", "0103000a0001", "0103000a0001", "--pause", "5s", "--json"]):
+                          ["send", SLAVE, "--crc", "0103000a0001", "0103000a0001", "--pause", "5s", "--json"],
+                          ["test", "--random", "20", "--target", SLAVE, "--json"]):
             with self.subTest(arguments):
                 self.assertEqual(self.ends(FINE, *arguments).stdout, self.ends(FINE, *arguments, "--no-skip").stdout)
 

@@ -52,8 +52,8 @@ void TestOutput::show(const Report& report) {
 void TestOutput::show(const Scenario& scenario, const Seen& seen) {
   if (!json_) return;
   if (!streamed_) {
-    streamed_.emplace(StreamedResults(results_of("test"), "scenarios"),
-                      StreamedResults(scenario_json(scenario), "exchanges", 4));
+    streamed_ =
+        Streamed{StreamedResults(results_of("test"), "scenarios"), StreamedResults(scenario_json(scenario), "exchanges", 4)};
     fmt::print("{}", streamed_->results.before_entry());
   }
   fmt::print("{}", streamed_->scenario.entry(exchange_json(scenario, seen)));

@@ -144,7 +144,7 @@ class ProgramBenches {
     }
     const auto with = target_.empty() ? scenario.with : std::vector<std::string>{};
     const Programs::Loaded& loaded = programs_.get(path, with, scenario.cpu, scenario.times, scenario.repair);
-    bench.program = loaded.program;
+    bench.program = loaded.program && settings_.every_scan ? with_every_scan(*loaded.program) : loaded.program;
     if (loaded.program && (scenario.robust || settings_.band.random > 0))
       bench.band = programs_.band(path, with, scenario.cpu, scenario.times, scenario.repair, band_settings());
     if (!loaded.program && same_for_all_) {

@@ -71,10 +71,11 @@ std::vector<Turn> turns_of(const std::vector<Bench>& benches) {
   return turns;
 }
 
-ScenarioResult run_turn(const Scenario& scenario, const Bench& bench, std::size_t table) {
+ScenarioResult run_turn(const Scenario& scenario, const Bench& bench, std::size_t table, bool every_scan) {
   if (!bench.band) return run_scenario(scenario, bench);
   Bench of_table = bench;
   of_table.program = bench.band->program(table);
+  if (every_scan) of_table.program = with_every_scan(*of_table.program);
   of_table.exchanges_wanted = true;  // for their latencies
   return run_scenario(scenario, of_table);
 }
@@ -118,7 +119,7 @@ std::optional<SuiteResult> Suite::run(const Watcher<Report>& watcher, Messages& 
   try {
     const std::vector<Turn> turns = turns_of(benches->of);
     ParallelRun<ScenarioResult> run(turns.size(), jobs_on(*benches), [&](std::size_t i) {
-      return run_turn(scenarios_[turns[i].scenario], benches->of[turns[i].scenario], turns[i].table);
+      return run_turn(scenarios_[turns[i].scenario], benches->of[turns[i].scenario], turns[i].table, settings_.every_scan);
     });
     ScenarioResult of_one;
     run.each(

@@ -25,6 +25,7 @@ struct SuiteSettings {
   BandSettings band{};            ///< of execution times, for all scenarios on programs; none: for those that ask for it
   bool fail_fast = false;         ///< ends at the first failure
   bool exchanges_wanted = false;  ///< all of them are in the results
+  bool every_scan = false;        ///< of programs: scans that are all alike are run, too
 };
 
 }  // namespace s7200::tools

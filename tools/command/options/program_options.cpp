@@ -33,6 +33,10 @@ void add_cpu_option(CLI::App& app, std::string& cpu, const std::string& text) {
       ->type_name("TYPE");
 }
 
+void add_no_skip_option(CLI::App& app, bool& every_scan) {
+  app.add_flag("--no-skip", every_scan, "run every scan, instead of passing over those that are all alike; only slower");
+}
+
 void add_repair_option(CLI::App& app, Repairs& repairs) {
   app.add_option_function<std::string>(
          "--repair",
@@ -66,7 +70,7 @@ void CpuOptions::add_to(CLI::App& app) {
                  "execution times: the name of a table, or a CSV file; both as `s7200 times` has them")
       ->type_name("FILE");
   add_repair_option(app, repairs);
-  app.add_flag("--no-skip", every_scan, "run every scan, instead of passing over those that are all alike; only slower");
+  add_no_skip_option(app, every_scan);
 }
 
 const CpuModel* CpuOptions::model() const {
@@ -104,12 +108,6 @@ void ProgramOptions::add_parts_to(CLI::App& app) {
   app.add_option("--with", parts, "another file of the program's project: symbol table, data block, block (repeatable)")
       ->type_name("FILE")
       ->allow_extra_args(false);
-}
-
-static std::shared_ptr<const Program> with_every_scan(const Program& program) {
-  const auto same = std::make_shared<Program>(program);
-  same->looks.every_scan = true;
-  return same;
 }
 
 std::shared_ptr<const Program> ProgramOptions::load(int& exit_code) const {

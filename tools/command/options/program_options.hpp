@@ -19,6 +19,9 @@ namespace s7200::tools {
 /// --cpu, with one of the CPUs that are modelled.
 void add_cpu_option(CLI::App& app, std::string& cpu, const std::string& text);
 
+/// --no-skip, for doubters.
+void add_no_skip_option(CLI::App& app, bool& every_scan);
+
 /// --repair, for slips of published listings.
 void add_repair_option(CLI::App& app, Repairs& repairs);
 
