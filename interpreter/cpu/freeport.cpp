@@ -59,16 +59,21 @@ ControlBytes control_bytes(const Core& core) {
 
 }  // namespace
 
-void trace_character(Core& core, std::uint8_t number, const ReceivedCharacter& character, TraceKind kind) {
-  const bool no_freeport = kind == TraceKind::CharacterIgnored && !core.s.port[number].active;
+void trace_character(const Core& core, std::uint8_t number, const ReceivedCharacter& character, TraceKind kind) {
+  const Freeport& port = core.s.port[number];
+  const int why = kind != TraceKind::CharacterIgnored ? 0 : !port.active ? 1 : port.transmitting ? 2 : 0;
   core.trace({.at = character.end,
               .kind = kind,
               .byte = character.byte,
               .parity_error = character.parity_error,
               .framing_error = character.framing_error,
               .port = number,
-              .code = static_cast<std::uint16_t>(no_freeport ? 1 : 0),
+              .code = static_cast<std::uint16_t>(why),
               .since = character.start});
+}
+
+void character_missed(const Core& core, std::uint8_t number, const ReceivedCharacter& character) {
+  trace_character(core, number, character, TraceKind::CharacterIgnored);
 }
 
 bool free(const Core& core, std::uint8_t number) {

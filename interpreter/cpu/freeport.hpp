@@ -33,8 +33,11 @@ bool free(const Core& core, std::uint8_t port);
 void character_received(Core& core, std::uint8_t port, const ReceivedCharacter& character);
 void character_sent(Core& core, std::uint8_t port, Time at);
 
+/// A character that the line brings while the receiver is off: nothing but the record of it.
+void character_missed(const Core& core, std::uint8_t port, const ReceivedCharacter& character);
+
 /// Records what has become of a received character.
-void trace_character(Core& core, std::uint8_t port, const ReceivedCharacter& character, TraceKind kind);
+void trace_character(const Core& core, std::uint8_t port, const ReceivedCharacter& character, TraceKind kind);
 
 /// Makes the ports follow their control bytes after something other than the program may have written them.
 void follow_control(Core& core);

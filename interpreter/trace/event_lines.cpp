@@ -45,8 +45,8 @@ void EventLines::append_line(fmt::memory_buffer& text, const TraceRecord& record
   append_clock(text, record.at);
   append(text, "  ");
   append_what(text, record);
-  reasons_.append(text, record);
-  append(text, "\n");
+  append(text, reasons_.of(record), "\n");
+  reasons_.note(record);
 }
 
 void EventLines::append_what(fmt::memory_buffer& text, const TraceRecord& r) {
@@ -87,8 +87,7 @@ void EventLines::append_what(fmt::memory_buffer& text, const TraceRecord& r) {
     case TraceKind::CharacterIgnored:
       add("ignored  ");
       append_character(text, r);
-      if (r.code == 1) return add(": the port is not in Freeport mode");
-      return add(": event ", int{kPorts[r.port].received}, " is not attached");
+      return add(": ", ignored_because(r));
     case TraceKind::CharacterDropped:
       add("dropped  ");
       append_character(text, r);

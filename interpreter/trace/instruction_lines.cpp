@@ -36,6 +36,10 @@ void InstructionLines::append_line(fmt::memory_buffer& text, const InstructionRe
 void InstructionLines::append_what(fmt::memory_buffer& text, const OpText& op, const InstructionRecord& record) {
   append(text, op.head, record.top ? "1" : "0");
   if (!record.powered) return append(text, " no power flow");
+  append_values(text, op, record);
+}
+
+void InstructionLines::append_values(fmt::memory_buffer& text, const OpText& op, const InstructionRecord& record) {
   for (const Value& value : op.values) {
     append(text, value.name);
     const auto number = record.value[value.operand];
@@ -67,6 +71,12 @@ InstructionLines::OpText InstructionLines::make(const Program& program, std::uin
 std::string describe(const InstructionRecord& record, const Program& program) {
   fmt::memory_buffer text;
   InstructionLines::append_what(text, InstructionLines::make(program, record.op), record);
+  return fmt::to_string(text);
+}
+
+std::string values_text(const InstructionRecord& record, const Program& program) {
+  fmt::memory_buffer text;
+  InstructionLines::append_values(text, InstructionLines::make(program, record.op), record);
   return fmt::to_string(text);
 }
 

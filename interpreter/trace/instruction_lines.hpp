@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "interpreter/program/program.hpp"
+#include "interpreter/trace/line_parts.hpp"
 #include "interpreter/trace/trace.hpp"
 
 namespace s7200 {
@@ -38,7 +39,9 @@ class InstructionLines {
 
   static OpText make(const Program& program, std::uint32_t op);
   static void append_what(fmt::memory_buffer& text, const OpText& op, const InstructionRecord& record);
+  static void append_values(fmt::memory_buffer& text, const OpText& op, const InstructionRecord& record);
   friend std::string describe(const InstructionRecord& record, const Program& program);
+  friend std::string values_text(const InstructionRecord& record, const Program& program);
 
   const Program& program_;
   std::vector<OpText> ops_;
@@ -46,5 +49,8 @@ class InstructionLines {
 
 /// `line 42    MOVW    VW3300, AC0   S0=1 VW3300=16#0006 AC0=16#0006`
 std::string describe(const InstructionRecord& record, const Program& program);
+
+/// ` VW3300=16#0006 AC0=16#0006`
+std::string values_text(const InstructionRecord& record, const Program& program);
 
 }  // namespace s7200

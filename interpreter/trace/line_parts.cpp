@@ -18,4 +18,10 @@ void append_clock(fmt::memory_buffer& text, Time at) {
   append(text, std::string_view(whole.data(), whole.size()), std::string_view(decimals.data(), decimals.size()));
 }
 
+std::string clock_text(Time at) {
+  fmt::memory_buffer text;
+  append_clock(text, at);
+  return fmt::to_string(text);
+}
+
 }  // namespace s7200

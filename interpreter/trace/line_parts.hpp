@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <concepts>
+#include <string>
 #include <string_view>
 
 #include "interpreter/base/time.hpp"
@@ -24,7 +25,8 @@ void append(fmt::memory_buffer& text, const auto&... parts) { (append_part(text,
 /// The last `digits` hexadecimal digits of a number, 8 at most.
 void append_hex(fmt::memory_buffer& text, std::uint32_t number, int digits);
 
-/// `      15.193000`: milliseconds with six decimals.
+/// `      15.193000`: milliseconds with six decimals, exact to the nanosecond; columns stay aligned for an hour.
 void append_clock(fmt::memory_buffer& text, Time at);
+std::string clock_text(Time at);
 
 }  // namespace s7200

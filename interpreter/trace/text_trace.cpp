@@ -1,40 +1,49 @@
 #include "interpreter/trace/text_trace.hpp"
 
-#include <fmt/format.h>
-
 #include <ostream>
 #include <utility>
 
-#include "interpreter/trace/line_parts.hpp"
-
 namespace s7200 {
 
-std::string clock_text(Time at) {
-  fmt::memory_buffer text;
-  append_clock(text, at);
-  return fmt::to_string(text);
-}
-
-TextTrace::TextTrace(std::ostream& out, std::shared_ptr<const Program> program, bool instructions)
+TextTrace::TextTrace(std::ostream& out, std::shared_ptr<const Program> program, TraceDetail detail)
     : out_(out),
       program_(std::move(program)),
-      instructions_(instructions),
+      detail_(detail),
       event_lines_(*program_),
+      lines_(*program_),
       instruction_lines_(*program_) {
   out_ << kFirstLine << '\n';
 }
 
 void TextTrace::record(const TraceRecord& record) {
-  if (record.kind == TraceKind::ScanBegin && !instructions_) return;
-  line_.clear();
-  event_lines_.append_line(line_, record);
-  out_.write(line_.data(), static_cast<std::streamsize>(line_.size()));
+  const bool wanted = record.kind != TraceKind::ScanBegin || detail_ == TraceDetail::Instructions;
+  if (detail_ == TraceDetail::Events) {
+    line_.clear();
+    if (wanted) event_lines_.append_line(line_, record);
+    return put_line();
+  }
+  const std::vector<TraceLine> lines = lines_.of(record);
+  if (wanted) write(lines);
 }
 
 void TextTrace::instruction(const InstructionRecord& record) {
-  line_.clear();
-  instruction_lines_.append_line(line_, record);
-  out_.write(line_.data(), static_cast<std::streamsize>(line_.size()));
+  if (detail_ == TraceDetail::Instructions) {
+    line_.clear();
+    instruction_lines_.append_line(line_, record);
+    put_line();
+  }
+  write(lines_.of(record));
 }
+
+void TextTrace::write(const std::vector<TraceLine>& lines) {
+  for (const TraceLine& line : lines) {
+    line_.clear();
+    append_clock(line_, line.at);
+    append(line_, "  ", line.text, "\n");
+    put_line();
+  }
+}
+
+void TextTrace::put_line() { out_.write(line_.data(), static_cast<std::streamsize>(line_.size())); }
 
 }  // namespace s7200

@@ -1,38 +1,47 @@
-// A trace as text: one line for each record, to be read by people and compared with diff.
+// A trace as text, to be read by people and compared with diff.
 #pragma once
 
 #include <iosfwd>
 #include <memory>
-#include <string>
 #include <string_view>
+#include <vector>
 
 #include "interpreter/program/program.hpp"
-#include "interpreter/trace/event_lines.hpp"
 #include "interpreter/trace/instruction_lines.hpp"
 #include "interpreter/trace/trace.hpp"
+#include "interpreter/trace/trace_lines.hpp"
 
 namespace s7200 {
 
-/// Milliseconds with six decimals: exact to the nanosecond, and columns stay aligned for an hour.
-std::string clock_text(Time at);
+/// How much a trace says.
+enum class TraceDetail : std::uint8_t {
+  Events,       ///< what happened, without looking at instructions: fast
+  Way,          ///< and the way that the main program takes, when it changes
+  Instructions  ///< and every instruction
+};
 
-/// Writes each record as it comes. Does not own the stream.
+/// Writes each record as it comes, with its reasons, and the way of the main program when it changes. Does not own the
+/// stream.
 class TextTrace final : public TraceSink {
  public:
   static constexpr std::string_view kFirstLine = "# time in ms   what";
 
-  TextTrace(std::ostream& out, std::shared_ptr<const Program> program, bool instructions);
+  TextTrace(std::ostream& out, std::shared_ptr<const Program> program, TraceDetail detail);
 
   void record(const TraceRecord& record) override;
   void instruction(const InstructionRecord& record) override;
-  bool wants_instructions() const override { return instructions_; }
-  bool wants_scans() const override { return instructions_; }
+  bool wants_instructions() const override { return detail_ != TraceDetail::Events; }
+  bool wants_scans() const override { return detail_ == TraceDetail::Instructions; }
 
  private:
+  void write(const std::vector<TraceLine>& lines);
+  void put_line();
+
   std::ostream& out_;
   std::shared_ptr<const Program> program_;
-  bool instructions_;
-  EventLines event_lines_;
+  TraceDetail detail_;
+  EventLines event_lines_;  // of Events
+  TraceLines lines_;        // of the others
   InstructionLines instruction_lines_;
   fmt::memory_buffer line_;
 };

@@ -24,7 +24,8 @@ enum class TraceKind : std::uint8_t {
   TransmitEnd,        ///<
   CharacterSent,      ///< byte; at: end of its stop bit
   CharacterReceived,  ///< byte, parity_error, framing_error; since: its start edge
-  CharacterIgnored,   ///< like received, but its receive event is not attached or, code 1, the port is not in Freeport mode
+  CharacterIgnored,   ///< like received, but its receive event is not attached; code 1: the port is not in Freeport mode, 2:
+                      ///< its receiver is off while it sends, and at is when that was so
   CharacterDropped,   ///< like received, but RCV is still waiting for the start of its message
   Receive,            ///< RCV begins its search; count: the most characters
   ReceiveEnd,         ///< byte: status SMB86 or SMB186; count: characters stored

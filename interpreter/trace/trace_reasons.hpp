@@ -1,37 +1,58 @@
-// Why: what stands beside a record in a trace. Which line of the program did it, and what an interrupt waited for.
+// Why: what stands beside a record in a trace. Which line of the program did it, what an interrupt waited for, and what
+// decided that a frame gets no answer.
 //
-// It must be told every record, in their order. Only what it has been told it knows.
+// It must be told every record, in their order. Only what it has been told it knows: how long an instruction took and what
+// decided takes every instruction too.
 #pragma once
 
-#include <fmt/format.h>
-
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
+#include "interpreter/model/ports.hpp"
 #include "interpreter/program/program.hpp"
 #include "interpreter/trace/trace.hpp"
 
 namespace s7200 {
 
+/// Of a CharacterIgnored: why nobody wanted it.
+std::string ignored_because(const TraceRecord& record);
+
 class TraceReasons {
  public:
+  /// An instruction that takes longer is named wherever an interrupt has waited for it.
+  static constexpr Time kLongInstruction = 200 * kMicrosecond;
+
   /// The program must live as long as this.
-  explicit TraceReasons(const Program& program) : program_(program) {}
+  explicit TraceReasons(const Program& program);
 
-  /// Appends `  line 82: DISI  // not now` of ATCH, DTCH, ENI, DISI, XMT, RCV and SMB30; `: DISI in line 82 until ENI in
-  /// line 90` of an interrupt that waited; nothing of all else.
-  void append(fmt::memory_buffer& text, const TraceRecord& record);
+  /// `  line 82: DISI  // not now` of ATCH, DTCH, ENI, DISI, XMT, RCV and SMB30; `: DISI in line 82 until ENI in line 90` of
+  /// an interrupt that waited; nothing of all else.
+  std::string of(const TraceRecord& record);
 
-  /// Of a ServiceBegin: that interrupts were disabled, or which other routines ran; nothing if it was neither.
+  /// Of a ServiceBegin: that interrupts were disabled, which other routines ran, or a long instruction; nothing otherwise.
   std::string held_up_by(const TraceRecord& begin) const;
 
-  /// For who does not ask about each record: this one has come.
+  /// Characters that the program leaves without an answer: it attaches the routine again that got the first of them, or
+  /// executes RCV again, and has sent nothing.
+  struct Unanswered {
+    std::size_t characters = 0;
+    Time since = 0;          ///< start edge of the first
+    std::string decided_by;  ///< `JMP 255 in line 141 (LDW= AC0, 0: AC0=16#7B06; NOT)`; nothing if it is not known
+  };
+  std::optional<Unanswered> unanswered(const TraceRecord& record) const;
+
+  /// This one has come; to be told after all that is asked about it.
   void note(const TraceRecord& record);
+  void note(const InstructionRecord& record);
 
   void forget();
+  void forget_instructions();
 
  private:
   struct Service {
@@ -40,16 +61,57 @@ class TraceReasons {
   };
   static constexpr std::size_t kServices = 32;  ///< more than all queues hold
 
+  /// A jump, or a conditional end of a routine, and the contacts in front of it.
+  struct Decision {
+    InstructionRecord by{};
+    std::vector<InstructionRecord> contacts{};
+  };
+  /// The main program, or the interrupt routine that runs.
+  struct Flow {
+    std::vector<InstructionRecord> contacts{};  ///< of the rung so far
+    Decision decision{};                        ///< the last one, if there was any
+    bool decided = false;
+
+    void clear() {
+      contacts.clear();
+      decided = false;
+    }
+  };
+  /// What came in at a port since the program has sent something, or has begun anew.
+  struct Frame {
+    std::size_t characters = 0;
+    Time since = 0, last = 0;
+    std::uint8_t routine = 0;    ///< that got its first character
+    bool attached_anew = false;  ///< another routine, or the same, since its last character
+    std::string decided_by{};    ///< that one of them was attached
+  };
+
+  /// What an instruction is for a decision.
+  enum class Role : std::uint8_t { Other, Contact, FirstContact, Mark, Decides };
+
   const std::string& place_of(std::uint32_t op);
   std::string cause_of(const TraceRecord& begin) const;
+  std::string executed_meanwhile(const TraceRecord& begin) const;
   std::string line_of(std::uint32_t op) const;
+  std::string text_of(const Decision& decision) const;
+  std::string contacts_text(const std::vector<InstructionRecord>& contacts) const;
+  std::string decision_before_now() const;
+  bool begins_again(const TraceRecord& record) const;
+  void note_character(const TraceRecord& record);
+  void note_reception(const TraceRecord& record);
 
   const Program& program_;
   std::unordered_map<std::uint32_t, std::string> places_;  ///< by op, as far as they have come
+  std::vector<Role> role_;                                 ///< by op
   std::optional<bool> disabled_;                           ///< nothing: not known
   std::optional<std::uint32_t> disabled_by_;               ///< the last DISI
   std::optional<TraceRecord> enabled_;                     ///< the last ENI after that
   std::deque<Service> services_;                           ///< the last, newest last
+  std::optional<InstructionRecord> last_;                  ///< executed
+  bool in_interrupt_ = false, interrupt_ends_ = false;
+  std::uint8_t serving_ = 0;  ///< event, in an interrupt
+  Flow main_, interrupt_;
+  std::array<Frame, kPorts.size()> frame_{};
 };
 
 }  // namespace s7200

@@ -49,7 +49,11 @@ void Uart::enable_receiver(bool enabled, Time at) {
   } else {
     // The instant may lie ahead: what is sampled before it is still heard.
     state_.off_from = at;
-    if (next_sample() >= at) abandon_character();
+    if (next_sample() >= at) {
+      if (bystander_ && state_.start_edge < at && bystander_->looks())
+        tell_missed(sampled(state_.start_edge, clock_of_character(), true), at);
+      abandon_character();
+    }
   }
 }
 
@@ -157,7 +161,21 @@ Uart::Report Uart::handle(const Event& event) {
 
 void Uart::line_changed(Time at) {
   const bool may_bring_an_earlier_start = !state_.receiving && at <= state_.start_edge && at < state_.off_from;
-  if (may_bring_an_earlier_start) await_start_edge();
+  if (may_bring_an_earlier_start) return await_start_edge();
+  if (!state_.receiver_enabled() && bystander_ && bystander_->looks()) look_for_missed(at);
+}
+
+/// Another station begins a character, whose edges are all known, while the receiver is off and stays so.
+void Uart::look_for_missed(Time at) {
+  const bool stays_off = !state_.sending || at < state_.send_end;
+  if (at < state_.off_from || at < missed_until_ || !stays_off || !others_space(at)) return;
+  tell_missed(sampled(at, {state_.format}, false), at);
+}
+
+void Uart::tell_missed(ReceivedCharacter character, Time lost_at) {
+  missed_until_ = character.end;
+  character.end = lost_at;
+  bystander_->missed(character);
 }
 
 void Uart::await_start_edge() {
@@ -179,13 +197,25 @@ void Uart::check_start_bit(Time now) {
 }
 
 ReceivedCharacter Uart::take_character() {
-  const SerialFormat& format = state_.receiving_as.format;
-  const BitTimes& times = times_of(state_.receiving_as, receiving_times_);
-  const Time start = state_.start_edge;
+  const ReceivedCharacter character = sampled(state_.start_edge, state_.receiving_as, true);
+  state_.listen_from = character.end;
+  await_start_edge();
+  return character;
+}
+
+/// Without itself it is how others sound while it sends.
+ReceivedCharacter Uart::sampled(Time start, const BitClock& clock, bool hears_itself) const {
+  const SerialFormat& format = clock.format;
+  const BitTimes& times = times_of(clock, receiving_times_);
   const int stop_bit = first_stop_bit(format);
   std::array<Time, SerialFormat::kMostBits> middles{};
   for (int bit = 0; bit <= stop_bit; ++bit) middles[static_cast<std::size_t>(bit)] = start + times.middle_of_bit(bit);
-  const unsigned levels = line_.levels({middles.data(), static_cast<std::size_t>(stop_bit + 1)});
+  const std::span<const Time> samples{middles.data(), static_cast<std::size_t>(stop_bit + 1)};
+  unsigned levels = 0;
+  if (hears_itself)
+    levels = line_.levels(samples);
+  else
+    for (std::size_t i = 0; i < samples.size(); ++i) levels |= unsigned{line_.level_without(driver_, samples[i])} << i;
   const auto sample = [levels](int bit) { return (levels >> bit & 1U) != 0; };
 
   ReceivedCharacter character;
@@ -196,9 +226,6 @@ ReceivedCharacter Uart::take_character() {
   character.line_break = character.byte == 0 && !bit_before_stop && character.framing_error;
   character.start = start;
   character.end = middles[static_cast<std::size_t>(stop_bit)];
-
-  state_.listen_from = character.end;
-  await_start_edge();
   return character;
 }
 
@@ -209,9 +236,13 @@ Time Uart::next_sample() const {
   return state_.start_edge + times_of({state_.format, state_.clock_error}, receiving_times_).middle_of_bit(0);
 }
 
+BitClock Uart::clock_of_character() const {
+  return state_.receiving ? state_.receiving_as : BitClock{state_.format, state_.clock_error};
+}
+
 Time Uart::character_due() const {
   if (state_.start_edge == kNever) return kNever;
-  const BitClock clock = state_.receiving ? state_.receiving_as : BitClock{state_.format, state_.clock_error};
+  const BitClock clock = clock_of_character();
   return state_.start_edge + times_of(clock, receiving_times_).middle_of_bit(first_stop_bit(clock.format));
 }
 

@@ -74,6 +74,20 @@ class Uart final : public SerialPort, private LineListener {
 
   void plug_in();
 
+  /// Who wants to hear of characters of others that are lost because the receiver is off. It only looks on, and each look
+  /// costs time; so it is asked first.
+  class Bystander {
+   public:
+    virtual bool looks() const = 0;
+    /// Its end is when it was lost: at its start edge, or when the receiver was switched off.
+    virtual void missed(const ReceivedCharacter& character) = 0;
+
+   protected:
+    ~Bystander() = default;
+  };
+  /// Wiring, not state; not owned.
+  void set_bystander(Bystander* bystander) { bystander_ = bystander; }
+
   /// A character whose start bit has been verified is still received in the old format.
   void configure(const SerialFormat& format) override;
   void enable_receiver(bool enabled, Time at) override;
@@ -106,7 +120,10 @@ class Uart final : public SerialPort, private LineListener {
   const State& state() const { return state_; }
 
   /// Line and queue are restored by their owner.
-  void restore(const State& state) { state_ = state; }
+  void restore(const State& state) {
+    state_ = state;
+    missed_until_ = 0;
+  }
 
  private:
   enum What : std::uint8_t { kStartCheck, kStopSample, kSent };
@@ -117,8 +134,12 @@ class Uart final : public SerialPort, private LineListener {
   void await_start_edge();
   void check_start_bit(Time now);
   ReceivedCharacter take_character();
+  ReceivedCharacter sampled(Time start, const BitClock& clock, bool hears_itself) const;
+  void look_for_missed(Time at);
+  void tell_missed(ReceivedCharacter character, Time lost_at);
   void expect(What what, Time at);
   Time next_sample() const;
+  BitClock clock_of_character() const;
   void abandon_character();
 
   void put_character(unsigned levels, Time at);
@@ -133,6 +154,8 @@ class Uart final : public SerialPort, private LineListener {
   EventOwner owner_;
   int driver_;
   bool plugged_in_ = false;
+  Bystander* bystander_ = nullptr;
+  Time missed_until_ = 0;  ///< of what the bystander has been told
   State state_;
   BitTimes sending_times_{};
   mutable BitTimes receiving_times_{};

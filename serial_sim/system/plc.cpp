@@ -5,12 +5,15 @@
 
 namespace s7200::serial {
 
-Plc::Port::Port(Dispatcher& events, SharedLine& shared_line, EventHandler& plc)
-    : line(shared_line),
+Plc::Port::Port(Dispatcher& events, SharedLine& shared_line, Plc& plc, std::uint8_t its_number)
+    : of(plc),
+      number(its_number),
+      line(shared_line),
       owner(events.add(Rank::Uart, plc)),
       uart(line.line(), events.queue(), owner, line.add_driver()),
       tap(line.line(), uart.driver()) {
   uart.enable_receiver(false, 0);
+  uart.set_bystander(this);
   line.faults().add_plc(uart);
 }
 
@@ -25,9 +28,9 @@ Plc::Plc(Dispatcher& events, std::span<SharedLine* const> lines, std::shared_ptr
       field_(std::move(field), cpu_, events.queue(), events.add(Rank::Field, *this)) {}
 
 std::vector<std::unique_ptr<Plc::Port>> Plc::ports_on(std::span<SharedLine* const> lines, Dispatcher& events) {
-  EventHandler& self = *this;
   std::vector<std::unique_ptr<Port>> ports;
-  for (SharedLine* const line : lines) ports.push_back(std::make_unique<Port>(events, *line, self));
+  for (SharedLine* const line : lines)
+    ports.push_back(std::make_unique<Port>(events, *line, *this, static_cast<std::uint8_t>(ports.size())));
   return ports;
 }
 

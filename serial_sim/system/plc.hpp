@@ -60,14 +60,19 @@ class Plc final : private EventHandler {
 
  private:
   /// A UART as the CPU sees it: whoever follows its format is told.
-  struct Port final : SerialPort {
-    Port(Dispatcher& events, SharedLine& shared_line, EventHandler& plc);
+  struct Port final : SerialPort, private Uart::Bystander {
+    Port(Dispatcher& events, SharedLine& shared_line, Plc& plc, std::uint8_t number);
 
     void configure(const SerialFormat& format) override;
     void enable_receiver(bool enabled, Time at) override { uart.enable_receiver(enabled, at); }
     void send(std::uint8_t byte, Time at) override { uart.send(byte, at); }
     void send_break(int bit_times, Time at) override { uart.send_break(bit_times, at); }
 
+    bool looks() const override { return of.cpu_.traced(); }
+    void missed(const ReceivedCharacter& character) override { of.cpu_.character_missed(character, number); }
+
+    Plc& of;
+    std::uint8_t number;
     SharedLine& line;
     EventOwner owner;
     Uart uart;

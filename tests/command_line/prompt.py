@@ -4,6 +4,7 @@ import fcntl
 import os
 import pathlib
 import pty
+import re
 import select
 import signal
 import struct
@@ -187,6 +188,21 @@ class Prompt(unittest.TestCase):
             terminal.until(region, PROMPT)
         self.quit(terminal)
         self.assertIn("\x1b[1;40r", terminal.text)
+
+    def test_the_layout_lives_while_the_program_runs_until_ctrl_c(self):
+        terminal = self.session()
+        terminal.command("display VW3300; layout on")
+        terminal.type("continue 1000h\n")
+        shown = terminal.until("\x1b[1;1H", "scan ", "\x1b[1;1H", "scan ", "\x1b[1;1H", "scan ")
+        self.assertNotIn(PROMPT, shown, "while it runs")
+        moments = re.findall(r"([0-9.]+) ms  scan (\d+)", shown)
+        self.assertGreater(len({scan for _, scan in moments}), 1, "it is another scan each time")
+        self.assertIn("line 76 ", shown)
+        terminal.resize(90, 30)
+        terminal.until("\x1b[16;30r", "scan ")
+        terminal.signal(signal.SIGINT)
+        terminal.until("interrupted by Ctrl-C", PROMPT)
+        self.quit(terminal)
 
     def test_a_signal_gives_the_terminal_back_too(self):
         for number, code in ((signal.SIGTERM, 1), (signal.SIGQUIT, -signal.SIGQUIT)):

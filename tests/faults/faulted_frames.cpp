@@ -135,8 +135,10 @@ class Log final : public TraceSink {
  public:
   void record(const TraceRecord& r) override {
     switch (r.kind) {
-      case TraceKind::CharacterReceived:
       case TraceKind::CharacterIgnored:
+        if (r.code != 0) break;  // the receiver was off
+        [[fallthrough]];
+      case TraceKind::CharacterReceived:
         received.push_back({r.byte, r.parity_error, r.framing_error, r.since, r.at});
         last = r.at;
         break;

@@ -71,10 +71,11 @@ int run_debug(DebugOptions& options) {
 
   bool good = false;
   {
-    LiveRun live(rig->simulation(), {1, options.master, print_live_messages()}, options.bridge.bridge());
+    LiveRun live(rig->simulation(), {options.bridge.speed(), options.master, print_live_messages()},
+                 options.bridge.bridge());
     if (!live.start(why)) return print_error(why), kUnusable;
     History::Settings history{.records = &rig->sinks()};
-    if (options.bridge.bridge()) history.drive = [&live](Time end) { return live.run_until(end); };
+    if (options.bridge.realtime()) history.drive = [&live](Time end) { return live.run_until(end); };
     Debugger debugger(rig->simulation(), std::cout, session_options(options, *rig, program, history));
     good = run_commands(debugger, *script, options);
     if (!live.failure().empty()) print_error(live.failure());
@@ -102,11 +103,10 @@ void add_debug(CLI::App& app, int& exit_code) {
       fault_help() +
       "Without --commands and -x the commands come from standard input; 'help' lists them. A wrong command ends a script\n"
       "with exit code 2. A program from standard input, -, needs --commands or -x.\n"
-      "With a bridge it runs as fast as the clock, and masters outside wait while it stands still; their time-outs are "
-      "their\n"
-      "own affair. Traces and captures get everything once: what is played again is not written again. A new branch goes "
-      "on\n"
-      "in traces after what ran before, and ends captures.\n"
+      "With a bridge, --realtime or --speed it follows the clock, and masters outside wait while it stands still; their\n"
+      "time-outs are their own affair. Traces and captures get everything once: what is played again is not written again. "
+      "A\n"
+      "new branch goes on in traces after what ran before, and ends captures.\n"
       "Example: s7200 debug stl_programs/modbus_slave.stl -x \"continue 2s; send 01 03 00 00 00 02 crc; continue; regs\"");
   verb->callback([options, &exit_code] { exit_code = run_debug(*options); });
 }

@@ -33,7 +33,7 @@ int run_send(SendOptions& options) {
   serial::Simulation& simulation = rig->simulation();
   rig->power_up();
   TraceSink* const records = rig->sinks().empty() ? nullptr : &rig->sinks();
-  Timeline timeline(program, records);
+  Timeline timeline(program, records, Timeline::Looks::AtInstructions);
 
   StreamedResults results(results_of("send"), "exchanges");
   SimulatedSlave slave(simulation, options.master, program->source.name);

@@ -1,5 +1,6 @@
 #include "tools/command/console.hpp"
 
+#include <chrono>
 #include <iostream>
 
 #include "interpreter/base/text.hpp"
@@ -9,6 +10,8 @@
 
 namespace s7200::tools {
 namespace {
+
+constexpr auto kRefreshEvery = std::chrono::milliseconds(100);  // while a run goes on
 
 /// A line from the terminal; an empty one stands for `last`. Ctrl-C ends a run, and at the prompt the line being typed:
 /// reading is not taken up again, and an empty prompt comes with nothing to repeat. Nothing at the end of the input, and
@@ -50,7 +53,19 @@ void talk(Debugger& debugger) {
     return Completions{word, std::move(candidates)};
   });
   Screen screen;
-  debugger.set_layout([&screen](bool on) { return switch_layout(screen, on); });
+  auto drawn = std::chrono::steady_clock::now();
+  const auto refresh = [&] {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - drawn < kRefreshEvery) return;
+    drawn = now;
+    if (editor.changed())
+      fit(screen, debugger);
+    else
+      screen.draw(debugger.view(Screen::kViewRows - 1));
+  };
+  debugger.set_layout({.turn = [&screen](bool on) { return switch_layout(screen, on); },
+                       .shown = [&screen] { return screen.on(); },
+                       .refresh = refresh});
   editor.when_changed([&screen, &debugger] { fit(screen, debugger); });
   std::string last;
   while (!debugger.quit_asked()) {

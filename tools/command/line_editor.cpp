@@ -171,6 +171,12 @@ LineEditor::~LineEditor() = default;
 
 void LineEditor::when_changed(std::function<void()> told) { editor_->when_changed = std::move(told); }
 
+bool LineEditor::changed() {
+  const bool now = tools::changed.exchange(false);
+  if (now) el_resize(editor_->edit);
+  return now;
+}
+
 std::optional<std::string> LineEditor::read() {
   if (isatty(STDOUT_FILENO) == 0) return editor_->read_unedited();
   std::fflush(stdout);

@@ -31,6 +31,9 @@ class LineEditor {
   /// Told when the terminal has another size, or the process was stopped and goes on.
   void when_changed(std::function<void()> told);
 
+  /// The same while no line is read: whether it has happened since it was last told or asked.
+  bool changed();
+
   /// Nothing at the end of the input, or when a signal was noted.
   std::optional<std::string> read();
 

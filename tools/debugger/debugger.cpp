@@ -53,7 +53,7 @@ Debugger::Debugger(serial::Simulation& simulation, std::ostream& out, const Debu
       listing_(simulation.cpu().program()),
       history_(simulation, settings_of(options)),
       stepper_(simulation, history_, options.stop_request),
-      reasons_(simulation.cpu().program()) {
+      trace_lines_(simulation.cpu().program()) {
   stepper_.on_record = [this](const TraceRecord& record) { print_trace(record); };
   stepper_.on_instruction = [this](const InstructionRecord& record, bool started_at) {
     print_instruction(record, started_at);
@@ -115,14 +115,16 @@ void Debugger::go(const Run& run) {
   first_error_.reset();
   const std::uint64_t errors_before = simulation_.cpu().state().error_count;
   const Time end = simulation_.time() < kNever - run.limit ? simulation_.time() + run.limit : kNever;
+  begin_live_status();
   const Stop stop = stepper_.run(run.goal, end, run.stop_at_answer);
+  live_status_.reset();
   report(stop, run, simulation_.cpu().state().error_count - errors_before);
 }
 
 /// What ran before says nothing of what comes.
 void Debugger::note_going_elsewhere() {
   last_op_.reset();
-  reasons_.forget();
+  trace_lines_.forget();
 }
 
 void Debugger::remember() {
@@ -222,15 +224,22 @@ void Debugger::print_answer(const serial::Exchange& exchange) { out_ << exchange
 
 void Debugger::print_trace(const TraceRecord& record) {
   if (record.kind == TraceKind::RuntimeError && !first_error_) first_error_ = record;
-  if (!tracing_ || record.kind == TraceKind::ScanBegin) return reasons_.note(record);
-  fmt::memory_buffer reason;
-  reasons_.append(reason, record);
-  out_ << fmt::format("  {}  {}{}\n", clock_text(record.at), describe(record, simulation_.cpu().program()),
-                      fmt::to_string(reason));
+  if (!tracing_) return trace_lines_.note(record);
+  const std::vector<TraceLine> lines = trace_lines_.of(record);
+  if (record.kind != TraceKind::ScanBegin) print_trace_lines(lines);
+}
+
+void Debugger::print_trace_lines(const std::vector<TraceLine>& lines) {
+  for (const TraceLine& line : lines) out_ << fmt::format("  {}  {}\n", clock_text(line.at), line.text);
 }
 
 void Debugger::print_instruction(const InstructionRecord& record, bool started_at) {
   last_op_ = record.op;
+  if (live_status_) note_live_status(record);
+  if (tracing_)
+    print_trace_lines(trace_lines_.of(record));
+  else
+    trace_lines_.note(record);
   if (show_ == Show::None || (show_ == Show::Started && !started_at)) return;
   out_ << fmt::format("   {}  {}\n", describe(record, simulation_.cpu().program()), format_duration(record.end - record.at));
 }

@@ -8,18 +8,21 @@
 #include <deque>
 #include <functional>
 #include <iosfwd>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "interpreter/trace/trace_reasons.hpp"
+#include "interpreter/trace/trace_lines.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/requester.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/debugger/access.hpp"
 #include "tools/debugger/attachment.hpp"
 #include "tools/debugger/history.hpp"
+#include "tools/debugger/last_executions.hpp"
 #include "tools/debugger/last_write.hpp"
 #include "tools/debugger/session_file.hpp"
 #include "tools/debugger/stepper.hpp"
@@ -76,11 +79,16 @@ class Debugger {
   };
   Offers completions(std::string_view line) const;
 
-  /// Who shows view() steadily: switches that on or off, and returns why that cannot be. Without it there is no layout.
-  void set_layout(std::function<Error(bool on)> layout) { layout_ = std::move(layout); }
+  /// Who shows view() steadily. Without it there is no layout.
+  struct Layout {
+    std::function<Error(bool on)> turn{};  ///< switches it on or off, and returns why that cannot be
+    std::function<bool()> shown{};
+    std::function<void()> refresh{};  ///< called now and then while a run goes on
+  };
+  void set_layout(Layout layout) { layout_ = std::move(layout); }
 
   /// Where it stands, the instructions around with power flow and operands, and the memory that is displayed: up to `rows`
-  /// lines.
+  /// lines. While a run goes on they are the instructions around the place where it began, as they were executed last.
   std::vector<std::string> view(std::size_t rows);
 
   bool quit_asked() const { return quit_asked_; }
@@ -164,8 +172,6 @@ class Debugger {
   void note_the_past();
   std::optional<LastWrite> find_write(const MemoryRange& range, std::string_view name);
   std::optional<LastAttachment> find_attachment(std::uint8_t event);
-  std::string comment_text(std::uint32_t op) const;
-  std::string instruction_text(const InstructionRecord& record) const;
   void go_to(const Moment& moment);
   void report_write(const LastWrite& write, const MemoryRange& range, std::string_view name);
   std::optional<MemoryRange> one_range(const Arguments& arguments, std::string_view command, std::string& why) const;
@@ -178,6 +184,7 @@ class Debugger {
   void report_cpu_stop();
   void print_answer(const serial::Exchange& exchange);
   void print_trace(const TraceRecord& record);
+  void print_trace_lines(const std::vector<TraceLine>& lines);
   void print_instruction(const InstructionRecord& record, bool started_at);
 
   std::string name_of(const MemoryRange& range, std::string_view written) const;
@@ -193,7 +200,11 @@ class Debugger {
                                          std::string& why) const;
   std::string oldest_text(const History::Usage& usage) const;
   std::string memory_text(const MemoryRange& range) const;  ///< with what of it is forced
-  std::vector<std::string> status_lines(std::uint32_t first, std::uint32_t end, Time within);
+  std::vector<std::string> status_lines(std::uint32_t first, std::uint32_t end, const LastExecutions& last);
+  std::pair<std::uint32_t, std::uint32_t> ops_in_view() const;
+  LastExecutions last_executions_of(std::uint32_t first, std::uint32_t end, Time within);
+  void begin_live_status();
+  void note_live_status(const InstructionRecord& record);
   std::string forced_text(const std::vector<Bits>& places) const;  ///< `  forced: VW10=5`; nothing if nothing is
   std::string op_text(std::uint32_t op) const;                     ///< `INT 123 line 40: MOVB SMB2, VB1 // …`
   std::optional<std::uint32_t> current_op() const;
@@ -216,7 +227,7 @@ class Debugger {
   std::deque<Kept> kept_;  ///< newest last
   std::vector<MemoryRange> displayed_;
   std::optional<std::uint32_t> last_op_;  ///< executed last
-  TraceReasons reasons_;
+  TraceLines trace_lines_;
   std::optional<TraceRecord> first_error_;  ///< run-time error of the run under way
   Show show_ = Show::None;
   int next_number_ = 1;  ///< of a breakpoint or watch
@@ -225,7 +236,15 @@ class Debugger {
   bool echoing_ = false;  ///< commands are printed after the prompt
   std::string command_;   ///< being executed, as written
   std::string repeatable_;
-  std::function<Error(bool on)> layout_{};
+  Layout layout_{};
+
+  /// What is in view while a run goes on.
+  struct LiveStatus {
+    std::uint32_t first = 0, end = 0;
+    std::map<std::uint32_t, InstructionRecord> last{};
+    std::uint64_t executed = 0;
+  };
+  std::optional<LiveStatus> live_status_;
 };
 
 }  // namespace s7200::tools

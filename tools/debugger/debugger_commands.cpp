@@ -38,7 +38,7 @@ const std::vector<Debugger::Command>& Debugger::commands() {
       {"continue", "c", "continue [TIME]", "run until a breakpoint, a watch, an answer, STOP, or TIME has passed (10 s)",
        "TIME is simulated: 250ms, 2s, 1min. It ends in front of the first instruction after it. Ctrl-C stops it too.",
        &Debugger::continue_run, true},
-      {"until", "t", "until LINE | SBR n | INT n | NETWORK n", "run to a place", "", &Debugger::until, true},
+      {"until", "t", "until LINE | SBR n | INT n | LBL n | NETWORK n", "run to a place", "", &Debugger::until, true},
       {"back", "k", "back [n]", "back to the state before the last command that ran something, or the last n",
        "The last 64 are kept. Breakpoints, watches and their counts stay as they are. Going forward again plays what has "
        "run, "
@@ -54,8 +54,8 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        kBackwards, &Debugger::back_scan, true},
       {"rcontinue", "rc", "rcontinue", "back to the last breakpoint, change of a watch, or end of an answer", kBackwards,
        &Debugger::back_continue, true},
-      {"runtil", "rt", "runtil LINE | SBR n | INT n | NETWORK n", "back to the last time that it was at a place", kBackwards,
-       &Debugger::back_until, true},
+      {"runtil", "rt", "runtil LINE | SBR n | INT n | LBL n | NETWORK n", "back to the last time that it was at a place",
+       kBackwards, &Debugger::back_until, true},
       {"at", "", "at TIME | -TIME | start | end", "to a moment: at 15.193ms, or so long before now: at -5ms",
        "It stands in front of the first instruction at or after it. start is power-up, end the newest moment.",
        &Debugger::at},
@@ -89,7 +89,8 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "A new branch: back takes it back.", &Debugger::restart},
       {"break", "b", "break [PLACE | WHAT] [always] [if CONDITION] [hits N] [log 'TEXT']",
        "stop at a place or when something happens; alone: list",
-       "PLACE: LINE, SBR n, INT n or NETWORK n. A line without an instruction stands for the next one that has one; boxes "
+       "PLACE: LINE, SBR n, INT n, LBL n or NETWORK n. A line without an instruction stands for the next one that has one; "
+       "boxes "
        "and "
        "coils stop only with power flow, or 'always'.\n"
        "  WHAT: event N [occurs | served], received or sent (a frame), xmt, rcv (its end), error [CODE], overflow (of a "
@@ -106,9 +107,9 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "also if the value stays the same. Entries of tables, strings and messages count only if they change.",
        &Debugger::watch},
       {"delete", "d", "delete N… | all", "remove breakpoints and watches", "", &Debugger::delete_stop},
-      {"list", "l", "list [LINE | SBR n | INT n]", "the program around the current place or elsewhere",
+      {"list", "l", "list [LINE | SBR n | INT n | LBL n | NETWORK n]", "the program around the current place or elsewhere",
        "> is the current line, * a breakpoint.", &Debugger::list},
-      {"status", "", "status [LINE | SBR n | INT n | NETWORK n]",
+      {"status", "", "status [LINE | SBR n | INT n | LBL n | NETWORK n]",
        "the program with power flow and operands of each instruction's last execution",
        "Of the last 2 s at least. S0 is the top of the logic stack after it.", &Debugger::status},
       {"regs", "r", "regs", "time, place, calls, accumulators, flags, interrupts", "", &Debugger::registers},
@@ -321,8 +322,8 @@ Debugger::Error Debugger::trace(const Arguments& arguments) {
 Debugger::Error Debugger::layout(const Arguments& arguments) {
   const std::string word = arguments.size() == 1 ? lower_case(arguments[0]) : "";
   if (word != "on" && word != "off") return expects("layout", "on or off");
-  if (!layout_) return "layout needs a terminal";
-  return layout_(word == "on");
+  if (!layout_.turn) return "layout needs a terminal";
+  return layout_.turn(word == "on");
 }
 
 Debugger::Error Debugger::help(const Arguments& arguments) {

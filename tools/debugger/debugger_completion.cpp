@@ -8,6 +8,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tools/debugger/debugger.hpp"
+#include "tools/debugger/stop_words.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -17,23 +18,6 @@ using Words = std::vector<std::string>;
 
 bool begins(std::string_view word, std::string_view with) {
   return word.size() >= with.size() && stl::upper_case(word.substr(0, with.size())) == stl::upper_case(with);
-}
-
-/// `SBR 1`, `INT 0`, `NETWORK 3`: what there is of each.
-Words numbers_of(std::string_view head, const Program& program) {
-  std::set<std::uint32_t> numbers;
-  if (head == "SBR" || head == "INT") {
-    const auto& heads = head == "SBR" ? program.subroutine : program.interrupt;
-    for (std::uint32_t n = 0; n < heads.size(); ++n)
-      if (heads[n] != kNoRoutine) numbers.insert(n);
-  } else {
-    for (const stl::Line& line : program.source.lines)
-      if (const auto* network = std::get_if<stl::NetworkHead>(&line)) numbers.insert(network->number);
-    numbers.erase(0);
-  }
-  Words words;
-  for (const std::uint32_t n : numbers) words.push_back(fmt::format("{}", n));
-  return words;
 }
 
 /// Symbols, the addresses that the program uses, and the areas of the CPU.
@@ -92,9 +76,6 @@ constexpr std::pair<std::string_view, Takes> kTakes[]{
     {"input", Takes::Addresses},  {"force", Takes::Addresses},   {"unforce", Takes::Addresses}, {"who", Takes::Addresses},
     {"rwho", Takes::Addresses}};
 
-constexpr std::string_view kHappenings[]{"event", "received", "sent", "xmt",  "rcv",
-                                         "error", "overflow", "lost", "mode", "unanswered"};
-
 }  // namespace
 
 Debugger::Offers Debugger::completions(std::string_view line) const {
@@ -128,13 +109,13 @@ Debugger::Offers Debugger::completions(std::string_view line) const {
       if (command->name == "who" || command->name == "rwho") all.emplace_back("event");
       break;
     case Takes::Places:
-      if (before == "SBR" || before == "INT" || before == "NETWORK") {
-        all = numbers_of(before, program);
-      } else if (before == "IF" || before == "AND" || before == "OR") {
+      if (all = numbers_of(before, program); !all.empty()) break;
+      if (before == "IF" || before == "AND" || before == "OR") {
         all = addresses_of(program);
       } else {
-        all = {"SBR", "INT", "NETWORK"};
-        if (command->name == "break") all.insert(all.end(), std::begin(kHappenings), std::end(kHappenings));
+        all = place_words();
+        if (command->name == "break")
+          for (const std::string_view word : happening_words()) all.emplace_back(word);
       }
   }
   std::erase_if(all, [&](const std::string& word) { return !begins(word, last); });

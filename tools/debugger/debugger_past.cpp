@@ -6,10 +6,10 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
-#include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/goals.hpp"
+#include "tools/views/execution_text.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
@@ -128,7 +128,7 @@ void Debugger::report_write(const LastWrite& write, const MemoryRange& range, st
   if (write.by)
     out_ << fmt::format("  by {} {}{}{}\n", listing_.routine_of(write.by->op), describe(*write.by, program),
                         write.in_interrupt ? fmt::format(", serving {}", event_text(write.event)) : "",
-                        comment_text(write.by->op));
+                        remark_on(write.by->op, program));
   else if (const Action* action = write.action ? history_.action(*write.action) : nullptr)
     out_ << fmt::format("  by '{}', from outside\n", describe(*action));
   else
@@ -152,29 +152,9 @@ std::optional<LastAttachment> Debugger::find_attachment(std::uint8_t event) {
   }
   out_ << fmt::format("{}  {}\n  by {} {}\n", moment_text(search.attachment->what.at),
                       describe(search.attachment->what, simulation_.cpu().program()),
-                      listing_.routine_of(search.attachment->by.op), instruction_text(search.attachment->by));
+                      listing_.routine_of(search.attachment->by.op),
+                      execution_text(search.attachment->by, simulation_.cpu().program()));
   return search.attachment;
-}
-
-std::string Debugger::instruction_text(const InstructionRecord& record) const {
-  return describe(record, simulation_.cpu().program()) + comment_text(record.op);
-}
-
-/// `  // of the line  [Q0.0 Pump // contactor]`: its comment, and the symbols of its addresses.
-std::string Debugger::comment_text(std::uint32_t op) const {
-  const Program& program = simulation_.cpu().program();
-  const std::string& comment = program.statement(op).comment;
-  std::string text;
-  for (const stl::Operand& operand : program.statement(op).operands) {
-    const auto* address = std::get_if<stl::Address>(&operand.value);
-    std::string why;
-    const auto range =
-        address ? parse_range(stl::to_text(stl::Operand{.value = *address}), *program.model, why) : std::nullopt;
-    const std::string symbol = range ? symbol_text(program, *range) : "";
-    if (!symbol.empty()) text += fmt::format("{}{} {}", text.empty() ? "  [" : ", ", range->name_of(0), symbol);
-  }
-  if (!text.empty()) text += "]";
-  return (comment.empty() ? "" : "  //" + stl::printable(comment)) + text;
 }
 
 Debugger::Error Debugger::history(const Arguments& arguments) {
@@ -182,7 +162,8 @@ Debugger::Error Debugger::history(const Arguments& arguments) {
   const auto count = arguments.empty() ? kShown : parse_count(arguments);
   if (!count || *count > kMost) return expects("history", "how many instructions, up to 10000, for example: history 30");
   for (const InstructionRecord& record : last_instructions(history_, *count, options_.stop_request))
-    out_ << fmt::format("{}  {:<7} {}\n", clock_text(record.at), listing_.routine_of(record.op), instruction_text(record));
+    out_ << fmt::format("{}  {:<7} {}\n", clock_text(record.at), listing_.routine_of(record.op),
+                        execution_text(record, simulation_.cpu().program()));
   return {};
 }
 

@@ -7,18 +7,24 @@
 #include "interpreter/stl/printer.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/last_executions.hpp"
+#include "tools/views/execution_text.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {
 
 constexpr std::uint32_t kShown = 15, kBefore = 6;
+constexpr std::uint32_t kOpsInView = 7, kOpsBefore = 3;
+constexpr Time kInView = 100 * kMillisecond;
 
 }  // namespace
 
-/// A line for each instruction of [first, end), as it was executed last within `within`.
-std::vector<std::string> Debugger::status_lines(std::uint32_t first, std::uint32_t end, Time within) {
-  const LastExecutions last = last_executions(history_, first, end, within, options_.stop_request);
+LastExecutions Debugger::last_executions_of(std::uint32_t first, std::uint32_t end, Time within) {
+  return last_executions(history_, first, end, within, options_.stop_request);
+}
+
+/// A line for each instruction of [first, end), as it was executed last.
+std::vector<std::string> Debugger::status_lines(std::uint32_t first, std::uint32_t end, const LastExecutions& last) {
   const Program& program = simulation_.cpu().program();
   std::vector<std::string> lines;
   for (std::uint32_t op = first; op < end; ++op) {
@@ -26,7 +32,7 @@ std::vector<std::string> Debugger::status_lines(std::uint32_t first, std::uint32
     lines.push_back(
         fmt::format("{:>2} {}{}", mark_of(op),
                     found != last.of.end()
-                        ? instruction_text(found->second)
+                        ? execution_text(found->second, program)
                         : fmt::format("line {:<5} {:<28} not executed within {}", listing_.line_of(op),
                                       stl::to_text(program.statement(op)), format_duration(simulation_.time() - last.since)),
                     forced_text(operands_of(op))));
@@ -41,20 +47,39 @@ Debugger::Error Debugger::status(const Arguments& arguments) {
   const auto ops = static_cast<std::uint32_t>(simulation_.cpu().program().ops.size());
   const std::uint32_t at = place.value_or(0);
   const std::uint32_t first = arguments.empty() ? at - std::min(at, kBefore) : at;
-  for (const std::string& line : status_lines(first, std::min(ops, first + kShown), kLookedAt)) out_ << line << '\n';
+  const std::uint32_t end = std::min(ops, first + kShown);
+  for (const std::string& line : status_lines(first, end, last_executions_of(first, end, kLookedAt))) out_ << line << '\n';
   return {};
 }
 
+std::pair<std::uint32_t, std::uint32_t> Debugger::ops_in_view() const {
+  const auto ops = static_cast<std::uint32_t>(simulation_.cpu().program().ops.size());
+  const std::uint32_t at = current_op().value_or(0), first = at - std::min(at, kOpsBefore);
+  return {first, std::min(ops, first + kOpsInView)};
+}
+
+/// A run begins: what is in view then stays there.
+void Debugger::begin_live_status() {
+  live_status_.reset();
+  if (!layout_.shown || !layout_.shown()) return;
+  const auto [first, end] = ops_in_view();
+  live_status_ = LiveStatus{.first = first, .end = end, .last = last_executions_of(first, end, kInView).of};
+}
+
+void Debugger::note_live_status(const InstructionRecord& record) {
+  constexpr std::uint64_t kLookEvery = 4096;  // instructions
+  if (record.op >= live_status_->first && record.op < live_status_->end) live_status_->last[record.op] = record;
+  if (++live_status_->executed % kLookEvery == 0 && layout_.refresh) layout_.refresh();
+}
+
 std::vector<std::string> Debugger::view(std::size_t rows) {
-  constexpr std::uint32_t kOps = 7, kOpsBefore = 3;
-  constexpr Time kWithin = 100 * kMillisecond;
   const Cpu& cpu = simulation_.cpu();
   const std::string place = place_text(cpu, listing_);
   std::vector<std::string> lines{place.substr(0, place.find('\n'))};
-  const auto ops = static_cast<std::uint32_t>(cpu.program().ops.size());
-  const std::uint32_t at = current_op().value_or(0), first = at - std::min(at, kOpsBefore);
-  for (std::string& line : status_lines(first, std::min(ops, first + kOps), kWithin)) lines.push_back(std::move(line));
-  lines.resize(kOps + 1);
+  const auto [op, end_op] = live_status_ ? std::pair(live_status_->first, live_status_->end) : ops_in_view();
+  const LastExecutions last = live_status_ ? LastExecutions{live_status_->last, 0} : last_executions_of(op, end_op, kInView);
+  for (std::string& line : status_lines(op, end_op, last)) lines.push_back(std::move(line));
+  lines.resize(kOpsInView + 1);
   std::string memory;
   for (const MemoryRange& range : displayed_) memory += memory_text(range);
   if (displayed_.empty()) memory = registers_text(cpu, listing_) + "'display VW100' shows memory here\n";

@@ -10,6 +10,7 @@
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/stop_words.hpp"
 #include "tools/debugger/words.hpp"
+#include "tools/views/execution_text.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/text_frame.hpp"
@@ -195,7 +196,7 @@ void Debugger::report_access(const Hit& hit) {
   out_ << (was == is ? fmt::format("watch {}: {} is {} as before\n", hit.stop.number, hit.stop.name, is)
                      : fmt::format("watch {}: {} was {}, is {}\n", hit.stop.number, hit.stop.name, was, is));
   if (hit.by)
-    out_ << fmt::format("  by {} {}\n", listing_.routine_of(hit.by->op), instruction_text(*hit.by));
+    out_ << fmt::format("  by {} {}\n", listing_.routine_of(hit.by->op), execution_text(*hit.by, program));
   else
     out_ << "  by the system, between two instructions\n";
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "interpreter/program/networks.hpp"
 #include "tools/debugger/access.hpp"
 
 namespace s7200::tools {
@@ -216,8 +217,8 @@ bool Stepper::is_meant(const StopPoint& stop, const TraceRecord& record) {
 }
 
 void Stepper::note_record(const TraceRecord& record) {
-  const bool received = record.kind == TraceKind::CharacterReceived || record.kind == TraceKind::CharacterIgnored ||
-                        record.kind == TraceKind::CharacterDropped;
+  const bool heard = record.kind == TraceKind::CharacterIgnored && record.code == 0;
+  const bool received = record.kind == TraceKind::CharacterReceived || heard || record.kind == TraceKind::CharacterDropped;
   if (received) coming_in_.push_back(record.byte);
   if (received || record.kind == TraceKind::CharacterSent) came_in_ = received;
   for (StopPoint& stop : stops)

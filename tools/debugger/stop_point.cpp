@@ -44,8 +44,6 @@ void split(const std::string& text, const std::function<void(std::string_view)>&
 
 }  // namespace
 
-bool is_box_or_coil(const Op& op) { return op.instruction->rung.needs_power_flow || op.instruction->rung.writes_output; }
-
 std::string filled_in(const std::string& text, const Cpu& cpu) {
   std::string filled;
   split(

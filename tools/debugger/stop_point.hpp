@@ -58,9 +58,6 @@ struct Hit {
   std::vector<std::uint8_t> frame{};      ///< FrameReceived
 };
 
-/// Whether an instruction is a box or a coil, which does nothing or writes 0 without power flow.
-bool is_box_or_coil(const Op& op);
-
 /// `{VW20} at {time}` filled in: expressions, and time, scan, line, event. What cannot be read stays as it is.
 std::string filled_in(const std::string& text, const Cpu& cpu);
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <span>
+#include <algorithm>
+#include <iterator>
+#include <set>
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
@@ -23,7 +25,14 @@ constexpr Happening kHappenings[] = {
     {"rcv", On::ReceiveEnd},         {"error", On::RuntimeError}, {"overflow", On::QueueOverflow},
     {"lost", On::LostCharacter},     {"mode", On::ModeChange},    {"unanswered", On::Unanswered}};
 
-constexpr std::string_view kPlaces = "a line number, SBR n, INT n or NETWORK n";
+constexpr std::string_view kPlaces = "a line number, SBR n, INT n, LBL n or NETWORK n";
+
+/// What has a number of its own in the whole program.
+struct Mark {
+  std::string_view word;
+  Structure structure;
+};
+constexpr Mark kMarks[] = {{"SBR", Structure::SubroutineHead}, {"INT", Structure::InterruptHead}, {"LBL", Structure::Label}};
 
 std::optional<NamedPlace> place_of_line(const std::string& text, const Listing& listing, std::string_view command,
                                         std::string& why) {
@@ -77,17 +86,17 @@ std::optional<NamedPlace> find_place(const std::vector<std::string>& words, cons
                                      std::string_view command, std::string& why) {
   const std::string text = stl::upper_case(joined(words));
   if (text.starts_with("NETWORK")) return place_of_network(text, listing, command, why);
-  const bool subroutine = text.starts_with("SBR"), interrupt = text.starts_with("INT");
-  if (!subroutine && !interrupt) return place_of_line(text, listing, command, why);
+  const auto kind = std::ranges::find(kMarks, std::string_view(text).substr(0, 3), &Mark::word);
+  if (kind == std::end(kMarks)) return place_of_line(text, listing, command, why);
   const auto number = parse_decimal<std::uint32_t>(words.size() == 1 ? std::string_view(text).substr(3) : words[1]);
   if (!number || words.size() > 2) {
     why = expects(command, kPlaces);
     return {};
   }
-  const std::span<const std::uint32_t> heads =
-      subroutine ? std::span<const std::uint32_t>(program.subroutine) : std::span<const std::uint32_t>(program.interrupt);
-  if (*number < heads.size() && heads[*number] != kNoRoutine) return NamedPlace{heads[*number]};
-  why = fmt::format("the program has no {} {}", subroutine ? "SBR" : "INT", *number);
+  const auto op = std::ranges::find_if(
+      program.ops, [&](const Op& one) { return one.instruction->structure == kind->structure && one[0].at == *number; });
+  if (op != program.ops.end()) return NamedPlace{static_cast<std::uint32_t>(op - program.ops.begin())};
+  why = fmt::format("the program has no {} {}", kind->word, *number);
   return {};
 }
 
@@ -107,8 +116,27 @@ std::optional<StopPoint> find_stop(const std::vector<std::string>& words, const 
   return named(StopPoint{.on = On::Place, .op = place->op, .needs_power = true});
 }
 
+std::vector<std::string> place_words() {
+  std::vector<std::string> words{"NETWORK"};
+  for (const Mark& mark : kMarks) words.emplace_back(mark.word);
+  return words;
+}
+
+std::vector<std::string> numbers_of(std::string_view word, const Program& program) {
+  std::set<std::uint32_t> numbers;
+  for (const Mark& mark : kMarks)
+    for (const Op& op : program.ops)
+      if (mark.word == word && op.instruction->structure == mark.structure) numbers.insert(op[0].at);
+  for (const stl::Line& line : program.source.lines)
+    if (const auto* network = std::get_if<stl::NetworkHead>(&line); network && word == "NETWORK" && network->number != 0)
+      numbers.insert(network->number);
+  std::vector<std::string> texts;
+  for (const std::uint32_t number : numbers) texts.push_back(fmt::format("{}", number));
+  return texts;
+}
+
 std::vector<std::string_view> happening_words() {
-  std::vector<std::string_view> words;
+  std::vector<std::string_view> words{"event"};
   for (const Happening& happening : kHappenings) words.push_back(happening.word);
   return words;
 }

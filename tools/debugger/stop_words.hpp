@@ -17,7 +17,7 @@ struct NamedPlace {
   std::string note{};  ///< what is to be said: the line that was named has no instruction
 };
 
-/// `LINE`, `SBR n`, `INT n`, `NETWORK n`. Nothing, and `why`, if there is no such place; `command` is named in it.
+/// `LINE`, `SBR n`, `INT n`, `LBL n`, `NETWORK n`. Nothing, and `why`, if there is no such place; `command` is named in it.
 std::optional<NamedPlace> find_place(const std::vector<std::string>& words, const Program& program, const Listing& listing,
                                      std::string_view command, std::string& why);
 
@@ -25,6 +25,11 @@ std::optional<NamedPlace> find_place(const std::vector<std::string>& words, cons
 /// the place.
 std::optional<StopPoint> find_stop(const std::vector<std::string>& words, const Program& program, const Listing& listing,
                                    std::string& why, std::string& note);
+
+/// The words for places with a number, for completion: `SBR`, `LBL` …
+std::vector<std::string> place_words();
+/// The numbers that the program has of one of them, in their order.
+std::vector<std::string> numbers_of(std::string_view word, const Program& program);
 
 /// The words for happenings, for completion: `received`, `xmt` …
 std::vector<std::string_view> happening_words();

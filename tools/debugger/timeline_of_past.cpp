@@ -8,13 +8,14 @@ namespace {
 class Teller final : public Observer {
  public:
   Teller(const std::shared_ptr<const Program>& program, const std::atomic<bool>* stop_request)
-      : timeline_(program, nullptr), stop_request_(stop_request) {
+      : timeline_(program, nullptr, Timeline::Looks::AtInstructions), stop_request_(stop_request) {
     timeline_.begin();
   }
 
   bool wants_instructions() const override { return true; }
   bool before(std::uint32_t) override { return !(stop_request_ && *stop_request_); }
   void record(const TraceRecord& record) override { timeline_.record(record); }
+  void instruction(const InstructionRecord& record) override { timeline_.instruction(record); }
 
   TimelineReport report() {
     timeline_.end();

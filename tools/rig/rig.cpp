@@ -65,8 +65,8 @@ bool Rig::claim_files(const std::shared_ptr<const Program>& program, std::string
   for (const stl::FurtherFile& file : program->source.further_files) files.reads(file.name);
   files.reads(settings_.input);
   files.links("--pty", settings_.link);
-  const auto trace = [program, all = settings_.trace_instructions](std::ostream& out) {
-    return std::make_unique<TextTrace>(out, program, all);
+  const auto trace = [program, detail = settings_.trace_detail](std::ostream& out) {
+    return std::make_unique<TextTrace>(out, program, detail);
   };
   const auto output = [](std::ostream& out) { return std::make_unique<OutputRecord>(out); };
   return memory_.claim(files, settings_.memory, why) &&

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "interpreter/program/address.hpp"
+#include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/host/written_files.hpp"
 #include "tools/rig/capture_files.hpp"
@@ -26,7 +27,7 @@ struct RigSettings {
   std::uint32_t port = 0;               ///< of the PLC, that the line with everything on it is at
   MemorySettings memory{};              ///< read at power-up, written by finish()
   std::string trace{};
-  bool trace_instructions = false;
+  TraceDetail trace_detail = TraceDetail::Way;
   std::string output{};                 ///< changes of outputs, as CSV
   std::vector<std::string> captures{};  ///< of the line: FILE.vcd, FILE.pcap
   std::string link{};                   ///< a pty's link: nothing is written there, and no output may have its name

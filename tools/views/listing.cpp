@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
@@ -22,48 +21,9 @@ std::string text_of(const stl::NetworkHead& head) {
   return head.comment.empty() ? text : fmt::format("{} //{}", text, head.comment);
 }
 
-std::vector<std::string> routines_of(const Program& program) {
-  std::vector<std::string> routines;
-  std::string routine = "main";
-  for (const Op& op : program.ops) {
-    if (op.instruction->structure == Structure::SubroutineHead) routine = fmt::format("SBR {}", op[0].at);
-    if (op.instruction->structure == Structure::InterruptHead) routine = fmt::format("INT {}", op[0].at);
-    routines.push_back(routine);
-  }
-  return routines;
-}
-
-/// In front of which instructions a NETWORK line stands.
-std::vector<bool> heads_of(const Program& program) {
-  std::vector<bool> heads;
-  bool after_head = false;
-  for (const stl::Line& line : program.source.lines) {
-    if (std::holds_alternative<stl::NetworkHead>(line)) after_head = true;
-    if (std::holds_alternative<stl::Statement>(line)) heads.push_back(std::exchange(after_head, false));
-  }
-  return heads;
-}
-
-/// An LD after a coil or box begins a rung.
-bool begins_rung(const Program& program, std::uint32_t op) {
-  const auto& rung_before = program.ops[op - 1].instruction->rung;
-  return (rung_before.needs_power_flow || rung_before.writes_output) &&
-         program.ops[op].instruction->mnemonic.starts_with("LD");
-}
-
-std::vector<bool> networks_of(const Program& program, const std::vector<std::string>& routines) {
-  std::vector<bool> begins = heads_of(program);
-  begins.resize(program.ops.size());
-  const bool has_heads = std::ranges::find(begins, true) != begins.end();
-  for (std::uint32_t op = 0; op < begins.size(); ++op)
-    if (op == 0 || routines[op] != routines[op - 1] || (!has_heads && begins_rung(program, op))) begins[op] = true;
-  return begins;
-}
-
 }  // namespace
 
-Listing::Listing(const Program& program)
-    : program_(program), routine_(routines_of(program)), begins_network_(networks_of(program, routine_)) {
+Listing::Listing(const Program& program) : program_(program), networks_(program) {
   std::uint32_t op = 0;
   for (const stl::Line& line : program.source.lines) {
     if (const auto* statement = std::get_if<stl::Statement>(&line)) {

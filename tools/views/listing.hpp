@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/program/networks.hpp"
 #include "interpreter/program/program.hpp"
 
 namespace s7200::tools {
@@ -24,11 +25,11 @@ class Listing {
   std::uint32_t last_line() const;
 
   /// `main`, `SBR 51`, `INT 123`
-  const std::string& routine_of(std::uint32_t op) const { return routine_[op]; }
+  const std::string& routine_of(std::uint32_t op) const { return networks_.routine_of(op); }
 
   /// Whether it is the first instruction of a network, or of a routine. A program without NETWORK lines has a network for
   /// each rung.
-  bool begins_network(std::uint32_t op) const { return begins_network_[op]; }
+  bool begins_network(std::uint32_t op) const { return networks_.begins(op); }
 
   /// The instruction with its comment.
   std::string text_of(std::uint32_t op) const;
@@ -46,9 +47,8 @@ class Listing {
   };
 
   const Program& program_;
-  std::vector<std::string> routine_;  ///< by op
-  std::vector<bool> begins_network_;  ///< by op
-  std::vector<Entry> entries_;        ///< the lines that are not blank
+  Networks networks_;
+  std::vector<Entry> entries_;  ///< the lines that are not blank
 };
 
 }  // namespace s7200::tools

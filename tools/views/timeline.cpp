@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <deque>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/ports.hpp"
@@ -23,7 +24,8 @@ constexpr std::size_t kCharacters = 23;  // eight, in it
 constexpr std::size_t kOpenRows = 1000;
 
 bool belong_together(const TimelineRow& a, const TimelineRow& b) {
-  const bool repeats = a.kind != Kind::Transmit && a.kind != Kind::Other;
+  const bool repeats = a.kind != Kind::Transmit && a.kind != Kind::Other && a.kind != Kind::Way &&
+                       a.kind != Kind::Unanswered && (a.kind != Kind::Ignored || a.why == b.why);
   return repeats && a.kind == b.kind && a.port == b.port && a.event == b.event && a.routine == b.routine;
 }
 
@@ -87,7 +89,9 @@ class Timeline::Reader {
       case TraceKind::CharacterReceived:
         return add_characters(r, Kind::Received);
       case TraceKind::CharacterIgnored:
-        return add_characters(r, Kind::Ignored);
+        add_characters(r, Kind::Ignored);
+        rows_.back().why = ignored_because(r);
+        return;
       case TraceKind::CharacterDropped:
         return add_characters(r, Kind::Dropped);
       case TraceKind::CharacterSent:
@@ -112,6 +116,16 @@ class Timeline::Reader {
       default:
         return add(r, Kind::Other, describe(r, program_));
     }
+  }
+
+  /// What the main program did in the scan that ends; the first is how it usually goes.
+  void read_way(Time at, std::string way) {
+    if (!std::exchange(way_known_, true)) return;
+    add({.at = at}, Kind::Way, std::move(way));
+  }
+  void read_unanswered(const TraceRecord& r, TraceReasons::Unanswered unanswered) {
+    add({.at = r.at}, Kind::Unanswered, "no answer to " + characters_text(unanswered.characters));
+    rows_.back().why = std::move(unanswered.decided_by);
   }
 
   TimelineReport report() const {
@@ -201,6 +215,7 @@ class Timeline::Reader {
   ShownRows shown_;
   std::deque<TimelineRow> rows_;  // one that stays where it is
   TimelineReport report_;         // without the rows
+  bool way_known_ = false;
   std::uint64_t scan_ = 0;
   Time scan_begin_ = kNever;
   TimelineRow* serving_ = nullptr;  // null for an interrupt that occurred before the exchange
@@ -247,6 +262,8 @@ std::string what_text(const TimelineRow& row) {
     case Kind::Transmit:
     case Kind::Other:
     case Kind::LeftOut:
+    case Kind::Way:
+    case Kind::Unanswered:
       return row.text;
   }
   return {};
@@ -259,7 +276,7 @@ std::string line_text(const TimelineRow& row) {
 }
 
 std::string remark(const TimelineRow& row) {
-  if (row.kind == Kind::Ignored) return fmt::format("event {} is not attached", kPorts[row.port].received);
+  if (row.kind == Kind::Ignored || row.kind == Kind::Unanswered) return row.why;
   if (row.kind == Kind::Dropped) return "RCV waits for the start of a message";
   if (row.kind == Kind::Lost) return fmt::format("the queue before INT {} was full", row.routine);
   if (row.served == 0) return row.place;
@@ -283,7 +300,7 @@ std::string row_text(Time at, const TimelineRow& row) {
 }
 
 bool is_trouble(const TimelineRow& row) {
-  return row.kind == Kind::Lost || row.kind == Kind::Ignored ||
+  return row.kind == Kind::Lost || row.kind == Kind::Ignored || row.kind == Kind::Unanswered ||
          std::any_of(row.characters.begin(), row.characters.end(),
                      [](const auto& c) { return c.parity_error || c.framing_error; });
 }
@@ -310,20 +327,39 @@ std::string summary(const TimelineReport& report) {
 
 }  // namespace
 
-Timeline::Timeline(std::shared_ptr<const Program> program, TraceSink* next)
-    : program_(std::move(program)), next_(next), reader_(std::make_unique<Reader>(*program_)), reasons_(*program_) {}
+Timeline::Timeline(std::shared_ptr<const Program> program, TraceSink* next, Looks looks)
+    : program_(std::move(program)),
+      next_(next),
+      looks_(looks),
+      reader_(std::make_unique<Reader>(*program_)),
+      reasons_(*program_),
+      path_(*program_, 1) {}
 
 Timeline::~Timeline() = default;
 
 void Timeline::begin() {
   reader_ = std::make_unique<Reader>(*program_);
+  reasons_.forget_instructions();
+  path_.forget();
   looking_ = true;
 }
 
 void Timeline::record(const TraceRecord& record) {
-  if (looking_) reader_->read(record, record.kind == TraceKind::ServiceBegin ? reasons_.held_up_by(record) : "");
+  if (looking_) {
+    reader_->read(record, record.kind == TraceKind::ServiceBegin ? reasons_.held_up_by(record) : "");
+    if (auto unanswered = reasons_.unanswered(record)) reader_->read_unanswered(record, std::move(*unanswered));
+  }
   reasons_.note(record);
+  path_.of(record);
   if (next_) next_->record(record);
+}
+
+void Timeline::instruction(const InstructionRecord& record) {
+  if (looking_ && looks_ == Looks::AtInstructions) {
+    reasons_.note(record);
+    if (std::string way = path_.of(record); !way.empty()) reader_->read_way(record.end, std::move(way));
+  }
+  if (next_wants_instructions()) next_->instruction(record);
 }
 
 TimelineReport Timeline::report() const { return reader_->report(); }
@@ -339,8 +375,8 @@ std::string to_text(const TimelineReport& report, const serial::Exchange& exchan
 }
 
 nlohmann::ordered_json to_json(const TimelineReport& report, const serial::Exchange& exchange) {
-  static constexpr std::string_view kNames[] = {"received", "ignored", "lost",     "event",  "transmit",
-                                                "sent",     "other",   "left out", "dropped"};
+  static constexpr std::string_view kNames[] = {"received", "ignored",  "lost",    "event", "transmit",  "sent",
+                                                "other",    "left out", "dropped", "way",   "unanswered"};
   const auto microseconds = [](Time t) { return static_cast<double>(t) / kMicrosecond; };
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const TimelineRow& row : report.rows) {
@@ -359,6 +395,7 @@ nlohmann::ordered_json to_json(const TimelineReport& report, const serial::Excha
     if (row.more_characters) json["more_characters"] = row.more_characters;
     if (!row.text.empty()) json["text"] = row.text;
     if (!row.place.empty()) json["place"] = row.place;
+    if (!row.why.empty() && !row.served) json["why"] = row.why;
     if (row.served) {
       json["event"] = row.event;
       json["routine"] = row.routine;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "interpreter/program/program.hpp"
+#include "interpreter/trace/program_path.hpp"
 #include "interpreter/trace/trace.hpp"
 #include "interpreter/trace/trace_reasons.hpp"
 #include "serial_sim/peers/requester.hpp"
@@ -15,7 +16,19 @@ namespace s7200::tools {
 
 /// One thing that happened, or several of the same kind in a row.
 struct TimelineRow {
-  enum class Kind : std::uint8_t { Received, Ignored, Lost, Event, Transmit, Sent, Other, LeftOut, Dropped };
+  enum class Kind : std::uint8_t {
+    Received,
+    Ignored,
+    Lost,
+    Event,
+    Transmit,
+    Sent,
+    Other,
+    LeftOut,
+    Dropped,
+    Way,
+    Unanswered
+  };
 
   static constexpr std::size_t kMostCharacters = 4096;
 
@@ -26,13 +39,13 @@ struct TimelineRow {
   std::size_t more_characters = 0;              ///< that are only counted
   std::uint8_t event = 0;                       ///< Received, Lost, Event
   std::uint8_t routine = 0;                     ///< that was attached to it
-  std::string text{};                           ///< Transmit, Other, LeftOut: in words
+  std::string text{};                           ///< Transmit, Other, LeftOut, Way, Unanswered: in words
   std::string place{};                          ///< Transmit: which part of the program did it
 
   /// Services by the interrupt routine.
   std::size_t served = 0;
   Time shortest = kNever, longest = 0, in_all = 0, longest_wait = 0;
-  std::string why{};  ///< of the longest wait: DISI, or other routines
+  std::string why{};  ///< of the longest wait: DISI, or other routines; of Ignored and Unanswered
 };
 
 struct TimelineReport {
@@ -51,7 +64,11 @@ struct TimelineReport {
 /// keeps no more than it shows.
 class Timeline final : public TraceSink {
  public:
-  Timeline(std::shared_ptr<const Program> program, TraceSink* next);
+  /// Which ways the main program takes, and what decides that a frame gets no answer, can be seen only from every
+  /// instruction, and that takes time.
+  enum class Looks : std::uint8_t { AtRecords, AtInstructions };
+
+  Timeline(std::shared_ptr<const Program> program, TraceSink* next, Looks looks = Looks::AtRecords);
   ~Timeline() override;
 
   void begin();
@@ -61,17 +78,23 @@ class Timeline final : public TraceSink {
   TimelineReport report() const;
 
   void record(const TraceRecord& record) override;
-  bool before(std::uint32_t op) override { return !next_ || next_->before(op); }
-  void instruction(const InstructionRecord& record) override { next_->instruction(record); }
-  bool wants_instructions() const override { return next_ && next_->wants_instructions(); }
+  bool before(std::uint32_t op) override { return !next_wants_instructions() || next_->before(op); }
+  void instruction(const InstructionRecord& record) override;
+  bool wants_instructions() const override {
+    return (looking_ && looks_ == Looks::AtInstructions) || next_wants_instructions();
+  }
 
  private:
   class Reader;
 
+  bool next_wants_instructions() const { return next_ && next_->wants_instructions(); }
+
   std::shared_ptr<const Program> program_;
   TraceSink* next_;
+  Looks looks_;
   std::unique_ptr<Reader> reader_;
   TraceReasons reasons_;
+  ProgramPath path_;
   bool looking_ = false;
 };
 

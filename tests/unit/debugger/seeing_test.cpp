@@ -103,6 +103,15 @@ TEST(Seeing, CompletionOffersCommandsAddressesPlacesAndFiles) {
   EXPECT_EQ(offered("step 1"), Words{});
 }
 
+TEST(Seeing, LabelsArePlacesAndAreCompleted) {
+  Session session("LD SM0.0\nJMP 7\nINCW VW0\nLBL 7\nLD SM0.0\nINCW VW2\nLBL 20\nMEND\n");
+  const auto offered = [&](std::string_view line) { return session.debugger->completions(line).candidates; };
+  EXPECT_EQ(offered("until L"), std::vector<std::string>{"LBL"});
+  EXPECT_EQ(offered("until LBL "), (std::vector<std::string>{"7", "20"}));
+  EXPECT_TRUE(has(session("break LBL 7; continue"), ">     4  LBL     7"));
+  EXPECT_EQ(session.error_of("until LBL 8"), "the program has no LBL 8");
+}
+
 TEST(Seeing, ExpectIsAWrongCommandUnlessItHolds) {
   Session session(kNested);
   session("scan 3; expect VW10 = 3 and SM0.0");

@@ -54,5 +54,40 @@ TEST(WorkedExample, FiveCommandsFindWhatDroppedAFrameInTheTip) {
   }
 }
 
+struct Reason {
+  const char* frame;
+  const char* said;
+};
+
+void a_trace_names(const std::shared_ptr<const Program>& program, const Reason& reason) {
+  SCOPED_TRACE(reason.frame);
+  Session session(program);
+  session("continue 2s; trace on");
+  const std::string trace = session(std::string("send ") + reason.frame + "; continue");
+  EXPECT_TRUE(has(trace, reason.said));
+}
+
+TEST(WorkedExample, ATraceNamesWhatDroppedAFrameInOurSlave) {
+  const auto program = test::compile(test::slave_text());
+  for (const Reason& reason :
+       {Reason{"01 03 00 0a 00 01 00 00", "no answer to 8 characters since 2000."},
+        Reason{"01 03 00 0a 00 01 00 00", "JMP 255 in line 141 (LDW= AC0, 0: AC0=16#7B06; NOT)  // a disturbed frame"},
+        Reason{"02 03 00 0a 00 01 crc", ": CRETI in line 662, not taken (LDB= SMB2, VB4095: SMB2=16#02 VB4095=16#01; OB= "},
+        Reason{"01 03p 00 0a 00 01 crc", ": CRETI in line 680, not taken (LDN SM3.0: SM3.0=1; AN V3304.1: V3304.1=0)"},
+        Reason{"01 03 00", "JMP 255 in line 134 (LDW<= VW3300, 3: VW3300=16#0003)  // fewer are not"}})
+    a_trace_names(program, reason);
+  Session session(program);
+  EXPECT_FALSE(has(session("continue 2s; trace on; send 01 03 00 0a 00 01 crc; continue; continue 50ms"), "no answer"));
+}
+
+TEST(WorkedExample, ATraceNamesWhatDroppedAFrameInTheTip) {
+  if (!test::tip41::available()) GTEST_SKIP() << "the tip document is not here";
+  const auto program = test::compile(test::tip41::text());
+  for (const Reason& reason : {Reason{"01 03 00 00 00 01 00 00", "no answer to 8 characters since 2000."},
+                               Reason{"01 03 00 00 00 01 00 00", ": JMP 255 in line "},
+                               Reason{"02 03 00 00 00 01 crc", "(LDB= SMB2, VB4095: SMB2=16#02 VB4095=16#01"}})
+    a_trace_names(program, reason);
+}
+
 }  // namespace
 }  // namespace s7200::tools

@@ -73,7 +73,7 @@ TEST(TextTrace, ReportsOutputsAndErrors) {
 TEST(TextTrace, AnInstructionIsShownWithTheValuesOfItsOperands) {
   Plc plc(kProgram);
   std::ostringstream out;
-  TextTrace trace(out, program_of(kProgram), true);
+  TextTrace trace(out, program_of(kProgram), TraceDetail::Instructions);
   plc.cpu.set_sink(&trace);
   plc.set("VW0", 0x1234);
   plc.set("VD2", 0x0300'0000);  // points nowhere
@@ -88,7 +88,7 @@ TEST(TextTrace, ADoubleWordThatTheProgramUsesAsARealIsAlsoShownAsOne) {
   constexpr std::string_view kReals = "LD SM0.0\nMOVR 1.5, VD0\nMOVD VD0, VD4\nMOVR *VD8, AC1\n+R 0.5, AC1\nMEND\n";
   Plc plc(kReals);
   std::ostringstream out;
-  TextTrace trace(out, program_of(kReals), true);
+  TextTrace trace(out, program_of(kReals), TraceDetail::Instructions);
   plc.cpu.set_sink(&trace);
   plc.set("VD8", 0x0800'0000);  // &VB0
   plc.run_until(800 * us);

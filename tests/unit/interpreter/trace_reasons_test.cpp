@@ -13,7 +13,7 @@ namespace {
 std::string traced(std::string_view stl, std::initializer_list<Time> i00, std::initializer_list<Time> i01 = {}) {
   Plc plc(stl);
   std::ostringstream out;
-  TextTrace trace(out, program_of(stl), false);
+  TextTrace trace(out, program_of(stl), TraceDetail::Way);
   trace.record({.kind = TraceKind::ModeChange, .code = 1});
   plc.cpu.set_sink(&trace);
   std::vector<std::pair<Time, std::string_view>> edges;
@@ -63,9 +63,48 @@ TEST(TraceReasons, AnInterruptBehindAnotherNamesItsRoutine) {
   EXPECT_TRUE(has(traced(program, {2 * ms}, {3 * ms}), ": INT 0 of event 0 until then\n"));
 }
 
-TEST(TraceReasons, AnInterruptThatWaitedForALongInstructionNamesIt) {
+TEST(TraceReasons, AnInterruptThatWaitedForALongInstructionNamesItAndItsDuration) {
   const std::string program = "LD SM0.1\nATCH 0, 0\nENI\nLD SM0.0\nSQRT VD8, VD12\nMEND\n" + std::string(kRoutine);
-  EXPECT_TRUE(has(traced(program, {2 * ms}), ": line 5 was being executed: SQRT    VD8, VD12\n"));
+  EXPECT_TRUE(has(traced(program, {2 * ms}), ": line 5 was being executed for 5 ms: SQRT    VD8, VD12\n"));
+}
+
+TEST(TraceReasons, AnEventThatWaitsForEniSaysSoWhenItOccurs) {
+  const std::string program =
+      "LD SM0.1\nATCH 0, 0\nENI\nLD SM0.0\nDISI\nSQRT VD8, VD12\nENI\nMEND\n" + std::string(kRoutine);
+  EXPECT_TRUE(has(traced(program, {2 * ms}), "occurred, for INT 0; it waits: interrupts are disabled by DISI in line 5\n"));
+}
+
+/// Characters, from 1 ms on; a frame is complete when I0.0 rises, at 10 ms.
+std::string trace_of_frame(std::string_view stl, std::initializer_list<std::uint8_t> bytes) {
+  Plc plc(stl);
+  std::ostringstream out;
+  TextTrace trace(out, program_of(stl), TraceDetail::Way);
+  trace.record({.kind = TraceKind::ModeChange, .code = 1});
+  plc.cpu.set_sink(&trace);
+  Time at = 2 * ms;
+  for (const std::uint8_t byte : bytes) plc.received_at({.byte = byte, .start = at - ms, .end = at}), at += ms;
+  plc.input_at(10 * ms, "I0.0", true);
+  plc.run_until(20 * ms);
+  return out.str();
+}
+
+/// INT 0 stores a character; the main program looks at it when I0.0 is on.
+constexpr std::string_view kJudge =
+    "LD SM0.1\nMOVB 9, SMB30\nATCH 0, 8\nENI\n"                                         // 1
+    "LDN I0.0\nJMP 9\n"                                                                 // 5
+    "LDB= VB1, 16#41 // ours\nJMP 1\nLD SM0.0\nDTCH 8\nATCH 0, 8 // the next\nJMP 9\n"  // 7
+    "LBL 1\nLD SM0.0\nXMT VB0, 0\nLBL 9\nMEND\n"                                        // 13
+    "INT 0\nLD SM0.0\nMOVB SMB2, VB1\nMOVB 1, VB0\nRETI\n";
+
+TEST(TraceReasons, AFrameWithoutAnswerNamesTheLastJumpBeforeItsRoutineIsAttachedAgain) {
+  EXPECT_TRUE(
+      has(trace_of_frame(kJudge, {0x40, 0x42}),
+          "  no answer to 2 characters since 1.000000 ms: JMP 1 in line 8, not taken (LDB= VB1, 16#41: VB1=16#42)\n"));
+}
+
+TEST(TraceReasons, AFrameWithAnAnswerIsNotSaidToHaveNone) {
+  EXPECT_FALSE(has(trace_of_frame(kJudge, {0x41}), "no answer"));
+  EXPECT_FALSE(has(trace_of_frame(kJudge, {}), "no answer"));
 }
 
 TEST(TraceReasons, ACharacterThatNobodyWantedSaysWhy) {

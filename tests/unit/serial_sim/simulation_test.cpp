@@ -1,6 +1,9 @@
 // A simulation ends early when it is asked to, wherever it is.
 #include "serial_sim/system/simulation.hpp"
 
+#include <sstream>
+
+#include "interpreter/trace/text_trace.hpp"
 #include "tests/support/slave_bench.hpp"
 
 namespace s7200::serial {
@@ -73,6 +76,34 @@ TEST(SimulationStop, AsLongAsNoOneAsksNothingChanges) {
     return simulation.snapshot();
   };
   EXPECT_TRUE(state_after(true) == state_after(false));
+}
+
+TEST(SimulationTrace, ATraceWithItsReasonsChangesNothingOfTheRun) {
+  const auto program = test::compile(test::slave_text());
+  const auto state_after = [&](TraceSink* trace) {
+    Simulation simulation(program);
+    simulation.cpu().set_sink(trace);
+    simulation.power_up();
+    simulation.run_until(kSecond);
+    simulation.master_uart().configure(simulation.cpu().state().port[0].format);
+    simulation.host_port().attach(simulation.cpu().state().port[0].format, simulation.time());
+    const HostCharacter character{.byte = 0x55, .format = simulation.cpu().state().port[0].format};
+    for (const std::uint8_t last : Bytes{0x0A, 0x0B, 0x0A}) {
+      simulation.master().start({.frame = to_frame(Bytes{1, 3, 0, 0, 0, 1, 0x84, last})}, simulation.time());
+      simulation.run_until(simulation.time() + 27 * kMillisecond);
+      simulation.host_port().send({&character, 1}, simulation.time());  // while it sends
+      simulation.finish_exchange();
+    }
+    simulation.run_until(simulation.time() + kSecond);
+    return simulation.snapshot();
+  };
+  std::ostringstream out, all;
+  TextTrace trace(out, program, TraceDetail::Way), instructions(all, program, TraceDetail::Instructions);
+  const auto untraced = state_after(nullptr);
+  EXPECT_TRUE(state_after(&trace) == untraced);
+  EXPECT_TRUE(state_after(&instructions) == untraced);
+  for (const char* said : {"main program: ", "no answer to 8 characters", "the receiver is off while the port sends"})
+    EXPECT_NE(out.str().find(said), std::string::npos) << said << '\n' << out.str();
 }
 
 }  // namespace

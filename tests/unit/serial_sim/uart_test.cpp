@@ -518,5 +518,55 @@ TEST(Uart, HearsInNoiseWhatADecoderOfTheWholeHistoryFinds) {
   }
 }
 
+struct Missed final : Uart::Bystander {
+  bool looks() const override { return looking; }
+  void missed(const ReceivedCharacter& character) override { all.push_back(character); }
+  bool looking = true;
+  std::vector<ReceivedCharacter> all;
+};
+
+TEST(Uart, ACharacterThatBeginsWhileTheReceiverIsOffIsToldToABystanderAndToNobodyElse) {
+  Wire wire(k8E1);
+  Missed missed;
+  wire.receiver.set_bystander(&missed);
+  wire.receiver.enable_receiver(false, 0);
+  wire.send_all({0x41, 0x00, 0xFF}, kBit);
+  EXPECT_TRUE(wire.heard.empty());
+  ASSERT_EQ(missed.all.size(), 3U);
+  EXPECT_EQ(missed.all[0], (ReceivedCharacter{.byte = 0x41, .start = kBit, .end = kBit}));
+  EXPECT_EQ(missed.all[1].byte, 0x00);
+  EXPECT_EQ(missed.all[2].byte, 0xFF);
+  missed.looking = false;
+  wire.send(0x41, 50 * kBit);
+  EXPECT_EQ(missed.all.size(), 3U);
+}
+
+TEST(Uart, ACharacterThatIsCutOffBySwitchingTheReceiverOffIsToldWithThatInstant) {
+  Wire wire(k8E1);
+  Missed missed;
+  wire.receiver.set_bystander(&missed);
+  wire.sender.send(0x41, kBit);
+  wire.run_until(4 * kBit);
+  wire.receiver.enable_receiver(false, 4 * kBit);
+  wire.run();
+  EXPECT_TRUE(wire.heard.empty());
+  ASSERT_EQ(missed.all.size(), 1U);
+  EXPECT_EQ(missed.all[0], (ReceivedCharacter{.byte = 0x41, .start = kBit, .end = 4 * kBit}));
+}
+
+TEST(Uart, ItsOwnCharactersAreNotMissedWhileItSends) {
+  Wire wire(k8E1);
+  Missed missed;
+  wire.sender.set_bystander(&missed);  // its receiver is off
+  wire.receiver.enable_receiver(false, 0);
+  wire.send_all({0x41, 0x42});
+  EXPECT_TRUE(missed.all.empty());
+  wire.sender.send(0x55, wire.now + kBit);
+  wire.receiver.send(0x43, wire.now + 3 * kBit);
+  wire.run();
+  ASSERT_EQ(missed.all.size(), 1U) << "only the other one's";
+  EXPECT_EQ(missed.all[0].byte, 0x43);
+}
+
 }  // namespace
 }  // namespace s7200::serial

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/slave_bench.hpp"
@@ -142,6 +144,64 @@ TEST_F(TimelineOf, WhatHappensAfterTheEndIsNotShown) {
   timeline_.end();
   timeline_.record({.at = 2 * kMillisecond, .kind = TraceKind::EventLost, .event = kTimed});
   EXPECT_EQ(timeline_.report().rows.size(), 1U);
+}
+
+/// An exchange with our slave, seen from every instruction.
+TimelineReport report_of(const std::string& frame) {
+  test::SlaveBench bench(test::slave_text());
+  bench.start();
+  Timeline timeline(test::compile(test::slave_text()), nullptr, Timeline::Looks::AtInstructions);
+  bench.cpu().set_sink(&timeline);
+  timeline.begin();
+  bench.send({.frame = serial::parse_hex_frame(frame).frame, .timeout = 100 * kMillisecond});
+  timeline.end();
+  bench.cpu().set_sink(nullptr);
+  return timeline.report();
+}
+
+std::vector<TimelineRow> rows_of(const TimelineReport& report, Kind kind) {
+  std::vector<TimelineRow> rows;
+  std::ranges::copy_if(report.rows, std::back_inserter(rows), [&](const TimelineRow& row) { return row.kind == kind; });
+  return rows;
+}
+
+TEST(TimelineOfInstructions, TheScanThatAnswersShowsItsWay) {
+  const auto ways = rows_of(report_of("0103000a0001a408"), Kind::Way);
+  ASSERT_EQ(ways.size(), 1U);
+  EXPECT_TRUE(ways[0].text.starts_with("main program: network 2, CALL 51 in line ")) << ways[0].text;
+  EXPECT_NE(ways[0].text.find("CALL 63 in line 138, network 7"), std::string::npos) << ways[0].text;
+}
+
+TEST(TimelineOfInstructions, AFrameWithoutAnswerSaysWhatDecidedThat) {
+  const TimelineReport report = report_of("0103000a00010000");
+  const auto rows = rows_of(report, Kind::Unanswered);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].text, "no answer to 8 characters");
+  EXPECT_TRUE(rows[0].why.starts_with("JMP 255 in line 141 (LDW= AC0, 0: ")) << rows[0].why;
+  const auto json = to_json(report, {});
+  EXPECT_TRUE(std::ranges::any_of(json, [](const auto& row) { return row["kind"] == "unanswered" && row.contains("why"); }));
+  EXPECT_TRUE(rows_of(report_of("0103000a0001a408"), Kind::Unanswered).empty());
+}
+
+/// Sends two characters and hears nothing meanwhile.
+TEST(TimelineOfInstructions, ACharacterThatComesWhileThePortSendsSaysThatItsReceiverIsOff) {
+  test::SlaveBench bench(test::slave_text());
+  bench.start();
+  Timeline timeline(test::compile(test::slave_text()), nullptr, Timeline::Looks::AtInstructions);
+  bench.cpu().set_sink(&timeline);
+  timeline.begin();
+  serial::Simulation& simulation = bench.simulation();
+  simulation.master().start({.frame = serial::parse_hex_frame("0103000a0001a408").frame}, simulation.time());
+  while (!bench.state().port[0].transmitting) simulation.run_until(simulation.time() + 100 * kMicrosecond);
+  simulation.host_port().attach({9600, 8, Parity::Even, 1}, simulation.time());
+  const serial::HostCharacter character{.byte = 0x55, .format = {9600, 8, Parity::Even, 1}};
+  simulation.host_port().send({&character, 1}, simulation.time());
+  bench.run_for(20 * kMillisecond);
+  const auto rows = rows_of(timeline.report(), Kind::Ignored);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].why, "the receiver is off while the port sends");
+  EXPECT_EQ(rows[0].characters[0].byte, 0x55);
+  bench.cpu().set_sink(nullptr);
 }
 
 }  // namespace

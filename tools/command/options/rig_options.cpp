@@ -57,11 +57,21 @@ void RigOptions::add_to(CLI::App& app) {
   app.add_flag("--strict", strict_, "end with exit code 1 at the first run-time error of the program");
   add_whole_number(app, "--port", settings_.port, {0, 1}, "the port of the PLC that all this is about", "0");
   faults_.add_to(app);
-  auto* trace = app.add_option("--trace", settings_.trace,
-                               "write interrupts, characters, attachments and errors to FILE; - is standard output")
-                    ->type_name("FILE");
-  app.add_flag("--trace-instructions", settings_.trace_instructions, "trace every instruction too, with its operand values")
-      ->needs(trace);
+  auto* trace =
+      app.add_option(
+             "--trace", settings_.trace,
+             "write interrupts, characters, attachments, errors and the way of the main program to FILE; - is standard "
+             "output")
+          ->type_name("FILE");
+  auto* all = app.add_flag_callback(
+                     "--trace-instructions", [this] { settings_.trace_detail = TraceDetail::Instructions; },
+                     "trace every instruction too, with its operand values")
+                  ->needs(trace);
+  app.add_flag_callback(
+         "--trace-events", [this] { settings_.trace_detail = TraceDetail::Events; },
+         "leave out the way of the main program and why a frame got no answer: faster")
+      ->needs(trace)
+      ->excludes(all);
   app.add_option("--capture", settings_.captures,
                  "write the line to FILE.vcd (levels of rx and tx, for sigrok) or FILE.pcap (frames, for Wireshark); "
                  "repeatable")

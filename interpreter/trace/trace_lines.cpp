@@ -1,0 +1,42 @@
+#include "interpreter/trace/trace_lines.hpp"
+
+#include <fmt/format.h>
+
+namespace s7200 {
+namespace {
+
+std::string text_of(const TraceReasons::Unanswered& frame) {
+  return fmt::format("no answer to {} since {}.{:06} ms{}{}", characters_text(frame.characters), frame.since / kMillisecond,
+                     frame.since % kMillisecond, frame.decided_by.empty() ? "" : ": ", frame.decided_by);
+}
+
+}  // namespace
+
+std::string characters_text(std::size_t count) { return count == 1 ? "a character" : fmt::format("{} characters", count); }
+
+std::vector<TraceLine> TraceLines::of(const TraceRecord& record) {
+  std::vector<TraceLine> lines{{record.at, describe(record, program_) + reasons_.of(record)}};
+  if (const auto unanswered = reasons_.unanswered(record)) lines.push_back({record.at, text_of(*unanswered)});
+  if (std::string way = path_.of(record); !way.empty()) lines.push_back({record.at, std::move(way)});
+  reasons_.note(record);
+  return lines;
+}
+
+std::vector<TraceLine> TraceLines::of(const InstructionRecord& record) {
+  reasons_.note(record);
+  std::string way = path_.of(record);
+  if (way.empty()) return {};
+  return {{record.end, std::move(way)}};
+}
+
+void TraceLines::note(const TraceRecord& record) {
+  reasons_.note(record);
+  path_.forget();
+}
+
+void TraceLines::forget() {
+  reasons_.forget();
+  path_.forget();
+}
+
+}  // namespace s7200

@@ -1,0 +1,46 @@
+// What a trace says besides each instruction: every record with its reason, what got no answer and why, and the way that the
+// main program took.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "interpreter/program/program.hpp"
+#include "interpreter/trace/event_lines.hpp"
+#include "interpreter/trace/program_path.hpp"
+#include "interpreter/trace/trace.hpp"
+#include "interpreter/trace/trace_reasons.hpp"
+
+namespace s7200 {
+
+/// `8 characters`
+std::string characters_text(std::size_t count);
+
+struct TraceLine {
+  Time at = 0;
+  std::string text;  ///< without the time
+};
+
+/// It must be told every record and every instruction, in their order.
+class TraceLines {
+ public:
+  /// The program must live as long as this.
+  explicit TraceLines(const Program& program) : program_(program), reasons_(program), path_(program) {}
+
+  std::vector<TraceLine> of(const TraceRecord& record);
+  std::vector<TraceLine> of(const InstructionRecord& record);
+
+  /// While nobody reads: what is known of the reasons stays true, the way begins anew.
+  void note(const TraceRecord& record);
+  void note(const InstructionRecord& record) { reasons_.note(record); }
+
+  /// What it is told next need not follow on what it was told.
+  void forget();
+
+ private:
+  const Program& program_;
+  TraceReasons reasons_;
+  ProgramPath path_;
+};
+
+}  // namespace s7200

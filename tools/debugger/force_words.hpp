@@ -1,0 +1,25 @@
+// What is to be forced and released, as people write it, and what is forced.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/cpu/cpu.hpp"
+#include "tools/debugger/action.hpp"
+
+namespace s7200::tools {
+
+/// `VW10=5`, `I0.3=1`; nothing, and `why`, if one of them cannot be forced.
+std::optional<Force> force_of(const std::vector<std::string>& assignments, const Cpu& cpu, std::string& why);
+
+/// `VW10`, or `all`; nothing, and `why`, if one of them is not forced.
+std::optional<Unforce> unforce_of(const std::vector<std::string>& places, const Cpu& cpu, std::string& why);
+
+struct Forced {
+  MemoryRange place;
+  std::string value;  ///< `1`, `16#0005 (5)`
+};
+std::vector<Forced> forced_in(const Cpu& cpu);
+
+}  // namespace s7200::tools
