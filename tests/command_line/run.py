@@ -1704,6 +1704,20 @@ class Readme(Case):
 
     TOOLS = ("sigrok-cli", "tshark", "mbpoll", "pytest-3")  # of others; skipped where they are not installed
 
+    def test_the_five_commands_of_the_readme_end_where_its_table_says(self):
+        readme = (SOURCE / "README.md").read_text(encoding="utf-8")
+        commands = re.search(r'send 01 03 00 0a 00 01 00 00; (continue; rwho event 8; .*?)"', readme).group(1)
+        self.assertEqual(commands.count(";"), 4)
+        rows = re.findall(r"^\| `([^`]+)` \(.*?\) \| `([^`]+)` in (\w+ \d+).*? \| `([^`]+)` is (\d)", readme, re.M)
+        self.assertEqual(len(rows), 4)
+        for frame, instruction, routine, contact, value in rows:
+            with self.subTest(frame=frame):
+                out = self.ends(FINE, "debug", SLAVE, "-x", f"continue 100ms; break unanswered; send {frame}; {commands}").stdout
+                place, history = out.split("(s7200) rstep 3\n")[1].split("(s7200) history 9\n")
+                self.assertIn(f"  {routine} ", place.splitlines()[0])
+                self.assertRegex(place, r" > +\d+  " + r" +".join(map(re.escape, instruction.split())))
+                self.assertRegex(history, r" +".join(map(re.escape, contact.split())) + f" +S0={value}")
+
     def test_commands(self):
         missing = [name for name in self.TOOLS if not shutil.which(name)]
         count = 0
