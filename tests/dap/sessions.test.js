@@ -260,6 +260,37 @@ session("frames are sent from the console and by a request", async (s, program) 
   assert.equal((await s.ask("lastInstructions", { count: 5 })).instructions.length, 5);
 });
 
+session("what is forced holds until it is released", async (s, program) => {
+  await s.begin({ program, stopOnEntry: true });
+  await s.stops("stepScan", { count: 3 });
+  assert.deepEqual((await s.ask("force", { values: ["VW20=7", "I0.0=1"] })).forced,
+    [{ name: "I0.0", value: "1" }, { name: "VW20", value: "16#0007 (7)" }]);
+  await s.stops("stepScan", { count: 3 });
+  assert.equal(await s.value("VW20"), "16#0007 (7)");
+  assert.match(await s.refused("force", { values: "M0.3=1" }), /cannot be forced/);
+  assert.deepEqual((await s.ask("unforce", { places: "all" })).forced, []);
+});
+
+session("exception filters: a full queue, and a character that nobody wants", async (s) => {
+  const program = path.join(folder, "deaf.stl");
+  fs.writeFileSync(program, "LD SM0.1\nMOVB 16#09, SMB30\nLD SM0.0\nINCW VW0\nMEND\n");
+  const hit = await s.begin({ program, send: "41" }, () => s.ask("setExceptionBreakpoints", { filters: ["lost"] }));
+  assert.equal(hit.reason, "exception");
+  assert.match(JSON.stringify(await s.ask("exceptionInfo", { threadId: 1 })), /event 8 is not attached/);
+  const full = new Session();
+  try {
+    await full.start();
+    const busy = path.join(folder, "busy.stl");
+    fs.writeFileSync(busy, "LD SM0.1\nMOVB 16#09, SMB30\nATCH 0, 8\nLD SM0.0\nINCW VW0\nMEND\nINT 0\nRETI\n");
+    const lost = await full.begin({ program: busy, send: "01 02 03 04 05 06" },
+      () => full.ask("setExceptionBreakpoints", { filters: ["overflow"] }));
+    assert.equal(lost.reason, "exception");
+    assert.match(JSON.stringify(await full.ask("exceptionInfo", { threadId: 1 })), /LOST: its queue is full/);
+  } finally {
+    await full.end();
+  }
+});
+
 session("the STL status shows each line's last execution", async (s, program) => {
   await s.begin({ program, send: READ }, () => at_int_123(s));
   const { line, source } = await s.frame();

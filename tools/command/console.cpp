@@ -58,7 +58,7 @@ void talk(Debugger& debugger) {
     const auto now = std::chrono::steady_clock::now();
     if (now - drawn < kRefreshEvery) return;
     drawn = now;
-    if (editor.changed())
+    if (editor.take_change())
       fit(screen, debugger);
     else
       screen.draw(debugger.view(Screen::kViewRows - 1));

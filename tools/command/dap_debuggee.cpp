@@ -26,7 +26,7 @@ class RigDebuggee final : public dap::Debuggee {
         program_(std::move(program)),
         rig_(std::move(rig)),
         live_(rig_->simulation(),
-              {1,
+              {options_->bridge.speed(),
                options_->master,
                {[this](const std::string& text) { say_(text); }, [this](const std::string& text) { say_(text); }},
                &stop_request},
@@ -57,7 +57,7 @@ class RigDebuggee final : public dap::Debuggee {
 
  private:
   History::Drive drive() {
-    if (!options_->bridge.bridge()) return {};
+    if (!options_->bridge.realtime()) return {};
     return [this](Time end) { return live_.run_until(end); };
   }
 
@@ -77,6 +77,7 @@ constexpr std::string_view kNoOptions[] = {"program",
                                            "step",
                                            "send",
                                            "sendAfter",
+                                           "station",
                                            "name",
                                            "type",
                                            "request",

@@ -171,8 +171,8 @@ LineEditor::~LineEditor() = default;
 
 void LineEditor::when_changed(std::function<void()> told) { editor_->when_changed = std::move(told); }
 
-bool LineEditor::changed() {
-  const bool now = tools::changed.exchange(false);
+bool LineEditor::take_change() {
+  const bool now = changed.exchange(false);
   if (now) el_resize(editor_->edit);
   return now;
 }

@@ -32,7 +32,7 @@ class LineEditor {
   void when_changed(std::function<void()> told);
 
   /// The same while no line is read: whether it has happened since it was last told or asked.
-  bool changed();
+  bool take_change();
 
   /// Nothing at the end of the input, or when a signal was noted.
   std::optional<std::string> read();

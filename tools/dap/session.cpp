@@ -9,7 +9,6 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/modbus/request.hpp"
-#include "tools/dap/frames.hpp"
 #include "tools/debugger/goals.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/report.hpp"
@@ -125,6 +124,8 @@ const std::vector<Session::Request>& Session::requests() {
                                            {"setVariable", &Session::set_variable},
                                            {"setExpression", &Session::set_expression},
                                            {"sendFrame", &Session::send_frame},
+                                           {"force", &Session::force},
+                                           {"unforce", &Session::unforce},
                                            {"timeline", &Session::timeline},
                                            {"lastWrite", &Session::last_write},
                                            {"reverseToLastWrite", &Session::reverse_to_last_write, true, true},
@@ -237,6 +238,9 @@ void Session::read_wishes(const Json& arguments) {
   const std::string unit = arguments.value("step", "line");
   if (unit != "line" && unit != "network") throw Refused(fmt::format("step: '{}' is not line or network", unit));
   steps_are_networks_ = unit == "network";
+  const auto station = arguments.value("station", std::int64_t{1});
+  if (station < 0 || station > 255) throw Refused(fmt::format("station: {} is not from 0 to 255", station));
+  station_ = static_cast<std::uint8_t>(station);
   read_frames(arguments);
 }
 
@@ -263,7 +267,7 @@ void Session::read_frames(const Json& arguments) {
   const Json wanted = arguments.value("send", Json::array());
   frames_.clear();
   for (const Json& frame : wanted.is_array() ? wanted : Json::array({wanted}))
-    frames_.push_back(read_frame(frame.get<std::string>()));
+    frames_.push_back(frame_of(frame.get<std::string>()));
   const std::string after = arguments.value("sendAfter", "");
   const auto time = after.empty() ? std::optional(kSendAfter) : parse_duration(after);
   if (!time) throw Refused(fmt::format("sendAfter: '{}' is not a duration; write for example 250ms", stl::shortened(after)));

@@ -85,6 +85,7 @@ class Session {
   void read_wishes(const Json& arguments);
   void begin(std::shared_ptr<Debuggee> debuggee);
   void read_frames(const Json& arguments);
+  serial::Frame frame_of(const std::string& text) const;
   void start();
   void end_debuggee();
   void leave();
@@ -175,11 +176,14 @@ class Session {
 
   // What the protocol has no requests for (session_extras.cpp).
   Json send_frame(const Json& arguments);
+  Json force(const Json& arguments);
+  Json unforce(const Json& arguments);
   Json timeline(const Json& arguments);
   Json last_write(const Json& arguments);
   Json reverse_to_last_write(const Json& arguments);
   Json last_instructions(const Json& arguments);
   Json stl_status(const Json& arguments);
+  Json forced() const;
   Json console_command(const std::string& line);
   struct Written {
     Moment moment;
@@ -217,6 +221,7 @@ class Session {
   bool stop_on_entry_ = false, no_debug_ = false, steps_are_networks_ = false;
   std::vector<serial::Frame> frames_;  ///< to be sent, as the launch asks for
   std::size_t frames_sent_ = 0;
+  std::uint8_t station_ = 1;  ///< of requests that name none
   Time send_after_ = 0;
   bool captures_end_ = false;  ///< has been said
 

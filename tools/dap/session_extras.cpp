@@ -2,21 +2,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <sstream>
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
-#include "serial_sim/modbus/crc.hpp"
-#include "serial_sim/modbus/request.hpp"
-#include "tools/dap/frames.hpp"
 #include "tools/dap/session.hpp"
 #include "tools/debugger/attachment.hpp"
+#include "tools/debugger/force_words.hpp"
+#include "tools/debugger/frame_words.hpp"
 #include "tools/debugger/last_executions.hpp"
 #include "tools/debugger/last_write.hpp"
 #include "tools/debugger/timeline_of_past.hpp"
 #include "tools/debugger/words.hpp"
+#include "tools/views/execution_text.hpp"
 #include "tools/views/machine_text.hpp"
-#include "tools/views/text_frame.hpp"
 #include "tools/views/timeline.hpp"
 
 namespace s7200::tools::dap {
@@ -26,33 +27,35 @@ constexpr std::string_view kHelp =
     "An expression in STL terms shows its value: VW100, VB0:16, *VD3570:word, VW2 * 2 + 1, M31.7 and VW3300 > 8.\n"
     "set ADDRESS=VALUE      writes memory; I addresses are the input points\n"
     "send HEX… | 'TEXT' [crc]  puts a frame on the line from now on\n"
+    "send read 40011:2 | write 00003=on [station n]  a Modbus request\n"
+    "force [ADDRESS=VALUE…]  holds values across scans; alone lists what is forced\n"
+    "unforce ADDRESS… | all  releases them\n"
     "who ADDRESS | event N  the instruction that wrote an address last, or attached an event\n"
     "history [n]            the last 10 instructions before now, or n\n"
     "timeline               what the CPU did since the last request began\n";
 
-std::string instruction_text(const InstructionRecord& record, const Program& program) {
-  const std::string& comment = program.statement(record.op).comment;
-  return describe(record, program) + (comment.empty() ? "" : "  //" + stl::printable(comment));
+/// A text with blanks between its words, or a list of them; `VW10 = 5` is one.
+std::vector<std::string> words_in(const Json& arguments, const char* key) {
+  const Json given = arguments.value(key, Json::array());
+  std::vector<std::string> words;
+  for (const Json& text : given.is_array() ? given : Json::array({given})) {
+    std::istringstream parts(text.get<std::string>());
+    words.insert(words.end(), std::istream_iterator<std::string>(parts), {});
+  }
+  return assignments_of(words);
 }
 
 }  // namespace
 
-serial::Frame read_frame(const std::string& text) {
-  std::string_view bytes = stl::trim(text);
-  const bool crc = lower_case(bytes).ends_with(" crc");
-  if (crc) bytes = stl::trim(bytes.substr(0, bytes.size() - 4));
-  serial::ParsedFrame parsed = parse_hex_or_quoted(bytes);
-  if (!parsed.ok() || parsed.frame.empty())
-    throw Refused(fmt::format("'{}': {}", stl::shortened(text),
-                              parsed.errors.empty()
-                                  ? "a frame in hex or in quotation marks, for example 01 03 00 0a 00 01 crc"
-                                  : parsed.errors[0].message));
-  if (crc) modbus::append_crc(parsed.frame);
-  return parsed.frame;
+serial::Frame Session::frame_of(const std::string& text) const {
+  std::string why;
+  const auto frame = parse_frame(text, station_, why);
+  if (!frame) throw Refused(fmt::format("'{}': {}", stl::shortened(text), why));
+  return *frame;
 }
 
 Json Session::send_frame(const Json& arguments) {
-  const serial::Frame frame = read_frame(arguments.at("frame").get<std::string>());
+  const serial::Frame frame = frame_of(arguments.at("frame").get<std::string>());
   serial::Simulation& simulation = debuggee_->simulation();
   const SerialFormat format = debuggee_->master().over(simulation.port_format());
   if (serial::has_wrong_parity(frame) && format.parity == Parity::None)
@@ -65,6 +68,39 @@ Json Session::send_frame(const Json& arguments) {
   print(text);
   return {{"frame", serial::to_hex(frame)}};
 }
+
+// --- force ---
+
+Json Session::forced() const {
+  Json all = Json::array();
+  std::string text;
+  for (const Forced& one : forced_in(cpu())) {
+    all.push_back({{"name", one.place.name_of(0)}, {"value", one.value}});
+    text += fmt::format("{:<8} {}\n", one.place.name_of(0), one.value);
+  }
+  return {{"forced", all}, {"text", text.empty() ? "nothing is forced" : text}};
+}
+
+Json Session::force(const Json& arguments) {
+  const auto values = words_in(arguments, "values");
+  std::string why;
+  auto force = force_of(values, cpu(), why);
+  if (!force) throw Refused(why);
+  if (!values.empty()) act(std::move(*force));
+  return forced();
+}
+
+Json Session::unforce(const Json& arguments) {
+  const auto places = words_in(arguments, "places");
+  if (places.empty()) throw Refused("unforce: 'places' is missing: addresses that are forced, or all");
+  std::string why;
+  auto unforce = unforce_of(places, cpu(), why);
+  if (!unforce) throw Refused(why);
+  if (!unforce->places.empty()) act(std::move(*unforce));
+  return forced();
+}
+
+// --- timeline ---
 
 /// Of the last exchange, unless `from` names an earlier moment.
 Json Session::timeline(const Json& arguments) {
@@ -87,7 +123,7 @@ Session::Written Session::find_writer(const std::string& expression) {
   const Program& program = cpu().program();
   History& history = debuggee_->history();
   const auto body_of = [&](const InstructionRecord& by, const std::string& text) {
-    Json body{{"text", text}, {"instruction", instruction_text(by, program)}, {"routine", listing_->routine_of(by.op)}};
+    Json body{{"text", text}, {"instruction", execution_text(by, program)}, {"routine", listing_->routine_of(by.op)}};
     body.update(client_place(by.op));
     return body;
   };
@@ -101,7 +137,7 @@ Session::Written Session::find_writer(const std::string& expression) {
     const LastAttachment& found = *search.attachment;
     return {found.moment,
             body_of(found.by, fmt::format("{}  {}\n  by {} {}", moment_text(found.what.at), describe(found.what, program),
-                                          listing_->routine_of(found.by.op), instruction_text(found.by, program)))};
+                                          listing_->routine_of(found.by.op), execution_text(found.by, program)))};
   }
   const MemoryRange range = range_for(expression);
   const WriteSearch search = find_last_write(debuggee_->simulation(), history, range, settings_.stop_request);
@@ -113,7 +149,7 @@ Session::Written Session::find_writer(const std::string& expression) {
   if (write.by)
     return {write.moment,
             body_of(*write.by, text + fmt::format("  by {} {}{}", listing_->routine_of(write.by->op),
-                                                  instruction_text(*write.by, program),
+                                                  execution_text(*write.by, program),
                                                   write.in_interrupt ? ", serving " + event_text(write.event) : ""))};
   text += write.action ? fmt::format("  by '{}', from outside", describe(history.actions()[*write.action]))
                        : "  by the system, between two instructions";
@@ -141,7 +177,7 @@ Json Session::last_instructions(const Json& arguments) {
        tools::last_instructions(debuggee_->history(), static_cast<std::size_t>(count), settings_.stop_request)) {
     Json one{{"time", clock_text(record.at)},
              {"routine", listing_->routine_of(record.op)},
-             {"text", instruction_text(record, cpu().program())}};
+             {"text", execution_text(record, cpu().program())}};
     one.update(client_place(record.op));
     list.push_back(std::move(one));
   }
@@ -182,6 +218,9 @@ Json Session::console_command(const std::string& line) {
   if (word == "send") {
     send_frame({{"frame", rest}});
     return says("");
+  }
+  if (word == "force" || word == "unforce") {
+    return says((word == "force" ? force({{"values", rest}}) : unforce({{"places", rest}}))["text"]);
   }
   if (word == "timeline") return says(timeline(Json::object())["text"]);
   if (word == "history") {

@@ -35,7 +35,7 @@ std::string number_text(const Value& value) {
   return value.real ? fmt::format("{:.7g}", value.number) : fmt::format("{:.0f}", value.number);
 }
 
-constexpr std::string_view kCommands[] = {"set", "send", "who", "history", "timeline", "help"};
+constexpr std::string_view kCommands[] = {"set", "send", "force", "unforce", "who", "history", "timeline", "help"};
 constexpr std::string_view kForms[] = {"VB", "VW", "VD", "MB", "MW", "MD", "IB", "IW", "QB", "QW", "SMB", "SMW", "AC", "LB"};
 
 }  // namespace

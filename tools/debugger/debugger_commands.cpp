@@ -9,6 +9,7 @@
 #include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "tools/debugger/debugger.hpp"
+#include "tools/debugger/frame_words.hpp"
 #include "tools/debugger/goals.hpp"
 #include "tools/debugger/stop_words.hpp"
 #include "tools/views/machine_text.hpp"
@@ -154,7 +155,8 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        &Debugger::force},
       {"unforce", "", "unforce ADDRESS… | all", "release what is forced",
        "Inputs follow their terminals again, outputs their image; memory keeps what it has.", &Debugger::unforce},
-      {"send", "", "send HEX… | 'TEXT' [crc]", "put a frame on the line from now on; crc appends the Modbus CRC",
+      {"send", "", "send HEX… | 'TEXT' [crc] | read ADDRESS[:COUNT] | write ADDRESS=VALUE… [station n]",
+       "put a frame on the line from now on; crc appends the Modbus CRC",
        "p after a byte sends it with wrong parity. TEXT is ASCII, with \\r \\n \\t \\\\ \\' and \\xHH. 'continue' runs "
        "while it "
        "arrives and stops when the answer is complete.",
@@ -392,28 +394,24 @@ Debugger::Error Debugger::input(const Arguments& arguments) {
 }
 
 Debugger::Error Debugger::send(const Arguments& arguments) {
-  Arguments words = arguments;
-  const bool crc = !words.empty() && lower_case(words.back()) == "crc";
-  if (crc) words.pop_back();
-  if (words.empty())
+  constexpr std::uint8_t kStation = 1;  // unless another one is named
+  if (arguments.empty() || (arguments.size() == 1 && lower_case(arguments[0]) == "crc"))
     return expects("send",
-                   "a frame in hex or text in quotation marks, for example: send 01 03 00 00 00 02 crc, or send 'HELLO\\r'");
-  serial::ParsedFrame parsed = parse_hex_or_quoted(joined(words));
-  if (!parsed.ok()) {
-    const serial::FrameError& error = parsed.errors[0];
-    return fmt::format("send {}: column {}: {}", joined(words), error.column, error.message);
-  }
-  if (crc) modbus::append_crc(parsed.frame);
+                   "a frame in hex, text in quotation marks, or a request, for example: send 01 03 00 00 00 02 crc, send "
+                   "'HELLO\\r', or send read 40011:2");
+  std::string why;
+  const auto frame = parse_frame(joined(arguments), kStation, why);
+  if (!frame) return fmt::format("send {}: {}", joined(arguments), why);
   const SerialFormat format = options_.master.over(simulation_.port_format());
-  if (serial::has_wrong_parity(parsed.frame) && format.parity == Parity::None)
+  if (serial::has_wrong_parity(*frame) && format.parity == Parity::None)
     return "send: a byte with wrong parity (p) needs a format with parity";
   if (simulation_.master().busy()) {
     out_ << "the last frame is still under way or waiting for its answer; 'continue' runs to its end\n";
     return {};
   }
-  act(SendFrame{format, options_.master.request(parsed.frame)});
-  const std::string text = request_text(serial::bytes_of(parsed.frame));
-  out_ << fmt::format("on the line from now on: {}{} ({})\n", serial::to_hex(parsed.frame), text.empty() ? "" : "  " + text,
+  act(SendFrame{format, options_.master.request(*frame)});
+  const std::string text = request_text(serial::bytes_of(*frame));
+  out_ << fmt::format("on the line from now on: {}{} ({})\n", serial::to_hex(*frame), text.empty() ? "" : "  " + text,
                       format_text(format));
   if (!simulation_.freeport().active)
     out_ << fmt::format("port {} is not in Freeport mode: the program will not hear it\n", simulation_.port());

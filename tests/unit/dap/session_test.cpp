@@ -621,6 +621,56 @@ TEST(DapSession, TheConsoleHasWordsForWhatTheEditorHasNone) {
   EXPECT_EQ(editor.line(), 18);
 }
 
+TEST(DapSession, WhatIsForcedHoldsAcrossScansUntilItIsReleased) {
+  Editor editor(kNested);
+  editor.begin();
+  const Json forced = editor("force", {{"values", {"VW10=7", "I0.0=1"}}})["forced"];
+  EXPECT_EQ(forced[0], (Json{{"name", "I0.0"}, {"value", "1"}})) << forced;
+  editor("stepScan", {{"threadId", 1}, {"count", 3}});
+  EXPECT_EQ(editor.value("VW10"), "16#0007 (7)");
+  EXPECT_EQ(editor("force")["forced"].size(), 2U);
+  EXPECT_TRUE(has(editor.error_of("force", {{"values", {"M0.3=1"}}}), "'M0.3=1' cannot be forced"));
+  EXPECT_TRUE(has(editor.error_of("unforce", {{"places", {"VW12"}}}), "VW12 is not forced"));
+  EXPECT_TRUE(editor("unforce", {{"places", {"all"}}})["forced"].empty());
+  const auto console = [&](const std::string& line) {
+    return editor("evaluate", {{"expression", line}, {"context", "repl"}})["result"].get<std::string>();
+  };
+  EXPECT_EQ(console("force VW10 = 5"), "VW10     16#0005 (5)\n");
+  EXPECT_EQ(console("unforce all"), "nothing is forced");
+  editor("stepScan", {{"threadId", 1}, {"count", 2}});
+  EXPECT_EQ(editor.value("VW10"), "16#0007 (7)") << "5, and two scans more";
+}
+
+TEST(DapSession, RequestsByNameGoToTheStationOfTheLaunchUnlessTheyNameOne) {
+  Editor editor("LD SM0.1\nMOVB 16#49, SMB30\nMEND\n");
+  editor("initialize");
+  EXPECT_TRUE(has(editor.error_of("launch", {{"station", 300}}), "300 is not from 0 to 255"));
+  editor("launch", {{"stopOnEntry", true}, {"station", 7}});
+  editor("configurationDone");
+  editor("stepScan", {{"threadId", 1}, {"count", 3}});
+  EXPECT_EQ(editor("sendFrame", {{"frame", "read 40011:2"}})["frame"], "07 03 00 0a 00 02 e4 6f");
+  EXPECT_TRUE(has(editor.error_of("sendFrame", {{"frame", "read 11:2"}}), "'read 11:2': "));
+}
+
+/// The second of two characters comes before the routine of the first has begun, and the queue holds one.
+TEST(DapSession, QueueOverflowAndLostCharactersStopByTheirFilters) {
+  Editor overflow("LD SM0.1\nMOVB 16#09, SMB30\nATCH 0, 8\nLD SM0.0\nINCW VW0\nMEND\nINT 0\nRETI\n");
+  overflow("initialize");
+  overflow("launch", {{"send", "01 02 03 04 05 06"}, {"sendAfter", "100ms"}});
+  overflow("setExceptionBreakpoints", {{"filters", Json::array({"overflow"})}});
+  overflow("configurationDone");
+  EXPECT_EQ(overflow.stopped(), "exception");
+  EXPECT_TRUE(has(overflow("exceptionInfo", {{"threadId", 1}}).dump(), "event 8 (port 0: character received) LOST"));
+
+  Editor lost("LD SM0.1\nMOVB 16#09, SMB30\nLD SM0.0\nINCW VW0\nMEND\n");
+  lost("initialize");
+  lost("launch", {{"send", "41"}, {"sendAfter", "100ms"}});
+  lost("setExceptionBreakpoints", {{"filters", Json::array({"lost"})}});
+  lost("configurationDone");
+  EXPECT_EQ(lost.stopped(), "exception");
+  EXPECT_TRUE(has(lost("exceptionInfo", {{"threadId", 1}}).dump(), "ignored  41: event 8 is not attached"));
+}
+
 TEST(DapSession, TheStatusHasWhatEachLineDidLast) {
   Editor editor(kNested);
   editor.begin();

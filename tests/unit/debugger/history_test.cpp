@@ -10,7 +10,9 @@
 
 #include "serial_sim/modbus/crc.hpp"
 #include "tests/support/slave_bench.hpp"
+#include "tools/debugger/goals.hpp"
 #include "tools/debugger/last_write.hpp"
+#include "tools/debugger/stepper.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -147,6 +149,54 @@ TEST(History, RandomWalksForwardsAndBackwardsStandWhereAPlainRunStands) {
     session.run_to(next.instructions);  // plays what has run, as 'continue' does
     if (session.history->now() != next) continue;
     ASSERT_TRUE(session.simulation.snapshot() == state_then) << "walk " << i << " on to " << next.instructions;
+  }
+}
+
+/// Of a run that only goes forward, at a moment of the session.
+Snapshot plain_state_at(const std::shared_ptr<const Program>& program, const Moment& moment) {
+  Plain plain(program);
+  for (std::size_t i = 0; i < moment.actions; ++i) {
+    plain.run_to(deeds()[i].first);
+    perform(deeds()[i].second, plain.simulation);
+  }
+  plain.run_to(moment.instructions);
+  return plain.simulation.snapshot();
+}
+
+/// S7200_WALKS sets how many steps.
+TEST(History, RandomWalksOfStepsInBothDirectionsStandWhereAPlainRunStands) {
+  const char* const asked = std::getenv("S7200_WALKS");
+  const int walks = asked ? std::atoi(asked) : 500;
+  const auto program = slave();
+  Recorded session(program, {.interval = 10 * kMillisecond});
+  session.live_through_it();
+  Stepper stepper(session.simulation, *session.history, nullptr);
+  const Cpu& cpu = session.simulation.cpu();
+  std::mt19937 chance(12);
+  session.history->go_to(Time{100 * kMillisecond});
+  for (int i = 0; i < walks; ++i) {
+    const auto which = chance() % 8, count = 1 + chance() % 200;
+    const bool ends_soon = session.history->now().instructions + 1000 > kEnd;
+    const auto run = [&](const Stepper::Goal& goal) { stepper.run(goal, kNever, false); };
+    if (which == 0 || ends_soon)
+      stepper.run_back(goal::back_instruction(), ends_soon ? 2000 : count, false);
+    else if (which == 1)
+      stepper.run_back(goal::back_over(cpu.state()), count, false);
+    else if (which == 2)
+      stepper.run_back(goal::back_scan(), 1 + count % 3, false);
+    else if (which == 3 && goal::is_in_routine(cpu.state()))
+      stepper.run_back(goal::back_out(cpu.state()), 1, false);
+    else if (which == 4)
+      run(goal::over(cpu.state()));
+    else if (which == 5)
+      run(goal::scan(cpu.state(), 1 + count % 3));
+    else if (which == 6 && goal::is_in_routine(cpu.state()))
+      run(goal::out(cpu.state()));
+    else
+      run(goal::instructions(count));
+    const Moment now = session.history->now();
+    ASSERT_TRUE(session.simulation.snapshot() == plain_state_at(program, now))
+        << "walk " << i << " in front of instruction " << now.instructions;
   }
 }
 

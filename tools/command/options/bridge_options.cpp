@@ -35,7 +35,7 @@ void BridgeOptions::add_bridges(CLI::App& app) {
   add("--device", device_, "DEVICE", "a serial device of this computer, set as the program sets its port");
 }
 
-void BridgeOptions::add_to(CLI::App& app) {
+void BridgeOptions::add_pace(CLI::App& app) {
   app.add_flag("--realtime", realtime_, "as fast as the clock; with a bridge that is so of itself");
   add_real_number(
       app, "--speed",
@@ -44,6 +44,10 @@ void BridgeOptions::add_to(CLI::App& app) {
         speed_given_ = true;
       },
       {0.001, 1000}, "how many times as fast as the clock, for example 20 or 0.5, with a bridge too", "1");
+}
+
+void BridgeOptions::add_to(CLI::App& app) {
+  add_pace(app);
   add_bridges(app);
   add_line_options(app, line_, "the program's; with --pty its client's");
   add_duration(app, "--timeout", timeout_, "how long --modbus-tcp and --rtu-over-tcp wait for an answer to start [400ms]");

@@ -20,6 +20,9 @@ class BridgeOptions {
  public:
   void add_to(CLI::App& app);
 
+  /// Whether and how fast the clock is followed.
+  void add_pace(CLI::App& app);
+
   /// The bridges alone; set_line() says how the line is set.
   void add_bridges(CLI::App& app);
   void set_line(const serial::LineSettings& line) { line_ = line; }

@@ -13,6 +13,7 @@ void DebuggeeOptions::add_program_to(CLI::App& app) {
 
 void DebuggeeOptions::add_plant_to(CLI::App& app) {
   add_master_options(app, master);
+  bridge.add_pace(app);
   bridge.add_bridges(app);
   rig.add_to(app);
 }

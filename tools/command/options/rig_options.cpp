@@ -60,8 +60,8 @@ void RigOptions::add_to(CLI::App& app) {
   auto* trace =
       app.add_option(
              "--trace", settings_.trace,
-             "write interrupts, characters, attachments, errors and the way of the main program to FILE; - is standard "
-             "output")
+             "write interrupts, characters, attachments, errors, and which way the main program takes, to FILE; - is "
+             "standard output")
           ->type_name("FILE");
   auto* all = app.add_flag_callback(
                      "--trace-instructions", [this] { settings_.trace_detail = TraceDetail::Instructions; },
