@@ -5,8 +5,6 @@
 namespace s7200::clock {
 namespace {
 
-constexpr std::uint32_t kBufferBytes = 8;
-
 std::uint8_t to_bcd(std::uint8_t value) { return static_cast<std::uint8_t>(value / 10 << 4 | value % 10); }
 std::uint8_t from_bcd(std::uint8_t bcd) { return static_cast<std::uint8_t>((bcd >> 4) * 10 + (bcd & 15)); }
 bool is_bcd(std::uint8_t byte) { return (byte & 15) <= 9 && byte >> 4 <= 9; }
@@ -49,20 +47,29 @@ Time next_second(const Core& core) {
   return begin + ((core.s.time - begin) / kSecond + 1) * kSecond;
 }
 
-void read(Core& core, std::uint32_t buffer) {
-  if (!core.in_area(buffer, kBufferBytes)) return core.run_error(RunError::OperandRange);
+Bcd bcd_now(const Core& core) {
   const ClockTime t = now(core);
-  const std::uint8_t bytes[kBufferBytes] = {
-      to_bcd(t.year), to_bcd(t.month), to_bcd(t.day), to_bcd(t.hour), to_bcd(t.minute), to_bcd(t.second), 0, t.weekday};
-  std::copy_n(bytes, kBufferBytes, core.s.image.begin() + buffer);
+  return {to_bcd(t.year), to_bcd(t.month), to_bcd(t.day), to_bcd(t.hour), to_bcd(t.minute), to_bcd(t.second), 0, t.weekday};
+}
+
+bool set_bcd(Core& core, const Bcd& b) {
+  if (!std::all_of(b.begin(), b.end(), is_bcd)) return false;
+  set(core,
+      {from_bcd(b[0]), from_bcd(b[1]), from_bcd(b[2]), from_bcd(b[3]), from_bcd(b[4]), from_bcd(b[5]), from_bcd(b[7])});
+  return true;
+}
+
+void read(Core& core, std::uint32_t buffer) {
+  const Bcd bytes = bcd_now(core);
+  if (!core.in_area(buffer, bytes.size())) return core.run_error(RunError::OperandRange);
+  std::copy(bytes.begin(), bytes.end(), core.s.image.begin() + buffer);
 }
 
 void write(Core& core, std::uint32_t buffer) {
-  if (!core.in_area(buffer, kBufferBytes)) return core.run_error(RunError::OperandRange);
-  const std::uint8_t* b = &core.s.image[buffer];
-  if (!std::all_of(b, b + kBufferBytes, is_bcd)) return core.run_error(RunError::Clock);
-  set(core,
-      {from_bcd(b[0]), from_bcd(b[1]), from_bcd(b[2]), from_bcd(b[3]), from_bcd(b[4]), from_bcd(b[5]), from_bcd(b[7])});
+  Bcd bytes{};
+  if (!core.in_area(buffer, bytes.size())) return core.run_error(RunError::OperandRange);
+  std::copy_n(core.s.image.begin() + buffer, bytes.size(), bytes.begin());
+  if (!set_bcd(core, bytes)) core.run_error(RunError::Clock);
 }
 
 /// The clock has run on while power was off.

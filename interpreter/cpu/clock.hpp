@@ -9,9 +9,17 @@
 // [Clock.BytesThatAreNotBcdAre0007AndLeaveTheClockAlone]
 #pragma once
 
+#include <array>
+
 #include "interpreter/cpu/core.hpp"
 
 namespace s7200::clock {
+
+/// The eight bytes of TODR and TODW.
+using Bcd = std::array<std::uint8_t, 8>;
+Bcd bcd_now(const Core& core);
+/// False for a byte that is not BCD; the clock is left alone then.
+bool set_bcd(Core& core, const Bcd& to);
 
 void set(Core& core, const ClockTime& to);
 ClockTime now(const Core& core);

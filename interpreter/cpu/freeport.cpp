@@ -1,7 +1,10 @@
 #include "interpreter/cpu/freeport.hpp"
 
+#include <utility>
+
 #include "interpreter/cpu/interrupts.hpp"
 #include "interpreter/cpu/message_receiver.hpp"
+#include "interpreter/cpu/ppi.hpp"
 
 namespace s7200 {
 namespace freeport {
@@ -22,11 +25,15 @@ SerialFormat format_of(std::uint8_t control, const CpuModel& model) {
 void take_control(Core& core, std::uint8_t number, std::uint32_t op) {
   Freeport& port = core.s.port[number];
   port.control = core.s.image[kPorts[number].control];
-  port.active = is_freeport(port.control);
+  const bool was_active = std::exchange(port.active, is_freeport(port.control));
   if (!port.active) message_receiver::abandon(core, number);
   port.format = format_of(port.control, core.model());
-  core.port(number).configure(port.format);
-  core.port(number).enable_receiver(port.active && !port.transmitting, core.s.time);
+  if (port.active) {
+    core.port(number).configure(port.format);
+    core.port(number).enable_receiver(!port.transmitting, core.s.time);
+  } else if (was_active && !port.transmitting) {
+    ppi::begin(core, number, core.s.time);
+  }
   core.trace({.at = core.s.time, .kind = TraceKind::PortControl, .byte = port.control, .port = number, .op = op});
   core.attend();
 }
@@ -41,8 +48,12 @@ void control_written(Core& core, std::uint8_t number, std::uint8_t before) {
   take_control(core, number, core.loop.op);
 }
 
+/// Whatever is still on the wire leaves first.
 void send_next_character(Core& core, std::uint8_t number, Time at) {
   Freeport& port = core.s.port[number];
+  if (port.on_wire != OnWire::Nothing) return;
+  port.on_wire = OnWire::Xmt;
+  if (port.sending_break) return core.port(number).send_break(kBreakBits, at);
   port.on_line = core.s.image[port.buffer];
   core.port(number).send(port.on_line, at);
   ++port.buffer;
@@ -61,7 +72,8 @@ ControlBytes control_bytes(const Core& core) {
 
 void trace_character(const Core& core, std::uint8_t number, const ReceivedCharacter& character, TraceKind kind) {
   const Freeport& port = core.s.port[number];
-  const int why = kind != TraceKind::CharacterIgnored ? 0 : !port.active ? 1 : port.transmitting ? 2 : 0;
+  const bool sends = port.transmitting || core.s.ppi[number].sending != 0;
+  const int why = kind != TraceKind::CharacterIgnored ? 0 : sends ? 2 : !port.active ? 1 : 0;
   core.trace({.at = character.end,
               .kind = kind,
               .byte = character.byte,
@@ -93,30 +105,33 @@ void transmit(Core& core, std::uint8_t number, std::uint32_t table) {
   core.port(number).enable_receiver(false, core.s.time);
   core.trace({.at = core.s.time, .kind = TraceKind::Transmit, .port = number, .op = core.loop.op, .count = count});
   port.sending_break = count == 0;
-  if (port.sending_break)
-    core.port(number).send_break(kBreakBits, core.s.time);
-  else
-    send_next_character(core, number, core.s.time);
+  send_next_character(core, number, core.s.time);
   core.attend();
 }
 
 void character_sent(Core& core, std::uint8_t number, Time at) {
   Freeport& port = core.s.port[number];
-  if (!port.transmitting) return;
-  if (!port.sending_break) core.trace({.at = at, .kind = TraceKind::CharacterSent, .byte = port.on_line, .port = number});
-  if (port.left != 0) return send_next_character(core, number, at);
+  const OnWire sent = std::exchange(port.on_wire, OnWire::Nothing);
+  if (!port.transmitting) return port.active ? void() : ppi::character_sent(core, number, at);
+  const bool before_the_first = sent != OnWire::Xmt;
+  if (!port.sending_break && !before_the_first)
+    core.trace({.at = at, .kind = TraceKind::CharacterSent, .byte = port.on_line, .port = number});
+  if (port.left != 0 || before_the_first) return send_next_character(core, number, at);
   port.transmitting = false;
   core.put_mask(sm::kInterruptStatus, kPorts[number].idle, true);
-  core.port(number).enable_receiver(port.active, at);
   core.trace({.at = at, .kind = TraceKind::TransmitEnd, .port = number});
+  if (port.active)
+    core.port(number).enable_receiver(true, at);
+  else
+    ppi::begin(core, number, at);
   interrupts::occurred(core, kPorts[number].sent, at);
 }
 
 void character_received(Core& core, std::uint8_t number, const ReceivedCharacter& character) {
+  if (!core.s.port[number].active) return ppi::character_received(core, number, character);
   const std::uint8_t event = kPorts[number].received;
   const bool to_message = message_receiver::active(core, number);
-  const bool raises = core.s.port[number].active && core.s.attached[event] != kNotAttached &&
-                      (!to_message || core.model().receive.character_events);
+  const bool raises = core.s.attached[event] != kNotAttached && (!to_message || core.model().receive.character_events);
   if (!to_message)
     trace_character(core, number, character, raises ? TraceKind::CharacterReceived : TraceKind::CharacterIgnored);
   if (to_message) message_receiver::take(core, number, character);
@@ -131,18 +146,21 @@ void follow_control(Core& core) {
   }
 }
 
-/// All transmitters are idle, even that of a port that the CPU does not have.
+/// All transmitters are idle, even that of a port that the CPU does not have. The ports speak PPI.
 void power_up(Core& core, const RetentiveMemory*) {
   core.put_mask(sm::kInterruptStatus, sm::kPort0Idle | sm::kPort1Idle, true);
+  for (std::uint8_t number = 0; number < core.port_count(); ++number) ppi::begin(core, number, core.s.time);
 }
 
 /// In STOP the port goes back to PPI (facts 2.1).
 void enter_stop(Core& core) {
   for (std::uint8_t number = 0; number < core.port_count(); ++number) {
-    core.s.port[number].active = false;
-    core.s.port[number].transmitting = false;
+    Freeport& port = core.s.port[number];
     core.put_mask(sm::kInterruptStatus, kPorts[number].idle, true);
-    core.port(number).enable_receiver(false, core.s.time);
+    if (!port.active && !port.transmitting) continue;
+    port.active = false;
+    port.transmitting = false;
+    ppi::begin(core, number, core.s.time);
   }
 }
 

@@ -14,7 +14,7 @@
 // - XMT and RCV while the port is not in Freeport mode are error 0009, or 000B on port 1.
 //   [Freeport.XmtWithoutFreeportModeIs0009, Receive.WithoutFreeportModeItIs0009]
 //
-// Not modelled: the PPI protocol. In PPI mode characters from the line are ignored.
+// A port that is not in Freeport mode speaks PPI (ppi.hpp).
 #pragma once
 
 #include "interpreter/cpu/core.hpp"

@@ -20,6 +20,7 @@ void up(Core& core, bool run, const RetentiveMemory* memory) {
   core.s.image[sm::kIdentification] = core.model().identification;
   core.s.station.fill(kDefaultStation);
   units::power_up(core, memory);
+  core.put_mask(sm::kScanStatus, sm::kModeSwitchRun, run);
   if (run) scan::enter_run(core);
   scan::begin(core);
 }

@@ -8,6 +8,7 @@
 #include "interpreter/cpu/local_memory.hpp"
 #include "interpreter/cpu/parameters.hpp"
 #include "interpreter/cpu/points.hpp"
+#include "interpreter/cpu/ppi.hpp"
 #include "interpreter/cpu/units.hpp"
 
 namespace s7200::scan {
@@ -94,6 +95,8 @@ void finish_phase(Core& core) {
     case Phase::Program:
       return begin_communication(core);
     case Phase::Communication:
+      ppi::communicate(core);
+      if ((core.s.mode == Mode::Run) != run) return;
       forcing::apply(core);
       return begin_phase(core, Phase::SelfTest, 2);
     case Phase::SelfTest:
@@ -113,9 +116,10 @@ void finish_phase(Core& core) {
 void enter_run(Core& core) {
   State& s = core.s;
   s.mode = Mode::Run;
-  constexpr std::uint8_t kKept = sm::kRetentiveLost | sm::kFromPowerUp;
+  s.stopped_by_master = false;
+  constexpr std::uint8_t kKept = sm::kRetentiveLost | sm::kFromPowerUp | sm::kModeSwitchRun;
   std::uint8_t& status = s.image[sm::kScanStatus];
-  status = static_cast<std::uint8_t>((status & kKept) | sm::kAlwaysOn | sm::kFirstScan | sm::kModeSwitchRun);
+  status = static_cast<std::uint8_t>((status & kKept) | sm::kAlwaysOn | sm::kFirstScan);
   update_clocks(s, s.time);
   for (const Op& op : core.program().ops)
     if (op.instruction->hidden == Hidden::LoopMemory) core.put_bit(op[2].at, op[2].bit, true);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "interpreter/base/ppi_frame.hpp"
 #include "interpreter/base/serial_format.hpp"
 #include "interpreter/base/time.hpp"
 #include "interpreter/model/area.hpp"
@@ -115,17 +116,43 @@ struct MessageReceiver {
   bool operator==(const MessageReceiver&) const = default;
 };
 
+/// Whose character, or break, the port is putting on the line.
+enum class OnWire : std::uint8_t { Nothing, Xmt, Ppi };
+
 struct Freeport {
   std::uint8_t control = 0;  ///< the control byte that the port last took over
   bool active = false;       ///< in Freeport mode and in RUN
   bool transmitting = false;
   bool sending_break = false;
   std::uint8_t on_line = 0;  ///< character being sent
+  OnWire on_wire = OnWire::Nothing;
   std::uint32_t buffer = 0;  ///< place of the next character in the image
   std::uint16_t left = 0;    ///< characters not yet given to the line
   SerialFormat format{};
   MessageReceiver message{};
   bool operator==(const Freeport&) const = default;
+};
+
+/// A port in PPI mode, as a slave (ppi.hpp).
+struct PpiPort {
+  enum class Job : std::uint8_t {
+    None,
+    Waiting,   ///< a request waits for the communication part of the scan
+    Ready,     ///< its answer waits to be fetched
+    Delivered  ///< the answer has been fetched, and may be once more
+  };
+
+  std::array<std::uint8_t, ppi::kLongestFrame> frame{};  ///< being received or sent
+  std::uint16_t received = 0;                            ///< characters of it
+  std::uint16_t sending = 0, sent = 0;                   ///< length of what is sent, 0 for nothing, and how much has been
+  bool lost = false;                                     ///< nothing is understood until there is silence
+  Time heard = 0;                                        ///< end of the last character
+  Job job = Job::None;
+  std::uint8_t master = 0;   ///< whose job it is
+  bool frame_count = false;  ///< of the poll that fetched the answer
+  std::array<std::uint8_t, ppi::kLongestData> message{};
+  std::uint8_t length = 0;  ///< of the message: the request, then its answer
+  bool operator==(const PpiPort&) const = default;
 };
 
 struct TimerState {
@@ -221,7 +248,8 @@ struct State {
   Time phase_left = 0;  ///< of a phase other than Program
   bool in_interrupt = false;
   bool interrupts_enabled = false;
-  bool stop_after_scan = false;  ///< STOP was executed in an interrupt routine
+  bool stop_after_scan = false;    ///< STOP was executed in an interrupt routine
+  bool stopped_by_master = false;  ///< in STOP, and may be told to RUN again (ppi.hpp)
   std::uint8_t call_depth = 0;
   std::uint64_t instructions = 0, scans = 0;
 
@@ -239,6 +267,7 @@ struct State {
   std::array<Time, 2> timed_interval{};  ///< of events 10 and 11, captured by ATCH
 
   std::array<Freeport, kPorts.size()> port{};
+  std::array<PpiPort, kPorts.size()> ppi{};
 
   std::array<TimerState, 256> timer{};
   Time previous_scan_begin = 0;

@@ -1,8 +1,11 @@
 #include "interpreter/trace/event_lines.hpp"
 
+#include "interpreter/model/area.hpp"
 #include "interpreter/model/errors.hpp"
 #include "interpreter/model/ports.hpp"
+#include "interpreter/model/s7_pdu.hpp"
 #include "interpreter/model/special_bits.hpp"
+#include "interpreter/program/operands.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/line_parts.hpp"
 
@@ -25,6 +28,36 @@ void append_character(fmt::memory_buffer& text, const TraceRecord& r) {
 std::string status_text(std::uint8_t status) {
   const std::string reasons = special_meanings_text(kPorts[0].message, status);
   return fmt::format("status 16#{:02X}{}", status, reasons.empty() ? "" : fmt::format(" ({})", reasons));
+}
+
+/// `VB100, 4 bytes`; `M3.1`
+std::string variable_text(const TraceRecord& r) {
+  const AreaInfo* area = nullptr;
+  for (const AreaInfo& each : all_areas())
+    if (r.op >= each.base && (!area || each.base > area->base)) area = &each;
+  const std::uint32_t number = (r.op - area->base) / area->step();
+  if (r.count == 0) return address_text(area->area, Width::Bit, number, r.routine);
+  const Width width = area->element == 0 ? Width::Byte : area->element == 2 ? Width::Word : Width::Double;
+  const std::uint64_t count = r.count / area->step();
+  return address_text(area->area, width, number, 0) +
+         (count == 1 ? "" : fmt::format(", {} {}", count, area->element ? "in all" : "bytes"));
+}
+
+/// What a master has asked the CPU for.
+std::string ppi_text(const TraceRecord& r) {
+  const std::string who = fmt::format("PPI station {}", r.event);
+  if (r.kind == TraceKind::PpiAccess) {
+    const std::string_view does = r.byte == s7::kRead ? "reads" : "writes";
+    if (r.code == s7::kDone) return fmt::format("{} {} {}", who, does, variable_text(r));
+    return fmt::format("{} {} area 16#{:02X}, address {}.{}: refused, code {:02X}", who, does, r.routine, r.op / 8, r.op % 8,
+                       r.code);
+  }
+  const std::string what = r.byte == s7::kRun     ? "asks for RUN"
+                           : r.byte == s7::kStop  ? "asks for STOP"
+                           : r.byte == s7::kSetup ? "sets up the communication"
+                           : r.byte == 0          ? "reads or sets the clock"
+                                                  : fmt::format("asks for function {:02X}", r.byte);
+  return fmt::format("{} {}{}", who, what, r.code == 0 ? "" : fmt::format(": refused, error {:04X}", r.code));
 }
 
 }  // namespace
@@ -111,6 +144,11 @@ void EventLines::append_what(fmt::memory_buffer& text, const TraceRecord& r) {
     case TraceKind::FatalError:
       return add(
           fmt::format("FATAL error {:04X} ({}) in {}", r.code, meaning_of(FatalError{r.code}), place_text(r.op, program_)));
+    case TraceKind::PpiService:
+    case TraceKind::PpiAccess:
+      return add(ppi_text(r));
+    case TraceKind::PpiIgnored:
+      return add("PPI frame of ", r.count, " characters ignored: its check sum or end is wrong");
   }
 }
 

@@ -24,8 +24,8 @@ enum class TraceKind : std::uint8_t {
   TransmitEnd,        ///<
   CharacterSent,      ///< byte; at: end of its stop bit
   CharacterReceived,  ///< byte, parity_error, framing_error; since: its start edge
-  CharacterIgnored,   ///< like received, but its receive event is not attached; code 1: the port is not in Freeport mode, 2:
-                      ///< its receiver is off while it sends, and at is when that was so
+  CharacterIgnored,   ///< like received, but its receive event is not attached; code 1: the port is in PPI mode and this is
+                      ///< no PPI frame, 2: its receiver is off while it sends, and at is when that was so
   CharacterDropped,   ///< like received, but RCV is still waiting for the start of its message
   Receive,            ///< RCV begins its search; count: the most characters
   ReceiveEnd,         ///< byte: status SMB86 or SMB186; count: characters stored
@@ -35,6 +35,10 @@ enum class TraceKind : std::uint8_t {
   RuntimeError,       ///< code; op: where
   FatalError,         ///< code; op: where
   Enable,             ///< code: 1 ENI, 0 DISI
+  PpiService,         ///< byte: S7 function, event: the master's station; code: error of the answer, 0 if it was carried out
+  PpiAccess,          ///< a variable that a master reads or writes, like PpiService. Code FF: op is its place in the image,
+                      ///< count its bytes, 0 for the bit `routine`. Otherwise op is the address and routine the area asked for
+  PpiIgnored,         ///< a frame with a wrong check sum or end; count: its characters
 };
 
 struct TraceRecord {

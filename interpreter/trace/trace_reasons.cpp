@@ -61,7 +61,7 @@ std::string comment_of(const stl::Statement& statement) {
 std::string ignored_because(const TraceRecord& record) {
   switch (record.code) {
     case 1:
-      return "the port is not in Freeport mode";
+      return "in PPI mode, and no PPI frame";
     case 2:
       return "the receiver is off while the port sends";
     default:

@@ -34,7 +34,8 @@ Halt Simulation::run_until(Time end) {
   Halt halt = Halt::Time;
   while (halt == Halt::Time && time() < end) {
     halt = system_.step(end);
-    if (halt == Halt::Time && cpu().state().mode == Mode::Stop) halt = Halt::Stopped;
+    const State& state = cpu().state();
+    if (halt == Halt::Time && state.mode == Mode::Stop && !state.stopped_by_master) halt = Halt::Stopped;
   }
   return halt;
 }

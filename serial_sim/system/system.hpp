@@ -32,7 +32,8 @@ namespace s7200::serial {
 enum class Halt : std::uint8_t {
   Time,     ///< the end was reached
   Paused,   ///< a trace sink stopped a CPU, or a scan ended and a pause was asked for
-  Stopped,  ///< the CPU of a Simulation is in STOP; a System goes on, for the sake of its other stations
+  Stopped,  ///< the CPU of a Simulation is in STOP for good: not by a master, who may start it again. A System goes
+            ///< on, for the sake of its other stations
   Request,  ///< whoever may, has asked for it: stop_when()
 };
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`s7200 run` with its bridges, as programs outside meet them: run.py S7200 SOURCE_DIR pty|tcp|modbus_tcp|device|run|scenarios
+"""`s7200 run` with its bridges, as programs outside meet them: run.py S7200 SOURCE_DIR pty|tcp|modbus_tcp|device|ppi|run|scenarios
 
 Nothing here depends on how fast the computer is: what has to come is waited for, for long; what must not come is waited for
 in multiples of the time it would need.
@@ -999,6 +999,97 @@ class DeviceTests(Case):
         self.assertIn("another program", self.refused("--device", self.path))
 
 
+# --- PPI ---
+
+class PpiMaster:
+    """Written from the rules, as a programming device on a line of its own."""
+
+    def __init__(self, write, read, station=2):
+        self.write, self.read, self.station = write, read, station
+
+    @staticmethod
+    def sd1(*body):
+        return bytes([0x10, *body, sum(body) % 256, 0x16])
+
+    @staticmethod
+    def sd2(*body):
+        return bytes([0x68, len(body), len(body), 0x68, *body, sum(body) % 256, 0x16])
+
+    def frame(self):
+        begin = self.read(1)
+        if begin == b"\x10":
+            return begin + self.read(5)
+        if begin == b"\x68":
+            head = self.read(3)
+            return begin + head + self.read(head[0] + 2)
+        return begin
+
+    def ask(self, parameters, data=b""):
+        """Parameters and data of the answer."""
+        lengths = len(parameters).to_bytes(2, "big") + len(data).to_bytes(2, "big")
+        self.write(self.sd2(self.station, 0, 0x6C, 0x32, 1, 0, 0, 0, 1, *lengths, *parameters, *data))
+        assert self.frame() == b"\xe5"
+        function = 0x5C
+        while True:
+            self.write(self.sd1(self.station, 0, function))
+            frame = self.frame()
+            if frame != b"\xe5":
+                break
+            function ^= 0x20
+        pdu = frame[7:-2]
+        assert frame == self.sd2(0, self.station, 0x08, *pdu) and pdu[1] == 3 and pdu[10:12] == b"\0\0", frame.hex()
+        split = 12 + int.from_bytes(pdu[6:8], "big")
+        return pdu[12:split], pdu[split:]
+
+    @staticmethod
+    def v_bytes(first, count):
+        return bytes([0x12, 0x0A, 0x10, 2, *count.to_bytes(2, "big"), 0, 1, 0x84, *(first * 8).to_bytes(3, "big")])
+
+    def read_v(self, first, count):
+        _, data = self.ask(bytes([4, 1]) + self.v_bytes(first, count))
+        assert data[:4] == bytes([0xFF, 4]) + (count * 8).to_bytes(2, "big"), data.hex()
+        return data[4:]
+
+    def write_v(self, first, values):
+        _, data = self.ask(bytes([5, 1]) + self.v_bytes(first, len(values)),
+                           bytes([0, 4]) + (len(values) * 8).to_bytes(2, "big") + values)
+        assert data == b"\xff", data.hex()
+
+    def mode(self, function):
+        extra = bytes([0, 0, 0, 0, 0, 0, 0xFD, 0, 0]) if function == 0x28 else bytes(5)
+        self.ask(bytes([function]) + extra + b"\x09P_PROGRAM")
+
+
+class PpiTests(Case):
+    COUNTING = "LD SM0.0\nINCW VW0\nLD SM0.1\nINCW VW2\nMEND\n"
+
+    def exercise(self, master):
+        master.write_v(100, bytes(range(200)))
+        self.assertEqual(master.read_v(100, 200), bytes(range(200)))
+        first = master.read_v(0, 2)
+        self.assertNotEqual(master.read_v(0, 2), first, "the program runs")
+        master.mode(0x29)
+        first = master.read_v(0, 2)
+        self.assertEqual(master.read_v(0, 2), first, "it stands")
+        master.mode(0x28)
+        self.assertEqual(master.read_v(2, 2), b"\0\2", "its second first scan")
+
+    def test_a_client_reads_and_writes_v_memory_over_a_pty(self):
+        self.start("--speed", SPEED, "--pty", self.folder / "plc", program=self.program(self.COUNTING))
+        with SerialPort(self.folder / "plc") as port:
+            self.exercise(PpiMaster(port.write, port.read))
+
+    def test_a_client_reads_and_writes_v_memory_over_tcp(self):
+        running = self.start("--speed", SPEED, "--tcp", "127.0.0.1:0", program=self.program(self.COUNTING))
+        with socket.create_connection((running.host, running.port), timeout=LONG) as connection:
+            def read(count):
+                data = b""
+                while len(data) < count:
+                    data += connection.recv(count - len(data))
+                return data
+            self.exercise(PpiMaster(connection.sendall, read))
+
+
 class RunTests(Case):
     def test_addresses(self):
         running = self.start("--modbus-tcp", "127.0.0.1:0")
@@ -1193,7 +1284,7 @@ class ScenarioTests(Case):
 
 
 if __name__ == "__main__":
-    group = {"pty": PtyTests, "tcp": TcpTests, "modbus_tcp": ModbusTcpTests, "device": DeviceTests, "run": RunTests,
-             "scenarios": ScenarioTests}[GROUP]
+    group = {"pty": PtyTests, "tcp": TcpTests, "modbus_tcp": ModbusTcpTests, "device": DeviceTests, "ppi": PpiTests,
+             "run": RunTests, "scenarios": ScenarioTests}[GROUP]
     result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
     sys.exit(0 if result.wasSuccessful() else 1)

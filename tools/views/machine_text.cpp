@@ -115,11 +115,25 @@ std::string routine_text(const State& state, std::uint8_t event) {
   return fmt::format("event {} → INT {}", event, routine);
 }
 
+/// What a master of the port waits for.
+std::string ppi_text(const PpiPort& port) {
+  switch (port.job) {
+    case PpiPort::Job::Waiting:
+      return fmt::format(": a request of station {} waits for the end of the scan", port.master);
+    case PpiPort::Job::Ready:
+      return fmt::format(": its answer waits for a poll of station {}", port.master);
+    case PpiPort::Job::None:
+    case PpiPort::Job::Delivered:
+      return {};
+  }
+  return {};
+}
+
 std::string receiver_text(const State& state, std::size_t number) {
   const Freeport& port = state.port[number];
-  std::string_view is = "on";
+  std::string is = "on";
   if (port.transmitting) is = "off while sending";
-  if (!port.active) is = "off: not in Freeport mode";
+  if (!port.active) is = fmt::format("PPI, station {}{}", state.station[number], ppi_text(state.ppi[number]));
   return fmt::format("receiver   {}; {}; SMB2 = 16#{:02X}, parity error SM3.0 = {}", is,
                      routine_text(state, kPorts[number].received), state.image[sm::kReceivedCharacter],
                      state.image[sm::kReceiveStatus] & sm::kParityError);

@@ -160,7 +160,8 @@ std::vector<std::uint16_t> parse_bits(std::string_view text) {
   std::vector<std::uint16_t> bits;
   for (const std::string_view part : split(text)) {
     if (part != "on" && part != "off" && part != "1" && part != "0")
-      throw std::invalid_argument(fmt::format("'{}' is not the state of a coil; write on, off, 1 or 0", stl::shortened(part)));
+      throw std::invalid_argument(
+          fmt::format("'{}' is not the state of a coil; write on, off, 1 or 0", stl::shortened(part)));
     bits.push_back(part == "on" || part == "1" ? 1 : 0);
   }
   return bits;
@@ -174,8 +175,8 @@ std::vector<std::uint16_t> parse_registers(std::string_view text, const ValueFor
     } else if (format.registers() == 2) {
       put_double(registers, static_cast<std::uint32_t>(parse_number(part, INT32_MIN, UINT32_MAX, "value")), format);
     } else if (part.find('.') != std::string_view::npos) {
-      throw std::invalid_argument(
-          fmt::format("value {} is not a whole number; --as float writes it as a number of 32 bits into two registers", part));
+      throw std::invalid_argument(fmt::format(
+          "value {} is not a whole number; --as float writes it as a number of 32 bits into two registers", part));
     } else {
       registers.push_back(static_cast<std::uint16_t>(parse_number(part, INT16_MIN, UINT16_MAX, "value")));
     }

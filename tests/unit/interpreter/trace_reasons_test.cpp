@@ -113,7 +113,7 @@ TEST(TraceReasons, ACharacterThatNobodyWantedSaysWhy) {
   plc.run_until(2 * ms);
   const auto ignored = plc.records.of(TraceKind::CharacterIgnored);
   ASSERT_EQ(ignored.size(), 1U);
-  EXPECT_EQ(describe(ignored[0], plc.cpu.program()), "ignored  41: the port is not in Freeport mode");
+  EXPECT_EQ(describe(ignored[0], plc.cpu.program()), "ignored  41: in PPI mode, and no PPI frame");
 }
 
 }  // namespace

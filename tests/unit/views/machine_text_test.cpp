@@ -28,7 +28,7 @@ TEST(MachineText, ACpuWithTwoPortsShowsBothAndTheMasterWhereItIs) {
       "LD SM0.1\nMOVB 5, SMB130\nMOVB 16#C0, SMB187\nMOVB 20, SMB194\nATCH 0, 24\nRCV VB0, 1\nMEND\nINT 0\nRETI\n";
   const std::string port0 =
       "SMB30      16#00 = 2#00000000: PPI slave\n"
-      "receiver   off: not in Freeport mode; event 8 is not attached; SMB2 = 16#00, parity error SM3.0 = 0\n"
+      "receiver   PPI, station 2; event 8 is not attached; SMB2 = 16#00, parity error SM3.0 = 0\n"
       "transmitter idle; event 9 is not attached\n";
   const std::string port1 =
       "SMB130     16#05 = 2#00000101: Freeport, 19200 baud, 8 data bits, no parity, 1 stop bit\n"

@@ -1,0 +1,144 @@
+#include "interpreter/cpu/ppi.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "interpreter/base/ppi_frame.hpp"
+#include "interpreter/cpu/s7_services.hpp"
+
+namespace s7200::ppi {
+namespace {
+
+using Job = PpiPort::Job;
+
+constexpr std::size_t kShortestWithBody = 6;
+constexpr int kBitsToReply = 11, kBitsOfSilence = 33;
+
+/// Half duplex: the receiver is off while the port sends.
+void send(Core& core, std::uint8_t number, std::span<const std::uint8_t> frame, Time at) {
+  PpiPort& port = core.s.ppi[number];
+  std::copy(frame.begin(), frame.end(), port.frame.begin());
+  port.sending = static_cast<std::uint16_t>(frame.size());
+  port.sent = 0;
+  core.port(number).enable_receiver(false, at);
+  if (core.s.port[number].on_wire != OnWire::Nothing) return;
+  core.s.port[number].on_wire = OnWire::Ppi;
+  core.port(number).send(port.frame[port.sent++], at);
+}
+
+void reply(Core& core, std::uint8_t number, std::uint8_t to, Reply function, std::span<const std::uint8_t> data, Time at) {
+  send(core, number, to_frame({to, core.s.station[number], function, data}), at);
+}
+
+void accept(Core& core, std::uint8_t number, Time at) { send(core, number, std::array{kAccepted}, at); }
+
+void take_request(Core& core, std::uint8_t number, const Body& body, Time at) {
+  PpiPort& port = core.s.ppi[number];
+  const bool occupied = (port.job == Job::Waiting || port.job == Job::Ready) && port.master != body.source;
+  if (occupied) return reply(core, number, body.source, kNoResource, {}, at);
+  port.job = Job::Waiting;
+  port.master = body.source;
+  port.length = static_cast<std::uint8_t>(body.data.size());
+  std::copy(body.data.begin(), body.data.end(), port.message.begin());
+  accept(core, number, at);
+}
+
+void take_poll(Core& core, std::uint8_t number, const Body& body, Time at) {
+  PpiPort& port = core.s.ppi[number];
+  const bool frame_count = (body.function & kFrameCount) != 0;
+  const bool again = port.job == Job::Delivered && port.frame_count == frame_count;
+  if (port.master != body.source || !(port.job == Job::Ready || again)) {
+    if (port.job == Job::Delivered && port.master == body.source) port.job = Job::None;
+    return accept(core, number, at);
+  }
+  port.job = Job::Delivered;
+  port.frame_count = frame_count;
+  reply(core, number, port.master, kData, {port.message.data(), port.length}, at);
+}
+
+void take_frame(Core& core, std::uint8_t number, std::span<const std::uint8_t> frame, Time at) {
+  const auto body = body_of(frame);
+  if (!body) {
+    if (frame.size() < kShortestWithBody) return;
+    core.trace({.at = at, .kind = TraceKind::PpiIgnored, .port = number, .count = frame.size()});
+    return;
+  }
+  if (body->destination != core.s.station[number] || (body->function & kIsRequest) == 0) return;
+  switch (body->function & kService) {
+    case kStatus:
+      return reply(core, number, body->source, kSlave, {}, at);
+    case kAnswerLow:
+    case kAnswerHigh:
+      return body->data.empty() ? take_poll(core, number, *body, at) : take_request(core, number, *body, at);
+    default:
+      return reply(core, number, body->source, kNoService, {}, at);
+  }
+}
+
+/// It may be the last of a frame, or show that this is none.
+void take_character(Core& core, std::uint8_t number, const ReceivedCharacter& character) {
+  PpiPort& port = core.s.ppi[number];
+  port.frame[port.received++] = character.byte;
+  const std::span<const std::uint8_t> frame(port.frame.data(), port.received);
+  const auto length = frame_length(frame);
+  port.lost = character.parity_error || character.framing_error || length == 0U;
+  if (port.lost || length != port.received) return;
+  port.received = 0;
+  const Time end = character.end + kFormat.half_bits(1);
+  take_frame(core, number, Bytes(frame.begin(), frame.end()), end + kFormat.bit_times(kBitsToReply));
+}
+
+void carry_out(Core& core, std::uint8_t number) {
+  PpiPort& port = core.s.ppi[number];
+  const Bytes request(port.message.begin(), port.message.begin() + port.length);
+  const Bytes answer = s7_services::carry_out(core, number, port.master, request);
+  port.job = answer.empty() ? Job::None : Job::Ready;
+  port.length = static_cast<std::uint8_t>(answer.size());
+  std::copy(answer.begin(), answer.end(), port.message.begin());
+}
+
+}  // namespace
+
+void begin(Core& core, std::uint8_t number, Time at) {
+  core.s.ppi[number] = {.heard = at};
+  core.port(number).configure(kFormat);
+  core.port(number).enable_receiver(true, at);
+}
+
+void character_received(Core& core, std::uint8_t number, const ReceivedCharacter& character) {
+  PpiPort& port = core.s.ppi[number];
+  if (character.start - port.heard >= kFormat.bit_times(kBitsOfSilence)) {
+    port.received = 0;
+    port.lost = false;
+  }
+  port.heard = character.end;
+  if (!port.lost) take_character(core, number, character);
+  if (port.lost)
+    core.trace({.at = character.end,
+                .kind = TraceKind::CharacterIgnored,
+                .byte = character.byte,
+                .parity_error = character.parity_error,
+                .framing_error = character.framing_error,
+                .port = number,
+                .code = 1,
+                .since = character.start});
+}
+
+void character_sent(Core& core, std::uint8_t number, Time at) {
+  PpiPort& port = core.s.ppi[number];
+  if (port.sent < port.sending) {
+    core.s.port[number].on_wire = OnWire::Ppi;
+    return core.port(number).send(port.frame[port.sent++], at);
+  }
+  port.sending = 0;
+  port.received = 0;
+  port.heard = at;
+  core.port(number).enable_receiver(true, at);
+}
+
+void communicate(Core& core) {
+  for (std::uint8_t number = 0; number < core.port_count(); ++number)
+    if (core.s.ppi[number].job == Job::Waiting) carry_out(core, number);
+}
+
+}  // namespace s7200::ppi

@@ -1,0 +1,44 @@
+// PPI, the protocol of a port that is not in Freeport mode: the CPU is a slave at its station, 2 unless the program says
+// otherwise, in RUN and in STOP (facts 2.1, 10.9). 9600 baud, 8E1.
+//
+//   master                                  slave
+//   SD2 with a request, function 6C         E5: accepted
+//   SD1 that polls, function 5C             E5: there is no answer yet; or the answer, SD2 with function 08
+//   SD1 that polls, function 7C, then 5C …  until the answer has come
+//
+// The frames are in base/ppi_frame.hpp, what a request asks for is in s7_services.hpp. It is carried out in the
+// communication part of the scan, so a long program keeps its master waiting.
+//
+// Not documented, modelled so:
+// - A reply begins 11 bit times after the last character. [Ppi.ARepliesBeginElevenBitTimesAfterTheRequest]
+// - Silence of 33 bit times ends whatever was being received; after a wrong character nothing is understood until then.
+//   [Ppi.AfterABadCharacterNothingIsUnderstoodUntilThereIsSilence]
+// - A frame with a wrong check sum, length or end, or for another station, is ignored.
+//   [Ppi.WhatIsNoFrameOrForAnotherStationIsIgnored]
+// - A port works at one request at a time: until its answer has been fetched, other masters are told that there is no
+//   resource (SD1, function 02). [Ppi.AnotherMasterIsToldThatThereIsNoResource]
+// - A poll that repeats the frame count bit of the one before gets the same answer again.
+// [Ppi.ARepeatedPollGetsTheAnswerAgain]
+// - The status of the station (function 49) is asked and answered with SD1, function 00. [Ppi.TheStatusIsThatOfASlave]
+// - XMT begins when the last character of a PPI answer has left. [Ppi.XmtWaitsForTheCharacterThatIsLeaving]
+// Not modelled: other rates than 9600 baud, the token of several masters, broadcasts.
+#pragma once
+
+#include "interpreter/cpu/core.hpp"
+
+namespace s7200::ppi {
+
+/// How the port is set while it speaks PPI.
+inline constexpr SerialFormat kFormat{.baud = 9600, .data_bits = 8, .parity = Parity::Even, .stop_bits = 1};
+
+/// The port begins to speak PPI, at `at`.
+void begin(Core& core, std::uint8_t port, Time at);
+
+/// Reports of the line, for a port that speaks it.
+void character_received(Core& core, std::uint8_t port, const ReceivedCharacter& character);
+void character_sent(Core& core, std::uint8_t port, Time at);
+
+/// The communication part of the scan. The CPU may change to RUN or STOP.
+void communicate(Core& core);
+
+}  // namespace s7200::ppi

@@ -1,0 +1,324 @@
+#include "interpreter/cpu/s7_services.hpp"
+
+#include <algorithm>
+
+#include "interpreter/cpu/clock.hpp"
+#include "interpreter/cpu/freeport.hpp"
+#include "interpreter/cpu/scan.hpp"
+#include "interpreter/model/s7_pdu.hpp"
+
+namespace s7200::s7_services {
+namespace {
+
+using namespace s7;
+using Span = std::span<const std::uint8_t>;
+
+/// A variable of a request.
+struct Variable {
+  std::uint8_t type, area;
+  std::uint16_t count;
+  std::uint32_t address;
+};
+
+Variable variable_at(Span bytes) { return {bytes[3], bytes[8], load16(&bytes[4]), load32(&bytes[8]) & 0xFF'FFFF}; }
+
+/// Where a variable is, or why it is nowhere.
+struct Place {
+  ReturnCode code = kDone;
+  Area area{};
+  std::uint32_t at = 0, bytes = 0;
+  std::optional<std::uint8_t> bit{};
+};
+
+std::uint32_t bytes_of_type(std::uint8_t type) {
+  switch (type) {
+    case kByte:
+    case kCharacter:
+      return 1;
+    case kWord:
+    case kInteger:
+      return 2;
+    case kDouble:
+    case kLong:
+    case kReal:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+/// T, C and HC go by number; their type has the code of their area.
+Place find_element(const Core& core, const Variable& variable, const AreaInfo& area) {
+  if (variable.type != variable.area) return {.code = kWrongType};
+  if (variable.count == 0 || variable.address + variable.count > core.model().size_of(area.area)) return {.code = kOutside};
+  return {.area = area.area, .at = area.base + variable.address * area.element, .bytes = variable.count * area.element};
+}
+
+/// All others go by bits.
+Place find_bytes(const Core& core, const Variable& variable, const AreaInfo& area) {
+  const std::uint32_t first = variable.address / 8;
+  const auto bit = static_cast<std::uint8_t>(variable.address % 8);
+  const bool is_bit = variable.type == kBit;
+  const std::uint32_t bytes = is_bit ? 1 : variable.count * bytes_of_type(variable.type);
+  if (is_bit ? area.bits == kNoBits || variable.count != 1 : bytes_of_type(variable.type) == 0 || bit != 0)
+    return {.code = kWrongType};
+  if (bytes == 0 || first + bytes > core.model().size_of(area.area)) return {.code = kOutside};
+  return {.area = area.area, .at = area.base + first, .bytes = bytes, .bit = is_bit ? std::optional(bit) : std::nullopt};
+}
+
+Place find(const Core& core, const Variable& variable) {
+  const auto found =
+      std::find_if(kWireAreas.begin(), kWireAreas.end(), [&](const WireArea& wire) { return wire.code == variable.area; });
+  if (found == kWireAreas.end()) return {.code = kNoArea};
+  const AreaInfo& area = info(found->area);
+  return area.element != 0 ? find_element(core, variable, area) : find_bytes(core, variable, area);
+}
+
+void append16(Bytes& to, std::size_t value) {
+  to.push_back(static_cast<std::uint8_t>(value >> 8));
+  to.push_back(static_cast<std::uint8_t>(value));
+}
+void append(Bytes& to, Span bytes) { to.insert(to.end(), bytes.begin(), bytes.end()); }
+
+/// What the answer to a request has in it.
+struct Reply {
+  Refusal refusal = Refusal::None;
+  Bytes parameters{}, data{};
+};
+
+/// A master's request, with what it needs to be carried out.
+class Request {
+ public:
+  Request(Core& core, std::uint8_t port, std::uint8_t source, Span parameters, Span data)
+      : core_(core), port_(port), source_(source), parameters_(parameters), data_(data) {}
+
+  Reply carry_out() {
+    if (parameters_.empty()) return refused(Refusal::Malformed);
+    switch (parameters_[0]) {
+      case kSetup:
+        return set_up();
+      case kRead:
+        return read();
+      case kWrite:
+        return write();
+      case kRun:
+      case kStop:
+        return change_mode();
+      default:
+        return refused(Refusal::Unknown);
+    }
+  }
+
+  Reply user_data() {
+    constexpr std::size_t kHead = 8;  // 00 01 12 length kind group service number
+    if (parameters_.size() < kHead) return refused(Refusal::Malformed);
+    const std::uint8_t group = parameters_[5] & 0x0F, service = parameters_[6];
+    if (group == kClockGroup && service == kReadClock) return read_clock();
+    if (group == kClockGroup && service == kSetClock) return set_clock();
+    return user_data_reply(refused(Refusal::Unknown));
+  }
+
+ private:
+  Reply refused(Refusal why) {
+    trace(static_cast<std::uint16_t>(why));
+    return {.refusal = why};
+  }
+
+  void trace(std::uint16_t code) const {
+    core_.trace({.at = core_.s.time,
+                 .kind = TraceKind::PpiService,
+                 .event = source_,
+                 .byte = parameters_.empty() ? std::uint8_t{0} : parameters_[0],
+                 .port = port_,
+                 .code = code});
+  }
+
+  void trace(const Variable& variable, const Place& place) const {
+    const bool found = place.code == kDone;
+    core_.trace({.at = core_.s.time,
+                 .kind = TraceKind::PpiAccess,
+                 .event = source_,
+                 .routine = found ? place.bit.value_or(0) : variable.area,
+                 .byte = parameters_[0],
+                 .port = port_,
+                 .code = place.code,
+                 .op = found ? place.at : variable.address,
+                 .count = place.bit ? 0 : place.bytes});
+  }
+
+  Reply set_up() {
+    constexpr std::size_t kLength = 8;  // F0 00 jobs(2) jobs(2) length of a PDU(2)
+    if (parameters_.size() != kLength) return refused(Refusal::Malformed);
+    trace(0);
+    Reply reply;
+    append(reply.parameters, std::array<std::uint8_t, 6>{kSetup, 0, 0, 1, 0, 1});
+    append16(reply.parameters, std::min<std::size_t>(load16(&parameters_[6]), kLongestPdu));
+    return reply;
+  }
+
+  /// The variables that the parameters list; none if they are not what they should be.
+  std::vector<Variable> variables() const {
+    std::vector<Variable> found;
+    if (parameters_.size() < 2 || parameters_.size() != 2 + parameters_[1] * kVariableBytes) return found;
+    for (std::size_t at = 2; at < parameters_.size(); at += kVariableBytes) {
+      const Span bytes = parameters_.subspan(at, kVariableBytes);
+      if (!std::equal(kVariableHead.begin(), kVariableHead.end(), bytes.begin())) return {};
+      found.push_back(variable_at(bytes));
+    }
+    return found;
+  }
+
+  Reply read() {
+    const std::vector<Variable> wanted = variables();
+    if (wanted.empty()) return refused(Refusal::Malformed);
+    Reply reply{.parameters = {kRead, parameters_[1]}};
+    for (const Variable& variable : wanted) {
+      const Place place = find(core_, variable);
+      if (reply.data.size() + place.bytes > kLongestPdu) return refused(Refusal::TooLong);
+      if (reply.data.size() % 2 != 0) reply.data.push_back(0);
+      append_value(reply.data, place);
+      trace(variable, place);
+    }
+    return reply;
+  }
+
+  void append_value(Bytes& data, const Place& place) const {
+    data.push_back(place.code);
+    if (place.code != kDone) {
+      append(data, std::array<std::uint8_t, 3>{});
+    } else if (place.bit) {
+      data.push_back(kInBits);
+      append16(data, 1);
+      data.push_back(core_.s.image[place.at] >> *place.bit & 1);
+    } else {
+      const bool element = info(place.area).element != 0;
+      data.push_back(element ? kInBytes : kInBitsOfBytes);
+      append16(data, element ? place.bytes : place.bytes * 8);
+      append(data, Span(core_.s.image).subspan(place.at, place.bytes));
+    }
+  }
+
+  /// The values stand in the data, in the order of the variables: 00 type length(2) value; each begins at an even place.
+  Reply write() {
+    const std::vector<Variable> wanted = variables();
+    if (wanted.empty()) return refused(Refusal::Malformed);
+    Reply reply{.parameters = {kWrite, parameters_[1]}};
+    std::size_t at = 0;
+    for (const Variable& variable : wanted) {
+      const auto value = value_at(at);
+      if (!value) return refused(Refusal::Malformed);
+      Place place = find(core_, variable);
+      if (place.code == kDone) place.code = put(place, *value);
+      trace(variable, place);
+      reply.data.push_back(place.code);
+      at += 4 + value->size() + value->size() % 2;
+    }
+    if (core_.s.mode == Mode::Run) freeport::follow_control(core_);
+    return reply;
+  }
+
+  std::optional<Span> value_at(std::size_t at) const {
+    if (at + 4 > data_.size()) return {};
+    const std::size_t length = load16(&data_[at + 2]);
+    const std::size_t bytes = data_[at + 1] == kInBitsOfBytes ? length / 8 : length;
+    if (at + 4 + bytes > data_.size()) return {};
+    return data_.subspan(at + 4, bytes);
+  }
+
+  ReturnCode put(const Place& place, Span value) {
+    const bool read_only = place.area == Area::AI || place.area == Area::HC ||
+                           (place.area == Area::SM && place.at < sm::byte(kReadOnlySpecialMemory));
+    if (read_only) return kNotAllowed;
+    if (value.size() != place.bytes) return kWrongType;
+    core_.touched = true;
+    if (place.bit)
+      core_.put_bit(place.at, *place.bit, (value[0] & 1) != 0);
+    else
+      std::copy(value.begin(), value.end(), core_.s.image.begin() + place.at);
+    return kDone;
+  }
+
+  Reply change_mode() {
+    if (parameters_.size() < kProgram.size() ||
+        !std::equal(kProgram.begin(), kProgram.end(), parameters_.end() - static_cast<std::ptrdiff_t>(kProgram.size())))
+      return refused(Refusal::Unknown);
+    trace(0);
+    const Mode wanted = parameters_[0] == kRun ? Mode::Run : Mode::Stop;
+    if (wanted != core_.s.mode) {
+      if (wanted == Mode::Stop) {
+        scan::enter_stop(core_);
+        core_.s.stopped_by_master = true;
+      } else {
+        scan::enter_run(core_);
+        scan::begin(core_);
+      }
+    }
+    return {.parameters = {parameters_[0]}};
+  }
+
+  // The clock: FF 09 00 0A 00 century and then the bytes of TODR, whose last two are milliseconds and day of the week.
+
+  Reply read_clock() {
+    trace(0);
+    const clock::Bcd now = clock::bcd_now(core_);
+    Reply reply{.data = {kDone, kInBytes, 0, 10, 0, static_cast<std::uint8_t>(now[0] >= 0x90 ? 0x19 : 0x20)}};
+    append(reply.data, now);
+    return user_data_reply(std::move(reply));
+  }
+
+  Reply set_clock() {
+    constexpr std::size_t kFirst = 6;
+    clock::Bcd to{};
+    if (data_.size() != kFirst + to.size()) return user_data_reply(refused(Refusal::Malformed));
+    std::copy(data_.begin() + kFirst, data_.end(), to.begin());
+    to[6] = 0;
+    to[7] &= 0x0F;
+    if (!clock::set_bcd(core_, to)) return user_data_reply(refused(Refusal::Malformed));
+    core_.touched = true;
+    trace(0);
+    return user_data_reply({.data = {kNotStored, 0, 0, 0}});
+  }
+
+  static constexpr std::uint8_t kNotStored = 0x0A;  ///< no data follow
+
+  /// 00 01 12 08 12 group service number 00 00 error(2)
+  Reply user_data_reply(Reply reply) {
+    const auto error = static_cast<std::uint16_t>(reply.refusal);
+    reply.parameters = {
+        0, 1, 0x12, 8, 0x12, static_cast<std::uint8_t>((parameters_[5] & 0x0F) | 0x80), parameters_[6], parameters_[7],
+        0, 0};
+    append16(reply.parameters, error);
+    if (reply.data.empty()) reply.data = {kNotStored, 0, 0, 0};
+    return reply;
+  }
+
+  Core& core_;
+  std::uint8_t port_, source_;
+  Span parameters_, data_;
+};
+
+Bytes pdu(Kind kind, Span request, const Reply& reply) {
+  Bytes pdu{kProtocol, kind, 0, 0, request[4], request[5]};
+  append16(pdu, reply.parameters.size());
+  append16(pdu, reply.data.size());
+  if (kind == kAnswer) append16(pdu, static_cast<std::uint16_t>(reply.refusal));
+  append(pdu, reply.parameters);
+  append(pdu, reply.data);
+  return pdu;
+}
+
+}  // namespace
+
+Bytes carry_out(Core& core, std::uint8_t port, std::uint8_t source, Span request) {
+  if (request.size() < kRequestHead || request[0] != kProtocol || (request[1] != kRequest && request[1] != kUserData))
+    return {};
+  const std::size_t parameters = load16(&request[6]), data = load16(&request[8]);
+  if (request.size() != kRequestHead + parameters + data) return {};
+  Request wanted(core, port, source, request.subspan(kRequestHead, parameters), request.subspan(kRequestHead + parameters));
+  if (request[1] == kUserData) return pdu(kUserData, request, wanted.user_data());
+  Bytes answer = pdu(kAnswer, request, wanted.carry_out());
+  if (answer.size() > kLongestPdu) answer = pdu(kAnswer, request, {.refusal = Refusal::TooLong});
+  return answer;
+}
+
+}  // namespace s7200::s7_services

@@ -1,0 +1,32 @@
+// What a CPU does for its programming devices, panels and other masters: the S7 services that PPI carries (facts 10.9; the
+// codes are in model/s7_pdu.hpp).
+//
+// Setup of the communication, read and write of variables, RUN and STOP, and the clock (as user data, 32 07). A request with
+// several variables gets a return code for each: FF done, 03 not allowed, 05 outside the area, 06 a type that does not go
+// with it, 0A no such area.
+//
+// Not documented, modelled so:
+// - A timer or counter is read and written as its current value, two bytes.
+//   [S7Services.TimersAndCountersAreTheirCurrentValues]
+// - SMB0 to SMB29, analog inputs and high-speed counters cannot be written. [S7Services.WhatIsReadOnlyIsNotWritten]
+// - An answer that would be longer than 240 bytes is refused as a whole, with error 85 00.
+//   [S7Services.AnAnswerThatIsTooLongIsRefused]
+// - RUN and STOP are allowed in any position of the mode switch, and leave SM0.7 alone. [S7Services.StopAndRunChangeTheMode]
+// - The clock is read and set with the services that other S7 CPUs have for it. [S7Services.TheClockIsReadAndSet]
+// Not modelled: upload and download of the program, password, force, status lists, the modules' data. They are refused with
+// error 81 04.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "interpreter/cpu/core.hpp"
+
+namespace s7200::s7_services {
+
+/// Carries out a request that has come to a port, and returns its answer: at most s7::kLongestPdu bytes, none if `request`
+/// is not one. `source`: the master's station, for the trace. Belongs into the communication part of the scan: it may change
+/// the mode.
+Bytes carry_out(Core& core, std::uint8_t port, std::uint8_t source, std::span<const std::uint8_t> request);
+
+}  // namespace s7200::s7_services

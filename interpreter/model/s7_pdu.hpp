@@ -1,0 +1,56 @@
+// What S7 requests and their answers are made of, as PPI carries them: codes that both ends know (facts 10.9).
+//
+//   request  32 01 00 00 number(2) length of parameters(2) length of data(2) parameters data
+//   answer   32 03 00 00 number(2) length of parameters(2) length of data(2) error(2) parameters data
+//   variable in the parameters of a read or write: 12 0A 10 type count(2) block(2) area address(3); V memory is block 1
+//   value in the data of an answer to a read: return code, data type, length(2), bytes; each begins at an even place
+//
+// Not documented, modelled so: high-speed counters have area and type 20. [S7Services.HighSpeedCountersAreReadAsDoubleWords]
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "interpreter/model/area.hpp"
+
+namespace s7200::s7 {
+
+inline constexpr std::uint8_t kProtocol = 0x32;
+enum Kind : std::uint8_t { kRequest = 1, kAnswer = 3, kUserData = 7 };
+inline constexpr std::size_t kRequestHead = 10, kAnswerHead = 12, kLongestPdu = 240;
+
+enum Function : std::uint8_t { kRead = 0x04, kWrite = 0x05, kRun = 0x28, kStop = 0x29, kSetup = 0xF0 };
+
+/// Of a whole request: the error bytes of its answer.
+enum class Refusal : std::uint16_t { None = 0, Unknown = 0x8104, TooLong = 0x8500, Malformed = 0x8704 };
+
+/// Of a variable.
+enum ReturnCode : std::uint8_t { kDone = 0xFF, kNotAllowed = 0x03, kOutside = 0x05, kWrongType = 0x06, kNoArea = 0x0A };
+
+inline constexpr std::size_t kVariableBytes = 12;
+inline constexpr std::array<std::uint8_t, 3> kVariableHead{0x12, kVariableBytes - 2, 0x10};
+
+/// What a variable's count counts. T, C and HC have the code of their area as their type.
+enum Type : std::uint8_t { kBit = 1, kByte = 2, kCharacter = 3, kWord = 4, kInteger = 5, kDouble = 6, kLong = 7, kReal = 8 };
+
+/// What the length of its data counts.
+enum DataType : std::uint8_t { kInBits = 3, kInBitsOfBytes = 4, kInBytes = 9 };
+
+struct WireArea {
+  std::uint8_t code;
+  Area area;
+};
+inline constexpr std::array kWireAreas{WireArea{0x03, Area::S},  WireArea{0x05, Area::SM}, WireArea{0x06, Area::AI},
+                                       WireArea{0x07, Area::AQ}, WireArea{0x1E, Area::C},  WireArea{0x1F, Area::T},
+                                       WireArea{0x20, Area::HC}, WireArea{0x81, Area::I},  WireArea{0x82, Area::Q},
+                                       WireArea{0x83, Area::M},  WireArea{0x84, Area::V}};
+
+/// The service that RUN and STOP name at the end of their parameters, after its length.
+inline constexpr std::string_view kProgram = "P_PROGRAM";
+
+/// Of user data: the clock, and what is done with it.
+inline constexpr std::uint8_t kClockGroup = 7, kReadClock = 1, kSetClock = 2;
+
+}  // namespace s7200::s7

@@ -1,0 +1,385 @@
+// PPI on a port that is not in Freeport mode (facts 10.9). The master is that of tests/support/ppi_master.hpp.
+#include <random>
+
+#include "interpreter/trace/text_trace.hpp"
+#include "tests/support/ppi_master.hpp"
+
+namespace s7200::test {
+namespace {
+
+using namespace ppi;
+
+constexpr std::string_view kQuiet = "LD SM0.0\nINCW VW1000\nMEND\n";
+constexpr std::uint8_t kV = 0x84;
+
+const Bytes kReadVb100 = reading({variable(0x02, 4, kV, 100 * 8, 1)});
+
+TEST(Ppi, ARequestIsAcceptedAndItsAnswerFetchedByAPoll) {
+  Plc plc(kQuiet);
+  plc.set("VD100", 0x12345678);
+  Master master(plc);
+  // The request in full: 4 bytes of DB 1 from bit address 16#000320.
+  EXPECT_EQ(master.say({0x68, 0x1B, 0x1B, 0x68, 0x02, 0x00, 0x6C, 0x32, 0x01, 0x00, 0x00, 0x00, 0x01, 0x00, 0x0E, 0x00, 0x00,
+                        0x04, 0x01, 0x12, 0x0A, 0x10, 0x02, 0x00, 0x04, 0x00, 0x01, 0x84, 0x00, 0x03, 0x20, 0x8F, 0x16}),
+            Bytes{0xE5});
+  EXPECT_EQ(master.say({0x10, 0x02, 0x00, 0x5C, 0x5E, 0x16}),
+            (Bytes{0x68, 0x19, 0x19, 0x68, 0x00, 0x02, 0x08, 0x32, 0x03, 0x00, 0x00, 0x00, 0x01, 0x00, 0x02, 0x00,
+                   0x08, 0x00, 0x00, 0x04, 0x01, 0xFF, 0x04, 0x00, 0x20, 0x12, 0x34, 0x56, 0x78, 0x86, 0x16}));
+}
+
+TEST(Ppi, ARepliesBeginElevenBitTimesAfterTheRequest) {
+  Plc plc(kQuiet);
+  Master master(plc);
+  EXPECT_EQ(master.say(sd1(2, 0, 0x49)), sd1(0, 2, 0x00));
+  ASSERT_EQ(plc.port.sent.size(), 6U);
+  EXPECT_NEAR(static_cast<double>(plc.port.sent[0].at - master.end_of_frame()), 11.0 * kBit, 200);
+  EXPECT_EQ(plc.port.sent[1].at - plc.port.sent[0].at, kCharacter);
+  EXPECT_TRUE(plc.port.receiver) << "it listens again";
+}
+
+TEST(Ppi, TheStatusIsThatOfASlave) {
+  Plc plc(kQuiet);
+  EXPECT_EQ(Master(plc, 1).say({0x10, 0x02, 0x01, 0x49, 0x4C, 0x16}), (Bytes{0x10, 0x01, 0x02, 0x00, 0x03, 0x16}));
+}
+
+TEST(Ppi, TheAnswerIsNotThereBeforeTheCommunicationPartOfTheScan) {
+  // A scan of 200 ms: the polls meanwhile are accepted without an answer.
+  Plc plc("LD SM0.0\nDIV VW0, VD4\nDIV VW0, VD4\nMEND\n");
+  plc.set("VD0", 0x00010001);
+  Master master(plc);
+  plc.run_until(5 * ms);
+  EXPECT_EQ(master.say(sd2(2, 0, 0x6C, kReadVb100), 15 * ms), Bytes{0xE5});
+  EXPECT_EQ(master.say(sd1(2, 0, 0x5C), 15 * ms), Bytes{0xE5});
+  EXPECT_EQ(master.say(sd1(2, 0, 0x7C), 200 * ms), Bytes{0xE5});
+  EXPECT_GT(master.say(sd1(2, 0, 0x5C)).size(), 9U);
+}
+
+TEST(Ppi, ARepeatedPollGetsTheAnswerAgain) {
+  Plc plc(kQuiet);
+  Master master(plc);
+  master.say(sd2(2, 0, 0x6C, kReadVb100));
+  const Bytes answer = master.say(sd1(2, 0, 0x5C));
+  EXPECT_GT(answer.size(), 9U);
+  EXPECT_EQ(master.say(sd1(2, 0, 0x5C)), answer);
+  EXPECT_EQ(master.say(sd1(2, 0, 0x7C)), Bytes{0xE5}) << "the other frame count bit: the answer has arrived";
+  EXPECT_EQ(master.say(sd1(2, 0, 0x5C)), Bytes{0xE5});
+}
+
+TEST(Ppi, AnotherMasterIsToldThatThereIsNoResource) {
+  Plc plc(kQuiet);
+  Master first(plc, 0), second(plc, 1);
+  EXPECT_EQ(first.say(sd2(2, 0, 0x6C, kReadVb100)), Bytes{0xE5});
+  EXPECT_EQ(second.say(sd2(2, 1, 0x6C, kReadVb100)), sd1(1, 2, 0x02));
+  EXPECT_EQ(second.say(sd1(2, 1, 0x5C)), Bytes{0xE5}) << "there is no answer for it";
+  EXPECT_GT(first.say(sd1(2, 0, 0x5C)).size(), 9U);
+  EXPECT_EQ(second.say(sd2(2, 1, 0x6C, kReadVb100)), Bytes{0xE5});
+}
+
+TEST(Ppi, WhatIsNoFrameOrForAnotherStationIsIgnored) {
+  Plc plc(kQuiet);
+  Master master(plc);
+  const Bytes good = sd2(2, 0, 0x6C, kReadVb100);
+  const auto with = [&](std::size_t at, std::uint8_t byte) {
+    Bytes changed = good;
+    changed[at] = byte;
+    return changed;
+  };
+  EXPECT_EQ(master.say(sd2(3, 0, 0x6C, kReadVb100)), Bytes{}) << "another station";
+  EXPECT_EQ(master.say(with(good.size() - 2, 0x00)), Bytes{}) << "check sum";
+  EXPECT_EQ(master.say(with(good.size() - 1, 0x17)), Bytes{}) << "end";
+  EXPECT_EQ(master.say(with(2, 0x1C)), Bytes{}) << "the two lengths differ";
+  EXPECT_EQ(master.say(with(3, 0x69)), Bytes{});
+  EXPECT_EQ(master.say({0x68, 2, 2, 0x68, 2, 0, 2, 0x16}), Bytes{}) << "too short";
+  EXPECT_EQ(master.say({good.begin(), good.end() - 3}), Bytes{}) << "cut off";
+  EXPECT_EQ(master.say({0x02, 0x03, 0x00, 0x00, 0x00, 0x01, 0x84, 0x39}), Bytes{}) << "Modbus";
+  EXPECT_EQ(master.say({0xE5}), Bytes{});
+  EXPECT_EQ(master.say({0xDC, 0x02, 0x00}), Bytes{}) << "a token";
+  EXPECT_EQ(master.say(sd2(2, 0, 0x08, kReadVb100)), Bytes{}) << "a reply of another slave";
+  EXPECT_EQ(master.say(good), Bytes{0xE5});
+  EXPECT_EQ(plc.records.of(TraceKind::PpiIgnored).size(), 2U);
+}
+
+TEST(Ppi, AfterABadCharacterNothingIsUnderstoodUntilThereIsSilence) {
+  Plc plc(kQuiet);
+  const Bytes frame = sd1(2, 0, 0x49);
+  const auto send = [&](Time begin, std::size_t bad) {
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+      const Time start = begin + static_cast<Time>(i) * kCharacter;
+      plc.received_at({.byte = frame[i], .parity_error = i == bad, .start = start, .end = start + 10 * kBit + kBit / 2});
+    }
+    return begin + 6 * kCharacter;
+  };
+  const Time first = send(10 * ms, 1), second = send(first, 99);
+  plc.run_until(second + 10 * ms);
+  EXPECT_TRUE(plc.port.sent.empty()) << "the second frame follows at once";
+  send(second + 10 * ms, 99);
+  plc.run_until(second + 40 * ms);
+  EXPECT_EQ(plc.port.sent.size(), 6U);
+}
+
+TEST(Ppi, AServiceThatASlaveHasNotIsRefused) {
+  Plc plc(kQuiet);
+  EXPECT_EQ(Master(plc).say(sd2(2, 0, 0x73, {1, 2})), sd1(0, 2, 0x03));
+}
+
+TEST(Ppi, AnSd3IsARequestToo) {
+  Plc plc(kQuiet);
+  const Bytes body{2, 0, 0x6C, 0x32, 1, 0, 0, 0, 1, 0, 0};
+  EXPECT_EQ(Master(plc).say(joined({{0xA2}, body, {sum(body), 0x16}})), Bytes{0xE5});
+}
+
+TEST(Ppi, ItsStationIsWhatTheProgramHasSet) {
+  Plc plc("LD SM0.1\nMOVB 7, VB0\nSPA VB0, 0\nMEND\n", cpu224());
+  plc.run_until(5 * ms);
+  Master master(plc);
+  EXPECT_EQ(master.ask(kReadVb100, 2), Bytes{});
+  EXPECT_EQ(code_of(master.ask(kReadVb100, 7)), 0xFF);
+}
+
+TEST(Ppi, TheModeSwitchTurnsFreeportOnAndOffWhereTheProgramCopiesIt) {
+  Plc plc("LD SM0.7\nMOVB 9, SMB30\nLDN SM0.7\nMOVB 8, SMB30\nMEND\n");
+  const auto turn_to = [&](bool run) {
+    const auto status = static_cast<std::uint32_t>(plc.value("SMB0"));
+    plc.set("SMB0", run ? status | 0x80 : status & 0x7F);
+    plc.run_until(plc.cpu.time() + 5 * ms);
+  };
+  Master master(plc);
+  plc.run_until(5 * ms);
+  EXPECT_EQ(master.say(sd2(2, 0, 0x6C, kReadVb100)), Bytes{}) << "RUN: Freeport mode";
+  turn_to(false);
+  EXPECT_EQ(code_of(master.ask(kReadVb100)), 0xFF) << "TERM";
+  EXPECT_EQ(plc.port.format, (SerialFormat{.baud = 9600, .data_bits = 8, .parity = Parity::Even, .stop_bits = 1}));
+  turn_to(true);
+  EXPECT_EQ(master.say(sd2(2, 0, 0x6C, kReadVb100)), Bytes{});
+  EXPECT_EQ(plc.port.format.parity, Parity::None);
+  turn_to(false);
+  EXPECT_EQ(code_of(master.ask(kReadVb100)), 0xFF);
+}
+
+TEST(Ppi, XmtWaitsForTheCharacterThatIsLeaving) {
+  // I0.0 switches to Freeport mode and sends, in the middle of an answer.
+  Plc plc("LD I0.0\nEU\nMOVB 9, SMB30\nMOVB 1, VB100\nMOVB 16#41, VB101\nXMT VB100, 0\nMEND\n");
+  Master master(plc);
+  master.say(sd2(2, 0, 0x6C, kReadVb100));
+  plc.port.sent.clear();
+  const Time begin = plc.cpu.time() + 10 * ms;
+  const Bytes poll = sd1(2, 0, 0x5C);
+  for (std::size_t i = 0; i < poll.size(); ++i) {
+    const Time start = begin + static_cast<Time>(i) * kCharacter;
+    plc.received_at({.byte = poll[i], .start = start, .end = start + 10 * kBit + kBit / 2});
+  }
+  plc.input_at(begin + 12 * kCharacter, "I0.0", true);
+  plc.run_until(begin + 100 * ms);
+  ASSERT_GE(plc.port.sent.size(), 3U);
+  EXPECT_LT(plc.port.sent.size(), 10U) << "the answer was cut off";
+  EXPECT_EQ(plc.port.sent.back().byte, 0x41);
+  EXPECT_EQ(plc.port.sent.back().at, (plc.port.sent.end() - 2)->at + kCharacter);
+}
+
+TEST(Ppi, EachPortOfACpuWithTwoIsAStation) {
+  Plc plc(kQuiet, cpu226());
+  Master master(plc);
+  EXPECT_EQ(code_of(master.ask(kReadVb100)), 0xFF);
+  const Bytes frame = sd1(2, 0, 0x49);
+  const Time begin = plc.cpu.time() + 10 * ms;
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    const Time start = begin + static_cast<Time>(i) * kCharacter;
+    plc.received_at({.byte = frame[i], .start = start, .end = start + 10 * kBit + kBit / 2}, 1);
+  }
+  plc.run_until(begin + 30 * ms);
+  EXPECT_EQ(plc.port1.sent.size(), 6U);
+}
+
+TEST(Ppi, RandomCharactersNeverGetMoreThanAnAcceptance) {
+  Plc plc(kQuiet);
+  std::mt19937 random(20261122);
+  Time at = 5 * ms;
+  for (int i = 0; i < 20'000; ++i) {
+    // Delimiters and short numbers, so that there are whole frames among them.
+    static constexpr std::uint8_t kLikely[] = {0x10, 0x68, 0xA2, 0xE5, 0x16, 0x02, 0x00, 0x6C, 0x5C, 0x03, 0x04, 0x05};
+    const auto draw = static_cast<std::uint32_t>(random());
+    const auto byte = draw % 3 == 0 ? static_cast<std::uint8_t>(draw >> 8) : kLikely[(draw >> 8) % std::size(kLikely)];
+    at += kCharacter + (draw >> 20) % 40 * (draw >> 28 == 0 ? 10 * kBit : 0);
+    plc.received_at({.byte = byte, .parity_error = draw % 97 == 0, .start = at, .end = at + 10 * kBit + kBit / 2});
+  }
+  const auto memory = plc.cpu.state().image;
+  plc.run_until(at + 50 * ms);
+  EXPECT_TRUE(std::equal(memory.begin() + image::kV + 1002, memory.begin() + image::kL,
+                         plc.cpu.state().image.begin() + image::kV + 1002));
+}
+
+// --- services ---
+
+TEST(S7Services, EachAreaIsReadAtItsPlace) {
+  Plc plc(kQuiet, cpu224());
+  plc.set("VB200", 0x84);
+  plc.set("MB3", 0x83);
+  plc.set("QB0", 0x82);
+  plc.set("SMB34", 0x55);
+  plc.set("SB2", 0x33);
+  plc.set("AQW2", 0x0707);
+  plc.set("AIW4", 0x0606);
+  plc.input("I0.2", true);
+  plc.run_until(10 * ms);
+  Master master(plc);
+  EXPECT_EQ(value_of(master.ask(reading({variable(2, 1, 0x84, 200 * 8, 1)}))), Bytes{0x84});
+  EXPECT_EQ(value_of(master.ask(reading({variable(2, 1, 0x83, 3 * 8)}))), Bytes{0x83});
+  EXPECT_EQ(value_of(master.ask(reading({variable(2, 1, 0x82, 0)}))), Bytes{0x82});
+  EXPECT_EQ(value_of(master.ask(reading({variable(2, 1, 0x81, 0)}))), Bytes{0x04});
+  EXPECT_EQ(value_of(master.ask(reading({variable(2, 1, 0x05, 34 * 8)}))), Bytes{0x55});
+  EXPECT_EQ(value_of(master.ask(reading({variable(2, 1, 0x03, 2 * 8)}))), Bytes{0x33});
+  EXPECT_EQ(value_of(master.ask(reading({variable(4, 1, 0x07, 2 * 8)}))), (Bytes{0x07, 0x07}));
+  EXPECT_EQ(value_of(master.ask(reading({variable(4, 1, 0x06, 4 * 8)}))), (Bytes{0x06, 0x06}));
+  EXPECT_EQ(value_of(master.ask(reading({variable(1, 1, 0x81, 2)}))), Bytes{1}) << "I0.2";
+  EXPECT_EQ(value_of(master.ask(reading({variable(2, 1, 0x05, 6 * 8)}))), Bytes{cpu224().identification})
+      << "SMB6: which CPU";
+}
+
+TEST(S7Services, TimersAndCountersAreTheirCurrentValues) {
+  Plc plc("LD SM0.0\nTON T37, 1000\nMEND\n");
+  plc.set("C5", 0x0102);
+  plc.set("C6", 0x0304);
+  plc.run_until(550 * ms);
+  Master master(plc);
+  EXPECT_EQ(value_of(master.ask(reading({variable(0x1E, 2, 0x1E, 5)}))), (Bytes{0x01, 0x02, 0x03, 0x04}));
+  const Bytes timer = value_of(master.ask(reading({variable(0x1F, 1, 0x1F, 37)})));
+  ASSERT_EQ(timer.size(), 2U);
+  EXPECT_GE(timer[1], 5);
+  EXPECT_EQ(code_of(master.ask(writing(variable(0x1E, 1, 0x1E, 5), 0x09, 2, {0x00, 0x63}))), 0xFF);
+  EXPECT_EQ(plc.value("C5"), 99);
+  EXPECT_EQ(code_of(master.ask(reading({variable(2, 2, 0x1E, 5)}))), 0x06) << "bytes of a counter";
+}
+
+TEST(S7Services, HighSpeedCountersAreReadAsDoubleWords) {
+  Plc plc("LD SM0.1\nHDEF 0, 0\nMOVB 16#F8, SMB37\nMOVD +5, SMD38\nHSC 0\nMEND\n");
+  plc.run_until(5 * ms);
+  Master master(plc);
+  EXPECT_EQ(value_of(master.ask(reading({variable(0x20, 1, 0x20, 0)}))), (Bytes{0, 0, 0, 5}));
+}
+
+TEST(S7Services, BitsBytesAndWordsAreWritten) {
+  Plc plc(kQuiet);
+  Master master(plc);
+  EXPECT_EQ(code_of(master.ask(writing(variable(2, 3, kV, 500 * 8, 1), 0x04, 24, {1, 2, 3}))), 0xFF);
+  EXPECT_EQ(plc.value("VW500"), 0x0102);
+  EXPECT_EQ(plc.value("VB502"), 3);
+  EXPECT_EQ(plc.value("VB503"), 0);
+  EXPECT_EQ(code_of(master.ask(writing(variable(1, 1, 0x83, 31 * 8 + 7), 0x03, 1, {1}))), 0xFF);
+  EXPECT_EQ(plc.value("M31.7"), 1);
+  EXPECT_EQ(plc.value("MB31"), 0x80);
+  EXPECT_EQ(code_of(master.ask(writing(variable(4, 1, kV, 510 * 8, 1), 0x04, 16, {0xFF, 0xFE}))), 0xFF);
+  EXPECT_EQ(plc.value("VW510"), -2);
+}
+
+TEST(S7Services, WhatIsReadOnlyIsNotWritten) {
+  Plc plc(kQuiet, cpu224());
+  Master master(plc);
+  EXPECT_EQ(code_of(master.ask(writing(variable(2, 1, 0x05, 29 * 8), 0x04, 8, {1}))), 0x03) << "SMB29";
+  EXPECT_EQ(code_of(master.ask(writing(variable(2, 1, 0x05, 34 * 8), 0x04, 8, {9}))), 0xFF) << "SMB34";
+  EXPECT_EQ(plc.value("SMB34"), 9);
+  EXPECT_EQ(code_of(master.ask(writing(variable(4, 1, 0x06, 0), 0x04, 16, {1, 1}))), 0x03) << "AIW0";
+  EXPECT_EQ(code_of(master.ask(writing(variable(0x20, 1, 0x20, 0), 0x09, 4, {0, 0, 0, 1}))), 0x03) << "HC0";
+}
+
+TEST(S7Services, EachVariableHasItsReturnCodeAndBeginsAtAnEvenPlace) {
+  Plc plc(kQuiet);
+  plc.set("VB10", 0xAA);
+  plc.set("VB4095", 0xBB);
+  const Bytes answer =
+      Master(plc).ask(reading({variable(2, 1, kV, 10 * 8, 1), variable(2, 2, kV, 4095 * 8, 1), variable(2, 1, 0x99, 0),
+                               variable(9, 1, kV, 0, 1), variable(2, 1, kV, 4095 * 8, 1)}));
+  EXPECT_EQ((Bytes{answer.begin() + 14, answer.end()}), (Bytes{0xFF, 4, 0, 8, 0xAA, 0,  // VB10, and a byte to fill up
+                                                               0x05, 0, 0, 0,           // beyond V memory
+                                                               0x0A, 0, 0, 0,           // no such area
+                                                               0x06, 0, 0, 0,           // no such type
+                                                               0xFF, 4, 0, 8, 0xBB}));
+}
+
+TEST(S7Services, AnAnswerThatIsTooLongIsRefused) {
+  Plc plc(kQuiet);
+  Master master(plc);
+  EXPECT_EQ(value_of(master.ask(reading({variable(2, 222, kV, 0, 1)}))).size(), 222U) << "18 bytes and 222 are 240";
+  EXPECT_EQ(error_of(master.ask(reading({variable(2, 223, kV, 0, 1)}))), 0x8500);
+  EXPECT_EQ(error_of(master.ask(reading({variable(2, 60'000, kV, 0, 1)}))), 0) << "beyond V memory: its return code says so";
+}
+
+TEST(S7Services, TheCommunicationIsSetUpFor240Bytes) {
+  Plc plc(kQuiet);
+  Master master(plc);
+  EXPECT_EQ(master.ask(request({0xF0, 0, 0, 1, 0, 1, 0x03, 0xC0}, {}, 0x1234)),
+            (Bytes{0x32, 3, 0, 0, 0x12, 0x34, 0, 8, 0, 0, 0, 0, 0xF0, 0, 0, 1, 0, 1, 0, 0xF0}));
+  EXPECT_EQ(master.ask(request({0xF0, 0, 0, 1, 0, 1, 0, 0x64})).back(), 0x64);
+}
+
+TEST(S7Services, StopAndRunChangeTheMode) {
+  Plc plc("LD SM0.1\nINCW VW0\nLD SM0.0\n= Q0.0\nMEND\n");
+  Master master(plc);
+  const Bytes program{9, 'P', '_', 'P', 'R', 'O', 'G', 'R', 'A', 'M'};
+  EXPECT_EQ(master.ask(request(joined({{0x29, 0, 0, 0, 0, 0}, program}))),
+            (Bytes{0x32, 3, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0x29}));
+  EXPECT_TRUE(plc.stopped());
+  EXPECT_EQ(plc.cpu.state().image[image::kOutputs], 0);
+  EXPECT_EQ(code_of(master.ask(kReadVb100)), 0xFF) << "in STOP it answers too";
+  EXPECT_EQ(master.ask(request(joined({{0x28, 0, 0, 0, 0, 0, 0, 0xFD, 0, 0}, program}))).back(), 0x28);
+  EXPECT_FALSE(plc.stopped());
+  plc.run_until(plc.cpu.time() + 10 * ms);
+  EXPECT_EQ(plc.value("VW0"), 2) << "two first scans";
+  EXPECT_EQ(plc.cpu.state().image[image::kOutputs], 1);
+  EXPECT_EQ(error_of(master.ask(request({0x28, 0, 0, 0, 0, 0, 0, 0xFD, 0, 0, 5, '_', 'G', 'A', 'R', 'B'}))), 0x8104);
+}
+
+TEST(S7Services, TheClockIsReadAndSet) {
+  Plc plc(kQuiet);
+  Master master(plc);
+  const auto user_data = [](std::uint8_t service, const Bytes& data) {
+    return joined({{0x32, 7, 0, 0, 0, 1, 0, 8},
+                   word(static_cast<unsigned>(data.size())),
+                   {0, 1, 0x12, 4, 0x11, 0x47, service, 0},
+                   data});
+  };
+  const Bytes set = master.ask(user_data(2, {0xFF, 9, 0, 10, 0, 0x20, 0x26, 0x11, 0x22, 0x15, 0x45, 0x30, 0x00, 0x01}));
+  ASSERT_GE(set.size(), 22U);
+  EXPECT_EQ((Bytes{set.begin(), set.begin() + 22}),
+            (Bytes{0x32, 7, 0, 0, 0, 1, 0, 12, 0, 4, 0, 1, 0x12, 8, 0x12, 0x87, 2, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(plc.cpu.clock().year, 26);
+  EXPECT_EQ(plc.cpu.clock().minute, 45);
+  const Bytes now = master.ask(user_data(1, {0x0A, 0, 0, 0}));
+  ASSERT_EQ(now.size(), 10U + 12U + 14U);
+  EXPECT_EQ((Bytes{now.begin() + 22, now.begin() + 33}), (Bytes{0xFF, 9, 0, 10, 0, 0x20, 0x26, 0x11, 0x22, 0x15, 0x45}));
+  const Bytes bad = master.ask(user_data(2, {0xFF, 9, 0, 10, 0, 0x20, 0x2A, 0x11, 0x22, 0x15, 0x45, 0x30, 0x00, 0x01}));
+  EXPECT_EQ(load16(&bad[20]), 0x8704) << "not BCD";
+}
+
+TEST(S7Services, OtherFunctionsAreRefusedByNumber) {
+  Plc plc(kQuiet);
+  Master master(plc);
+  EXPECT_EQ(error_of(master.ask(request({0x1A, 0, 0}))), 0x8104) << "download";
+  EXPECT_EQ(error_of(master.ask(request({0x04, 2, 0x12}))), 0x8704) << "fewer variables than it says";
+  EXPECT_EQ(error_of(master.ask(request({0x05, 1, 0x12, 0x0A, 0x10, 2, 0, 4, 0, 1, 0x84, 0, 0, 0}, {0, 4, 0, 0xFF, 1}))),
+            0x8704)
+      << "more data than there are";
+  EXPECT_EQ(master.ask({0x33, 1, 0, 0, 0, 1, 0, 0, 0, 0}), Bytes{}) << "not S7: it stays without an answer";
+}
+
+TEST(S7Services, ForcedMemoryHoldsAgainstAMaster) {
+  Plc plc(kQuiet);
+  ASSERT_TRUE(plc.cpu.force(plc.place("VB500"), 7));
+  Master master(plc);
+  EXPECT_EQ(code_of(master.ask(writing(variable(2, 1, kV, 500 * 8, 1), 0x04, 8, {1}))), 0xFF);
+  EXPECT_EQ(plc.value("VB500"), 7);
+}
+
+TEST(S7Services, TheTraceSaysWhatAMasterReadsAndWrites) {
+  Plc plc(kQuiet);
+  Master master(plc, 1);
+  master.ask(reading({variable(2, 4, kV, 100 * 8, 1), variable(1, 1, 0x83, 31 * 8 + 7), variable(0x1F, 1, 0x1F, 37)}));
+  master.ask(reading({variable(2, 4, 0x99, 100 * 8, 1)}));
+  std::string text;
+  for (const TraceRecord& record : plc.records.of(TraceKind::PpiAccess)) text += describe(record, plc.cpu.program()) + '\n';
+  EXPECT_EQ(text,
+            "PPI station 1 reads VB100, 4 bytes\nPPI station 1 reads M31.7\nPPI station 1 reads T37\n"
+            "PPI station 1 reads area 16#99, address 100.0: refused, code 0A\n");
+}
+
+}  // namespace
+}  // namespace s7200::test

@@ -1,0 +1,474 @@
+// PPI: what a CPU answers on a port that is not in Freeport mode (facts 10.9).
+#include <array>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/ppi_frame.hpp"
+#include "interpreter/model/s7_pdu.hpp"
+#include "interpreter/program/address.hpp"
+#include "tools/master/words.hpp"
+#include "tools/rig/clock_text.hpp"
+#include "tools/views/register_text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Data = std::span<const std::uint8_t>;
+
+constexpr std::string_view kOwnStation = "--own-station";
+constexpr std::uint8_t kStation = 2, kProgrammingDevice = 0;
+
+/// A scan may last 500 ms, and a poll with its reply takes 10.
+constexpr int kMostPolls = 60;
+
+void append16(Bytes& to, std::size_t value) {
+  to.push_back(static_cast<std::uint8_t>(value >> 8));
+  to.push_back(static_cast<std::uint8_t>(value));
+}
+
+Bytes pdu(s7::Kind kind, const Bytes& parameters, const Bytes& data) {
+  Bytes pdu{s7::kProtocol, kind, 0, 0, 0, 1};
+  append16(pdu, parameters.size());
+  append16(pdu, data.size());
+  pdu.insert(pdu.end(), parameters.begin(), parameters.end());
+  pdu.insert(pdu.end(), data.begin(), data.end());
+  return pdu;
+}
+
+std::uint8_t area_code(Area area) {
+  const auto found = std::ranges::find_if(s7::kWireAreas, [&](const s7::WireArea& wire) { return wire.area == area; });
+  return found == s7::kWireAreas.end() ? std::uint8_t{0} : found->code;
+}
+
+bool is_element(const MemoryRange& range) { return info(range.area).element != 0; }
+
+s7::Type type_of(Width width) {
+  switch (width) {
+    case Width::Bit:
+      return s7::kBit;
+    case Width::Byte:
+      return s7::kByte;
+    case Width::Word:
+      return s7::kWord;
+    case Width::Double:
+      return s7::kDouble;
+  }
+  return s7::kByte;
+}
+
+Bytes variable(const MemoryRange& range) {
+  const std::uint8_t code = area_code(range.area);
+  const std::uint8_t type = is_element(range) ? code : std::uint8_t{type_of(range.width)};
+  const std::uint32_t address = is_element(range) ? range.number : range.number * 8 + range.bit;
+  Bytes bytes(s7::kVariableHead.begin(), s7::kVariableHead.end());
+  bytes.push_back(type);
+  append16(bytes, range.count);
+  append16(bytes, range.area == Area::V ? 1 : 0);
+  bytes.insert(bytes.end(), {code, static_cast<std::uint8_t>(address >> 16)});
+  append16(bytes, address & 0xFFFF);
+  return bytes;
+}
+
+/// A request, and what its answer is to be read as.
+struct Wanted {
+  Bytes pdu{};  ///< empty: the status of the station
+  std::optional<MemoryRange> range{};
+  std::string what{};  ///< of a request without variable: `stop`
+};
+
+class PpiRequest final : public ProtocolRequest {
+ public:
+  PpiRequest(std::uint8_t station, std::uint8_t own, Wanted wanted)
+      : station_(station), own_(own), wanted_(std::move(wanted)) {}
+  explicit PpiRequest(serial::Frame raw) : raw_(std::move(raw)) {}
+
+  serial::Frame frame() override {
+    if (!raw_.empty()) return raw_;
+    polls_ = 0;
+    const auto function = wanted_.pdu.empty() ? ppi::kStatusFunction : ppi::kRequestFunction;
+    return serial::to_frame(ppi::to_frame({station_, own_, function, wanted_.pdu}));
+  }
+
+  std::optional<serial::Frame> next(Data response) override {
+    const bool fetches = raw_.empty() && !wanted_.pdu.empty() && response.size() == 1 && response[0] == ppi::kAccepted;
+    if (!fetches || polls_ == kMostPolls) return {};
+    const auto function = static_cast<std::uint8_t>(ppi::kPollFunction ^ (polls_++ % 2 == 0 ? 0 : ppi::kFrameCount));
+    return serial::to_frame(ppi::to_frame({station_, own_, function}));
+  }
+
+  serial::Answer judge(Data request, Data response) const override;
+  std::string_view exception_name(std::uint8_t code) const override;
+  std::string subject() const override;
+  std::string in_short(const serial::Answer& answer, Data request, Data response) const override;
+  std::vector<std::string> in_lines(const serial::Answer& answer, Data request, Data response) const override;
+  nlohmann::ordered_json subject_json(Data request) const override;
+  nlohmann::ordered_json decoded_json(const serial::Answer& answer) const override;
+
+ private:
+  bool reads() const { return wanted_.pdu.size() > s7::kRequestHead && wanted_.pdu[s7::kRequestHead] == s7::kRead; }
+  void take(Data pdu, serial::Answer& answer) const;
+  void take_value(Data data, serial::Answer& answer) const;
+  std::string value_text(const serial::Answer& answer, std::uint32_t i) const;
+
+  serial::Frame raw_{};
+  std::uint8_t station_ = 0, own_ = 0;
+  Wanted wanted_{};
+  int polls_ = 0;
+};
+
+serial::Answer wrong(std::string fault) {
+  serial::Answer answer;
+  answer.verdict = serial::Verdict::Wrong;
+  answer.fault = std::move(fault);
+  return answer;
+}
+
+/// What follows the acceptances: those of the request and of polls that came too early.
+Data after_acceptances(Data response) {
+  while (!response.empty() && response[0] == ppi::kAccepted) response = response.subspan(1);
+  return response;
+}
+
+std::string_view refusal_of_station(std::uint8_t function) {
+  if (function == ppi::kNoResource) return "the station has no resource: another master's answer waits to be fetched";
+  if (function == ppi::kNoService) return "the station does not have this service";
+  return "the reply has another function than 08";
+}
+
+serial::Answer PpiRequest::judge(Data, Data response) const {
+  serial::Answer answer;
+  if (response.empty()) return answer;
+  answer.verdict = serial::Verdict::Right;
+  const Data frame = after_acceptances(response);
+  if (!raw_.empty() || (frame.empty() && wanted_.pdu.empty())) return answer;
+  if (frame.empty())
+    return wrong(polls_ == kMostPolls ? fmt::format("accepted, but no answer after {} polls", kMostPolls)
+                                      : "accepted, but no reply to a poll");
+  const auto body = ppi::frame_length(frame) == frame.size() ? ppi::body_of(frame) : std::nullopt;
+  if (!body) return wrong("not a frame: its length, check sum or end is wrong");
+  if (body->source != station_ || body->destination != own_)
+    return wrong(fmt::format("a reply of station {} to station {}", body->source, body->destination));
+  if (wanted_.pdu.empty()) {
+    answer.bytes = {body->function};
+    return answer;
+  }
+  if (body->function != ppi::kData) return wrong(std::string(refusal_of_station(body->function)));
+  take(body->data, answer);
+  return answer;
+}
+
+void PpiRequest::take(Data pdu, serial::Answer& answer) const {
+  const bool user_data = wanted_.pdu[1] == s7::kUserData;
+  const std::size_t head = user_data ? s7::kRequestHead : s7::kAnswerHead;
+  const bool whole = pdu.size() >= head && pdu[0] == s7::kProtocol && pdu[1] == (user_data ? s7::kUserData : s7::kAnswer) &&
+                     pdu.size() == head + load16(&pdu[6]) + load16(&pdu[8]) && load16(&pdu[4]) == load16(&wanted_.pdu[4]);
+  if (!whole) {
+    answer = wrong("not the answer to this request");
+    return;
+  }
+  const Data parameters = pdu.subspan(head, load16(&pdu[6])), data = pdu.subspan(head + parameters.size());
+  const std::uint16_t error = !user_data               ? load16(&pdu[10])
+                              : parameters.size() < 12 ? std::uint16_t{0}
+                                                       : load16(&parameters[10]);
+  if (error != 0) {
+    answer.verdict = serial::Verdict::Exception;
+    answer.exception = static_cast<std::uint8_t>(error >> 8);
+  } else if (wanted_.range) {
+    take_value(data, answer);
+  } else {
+    answer.bytes.assign(data.begin(), data.end());
+  }
+}
+
+void PpiRequest::take_value(Data data, serial::Answer& answer) const {
+  constexpr std::size_t kValueHead = 4;
+  const MemoryRange& range = *wanted_.range;
+  if (data.empty()) {
+    answer = wrong("no return code");
+  } else if (data[0] != s7::kDone) {
+    answer.verdict = serial::Verdict::Exception;
+    answer.exception = data[0];
+  } else if (reads() && data.size() != kValueHead + range.bytes()) {
+    answer = wrong(fmt::format("wrong length: {} bytes of data, expected {}", data.size(), kValueHead + range.bytes()));
+  } else if (reads()) {
+    answer.bytes.assign(data.begin() + kValueHead, data.end());
+    const bool words = range.width == Width::Word || range.width == Width::Double;
+    for (std::size_t i = 0; i < answer.bytes.size(); i += words ? 2 : 1)
+      answer.values.push_back(words ? load16(&answer.bytes[i]) : answer.bytes[i]);
+  }
+}
+
+std::string_view PpiRequest::exception_name(std::uint8_t code) const {
+  switch (code) {
+    case s7::kNotAllowed:
+      return "not allowed";
+    case s7::kOutside:
+      return "outside the memory of this CPU";
+    case s7::kWrongType:
+      return "the type does not go with the area";
+    case s7::kNoArea:
+      return "no such area";
+    case static_cast<std::uint16_t>(s7::Refusal::Unknown) >> 8:
+      return "function not available";
+    case static_cast<std::uint16_t>(s7::Refusal::TooLong) >> 8:
+      return "the answer would be too long";
+    case static_cast<std::uint16_t>(s7::Refusal::Malformed) >> 8:
+      return "malformed request";
+    default:
+      return "unknown";
+  }
+}
+
+std::string range_text(const MemoryRange& range) {
+  return range.count == 1 ? range.name_of(0) : fmt::format("{}…{}", range.name_of(0), range.name_of(range.count - 1));
+}
+
+std::string PpiRequest::subject() const {
+  if (!raw_.empty()) return {};
+  return fmt::format("station {}{}", station_, wanted_.range ? ", " + range_text(*wanted_.range) : "");
+}
+
+std::string PpiRequest::value_text(const serial::Answer& answer, std::uint32_t i) const {
+  const MemoryRange& range = *wanted_.range;
+  const std::uint8_t* at = &answer.bytes[i * bytes_of(range.width)];
+  switch (range.width) {
+    case Width::Bit:
+      return fmt::format("{}", at[0] & 1);
+    case Width::Byte:
+      return fmt::format("16#{:02X} {:>6}", at[0], at[0]);
+    case Width::Word:
+      return fmt::format("16#{:04X} {:>6}", load16(at), static_cast<std::int16_t>(load16(at)));
+    case Width::Double:
+      if (range.real) return fmt::format("{}", std::bit_cast<float>(load32(at)));
+      return fmt::format("16#{:08X} {:>11}", load32(at), static_cast<std::int32_t>(load32(at)));
+  }
+  return {};
+}
+
+/// The clock as it comes: FF 09 00 0A 00 century year month day hour minute second milliseconds weekday, in BCD.
+std::string clock_reply_text(Data data) {
+  constexpr std::size_t kLength = 14;
+  if (data.size() < kLength) return "done";
+  return fmt::format("{:02x}{:02x}-{:02x}-{:02x} {:02x}:{:02x}:{:02x}", data[5], data[6], data[7], data[8], data[9],
+                     data[10], data[11]);
+}
+
+std::string PpiRequest::in_short(const serial::Answer& answer, Data, Data response) const {
+  if (!raw_.empty()) return serial::to_hex(response);
+  if (wanted_.pdu.empty())
+    return answer.bytes == Bytes{ppi::kSlave} ? "a slave, ready" : fmt::format("16#{:02X}", answer.bytes[0]);
+  if (!wanted_.range) return wanted_.what == "clock" ? clock_reply_text(answer.bytes) : "done";
+  if (!reads()) return range_text(*wanted_.range) + " written";
+  std::string text;
+  for (std::uint32_t i = 0; i < wanted_.range->count; ++i) text += (i == 0 ? "" : "  ") + value_text(answer, i);
+  return text;
+}
+
+std::vector<std::string> PpiRequest::in_lines(const serial::Answer& answer, Data request, Data response) const {
+  if (!wanted_.range || !reads()) return {"  " + in_short(answer, request, response)};
+  std::vector<std::string> lines;
+  for (std::uint32_t i = 0; i < wanted_.range->count; ++i)
+    lines.push_back(fmt::format("{:>8}  {}", wanted_.range->name_of(i), value_text(answer, i)));
+  return lines;
+}
+
+nlohmann::ordered_json PpiRequest::subject_json(Data) const {
+  nlohmann::ordered_json json = empty_subject();
+  if (!raw_.empty()) return json;
+  json["station"] = station_;
+  if (wanted_.pdu.size() > s7::kRequestHead) json["function"] = wanted_.pdu[s7::kRequestHead];
+  if (!wanted_.range) return json;
+  json["area"] = info(wanted_.range->area).name;
+  json["first"] = wanted_.range->number;
+  json["notation"] = wanted_.range->name_of(0);
+  json["count"] = wanted_.range->count;
+  return json;
+}
+
+nlohmann::ordered_json PpiRequest::decoded_json(const serial::Answer& answer) const {
+  if (!wanted_.range || wanted_.range->width != Width::Double) return answer.values;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (std::size_t at = 0; at + 4 <= answer.bytes.size(); at += 4) {
+    const std::uint32_t value = load32(&answer.bytes[at]);
+    if (wanted_.range->real)
+      list.push_back(std::bit_cast<float>(value));
+    else
+      list.push_back(static_cast<std::int32_t>(value));
+  }
+  return list;
+}
+
+class Parser final : public WordParser {
+ public:
+  explicit Parser(const ProtocolUse& use) : WordParser(use.station, ppi::kLastStation) {
+    if (const auto given = use.given.find(kOwnStation); given != use.given.end())
+      own_ = static_cast<std::uint8_t>(parse_number(given->second, 0, ppi::kLastStation, "the master's station"));
+  }
+
+  std::vector<MasterAction> parse(const Words& words);
+
+  void read(const Words& operands);
+  void write(const Words& operands);
+  void run(const Words&) { change_mode(s7::kRun, {0, 0, 0, 0, 0, 0, 0xFD, 0, 0}); }
+  void stop(const Words&) { change_mode(s7::kStop, {0, 0, 0, 0, 0}); }
+  void clock(const Words&);
+  void set_clock(const Words& operands);
+  void status(const Words&) { add({.what = "status"}); }
+  void raw(const Words& operands);
+
+ private:
+  void add(Wanted wanted) { WordParser::add(std::make_shared<PpiRequest>(station_, own_, std::move(wanted))); }
+  void add_clock(std::uint8_t service, const Bytes& data);
+  void change_mode(s7::Function function, Bytes parameters);
+  MemoryRange range_of(const std::string& text);
+
+  std::uint8_t own_ = kProgrammingDevice;
+};
+
+using PpiVerb = Verb<Parser>;
+
+constexpr std::array kVerbs{
+    PpiVerb{"read", "ADDRESS[:COUNT]…", "VB100:4, VW100:2, VD20:real, M31.7, QB0, SMB0, AIW0, T37, C5", 1, kMany,
+            &Parser::read},
+    PpiVerb{"write", "ADDRESS=VALUE,…", "VB100=65,66, VW100=-5, M31.7=1, C5=0", 1, kMany, &Parser::write},
+    PpiVerb{"run", "", "the CPU goes to RUN", 0, 0, &Parser::run},
+    PpiVerb{"stop", "", "the CPU goes to STOP", 0, 0, &Parser::stop},
+    PpiVerb{"clock", "", "its time of day", 0, 0, &Parser::clock},
+    PpiVerb{"set-clock", "TIME", "2026-11-22T15:45:30", 1, 1, &Parser::set_clock},
+    PpiVerb{"status", "", "whether there is a station", 0, 0, &Parser::status},
+    PpiVerb{"raw", "HEX…", "frames as they are", 1, kMany, &Parser::raw},
+    PpiVerb{"station", "NUMBER", "the actions after it go to this station", 1, 1, &Parser::station},
+    PpiVerb{"wait", "TIME", "before the next action", 1, 1, &Parser::wait},
+};
+
+std::vector<MasterAction> Parser::parse(const Words& words) {
+  return parse_with(*this, std::span<const PpiVerb>(kVerbs), words, "read VB100:4");
+}
+
+/// Of the largest CPU: which one it is, is not known.
+MemoryRange Parser::range_of(const std::string& text) {
+  std::string why;
+  const auto range = parse_range(text, cpu226(), why);
+  if (!range) refuse(why);
+  if (area_code(range->area) == 0)
+    refuse(fmt::format("'{}': a master cannot reach {}", stl::shortened(text), info(range->area).meaning));
+  return *range;
+}
+
+void Parser::read(const Words& operands) {
+  constexpr std::uint32_t kMost = s7::kLongestPdu - s7::kAnswerHead - 2 - 4;  // beside function, number and the value's head
+  for (const std::string& operand : operands) {
+    text_ = "read " + operand;
+    const MemoryRange range = range_of(operand);
+    if (range.bytes() > kMost) refuse(fmt::format("{}: {} bytes; a request reads {} at most", text_, range.bytes(), kMost));
+    Bytes parameters{s7::kRead, 1};
+    const Bytes one = variable(range);
+    parameters.insert(parameters.end(), one.begin(), one.end());
+    add({.pdu = pdu(s7::kRequest, parameters, {}), .range = range});
+  }
+}
+
+/// The bytes of `values`, which are to begin at `range`; its count becomes theirs.
+Bytes value_bytes(MemoryRange& range, const std::string& values, const std::string& action) {
+  Bytes bytes;
+  MemoryRange one = range;
+  one.count = 1;
+  range.count = 0;
+  for (std::optional rest{values}; rest; ++range.count) {
+    const auto next = split_at(*rest, ',');
+    const auto assignment = parse_value(one, next ? next->first : *rest);
+    if (!assignment)
+      refuse(fmt::format("{}: '{}' is not a value for {}", action, stl::shortened(next ? next->first : *rest),
+                         range.name_of(0)));
+    std::array<std::uint8_t, 4> value{};
+    store32(value.data(), assignment->value);
+    bytes.insert(bytes.end(), value.end() - bytes_of(range.width), value.end());
+    rest = next ? std::optional(next->second) : std::nullopt;
+  }
+  return bytes;
+}
+
+void Parser::write(const Words& operands) {
+  constexpr std::size_t kMost = s7::kLongestPdu - s7::kRequestHead - 2 - s7::kVariableBytes - 4;
+  for (const std::string& operand : operands) {
+    const auto parts = split_at(operand, '=');
+    if (!parts) refuse(fmt::format("'{}': a value is missing; write for example VB100=65", stl::shortened(operand)));
+    text_ = "write " + operand;
+    MemoryRange range = range_of(parts->first);
+    const Bytes value = value_bytes(range, parts->second, text_);
+    if (range.width == Width::Bit && range.count != 1) refuse(fmt::format("{}: one bit at a time", text_));
+    if (value.size() > kMost) refuse(fmt::format("{}: {} bytes; a request writes {} at most", text_, value.size(), kMost));
+    range_of(range.name_of(range.count - 1));
+    Bytes parameters{s7::kWrite, 1};
+    const Bytes one = variable(range);
+    parameters.insert(parameters.end(), one.begin(), one.end());
+    const auto type = range.width == Width::Bit ? s7::kInBits : is_element(range) ? s7::kInBytes : s7::kInBitsOfBytes;
+    Bytes data{0, type};
+    append16(data, type == s7::kInBitsOfBytes ? value.size() * 8 : value.size());
+    data.insert(data.end(), value.begin(), value.end());
+    add({.pdu = pdu(s7::kRequest, parameters, data), .range = range});
+  }
+}
+
+void Parser::change_mode(s7::Function function, Bytes parameters) {
+  parameters.insert(parameters.begin(), function);
+  parameters.push_back(static_cast<std::uint8_t>(s7::kProgram.size()));
+  parameters.insert(parameters.end(), s7::kProgram.begin(), s7::kProgram.end());
+  add({.pdu = pdu(s7::kRequest, parameters, {}), .what = function == s7::kRun ? "run" : "stop"});
+}
+
+void Parser::add_clock(std::uint8_t service, const Bytes& data) {
+  add({.pdu = pdu(s7::kUserData, {0, 1, 0x12, 4, 0x11, static_cast<std::uint8_t>(0x40 | s7::kClockGroup), service, 0}, data),
+       .what = service == s7::kReadClock ? "clock" : "set-clock"});
+}
+
+void Parser::clock(const Words&) { add_clock(s7::kReadClock, {0x0A, 0, 0, 0}); }
+
+void Parser::set_clock(const Words& operands) {
+  const auto time = parse_clock(operands[0]);
+  if (!time) refuse(fmt::format("'{}' is not a time; write for example 2026-11-22T15:45:30", stl::shortened(operands[0])));
+  const auto bcd = [](int value) { return static_cast<std::uint8_t>(value / 10 << 4 | value % 10); };
+  add_clock(s7::kSetClock, {0xFF, s7::kInBytes, 0, 10, 0, bcd(time->year >= 90 ? 19 : 20), bcd(time->year), bcd(time->month),
+                            bcd(time->day), bcd(time->hour), bcd(time->minute), bcd(time->second), 0, time->weekday});
+}
+
+void Parser::raw(const Words& operands) {
+  for (const std::string& operand : operands) {
+    serial::Frame frame = parse_hex(operand);
+    const std::uint8_t first = frame.front().byte;
+    add_raw(operand, first, std::make_shared<PpiRequest>(std::move(frame)));
+  }
+}
+
+std::string fault_of_own_station(const std::string& text) {
+  try {
+    parse_number(text, 0, ppi::kLastStation, "the master's station");
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+bool is_complete(Data response) { return !response.empty() && ppi::frame_length(response) == response.size(); }
+
+std::vector<MasterAction> actions(const Words& words, const ProtocolUse& use) { return Parser(use).parse(words); }
+
+}  // namespace
+
+const Protocol& ppi_protocol() {
+  static const Protocol protocol{
+      .name = "ppi",
+      .meaning = "programming devices and panels: a port that is not in Freeport mode",
+      .station = kStation,
+      .format = {},
+      .over_modbus_tcp = false,
+      .options = {{kOwnStation, "NUMBER", "the master's own; a programming device has 0, a panel 1", "0",
+                   fault_of_own_station}},
+      .actions_help = "Actions of --protocol ppi, to station 2 unless another is given:\n" +
+                      verbs_help(std::span<const PpiVerb>(kVerbs)),
+      .actions = actions,
+      .is_complete = is_complete,
+      .patience = {.timeout = 150 * kMillisecond, .retries = 2}};
+  return protocol;
+}
+
+}  // namespace s7200::tools
