@@ -44,8 +44,9 @@ TEST(Ppi, TheStatusIsThatOfASlave) {
 
 TEST(Ppi, TheAnswerIsNotThereBeforeTheCommunicationPartOfTheScan) {
   // A scan of 200 ms: the polls meanwhile are accepted without an answer.
-  Plc plc("LD SM0.0\nDIV VW0, VD4\nDIV VW0, VD4\nMEND\n");
-  plc.set("VD0", 0x00010001);
+  std::string program = "LD SM0.0\n";
+  for (int i = 0; i < 40; ++i) program += "SQRT VD8, VD12\n";
+  Plc plc(program + "MEND\n");
   Master master(plc);
   plc.run_until(5 * ms);
   EXPECT_EQ(master.say(sd2(2, 0, 0x6C, kReadVb100), 15 * ms), Bytes{0xE5});
