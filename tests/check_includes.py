@@ -41,6 +41,7 @@ ROOMS = {
     "tools/master": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
     "tools/calibration": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
     "tools/scenario": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
+    "tools/recordings": CORE + ["tools/views"],
     "tools/debugger": CORE + ["tools/host", "tools/views", "tools/rig"],
     "tools/dap": CORE + ["tools/host", "tools/views", "tools/rig", "tools/debugger"],
 }
@@ -54,6 +55,7 @@ LIBRARIES = {
     "boost/": ["interpreter/stl/parser.cpp", "tools/bridge"],
     "nlohmann/": ["tools", "tests"],
     "yaml-cpp/": ["tools/scenario"],
+    "pcap/": ["tools/recordings"],
     "histedit.h": ["tools/command"],
     "curses.h": ["tools/command"],
     "term.h": ["tools/command"],
@@ -68,7 +70,7 @@ WORDS = {
     r"\bstderr\b|\bstd::c(err|log|out)\b|\bstdout\b|\bfmt::print\b": ["tools/command", "tests"],
     r"\bk(Fine|CheckFailed|Unusable|CpuFatal)\b|\b_?exit\(": ["tools/command", "tests"],
     r"\bmodbus\b": ["serial_sim/modbus", "serial_sim/westinghouse", "serial_sim/record", "tools", "tests"],
-    r"\bpc_protocol\b": ["serial_sim/pc_protocol", "tools/master", "tests"],
+    r"\bpc_protocol\b": ["serial_sim/pc_protocol", "tools/master", "tools/recordings", "tests"],
     r"\bwestinghouse\b": ["serial_sim/westinghouse", "tools/master", "tools/command", "tests"],
 }
 

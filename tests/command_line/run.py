@@ -19,6 +19,7 @@ import xml.etree.ElementTree
 
 S7200, SOURCE, GROUP = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
 SLAVE = str(SOURCE / "stl_programs/modbus_slave.stl")
+LOG = str(SOURCE / "tests/recordings/plant.log")
 MEASURE = str(SOURCE / "stl_programs/measure_times.stl")
 EXPORTS = SOURCE / "tests/exports"
 TIP = SOURCE.parent / "shared/seeds/tip41_modbus_rtu_slave.txt"
@@ -439,7 +440,7 @@ class Options(Case):
     NONSENSE = ("nan", "-nan", "inf", "-1", "1e999", "0x10", "1_000", "5,0", "99999999999999999999999", "-")
     ANY_TEXT = ("TABLE", "FILE", "FILE.stl", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS", "TEXT")  # by their type in the help
     BEGINNING = {"check": [SLAVE], "import": [SLAVE], "convert": [SLAVE, "--to", "iec"], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
-                 "master": [SLAVE, "slave-id"], "debug": [SLAVE, "-x", "quit"], "dap": [SLAVE], "instructions": [], "times": [], "calibrate": [MEASURE], "bench": []}
+                 "master": [SLAVE, "slave-id"], "decode": [LOG], "import-capture": [LOG], "debug": [SLAVE, "-x", "quit"], "dap": [SLAVE], "instructions": [], "times": [], "calibrate": [MEASURE], "bench": []}
 
     @staticmethod
     def listed(verb):
@@ -1145,7 +1146,7 @@ class JsonPage(Case):
                     ["send", SOURCE / "stl_programs/text_commands.stl", "--text", "GET\\r"],
                     ["send", waits, "01020304050607", "--timeline", "--timeout", "10ms"],
                     ["send", hasty, "41", "--baud", "300", "--parity", "none"], ["instructions"], ["instructions", "MOVB"], ["times"], ["times", "cpu214", "cpu214_from_22x"], ["times", "--check", "cpu214"],
-                    ["calibrate", MEASURE, "--each", "1s"],
+                    ["calibrate", MEASURE, "--each", "1s"], ["decode", LOG], ["import-capture", LOG],
                     ["send", SLAVE, "--crc", "0103000a0001", "--times-band", "2"], ["master", SLAVE, "read", "40001", "--times-band", "2"],
                     ["test", good, "--times-band", "2"], ["bench", "--each", "1ms"],
                     ["test", good, bad, gap], ["test", good, "--against", SLAVE], ["test", "--conformance", slave, "--only", "SL-crc"],

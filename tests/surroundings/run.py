@@ -63,6 +63,7 @@ class Case(unittest.TestCase):
         self.idle, self.echo = self.file("idle.stl", IDLE), self.file("echo.stl", ECHO)
         self.blinking = self.file("blinking.stl", BLINKING)
         self.good = self.file("good.yaml", SCENARIO.format(program=self.echo, name="good"))
+        self.log = SOURCE / "tests/recordings/plant.log"
         self.page = self.file("page.txt", "A page of prose, which tells at some length what the lamp over the door of the plant does.\n\nNETWORK 1\n"
                                           "LD SM0.0 // always\nMOVB 1, VB0\nMEND\n")
 
@@ -103,7 +104,7 @@ class Case(unittest.TestCase):
         records = {"run.trace": "--trace", "outputs.csv": "--output", "line.vcd": "--capture", "line.pcap": "--capture",
                    "memory.json": "--memory"}
         return {"run": records, "send": records, "master": records, "debug": records, "dap": records, "import": {"listing.stl": "-o"},
-                "convert": {"converted.stl": "-o"}, "calibrate": {"times.csv": "-o"},
+                "convert": {"converted.stl": "-o"}, "calibrate": {"times.csv": "-o"}, "import-capture": {"plant.yaml": "-o"},
                 "test": {"junit.xml": "--junit", "transcript.yaml": "--record"}}.get(verb, {})
 
     def command(self, verb, out=None):
@@ -111,7 +112,7 @@ class Case(unittest.TestCase):
         files = [] if out is None else [word for name, option in self.outputs(verb).items() for word in (option, out / name)]
         return {"check": ["check", self.echo], "import": ["import", self.page],
                 "convert": ["convert", self.echo, "--to", "iec"], "run": ["run", self.blinking, "--for", "2s"],
-                "send": ["send", self.echo, "ab", "cd"], "test": ["test", self.good], "master": ["master", SLAVE, *SESSION],
+                "send": ["send", self.echo, "ab", "cd"], "test": ["test", self.good], "decode": ["decode", self.log], "import-capture": ["import-capture", self.log], "master": ["master", SLAVE, *SESSION],
                 "debug": ["debug", self.echo, "-x", "step 3; regs"], "dap": ["dap", self.echo], "instructions": ["instructions"], "times": ["times"],
                 "bench": ["bench", "--each", "1ms"],
                 "calibrate": ["calibrate", SOURCE / "stl_programs/measure_times.stl", "--each", "1s", "--json"]}[verb] + files
@@ -637,7 +638,7 @@ class Files(Case):
                 os.link(path, kept)
                 before = kept.read_bytes()
                 longer = {"run": ["--dump", "VB0"], "send": ["ef"], "master": ["read", "40009"]}.get(verb, [])
-                if verb in ("import", "convert", "calibrate", "test"):
+                if verb in ("import", "import-capture", "convert", "calibrate", "test"):
                     longer = [] if option == "--junit" else ["--force"]
                 self.ends(FINE, *command, *longer, option, path)
                 self.assertEqual(kept.read_bytes(), before)

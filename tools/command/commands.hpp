@@ -15,6 +15,8 @@ void add_run(CLI::App& app, int& exit_code);
 void add_send(CLI::App& app, int& exit_code);
 void add_test(CLI::App& app, int& exit_code);
 void add_master(CLI::App& app, int& exit_code);
+void add_decode(CLI::App& app, int& exit_code);
+void add_import_capture(CLI::App& app, int& exit_code);
 void add_debug(CLI::App& app, int& exit_code);
 void add_dap(CLI::App& app, int& exit_code);
 void add_instructions(CLI::App& app, int& exit_code);

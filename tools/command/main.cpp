@@ -40,6 +40,8 @@ int run_command(int argc, char** argv) {
   add_send(app, exit_code);
   add_test(app, exit_code);
   add_master(app, exit_code);
+  add_decode(app, exit_code);
+  add_import_capture(app, exit_code);
   add_debug(app, exit_code);
   add_dap(app, exit_code);
   add_instructions(app, exit_code);

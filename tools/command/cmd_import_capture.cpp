@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "interpreter/base/text.hpp"
+#include "tools/command/commands.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/command/options/number_option.hpp"
+#include "tools/command/options/recording_options.hpp"
+#include "tools/command/stl_output.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/recordings/decoded.hpp"
+#include "tools/views/results_json.hpp"
+
+namespace s7200::tools {
+namespace {
+
+struct ImportCaptureOptions {
+  RecordingOptions recording;
+  PlaybackChoices playback{.tolerance = 5 * kMillisecond};
+  std::string program, output;
+  bool force = false, json = false;
+
+  bool to_file() const { return !output.empty() && output != "-"; }
+};
+
+/// As the scenario's file has to name it.
+std::string seen_from(const std::string& path, const ImportCaptureOptions& options) {
+  if (path.empty() || !options.to_file()) return path;
+  const auto folder = std::filesystem::absolute(options.output).parent_path();
+  return std::filesystem::absolute(path).lexically_normal().lexically_relative(folder.lexically_normal()).string();
+}
+
+int run_import_capture(const ImportCaptureOptions& options) {
+  const auto read = read_conversation(options.recording);
+  if (!read) return kUnusable;
+  PlaybackChoices playback = options.playback;
+  playback.name = read->name;
+  playback.program = seen_from(options.program, options);
+  const std::string scenario = scenario_text(read->frames, read->stamps, playback);
+  if (scenario.empty())
+    return print_error(fmt::format("{}: no request in it; s7200 decode shows what is", read->name)), kUnusable;
+  const std::string text =
+      fmt::format("# Imported from {} by s7200 import-capture. Run by s7200 test{}.\n{}", stl::printable(read->name),
+                  options.program.empty() ? " --against TARGET" : "", scenario);
+  const int exit_code =
+      options.to_file() ? write_stl(options.output, {options.recording.file, options.program}, options.force, text) : kFine;
+  if (exit_code == kFine && options.json) {
+    auto results = results_of("import-capture");
+    results["file"] = options.recording.file;
+    results["output"] = options.to_file() ? nlohmann::ordered_json(options.output) : nullptr;
+    results["scenario"] = options.to_file() ? nullptr : nlohmann::ordered_json(text);
+    fmt::print("{}", lines_of(results));
+  } else if (!options.to_file()) {
+    print_file(text);
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+void add_import_capture(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ImportCaptureOptions>();
+  CLI::App* verb = app.add_subcommand("import-capture", "write a recording of a line as a scenario for `test`");
+  options->recording.add_to(*verb);
+  verb->add_option("--program", options->program, "that is to be tested; without it the scenario is for test --against")
+      ->type_name("PROGRAM");
+  add_whole_number(
+      *verb, "--station",
+      [options](std::uint64_t station) { options->playback.station = static_cast<std::uint8_t>(station); }, {0, 255},
+      "only what this station was asked");
+  add_duration(*verb, "--tolerance", options->playback.tolerance, "by which latencies may differ; 5ms without it");
+  verb->add_option("-o,--output", options->output, "file to write; standard output if not given")->type_name("FILE");
+  verb->add_flag("--force", options->force, "overwrite an existing file");
+  verb->add_flag("--json", options->json, "print what was written as JSON, with the scenario if no file is written");
+  verb->footer("Example: s7200 import-capture line.pcap --program stl_programs/modbus_slave.stl -o plant.yaml");
+  verb->callback([options, &exit_code] { exit_code = run_import_capture(*options); });
+}
+
+}  // namespace s7200::tools
