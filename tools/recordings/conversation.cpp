@@ -168,7 +168,7 @@ const RecordedProtocol* find_recorded_protocol(std::string_view name) {
   return found == kProtocols.end() ? nullptr : &*found;
 }
 
-std::vector<ReadFrame> conversation(const Recording& recording, const RecordedProtocol& protocol) {
+std::vector<ReadFrame> conversation(const LineRecording& recording, const RecordedProtocol& protocol) {
   std::vector<ReadFrame> all;
   std::map<std::uint32_t, std::size_t> open;  // by connection
   for (const RecordedFrame& frame : recording.frames) {

@@ -32,7 +32,7 @@ std::span<const RecordedProtocol> recorded_protocols();
 const RecordedProtocol* find_recorded_protocol(std::string_view name);
 
 /// Each frame in turn; an answer goes to the last request of its connection that has none.
-std::vector<ReadFrame> conversation(const Recording& recording, const RecordedProtocol& protocol);
+std::vector<ReadFrame> conversation(const LineRecording& recording, const RecordedProtocol& protocol);
 
 /// What a recording leaves open about its times.
 struct Stamps {

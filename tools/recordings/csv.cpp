@@ -89,9 +89,9 @@ bool looks_like_csv(std::string_view text) {
   return columns.time && columns.data;
 }
 
-std::optional<Recording> read_csv(std::string_view text, const ReadingChoices& choices, std::string& why) {
+std::optional<LineRecording> read_csv(std::string_view text, const ReadingChoices& choices, std::string& why) {
   constexpr Time kGap = 5 * kMillisecond;
-  Recording recording{.form = "CSV"};
+  LineRecording recording{.form = "CSV"};
   const Columns columns = columns_of(next_line(text));
   bool characters = true;
   for (std::size_t number = 2; !text.empty(); ++number) {

@@ -109,7 +109,7 @@ std::optional<TrailingBytes> trailing_bytes(std::string_view line) {
   return TrailingBytes{std::move(bytes), begin};
 }
 
-void join_characters(Recording& recording, Time gap) {
+void join_characters(LineRecording& recording, Time gap) {
   std::vector<RecordedFrame> frames;
   std::optional<Time> last;
   for (RecordedFrame& row : recording.frames) {
@@ -124,7 +124,7 @@ void join_characters(Recording& recording, Time gap) {
   recording.frames = std::move(frames);
 }
 
-void count_from_first(Recording& recording) {
+void count_from_first(LineRecording& recording) {
   Time days = 0;
   std::optional<Time> first, last;
   for (RecordedFrame& frame : recording.frames) {

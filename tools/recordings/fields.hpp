@@ -30,9 +30,9 @@ struct TrailingBytes {
 std::optional<TrailingBytes> trailing_bytes(std::string_view line);
 
 /// Rows with one character each become frames: those that follow within `gap`, in the same direction.
-void join_characters(Recording& recording, Time gap);
+void join_characters(LineRecording& recording, Time gap);
 
 /// Times count from the first frame. Those of day that go back have passed midnight.
-void count_from_first(Recording& recording);
+void count_from_first(LineRecording& recording);
 
 }  // namespace s7200::tools

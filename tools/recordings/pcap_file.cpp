@@ -105,7 +105,7 @@ class Reader {
       ++left_out_;
   }
 
-  Recording finish() {
+  LineRecording finish() {
     if (left_out_ > 0)
       recording_.notes.push_back(fmt::format("{} not of TCP port {} {} left out",
                                              left_out_ == 1 ? "a packet" : fmt::format("{} packets", left_out_),
@@ -151,7 +151,7 @@ class Reader {
 
   const ReadingChoices& choices_;
   int link_type_;
-  Recording recording_{.form = "pcap"};
+  LineRecording recording_{.form = "pcap"};
   std::map<std::pair<Bytes, Bytes>, Stream> streams_;
   std::uint32_t connections_ = 0;
   std::size_t left_out_ = 0;
@@ -159,7 +159,7 @@ class Reader {
 
 }  // namespace
 
-std::optional<Recording> read_pcap(const std::string& bytes, const ReadingChoices& choices, std::string& why) {
+std::optional<LineRecording> read_pcap(const std::string& bytes, const ReadingChoices& choices, std::string& why) {
   std::array<char, PCAP_ERRBUF_SIZE> error{};
   std::FILE* file = ::fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb");
   if (file == nullptr) return why = "out of memory", std::nullopt;
@@ -185,7 +185,7 @@ std::optional<Recording> read_pcap(const std::string& bytes, const ReadingChoice
   std::size_t number = 0;
   while ((result = pcap_next_ex(capture.get(), &head, &data)) == 1)
     reader.take(++number, head->ts.tv_sec * kSecond + head->ts.tv_usec, {data, head->caplen});
-  Recording recording = reader.finish();
+  LineRecording recording = reader.finish();
   if (result == PCAP_ERROR)
     recording.notes.push_back(
         fmt::format("after packet {} the file cannot be read: {}", number, pcap_geterr(capture.get())));

@@ -14,8 +14,8 @@ bool looks_like_pcap(std::string_view bytes) {
 
 }  // namespace
 
-std::optional<Recording> read_recording(const std::string& bytes, const ReadingChoices& choices, std::string& why) {
-  std::optional<Recording> recording;
+std::optional<LineRecording> read_recording(const std::string& bytes, const ReadingChoices& choices, std::string& why) {
+  std::optional<LineRecording> recording;
   if (looks_like_pcap(bytes))
     recording = read_pcap(bytes, choices, why);
   else if (bytes.find('\0') != std::string::npos)

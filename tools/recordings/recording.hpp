@@ -22,7 +22,7 @@ struct RecordedFrame {
   std::uint32_t stream = 0;  ///< of Modbus TCP: which connection; a request and its answer are of the same
 };
 
-struct Recording {
+struct LineRecording {
   std::vector<RecordedFrame> frames{};
   std::string form{};                ///< `pcap`, `text`, `CSV`
   std::vector<std::string> notes{};  ///< what was left out, and why
@@ -35,12 +35,12 @@ struct ReadingChoices {
 
 /// Reads a pcap or pcapng file (link types 147, Ethernet, Linux cooked, raw IP), a CSV file or a text log. Nothing and `why`
 /// if `bytes` are none of these, or have no frame.
-std::optional<Recording> read_recording(const std::string& bytes, const ReadingChoices& choices, std::string& why);
+std::optional<LineRecording> read_recording(const std::string& bytes, const ReadingChoices& choices, std::string& why);
 
 // The readers behind it. Frames may be none.
-std::optional<Recording> read_pcap(const std::string& bytes, const ReadingChoices& choices, std::string& why);
-std::optional<Recording> read_csv(std::string_view text, const ReadingChoices& choices, std::string& why);
-Recording read_text_log(std::string_view text, const ReadingChoices& choices);
+std::optional<LineRecording> read_pcap(const std::string& bytes, const ReadingChoices& choices, std::string& why);
+std::optional<LineRecording> read_csv(std::string_view text, const ReadingChoices& choices, std::string& why);
+LineRecording read_text_log(std::string_view text, const ReadingChoices& choices);
 
 /// Whether a text begins with a row that names its columns.
 bool looks_like_csv(std::string_view text);

@@ -13,9 +13,9 @@ Direction direction_of_brackets(std::string_view bytes) {
 
 }  // namespace
 
-Recording read_text_log(std::string_view text, const ReadingChoices& choices) {
+LineRecording read_text_log(std::string_view text, const ReadingChoices& choices) {
   constexpr Time kGap = 5 * kMillisecond;
-  Recording recording{.form = "text"};
+  LineRecording recording{.form = "text"};
   std::size_t number = 0, left_out = 0;
   bool characters = true;
   while (!text.empty()) {

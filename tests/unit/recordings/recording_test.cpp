@@ -18,11 +18,11 @@ namespace {
 
 constexpr Time ms = kMillisecond;
 
-Recording recording_of(const std::string& bytes, const ReadingChoices& choices = {}) {
+LineRecording recording_of(const std::string& bytes, const ReadingChoices& choices = {}) {
   std::string why;
   auto recording = read_recording(bytes, choices, why);
   EXPECT_TRUE(recording) << why;
-  return recording.value_or(Recording{});
+  return recording.value_or(LineRecording{});
 }
 
 std::string refusal_of(const std::string& bytes) {
@@ -73,7 +73,7 @@ TEST(RecordedFields, BytesAreReadInTheFormsOfTools) {
 // --- forms ---
 
 TEST(Recordings, ATextLogHasAFrameInEachLine) {
-  const Recording log =
+  const LineRecording log =
       recording_of("log of COM3\n00:00:10.000 TX: 01 03 00 00 00 01 84 0A\n00:00:10.025 RX: 01 03 02 12 34 B5 33\n");
   ASSERT_EQ(log.frames.size(), 2U);
   EXPECT_EQ(log.frames[0].bytes, kRequest);
@@ -86,7 +86,7 @@ TEST(Recordings, ATextLogHasAFrameInEachLine) {
 }
 
 TEST(Recordings, WhatMbpollPrintsHasNoTimesAndSaysItsDirectionsInBrackets) {
-  const Recording log =
+  const LineRecording log =
       recording_of("[01][03][00][00][00][01][84][0A]\nWaiting for a confirmation...\n<01><03><02><12><34><B5><33>\n");
   ASSERT_EQ(log.frames.size(), 2U);
   EXPECT_EQ(log.frames[0].direction, Direction::Request);
@@ -100,7 +100,7 @@ TEST(Recordings, CharactersWithTimesOfTheirOwnBecomeFramesBySilence) {
   for (const std::uint8_t byte : kRequest) csv += fmt::format("{:.6f},0x{:02X},,\n", at += 0.001146, byte);
   at += 0.016;
   for (const std::uint8_t byte : kAnswer) csv += fmt::format("{:.6f},0x{:02X},,\n", at += 0.001146, byte);
-  const Recording recording = recording_of(csv);
+  const LineRecording recording = recording_of(csv);
   ASSERT_EQ(recording.frames.size(), 2U);
   EXPECT_EQ(recording.form, "CSV");
   EXPECT_EQ(recording.frames[0].bytes, kRequest);
@@ -108,7 +108,7 @@ TEST(Recordings, CharactersWithTimesOfTheirOwnBecomeFramesBySilence) {
 }
 
 TEST(Recordings, ACsvHasItsColumnsByName) {
-  const Recording recording =
+  const LineRecording recording =
       recording_of("No;Time (ms);Direction;Data\n1;0;TX;01 03 00 00 00 01 84 0A\n2;25,5;RX;\"01 03 02 12 34 B5 33\"\n");
   ASSERT_EQ(recording.frames.size(), 2U);
   EXPECT_EQ(recording.frames[1].direction, Direction::Answer);
@@ -117,7 +117,7 @@ TEST(Recordings, ACsvHasItsColumnsByName) {
 }
 
 TEST(Recordings, MidnightPassesOnce) {
-  const Recording log = recording_of("23:59:59.990 TX 01 03\n00:00:00.010 RX 01 03\n00:00:00.020 TX 01 03\n");
+  const LineRecording log = recording_of("23:59:59.990 TX 01 03\n00:00:00.010 RX 01 03\n00:00:00.020 TX 01 03\n");
   ASSERT_EQ(log.frames.size(), 3U);
   EXPECT_EQ(log.frames[1].at, 20 * ms);
   EXPECT_EQ(log.frames[2].at, 30 * ms);
@@ -128,7 +128,7 @@ TEST(Recordings, OurOwnCaptureIsRead) {
   serial::PcapWriter writer(file);
   writer.packet(kSecond, kRequest);
   writer.packet(kSecond + 25 * ms + 7, kAnswer);
-  const Recording recording = recording_of(file.str());
+  const LineRecording recording = recording_of(file.str());
   ASSERT_EQ(recording.frames.size(), 2U);
   EXPECT_EQ(recording.frames[1].bytes, kAnswer);
   EXPECT_EQ(recording.frames[1].at, 25 * ms + 7) << "to the nanosecond";
@@ -167,7 +167,7 @@ TEST(Recordings, ModbusTcpIsReadAsOnASerialLine) {
   const Bytes answer = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 2, 0x12, 0x34}});
   const Bytes head(request.begin(), request.begin() + 4), rest(request.begin() + 4, request.end());
   const auto sequence = 100 + static_cast<std::uint32_t>(head.size());
-  const Recording recording =
+  const LineRecording recording =
       recording_of(ethernet_pcap({segment(true, 99, {}, 2), segment(true, 100, head), segment(true, sequence, rest),
                                   segment(true, sequence, rest), segment(false, 500, answer)}));
   ASSERT_EQ(recording.frames.size(), 2U) << "in pieces, and one of them sent again";
@@ -181,7 +181,7 @@ TEST(Recordings, ModbusTcpIsReadAsOnASerialLine) {
 TEST(Recordings, AConnectionWithSegmentsMissingIsLeftOutFromThereOn) {
   const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
   const auto length = static_cast<std::uint32_t>(request.size());
-  const Recording recording =
+  const LineRecording recording =
       recording_of(ethernet_pcap({segment(true, 100, request), segment(true, 100 + 2 * length, request)}));
   EXPECT_EQ(recording.frames.size(), 1U);
   EXPECT_EQ(recording.notes,
@@ -215,12 +215,12 @@ TEST(Recordings, RandomPacketsAreNeverReadBeyondTheirEnd) {
 
 // --- conversations ---
 
-std::vector<ReadFrame> read(const Recording& recording, std::string_view protocol = "modbus") {
+std::vector<ReadFrame> read(const LineRecording& recording, std::string_view protocol = "modbus") {
   return conversation(recording, *find_recorded_protocol(protocol));
 }
 
 TEST(Conversation, AnAnswerIsKnownByItsRequestWhereNoDirectionIsSaid) {
-  const Recording recording = recording_of("0.000 01 03 00 00 00 01 84 0A\n0.025 01 03 02 12 34 B5 33\n");
+  const LineRecording recording = recording_of("0.000 01 03 00 00 00 01 84 0A\n0.025 01 03 02 12 34 B5 33\n");
   const auto frames = read(recording);
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_EQ(frames[0].direction, Direction::Request);
@@ -232,14 +232,14 @@ TEST(Conversation, AnAnswerIsKnownByItsRequestWhereNoDirectionIsSaid) {
 }
 
 TEST(Conversation, TheLatencyIsTheSilenceBetweenThem) {
-  const Recording recording = recording_of("0.000 TX 01 03 00 00 00 01 84 0A\n0.025 RX 01 03 02 12 34 B5 33\n");
+  const LineRecording recording = recording_of("0.000 TX 01 03 00 00 00 01 84 0A\n0.025 RX 01 03 02 12 34 B5 33\n");
   const auto frames = read(recording);
   EXPECT_EQ(silence(frames[0], frames[1], {.character = 1 * ms}), 17 * ms) << "eight characters of the request";
   EXPECT_EQ(silence(frames[0], frames[1], {.character = 1 * ms, .at_end = true}), 18 * ms) << "seven of the answer";
 }
 
 TEST(Conversation, PpiIsReadFrameByFrame) {
-  const Recording recording = recording_of(
+  const LineRecording recording = recording_of(
       "0.000 68 1B 1B 68 02 00 6C 32 01 00 00 00 01 00 0E 00 00 04 01 12 0A 10 02 00 04 00 01 84 00 03 20 8F 16\n0.040 E5\n"
       "0.050 10 02 00 5C 5E 16\n0.060 68 19 19 68 00 02 08 32 03 00 00 00 01 00 02 00 08 00 00 04 01 FF 04 00 20 12 34 56 "
       "78 86 16\n"
@@ -255,7 +255,7 @@ TEST(Conversation, PpiIsReadFrameByFrame) {
 }
 
 TEST(Conversation, AScenarioAsksTheSameWithTheSameGaps) {
-  const Recording recording =
+  const LineRecording recording =
       recording_of("0.000 TX 01 03 00 00 00 01 84 0A\n0.025 RX 01 03 02 12 34 B5 33\n0.100 TX 02 03 00 00 00 01 84 39\n");
   const auto frames = read(recording);
   const Stamps stamps{.character = 1 * ms};

@@ -26,7 +26,7 @@ struct RecordingOptions {
 
 /// A recording with what it says.
 struct ReadRecording {
-  Recording recording;
+  LineRecording recording;
   std::vector<ReadFrame> frames;  ///< of the recording
   Stamps stamps;
   std::string name;  ///< what messages call the file
