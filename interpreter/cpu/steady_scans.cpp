@@ -36,8 +36,7 @@ Time next_change(const Core& core) {
 bool may_pass(const Core& core) {
   const TraceSink* const sink = core.sink();
   return core.s.mode == Mode::Run && !core.s.in_interrupt && !core.loop.pause_at_scan_end &&
-         !core.program().looks.every_scan && !(sink && sink->wants_scans()) &&
-         core.s.phase_left == core.program().scan_phase[1];
+         !core.program().looks.every_scan && !(sink && sink->wants_scans());
 }
 
 }  // namespace
@@ -61,6 +60,7 @@ void SteadyScans::move_on(const Program& program, State& s, std::uint64_t pairs)
 }
 
 Time SteadyScans::go_on(Core& core, Time limit) {
+  if (core.s.phase_left != core.program().scan_phase[1]) return 0;  // a run ended in the middle of it
   if (!may_pass(core)) {
     known_ = Known::Nothing;
     expected_.reset();
