@@ -9,6 +9,21 @@ std::uint8_t data_of(std::uint8_t byte, const SerialFormat& format) {
   return format.data_bits == 7 ? static_cast<std::uint8_t>(byte & 0x7F) : byte;
 }
 
+/// From the level in the middle of each bit, that of the start bit in bit 0.
+ReceivedCharacter character_of(unsigned levels, const SerialFormat& format, Time start, Time end) {
+  const auto sample = [levels](int bit) { return (levels >> bit & 1U) != 0; };
+  const int stop_bit = first_stop_bit(format);
+  ReceivedCharacter character;
+  character.byte = static_cast<std::uint8_t>(levels >> 1 & ((1U << format.data_bits) - 1));
+  const bool bit_before_stop = sample(stop_bit - 1);
+  if (format.parity != Parity::None) character.parity_error = bit_before_stop != format.parity_bit(character.byte);
+  character.framing_error = !sample(stop_bit);
+  character.line_break = character.byte == 0 && !bit_before_stop && character.framing_error;
+  character.start = start;
+  character.end = end;
+  return character;
+}
+
 }  // namespace
 
 BitTimes::BitTimes(const BitClock& of) : clock(of) {
@@ -51,7 +66,7 @@ void Uart::enable_receiver(bool enabled, Time at) {
     state_.off_from = at;
     if (next_sample() >= at) {
       if (bystander_ && state_.start_edge < at && bystander_->looks())
-        tell_missed(sampled(state_.start_edge, clock_of_character(), true), at);
+        tell_missed(character_of_others(state_.start_edge, clock_of_character()), at);
       abandon_character();
     }
   }
@@ -169,7 +184,7 @@ void Uart::line_changed(Time at) {
 void Uart::look_for_missed(Time at) {
   const bool stays_off = !state_.sending || at < state_.send_end;
   if (at < state_.off_from || at < missed_until_ || !stays_off || !others_space(at)) return;
-  tell_missed(sampled(at, {state_.format}, false), at);
+  tell_missed(character_of_others(at, {state_.format}), at);
 }
 
 void Uart::tell_missed(ReceivedCharacter character, Time lost_at) {
@@ -197,36 +212,27 @@ void Uart::check_start_bit(Time now) {
 }
 
 ReceivedCharacter Uart::take_character() {
-  const ReceivedCharacter character = sampled(state_.start_edge, state_.receiving_as, true);
+  const SerialFormat& format = state_.receiving_as.format;
+  const BitTimes& times = times_of(state_.receiving_as, receiving_times_);
+  const Time start = state_.start_edge;
+  const int stop_bit = first_stop_bit(format);
+  std::array<Time, SerialFormat::kMostBits> middles{};
+  for (int bit = 0; bit <= stop_bit; ++bit) middles[static_cast<std::size_t>(bit)] = start + times.middle_of_bit(bit);
+  const unsigned levels = line_.levels({middles.data(), static_cast<std::size_t>(stop_bit + 1)});
+  const ReceivedCharacter character = character_of(levels, format, start, middles[static_cast<std::size_t>(stop_bit)]);
   state_.listen_from = character.end;
   await_start_edge();
   return character;
 }
 
-/// Without itself it is how others sound while it sends.
-ReceivedCharacter Uart::sampled(Time start, const BitClock& clock, bool hears_itself) const {
-  const SerialFormat& format = clock.format;
+/// As the others sound, whether this one sends or not.
+ReceivedCharacter Uart::character_of_others(Time start, const BitClock& clock) const {
   const BitTimes& times = times_of(clock, receiving_times_);
-  const int stop_bit = first_stop_bit(format);
-  std::array<Time, SerialFormat::kMostBits> middles{};
-  for (int bit = 0; bit <= stop_bit; ++bit) middles[static_cast<std::size_t>(bit)] = start + times.middle_of_bit(bit);
-  const std::span<const Time> samples{middles.data(), static_cast<std::size_t>(stop_bit + 1)};
+  const int stop_bit = first_stop_bit(clock.format);
   unsigned levels = 0;
-  if (hears_itself)
-    levels = line_.levels(samples);
-  else
-    for (std::size_t i = 0; i < samples.size(); ++i) levels |= unsigned{line_.level_without(driver_, samples[i])} << i;
-  const auto sample = [levels](int bit) { return (levels >> bit & 1U) != 0; };
-
-  ReceivedCharacter character;
-  character.byte = static_cast<std::uint8_t>(levels >> 1 & ((1U << format.data_bits) - 1));
-  const bool bit_before_stop = sample(stop_bit - 1);
-  if (format.parity != Parity::None) character.parity_error = bit_before_stop != format.parity_bit(character.byte);
-  character.framing_error = !sample(stop_bit);
-  character.line_break = character.byte == 0 && !bit_before_stop && character.framing_error;
-  character.start = start;
-  character.end = middles[static_cast<std::size_t>(stop_bit)];
-  return character;
+  for (int bit = 0; bit <= stop_bit; ++bit)
+    levels |= unsigned{line_.level_without(driver_, start + times.middle_of_bit(bit))} << bit;
+  return character_of(levels, clock.format, start, start + times.middle_of_bit(stop_bit));
 }
 
 /// When the start bit is to be verified or, once it was, the stop bit to be sampled.

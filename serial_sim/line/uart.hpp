@@ -134,7 +134,7 @@ class Uart final : public SerialPort, private LineListener {
   void await_start_edge();
   void check_start_bit(Time now);
   ReceivedCharacter take_character();
-  ReceivedCharacter sampled(Time start, const BitClock& clock, bool hears_itself) const;
+  ReceivedCharacter character_of_others(Time start, const BitClock& clock) const;
   void look_for_missed(Time at);
   void tell_missed(ReceivedCharacter character, Time lost_at);
   void expect(What what, Time at);

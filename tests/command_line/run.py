@@ -1145,6 +1145,7 @@ class JsonPage(Case):
                     ["master", SLAVE, "read", "40001", "write", "40001=1", "slave-id"],
                     ["send", SOURCE / "stl_programs/text_commands.stl", "--text", "GET\\r"],
                     ["send", waits, "01020304050607", "--timeline", "--timeout", "10ms"],
+                    ["send", SLAVE, "0103000a00010000", "--timeline", "--timeout", "50ms"],
                     ["send", hasty, "41", "--baud", "300", "--parity", "none"], ["instructions"], ["instructions", "MOVB"], ["times"], ["times", "cpu214", "cpu214_from_22x"], ["times", "--check", "cpu214"],
                     ["calibrate", MEASURE, "--each", "1s"], ["decode", LOG], ["import-capture", LOG],
                     ["send", SLAVE, "--crc", "0103000a0001", "--times-band", "2"], ["master", SLAVE, "read", "40001", "--times-band", "2"],

@@ -266,7 +266,7 @@ class Streams(Case):
                 self.fresh()
                 run_with({0: "closed", 1: "closed", 2: "closed"},
                          ["run", self.idle, bridge, where, "--for", "50ms", "--trace", trace, "--memory", memory])
-                self.assertRegex(trace.read_text(encoding="utf-8"), r"\A# time in ms   what\n +0\.000000  RUN\n\Z")
+                self.assertRegex(trace.read_text(encoding="utf-8"), r"\A# time in ms   what\n +0\.000000  RUN\n +0\.\d+  main program: no network has power flow\n\Z")
                 self.assertEqual(json.loads(memory.read_bytes())["format"], "s7200 memory 1")
                 self.assertFalse(os.path.lexists(self.folder / "plc"))
 
