@@ -35,12 +35,13 @@ ROOMS = {
     "serial_sim/record": CORE,
     "tools/host": ["interpreter/base"],
     "tools/views": CORE,
-    "tools/rig": CORE + ["tools/host", "tools/views"],
+    "tools/yaml": INTERPRETER,
+    "tools/rig": CORE + ["tools/host", "tools/views", "tools/yaml"],
     "tools/slave": CORE + ["tools/host", "tools/views", "tools/rig"],
     "tools/bridge": CORE + ["tools/host", "tools/views", "tools/rig"],
     "tools/master": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
     "tools/calibration": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
-    "tools/scenario": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
+    "tools/scenario": CORE + ["tools/host", "tools/views", "tools/yaml", "tools/rig", "tools/slave"],
     "tools/recordings": CORE + ["tools/views"],
     "tools/debugger": CORE + ["tools/host", "tools/views", "tools/rig"],
     "tools/dap": CORE + ["tools/host", "tools/views", "tools/rig", "tools/debugger"],
@@ -54,7 +55,7 @@ LIBRARIES = {
     "boost/asio": ["tools/bridge"],
     "boost/": ["interpreter/stl/parser.cpp", "tools/bridge"],
     "nlohmann/": ["tools", "tests"],
-    "yaml-cpp/": ["tools/scenario"],
+    "yaml-cpp/": ["tools/yaml"],
     "pcap/": ["tools/recordings"],
     "histedit.h": ["tools/command"],
     "curses.h": ["tools/command"],
@@ -71,7 +72,7 @@ WORDS = {
     r"\bk(Fine|CheckFailed|Unusable|CpuFatal)\b|\b_?exit\(": ["tools/command", "tests"],
     r"\bmodbus\b": ["serial_sim/modbus", "serial_sim/westinghouse", "serial_sim/record", "tools", "tests"],
     r"\bpc_protocol\b": ["serial_sim/pc_protocol", "tools/master", "tools/recordings", "tests"],
-    r"\bwestinghouse\b": ["serial_sim/westinghouse", "tools/master", "tools/command", "tests"],
+    r"\bwestinghouse\b": ["serial_sim/westinghouse", "tools/rig", "tools/master", "tools/command", "tests"],
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <string_view>
 
+#include "tools/yaml/yaml.hpp"
+
 namespace s7200::tools {
 
 struct Limits {
-  std::size_t bytes = 1 << 20;
-  std::size_t nodes = 100'000;  ///< of its YAML: maps, lists, keys and values
-  std::size_t steps = 20'000;   ///< with its loops run out
+  std::size_t bytes = YamlDocument{}.bytes;
+  std::size_t nodes = YamlDocument{}.nodes;  ///< of its YAML
+  std::size_t steps = 20'000;                ///< with its loops run out
 };
 
 /// How the first line of a transcript begins.

@@ -78,23 +78,9 @@ YamlNode take_expected_failures(const YamlNode& root, GivenParameters& given, Co
 
 }  // namespace
 
-Complaints::Complaints(stl::Diagnostics& list) : list_(list) {
-  for (const stl::Diagnostic& known : list) known_.emplace(known.position.line, known.position.column);
-}
-
-void Complaints::add(const YamlNode& node, std::string message, std::string hint) {
-  if (known_.emplace(node.position.line, node.position.column).second)
-    list_.push_back({stl::Severity::Error, node.position, std::move(message), std::move(hint)});
-}
-
 void read_parameter_tree(const YamlNode& map, Parameters& parameters, std::vector<ParameterName>& names,
                          Complaints& complaints) {
   ParameterTree(parameters, names, complaints).read(map, "");
-}
-
-std::string beside(const std::string& file, const std::string& path) {
-  if (is_standard_input(path)) return path;
-  return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
 }
 
 std::optional<GivenParameters> read_parameters(const std::string& text, const std::string& path,

@@ -8,22 +8,9 @@
 
 #include "interpreter/base/diagnostic.hpp"
 #include "tools/scenario/calculation.hpp"
-#include "tools/scenario/yaml.hpp"
+#include "tools/yaml/values.hpp"
 
 namespace s7200::tools {
-
-/// What goes wrong in one file. A mistake in a loop is made in every turn of it and told once, as is one that was found
-/// before, by the parser of YAML.
-class Complaints {
- public:
-  explicit Complaints(stl::Diagnostics& list);
-  void add(const YamlNode& node, std::string message, std::string hint = {});
-  std::size_t count() const { return list_.size(); }
-
- private:
-  stl::Diagnostics& list_;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> known_;
-};
 
 struct ParameterName {
   std::string name;
@@ -53,8 +40,5 @@ std::optional<GivenParameters> read_parameters(const std::string& text, const st
 /// Takes over what a tree says: a.b for maps in maps. Adds the names in the order they stand there.
 void read_parameter_tree(const YamlNode& map, Parameters& parameters, std::vector<ParameterName>& names,
                          Complaints& complaints);
-
-/// A path in a file: from the folder of that file.
-std::string beside(const std::string& file, const std::string& path);
 
 }  // namespace s7200::tools

@@ -26,7 +26,7 @@ Plant::Plant(const Scenario& scenario, std::shared_ptr<const Program> program)
   sinks_.add(&interrupts_);
   power_up(nullptr);
   if (scenario.clock) cpu().set_clock(*scenario.clock);
-  for (const Assignment& assignment : scenario.set) assign(*simulation_, assignment);
+  for (const Assignment& assignment : scenario.set) assign(cpu(), assignment);
 }
 
 void Plant::power_up(const RetentiveMemory* memory) {

@@ -121,7 +121,7 @@ ScenarioFile read_scenarios(const std::string& text, const std::string& path, co
   ScenarioFile file;
   file.source = source_of(text, path);
   const Limits limits = limits_of(text);
-  const auto root = read_yaml(text, *file.source, file.diagnostics, limits);
+  const auto root = read_yaml(text, *file.source, file.diagnostics, {.bytes = limits.bytes, .nodes = limits.nodes});
   if (!root) return file;
   Reader reader(file, path, given, limits);
   reader.read(*root);

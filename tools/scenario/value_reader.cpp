@@ -42,12 +42,6 @@ std::string ValueReader::parameter_names() const {
   return names.empty() ? "there are none; 'parameters:' at the top of the file, or --with FILE, has them" : names;
 }
 
-std::optional<std::string> ValueReader::optional_text(const YamlNode& map, std::string_view key) {
-  const YamlNode* node = map.find(key);
-  auto written = node ? text(*node) : std::nullopt;
-  return written && written->empty() ? std::nullopt : written;
-}
-
 std::optional<Time> ValueReader::time(const YamlNode* node) {
   return value(node, kDuration, "250ms, 2s, 0", [](const std::string& t) -> std::optional<Time> {
     const auto span = parse_span(t);
@@ -65,20 +59,8 @@ std::optional<Window> ValueReader::window(const YamlNode* node, Time tolerance) 
                [&](const std::string& t) { return parse_window(t, tolerance); });
 }
 
-std::optional<std::int64_t> ValueReader::number(const YamlNode* node, std::int64_t from, std::int64_t to) {
-  return value(node, fmt::format("a number from {} to {}", from, to), fmt::format("{}, 16#{:X}", to, to),
-               [&](const std::string& t) {
-                 const auto parsed = parse_number(t);
-                 return parsed && *parsed >= from && *parsed <= to ? parsed : std::nullopt;
-               });
-}
-
 Count ValueReader::count(const YamlNode& node) {
   return value(&node, "a count", "3, 1..3, 1..", [](const std::string& t) { return parse_count(t); }).value_or(Count{});
-}
-
-bool ValueReader::truth(const YamlNode* node) {
-  return choice<bool>(node, {{"true", true}, {"false", false}}).value_or(false);
 }
 
 bool ValueReader::has_what_it_needs(const YamlNode& map, std::string& missing) {

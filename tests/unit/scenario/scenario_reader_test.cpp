@@ -9,7 +9,7 @@
 #include "tools/scenario/steps/exchange.hpp"
 #include "tools/scenario/steps/receive.hpp"
 #include "tools/scenario/transcript.hpp"
-#include "tools/scenario/yaml.hpp"
+#include "tools/yaml/yaml.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -14,7 +14,7 @@ struct SetStep final : Action {
   Needs needs() const override { return Needs::ToChange; }
 
   void act(Run& run) const override {
-    for (const Assignment& assignment : assignments) assign(run.plant()->simulation(), assignment);
+    for (const Assignment& assignment : assignments) assign(run.plant()->cpu(), assignment);
   }
 
   bool write(TranscriptWriter& writer) const override {

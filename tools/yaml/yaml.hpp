@@ -1,6 +1,6 @@
 // A YAML text as a plain tree in which everything knows its place.
 //
-// What scenarios need of YAML: maps, lists and scalars, in block or flow form. No anchors and aliases (a few lines of them
+// What our files need of YAML: maps, lists and scalars, in block or flow form. No anchors and aliases (a few lines of them
 // can stand for gigabytes), no tags, one document in a file, every key once. Size, nesting and number of nodes are bounded.
 #pragma once
 
@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "interpreter/base/diagnostic.hpp"
-#include "tools/scenario/limits.hpp"
 
 namespace s7200::tools {
 
@@ -41,8 +40,16 @@ inline constexpr std::size_t kMostYamlKeys = 500;  ///< in one map
 /// A text with the name that messages have for it.
 std::shared_ptr<const stl::SourceLines> source_of(const std::string& text, const std::string& path);
 
+/// What is being read, for messages, and how much it may have.
+struct YamlDocument {
+  std::string_view name = "a scenario";
+  std::string_view least = "'program:' and 'steps:'";  ///< it has these keys
+  std::size_t bytes = 1 << 20;
+  std::size_t nodes = 100'000;  ///< maps, lists, keys and values
+};
+
 /// Returns nothing and adds errors if the text is not such YAML.
 std::optional<YamlNode> read_yaml(const std::string& text, const stl::SourceLines& source, stl::Diagnostics& diagnostics,
-                                  const Limits& limits = {});
+                                  const YamlDocument& document = {});
 
 }  // namespace s7200::tools

@@ -1,4 +1,4 @@
-#include "tools/scenario/yaml.hpp"
+#include "tools/yaml/yaml.hpp"
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
@@ -29,8 +29,10 @@ stl::Position place(const YAML::Mark& mark, const stl::SourceLines& source) {
 
 // --- what the parser complains about ---
 
-constexpr std::string_view kNoAliases = "anchors and aliases (& and *) have no place in a scenario";
-constexpr std::string_view kNoTags = "tags (!) have no place in a scenario";
+/// The name of what is read follows.
+constexpr std::string_view kNoPlace = "have no place in ";
+constexpr std::string_view kNoAliases = "anchors and aliases (& and *) have no place in ";
+constexpr std::string_view kNoTags = "tags (!) have no place in ";
 constexpr std::string_view kRepeat = "repeat steps with 'for:' or 'repeat:'";
 constexpr std::string_view kQuoteIt = "put the text in quotation marks";
 constexpr std::string_view kCloseQuotation = "put the same mark after the text; it may not stand inside it";
@@ -73,12 +75,12 @@ const Complaint kComplaints[] = {
     {YAML::ErrorMsg::TAG_WITH_NO_SUFFIX, kNoTags, kQuoteIt},
     {YAML::ErrorMsg::END_OF_VERBATIM_TAG, kNoTags, kQuoteIt},
     {YAML::ErrorMsg::MULTIPLE_TAGS, kNoTags, kQuoteIt},
-    {YAML::ErrorMsg::YAML_DIRECTIVE_ARGS, "directives (%) have no place in a scenario", "leave the line out"},
-    {YAML::ErrorMsg::YAML_VERSION, "directives (%) have no place in a scenario", "leave the line out"},
-    {YAML::ErrorMsg::YAML_MAJOR_VERSION, "directives (%) have no place in a scenario", "leave the line out"},
-    {YAML::ErrorMsg::REPEATED_YAML_DIRECTIVE, "directives (%) have no place in a scenario", "leave the line out"},
-    {YAML::ErrorMsg::TAG_DIRECTIVE_ARGS, "directives (%) have no place in a scenario", "leave the line out"},
-    {YAML::ErrorMsg::REPEATED_TAG_DIRECTIVE, "directives (%) have no place in a scenario", "leave the line out"},
+    {YAML::ErrorMsg::YAML_DIRECTIVE_ARGS, "directives (%) have no place in ", "leave the line out"},
+    {YAML::ErrorMsg::YAML_VERSION, "directives (%) have no place in ", "leave the line out"},
+    {YAML::ErrorMsg::YAML_MAJOR_VERSION, "directives (%) have no place in ", "leave the line out"},
+    {YAML::ErrorMsg::REPEATED_YAML_DIRECTIVE, "directives (%) have no place in ", "leave the line out"},
+    {YAML::ErrorMsg::TAG_DIRECTIVE_ARGS, "directives (%) have no place in ", "leave the line out"},
+    {YAML::ErrorMsg::REPEATED_TAG_DIRECTIVE, "directives (%) have no place in ", "leave the line out"},
 };
 
 /// The tab in the indentation of a line, from 1; 0 if there is none. The '-' of lists is part of it.
@@ -265,21 +267,23 @@ std::shared_ptr<const stl::SourceLines> source_of(const std::string& text, const
 }
 
 std::optional<YamlNode> read_yaml(const std::string& text, const stl::SourceLines& source, stl::Diagnostics& diagnostics,
-                                  const Limits& limits) {
+                                  const YamlDocument& document) {
   const auto fail = [&](stl::Diagnostic diagnostic) {
+    if (diagnostic.message.ends_with(kNoPlace)) diagnostic.message += document.name;
     diagnostics.push_back(std::move(diagnostic));
     return std::nullopt;
   };
-  if (text.size() > limits.bytes)
+  if (text.size() > document.bytes)
     return fail(
-        {stl::Severity::Error, {}, fmt::format("longer than {} bytes", limits.bytes), "divide it into several files"});
+        {stl::Severity::Error, {}, fmt::format("longer than {} bytes", document.bytes), "divide it into several files"});
   if (!stl::is_valid_utf8(text)) return fail({stl::Severity::Error, {}, "not UTF-8 text", "save it as UTF-8"});
-  TreeBuilder builder(source, diagnostics, limits.nodes);
+  TreeBuilder builder(source, diagnostics, document.nodes);
   try {
     std::istringstream in(text);
     YAML::Parser parser(in);
     if (!parser.HandleNextDocument(builder))
-      return fail({stl::Severity::Error, {}, "nothing in it", "a scenario has at least 'program:' and 'steps:'"});
+      return fail(
+          {stl::Severity::Error, {}, "nothing in it", fmt::format("{} has at least {}", document.name, document.least)});
     std::optional<YamlNode> root = builder.take();
     if (parser.HandleNextDocument(builder))
       return fail({stl::Severity::Error, builder.take()->position, "a second document", "one document (---) in a file"});
