@@ -46,6 +46,9 @@ class EventQueue {
   /// When the next event is due; kNever when none is pending.
   Time next() const { return events_.empty() ? kNever : events_.back().at; }
 
+  /// The next event; there is one.
+  const Event& front() const { return events_.back(); }
+
   Event pop() {
     assert(!events_.empty());
     const Event event = events_.back();

@@ -17,9 +17,9 @@ namespace s7200 {
 Cpu::Cpu(std::shared_ptr<const Program> program, EventQueue& queue, EventOwner owner, const Ports& ports)
     : core_(std::move(program), queue, owner, ports) {}
 
-void Cpu::power_up(bool run, const RetentiveMemory* memory) {
+void Cpu::power_up(bool run, const RetentiveMemory* memory, Time at) {
   core_.touched = true;
-  power::up(core_, run, memory);
+  power::up(core_, run, memory, at);
 }
 RetentiveMemory Cpu::retentive_memory() const { return power::retentive_memory(core_); }
 

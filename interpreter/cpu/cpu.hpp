@@ -27,8 +27,8 @@ class Cpu {
   Cpu(std::shared_ptr<const Program> program, EventQueue& queue, EventOwner owner, const Ports& ports);
 
   /// Clears all memory except what `memory` has kept, and goes to RUN (mode switch in RUN) or stays in STOP (TERM). Without
-  /// `memory` the CPU is brand-new.
-  void power_up(bool run = true, const RetentiveMemory* memory = nullptr);
+  /// `memory` the CPU is brand-new. Its clock stands at `at` then.
+  void power_up(bool run = true, const RetentiveMemory* memory = nullptr, Time at = 0);
 
   /// What would be kept if power went off now.
   RetentiveMemory retentive_memory() const;

@@ -11,8 +11,9 @@ namespace s7200::power {
 /// Of a port that the user has not configured (facts 10.9).
 constexpr std::uint8_t kDefaultStation = 2;
 
-void up(Core& core, bool run, const RetentiveMemory* memory) {
+void up(Core& core, bool run, const RetentiveMemory* memory, Time at) {
   core.s = State{};
+  core.s.time = core.s.previous_scan_begin = at;
   const auto& constants = core.program().constants;
   std::copy(constants.begin(), constants.end(), core.s.image.begin() + image::kConstants);
   for (const Op& op : core.program().ops)

@@ -10,8 +10,8 @@
 namespace s7200::power {
 
 /// Power comes on: everything is cleared except what `memory` has kept. Without `memory` the CPU is brand-new. It goes to
-/// RUN if `run`, otherwise it stays in STOP.
-void up(Core& core, bool run, const RetentiveMemory* memory);
+/// RUN if `run`, otherwise it stays in STOP. It is `at`.
+void up(Core& core, bool run, const RetentiveMemory* memory, Time at = 0);
 
 /// What would be kept if power went off now.
 RetentiveMemory retentive_memory(const Core& core);

@@ -8,9 +8,9 @@ namespace s7200::serial {
 Field::Field(FieldScript script, Cpu& cpu, EventQueue& queue, EventOwner owner)
     : script_(std::move(script)), cpu_(cpu), queue_(queue), owner_(owner) {}
 
-void Field::power_up() {
+void Field::power_up(Time at) {
   state_ = {};
-  play(0);
+  play(at);
 }
 
 void Field::handle(const Event& event) { play(event.at); }
@@ -24,7 +24,7 @@ void Field::play(Time now) {
   for (; state_.next_train < script_.pulses.size() && script_.pulses[state_.next_train].at <= now; ++state_.next_train)
     state_.running.push_back({state_.next_train, 0, script_.pulses[state_.next_train].at});
   for (Running& running : state_.running)
-    if (running.next <= now) next_edge(running);
+    while (running.next <= now) next_edge(running);
   std::erase_if(state_.running, [](const Running& running) { return running.next == kNever; });
   if (const Time next = next_due(); next != kNever) queue_.schedule(next, owner_, 0);
 }

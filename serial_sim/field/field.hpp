@@ -32,8 +32,8 @@ class Field {
   /// `owner`: its number in the queue. Neither reference is owned.
   Field(FieldScript script, Cpu& cpu, EventQueue& queue, EventOwner owner);
 
-  /// Starts the script at time 0: what it says of that instant holds before the first scan.
-  void power_up();
+  /// The CPU has been powered up at `at`: what the script says of the time until then holds before the first scan.
+  void power_up(Time at = 0);
 
   void handle(const Event& event);
 

@@ -47,6 +47,11 @@ void Line::Driver::forget(Time before) {
   edges.erase(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(past));
 }
 
+void Line::Driver::release(Time at) {
+  edges.erase(std::ranges::upper_bound(edges, at), edges.end());
+  if (!level_after(edges.size())) add(at, true);
+}
+
 bool Line::Drivers::operator==(const Drivers& other) const {
   const std::vector<Driver>& fewer = all.size() < other.all.size() ? all : other.all;
   const std::vector<Driver>& more = &fewer == &all ? other.all : all;
@@ -113,13 +118,22 @@ Line::Driver& Line::driver(int number) {
 
 void Line::drive(int number, Time at, bool mark) {
   driver(number).add(at, mark);
+  changed(number);
   tell(at);
 }
 
 void Line::drive(int number, std::span<const Time> changes) {
   Driver& own = driver(number);
   for (const Time at : changes) own.add(at, !own.level_after(own.edges.size()));
+  changed(number);
   if (!changes.empty()) tell(changes.front());
+}
+
+void Line::changed(int number) {
+  const auto place = static_cast<std::size_t>(number);
+  const std::uint32_t bit = 1U << place;
+  busy_ = drivers_.all[place] == Driver{} ? busy_ & ~bit : busy_ | bit;
+  changed();
 }
 
 void Line::disturb(const Disturbance& disturbance) {
@@ -142,24 +156,94 @@ void Line::heal(Time at) {
 }
 
 void Line::note_whether_disturbed() {
+  changed();
   disturbed_ = !std::all_of(disturbances_.begin(), disturbances_.end(), [](const Periods& those) { return those.none(); });
 }
 
-bool Line::level(Time at) const { return disturbed_ ? disturbed_level(driven_level(at), at) : driven_level(at); }
+/// SplitMix64 of the seed and the instant: the same on every computer.
+static bool toss(std::uint64_t seed, Time at) {
+  std::uint64_t z = seed + static_cast<std::uint64_t>(at) * 0x9E3779B97F4A7C15U;
+  z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
+  z = (z ^ z >> 27) * 0x94D049BB133111EBU;
+  return ((z ^ z >> 31) & 1U) != 0;
+}
 
-unsigned Line::levels(std::span<const Time> at) const {
+/// Space wins where two drivers disagree; where chance says mark instead, receivers find mark.
+void Line::contend(int number, Time from, Time to) {
+  const auto own = static_cast<std::size_t>(number);
+  contention_.on_until[own] = to;
+  for (int other = 0; other < kDrivers; ++other) {
+    const Time end = std::min(to, contention_.on_until[static_cast<std::size_t>(other)]);
+    if (other == number || end <= from) continue;
+    for (Time at = from; at < end;) {
+      const Time next = std::min({end, next_edge_of(number, at + 1), next_edge_of(other, at + 1)});
+      if (level_of(number, at) != level_of(other, at) && toss(contention_.seed, at))
+        disturb({.effect = Disturbance::Effect::Cuts, .from = at, .to = next});
+      at = next;
+    }
+  }
+}
+
+Time Line::next_edge_of(int number, Time from) const {
+  const Driver& driver = drivers_.all[static_cast<std::size_t>(number)];
+  const std::size_t index = driver.edges_until(from - 1);
+  return index < driver.edges.size() ? driver.edges[index] : kNever;
+}
+
+void Line::separate(Time at, std::uint32_t far) {
+  separations_.push_back({at, far});
+  changed();
+  tell(at);
+}
+
+void Line::release(int number, Time at) {
+  driver(number).release(at);
+  changed(number);
+  if (!contention_.on_until.empty()) contention_.on_until[static_cast<std::size_t>(number)] = at;
+  tell(at);
+}
+
+std::uint32_t Line::audible(int listener, Time at) const {
+  if (listener == kWholeCable) return ~0U;
+  std::uint32_t far = 0;
+  for (const Separation& separation : separations_)
+    if (separation.at <= at) far = separation.far;
+  return (far >> listener & 1U) != 0 ? far : ~far;
+}
+
+bool Line::level(Time at, int listener) const {
+  if (irregular()) return irregular_level(at, listener);
+  if (answers_.level_at == at) return answers_.level;
+  answers_.level_at = at;
+  return answers_.level = driven_level(at);
+}
+
+bool Line::irregular_level(Time at, int listener) const {
+  return disturbed_level(driven_level(at, audible(listener, at)), at);
+}
+
+unsigned Line::levels(std::span<const Time> at, int listener) const {
+  if (irregular()) return sampled(at, listener);
+  if (std::ranges::equal(answers_.levels_at, at)) return answers_.levels;
+  answers_.levels_at.assign(at.begin(), at.end());
+  return answers_.levels = sampled(at, listener);
+}
+
+unsigned Line::sampled(std::span<const Time> at, int listener) const {
   unsigned levels = ~0U;
-  if (!disturbed_) {
-    for (const Driver& driver : drivers_.all) levels &= driver.levels(at);
+  if (!irregular()) {
+    each_busy([&](const Driver& driver) { levels &= driver.levels(at); });
   } else {
     for (std::size_t i = 0; i < at.size(); ++i)
-      if (!level(at[i])) levels &= ~(1U << i);
+      if (!irregular_level(at[i], listener)) levels &= ~(1U << i);
   }
   return levels;
 }
 
-bool Line::driven_level(Time at) const {
-  return std::all_of(drivers_.all.begin(), drivers_.all.end(), [at](const Driver& driver) { return driver.level(at); });
+bool Line::driven_level(Time at, std::uint32_t audible) const {
+  bool mark = true;
+  each_busy([&](const Driver& driver) { mark = mark && driver.level(at); }, audible);
+  return mark;
 }
 
 bool Line::disturbed_level(bool mark, Time at) const {
@@ -174,28 +258,33 @@ bool Line::level_of(int driver, Time at) const {
 }
 
 bool Line::level_without(int driver, Time at) const {
-  bool mark = true;
-  for (std::size_t other = 0; other < drivers_.all.size(); ++other)
-    mark = mark && (static_cast<int>(other) == driver || drivers_.all[other].level(at));
-  return disturbed_level(mark, at);
+  return disturbed_level(driven_level(at, audible(driver, at) & ~(1U << driver)), at);
 }
 
 Time Line::next_change(Time from) const {
   Time change = kNever;
-  for (const Driver& driver : drivers_.all) {
+  each_busy([&](const Driver& driver) {
     const std::size_t index = driver.edges_until(from - 1);
     if (index < driver.edges.size()) change = std::min(change, driver.edges[index]);
-  }
+  });
   for (const Periods& those : disturbances_) change = std::min(change, those.next_change(from));
+  for (const Separation& separation : separations_)
+    if (separation.at >= from) change = std::min(change, separation.at);
   return change;
 }
 
-Time Line::falling_edge(Time from) const { return disturbed_ ? disturbed_falling_edge(from) : driven_falling_edge(from); }
+Time Line::falling_edge(Time from, int listener) const {
+  if (irregular()) return irregular_falling_edge(from, listener);
+  if (answers_.falling_from == from) return answers_.falling_edge;
+  const Time edge = driven_falling_edge(from);
+  answers_.falling_from = from;
+  return answers_.falling_edge = edge;
+}
 
 Time Line::driven_falling_edge(Time from) const {
   for (;;) {
     Time edge = kNever;
-    for (const Driver& driver : drivers_.all) edge = std::min(edge, driver.next_edge(from, false));
+    each_busy([&](const Driver& driver) { edge = std::min(edge, driver.next_edge(from, false)); });
     if (edge == kNever) return kNever;
     const Time held = space_held_from_before(edge);
     if (held < edge) return edge;
@@ -205,11 +294,11 @@ Time Line::driven_falling_edge(Time from) const {
 }
 
 /// Whatever changes the level is looked at in the order of time.
-Time Line::disturbed_falling_edge(Time from) const {
+Time Line::irregular_falling_edge(Time from, int listener) const {
   for (;;) {
     const Time change = next_change(from);
     if (change == kNever) return kNever;
-    if (!level(change) && level(change - 1)) return change;
+    if (!irregular_level(change, listener) && irregular_level(change - 1, listener)) return change;
     from = change + 1;
   }
 }
@@ -217,15 +306,22 @@ Time Line::disturbed_falling_edge(Time from) const {
 /// Until when drivers that were at space already just before `edge` hold it; before `edge` when there are none.
 Time Line::space_held_from_before(Time edge) const {
   Time held = edge - 1;
-  for (const Driver& driver : drivers_.all) {
+  each_busy([&](const Driver& driver) {
     if (!driver.level(edge - 1)) held = std::max(held, driver.next_edge(edge, true));
-  }
+  });
   return held;
 }
 
 void Line::forget(Time now) {
   for (const LineListener* listener : wiring_.listeners) now = std::min(now, listener->needs_from());
-  for (Driver& driver : drivers_.all) driver.forget(now);
+  for (std::uint32_t those = busy_; those != 0; those &= those - 1) {
+    const auto number = static_cast<std::size_t>(std::countr_zero(those));
+    drivers_.all[number].forget(now);
+    changed(static_cast<int>(number));
+  }
+  changed();
+  while (separations_.size() > 1 && separations_[1].at <= now) separations_.erase(separations_.begin());
+  if (separations_.size() == 1 && separations_[0].far == 0 && separations_[0].at <= now) separations_.clear();
   if (!disturbed_) return;
   for (Periods& those : disturbances_) those.forget(now);
   note_whether_disturbed();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -42,8 +43,8 @@ struct Disturbance {
 
 /// Each driver holds the line at mark (true, the idle level) or space (false). A driver that marks is as good as one that
 /// is switched off: the line is at space while any driver is. Two senders at once collide bit by bit.
-/// Not documented, modelled so: two active drivers that disagree give space, where a real RS-485 line has no defined level.
-/// [Uart.TwoSendersAtOnceGiveTheBitsBothMark]
+/// Not documented, modelled so: two active drivers that disagree give space, where a real RS-485 line has no defined level,
+/// unless that is left to chance. [Uart.TwoSendersAtOnceGiveTheBitsBothMark]
 ///
 /// Who listens is wiring, not state: a copy of a line has its levels and no listeners, and assigning to a line leaves its
 /// listeners attached. So a snapshot is a copy, and going back to it an assignment.
@@ -69,11 +70,32 @@ class Line {
   Interference* interference() const { return wiring_.interference; }
   void set_interference(Interference* interference) { wiring_.interference = interference; }
 
-  /// The level at an instant; an edge counts from its own instant on.
-  bool level(Time at) const;
+  /// From `at` on the drivers of `far`, a bit each, and all others do not hear each other: the cable is cut between them. 0:
+  /// it is whole again. Instants ascend. Every listener is told.
+  void separate(Time at, std::uint32_t far);
+
+  /// From now on the level of a bit for which drivers that are switched on disagree follows from chance: mark or space, for
+  /// all receivers alike. The same seed gives the same levels.
+  void leave_contention_to_chance(std::uint64_t seed) {
+    contention_ = {.seed = seed, .on_until = std::vector<Time>(kDrivers)};
+  }
+
+  /// Driver `driver` is switched on from `from` to `to`, for a character whose edges it has already.
+  void occupy(int driver, Time from, Time to) {
+    if (!contention_.on_until.empty()) contend(driver, from, to);
+  }
+
+  /// Driver `driver` is switched off at `at`, in the middle of a character or not. It has no edges after that.
+  void release(int driver, Time at);
+
+  static constexpr int kWholeCable = -1;
+
+  /// The level at an instant; an edge counts from its own instant on. `listener`: the driver of the station that hears it;
+  /// without one the cable counts as whole, here and below.
+  bool level(Time at, int listener = kWholeCable) const;
 
   /// The level at each of at most 32 instants, in order of time: that at the first one in bit 0.
-  unsigned levels(std::span<const Time> at) const;
+  unsigned levels(std::span<const Time> at, int listener = kWholeCable) const;
 
   /// What driver `driver` holds, whatever the others do.
   bool level_of(int driver, Time at) const;
@@ -86,10 +108,12 @@ class Line {
   Time next_change(Time from) const;
 
   /// First change from mark to space at or after `from` among the edges known now; kNever when there is none.
-  Time falling_edge(Time from) const;
+  Time falling_edge(Time from, int listener = kWholeCable) const;
 
   /// It is `now`: edges of the past that no listener needs may go.
   void forget(Time now);
+  /// Something disturbs it, or will: what is past of that goes with forget(), too.
+  bool disturbed() const { return disturbed_; }
 
   void attach(LineListener& listener);
   void detach(LineListener& listener);
@@ -109,6 +133,7 @@ class Line {
     Time next_edge(Time from, bool mark) const;
     void add(Time at, bool mark);
     void forget(Time before);
+    void release(Time at);
   };
 
   /// By number. One that is not there has always held mark: a list with such drivers at its end is equal to one without.
@@ -136,6 +161,30 @@ class Line {
     void toggle(Time at);
   };
 
+  /// Who does not hear the others from an instant on.
+  struct Separation {
+    Time at = 0;
+    std::uint32_t far = 0;
+    bool operator==(const Separation&) const = default;
+  };
+
+  struct Contention {
+    std::uint64_t seed = 0;
+    std::vector<Time> on_until{};  // by driver; empty: space wins
+    bool operator==(const Contention&) const = default;
+  };
+
+  /// What was asked last. All receivers of a line ask the same, one after the other: those that await a character with the
+  /// same clock have the same start edge and sample at the same instants. No state: it follows from the levels.
+  struct Answers {
+    Time falling_from = kNever, falling_edge = 0;
+    Time level_at = kNever;
+    bool level = true;
+    std::vector<Time> levels_at;
+    unsigned levels = 0;
+    bool operator==(const Answers&) const { return true; }
+  };
+
   struct Wiring {
     std::vector<LineListener*> listeners;
     Interference* interference = nullptr;
@@ -146,10 +195,27 @@ class Line {
   };
 
   Driver& driver(int number);
-  bool driven_level(Time at) const;
+  /// `of` each driver that has edges or holds the line at space.
+  template <class Of>
+  void each_busy(Of of, std::uint32_t audible = ~0U) const {
+    for (std::uint32_t those = busy_ & audible; those != 0; those &= those - 1)
+      of(drivers_.all[static_cast<std::size_t>(std::countr_zero(those))]);
+  }
+  void changed(int driver);
+  void changed() {
+    answers_.falling_from = answers_.level_at = kNever;
+    answers_.levels_at.clear();
+  }
+  bool irregular() const { return disturbed_ || !separations_.empty(); }
+  std::uint32_t audible(int listener, Time at) const;
+  bool irregular_level(Time at, int listener) const;
+  unsigned sampled(std::span<const Time> at, int listener) const;
+  void contend(int driver, Time from, Time to);
+  Time next_edge_of(int driver, Time from) const;
+  bool driven_level(Time at, std::uint32_t audible = ~0U) const;
   bool disturbed_level(bool driven, Time at) const;
   Time driven_falling_edge(Time from) const;
-  Time disturbed_falling_edge(Time from) const;
+  Time irregular_falling_edge(Time from, int listener) const;
   Time space_held_from_before(Time edge) const;
   void tell(Time at) const;
 
@@ -158,9 +224,13 @@ class Line {
   void note_whether_disturbed();
 
   Drivers drivers_;
+  std::uint32_t busy_ = 0;               // drivers that have edges or hold the line at space, a bit each
+  std::vector<Separation> separations_;  // in order of time
+  Contention contention_;
   std::array<Periods, 3> disturbances_;  // by effect; however many overlap, they are no more than what is left of them
   bool disturbed_ = false;               // there are any
   Wiring wiring_;
+  mutable Answers answers_;
 };
 
 }  // namespace s7200::serial

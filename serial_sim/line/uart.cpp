@@ -1,5 +1,6 @@
 #include "serial_sim/line/uart.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace s7200::serial {
@@ -141,7 +142,9 @@ Time Uart::drive_character(unsigned levels, const BitClock& clock, Time at) {
   }
   if (!mark) changes[count++] = at + times.begin_of_bit(bits);
   line_.drive(driver_, {changes.data(), count});
-  return at + times.begin_of_bit(mark ? bits : bits + 1);
+  const Time end = at + times.begin_of_bit(mark ? bits : bits + 1);
+  line_.occupy(driver_, at, end);
+  return end;
 }
 
 /// Worked out once for a clock.
@@ -170,7 +173,7 @@ Uart::Report Uart::handle(const Event& event) {
       report.sent = event.at;
       break;
   }
-  line_.forget(event.at);
+  if (report.sent || line_.disturbed()) line_.forget(event.at);
   return report;
 }
 
@@ -196,12 +199,12 @@ void Uart::tell_missed(ReceivedCharacter character, Time lost_at) {
 void Uart::await_start_edge() {
   state_.receiving = false;
   state_.clock_error = clock_error();
-  state_.start_edge = line_.falling_edge(state_.listen_from);
+  state_.start_edge = line_.falling_edge(state_.listen_from, driver_);
   expect(kStartCheck, next_sample());
 }
 
 void Uart::check_start_bit(Time now) {
-  if (line_.level(next_sample())) {
+  if (line_.level(next_sample(), driver_)) {
     state_.listen_from = now;
     await_start_edge();
     return;
@@ -218,7 +221,7 @@ ReceivedCharacter Uart::take_character() {
   const int stop_bit = first_stop_bit(format);
   std::array<Time, SerialFormat::kMostBits> middles{};
   for (int bit = 0; bit <= stop_bit; ++bit) middles[static_cast<std::size_t>(bit)] = start + times.middle_of_bit(bit);
-  const unsigned levels = line_.levels({middles.data(), static_cast<std::size_t>(stop_bit + 1)});
+  const unsigned levels = line_.levels({middles.data(), static_cast<std::size_t>(stop_bit + 1)}, driver_);
   const ReceivedCharacter character = character_of(levels, format, start, middles[static_cast<std::size_t>(stop_bit)]);
   state_.listen_from = character.end;
   await_start_edge();
@@ -233,6 +236,14 @@ ReceivedCharacter Uart::character_of_others(Time start, const BitClock& clock) c
   for (int bit = 0; bit <= stop_bit; ++bit)
     levels |= unsigned{line_.level_without(driver_, start + times.middle_of_bit(bit))} << bit;
   return character_of(levels, clock.format, start, start + times.middle_of_bit(stop_bit));
+}
+
+void Uart::power_off(Time at) {
+  line_.release(driver_, at);
+  queue_.cancel(owner_, kSent);
+  state_ = {};
+  state_.send_end = state_.off_from = at;
+  abandon_character();
 }
 
 /// When the start bit is to be verified or, once it was, the stop bit to be sampled.
@@ -251,6 +262,8 @@ Time Uart::character_due() const {
   const BitClock clock = clock_of_character();
   return state_.start_edge + times_of(clock, receiving_times_).middle_of_bit(first_stop_bit(clock.format));
 }
+
+Time Uart::next_report() const { return std::min(state_.sending ? state_.send_end : kNever, character_due()); }
 
 void Uart::expect(What what, Time at) {
   if (at < state_.off_from) {

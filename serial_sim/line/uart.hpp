@@ -103,6 +103,10 @@ class Uart final : public SerialPort, private LineListener {
   /// When the character being received will be complete; kNever when none has begun.
   Time character_due() const;
 
+  /// Before then it reports nothing, unless something is done to it: the end of the character that it sends, or of the one
+  /// that it receives.
+  Time next_report() const;
+
   /// A request begins with the next character: faults count exchanges.
   void begin_exchange(Time at);
 
@@ -113,6 +117,9 @@ class Uart final : public SerialPort, private LineListener {
 
   /// Whether another station, or a disturbance, holds the line at space.
   bool others_space(Time at) const { return !line_.level_without(driver_, at); }
+
+  /// Its station loses power: it falls silent in the middle of a character, and hears nothing.
+  void power_off(Time at);
 
   /// An event of this UART's owner is due.
   Report handle(const Event& event);

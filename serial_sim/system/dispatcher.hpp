@@ -4,17 +4,19 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "interpreter/base/event_queue.hpp"
 
 namespace s7200::serial {
 
-/// The order of one instant: the wire settles first, then the UARTs that listen to it, then the CPUs, then the inputs from
-/// the field, then whoever asks. The field comes after the CPUs, whose own events were decided earlier, so that an input of
-/// that instant cannot change them; which interrupt is served first does not depend on it (interrupts::occurred).
-/// Within a rank it is the order in which the owners were added.
-enum class Rank : std::uint8_t { Line, Uart, Cpu, Field, Peer };
+/// The order of one instant: what CPUs have done to their ports by then comes first, then the wire settles, then the UARTs
+/// that listen to it, then the CPUs, then the inputs from the field, then whoever asks. The field comes after the CPUs,
+/// whose own events were decided earlier, so that an input of that instant cannot change them; which interrupt is served
+/// first does not depend on it (interrupts::occurred). Within a rank it is the order in which the owners were added.
+enum class Rank : std::uint8_t { Port, Line, Uart, Cpu, Field, Peer };
+inline constexpr std::size_t kRanks = 6;
 
 class EventHandler {
  public:
@@ -25,25 +27,34 @@ class EventHandler {
   ~EventHandler() = default;
 };
 
-/// The queue of a system, and whose the numbers in it are.
+/// The queues of a system, and whose the numbers in them are. Each CPU, UART and line has a queue of its own, so that what
+/// it costs to schedule an event does not depend on how many stations there are.
 class Dispatcher {
  public:
   static constexpr std::size_t kMostOfARank = 256;
 
-  EventQueue& queue() { return queue_; }
-  const EventQueue& queue() const { return queue_; }
+  /// Lives as long as the dispatcher.
+  EventQueue& add_queue() { return queues_.emplace_back(); }
 
   /// A number of its own for `handler`, which is not owned.
   EventOwner add(Rank rank, EventHandler& handler);
 
   static Rank rank_of(EventOwner owner) { return static_cast<Rank>(static_cast<std::size_t>(owner) / kMostOfARank); }
 
-  /// The next event of the queue goes to its handler.
+  /// When the next event of any queue is due; kNever when none is pending.
+  Time next() const;
+
+  /// Handles the events of the next instant, in their order. One that is scheduled for the same instant meanwhile is left to
+  /// the next call unless its rank is still to come in its queue.
   void handle_next();
 
+  std::vector<EventQueue> state() const { return {queues_.begin(), queues_.end()}; }
+  void restore(const std::vector<EventQueue>& state);
+
  private:
-  EventQueue queue_;
-  std::array<std::vector<EventHandler*>, 5> handlers_;  // by rank, then in the order in which they were added
+  std::deque<EventQueue> queues_;
+  std::array<std::vector<EventHandler*>, kRanks> handlers_;  // by rank, then in the order in which they were added
+  std::vector<EventQueue*> due_;                             // of the instant that is being handled
 };
 
 }  // namespace s7200::serial

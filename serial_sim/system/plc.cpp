@@ -5,12 +5,13 @@
 
 namespace s7200::serial {
 
-Plc::Port::Port(Dispatcher& events, SharedLine& shared_line, Plc& plc, std::uint8_t its_number)
-    : of(plc),
+Plc::Port::Port(Plc& of, std::uint8_t its_number, SharedLine& shared_line, Dispatcher& events)
+    : plc(of),
       number(its_number),
       line(shared_line),
-      owner(events.add(Rank::Uart, plc)),
-      uart(line.line(), events.queue(), owner, line.add_driver()),
+      actor(events.add(Rank::Port, of)),
+      owner(events.add(Rank::Uart, of)),
+      uart(line.line(), events.add_queue(), owner, line.add_driver()),
       tap(line.line(), uart.driver()) {
   uart.enable_receiver(false, 0);
   uart.set_bystander(this);
@@ -18,19 +19,69 @@ Plc::Port::Port(Dispatcher& events, SharedLine& shared_line, Plc& plc, std::uint
 }
 
 void Plc::Port::configure(const SerialFormat& format) {
-  uart.configure(format);
-  if (follower) follower(format);
+  act({.what = PortAction::What::Configure, .at = plc.cpu_.time(), .format = format});
+}
+void Plc::Port::enable_receiver(bool enabled, Time at) {
+  act({.what = PortAction::What::EnableReceiver, .at = at, .value = enabled});
+}
+void Plc::Port::send(std::uint8_t byte, Time at) { act({.what = PortAction::What::Send, .at = at, .value = byte}); }
+void Plc::Port::send_break(int bit_times, Time at) {
+  act({.what = PortAction::What::SendBreak, .at = at, .value = bit_times});
+}
+
+/// At once, if its instant is the present one.
+void Plc::Port::act(const PortAction& action) {
+  if (action.at <= plc.handled_) return perform(action);
+  actions.insert(std::ranges::upper_bound(actions, action.at, {}, &PortAction::at), action);
+  plc.queue_.schedule(actions.front().at, actor, 0);
+}
+
+void Plc::Port::act_until(Time now) {
+  auto next = actions.begin();
+  for (; next != actions.end() && next->at <= now; ++next) perform(*next);
+  actions.erase(actions.begin(), next);
+  if (!actions.empty()) plc.queue_.schedule(actions.front().at, actor, 0);
+}
+
+void Plc::Port::perform(const PortAction& action) {
+  switch (action.what) {
+    case PortAction::What::Configure:
+      uart.configure(action.format);
+      if (follower) follower(action.format);
+      break;
+    case PortAction::What::EnableReceiver:
+      uart.enable_receiver(action.value != 0, action.at);
+      break;
+    case PortAction::What::Send:
+      uart.send(static_cast<std::uint8_t>(action.value), action.at);
+      break;
+    case PortAction::What::SendBreak:
+      uart.send_break(action.value, action.at);
+      break;
+  }
+}
+
+Time Plc::Port::shortest_character() const {
+  const Uart::State& state = uart.state();
+  if (!state.receiver_enabled()) return kNever;
+  if (shortest_ == 0 || !(known_format_ == state.format)) {
+    known_format_ = state.format;
+    const BitClock fastest{state.format, Fault::kLargestClockError};
+    shortest_ = fastest.half_bits(2 * first_stop_bit(state.format) + 1);
+  }
+  return shortest_;
 }
 
 Plc::Plc(Dispatcher& events, std::span<SharedLine* const> lines, std::shared_ptr<const Program> program, FieldScript field)
-    : ports_(ports_on(lines, events)),
-      cpu_(std::move(program), events.queue(), events.add(Rank::Cpu, *this), devices()),
-      field_(std::move(field), cpu_, events.queue(), events.add(Rank::Field, *this)) {}
+    : queue_(events.add_queue()),
+      ports_(ports_on(lines, events)),
+      cpu_(std::move(program), queue_, events.add(Rank::Cpu, *this), devices()),
+      field_(std::move(field), cpu_, queue_, events.add(Rank::Field, *this)) {}
 
 std::vector<std::unique_ptr<Plc::Port>> Plc::ports_on(std::span<SharedLine* const> lines, Dispatcher& events) {
   std::vector<std::unique_ptr<Port>> ports;
   for (SharedLine* const line : lines)
-    ports.push_back(std::make_unique<Port>(events, *line, *this, static_cast<std::uint8_t>(ports.size())));
+    ports.push_back(std::make_unique<Port>(*this, static_cast<std::uint8_t>(ports.size()), *line, events));
   return ports;
 }
 
@@ -45,9 +96,36 @@ void Plc::power_up(const RetentiveMemory* memory) {
   field_.power_up();
 }
 
+void Plc::power_off(Time at) {
+  powered_ = false;
+  queue_ = {};
+  for (const auto& port : ports_) {
+    port->actions.clear();
+    port->uart.power_off(at);
+  }
+}
+
+void Plc::power_on(Time at) {
+  RetentiveMemory memory = cpu_.retentive_memory();
+  memory.power_off = at - cpu_.time();
+  powered_ = true;
+  cpu_.power_up(true, &memory, at);
+  field_.power_up(at);
+}
+
 SerialFormat Plc::port_format(std::uint8_t port) const {
   const Freeport& freeport = cpu_.state().port.at(port);
   return freeport.active ? freeport.format : SerialFormat{};
+}
+
+Time Plc::may_run_until(Time horizon) const {
+  Time until = kNever;
+  for (const auto& port : ports_) {
+    const Time shortest = port->shortest_character();
+    const Time heard = shortest < kNever - horizon ? horizon + shortest : kNever;
+    until = std::min({until, heard, port->uart.next_report()});
+  }
+  return until;
 }
 
 void Plc::settle(Time until) {
@@ -56,10 +134,14 @@ void Plc::settle(Time until) {
 
 void Plc::handle(const Event& event) {
   const Rank rank = Dispatcher::rank_of(event.owner);
-  if (rank == Rank::Cpu) return cpu_.handle(event);
-  if (rank == Rank::Field) return field_.handle(event);
-  for (std::uint8_t port = 0; port < ports_.size(); ++port)
-    if (ports_[port]->owner == event.owner) return hear(port, event);
+  handled_ = event.at;
+  if (rank == Rank::Cpu) cpu_.handle(event);
+  if (rank == Rank::Field) field_.handle(event);
+  for (std::uint8_t port = 0; port < ports_.size(); ++port) {
+    if (ports_[port]->owner == event.owner && rank == Rank::Uart) hear(port, event);
+    if (ports_[port]->actor == event.owner && rank == Rank::Port) ports_[port]->act_until(event.at);
+  }
+  handled_ = -1;
 }
 
 void Plc::hear(std::uint8_t port, const Event& event) {
@@ -70,16 +152,21 @@ void Plc::hear(std::uint8_t port, const Event& event) {
 }
 
 Plc::State Plc::state() const {
-  State state{cpu_.state(), {}, field_.state()};
-  for (std::size_t port = 0; port < ports_.size(); ++port) state.uart[port] = ports_[port]->uart.state();
+  State state{cpu_.state(), {}, {}, field_.state(), powered_};
+  for (std::size_t port = 0; port < ports_.size(); ++port) {
+    state.uart[port] = ports_[port]->uart.state();
+    state.actions[port] = ports_[port]->actions;
+  }
   return state;
 }
 
 void Plc::restore(const State& state, Time now) {
   cpu_.restore(state.cpu);
   field_.restore(state.field);
+  powered_ = state.powered;
   for (std::size_t port = 0; port < ports_.size(); ++port) {
     ports_[port]->uart.restore(state.uart[port]);
+    ports_[port]->actions = state.actions[port];
     ports_[port]->tap.go_back(now);
   }
 }

@@ -18,13 +18,25 @@
 
 namespace s7200::serial {
 
+/// What a CPU does to a port at an instant, as plain data.
+struct PortAction {
+  enum class What : std::uint8_t { Configure, EnableReceiver, Send, SendBreak };
+  What what{};
+  Time at = 0;
+  SerialFormat format{};  ///< Configure
+  int value = 0;          ///< EnableReceiver: whether; Send: the byte; SendBreak: bit times
+  bool operator==(const PortAction&) const = default;
+};
+
 class Plc final : private EventHandler {
  public:
   /// Plain, so that a snapshot is a copy.
   struct State {
     s7200::State cpu;
     std::array<Uart::State, kPorts.size()> uart;
+    std::array<std::vector<PortAction>, kPorts.size()> actions;  ///< that are still to come
     Field::State field;
+    bool powered = true;
     bool operator==(const State&) const = default;
   };
 
@@ -36,11 +48,22 @@ class Plc final : private EventHandler {
   /// Powers the CPU up into RUN, at time 0, with what its memory has kept, and starts the field's script.
   void power_up(const RetentiveMemory* memory = nullptr);
 
+  /// Power goes off at `at`, and comes back: the CPU keeps what a real one keeps, and begins anew in RUN.
+  void power_off(Time at);
+  void power_on(Time at);
+  bool powered() const { return powered_; }
+
   Cpu& cpu() { return cpu_; }
   const Cpu& cpu() const { return cpu_; }
 
   /// What the program has set a port to; the default format until it has switched it to Freeport mode.
   SerialFormat port_format(std::uint8_t port = 0) const;
+
+  /// How the UART of a port is set: as of the last event that was handled, however far the CPU has run ahead of it.
+  const SerialFormat& line_format(std::uint8_t port = 0) const { return ports_.at(port)->uart.state().format; }
+
+  /// Which of the line's drivers a port is.
+  int driver(std::uint8_t port = 0) const { return ports_.at(port)->uart.driver(); }
 
   /// `follower` is told, at once, each time the program sets a port; an empty function ends that.
   void when_configured(std::function<void(const SerialFormat& format)> follower, std::uint8_t port = 0) {
@@ -49,6 +72,9 @@ class Plc final : private EventHandler {
 
   /// Lets `sink` watch the line at a port from now on; null ends that. Not owned. After restore() it sees time go back.
   void set_wire_sink(WireSink* sink, std::uint8_t port = 0) { ports_.at(port)->tap.watch(sink, cpu_.time()); }
+
+  /// How far the CPU may run if nothing happens to the system before `horizon`: until then it hears nothing from others.
+  Time may_run_until(Time horizon) const;
 
   /// No driver of the lines gets an edge before `until` any more: whoever watches them is told.
   void settle(Time until);
@@ -59,25 +85,40 @@ class Plc final : private EventHandler {
   void restore(const State& state, Time now);
 
  private:
-  /// A UART as the CPU sees it: whoever follows its format is told.
+  /// A UART as the CPU sees it. What the CPU does to it is an event at its instant: CPUs may run ahead of each other, and a
+  /// line is never told of anything that lies before what it knows already.
   struct Port final : SerialPort, private Uart::Bystander {
-    Port(Dispatcher& events, SharedLine& shared_line, Plc& plc, std::uint8_t number);
+    Port(Plc& of, std::uint8_t number, SharedLine& shared_line, Dispatcher& events);
 
     void configure(const SerialFormat& format) override;
-    void enable_receiver(bool enabled, Time at) override { uart.enable_receiver(enabled, at); }
-    void send(std::uint8_t byte, Time at) override { uart.send(byte, at); }
-    void send_break(int bit_times, Time at) override { uart.send_break(bit_times, at); }
+    void enable_receiver(bool enabled, Time at) override;
+    void send(std::uint8_t byte, Time at) override;
+    void send_break(int bit_times, Time at) override;
 
-    bool looks() const override { return of.cpu_.traced(); }
-    void missed(const ReceivedCharacter& character) override { of.cpu_.character_missed(character, number); }
+    bool looks() const override { return plc.cpu_.traced(); }
+    void missed(const ReceivedCharacter& character) override { plc.cpu_.character_missed(character, number); }
 
-    Plc& of;
+    void act(const PortAction& action);
+    void act_until(Time now);
+    Time next_action() const { return actions.empty() ? kNever : actions.front().at; }
+
+    /// No station can make the CPU hear a whole character sooner: the shortest, at the fastest that a faulty clock makes of
+    /// it.
+    Time shortest_character() const;
+
+    Plc& plc;
     std::uint8_t number;
     SharedLine& line;
-    EventOwner owner;
+    EventOwner actor, owner;  ///< of actions, of the UART
     Uart uart;
     WireTap tap;
+    std::vector<PortAction> actions{};  ///< in order of time
     std::function<void(const SerialFormat&)> follower{};
+
+   private:
+    void perform(const PortAction& action);
+    mutable SerialFormat known_format_{};
+    mutable Time shortest_ = 0;
   };
 
   std::vector<std::unique_ptr<Port>> ports_on(std::span<SharedLine* const> lines, Dispatcher& events);
@@ -86,9 +127,12 @@ class Plc final : private EventHandler {
   void handle(const Event& event) override;
   void hear(std::uint8_t port, const Event& event);
 
+  EventQueue& queue_;  // of the CPU, its field and what it does to its ports
+  Time handled_ = -1;  // the instant whose event the CPU is being told of; before all of them if there is none
   std::vector<std::unique_ptr<Port>> ports_;
   Cpu cpu_;
   Field field_;
+  bool powered_ = true;
 };
 
 }  // namespace s7200::serial

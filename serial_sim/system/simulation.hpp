@@ -51,6 +51,8 @@ class Simulation {
   void clear_faults() { line_.faults().clear(time()); }
   const Faults& faults() const { return line_.faults(); }
 
+  Plc& plc() { return plc_; }
+  const SharedLine& line() const { return line_; }
   Cpu& cpu() { return plc_.cpu(); }
   const Cpu& cpu() const { return plc_.cpu(); }
   Requester& master() { return master_.requester(); }

@@ -3,6 +3,7 @@
 
 #include "serial_sim/line/uart.hpp"
 #include "serial_sim/peers/host_port.hpp"
+#include "serial_sim/peers/poller.hpp"
 #include "serial_sim/peers/requester.hpp"
 #include "serial_sim/peers/responder.hpp"
 #include "serial_sim/system/dispatcher.hpp"
@@ -35,8 +36,42 @@ class RequesterStation final : private EventHandler {
   void handle(const Event& event) override;
 
   SharedLine& line_;
+  EventQueue& queue_;
   Uart uart_;
   Requester requester_;
+};
+
+class PollerStation final : private EventHandler {
+ public:
+  /// Plain, so that a snapshot is a copy.
+  struct State {
+    Uart::State uart;
+    Requester::State requester;
+    Poller::State poller;
+    bool operator==(const State&) const = default;
+  };
+
+  /// Neither reference is owned.
+  PollerStation(Dispatcher& events, SharedLine& line, PollPlan plan, Poller::Wiring wiring);
+  PollerStation(const PollerStation&) = delete;
+  PollerStation& operator=(const PollerStation&) = delete;
+
+  const Uart& uart() const { return uart_; }
+  Poller& poller() { return poller_; }
+  const Poller& poller() const { return poller_; }
+
+  State state() const { return {uart_.state(), requester_.state(), poller_.state()}; }
+  void restore(const State& state);
+
+ private:
+  void handle(const Event& event) override;
+
+  SharedLine& line_;
+  EventQueue& queue_;
+  Uart uart_;
+  EventOwner requester_owner_;
+  Requester requester_;
+  Poller poller_;
 };
 
 class ResponderStation final : private EventHandler {
@@ -54,6 +89,7 @@ class ResponderStation final : private EventHandler {
   ResponderStation& operator=(const ResponderStation&) = delete;
 
   Uart& uart() { return uart_; }
+  const Uart& uart() const { return uart_; }
   Responder& responder() { return responder_; }
   const Responder& responder() const { return responder_; }
 
@@ -64,6 +100,7 @@ class ResponderStation final : private EventHandler {
   void handle(const Event& event) override;
 
   SharedLine& line_;
+  EventQueue& queue_;
   Uart uart_;
   Responder responder_;
 };
@@ -82,6 +119,7 @@ class HostStation final : private EventHandler {
   HostStation(const HostStation&) = delete;
   HostStation& operator=(const HostStation&) = delete;
 
+  int driver() const { return uart_.driver(); }
   HostPort& port() { return port_; }
   const HostPort& port() const { return port_; }
 
@@ -92,6 +130,7 @@ class HostStation final : private EventHandler {
   void handle(const Event& event) override;
 
   SharedLine& line_;
+  EventQueue& queue_;
   Uart uart_;
   HostPort port_;
 };

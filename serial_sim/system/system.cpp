@@ -55,6 +55,10 @@ RequesterStation& System::add_requester(SharedLine& line) { return add(requester
 
 HostStation& System::add_host_port(SharedLine& line) { return add(host_ports_, events_, line); }
 
+PollerStation& System::add_poller(SharedLine& line, PollPlan plan, Poller::Wiring wiring) {
+  return add(pollers_, events_, line, std::move(plan), std::move(wiring));
+}
+
 ResponderStation& System::add_responder(SharedLine& line, std::unique_ptr<Automaton> automaton) {
   return add(responders_, events_, line, std::move(automaton));
 }
@@ -63,40 +67,56 @@ void System::power_up() {
   for (const auto& plc : plcs_) plc->power_up();
 }
 
+void System::power_off(Plc& plc) {
+  clock_ = time();
+  plc.power_off(std::max(clock_, plc.cpu().time()));
+}
+
+void System::power_on(Plc& plc) { plc.power_on(std::max(time(), plc.cpu().time())); }
+
+bool System::any_powered() const {
+  return std::any_of(plcs_.begin(), plcs_.end(), [](const auto& plc) { return plc->powered(); });
+}
+
 Time System::time() const {
-  if (plcs_.empty()) return clock_;
   Time earliest = kNever;
-  for (const auto& plc : plcs_) earliest = std::min(earliest, plc->cpu().time());
-  return earliest;
+  for (const auto& plc : plcs_)
+    if (plc->powered()) earliest = std::min(earliest, plc->cpu().time());
+  return earliest == kNever ? clock_ : earliest;
 }
 
 bool System::paused() const {
   return std::any_of(plcs_.begin(), plcs_.end(), [](const auto& plc) { return plc->cpu().paused(); });
 }
 
-System::Turn System::next_turn() const {
-  const auto clock = [this](std::size_t i) { return plcs_[i]->cpu().time(); };
-  std::size_t first = 0;
-  for (std::size_t i = 1; i < plcs_.size(); ++i)
-    if (clock(i) < clock(first)) first = i;
-  Time until = kNever;
-  for (std::size_t i = 0; i < plcs_.size(); ++i)
-    if (i != first) until = std::min(until, plcs_[i]->cpu().next_action() + (first < i ? 1 : 0));
-  return {*plcs_[first], until};
+Time System::horizon() const {
+  Time earliest = events_.next();
+  if (plcs_.size() > 1)
+    for (const auto& plc : plcs_)
+      if (plc->powered()) earliest = std::min(earliest, plc->cpu().next_action());
+  return earliest;
 }
 
 Halt System::step(Time end) {
   if (stop_requested()) return Halt::Request;
-  if (plcs_.empty()) return step_without_plc(end);
-  const Turn turn = next_turn();
-  Cpu& cpu = turn.plc.cpu();
-  cpu.run(std::min({end, turn.until, after(cpu.time(), kFurthestAtOnce)}), kLookEvery);
+  if (!any_powered()) return step_without_plc(end);
+  const Time horizon = this->horizon();
+  Halt halt = Halt::Time;
+  for (const auto& plc : plcs_) {
+    Cpu& cpu = plc->cpu();
+    const Time until =
+        std::min({end, plcs_.size() > 1 ? plc->may_run_until(horizon) : horizon, after(cpu.time(), kFurthestAtOnce)});
+    if (!plc->powered() || cpu.time() >= until) continue;
+    cpu.run(until, kLookEvery);
+    if (cpu.paused()) halt = Halt::Paused;
+    if (cpu.paused()) break;
+  }
   handle_due_events();
-  return cpu.paused() ? Halt::Paused : Halt::Time;
+  return halt;
 }
 
 Halt System::step_without_plc(Time end) {
-  clock_ = std::min({end, std::max(clock_, events_.queue().next()), after(clock_, kLookEvery)});
+  clock_ = std::min({end, std::max(clock_, events_.next()), after(clock_, kLookEvery)});
   handle_due_events();
   return Halt::Time;
 }
@@ -116,8 +136,8 @@ const Exchange& System::finish_exchange(const RequesterStation& station) {
 
 void System::handle_due_events() {
   const Time now = time();
-  while (events_.queue().next() <= now) {
-    settle(events_.queue().next());  // whatever is sent from now on begins no earlier
+  for (Time next = events_.next(); next <= now; next = events_.next()) {
+    settle(next);  // whatever is sent from now on begins no earlier
     events_.handle_next();
   }
   settle(now);
@@ -128,24 +148,22 @@ void System::settle(Time until) {
 }
 
 System::Snapshot System::snapshot() const {
-  return {events_.queue(),
-          states_of(lines_),
-          states_of(plcs_),
-          states_of(requesters_),
-          states_of(host_ports_),
-          states_of(responders_),
-          clock_};
+  return {events_.state(),        states_of(lines_),      states_of(plcs_),    states_of(requesters_),
+          states_of(host_ports_), states_of(responders_), states_of(pollers_), clock_};
 }
 
 void System::restore(const Snapshot& snapshot) {
   Time now = kNever;
-  for (const Plc::State& plc : snapshot.plcs) now = std::min(now, plc.cpu.time);
-  events_.queue() = snapshot.queue;
+  for (const Plc::State& plc : snapshot.plcs)
+    if (plc.powered) now = std::min(now, plc.cpu.time);
+  if (now == kNever) now = snapshot.clock;
+  events_.restore(snapshot.queues);
   restore_all(lines_, snapshot.lines);
   restore_all(plcs_, snapshot.plcs, now);
   restore_all(requesters_, snapshot.requesters);
   restore_all(host_ports_, snapshot.host_ports);
   restore_all(responders_, snapshot.responders);
+  restore_all(pollers_, snapshot.pollers);
   clock_ = snapshot.clock;
 }
 

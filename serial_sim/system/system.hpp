@@ -1,19 +1,18 @@
 // Lines and the stations on them, in one time.
 //
 // Time. Each CPU has a clock of its own, which stands at the start of its next instruction; what an instruction does to the
-// outside carries its end. CPUs know of one another only by what is on a line. The rule that keeps them in one time:
+// outside carries its end. CPUs know of one another only by what is on a line, and they touch a line only by events: what a
+// CPU does to its port is an event at its instant. The rule that keeps all in one time:
 //
-//   The CPU whose clock is the earliest runs; of two at the same instant, the one that was added first. It runs until
-//   another may act, or an event is due. An event is due when no clock stands before it.
+//   Nothing happens before the horizon: the earliest of all events, and of the instants when a CPU may act. A CPU runs to
+//   its own next event, or to the horizon and as long after it as a character takes that another might begin there,
+//   whichever is first. An event is handled when no clock stands before it, and before any CPU that it is for executes an
+//   instruction that starts after it.
 //
 // A CPU may act whenever it executes its program, and at the end of a system's part of its scan: until then only an event
-// can make it act. So whatever a CPU does comes no earlier than what was done before it, but for one instruction that begins
-// before another's and ends after it: its effects lie in the future of the others, which lines and UARTs allow. An event is
-// handled when nothing can happen before it any more, and before any CPU executes an instruction that starts after it. The
-// order of instructions and events follows from the clocks alone: it is the same in one run or in slices, traced or not.
-// There is no more lookahead than that, although a character takes its time: a program may set its port between any two
-// instructions, and what others have sent until then must be known. With one PLC no other station acts, and it runs from
-// event to event; several that execute their programs take turns after every instruction or two.
+// can make it act. CPUs run one after the other, each for most of a character, and which one is first does not matter: the
+// order of events follows from their instants alone. It is the same in one run or in slices, traced or not. With one PLC
+// there is no one to run ahead of, and it stops at every event, so that whoever looks finds all at the same instant.
 #pragma once
 
 #include <atomic>
@@ -51,6 +50,7 @@ class System {
   Plc& add_plc(SharedLine& line, std::shared_ptr<const Program> program, FieldScript field = {});
   RequesterStation& add_requester(SharedLine& line);
   HostStation& add_host_port(SharedLine& line);
+  PollerStation& add_poller(SharedLine& line, PollPlan plan, Poller::Wiring wiring);
   ResponderStation& add_responder(SharedLine& line, std::unique_ptr<Automaton> automaton);
 
   /// All that runs ends early once `request` is true; it is looked at every 100 ms. Not owned; null: nothing ends it.
@@ -59,13 +59,17 @@ class System {
   /// Powers up all PLCs, as new. Plc::power_up() does so for one, before anything runs.
   void power_up();
 
-  /// The earliest clock: nothing happens before it any more.
+  /// Power of one PLC goes off, and comes back, now.
+  void power_off(Plc& plc);
+  void power_on(Plc& plc);
+
+  /// The earliest clock of those that have power: nothing happens before it any more.
   Time time() const;
 
   /// Whether a CPU was paused when it last ran.
   bool paused() const;
 
-  /// Lets one CPU run, to `end` at most, and handles what is due then. Time means that there is more to do.
+  /// Lets each CPU run once, to `end` at most, and handles what is due then. Time means that there is more to do.
   Halt step(Time end);
 
   /// Runs until all clocks have reached `end`.
@@ -75,13 +79,14 @@ class System {
   const Exchange& finish_exchange(const RequesterStation& station);
 
   struct Snapshot {
-    EventQueue queue;
+    std::vector<EventQueue> queues;
     std::vector<SharedLine::State> lines;
     std::vector<Plc::State> plcs;
     std::vector<RequesterStation::State> requesters;
     std::vector<HostStation::State> host_ports;
     std::vector<ResponderStation::State> responders{};
-    Time clock = 0;  ///< without CPUs
+    std::vector<PollerStation::State> pollers{};
+    Time clock = 0;  ///< while no CPU has power
     bool operator==(const Snapshot&) const = default;
   };
   Snapshot snapshot() const;
@@ -93,11 +98,8 @@ class System {
   template <class Part>
   using Parts = std::vector<std::unique_ptr<Part>>;
 
-  struct Turn {
-    Plc& plc;
-    Time until;  ///< another may act then
-  };
-  Turn next_turn() const;
+  Time horizon() const;
+  bool any_powered() const;
   Halt step_without_plc(Time end);
   void handle_due_events();
   void settle(Time until);
@@ -109,7 +111,8 @@ class System {
   Parts<RequesterStation> requesters_;
   Parts<HostStation> host_ports_;
   Parts<ResponderStation> responders_;
-  Time clock_ = 0;  // of a system without CPUs
+  Parts<PollerStation> pollers_;
+  Time clock_ = 0;  // while no CPU has power
   const std::atomic<bool>* stop_request_ = nullptr;
 };
 

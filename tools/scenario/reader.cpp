@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "tools/scenario/head_reader.hpp"
+#include "tools/scenario/limits.hpp"
 #include "tools/scenario/step_reader.hpp"
 
 namespace s7200::tools {

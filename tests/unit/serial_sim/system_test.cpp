@@ -475,19 +475,20 @@ TEST(Dispatcher, OneInstantGoesByRankAndThenInTheOrderOfAdding) {
     std::vector<EventOwner>& handled;
   };
   Dispatcher events;
+  EventQueue& queue = events.add_queue();
   std::vector<EventOwner> handled, expected;
   Log one(handled), other(handled);
-  constexpr Rank kScrambled[] = {Rank::Peer, Rank::Cpu, Rank::Line, Rank::Field, Rank::Uart};
-  std::array<std::vector<EventOwner>, 5> added;
+  constexpr Rank kScrambled[] = {Rank::Peer, Rank::Cpu, Rank::Line, Rank::Port, Rank::Field, Rank::Uart};
+  std::array<std::vector<EventOwner>, kRanks> added;
   for (Log* log : {&one, &other})
     for (const Rank rank : kScrambled) {
       const EventOwner owner = events.add(rank, *log);
       EXPECT_EQ(Dispatcher::rank_of(owner), rank);
       added[static_cast<std::size_t>(rank)].push_back(owner);
-      events.queue().schedule(5, owner, 0);
+      queue.schedule(5, owner, 0);
     }
   for (const auto& of_rank : added) expected.insert(expected.end(), of_rank.begin(), of_rank.end());
-  while (events.queue().next() != kNever) events.handle_next();
+  while (events.next() != kNever) events.handle_next();
   EXPECT_EQ(handled, expected);
 }
 

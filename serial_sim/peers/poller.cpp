@@ -1,0 +1,48 @@
+#include "serial_sim/peers/poller.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "serial_sim/peers/quiet_time.hpp"
+
+namespace s7200::serial {
+
+Poller::Poller(Uart& uart, Requester& requester, EventQueue& queue, EventOwner owner, PollPlan plan, Wiring wiring)
+    : uart_(uart), requester_(requester), queue_(queue), owner_(owner), plan_(std::move(plan)), wiring_(std::move(wiring)) {}
+
+void Poller::start(Time at) {
+  state_ = {};
+  await(at);
+}
+
+void Poller::handle(const Event& event) {
+  state_.waiting = false;
+  if (state_.next == 0) state_.round_begin = event.at;
+  ++state_.asked;
+  uart_.configure(wiring_.format());
+  requester_.start(plan_.requests[state_.next], event.at);
+}
+
+void Poller::go_on(Time now) {
+  if (state_.waiting || requester_.busy()) return;
+  count(requester_.exchange());
+  const Time begin = now + plan_.pause.value_or(default_quiet(uart_.state().format));
+  state_.next = (state_.next + 1) % plan_.requests.size();
+  await(state_.next == 0 ? std::max(begin, state_.round_begin + plan_.every) : begin);
+}
+
+void Poller::count(const Exchange& exchange) {
+  const auto latency = exchange.latency();
+  if (!latency) return;
+  ++state_.answered;
+  state_.wrong += !wiring_.right(exchange);
+  state_.least_latency = std::min(state_.least_latency, *latency);
+  state_.most_latency = std::max(state_.most_latency, *latency);
+}
+
+void Poller::await(Time at) {
+  state_.waiting = true;
+  queue_.schedule(at, owner_, 0);
+}
+
+}  // namespace s7200::serial

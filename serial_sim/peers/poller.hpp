@@ -1,0 +1,63 @@
+// A master at work on the line: it asks the same requests in turn, for as long as time passes.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "serial_sim/peers/requester.hpp"
+
+namespace s7200::serial {
+
+/// What it asks, and how often.
+struct PollPlan {
+  std::vector<Request> requests;  ///< at least one
+  std::optional<Time> pause{};    ///< between an exchange and the next request; default_quiet() if not given
+  Time every = 0;                 ///< a round of all requests begins no sooner than so long after the one before
+};
+
+/// To whoever handles the events: those of its own number go to handle(), and after each event of its requester go_on().
+class Poller {
+ public:
+  /// Plain, so that a snapshot is a copy.
+  struct State {
+    std::size_t next = 0;  ///< request
+    Time round_begin = 0;
+    bool waiting = true;  ///< for the moment of the next request
+    std::uint64_t asked = 0, answered = 0, wrong = 0;
+    Time least_latency = kNever, most_latency = 0;
+    bool operator==(const State&) const = default;
+  };
+
+  /// What a poller has to know of its line. Wiring, not state.
+  struct Wiring {
+    std::function<SerialFormat()> format = [] { return SerialFormat{}; };               ///< of the next exchange
+    std::function<bool(const Exchange&)> right = [](const Exchange&) { return true; };  ///< of one that was answered
+  };
+
+  /// `owner`: its number in the queue. Neither reference is owned.
+  Poller(Uart& uart, Requester& requester, EventQueue& queue, EventOwner owner, PollPlan plan, Wiring wiring);
+
+  /// The first request is at `at`.
+  void start(Time at);
+
+  void go_on(Time now);
+  void handle(const Event& event);
+
+  const State& state() const { return state_; }
+  void restore(const State& state) { state_ = state; }
+
+ private:
+  void count(const Exchange& exchange);
+  void await(Time at);
+
+  Uart& uart_;
+  Requester& requester_;
+  EventQueue& queue_;
+  EventOwner owner_;
+  PollPlan plan_;
+  Wiring wiring_;
+  State state_;
+};
+
+}  // namespace s7200::serial
