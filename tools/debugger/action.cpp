@@ -11,7 +11,7 @@ struct Doer {
   serial::Simulation& simulation;
 
   void operator()(const SetMemory& set) const {
-    for (const Assignment& assignment : set.assignments) assign(simulation, assignment);
+    for (const Assignment& assignment : set.assignments) assign(simulation.cpu(), assignment);
   }
   void operator()(const SendFrame& send) const {
     simulation.master_uart().configure(send.format);

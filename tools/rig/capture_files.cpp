@@ -66,8 +66,8 @@ bool CaptureFiles::put(std::string& why) {
   return std::ranges::all_of(captures_, [&](Capture& capture) { return capture.file.put(why); });
 }
 
-void CaptureFiles::watch(serial::Simulation& simulation) {
-  if (!captures_.empty()) simulation.set_wire_sink(this);
+void CaptureFiles::watch(serial::Plc& plc, std::uint8_t port) {
+  if (!captures_.empty()) plc.set_wire_sink(this, port);
 }
 
 void CaptureFiles::close(std::vector<std::string>& problems) {

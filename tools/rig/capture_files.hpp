@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "serial_sim/system/simulation.hpp"
+#include "serial_sim/system/plc.hpp"
 #include "tools/host/record_file.hpp"
 
 namespace s7200::tools {
@@ -20,8 +20,8 @@ class CaptureFiles final : private serial::WireSink {
   bool open(std::string& why);
   bool put(std::string& why);
 
-  /// Captures from now on, until close() or the end of the simulation. This object outlives the simulation.
-  void watch(serial::Simulation& simulation);
+  /// Captures the line at a port from now on, until close() or the end of the PLC. This object outlives the PLC.
+  void watch(serial::Plc& plc, std::uint8_t port);
 
   /// Closes all of them; adds to `problems` what could not be written.
   void close(std::vector<std::string>& problems);

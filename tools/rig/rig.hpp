@@ -4,31 +4,20 @@
 
 #include <iosfwd>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "interpreter/program/address.hpp"
-#include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/host/written_files.hpp"
 #include "tools/rig/capture_files.hpp"
-#include "tools/rig/memory_file.hpp"
-#include "tools/rig/trace_files.hpp"
+#include "tools/rig/plc_rig.hpp"
 
 namespace s7200::tools {
 
-/// As someone asks for it; files by their names, "" for none. `-` is standard_output, for a trace and the outputs.
-struct RigSettings {
-  std::vector<Assignment> set{};        ///< memory and input points, before the first scan
-  std::string input{};                  ///< inputs over time, as CSV
-  std::optional<ClockTime> clock{};     ///< time of day at power-up
+/// As someone asks for it. `-` is standard_output, for a trace and the outputs.
+struct RigSettings : PlcSettings {
   std::vector<serial::Fault> faults{};  ///< of the line, from power-up on
   std::uint32_t port = 0;               ///< of the PLC, that the line with everything on it is at
-  MemorySettings memory{};              ///< read at power-up, written by finish()
-  std::string trace{};
-  TraceDetail trace_detail = TraceDetail::Way;
-  std::string output{};                 ///< changes of outputs, as CSV
   std::vector<std::string> captures{};  ///< of the line: FILE.vcd, FILE.pcap
   std::string link{};                   ///< a pty's link: nothing is written there, and no output may have its name
   std::ostream* standard_output = nullptr;
@@ -53,20 +42,19 @@ class Rig final {
   const WrittenFiles& files() const { return files_; }
 
   /// What watches the CPU; others may be added.
-  FanOut& sinks() { return traces_.sinks(); }
+  FanOut& sinks() { return plc_.sinks(); }
 
   /// Completes the records and keeps the memory. Returns what could not be written.
   std::vector<std::string> finish();
 
  private:
   Rig(std::shared_ptr<const Program> program, const RigSettings& settings, serial::FieldScript field);
-  bool claim_files(const std::shared_ptr<const Program>& program, std::string& why);
+  bool claim_files(std::string& why);
   bool open_records(std::string& why);
 
   RigSettings settings_;
   WrittenFiles files_;
-  MemoryFile memory_;
-  TraceFiles traces_;
+  PlcRig plc_;
   CaptureFiles captures_;  // outlives the simulation
   serial::Simulation simulation_;
 };

@@ -111,8 +111,7 @@ std::optional<std::vector<MemoryRange>> parse_ranges(const std::vector<std::stri
   return parse_all<MemoryRange>(texts, space, parse_range, why);
 }
 
-void assign(serial::Simulation& simulation, const Assignment& assignment) {
-  Cpu& cpu = simulation.cpu();
+void assign(Cpu& cpu, const Assignment& assignment) {
   const MemoryRange& place = assignment.place;
   std::array<std::uint8_t, 4> big_endian{};
   store32(big_endian.data(), assignment.value);

@@ -19,7 +19,7 @@ std::optional<std::vector<MemoryRange>> parse_ranges(const std::vector<std::stri
                                                      std::string& why);
 
 /// I addresses set the input points, everything else is written as a programming device would.
-void assign(serial::Simulation& simulation, const Assignment& assignment);
+void assign(Cpu& cpu, const Assignment& assignment);
 
 /// Lines `VW100  16#0005      5`: hex and decimal for each object, bytes sixteen a line with their characters. A double word
 /// that the program uses as a real is shown as one too.

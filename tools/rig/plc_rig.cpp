@@ -1,0 +1,64 @@
+#include "tools/rig/plc_rig.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "interpreter/program/load.hpp"
+#include "interpreter/trace/output_record.hpp"
+#include "interpreter/trace/text_trace.hpp"
+#include "tools/views/memory.hpp"
+
+namespace s7200::tools {
+
+std::optional<serial::FieldScript> read_field(const std::string& path, const CpuModel& model,
+                                              std::vector<std::string>& problems) {
+  if (path.empty()) return serial::FieldScript{};
+  std::string why;
+  const auto csv = read_text(path, why);
+  if (!csv) {
+    problems.push_back(fmt::format("cannot read {}: {}", path, why));
+    return {};
+  }
+  std::vector<std::string> errors;
+  auto field = serial::parse_field_script(*csv, path, model, errors);
+  constexpr std::size_t kShown = 10;
+  problems.insert(problems.end(), errors.begin(),
+                  errors.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, errors.size())));
+  if (errors.size() > kShown) problems.push_back(fmt::format("{}: and {} more mistakes", path, errors.size() - kShown));
+  return errors.empty() ? std::optional(std::move(field)) : std::nullopt;
+}
+
+PlcRig::PlcRig(std::shared_ptr<const Program> program, const PlcSettings& settings)
+    : program_(std::move(program)), settings_(settings) {}
+
+bool PlcRig::claim(WrittenFiles& files, std::string& why) {
+  files.reads(program_->source.name);
+  for (const stl::FurtherFile& file : program_->source.further_files) files.reads(file.name);
+  const auto trace = [program = program_, detail = settings_.trace_detail](std::ostream& out) {
+    return std::make_unique<TextTrace>(out, program, detail);
+  };
+  const auto output = [](std::ostream& out) { return std::make_unique<OutputRecord>(out); };
+  return memory_.claim(files, settings_.memory, why) &&
+         traces_.claim(files, "--trace", settings_.trace, {"a trace", fmt::format("{}\n", TextTrace::kFirstLine)}, trace,
+                       why) &&
+         traces_.claim(files, "--output", settings_.output,
+                       {"a record of outputs", fmt::format("{}\n", OutputRecord::kFirstLine)}, output, why);
+}
+
+bool PlcRig::read_memory(std::string& why) { return memory_.read(*program_->model, why); }
+
+void PlcRig::power_up(serial::Plc& plc) {
+  if (!sinks().empty()) plc.cpu().set_sink(&sinks());
+  plc.power_up(memory_.memory());
+  if (settings_.clock) plc.cpu().set_clock(*settings_.clock);
+  for (const Assignment& assignment : settings_.set) assign(plc.cpu(), assignment);
+}
+
+void PlcRig::keep_memory(const Cpu& cpu, std::vector<std::string>& problems) const {
+  std::string why;
+  if (!memory_.write(cpu, why)) problems.push_back(why);
+}
+
+}  // namespace s7200::tools

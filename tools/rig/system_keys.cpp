@@ -1,0 +1,106 @@
+#include "tools/rig/system_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+namespace s7200::tools {
+namespace {
+
+using Where = SystemKey::Where;
+
+// clang-format off
+constexpr std::array kKeys{
+    SystemKey{Where::File, "plcs", "MAP", "names of PLCs, and what each is"},
+    SystemKey{Where::File, "peers", "MAP", "names of the other stations, and what each is: a master that polls, or a PLC of another make"},
+    SystemKey{Where::File, "bridges", "MAP", "names of bridges to this computer, and what each is; with one the system runs as fast as the clock"},
+    SystemKey{Where::File, "lines", "MAP", "names of lines, and who is on each"},
+
+    SystemKey{Where::File, "events", "LIST", "what is done to the system while it runs"},
+
+    SystemKey{Where::Plc, "program", "PATH", "STL file or published document, from the folder of this file"},
+    SystemKey{Where::Plc, "with", "LIST", "paths of the other files of the program's project: symbol tables, data blocks, blocks"},
+    SystemKey{Where::Plc, "repair", "TEXT", "slips of a published listing to repair, as `s7200 check` names them: `R1,R2` or `all`"},
+    SystemKey{Where::Plc, "cpu", "TYPE", "`214` if left out"},
+    SystemKey{Where::Plc, "times", "TABLE", "execution times: the name of a table, or the path of a CSV file as `s7200 times --csv` writes it"},
+    SystemKey{Where::Plc, "copies", "NUMBER", "so many PLCs like this, 1 to 32, with a number after the name: `slave1`, `slave2`, …; `station` goes up by one with each"},
+    SystemKey{Where::Plc, "station", "NUMBER", "address on the line, 1 to 247: the constant that the program moves into VB4095, as our slaves and Application Tip 41 do"},
+    SystemKey{Where::Plc, "constants", "MAP", "constants that the program moves to an address with MOVB, MOVW or MOVD, instead of its own: `{SMB30: 16#45}`"},
+    SystemKey{Where::Plc, "set", "MAP", "memory and inputs before the first scan: `{VW20: 16#1234, I0.3: 1}`"},
+    SystemKey{Where::Plc, "input", "PATH", "inputs over time, CSV in the format of `s7200 run --input`"},
+    SystemKey{Where::Plc, "clock", "TIME", "time of day at the start: `2026-11-21 10:00:00`"},
+    SystemKey{Where::Plc, "memory", "PATH", "retentive memory, EEPROM and clock: read at the start if it exists, written at the end"},
+    SystemKey{Where::Plc, "trace", "PATH", "interrupts, characters, attachments and errors are written there"},
+    SystemKey{Where::Plc, "trace_instructions", "true, false", "every instruction is traced too; `false` if left out"},
+    SystemKey{Where::Plc, "output", "PATH", "each change of an output is written there, as CSV"},
+    SystemKey{Where::Plc, "dump", "LIST", "memory to show at the end: `[VB0:16, VW100]`"},
+
+    SystemKey{Where::Line, "stations", "LIST", "who is on it, in their order along the cable: names of PLCs (`gateway.1` is port 1; the name of several copies is all of them) of peers and of bridges; 32 at most"},
+    SystemKey{Where::Line, "baud", "NUMBER", "of the masters on it, 50 to 1000000; as its first PLC sets its port if left out, like the next three"},
+    SystemKey{Where::Line, "parity", "none, even, odd", ""},
+    SystemKey{Where::Line, "data_bits", "7, 8", ""},
+    SystemKey{Where::Line, "stop_bits", "1, 2", ""},
+    SystemKey{Where::Line, "turn_round", "TIME", "how long a master on it leaves it quiet between an answer and its next request; 7 characters and 10 ms if left out"},
+    SystemKey{Where::Line, "faults", "LIST", "from the start on, each in the form of `s7200 run --fault`"},
+    SystemKey{Where::Line, "contention", "SEED", "two drivers that disagree give no defined level: mark or space by chance, the same with the same seed; space if left out"},
+    SystemKey{Where::Line, "capture", "LIST", "files that it is written to: FILE.vcd (levels of rx and tx) or FILE.pcap (frames); rx and tx are those of its first PLC"},
+
+    SystemKey{Where::Master, "polls", "LIST", "what the master asks, in turn and without end, in Modbus RTU"},
+    SystemKey{Where::Master, "every", "TIME", "a round begins no sooner than so long after the one before; at once if left out"},
+    SystemKey{Where::Master, "timeout", "TIME", "how long to wait for an answer to start; `1s` if left out"},
+
+    SystemKey{Where::Poll, "station", "NUMBER, FIRST..LAST", "who is asked, 1 to 247; several are asked one after the other"},
+    SystemKey{Where::Poll, "read", "ADDRESS", "as manuals write it: 1 or 00001 (coil), 10001 (input), 30001 (input register), 40001 (holding register)"},
+    SystemKey{Where::Poll, "write", "ADDRESS", "instead of `read`: a coil or a holding register"},
+    SystemKey{Where::Poll, "count", "NUMBER", "how many to read, 1 to 2000; 1 if left out"},
+    SystemKey{Where::Poll, "value", "NUMBER", "the one to write"},
+
+    SystemKey{Where::OtherPlc, "westinghouse", "PROTOCOL", "modbus, lan, hppc, loader or westnet"},
+    SystemKey{Where::OtherPlc, "model", "NAME", "pc1200, pc503, …; the first that speaks the protocol if left out"},
+    SystemKey{Where::OtherPlc, "settings", "LIST", "as `s7200 master --plc` takes them: `[unit=05, HR1=1234]`"},
+
+    SystemKey{Where::Bridge, "pty", "LINK", "a serial port that programs of this computer open as LINK; from the folder of this file"},
+    SystemKey{Where::Bridge, "tcp", "[ADDRESS:]PORT", "raw bytes over TCP; without ADDRESS for this computer only"},
+    SystemKey{Where::Bridge, "rtu-over-tcp", "[ADDRESS:]PORT", "Modbus RTU frames over TCP"},
+    SystemKey{Where::Bridge, "modbus-tcp", "[ADDRESS:]PORT", "a gateway from Modbus TCP"},
+    SystemKey{Where::Bridge, "device", "DEVICE", "a serial device of this computer"},
+
+    SystemKey{Where::Event, "at", "TIME", "since the start; beside one of the following"},
+    SystemKey{Where::Event, "power_off", "NAME", "a PLC loses power: it falls silent in the middle of a character and keeps what a real one keeps"},
+    SystemKey{Where::Event, "power_on", "NAME", "its power comes back; it begins anew in RUN"},
+    SystemKey{Where::Event, "cut", "LINE", "the cable is cut: both parts go on without each other"},
+    SystemKey{Where::Event, "after", "NAME", "beside `cut`: the last station on the first part, in the order of `stations`"},
+    SystemKey{Where::Event, "mend", "LINE", "the cable is whole again"},
+    SystemKey{Where::Event, "set", "MAP", "memory and inputs of `plc`, as a programming device sets them; SMB30 and SMB130 set a port to another rate"},
+    SystemKey{Where::Event, "plc", "NAME", "beside `set`"},
+    SystemKey{Where::Event, "fault", "TEXT", "a fault of `line` from then on, in the form of `s7200 run --fault`"},
+    SystemKey{Where::Event, "line", "LINE", "beside `fault`"},
+    SystemKey{Where::Event, "clear_faults", "LINE", "no fault there any more"},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const SystemKey> system_keys() { return kKeys; }
+
+std::string system_keys_markdown() {
+  static constexpr std::pair<Where, std::string_view> kTables[] = {
+      {Where::File, "Of the file"},
+      {Where::Plc, "Of a PLC"},
+      {Where::Line, "Of a line"},
+      {Where::Master, "Of a peer that is a master"},
+      {Where::Poll, "Of what it polls"},
+      {Where::OtherPlc, "Of a peer that is a simulated PLC of another make"},
+      {Where::Bridge, "Of a bridge, one of"},
+      {Where::Event, "Of an event"}};
+  std::string text;
+  for (const auto& [where, heading] : kTables) {
+    text += fmt::format("{}| {} | |\n|---|---|\n", text.empty() ? "" : "\n", heading);
+    for (const SystemKey& key : system_keys())
+      if (key.where == where) text += fmt::format("| `{}: {}` | {} |\n", key.key, key.form, key.meaning);
+  }
+  return text;
+}
+
+}  // namespace s7200::tools

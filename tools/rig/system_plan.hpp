@@ -1,0 +1,82 @@
+// A system of several PLCs as plain data: who there is, and who is on which line. system_reader.hpp reads it from YAML,
+// system_rig.hpp builds it.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/program/address.hpp"
+#include "interpreter/program/program.hpp"
+#include "serial_sim/faults/fault.hpp"
+#include "serial_sim/field/field_script.hpp"
+#include "serial_sim/line/line_settings.hpp"
+#include "serial_sim/peers/automaton.hpp"
+#include "serial_sim/peers/poller.hpp"
+#include "tools/rig/plc_rig.hpp"
+
+namespace s7200::tools {
+
+struct PlcPlan {
+  std::string name;
+  std::shared_ptr<const Program> program;
+  PlcSettings settings{};
+  serial::FieldScript field{};
+  std::vector<MemoryRange> dumps{};  ///< shown at the end
+  std::vector<std::string> dump_names{};
+};
+
+/// A master that polls, or a simulated PLC of another make.
+struct PeerPlan {
+  std::string name;
+  serial::PollPlan polls{};                              ///< of a master; without requests it is none
+  std::shared_ptr<const serial::Automaton> automaton{};  ///< of another PLC; null: it is none
+};
+
+/// Where programs and devices of this computer join a line, in real time.
+struct BridgePlan {
+  std::string name;
+  std::string kind;   ///< pty, tcp, rtu-over-tcp, modbus-tcp or device
+  std::string where;  ///< a link, [ADDRESS:]PORT, a device
+};
+
+/// A station on a line: a number in the list of its kind.
+struct StationPlan {
+  enum class Kind : std::uint8_t { Plc, Peer, Bridge };
+  Kind kind{};
+  std::size_t number = 0;
+  std::uint8_t port = 0;  ///< of a PLC
+};
+
+/// Something that is done to the system at an instant.
+struct EventPlan {
+  enum class What : std::uint8_t { PowerOff, PowerOn, Cut, Mend, Set, Fault, ClearFaults };
+  What what{};
+  Time at = 0;
+  std::size_t plc = 0;            ///< PowerOff, PowerOn, Set
+  std::size_t line = 0;           ///< Cut, Mend, Fault, ClearFaults
+  std::size_t near = 0;           ///< Cut: so many of the line's stations stay on this side
+  std::vector<Assignment> set{};  ///< Set
+  serial::Fault fault{};          ///< Fault
+};
+
+struct LinePlan {
+  std::string name;
+  serial::LineSettings settings{};  ///< of masters on it, as far as not as its first PLC sets its port
+  std::vector<serial::Fault> faults{};
+  std::optional<std::uint64_t> contention{};  ///< the seed, if drivers that disagree give no defined level
+  std::vector<std::string> captures{};
+  std::vector<StationPlan> stations{};  ///< in their order along the cable
+};
+
+struct SystemPlan {
+  std::vector<PlcPlan> plcs;
+  std::vector<PeerPlan> peers;
+  std::vector<BridgePlan> bridges;
+  std::vector<LinePlan> lines;
+  std::vector<EventPlan> events;  ///< in the order of time
+};
+
+}  // namespace s7200::tools

@@ -1,0 +1,33 @@
+// A system file: YAML that names PLCs, lines and who is on them.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/base/diagnostic.hpp"
+#include "interpreter/base/source.hpp"
+#include "tools/rig/system_plan.hpp"
+
+namespace s7200::tools {
+
+/// Whether a path is that of a system file, and not of a program: .yaml, .yml.
+bool is_system_file(std::string_view path);
+
+/// What was read. With any errors, nothing is to be done with the plan.
+struct SystemFile {
+  struct Text {
+    std::shared_ptr<const stl::SourceLines> source;
+    stl::Diagnostics diagnostics;
+  };
+  SystemPlan plan;
+  Text file;
+  std::vector<Text> programs;  ///< those with errors
+
+  bool ok() const { return file.diagnostics.empty(); }
+};
+
+SystemFile read_system(const std::string& text, const std::string& path);
+
+}  // namespace s7200::tools

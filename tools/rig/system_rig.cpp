@@ -1,0 +1,200 @@
+#include "tools/rig/system_rig.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "serial_sim/modbus/answer.hpp"
+#include "tools/host/interruption.hpp"
+#include "tools/views/memory.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// When masters begin: programs have set their ports by then.
+constexpr Time kFirstPoll = kSecond;
+
+bool is_right(const serial::Exchange& exchange) {
+  const Bytes request = serial::bytes_of(exchange.request);
+  return modbus::check_answer(request, exchange.response_bytes()).verdict == serial::Verdict::Right;
+}
+
+}  // namespace
+
+SystemRig::SystemRig(SystemPlan plan)
+    : plan_(std::move(plan)), pollers_(plan_.peers.size()), peer_uarts_(plan_.peers.size()), hosts_(plan_.bridges.size()) {
+  for (const PlcPlan& plc : plan_.plcs) plc_rigs_.emplace_back(plc.program, plc.settings);
+  captures_.resize(plan_.lines.size());
+  for (std::size_t line = 0; line < plan_.lines.size(); ++line) lines_.push_back(&system_.add_line());
+  for (std::size_t plc = 0; plc < plan_.plcs.size(); ++plc) add_plc(plc);
+  for (std::size_t line = 0; line < plan_.lines.size(); ++line)
+    for (const StationPlan& station : plan_.lines[line].stations) add_other(plan_.lines[line], *lines_[line], station);
+}
+
+/// A port that is on no line of the plan is alone on one of its own.
+void SystemRig::add_plc(std::size_t number) {
+  const PlcPlan& plc = plan_.plcs[number];
+  std::vector<serial::SharedLine*> at(plc.program->model->ports, nullptr);
+  for (std::size_t line = 0; line < plan_.lines.size(); ++line)
+    for (const StationPlan& station : plan_.lines[line].stations)
+      if (station.kind == StationPlan::Kind::Plc && station.number == number) at[station.port] = lines_[line];
+  for (serial::SharedLine*& line : at)
+    if (!line) line = &system_.add_line();
+  plcs_.push_back(&system_.add_plc(at, plc.program, plc.field));
+}
+
+const StationPlan* SystemRig::first_plc(const LinePlan& line) const {
+  const auto found = std::ranges::find(line.stations, StationPlan::Kind::Plc, &StationPlan::kind);
+  return found == line.stations.end() ? nullptr : &*found;
+}
+
+/// A peer or a bridge.
+void SystemRig::add_other(const LinePlan& plan, serial::SharedLine& line, const StationPlan& station) {
+  if (station.kind == StationPlan::Kind::Plc) return;
+  const std::size_t number = station.number;
+  if (station.kind == StationPlan::Kind::Bridge) {
+    hosts_[number] = &system_.add_host_port(line);
+    return;
+  }
+  const PeerPlan& peer = plan_.peers[number];
+  if (peer.automaton) {
+    peer_uarts_[number] = &system_.add_responder(line, peer.automaton->clone()).uart();
+    return;
+  }
+  const StationPlan* const first = first_plc(plan);
+  const auto format = [settings = plan.settings, plc = first ? plcs_[first->number] : nullptr,
+                       port = first ? first->port : std::uint8_t{0}] {
+    return settings.over(plc ? plc->line_format(port) : SerialFormat{});
+  };
+  pollers_[number] = &system_.add_poller(line, peer.polls, {.format = format, .right = is_right});
+  peer_uarts_[number] = &pollers_[number]->uart();
+}
+
+std::unique_ptr<SystemRig> SystemRig::assemble(SystemPlan plan, const std::string& path,
+                                               std::vector<std::string>& problems) {
+  std::unique_ptr<SystemRig> rig(new SystemRig(std::move(plan)));
+  std::string why;
+  bool good = rig->claim_files(path, why);
+  for (PlcRig& plc : rig->plc_rigs_) good = good && plc.read_memory(why);
+  if (good) {
+    catch_interruption();
+    good = rig->open_records(why);
+  }
+  if (good) return rig;
+  if (!why.empty()) problems.push_back(why);
+  return nullptr;
+}
+
+bool SystemRig::claim_files(const std::string& path, std::string& why) {
+  files_.reads(path);
+  for (const PlcPlan& plc : plan_.plcs) files_.reads(plc.settings.input);
+  for (const BridgePlan& bridge : plan_.bridges)
+    if (bridge.kind == "pty") files_.links("a bridge", bridge.where);
+  auto line = plan_.lines.begin();
+  return std::ranges::all_of(plc_rigs_, [&](PlcRig& plc) { return plc.claim(files_, why); }) &&
+         std::ranges::all_of(captures_, [&](CaptureFiles& each) { return each.claim(files_, (line++)->captures, why); });
+}
+
+bool SystemRig::open_records(std::string& why) {
+  const auto all = [&](auto& those, auto open) {
+    return std::ranges::all_of(those, [&](auto& each) { return (each.*open)(why); });
+  };
+  return all(plc_rigs_, &PlcRig::open) && all(captures_, &CaptureFiles::open) && all(plc_rigs_, &PlcRig::put) &&
+         all(captures_, &CaptureFiles::put);
+}
+
+void SystemRig::power_up() {
+  system_.stop_when(&interruption());
+  auto captures = captures_.begin();
+  for (std::size_t line = 0; line < lines_.size(); ++line, ++captures) {
+    if (const StationPlan* first = first_plc(plan_.lines[line])) captures->watch(*plcs_[first->number], first->port);
+    for (const serial::Fault& fault : plan_.lines[line].faults) lines_[line]->faults().inject(fault, 0);
+    if (const auto seed = plan_.lines[line].contention) lines_[line]->line().leave_contention_to_chance(*seed);
+  }
+  auto rig = plc_rigs_.begin();
+  for (serial::Plc* plc : plcs_) (rig++)->power_up(*plc);
+  for (serial::PollerStation* poller : pollers_)
+    if (poller) poller->poller().start(kFirstPoll);
+}
+
+std::vector<std::string> SystemRig::finish() {
+  std::vector<std::string> problems;
+  for (PlcRig& plc : plc_rigs_) plc.close(problems);
+  for (CaptureFiles& captures : captures_) captures.close(problems);
+  auto rig = plc_rigs_.begin();
+  for (serial::Plc* plc : plcs_) (rig++)->keep_memory(plc->cpu(), problems);
+  return problems;
+}
+
+void SystemRig::run_until(Time end) {
+  for (; next_event_ < plan_.events.size() && plan_.events[next_event_].at <= end; ++next_event_) {
+    system_.run_until(plan_.events[next_event_].at);
+    if (interrupted()) return;
+    carry_out(plan_.events[next_event_]);
+  }
+  system_.run_until(end);
+}
+
+void SystemRig::carry_out(const EventPlan& event) {
+  using What = EventPlan::What;
+  const Time now = system_.time();
+  switch (event.what) {
+    case What::PowerOff:
+      if (plcs_[event.plc]->powered()) system_.power_off(*plcs_[event.plc]);
+      break;
+    case What::PowerOn:
+      if (!plcs_[event.plc]->powered()) system_.power_on(*plcs_[event.plc]);
+      break;
+    case What::Cut:
+      lines_[event.line]->line().separate(now, beyond(event));
+      break;
+    case What::Mend:
+      lines_[event.line]->line().separate(now, 0);
+      break;
+    case What::Set:
+      for (const Assignment& assignment : event.set) assign(plcs_[event.plc]->cpu(), assignment);
+      break;
+    case What::Fault:
+      lines_[event.line]->faults().inject(event.fault, now);
+      break;
+    case What::ClearFaults:
+      lines_[event.line]->faults().clear(now);
+      break;
+  }
+}
+
+int SystemRig::driver_of(const StationPlan& station) const {
+  switch (station.kind) {
+    case StationPlan::Kind::Plc:
+      return plcs_[station.number]->driver(station.port);
+    case StationPlan::Kind::Peer:
+      return peer_uarts_[station.number]->driver();
+    case StationPlan::Kind::Bridge:
+      return hosts_[station.number]->driver();
+  }
+  return 0;
+}
+
+/// The drivers on the far side of a cut.
+std::uint32_t SystemRig::beyond(const EventPlan& cut) const {
+  const std::vector<StationPlan>& stations = plan_.lines[cut.line].stations;
+  std::uint32_t far = 0;
+  for (std::size_t i = cut.near; i < stations.size(); ++i) {
+    const StationPlan& station = stations[i];
+    far |= 1U << driver_of(station);
+  }
+  return far;
+}
+
+std::string_view run(SystemRig& rig, Time end, const std::function<void()>& progress) {
+  constexpr Time kSlice = kSecond;
+  while (rig.system().time() < end) {
+    if (interrupted()) return "interrupted";
+    rig.run_until(std::min(end, rig.system().time() + kSlice));
+    progress();
+  }
+  return "time";
+}
+
+}  // namespace s7200::tools
