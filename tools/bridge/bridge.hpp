@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "serial_sim/system/simulation.hpp"
+#include "serial_sim/peers/host_port.hpp"
 
 namespace boost::asio {
 class io_context;
@@ -40,15 +40,26 @@ class LiveLine {
   virtual SerialFormat format() const = 0;
 
   virtual const LiveMessages& messages() const = 0;
-  virtual const serial::Simulation& simulation() const = 0;
-  Time now() const { return simulation().time(); }
+  virtual Time now() const = 0;
+
+  /// The end of the line where the bridge stands.
+  virtual const serial::HostPort& host_port() const = 0;
+
+  /// What the program writes its port's format with, Freeport mode or not.
+  virtual SerialFormat program_format() const = 0;
+
+  /// Whether the program's first scan has ended: before that it has hardly set its port.
+  virtual bool program_is_up() const = 0;
+
+  /// End of the last character that anyone sent or heard.
+  virtual Time last_activity() const = 0;
 
   /// More than this is not put into the queue of the line, nor more of one sender if there are several: whoever writes
   /// faster than the line sends has to wait. It is about a second of one at 9600 baud.
   static constexpr std::size_t kMostWaiting = 4096, kMostOfOne = 1024;
-  bool has_room() const { return simulation().host_port().waiting() < kMostWaiting; }
+  bool has_room() const { return host_port().waiting() < kMostWaiting; }
   bool has_room(std::uint64_t sender) const { return has_room() && waiting(sender) < kMostOfOne; }
-  std::size_t waiting(std::uint64_t sender) const { return simulation().host_port().waiting(sender); }
+  std::size_t waiting(std::uint64_t sender) const { return host_port().waiting(sender); }
 };
 
 class Bridge {

@@ -27,36 +27,54 @@ constexpr auto kQuietSlice = 10ms;
 
 constexpr int kMostAtOnce = 16;  // things that came in, before the simulation goes on
 
-}  // namespace
-
-class LiveRun::Line final : public LiveLine {
+class SimulationMachine final : public LiveMachine {
  public:
-  Line(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge)
-      : simulation_(simulation), options_(options), bridge_(bridge), pace_(simulation.time(), options.speed) {
+  explicit SimulationMachine(serial::Simulation& simulation) : simulation_(simulation) {
     simulation.cpu().use_steady_scans(SteadyScansUse::Eager);
   }
+  Time time() const override { return simulation_.time(); }
+  serial::Halt run_until(Time end) override { return simulation_.run_until(end); }
+  Time silent_until() const override { return simulation_.cpu().alike_until(); }
 
-  ~Line() override {
-    if (bridge_) bridge_->stop();
+ private:
+  serial::Simulation& simulation_;
+};
+
+std::vector<LiveEnd> end_of(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge) {
+  if (!bridge) return {};
+  return {{.bridge = bridge,
+           .port = &simulation.host_port(),
+           .line = &simulation.line(),
+           .plc = &simulation.plc(),
+           .plc_port = simulation.port(),
+           .settings = options.line}};
+}
+
+}  // namespace
+
+class LiveRun::Engine {
+ public:
+  Engine(LiveMachine& machine, const std::vector<LiveEnd>& ends, const LiveRunOptions& options)
+      : machine_(machine), options_(options), pace_(machine.time(), options.speed) {
+    for (const LiveEnd& end : ends) lines_.push_back(std::make_unique<Line>(*this, end));
   }
 
   bool start(std::string& why) {
-    if (!bridge_) return true;
-    simulation_.host_port().attach(format(), simulation_.time());
-    return bridge_->start(*this, context_, why);
+    return std::ranges::all_of(lines_, [&](const auto& line) { return line->start(context_, why); });
   }
 
   serial::Halt run_until(Time end, std::function<bool()> goes_on) {
     end_ = end;
     goes_on_ = std::move(goes_on);
     halt_.reset();
-    pace_ = Pace(simulation_.time(), options_.speed);
+    pace_ = Pace(now(), options_.speed);
     planned_ = Clock::now();
     for (;;) {
       catch_up();
-      if (bridge_) bridge_->turn();
+      for (const auto& line : lines_) line->bridge().turn();
       if (stop_asked()) halt_ = serial::Halt::Request;
-      if (bridge_ && !halt_) failure_ = bridge_->failure();
+      for (const auto& line : lines_)
+        if (!halt_ && failure_.empty()) failure_ = line->bridge().failure();
       if (!failure_.empty()) halt_ = serial::Halt::Request;
       if (halt_) return *halt_;
       sleep();
@@ -66,12 +84,60 @@ class LiveRun::Line final : public LiveLine {
   const std::string& failure() const { return failure_; }
   Pace::Report pace() const { return pace_.report(); }
 
-  void catch_up() override {
+ private:
+  class Line final : public LiveLine {
+   public:
+    Line(Engine& engine, const LiveEnd& end) : engine_(engine), end_(end) {}
+    ~Line() override { end_.bridge->stop(); }
+
+    bool start(boost::asio::io_context& context, std::string& why) {
+      end_.port->attach(format(), now());
+      return end_.bridge->start(*this, context, why);
+    }
+
+    Bridge& bridge() const { return *end_.bridge; }
+    void listen() { end_.port->receive_as(end_.bridge->receive_format()); }
+    void deliver() {
+      const auto characters = end_.port->take_received();
+      if (characters.empty()) return;
+      engine_.busy();
+      end_.bridge->received(characters);
+    }
+
+    void catch_up() override { engine_.catch_up(); }
+    void send(std::span<const serial::HostCharacter> characters) override {
+      engine_.busy();
+      end_.port->send(characters, now());
+    }
+    std::size_t drop(std::uint64_t sender) override { return end_.port->drop(sender); }
+
+    Time now() const override { return engine_.now(); }
+    const serial::HostPort& host_port() const override { return *end_.port; }
+    SerialFormat program_format() const override {
+      return end_.plc ? end_.plc->cpu().state().port[end_.plc_port].format : SerialFormat{};
+    }
+    SerialFormat format() const override {
+      return end_.settings.over(end_.plc ? end_.plc->port_format(end_.plc_port) : SerialFormat{});
+    }
+    bool program_is_up() const override { return !end_.plc || end_.plc->cpu().state().scans > 0; }
+    Time last_activity() const override { return end_.line->last_activity(); }
+    const LiveMessages& messages() const override { return engine_.options_.messages; }
+
+   private:
+    Engine& engine_;
+    const LiveEnd end_;
+  };
+
+  Time now() const { return machine_.time(); }
+  void busy() { busy_until_ = Clock::now() + kBusyFor; }
+  bool stop_asked() const { return interrupted() || (options_.stop && *options_.stop); }
+
+  void catch_up() {
     if (halt_) return;
     const Time goal = std::min(pace_.next_goal(now()), end_);
     while (now() < goal && !halt_ && !stop_asked()) {
-      if (bridge_) simulation_.host_port().receive_as(bridge_->receive_format());
-      const serial::Halt halt = simulation_.run_until(goal);
+      for (const auto& line : lines_) line->listen();
+      const serial::Halt halt = machine_.run_until(goal);
       if (halt != serial::Halt::Time && !(halt == serial::Halt::Paused && goes_on_())) halt_ = halt;
     }
     if (now() >= end_ && !halt_) halt_ = serial::Halt::Time;
@@ -79,47 +145,25 @@ class LiveRun::Line final : public LiveLine {
       slow_ = true;
       options_.messages.note("this computer cannot keep up: the simulation falls behind the clock");
     }
-    deliver();
+    for (const auto& line : lines_) line->deliver();
   }
 
-  void send(std::span<const serial::HostCharacter> characters) override {
-    busy_until_ = Clock::now() + kBusyFor;
-    simulation_.host_port().send(characters, now());
+  bool in_use() const {
+    return Clock::now() < busy_until_ ||
+           std::ranges::any_of(lines_, [](const auto& line) { return line->host_port().sending(); });
   }
-
-  std::size_t drop(std::uint64_t sender) override { return simulation_.host_port().drop(sender); }
-
-  SerialFormat format() const override { return options_.line.over(simulation_.port_format()); }
-  const LiveMessages& messages() const override { return options_.messages; }
-  const serial::Simulation& simulation() const override { return simulation_; }
-
- private:
-  bool stop_asked() const { return interrupted() || (options_.stop && *options_.stop); }
-
-  void deliver() {
-    if (!bridge_) return;
-    const auto characters = simulation_.host_port().take_received();
-    if (characters.empty()) return;
-    busy_until_ = Clock::now() + kBusyFor;
-    bridge_->received(characters);
-  }
-
-  bool busy() const { return Clock::now() < busy_until_ || simulation_.host_port().sending(); }
-
-  /// Until when the program is known to send nothing; now if it is not known.
-  Time silent_until() const { return simulation_.cpu().alike_until(); }
 
   Clock::duration slice() const {
-    if (!bridge_) return kQuietSlice;
-    if (busy()) return kBusySlice;
-    return silent_until() > now() ? kQuietSlice : kIdleSlice;
+    if (lines_.empty()) return kQuietSlice;
+    if (in_use()) return kBusySlice;
+    return machine_.silent_until() > now() ? kQuietSlice : kIdleSlice;
   }
 
   /// Until the next instant that matters, or something comes in.
   void sleep() {
     Time due = end_;
-    if (bridge_) due = std::min({due, bridge_->due(), simulation_.host_port().character_due()});
-    if (silent_until() > now() && !busy()) due = std::min(due, silent_until());
+    for (const auto& line : lines_) due = std::min({due, line->bridge().due(), line->host_port().character_due()});
+    if (machine_.silent_until() > now() && !in_use()) due = std::min(due, machine_.silent_until());
     planned_ = std::min(Clock::now() + slice(), pace_.when(due));
     timer_.expires_at(planned_);
     timer_.async_wait([](const boost::system::error_code&) {});
@@ -129,9 +173,8 @@ class LiveRun::Line final : public LiveLine {
     planned_ = std::min(planned_, Clock::now());
   }
 
-  serial::Simulation& simulation_;
+  LiveMachine& machine_;
   const LiveRunOptions options_;
-  Bridge* bridge_;
   Pace pace_;
   boost::asio::io_context context_{1};
   // A context that nothing waits for stops, and does nothing from then on.
@@ -143,22 +186,27 @@ class LiveRun::Line final : public LiveLine {
   std::function<bool()> goes_on_;
   std::optional<serial::Halt> halt_;  // of the run under way
   std::string failure_;
+  std::vector<std::unique_ptr<Line>> lines_;  // their bridges stop before the context goes
 };
 
 LiveRun::LiveRun(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge)
-    : line_(std::make_unique<Line>(simulation, options, bridge)) {}
+    : machine_(std::make_unique<SimulationMachine>(simulation)),
+      engine_(std::make_unique<Engine>(*machine_, end_of(simulation, options, bridge), options)) {}
+
+LiveRun::LiveRun(LiveMachine& machine, const std::vector<LiveEnd>& ends, const LiveRunOptions& options)
+    : engine_(std::make_unique<Engine>(machine, ends, options)) {}
 
 LiveRun::~LiveRun() = default;
 
-bool LiveRun::start(std::string& why) { return line_->start(why); }
+bool LiveRun::start(std::string& why) { return engine_->start(why); }
 
 serial::Halt LiveRun::run_until(Time end, std::function<bool()> goes_on) {
-  return line_->run_until(end, std::move(goes_on));
+  return engine_->run_until(end, std::move(goes_on));
 }
 
-const std::string& LiveRun::failure() const { return line_->failure(); }
+const std::string& LiveRun::failure() const { return engine_->failure(); }
 
-Pace::Report LiveRun::pace() const { return line_->pace(); }
+Pace::Report LiveRun::pace() const { return engine_->pace(); }
 
 std::string_view run_live(LiveRun& live, serial::Simulation& simulation, const LiveLimits& limits) {
   const State& state = simulation.cpu().state();

@@ -6,7 +6,9 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "serial_sim/system/simulation.hpp"
 #include "tools/bridge/bridge.hpp"
 #include "tools/host/pace.hpp"
 
@@ -19,12 +21,35 @@ struct LiveRunOptions {
   const std::atomic<bool>* stop = nullptr;  ///< ends a run as an interruption does; not owned
 };
 
+/// What runs in real time: a simulation, or a system.
+class LiveMachine {
+ public:
+  virtual ~LiveMachine() = default;
+  virtual Time time() const = 0;
+  virtual serial::Halt run_until(Time end) = 0;
+
+  /// Until when its programs are known to send nothing; a time that is past if it is not known.
+  virtual Time silent_until() const { return 0; }
+};
+
+/// The end of a line where a bridge stands, and the program that sets how it is written.
+struct LiveEnd {
+  Bridge* bridge = nullptr;  ///< none of these is owned
+  serial::HostPort* port = nullptr;
+  const serial::SharedLine* line = nullptr;
+  const serial::Plc* plc = nullptr;  ///< null: there is no program on that line
+  std::uint8_t plc_port = 0;
+  serial::LineSettings settings{};  ///< the other end of the line
+};
+
 /// A simulation that is powered up, and the host it follows. Between two runs it stands still, and whoever is on the bridge
 /// waits.
 class LiveRun {
  public:
   /// Neither is owned; `bridge` may be null.
   LiveRun(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge);
+  /// Any number of bridges on the lines of one machine, which is not owned.
+  LiveRun(LiveMachine& machine, const std::vector<LiveEnd>& ends, const LiveRunOptions& options);
   ~LiveRun();
   LiveRun(const LiveRun&) = delete;
   LiveRun& operator=(const LiveRun&) = delete;
@@ -43,8 +68,9 @@ class LiveRun {
   Pace::Report pace() const;
 
  private:
-  class Line;
-  std::unique_ptr<Line> line_;
+  class Engine;
+  std::unique_ptr<LiveMachine> machine_;  // of a simulation
+  std::unique_ptr<Engine> engine_;
 };
 
 struct LiveLimits {

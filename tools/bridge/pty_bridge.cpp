@@ -100,7 +100,7 @@ class PtyBridge final : public Bridge {
   };
 
   SerialFormat format_of(const PtySettings& settings) const {
-    SerialFormat format = line_->simulation().freeport().format;
+    SerialFormat format = line_->program_format();
     if (settings.baud != 0) format.baud = settings.baud;
     if (settings.parity) format.parity = *settings.parity;
     format.stop_bits = settings.stop_bits;

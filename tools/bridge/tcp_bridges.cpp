@@ -74,13 +74,12 @@ class TcpBridge : public Bridge, protected TcpServer::Protocol {
   /// No slave is asked until the first scan has ended and the line has been quiet since: only then a program has set up its
   /// port.
   modbus::LineTurns::Line line_state() {
-    const serial::Simulation& simulation = line_->simulation();
-    if (!up_since_ && simulation.cpu().state().scans > 0) up_since_ = line_->now();
+    if (!up_since_ && line_->program_is_up()) up_since_ = line_->now();
     return {.now = line_->now(),
             .format = line_->format(),
-            .sending = simulation.host_port().sending(),
-            .receiving = simulation.host_port().character_due() != kNever,
-            .quiet_since = up_since_ ? std::max(*up_since_, simulation.last_activity()) : line_->now(),
+            .sending = line_->host_port().sending(),
+            .receiving = line_->host_port().character_due() != kNever,
+            .quiet_since = up_since_ ? std::max(*up_since_, line_->last_activity()) : line_->now(),
             .quiet_time = serial::default_quiet(line_->format())};
   }
 
@@ -118,8 +117,7 @@ class RawBridge final : public TcpBridge {
   bool wants_more(Client client) const override { return line().has_room(client); }
   bool unsent(Client client) const override { return line().waiting(client) != 0; }
   bool expects_answer(Client) const override {
-    const serial::Simulation& simulation = line().simulation();
-    return simulation.host_port().sending() || !simulation.line_quiet_for(kHearsOn);
+    return line().host_port().sending() || line().now() - line().last_activity() < kHearsOn;
   }
   bool partial(Client) const override { return false; }
 };

@@ -8,6 +8,7 @@
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/run_options.hpp"
 #include "tools/command/progress.hpp"
+#include "tools/command/system_run.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/rig/run.hpp"
 #include "tools/views/faults.hpp"
@@ -25,7 +26,7 @@ struct Ending {
 Ending run_to_end(serial::Simulation& simulation, const RunOptions& options) {
   if (!options.bridge.realtime()) {
     const RunLimits limits{options.end(), options.scans, options.rig.strict()};
-    return {run(simulation, limits, Progress(simulation, limits)), {}};
+    return {run(simulation, limits, Progress([&] { return simulation.time(); }, limits)), {}};
   }
   Bridge* const bridge = options.bridge.bridge();
   LiveRun live(simulation, {options.bridge.speed(), options.bridge.line(), print_live_messages()}, bridge);
@@ -67,7 +68,8 @@ void print_json(const serial::Simulation& simulation, const Ending& ending, cons
   fmt::print("{}", lines_of(results));
 }
 
-int run_run(RunOptions& options) {
+int run_run(const CLI::App& verb, RunOptions& options) {
+  if (is_system_file(options.program.path)) return run_system(verb, options);
   int exit_code = kFine;
   const auto program = options.program.load(exit_code);
   if (!program) return exit_code;
@@ -108,9 +110,9 @@ void add_run(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("run", "run a program, as fast as the computer can, or in real time for masters of this computer");
   options->add_to(*verb);
-  verb->footer(std::string(BridgeOptions::kAboutPty) + fault_help() +
+  verb->footer(std::string(BridgeOptions::kAboutPty) + fault_help() + kAboutSystems +
                "Example: s7200 run stl_programs/modbus_slave.stl --for 2s --set VW100=5 --dump VW100:4");
-  verb->callback([options, &exit_code] { exit_code = run_run(*options); });
+  verb->callback([options, verb, &exit_code] { exit_code = run_run(*verb, *options); });
 }
 
 }  // namespace s7200::tools

@@ -1,19 +1,22 @@
 // How far a long run has come.
 #pragma once
 
+#include <functional>
+
 #include "tools/rig/run.hpp"
 
 namespace s7200::tools {
 
-/// On a terminal, once a second, from the second second on. The references outlive it.
+/// On a terminal, once a second, from the second second on. The limits outlive it.
 class Progress {
  public:
-  Progress(const serial::Simulation& simulation, const RunLimits& limits);
+  /// `now`: simulated time.
+  Progress(std::function<Time()> now, const RunLimits& limits);
 
   void operator()();
 
  private:
-  const serial::Simulation& simulation_;
+  std::function<Time()> now_;
   const RunLimits& limits_;
   Time next_;  ///< of the host
 };

@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
-#include <functional>
+#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "tools/bridge/device_bridge.hpp"
@@ -19,6 +18,16 @@ namespace {
 constexpr const char* kBridges = "Bridges: join the line to masters outside, in real time, one of";
 
 }  // namespace
+
+std::unique_ptr<Bridge> make_bridge(std::string_view kind, const std::string& where, const serial::LineSettings& line,
+                                    Time timeout, std::string& why) {
+  if (kind == "pty") return make_pty_bridge(where, line);
+  if (kind == "device") return make_device_bridge(where);
+  const auto address = parse_listen_address(where, why);
+  if (!address) return nullptr;
+  if (kind == "tcp") return make_tcp_bridge(*address);
+  return kind == "rtu-over-tcp" ? make_rtu_over_tcp_bridge(*address, timeout) : make_modbus_tcp_bridge(*address, timeout);
+}
 
 LiveMessages print_live_messages() {
   return {[](const std::string& text) { fmt::print(stderr, "{}\n", stl::printable(text)); }, print_note};
@@ -54,46 +63,24 @@ void BridgeOptions::add_to(CLI::App& app) {
 }
 
 bool BridgeOptions::prepare() {
-  using Make = std::function<std::unique_ptr<Bridge>()>;
-  struct Kind {
-    const char* option;
-    const std::string* value;
-    Make make;
-  };
-  bool fine = true;
-  const auto listen = [&](const char* option, const std::string& text, const auto& make) -> std::unique_ptr<Bridge> {
-    std::string why;
-    const auto address = parse_listen_address(text, why);
-    if (address) return make(*address);
-    print_error(fmt::format("{} {}: {}", option, stl::shortened(text), why));
-    fine = false;
-    return nullptr;
-  };
-  const std::array<Kind, 5> kinds{{
-      {"--pty", &pty_, [&] { return make_pty_bridge(pty_, line_); }},
-      {"--tcp", &tcp_, [&] { return listen("--tcp", tcp_, make_tcp_bridge); }},
-      {"--rtu-over-tcp", &rtu_over_tcp_,
-       [&] {
-         return listen("--rtu-over-tcp", rtu_over_tcp_,
-                       [&](const auto& a) { return make_rtu_over_tcp_bridge(a, timeout_); });
-       }},
-      {"--modbus-tcp", &modbus_tcp_,
-       [&] {
-         return listen("--modbus-tcp", modbus_tcp_, [&](const auto& a) { return make_modbus_tcp_bridge(a, timeout_); });
-       }},
-      {"--device", &device_, [&] { return make_device_bridge(device_); }},
-  }};
-  const Kind* chosen = nullptr;
-  for (const Kind& kind : kinds) {
-    if (kind.value->empty()) continue;
-    if (chosen) {
-      print_error(fmt::format("{} and {}: one bridge at a time", chosen->option, kind.option));
+  const std::pair<std::string_view, const std::string*> kinds[] = {
+      {"pty", &pty_}, {"tcp", &tcp_}, {"rtu-over-tcp", &rtu_over_tcp_}, {"modbus-tcp", &modbus_tcp_}, {"device", &device_}};
+  std::string_view chosen;
+  const std::string* where = nullptr;
+  for (const auto& [kind, value] : kinds) {
+    if (value->empty()) continue;
+    if (where) {
+      print_error(fmt::format("--{} and --{}: one bridge at a time", chosen, kind));
       return false;
     }
-    chosen = &kind;
+    chosen = kind;
+    where = value;
   }
-  if (chosen) bridge_ = chosen->make();
-  return fine;
+  if (!where) return true;
+  std::string why;
+  bridge_ = make_bridge(chosen, *where, line_, timeout_, why);
+  if (!bridge_) print_error(fmt::format("--{} {}: {}", chosen, stl::shortened(*where), why));
+  return bridge_ != nullptr;
 }
 
 }  // namespace s7200::tools

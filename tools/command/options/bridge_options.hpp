@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "tools/bridge/bridge.hpp"
 #include "tools/command/options/line_options.hpp"
@@ -15,6 +16,14 @@ namespace s7200::tools {
 
 /// Where it serves, and its notes, on standard error.
 LiveMessages print_live_messages();
+
+/// pty, tcp, rtu-over-tcp, modbus-tcp or device, at a link, [ADDRESS:]PORT or device. Null, and `why`, if it cannot be
+/// there. `timeout`: how long the last two of TCP wait for an answer to start.
+std::unique_ptr<Bridge> make_bridge(std::string_view kind, const std::string& where, const serial::LineSettings& line,
+                                    Time timeout, std::string& why);
+
+/// Before masters lose patience: libmodbus waits 500 ms.
+inline constexpr Time kBridgeTimeout = 400 * kMillisecond;
 
 class BridgeOptions {
  public:
@@ -48,7 +57,7 @@ class BridgeOptions {
  private:
   std::string pty_, tcp_, rtu_over_tcp_, modbus_tcp_, device_;
   serial::LineSettings line_;
-  Time timeout_ = 400 * kMillisecond;  // before masters lose patience: libmodbus waits 500 ms
+  Time timeout_ = kBridgeTimeout;
   bool realtime_ = false, speed_given_ = false;
   double speed_ = 1;
   std::unique_ptr<Bridge> bridge_;

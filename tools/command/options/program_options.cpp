@@ -12,6 +12,7 @@
 #include "tools/command/options/choices.hpp"
 #include "tools/command/options/input.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/rig/system_reader.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -112,6 +113,10 @@ void ProgramOptions::add_parts_to(CLI::App& app) {
 
 std::shared_ptr<const Program> ProgramOptions::load(int& exit_code) const {
   exit_code = kUnusable;
+  if (is_system_file(path)) {
+    print_error(fmt::format("{} is a system file, which 's7200 run' takes; name one PROGRAM here", path));
+    return nullptr;
+  }
   auto text = model() ? read_project(path, parts) : std::nullopt;
   return text ? load(std::move(*text), exit_code) : nullptr;
 }

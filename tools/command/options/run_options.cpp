@@ -1,8 +1,11 @@
 #include "tools/command/options/run_options.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 
 #include "tools/command/options/number_option.hpp"
+#include "tools/rig/system_keys.hpp"
 
 namespace s7200::tools {
 
@@ -13,6 +16,13 @@ void RunOptions::add_to(CLI::App& app) {
   add_whole_number(app, "--scans", scans, {1, UINT64_MAX}, "how many scans; with --for whichever comes first ends the run");
   bridge.add_to(app);
   rig.add_to(app);
+  app.add_flag_callback(
+      "--keys",
+      [] {
+        fmt::print("{}", system_keys_markdown());
+        throw CLI::Success();
+      },
+      "print what a system file may contain, as Markdown");
   app.add_flag("--json", json, "print the results as JSON");
 }
 

@@ -1,0 +1,40 @@
+#include "tools/command/options/system_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <utility>
+
+#include "interpreter/program/load.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/command/options/program_options.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/rig/system_reader.hpp"
+
+namespace s7200::tools {
+
+std::optional<SystemPlan> load_system(const std::string& path, int& exit_code) {
+  exit_code = kUnusable;
+  std::string why;
+  const auto text = read_text(path, why);
+  if (!text) return print_error(fmt::format("cannot read {}: {}", path, why)), std::nullopt;
+  SystemFile file = read_system(*text, path);
+  for (const SystemFile::Text& program : file.programs) print_diagnostics(program.diagnostics, *program.source);
+  print_diagnostics(file.file.diagnostics, *file.file.source);
+  exit_code = file.ok() ? kFine : file.programs.empty() ? kUnusable : kCheckFailed;
+  if (file.ok()) return std::move(file.plan);
+  print_error(fmt::format("{} has errors; nothing was run", path));
+  return {};
+}
+
+bool refuse_options_of_one_plc(const CLI::App& verb, const std::set<std::string_view>& allowed) {
+  for (const CLI::Option* option : verb.get_options()) {
+    if (option->count() == 0 || option->get_positional() || allowed.contains(option->get_name())) continue;
+    print_error(
+        fmt::format("{} is about one PLC: a system file says that of each, see 's7200 run --keys'", option->get_name()));
+    return false;
+  }
+  return true;
+}
+
+}  // namespace s7200::tools

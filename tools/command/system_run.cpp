@@ -1,0 +1,216 @@
+#include "tools/command/system_run.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "interpreter/base/text.hpp"
+#include "tools/bridge/live_run.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/command/options/system_options.hpp"
+#include "tools/command/progress.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
+#include "tools/rig/system_rig.hpp"
+#include "tools/views/faults.hpp"
+#include "tools/views/memory.hpp"
+#include "tools/views/report.hpp"
+#include "tools/views/results_json.hpp"
+
+namespace s7200::tools {
+namespace {
+
+std::string_view mode_of(const serial::Plc& plc) {
+  return !plc.powered() ? "off" : plc.cpu().state().mode == Mode::Run ? "RUN" : "STOP";
+}
+
+std::string indented(const std::string& lines) {
+  std::string text;
+  for (const std::string& line : stl::split_lines(lines)) text += line.empty() ? "" : fmt::format("  {}\n", line);
+  return text;
+}
+
+std::string poll_text(const serial::Poller::State& polls) {
+  std::string text = fmt::format("{} requests, {} answered", polls.asked, polls.answered);
+  if (polls.wrong != 0) text += fmt::format(", {} of them wrong or refused", polls.wrong);
+  if (polls.answered != 0)
+    text += fmt::format(", after {} to {}", format_duration(polls.least_latency), format_duration(polls.most_latency));
+  return text;
+}
+
+/// How a run ended; no reason after an error.
+struct Ending {
+  std::string_view reason;
+  std::optional<Pace::Report> pace;  // of a run in real time
+};
+
+/// The bridges of a system, by the plan's numbers.
+using Bridges = std::vector<std::unique_ptr<Bridge>>;
+
+class SystemMachine final : public LiveMachine {
+ public:
+  explicit SystemMachine(SystemRig& rig) : rig_(rig) {}
+  Time time() const override { return rig_.system().time(); }
+  serial::Halt run_until(Time end) override {
+    rig_.run_until(end);
+    return interrupted() ? serial::Halt::Request : serial::Halt::Time;
+  }
+
+ private:
+  SystemRig& rig_;
+};
+
+std::vector<LiveEnd> ends_of(SystemRig& rig, const Bridges& bridges) {
+  std::vector<LiveEnd> ends;
+  for (std::size_t line = 0; line < rig.plan().lines.size(); ++line) {
+    const LinePlan& plan = rig.plan().lines[line];
+    const StationPlan* const first = rig.first_plc(plan);
+    for (const StationPlan& station : plan.stations)
+      if (station.kind == StationPlan::Kind::Bridge)
+        ends.push_back({.bridge = bridges[station.number].get(),
+                        .port = &rig.host_port(station.number),
+                        .line = &rig.line(line),
+                        .plc = first ? &rig.plc(first->number) : nullptr,
+                        .plc_port = first ? first->port : std::uint8_t{0},
+                        .settings = plan.settings});
+  }
+  return ends;
+}
+
+/// Nothing after a message.
+std::optional<Bridges> make_bridges(const SystemPlan& plan) {
+  Bridges bridges(plan.bridges.size());
+  for (const LinePlan& line : plan.lines)
+    for (const StationPlan& station : line.stations) {
+      if (station.kind != StationPlan::Kind::Bridge) continue;
+      const BridgePlan& bridge = plan.bridges[station.number];
+      std::string why;
+      bridges[station.number] = make_bridge(bridge.kind, bridge.where, line.settings, kBridgeTimeout, why);
+      if (!bridges[station.number])
+        return print_error(fmt::format("bridge {} at {}: {}", bridge.name, bridge.where, why)), std::nullopt;
+    }
+  return bridges;
+}
+
+Ending run_to_end(SystemRig& rig, const Bridges& bridges, const RunOptions& options) {
+  const Time end = options.duration == kNever && bridges.empty() ? kSecond : options.duration;
+  if (bridges.empty() && !options.bridge.realtime()) {
+    const RunLimits limits{.end = end};
+    return {run(rig, end, Progress([&] { return rig.system().time(); }, limits)), {}};
+  }
+  SystemMachine machine(rig);
+  LiveRun live(machine, ends_of(rig, bridges), {.speed = options.bridge.speed(), .messages = print_live_messages()});
+  std::string why;
+  if (!live.start(why)) return print_error(why), Ending{};
+  const serial::Halt halt = live.run_until(end);
+  if (!live.failure().empty()) print_error(live.failure());
+  return {!live.failure().empty() ? "bridge" : halt == serial::Halt::Time ? "time" : "interrupted", live.pace()};
+}
+
+void print_text(SystemRig& rig, const Ending& ending, const Bridges& bridges) {
+  const SystemPlan& plan = rig.plan();
+  fmt::print("ended by {} after {}: {} PLCs, {} peers, {} lines\n", ending.reason, format_duration(rig.system().time(), 6),
+             plan.plcs.size(), plan.peers.size(), plan.lines.size());
+  for (std::size_t i = 0; i < plan.plcs.size(); ++i) {
+    const State& state = rig.plc(i).cpu().state();
+    fmt::print("{}: {} scans, {} instructions, CPU {} in {}\n", stl::printable(plan.plcs[i].name), state.scans,
+               state.instructions, plan.plcs[i].program->model->name, mode_of(rig.plc(i)));
+    fmt::print("{}", indented(errors_text(rig.plc(i).cpu())));
+    for (const MemoryRange& range : plan.plcs[i].dumps) fmt::print("{}", indented(dump_text(rig.plc(i).cpu(), range)));
+  }
+  for (std::size_t i = 0; i < plan.peers.size(); ++i)
+    if (const serial::Poller* poller = rig.poller(i))
+      fmt::print("{}: {}\n", stl::printable(plan.peers[i].name), poll_text(poller->state()));
+  for (std::size_t i = 0; i < bridges.size(); ++i)
+    fmt::print("{}: {}\n", stl::printable(plan.bridges[i].name), stl::printable(bridges[i]->summary()));
+  if (ending.pace)
+    fmt::print("real time{}: drift {}, worst lag {}\n",
+               ending.pace->speed == 1 ? "" : fmt::format(" times {:g}", ending.pace->speed),
+               format_duration(ending.pace->drift), format_duration(ending.pace->worst_lag));
+}
+
+nlohmann::ordered_json plc_json(const PlcPlan& plan, const serial::Plc& plc) {
+  const Cpu& cpu = plc.cpu();
+  const State& state = cpu.state();
+  nlohmann::ordered_json json{{"name", plan.name},
+                              {"cpu", plan.program->model->name},
+                              {"mode", mode_of(plc)},
+                              {"scans", state.scans},
+                              {"instructions", state.instructions},
+                              {"errors", errors_json(cpu)},
+                              {"errors_not_listed", errors_not_listed(cpu)},
+                              {"dump", nlohmann::ordered_json::object()}};
+  for (std::size_t i = 0; i < plan.dumps.size(); ++i) json["dump"][plan.dump_names[i]] = dump_json(cpu, plan.dumps[i]);
+  return json;
+}
+
+nlohmann::ordered_json poll_json(const std::string& name, const serial::Poller::State& polls) {
+  nlohmann::ordered_json json{
+      {"name", name}, {"requests", polls.asked}, {"answered", polls.answered}, {"wrong", polls.wrong}};
+  json["shortest_latency_ns"] = polls.answered ? nlohmann::ordered_json(polls.least_latency) : nullptr;
+  json["longest_latency_ns"] = polls.answered ? nlohmann::ordered_json(polls.most_latency) : nullptr;
+  return json;
+}
+
+void print_json(SystemRig& rig, const Ending& ending, const Bridges& bridges) {
+  const SystemPlan& plan = rig.plan();
+  auto results = results_of("run");
+  results["stop_reason"] = ending.reason;
+  results["time_ns"] = rig.system().time();
+  results["plcs"] = results["masters"] = results["bridges"] = results["lines"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < plan.plcs.size(); ++i) results["plcs"].push_back(plc_json(plan.plcs[i], rig.plc(i)));
+  for (std::size_t i = 0; i < plan.peers.size(); ++i)
+    if (const serial::Poller* poller = rig.poller(i))
+      results["masters"].push_back(poll_json(plan.peers[i].name, poller->state()));
+  for (std::size_t i = 0; i < plan.lines.size(); ++i)
+    results["lines"].push_back({{"name", plan.lines[i].name}, {"faults", faults_json(rig.faults(i))}});
+  for (std::size_t i = 0; i < bridges.size(); ++i)
+    results["bridges"].push_back({{"name", plan.bridges[i].name}, {"bridge", bridges[i]->json()}});
+  if (ending.pace)
+    results["realtime"] = {
+        {"speed", ending.pace->speed}, {"drift_ns", ending.pace->drift}, {"worst_lag_ns", ending.pace->worst_lag}};
+  fmt::print("{}", lines_of(results));
+}
+
+void print_fault_notes(const SystemRig& rig) {
+  for (std::size_t i = 0; i < rig.plan().lines.size(); ++i)
+    for (const std::string& note : fault_notes(rig.faults(i)))
+      print_note(fmt::format("{}: {}", rig.plan().lines[i].name, note));
+}
+
+}  // namespace
+
+int run_system(const CLI::App& verb, const RunOptions& options) {
+  if (!refuse_options_of_one_plc(verb, {"--for", "--json", "--realtime", "--speed"})) return kUnusable;
+  int exit_code = kFine;
+  auto plan = load_system(options.program.path, exit_code);
+  if (!plan) return exit_code;
+  const auto bridges = make_bridges(*plan);
+  if (!bridges) return kUnusable;
+  std::vector<std::string> problems;
+  const auto rig = SystemRig::assemble(std::move(*plan), options.program.path, problems);
+  for (const std::string& problem : problems) print_error(problem);
+  if (!rig) {
+    print_interruption();
+    return problems.empty() && interrupted() ? kCheckFailed : kUnusable;
+  }
+  rig->power_up();
+  const Ending ending = run_to_end(*rig, *bridges, options);
+  if (ending.reason.empty()) return kUnusable;
+  problems = rig->finish();
+  for (const std::string& problem : problems) print_error(problem);
+  if (options.json)
+    print_json(*rig, ending, *bridges);
+  else
+    print_text(*rig, ending, *bridges);
+  print_fault_notes(*rig);
+  if (!problems.empty() || ending.reason == "bridge") return kUnusable;
+  for (std::size_t i = 0; i < rig->plan().plcs.size(); ++i)
+    if (const int code = exit_code_of(rig->plc(i).cpu()); code != kFine) return code;
+  return kFine;
+}
+
+}  // namespace s7200::tools

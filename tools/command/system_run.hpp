@@ -1,0 +1,17 @@
+// `s7200 run` with a system file instead of a program.
+#pragma once
+
+#include "tools/command/options/run_options.hpp"
+#include "tools/rig/system_reader.hpp"
+
+namespace s7200::tools {
+
+/// For the end of the help.
+inline constexpr const char* kAboutSystems =
+    "A system file (.yaml) instead of a PROGRAM runs any number of PLCs and lines; --keys says what may stand in it:\n"
+    "s7200 run stl_programs/systems/two_masters.yaml --for 2s\n";
+
+/// Runs it, prints what came of it, and returns the exit code. Options about one PLC or its line are refused.
+int run_system(const CLI::App& verb, const RunOptions& options);
+
+}  // namespace s7200::tools
