@@ -1,0 +1,129 @@
+// System files: what is read, and what is complained about, at which place.
+#include "tools/rig/system_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/source_path.hpp"
+#include "tools/rig/system_keys.hpp"
+
+namespace s7200::tools {
+namespace {
+
+SystemFile read(const std::string& text) { return read_system(text, test::source_path("stl_programs/systems/test.yaml")); }
+
+TEST(SystemFile, NamesPlcsPeersAndLinesAndWhoIsOnThem) {
+  const SystemFile file = read(
+      "plcs:\n"
+      "  gateway: {program: ../modbus_slave.stl, cpu: 226, station: 9, set: {VW0: 5}, dump: [VW0]}\n"
+      "  slave: {program: ../modbus_slave.stl, copies: 2, station: 3}\n"
+      "peers:\n"
+      "  master: {polls: [{station: 3..4, read: 40001, count: 2}, {station: 9, write: 00005, value: 1}], every: 1s}\n"
+      "  old: {westinghouse: lan, model: pc1250, settings: [unit=07]}\n"
+      "lines:\n"
+      "  field: {stations: [master, slave, gateway], turn_round: 7ms, faults: [\"noise:ber=0.001\"]}\n"
+      "  office: {stations: [gateway.1, old], baud: 19200, parity: none}\n");
+  ASSERT_TRUE(file.ok()) << file.file.diagnostics.front().message;
+  const SystemPlan& plan = file.plan;
+  ASSERT_EQ(plan.plcs.size(), 3U);
+  EXPECT_EQ(plan.plcs[0].program->model->name, "226");
+  EXPECT_EQ(plan.plcs[2].name, "slave2");
+  ASSERT_EQ(plan.peers.size(), 2U);
+  EXPECT_EQ(plan.peers[0].polls.requests.size(), 3U);
+  EXPECT_EQ(plan.peers[0].polls.pause, 7 * kMillisecond);
+  EXPECT_EQ(plan.peers[0].polls.every, kSecond);
+  EXPECT_TRUE(plan.peers[1].automaton);
+  ASSERT_EQ(plan.lines.size(), 2U);
+  EXPECT_EQ(plan.lines[0].stations.size(), 4U);
+  EXPECT_EQ(plan.lines[1].stations[0].port, 1);
+  EXPECT_EQ(plan.lines[1].settings.baud, 19200U);
+}
+
+TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
+  const std::string slave = "plcs: {a: {program: ../modbus_slave.stl}}\n";
+  struct Case {
+    std::string text;
+    std::uint32_t line, column;
+    std::string_view message;
+  };
+  const Case cases[] = {
+      {"- a\n", 1, 1, "a system file is a map, not a list"},
+      {"", 0, 0, "nothing in it"},
+      {"a: *x\n", 1, 4, "anchors and aliases (& and *) have no place in a system file"},
+      {"plc: {}\n", 1, 1, "'plc' has no place here"},
+      {slave, 1, 1, "no line: no one would hear another"},
+      {"plcs: [a]\n", 1, 7, "'plcs' is a map of names, not a list"},
+      {"plcs: {a: {}}\n", 1, 8, "PLC 'a' has no program"},
+      {"plcs: {a.b: {program: x.stl}}\n", 1, 8, "'a.b' is not a name"},
+      {"plcs: {a: {program: nowhere.stl}}\n", 1, 21, "cannot read "},
+      {"plcs: {a: {program: ../modbus_slave.stl, cpu: 999}}\n", 1, 47, "there is no model of CPU '999'"},
+      {"plcs: {a: {program: ../modbus_slave.stl, station: 248}}\n", 1, 51, "'248' is not a number from 1 to 247"},
+      {"plcs: {a: {program: ../modbus_slave.stl, copies: 3, station: 246}}\n", 1, 62, "'246' is not a number from 1 to 245"},
+      {"plcs: {a: {program: ../character_echo.stl, station: 2}}\n", 1, 53, "the program moves no constant into VB4095"},
+      {"plcs: {a: {program: ../modbus_slave.stl, constants: {VB7: 1}}}\n", 1, 54, "the program moves no constant to VB7"},
+      {"plcs: {a: {program: ../modbus_slave.stl, set: {VX: 1}}}\n", 1, 48, "'VX'"},
+      {"plcs: {a: {program: ../modbus_slave.stl, copies: 2, trace: t}}\n", 1, 60, "several copies cannot write one file"},
+      {"plcs: {a: {program: ../modbus_slave.stl, trace: t, output: t}}\n", 1, 60, "is written twice, first in line 1"},
+      {"plcs: {a: {program: ../modbus_slave.stl, times: none.csv}}\n", 1, 49, "cannot read "},
+      {"plcs: {a: {program: ../modbus_slave.stl, clock: noon}}\n", 1, 49, "'noon' is not a time from 1990 to 2089"},
+      {"plcs: {a: {program: ../modbus_slave.stl, trace_instructions: true}}\n", 1, 62, "there is no 'trace'"},
+      {slave + "peers: {a: {polls: [{read: 40001}]}}\n", 2, 9, "two stations are called 'a', the first in line 1"},
+      {"peers: {m: {}}\n", 1, 9, "'m' is neither a master nor another PLC"},
+      {"peers: {m: {polls: []}}\n", 1, 20, "nothing to ask"},
+      {"peers: {m: {polls: [{station: 0, read: 40001}]}}\n", 1, 31, "'0' is not a station from 1 to 247"},
+      {"peers: {m: {polls: [{station: 1}]}}\n", 1, 21, "what is polled has one of 'read' and 'write'"},
+      {"peers: {m: {polls: [{write: 10001, value: 1}]}}\n", 1, 29, "inputs cannot be written"},
+      {"peers: {m: {polls: [{read: 40001}]}}\nlines: {}\n", 1, 1, "no line"},
+      {"peers: {m: {westinghouse: telex}}\n", 1, 27, "there is no protocol 'telex'"},
+      {"peers: {m: {westinghouse: lan, settings: [colour=red]}}\n", 1, 43, "'colour=red' is not a setting"},
+      {"peers: {m: {polls: [{read: 40001}]}}\n" + slave + "lines: {l: {stations: [a]}}\n", 1, 9, "'m' is on no line"},
+      {slave + "lines: {l: {stations: [a, b]}}\n", 2, 27, "there is no station 'b'"},
+      {slave + "lines: {l: {stations: [a]}, k: {stations: [a]}}\n", 2, 44, "port 0 of 'a' is on a line already"},
+      {slave + "lines: {l: {stations: [a.1]}}\n", 2, 24, "CPU 214 has no port 1"},
+      {slave + "lines: {l: {stations: [a.x]}}\n", 2, 24, "'a.x' has no port"},
+      {slave + "lines: {l: {}}\n", 2, 9, "no one is on line 'l'"},
+      {slave + "lines: {l: {stations: [a], baud: 20}}\n", 2, 34, "'20' is not a number from 50 to 1000000"},
+      {slave + "lines: {l: {stations: [a], faults: [rain]}}\n", 2, 37, "there is no fault 'rain'"},
+      {slave + "lines: {l: {stations: [a], capture: [x.pcap, x.pcap]}}\n", 2, 46, "is written twice"},
+      {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s}]\n", 3, 10, "nothing is done in this event"},
+      {slave + "lines: {l: {stations: [a]}}\nevents: [{power_off: a}]\n", 3, 10, "an event without 'at'"},
+      {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, power_off: b}]\n", 3, 30, "there is no PLC 'b'"},
+      {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, mend: k}]\n", 3, 25, "there is no line 'k'"},
+      {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, cut: l, after: a}]\n", 3, 34, "or its last station"},
+      {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, set: {VW0: 1}}]\n", 3, 10, "'set' without the 'plc'"},
+      {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, mend: l, cut: l}]\n", 3, 10, "both 'cut' and 'mend'"},
+      {"bridges: {b: {}}\n", 1, 11, "'b' is not one kind of bridge"},
+      {"bridges: {b: {smoke: x}}\n", 1, 15, "'smoke' has no place here"},
+      {"bridges: {b: {tcp: 5020}, c: {tcp: 5020}}\n", 1, 36, "two bridges at 5020, the first in line 1"},
+      {slave + "bridges: {b: {tcp: 5020}}\nlines: {l: {stations: [a]}}\n", 2, 11, "'b' is on no line"},
+      {"plcs: {a: {program: ../modbus_slave.stl, copies: 32}, b: {program: ../modbus_slave.stl}}\n"
+       "lines: {l: {stations: [a, b]}}\n",
+       2, 23, "33 stations: a line takes 32"},
+  };
+  for (const Case& each : cases) {
+    const SystemFile file = read(each.text);
+    ASSERT_FALSE(file.ok()) << each.text;
+    const stl::Diagnostic& first = file.file.diagnostics.front();
+    EXPECT_NE(first.message.find(each.message), std::string::npos) << each.text << first.message;
+    EXPECT_EQ(first.position.line, each.line) << each.text << first.message;
+    EXPECT_EQ(first.position.column, each.column) << each.text << first.message;
+  }
+}
+
+TEST(SystemFile, AProgramWithErrorsIsShownWithItsOwnLines) {
+  const SystemFile file = read("plcs: {a: {program: ../modbus_master.stl, cpu: 214}}\n");
+  ASSERT_EQ(file.programs.size(), 1U);
+  EXPECT_FALSE(file.programs.front().diagnostics.empty());
+}
+
+TEST(SystemFile, EveryKeyStandsInTheTableOnce) {
+  for (const SystemKey& key : system_keys())
+    EXPECT_EQ(
+        std::ranges::count_if(system_keys(), [&](const SystemKey& k) { return k.where == key.where && k.key == key.key; }),
+        1)
+        << key.key;
+}
+
+}  // namespace
+}  // namespace s7200::tools

@@ -1,0 +1,199 @@
+// Systems as their files describe them: PLC against PLC, peers, gateways, and what befalls them in the field.
+#include "tools/rig/system_rig.hpp"
+
+#include <gtest/gtest.h>
+
+#include "interpreter/program/load.hpp"
+#include "tests/support/source_path.hpp"
+#include "tools/rig/system_reader.hpp"
+
+namespace s7200::tools {
+namespace {
+
+std::string example(const std::string& name) { return test::source_path("stl_programs/systems/" + name); }
+
+std::unique_ptr<SystemRig> rig_of(const std::string& text) {
+  SystemFile file = read_system(text, example("test.yaml"));
+  for (const stl::Diagnostic& d : file.file.diagnostics) ADD_FAILURE() << d.position.line << ": " << d.message;
+  std::vector<std::string> problems;
+  auto rig = file.ok() ? SystemRig::assemble(std::move(file.plan), example("test.yaml"), problems) : nullptr;
+  for (const std::string& problem : problems) ADD_FAILURE() << problem;
+  if (rig) rig->power_up();
+  return rig;
+}
+
+std::unique_ptr<SystemRig> rig_of_file(const std::string& name) {
+  std::string why;
+  const auto text = read_text(example(name), why);
+  EXPECT_TRUE(text) << why;
+  return rig_of(text.value_or(""));
+}
+
+std::uint32_t double_word(const SystemRig& rig, std::size_t plc, std::uint32_t number) {
+  return load32(&rig.plc(plc).cpu().state().image[image::kV + number]);
+}
+std::uint16_t word(const SystemRig& rig, std::size_t plc, std::uint32_t number) {
+  return load16(&rig.plc(plc).cpu().state().image[image::kV + number]);
+}
+
+/// So many requests, answers and wrong answers from now on until `end`.
+serial::Poller::State polls_until(SystemRig& rig, Time end, std::size_t peer = 0) {
+  const serial::Poller::State before = rig.poller(peer)->state();
+  rig.run_until(end);
+  serial::Poller::State polls = rig.poller(peer)->state();
+  polls.asked -= before.asked;
+  polls.answered -= before.answered;
+  polls.wrong -= before.wrong;
+  return polls;
+}
+
+TEST(SystemRig, AMasterProgramPollsThirtyOneSlaves) {
+  const auto rig = rig_of_file("polled_slaves.yaml");
+  ASSERT_TRUE(rig);
+  rig->run_until(3 * kSecond);
+  EXPECT_EQ(double_word(*rig, 0, 3846), 0U) << "failures";
+  EXPECT_GE(double_word(*rig, 0, 3842), 31U) << "answers: each station has been asked once";
+  for (std::size_t plc = 0; plc < rig->plan().plcs.size(); ++plc)
+    EXPECT_EQ(rig->plc(plc).cpu().state().error_count, 0U) << rig->plan().plcs[plc].name;
+}
+
+TEST(SystemRig, TwoMastersCollideAndRecover) {
+  const auto rig = rig_of_file("two_masters.yaml");
+  ASSERT_TRUE(rig);
+  rig->run_until(5 * kSecond);
+  const serial::Poller::State panel = rig->poller(0)->state(), recorder = rig->poller(1)->state();
+  const std::uint64_t failures =
+      panel.asked - panel.answered + panel.wrong + recorder.asked - recorder.answered + recorder.wrong;
+  EXPECT_GT(failures, 2U) << "they have collided";
+  EXPECT_GT(panel.answered - panel.wrong, panel.asked / 2) << "and come to their answers all the same";
+  EXPECT_GT(recorder.answered - recorder.wrong, recorder.asked / 2);
+  EXPECT_EQ(word(*rig, 0, 20), 99U);
+}
+
+TEST(SystemRig, AGatewayWithBothPortsOfACpu226PassesRequestsAndAnswersOn) {
+  const auto rig = rig_of_file("gateway.yaml");
+  ASSERT_TRUE(rig);
+  rig->run_until(2 * kSecond);
+  const serial::Poller::State master = rig->poller(0)->state();
+  EXPECT_GE(master.answered, 8U);
+  EXPECT_EQ(master.wrong, 0U);
+  EXPECT_LE(master.asked - master.answered, 1U) << "but for one under way";
+  EXPECT_EQ(word(*rig, 0, 2), word(*rig, 0, 0)) << "as many answers as requests";
+}
+
+constexpr const char* kThreeSlaves =
+    "plcs: {slave: {program: ../modbus_slave.stl, copies: 3, station: 1}}\n"
+    "peers: {master: {polls: [{station: 1..3, read: 40001}], timeout: 50ms, every: 250ms}}\n"
+    "lines: {bus: {stations: [master, slave]}}\n";
+
+/// Rounds begin every quarter of a second from the first one on: an instant in between, when the one before is over.
+constexpr Time kSecondRounds = 2240 * kMillisecond, kThirdRounds = kSecondRounds + kSecond,
+               kFourthRounds = kThirdRounds + kSecond, kFifthRounds = kFourthRounds + kSecond;
+
+TEST(SystemRig, ASlaveThatIsSwitchedOffIsSilentAndAnswersWhenItIsOnAgain) {
+  const auto rig =
+      rig_of(std::string(kThreeSlaves) + "events: [{at: 2240ms, power_off: slave2}, {at: 3240ms, power_on: slave2}]\n");
+  ASSERT_TRUE(rig);
+  const auto all = polls_until(*rig, kSecondRounds);
+  EXPECT_FALSE(rig->plc(1).powered());
+  EXPECT_EQ(all.answered, all.asked);
+  const auto without = polls_until(*rig, kThirdRounds);
+  EXPECT_EQ(without.asked, 12U);
+  EXPECT_EQ(without.answered, 8U);
+  polls_until(*rig, kFourthRounds);  // its first scan
+  const auto again = polls_until(*rig, kFifthRounds);
+  EXPECT_EQ(again.answered, 12U);
+  EXPECT_EQ(rig->plc(1).cpu().state().error_count, 0U);
+}
+
+TEST(SystemRig, ACutCableDividesTheLineUntilItIsMended) {
+  const auto rig =
+      rig_of(std::string(kThreeSlaves) + "events: [{at: 2240ms, cut: bus, after: slave1}, {at: 3240ms, mend: bus}]\n");
+  ASSERT_TRUE(rig);
+  polls_until(*rig, kSecondRounds);
+  const auto divided = polls_until(*rig, kThirdRounds);
+  EXPECT_EQ(divided.asked, 12U);
+  EXPECT_EQ(divided.answered, 4U) << "slave1 is on the master's side";
+  const auto whole = polls_until(*rig, kFourthRounds);
+  EXPECT_EQ(whole.answered, 12U);
+}
+
+TEST(SystemRig, AStationAtTheWrongRateIsNotUnderstoodAndComesBack) {
+  const auto rig = rig_of(std::string(kThreeSlaves) +
+                          "events:\n"
+                          "  - {at: 2240ms, plc: slave3, set: {SMB30: 16#45}}\n"
+                          "  - {at: 3240ms, plc: slave3, set: {SMB30: 16#49}}\n");
+  ASSERT_TRUE(rig);
+  polls_until(*rig, kSecondRounds);
+  const auto wrong_rate = polls_until(*rig, kThirdRounds);
+  EXPECT_EQ(wrong_rate.answered - wrong_rate.wrong, 8U);
+  polls_until(*rig, kFourthRounds);
+  const auto right_rate = polls_until(*rig, kFifthRounds);
+  EXPECT_EQ(right_rate.answered, 12U);
+}
+
+TEST(SystemRig, AFaultFromAnInstantOnIsThereUntilItIsCleared) {
+  const auto rig = rig_of(std::string(kThreeSlaves) +
+                          "events: [{at: 2240ms, line: bus, fault: \"noise:ber=0.2\"}, {at: 3240ms, clear_faults: bus}]\n");
+  ASSERT_TRUE(rig);
+  polls_until(*rig, kSecondRounds);
+  const auto noisy = polls_until(*rig, kThirdRounds);
+  EXPECT_EQ(noisy.answered - noisy.wrong, 0U);
+  polls_until(*rig, kFourthRounds);
+  const auto quiet = polls_until(*rig, kFifthRounds);
+  EXPECT_EQ(quiet.answered - quiet.wrong, 12U);
+}
+
+TEST(SystemRig, ASimulatedPlcOfAnotherMakeAnswersOnTheLine) {
+  const auto rig = rig_of(
+      "plcs: {slave: {program: ../modbus_slave.stl, station: 2}}\n"
+      "peers:\n"
+      "  old: {westinghouse: modbus, model: pc1200, settings: [slave=05, baud=9600, parity=even]}\n"
+      "  master: {polls: [{station: 5, read: 40001}, {station: 2, read: 40001}]}\n"
+      "lines: {bus: {stations: [master, slave, old]}}\n");
+  ASSERT_TRUE(rig);
+  rig->run_until(2 * kSecond);
+  EXPECT_GT(rig->poller(1)->state().answered, 5U);
+}
+
+// --- one time ---
+
+serial::System::Snapshot end_of(SystemRig& rig, Time end, Time slice) {
+  while (rig.system().time() < end) rig.run_until(std::min(end, rig.system().time() + slice));
+  return rig.system().snapshot();
+}
+
+TEST(SystemRig, TheSameFileGivesTheSameRunInSlicesAndFromASnapshot) {
+  constexpr Time kEnd = 4500 * kMillisecond;
+  const auto whole = rig_of_file("faults.yaml"), sliced = rig_of_file("faults.yaml"), again = rig_of_file("faults.yaml");
+  ASSERT_TRUE(whole && sliced && again);
+  const serial::System::Snapshot end = end_of(*whole, kEnd, kEnd);
+  EXPECT_TRUE(end == end_of(*sliced, kEnd, 377 * kMicrosecond));
+  const serial::System::Snapshot middle = end_of(*again, 1234 * kMillisecond, kSecond);
+  again->system().run_until(1900 * kMillisecond);
+  again->system().restore(middle);
+  EXPECT_TRUE(again->system().snapshot() == middle);
+  EXPECT_TRUE(end == end_of(*again, kEnd, kEnd));
+}
+
+/// Two that are of one mind about when to speak, and not about what.
+std::string contention(const std::string& seed) {
+  return "plcs: {slave: {program: ../modbus_slave.stl, station: 1}}\n"
+         "peers:\n"
+         "  one: {polls: [{station: 1, read: 40001}], every: 100ms, timeout: 30ms}\n"
+         "  other: {polls: [{station: 2, read: 40011}], every: 100ms, timeout: 30ms}\n"
+         "lines: {bus: {stations: [one, slave, other], contention: " +
+         seed + "}}\n";
+}
+
+TEST(SystemRig, DriversThatDisagreeGiveTheSameLevelsForTheSameSeedOnly) {
+  const auto first = rig_of(contention("1")), same = rig_of(contention("1")), different = rig_of(contention("2"));
+  ASSERT_TRUE(first && same && different);
+  const auto end = end_of(*first, 2 * kSecond, kSecond);
+  EXPECT_TRUE(end == end_of(*same, 2 * kSecond, kSecond));
+  const auto heard = [](const serial::System::Snapshot& snapshot) { return snapshot.plcs[0].cpu; };
+  EXPECT_FALSE(heard(end) == heard(end_of(*different, 2 * kSecond, kSecond)));
+}
+
+}  // namespace
+}  // namespace s7200::tools
