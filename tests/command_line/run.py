@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|files|scenarios|input|readme|times"""
+"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|files|scenarios|input|readme|times|systems"""
 import csv
 import itertools
 import json
@@ -1098,6 +1098,50 @@ class Scenarios(Case):
         self.assertIn(f"values for ${{…}} are from {wrong}", self.ends(UNUSABLE, "test", "--conformance", wrong).stderr)
 
 
+class Systems(Case):
+    """System files: `s7200 run` takes them, all else refuses them."""
+    SYSTEM = f"""plcs:
+  slave: {{program: {SLAVE}, copies: 2, station: 4, set: {{VW0: 16#0102}}, dump: [VW0]}}
+peers:
+  master: {{polls: [{{station: 4..5, read: 40001}}], every: 100ms}}
+lines:
+  bus: {{stations: [master, slave]}}
+"""
+
+    def test_results_in_words_and_as_json(self):
+        system = self.program(self.SYSTEM, "system.yaml")
+        shown = self.ends(FINE, "run", system, "--for", "2s").stdout
+        self.assertRegex(shown, r"\Aended by time after 2 s: 2 PLCs, 1 peers, 1 lines\n")
+        self.assertRegex(shown, r"(?m)^slave2: \d+ scans, \d+ instructions, CPU 214 in RUN\n  VW0 +16#0102")
+        self.assertRegex(shown, r"(?m)^master: 20 requests, 20 answered, after ")
+        results = self.json(FINE, "run", system, "--for", "2s", "--json")
+        self.assertEqual([plc["name"] for plc in results["plcs"]], ["slave1", "slave2"])
+        self.assertEqual(results["plcs"][0]["dump"]["VW0"]["hex"], "0102")
+        self.assertEqual((results["masters"][0]["requests"], results["masters"][0]["wrong"]), (20, 0))
+
+    def test_what_is_recorded_of_each_plc_and_line(self):
+        text = self.SYSTEM.replace("copies: 2, ", "trace: slave.trace, ").replace("4..5", "4").replace(
+            "stations: [master, slave]", "stations: [master, slave], capture: [bus.pcap]")
+        self.ends(FINE, "run", self.program(text, "system.yaml"), "--for", "1500ms")
+        self.assertIn("XMT", (self.folder / "slave.trace").read_text(encoding="utf-8"))
+        self.assertGreater((self.folder / "bus.pcap").stat().st_size, 100)
+
+    def test_a_mistake_is_shown_with_its_place(self):
+        system = self.program(self.SYSTEM.replace("[master, slave]", "[master, slvae]"), "system.yaml")
+        done = self.ends(UNUSABLE, "run", system)
+        self.assertIn("system.yaml:6:27: error: there is no station 'slvae'", done.stderr)
+        self.assertIn("^~~~~", done.stderr)
+        wrong = self.program("LD VB0\nMEND\n", "wrong.stl")
+        done = self.ends(FAILED, "run", self.program(self.SYSTEM.replace(SLAVE, "wrong.stl"), "broken.yaml"))
+        self.assertIn(f"{wrong}:1:", done.stderr)
+
+    def test_options_about_one_plc_and_other_verbs_are_refused(self):
+        system = self.program(self.SYSTEM, "system.yaml")
+        self.assertIn("--set is about one PLC", self.ends(UNUSABLE, "run", system, "--set", "VW0=1").stderr)
+        for verb in (["send", system, "01"], ["debug", system], ["master", system, "read", "40001"]):
+            self.assertIn("is a system file, which 's7200 run' takes", self.ends(UNUSABLE, *verb).stderr)
+
+
 class JsonPage(Case):
     """tools/JSON.md and what is printed have the same keys."""
     maxDiff = None
@@ -1122,6 +1166,11 @@ class JsonPage(Case):
             here = path + ("ADDRESS" if path == "dump." else key)
             found |= ({here} if path != "dump." else set()) | self.keys(inner, here + ("[]." if isinstance(inner, list) else "."))
         return found
+
+    def system(self):
+        return self.program(f"plcs: {{slave: {{program: {SLAVE}}}}}\n"
+                            "peers: {master: {polls: [{station: 1, read: 40001}]}}\nbridges: {panel: {tcp: 127.0.0.1:0}}\n"
+                            "lines: {bus: {stations: [slave, master, panel]}}\n", "system.yaml")
 
     def runs(self):
         echo, wrong = self.program(Json.ECHO, "echo.stl"), self.program("LD VB0\nMEND\n", "wrong.stl")
@@ -1151,7 +1200,7 @@ class JsonPage(Case):
                     ["send", SLAVE, "--crc", "0103000a0001", "--times-band", "2"], ["master", SLAVE, "read", "40001", "--times-band", "2"],
                     ["test", good, "--times-band", "2"], ["bench", "--each", "1ms"],
                     ["test", good, bad, gap], ["test", good, "--against", SLAVE], ["test", "--conformance", slave, "--only", "SL-crc"],
-                    ["test", good, "--list"])
+                    ["test", good, "--list"], ["run", self.system(), "--for", "50ms"])
         yield from (["run", SLAVE, "--for", "50ms", *bridge]
                     for bridge in (["--pty", self.folder / "plc"], ["--tcp", "0"], ["--rtu-over-tcp", "0"], ["--modbus-tcp", "0"],
                                    ["--device", os.ttyname(secondary)]))
@@ -1798,6 +1847,6 @@ class Readme(Case):
 
 if __name__ == "__main__":
     group = {"verbs": Verbs, "options": Options, "json": Json, "json_page": JsonPage, "files": Files, "readme": Readme, "scenarios": Scenarios,
-             "input": StandardInput, "times": Times}[GROUP]
+             "input": StandardInput, "times": Times, "systems": Systems}[GROUP]
     result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
     sys.exit(0 if result.wasSuccessful() else 1)

@@ -168,7 +168,7 @@ void print_json(SystemRig& rig, const Ending& ending, const Bridges& bridges) {
   for (std::size_t i = 0; i < plan.lines.size(); ++i)
     results["lines"].push_back({{"name", plan.lines[i].name}, {"faults", faults_json(rig.faults(i))}});
   for (std::size_t i = 0; i < bridges.size(); ++i)
-    results["bridges"].push_back({{"name", plan.bridges[i].name}, {"bridge", bridges[i]->json()}});
+    results["bridges"].push_back({{"name", plan.bridges[i].name}, {"summary", bridges[i]->summary()}});
   if (ending.pace)
     results["realtime"] = {
         {"speed", ending.pace->speed}, {"drift_ns", ending.pace->drift}, {"worst_lag_ns", ending.pace->worst_lag}};

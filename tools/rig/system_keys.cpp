@@ -36,7 +36,7 @@ constexpr std::array kKeys{
     SystemKey{Where::Plc, "output", "PATH", "each change of an output is written there, as CSV"},
     SystemKey{Where::Plc, "dump", "LIST", "memory to show at the end: `[VB0:16, VW100]`"},
 
-    SystemKey{Where::Line, "stations", "LIST", "who is on it, in their order along the cable: names of PLCs (`gateway.1` is port 1; the name of several copies is all of them) of peers and of bridges; 32 at most"},
+    SystemKey{Where::Line, "stations", "LIST", "who is on it, in their order along the cable: names of PLCs (`gateway.1` is port 1; the name of several copies is all of them), of peers and of bridges; 32 at most"},
     SystemKey{Where::Line, "baud", "NUMBER", "of the masters on it, 50 to 1000000; as its first PLC sets its port if left out, like the next three"},
     SystemKey{Where::Line, "parity", "none, even, odd", ""},
     SystemKey{Where::Line, "data_bits", "7, 8", ""},
@@ -46,7 +46,7 @@ constexpr std::array kKeys{
     SystemKey{Where::Line, "contention", "SEED", "two drivers that disagree give no defined level: mark or space by chance, the same with the same seed; space if left out"},
     SystemKey{Where::Line, "capture", "LIST", "files that it is written to: FILE.vcd (levels of rx and tx) or FILE.pcap (frames); rx and tx are those of its first PLC"},
 
-    SystemKey{Where::Master, "polls", "LIST", "what the master asks, in turn and without end, in Modbus RTU"},
+    SystemKey{Where::Master, "polls", "LIST", "what the master asks in Modbus RTU, in turn and without end, from 1 s after the start on"},
     SystemKey{Where::Master, "every", "TIME", "a round begins no sooner than so long after the one before; at once if left out"},
     SystemKey{Where::Master, "timeout", "TIME", "how long to wait for an answer to start; `1s` if left out"},
 
