@@ -1103,7 +1103,7 @@ class Systems(Case):
     SYSTEM = f"""plcs:
   slave: {{program: {SLAVE}, copies: 2, station: 4, set: {{VW0: 16#0102}}, dump: [VW0]}}
 peers:
-  master: {{polls: [{{station: 4..5, read: 40001}}], every: 100ms}}
+  master: {{polls: [{{station: 4..5, read: 40001}}], every: 125ms}}
 lines:
   bus: {{stations: [master, slave]}}
 """
@@ -1111,13 +1111,13 @@ lines:
     def test_results_in_words_and_as_json(self):
         system = self.program(self.SYSTEM, "system.yaml")
         shown = self.ends(FINE, "run", system, "--for", "2s").stdout
-        self.assertRegex(shown, r"\Aended by time after 2 s: 2 PLCs, 1 peers, 1 lines\n")
+        self.assertRegex(shown, r"\Aended by time after 2 s: 2 PLCs, 1 peer, 1 line\n")
         self.assertRegex(shown, r"(?m)^slave2: \d+ scans, \d+ instructions, CPU 214 in RUN\n  VW0 +16#0102")
-        self.assertRegex(shown, r"(?m)^master: 20 requests, 20 answered, after ")
+        self.assertRegex(shown, r"(?m)^master: 16 requests, 16 answered, after ")
         results = self.json(FINE, "run", system, "--for", "2s", "--json")
         self.assertEqual([plc["name"] for plc in results["plcs"]], ["slave1", "slave2"])
         self.assertEqual(results["plcs"][0]["dump"]["VW0"]["hex"], "0102")
-        self.assertEqual((results["masters"][0]["requests"], results["masters"][0]["wrong"]), (20, 0))
+        self.assertEqual((results["masters"][0]["requests"], results["masters"][0]["wrong"]), (16, 0))
 
     def test_what_is_recorded_of_each_plc_and_line(self):
         text = self.SYSTEM.replace("copies: 2, ", "trace: slave.trace, ").replace("4..5", "4").replace(
@@ -1129,7 +1129,7 @@ lines:
     def test_a_mistake_is_shown_with_its_place(self):
         system = self.program(self.SYSTEM.replace("[master, slave]", "[master, slvae]"), "system.yaml")
         done = self.ends(UNUSABLE, "run", system)
-        self.assertIn("system.yaml:6:27: error: there is no station 'slvae'", done.stderr)
+        self.assertIn("system.yaml:6:28: error: there is no station 'slvae'", done.stderr)
         self.assertIn("^~~~~", done.stderr)
         wrong = self.program("LD VB0\nMEND\n", "wrong.stl")
         done = self.ends(FAILED, "run", self.program(self.SYSTEM.replace(SLAVE, "wrong.stl"), "broken.yaml"))

@@ -27,6 +27,10 @@ std::string_view mode_of(const serial::Plc& plc) {
   return !plc.powered() ? "off" : plc.cpu().state().mode == Mode::Run ? "RUN" : "STOP";
 }
 
+std::string counted(std::size_t count, std::string_view thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
 std::string indented(const std::string& lines) {
   std::string text;
   for (const std::string& line : stl::split_lines(lines)) text += line.empty() ? "" : fmt::format("  {}\n", line);
@@ -112,8 +116,8 @@ Ending run_to_end(SystemRig& rig, const Bridges& bridges, const RunOptions& opti
 
 void print_text(SystemRig& rig, const Ending& ending, const Bridges& bridges) {
   const SystemPlan& plan = rig.plan();
-  fmt::print("ended by {} after {}: {} PLCs, {} peers, {} lines\n", ending.reason, format_duration(rig.system().time(), 6),
-             plan.plcs.size(), plan.peers.size(), plan.lines.size());
+  fmt::print("ended by {} after {}: {}, {}, {}\n", ending.reason, format_duration(rig.system().time(), 6),
+             counted(plan.plcs.size(), "PLC"), counted(plan.peers.size(), "peer"), counted(plan.lines.size(), "line"));
   for (std::size_t i = 0; i < plan.plcs.size(); ++i) {
     const State& state = rig.plc(i).cpu().state();
     fmt::print("{}: {} scans, {} instructions, CPU {} in {}\n", stl::printable(plan.plcs[i].name), state.scans,
@@ -160,7 +164,7 @@ void print_json(SystemRig& rig, const Ending& ending, const Bridges& bridges) {
   auto results = results_of("run");
   results["stop_reason"] = ending.reason;
   results["time_ns"] = rig.system().time();
-  results["plcs"] = results["masters"] = results["bridges"] = results["lines"] = nlohmann::ordered_json::array();
+  for (const char* const list : {"plcs", "masters", "bridges", "lines"}) results[list] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < plan.plcs.size(); ++i) results["plcs"].push_back(plc_json(plan.plcs[i], rig.plc(i)));
   for (std::size_t i = 0; i < plan.peers.size(); ++i)
     if (const serial::Poller* poller = rig.poller(i))
