@@ -1110,11 +1110,11 @@ lines:
 
     def test_results_in_words_and_as_json(self):
         system = self.program(self.SYSTEM, "system.yaml")
-        shown = self.ends(FINE, "run", system, "--for", "2s").stdout
-        self.assertRegex(shown, r"\Aended by time after 2 s: 2 PLCs, 1 peer, 1 line\n")
+        shown = self.ends(FINE, "run", system, "--for", "1990ms").stdout
+        self.assertRegex(shown, r"\Aended by time after 1.99 s: 2 PLCs, 1 peer, 1 line\n")
         self.assertRegex(shown, r"(?m)^slave2: \d+ scans, \d+ instructions, CPU 214 in RUN\n  VW0 +16#0102")
         self.assertRegex(shown, r"(?m)^master: 16 requests, 16 answered, after ")
-        results = self.json(FINE, "run", system, "--for", "2s", "--json")
+        results = self.json(FINE, "run", system, "--for", "1990ms", "--json")
         self.assertEqual([plc["name"] for plc in results["plcs"]], ["slave1", "slave2"])
         self.assertEqual(results["plcs"][0]["dump"]["VW0"]["hex"], "0102")
         self.assertEqual((results["masters"][0]["requests"], results["masters"][0]["wrong"]), (16, 0))
