@@ -73,7 +73,7 @@ int run_on_program(MasterOptions& options, const std::vector<MasterAction>& acti
   std::string why;
   const bool ready = slave.wait_until_ready(options.after, why);
   if (ready) {
-    print_note_if_any(slave.note_on_port());
+    print_note_if_any(slave.note_on_port(options.protocol->wants_freeport));
     exit_code = run_session(
         options, session, actions, output, [&] { return options.rig.failed_strictly(rig->cpu()); }, plant);
   } else {

@@ -424,7 +424,9 @@ void Parser::add_clock(std::uint8_t service, const Bytes& data) {
 void Parser::clock(const Words&) { add_clock(s7::kReadClock, {0x0A, 0, 0, 0}); }
 
 void Parser::set_clock(const Words& operands) {
-  const auto time = parse_clock(operands[0]);
+  std::string text = operands[0];  // as other tools write it too, with a T before the time
+  std::ranges::replace(text, 'T', ' ');
+  const auto time = parse_clock(text);
   if (!time) refuse(fmt::format("'{}' is not a time; write for example 2026-11-22T15:45:30", stl::shortened(operands[0])));
   const auto bcd = [](int value) { return static_cast<std::uint8_t>(value / 10 << 4 | value % 10); };
   add_clock(s7::kSetClock, {0xFF, s7::kInBytes, 0, 10, 0, bcd(time->year >= 90 ? 19 : 20), bcd(time->year), bcd(time->month),
@@ -467,7 +469,8 @@ const Protocol& ppi_protocol() {
                       verbs_help(std::span<const PpiVerb>(kVerbs)),
       .actions = actions,
       .is_complete = is_complete,
-      .patience = {.timeout = 150 * kMillisecond, .retries = 2}};
+      .patience = {.timeout = 150 * kMillisecond, .retries = 2},
+      .wants_freeport = false};
   return protocol;
 }
 

@@ -116,6 +116,8 @@ struct Protocol {
 
   Patience patience{};
 
+  bool wants_freeport = true;  ///< of a program: its port is to be in Freeport mode
+
   /// PLCs of another make that speak it, in simulation; null: none.
   const westinghouse::PlcRow* plcs = nullptr;
 };

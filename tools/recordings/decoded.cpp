@@ -66,9 +66,8 @@ std::string decoded_text(const std::vector<ReadFrame>& frames, const Stamps& sta
   std::string times;
   if (summary.shortest)
     times = fmt::format(" after {} to {}", format_duration(*summary.shortest), format_duration(*summary.longest));
-  return text + fmt::format("{} requests, {} answered{}, {} without an answer; {} wrong frames, {} that belong to none\n",
-                            summary.requests, summary.answered, times, summary.requests - summary.answered, summary.wrong,
-                            summary.strays);
+  return text + fmt::format("requests: {}, answered: {}{}; wrong frames: {}, frames of no request: {}\n", summary.requests,
+                            summary.answered, times, summary.wrong, summary.strays);
 }
 
 void add_decoded(nlohmann::ordered_json& results, const std::vector<ReadFrame>& frames, const Stamps& stamps) {

@@ -23,7 +23,8 @@ LineRecording read_text_log(std::string_view text, const ReadingChoices& choices
     std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     ++number;
-    if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first == std::string_view::npos || line[first] == '#') continue;
     const auto time = leading_time(line);
     if (time) line.remove_prefix(time->length);
     const auto found = trailing_bytes(line);

@@ -36,8 +36,10 @@ bool SimulatedSlave::wait_until_ready(Time after, std::string& why) {
   return ready;
 }
 
-std::string SimulatedSlave::note_on_port() const {
-  if (simulation_.freeport().active) return {};
+std::string SimulatedSlave::note_on_port(bool wants_freeport) const {
+  if (simulation_.freeport().active == wants_freeport) return {};
+  if (!wants_freeport)
+    return fmt::format("the program has switched port {} to Freeport mode: it does not speak PPI there", simulation_.port());
   const std::uint32_t control = kPorts[simulation_.port()].control;
   return fmt::format("the program has not switched port {} to Freeport mode (SMB{} = 16#{:02X})", simulation_.port(),
                      control - image::kSM, simulation_.cpu().state().image[control]);

@@ -26,8 +26,8 @@ class SimulatedSlave final : public Slave {
   /// that is not kNever. False when the CPU stopped, after Ctrl-C, and, with `why`, when the moment never comes.
   bool wait_until_ready(Time after, std::string& why);
 
-  /// A note if the program has not switched its port to Freeport mode by now; otherwise empty.
-  std::string note_on_port() const;
+  /// A note if the program has not switched its port to Freeport mode by now, or has where PPI is wanted; otherwise empty.
+  std::string note_on_port(bool wants_freeport = true) const;
 
   /// On a CPU in STOP too. After Ctrl-C what there was of it, and the next one cannot begin any more. Throws
   /// std::invalid_argument for a byte with wrong parity in a format without.
