@@ -23,7 +23,8 @@ LOG = str(SOURCE / "tests/recordings/plant.log")
 MEASURE = str(SOURCE / "stl_programs/measure_times.stl")
 EXPORTS = SOURCE / "tests/exports"
 TIP = SOURCE.parent / "shared/seeds/tip41_modbus_rtu_slave.txt"
-VERBS = re.findall(r"^void add_(\w+)\(CLI::App", (SOURCE / "tools/command/commands.hpp").read_text(encoding="utf-8"), re.M)
+VERBS = [name.replace("_", "-")
+         for name in re.findall(r"^void add_(\w+)\(CLI::App", (SOURCE / "tools/command/commands.hpp").read_text(encoding="utf-8"), re.M)]
 FINE, FAILED, UNUSABLE, FATAL = range(4)
 
 

@@ -47,7 +47,7 @@ class Candidates(Case):
                 self.assertEqual(found, expected or [])
 
     def test_verbs_are_those_of_the_help(self):
-        helped = re.findall(r"(?m)^  (\w+)  ", run(S7200, "--help").stdout.split("Subcommands:")[1])
+        helped = re.findall(r"(?m)^  ([\w-]+)  ", run(S7200, "--help").stdout.split("Subcommands:")[1])
         self.assertEqual(self.candidates(""), helped)
         self.assertEqual(self.candidates(), helped)
         self.assertGreater(len(helped), 8)

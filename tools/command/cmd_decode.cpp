@@ -41,7 +41,7 @@ void add_decode(CLI::App& app, int& exit_code) {
       app.add_subcommand("decode", "show a recording of a line as requests and answers, with gaps and latencies");
   options->recording.add_to(*verb);
   verb->add_flag("--json", options->json, "print the frames as JSON");
-  verb->footer("Example: s7200 decode line.pcap");
+  verb->footer("Example: s7200 decode tests/recordings/plant.log");
   verb->callback([options, &exit_code] { exit_code = run_decode(*options); });
 }
 

@@ -74,7 +74,7 @@ void add_import_capture(CLI::App& app, int& exit_code) {
   verb->add_option("-o,--output", options->output, "file to write; standard output if not given")->type_name("FILE");
   verb->add_flag("--force", options->force, "overwrite an existing file");
   verb->add_flag("--json", options->json, "print what was written as JSON, with the scenario if no file is written");
-  verb->footer("Example: s7200 import-capture line.pcap --program stl_programs/modbus_slave.stl -o plant.yaml");
+  verb->footer("Example: s7200 import-capture tests/recordings/plant.log --program stl_programs/modbus_slave.stl");
   verb->callback([options, &exit_code] { exit_code = run_import_capture(*options); });
 }
 

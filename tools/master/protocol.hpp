@@ -138,11 +138,11 @@ std::vector<std::string> raw_frames(const std::vector<MasterAction>& actions);
 std::string protocols_help();
 
 const Protocol& modbus_protocol();
-const Protocol& ppi_protocol();
 const Protocol& freeport_pc_protocol();
 const Protocol& pc1000_lan_protocol();
 const Protocol& westnet_protocol();
 const Protocol& pc500_loader_protocol();
 const Protocol& hppc_protocol();
+const Protocol& ppi_protocol();
 
 }  // namespace s7200::tools

@@ -8,9 +8,9 @@
 namespace s7200::tools {
 
 std::span<const Protocol* const> protocols() {
-  static const std::array kProtocols{&modbus_protocol(),     &ppi_protocol(),     &freeport_pc_protocol(),
-                                     &pc1000_lan_protocol(), &westnet_protocol(), &pc500_loader_protocol(),
-                                     &hppc_protocol()};
+  static const std::array kProtocols{&modbus_protocol(),  &freeport_pc_protocol(),  &pc1000_lan_protocol(),
+                                     &westnet_protocol(), &pc500_loader_protocol(), &hppc_protocol(),
+                                     &ppi_protocol()};
   return kProtocols;
 }
 

@@ -58,10 +58,9 @@ void RigOptions::add_to(CLI::App& app) {
   add_whole_number(app, "--port", settings_.port, {0, 1}, "the port of the PLC that all this is about", "0");
   faults_.add_to(app);
   auto* trace =
-      app.add_option(
-             "--trace", settings_.trace,
-             "write interrupts, characters, attachments, errors, and which way the main program takes, to FILE; - is "
-             "standard output")
+      app.add_option("--trace", settings_.trace,
+                     "write interrupts, characters, attachments, errors and the way of the main program to FILE; - is "
+                     "standard output")
           ->type_name("FILE");
   auto* all = app.add_flag_callback(
                      "--trace-instructions", [this] { settings_.trace_detail = TraceDetail::Instructions; },
