@@ -59,7 +59,7 @@ void RigOptions::add_to(CLI::App& app) {
   faults_.add_to(app);
   auto* trace =
       app.add_option("--trace", settings_.trace,
-                     "write interrupts, characters, attachments, errors and the way of the main program to FILE; - is "
+                     "write interrupts, characters, attachments, errors and the main program's way to FILE; - is "
                      "standard output")
           ->type_name("FILE");
   auto* all = app.add_flag_callback(
