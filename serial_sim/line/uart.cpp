@@ -173,7 +173,7 @@ Uart::Report Uart::handle(const Event& event) {
       report.sent = event.at;
       break;
   }
-  if (report.sent || line_.disturbed()) line_.forget(event.at);
+  if (report.sent || report.received || line_.disturbed()) line_.forget(event.at);
   return report;
 }
 

@@ -12,6 +12,12 @@ EventOwner Dispatcher::add(Rank rank, EventHandler& handler) {
   return static_cast<EventOwner>(static_cast<std::size_t>(rank) * kMostOfARank + those.size() - 1);
 }
 
+EventQueue& Dispatcher::shared_queue() {
+  if (sharing_ % kShareOne == 0) shared_ = &add_queue();
+  ++sharing_;
+  return *shared_;
+}
+
 Time Dispatcher::next() const {
   Time next = kNever;
   for (const EventQueue& queue : queues_) next = std::min(next, queue.next());

@@ -27,14 +27,16 @@ class EventHandler {
   ~EventHandler() = default;
 };
 
-/// The queues of a system, and whose the numbers in them are. Each CPU, UART and line has a queue of its own, so that what
-/// it costs to schedule an event does not depend on how many stations there are.
+/// The queues of a system, and whose the numbers in them are. Each CPU has a queue of its own, because it runs up to the
+/// next event in it; all others share queues, a handful in each: so neither is a search in one of them long, however many
+/// stations there are, nor are there many of them where there is one PLC.
 class Dispatcher {
  public:
   static constexpr std::size_t kMostOfARank = 256;
 
-  /// Lives as long as the dispatcher.
+  /// Of a CPU, and of anything else. They live as long as the dispatcher.
   EventQueue& add_queue() { return queues_.emplace_back(); }
+  EventQueue& shared_queue();
 
   /// A number of its own for `handler`, which is not owned.
   EventOwner add(Rank rank, EventHandler& handler);
@@ -52,7 +54,11 @@ class Dispatcher {
   void restore(const std::vector<EventQueue>& state);
 
  private:
+  static constexpr std::size_t kShareOne = 8;
+
   std::deque<EventQueue> queues_;
+  EventQueue* shared_ = nullptr;  // the one that is handed out at present, so many times so far
+  std::size_t sharing_ = 0;
   std::array<std::vector<EventHandler*>, kRanks> handlers_;  // by rank, then in the order in which they were added
   std::vector<EventQueue*> due_;                             // of the instant that is being handled
 };

@@ -11,7 +11,7 @@ Plc::Port::Port(Plc& of, std::uint8_t its_number, SharedLine& shared_line, Dispa
       line(shared_line),
       actor(events.add(Rank::Port, of)),
       owner(events.add(Rank::Uart, of)),
-      uart(line.line(), events.add_queue(), owner, line.add_driver()),
+      uart(line.line(), events.shared_queue(), owner, line.add_driver()),
       tap(line.line(), uart.driver()) {
   uart.enable_receiver(false, 0);
   uart.set_bystander(this);

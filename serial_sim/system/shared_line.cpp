@@ -4,7 +4,7 @@
 
 namespace s7200::serial {
 
-SharedLine::SharedLine(Dispatcher& events) : faults_(line_, events.add_queue(), events.add(Rank::Line, *this)) {}
+SharedLine::SharedLine(Dispatcher& events) : faults_(line_, events.shared_queue(), events.add(Rank::Line, *this)) {}
 
 int SharedLine::add_driver() {
   assert(drivers_ < Line::kDrivers);

@@ -6,7 +6,7 @@ namespace s7200::serial {
 
 RequesterStation::RequesterStation(Dispatcher& events, SharedLine& line)
     : line_(line),
-      queue_(events.add_queue()),
+      queue_(events.shared_queue()),
       uart_(line.line(), queue_, events.add(Rank::Uart, *this), line.add_driver()),
       requester_(uart_, queue_, events.add(Rank::Peer, *this)) {}
 
@@ -24,7 +24,7 @@ void RequesterStation::restore(const State& state) {
 
 PollerStation::PollerStation(Dispatcher& events, SharedLine& line, PollPlan plan, Poller::Wiring wiring)
     : line_(line),
-      queue_(events.add_queue()),
+      queue_(events.shared_queue()),
       uart_(line.line(), queue_, events.add(Rank::Uart, *this), line.add_driver()),
       requester_owner_(events.add(Rank::Peer, *this)),
       requester_(uart_, queue_, requester_owner_),
@@ -51,7 +51,7 @@ void PollerStation::restore(const State& state) {
 
 ResponderStation::ResponderStation(Dispatcher& events, SharedLine& line, std::unique_ptr<Automaton> automaton)
     : line_(line),
-      queue_(events.add_queue()),
+      queue_(events.shared_queue()),
       uart_(line.line(), queue_, events.add(Rank::Uart, *this), line.add_driver()),
       responder_(uart_, queue_, events.add(Rank::Peer, *this), std::move(automaton)) {
   line.faults().add_plc(uart_);
@@ -71,7 +71,7 @@ void ResponderStation::restore(const State& state) {
 
 HostStation::HostStation(Dispatcher& events, SharedLine& line)
     : line_(line),
-      queue_(events.add_queue()),
+      queue_(events.shared_queue()),
       uart_(line.line(), queue_, events.add(Rank::Uart, *this), line.add_driver(), false),
       port_(uart_) {}
 

@@ -29,14 +29,19 @@ constexpr int kMostAtOnce = 16;  // things that came in, before the simulation g
 
 class SimulationMachine final : public LiveMachine {
  public:
-  explicit SimulationMachine(serial::Simulation& simulation) : simulation_(simulation) {
-    simulation.cpu().use_steady_scans(SteadyScansUse::Eager);
-  }
+  explicit SimulationMachine(serial::Simulation& simulation) : simulation_(simulation) {}
   Time time() const override { return simulation_.time(); }
   serial::Halt run_until(Time end) override { return simulation_.run_until(end); }
   Time silent_until() const override { return simulation_.cpu().alike_until(); }
 
+  /// A look at every pair of scans costs too much while masters ask, and is worth it while nobody does.
+  void is_in_use(bool in_use) override {
+    const SteadyScansUse wanted = in_use ? SteadyScansUse::On : SteadyScansUse::Eager;
+    if (std::exchange(steady_, wanted) != wanted) simulation_.cpu().use_steady_scans(wanted);
+  }
+
  private:
+  std::optional<SteadyScansUse> steady_{};
   serial::Simulation& simulation_;
 };
 
@@ -135,6 +140,7 @@ class LiveRun::Engine {
   void catch_up() {
     if (halt_) return;
     const Time goal = std::min(pace_.next_goal(now()), end_);
+    machine_.is_in_use(in_use());
     while (now() < goal && !halt_ && !stop_asked()) {
       for (const auto& line : lines_) line->listen();
       const serial::Halt halt = machine_.run_until(goal);

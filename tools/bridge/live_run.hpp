@@ -30,6 +30,9 @@ class LiveMachine {
 
   /// Until when its programs are known to send nothing; a time that is past if it is not known.
   virtual Time silent_until() const { return 0; }
+
+  /// Whether somebody has said something of late.
+  virtual void is_in_use(bool /*in_use*/) {}
 };
 
 /// The end of a line where a bridge stands, and the program that sets how it is written.

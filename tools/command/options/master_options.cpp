@@ -80,7 +80,7 @@ void MasterOptions::add_to(CLI::App& app) {
       ->type_name("NAME");
   add_whole_number(
       app, "--station", [this](std::uint64_t given) { station_ = static_cast<std::uint8_t>(given); }, {0, UINT8_MAX},
-      "station to ask; in Modbus 0 is all, above 247 needs Modbus TCP",
+      "station to ask; in Modbus 0 is all, above 247 is Modbus TCP",
       usual([](const Protocol& one) { return std::to_string(one.station); }));
   add_protocol_options(app);
   auto* interval = add_duration(app, "--every", every, "repeat all actions at this interval, in a table",
@@ -90,7 +90,7 @@ void MasterOptions::add_to(CLI::App& app) {
   add_whole_number(app, "--count", count, {1, UINT64_MAX}, "how often to repeat", "until Ctrl-C");
   add_whole_number(
       app, "--retries", [this](std::uint64_t given) { retries_ = static_cast<int>(given); }, {0, 1'000'000},
-      "repeat after silence, a wrong answer, a lost connection",
+      "repeat after silence, wrong answer, lost connection",
       usual([](const Protocol& one) { return std::to_string(one.patience.retries); }));
   const std::string quiet = serial::default_quiet_text();
   add_duration(app, "--pause", pause, fmt::format("pause between an answer and the next request [in simulation {}]", quiet));
