@@ -65,7 +65,7 @@ void add_import_capture(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("import-capture", "write a recording of a line as a scenario for `test`");
   options->recording.add_to(*verb);
   verb->add_option("--program", options->program, "that is to be tested; without it the scenario is for test --against")
-      ->type_name("PROGRAM");
+      ->type_name("FILE");
   add_whole_number(
       *verb, "--station",
       [options](std::uint64_t station) { options->playback.station = static_cast<std::uint8_t>(station); }, {0, 255},
