@@ -42,7 +42,7 @@ ROOMS = {
     "tools/master": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
     "tools/calibration": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
     "tools/scenario": CORE + ["tools/host", "tools/views", "tools/yaml", "tools/rig", "tools/slave"],
-    "tools/recordings": CORE + ["tools/views"],
+    "tools/recordings": CORE + ["tools/views", "tools/scenario"],
     "tools/debugger": CORE + ["tools/host", "tools/views", "tools/rig"],
     "tools/dap": CORE + ["tools/host", "tools/views", "tools/rig", "tools/debugger"],
 }

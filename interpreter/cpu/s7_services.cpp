@@ -74,10 +74,6 @@ Place find(const Core& core, const Variable& variable) {
   return area.element != 0 ? find_element(core, variable, area) : find_bytes(core, variable, area);
 }
 
-void append16(Bytes& to, std::size_t value) {
-  to.push_back(static_cast<std::uint8_t>(value >> 8));
-  to.push_back(static_cast<std::uint8_t>(value));
-}
 void append(Bytes& to, Span bytes) { to.insert(to.end(), bytes.begin(), bytes.end()); }
 
 /// What the answer to a request has in it.

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "interpreter/base/bytes.hpp"
 #include "interpreter/model/area.hpp"
 
 namespace s7200::s7 {
@@ -52,5 +53,11 @@ inline constexpr std::string_view kProgram = "P_PROGRAM";
 
 /// Of user data: the clock, and what is done with it.
 inline constexpr std::uint8_t kClockGroup = 7, kReadClock = 1, kSetClock = 2;
+
+/// A number of two bytes, as everything in a PDU counts.
+inline void append16(Bytes& to, std::size_t value) {
+  to.push_back(static_cast<std::uint8_t>(value >> 8));
+  to.push_back(static_cast<std::uint8_t>(value));
+}
 
 }  // namespace s7200::s7

@@ -20,15 +20,10 @@ constexpr std::uint8_t kStation = 2, kProgrammingDevice = 0;
 /// A scan may last 500 ms, and a poll with its reply takes 10.
 constexpr int kMostPolls = 60;
 
-void append16(Bytes& to, std::size_t value) {
-  to.push_back(static_cast<std::uint8_t>(value >> 8));
-  to.push_back(static_cast<std::uint8_t>(value));
-}
-
 Bytes pdu(s7::Kind kind, const Bytes& parameters, const Bytes& data) {
   Bytes pdu{s7::kProtocol, kind, 0, 0, 0, 1};
-  append16(pdu, parameters.size());
-  append16(pdu, data.size());
+  s7::append16(pdu, parameters.size());
+  s7::append16(pdu, data.size());
   pdu.insert(pdu.end(), parameters.begin(), parameters.end());
   pdu.insert(pdu.end(), data.begin(), data.end());
   return pdu;
@@ -61,10 +56,10 @@ Bytes variable(const MemoryRange& range) {
   const std::uint32_t address = is_element(range) ? range.number : range.number * 8 + range.bit;
   Bytes bytes(s7::kVariableHead.begin(), s7::kVariableHead.end());
   bytes.push_back(type);
-  append16(bytes, range.count);
-  append16(bytes, range.area == Area::V ? 1 : 0);
+  s7::append16(bytes, range.count);
+  s7::append16(bytes, range.area == Area::V ? 1 : 0);
   bytes.insert(bytes.end(), {code, static_cast<std::uint8_t>(address >> 16)});
-  append16(bytes, address & 0xFFFF);
+  s7::append16(bytes, address & 0xFFFF);
   return bytes;
 }
 
@@ -403,7 +398,7 @@ void Parser::write(const Words& operands) {
     parameters.insert(parameters.end(), one.begin(), one.end());
     const auto type = range.width == Width::Bit ? s7::kInBits : is_element(range) ? s7::kInBytes : s7::kInBitsOfBytes;
     Bytes data{0, type};
-    append16(data, type == s7::kInBitsOfBytes ? value.size() * 8 : value.size());
+    s7::append16(data, type == s7::kInBitsOfBytes ? value.size() * 8 : value.size());
     data.insert(data.end(), value.begin(), value.end());
     add({.pdu = pdu(s7::kRequest, parameters, data), .range = range});
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "serial_sim/line/frame.hpp"
+#include "tools/scenario/transcript_writer.hpp"
 #include "tools/views/report.hpp"
 
 namespace s7200::tools {
@@ -98,21 +99,6 @@ void add_decoded(nlohmann::ordered_json& results, const std::vector<ReadFrame>& 
                         {"longest_latency_us", microseconds(summary.longest)}};
 }
 
-namespace {
-
-std::string exact(Time time) { return format_duration(time, 9); }
-
-std::string in_marks(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return result + '"';
-}
-
-}  // namespace
-
 std::string scenario_text(const std::vector<ReadFrame>& frames, const Stamps& stamps, const PlaybackChoices& choices) {
   constexpr Time kLongestWait = kSecond;
   std::string steps;
@@ -139,8 +125,8 @@ std::string scenario_text(const std::vector<ReadFrame>& frames, const Stamps& st
                          answer == nullptr ? "" : "; " + answer->text);
   }
   if (steps.empty()) return {};
-  std::string text = fmt::format("scenarios:\n  - name: {}\n", in_marks(choices.name));
-  if (!choices.program.empty()) text += fmt::format("    program: {}\n", in_marks(choices.program));
+  std::string text = fmt::format("scenarios:\n  - name: {}\n", in_quotes(choices.name));
+  if (!choices.program.empty()) text += fmt::format("    program: {}\n", in_quotes(choices.program));
   return text + fmt::format("    tolerance: {}\n    steps:\n{}", exact(choices.tolerance), steps);
 }
 
