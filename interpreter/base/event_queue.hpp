@@ -29,17 +29,16 @@ class EventQueue {
   EventQueue() { events_.reserve(32); }  // more than a PLC and its peers ever have
 
   void schedule(Time at, EventOwner owner, std::uint8_t what) {
-    cancel(owner, what);
     const Event event{at, owner, what};
-    std::size_t place = events_.size();
-    events_.push_back(event);
+    std::size_t place = place_of(owner, what);
+    if (place == events_.size()) events_.push_back(event);
     for (; place > 0 && before(events_[place - 1], event); --place) events_[place] = events_[place - 1];
+    for (; place + 1 < events_.size() && before(event, events_[place + 1]); ++place) events_[place] = events_[place + 1];
     events_[place] = event;
   }
 
   void cancel(EventOwner owner, std::uint8_t what) {
-    std::size_t found = 0;
-    while (found < events_.size() && !(events_[found].owner == owner && events_[found].what == what)) ++found;
+    const std::size_t found = place_of(owner, what);
     if (found < events_.size()) events_.erase(events_.begin() + static_cast<std::ptrdiff_t>(found));
   }
 
@@ -59,6 +58,12 @@ class EventQueue {
   bool operator==(const EventQueue&) const = default;
 
  private:
+  std::size_t place_of(EventOwner owner, std::uint8_t what) const {
+    std::size_t place = 0;
+    while (place < events_.size() && !(events_[place].owner == owner && events_[place].what == what)) ++place;
+    return place;
+  }
+
   static bool before(const Event& a, const Event& b) {
     if (a.at != b.at) return a.at < b.at;
     if (a.owner != b.owner) return a.owner < b.owner;

@@ -5,26 +5,9 @@
 #include <vector>
 
 #include "interpreter/base/serial_format.hpp"
+#include "serial_sim/line/character.hpp"
 
 namespace s7200::serial {
-
-/// Bit times of a station whose clock is off: `clock_error` millionths faster than its format says.
-struct BitClock {
-  SerialFormat format{};
-  std::int32_t clock_error = 0;
-
-  bool operator==(const BitClock&) const = default;
-
-  /// As SerialFormat::half_bits: rounded to the nanosecond, never accumulated.
-  Time half_bits(std::int64_t count) const {
-    if (clock_error == 0) return format.half_bits(count);
-    __extension__ using Wide = __int128;
-    const Wide per_half_bit = Wide{2} * format.baud * (1'000'000 + clock_error);
-    return static_cast<Time>((Wide{count} * kSecond * 1'000'000 + per_half_bit / 2) / per_half_bit);
-  }
-  Time bit_times(std::int64_t count) const { return half_bits(2 * count); }
-  Time character_time() const { return bit_times(format.bits()); }
-};
 
 /// What becomes of a character that is to be sent.
 struct Mishap {

@@ -109,8 +109,10 @@ void Line::Periods::forget(Time before) {
   changes.erase(changes.begin(), present);
 }
 
-Line::Driver& Line::driver(int number) {
+/// With all drivers' edges.
+Line::Driver& Line::driver(int number) const {
   assert(number >= 0 && number < kDrivers);
+  reveal();
   const auto place = static_cast<std::size_t>(number);
   if (place >= drivers_.all.size()) drivers_.all.resize(place + 1);
   return drivers_.all[place];
@@ -122,14 +124,36 @@ void Line::drive(int number, Time at, bool mark) {
   tell(at);
 }
 
-void Line::drive(int number, std::span<const Time> changes) {
-  Driver& own = driver(number);
-  for (const Time at : changes) own.add(at, !own.level_after(own.edges.size()));
-  changed(number);
-  if (!changes.empty()) tell(changes.front());
+void Line::drive(int number, unsigned levels, const BitTimes& times, Time at) {
+  const unsigned stop_bit = 1U << first_stop_bit(times.clock.format);
+  if (idle() && (levels & stop_bit) != 0) {
+    implied_.driver = number;
+    implied_.levels = levels;
+    implied_.start = at;
+    implied_.last_edge = at + times.begin_of_bit(static_cast<int>(std::bit_width(~levels & (stop_bit - 1))));
+    if (!(implied_.times == times)) implied_.times = times;
+    changed();
+  } else {
+    add_edges(number, levels, times, at);
+  }
+  tell(at);
 }
 
-void Line::changed(int number) {
+void Line::add_edges(int number, unsigned levels, const BitTimes& times, Time at) const {
+  Driver& own = driver(number);
+  const int stop_bit = first_stop_bit(times.clock.format);
+  for (int bit = 0; bit <= stop_bit; ++bit) own.add(at + times.begin_of_bit(bit), (levels >> bit & 1U) != 0);
+  own.add(at + times.begin_of_bit(times.clock.format.bits()), true);
+  changed(number);
+}
+
+void Line::reveal_implied() const {
+  const int number = implied_.driver;
+  implied_.driver = Implied::kNone;
+  add_edges(number, implied_.levels, implied_.times, implied_.start);
+}
+
+void Line::changed(int number) const {
   const auto place = static_cast<std::size_t>(number);
   const std::uint32_t bit = 1U << place;
   busy_ = drivers_.all[place] == Driver{} ? busy_ & ~bit : busy_ | bit;
@@ -138,6 +162,7 @@ void Line::changed(int number) {
 
 void Line::disturb(const Disturbance& disturbance) {
   if (disturbance.from >= disturbance.to) return;
+  reveal();
   Periods& those = periods(disturbance.effect);
   if (disturbance.effect == Disturbance::Effect::Inverts) {
     those.invert(disturbance.from, disturbance.to);
@@ -185,12 +210,13 @@ void Line::contend(int number, Time from, Time to) {
 }
 
 Time Line::next_edge_of(int number, Time from) const {
-  const Driver& driver = drivers_.all[static_cast<std::size_t>(number)];
+  const Driver& driver = this->driver(number);
   const std::size_t index = driver.edges_until(from - 1);
   return index < driver.edges.size() ? driver.edges[index] : kNever;
 }
 
 void Line::separate(Time at, std::uint32_t far) {
+  reveal();
   separations_.push_back({at, far});
   changed();
   tell(at);
@@ -212,6 +238,7 @@ std::uint32_t Line::audible(int listener, Time at) const {
 }
 
 bool Line::level(Time at, int listener) const {
+  if (implied_.any() && implied_.in_start_bit(at)) return false;
   if (irregular()) return irregular_level(at, listener);
   if (answers_.level_at == at) return answers_.level;
   answers_.level_at = at;
@@ -222,6 +249,15 @@ bool Line::irregular_level(Time at, int listener) const {
   return disturbed_level(driven_level(at, audible(listener, at)), at);
 }
 
+unsigned Line::levels(Time start, const BitTimes& times, int listener) const {
+  if (implied_.any() && implied_.start == start && implied_.times == times) return implied_.levels;
+  std::array<Time, SerialFormat::kMostBits> middles{};
+  const int stop_bit = first_stop_bit(times.clock.format);
+  for (int bit = 0; bit <= stop_bit; ++bit) middles[static_cast<std::size_t>(bit)] = start + times.middle_of_bit(bit);
+  return levels({middles.data(), static_cast<std::size_t>(stop_bit + 1)}, listener);
+}
+
+/// In order of time, that at the first one in bit 0.
 unsigned Line::levels(std::span<const Time> at, int listener) const {
   if (irregular()) return sampled(at, listener);
   if (std::ranges::equal(answers_.levels_at, at)) return answers_.levels;
@@ -253,6 +289,7 @@ bool Line::disturbed_level(bool mark, Time at) const {
 }
 
 bool Line::level_of(int driver, Time at) const {
+  reveal();
   const auto number = static_cast<std::size_t>(driver);
   return number >= drivers_.all.size() || drivers_.all[number].level(at);
 }
@@ -274,6 +311,8 @@ Time Line::next_change(Time from) const {
 }
 
 Time Line::falling_edge(Time from, int listener) const {
+  if (implied_.any() && from <= implied_.start) return implied_.start;
+  if (implied_.any() && from >= implied_.last_edge) return kNever;
   if (irregular()) return irregular_falling_edge(from, listener);
   if (answers_.falling_from == from) return answers_.falling_edge;
   const Time edge = driven_falling_edge(from);
@@ -313,7 +352,10 @@ Time Line::space_held_from_before(Time edge) const {
 }
 
 void Line::forget(Time now) {
+  if (idle()) return;
   for (const LineListener* listener : wiring_.listeners) now = std::min(now, listener->needs_from());
+  if (implied_.any() && now <= implied_.last_edge) return;
+  implied_.driver = Implied::kNone;
   for (std::uint32_t those = busy_; those != 0; those &= those - 1) {
     const auto number = static_cast<std::size_t>(std::countr_zero(those));
     drivers_.all[number].forget(now);
@@ -325,6 +367,13 @@ void Line::forget(Time now) {
   if (!disturbed_) return;
   for (Periods& those : disturbances_) those.forget(now);
   note_whether_disturbed();
+}
+
+bool Line::operator==(const Line& other) const {
+  reveal();
+  other.reveal();
+  return drivers_ == other.drivers_ && separations_ == other.separations_ && contention_ == other.contention_ &&
+         disturbances_ == other.disturbances_;
 }
 
 void Line::attach(LineListener& listener) { wiring_.listeners.push_back(&listener); }

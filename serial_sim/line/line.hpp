@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "interpreter/base/time.hpp"
+#include "serial_sim/line/character.hpp"
 
 namespace s7200::serial {
 
@@ -56,8 +57,9 @@ class Line {
   /// Every listener is told, so that this is all it takes to send, to collide or to make noise.
   void drive(int driver, Time at, bool mark);
 
-  /// The same for a whole character: at each of these instants, in order of time, the driver changes to the other level.
-  void drive(int driver, std::span<const Time> changes);
+  /// The same for a whole character, as character_levels() gives them, which begins at `at`. One without stop bit ends where
+  /// that would.
+  void drive(int driver, unsigned levels, const BitTimes& times, Time at);
 
   /// What listeners have heard before this was called stands: `from` should not lie before now. Every listener is told. One
   /// that ends as it begins is none.
@@ -94,8 +96,9 @@ class Line {
   /// without one the cable counts as whole, here and below.
   bool level(Time at, int listener = kWholeCable) const;
 
-  /// The level at each of at most 32 instants, in order of time: that at the first one in bit 0.
-  unsigned levels(std::span<const Time> at, int listener = kWholeCable) const;
+  /// The level in the middle of each bit, up to the first stop bit, of a character that begins at `start`: that of the start
+  /// bit in bit 0.
+  unsigned levels(Time start, const BitTimes& times, int listener = kWholeCable) const;
 
   /// What driver `driver` holds, whatever the others do.
   bool level_of(int driver, Time at) const;
@@ -118,7 +121,7 @@ class Line {
   void attach(LineListener& listener);
   void detach(LineListener& listener);
 
-  bool operator==(const Line&) const = default;
+  bool operator==(const Line& other) const;
 
  private:
   struct Driver {
@@ -140,6 +143,19 @@ class Line {
   struct Drivers {
     std::vector<Driver> all;
     bool operator==(const Drivers& other) const;
+  };
+
+  /// A character of a driver that is alone on an undisturbed line. Nobody needs its edges while all that is asked for is its
+  /// start and its levels in the middles of its bits; it is revealed, becomes edges, when anything else is, or is done.
+  struct Implied {
+    int driver = kNone;
+    unsigned levels = 0;
+    Time start = 0, last_edge = 0;
+    BitTimes times;
+
+    static constexpr int kNone = -1;
+    bool any() const { return driver != kNone; }
+    bool in_start_bit(Time at) const { return at >= start && at < start + times.begin_of_bit(1); }
   };
 
   /// When something lasts: begins and ends in turn.
@@ -194,21 +210,29 @@ class Line {
     bool operator==(const Wiring&) const { return true; }
   };
 
-  Driver& driver(int number);
+  bool idle() const { return busy_ == 0 && !implied_.any() && !irregular() && contention_.on_until.empty(); }
+  void add_edges(int number, unsigned levels, const BitTimes& times, Time at) const;
+  void reveal() const {
+    if (implied_.any()) reveal_implied();
+  }
+  void reveal_implied() const;
+  Driver& driver(int number) const;
   /// `of` each driver that has edges or holds the line at space.
   template <class Of>
   void each_busy(Of of, std::uint32_t audible = ~0U) const {
+    reveal();
     for (std::uint32_t those = busy_ & audible; those != 0; those &= those - 1)
       of(drivers_.all[static_cast<std::size_t>(std::countr_zero(those))]);
   }
-  void changed(int driver);
-  void changed() {
+  void changed(int driver) const;
+  void changed() const {
     answers_.falling_from = answers_.level_at = kNever;
     answers_.levels_at.clear();
   }
   bool irregular() const { return disturbed_ || !separations_.empty(); }
   std::uint32_t audible(int listener, Time at) const;
   bool irregular_level(Time at, int listener) const;
+  unsigned levels(std::span<const Time> at, int listener) const;
   unsigned sampled(std::span<const Time> at, int listener) const;
   void contend(int driver, Time from, Time to);
   Time next_edge_of(int driver, Time from) const;
@@ -223,8 +247,9 @@ class Line {
   const Periods& periods(Disturbance::Effect effect) const { return disturbances_[static_cast<std::size_t>(effect)]; }
   void note_whether_disturbed();
 
-  Drivers drivers_;
-  std::uint32_t busy_ = 0;               // drivers that have edges or hold the line at space, a bit each
+  mutable Drivers drivers_;
+  mutable std::uint32_t busy_ = 0;       // drivers that have edges or hold the line at space, a bit each
+  mutable Implied implied_;              // what drivers_ does not have yet
   std::vector<Separation> separations_;  // in order of time
   Contention contention_;
   std::array<Periods, 3> disturbances_;  // by effect; however many overlap, they are no more than what is left of them

@@ -27,17 +27,6 @@ ReceivedCharacter character_of(unsigned levels, const SerialFormat& format, Time
 
 }  // namespace
 
-BitTimes::BitTimes(const BitClock& of) : clock(of) {
-  for (std::size_t count = 0; count < half_bits.size(); ++count) half_bits[count] = clock.half_bits(static_cast<int>(count));
-}
-
-unsigned character_levels(const SerialFormat& format, std::uint8_t data, bool parity_bit) {
-  const int stop_bit = first_stop_bit(format);
-  unsigned levels = unsigned{data} << 1 | 1U << stop_bit;
-  if (format.parity != Parity::None && parity_bit) levels |= 1U << (stop_bit - 1);
-  return levels;
-}
-
 Uart::Uart(Line& line, EventQueue& queue, EventOwner owner, int driver, bool plugged_in)
     : line_(line), queue_(queue), owner_(owner), driver_(driver) {
   if (plugged_in) plug_in();
@@ -131,18 +120,9 @@ void Uart::put_character_with_mishaps(unsigned levels, Time at) {
 /// Back with its end. A character without stop bit takes a bit longer, at mark.
 Time Uart::drive_character(unsigned levels, const BitClock& clock, Time at) {
   const BitTimes& times = times_of(clock, sending_times_);
-  const int bits = clock.format.bits();
-  std::array<Time, SerialFormat::kMostBits + 1> changes{};
-  std::size_t count = 0;
-  bool mark = true;
-  for (int bit = 0; bit <= first_stop_bit(clock.format); ++bit) {
-    const bool next = (levels >> bit & 1U) != 0;
-    if (next != mark) changes[count++] = at + times.begin_of_bit(bit);
-    mark = next;
-  }
-  if (!mark) changes[count++] = at + times.begin_of_bit(bits);
-  line_.drive(driver_, {changes.data(), count});
-  const Time end = at + times.begin_of_bit(mark ? bits : bits + 1);
+  line_.drive(driver_, levels, times, at);
+  const bool stops = (levels >> first_stop_bit(clock.format) & 1U) != 0;
+  const Time end = at + times.begin_of_bit(clock.format.bits() + (stops ? 0 : 1));
   line_.occupy(driver_, at, end);
   return end;
 }
@@ -166,7 +146,7 @@ Uart::Report Uart::handle(const Event& event) {
       check_start_bit(event.at);
       break;
     case kStopSample:
-      report.received = take_character();
+      report.received = take_character(event.at);
       break;
     case kSent:
       state_.sending = false;
@@ -204,7 +184,7 @@ void Uart::await_start_edge() {
 }
 
 void Uart::check_start_bit(Time now) {
-  if (line_.level(next_sample(), driver_)) {
+  if (line_.level(now, driver_)) {
     state_.listen_from = now;
     await_start_edge();
     return;
@@ -214,16 +194,11 @@ void Uart::check_start_bit(Time now) {
   expect(kStopSample, next_sample());
 }
 
-ReceivedCharacter Uart::take_character() {
-  const SerialFormat& format = state_.receiving_as.format;
+ReceivedCharacter Uart::take_character(Time now) {
   const BitTimes& times = times_of(state_.receiving_as, receiving_times_);
-  const Time start = state_.start_edge;
-  const int stop_bit = first_stop_bit(format);
-  std::array<Time, SerialFormat::kMostBits> middles{};
-  for (int bit = 0; bit <= stop_bit; ++bit) middles[static_cast<std::size_t>(bit)] = start + times.middle_of_bit(bit);
-  const unsigned levels = line_.levels({middles.data(), static_cast<std::size_t>(stop_bit + 1)}, driver_);
-  const ReceivedCharacter character = character_of(levels, format, start, middles[static_cast<std::size_t>(stop_bit)]);
-  state_.listen_from = character.end;
+  const unsigned levels = line_.levels(state_.start_edge, times, driver_);
+  const ReceivedCharacter character = character_of(levels, state_.receiving_as.format, state_.start_edge, now);
+  state_.listen_from = now;
   await_start_edge();
   return character;
 }

@@ -1,35 +1,17 @@
 // Characters to edges, and edges to characters.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 
 #include "interpreter/base/event_queue.hpp"
 #include "interpreter/base/serial_format.hpp"
 #include "interpreter/base/serial_port.hpp"
+#include "serial_sim/line/character.hpp"
 #include "serial_sim/line/interference.hpp"
 #include "serial_sim/line/line.hpp"
 
 namespace s7200::serial {
-
-/// Number of the (first) stop bit; the start bit is bit 0.
-constexpr int first_stop_bit(const SerialFormat& format) { return format.bits() - format.stop_bits; }
-
-/// The levels of a character from its start bit, in bit 0, to its first stop bit: 1 is mark. `data` fits the format.
-unsigned character_levels(const SerialFormat& format, std::uint8_t data, bool parity_bit);
-
-/// When the bits of a character are, worked out once for a clock; from its start edge on.
-struct BitTimes {
-  BitTimes() : BitTimes(BitClock{}) {}
-  explicit BitTimes(const BitClock& of);
-
-  Time begin_of_bit(int bit) const { return half_bits[static_cast<std::size_t>(2 * bit)]; }
-  Time middle_of_bit(int bit) const { return half_bits[static_cast<std::size_t>(2 * bit + 1)]; }
-
-  BitClock clock;
-  std::array<Time, 2 * (SerialFormat::kMostBits + 1) + 1> half_bits{};  ///< so many
-};
 
 /// One UART on the line: a sender and a receiver. Wrong baud rates, wrong parity, noise, breaks and collisions need no code
 /// of their own, they are levels.
@@ -140,7 +122,7 @@ class Uart final : public SerialPort, private LineListener {
 
   void await_start_edge();
   void check_start_bit(Time now);
-  ReceivedCharacter take_character();
+  ReceivedCharacter take_character(Time now);
   ReceivedCharacter character_of_others(Time start, const BitClock& clock) const;
   void look_for_missed(Time at);
   void tell_missed(ReceivedCharacter character, Time lost_at);

@@ -46,6 +46,8 @@ class WireTap final : public LineListener {
   /// Tells `sink` what happens from `from` on; null ends that. Not owned.
   void watch(WireSink* sink, Time from);
 
+  bool watched() const { return sink_ != nullptr; }
+
   /// No driver gets an edge before `until` any more.
   void settle(Time until, const SerialFormat& port) {
     if (sink_) tell(until, port);

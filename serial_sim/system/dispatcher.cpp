@@ -18,33 +18,46 @@ EventQueue& Dispatcher::shared_queue() {
   return *shared_;
 }
 
-Time Dispatcher::next() const {
-  Time next = kNever;
-  for (const EventQueue& queue : queues_) next = std::min(next, queue.next());
-  return next;
+void Dispatcher::handle_next() {
+  const Time at = next();
+  if (at == kNever) return;
+  EventQueue* due = nullptr;
+  for (const auto& queue : queues_) {
+    if (queue->next() != at) continue;
+    if (due != nullptr) return handle_those_due(at);
+    due = queue.get();
+  }
+  for (std::size_t rank = 0; due->next() == at && next_rank(*due) >= rank;) {
+    rank = next_rank(*due);
+    handle(due->pop());
+  }
 }
 
-void Dispatcher::handle_next() {
-  Time at = kNever;
-  for (EventQueue& queue : queues_) {
-    const Time next = queue.next();
-    if (next > at || next == kNever) continue;
-    if (next < at) due_.clear();
-    at = next;
-    due_.push_back(&queue);
-  }
+/// The same when several queues have events of the instant.
+void Dispatcher::handle_those_due(Time at) {
+  for (const auto& queue : queues_)
+    if (queue->next() == at) due_.push_back(queue.get());
   for (std::size_t rank = 0; rank < kRanks; ++rank)
     for (EventQueue* const queue : due_)
-      while (queue->next() == at && static_cast<std::size_t>(rank_of(queue->front().owner)) == rank) {
-        const Event event = queue->pop();
-        handlers_[rank][static_cast<std::size_t>(event.owner) % kMostOfARank]->handle(event);
-      }
+      while (queue->next() == at && next_rank(*queue) == rank) handle(queue->pop());
   due_.clear();
+}
+
+void Dispatcher::handle(const Event& event) {
+  const auto owner = static_cast<std::size_t>(event.owner);
+  handlers_[owner / kMostOfARank][owner % kMostOfARank]->handle(event);
+}
+
+std::vector<EventQueue> Dispatcher::state() const {
+  std::vector<EventQueue> state;
+  state.reserve(queues_.size());
+  for (const auto& queue : queues_) state.push_back(*queue);
+  return state;
 }
 
 void Dispatcher::restore(const std::vector<EventQueue>& state) {
   assert(state.size() == queues_.size());
-  std::copy(state.begin(), state.end(), queues_.begin());
+  for (std::size_t i = 0; i < state.size(); ++i) *queues_[i] = state[i];
 }
 
 }  // namespace s7200::serial

@@ -1,10 +1,11 @@
 // Who handles which event, and in which order those of one instant are handled.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <vector>
 
 #include "interpreter/base/event_queue.hpp"
@@ -35,7 +36,7 @@ class Dispatcher {
   static constexpr std::size_t kMostOfARank = 256;
 
   /// Of a CPU, and of anything else. They live as long as the dispatcher.
-  EventQueue& add_queue() { return queues_.emplace_back(); }
+  EventQueue& add_queue() { return *queues_.emplace_back(std::make_unique<EventQueue>()); }
   EventQueue& shared_queue();
 
   /// A number of its own for `handler`, which is not owned.
@@ -44,19 +45,27 @@ class Dispatcher {
   static Rank rank_of(EventOwner owner) { return static_cast<Rank>(static_cast<std::size_t>(owner) / kMostOfARank); }
 
   /// When the next event of any queue is due; kNever when none is pending.
-  Time next() const;
+  Time next() const {
+    Time next = kNever;
+    for (const auto& queue : queues_) next = std::min(next, queue->next());
+    return next;
+  }
 
   /// Handles the events of the next instant, in their order. One that is scheduled for the same instant meanwhile is left to
   /// the next call unless its rank is still to come in its queue.
   void handle_next();
 
-  std::vector<EventQueue> state() const { return {queues_.begin(), queues_.end()}; }
+  std::vector<EventQueue> state() const;
   void restore(const std::vector<EventQueue>& state);
 
  private:
   static constexpr std::size_t kShareOne = 8;
 
-  std::deque<EventQueue> queues_;
+  void handle_those_due(Time at);
+  void handle(const Event& event);
+  static std::size_t next_rank(const EventQueue& queue) { return static_cast<std::size_t>(rank_of(queue.front().owner)); }
+
+  std::vector<std::unique_ptr<EventQueue>> queues_;
   EventQueue* shared_ = nullptr;  // the one that is handed out at present, so many times so far
   std::size_t sharing_ = 0;
   std::array<std::vector<EventHandler*>, kRanks> handlers_;  // by rank, then in the order in which they were added

@@ -74,9 +74,11 @@ Time Plc::Port::shortest_character() const {
 
 Plc::Plc(Dispatcher& events, std::span<SharedLine* const> lines, std::shared_ptr<const Program> program, FieldScript field)
     : queue_(events.add_queue()),
+      owner_(events.add(Rank::Cpu, *this)),
+      field_owner_(events.add(Rank::Field, *this)),
       ports_(ports_on(lines, events)),
-      cpu_(std::move(program), queue_, events.add(Rank::Cpu, *this), devices()),
-      field_(std::move(field), cpu_, queue_, events.add(Rank::Field, *this)) {}
+      cpu_(std::move(program), queue_, owner_, devices()),
+      field_(std::move(field), cpu_, queue_, field_owner_) {}
 
 std::vector<std::unique_ptr<Plc::Port>> Plc::ports_on(std::span<SharedLine* const> lines, Dispatcher& events) {
   std::vector<std::unique_ptr<Port>> ports;
@@ -128,18 +130,22 @@ Time Plc::may_run_until(Time horizon) const {
   return until;
 }
 
-void Plc::settle(Time until) {
+void Plc::set_wire_sink(WireSink* sink, std::uint8_t port) {
+  ports_.at(port)->tap.watch(sink, cpu_.time());
+  watched_ = std::ranges::any_of(ports_, [](const auto& each) { return each->tap.watched(); });
+}
+
+void Plc::settle_taps(Time until) {
   for (const auto& port : ports_) port->tap.settle(until, port->uart.state().format);
 }
 
 void Plc::handle(const Event& event) {
-  const Rank rank = Dispatcher::rank_of(event.owner);
   handled_ = event.at;
-  if (rank == Rank::Cpu) cpu_.handle(event);
-  if (rank == Rank::Field) field_.handle(event);
+  if (event.owner == owner_) cpu_.handle(event);
+  if (event.owner == field_owner_) field_.handle(event);
   for (std::uint8_t port = 0; port < ports_.size(); ++port) {
-    if (ports_[port]->owner == event.owner && rank == Rank::Uart) hear(port, event);
-    if (ports_[port]->actor == event.owner && rank == Rank::Port) ports_[port]->act_until(event.at);
+    if (event.owner == ports_[port]->owner) hear(port, event);
+    if (event.owner == ports_[port]->actor) ports_[port]->act_until(event.at);
   }
   handled_ = -1;
 }

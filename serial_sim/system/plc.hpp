@@ -71,13 +71,15 @@ class Plc final : private EventHandler {
   }
 
   /// Lets `sink` watch the line at a port from now on; null ends that. Not owned. After restore() it sees time go back.
-  void set_wire_sink(WireSink* sink, std::uint8_t port = 0) { ports_.at(port)->tap.watch(sink, cpu_.time()); }
+  void set_wire_sink(WireSink* sink, std::uint8_t port = 0);
 
   /// How far the CPU may run if nothing happens to the system before `horizon`: until then it hears nothing from others.
   Time may_run_until(Time horizon) const;
 
   /// No driver of the lines gets an edge before `until` any more: whoever watches them is told.
-  void settle(Time until);
+  void settle(Time until) {
+    if (watched_) settle_taps(until);
+  }
 
   State state() const;
 
@@ -126,13 +128,16 @@ class Plc final : private EventHandler {
 
   void handle(const Event& event) override;
   void hear(std::uint8_t port, const Event& event);
+  void settle_taps(Time until);
 
   EventQueue& queue_;  // of the CPU, its field and what it does to its ports
+  EventOwner owner_, field_owner_;
   Time handled_ = -1;  // the instant whose event the CPU is being told of; before all of them if there is none
   std::vector<std::unique_ptr<Port>> ports_;
   Cpu cpu_;
   Field field_;
   bool powered_ = true;
+  bool watched_ = false;  // there is a sink at a port, which is wiring, not state
 };
 
 }  // namespace s7200::serial

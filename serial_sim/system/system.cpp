@@ -89,35 +89,44 @@ bool System::paused() const {
   return std::any_of(plcs_.begin(), plcs_.end(), [](const auto& plc) { return plc->cpu().paused(); });
 }
 
+/// The next event, or the next thing that a CPU can do to the system.
 Time System::horizon() const {
   Time earliest = events_.next();
-  if (plcs_.size() > 1)
-    for (const auto& plc : plcs_)
-      if (plc->powered()) earliest = std::min(earliest, plc->cpu().next_action());
+  for (const auto& plc : plcs_)
+    if (plc->powered()) earliest = std::min(earliest, plc->cpu().next_action());
   return earliest;
 }
 
 Halt System::step(Time end) {
   if (stop_requested()) return Halt::Request;
+  if (plcs_.size() == 1 && plcs_.front()->powered()) return step_one_plc(plcs_.front()->cpu(), end);
   if (!any_powered()) return step_without_plc(end);
   const Time horizon = this->horizon();
   Halt halt = Halt::Time;
   for (const auto& plc : plcs_) {
     Cpu& cpu = plc->cpu();
-    const Time until =
-        std::min({end, plcs_.size() > 1 ? plc->may_run_until(horizon) : horizon, after(cpu.time(), kFurthestAtOnce)});
+    const Time until = std::min({end, plc->may_run_until(horizon), after(cpu.time(), kFurthestAtOnce)});
     if (!plc->powered() || cpu.time() >= until) continue;
     cpu.run(until, kLookEvery);
     if (cpu.paused()) halt = Halt::Paused;
     if (cpu.paused()) break;
   }
-  handle_due_events();
+  handle_due_events(time());
   return halt;
+}
+
+/// One runs from event to event.
+Halt System::step_one_plc(Cpu& cpu, Time end) {
+  const Time until = std::min({end, events_.next(), after(cpu.time(), kFurthestAtOnce)});
+  const bool runs = cpu.time() < until;
+  if (runs) cpu.run(until, kLookEvery);
+  handle_due_events(cpu.time());
+  return runs && cpu.paused() ? Halt::Paused : Halt::Time;
 }
 
 Halt System::step_without_plc(Time end) {
   clock_ = std::min({end, std::max(clock_, events_.next()), after(clock_, kLookEvery)});
-  handle_due_events();
+  handle_due_events(time());
   return Halt::Time;
 }
 
@@ -129,13 +138,12 @@ Halt System::run_until(Time end) {
 
 const Exchange& System::finish_exchange(const RequesterStation& station) {
   const Requester& requester = station.requester();
-  while (requester.busy() && !paused() && step(kNever) != Halt::Request) {
-  }
+  Halt halt = paused() ? Halt::Paused : Halt::Time;
+  while (requester.busy() && halt == Halt::Time) halt = step(kNever);
   return requester.exchange();
 }
 
-void System::handle_due_events() {
-  const Time now = time();
+void System::handle_due_events(Time now) {
   for (Time next = events_.next(); next <= now; next = events_.next()) {
     settle(next);  // whatever is sent from now on begins no earlier
     events_.handle_next();

@@ -100,8 +100,9 @@ class System {
 
   Time horizon() const;
   bool any_powered() const;
+  Halt step_one_plc(Cpu& cpu, Time end);
   Halt step_without_plc(Time end);
-  void handle_due_events();
+  void handle_due_events(Time now);
   void settle(Time until);
   bool stop_requested() const { return stop_request_ && *stop_request_; }
 

@@ -23,7 +23,7 @@ using Clock = Pace::Clock;
 constexpr auto kIdleSlice = 1ms;
 constexpr auto kBusySlice = 200us;
 constexpr auto kBusyFor = 200ms;
-constexpr auto kQuietSlice = 10ms;
+constexpr auto kQuietSlice = 20ms;
 
 constexpr int kMostAtOnce = 16;  // things that came in, before the simulation goes on
 

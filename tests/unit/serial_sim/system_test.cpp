@@ -475,7 +475,7 @@ TEST(Dispatcher, OneInstantGoesByRankAndThenInTheOrderOfAdding) {
     std::vector<EventOwner>& handled;
   };
   Dispatcher events;
-  EventQueue& queue = events.add_queue();
+  EventQueue& queue = events.shared_queue();
   std::vector<EventOwner> handled, expected;
   Log one(handled), other(handled);
   constexpr Rank kScrambled[] = {Rank::Peer, Rank::Cpu, Rank::Line, Rank::Port, Rank::Field, Rank::Uart};

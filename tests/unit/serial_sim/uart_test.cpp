@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <random>
 #include <string>
 #include <vector>
@@ -407,6 +408,53 @@ TEST(Uart, NewFormatLeavesTheCharacterUnderWayAlone) {
   wire.send(0x31, wire.now);
   EXPECT_EQ(bytes_of(wire.heard), (std::vector<std::uint8_t>{0x42, 0x31}));
   EXPECT_EQ(wire.errors(), 0);
+}
+
+/// Someone asks for edges: whatever was only implied is revealed.
+void look_at(const Wire& wire) { wire.line.next_change(0); }
+
+TEST(Uart, HearsTheSameWhetherAnyoneLooksAtTheLineOrNot) {
+  for (const SerialFormat& sends_as : kFormats)
+    for (const SerialFormat& receives_as : {sends_as, k8E1, at_baud(sends_as, 9600 * 1.03), at_baud(sends_as, 19200)})
+      for (const std::uint8_t byte : std::initializer_list<std::uint8_t>{0x00, 0x01, 0x42, 0x55, 0x7F}) {
+        Wire alone(sends_as, receives_as), watched(sends_as, receives_as);
+        for (Wire* wire : {&alone, &watched}) wire->sender.send(byte, 1000);
+        bool more = true;
+        while (more) {
+          look_at(watched);
+          more = watched.step();
+          ASSERT_EQ(alone.step(), more);
+          ASSERT_EQ(alone.heard, watched.heard);
+          ASSERT_EQ(alone.receiver.state(), watched.receiver.state());
+          ASSERT_EQ(alone.queue, watched.queue);
+        }
+        EXPECT_EQ(alone.line, watched.line);
+      }
+}
+
+TEST(Uart, WhatHappensDuringACharacterMeetsItsLevels) {
+  const auto noise = [](Wire& wire, Time at) {
+    wire.line.drive(kNoise, at, false);
+    wire.line.drive(kNoise, at + kBit / 2, true);
+  };
+  const auto cut = [](Wire& wire, Time at) {
+    wire.line.disturb({.effect = Disturbance::Effect::Cuts, .from = at, .to = at + 2 * kBit});
+  };
+  const auto loss = [](Wire& wire, Time at) { wire.sender.power_off(at); };
+  const auto parting = [](Wire& wire, Time at) { wire.line.separate(at, 1); };
+  for (const auto& happens : std::initializer_list<std::function<void(Wire&, Time)>>{noise, cut, loss, parting})
+    for (Time at = kBit / 4; at < 12 * kBit; at += kBit / 4) {
+      Wire alone(k8E1), watched(k8E1);
+      for (Wire* wire : {&alone, &watched}) {
+        wire->sender.send(0x35, 0);
+        if (wire == &watched) look_at(*wire);
+        wire->run_until(at - 1);
+        happens(*wire, at);
+        wire->run();
+      }
+      EXPECT_EQ(alone.heard, watched.heard) << at;
+      EXPECT_EQ(alone.line, watched.line) << at;
+    }
 }
 
 TEST(Uart, TenThousandCharactersWithoutAGapDoNotDrift) {
