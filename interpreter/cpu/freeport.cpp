@@ -4,6 +4,7 @@
 
 #include "interpreter/cpu/interrupts.hpp"
 #include "interpreter/cpu/message_receiver.hpp"
+#include "interpreter/cpu/network.hpp"
 #include "interpreter/cpu/ppi.hpp"
 
 namespace s7200 {
@@ -34,6 +35,7 @@ void take_control(Core& core, std::uint8_t number, std::uint32_t op) {
   } else if (was_active && !port.transmitting) {
     ppi::begin(core, number, core.s.time);
   }
+  network::follow_control(core, number);
   core.trace({.at = core.s.time, .kind = TraceKind::PortControl, .byte = port.control, .port = number, .op = op});
   core.attend();
 }

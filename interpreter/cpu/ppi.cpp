@@ -4,6 +4,7 @@
 #include <span>
 
 #include "interpreter/base/ppi_frame.hpp"
+#include "interpreter/cpu/network.hpp"
 #include "interpreter/cpu/s7_services.hpp"
 
 namespace s7200::ppi {
@@ -12,19 +13,6 @@ namespace {
 using Job = PpiPort::Job;
 
 constexpr std::size_t kShortestWithBody = 6;
-constexpr int kBitsToReply = 11, kBitsOfSilence = 33;
-
-/// Half duplex: the receiver is off while the port sends.
-void send(Core& core, std::uint8_t number, std::span<const std::uint8_t> frame, Time at) {
-  PpiPort& port = core.s.ppi[number];
-  std::copy(frame.begin(), frame.end(), port.frame.begin());
-  port.sending = static_cast<std::uint16_t>(frame.size());
-  port.sent = 0;
-  core.port(number).enable_receiver(false, at);
-  if (core.s.port[number].on_wire != OnWire::Nothing) return;
-  core.s.port[number].on_wire = OnWire::Ppi;
-  core.port(number).send(port.frame[port.sent++], at);
-}
 
 void reply(Core& core, std::uint8_t number, std::uint8_t to, Reply function, std::span<const std::uint8_t> data, Time at) {
   send(core, number, to_frame({to, core.s.station[number], function, data}), at);
@@ -59,11 +47,13 @@ void take_poll(Core& core, std::uint8_t number, const Body& body, Time at) {
 void take_frame(Core& core, std::uint8_t number, std::span<const std::uint8_t> frame, Time at) {
   const auto body = body_of(frame);
   if (!body) {
-    if (frame.size() < kShortestWithBody) return;
+    if (frame.size() < kShortestWithBody) return network::heard(core, number, frame, at);
+    network::heard_damaged(core, number);
     core.trace({.at = at, .kind = TraceKind::PpiIgnored, .port = number, .count = frame.size()});
     return;
   }
-  if (body->destination != core.s.station[number] || (body->function & kIsRequest) == 0) return;
+  if (body->destination != core.s.station[number]) return;
+  if ((body->function & kIsRequest) == 0) return network::heard(core, number, frame, at);
   switch (body->function & kService) {
     case kStatus:
       return reply(core, number, body->source, kSlave, {}, at);
@@ -99,6 +89,17 @@ void carry_out(Core& core, std::uint8_t number) {
 
 }  // namespace
 
+void send(Core& core, std::uint8_t number, std::span<const std::uint8_t> frame, Time at) {
+  PpiPort& port = core.s.ppi[number];
+  std::copy(frame.begin(), frame.end(), port.frame.begin());
+  port.sending = static_cast<std::uint16_t>(frame.size());
+  port.sent = 0;
+  core.port(number).enable_receiver(false, at);
+  if (core.s.port[number].on_wire != OnWire::Nothing) return;
+  core.s.port[number].on_wire = OnWire::Ppi;
+  core.port(number).send(port.frame[port.sent++], at);
+}
+
 void begin(Core& core, std::uint8_t number, Time at) {
   core.s.ppi[number] = {.heard = at};
   core.port(number).configure(kFormat);
@@ -113,6 +114,7 @@ void character_received(Core& core, std::uint8_t number, const ReceivedCharacter
   }
   port.heard = character.end;
   if (!port.lost) take_character(core, number, character);
+  if (port.lost) network::heard_damaged(core, number);
   if (port.lost)
     core.trace({.at = character.end,
                 .kind = TraceKind::CharacterIgnored,

@@ -21,8 +21,10 @@
 // [Ppi.ARepeatedPollGetsTheAnswerAgain]
 // - The status of the station (function 49) is asked and answered with SD1, function 00. [Ppi.TheStatusIsThatOfASlave]
 // - XMT begins when the last character of a PPI answer has left. [Ppi.XmtWaitsForTheCharacterThatIsLeaving]
-// Not modelled: other rates than 9600 baud, the token of several masters, broadcasts.
+// Not modelled: other rates than 9600 baud, the token of several masters, broadcasts. A CPU as master is in network.hpp.
 #pragma once
+
+#include <span>
 
 #include "interpreter/cpu/core.hpp"
 
@@ -31,8 +33,14 @@ namespace s7200::ppi {
 /// How the port is set while it speaks PPI.
 inline constexpr SerialFormat kFormat{.baud = 9600, .data_bits = 8, .parity = Parity::Even, .stop_bits = 1};
 
+/// A reply begins so long after the last character; silence ends what was being received.
+inline constexpr int kBitsToReply = 11, kBitsOfSilence = 33;
+
 /// The port begins to speak PPI, at `at`.
 void begin(Core& core, std::uint8_t port, Time at);
+
+/// Sends a frame from `at` on; the receiver is off meanwhile.
+void send(Core& core, std::uint8_t port, std::span<const std::uint8_t> frame, Time at);
 
 /// Reports of the line, for a port that speaks it.
 void character_received(Core& core, std::uint8_t port, const ReceivedCharacter& character);

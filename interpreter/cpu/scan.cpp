@@ -6,6 +6,7 @@
 #include "interpreter/cpu/forcing.hpp"
 #include "interpreter/cpu/interrupts.hpp"
 #include "interpreter/cpu/local_memory.hpp"
+#include "interpreter/cpu/network.hpp"
 #include "interpreter/cpu/parameters.hpp"
 #include "interpreter/cpu/points.hpp"
 #include "interpreter/cpu/ppi.hpp"
@@ -95,6 +96,7 @@ void finish_phase(Core& core) {
     case Phase::Program:
       return begin_communication(core);
     case Phase::Communication:
+      network::communicate(core);
       ppi::communicate(core);
       if ((core.s.mode == Mode::Run) != run) return;
       forcing::apply(core);

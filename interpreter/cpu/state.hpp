@@ -155,6 +155,33 @@ struct PpiPort {
   bool operator==(const PpiPort&) const = default;
 };
 
+/// A port in PPI master mode (network.hpp).
+struct NetworkPort {
+  static constexpr std::size_t kMostJobs = 8, kMostBytes = 16;
+  struct Job {
+    std::uint32_t table = 0;  ///< its place in the image
+    bool writes = false;
+    bool operator==(const Job&) const = default;
+  };
+  enum class Phase : std::uint8_t {
+    Idle,
+    Asked,   ///< the request has been sent
+    Polled,  ///< it was accepted, and the answer is being fetched
+    Over     ///< the communication part of the scan is to hand over what has come
+  };
+
+  std::array<Job, kMostJobs> jobs{};  ///< in the order in which they were started; the first is the one under way
+  std::uint8_t count = 0;             ///< of them
+  Phase phase = Phase::Idle;
+  std::uint8_t tries = 0;    ///< of what was sent last
+  bool damaged = false;      ///< something came in that could not be read
+  bool frame_count = false;  ///< of the last poll
+  std::uint8_t status = 0;   ///< with which the job ends
+  std::uint16_t number = 0;  ///< of the last request
+  std::array<std::uint8_t, kMostBytes> data{};
+  bool operator==(const NetworkPort&) const = default;
+};
+
 struct TimerState {
   std::int16_t preset = 0;  ///< at its last execution
   bool enabled = false;     ///< it counts: a TON or TONR whose input was on, a TOF whose input has gone off
@@ -268,6 +295,7 @@ struct State {
 
   std::array<Freeport, kPorts.size()> port{};
   std::array<PpiPort, kPorts.size()> ppi{};
+  std::array<NetworkPort, kPorts.size()> network{};
 
   std::array<TimerState, 256> timer{};
   Time previous_scan_begin = 0;

@@ -10,6 +10,7 @@
 #include "interpreter/cpu/high_speed_counters.hpp"
 #include "interpreter/cpu/interrupts.hpp"
 #include "interpreter/cpu/message_receiver.hpp"
+#include "interpreter/cpu/network.hpp"
 #include "interpreter/cpu/points.hpp"
 #include "interpreter/cpu/power.hpp"
 #include "interpreter/cpu/pulse_outputs.hpp"
@@ -50,6 +51,7 @@ constexpr Unit kUnits[] = {
      .begin_scan = timers::begin_scan,
      .events = {kTick1ms, 1, timers::handle}},
     {.enter_stop = message_receiver::enter_stop, .events = {kMessageTimer0, kPorts.size(), message_receiver::handle}},
+    {.events = {kNetworkTimer0, kPorts.size(), network::handle}},
     {.power_up = freeport::power_up,
      .enter_run = freeport::follow_control,
      .enter_stop = freeport::enter_stop,

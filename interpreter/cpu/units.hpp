@@ -15,7 +15,9 @@ enum UnitEvent : std::uint8_t {
   kPulse0,
   kPulse1,
   kMessageTimer0,
-  kMessageTimer1
+  kMessageTimer1,
+  kNetworkTimer0,
+  kNetworkTimer1
 };
 
 /// Each function goes through the rows of the table, from first to last.

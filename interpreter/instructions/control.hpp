@@ -17,6 +17,7 @@
 #include "interpreter/cpu/freeport.hpp"
 #include "interpreter/cpu/interrupts.hpp"
 #include "interpreter/cpu/message_receiver.hpp"
+#include "interpreter/cpu/network.hpp"
 #include "interpreter/cpu/scan.hpp"
 
 namespace s7200::bodies {
@@ -73,6 +74,13 @@ inline void attach(Core& core, const Op& op) {
   interrupts::attach(core, static_cast<std::uint8_t>(op[1].at), static_cast<std::uint8_t>(op[0].at));
 }
 inline void detach(Core& core, const Op& op) { interrupts::detach(core, static_cast<std::uint8_t>(op[0].at)); }
+
+/// NETR and NETW; NETW takes time for each byte.
+template <bool writes>
+void use_network(Core& core, const Op& op) {
+  core.spend(op, core.in_area(op[0].at, 7) ? core.s.image[op[0].at + 6] : 0);
+  network::start(core, static_cast<std::uint8_t>(op[1].at), op[0].at, writes);
+}
 
 inline void transmit(Core& core, const Op& op) { freeport::transmit(core, static_cast<std::uint8_t>(op[1].at), op[0].at); }
 inline void receive(Core& core, const Op& op) {

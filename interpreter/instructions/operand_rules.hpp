@@ -146,6 +146,7 @@ inline constexpr OperandRule
     kPidLoop {.name = "TBL", .width = Width::Byte, .role = Role::InOut, .areas = kVMemory,                   .elements = 36},  // nine reals
     kMessage {.name = "TBL", .width = Width::Byte,                      .areas = kLasting,  .pointer = true},
     kReceived{.name = "TBL", .width = Width::Byte, .role = Role::Out,   .areas = kLasting,  .pointer = true},
+    kNetwork {.name = "TBL", .width = Width::Byte, .role = Role::InOut, .areas = kLasting,  .pointer = true, .elements = 8},  // with a byte of data
     kClockIn {.name = "T",   .width = Width::Byte,                      .areas = kMemory,   .pointer = true, .elements = 8},
     kClockOut{.name = "T",   .width = Width::Byte, .role = Role::Out,   .areas = kMemory,   .pointer = true, .elements = 8};
 

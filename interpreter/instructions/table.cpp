@@ -263,12 +263,12 @@ constexpr Instruction kInterrupts[] = {
 };
 
 constexpr Instruction kCommunication[] = {
-    {.mnemonic = "XMT",  .operand = {kMessage, kPort},    .rung = kBox,                   .effect = Effect::Transmits, .body = transmit,         .meaning = "Freeport: send the characters of TBL, their number in its first byte"},
-    {.mnemonic = "RCV",  .operand = {kReceived, kPort},   .rung = kBox, .cpus = kFrom215, .effect = Effect::Receives,  .body = receive,          .meaning = "Freeport: receive a message into TBL, the number of its characters in the first byte"},
-    {.mnemonic = "NETR",                                                .cpus = kFrom214,                                                        .meaning = "PPI master: read from another station"},
-    {.mnemonic = "NETW",                                                .cpus = kFrom214,                                                        .meaning = "PPI master: write to another station"},
-    {.mnemonic = "GPA",  .operand = {kAddressOut, kPort}, .rung = kBox, .cpus = kCpu22x,                               .body = get_port_address, .meaning = "station address of a port to ADDR"},
-    {.mnemonic = "SPA",  .operand = {kAddressIn, kPort},  .rung = kBox, .cpus = kCpu22x,                               .body = set_port_address, .meaning = "ADDR becomes the station address of a port"},
+    {.mnemonic = "XMT",  .operand = {kMessage, kPort},    .rung = kBox,                   .effect = Effect::Transmits, .body = transmit,           .meaning = "Freeport: send the characters of TBL, their number in its first byte"},
+    {.mnemonic = "RCV",  .operand = {kReceived, kPort},   .rung = kBox, .cpus = kFrom215, .effect = Effect::Receives,  .body = receive,            .meaning = "Freeport: receive a message into TBL, the number of its characters in the first byte"},
+    {.mnemonic = "NETR", .operand = {kNetwork, kPort},    .rung = kBox, .cpus = kFrom214,                              .body = use_network<false>, .meaning = "PPI master: read 1 to 16 bytes of another station into TBL"},
+    {.mnemonic = "NETW", .operand = {kNetwork, kPort},    .rung = kBox, .cpus = kFrom214,                              .body = use_network<true>,  .meaning = "PPI master: write 1 to 16 bytes of TBL to another station"},
+    {.mnemonic = "GPA",  .operand = {kAddressOut, kPort}, .rung = kBox, .cpus = kCpu22x,                               .body = get_port_address,   .meaning = "station address of a port to ADDR"},
+    {.mnemonic = "SPA",  .operand = {kAddressIn, kPort},  .rung = kBox, .cpus = kCpu22x,                               .body = set_port_address,   .meaning = "ADDR becomes the station address of a port"},
 };
 
 constexpr Instruction kTimersAndCounters[] = {

@@ -13,7 +13,7 @@
 // - The CPUs 221 and 222 lack HSC1 and HSC2, although one extract of the manual prints HC0 to HC5 for all (facts 10.1).
 //   [Cpu22x.The221And222HaveNoHsc1AndHsc2]
 //
-// Not modelled: mode 12 of HSC0 and HSC3, linear pulse profiles, auto-tuning of PID, NETR and NETW, expansion modules that are more than
+// Not modelled: mode 12 of HSC0 and HSC3, linear pulse profiles, auto-tuning of PID, expansion modules that are more than
 // points, a memory cartridge, a clock that has to be plugged in.
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/embedded_times.hpp"

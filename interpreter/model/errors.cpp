@@ -58,4 +58,30 @@ std::string_view meaning_of(FatalError code) {
   return "unknown";
 }
 
+std::string_view meaning_of(NetworkError code) {
+  switch (code) {
+    case NetworkError::None:
+      return "done";
+    case NetworkError::TimeOut:
+      return "the station does not answer";
+    case NetworkError::Damaged:
+      return "the answer is damaged";
+    case NetworkError::Offline:
+      return "the port is not on the line";
+    case NetworkError::Overflow:
+      return "eight jobs are on the list already";
+    case NetworkError::NotMaster:
+      return "the port is not in PPI master mode";
+    case NetworkError::Parameter:
+      return "a value in the table is not allowed";
+    case NetworkError::NoResource:
+      return "the station is busy with another master";
+    case NetworkError::Layer7:
+      return "the request or its answer is not understood";
+    case NetworkError::Message:
+      return "the station has no such data";
+  }
+  return "unknown";
+}
+
 }  // namespace s7200

@@ -30,11 +30,23 @@ std::string status_text(std::uint8_t status) {
   return fmt::format("status 16#{:02X}{}", status, reasons.empty() ? "" : fmt::format(" ({})", reasons));
 }
 
-/// `VB100, 4 bytes`; `M3.1`
-std::string variable_text(const TraceRecord& r) {
+/// Of the place in the image.
+const AreaInfo& area_at(std::uint32_t place) {
   const AreaInfo* area = nullptr;
   for (const AreaInfo& each : all_areas())
-    if (r.op >= each.base && (!area || each.base > area->base)) area = &each;
+    if (place >= each.base && (!area || each.base > area->base)) area = &each;
+  return *area;
+}
+
+/// `VB100`
+std::string table_text(std::uint32_t place) {
+  const AreaInfo& area = area_at(place);
+  return address_text(area.area, Width::Byte, place - area.base, 0);
+}
+
+/// `VB100, 4 bytes`; `M3.1`
+std::string variable_text(const TraceRecord& r) {
+  const AreaInfo* const area = &area_at(r.op);
   const std::uint32_t number = (r.op - area->base) / area->step();
   if (r.count == 0) return address_text(area->area, Width::Bit, number, r.routine);
   const Width width = area->element == 0 ? Width::Byte : area->element == 2 ? Width::Word : Width::Double;
@@ -58,6 +70,17 @@ std::string ppi_text(const TraceRecord& r) {
                            : r.byte == 0          ? "reads or sets the clock"
                                                   : fmt::format("asks for function {:02X}", r.byte);
   return fmt::format("{} {}{}", who, what, r.code == 0 ? "" : fmt::format(": refused, error {:04X}", r.code));
+}
+
+/// What has become of a job of the CPU as a master.
+std::string network_text(const TraceRecord& r) {
+  const std::string job =
+      fmt::format("{} with table {}, station {}", r.routine != 0 ? "NETW" : "NETR", table_text(r.op), r.event);
+  if (r.byte & kJobActive)
+    return fmt::format("{}: {} bytes are to be {}", job, r.count, r.routine != 0 ? "written" : "read");
+  const NetworkError error{static_cast<std::uint8_t>(r.byte & kJobErrorCode)};
+  if (error == NetworkError::None) return job + ": done";
+  return fmt::format("{}: error {}, {}", job, r.byte & kJobErrorCode, meaning_of(error));
 }
 
 }  // namespace
@@ -147,6 +170,8 @@ void EventLines::append_what(fmt::memory_buffer& text, const TraceRecord& r) {
     case TraceKind::PpiService:
     case TraceKind::PpiAccess:
       return add(ppi_text(r));
+    case TraceKind::NetworkJob:
+      return add(network_text(r));
     case TraceKind::PpiIgnored:
       return add("PPI frame of ", r.count, " characters ignored: its check sum or end is wrong");
   }

@@ -524,6 +524,36 @@ TEST(System, RcvHearsTheBreakThatAnotherPlcSends) {
 }
 
 // Port 1 of the CPU 226 sends what a CPU 224 sends on port 0; nothing of it is on the line of port 0.
+// Every scan, unless the job before is still active; the data of the other station are read back.
+TEST(System, APlcReadsFromAndWritesToAnotherOverTheNetwork) {
+  System system;
+  SharedLine& line = system.add_line();
+  Plc& master = system.add_plc(
+      line,
+      program_for(cpu224(),
+                  "LD SM0.1\nMOVB 2, SMB30\nMOVB 7, VB101\nMOVB 7, VB121\nMOVD &VB500, VD102\nMOVD &VB500, VD122\n"
+                  "MOVB 2, VB106\nMOVB 2, VB126\nLDN V100.6\nAN V120.6\nINCW VW107\nNETW VB100, 0\nNETR VB120, 0\nMEND\n"));
+  Plc& other = system.add_plc(line, program_for(cpu224(), "LD SM0.1\nSPA 7, 0\nMEND\n"));
+  system.power_up();
+  system.run_until(kSecond);
+  const std::uint16_t written = load16(&other.cpu().state().image[image::kV + 500]);
+  EXPECT_GT(written, 5);
+  EXPECT_NEAR(load16(&master.cpu().state().image[image::kV + 127]), written, 1);
+  EXPECT_EQ(master.cpu().state().image[image::kV + 100] & 0x2F, 0) << "no error";
+
+  const System::Snapshot middle = system.snapshot();
+  system.run_until(1200 * kMillisecond);
+  const System::Snapshot end = system.snapshot();
+  system.restore(middle);
+  system.run_until(1200 * kMillisecond);
+  EXPECT_EQ(system.snapshot(), end);
+
+  system.power_off(other);
+  const std::uint8_t& status = master.cpu().state().image[image::kV + 100];
+  while (status != 0xA1 && system.time() < 4 * kSecond) system.run_until(system.time() + 10 * kMillisecond);
+  EXPECT_EQ(status, 0xA1) << "the station does not answer";
+}
+
 TEST(System, TheSecondPortHasALineOfItsOwn) {
   const std::string on_port_0 = "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 2, VB10\nMOVW 16#4142, VW11\nXMT VB10, 0\nMEND\n";
   const std::string on_port_1 = changed(changed(on_port_0, "SMB30", "SMB130"), "VB10, 0", "VB10, 1");

@@ -1,0 +1,249 @@
+#include "interpreter/cpu/network.hpp"
+
+#include <algorithm>
+
+#include "interpreter/cpu/ppi.hpp"
+#include "interpreter/cpu/units.hpp"
+#include "interpreter/model/s7_pdu.hpp"
+
+namespace s7200::network {
+namespace {
+
+using Phase = NetworkPort::Phase;
+using Span = std::span<const std::uint8_t>;
+
+constexpr Time kTimeOutTime = 150 * kMillisecond;
+constexpr int kTries = 3;
+
+// Places in a table.
+constexpr std::uint32_t kStation = 1, kPointer = 2, kLength = 6, kData = 7;
+
+/// What a table asks for.
+struct Table {
+  std::uint8_t station, length;
+  std::uint32_t pointer;
+};
+
+Table table_at(const Core& core, std::uint32_t table) {
+  const std::uint8_t* const bytes = &core.s.image[table];
+  return {.station = bytes[kStation], .length = bytes[kLength], .pointer = load32(bytes + kPointer)};
+}
+
+bool is_master(const Core& core, std::uint8_t port) { return (core.s.port[port].control & sm::kProtocol) == sm::kPpiMaster; }
+
+/// By the top byte of a pointer to it; null for an area that has none, or that other stations do not show.
+const s7::WireArea* area_of(std::uint32_t pointer) {
+  constexpr std::array kShown{Area::I, Area::Q, Area::M, Area::V};
+  const auto found = std::ranges::find_if(s7::kWireAreas, [&](const s7::WireArea& wire) {
+    return std::ranges::count(kShown, wire.area) != 0 && info(wire.area).pointer_code == pointer >> 24;
+  });
+  return found == s7::kWireAreas.end() ? nullptr : found;
+}
+
+bool is_possible(const Core& core, std::uint8_t port, std::uint32_t at, const Table& table) {
+  return table.station <= ppi::kLastStation && table.station != core.s.station[port] && area_of(table.pointer) != nullptr &&
+         (table.pointer & 0xFF'FFFF) <= 0xFFFF && table.length >= 1 && table.length <= NetworkPort::kMostBytes &&
+         core.in_area(at, kData + table.length);
+}
+
+void put_status(Core& core, std::uint8_t port, const NetworkPort::Job& job, std::uint8_t status, Time at) {
+  core.s.image[job.table] = status;
+  const Table table = table_at(core, job.table);
+  core.trace({.at = at,
+              .kind = TraceKind::NetworkJob,
+              .event = table.station,
+              .routine = job.writes,
+              .byte = status,
+              .port = port,
+              .op = job.table,
+              .count = table.length});
+}
+
+constexpr std::uint8_t failed(NetworkError error) {
+  return static_cast<std::uint8_t>(kJobDone | kJobError | static_cast<std::uint8_t>(error));
+}
+
+s7::Function function_of(const NetworkPort::Job& job) { return job.writes ? s7::kWrite : s7::kRead; }
+
+Bytes request_of(const Core& core, const NetworkPort& port) {
+  const NetworkPort::Job& job = port.jobs.front();
+  const Table table = table_at(core, job.table);
+  const s7::WireArea& area = *area_of(table.pointer);
+  const std::uint32_t bit = (table.pointer & 0xFFFF) * 8;
+  Bytes parameters{function_of(job), 1};
+  parameters.insert(parameters.end(), s7::kVariableHead.begin(), s7::kVariableHead.end());
+  parameters.push_back(s7::kByte);
+  s7::append16(parameters, table.length);
+  s7::append16(parameters, area.area == Area::V ? 1 : 0);
+  parameters.push_back(area.code);
+  parameters.push_back(static_cast<std::uint8_t>(bit >> 16));
+  s7::append16(parameters, bit & 0xFFFF);
+  Bytes data;
+  if (job.writes) {
+    data = {0, s7::kInBitsOfBytes};
+    s7::append16(data, std::size_t{table.length} * 8);
+    const auto first = core.s.image.begin() + job.table + kData;
+    data.insert(data.end(), first, first + table.length);
+  }
+  Bytes pdu{s7::kProtocol, s7::kRequest, 0, 0};
+  s7::append16(pdu, port.number);
+  s7::append16(pdu, parameters.size());
+  s7::append16(pdu, data.size());
+  pdu.insert(pdu.end(), parameters.begin(), parameters.end());
+  pdu.insert(pdu.end(), data.begin(), data.end());
+  return pdu;
+}
+
+std::uint8_t timer_of(std::uint8_t port) { return static_cast<std::uint8_t>(kNetworkTimer0 + port); }
+
+void send(Core& core, std::uint8_t number, std::uint8_t function, const Bytes& data, Time at) {
+  const std::uint8_t station = table_at(core, core.s.network[number].jobs.front().table).station;
+  const Bytes frame = ppi::to_frame({station, core.s.station[number], function, data});
+  ppi::send(core, number, frame, at);
+  const Time end = at + static_cast<Time>(frame.size()) * ppi::kFormat.character_time();
+  core.schedule(end + kTimeOutTime, timer_of(number));
+}
+
+void ask(Core& core, std::uint8_t number, Time at) {
+  NetworkPort& port = core.s.network[number];
+  port.phase = Phase::Asked;
+  send(core, number, ppi::kRequestFunction, request_of(core, port), at);
+}
+
+void poll(Core& core, std::uint8_t number, Time at) {
+  NetworkPort& port = core.s.network[number];
+  port.phase = Phase::Polled;
+  const std::uint8_t count = port.frame_count ? ppi::kFrameCount : 0;
+  send(core, number, static_cast<std::uint8_t>(ppi::kPollFunction ^ count), {}, at);
+}
+
+void end(Core& core, std::uint8_t number, std::uint8_t status) {
+  core.cancel(timer_of(number));
+  core.s.network[number].phase = Phase::Over;
+  core.s.network[number].status = status;
+}
+
+/// Of a variable of an answer.
+std::uint8_t status_of(std::uint8_t code) { return code == s7::kDone ? kJobDone : failed(NetworkError::Message); }
+
+/// How the job ends with this answer. Its data go to the port.
+std::uint8_t status_of(const Core& core, NetworkPort& port, Span pdu) {
+  constexpr std::size_t kCode = s7::kAnswerHead + 2, kValue = kCode + 4;
+  const NetworkPort::Job& job = port.jobs.front();
+  const bool is_answer = pdu.size() > kCode && pdu[0] == s7::kProtocol && pdu[1] == s7::kAnswer &&
+                         load16(&pdu[4]) == port.number && load16(&pdu[10]) == 0 &&
+                         pdu[s7::kAnswerHead] == function_of(job) && pdu[s7::kAnswerHead + 1] == 1;
+  if (!is_answer) return failed(NetworkError::Layer7);
+  if (job.writes || pdu[kCode] != s7::kDone) return status_of(pdu[kCode]);
+  const std::uint8_t length = table_at(core, job.table).length;
+  if (pdu.size() < kValue + length || pdu[kCode + 1] != s7::kInBitsOfBytes || load16(&pdu[kCode + 2]) != length * 8)
+    return failed(NetworkError::Layer7);
+  std::copy_n(pdu.begin() + kValue, length, port.data.begin());
+  return kJobDone;
+}
+
+void take_reply(Core& core, std::uint8_t number, const ppi::Body& body) {
+  NetworkPort& port = core.s.network[number];
+  const Table table = table_at(core, port.jobs.front().table);
+  if (body.source != table.station || body.destination != core.s.station[number]) return;
+  switch (body.function) {
+    case ppi::kNoResource:
+      return end(core, number, failed(NetworkError::NoResource));
+    case ppi::kNoService:
+      return end(core, number, failed(NetworkError::Layer7));
+    case ppi::kData:
+      if (port.phase == Phase::Polled) return end(core, number, status_of(core, port, body.data));
+      return;
+    default:
+      return;
+  }
+}
+
+void take_up_next(Core& core, std::uint8_t number) {
+  NetworkPort& port = core.s.network[number];
+  const PpiPort& line = core.s.ppi[number];
+  ++port.number;
+  port.tries = 1;
+  port.damaged = port.frame_count = false;
+  ask(core, number, std::max(core.s.time, line.heard + ppi::kFormat.bit_times(ppi::kBitsOfSilence)));
+}
+
+void strike_off_first(NetworkPort& port) {
+  std::shift_left(port.jobs.begin(), port.jobs.begin() + port.count, 1);
+  port.jobs[--port.count] = {};
+  port.phase = Phase::Idle;
+}
+
+void hand_over(Core& core, std::uint8_t number) {
+  NetworkPort& port = core.s.network[number];
+  const NetworkPort::Job job = port.jobs.front();
+  if (port.status == kJobDone && !job.writes)
+    std::copy_n(port.data.begin(), table_at(core, job.table).length, core.s.image.begin() + job.table + kData);
+  strike_off_first(port);
+  put_status(core, number, job, port.status, core.s.time);
+}
+
+bool is_listed(const NetworkPort& port, std::uint32_t table) {
+  const auto end = port.jobs.begin() + port.count;
+  return std::find_if(port.jobs.begin(), end, [&](const auto& job) { return job.table == table; }) != end;
+}
+
+}  // namespace
+
+void start(Core& core, std::uint8_t number, std::uint32_t table, bool writes) {
+  NetworkPort& port = core.s.network[number];
+  if (!core.in_area(table, kData)) return core.run_error(RunError::OperandRange);
+  if (is_listed(port, table)) return;
+  const NetworkPort::Job job{.table = table, .writes = writes};
+  if (!is_master(core, number)) return put_status(core, number, job, failed(NetworkError::NotMaster), core.s.time);
+  if (!is_possible(core, number, table, table_at(core, table)))
+    return put_status(core, number, job, failed(NetworkError::Parameter), core.s.time);
+  if (port.count == NetworkPort::kMostJobs)
+    return put_status(core, number, job, failed(NetworkError::Overflow), core.s.time);
+  port.jobs[port.count++] = job;
+  put_status(core, number, job, kJobActive, core.s.time);
+}
+
+void heard(Core& core, std::uint8_t number, Span frame, Time at) {
+  NetworkPort& port = core.s.network[number];
+  if (port.phase != Phase::Asked && port.phase != Phase::Polled) return;
+  if (const auto body = ppi::body_of(frame)) return take_reply(core, number, *body);
+  if (frame.size() != 1 || frame[0] != ppi::kAccepted) return;
+  port.frame_count = port.phase == Phase::Polled && !port.frame_count;
+  port.tries = 1;
+  poll(core, number, at);
+}
+
+void heard_damaged(Core& core, std::uint8_t number) {
+  NetworkPort& port = core.s.network[number];
+  if (port.phase != Phase::Idle) port.damaged = true;
+}
+
+void follow_control(Core& core, std::uint8_t number) {
+  NetworkPort& port = core.s.network[number];
+  if (is_master(core, number) || port.count == 0) return;
+  core.cancel(timer_of(number));
+  while (port.count != 0) {
+    const NetworkPort::Job job = port.jobs.front();
+    strike_off_first(port);
+    put_status(core, number, job, failed(NetworkError::NotMaster), core.s.time);
+  }
+}
+
+void communicate(Core& core) {
+  for (std::uint8_t number = 0; number < core.port_count(); ++number) {
+    const NetworkPort& port = core.s.network[number];
+    if (port.phase == Phase::Over) hand_over(core, number);
+    const bool line_is_free = core.s.ppi[number].sending == 0 && core.s.port[number].on_wire == OnWire::Nothing;
+    if (port.phase == Phase::Idle && port.count != 0 && line_is_free) take_up_next(core, number);
+  }
+}
+
+void handle(Core& core, std::uint8_t what, Time at) {
+  const auto number = static_cast<std::uint8_t>(what - kNetworkTimer0);
+  NetworkPort& port = core.s.network[number];
+  if (port.tries++ == kTries) return end(core, number, failed(port.damaged ? NetworkError::Damaged : NetworkError::TimeOut));
+  return port.phase == Phase::Asked ? ask(core, number, at) : poll(core, number, at);
+}
+
+}  // namespace s7200::network
