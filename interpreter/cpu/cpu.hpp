@@ -113,6 +113,12 @@ class Cpu {
     core_.s.pc = op;
   }
 
+  /// The logic stack, with the power flow, is another one. Nothing but a debugger can do that.
+  void set_stack(LogicStack stack) {
+    core_.touched = true;
+    core_.s.stack = stack;
+  }
+
   /// For making one unit act on its own, as tests do.
   Core& core() { return core_; }
 

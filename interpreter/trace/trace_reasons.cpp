@@ -156,13 +156,20 @@ std::string TraceReasons::text_of(const Decision& decision) const {
       decision.contacts.empty() ? "" : fmt::format(" ({})", contacts_text(decision.contacts)), comment_of(statement));
 }
 
-/// The contacts of the rung so far, or the last jump before it.
-std::string TraceReasons::decision_before_now() const {
+std::optional<TraceReasons::Cause> TraceReasons::cause() const {
   const Flow& flow = in_interrupt_ ? interrupt_ : main_;
   const bool own = std::ranges::any_of(flow.contacts, [&](const auto& one) { return !is_always_on(one, program_); });
   if (own)
-    return fmt::format("the contacts from {} on ({})", line_of(flow.contacts.front().op), contacts_text(flow.contacts));
-  return flow.decided ? text_of(flow.decision) : "";
+    return Cause{
+        fmt::format("the contacts from {} on ({})", line_of(flow.contacts.front().op), contacts_text(flow.contacts)),
+        flow.contacts.back(), flow.contacts.front(), true, in_interrupt_};
+  if (!flow.decided) return {};
+  return Cause{text_of(flow.decision), flow.decision.by, flow.decision.by, false, in_interrupt_};
+}
+
+std::string TraceReasons::cause_text() const {
+  const auto found = cause();
+  return found ? found->text : "";
 }
 
 bool TraceReasons::begins_again(const TraceRecord& record) const {
@@ -175,7 +182,7 @@ std::optional<TraceReasons::Unanswered> TraceReasons::unanswered(const TraceReco
   if (!last_ || !is_about_reception(record)) return {};
   const Frame& frame = frame_[port_of(record)];
   if (frame.characters == 0 || !begins_again(record)) return {};
-  const std::string own = decision_before_now();
+  const std::string own = cause_text();
   return Unanswered{frame.characters, frame.since, own.empty() ? frame.decided_by : own};
 }
 
@@ -195,7 +202,7 @@ void TraceReasons::note_reception(const TraceRecord& record) {
   Frame& frame = frame_[port_of(record)];
   if (unanswered(record)) frame = {};
   frame.attached_anew = true;
-  frame.decided_by = frame.characters > 0 ? decision_before_now() : "";
+  frame.decided_by = frame.characters > 0 ? cause_text() : "";
 }
 
 void TraceReasons::note(const InstructionRecord& record) {

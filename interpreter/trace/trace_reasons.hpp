@@ -47,6 +47,18 @@ class TraceReasons {
   };
   std::optional<Unanswered> unanswered(const TraceRecord& record) const;
 
+  /// What decided that the program has come where it is.
+  struct Cause {
+    std::string text;         ///< `JMP 255 in line 141 (LDW= AC0, 0: AC0=16#7B06; NOT)`
+    InstructionRecord by;     ///< the jump, or the last of the contacts
+    InstructionRecord first;  ///< the same, or the first of the contacts
+    bool contacts = false;    ///< that are in front of it in its own rung
+    bool in_interrupt = false;
+  };
+  /// The contacts of the rung so far, or the last jump or conditional end before it; nothing if the main program, or the
+  /// interrupt routine, has met none so far.
+  std::optional<Cause> cause() const;
+
   /// This one has come; to be told after all that is asked about it.
   void note(const TraceRecord& record);
   void note(const InstructionRecord& record);
@@ -95,7 +107,7 @@ class TraceReasons {
   std::string line_of(std::uint32_t op) const;
   std::string text_of(const Decision& decision) const;
   std::string contacts_text(const std::vector<InstructionRecord>& contacts) const;
-  std::string decision_before_now() const;
+  std::string cause_text() const;
   bool begins_again(const TraceRecord& record) const;
   void note_character(const TraceRecord& record);
   void note_reception(const TraceRecord& record);

@@ -758,6 +758,30 @@ class ModbusTcpTests(TcpCase):
                                         "answered", "broadcast", "silent", "damaged", "no_station"])
         self.assertEqual((bridge["requests"], bridge["answered"]), (5, 5))
 
+    def test_a_debugged_program_that_loses_its_master_goes_on_and_its_time_outs_are_its_own_affair(self):
+        self.assertIn("time-outs are their own affair", subprocess.run([S7200, "debug", "--help"], capture_output=True, text=True).stdout)
+        with subprocess.Popen([S7200, "debug", SLAVE, "--modbus-tcp", "0", *PRESET, "-i", "-x", "continue 100ms"],
+                              stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            self.addCleanup(process.kill)
+            port = int(re.search(r":(\d+)", process.stderr.readline()).group(1))
+
+            def command(line, said):
+                process.stdin.write(line + "\n")
+                process.stdin.flush()
+                while said not in (got := process.stdout.readline()):
+                    self.assertTrue(got, f"{said} did not come")
+            for _ in range(2):
+                with socket.create_connection(("127.0.0.1", port)) as master:
+                    master.sendall(message(1, 1, READ_PDU))  # and away, before the answer
+                command("continue 200ms", "simulated time passed")
+                command("print VW20", "16#1234")
+            with socket.create_connection(("127.0.0.1", port)) as master:
+                master.sendall(message(2, 1, READ_PDU))
+                command("continue 300ms", "simulated time passed")
+                self.assertIn(ANSWER_PDU, master.recv(100))
+            process.stdin.close()
+            self.assertEqual(process.wait(LONG), FINE)
+
     def test_exceptions_of_the_gateway(self):
         running = self.serve_gateway("--timeout", "100ms")
         client = self.client(running)

@@ -1469,6 +1469,13 @@ class Files(Case):
         self.assertEqual(times, sorted(times))
         self.assertLess(times[-1], 101_000_000)
 
+    def test_a_session_with_a_fault_of_the_line_is_recorded_as_a_scenario(self):
+        recorded = self.folder / "faulted.yaml"
+        self.ends(FINE, "debug", SLAVE, "-x", "continue 100ms; fault flip:character=3,bit=5; send 01 03 00 0a 00 01 crc; continue; "
+                  f"fault none; send 01 03 00 0a 00 01 crc; continue; record {recorded}")
+        self.assertIn("fault: flip:character=3,bit=5", recorded.read_text(encoding="utf-8"))
+        self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
+
     def test_a_script_of_the_debugger_with_expectations_is_a_test(self):
         good = self.program("continue 100ms\nsend 01 03 00 0a 00 01 crc\ncontinue\nexpect VW3300 = 7\n", "good")
         self.ends(FINE, "debug", SLAVE, "--commands", good)
@@ -1761,14 +1768,19 @@ class Readme(Case):
         commands = re.search(r'send 01 03 00 0a 00 01 00 00; (continue; rwho event 8; .*?)"', readme).group(1)
         self.assertEqual(commands.count(";"), 4)
         rows = re.findall(r"^\| `([^`]+)` \(.*?\) \| `([^`]+)` in (\w+ \d+).*? \| `([^`]+)` is (\d)", readme, re.M)
-        self.assertEqual(len(rows), 4)
-        for frame, instruction, routine, contact, value in rows:
-            with self.subTest(frame=frame):
-                out = self.ends(FINE, "debug", SLAVE, "-x", f"continue 100ms; break unanswered; send {frame}; {commands}").stdout
-                place, history = out.split("(s7200) rstep 3\n")[1].split("(s7200) history 9\n")
-                self.assertIn(f"  {routine} ", place.splitlines()[0])
-                self.assertRegex(place, r" > +\d+  " + r" +".join(map(re.escape, instruction.split())))
-                self.assertRegex(history, r" +".join(map(re.escape, contact.split())) + f" +S0={value}")
+        self.assertEqual(len(rows), 8)
+        if not TIP.exists():
+            print(f"skipped, there is no {TIP}: the same in the tip")
+        programs = [(SLAVE, rows[:4])] + ([(TIP, rows[4:])] if TIP.exists() else [])
+        for program, causes in programs:
+            for frame, instruction, routine, contact, value in causes:
+                with self.subTest(program=program, frame=frame):
+                    out = self.ends(FINE, "debug", program, "-x",
+                                    f"continue 2s; break unanswered; send {frame}; {commands}").stdout
+                    place, history = out.split("(s7200) rwhy\n")[1].split("(s7200) history 9\n")
+                    self.assertIn(f"  {routine} ", place.splitlines()[1])
+                    self.assertRegex(place, r" > +\d+  " + r" +".join(map(re.escape, instruction.split())))
+                    self.assertRegex(history, r" +".join(map(re.escape, contact.split())) + f" +S0={value}")
 
     def test_commands(self):
         missing = [name for name in self.TOOLS if not shutil.which(name)]

@@ -113,6 +113,23 @@ test("the problem matcher reads what check prints", () => {
   assert.ok(Number(problems[0][2]) > 0);
 });
 
+test("a launch and an attach can be begun from snippets, with attributes that there are", () => {
+  const { configurationSnippets, configurationAttributes } = manifest.contributes.debuggers[0];
+  const known = ["type", "request", "name"];
+  for (const { body, label } of configurationSnippets)
+    for (const name of Object.keys(body))
+      assert.ok(known.includes(name) || name in configurationAttributes[body.request].properties, `${label}: ${name}`);
+  assert.deepEqual([...new Set(configurationSnippets.map(({ body }) => body.request))].sort(), ["attach", "launch"]);
+});
+
+test("F5 without a launch.json debugs the program in the editor", () => {
+  const { configurations, window } = stand_in();
+  assert.equal(configurations.resolveDebugConfiguration(undefined, {}), undefined, "nothing is open");
+  window.activeTextEditor = { document: { languageId: "s7200-stl", uri: { fsPath: "/a.stl" } } };
+  assert.equal(configurations.resolveDebugConfiguration(undefined, {}).program, "/a.stl");
+  assert.equal(configurations.provideDebugConfigurations()[0].request, "launch");
+});
+
 test("words under the cursor are operands", () => {
   const { wordPattern } = JSON.parse(fs.readFileSync(path.join(FOLDER, "language-configuration.json"), "utf8"));
   for (const word of ["VW3300", "*VD100", "M31.7", "AC0", "16#0A", '"Pump 1"'])
@@ -136,10 +153,12 @@ test("the snippets are programs", () => {
 
 function stand_in() {
   const registered = { commands: {}, asked: [] };
+  const window = { showInputBox: async () => "VW3300", showErrorMessage() {}, showInformationMessage() {} };
+  registered.window = window;
   const vscode = {
     registered,
     workspace: { getConfiguration: () => ({ get: (key) => ({ path: "/opt/s7200", status: true })[key] }) },
-    window: { showInputBox: async () => "VW3300", showErrorMessage() {}, showInformationMessage() {} },
+    window,
     debug: {
       activeDebugConsole: { appendLine: (text) => { registered.printed = text; } },
       activeDebugSession: {

@@ -19,6 +19,10 @@ struct StepOf {
   SessionSteps::Step operator()(const SendFrame& send) const { return {.at = at, .send = send.request}; }
   SessionSteps::Step operator()(const serial::HostCall&) const { return refuse("characters came over a bridge"); }
   SessionSteps::Step operator()(const Jump&) const { return refuse("the program was made to go on elsewhere"); }
+  SessionSteps::Step operator()(const InjectFault& inject) const {
+    return {.at = at, .fault = inject.fault ? serial::to_text(*inject.fault) : "none"};
+  }
+  SessionSteps::Step operator()(const SetStack&) const { return refuse("the logic stack was set"); }
   SessionSteps::Step operator()(const Force&) const { return refuse("values were forced"); }
   SessionSteps::Step operator()(const Unforce&) const { return {}; }
 
@@ -36,7 +40,7 @@ std::optional<SessionSteps> steps_of(const SessionRecord& record, std::string& w
                      .last = record.last};
   for (std::size_t i = 0; i < record.session.actions.size() && why.empty(); ++i) {
     auto step = std::visit(StepOf{record.session.moments[i].time, why}, record.session.actions[i]);
-    if (step.send || !step.set.empty()) steps.steps.push_back(std::move(step));
+    if (step.send || !step.set.empty() || !step.fault.empty()) steps.steps.push_back(std::move(step));
   }
   if (record.session.memory) why = "power was switched off, from where times count anew: record it before";
   return why.empty() ? std::optional(steps) : std::nullopt;

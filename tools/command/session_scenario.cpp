@@ -20,11 +20,15 @@ std::string send_text(const serial::Request& request, Time at) {
   return text;
 }
 
+std::string step_text(const SessionSteps::Step& step) {
+  if (step.send) return send_text(*step.send, step.at);
+  return fmt::format("  - wait: until {}\n  - {}\n", exact(step.at),
+                     step.fault.empty() ? "set: " + assignments_text(step.set) : "fault: " + step.fault);
+}
+
 std::string steps_text(const SessionSteps& session) {
   std::string text;
-  for (const SessionSteps::Step& step : session.steps)
-    text += step.send ? send_text(*step.send, step.at)
-                      : fmt::format("  - wait: until {}\n  - set: {}\n", exact(step.at), assignments_text(step.set));
+  for (const SessionSteps::Step& step : session.steps) text += step_text(step);
   const bool ends_with_exchange = !session.steps.empty() && session.steps.back().send;
   if (!ends_with_exchange || session.last) text += fmt::format("  - wait: until {}\n", exact(session.end));
   return text;

@@ -13,11 +13,12 @@
 namespace s7200::tools {
 
 struct SessionSteps {
-  /// Memory is set, or a frame is sent.
+  /// Memory is set, a frame is sent, or the line has a fault, or none any more.
   struct Step {
     Time at = 0;
     std::vector<Assignment> set{};
     std::optional<serial::Request> send{};
+    std::string fault{};
   };
 
   std::vector<Step> steps{};

@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/dap/addresses.hpp"
 #include "tools/dap/debuggee.hpp"
 #include "tools/dap/sources.hpp"
 #include "tools/dap/variables.hpp"
@@ -126,12 +127,14 @@ class Session {
   Json step_in(const Json& arguments);
   Json step_out(const Json& arguments);
   Json step_scan(const Json& arguments);
+  Json step_interrupt(const Json& arguments);
   Json pause(const Json& arguments);
   Json step_back(const Json& arguments);
   Json reverse_continue(const Json& arguments);
   Json reverse_step_over(const Json& arguments);
   Json reverse_step_out(const Json& arguments);
   Json reverse_step_scan(const Json& arguments);
+  Json reverse_step_interrupt(const Json& arguments);
   Json goto_targets(const Json& arguments);
   Json go_to(const Json& arguments);
   Json go_to_moment(const Json& arguments);
@@ -167,20 +170,25 @@ class Session {
   Json write_memory(const Json& arguments);
   Json set_variable(const Json& arguments);
   Json set_expression(const Json& arguments);
+  Json set_level(const Variable& level, const std::string& value);
   Json assign(const std::string& expression, const std::string& value);
   MemoryRange range_for(const std::string& expression) const;
-  std::vector<std::uint8_t> bytes_at(std::uint32_t begin, std::uint32_t end) const;
+  void write_image(const MemoryPlace& place, std::uint32_t first, const std::vector<std::uint8_t>& bytes);
+  void write_levels(const MemoryPlace& place, std::uint32_t first, const std::vector<std::uint8_t>& bytes);
   void act(Action action);
   void note_new_branch();
   void report_memory_changes();
 
   // What the protocol has no requests for (session_extras.cpp).
   Json send_frame(const Json& arguments);
+  Json inject_fault(const Json& arguments);
   Json force(const Json& arguments);
   Json unforce(const Json& arguments);
   Json timeline(const Json& arguments);
   Json last_write(const Json& arguments);
   Json reverse_to_last_write(const Json& arguments);
+  Json last_decision(const Json& arguments);
+  Json reverse_to_last_decision(const Json& arguments);
   Json last_instructions(const Json& arguments);
   Json stl_status(const Json& arguments);
   Json forced() const;
@@ -190,6 +198,7 @@ class Session {
     Json body;
   };
   Written find_writer(const std::string& expression);
+  Written find_decision();
 
   // Sending.
   void send_event(const std::string& event, Json body);

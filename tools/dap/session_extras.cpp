@@ -12,6 +12,7 @@
 #include "tools/debugger/attachment.hpp"
 #include "tools/debugger/force_words.hpp"
 #include "tools/debugger/frame_words.hpp"
+#include "tools/debugger/last_decision.hpp"
 #include "tools/debugger/last_executions.hpp"
 #include "tools/debugger/last_write.hpp"
 #include "tools/debugger/timeline_of_past.hpp"
@@ -28,9 +29,11 @@ constexpr std::string_view kHelp =
     "set ADDRESS=VALUE      writes memory; I addresses are the input points\n"
     "send HEX… | 'TEXT' [crc]  puts a frame on the line from now on\n"
     "send read 40011:2 | write 00003=on [station n]  a Modbus request\n"
+    "fault KIND[:PARAMETER=VALUE,…] | none  a fault of the line from now on\n"
     "force [ADDRESS=VALUE…]  holds values across scans; alone lists what is forced\n"
     "unforce ADDRESS… | all  releases them\n"
     "who ADDRESS | event N  the instruction that wrote an address last, or attached an event\n"
+    "why                    what decided that it has come here: contacts, a jump, a conditional return\n"
     "history [n]            the last 10 instructions before now, or n\n"
     "timeline               what the CPU did since the last request began\n";
 
@@ -67,6 +70,19 @@ Json Session::send_frame(const Json& arguments) {
     text += fmt::format("\nport {} is not in Freeport mode: the program will not hear it", simulation.port());
   print(text);
   return {{"frame", serial::to_hex(frame)}};
+}
+
+Json Session::inject_fault(const Json& arguments) {
+  const auto text = arguments.at("fault").get<std::string>();
+  InjectFault inject;
+  if (lower_case(text) != "none") {
+    const serial::ParsedFault parsed = serial::parse_fault(text);
+    if (!parsed.ok()) throw Refused(fmt::format("fault, column {}: {}", parsed.error->column, parsed.error->message));
+    inject.fault = parsed.fault;
+  }
+  act(inject);
+  return {{"text",
+           inject.fault ? "on the line from now on: " + serial::to_text(*inject.fault) : "the line has no fault any more"}};
 }
 
 // --- force ---
@@ -168,6 +184,33 @@ Json Session::reverse_to_last_write(const Json& arguments) {
   return written.body;
 }
 
+// --- why ---
+
+Session::Written Session::find_decision() {
+  const DecisionSearch search = find_last_decision(debuggee_->simulation(), debuggee_->history(), settings_.stop_request);
+  if (search.interrupted) refuse_interrupted();
+  if (!search.decision)
+    throw Refused("nothing has decided that it comes here: no contact, no jump and no conditional return so far");
+  const LastDecision& found = *search.decision;
+  Json body{{"text", fmt::format("{}  {}", moment_text(found.by.at), found.text)},
+            {"instruction", execution_text(found.by, cpu().program())},
+            {"routine", listing_->routine_of(found.by.op)}};
+  body.update(client_place(found.by.op));
+  return {found.moment, body};
+}
+
+Json Session::last_decision(const Json&) { return find_decision().body; }
+
+Json Session::reverse_to_last_decision(const Json&) {
+  const Written found = find_decision();
+  after_response([this, found] {
+    print(found.body["text"].get<std::string>());
+    debuggee_->history().go_to(found.moment);
+    stopped_at("step", "in front of what decided");
+  });
+  return found.body;
+}
+
 Json Session::last_instructions(const Json& arguments) {
   constexpr std::int64_t kUsual = 10, kMost = 10'000;
   const auto count = arguments.value("count", kUsual);
@@ -215,6 +258,8 @@ Json Session::console_command(const std::string& line) {
   const auto says = [](const std::string& text) { return Json{{"result", text}, {"variablesReference", 0}}; };
   if (word == "help") return says(std::string(kHelp));
   if (word == "who") return says(find_writer(rest).body["text"]);
+  if (word == "fault") return says(inject_fault({{"fault", rest}})["text"]);
+  if (word == "why") return says(find_decision().body["text"]);
   if (word == "send") {
     send_frame({{"frame", rest}});
     return says("");

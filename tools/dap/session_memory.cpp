@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/dap/addresses.hpp"
 #include "tools/dap/base64.hpp"
@@ -23,49 +24,63 @@ MemoryPlace memory_at(const Json& arguments, const Program& program) {
 
 }  // namespace
 
-std::vector<std::uint8_t> Session::bytes_at(std::uint32_t begin, std::uint32_t end) const {
-  const auto& image = cpu().state().image;
-  return {image.begin() + begin, image.begin() + end};
-}
-
 Json Session::read_memory(const Json& arguments) {
   const MemoryPlace place = memory_at(arguments, cpu().program());
+  const std::vector<std::uint8_t> all = bytes_of(place, cpu().state());
+  const std::int64_t area_end = place.begin + static_cast<std::int64_t>(all.size());
   const std::int64_t count = amount_in(arguments, "count", 0);
   const std::int64_t first = place.at + amount_in(arguments, "offset", 0);
-  const std::int64_t begin = std::clamp<std::int64_t>(first, place.begin, place.end);
-  const std::int64_t end = std::clamp<std::int64_t>(first + std::max<std::int64_t>(count, 0), begin, place.end);
-  const auto bytes = bytes_at(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
-  if (!bytes.empty()) {  // to tell when it changes, an area is looked at as a whole
-    const auto reference = arguments["memoryReference"].get<std::string>();
-    read_[reference] = bytes_at(place.begin, place.end);
-  }
+  const std::int64_t begin = std::clamp<std::int64_t>(first, place.begin, area_end);
+  const std::int64_t end = std::clamp<std::int64_t>(first + std::max<std::int64_t>(count, 0), begin, area_end);
   Json body{{"address", address_text(begin)}};
   if (first + count > end) body["unreadableBytes"] = std::max<std::int64_t>(0, first + count - end);
-  if (!bytes.empty()) body["data"] = to_base64(bytes);
+  if (begin == end) return body;
+  body["data"] = to_base64(
+      std::span(all).subspan(static_cast<std::size_t>(begin - place.begin), static_cast<std::size_t>(end - begin)));
+  read_[arguments["memoryReference"].get<std::string>()] = all;  // to tell when it changes, an area is looked at as a whole
   return body;
+}
+
+void Session::write_image(const MemoryPlace& place, std::uint32_t first, const std::vector<std::uint8_t>& bytes) {
+  const auto area = std::ranges::find(all_areas(), place.begin, &AreaInfo::base);
+  SetMemory set;
+  for (std::uint32_t i = 0; i < bytes.size(); ++i)
+    set.assignments.push_back(
+        {{.area = area->area, .width = Width::Byte, .number = first + i - area->base, .at = first + i}, bytes[i]});
+  act(std::move(set));
+}
+
+/// Of the logic stack: a byte is a level.
+void Session::write_levels(const MemoryPlace& place, std::uint32_t first, const std::vector<std::uint8_t>& bytes) {
+  if (place.open != 0) throw Refused("only the logic stack of the routine that runs can be set; the others wait");
+  if (!standing_at(cpu().state())) throw Refused("no program runs now whose logic stack could be set");
+  std::uint16_t bits = cpu().state().stack.bits();
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    if (bytes[i] > 1) throw Refused(fmt::format("a level of the logic stack is 0 or 1, not {}", bytes[i]));
+    const unsigned level = first - place.begin + static_cast<unsigned>(i);
+    bits = static_cast<std::uint16_t>((bits & ~(1u << level)) | static_cast<unsigned>(bytes[i]) << level);
+  }
+  act(SetStack{LogicStack::from_bits(bits)});
 }
 
 Json Session::write_memory(const Json& arguments) {
   const MemoryPlace place = memory_at(arguments, cpu().program());
-  const auto bytes = from_base64(arguments.at("data").get<std::string>());
+  auto bytes = from_base64(arguments.at("data").get<std::string>());
   if (!bytes) throw Refused("data is not base64");
+  if (place.owner == Owner::SavedAccumulators)
+    throw Refused("the accumulators that an interrupted routine will find again cannot be set");
   const std::int64_t first = place.at + amount_in(arguments, "offset", 0);
-  const bool partial = arguments.value("allowPartial", false);
   const std::int64_t room = first < place.begin ? 0 : std::max<std::int64_t>(0, place.end - first);
-  const auto count = std::min(static_cast<std::int64_t>(bytes->size()), room);
-  if (count < static_cast<std::int64_t>(bytes->size()) && !partial)
-    throw Refused(fmt::format("{} bytes from there run past the end of the area", bytes->size()));
-  SetMemory set;
-  for (const AreaInfo& area : all_areas()) {
-    if (area.base != place.begin) continue;
-    for (std::int64_t i = 0; i < count; ++i) {
-      const auto at = static_cast<std::uint32_t>(first + i);
-      set.assignments.push_back({{.area = area.area, .width = Width::Byte, .number = at - area.base, .at = at},
-                                 (*bytes)[static_cast<std::size_t>(i)]});
-    }
+  if (static_cast<std::int64_t>(bytes->size()) > room) {
+    if (!arguments.value("allowPartial", false))
+      throw Refused(fmt::format("{} bytes from there run past the end of the area", bytes->size()));
+    bytes->resize(static_cast<std::size_t>(room));
   }
-  act(std::move(set));
-  return {{"bytesWritten", count}};
+  if (place.owner == Owner::LogicStack)
+    write_levels(place, static_cast<std::uint32_t>(first), *bytes);
+  else
+    write_image(place, static_cast<std::uint32_t>(first), *bytes);
+  return {{"bytesWritten", bytes->size()}};
 }
 
 MemoryRange Session::range_for(const std::string& expression) const {
@@ -91,12 +106,22 @@ Json Session::assign(const std::string& expression, const std::string& value) {
   return body;
 }
 
+Json Session::set_level(const Variable& level, const std::string& value) {
+  const auto bit = parse_decimal<std::uint8_t>(stl::trim(value));
+  if (!bit || *bit > 1) throw Refused(fmt::format("'{}' is not a level of the logic stack: 0 or 1", stl::shortened(value)));
+  const auto place = find_memory(level.memory, cpu().program());
+  write_levels(*place, place->at, {*bit});
+  return {{"value", std::to_string(*bit)}, {"type", level.type}, {"memoryReference", level.memory}};
+}
+
 Json Session::set_variable(const Json& arguments) {
   const auto name = arguments.at("name").get<std::string>();
   const auto container = arguments.at("variablesReference").get<Container>();
   for (const Variable& variable : variables_of(debuggee_->simulation(), debuggee_->history(), container))
-    if (variable.name == name && !variable.expression.empty())
-      return assign(variable.expression, arguments.at("value").get<std::string>());
+    if (variable.name == name && variable.settable) {
+      const auto value = arguments.at("value").get<std::string>();
+      return variable.expression.empty() ? set_level(variable, value) : assign(variable.expression, value);
+    }
   throw Refused(fmt::format("'{}' cannot be set", stl::shortened(name)));
 }
 
@@ -133,15 +158,17 @@ void Session::report_memory_changes() {
   if (!client_takes_memory_events_) return;
   for (auto& [reference, before] : read_) {
     const auto place = find_memory(reference, cpu().program());
-    const auto now = bytes_at(place->begin, place->end);
-    const auto first = std::ranges::mismatch(before, now).in1 - before.begin();
-    if (first == static_cast<std::ptrdiff_t>(now.size())) continue;
-    std::size_t last = now.size() - 1;
-    while (before[last] == now[last]) --last;
+    auto now = bytes_of(*place, cpu().state());
+    const std::size_t size = std::max(before.size(), now.size());  // one of them is none: the routine is not open
+    const auto same = [&](std::size_t i) { return i < before.size() && i < now.size() && before[i] == now[i]; };
+    std::size_t first = 0, last = size;
+    while (first < size && same(first)) ++first;
+    if (first == size) continue;
+    while (same(last - 1)) --last;
     send_event("memory", {{"memoryReference", reference},
-                          {"offset", static_cast<std::int64_t>(place->begin) + first - place->at},
-                          {"count", static_cast<std::int64_t>(last) - first + 1}});
-    before = now;
+                          {"offset", std::int64_t{place->begin} + static_cast<std::int64_t>(first) - place->at},
+                          {"count", last - first}});
+    before = std::move(now);
   }
 }
 

@@ -22,7 +22,7 @@ Json to_json(const Variable& variable) {
   if (!variable.type.empty()) json["type"] = variable.type;
   if (!variable.expression.empty()) json["evaluateName"] = variable.expression;
   if (!variable.memory.empty()) json["memoryReference"] = variable.memory;
-  if (variable.expression.empty()) json["presentationHint"] = {{"attributes", Json::array({"readOnly"})}};
+  if (!variable.settable) json["presentationHint"] = {{"attributes", Json::array({"readOnly"})}};
   return json;
 }
 
@@ -35,7 +35,8 @@ std::string number_text(const Value& value) {
   return value.real ? fmt::format("{:.7g}", value.number) : fmt::format("{:.0f}", value.number);
 }
 
-constexpr std::string_view kCommands[] = {"set", "send", "force", "unforce", "who", "history", "timeline", "help"};
+constexpr std::string_view kCommands[] = {"set", "send", "fault",   "force",    "unforce",
+                                          "who", "why",  "history", "timeline", "help"};
 constexpr std::string_view kForms[] = {"VB", "VW", "VD", "MB", "MW", "MD", "IB", "IW", "QB", "QW", "SMB", "SMW", "AC", "LB"};
 
 }  // namespace
@@ -75,7 +76,7 @@ Json Session::stack_trace(const Json& arguments) {
 Json Session::scopes(const Json& arguments) {
   const auto frame = arguments.at("frameId").get<std::uint32_t>();
   Json scopes = Json::array();
-  for (const Scope& scope : scopes_of(*cpu().program().model, frame == 0 ? 0 : frame - 1)) {
+  for (const Scope& scope : scopes_of(debuggee_->simulation(), frame == 0 ? 0 : frame - 1)) {
     Json json{{"name", scope.name}, {"variablesReference", scope.variables}, {"expensive", false}};
     if (scope.registers) json["presentationHint"] = "registers";
     if (!scope.memory.empty()) json["memoryReference"] = scope.memory;

@@ -68,6 +68,12 @@ Json Session::step_scan(const Json& arguments) {
   return {};
 }
 
+Json Session::step_interrupt(const Json& arguments) {
+  run_to(arguments.value("end", false) ? goal::interrupt_ends(cpu().state()) : goal::interrupt_begins(cpu().program()),
+         "step");
+  return {};
+}
+
 Json Session::pause(const Json&) {
   if (runs()) pause_asked_ = true;
   return {};
@@ -134,6 +140,13 @@ Json Session::reverse_step_out(const Json&) {
 
 Json Session::reverse_step_scan(const Json& arguments) {
   run_back(goal::back_scan(), count_in(arguments), false);
+  return {};
+}
+
+Json Session::reverse_step_interrupt(const Json& arguments) {
+  const Program& program = cpu().program();
+  run_back(arguments.value("end", false) ? goal::back_interrupt_ends(program) : goal::back_interrupt_begins(program), 1,
+           false);
   return {};
 }
 

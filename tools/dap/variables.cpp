@@ -9,8 +9,10 @@
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/errors.hpp"
+#include "interpreter/model/ports.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/text_trace.hpp"
+#include "tools/dap/addresses.hpp"
 #include "tools/debugger/call_stack.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/report.hpp"
@@ -26,7 +28,6 @@ constexpr Container kWhich = (1u << kKindShift) - 1;
 constexpr Container container(Kind kind, Container which) { return kind << kKindShift | which; }
 
 constexpr std::uint32_t kBlockSize = 256;  // bytes of V memory
-constexpr std::uint32_t kMostOpen = 32;
 
 constexpr Area kShown[] = {Area::I, Area::Q, Area::M,  Area::V,  Area::SM, Area::S,
                            Area::T, Area::C, Area::HC, Area::AI, Area::AQ, Area::L};
@@ -47,14 +48,18 @@ std::vector<Variable> logic_stack(const State& state, Container open) {
   const LogicStack stack = open < routines.size() ? routines[open].stack : state.stack;
   std::vector<Variable> levels;
   for (int level = 0; level < LogicStack::kLevels; ++level)
-    levels.push_back({.name = fmt::format("S{}", level), .value = stack.level(level) ? "1" : "0", .type = "BOOL"});
+    levels.push_back({.name = fmt::format("S{}", level),
+                      .value = stack.level(level) ? "1" : "0",
+                      .type = "BOOL",
+                      .memory = level_reference(open, static_cast<std::uint32_t>(level)),
+                      .settable = open == 0});
   return levels;
 }
 
 /// Of an interrupted routine they are those that it will find again, and cannot be set.
 std::vector<Variable> accumulators(const Cpu& cpu, Container open) {
   const auto routines = open_routines(cpu.state());
-  const bool saved = open < routines.size() && routines[open].accumulators != routines[0].accumulators;
+  const bool saved = open < routines.size() && routines[open].interrupted;
   std::vector<Variable> all;
   for (std::uint32_t i = 0; i < cpu.program().model->size_of(Area::AC); ++i) {
     const std::string name = fmt::format("AC{}", i);
@@ -212,17 +217,26 @@ std::vector<Variable> runtime(const Cpu& cpu, const History& history) {
 
 }  // namespace
 
-std::vector<Scope> scopes_of(const CpuModel& model, std::uint32_t open) {
-  const std::uint32_t frame = std::min(open, kMostOpen);
-  std::vector<Scope> scopes{{.name = "Logic stack", .variables = container(kLogicStack, frame)},
-                            {.name = "AC", .variables = container(kAccumulators, frame), .memory = "AC", .registers = true}};
+std::vector<Scope> scopes_of(const serial::Simulation& simulation, std::uint32_t open) {
+  const State& state = simulation.cpu().state();
+  const CpuModel& model = *simulation.cpu().program().model;
+  const std::uint32_t frame = std::min(open, kMostOpen - 1);
+  const auto routines = open_routines(state);
+  const bool interrupted = frame < routines.size() && routines[frame].interrupted;
+  std::vector<Scope> scopes{
+      {.name = "Logic stack", .variables = container(kLogicStack, frame), .memory = stack_reference(frame)},
+      {.name = "AC",
+       .variables = container(kAccumulators, frame),
+       .memory = accumulators_reference(frame, interrupted),
+       .registers = true}};
   for (const Area area : kShown)
     if (model.size_of(area) != 0)
       scopes.push_back({.name = std::string(info(area).name),
                         .variables = container(kArea, static_cast<Container>(area)),
                         .memory = std::string(info(area).name)});
-  scopes.push_back({.name = "Port", .variables = container(kPort, 0)});
-  scopes.push_back({.name = "Runtime", .variables = container(kRuntime, 0)});
+  const std::uint32_t control = kPorts[simulation.port()].control - image::kSM;
+  scopes.push_back({.name = "Port", .variables = container(kPort, 0), .memory = fmt::format("SMB{}", control)});
+  scopes.push_back({.name = "Runtime", .variables = container(kRuntime, 0), .memory = "SMB0"});
   return scopes;
 }
 
@@ -254,7 +268,8 @@ Variable variable_of(const Cpu& cpu, const MemoryRange& range, const std::string
           .value = value_text(cpu.program(), range, range.bytes_in(cpu.state().image)),
           .type = std::string(type_of(range)),
           .expression = name.substr(0, name.find(' ')),
-          .memory = range.name_of(0)};
+          .memory = range.name_of(0),
+          .settable = true};
 }
 
 std::vector<std::string> addresses_in(const Program& program) {

@@ -17,9 +17,10 @@ struct Variable {
   std::string name{};
   std::string value{};
   std::string type{};
-  std::string expression{};  ///< that gives it; empty: none does, and it cannot be set
+  std::string expression{};  ///< that gives it; empty: none does
   std::string memory{};      ///< where it is; empty: not in memory
   Container parts = kNoParts;
+  bool settable = false;
 };
 
 struct Scope {
@@ -29,8 +30,9 @@ struct Scope {
   bool registers = false;
 };
 
-/// Of the routine number `open` from the innermost; what all have in common is in each.
-std::vector<Scope> scopes_of(const CpuModel& model, std::uint32_t open);
+/// Of the routine number `open` from the innermost; what all have in common is in each. What a port and the system have of
+/// memory is special memory: theirs begins at the port's control byte, and at SMB0.
+std::vector<Scope> scopes_of(const serial::Simulation& simulation, std::uint32_t open);
 
 /// Nothing for what is not a container.
 std::vector<Variable> variables_of(const serial::Simulation& simulation, const History& history, Container container);

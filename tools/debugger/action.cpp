@@ -26,6 +26,13 @@ struct Doer {
   void operator()(const Jump& jump) const {
     if (jump.to < simulation.cpu().program().ops.size()) simulation.cpu().go_to(jump.to);
   }
+  void operator()(const InjectFault& inject) const {
+    if (inject.fault)
+      simulation.inject(*inject.fault);
+    else
+      simulation.clear_faults();
+  }
+  void operator()(const SetStack& set) const { simulation.cpu().set_stack(set.stack); }
   void operator()(const serial::HostCall& call) const { simulation.host_port().repeat(call, simulation.time()); }
 };
 
@@ -47,6 +54,10 @@ struct Teller {
   }
   std::string operator()(const SendFrame& send) const { return "send " + serial::to_hex(send.request.frame); }
   std::string operator()(const Jump&) const { return "goto"; }
+  std::string operator()(const InjectFault& inject) const {
+    return "fault " + (inject.fault ? serial::to_text(*inject.fault) : "none");
+  }
+  std::string operator()(const SetStack&) const { return "set the logic stack"; }
   std::string operator()(const serial::HostCall&) const { return "the other end of the bridge"; }
 };
 

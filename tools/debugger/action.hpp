@@ -1,11 +1,13 @@
 // What is done to a simulation from outside, as plain data: so that it can be done again, at the same moment.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "interpreter/program/address.hpp"
+#include "serial_sim/faults/fault.hpp"
 #include "serial_sim/system/simulation.hpp"
 
 namespace s7200::tools {
@@ -34,7 +36,17 @@ struct Jump {
   std::uint32_t to = 0;
 };
 
-using Action = std::variant<SetMemory, SendFrame, Jump, serial::HostCall, Force, Unforce>;
+/// A fault of the line from now on, or none any more.
+struct InjectFault {
+  std::optional<serial::Fault> fault{};
+};
+
+/// The logic stack of the routine that runs is another one. No programming device can do that either.
+struct SetStack {
+  LogicStack stack{};
+};
+
+using Action = std::variant<SetMemory, SendFrame, Jump, serial::HostCall, Force, Unforce, SetStack, InjectFault>;
 
 void perform(const Action& action, serial::Simulation& simulation);
 

@@ -20,7 +20,8 @@ std::vector<OpenRoutine> open_routines(const State& state) {
     for (std::size_t depth = from; depth > to; --depth)
       open.push_back({.op = state.calls[depth - 1].return_to - 1,
                       .stack = state.calls[depth - 1].stack,
-                      .accumulators = open.back().accumulators});
+                      .accumulators = open.back().accumulators,
+                      .interrupted = open.back().interrupted});
   };
   if (!state.in_interrupt) {
     add_callers(state.call_depth, 0);
@@ -30,7 +31,10 @@ std::vector<OpenRoutine> open_routines(const State& state) {
   open.back().event = state.serving_event;
   open.back().since = state.serving_since;
   if (state.phase != Phase::Program) return open;
-  open.push_back({.op = state.saved.return_to, .stack = state.saved.stack, .accumulators = state.saved.accumulators});
+  open.push_back({.op = state.saved.return_to,
+                  .stack = state.saved.stack,
+                  .accumulators = state.saved.accumulators,
+                  .interrupted = true});
   add_callers(state.saved.call_depth, 0);
   return open;
 }

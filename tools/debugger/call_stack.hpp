@@ -13,6 +13,7 @@ struct OpenRoutine {
   std::uint32_t op = 0;  ///< the next instruction, of a caller its CALL
   LogicStack stack{};
   std::array<std::uint8_t, 16> accumulators{};  ///< as in the image
+  bool interrupted = false;                     ///< the accumulators are those that it will find again
   std::optional<std::uint8_t> event{};          ///< of an interrupt routine: what it serves
   Time since = 0;                               ///< of an interrupt routine: when it began
 };

@@ -22,6 +22,7 @@
 #include "tools/debugger/access.hpp"
 #include "tools/debugger/attachment.hpp"
 #include "tools/debugger/history.hpp"
+#include "tools/debugger/last_decision.hpp"
 #include "tools/debugger/last_executions.hpp"
 #include "tools/debugger/last_write.hpp"
 #include "tools/debugger/session_file.hpp"
@@ -113,6 +114,8 @@ class Debugger {
   Error step(const Arguments& arguments);
   Error over(const Arguments& arguments);
   Error out(const Arguments& arguments);
+  Error network(const Arguments& arguments);
+  Error interrupt(const Arguments& arguments);
   Error scan(const Arguments& arguments);
   Error continue_run(const Arguments& arguments);
   Error until(const Arguments& arguments);
@@ -129,18 +132,23 @@ class Debugger {
   Error force(const Arguments& arguments);
   Error unforce(const Arguments& arguments);
   Error send(const Arguments& arguments);
+  Error fault(const Arguments& arguments);
   Error port(const Arguments& arguments);
   Error errors(const Arguments& arguments);
   Error back(const Arguments& arguments);
   Error back_step(const Arguments& arguments);
   Error back_over(const Arguments& arguments);
   Error back_out(const Arguments& arguments);
+  Error back_network(const Arguments& arguments);
+  Error back_interrupt(const Arguments& arguments);
   Error back_scan(const Arguments& arguments);
   Error back_continue(const Arguments& arguments);
   Error back_until(const Arguments& arguments);
   Error at(const Arguments& arguments);
   Error who(const Arguments& arguments);
   Error back_to_write(const Arguments& arguments);
+  Error why(const Arguments& arguments);
+  Error back_to_decision(const Arguments& arguments);
   Error history(const Arguments& arguments);
   Error branch(const Arguments& arguments);
   Error past(const Arguments& arguments);
@@ -172,6 +180,7 @@ class Debugger {
   void note_the_past();
   std::optional<LastWrite> find_write(const MemoryRange& range, std::string_view name);
   std::optional<LastAttachment> find_attachment(std::uint8_t event);
+  std::optional<LastDecision> find_decision();
   void go_to(const Moment& moment);
   void report_write(const LastWrite& write, const MemoryRange& range, std::string_view name);
   std::optional<MemoryRange> one_range(const Arguments& arguments, std::string_view command, std::string& why) const;

@@ -35,6 +35,10 @@ const std::vector<Debugger::Command>& Debugger::commands() {
       {"over", "o", "over", "execute one instruction; a CALL with all that it calls, interrupts in between too",
        "Breakpoints and watches inside still stop.", &Debugger::over, true},
       {"out", "u", "out", "run to the end of the subroutine or interrupt routine", "", &Debugger::out, true},
+      {"network", "nw", "network", "run to the next network of this routine; a CALL with all that it calls, as 'over'", "",
+       &Debugger::network, true},
+      {"interrupt", "int", "interrupt [begins | ends]", "run until the next interrupt routine begins, or the next one ends",
+       "It stands in front of its first instruction, or in front of the first one after it.", &Debugger::interrupt, true},
       {"scan", "n", "scan [n]", "run to the start of the next scan's program, or of the nth", "", &Debugger::scan, true},
       {"continue", "c", "continue [TIME]", "run until a breakpoint, a watch, an answer, STOP, or TIME has passed (10 s)",
        "TIME is simulated: 250ms, 2s, 1min. It ends in front of the first instruction after it. Ctrl-C stops it too.",
@@ -51,6 +55,10 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        kBackwards, &Debugger::back_over, true},
       {"rout", "ru", "rout", "back to the CALL of this subroutine, or to what this interrupt routine interrupted",
        kBackwards, &Debugger::back_out, true},
+      {"rnetwork", "rnw", "rnetwork", "back to the start of this network, or of the one before", kBackwards,
+       &Debugger::back_network, true},
+      {"rinterrupt", "ri", "rinterrupt [begins | ends]", "back to where an interrupt routine last began, or ended",
+       kBackwards, &Debugger::back_interrupt, true},
       {"rscan", "rn", "rscan [n]", "back to the start of the scan's program, then of the one before, or of the nth",
        kBackwards, &Debugger::back_scan, true},
       {"rcontinue", "rc", "rcontinue", "back to the last breakpoint, change of a watch, or end of an answer", kBackwards,
@@ -68,6 +76,12 @@ const std::vector<Debugger::Command>& Debugger::commands() {
       {"rwho", "rw", "rwho ADDRESS | event N", "back to in front of the instruction that 'who' names",
        "rwho event 8 goes to where the program last changed which routine gets the characters: where it dropped a frame.",
        &Debugger::back_to_write, true},
+      {"why", "", "why", "what decided that it has come here: contacts, a jump or a conditional return, without going there",
+       "The contacts of this rung, or what the main program or the interrupt routine came by last, with operand values.",
+       &Debugger::why},
+      {"rwhy", "ry", "rwhy", "back to in front of the instruction that 'why' names",
+       "In front of a jump or conditional return, after the contacts that decide on it: 'history' shows them.",
+       &Debugger::back_to_decision, true},
       {"history", "", "history [n]", "the last 10 instructions before now, or n, with their operands and comments", "",
        &Debugger::history},
       {"fork", "", "fork", "forget what has run after this moment: going forward is new from here on",
@@ -161,6 +175,12 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "while it "
        "arrives and stops when the answer is complete.",
        &Debugger::send},
+      {"fault", "", "fault KIND[:PARAMETER=VALUE,…] | none", "a fault of the line from now on, or none any more",
+       "As --fault of 's7200 run': fault flip:character=3,bit=5, fault noise:error-rate=0.001, fault cut:from=2ms. It "
+       "counts "
+       "exchanges "
+       "and times from now; 's7200 run --help' has all kinds. Going back undoes it.",
+       &Debugger::fault},
       {"help", "h", "help [COMMAND]", "this list, or more about a command", "", &Debugger::help},
       {"quit", "q", "quit", "end", "", &Debugger::quit},
   };
@@ -207,6 +227,20 @@ Debugger::Error Debugger::out(const Arguments& arguments) {
     return {};
   }
   go({.goal = goal::out(now)});
+  return {};
+}
+
+Debugger::Error Debugger::network(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("network");
+  go({.goal = goal::network_over(simulation_.cpu().state(), listing_)});
+  return {};
+}
+
+Debugger::Error Debugger::interrupt(const Arguments& arguments) {
+  const auto ends = wants_end(arguments);
+  if (!ends) return expects("interrupt", kBeginsOrEnds);
+  const Cpu& cpu = simulation_.cpu();
+  go({.goal = *ends ? goal::interrupt_ends(cpu.state()) : goal::interrupt_begins(cpu.program())});
   return {};
 }
 
@@ -415,6 +449,21 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
                       format_text(format));
   if (!simulation_.freeport().active)
     out_ << fmt::format("port {} is not in Freeport mode: the program will not hear it\n", simulation_.port());
+  return {};
+}
+
+Debugger::Error Debugger::fault(const Arguments& arguments) {
+  if (arguments.empty()) return expects("fault", "a fault of the line, for example: fault flip:character=3,bit=5, or none");
+  const std::string text = joined(arguments);
+  if (lower_case(text) == "none") {
+    act(InjectFault{});
+    out_ << "the line has no fault any more\n";
+    return {};
+  }
+  const serial::ParsedFault parsed = serial::parse_fault(text);
+  if (!parsed.ok()) return fmt::format("fault, column {}: {}", parsed.error->column, parsed.error->message);
+  act(InjectFault{parsed.fault});
+  out_ << fmt::format("on the line from now on: {}\n", serial::to_text(parsed.fault));
   return {};
 }
 

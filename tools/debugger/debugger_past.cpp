@@ -57,6 +57,20 @@ Debugger::Error Debugger::back_out(const Arguments& arguments) {
   return {};
 }
 
+Debugger::Error Debugger::back_network(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("rnetwork");
+  go_back(goal::back_network_over(simulation_.cpu().state(), listing_), 1);
+  return {};
+}
+
+Debugger::Error Debugger::back_interrupt(const Arguments& arguments) {
+  const auto ends = wants_end(arguments);
+  if (!ends) return expects("rinterrupt", kBeginsOrEnds);
+  const Program& program = simulation_.cpu().program();
+  go_back(*ends ? goal::back_interrupt_ends(program) : goal::back_interrupt_begins(program), 1);
+  return {};
+}
+
 Debugger::Error Debugger::back_scan(const Arguments& arguments) {
   const auto count = parse_count(arguments);
   if (!count) return expects("rscan", "how many scans, for example: rscan 3");
@@ -164,6 +178,29 @@ Debugger::Error Debugger::history(const Arguments& arguments) {
   for (const InstructionRecord& record : last_instructions(history_, *count, options_.stop_request))
     out_ << fmt::format("{}  {:<7} {}\n", clock_text(record.at), listing_.routine_of(record.op),
                         execution_text(record, simulation_.cpu().program()));
+  return {};
+}
+
+std::optional<LastDecision> Debugger::find_decision() {
+  const DecisionSearch search = find_last_decision(simulation_, history_, options_.stop_request);
+  if (search.interrupted)
+    out_ << "interrupted by Ctrl-C\n";
+  else if (search.decision)
+    out_ << fmt::format("{}  {}\n", moment_text(search.decision->by.at), search.decision->text);
+  else
+    out_ << "nothing has decided that it comes here: no contact, no jump and no conditional return so far\n";
+  return search.decision;
+}
+
+Debugger::Error Debugger::why(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("why");
+  find_decision();
+  return {};
+}
+
+Debugger::Error Debugger::back_to_decision(const Arguments& arguments) {
+  if (!arguments.empty()) return no_argument("rwhy");
+  if (const auto decision = find_decision()) go_to(decision->moment);
   return {};
 }
 

@@ -6,6 +6,14 @@ namespace s7200::tools::goal {
 
 using Progress = Stepper::Progress;
 
+namespace {
+
+bool is_interrupt_head(const Program& program, std::uint32_t op) {
+  return program.ops[op].instruction->structure == Structure::InterruptHead;
+}
+
+}  // namespace
+
 Stepper::Goal none() {
   return [](const State&, std::uint32_t, const Progress&) { return false; };
 }
@@ -53,6 +61,21 @@ Stepper::Goal network_into(const Listing& listing) {
   };
 }
 
+Stepper::Goal interrupt_begins(const Program& program) {
+  return [&program](const State&, std::uint32_t op, const Progress& progress) {
+    return progress.executed > 0 && is_interrupt_head(program, op);
+  };
+}
+
+Stepper::Goal interrupt_ends(const State& now) {
+  return [inside = now.in_interrupt, since = now.serving_since](const State& state, std::uint32_t, const Progress&) mutable {
+    const bool ended = inside && (!state.in_interrupt || state.serving_since != since);
+    inside = state.in_interrupt;
+    since = state.serving_since;
+    return ended;
+  };
+}
+
 Stepper::Goal back_instruction() {
   return [](const State&, std::uint32_t, const Progress&) { return true; };
 }
@@ -91,6 +114,19 @@ Stepper::Goal back_network_over(const State& now, const Listing& listing) {
 
 Stepper::Goal back_network_into(const Listing& listing) {
   return [&listing](const State&, std::uint32_t op, const Progress&) { return listing.begins_network(op); };
+}
+
+Stepper::Goal back_interrupt_begins(const Program& program) {
+  return [&program](const State&, std::uint32_t op, const Progress&) { return is_interrupt_head(program, op); };
+}
+
+Stepper::Goal back_interrupt_ends(const Program& program) {
+  return [&program](const State& state, std::uint32_t op, const Progress&) {
+    const Instruction& instruction = *program.ops[op].instruction;
+    if (instruction.structure == Structure::InterruptEnd) return true;
+    return state.in_interrupt && state.call_depth == state.saved.call_depth &&
+           instruction.effect == Effect::ConditionalEnd && state.stack.top();
+  };
 }
 
 }  // namespace s7200::tools::goal

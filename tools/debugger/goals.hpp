@@ -28,6 +28,11 @@ Stepper::Goal place(std::uint32_t op);
 Stepper::Goal network_over(const State& now, const Listing& listing);
 Stepper::Goal network_into(const Listing& listing);
 
+/// The first instruction of the next interrupt routine, or the first one after the next that ends. The program has to live
+/// as long as the goal.
+Stepper::Goal interrupt_begins(const Program& program);
+Stepper::Goal interrupt_ends(const State& now);
+
 // Backwards; each may be met several times.
 
 Stepper::Goal back_instruction();
@@ -42,5 +47,9 @@ Stepper::Goal back_scan();
 /// To first instructions of networks, as network_over() and network_into().
 Stepper::Goal back_network_over(const State& now, const Listing& listing);
 Stepper::Goal back_network_into(const Listing& listing);
+
+/// To first instructions of interrupt routines, or to those that ended them.
+Stepper::Goal back_interrupt_begins(const Program& program);
+Stepper::Goal back_interrupt_ends(const Program& program);
 
 }  // namespace s7200::tools::goal

@@ -83,6 +83,10 @@ struct Writer {
     return {{"unforce", places}};
   }
   Json operator()(const Jump& jump) const { return {{"goto", jump.to}}; }
+  Json operator()(const InjectFault& inject) const {
+    return {{"fault", inject.fault ? serial::to_text(*inject.fault) : "none"}};
+  }
+  Json operator()(const SetStack& set) const { return {{"stack", set.stack.bits()}}; }
   Json operator()(const SendFrame& send) const {
     Json json{{"send", serial::to_hex(send.request.frame)},
               {"format", json_of(send.format)},
@@ -148,11 +152,21 @@ serial::HostCall call_from(const Json& json) {
   return call;
 }
 
+InjectFault fault_from(const std::string& text) {
+  if (text == "none") return {};
+  const serial::ParsedFault parsed = serial::parse_fault(text);
+  if (!parsed.ok()) throw std::runtime_error(parsed.error->message);
+  return {parsed.fault};
+}
+
 Action action_from(const Json& json, const CpuModel& model) {
   if (json.contains("set")) return SetMemory{assignments_from(json.at("set"), model)};
   if (json.contains("send")) return send_from(json);
   if (json.contains("host")) return call_from(json);
   if (json.contains("goto")) return Jump{json.at("goto").get<std::uint32_t>()};
+  if (json.contains("fault")) return fault_from(json.at("fault").get<std::string>());
+  if (json.contains("stack"))
+    return SetStack{LogicStack::from_bits(json.at("stack").get<std::uint64_t>() & LogicStack::kAll)};
   if (json.contains("force")) {
     Force force{assignments_from(json.at("force"), model)};
     for (const Assignment& assignment : force.assignments)

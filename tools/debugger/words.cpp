@@ -43,4 +43,10 @@ std::optional<std::uint32_t> parse_count(const std::vector<std::string>& argumen
   return arguments.size() == 1 && number && *number > 0 ? number : std::nullopt;
 }
 
+std::optional<bool> wants_end(const std::vector<std::string>& arguments) {
+  const std::string word = arguments.empty() ? "begins" : lower_case(joined(arguments));
+  if (word != "begins" && word != "ends") return {};
+  return word == "ends";
+}
+
 }  // namespace s7200::tools

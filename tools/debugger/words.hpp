@@ -26,4 +26,8 @@ std::string no_argument(std::string_view command);
 /// The optional `[n]` of a command: 1 when it is not there, nothing when it is not a number above 0 or more follows.
 std::optional<std::uint32_t> parse_count(const std::vector<std::string>& arguments);
 
+/// Of a step by interrupts: whether to its end. Its begin is meant if nothing is said; nothing for other words.
+std::optional<bool> wants_end(const std::vector<std::string>& arguments);
+inline constexpr std::string_view kBeginsOrEnds = "nothing, begins or ends";
+
 }  // namespace s7200::tools

@@ -79,6 +79,7 @@ const COMMANDS = {
   stepScan: [],
   reverseStepScan: [],
   reverseToLastWrite: ["expression", "An address, or an event: who wrote it, or attached it", "VW3300, or event 8"],
+  reverseToLastDecision: [],
   goToMoment: ["time", "A moment since power-up", "15.193ms, -5ms, start, end"],
   sendFrame: ["frame", "A frame in hex, or text in quotation marks", "01 03 00 0a 00 01 crc"],
   force: ["values", "What is to hold a value across scans", "I0.3=1 VW10=5"],

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 
 #include "tests/unit/dap/editor.hpp"
 #include "tools/dap/base64.hpp"
@@ -396,6 +397,47 @@ TEST(DapSession, EveryStepGoesBackToo) {
   EXPECT_TRUE(has(editor.last("stopped")["description"], "oldest moment"));
 }
 
+TEST(DapSession, StepsGoByInterruptsTooInBothDirections) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("stepInterrupt", {{"threadId", 1}});
+  EXPECT_EQ(editor.line(), 20);
+  editor("stepInterrupt", {{"threadId", 1}, {"end", true}});
+  EXPECT_FALSE(editor.state().in_interrupt);
+  editor("reverseStepInterrupt", {{"threadId", 1}, {"end", true}});
+  EXPECT_EQ(editor.line(), 23);
+  editor("reverseStepInterrupt", {{"threadId", 1}});
+  EXPECT_EQ(editor.line(), 20);
+}
+
+TEST(DapSession, WhatDecidedIsNamedAndReached) {
+  Editor editor("LD SM0.0\nAN I0.0\nJMP 1\nLD SM0.0\nINCW VW0\nLBL 1\nLD SM0.0\nINCW VW2\nMEND\n");
+  editor.begin();
+  EXPECT_TRUE(has(editor.error_of("lastDecision"), "nothing has decided"));
+  editor.lines({8});
+  editor("continue", {{"threadId", 1}});
+  EXPECT_TRUE(has(editor("evaluate", {{"expression", "why"}, {"context", "repl"}})["result"], "JMP 1 in line 3 (LD SM0.0"));
+  EXPECT_EQ(editor("lastDecision")["line"], 3);
+  EXPECT_EQ(editor.line(), 8);
+  editor("reverseToLastDecision", {{"threadId", 1}});
+  EXPECT_EQ(editor.line(), 3);
+  EXPECT_EQ(editor.last("stopped")["description"], "in front of what decided");
+}
+
+TEST(DapSession, AFaultOfTheLineBeginsNow) {
+  Editor editor("LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nENI\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n");
+  editor.begin();
+  editor("stepScan", {{"threadId", 1}, {"count", 3}});
+  EXPECT_EQ(editor("fault", {{"fault", "flip:bit=0"}})["text"], "on the line from now on: flip");
+  editor("sendFrame", {{"frame", "41"}});
+  editor("setDataBreakpoints", {{"breakpoints", Json::array({{{"dataId", "VB1"}}})}});
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(editor.value("VB1"), "16#40 (64)");
+  EXPECT_TRUE(has(editor.error_of("fault", {{"fault", "frob"}}), "fault, column 1"));
+  EXPECT_EQ(editor("evaluate", {{"expression", "fault none"}, {"context", "repl"}})["result"],
+            "the line has no fault any more");
+}
+
 TEST(DapSession, ReverseContinueGoesToTheLastStop) {
   Editor editor(kNested);
   editor.begin();
@@ -602,6 +644,78 @@ TEST(DapSession, MemoryIsReadWrittenAndToldOf) {
   bool told = false;
   for (std::size_t i = before; i < editor.messages.size(); ++i) told |= editor.messages[i].value("event", "") == "memory";
   EXPECT_TRUE(told) << "the program has written";
+}
+
+TEST(DapSession, EveryScopeHasMemoryThatIsReadAndToldOf) {
+  Editor editor(kNested);
+  editor.begin();
+  const Json scopes = editor("scopes", {{"frameId", 1}})["scopes"];
+  for (const Json& scope : scopes) {
+    ASSERT_TRUE(scope.contains("memoryReference")) << scope;
+    EXPECT_TRUE(editor("readMemory", {{"memoryReference", scope["memoryReference"]}, {"count", 1}}).contains("data"))
+        << scope;
+  }
+  const auto told = [&](const char* command) {
+    const std::size_t before = editor.messages.size();
+    editor(command, {{"threadId", 1}});
+    std::set<std::string> references;
+    for (std::size_t i = before; i < editor.messages.size(); ++i)
+      if (editor.messages[i].value("event", "") == "memory")
+        references.insert(editor.messages[i]["body"]["memoryReference"].get<std::string>());
+    return references;
+  };
+  EXPECT_TRUE(told("stepIn").contains("stack")) << "LD has pushed a level";
+  EXPECT_TRUE(told("stepScan").contains("SMB0")) << "the first scan is over";
+}
+
+TEST(DapSession, TheLogicStackIsMemoryOfNineLevelsAndThatOfWhatRunsCanBeSet) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("setFunctionBreakpoints", {{"breakpoints", Json::array({{{"name", "SBR 1"}}})}});
+  editor("continue", {{"threadId", 1}});
+  editor("stepIn", {{"threadId", 1}});
+  editor("stepIn", {{"threadId", 1}});
+  ASSERT_EQ(editor.line(), 10);
+  const auto levels = [&](const char* reference) {
+    return *from_base64(editor("readMemory", {{"memoryReference", reference}, {"count", 9}})["data"].get<std::string>());
+  };
+  EXPECT_EQ(levels("stack"), (std::vector<std::uint8_t>{1, 1, 0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(levels("stack:1"), (std::vector<std::uint8_t>{1, 0, 0, 0, 0, 0, 0, 0, 0})) << "of the caller";
+  EXPECT_EQ(editor("writeMemory", {{"memoryReference", "stack"}, {"data", "AA=="}})["bytesWritten"], 1);
+  EXPECT_EQ(editor.last("memory")["memoryReference"], "stack");
+  EXPECT_EQ(variable(editor, "Logic stack", "S0")["value"], "0");
+  editor("stepIn", {{"threadId", 1}});
+  EXPECT_EQ(editor.value("SMB34"), "16#00 (0)") << "MOVB had no power flow";
+  const Json scope = editor("scopes", {{"frameId", 1}})["scopes"][0];
+  const Json set =
+      editor("setVariable", {{"variablesReference", scope["variablesReference"]}, {"name", "S0"}, {"value", "1"}});
+  EXPECT_EQ(set["value"], "1");
+  EXPECT_TRUE(editor.state().stack.top());
+  EXPECT_EQ(levels(set["memoryReference"].get<std::string>().c_str()).size(), 9u);
+  EXPECT_TRUE(has(
+      editor.error_of("setVariable", {{"variablesReference", scope["variablesReference"]}, {"name", "S0"}, {"value", "2"}}),
+      "0 or 1"));
+  EXPECT_TRUE(has(editor.error_of("writeMemory", {{"memoryReference", "stack"}, {"data", "Ag=="}}), "is 0 or 1, not 2"));
+  EXPECT_TRUE(has(editor.error_of("writeMemory", {{"memoryReference", "stack:1"}, {"data", "AA=="}}), "the others wait"));
+  EXPECT_TRUE(has(editor.error_of("readMemory", {{"memoryReference", "stack:99"}, {"count", 1}}), "is not memory"));
+  EXPECT_EQ(editor("readMemory", {{"memoryReference", "stack:7"}, {"count", 9}})["unreadableBytes"], 9);
+  editor("stepBack", {{"threadId", 1}});
+  EXPECT_FALSE(editor.state().stack.top()) << "going back undoes it";
+}
+
+TEST(DapSession, TheAccumulatorsThatAnInterruptedRoutineWillFindAgainAreMemoryToo) {
+  Editor editor(
+      "LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nLD SM0.0\nMOVD 16#0A0B0C0D, AC0\n"
+      "FOR VW0, 1, 5000\nLD SM0.0\nINCW VW4\nNEXT\nMEND\nINT 0\nLD SM0.0\nMOVD 5, AC0\nRETI\n");
+  editor.begin();
+  editor.lines({15});
+  editor("continue", {{"threadId", 1}});
+  ASSERT_EQ(editor("stackTrace", {{"threadId", 1}})["stackFrames"].size(), 2u);
+  const Json scope = editor("scopes", {{"frameId", 2}})["scopes"][1];
+  EXPECT_EQ(scope["memoryReference"], "AC:1");
+  EXPECT_EQ(editor("readMemory", {{"memoryReference", "AC:1"}, {"count", 4}})["data"], "CgsMDQ==");
+  EXPECT_EQ(editor("readMemory", {{"memoryReference", "AC"}, {"count", 4}})["data"], "AAAABQ==");
+  EXPECT_TRUE(has(editor.error_of("writeMemory", {{"memoryReference", "AC:1"}, {"data", "AA=="}}), "cannot be set"));
 }
 
 TEST(DapSession, TheConsoleHasWordsForWhatTheEditorHasNone) {

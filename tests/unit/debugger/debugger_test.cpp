@@ -81,6 +81,61 @@ TEST(Debugger, ScanStopsAtTheFirstInstructionOfThatScan) {
   EXPECT_FALSE(session.state().in_interrupt);
 }
 
+TEST(Debugger, NetworkStepsOverNetworksOfTheRoutineInBothDirections) {
+  Session session(
+      "NETWORK 1\nLD SM0.0\nCALL 1\nNETWORK 2\nLD SM0.0\nINCW VW0\nNETWORK 3\nLD SM0.0\nINCW VW2\nMEND\n"
+      "SBR 1\nNETWORK 4\nLD SM0.0\nINCW VW4\nRET\n");
+  session("step; network");
+  EXPECT_EQ(session.line(), 5u) << "what is called belongs to it";
+  session("network");
+  EXPECT_EQ(session.line(), 8u);
+  session("rnetwork");
+  EXPECT_EQ(session.line(), 5u);
+  session("rnetwork");
+  EXPECT_EQ(session.line(), 2u);
+}
+
+TEST(Debugger, InterruptRunsToWhereTheNextOneBeginsOrEndsAndBack) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("interrupt"), "INT 0 for event 10"));
+  EXPECT_EQ(session.line(), 19u);
+  const Time begun = session.simulation.time();
+  session("interrupt ends");
+  EXPECT_FALSE(session.state().in_interrupt);
+  EXPECT_EQ(session.vw(30), 1u);
+  session("interrupt; interrupt");
+  EXPECT_EQ(session.vw(30), 2u) << "the third has not counted yet";
+  session("rinterrupt ends");
+  EXPECT_EQ(session.line(), 22u) << "in front of its RETI";
+  EXPECT_EQ(session.vw(30), 2u);
+  session("rinterrupt; rinterrupt");
+  EXPECT_EQ(session.line(), 19u);
+  EXPECT_EQ(session.simulation.time(), begun);
+  EXPECT_EQ(session.error_of("interrupt now"), "interrupt expects nothing, begins or ends");
+}
+
+TEST(Debugger, OfAnOverflowingQueueAndOfTheEndOfRcvItStopsToo) {
+  Session busy("LD SM0.1\nMOVB 16#09, SMB30\nATCH 0, 8\nLD SM0.0\nINCW VW0\nMEND\nINT 0\nRETI\n");
+  EXPECT_TRUE(
+      has(busy("break overflow; scan 3; send 01 02 03 04 05 06; continue"), "breakpoint 1, overflow, hit for the first"));
+  Session receiving(
+      check_text("LD SM0.1\nMOVB 9, SMB30\nLD V0.0\nEU\nRCV VB100, 0\nMEND\n", "test.stl", cpu224(), default_times(cpu224()))
+          .program);
+  receiving("scan 3; set SMB87=16#90 SMB94=4 V0.0=1; scan 2; break rcv; send 01 02 03 04");
+  EXPECT_TRUE(has(receiving("continue"), "breakpoint 1, rcv, hit for the first time"));
+}
+
+TEST(Debugger, AFaultOfTheLineBeginsNowAndGoingBackUndoesIt) {
+  Session session(kEcho);
+  EXPECT_TRUE(has(session("scan 3; fault flip:bit=0; send 41; continue"), "on the line from now on: flip\n"));
+  EXPECT_TRUE(has(session("print /x VB1"), "VB1      16#40"));
+  session("at 1ms; fork; continue 10ms; send 41; continue");
+  EXPECT_TRUE(has(session("print /x VB1"), "VB1      16#41"));
+  EXPECT_TRUE(has(session("fault flip; fault none; send 42; continue; print /x VB1"), "VB1      16#42"));
+  EXPECT_TRUE(has(session.error_of("fault flip:bit=12"), "fault, column 10: "));
+  EXPECT_TRUE(has(session.error_of("fault"), "fault expects a fault of the line"));
+}
+
 TEST(Debugger, ContinueEndsAtItsTimeAndSaysSo) {
   Session session(kNested);
   EXPECT_TRUE(has(session("continue 50 ms"), "50 ms of simulated time passed"));
@@ -144,6 +199,8 @@ TEST(Debugger, WatchKnowsBitsBytesAndDoubles) {
   EXPECT_TRUE(has(session("watch V31.0; continue"), "V31.0 was 0, is 1"));
   EXPECT_TRUE(has(session("delete all; watch VB31 VD28; continue"), "VB31 was 16#01 (1), is 16#02 (2)"));
   EXPECT_TRUE(has(session.out.str(), "VD28 was 16#00000001 (1), is 16#00000002 (2)"));
+  Session accumulator("LD SM0.0\nINCW AC1\nMEND\n");
+  EXPECT_TRUE(has(accumulator("watch AC1; continue"), "AC1 was 16#00000000 (0), is 16#00000001 (1)\n  by main line 2"));
 }
 
 TEST(Debugger, WatchSaysWhenTheSystemChangedIt) {
@@ -575,6 +632,13 @@ TEST(Debugger, RunTimeErrorIsReportedOnceARunWithHowManyMoreThereWere) {
 }
 
 // --- looking ---
+
+TEST(Debugger, RegsShowsWhatWaitsInTheQueues) {
+  Session session("LD SM0.1\nATCH 0, 0\nENI\nLD SM0.0\nINCW VW0\nMEND\nINT 0\nLD SM0.0\nINCW VW2\nINCW VW4\nRETI\n");
+  session("scan 2; input I0.0=1; interrupt; input I0.0=0; step; input I0.0=1; step");
+  EXPECT_TRUE(has(session("regs"), "waiting    "));
+  EXPECT_TRUE(has(session.out.str(), "event 0"));
+}
 
 TEST(Debugger, RegsShowsWhereWithTheCallsAndAttachments) {
   Session session(kNested);

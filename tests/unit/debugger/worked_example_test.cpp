@@ -7,8 +7,7 @@ namespace {
 
 struct Drop {
   const char* frame;
-  const char* back;         ///< from the ATCH that left the frame to the instruction that decided it
-  const char* place;        ///< of that ATCH
+  const char* place;        ///< of the ATCH that left the frame
   const char* instruction;  ///< that dropped it
   const char* reason;       ///< seen in what ran before
 };
@@ -21,19 +20,19 @@ void five_commands_lead_to(Session& session, const Drop& drop) {
   const std::string left = session("rwho event 8");
   EXPECT_TRUE(has(left, "ATCH: INT 121 to event 8"));
   EXPECT_TRUE(has(left, drop.place));
-  EXPECT_TRUE(has(session(drop.back), drop.instruction));
-  EXPECT_TRUE(has(session("history 20"), drop.reason));
+  EXPECT_TRUE(has(session("rwhy"), drop.instruction));
+  EXPECT_TRUE(has(session("history 9"), drop.reason));
 }
 
 TEST(WorkedExample, FiveCommandsFindWhatDroppedAFrameInOurSlave) {
   const auto program = test::compile(test::slave_text());
   for (const Drop& drop :
-       {Drop{"01 03 00 0a 00 01 00 00", "rstep 3", "by SBR 51 line", "JMP     255                  // a disturbed",
+       {Drop{"01 03 00 0a 00 01 00 00", "by SBR 51 line", "JMP     255                  // a disturbed",
              "LDW=    AC0, 0               S0=0"},
-        Drop{"02 03 00 0a 00 01 crc", "rstep 3", "by INT 122 line", "CRETI",
+        Drop{"02 03 00 0a 00 01 crc", "by INT 122 line", "CRETI",
              "LDB=    SMB2, VB4095         S0=0 SMB2=16#02 VB4095=16#01"},
-        Drop{"01 03p 00 0a 00 01 crc", "rstep 3", "by INT 123 line", "CRETI", "LDN     SM3.0                S0=0 SM3.0=1"},
-        Drop{"01 03 00", "rstep 3", "by SBR 51 line", "JMP     255                  // fewer are not",
+        Drop{"01 03p 00 0a 00 01 crc", "by INT 123 line", "CRETI", "LDN     SM3.0                S0=0 SM3.0=1"},
+        Drop{"01 03 00", "by SBR 51 line", "JMP     255                  // fewer are not",
              "LDW<=   VW3300, 3            S0=1 VW3300=16#0003"}}) {
     Session session(program);
     five_commands_lead_to(session, drop);
@@ -44,14 +43,32 @@ TEST(WorkedExample, FiveCommandsFindWhatDroppedAFrameInTheTip) {
   if (!test::tip41::available()) GTEST_SKIP() << "the tip document is not here";
   const auto program = test::compile(test::tip41::text());
   for (const Drop& drop :
-       {Drop{"01 03 00 00 00 01 00 00", "rstep 4", "by SBR 51", "JMP     255", "LDW=    0, AC2               S0=0"},
-        Drop{"02 03 00 00 00 01 crc", "rstep 3", "by INT 122", "CRETI",
+       {Drop{"01 03 00 00 00 01 00 00", "by SBR 51", "JMP     255", "LDW=    0, AC2               S0=0"},
+        Drop{"02 03 00 00 00 01 crc", "by INT 122", "CRETI",
              "LDB=    SMB2, VB4095         S0=0 SMB2=16#02 VB4095=16#01"},
-        Drop{"01 03p 00 00 00 01 crc", "rstep 3", "by INT 123", "LD      SM3.0", "INCW    VW3300"},
-        Drop{"01 03 00", "rstep 4", "by SBR 51", "JMP     255", "LDW=    0, AC2               S0=0"}}) {
+        Drop{"01 03p 00 00 00 01 crc", "by INT 123", "ATCH    120, 10", "LD      SM3.0                S0=1 SM3.0=1"},
+        Drop{"01 03 00", "by SBR 51", "JMP     255", "LDW=    0, AC2               S0=0"}}) {
     Session session(program);
     five_commands_lead_to(session, drop);
   }
+}
+
+TEST(WorkedExample, WhyNamesWhatDecidedWithoutGoingThereAndGoesOnFromThere) {
+  Session session(
+      "LD SM0.0\nAN I0.0\nJMP 1\nLD SM0.0\nINCW VW0\nLBL 1\nLD SM0.0\nINCW VW2\nMEND\n");
+  EXPECT_TRUE(has(session("why"), "nothing has decided that it comes here"));
+  const std::string there = session("until 8; why");
+  EXPECT_TRUE(has(there, "JMP 1 in line 3 (LD SM0.0: SM0.0=1; AN I0.0: I0.0=0)"));
+  EXPECT_EQ(session.line(), 8u);
+  session("rwhy");
+  EXPECT_EQ(session.line(), 3u) << "in front of the jump";
+  EXPECT_TRUE(has(session("rwhy"), "the contacts from line 1 on")) << "which has contacts of its own";
+  EXPECT_EQ(session.line(), 1u);
+  EXPECT_TRUE(has(session("rwhy"), "nothing has decided"));
+  EXPECT_EQ(session.line(), 1u);
+  session("input I0.0=1; scan 2; until 5");
+  EXPECT_TRUE(has(session("why"), "JMP 1 in line 3, not taken (LD SM0.0: SM0.0=1; AN I0.0: I0.0=1)"));
+  EXPECT_EQ(session.error_of("why 5"), "why takes no argument");
 }
 
 struct Reason {

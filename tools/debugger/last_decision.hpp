@@ -1,0 +1,27 @@
+// What decided that the program has come where it stands.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+
+#include "tools/debugger/history.hpp"
+
+namespace s7200::tools {
+
+struct LastDecision {
+  Moment moment;  ///< in front of the jump or conditional end; or of what the contacts of this rung decide, and from there
+                  ///< in front of the first of them
+  std::string text;  ///< `JMP 255 in line 141 (LDW= AC0, 0: AC0=16#7B06; NOT)`
+  InstructionRecord by{};
+};
+
+struct DecisionSearch {
+  std::optional<LastDecision> decision;  ///< nothing: the scan, or the interrupt routine, has come by none so far
+  bool interrupted = false;
+};
+
+/// The contacts of the rung so far, or the last jump or conditional end before it. The simulation stands where it stood.
+DecisionSearch find_last_decision(serial::Simulation& simulation, History& history, const std::atomic<bool>* stop_request);
+
+}  // namespace s7200::tools
