@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The prompt of `s7200 debug` on a terminal, a pty of this process: prompt.py S7200 SOURCE"""
+"""The prompt of `s7200 debug`, and the menu of `s7200 master`, on a terminal, a pty of this process: prompt.py S7200 SOURCE"""
 import fcntl
 import os
 import pathlib
@@ -25,13 +25,13 @@ PATIENCE = 20  # seconds
 class Terminal:
     """A session on a terminal of its own."""
 
-    def __init__(self, state, *arguments, size=(100, 40), term="xterm"):
+    def __init__(self, state, *arguments, verb="debug", size=(100, 40), term="xterm"):
         self.pid, self.fd = pty.fork()
         if self.pid == 0:
             environment = {**os.environ, "XDG_STATE_HOME": str(state), "TERM": term, "LC_ALL": "C.UTF-8"}
             environment.pop("NO_COLOR", None)
             fcntl.ioctl(0, termios.TIOCSWINSZ, struct.pack("HHHH", size[1], size[0], 0, 0))
-            os.execvpe(S7200, [S7200, "debug", *arguments], environment)
+            os.execvpe(S7200, [S7200, verb, *arguments], environment)
         self.text = ""
 
     def resize(self, columns, rows):
@@ -223,6 +223,136 @@ class Prompt(unittest.TestCase):
             del os.environ["NO_COLOR"]
         self.assertIn("  forced: Q0.0=1", plain.stdout)
         self.assertNotIn("\x1b", plain.stdout)
+
+
+class Menu(unittest.TestCase):
+    """s7200 master TARGET menu"""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def menu(self, *arguments, **more):
+        terminal = Terminal(self.folder / "state", *(arguments or [SLAVE]), "menu", verb="master", **{"size": (80, 24), **more})
+        terminal.until(">> ")
+        return terminal
+
+    def answer(self, terminal, line):
+        """What it prints, up to the next prompt."""
+        terminal.type(line + "\n")
+        terminal.until("\n")
+        return terminal.until(">> ")
+
+    def quit(self, terminal, keys="q\n"):
+        terminal.type(keys)
+        self.assertEqual(terminal.end(), 0, terminal.text)
+        self.assertIn("[1;24r", terminal.text.replace("\x1b", ""), "the terminal is as it was")
+
+    def test_every_key_of_the_test_program_sends_its_function(self):
+        functions = {"1 0 8": 1, "2 0 8": 2, "3 10 2": 3, "4 0 2": 4, "5 2 on": 5, "6 10 1234": 6, "7": 7, "8": 8, "f 0 1 0 1": 15,
+                     "p 10 1 2": 16, "r": 17}
+        terminal = self.menu()
+        for keys, function in functions.items():
+            with self.subTest(keys=keys):
+                self.assertIn(f"station 1, function {function}", self.answer(terminal, keys))
+        self.assertIn("16#0001      1", self.answer(terminal, "3 40011 1"), "what P has written")
+        self.quit(terminal)
+        gateway = self.menu("westinghouse:pc1200")
+        self.assertIn("reference 51: 00 00", self.answer(gateway, "z 0 0 2"))
+        self.assertIn("function 21", self.answer(gateway, "a 0 0 1 2"))
+        self.quit(gateway)
+
+    def test_a_key_asks_for_what_it_was_not_given(self):
+        terminal = self.menu()
+        terminal.type("3\n")
+        terminal.until("first register [0]: ")
+        terminal.type("10\n")
+        terminal.until("how many [1]: ")
+        terminal.type("\n")
+        self.assertIn("holding register 10", terminal.until(">> "))
+        self.assertIn("an answer is needed", self.answer(terminal, "6 1\n"))
+        self.assertIn("holding registers 10…11", self.answer(terminal, "read 40011:2"), "actions do as well")
+        for wrong, said in (("x", "'x' is not a key; M shows the menu"), ("3 frob 1", "frob"), ("7 5", "asks for nothing"),
+                            ("frob", "'frob' is not an action"), ("s 300", "not a slave from 0 to 255")):
+            self.assertIn(said, self.answer(terminal, wrong))
+        self.quit(terminal)
+
+    def test_slave_and_port_are_changed_and_seen(self):
+        terminal = self.menu()
+        self.assertIn("slave 2", self.answer(terminal, "s 2"))
+        self.assertIn("no answer", self.answer(terminal, "7"))
+        self.answer(terminal, "s 1")
+        self.assertIn("4800 baud", self.answer(terminal, "c 4800 8 even 1"))
+        self.assertIn("no answer", self.answer(terminal, "8"))
+        self.answer(terminal, "c 9600 8 even 1")
+        self.assertIn("function 8", self.answer(terminal, "8"))
+        self.assertIn("is not none, even or odd", self.answer(terminal, "c 9600 8 mark 1"))
+        self.quit(terminal)
+
+    def test_the_continuous_test_counts_until_ctrl_c(self):
+        terminal = self.menu()
+        terminal.type("l\n")
+        terminal.until("until Ctrl-C", "1;1H", "requests", "1;1H")
+        terminal.signal(signal.SIGINT)
+        shown = terminal.until("requests", "latency", ">> ")
+        self.assertIn("0 wrong", shown)
+        terminal.type("t\n")
+        terminal.until("until Ctrl-C")
+        terminal.type("\x03")
+        terminal.until(">> ")
+        self.answer(terminal, "n")
+        self.assertIn("function 7", self.answer(terminal, "7"))
+        self.quit(terminal, "\x04")
+
+    def test_ctrl_c_at_the_prompt_gives_a_new_one_and_a_polite_kill_ends_it(self):
+        terminal = self.menu()
+        terminal.type("3 1\x03")
+        terminal.until(">> ")
+        terminal.type("3\n")
+        terminal.until("first register [0]: ")
+        terminal.type("\x03")
+        terminal.until(">> ")
+        terminal.signal(signal.SIGTERM)
+        self.assertEqual(terminal.end(), 1)
+        self.assertIn("\x1b[1;24r", terminal.text, "the terminal is as it was")
+
+    def test_a_small_terminal_has_no_keys_in_view_and_they_come_and_go_with_its_size(self):
+        terminal = self.menu(size=(40, 10))
+        self.assertIn("read holding registers", self.answer(terminal, "m"))
+        self.assertIn("function 3", self.answer(terminal, "3 0 1"))
+        terminal.resize(80, 24)
+        terminal.until("\x1b[17;24r", "3  read holding registers", "T  test")
+        terminal.resize(30, 8)
+        terminal.until("menu needs a terminal of 40×10, and this one has 30×8")
+        self.answer(terminal, "3 0 1")
+        terminal.resize(80, 24)
+        terminal.until("\x1b[17;24r", "read holding registers")
+        self.quit(terminal)
+
+    def test_a_terminal_that_is_too_small_and_none_at_all_are_errors(self):
+        terminal = Terminal(self.folder / "state", SLAVE, "menu", verb="master", size=(39, 10))
+        self.assertEqual(terminal.end(), 2)
+        self.assertIn("menu needs a terminal of 40×10, and this one has 39×10", terminal.text)
+        for arguments, said in ((["menu"], "menu needs a terminal for input and output"),
+                                (["menu", "slave-id"], "menu stands alone"), (["menu", "--json"], "menu shows everything itself"),
+                                (["menu", "--protocol", "ppi"], "menu needs --protocol modbus")):
+            done = subprocess.run([S7200, "master", SLAVE, *arguments], capture_output=True, text=True, stdin=subprocess.DEVNULL)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(said, done.stderr)
+
+    def test_a_slave_that_goes_is_tried_again(self):
+        with subprocess.Popen([S7200, "run", SLAVE, "--modbus-tcp", "0"], stderr=subprocess.PIPE, text=True) as server:
+            port = re.search(r":(\d+)", server.stderr.readline()).group(1)
+            terminal = self.menu(f"modbus-tcp://127.0.0.1:{port}")
+            self.assertIn("function 3", self.answer(terminal, "3 0 1"))
+            self.assertIn("the port belongs to the other end", self.answer(terminal, "c"))
+            server.send_signal(signal.SIGINT)
+            server.wait()
+            server.stderr.close()
+        self.answer(terminal, "3 0 1")
+        self.assertIn("refused", self.answer(terminal, "3 0 1"))
+        self.quit(terminal)
 
 
 if __name__ == "__main__":

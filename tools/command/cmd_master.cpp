@@ -4,6 +4,7 @@
 
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/master_menu.hpp"
 #include "tools/command/master_output.hpp"
 #include "tools/command/master_run.hpp"
 #include "tools/command/options/master_options.hpp"
@@ -23,8 +24,19 @@ int run_master(MasterOptions& options) {
     return options.band.wanted() ? run_on_program_band(options, actions) : run_on_program(options, actions);
   if (target.kind == SlaveTarget::Kind::Peer) return run_on_peer(options, target.path, actions);
   std::unique_ptr<Slave> slave;
+  const auto format = [&](const serial::MasterSettings& master) { return master.over(options.protocol->format); };
+  const auto open = [&](const serial::MasterSettings& master) {
+    return connect(target, format(master), options.protocol->is_complete);
+  };
   try {
-    slave = connect(target, options.master.over(options.protocol->format), options.protocol->is_complete);
+    if (options.wants_menu()) {
+      const bool has_port = target.kind == SlaveTarget::Kind::Device;
+      const auto of_device = [&](const serial::MasterSettings& master) {
+        return has_port ? std::optional(format(master)) : std::nullopt;
+      };
+      return run_menu(options, {.open = open, .format = of_device, .over_modbus_tcp = over_tcp});
+    }
+    slave = open(options.master);
   } catch (const SlaveUnreachable& error) {
     print_error(error.what());
     return kUnusable;
@@ -42,8 +54,11 @@ void add_master(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand(
       "master", "be a master, of Modbus or another protocol: ask a program, a serial device, or a server on the network");
   options->add_to(*verb);
-  verb->footer(slave_targets_help() + protocols_help() + fault_help() +
-               "Example: s7200 master stl_programs/modbus_slave.stl write 40011=1234,-5 read 40011:2 read 00001:8");
+  verb->footer(
+      slave_targets_help() + protocols_help() + fault_help() +
+      "menu, alone and on a terminal, is a screen to try a Modbus slave by hand: a key for each function, slave, port,\n"
+      "loopbacks and a test without end, with statistics.\n"
+      "Example: s7200 master stl_programs/modbus_slave.stl write 40011=1234,-5 read 40011:2 read 00001:8");
   verb->callback([options, &exit_code] {
     try {
       exit_code = run_master(*options);

@@ -11,6 +11,7 @@
 namespace s7200::tools {
 namespace {
 
+constexpr int kLayoutRows = 15;
 constexpr auto kRefreshEvery = std::chrono::milliseconds(100);  // while a run goes on
 
 /// A line from the terminal; an empty one stands for `last`. Ctrl-C ends a run, and at the prompt the line being typed:
@@ -40,7 +41,7 @@ void fit(Screen& screen, Debugger& debugger) {
   std::string why;
   if (!screen.on()) return;
   if (screen.fit(why))
-    screen.draw(debugger.view(Screen::kViewRows - 1));
+    screen.draw(debugger.view(screen.view_rows()));
   else
     std::cout << why << '\n' << std::flush;
 }
@@ -48,11 +49,11 @@ void fit(Screen& screen, Debugger& debugger) {
 }  // namespace
 
 void talk(Debugger& debugger) {
-  LineEditor editor(Debugger::kPrompt, [&debugger](std::string_view before) {
+  LineEditor editor(Debugger::kPrompt, "debug_history", [&debugger](std::string_view before) {
     auto [word, candidates] = debugger.completions(before);
     return Completions{word, std::move(candidates)};
   });
-  Screen screen;
+  Screen screen({.name = "layout", .fewest_columns = 80, .fewest_rows = 24, .view = [](int, int) { return kLayoutRows; }});
   auto drawn = std::chrono::steady_clock::now();
   const auto refresh = [&] {
     const auto now = std::chrono::steady_clock::now();
@@ -61,7 +62,7 @@ void talk(Debugger& debugger) {
     if (editor.take_change())
       fit(screen, debugger);
     else
-      screen.draw(debugger.view(Screen::kViewRows - 1));
+      screen.draw(debugger.view(screen.view_rows()));
   };
   debugger.set_layout({.turn = [&screen](bool on) { return switch_layout(screen, on); },
                        .shown = [&screen] { return screen.on(); },
@@ -69,7 +70,7 @@ void talk(Debugger& debugger) {
   editor.when_changed([&screen, &debugger] { fit(screen, debugger); });
   std::string last;
   while (!debugger.quit_asked()) {
-    if (screen.on()) screen.draw(debugger.view(Screen::kViewRows - 1));
+    if (screen.on()) screen.draw(debugger.view(screen.view_rows()));
     const auto line = read_line(editor, last);
     if (!line) break;
     if (const auto error = debugger.execute(*line)) std::cout << stl::printable(*error) << '\n';

@@ -12,6 +12,7 @@
 #include <clocale>
 #include <cstdio>
 #include <cwchar>
+#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "tools/command/line_history.hpp"
@@ -43,7 +44,8 @@ std::string common_beginning(const std::vector<std::string>& candidates) {
 }  // namespace
 
 struct LineEditor::Implementation {
-  Implementation(std::string_view text, Complete offers) : prompt(text), complete(std::move(offers)) {
+  Implementation(std::string_view text, std::string_view history_file, Complete offers)
+      : prompt(text), complete(std::move(offers)), kept(history_file) {
     std::setlocale(LC_CTYPE, "");
     edit = el_init_fd("s7200", stdin, stdout, stderr, STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO);
     lines = history_init();
@@ -109,6 +111,18 @@ struct LineEditor::Implementation {
     }
   }
 
+  std::optional<std::string> read_line() {
+    if (isatty(STDOUT_FILENO) == 0) return read_unedited();
+    std::fflush(stdout);
+    el_set(edit, EL_PREP_TERM, 1);  // before the prompt is there: keys that follow it at once are not lost
+    int count = 0;
+    const char* typed = el_gets(edit, &count);
+    if (!typed || count <= 0) return {};
+    std::string line(typed, static_cast<std::size_t>(count));
+    while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.pop_back();
+    return line;
+  }
+
   static int read_character(EditLine* edit, wchar_t* character) {
     std::mbstate_t state{};
     for (;;) {
@@ -156,7 +170,7 @@ struct LineEditor::Implementation {
 
   std::string prompt;
   Complete complete;
-  LineHistory kept{"debug_history"};
+  LineHistory kept;
   EditLine* edit = nullptr;
   ::History* lines = nullptr;
   std::function<void()> when_changed{};
@@ -164,8 +178,8 @@ struct LineEditor::Implementation {
   }, before_continue{};
 };
 
-LineEditor::LineEditor(std::string_view prompt, Complete complete)
-    : editor_(std::make_unique<Implementation>(prompt, std::move(complete))) {}
+LineEditor::LineEditor(std::string_view prompt, std::string_view history, Complete complete)
+    : editor_(std::make_unique<Implementation>(prompt, history, std::move(complete))) {}
 
 LineEditor::~LineEditor() = default;
 
@@ -178,19 +192,19 @@ bool LineEditor::take_change() {
 }
 
 std::optional<std::string> LineEditor::read() {
-  if (isatty(STDOUT_FILENO) == 0) return editor_->read_unedited();
-  std::fflush(stdout);
-  el_set(editor_->edit, EL_PREP_TERM, 1);  // before the prompt is there: keys that follow it at once are not lost
-  int count = 0;
-  const char* typed = el_gets(editor_->edit, &count);
-  if (!typed || count <= 0) return {};
-  std::string line(typed, static_cast<std::size_t>(count));
-  while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.pop_back();
-  if (line.find_first_not_of(" \t") == std::string::npos) return line;
+  auto line = editor_->read_line();
+  if (!line || line->find_first_not_of(" \t") == std::string::npos) return line;
   HistEvent event;
-  ::history(editor_->lines, &event, H_ENTER, line.c_str());
-  editor_->kept.add(line);
+  ::history(editor_->lines, &event, H_ENTER, line->c_str());
+  editor_->kept.add(*line);
   return line;
+}
+
+std::optional<std::string> LineEditor::ask(std::string_view question) {
+  const std::string prompt = std::exchange(editor_->prompt, std::string(question));
+  auto answer = editor_->read_line();
+  editor_->prompt = prompt;
+  return answer;
 }
 
 }  // namespace s7200::tools

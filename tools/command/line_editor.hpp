@@ -23,7 +23,8 @@ class LineEditor {
  public:
   using Complete = std::function<Completions(std::string_view before_cursor)>;
 
-  LineEditor(std::string_view prompt, Complete complete);
+  /// `history`: the name of the file that keeps the lines.
+  LineEditor(std::string_view prompt, std::string_view history, Complete complete);
   ~LineEditor();
   LineEditor(const LineEditor&) = delete;
   LineEditor& operator=(const LineEditor&) = delete;
@@ -36,6 +37,9 @@ class LineEditor {
 
   /// Nothing at the end of the input, or when a signal was noted.
   std::optional<std::string> read();
+
+  /// The answer to a question, which is asked instead of the prompt; it is not kept.
+  std::optional<std::string> ask(std::string_view question);
 
  private:
   struct Implementation;

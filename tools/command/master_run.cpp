@@ -6,6 +6,7 @@
 
 #include "tools/command/band_output.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/master_menu.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/slave/peer_slave.hpp"
@@ -72,7 +73,14 @@ int run_on_program(MasterOptions& options, const std::vector<MasterAction>& acti
   MasterOutput output(options.output(), slave.name());
   std::string why;
   const bool ready = slave.wait_until_ready(options.after, why);
-  if (ready) {
+  if (ready && options.wants_menu()) {
+    serial::Simulation& simulation = rig->simulation();
+    const auto open = [&](const serial::MasterSettings& master) {
+      return std::make_unique<SimulatedSlave>(simulation, master, program->source.name);
+    };
+    const auto format = [&](const serial::MasterSettings& master) { return master.over(simulation.port_format()); };
+    exit_code = run_menu(options, {.open = open, .format = format});
+  } else if (ready) {
     print_note_if_any(slave.note_on_port(options.protocol->wants_freeport));
     exit_code = run_session(
         options, session, actions, output, [&] { return options.rig.failed_strictly(rig->cpu()); }, plant);
@@ -99,13 +107,24 @@ int run_on_program(MasterOptions& options, const std::vector<MasterAction>& acti
 
 int run_on_peer(MasterOptions& options, const std::string& model, const std::vector<MasterAction>& actions) {
   std::string why;
-  std::unique_ptr<westinghouse::Plc> plc = westinghouse::make_plc(*options.protocol->plcs, model, why);
-  if (!plc) throw std::invalid_argument(why);
-  for (const std::string& setting : options.plc)
-    if (!plc->set(setting, why)) throw std::invalid_argument("--plc: " + why);
+  const auto make_plc = [&] {
+    std::unique_ptr<westinghouse::Plc> plc = westinghouse::make_plc(*options.protocol->plcs, model, why);
+    if (!plc) throw std::invalid_argument(why);
+    for (const std::string& setting : options.plc)
+      if (!plc->set(setting, why)) throw std::invalid_argument("--plc: " + why);
+    return plc;
+  };
   const auto faults = options.rig.faults();
   if (!faults) return kUnusable;
-  PeerSlave slave(std::move(plc), options.master, *faults, options.target);
+  if (options.wants_menu()) {
+    const SerialFormat format = make_plc()->format();
+    const auto open = [&](const serial::MasterSettings& master) {
+      return std::make_unique<PeerSlave>(make_plc(), master, *faults, options.target);
+    };
+    return run_menu(options,
+                    {.open = open, .format = [&](const serial::MasterSettings& master) { return master.over(format); }});
+  }
+  PeerSlave slave(make_plc(), options.master, *faults, options.target);
   MasterSession session(slave, actions, options.session(true));
   MasterOutput output(options.output(), slave.name());
   const int exit_code = run_session(

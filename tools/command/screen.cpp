@@ -121,26 +121,27 @@ bool Screen::fit(std::string& why) {
   if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) size = {};
   columns_ = size.ws_col;
   rows_ = size.ws_row;
-  if (columns_ < kFewestColumns || rows_ < kFewestRows) {
-    why = fmt::format("layout needs a terminal of {}×{}, and this one has {}×{}", kFewestColumns, kFewestRows, columns_,
-                      rows_);
+  if (columns_ < plan_.fewest_columns || rows_ < plan_.fewest_rows) {
+    why = fmt::format("{} needs a terminal of {}×{}, and this one has {}×{}", plan_.name, plan_.fewest_columns,
+                      plan_.fewest_rows, columns_, rows_);
     switch_off();
     return false;
   }
+  view_rows_ = plan_.view(columns_, rows_);
   const std::string restore = with("csr", 0, rows_ - 1) + plain("sgr0") + with("cup", rows_ - 1, 0) + "\n";
   std::strncpy(restoring, restore.c_str(), sizeof restoring - 1);
   restoring_length = static_cast<int>(std::strlen(restoring));
-  put(plain("clear") + with("csr", kViewRows, rows_ - 1) + with("cup", kViewRows, 0));
+  put(plain("clear") + with("csr", view_rows_, rows_ - 1) + with("cup", view_rows_, 0));
   return true;
 }
 
 void Screen::draw(const std::vector<std::string>& rows) {
   if (!on_) return;
   std::string text = plain("sc");
-  for (int row = 0; row < kViewRows; ++row) {
+  for (int row = 0; row < view_rows_; ++row) {
     text += with("cup", row, 0) + plain("el");
     std::string content;
-    if (row == kViewRows - 1)
+    if (row == view_rows_ - 1)
       for (int column = 0; column < columns_; ++column) content += "─";
     else if (static_cast<std::size_t>(row) < rows.size())
       content = cut(rows[static_cast<std::size_t>(row)], columns_);

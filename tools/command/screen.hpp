@@ -5,17 +5,22 @@
 // (Ctrl-Z), and before a signal kills it.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace s7200::tools {
 
 class Screen {
  public:
-  static constexpr int kFewestColumns = 80, kFewestRows = 24;
-  static constexpr int kViewRows = 15;  ///< the last is a line between the two parts
+  struct Plan {
+    std::string name;  ///< of the view, in messages
+    int fewest_columns = 0, fewest_rows = 0;
+    std::function<int(int columns, int rows)> view;  ///< its rows in such a terminal; the last is a line between the parts
+  };
 
-  Screen() = default;
+  explicit Screen(Plan plan) : plan_(std::move(plan)) {}
   ~Screen() { switch_off(); }
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
@@ -25,6 +30,10 @@ class Screen {
   void switch_off();
   bool on() const { return on_; }
 
+  /// Rows that there are for the view, without the line between the parts.
+  std::size_t view_rows() const { return static_cast<std::size_t>(view_rows_ - 1); }
+  int columns() const { return columns_; }
+
   /// Rows of the view, the first in reverse; what is too wide is cut. Nothing while it is off.
   void draw(const std::vector<std::string>& rows);
 
@@ -32,8 +41,9 @@ class Screen {
   bool fit(std::string& why);
 
  private:
+  Plan plan_;
   bool on_ = false;
-  int columns_ = 0, rows_ = 0;
+  int columns_ = 0, rows_ = 0, view_rows_ = 1;
 };
 
 }  // namespace s7200::tools

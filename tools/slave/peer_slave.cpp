@@ -30,6 +30,7 @@ serial::Exchange PeerSlave::finish() {
 serial::Exchange PeerSlave::exchange(const serial::Request& request) {
   if (serial::has_wrong_parity(request.frame) && master_.uart().state().format.parity == Parity::None)
     throw std::invalid_argument("a byte with wrong parity (p) needs a format with parity");
+  system_.finish_exchange(master_);  // what Ctrl-C has left under way
   remark_ = ignored_text(serial::bytes_of(master_.requester().heard()));
   master_.requester().start(request, system_.time());
   return finish();
@@ -37,6 +38,7 @@ serial::Exchange PeerSlave::exchange(const serial::Request& request) {
 
 serial::Exchange PeerSlave::receive(const serial::Listening& listening) {
   remark_.clear();
+  system_.finish_exchange(master_);
   master_.requester().listen(listening, system_.time());
   return finish();
 }

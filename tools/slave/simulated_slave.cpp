@@ -49,6 +49,7 @@ serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
   const SerialFormat format = master_.over(simulation_.port_format());
   if (serial::has_wrong_parity(request.frame) && format.parity == Parity::None)
     throw std::invalid_argument("a byte with wrong parity (p) needs a format with parity");
+  simulation_.finish_exchange();  // what Ctrl-C has left under way
   remark_ = ignored_text(serial::bytes_of(simulation_.master().heard()));
   simulation_.master_uart().configure(format);
   simulation_.master().start(request, simulation_.time());
@@ -61,6 +62,7 @@ serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
 
 serial::Exchange SimulatedSlave::receive(const serial::Listening& listening) {
   remark_.clear();
+  simulation_.finish_exchange();
   simulation_.master().listen(listening, simulation_.time());
   serial::Exchange exchange = simulation_.finish_exchange();
   if (simulation_.master().busy()) exchange.timed_out = exchange.response.empty();

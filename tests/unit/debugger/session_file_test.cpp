@@ -30,7 +30,9 @@ class SavedSession : public testing::Test {
 
 TEST_F(SavedSession, IsLoadedBitByBitIntoAnotherSession) {
   Session session(kEcho);
-  session("continue 50ms; set VW100=7; input I0.0=1; force VB200=3; fault flip:bit=0; send 41 42; continue; continue 1s; at 60ms");
+  session(
+      "continue 50ms; set VW100=7; input I0.0=1; force VB200=3; fault flip:bit=0; send 41 42; continue; continue 1s; at "
+      "60ms");
   const auto here = session.simulation.snapshot();
   session("save " + file("a.json"));
   Session other(kEcho);

@@ -44,8 +44,7 @@ TEST(WorkedExample, FiveCommandsFindWhatDroppedAFrameInTheTip) {
   const auto program = test::compile(test::tip41::text());
   for (const Drop& drop :
        {Drop{"01 03 00 00 00 01 00 00", "by SBR 51", "JMP     255", "LDW=    0, AC2               S0=0"},
-        Drop{"02 03 00 00 00 01 crc", "by INT 122", "CRETI",
-             "LDB=    SMB2, VB4095         S0=0 SMB2=16#02 VB4095=16#01"},
+        Drop{"02 03 00 00 00 01 crc", "by INT 122", "CRETI", "LDB=    SMB2, VB4095         S0=0 SMB2=16#02 VB4095=16#01"},
         Drop{"01 03p 00 00 00 01 crc", "by INT 123", "ATCH    120, 10", "LD      SM3.0                S0=1 SM3.0=1"},
         Drop{"01 03 00", "by SBR 51", "JMP     255", "LDW=    0, AC2               S0=0"}}) {
     Session session(program);
@@ -54,8 +53,7 @@ TEST(WorkedExample, FiveCommandsFindWhatDroppedAFrameInTheTip) {
 }
 
 TEST(WorkedExample, WhyNamesWhatDecidedWithoutGoingThereAndGoesOnFromThere) {
-  Session session(
-      "LD SM0.0\nAN I0.0\nJMP 1\nLD SM0.0\nINCW VW0\nLBL 1\nLD SM0.0\nINCW VW2\nMEND\n");
+  Session session("LD SM0.0\nAN I0.0\nJMP 1\nLD SM0.0\nINCW VW0\nLBL 1\nLD SM0.0\nINCW VW2\nMEND\n");
   EXPECT_TRUE(has(session("why"), "nothing has decided that it comes here"));
   const std::string there = session("until 8; why");
   EXPECT_TRUE(has(there, "JMP 1 in line 3 (LD SM0.0: SM0.0=1; AN I0.0: I0.0=0)"));

@@ -186,7 +186,22 @@ void MasterOptions::refuse_what_a_peer_does_not_take(Kind kind) const {
 }
 
 std::vector<MasterAction> MasterOptions::actions(bool over_tcp) const {
-  return protocol->actions(words, {station_.value_or(protocol->station), over_tcp, given_});
+  if (wants_menu()) return {};
+  return protocol->actions(words, use(over_tcp));
+}
+
+ProtocolUse MasterOptions::use(bool over_tcp) const { return {station_.value_or(protocol->station), over_tcp, given_}; }
+
+bool MasterOptions::wants_menu() const {
+  if (std::ranges::find(words, "menu") == words.end()) return false;
+  if (protocol != &modbus_protocol()) throw std::invalid_argument("menu needs --protocol modbus");
+  if (words.size() > 1) throw std::invalid_argument("menu stands alone: what is to be done is typed there");
+  if (json || polls() || continuous || count != 0 || verbose || band.wanted())
+    throw std::invalid_argument(
+        "menu shows everything itself: give no --json, --every, --continuous, --count, --verbose or --times-band");
+  if (isatty(STDIN_FILENO) == 0 || isatty(STDOUT_FILENO) == 0)
+    throw std::invalid_argument("menu needs a terminal for input and output; elsewhere give actions, such as read 40001:2");
+  return true;
 }
 
 std::uint64_t MasterOptions::rounds() const { return open_ended() ? UINT64_MAX : std::max<std::uint64_t>(count, 1); }

@@ -44,6 +44,12 @@ struct MasterOptions {
   /// Throws std::invalid_argument if an action is wrong. `over_tcp`: stations are units of Modbus TCP.
   std::vector<MasterAction> actions(bool over_tcp) const;
 
+  /// How the protocol is used, until an action says otherwise.
+  ProtocolUse use(bool over_tcp) const;
+
+  /// Not actions, but the menu on a terminal. Throws std::invalid_argument if it does not go with what else was given.
+  bool wants_menu() const;
+
   SessionSettings session(bool broadcasts_are_silent) const;
   MasterOutputSettings output() const;
 

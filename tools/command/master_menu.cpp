@@ -1,0 +1,383 @@
+#include "tools/command/master_menu.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <iostream>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/command/line_editor.hpp"
+#include "tools/command/screen.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
+#include "tools/master/session.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// A question, and the answer that an empty line stands for; nothing: there must be one.
+struct Question {
+  std::string_view text, usual{};
+};
+
+/// A Modbus function: its action, with the answers in it. Addresses with five digits or more name their area themselves.
+struct Function {
+  std::string_view key, name, action;
+  std::array<Question, 3> questions{};
+  std::string_view option{};  ///< of the protocol
+};
+
+constexpr Question kHowMany{"how many", "1"};
+
+constexpr Function kFunctions[] = {
+    {"1", "read coils", "read coils {0}:{1}", {{{"first coil", "0"}, kHowMany}}},
+    {"2", "read inputs", "read inputs {0}:{1}", {{{"first input", "0"}, kHowMany}}},
+    {"3", "read holding registers", "read holding {0}:{1}", {{{"first register", "0"}, kHowMany}}},
+    {"4", "read input registers", "read input-registers {0}:{1}", {{{"first register", "0"}, kHowMany}}},
+    {"5", "force a coil", "write coils {0}={1}", {{{"coil", "0"}, {"on or off"}}}},
+    {"6", "preset a register", "write holding {0}={1}", {{{"register", "0"}, {"value"}}}},
+    {"7", "read exception status", "exception-status"},
+    {"8", "loopback", "loopback"},
+    {"F", "force coils", "write coils {0}={1}", {{{"first coil", "0"}, {"on or off, each"}}}, "--always-15"},
+    {"P", "preset registers", "write holding {0}={1}", {{{"first register", "0"}, {"values"}}}, "--always-16"},
+    {"R", "report slave ID", "slave-id"},
+    {"Z", "general read", "general-read {0}:{1}:{2}", {{{"segment", "0"}, {"offset", "0"}, {"how many bytes", "1"}}}},
+    {"A", "general write", "general-write {0}:{1}={2}", {{{"segment", "0"}, {"offset", "0"}, {"bytes"}}}},
+};
+
+/// What else there is, in the view; the menu itself does it.
+constexpr std::pair<std::string_view, std::string_view> kOthers[] = {
+    {"L", "loopbacks without end"},
+    {"T", "test: the last one without end"},
+    {"S", "slave"},
+    {"C", "configure the port"},
+    {"N", "new statistics"},
+    {"M", "menu"},
+    {"H", "help"},
+    {"Q", "quit"},
+};
+
+constexpr std::string_view kHelp =
+    "A key begins what is asked for; answers may follow it at once: 3 0 10. An empty answer is the one in brackets.\n"
+    "Numbers are decimal, or 16#04D2; addresses count from 0, or are written as 40011. Several values have blanks or\n"
+    "commas between them. Actions of s7200 master do as well: read 40011:2, write 00003=on, function 22 ….\n"
+    "L and T go on until Ctrl-C, and show failures and statistics.\n";
+
+constexpr int kFailuresShown = 20;
+constexpr int kKeyWidth = 39;                     // columns
+constexpr int kRowsOfView = 4, kRowsOfKeys = 12;  // with the latencies
+constexpr int kRowsForKeys = 24;                  // of a terminal that has room for the keys
+
+bool has_room_for_keys(int columns, int rows) { return rows >= kRowsForKeys && columns >= 2 * kKeyWidth; }
+
+Words words_of(std::string_view text) {
+  Words words;
+  while (!(text = stl::trim(text)).empty()) {
+    const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
+    words.emplace_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+  return words;
+}
+
+std::string joined_by_commas(const Words& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() || text.ends_with(',') ? "" : ",") + word;
+  return text;
+}
+
+std::size_t questions_of(const Function& function) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(function.questions, [](const Question& one) { return !one.text.empty(); }));
+}
+
+class Menu {
+ public:
+  Menu(const MasterOptions& options, const MenuTarget& target)
+      : options_(options),
+        target_(target),
+        use_(options.use(target.over_modbus_tcp)),
+        session_(options.session(!target.over_modbus_tcp)),
+        slave_(target.open(session_.master)) {}
+
+  int run();
+
+ private:
+  /// What is wrong with what was typed.
+  using Wrong = std::invalid_argument;
+
+  void show_keys() const;
+  std::vector<std::string> key_lines(int columns) const;
+  std::vector<std::string> view() const;
+  void draw();
+  void look_again();
+  std::optional<std::string> read();
+  std::string ask(const Question& question, Words& answers, bool last);
+  void execute(Words words);
+  bool execute_key(const std::string& key, Words& answers);
+  void do_function(const Function& function, Words& answers);
+  void do_actions(const Words& words, std::string_view option = {});
+  void repeat();
+  void perform(std::uint64_t rounds);
+  void show(const MasterResult& result) const;
+  void change_slave(Words& answers);
+  void configure_port(Words& answers);
+  void open();
+
+  const MasterOptions& options_;
+  const MenuTarget& target_;
+  ProtocolUse use_;
+  SessionSettings session_;
+  std::unique_ptr<Slave> slave_;
+  ExchangeStatistics statistics_;
+  std::vector<MasterAction> last_;  ///< done last
+  bool quit_ = false;
+  LineEditor editor_{">> ", "master_menu_history", [](std::string_view) { return Completions{}; }};
+  Screen screen_{{.name = "menu", .fewest_columns = 40, .fewest_rows = 10, .view = [](int columns, int rows) {
+                    return has_room_for_keys(columns, rows) ? kRowsOfView + kRowsOfKeys : kRowsOfView;
+                  }}};
+};
+
+// --- what is seen ---
+
+std::vector<std::string> Menu::key_lines(int columns) const {
+  std::vector<std::string> keys;
+  for (const Function& function : kFunctions) keys.push_back(fmt::format("{}  {}", function.key, function.name));
+  for (const auto& [key, name] : kOthers) keys.push_back(fmt::format("{}  {}", key, name));
+  if (columns < 2 * kKeyWidth) return keys;
+  const std::size_t rows = (keys.size() + 1) / 2;
+  for (std::size_t i = 0; i + rows < keys.size(); ++i) keys[i] = fmt::format("{:<{}}{}", keys[i], kKeyWidth, keys[i + rows]);
+  keys.resize(rows);
+  return keys;
+}
+
+void Menu::show_keys() const {
+  for (const std::string& line : key_lines(screen_.columns())) fmt::print("{}\n", line);
+}
+
+std::vector<std::string> Menu::view() const {
+  const auto format = target_.format(session_.master);
+  std::vector<std::string> rows{
+      fmt::format("Modbus master  slave {}  {}", use_.station, stl::printable(slave_ ? slave_->name() : options_.target)),
+      format ? format_text(*format) : "over TCP"};
+  const std::string statistics = statistics_.text();
+  const std::size_t end = statistics.find('\n');
+  rows.push_back(statistics.substr(0, end));
+  if (screen_.view_rows() == rows.size()) return rows;
+  rows.push_back(statistics.substr(end + 1, statistics.find('\n', end + 1) - end - 1));
+  for (std::string& line : key_lines(screen_.columns())) rows.push_back(std::move(line));
+  return rows;
+}
+
+void Menu::draw() {
+  if (screen_.on()) screen_.draw(view());
+}
+
+/// The terminal has another size, or the process goes on.
+void Menu::look_again() {
+  std::string why;
+  if (!screen_.on())
+    screen_.switch_on(why);
+  else
+    screen_.fit(why);
+  if (!why.empty()) fmt::print("{}\n", why);
+  draw();
+}
+
+void Menu::show(const MasterResult& result) const {
+  fmt::print("{}\n", heading(result));
+  for (const std::string& line : lines(result)) fmt::print("{}\n", line);
+  fmt::print("{}", frames_text(result));
+}
+
+// --- what is typed ---
+
+/// The rest of the answers is the last one.
+std::string Menu::ask(const Question& question, Words& answers, bool last) {
+  if (answers.empty()) {
+    const std::string usual = question.usual.empty() ? "" : fmt::format(" [{}]", question.usual);
+    const auto typed = editor_.ask(fmt::format("{}{}: ", question.text, usual));
+    if (!typed) throw Wrong("given up");
+    answers = words_of(*typed);
+    if (answers.empty() && question.usual.empty()) throw Wrong(fmt::format("{}: an answer is needed", question.text));
+    if (answers.empty()) answers = {std::string(question.usual)};
+  }
+  if (last) return joined_by_commas(std::exchange(answers, {}));
+  std::string answer = answers.front();
+  answers.erase(answers.begin());
+  return answer;
+}
+
+void Menu::do_function(const Function& function, Words& answers) {
+  std::array<std::string, 3> given;
+  const std::size_t count = questions_of(function);
+  for (std::size_t i = 0; i < count; ++i) given[i] = ask(function.questions[i], answers, i + 1 == count);
+  if (!answers.empty()) throw Wrong(fmt::format("{} asks for nothing", function.name));
+  Words words = words_of(fmt::format(fmt::runtime(function.action), given[0], given[1], given[2]));
+  constexpr std::size_t kNotation = 5;  // digits, the first of which names the area
+  const bool named = given[0].size() >= kNotation && std::ranges::all_of(given[0], stl::is_digit);
+  if (words.size() == 3 && named) words.erase(words.begin() + 1);
+  do_actions(words, function.option);
+}
+
+void Menu::do_actions(const Words& words, std::string_view option) {
+  ProtocolUse use = use_;
+  if (!option.empty()) use.given[std::string(option)];
+  last_ = options_.protocol->actions(words, use);
+  perform(1);
+}
+
+void Menu::repeat() {
+  if (last_.empty()) throw Wrong("there is nothing to repeat yet");
+  fmt::print("until Ctrl-C …\n");
+  perform(UINT64_MAX);
+  fmt::print("{}", statistics_.text());
+}
+
+void Menu::perform(std::uint64_t rounds) {
+  if (!slave_) open();
+  SessionSettings settings = session_;
+  settings.rounds = rounds;
+  MasterSession session(*slave_, last_, settings);
+  int failures = 0;
+  auto drawn = std::chrono::steady_clock::now();
+  const auto take = [&](const MasterResult& result) {
+    statistics_.add(result.answer.verdict, result.exchange.latency());
+    for (int attempt = 1; attempt < result.attempts; ++attempt) statistics_.add_retry();
+    if (rounds == 1) return show(result);
+    if (result.answer.verdict != serial::Verdict::Right && failures++ < kFailuresShown)
+      fmt::print("{}: {}\n", heading(result), short_text(result));
+  };
+  const auto refresh = [&] {
+    constexpr auto kEvery = std::chrono::milliseconds(100);
+    if (std::chrono::steady_clock::now() - drawn < kEvery) return;
+    drawn = std::chrono::steady_clock::now();
+    editor_.take_change() ? look_again() : draw();
+  };
+  session.run({take, refresh}, [] { return false; });
+}
+
+void Menu::open() { slave_ = target_.open(session_.master); }
+
+void Menu::change_slave(Words& answers) {
+  const std::string text = ask({"slave", {}}, answers, true);
+  const auto station = parse_decimal<std::uint8_t>(text);
+  if (!station) throw Wrong(fmt::format("'{}' is not a slave from 0 to 255", stl::shortened(text)));
+  ProtocolUse use = use_;
+  use.station = *station;
+  options_.protocol->actions({"loopback", "0"}, {.station = *station == 0 ? std::uint8_t{1} : *station,
+                                                 .over_modbus_tcp = use_.over_modbus_tcp,
+                                                 .given = use_.given});  // which says what is wrong with it
+  use_ = std::move(use);
+}
+
+void Menu::configure_port(Words& answers) {
+  const auto now = target_.format(session_.master);
+  if (!now) throw Wrong("the port belongs to the other end of the connection");
+  const auto number = [&](std::string_view what, std::uint32_t usual, std::uint32_t least, std::uint32_t most) {
+    const std::string is = std::to_string(usual);
+    const std::string text = ask({what, is}, answers, false);
+    const auto value = parse_decimal<std::uint32_t>(text);
+    if (!value || *value < least || *value > most)
+      throw Wrong(fmt::format("{}: '{}' is not from {} to {}", what, stl::shortened(text), least, most));
+    return *value;
+  };
+  serial::MasterSettings master = session_.master;
+  master.baud = number("baud", now->baud, 50, 1'000'000);
+  master.data_bits = static_cast<std::uint8_t>(number("data bits", now->data_bits, 7, 8));
+  const std::string parity = ask({"parity: none, even, odd", word_of(now->parity)}, answers, false);
+  const auto known = std::ranges::find(kParityWords, parity);
+  if (known == kParityWords.end()) throw Wrong(fmt::format("'{}' is not none, even or odd", stl::shortened(parity)));
+  master.parity = static_cast<Parity>(known - kParityWords.begin());
+  master.stop_bits = static_cast<std::uint8_t>(number("stop bits", now->stop_bits, 1, 2));
+  slave_.reset();  // a device is open once only
+  session_.master = master;
+  open();
+}
+
+/// False for what is not a key.
+bool Menu::execute_key(const std::string& key, Words& answers) {
+  const auto function = std::ranges::find(kFunctions, key, &Function::key);
+  if (function != std::end(kFunctions)) {
+    do_function(*function, answers);
+  } else if (key == "L") {
+    last_ = options_.protocol->actions({"loopback"}, use_);
+    repeat();
+  } else if (key == "T") {
+    repeat();
+  } else if (key == "S") {
+    change_slave(answers);
+  } else if (key == "C") {
+    configure_port(answers);
+  } else if (key == "N") {
+    statistics_ = {};
+  } else if (key == "M") {
+    show_keys();
+  } else if (key == "H") {
+    fmt::print("{}", kHelp);
+  } else if (key == "Q") {
+    quit_ = true;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void Menu::execute(Words words) {
+  const std::string first = words.front();
+  Words answers(words.begin() + 1, words.end());
+  try {
+    if (first.size() == 1 && !execute_key(stl::upper_case(first), answers))
+      throw Wrong(fmt::format("'{}' is not a key; M shows the menu", stl::printable(first)));
+    if (first.size() > 1) do_actions(words);
+  } catch (const Wrong& wrong) {
+    fmt::print("{}\n", stl::printable(wrong.what()));
+  } catch (const SlaveUnreachable& unreachable) {
+    fmt::print("{}\n", stl::printable(unreachable.what()));
+    slave_.reset();  // what comes next tries to reach it again
+  }
+}
+
+/// Ctrl-C ends what is going on, and the line being typed; nothing at the end of the input, and for all that ends the
+/// command.
+std::optional<std::string> Menu::read() {
+  while (true) {
+    if (forget_ctrl_c()) fmt::print("\n");
+    if (interrupted()) return {};
+    std::fflush(stdout);
+    if (auto line = editor_.read()) return line;
+    if (!interrupted()) return {};
+  }
+}
+
+int Menu::run() {
+  std::string why;
+  if (!screen_.switch_on(why)) return print_error(why), kUnusable;
+  editor_.when_changed([this] { look_again(); });
+  if (screen_.view_rows() < kRowsOfView) fmt::print("M shows the menu, H helps, Q quits.\n");
+  while (!quit_) {
+    draw();
+    const auto line = read();
+    if (!line) break;
+    if (Words words = words_of(*line); !words.empty()) execute(std::move(words));
+  }
+  screen_.switch_off();
+  fmt::print("{}", statistics_.text());
+  print_interruption();
+  return interrupted() ? kCheckFailed : kFine;
+}
+
+}  // namespace
+
+int run_menu(const MasterOptions& options, const MenuTarget& target) { return Menu(options, target).run(); }
+
+}  // namespace s7200::tools
