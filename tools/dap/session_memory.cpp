@@ -160,7 +160,9 @@ void Session::report_memory_changes() {
     const auto place = find_memory(reference, cpu().program());
     auto now = bytes_of(*place, cpu().state());
     const std::size_t size = std::max(before.size(), now.size());  // one of them is none: the routine is not open
-    const auto same = [&](std::size_t i) { return i < before.size() && i < now.size() && before[i] == now[i]; };
+    const auto same = [&before = before, &now](std::size_t i) {
+      return i < before.size() && i < now.size() && before[i] == now[i];
+    };
     std::size_t first = 0, last = size;
     while (first < size && same(first)) ++first;
     if (first == size) continue;

@@ -8,6 +8,8 @@
 #include <random>
 #include <set>
 
+#include "interpreter/base/bytes.hpp"
+#include "serial_sim/field/field_script.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "tests/support/slave_bench.hpp"
 #include "tools/debugger/goals.hpp"
@@ -45,8 +47,15 @@ SetMemory assignment(const std::string& text) {
 /// What a user may do in a session on the slave, by the instruction in front of which it is done.
 const std::vector<std::pair<std::uint64_t, Action>>& deeds() {
   static const std::vector<std::pair<std::uint64_t, Action>> kDeeds{
-      {2000, assignment("VW20=16#1234")}, {6000, frame("0103000a0002e409")}, {6000, assignment("I0.0=1")},
-      {9000, frame("0103000a0002e408")},  {9001, assignment("VB100=7")},     {12000, assignment("I0.1=1")}};
+      {2000, assignment("VW20=16#1234")},
+      {6000, frame("0103000a0002e409")},
+      {6000, assignment("I0.0=1")},
+      {8999, InjectFault{serial::parse_fault("noise:error-rate=0.01").fault}},
+      {9000, frame("0103000a0002e408")},
+      {9001, assignment("VB100=7")},
+      {12000, assignment("I0.1=1")},
+      {13000, SetStack{LogicStack::from_bits(1)}},
+      {13500, InjectFault{}}};
   return kDeeds;
 }
 constexpr std::uint64_t kEnd = 14000;
@@ -272,6 +281,32 @@ TEST(History, AStoppedCpuIsPartOfThePast) {
   session.history->go_to(Time{0});
   session.history->go_to(end);
   EXPECT_TRUE(session.simulation.snapshot() == stopped);
+}
+
+TEST(History, TheFieldGoesBackTooAndComesAgain) {
+  const auto program = test::compile("LD I0.0\nEU\nINCW VW0\nMEND\n");
+  std::vector<std::string> errors;
+  const auto field = serial::parse_field_script("5ms,I0.0,1\n10ms,I0.0,pulses,200Hz,100ms\n", "field.csv", cpu214(), errors);
+  ASSERT_TRUE(errors.empty());
+  serial::Simulation plain(program, field);
+  plain.power_up();
+  plain.run_until(200 * kMillisecond);
+  serial::Simulation simulation(program, field);
+  simulation.power_up();
+  History history(simulation, {.interval = 10 * kMillisecond});
+  StopAt end(simulation.cpu(), plain.cpu().state().instructions);
+  history.run(end);
+  const Snapshot newest = simulation.snapshot();
+  const auto count = [&] { return load16(&simulation.cpu().state().image[image::kV]); };
+  const auto all = count();
+  EXPECT_GT(all, 15U);
+  history.go_to(Time{50 * kMillisecond});
+  EXPECT_LT(count(), all);
+  history.go_to(Time{kMillisecond});
+  EXPECT_EQ(count(), 0U);
+  history.run(end);
+  EXPECT_EQ(count(), all);
+  EXPECT_TRUE(simulation.snapshot() == newest);
 }
 
 TEST(History, TheWatchdogOfThePastNamesTheSameInstruction) {

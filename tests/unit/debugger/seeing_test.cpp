@@ -39,6 +39,7 @@ TEST(Seeing, PrintTakesPointersFormsAndExpressions) {
   EXPECT_TRUE(has(session("print T37"), "T37: bit 0, preset 50, counts 100 ms\n"));
   EXPECT_TRUE(has(session("print SMB30"), "SMB30      16#00 = 2#00000000: PPI slave"));
   EXPECT_TRUE(has(session("print HC0"), "HSC0 is not defined"));
+  EXPECT_TRUE(has(session("print C1"), "C1: bit 0"));
 }
 
 TEST(Seeing, StatusHasPowerFlowAndOperandsOfTheLastExecutionBesideEachLine) {
