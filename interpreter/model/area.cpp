@@ -25,6 +25,13 @@ static constexpr std::array<AreaInfo, kAreas> kAreaTable{{
 
 const std::array<AreaInfo, kAreas>& all_areas() { return kAreaTable; }
 
+const AreaInfo& area_at(std::uint32_t place) {
+  const AreaInfo* area = kAreaTable.data();
+  for (const AreaInfo& each : kAreaTable)
+    if (place >= each.base && each.base > area->base) area = &each;
+  return *area;
+}
+
 const AreaInfo& info(Area area) { return kAreaTable[static_cast<std::size_t>(area)]; }
 
 std::optional<Area> area_named(std::string_view name) {

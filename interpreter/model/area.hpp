@@ -67,6 +67,8 @@ struct AreaInfo {
 
 const AreaInfo& info(Area area);
 const std::array<AreaInfo, kAreas>& all_areas();
+/// Where a place in the image is.
+const AreaInfo& area_at(std::uint32_t place);
 std::optional<Area> area_named(std::string_view name);  // upper case
 
 }  // namespace s7200

@@ -467,6 +467,11 @@ std::string address_text(Area area, Width width, std::uint32_t number, std::uint
   return fmt::format("{}{}{}", name, letter_of(width), number);
 }
 
+std::string byte_text(std::uint32_t place) {
+  const AreaInfo& area = area_at(place);
+  return address_text(area.area, Width::Byte, place - area.base, 0);
+}
+
 const SpecialMemory* missing_special_memory(const CpuModel& model, std::uint32_t first, std::uint32_t bytes) {
   const auto found = std::ranges::find_if(special_memory(), [&](const SpecialMemory& entry) {
     return !entry.usable_on(model) && first + bytes > entry.first && first <= entry.last;

@@ -52,6 +52,9 @@ std::optional<Width> width_of(const stl::Address& address, Area area);
 /// `VB100`, `T33`, `M31.7`: the text of an address.
 std::string address_text(Area area, Width width, std::uint32_t number, std::uint8_t bit);
 
+/// `VB100`: the byte at a place in the image.
+std::string byte_text(std::uint32_t place);
+
 /// The first part of special memory that a CPU does not have, or that is not modelled, among `bytes` from SMB`first`; null
 /// if there is none.
 const SpecialMemory* missing_special_memory(const CpuModel& model, std::uint32_t first, std::uint32_t bytes);

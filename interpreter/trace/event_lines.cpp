@@ -30,20 +30,6 @@ std::string status_text(std::uint8_t status) {
   return fmt::format("status 16#{:02X}{}", status, reasons.empty() ? "" : fmt::format(" ({})", reasons));
 }
 
-/// Of the place in the image.
-const AreaInfo& area_at(std::uint32_t place) {
-  const AreaInfo* area = nullptr;
-  for (const AreaInfo& each : all_areas())
-    if (place >= each.base && (!area || each.base > area->base)) area = &each;
-  return *area;
-}
-
-/// `VB100`
-std::string table_text(std::uint32_t place) {
-  const AreaInfo& area = area_at(place);
-  return address_text(area.area, Width::Byte, place - area.base, 0);
-}
-
 /// `VB100, 4 bytes`; `M3.1`
 std::string variable_text(const TraceRecord& r) {
   const AreaInfo* const area = &area_at(r.op);
@@ -75,7 +61,7 @@ std::string ppi_text(const TraceRecord& r) {
 /// What has become of a job of the CPU as a master.
 std::string network_text(const TraceRecord& r) {
   const std::string job =
-      fmt::format("{} with table {}, station {}", r.routine != 0 ? "NETW" : "NETR", table_text(r.op), r.event);
+      fmt::format("{} with table {}, station {}", r.routine != 0 ? "NETW" : "NETR", byte_text(r.op), r.event);
   if (r.byte & kJobActive)
     return fmt::format("{}: {} bytes are to be {}", job, r.count, r.routine != 0 ? "written" : "read");
   const NetworkError error{static_cast<std::uint8_t>(r.byte & kJobErrorCode)};

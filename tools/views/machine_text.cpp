@@ -139,6 +139,17 @@ std::string receiver_text(const State& state, std::size_t number) {
                      state.image[sm::kReceiveStatus] & sm::kParityError);
 }
 
+/// NETR and NETW that are on the list; nothing if there are none.
+std::string network_text(const State& state, std::size_t port) {
+  std::string text;
+  const NetworkPort& network = state.network[port];
+  for (std::size_t i = 0; i < network.count; ++i) {
+    const NetworkPort::Job& job = network.jobs[i];
+    text += fmt::format("{}{} {}", i == 0 ? "jobs       " : ", ", job.writes ? "NETW" : "NETR", byte_text(job.table));
+  }
+  return text.empty() ? text : text + "\n";
+}
+
 /// What RCV does; nothing if it does nothing.
 std::string message_text(const State& state, std::size_t port) {
   const MessageReceiver& message = state.port[port].message;
@@ -159,8 +170,8 @@ std::string transmitter_text(const State& state, std::size_t number) {
 }
 
 std::string port_text(const State& state, std::size_t port) {
-  return fmt::format("{}\n{}\n{}{}\n", control_text(state, port), receiver_text(state, port), message_text(state, port),
-                     transmitter_text(state, port));
+  return fmt::format("{}\n{}\n{}{}{}\n", control_text(state, port), receiver_text(state, port), message_text(state, port),
+                     network_text(state, port), transmitter_text(state, port));
 }
 
 std::string master_text(const serial::Requester::State& master) {

@@ -23,6 +23,17 @@ TEST(MachineText, ACpuWithOnePortShowsOne) {
             "master     has sent nothing\n");
 }
 
+TEST(MachineText, APortShowsItsJobsAsAMaster) {
+  EXPECT_EQ(ports_of(*find_cpu("224"),
+                     "LD SM0.1\nMOVB 2, SMB30\nMOVB 5, VB101\nMOVD &VB0, VD102\nMOVB 1, VB106\nMOVD VD101, VD201\n"
+                     "MOVW VW105, VW205\nNETR VB100, 0\nNETW VB200, 0\nMEND\n"),
+            "SMB30      16#02 = 2#00000010: PPI master\n"
+            "receiver   PPI, station 2; event 8 is not attached; SMB2 = 16#00, parity error SM3.0 = 0\n"
+            "jobs       NETR VB100, NETW VB200\n"
+            "transmitter idle; event 9 is not attached\n"
+            "master     has sent nothing\n");
+}
+
 TEST(MachineText, ACpuWithTwoPortsShowsBothAndTheMasterWhereItIs) {
   const char* const program =
       "LD SM0.1\nMOVB 5, SMB130\nMOVB 16#C0, SMB187\nMOVB 20, SMB194\nATCH 0, 24\nRCV VB0, 1\nMEND\nINT 0\nRETI\n";
