@@ -1,5 +1,5 @@
-// The system that most programs need: one line, and on it a PLC, a requester (the master) and a port for the host. If the
-// PLC has two ports, the other one is alone on a line of its own.
+// What most programs need of a system: one line, and on it a PLC, a requester (the master) and a port for the host. If the
+// PLC has two ports, the other one is alone on a line of its own, unless the system is one that somebody else has built.
 #pragma once
 
 #include <atomic>
@@ -15,13 +15,18 @@ class Simulation {
   /// `port`: the one of the PLC that is on the line with the others.
   explicit Simulation(std::shared_ptr<const Program> program, FieldScript field = {}, std::uint8_t port = 0);
 
+  /// A system that somebody else has built, as seen from a PLC's port and by those who are on its line: `master` and `host`
+  /// are null if there is none. Nothing is owned.
+  Simulation(System& system, SharedLine& line, Plc& plc, std::uint8_t port, RequesterStation* master, HostStation* host);
+
   /// All that runs ends early once `request` is true; it is looked at every 100 ms. Not owned; null: nothing ends it.
-  void stop_when(const std::atomic<bool>* request) { system_.stop_when(request); }
+  void stop_when(const std::atomic<bool>* request) { system_->stop_when(request); }
 
   /// Powers the CPU up into RUN, at time 0, with what its memory has kept.
-  void power_up(const RetentiveMemory* memory = nullptr) { plc_.power_up(memory); }
+  void power_up(const RetentiveMemory* memory = nullptr) { plc_->power_up(memory); }
 
-  /// Runs the CPU and handles what is due, until the CPU's clock has reached `end`. A CPU that goes to STOP ends the run.
+  /// Runs the CPU and handles what is due, until its clock has reached `end`. A CPU that goes to STOP ends the run if it is
+  /// the only one.
   Halt run_until(Time end);
 
   /// From now on the master's format is what `of` makes of the port's, and changes with it at once, but not within an
@@ -30,13 +35,13 @@ class Simulation {
 
   /// Runs on, in STOP too, until a started exchange of the master, or its listening, is over. The master is busy still if a
   /// stop was asked for.
-  const Exchange& finish_exchange() { return system_.finish_exchange(master_); }
+  const Exchange& finish_exchange() { return system_->finish_exchange(*master_); }
 
   /// Whether the line has had no character on it for `quiet` up to now.
   bool line_quiet_for(Time quiet) const { return time() - last_activity() >= quiet; }
 
   /// End of the last character that anyone sent or heard.
-  Time last_activity() const { return line_.last_activity(); }
+  Time last_activity() const { return line_->last_activity(); }
 
   /// Runs until the first scan has ended and the line has been quiet since then for `quiet`, which is asked only after that
   /// scan: it is there that programs set the rate of their port. False if that has not come by `limit`, the CPU stopped,
@@ -47,44 +52,48 @@ class Simulation {
   }
 
   /// From now on. Several may be at work at once.
-  void inject(const Fault& fault) { line_.faults().inject(fault, time()); }
-  void clear_faults() { line_.faults().clear(time()); }
-  const Faults& faults() const { return line_.faults(); }
+  void inject(const Fault& fault) { line_->faults().inject(fault, time()); }
+  void clear_faults() { line_->faults().clear(time()); }
+  const Faults& faults() const { return line_->faults(); }
 
-  Plc& plc() { return plc_; }
-  const SharedLine& line() const { return line_; }
-  Cpu& cpu() { return plc_.cpu(); }
-  const Cpu& cpu() const { return plc_.cpu(); }
-  Requester& master() { return master_.requester(); }
-  const Requester& master() const { return master_.requester(); }
-  Uart& master_uart() { return master_.uart(); }
-  HostPort& host_port() { return host_.port(); }
-  const HostPort& host_port() const { return host_.port(); }
-  Time time() const { return cpu().time(); }
+  System& system() { return *system_; }
+  Plc& plc() { return *plc_; }
+  const SharedLine& line() const { return *line_; }
+  Cpu& cpu() { return plc_->cpu(); }
+  const Cpu& cpu() const { return plc_->cpu(); }
+  Requester& master() { return master_->requester(); }
+  const Requester& master() const { return master_->requester(); }
+  Uart& master_uart() { return master_->uart(); }
+  bool has_master() const { return master_ != nullptr; }
+  bool has_host_port() const { return host_ != nullptr; }
+  HostPort& host_port() { return host_->port(); }
+  const HostPort& host_port() const { return host_->port(); }
+  Time time() const { return system_->time(); }
 
   /// What the program has set its port to; the default format until it has switched it to Freeport mode.
-  SerialFormat port_format() const { return plc_.port_format(port_); }
+  SerialFormat port_format() const { return plc_->port_format(port_); }
 
   /// The PLC's port on the line: its number, and what it is doing.
   std::uint8_t port() const { return port_; }
   const Freeport& freeport() const { return cpu().state().port[port_]; }
 
   /// Lets `sink` watch the line from now on; null ends that. Not owned. After restore() it sees time go back.
-  void set_wire_sink(WireSink* sink) { plc_.set_wire_sink(sink, port_); }
+  void set_wire_sink(WireSink* sink) { plc_->set_wire_sink(sink, port_); }
 
   using Snapshot = System::Snapshot;
-  Snapshot snapshot() const { return system_.snapshot(); }
-  void restore(const Snapshot& snapshot) { system_.restore(snapshot); }
+  Snapshot snapshot() const { return system_->snapshot(); }
+  void restore(const Snapshot& snapshot) { system_->restore(snapshot); }
 
  private:
   std::vector<SharedLine*> lines(const CpuModel& model);
 
-  System system_;
+  std::unique_ptr<System> own_;  // null if somebody else has built it
+  System* system_;
   std::uint8_t port_;
-  SharedLine& line_;
-  Plc& plc_;
-  RequesterStation& master_;
-  HostStation& host_;
+  SharedLine* line_;
+  Plc* plc_;
+  RequesterStation* master_;  // null if there is none
+  HostStation* host_;         // the same
 };
 
 }  // namespace s7200::serial

@@ -74,6 +74,15 @@ void System::power_off(Plc& plc) {
 
 void System::power_on(Plc& plc) { plc.power_on(std::max(time(), plc.cpu().time())); }
 
+void System::schedule(Time at, std::function<void()> act) {
+  assert(acts_.empty() || acts_.back().at <= at);
+  acts_.push_back({at, std::move(act)});
+}
+
+void System::act() {
+  while (next_act() <= time()) acts_[acted_++].act();
+}
+
 bool System::any_powered() const {
   return std::any_of(plcs_.begin(), plcs_.end(), [](const auto& plc) { return plc->powered(); });
 }
@@ -99,6 +108,7 @@ Time System::horizon() const {
 
 Halt System::step(Time end) {
   if (stop_requested()) return Halt::Request;
+  end = std::min(end, next_act());
   if (plcs_.size() == 1 && plcs_.front()->powered()) return step_one_plc(plcs_.front()->cpu(), end);
   if (!any_powered()) return step_without_plc(end);
   const Time horizon = this->horizon();
@@ -112,6 +122,7 @@ Halt System::step(Time end) {
     if (cpu.paused()) break;
   }
   handle_due_events(time());
+  act();
   return halt;
 }
 
@@ -121,12 +132,14 @@ Halt System::step_one_plc(Cpu& cpu, Time end) {
   const bool runs = cpu.time() < until;
   if (runs) cpu.run(until, kLookEvery);
   handle_due_events(cpu.time());
+  act();
   return runs && cpu.paused() ? Halt::Paused : Halt::Time;
 }
 
 Halt System::step_without_plc(Time end) {
   clock_ = std::min({end, std::max(clock_, events_.next()), after(clock_, kLookEvery)});
   handle_due_events(time());
+  act();
   return Halt::Time;
 }
 
@@ -156,8 +169,15 @@ void System::settle(Time until) {
 }
 
 System::Snapshot System::snapshot() const {
-  return {events_.state(),        states_of(lines_),      states_of(plcs_),    states_of(requesters_),
-          states_of(host_ports_), states_of(responders_), states_of(pollers_), clock_};
+  return {events_.state(),
+          states_of(lines_),
+          states_of(plcs_),
+          states_of(requesters_),
+          states_of(host_ports_),
+          states_of(responders_),
+          states_of(pollers_),
+          clock_,
+          acted_};
 }
 
 void System::restore(const Snapshot& snapshot) {
@@ -173,6 +193,7 @@ void System::restore(const Snapshot& snapshot) {
   restore_all(responders_, snapshot.responders);
   restore_all(pollers_, snapshot.pollers);
   clock_ = snapshot.clock;
+  acted_ = snapshot.acted;
 }
 
 }  // namespace s7200::serial

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -63,6 +64,13 @@ class System {
   void power_off(Plc& plc);
   void power_on(Plc& plc);
 
+  /// What is done to the system from outside when all clocks have come to `at`: power, cables, faults, inputs. It is told in
+  /// the order of the instants, before anything runs.
+  void schedule(Time at, std::function<void()> act);
+
+  /// How many PLCs there are.
+  std::size_t plcs() const { return plcs_.size(); }
+
   /// The earliest clock of those that have power: nothing happens before it any more.
   Time time() const;
 
@@ -87,6 +95,7 @@ class System {
     std::vector<ResponderStation::State> responders{};
     std::vector<PollerStation::State> pollers{};
     Time clock = 0;  ///< while no CPU has power
+    std::size_t acted = 0;
     bool operator==(const Snapshot&) const = default;
   };
   Snapshot snapshot() const;
@@ -102,9 +111,16 @@ class System {
   bool any_powered() const;
   Halt step_one_plc(Cpu& cpu, Time end);
   Halt step_without_plc(Time end);
+  Time next_act() const { return acted_ < acts_.size() ? acts_[acted_].at : kNever; }
+  void act();
   void handle_due_events(Time now);
   void settle(Time until);
   bool stop_requested() const { return stop_request_ && *stop_request_; }
+
+  struct Act {
+    Time at;
+    std::function<void()> act;
+  };
 
   Dispatcher events_;
   Parts<SharedLine> lines_;
@@ -113,7 +129,9 @@ class System {
   Parts<HostStation> host_ports_;
   Parts<ResponderStation> responders_;
   Parts<PollerStation> pollers_;
-  Time clock_ = 0;  // while no CPU has power
+  std::vector<Act> acts_;
+  std::size_t acted_ = 0;  // so many of them
+  Time clock_ = 0;         // while no CPU has power
   const std::atomic<bool>* stop_request_ = nullptr;
 };
 

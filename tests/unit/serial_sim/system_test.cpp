@@ -590,5 +590,52 @@ TEST(System, ASimulationMayPutItsMasterOnPort1) {
   EXPECT_EQ(to_hex(simulation.finish_exchange().response_bytes()), "41 42");
 }
 
+// --- what is done at an instant ---
+
+TEST(System, WhatIsScheduledIsDoneWhenAllClocksHaveComeToIt) {
+  Plant plant({slave(1), slower_slave(2)});
+  std::vector<Time> done;
+  for (const Time at : {Time{0}, 3 * kMillisecond, 3 * kMillisecond, 50 * kMillisecond})
+    plant.system.schedule(at, [&] {
+      done.push_back(plant.system.time());
+      for (const Plc* plc : plant.plcs) EXPECT_GE(plc->cpu().time(), done.size() > 1 ? 3 * kMillisecond : 0);
+    });
+  plant.system.run_until(3 * kMillisecond);
+  EXPECT_EQ(done.size(), 3U) << "those of the instant that was reached, too";
+  plant.system.run_until(kSecond);
+  ASSERT_EQ(done.size(), 4U);
+  EXPECT_LT(done[3], 51 * kMillisecond);
+}
+
+TEST(System, ASnapshotKnowsWhatOfTheScheduleIsDone) {
+  Plant plant({slave(1), slave(2)});
+  int off = 0;
+  plant.system.schedule(20 * kMillisecond, [&] {
+    ++off;
+    plant.system.power_off(*plant.plcs[1]);
+  });
+  plant.system.run_until(10 * kMillisecond);
+  const System::Snapshot before = plant.system.snapshot();
+  plant.system.run_until(30 * kMillisecond);
+  const System::Snapshot after = plant.system.snapshot();
+  EXPECT_FALSE(plant.plcs[1]->powered());
+  plant.system.restore(before);
+  EXPECT_TRUE(plant.plcs[1]->powered());
+  plant.system.run_until(30 * kMillisecond);
+  EXPECT_EQ(off, 2);
+  EXPECT_TRUE(plant.system.snapshot() == after);
+  plant.system.restore(after);
+  plant.system.run_until(40 * kMillisecond);
+  EXPECT_EQ(off, 2);
+}
+
+TEST(System, SomethingScheduledComesWithinAnExchange) {
+  Plant plant({slave(1), slave(2)});
+  plant.start();
+  plant.system.schedule(plant.system.time() + 5 * kMillisecond, [&] { plant.system.power_off(*plant.plcs[0]); });
+  EXPECT_EQ(plant.ask(1, modbus::read_holding_registers(0, 1)), "-") << "its power went off within the request";
+  EXPECT_NE(plant.ask(2, modbus::read_holding_registers(0, 1)), "-");
+}
+
 }  // namespace
 }  // namespace s7200::serial
