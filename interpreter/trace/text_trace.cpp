@@ -6,21 +6,25 @@
 namespace s7200 {
 
 TextTrace::TextTrace(std::ostream& out, std::shared_ptr<const Program> program, TraceDetail detail)
-    : out_(out),
+    : TextTrace([&out](Time, std::string_view line) { out.write(line.data(), static_cast<std::streamsize>(line.size())); },
+                std::move(program), detail) {
+  out << kFirstLine << '\n';
+}
+
+TextTrace::TextTrace(TakeLine take, std::shared_ptr<const Program> program, TraceDetail detail)
+    : take_(std::move(take)),
       program_(std::move(program)),
       detail_(detail),
       event_lines_(*program_),
       lines_(*program_),
-      instruction_lines_(*program_) {
-  out_ << kFirstLine << '\n';
-}
+      instruction_lines_(*program_) {}
 
 void TextTrace::record(const TraceRecord& record) {
   const bool wanted = record.kind != TraceKind::ScanBegin || detail_ == TraceDetail::Instructions;
   if (detail_ == TraceDetail::Events) {
     line_.clear();
     if (wanted) event_lines_.append_line(line_, record);
-    return put_line();
+    return put_line(record.at);
   }
   const std::vector<TraceLine> lines = lines_.of(record);
   if (wanted) write(lines);
@@ -30,7 +34,7 @@ void TextTrace::instruction(const InstructionRecord& record) {
   if (detail_ == TraceDetail::Instructions) {
     line_.clear();
     instruction_lines_.append_line(line_, record);
-    put_line();
+    put_line(record.end);
   }
   write(lines_.of(record));
 }
@@ -40,10 +44,12 @@ void TextTrace::write(const std::vector<TraceLine>& lines) {
     line_.clear();
     append_clock(line_, line.at);
     append(line_, "  ", line.text, "\n");
-    put_line();
+    put_line(line.at);
   }
 }
 
-void TextTrace::put_line() { out_.write(line_.data(), static_cast<std::streamsize>(line_.size())); }
+void TextTrace::put_line(Time at) {
+  if (line_.size() > 0) take_(at, {line_.data(), line_.size()});
+}
 
 }  // namespace s7200

@@ -1,6 +1,7 @@
 // A trace as text, to be read by people and compared with diff.
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <string_view>
@@ -28,6 +29,10 @@ class TextTrace final : public TraceSink {
 
   TextTrace(std::ostream& out, std::shared_ptr<const Program> program, TraceDetail detail);
 
+  /// Hands each line on, with the instant that it is about, instead of writing them; there is no first line.
+  using TakeLine = std::function<void(Time at, std::string_view line)>;
+  TextTrace(TakeLine take, std::shared_ptr<const Program> program, TraceDetail detail);
+
   void record(const TraceRecord& record) override;
   void instruction(const InstructionRecord& record) override;
   bool wants_instructions() const override { return detail_ != TraceDetail::Events; }
@@ -35,9 +40,9 @@ class TextTrace final : public TraceSink {
 
  private:
   void write(const std::vector<TraceLine>& lines);
-  void put_line();
+  void put_line(Time at);
 
-  std::ostream& out_;
+  TakeLine take_;
   std::shared_ptr<const Program> program_;
   TraceDetail detail_;
   EventLines event_lines_;  // of Events

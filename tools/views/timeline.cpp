@@ -292,9 +292,9 @@ std::string remark(const TimelineRow& row) {
 }
 
 /// fmt counts a character of several bytes as the columns it takes.
-std::string row_text(Time at, const TimelineRow& row) {
-  std::string text =
-      fmt::format("{:>10.3f}  {:<{}}  {}", static_cast<double>(at) / kMillisecond, line_text(row), kWidth, remark(row));
+std::string row_text(Time at, std::string_view station, const TimelineRow& row) {
+  std::string text = fmt::format("{:>10.3f}  {}{:<{}}  {}", static_cast<double>(at) / kMillisecond, station, line_text(row),
+                                 kWidth, remark(row));
   text.erase(text.find_last_not_of(' ') + 1);
   return text;
 }
@@ -323,6 +323,65 @@ std::string summary(const TimelineReport& report) {
                         format_duration(report.longest_scan));
   if (marked) text += "; p wrong parity, f framing error";
   return text;
+}
+
+/// Names of stations, in a column as wide as the longest; nothing if none has a name.
+class Column {
+ public:
+  explicit Column(const std::vector<StationTimeline>& stations) {
+    for (const StationTimeline& each : stations) width_ = std::max(width_, each.station.size());
+    if (width_ > 0) width_ = std::max(width_, std::string_view("station").size());
+  }
+  std::string of(std::string_view name) const { return width_ == 0 ? "" : fmt::format("{:<{}}  ", name, width_); }
+
+ private:
+  std::size_t width_ = 0;
+};
+
+using StationRow = std::pair<const std::string*, const TimelineRow*>;
+
+/// Of one instant in the order of the stations.
+std::vector<StationRow> in_order(const std::vector<StationTimeline>& stations) {
+  std::vector<StationRow> rows;
+  for (const StationTimeline& each : stations)
+    for (const TimelineRow& row : each.report.rows) rows.emplace_back(&each.station, &row);
+  if (stations.size() > 1) std::ranges::stable_sort(rows, {}, [](const StationRow& row) { return row.second->at; });
+  return rows;
+}
+
+// --- JSON ---
+
+nlohmann::ordered_json to_json(const TimelineRow& row, const std::string& station, const serial::Exchange& exchange) {
+  static constexpr std::string_view kNames[] = {"received", "ignored",  "lost",    "event", "transmit",  "sent",
+                                                "other",    "left out", "dropped", "way",   "unanswered"};
+  const auto microseconds = [](Time t) { return static_cast<double>(t) / kMicrosecond; };
+  nlohmann::ordered_json json{{"at_us", microseconds(row.at - exchange.request_start)}};
+  if (!station.empty()) json["station"] = station;
+  json["kind"] = kNames[static_cast<std::size_t>(row.kind)];
+  if (row.port != 0) json["port"] = row.port;
+  if (!row.characters.empty()) {
+    std::vector<std::uint8_t> bytes;
+    for (const ReceivedCharacter& c : row.characters) bytes.push_back(c.byte);
+    json["characters"] = plain_hex(bytes);
+    json["parity_errors"] =
+        std::count_if(row.characters.begin(), row.characters.end(), [](const auto& c) { return c.parity_error; });
+    json["framing_errors"] =
+        std::count_if(row.characters.begin(), row.characters.end(), [](const auto& c) { return c.framing_error; });
+  }
+  if (row.more_characters) json["more_characters"] = row.more_characters;
+  if (!row.text.empty()) json["text"] = row.text;
+  if (!row.place.empty()) json["place"] = row.place;
+  if (!row.why.empty() && !row.served) json["why"] = row.why;
+  if (row.served) {
+    json["event"] = row.event;
+    json["routine"] = row.routine;
+    json["served"] = row.served;
+    json["shortest_us"] = microseconds(row.shortest);
+    json["longest_us"] = microseconds(row.longest);
+    json["longest_wait_us"] = microseconds(row.longest_wait);
+    if (!row.why.empty()) json["longest_wait_why"] = row.why;
+  }
+  return json;
 }
 
 }  // namespace
@@ -365,48 +424,31 @@ void Timeline::instruction(const InstructionRecord& record) {
 TimelineReport Timeline::report() const { return reader_->report(); }
 
 std::string to_text(const TimelineReport& report, const serial::Exchange& exchange, bool colour) {
+  return to_text(std::vector<StationTimeline>{{"", report}}, exchange, colour);
+}
+
+std::string to_text(const std::vector<StationTimeline>& stations, const serial::Exchange& exchange, bool colour) {
+  const Column column(stations);
   std::string text =
-      painted(fmt::format("{:>10}  {:<{}}  {}", "ms", "at the port", kWidth, "in the CPU"), kDim, colour) + '\n';
-  for (const TimelineRow& row : report.rows) {
-    const std::string line = row_text(row.at - exchange.request_start, row);
-    text += (is_trouble(row) ? painted(line, kYellow, colour) : line) + '\n';
+      painted(fmt::format("{:>10}  {}{:<{}}  {}", "ms", column.of("station"), "at the port", kWidth, "in the CPU"), kDim,
+              colour) +
+      '\n';
+  for (const auto& [station, row] : in_order(stations)) {
+    const std::string line = row_text(row->at - exchange.request_start, column.of(*station), *row);
+    text += (is_trouble(*row) ? painted(line, kYellow, colour) : line) + '\n';
   }
-  return text + painted(fmt::format("{:>10}  {}", "", summary(report)), kDim, colour) + '\n';
+  for (const StationTimeline& each : stations)
+    text += painted(fmt::format("{:>10}  {}{}", "", column.of(each.station), summary(each.report)), kDim, colour) + '\n';
+  return text;
 }
 
 nlohmann::ordered_json to_json(const TimelineReport& report, const serial::Exchange& exchange) {
-  static constexpr std::string_view kNames[] = {"received", "ignored",  "lost",    "event", "transmit",  "sent",
-                                                "other",    "left out", "dropped", "way",   "unanswered"};
-  const auto microseconds = [](Time t) { return static_cast<double>(t) / kMicrosecond; };
+  return to_json(std::vector<StationTimeline>{{"", report}}, exchange);
+}
+
+nlohmann::ordered_json to_json(const std::vector<StationTimeline>& stations, const serial::Exchange& exchange) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const TimelineRow& row : report.rows) {
-    nlohmann::ordered_json json{{"at_us", microseconds(row.at - exchange.request_start)},
-                                {"kind", kNames[static_cast<std::size_t>(row.kind)]}};
-    if (row.port != 0) json["port"] = row.port;
-    if (!row.characters.empty()) {
-      std::vector<std::uint8_t> bytes;
-      for (const ReceivedCharacter& c : row.characters) bytes.push_back(c.byte);
-      json["characters"] = plain_hex(bytes);
-      json["parity_errors"] =
-          std::count_if(row.characters.begin(), row.characters.end(), [](const auto& c) { return c.parity_error; });
-      json["framing_errors"] =
-          std::count_if(row.characters.begin(), row.characters.end(), [](const auto& c) { return c.framing_error; });
-    }
-    if (row.more_characters) json["more_characters"] = row.more_characters;
-    if (!row.text.empty()) json["text"] = row.text;
-    if (!row.place.empty()) json["place"] = row.place;
-    if (!row.why.empty() && !row.served) json["why"] = row.why;
-    if (row.served) {
-      json["event"] = row.event;
-      json["routine"] = row.routine;
-      json["served"] = row.served;
-      json["shortest_us"] = microseconds(row.shortest);
-      json["longest_us"] = microseconds(row.longest);
-      json["longest_wait_us"] = microseconds(row.longest_wait);
-      if (!row.why.empty()) json["longest_wait_why"] = row.why;
-    }
-    list.push_back(json);
-  }
+  for (const auto& [station, row] : in_order(stations)) list.push_back(to_json(*row, *station, exchange));
   return list;
 }
 

@@ -102,4 +102,14 @@ class Timeline final : public TraceSink {
 std::string to_text(const TimelineReport& report, const serial::Exchange& exchange, bool colour);
 nlohmann::ordered_json to_json(const TimelineReport& report, const serial::Exchange& exchange);
 
+/// What one of several stations did; without a name it is the only one.
+struct StationTimeline {
+  std::string station{};
+  TimelineReport report{};
+};
+
+/// All of them in one table, in the order of time, with the name of the station beside each row.
+std::string to_text(const std::vector<StationTimeline>& stations, const serial::Exchange& exchange, bool colour);
+nlohmann::ordered_json to_json(const std::vector<StationTimeline>& stations, const serial::Exchange& exchange);
+
 }  // namespace s7200::tools

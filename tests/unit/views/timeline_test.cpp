@@ -204,5 +204,20 @@ TEST(TimelineOfInstructions, ACharacterThatComesWhileThePortSendsSaysThatItsRece
   bench.cpu().set_sink(nullptr);
 }
 
+TEST(TimelineOfStations, RowsAreInTheOrderOfTimeWithTheNameOfEachBesideThem) {
+  const auto sent = [](Time at) { return TimelineRow{.at = at, .kind = Kind::Sent, .characters = {{.byte = 0x41}}}; };
+  const std::vector<StationTimeline> stations{{"master", {.rows = {sent(1 * kMillisecond), sent(3 * kMillisecond)}}},
+                                              {"slave12", {.rows = {sent(2 * kMillisecond)}}}};
+  const std::string text = to_text(stations, {}, false);
+  const auto first = text.find("master   sent"), second = text.find("slave12  sent"), third = text.rfind("master   sent");
+  ASSERT_NE(second, std::string::npos) << text;
+  EXPECT_TRUE(first < second && second < third) << text;
+  EXPECT_NE(text.find("ms  station  at the port"), std::string::npos) << text;
+  const auto json = to_json(stations, {});
+  ASSERT_EQ(json.size(), 3U);
+  EXPECT_EQ(json[1]["station"], "slave12");
+  EXPECT_FALSE(to_json(stations[0].report, {})[0].contains("station")) << "one that is alone needs no name";
+}
+
 }  // namespace
 }  // namespace s7200::tools
