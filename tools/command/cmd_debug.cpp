@@ -12,10 +12,10 @@
 #include "tools/command/debug_session.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/debug_options.hpp"
+#include "tools/command/rig_output.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/host/interruption.hpp"
-#include "tools/views/faults.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -81,8 +81,8 @@ int run_debug(DebugOptions& options) {
     if (!live.failure().empty()) print_error(live.failure());
     good &= live.failure().empty();
   }
-  fmt::print("{}", options.rig.dump_text(rig->cpu()));
-  print_notes(fault_notes(rig->simulation().faults()));
+  fmt::print("{}", dump_text(*rig));
+  print_notes(fault_notes(*rig));
   if (!finish(*rig)) return kUnusable;
   if (std::ferror(stdin) != 0 && !interrupted()) return print_error("cannot read standard input"), kUnusable;
   print_interruption();

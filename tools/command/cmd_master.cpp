@@ -10,18 +10,20 @@
 #include "tools/command/options/master_options.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/rig/system_reader.hpp"
 
 namespace s7200::tools {
 namespace {
 
-int run_master(MasterOptions& options) {
+int run_master(const CLI::App& verb, MasterOptions& options) {
   const SlaveTarget target = parse_slave_target(options.target);
   options.refuse_what_does_not_fit(target.kind);
   const bool over_tcp = target.kind == SlaveTarget::Kind::ModbusTcp;
   const std::vector<MasterAction> actions = options.actions(over_tcp);
   catch_interruption();
   if (target.kind == SlaveTarget::Kind::Program)
-    return options.band.wanted() ? run_on_program_band(options, actions) : run_on_program(options, actions);
+    return options.band.wanted() && !is_system_file(target.path) ? run_on_program_band(options, actions)
+                                                                 : run_on_program(verb, options, actions);
   if (target.kind == SlaveTarget::Kind::Peer) return run_on_peer(options, target.path, actions);
   std::unique_ptr<Slave> slave;
   const auto format = [&](const serial::MasterSettings& master) { return master.over(options.protocol->format); };
@@ -59,9 +61,9 @@ void add_master(CLI::App& app, int& exit_code) {
       "menu, alone and on a terminal, is a screen to try a Modbus slave by hand: a key for each function, slave, port,\n"
       "loopbacks and a test without end, with statistics.\n"
       "Example: s7200 master stl_programs/modbus_slave.stl write 40011=1234,-5 read 40011:2 read 00001:8");
-  verb->callback([options, &exit_code] {
+  verb->callback([options, verb, &exit_code] {
     try {
-      exit_code = run_master(*options);
+      exit_code = run_master(*verb, *options);
     } catch (const std::invalid_argument& error) {
       print_error(error.what());
       exit_code = kUnusable;

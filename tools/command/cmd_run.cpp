@@ -8,10 +8,10 @@
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/run_options.hpp"
 #include "tools/command/progress.hpp"
+#include "tools/command/rig_output.hpp"
 #include "tools/command/system_run.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/rig/run.hpp"
-#include "tools/views/faults.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -38,7 +38,8 @@ Ending run_to_end(serial::Simulation& simulation, const RunOptions& options) {
   return {reason, live.pace()};
 }
 
-void print_text(const serial::Simulation& simulation, const Ending& ending, const RunOptions& options) {
+void print_text(const Rig& rig, const Ending& ending, const RunOptions& options) {
+  const serial::Simulation& simulation = rig.simulation();
   const State& state = simulation.cpu().state();
   fmt::print("ended by {} after {}: {} scans, {} instructions, CPU in {}\n", ending.reason, format_duration(state.time, 6),
              state.scans, state.instructions, state.mode == Mode::Run ? "RUN" : "STOP");
@@ -50,17 +51,17 @@ void print_text(const serial::Simulation& simulation, const Ending& ending, cons
     fmt::print("real time{}: drift {}, worst lag {}\n",
                ending.pace->speed == 1 ? "" : fmt::format(" times {:g}", ending.pace->speed),
                format_duration(ending.pace->drift), format_duration(ending.pace->worst_lag));
-  fmt::print("{}{}", errors_text(simulation.cpu()), options.rig.dump_text(simulation.cpu()));
+  fmt::print("{}{}", errors_text(rig), dump_text(rig));
 }
 
-void print_json(const serial::Simulation& simulation, const Ending& ending, const RunOptions& options) {
-  const State& state = simulation.cpu().state();
+void print_json(const Rig& rig, const Ending& ending, const RunOptions& options) {
+  const State& state = rig.cpu().state();
   auto results = results_of("run");
   results["stop_reason"] = ending.reason;
   results["time_ns"] = state.time;
   results["scans"] = state.scans;
   results["instructions"] = state.instructions;
-  results.update(options.rig.json(simulation));
+  results.update(rig_json(rig));
   if (ending.pace)
     results["realtime"] = {
         {"speed", ending.pace->speed}, {"drift_ns", ending.pace->drift}, {"worst_lag_ns", ending.pace->worst_lag}};
@@ -84,10 +85,10 @@ int run_run(const CLI::App& verb, RunOptions& options) {
   const bool all_written = finish(*rig);
 
   if (options.json)
-    print_json(simulation, ending, options);
+    print_json(*rig, ending, options);
   else
-    print_text(simulation, ending, options);
-  print_notes(fault_notes(simulation.faults()));
+    print_text(*rig, ending, options);
+  print_notes(fault_notes(*rig));
   if (!all_written) return kUnusable;
   if (ending.reason == "endless scan") {
     print_error(

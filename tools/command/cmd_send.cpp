@@ -7,36 +7,38 @@
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/line_options.hpp"
 #include "tools/command/options/number_option.hpp"
+#include "tools/command/rig_output.hpp"
 #include "tools/command/send_band.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/rig/first_scans.hpp"
+#include "tools/rig/system_reader.hpp"
 #include "tools/slave/simulated_slave.hpp"
 #include "tools/views/faults.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
 #include "tools/views/streamed_results.hpp"
-#include "tools/views/timeline.hpp"
 
 namespace s7200::tools {
 namespace {
 
-int run_send(SendOptions& options) {
-  if (options.band.wanted()) return run_send_band(options);
+int run_send(const CLI::App& verb, SendOptions& options) {
+  if (options.band.wanted() && !is_system_file(options.program.path)) return run_send_band(options);
   int exit_code = kFine;
-  const auto program = options.program.load(exit_code);
-  if (!program) return exit_code;
+  if (!options.rig.load(verb, options.program, exit_code)) return exit_code;
+  options.master = options.rig.on_line(options.master);
   std::string why;
   const auto frames = options.frames.read(why);
   if (!frames) return print_error(why), kUnusable;
-  const auto rig = options.rig.assemble(program, options.json);
+  const auto rig = options.rig.assemble(options.json);
   if (!rig) return options.rig.exit_code_without_rig();
   serial::Simulation& simulation = rig->simulation();
   rig->power_up();
-  TraceSink* const records = rig->sinks().empty() ? nullptr : &rig->sinks();
-  Timeline timeline(program, records, Timeline::Looks::AtInstructions);
+  Timelines timelines(*rig);
 
   StreamedResults results(results_of("send"), "exchanges");
-  SimulatedSlave slave(simulation, options.master, program->source.name);
+  SimulatedSlave slave(simulation, options.master, options.rig.target());
+  if (options.after == kNever) run_first_scans(*rig, kReadyWithin);
   const bool ready = slave.wait_until_ready(options.after, why);
   if (ready) print_note_if_any(slave.note_on_port());
   if (!why.empty()) print_error(why);
@@ -44,38 +46,37 @@ int run_send(SendOptions& options) {
   for (const serial::Frame& frame : *frames) {
     if (!ready || interrupted() || options.rig.failed_strictly(simulation.cpu())) break;
     const serial::Faults::State faults_before = simulation.faults().state();
-    timeline.begin();
-    if (options.timeline) simulation.cpu().set_sink(&timeline);
+    if (options.timeline) timelines.begin();
     const Bytes unasked = serial::bytes_of(simulation.master().heard());
     const serial::Exchange exchange = slave.exchange(options.master.request(frame));
-    simulation.cpu().set_sink(records);
+    if (options.timeline) timelines.end();
     if (simulation.master().busy()) break;  // Ctrl-C came before the answer
     answered += !exchange.timed_out;
     damaged += is_damaged(exchange);
     if (options.json) {
       auto json = exchange_json(exchange, unasked);
       if (options.rig.faulted()) json["faults"] = faults_json(simulation.faults(), faults_before);
-      if (options.timeline) json["timeline"] = to_json(timeline.report(), exchange);
+      if (options.timeline) json["timeline"] = timelines.json(exchange);
       fmt::print("{}", results.entry(json));
     } else {
       fmt::print("{}{}", unasked_text(unasked), exchange_text(exchange, options.master.timeout));
-      if (options.timeline) fmt::print("{}\n", to_text(timeline.report(), exchange, colour_wanted(stdout)));
+      if (options.timeline) fmt::print("{}\n", timelines.text(exchange, colour_wanted(stdout)));
     }
     slave.wait(options.pause == kNever ? slave.pause() : options.pause);
   }
   const bool all_written = finish(*rig);
   if (options.json) {
-    fmt::print("{}", results.end(options.rig.json(simulation)));
+    fmt::print("{}", results.end(rig_json(*rig)));
   } else {
-    fmt::print("{}", options.rig.dump_text(simulation.cpu()));
+    fmt::print("{}", dump_text(*rig));
   }
-  fmt::print(stderr, "{}", errors_text(simulation.cpu()));
-  print_notes(fault_notes(simulation.faults()));
+  fmt::print(stderr, "{}", errors_text(*rig));
+  print_notes(fault_notes(*rig));
   if (damaged > 0) print_note(fmt::format("{} of {} answers damaged", damaged, answered));
   if (ready && answered == 0) print_note_if_any(torn_frame_note(options.frames.in_hex()));
-  if (simulation.cpu().state().mode == Mode::Stop) print_note("the CPU is in STOP");
+  print_notes(stop_notes(*rig));
   if (!all_written) return kUnusable;
-  if (simulation.cpu().state().fatal_code) return kCpuFatal;
+  if (exit_code_of(*rig) != kFine) return exit_code_of(*rig);
   print_interruption();
   if (options.rig.failed_strictly(simulation.cpu())) {
     print_error("--strict: a run-time error ended the exchanges");
@@ -97,6 +98,7 @@ void add_send(CLI::App& app, int& exit_code) {
   add_duration(*verb, "--pause", options->pause, fmt::format("pause between an answer and the next frame [{}]", quiet));
   add_master_options(*verb, options->master);
   options->rig.add_to(*verb);
+  options->rig.add_place_to(*verb);
   options->band.add_to(*verb);
   auto* timeline = verb->add_flag("--timeline", options->timeline,
                                   "show what the CPU did during each exchange: characters, interrupts, XMT");
@@ -107,8 +109,10 @@ void add_send(CLI::App& app, int& exit_code) {
       "Exit code 1 if a frame was not answered or the answer was damaged: parity or framing errors, or a wrong CRC\n"
       "in answer to a right one. What an answer says is not judged here but by 's7200 master'. With --times-band it is\n"
       "0 only if all were answered with every table.\n"
+      "A system file (.yaml) instead of a PROGRAM: the frames go onto one of its lines, beside everybody who is there.\n"
+      "Example: s7200 send stl_programs/systems/faults.yaml --crc 0103000a0001\n"
       "Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");
-  verb->callback([options, &exit_code] { exit_code = run_send(*options); });
+  verb->callback([options, verb, &exit_code] { exit_code = run_send(*verb, *options); });
 }
 
 }  // namespace s7200::tools

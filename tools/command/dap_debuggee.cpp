@@ -9,6 +9,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/bridge/live_run.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/rig_output.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/views/faults.hpp"
 
@@ -51,7 +52,7 @@ class RigDebuggee final : public dap::Debuggee {
     std::vector<std::string> said = fault_notes(rig_->simulation().faults());
     const std::vector<std::string> problems = rig_->finish();
     said.insert(said.end(), problems.begin(), problems.end());
-    if (const std::string dump = options_->rig.dump_text(rig_->cpu()); !dump.empty()) said.push_back(dump);
+    if (const std::string dump = dump_text(*rig_); !dump.empty()) said.push_back(dump);
     return said;
   }
 

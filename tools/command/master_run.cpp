@@ -7,8 +7,10 @@
 #include "tools/command/band_output.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/master_menu.hpp"
+#include "tools/command/rig_output.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/rig/first_scans.hpp"
 #include "tools/slave/peer_slave.hpp"
 #include "tools/slave/simulated_slave.hpp"
 #include "tools/views/faults.hpp"
@@ -59,24 +61,25 @@ int run_on_program_band(MasterOptions& options, const std::vector<MasterAction>&
   return run_band(options.band, options.program, options.rig, options.json, exchanges);
 }
 
-int run_on_program(MasterOptions& options, const std::vector<MasterAction>& actions) {
+int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vector<MasterAction>& actions) {
   int exit_code = kFine;
   options.program.path = options.target;
-  const auto program = options.program.load(exit_code);
-  if (!program) return exit_code;
-  const auto rig = options.rig.assemble(program, options.json);
+  if (!options.rig.load(verb, options.program, exit_code)) return exit_code;
+  options.master = options.rig.on_line(options.master);
+  const auto rig = options.rig.assemble(options.json);
   if (!rig) return options.rig.exit_code_without_rig();
   rig->power_up();
-  const auto plant = [&] { return options.rig.json(rig->simulation()); };
-  SimulatedSlave slave(rig->simulation(), options.master, program->source.name);
+  const auto plant = [&] { return rig_json(*rig); };
+  SimulatedSlave slave(rig->simulation(), options.master, options.rig.target());
   MasterSession session(slave, actions, options.session(true));
   MasterOutput output(options.output(), slave.name());
   std::string why;
+  if (options.after == kNever) run_first_scans(*rig, kReadyWithin);
   const bool ready = slave.wait_until_ready(options.after, why);
   if (ready && options.wants_menu()) {
     serial::Simulation& simulation = rig->simulation();
     const auto open = [&](const serial::MasterSettings& master) {
-      return std::make_unique<SimulatedSlave>(simulation, master, program->source.name);
+      return std::make_unique<SimulatedSlave>(simulation, master, options.rig.target());
     };
     const auto format = [&](const serial::MasterSettings& master) { return master.over(simulation.port_format()); };
     exit_code = run_menu(options, {.open = open, .format = format});
@@ -91,13 +94,13 @@ int run_on_program(MasterOptions& options, const std::vector<MasterAction>& acti
     exit_code = kCheckFailed;
   }
   const bool all_written = finish(*rig);
-  if (ready && !options.json) fmt::print("{}", options.rig.dump_text(rig->cpu()));
-  fmt::print(stderr, "{}", errors_text(rig->cpu()));
-  const bool fatal = rig->cpu().state().fatal_code != 0, stopped = rig->cpu().state().mode == Mode::Stop;
+  if (ready && !options.json) fmt::print("{}", dump_text(*rig));
+  fmt::print(stderr, "{}", errors_text(*rig));
+  const bool fatal = exit_code_of(*rig) == kCpuFatal, stopped = rig->cpu().state().mode == Mode::Stop;
   if (!ready && stopped && !fatal) print_error("the CPU went to STOP before the first request");
   if (!ready) print_interruption();
-  if (ready) print_notes(fault_notes(rig->simulation().faults()));
-  if (ready && stopped) print_note("the CPU is in STOP");
+  if (ready) print_notes(fault_notes(*rig));
+  if (ready) print_notes(stop_notes(*rig));
   if (!all_written) return kUnusable;
   if (fatal) return kCpuFatal;
   if (!ready || !options.rig.failed_strictly(rig->cpu())) return exit_code;

@@ -16,7 +16,8 @@ int run_session(const MasterOptions& options, MasterSession& session, const std:
                 MasterOutput& output, const std::function<bool()>& over,
                 const std::function<nlohmann::ordered_json()>& plant);
 
-int run_on_program(MasterOptions& options, const std::vector<MasterAction>& actions);
+/// On a PROGRAM, or on a line of a system file.
+int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vector<MasterAction>& actions);
 
 /// The same with every table of a band of execution times.
 int run_on_program_band(MasterOptions& options, const std::vector<MasterAction>& actions);

@@ -12,10 +12,10 @@
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/system_options.hpp"
 #include "tools/command/progress.hpp"
+#include "tools/command/rig_output.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
-#include "tools/rig/system_rig.hpp"
-#include "tools/views/faults.hpp"
+#include "tools/rig/rig.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
@@ -23,26 +23,8 @@
 namespace s7200::tools {
 namespace {
 
-std::string_view mode_of(const serial::Plc& plc) {
-  return !plc.powered() ? "off" : plc.cpu().state().mode == Mode::Run ? "RUN" : "STOP";
-}
-
 std::string counted(std::size_t count, std::string_view thing) {
   return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
-
-std::string indented(const std::string& lines) {
-  std::string text;
-  for (const std::string& line : stl::split_lines(lines)) text += line.empty() ? "" : fmt::format("  {}\n", line);
-  return text;
-}
-
-std::string poll_text(const serial::Poller::State& polls) {
-  std::string text = fmt::format("{} requests, {} answered", polls.asked, polls.answered);
-  if (polls.wrong != 0) text += fmt::format(", {} of them wrong or refused", polls.wrong);
-  if (polls.answered != 0)
-    text += fmt::format(", after {} to {}", format_duration(polls.least_latency), format_duration(polls.most_latency));
-  return text;
 }
 
 /// How a run ended; no reason after an error.
@@ -56,22 +38,19 @@ using Bridges = std::vector<std::unique_ptr<Bridge>>;
 
 class SystemMachine final : public LiveMachine {
  public:
-  explicit SystemMachine(SystemRig& rig) : rig_(rig) {}
+  explicit SystemMachine(Rig& rig) : rig_(rig) {}
   Time time() const override { return rig_.system().time(); }
-  serial::Halt run_until(Time end) override {
-    rig_.run_until(end);
-    return interrupted() ? serial::Halt::Request : serial::Halt::Time;
-  }
+  serial::Halt run_until(Time end) override { return rig_.system().run_until(end); }
 
  private:
-  SystemRig& rig_;
+  Rig& rig_;
 };
 
-std::vector<LiveEnd> ends_of(SystemRig& rig, const Bridges& bridges) {
+std::vector<LiveEnd> ends_of(Rig& rig, const Bridges& bridges) {
   std::vector<LiveEnd> ends;
   for (std::size_t line = 0; line < rig.plan().lines.size(); ++line) {
     const LinePlan& plan = rig.plan().lines[line];
-    const StationPlan* const first = rig.first_plc(plan);
+    const StationPlan* const first = first_plc(plan);
     for (const StationPlan& station : plan.stations)
       if (station.kind == StationPlan::Kind::Bridge)
         ends.push_back({.bridge = bridges[station.number].get(),
@@ -99,7 +78,7 @@ std::optional<Bridges> make_bridges(const SystemPlan& plan) {
   return bridges;
 }
 
-Ending run_to_end(SystemRig& rig, const Bridges& bridges, const RunOptions& options) {
+Ending run_to_end(Rig& rig, const Bridges& bridges, const RunOptions& options) {
   const Time end = options.duration == kNever && bridges.empty() ? kSecond : options.duration;
   if (bridges.empty() && !options.bridge.realtime()) {
     const RunLimits limits{.end = end};
@@ -114,7 +93,7 @@ Ending run_to_end(SystemRig& rig, const Bridges& bridges, const RunOptions& opti
   return {!live.failure().empty() ? "bridge" : halt == serial::Halt::Time ? "time" : "interrupted", live.pace()};
 }
 
-void print_text(SystemRig& rig, const Ending& ending, const Bridges& bridges) {
+void print_text(Rig& rig, const Ending& ending, const Bridges& bridges) {
   const SystemPlan& plan = rig.plan();
   fmt::print("ended by {} after {}: {}, {}, {}\n", ending.reason, format_duration(rig.system().time(), 6),
              counted(plan.plcs.size(), "PLC"), counted(plan.peers.size(), "peer"), counted(plan.lines.size(), "line"));
@@ -123,7 +102,8 @@ void print_text(SystemRig& rig, const Ending& ending, const Bridges& bridges) {
     fmt::print("{}: {} scans, {} instructions, CPU {} in {}\n", stl::printable(plan.plcs[i].name), state.scans,
                state.instructions, plan.plcs[i].program->model->name, mode_of(rig.plc(i)));
     fmt::print("{}", indented(errors_text(rig.plc(i).cpu())));
-    for (const MemoryRange& range : plan.plcs[i].dumps) fmt::print("{}", indented(dump_text(rig.plc(i).cpu(), range)));
+    for (const MemoryRange& range : plan.plcs[i].settings.dumps)
+      fmt::print("{}", indented(dump_text(rig.plc(i).cpu(), range)));
   }
   for (std::size_t i = 0; i < plan.peers.size(); ++i)
     if (const serial::Poller* poller = rig.poller(i))
@@ -136,66 +116,35 @@ void print_text(SystemRig& rig, const Ending& ending, const Bridges& bridges) {
                format_duration(ending.pace->drift), format_duration(ending.pace->worst_lag));
 }
 
-nlohmann::ordered_json plc_json(const PlcPlan& plan, const serial::Plc& plc) {
-  const Cpu& cpu = plc.cpu();
-  const State& state = cpu.state();
-  nlohmann::ordered_json json{{"name", plan.name},
-                              {"cpu", plan.program->model->name},
-                              {"mode", mode_of(plc)},
-                              {"scans", state.scans},
-                              {"instructions", state.instructions},
-                              {"errors", errors_json(cpu)},
-                              {"errors_not_listed", errors_not_listed(cpu)},
-                              {"dump", nlohmann::ordered_json::object()}};
-  for (std::size_t i = 0; i < plan.dumps.size(); ++i) json["dump"][plan.dump_names[i]] = dump_json(cpu, plan.dumps[i]);
-  return json;
-}
-
-nlohmann::ordered_json poll_json(const std::string& name, const serial::Poller::State& polls) {
-  nlohmann::ordered_json json{
-      {"name", name}, {"requests", polls.asked}, {"answered", polls.answered}, {"wrong", polls.wrong}};
-  json["shortest_latency_ns"] = polls.answered ? nlohmann::ordered_json(polls.least_latency) : nullptr;
-  json["longest_latency_ns"] = polls.answered ? nlohmann::ordered_json(polls.most_latency) : nullptr;
-  return json;
-}
-
-void print_json(SystemRig& rig, const Ending& ending, const Bridges& bridges) {
-  const SystemPlan& plan = rig.plan();
+void print_json(Rig& rig, const Ending& ending, const Bridges& bridges) {
   auto results = results_of("run");
   results["stop_reason"] = ending.reason;
   results["time_ns"] = rig.system().time();
   for (const char* const list : {"plcs", "masters", "bridges", "lines"}) results[list] = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < plan.plcs.size(); ++i) results["plcs"].push_back(plc_json(plan.plcs[i], rig.plc(i)));
-  for (std::size_t i = 0; i < plan.peers.size(); ++i)
-    if (const serial::Poller* poller = rig.poller(i))
-      results["masters"].push_back(poll_json(plan.peers[i].name, poller->state()));
-  for (std::size_t i = 0; i < plan.lines.size(); ++i)
-    results["lines"].push_back({{"name", plan.lines[i].name}, {"faults", faults_json(rig.faults(i))}});
+  results.update(rig_json(rig));
   for (std::size_t i = 0; i < bridges.size(); ++i)
-    results["bridges"].push_back({{"name", plan.bridges[i].name}, {"summary", bridges[i]->summary()}});
+    results["bridges"].push_back({{"name", rig.plan().bridges[i].name}, {"summary", bridges[i]->summary()}});
   if (ending.pace)
     results["realtime"] = {
         {"speed", ending.pace->speed}, {"drift_ns", ending.pace->drift}, {"worst_lag_ns", ending.pace->worst_lag}};
   fmt::print("{}", lines_of(results));
 }
 
-void print_fault_notes(const SystemRig& rig) {
-  for (std::size_t i = 0; i < rig.plan().lines.size(); ++i)
-    for (const std::string& note : fault_notes(rig.faults(i)))
-      print_note(fmt::format("{}: {}", rig.plan().lines[i].name, note));
-}
-
 }  // namespace
 
 int run_system(const CLI::App& verb, const RunOptions& options) {
-  if (!refuse_options_of_one_plc(verb, {"--for", "--json", "--realtime", "--speed"})) return kUnusable;
+  if (!refuse_options_of_one_plc(verb, options.program,
+                                 {"--scans", "--pty", "--tcp", "--rtu-over-tcp", "--modbus-tcp", "--device", "--timeout"}))
+    return kUnusable;
+  if (options.json && options.rig.settings().trace == "-")
+    return print_error("--trace - and --json cannot both have standard output; write one to a file"), kUnusable;
   int exit_code = kFine;
   auto plan = load_system(options.program.path, exit_code);
   if (!plan) return exit_code;
   const auto bridges = make_bridges(*plan);
   if (!bridges) return kUnusable;
   std::vector<std::string> problems;
-  const auto rig = SystemRig::assemble(std::move(*plan), options.program.path, problems);
+  const auto rig = Rig::assemble(std::move(*plan), options.rig.surroundings(options.program.path, {}, {}), problems);
   for (const std::string& problem : problems) print_error(problem);
   if (!rig) {
     print_interruption();
@@ -210,11 +159,9 @@ int run_system(const CLI::App& verb, const RunOptions& options) {
     print_json(*rig, ending, *bridges);
   else
     print_text(*rig, ending, *bridges);
-  print_fault_notes(*rig);
+  print_notes(fault_notes(*rig));
   if (!problems.empty() || ending.reason == "bridge") return kUnusable;
-  for (std::size_t i = 0; i < rig->plan().plcs.size(); ++i)
-    if (const int code = exit_code_of(rig->plc(i).cpu()); code != kFine) return code;
-  return kFine;
+  return exit_code_of(*rig);
 }
 
 }  // namespace s7200::tools

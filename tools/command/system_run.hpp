@@ -8,7 +8,8 @@ namespace s7200::tools {
 
 /// For the end of the help.
 inline constexpr const char* kAboutSystems =
-    "A system file (.yaml) instead of a PROGRAM runs any number of PLCs and lines; --keys says what may stand in it:\n"
+    "A system file (.yaml) instead of a PROGRAM runs any number of PLCs and lines; --keys says what may stand in it, and\n"
+    "--trace then has all PLCs, with the name of each beside its lines:\n"
     "s7200 run stl_programs/systems/two_masters.yaml --for 2s\n";
 
 /// Runs it, prints what came of it, and returns the exit code. Options about one PLC or its line are refused.

@@ -23,7 +23,9 @@ struct PlcSettings {
   MemorySettings memory{};           ///< read at power-up, written by keep_memory()
   std::string trace{};
   TraceDetail trace_detail = TraceDetail::Way;
-  std::string output{};  ///< changes of outputs, as CSV
+  std::string output{};              ///< changes of outputs, as CSV
+  std::vector<MemoryRange> dumps{};  ///< shown at the end
+  std::vector<std::string> dump_names{};
 };
 
 /// Inputs over time; nothing, and `problems`, if the file is not such a script. No path is no script.

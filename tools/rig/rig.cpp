@@ -2,17 +2,91 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "serial_sim/modbus/answer.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/rig/system_trace.hpp"
+#include "tools/views/memory.hpp"
 
 namespace s7200::tools {
+namespace {
 
-Rig::Rig(std::shared_ptr<const Program> program, const RigSettings& settings, serial::FieldScript field)
-    : settings_(settings),
-      files_(settings.standard_output),
-      plc_(program, settings),
-      simulation_(std::move(program), std::move(field), static_cast<std::uint8_t>(settings.port)) {}
+/// When masters begin: programs have set their ports by then.
+constexpr Time kFirstPoll = kSecond;
+
+bool is_right(const serial::Exchange& exchange) {
+  const Bytes request = serial::bytes_of(exchange.request);
+  return modbus::check_answer(request, exchange.response_bytes()).verdict == serial::Verdict::Right;
+}
+
+}  // namespace
+
+Rig::Rig(SystemPlan plan, const RigSurroundings& surroundings)
+    : plan_(std::move(plan)),
+      surroundings_(surroundings),
+      files_(surroundings.standard_output),
+      pollers_(plan_.peers.size()),
+      peer_uarts_(plan_.peers.size()),
+      hosts_(plan_.bridges.size()) {
+  for (const PlcPlan& plc : plan_.plcs) plc_rigs_.emplace_back(plc.program, plc.settings);
+  captures_.resize(plan_.lines.size());
+  for (std::size_t line = 0; line < plan_.lines.size(); ++line) lines_.push_back(&system_.add_line());
+  for (std::size_t plc = 0; plc < plan_.plcs.size(); ++plc) add_plc(plc);
+  for (std::size_t line = 0; line < plan_.lines.size(); ++line)
+    for (const StationPlan& station : plan_.lines[line].stations) add_other(plan_.lines[line], *lines_[line], station);
+  for (const EventPlan& event : plan_.events) system_.schedule(event.at, [this, &event] { carry_out(event); });
+  askers_.resize(lines_.size());
+  for (const Spot& spot : surroundings.spots) join(spot);
+}
+
+Rig::~Rig() = default;
+
+/// Who asks joins a line if there is room, and so does a host port.
+void Rig::join(const Spot& spot) {
+  serial::SharedLine& line = *lines_[spot.line];
+  Asker& asker = askers_[spot.line];
+  const std::size_t room = serial::Line::kDrivers - plan_.lines[spot.line].stations.size();
+  if (!asker.requester && room > 0)
+    asker = {&system_.add_requester(line), room > 1 ? &system_.add_host_port(line) : nullptr, spot};
+  simulations_.push_back(
+      std::make_unique<serial::Simulation>(system_, line, *plcs_[spot.plc], spot.port, asker.requester, asker.host));
+}
+
+/// A port that is on no line of the plan is alone on one of its own.
+void Rig::add_plc(std::size_t number) {
+  const PlcPlan& plc = plan_.plcs[number];
+  std::vector<serial::SharedLine*> at(plc.program->model->ports, nullptr);
+  for (std::size_t line = 0; line < plan_.lines.size(); ++line)
+    for (const StationPlan& station : plan_.lines[line].stations)
+      if (station.kind == StationPlan::Kind::Plc && station.number == number) at[station.port] = lines_[line];
+  for (serial::SharedLine*& line : at)
+    if (!line) line = &system_.add_line();
+  plcs_.push_back(&system_.add_plc(at, plc.program, plc.field));
+}
+
+/// A peer or a bridge.
+void Rig::add_other(const LinePlan& plan, serial::SharedLine& line, const StationPlan& station) {
+  if (station.kind == StationPlan::Kind::Plc) return;
+  const std::size_t number = station.number;
+  if (station.kind == StationPlan::Kind::Bridge) {
+    hosts_[number] = &system_.add_host_port(line);
+    return;
+  }
+  const PeerPlan& peer = plan_.peers[number];
+  if (peer.automaton) {
+    peer_uarts_[number] = &system_.add_responder(line, peer.automaton->clone()).uart();
+    return;
+  }
+  const StationPlan* const first = first_plc(plan);
+  const auto format = [settings = plan.settings, plc = first ? plcs_[first->number] : nullptr,
+                       port = first ? first->port : std::uint8_t{0}] {
+    return settings.over(plc ? plc->line_format(port) : SerialFormat{});
+  };
+  pollers_[number] = &system_.add_poller(line, peer.polls, {.format = format, .right = is_right});
+  peer_uarts_[number] = &pollers_[number]->uart();
+}
 
 std::unique_ptr<Rig> Rig::assemble(std::shared_ptr<const Program> program, const RigSettings& settings,
                                    std::vector<std::string>& problems) {
@@ -22,9 +96,24 @@ std::unique_ptr<Rig> Rig::assemble(std::shared_ptr<const Program> program, const
         fmt::format("CPU {} has no port {}; a second port needs {}", model.name, settings.port, to_text(kTwoPorts)));
   auto field = read_field(settings.input, model, problems);
   if (!field || !problems.empty()) return nullptr;
-  std::unique_ptr<Rig> rig(new Rig(program, settings, std::move(*field)));
+  const auto port = static_cast<std::uint8_t>(settings.port);
+  SystemPlan plan;
+  plan.plcs.push_back({.name = "", .program = std::move(program), .settings = settings, .field = std::move(*field)});
+  plan.lines.push_back({.name = "",
+                        .faults = settings.faults,
+                        .captures = settings.captures,
+                        .stations = {{StationPlan::Kind::Plc, 0, port}}});
+  const RigSurroundings surroundings{
+      .link = settings.link, .standard_output = settings.standard_output, .spots = {Spot{0, 0, port}}};
+  return assemble(std::move(plan), surroundings, problems);
+}
+
+std::unique_ptr<Rig> Rig::assemble(SystemPlan plan, const RigSurroundings& surroundings,
+                                   std::vector<std::string>& problems) {
+  std::unique_ptr<Rig> rig(new Rig(std::move(plan), surroundings));
   std::string why;
-  bool good = rig->claim_files(why) && rig->plc_.read_memory(why);
+  bool good = rig->claim_files(why);
+  for (PlcRig& plc : rig->plc_rigs_) good = good && plc.read_memory(why);
   if (good) {
     catch_interruption();
     good = rig->open_records(why);
@@ -35,28 +124,121 @@ std::unique_ptr<Rig> Rig::assemble(std::shared_ptr<const Program> program, const
 }
 
 bool Rig::claim_files(std::string& why) {
-  files_.reads(settings_.input);
-  files_.links("--pty", settings_.link);
-  return plc_.claim(files_, why) && captures_.claim(files_, settings_.captures, why);
+  if (!surroundings_.trace.empty()) trace_ = std::make_unique<SystemTrace>(plan_, system_, surroundings_.trace_detail);
+  if (!surroundings_.path.empty()) files_.reads(surroundings_.path);
+  for (const PlcPlan& plc : plan_.plcs) files_.reads(plc.settings.input);
+  files_.links("--pty", surroundings_.link);
+  for (const BridgePlan& bridge : plan_.bridges)
+    if (bridge.kind == "pty") files_.links("a bridge", bridge.where);
+  auto line = plan_.lines.begin();
+  if (trace_ && !trace_->claim(files_, surroundings_.trace, why)) return false;
+  return std::ranges::all_of(plc_rigs_, [&](PlcRig& plc) { return plc.claim(files_, why); }) &&
+         std::ranges::all_of(captures_, [&](CaptureFiles& each) { return each.claim(files_, (line++)->captures, why); });
 }
 
 bool Rig::open_records(std::string& why) {
-  return plc_.open(why) && captures_.open(why) && plc_.put(why) && captures_.put(why);
+  const auto all = [&](auto& those, auto open) {
+    return std::ranges::all_of(those, [&](auto& each) { return (each.*open)(why); });
+  };
+  if (trace_ && !(trace_->open(why) && trace_->put(why))) return false;
+  for (std::size_t plc = 0; trace_ && plc < plan_.plcs.size(); ++plc) sinks(plc).add(&trace_->station(plc));
+  return all(plc_rigs_, &PlcRig::open) && all(captures_, &CaptureFiles::open) && all(plc_rigs_, &PlcRig::put) &&
+         all(captures_, &CaptureFiles::put);
 }
 
 void Rig::power_up() {
-  simulation_.stop_when(&interruption());
-  captures_.watch(simulation_.plc(), simulation_.port());
-  for (const serial::Fault& fault : settings_.faults) simulation_.inject(fault);
-  plc_.power_up(simulation_.plc());
+  system_.stop_when(&interruption());
+  auto captures = captures_.begin();
+  for (std::size_t line = 0; line < lines_.size(); ++line, ++captures) {
+    if (const StationPlan* first = first_plc(plan_.lines[line])) captures->watch(*plcs_[first->number], first->port);
+    for (const serial::Fault& fault : plan_.lines[line].faults) lines_[line]->faults().inject(fault, 0);
+    if (const auto seed = plan_.lines[line].contention) lines_[line]->line().leave_contention_to_chance(*seed);
+  }
+  auto rig = plc_rigs_.begin();
+  for (serial::Plc* plc : plcs_) (rig++)->power_up(*plc);
+  for (serial::PollerStation* poller : pollers_)
+    if (poller) poller->poller().start(kFirstPoll);
 }
 
 std::vector<std::string> Rig::finish() {
   std::vector<std::string> problems;
-  plc_.close(problems);
-  captures_.close(problems);
-  plc_.keep_memory(cpu(), problems);
+  std::string why;
+  if (trace_ && !trace_->close(why)) problems.push_back(why);
+  for (PlcRig& plc : plc_rigs_) plc.close(problems);
+  for (CaptureFiles& captures : captures_) captures.close(problems);
+  auto rig = plc_rigs_.begin();
+  for (serial::Plc* plc : plcs_) (rig++)->keep_memory(plc->cpu(), problems);
   return problems;
+}
+
+void Rig::carry_out(const EventPlan& event) {
+  using What = EventPlan::What;
+  const Time now = system_.time();
+  switch (event.what) {
+    case What::PowerOff:
+      if (plcs_[event.plc]->powered()) system_.power_off(*plcs_[event.plc]);
+      break;
+    case What::PowerOn:
+      if (!plcs_[event.plc]->powered()) system_.power_on(*plcs_[event.plc]);
+      break;
+    case What::Cut:
+      lines_[event.line]->line().separate(now, beyond(event));
+      break;
+    case What::Mend:
+      lines_[event.line]->line().separate(now, 0);
+      break;
+    case What::Set:
+      for (const Assignment& assignment : event.set) assign(plcs_[event.plc]->cpu(), assignment);
+      break;
+    case What::Fault:
+      lines_[event.line]->faults().inject(event.fault, now);
+      break;
+    case What::ClearFaults:
+      lines_[event.line]->faults().clear(now);
+      break;
+  }
+}
+
+int Rig::driver_of(const StationPlan& station) const {
+  switch (station.kind) {
+    case StationPlan::Kind::Plc:
+      return plcs_[station.number]->driver(station.port);
+    case StationPlan::Kind::Peer:
+      return peer_uarts_[station.number]->driver();
+    case StationPlan::Kind::Bridge:
+      return hosts_[station.number]->driver();
+  }
+  return 0;
+}
+
+/// The drivers on the far side of a cut. Who has joined at a spot is beside the PLC there.
+std::uint32_t Rig::beyond(const EventPlan& cut) const {
+  const std::vector<StationPlan>& stations = plan_.lines[cut.line].stations;
+  const auto bit = [](int driver) { return 1U << static_cast<unsigned>(driver); };
+  std::uint32_t far = 0;
+  for (std::size_t i = cut.near; i < stations.size(); ++i) {
+    const StationPlan& station = stations[i];
+    far |= bit(driver_of(station));
+    const auto& [requester, host, spot] = askers_[cut.line];
+    if (requester && station.kind == StationPlan::Kind::Plc && spot.plc == station.number && spot.port == station.port)
+      far |= bit(requester->uart().driver());
+  }
+  return far;
+}
+
+void forget_files(SystemPlan& plan) {
+  for (PlcPlan& plc : plan.plcs) plc.settings.trace = plc.settings.output = plc.settings.memory.path = "";
+  for (LinePlan& line : plan.lines) line.captures.clear();
+}
+
+std::string_view run(Rig& rig, Time end, const std::function<void()>& progress) {
+  constexpr Time kSlice = kSecond;
+  while (rig.system().time() < end) {
+    if (interrupted()) return "interrupted";
+    rig.system().run_until(std::min(end, rig.system().time() + kSlice));
+    progress();
+  }
+  return "time";
 }
 
 }  // namespace s7200::tools

@@ -1,26 +1,45 @@
-// A PLC with everything attached: what it has kept, what drives its inputs, what disturbs its line, and what is recorded of
-// it. Every verb and every test bench assembles it here.
+// PLCs with everything attached: what they have kept, what drives their inputs, what disturbs their lines, who else is on
+// them, and what is recorded. Every verb and every test bench assembles them here, be it one PLC from the command line or a
+// system from a file.
 #pragma once
 
+#include <functional>
 #include <iosfwd>
+#include <list>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "serial_sim/system/simulation.hpp"
 #include "tools/host/written_files.hpp"
 #include "tools/rig/capture_files.hpp"
 #include "tools/rig/plc_rig.hpp"
+#include "tools/rig/system_plan.hpp"
 
 namespace s7200::tools {
 
-/// As someone asks for it. `-` is standard_output, for a trace and the outputs.
+class SystemTrace;
+
+/// One PLC on a line, as someone asks for it. `-` is standard_output, for a trace and the outputs.
 struct RigSettings : PlcSettings {
   std::vector<serial::Fault> faults{};  ///< of the line, from power-up on
   std::uint32_t port = 0;               ///< of the PLC, that the line with everything on it is at
   std::vector<std::string> captures{};  ///< of the line: FILE.vcd, FILE.pcap
   std::string link{};                   ///< a pty's link: nothing is written there, and no output may have its name
   std::ostream* standard_output = nullptr;
+};
+
+/// What a plan does not say.
+struct RigSurroundings {
+  std::string path{};  ///< of the system file
+  std::string link{};
+  std::ostream* standard_output = nullptr;
+  std::string trace{};  ///< of a system, all its PLCs in one file
+  TraceDetail trace_detail = TraceDetail::Way;
+  /// Where somebody who asks looks at the system from: simulation(). On each line he stands beside the PLC of the first of
+  /// its spots.
+  std::vector<Spot> spots{};
 };
 
 class Rig final {
@@ -30,33 +49,79 @@ class Rig final {
   static std::unique_ptr<Rig> assemble(std::shared_ptr<const Program> program, const RigSettings& settings,
                                        std::vector<std::string>& problems);
 
-  /// Time 0: the program begins with its memory, clock, assignments and faults, and the records watch it. All that runs ends
-  /// early after an interruption.
+  /// The same of any number of PLCs.
+  static std::unique_ptr<Rig> assemble(SystemPlan plan, const RigSurroundings& surroundings,
+                                       std::vector<std::string>& problems);
+
+  ~Rig();
+
+  /// Time 0: every PLC begins with its memory, clock and assignments, the lines with their faults, the records watch them,
+  /// and every master asks its first request a scan or two later. All that runs ends early after an interruption.
   void power_up();
 
-  serial::Simulation& simulation() { return simulation_; }
-  const serial::Simulation& simulation() const { return simulation_; }
-  const Cpu& cpu() const { return simulation_.cpu(); }
+  serial::System& system() { return system_; }
+  const SystemPlan& plan() const { return plan_; }
+
+  /// As seen from one of the spots.
+  serial::Simulation& simulation(std::size_t spot = 0) { return *simulations_[spot]; }
+  const serial::Simulation& simulation() const { return *simulations_.front(); }
+  const Cpu& cpu() const { return simulation().cpu(); }
+
+  serial::Plc& plc(std::size_t number) { return *plcs_[number]; }
+  const serial::Plc& plc(std::size_t number) const { return *plcs_[number]; }
+  serial::SharedLine& line(std::size_t number) { return *lines_[number]; }
+  const serial::Faults& faults(std::size_t line) const { return lines_[line]->faults(); }
+  /// Null if the peer is not a master.
+  const serial::Poller* poller(std::size_t peer) const { return pollers_[peer] ? &pollers_[peer]->poller() : nullptr; }
+  serial::HostPort& host_port(std::size_t bridge) { return hosts_[bridge]->port(); }
+
+  /// Does it now.
+  void carry_out(const EventPlan& event);
 
   /// What is read and written already.
   const WrittenFiles& files() const { return files_; }
 
-  /// What watches the CPU; others may be added.
-  FanOut& sinks() { return plc_.sinks(); }
+  /// What watches a CPU; others may be added.
+  FanOut& sinks(std::size_t plc = 0) { return std::next(plc_rigs_.begin(), static_cast<std::ptrdiff_t>(plc))->sinks(); }
 
-  /// Completes the records and keeps the memory. Returns what could not be written.
+  /// Completes the records and keeps the memories. Returns what could not be written.
   std::vector<std::string> finish();
 
  private:
-  Rig(std::shared_ptr<const Program> program, const RigSettings& settings, serial::FieldScript field);
+  Rig(SystemPlan plan, const RigSurroundings& surroundings);
+  void add_plc(std::size_t number);
+  void add_other(const LinePlan& plan, serial::SharedLine& line, const StationPlan& station);
+  void join(const Spot& spot);
+  int driver_of(const StationPlan& station) const;
+  std::uint32_t beyond(const EventPlan& cut) const;
   bool claim_files(std::string& why);
   bool open_records(std::string& why);
 
-  RigSettings settings_;
+  SystemPlan plan_;
+  RigSurroundings surroundings_;
   WrittenFiles files_;
-  PlcRig plc_;
-  CaptureFiles captures_;  // outlives the simulation
-  serial::Simulation simulation_;
+  std::unique_ptr<SystemTrace> trace_;  // null: none; outlives the system, as all records do
+  std::list<PlcRig> plc_rigs_;
+  std::list<CaptureFiles> captures_;  // by line
+  serial::System system_;
+  std::vector<serial::SharedLine*> lines_;
+  std::vector<serial::Plc*> plcs_;
+  std::vector<serial::PollerStation*> pollers_;  // by peer
+  std::vector<const serial::Uart*> peer_uarts_;  // by peer
+  std::vector<serial::HostStation*> hosts_;      // by bridge
+  struct Asker {
+    serial::RequesterStation* requester = nullptr;  // null if there is no place for one
+    serial::HostStation* host = nullptr;            // the same
+    Spot spot{};
+  };
+  std::vector<Asker> askers_;                                     // by line
+  std::vector<std::unique_ptr<serial::Simulation>> simulations_;  // by spot
 };
+
+/// Lets nothing be recorded, and no memory be read or kept.
+void forget_files(SystemPlan& plan);
+
+/// Runs to `end`; `progress` is told now and then. Returns why it ended: `time` or `interrupted`.
+std::string_view run(Rig& rig, Time end, const std::function<void()>& progress);
 
 }  // namespace s7200::tools

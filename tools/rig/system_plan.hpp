@@ -1,11 +1,12 @@
-// A system of several PLCs as plain data: who there is, and who is on which line. system_reader.hpp reads it from YAML,
-// system_rig.hpp builds it.
+// PLCs and lines as plain data: who there is, and who is on which line. system_reader.hpp reads it from YAML, rig.hpp
+// builds it.
 #pragma once
 
 #include <array>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "interpreter/program/address.hpp"
@@ -15,17 +16,16 @@
 #include "serial_sim/line/line_settings.hpp"
 #include "serial_sim/peers/automaton.hpp"
 #include "serial_sim/peers/poller.hpp"
+#include "serial_sim/peers/requester.hpp"
 #include "tools/rig/plc_rig.hpp"
 
 namespace s7200::tools {
 
 struct PlcPlan {
-  std::string name;
+  std::string name;  ///< empty: it is the only one, from the command line
   std::shared_ptr<const Program> program;
   PlcSettings settings{};
   serial::FieldScript field{};
-  std::vector<MemoryRange> dumps{};  ///< shown at the end
-  std::vector<std::string> dump_names{};
 };
 
 /// A master that polls, or a simulated PLC of another make.
@@ -78,5 +78,26 @@ struct SystemPlan {
   std::vector<LinePlan> lines;
   std::vector<EventPlan> events;  ///< in the order of time
 };
+
+/// A place in a system, where one more station joins it: beside a PLC, on the line that one of its ports is on.
+struct Spot {
+  std::size_t line = 0;
+  std::size_t plc = 0;
+  std::uint8_t port = 0;
+  bool operator==(const Spot&) const = default;
+};
+
+/// How a master talks on a line: as it was asked to, and for the rest as the line says.
+serial::MasterSettings on_line(serial::MasterSettings master, const LinePlan& line);
+
+/// Of a line, the first PLC along the cable; null if there is none.
+const StationPlan* first_plc(const LinePlan& line);
+
+/// The spot that `name` means: a line, there beside its first PLC; or a PLC, `gateway`, or one of its ports, `gateway.1`. An
+/// empty one is the only line. Returns nothing and sets `why` if there is none.
+std::optional<Spot> find_spot(const SystemPlan& plan, std::string_view name, std::string& why);
+
+/// Why no master can join there: the line has as many stations as it takes. Empty if one can.
+std::string why_no_room(const SystemPlan& plan, const Spot& spot);
 
 }  // namespace s7200::tools

@@ -39,7 +39,7 @@ struct Named {
 
 class Reader {
  public:
-  Reader(SystemFile& file, const std::string& path) : file_(file), path_(path), values_(file.file.diagnostics) {}
+  Reader(SystemFile& file, const std::string& path, YamlValues& values) : file_(file), path_(path), values_(values) {}
 
   void read(const YamlNode& root) {
     if (!root.is_map())
@@ -59,6 +59,34 @@ class Reader {
     for (const auto& [name, station] : others_)
       if (whole && !on_a_line(station.plan))
         values_.wrong(*station.key, fmt::format("'{}' is on no line", name), "name it in the 'stations' of one");
+  }
+
+  /// What is done in an event; nothing after a complaint.
+  std::optional<EventPlan> read_what(const YamlNode& node) {
+    using What = EventPlan::What;
+    static constexpr std::pair<std::string_view, What> kWhats[] = {{"power_off", What::PowerOff},
+                                                                   {"power_on", What::PowerOn},
+                                                                   {"cut", What::Cut},
+                                                                   {"mend", What::Mend},
+                                                                   {"set", What::Set},
+                                                                   {"fault", What::Fault},
+                                                                   {"clear_faults", What::ClearFaults}};
+    EventPlan event;
+    std::string_view key;
+    for (const auto& [word, what] : kWhats) {
+      if (!node.find(word)) continue;
+      if (!key.empty()) {
+        values_.wrong(node, fmt::format("both '{}' and '{}'", key, word), "one is done at a time");
+        return {};
+      }
+      key = word;
+      event.what = what;
+    }
+    if (key.empty()) {
+      values_.wrong(node, "nothing is done in this event", std::string(kEventExample));
+      return {};
+    }
+    return read_object(node, *node.find(key), event) ? std::optional(event) : std::nullopt;
   }
 
  private:
@@ -292,8 +320,8 @@ class Reader {
       const auto range = text ? parse_range(*text, *plc.program, why) : std::nullopt;
       if (text && !range) values_.wrong(*item, why);
       if (!range) continue;
-      plc.dumps.push_back(*range);
-      plc.dump_names.push_back(*text);
+      settings.dumps.push_back(*range);
+      settings.dump_names.push_back(*text);
     }
   }
 
@@ -535,60 +563,50 @@ class Reader {
   // --- events ---
 
   void read_event(const YamlNode& node) {
-    constexpr std::string_view kExample = "write for example {at: 1s, power_off: slave}";
-    if (!node.is_map()) return values_.wrong(node, "an event is a map, not " + to_text(node), std::string(kExample));
+    if (!node.is_map()) return values_.wrong(node, "an event is a map, not " + to_text(node), std::string(kEventExample));
     check_keys(node, {Where::Event});
+    auto event = read_what(node);
+    if (!event) return;
+    if (!node.find("at")) return values_.wrong(node, "an event without 'at'", std::string(kEventExample));
+    event->at = values_.duration(node.find("at")).value_or(0);
+    plan().events.push_back(std::move(*event));
+  }
+
+  static constexpr std::string_view kEventExample = "write for example {at: 1s, power_off: slave}";
+
+  /// What it is done to. False after a complaint.
+  bool read_object(const YamlNode& node, const YamlNode& what, EventPlan& event) {
     using What = EventPlan::What;
-    static constexpr std::pair<std::string_view, What> kWhats[] = {{"power_off", What::PowerOff},
-                                                                   {"power_on", What::PowerOn},
-                                                                   {"cut", What::Cut},
-                                                                   {"mend", What::Mend},
-                                                                   {"set", What::Set},
-                                                                   {"fault", What::Fault},
-                                                                   {"clear_faults", What::ClearFaults}};
-    EventPlan event;
-    std::string_view key;
-    for (const auto& [word, what] : kWhats) {
-      if (!node.find(word)) continue;
-      if (!key.empty()) return values_.wrong(node, fmt::format("both '{}' and '{}'", key, word), "one is done at a time");
-      key = word;
-      event.what = what;
-    }
-    if (key.empty()) return values_.wrong(node, "nothing is done in this event", std::string(kExample));
-    if (!node.find("at")) return values_.wrong(node, "an event without 'at'", std::string(kExample));
-    event.at = values_.duration(node.find("at")).value_or(0);
-    const YamlNode& what = *node.find(key);
     if (event.what == What::Fault) return read_fault_event(node, what, event);
     if (event.what == What::Set) return read_set_event(node, what, event);
     const bool of_plc = event.what == What::PowerOff || event.what == What::PowerOn;
     const auto of = of_plc ? plc_named(what) : line_named(what);
-    if (!of) return;
+    if (!of) return false;
     (of_plc ? event.plc : event.line) = *of;
-    if (event.what == What::Cut && !read_cut(node, event)) return;
-    plan().events.push_back(event);
+    return event.what != What::Cut || read_cut(node, event);
   }
 
-  void read_fault_event(const YamlNode& node, const YamlNode& what, EventPlan& event) {
+  bool read_fault_event(const YamlNode& node, const YamlNode& what, EventPlan& event) {
     const YamlNode* const line = node.find("line");
-    if (!line) return values_.wrong(node, "a fault without its 'line'");
-    const auto number = line_named(*line);
+    if (!line) values_.wrong(node, "a fault without its 'line'");
+    const auto number = line ? line_named(*line) : std::nullopt;
     const auto text = values_.text(what);
-    if (!number || !text) return;
+    if (!number || !text) return false;
     const serial::ParsedFault parsed = serial::parse_fault(*text);
-    if (parsed.error) return values_.wrong(what, parsed.error->message, "`s7200 run --help` has the kinds of faults");
+    if (parsed.error) values_.wrong(what, parsed.error->message, "`s7200 run --help` has the kinds of faults");
     event.line = *number;
     event.fault = parsed.fault;
-    plan().events.push_back(event);
+    return !parsed.error;
   }
 
-  void read_set_event(const YamlNode& node, const YamlNode& what, EventPlan& event) {
+  bool read_set_event(const YamlNode& node, const YamlNode& what, EventPlan& event) {
     const YamlNode* const name = node.find("plc");
-    if (!name) return values_.wrong(node, "'set' without the 'plc' whose memory it is");
-    const auto number = plc_named(*name);
-    if (!number) return;
+    if (!name) values_.wrong(node, "'set' without the 'plc' whose memory it is");
+    const auto number = name ? plc_named(*name) : std::nullopt;
+    if (!number) return false;
     event.plc = *number;
     event.set = assignments(what, *plan().plcs[*number].program);
-    plan().events.push_back(event);
+    return true;
   }
 
   bool read_cut(const YamlNode& node, EventPlan& event) {
@@ -687,7 +705,7 @@ class Reader {
 
   SystemFile& file_;
   const std::string& path_;
-  YamlValues values_;
+  YamlValues& values_;
   std::map<std::string, SourceText> texts_{};                 // by path
   std::map<std::string, std::uint32_t> names_{}, written_{};  // and the line where they stand
   std::map<std::string, std::vector<std::size_t>> groups_{};  // PLCs by the name in the file
@@ -710,10 +728,16 @@ SystemFile read_system(const std::string& text, const std::string& path) {
   SystemFile file;
   file.file.source = source_of(text, path);
   stl::Diagnostics& diagnostics = file.file.diagnostics;
-  if (const auto root = read_yaml(text, *file.file.source, diagnostics, {"a system file", "'plcs:' and 'lines:'"}))
-    Reader(file, path).read(*root);
+  const auto root = read_yaml(text, *file.file.source, diagnostics, {"a system file", "'plcs:' and 'lines:'"});
+  YamlValues values(diagnostics);
+  if (root) Reader(file, path, values).read(*root);
   stl::sort(diagnostics);
   return file;
+}
+
+std::optional<EventPlan> read_event(const YamlNode& node, const SystemPlan& plan, YamlValues& values) {
+  SystemFile file{.plan = plan, .file = {}, .programs = {}};
+  return Reader(file, "", values).read_what(node);
 }
 
 }  // namespace s7200::tools

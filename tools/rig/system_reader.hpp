@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "interpreter/base/diagnostic.hpp"
 #include "interpreter/base/source.hpp"
 #include "tools/rig/system_plan.hpp"
+#include "tools/yaml/values.hpp"
 
 namespace s7200::tools {
 
@@ -29,5 +31,9 @@ struct SystemFile {
 };
 
 SystemFile read_system(const std::string& text, const std::string& path);
+
+/// One event of a system as it stands under `events`, but without its instant: `{power_off: slave}`. Nothing after a
+/// complaint.
+std::optional<EventPlan> read_event(const YamlNode& node, const SystemPlan& plan, YamlValues& values);
 
 }  // namespace s7200::tools

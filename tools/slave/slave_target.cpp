@@ -69,6 +69,7 @@ SlaveTarget parse_slave_target(const std::string& text) {
 std::string slave_targets_help() {
   return "Targets:\n"
          "  PROGRAM                               an STL file or document, in simulation; - is standard input\n"
+         "  SYSTEM.yaml                           PLCs and lines, in simulation; --at says where the master joins\n"
          "  /dev/ttyUSB0, or a pty by its link    a serial line, for Modbus 9600 8E1 unless --baud and the others say "
          "otherwise\n"
          "  tcp://HOST:PORT                       the characters of a serial line over TCP, as serial servers offer it\n"

@@ -1,10 +1,10 @@
 // Systems as their files describe them: PLC against PLC, peers, gateways, and what befalls them in the field.
-#include "tools/rig/system_rig.hpp"
-
 #include <gtest/gtest.h>
 
 #include "interpreter/program/load.hpp"
+#include "serial_sim/modbus/request.hpp"
 #include "tests/support/source_path.hpp"
+#include "tools/rig/rig.hpp"
 #include "tools/rig/system_reader.hpp"
 
 namespace s7200::tools {
@@ -12,34 +12,34 @@ namespace {
 
 std::string example(const std::string& name) { return test::source_path("stl_programs/systems/" + name); }
 
-std::unique_ptr<SystemRig> rig_of(const std::string& text) {
+std::unique_ptr<Rig> rig_of(const std::string& text) {
   SystemFile file = read_system(text, example("test.yaml"));
   for (const stl::Diagnostic& d : file.file.diagnostics) ADD_FAILURE() << d.position.line << ": " << d.message;
   std::vector<std::string> problems;
-  auto rig = file.ok() ? SystemRig::assemble(std::move(file.plan), example("test.yaml"), problems) : nullptr;
+  auto rig = file.ok() ? Rig::assemble(std::move(file.plan), {.path = example("test.yaml")}, problems) : nullptr;
   for (const std::string& problem : problems) ADD_FAILURE() << problem;
   if (rig) rig->power_up();
   return rig;
 }
 
-std::unique_ptr<SystemRig> rig_of_file(const std::string& name) {
+std::unique_ptr<Rig> rig_of_file(const std::string& name) {
   std::string why;
   const auto text = read_text(example(name), why);
   EXPECT_TRUE(text) << why;
   return rig_of(text.value_or(""));
 }
 
-std::uint32_t double_word(const SystemRig& rig, std::size_t plc, std::uint32_t number) {
+std::uint32_t double_word(const Rig& rig, std::size_t plc, std::uint32_t number) {
   return load32(&rig.plc(plc).cpu().state().image[image::kV + number]);
 }
-std::uint16_t word(const SystemRig& rig, std::size_t plc, std::uint32_t number) {
+std::uint16_t word(const Rig& rig, std::size_t plc, std::uint32_t number) {
   return load16(&rig.plc(plc).cpu().state().image[image::kV + number]);
 }
 
 /// So many requests, answers and wrong answers from now on until `end`.
-serial::Poller::State polls_until(SystemRig& rig, Time end, std::size_t peer = 0) {
+serial::Poller::State polls_until(Rig& rig, Time end, std::size_t peer = 0) {
   const serial::Poller::State before = rig.poller(peer)->state();
-  rig.run_until(end);
+  rig.system().run_until(end);
   serial::Poller::State polls = rig.poller(peer)->state();
   polls.asked -= before.asked;
   polls.answered -= before.answered;
@@ -50,7 +50,7 @@ serial::Poller::State polls_until(SystemRig& rig, Time end, std::size_t peer = 0
 TEST(SystemRig, AMasterProgramPollsThirtyOneSlaves) {
   const auto rig = rig_of_file("polled_slaves.yaml");
   ASSERT_TRUE(rig);
-  rig->run_until(3 * kSecond);
+  rig->system().run_until(3 * kSecond);
   EXPECT_EQ(double_word(*rig, 0, 3846), 0U) << "failures";
   EXPECT_GE(double_word(*rig, 0, 3842), 31U) << "answers: each station has been asked once";
   for (std::size_t plc = 0; plc < rig->plan().plcs.size(); ++plc)
@@ -60,7 +60,7 @@ TEST(SystemRig, AMasterProgramPollsThirtyOneSlaves) {
 TEST(SystemRig, TwoMastersCollideAndRecover) {
   const auto rig = rig_of_file("two_masters.yaml");
   ASSERT_TRUE(rig);
-  rig->run_until(5 * kSecond);
+  rig->system().run_until(5 * kSecond);
   const serial::Poller::State panel = rig->poller(0)->state(), recorder = rig->poller(1)->state();
   const std::uint64_t failures =
       panel.asked - panel.answered + panel.wrong + recorder.asked - recorder.answered + recorder.wrong;
@@ -73,7 +73,7 @@ TEST(SystemRig, TwoMastersCollideAndRecover) {
 TEST(SystemRig, AGatewayWithBothPortsOfACpu226PassesRequestsAndAnswersOn) {
   const auto rig = rig_of_file("gateway.yaml");
   ASSERT_TRUE(rig);
-  rig->run_until(2 * kSecond);
+  rig->system().run_until(2 * kSecond);
   const serial::Poller::State master = rig->poller(0)->state();
   EXPECT_GE(master.answered, 8U);
   EXPECT_EQ(master.wrong, 0U);
@@ -152,14 +152,14 @@ TEST(SystemRig, ASimulatedPlcOfAnotherMakeAnswersOnTheLine) {
       "  master: {polls: [{station: 5, read: 40001}, {station: 2, read: 40001}]}\n"
       "lines: {bus: {stations: [master, slave, old]}}\n");
   ASSERT_TRUE(rig);
-  rig->run_until(2 * kSecond);
+  rig->system().run_until(2 * kSecond);
   EXPECT_GT(rig->poller(1)->state().answered, 5U);
 }
 
 // --- one time ---
 
-serial::System::Snapshot end_of(SystemRig& rig, Time end, Time slice) {
-  while (rig.system().time() < end) rig.run_until(std::min(end, rig.system().time() + slice));
+serial::System::Snapshot end_of(Rig& rig, Time end, Time slice) {
+  while (rig.system().time() < end) rig.system().run_until(std::min(end, rig.system().time() + slice));
   return rig.system().snapshot();
 }
 
@@ -193,6 +193,46 @@ TEST(SystemRig, DriversThatDisagreeGiveTheSameLevelsForTheSameSeedOnly) {
   EXPECT_TRUE(end == end_of(*same, 2 * kSecond, kSecond));
   const auto heard = [](const serial::System::Snapshot& snapshot) { return snapshot.plcs[0].cpu; };
   EXPECT_FALSE(heard(end) == heard(end_of(*different, 2 * kSecond, kSecond)));
+}
+
+// --- who joins ---
+
+TEST(SystemRig, ASpotIsALineOrAPlcOrOneOfItsPorts) {
+  const auto rig = rig_of_file("gateway.yaml");
+  ASSERT_TRUE(rig);
+  std::string why;
+  const auto spot = [&](std::string_view name) { return find_spot(rig->plan(), name, why).value_or(Spot{99, 99, 9}); };
+  EXPECT_EQ(spot("office"), (Spot{0, 0, 0}));
+  EXPECT_EQ(spot("gateway"), (Spot{0, 0, 0}));
+  EXPECT_EQ(spot("field"), (Spot{1, 0, 1})) << "beside the first PLC along the cable";
+  EXPECT_EQ(spot("gateway.1"), (Spot{1, 0, 1}));
+  EXPECT_EQ(spot("pump"), (Spot{1, 1, 0}));
+  EXPECT_TRUE(why.empty());
+  for (const char* const wrong : {"", "attic", "pump.1", "gateway.2", "master"})
+    EXPECT_FALSE(find_spot(rig->plan(), wrong, why)) << wrong;
+}
+
+TEST(SystemRig, WhoJoinsAtAPlcIsOnItsPartOfACutLine) {
+  for (const auto& [beside, reached] : {std::pair<std::size_t, int>{0, 1}, {1, 2}, {2, 3}}) {
+    SystemFile file = read_system(kThreeSlaves, example("test.yaml"));
+    ASSERT_TRUE(file.ok());
+    file.plan.events.push_back(
+        {.what = EventPlan::What::Cut, .at = 100 * kMillisecond, .line = 0, .near = 2});  // after slave1
+    std::vector<std::string> problems;
+    const auto rig = Rig::assemble(file.plan, {.spots = {Spot{0, beside, 0}}}, problems);
+    ASSERT_TRUE(rig);
+    rig->power_up();
+    rig->system().run_until(200 * kMillisecond);
+    serial::Simulation& simulation = rig->simulation();
+    for (int station = 1; station <= 3; ++station) {
+      const Bytes frame = modbus::rtu_frame(static_cast<std::uint8_t>(station), modbus::read_holding_registers(0, 1));
+      simulation.master_uart().configure(simulation.port_format());
+      simulation.master().start({.frame = serial::to_frame(frame), .timeout = 60 * kMillisecond}, simulation.time());
+      const bool answered = !simulation.finish_exchange().response.empty();
+      EXPECT_EQ(answered, (station == 1) == (reached == 1)) << "beside slave" << beside + 1 << ", station " << station;
+      rig->system().run_until(rig->system().time() + 60 * kMillisecond);
+    }
+  }
 }
 
 }  // namespace

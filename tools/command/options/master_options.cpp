@@ -116,6 +116,7 @@ void MasterOptions::add_to(CLI::App& app) {
     program.add_parts_to(app);
     program.CpuOptions::add_to(app);
     rig.add_to(app);
+    rig.add_place_to(app);
     band.add_to(app);
     add_duration(app, "--after", after,
                  fmt::format("when to send the first request [after the first scan and {} of silence]", quiet));

@@ -11,9 +11,11 @@
 #include "interpreter/base/text.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/number_option.hpp"
+#include "tools/command/options/system_options.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/rig/clock_text.hpp"
+#include "tools/rig/system_reader.hpp"
 #include "tools/views/faults.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
@@ -24,7 +26,8 @@ void RigOptions::add_to(CLI::App& app) {
   app.add_option("--set", set_, "memory or inputs before the first scan: VW100=5, I0.3=1, Speed=7 (repeatable)")
       ->type_name("ADDRESS=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--dump", dump_, "memory to show at the end: VB0:16, VW100, AC0, VD20:real, Speed (repeatable)")
+  app.add_option("--dump", settings_.dump_names,
+                 "memory to show at the end: VB0:16, VW100, AC0, VD20:real, Speed (repeatable)")
       ->type_name("ADDRESS[:COUNT]")
       ->allow_extra_args(false);
   app.add_option("--input", settings_.input, "inputs over time, CSV rows such as 10ms,I0.3,1 and 1s,I0.6,pulses,5kHz,200ms")
@@ -57,11 +60,10 @@ void RigOptions::add_to(CLI::App& app) {
   app.add_flag("--strict", strict_, "end with exit code 1 at the first run-time error of the program");
   add_whole_number(app, "--port", settings_.port, {0, 1}, "the port of the PLC that all this is about", "0");
   faults_.add_to(app);
-  auto* trace =
-      app.add_option("--trace", settings_.trace,
-                     "write interrupts, characters, attachments, errors and the main program's way to FILE; - is "
-                     "standard output")
-          ->type_name("FILE");
+  auto* trace = app.add_option("--trace", settings_.trace,
+                               "write interrupts, characters, attachments, errors and the main program's way to FILE; - is "
+                               "standard output")
+                    ->type_name("FILE");
   auto* all = app.add_flag_callback(
                      "--trace-instructions", [this] { settings_.trace_detail = TraceDetail::Instructions; },
                      "trace every instruction too, with its operand values")
@@ -89,27 +91,94 @@ std::unique_ptr<Rig> RigOptions::assemble(const std::shared_ptr<const Program>& 
   std::string why;
   const auto assignments = parse_assignments(set_, *program, why);
   if (!assignments) return print_error("--set: " + why), nullptr;
-  const auto dumps = parse_ranges(dump_, *program, why);
+  const auto dumps = parse_ranges(settings_.dump_names, *program, why);
   if (!dumps) return print_error("--dump: " + why), nullptr;
-  dumps_ = *dumps;
+  settings_.dumps = *dumps;
   settings_.set = *assignments;
   settings_.faults = faults_.faults();
   settings_.link = link;
   settings_.standard_output = &std::cout;
   std::vector<std::string> problems;
   auto rig = Rig::assemble(program, settings_, problems);
+  return keep_why(std::move(rig), problems);
+}
+
+std::unique_ptr<Rig> RigOptions::keep_why(std::unique_ptr<Rig> rig, const std::vector<std::string>& problems) {
   for (const std::string& problem : problems) print_error(problem);
   only_interrupted_ = problems.empty() && interrupted();
   return rig;
 }
 
+void RigOptions::add_place_to(CLI::App& app) {
+  app.add_option("--at", at_,
+                 "of a system file: the line, or the PLC on it, where this master joins (gateway.1 is its port 1) [the only "
+                 "line]")
+      ->type_name("NAME");
+}
+
+bool RigOptions::load(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
+  path_ = program.path;
+  if (is_system_file(program.path)) return load_system(verb, program, exit_code);
+  if (!at_.empty()) {
+    exit_code = kUnusable;
+    print_error("--at names a place in a system file; a PROGRAM has --port");
+    return false;
+  }
+  program_ = program.load(exit_code);
+  return program_ != nullptr;
+}
+
+bool RigOptions::load_system(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
+  exit_code = kUnusable;
+  if (!refuse_options_of_one_plc(verb, program)) return false;
+  plan_ = tools::load_system(program.path, exit_code);
+  if (!plan_) return false;
+  exit_code = kUnusable;
+  if (!plan_->bridges.empty()) {
+    print_error(
+        fmt::format("bridge '{}' of {} follows the clock, which 's7200 {}' does not: leave it out, or use 's7200 run'",
+                    plan_->bridges.front().name, program.path, verb.get_name()));
+    return false;
+  }
+  std::string why;
+  const auto spot = find_spot(*plan_, at_, why);
+  if (!spot) return print_error(fmt::format("{}: {} (--at NAME)", program.path, why)), false;
+  if (why = why_no_room(*plan_, *spot); !why.empty()) return print_error(fmt::format("{}: {}", program.path, why)), false;
+  spot_ = *spot;
+  program_ = plan_->plcs[spot_.plc].program;
+  exit_code = kFine;
+  return true;
+}
+
+std::unique_ptr<Rig> RigOptions::assemble(bool json, const std::string& link) {
+  if (!plan_) return assemble(program_, json, link);
+  if (json && settings_.trace == "-")
+    return print_error("--trace - and --json cannot both have standard output; write one to a file"), nullptr;
+  std::vector<std::string> problems;
+  auto rig = Rig::assemble(*plan_, surroundings(path_, link, {spot_}), problems);
+  return keep_why(std::move(rig), problems);
+}
+
+RigSurroundings RigOptions::surroundings(const std::string& path, const std::string& link, std::vector<Spot> spots) const {
+  return {.path = path,
+          .link = link,
+          .standard_output = &std::cout,
+          .trace = settings_.trace,
+          .trace_detail = settings_.trace_detail,
+          .spots = std::move(spots)};
+}
+
+std::string RigOptions::target() const {
+  if (!plan_) return program_->source.name;
+  const std::string port = spot_.port == 0 ? "" : fmt::format(", port {}", spot_.port);
+  return fmt::format("{}: line {}, beside {}{}", path_, plan_->lines[spot_.line].name, plan_->plcs[spot_.plc].name, port);
+}
+
 void RigOptions::refuse_what_is_of_one_run(std::string_view because) const {
-  const std::pair<const char*, bool> of_one_run[] = {{"--dump", !dump_.empty()},
-                                                     {"--output", !settings_.output.empty()},
-                                                     {"--trace", !settings_.trace.empty()},
-                                                     {"--capture", !settings_.captures.empty()},
-                                                     {"--memory", !settings_.memory.path.empty()},
-                                                     {"--strict", strict_}};
+  const std::pair<const char*, bool> of_one_run[] = {
+      {"--dump", !settings_.dump_names.empty()},    {"--output", !settings_.output.empty()},
+      {"--trace", !settings_.trace.empty()},        {"--capture", !settings_.captures.empty()},
+      {"--memory", !settings_.memory.path.empty()}, {"--strict", strict_}};
   for (const auto& [option, given] : of_one_run)
     if (given) throw std::invalid_argument(fmt::format("{} is about one run; {}", option, because));
 }
@@ -135,23 +204,6 @@ std::string RigOptions::recorded_files() const {
   for (const std::string& file : {settings_.output, settings_.trace})
     if (!file.empty()) files.insert(files.begin(), stl::printable(file));
   return fmt::format("{}", fmt::join(files, ", "));
-}
-
-std::string RigOptions::dump_text(const Cpu& cpu) const {
-  std::string text;
-  for (const MemoryRange& range : dumps_) text += tools::dump_text(cpu, range);
-  return text;
-}
-
-nlohmann::ordered_json RigOptions::json(const serial::Simulation& simulation) const {
-  const Cpu& cpu = simulation.cpu();
-  nlohmann::ordered_json json{{"mode", cpu.state().mode == Mode::Run ? "RUN" : "STOP"},
-                              {"errors", errors_json(cpu)},
-                              {"errors_not_listed", errors_not_listed(cpu)},
-                              {"faults", faults_json(simulation.faults())},
-                              {"dump", nlohmann::ordered_json::object()}};
-  for (std::size_t i = 0; i < dumps_.size(); ++i) json["dump"][dump_[i]] = dump_json(cpu, dumps_[i]);
-  return json;
 }
 
 nlohmann::ordered_json RigOptions::no_json() {

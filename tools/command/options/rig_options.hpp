@@ -5,11 +5,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "tools/command/options/fault_options.hpp"
+#include "tools/command/options/program_options.hpp"
 #include "tools/rig/rig.hpp"
 
 namespace CLI {
@@ -21,6 +23,28 @@ namespace s7200::tools {
 class RigOptions {
  public:
   void add_to(CLI::App& app);
+
+  /// --at, of verbs that join a system at one place.
+  void add_place_to(CLI::App& app);
+
+  /// Loads the PROGRAM, or the system file that stands in its place. False after messages: `exit_code` says which way to
+  /// end.
+  bool load(const CLI::App& verb, const ProgramOptions& program, int& exit_code);
+
+  /// A rig of what was loaded. Null after messages, as below.
+  std::unique_ptr<Rig> assemble(bool json, const std::string& link = {});
+
+  /// How a master talks on the line of what was loaded: as `given`, and for the rest as a system file says.
+  serial::MasterSettings on_line(const serial::MasterSettings& given) const {
+    return plan_ ? tools::on_line(given, plan_->lines[spot_.line]) : given;
+  }
+
+  /// What a system has besides its plan: --trace.
+  RigSurroundings surroundings(const std::string& path, const std::string& link, std::vector<Spot> spots) const;
+
+  /// Of what was loaded: what a master asks, in words; and the program of the PLC that is looked at.
+  std::string target() const;
+  const std::shared_ptr<const Program>& program() const { return program_; }
 
   /// Reads and opens what the options name. Null after messages. `json`: standard output is taken; `link`: so is this name,
   /// by --pty.
@@ -55,18 +79,18 @@ class RigOptions {
   /// With --strict, whether there was one.
   bool failed_strictly(const Cpu& cpu) const { return strict_ && cpu.state().error_count != 0; }
 
-  /// The memory asked for with --dump.
-  std::string dump_text(const Cpu& cpu) const;
-
-  /// How the PLC was left: mode, errors, faults, and the memory asked for.
-  nlohmann::ordered_json json(const serial::Simulation& simulation) const;
-
-  /// The same without a PLC.
+  /// What rig_json() says of a rig with one PLC, without a PLC.
   static nlohmann::ordered_json no_json();
 
  private:
-  std::vector<std::string> set_, dump_;
-  std::vector<MemoryRange> dumps_;
+  bool load_system(const CLI::App& verb, const ProgramOptions& program, int& exit_code);
+  std::unique_ptr<Rig> keep_why(std::unique_ptr<Rig> rig, const std::vector<std::string>& problems);
+
+  std::vector<std::string> set_;
+  std::string at_, path_;
+  std::shared_ptr<const Program> program_;
+  std::optional<SystemPlan> plan_;  ///< of a system
+  Spot spot_;
   bool strict_ = false;
   bool only_interrupted_ = false;  ///< while a record waited for its reader
   FaultOptions faults_;

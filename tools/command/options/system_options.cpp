@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <utility>
 
 #include "interpreter/program/load.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/options/band_options.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/options/rig_options.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/rig/system_reader.hpp"
 
@@ -27,14 +30,30 @@ std::optional<SystemPlan> load_system(const std::string& path, int& exit_code) {
   return {};
 }
 
-bool refuse_options_of_one_plc(const CLI::App& verb, const std::set<std::string_view>& allowed) {
+bool refuse_options_of_one_plc(const CLI::App& verb, const ProgramOptions& program,
+                               std::initializer_list<std::string_view> more) {
+  CLI::App of_one_plc;
+  ProgramOptions programs;
+  RigOptions rigs;
+  BandOptions bands;
+  programs.CpuOptions::add_to(of_one_plc);
+  programs.add_parts_to(of_one_plc);
+  rigs.add_to(of_one_plc);
+  bands.add_to(of_one_plc);
+  const auto refused = [&](const CLI::Option& option) {
+    const std::string& name = option.get_name();
+    if (name.starts_with("--trace")) return false;  // of all of them, in one file
+    return of_one_plc.get_option_no_throw(name) || std::ranges::find(more, name) != more.end();
+  };
   for (const CLI::Option* option : verb.get_options()) {
-    if (option->count() == 0 || option->get_positional() || allowed.contains(option->get_name())) continue;
+    if (option->count() == 0 || option->get_positional() || !refused(*option)) continue;
     print_error(
         fmt::format("{} is about one PLC: a system file says that of each, see 's7200 run --keys'", option->get_name()));
     return false;
   }
-  return true;
+  if (program.parts.empty()) return true;
+  print_error(fmt::format("{} beside a system file: it names the files of its programs itself", program.parts.front()));
+  return false;
 }
 
 }  // namespace s7200::tools

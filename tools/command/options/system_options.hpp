@@ -1,8 +1,8 @@
 // A system file where a PROGRAM could be.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 
@@ -17,7 +17,11 @@ namespace s7200::tools {
 /// Reads it; nothing after messages, and `exit_code` says which way to end.
 std::optional<SystemPlan> load_system(const std::string& path, int& exit_code);
 
-/// False after a message if an option was given that is about one PLC or its line: all but `allowed`, such as `--for`.
-bool refuse_options_of_one_plc(const CLI::App& verb, const std::set<std::string_view>& allowed);
+struct ProgramOptions;
+
+/// False after a message if something was given that is about one PLC or its line: an option of the program or its rig, one
+/// of `more`, or another file of the project.
+bool refuse_options_of_one_plc(const CLI::App& verb, const ProgramOptions& program,
+                               std::initializer_list<std::string_view> more = {});
 
 }  // namespace s7200::tools

@@ -1,0 +1,165 @@
+#include "tools/command/rig_output.hpp"
+
+#include <fmt/format.h>
+
+#include "interpreter/base/text.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/views/faults.hpp"
+#include "tools/views/memory.hpp"
+#include "tools/views/report.hpp"
+#include "tools/views/results_json.hpp"
+
+namespace s7200::tools {
+namespace {
+
+nlohmann::ordered_json dumps_json(const PlcSettings& settings, const Cpu& cpu) {
+  auto json = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < settings.dumps.size(); ++i) json[settings.dump_names[i]] = dump_json(cpu, settings.dumps[i]);
+  return json;
+}
+
+nlohmann::ordered_json plc_json(const PlcPlan& plan, const serial::Plc& plc) {
+  const Cpu& cpu = plc.cpu();
+  const State& state = cpu.state();
+  return {{"name", plan.name},
+          {"cpu", plan.program->model->name},
+          {"mode", mode_of(plc)},
+          {"scans", state.scans},
+          {"instructions", state.instructions},
+          {"errors", errors_json(cpu)},
+          {"errors_not_listed", errors_not_listed(cpu)},
+          {"dump", dumps_json(plan.settings, cpu)}};
+}
+
+nlohmann::ordered_json poll_json(const std::string& name, const serial::Poller::State& polls) {
+  nlohmann::ordered_json json{
+      {"name", name}, {"requests", polls.asked}, {"answered", polls.answered}, {"wrong", polls.wrong}};
+  json["shortest_latency_ns"] = polls.answered ? nlohmann::ordered_json(polls.least_latency) : nullptr;
+  json["longest_latency_ns"] = polls.answered ? nlohmann::ordered_json(polls.most_latency) : nullptr;
+  return json;
+}
+
+/// What `of` says of each PLC, under its name if it has one.
+template <class Of>
+std::string by_plc(const Rig& rig, Of of) {
+  std::string text;
+  for (std::size_t i = 0; i < rig.plan().plcs.size(); ++i) {
+    const std::string& name = rig.plan().plcs[i].name;
+    const std::string lines = of(i);
+    if (!lines.empty()) text += name.empty() ? lines : fmt::format("{}:\n{}", stl::printable(name), indented(lines));
+  }
+  return text;
+}
+
+}  // namespace
+
+bool is_system(const Rig& rig) { return !rig.plan().lines.front().name.empty(); }
+
+std::string_view mode_of(const serial::Plc& plc) {
+  return !plc.powered() ? "off" : plc.cpu().state().mode == Mode::Run ? "RUN" : "STOP";
+}
+
+std::string indented(const std::string& lines) {
+  std::string text;
+  for (const std::string& line : stl::split_lines(lines)) text += line.empty() ? "" : fmt::format("  {}\n", line);
+  return text;
+}
+
+std::string dump_text(const Rig& rig) {
+  return by_plc(rig, [&](std::size_t plc) {
+    std::string text;
+    for (const MemoryRange& range : rig.plan().plcs[plc].settings.dumps) text += dump_text(rig.plc(plc).cpu(), range);
+    return text;
+  });
+}
+
+std::string errors_text(const Rig& rig) {
+  return by_plc(rig, [&](std::size_t plc) { return errors_text(rig.plc(plc).cpu()); });
+}
+
+std::vector<std::string> fault_notes(const Rig& rig) {
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < rig.plan().lines.size(); ++i) {
+    const std::string& name = rig.plan().lines[i].name;
+    for (const std::string& note : fault_notes(rig.faults(i)))
+      notes.push_back(name.empty() ? note : fmt::format("{}: {}", name, note));
+  }
+  return notes;
+}
+
+std::vector<std::string> stop_notes(const Rig& rig) {
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < rig.plan().plcs.size(); ++i) {
+    const std::string& name = rig.plan().plcs[i].name;
+    if (mode_of(rig.plc(i)) == "STOP") notes.push_back((name.empty() ? "" : name + ": ") + "the CPU is in STOP");
+  }
+  return notes;
+}
+
+std::string poll_text(const serial::Poller::State& polls) {
+  std::string text = fmt::format("{} requests, {} answered", polls.asked, polls.answered);
+  if (polls.wrong != 0) text += fmt::format(", {} of them wrong or refused", polls.wrong);
+  if (polls.answered != 0)
+    text += fmt::format(", after {} to {}", format_duration(polls.least_latency), format_duration(polls.most_latency));
+  return text;
+}
+
+nlohmann::ordered_json rig_json(const Rig& rig) {
+  const SystemPlan& plan = rig.plan();
+  if (!is_system(rig)) {
+    const Cpu& cpu = rig.plc(0).cpu();
+    return {{"mode", mode_of(rig.plc(0))},
+            {"errors", errors_json(cpu)},
+            {"errors_not_listed", errors_not_listed(cpu)},
+            {"faults", faults_json(rig.faults(0))},
+            {"dump", dumps_json(plan.plcs[0].settings, cpu)}};
+  }
+  nlohmann::ordered_json json;
+  for (const char* const list : {"plcs", "masters", "lines"}) json[list] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < plan.plcs.size(); ++i) json["plcs"].push_back(plc_json(plan.plcs[i], rig.plc(i)));
+  for (std::size_t i = 0; i < plan.peers.size(); ++i)
+    if (const serial::Poller* poller = rig.poller(i))
+      json["masters"].push_back(poll_json(plan.peers[i].name, poller->state()));
+  for (std::size_t i = 0; i < plan.lines.size(); ++i)
+    json["lines"].push_back({{"name", plan.lines[i].name}, {"faults", faults_json(rig.faults(i))}});
+  return json;
+}
+
+int exit_code_of(const Rig& rig) {
+  for (std::size_t i = 0; i < rig.plan().plcs.size(); ++i)
+    if (const int code = exit_code_of(rig.plc(i).cpu()); code != kFine) return code;
+  return kFine;
+}
+
+Timelines::Timelines(Rig& rig) : rig_(rig) {
+  for (std::size_t i = 0; i < rig.plan().plcs.size(); ++i) {
+    TraceSink* const records = rig.sinks(i).empty() ? nullptr : &rig.sinks(i);
+    timelines_.push_back(std::make_unique<Timeline>(rig.plan().plcs[i].program, records, Timeline::Looks::AtInstructions));
+  }
+}
+
+void Timelines::begin() {
+  for (std::size_t i = 0; i < timelines_.size(); ++i) {
+    timelines_[i]->begin();
+    rig_.plc(i).cpu().set_sink(timelines_[i].get());
+  }
+}
+
+void Timelines::end() {
+  for (std::size_t i = 0; i < timelines_.size(); ++i)
+    rig_.plc(i).cpu().set_sink(rig_.sinks(i).empty() ? nullptr : &rig_.sinks(i));
+}
+
+std::vector<StationTimeline> Timelines::reports() const {
+  std::vector<StationTimeline> reports;
+  for (std::size_t i = 0; i < timelines_.size(); ++i) reports.push_back({rig_.plan().plcs[i].name, timelines_[i]->report()});
+  return reports;
+}
+
+std::string Timelines::text(const serial::Exchange& exchange, bool colour) const {
+  return to_text(reports(), exchange, colour);
+}
+
+nlohmann::ordered_json Timelines::json(const serial::Exchange& exchange) const { return to_json(reports(), exchange); }
+
+}  // namespace s7200::tools

@@ -1,0 +1,62 @@
+// What there is to say of a rig at the end: of the one PLC from a command line as it stands, of a system each under its
+// name.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/rig/rig.hpp"
+#include "tools/views/timeline.hpp"
+
+namespace s7200::tools {
+
+/// Whether it came from a system file.
+bool is_system(const Rig& rig);
+
+/// `RUN`, `STOP`, or `off` without power.
+std::string_view mode_of(const serial::Plc& plc);
+
+/// Each line two columns to the right.
+std::string indented(const std::string& lines);
+
+/// The memory that is to be shown.
+std::string dump_text(const Rig& rig);
+
+/// Run-time errors and fatal errors.
+std::string errors_text(const Rig& rig);
+
+/// Faults that found nothing to do, and which CPUs are in STOP.
+std::vector<std::string> fault_notes(const Rig& rig);
+std::vector<std::string> stop_notes(const Rig& rig);
+
+/// What a master of the system has come to.
+std::string poll_text(const serial::Poller::State& polls);
+
+/// How the PLCs were left: of a system in `plcs`, `masters` and `lines`.
+nlohmann::ordered_json rig_json(const Rig& rig);
+
+/// kCpuFatal if a fatal error stopped a CPU.
+int exit_code_of(const Rig& rig);
+
+/// What the CPUs do, exchange by exchange: a Timeline for each.
+class Timelines {
+ public:
+  /// The rig is not owned; its records go on. Nothing is seen before begin().
+  explicit Timelines(Rig& rig);
+
+  void begin();
+  void end();
+
+  std::string text(const serial::Exchange& exchange, bool colour) const;
+  nlohmann::ordered_json json(const serial::Exchange& exchange) const;
+
+ private:
+  std::vector<StationTimeline> reports() const;
+
+  Rig& rig_;
+  std::vector<std::unique_ptr<Timeline>> timelines_;  // by PLC
+};
+
+}  // namespace s7200::tools

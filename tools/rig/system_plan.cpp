@@ -1,0 +1,74 @@
+#include "tools/rig/system_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "interpreter/base/text.hpp"
+#include "serial_sim/line/line.hpp"
+
+namespace s7200::tools {
+namespace {
+
+template <class Plans>
+std::string names_of(const Plans& plans) {
+  std::string names;
+  for (const auto& plan : plans) names.append(names.empty() ? "" : ", ").append(plan.name);
+  return names;
+}
+
+std::optional<Spot> beside_first_plc(const SystemPlan& plan, std::size_t line, std::string& why) {
+  if (const StationPlan* const first = first_plc(plan.lines[line])) return Spot{line, first->number, first->port};
+  why = fmt::format("no PLC is on line '{}'", plan.lines[line].name);
+  return {};
+}
+
+/// `gateway`, `gateway.1`
+std::optional<Spot> at_plc(const SystemPlan& plan, std::string_view name, std::string& why) {
+  const std::size_t dot = name.find('.');
+  const std::string_view plc = name.substr(0, dot), port = dot == name.npos ? "0" : name.substr(dot + 1);
+  bool known = false;
+  for (std::size_t line = 0; line < plan.lines.size(); ++line)
+    for (const StationPlan& station : plan.lines[line].stations) {
+      if (station.kind != StationPlan::Kind::Plc || plan.plcs[station.number].name != plc) continue;
+      known = true;
+      if (port == fmt::format("{}", station.port)) return Spot{line, station.number, station.port};
+    }
+  why = known ? fmt::format("port {} of '{}' is on no line", stl::shortened(std::string(port)), plc)
+              : fmt::format("there is no line or PLC '{}': the lines are {}, the PLCs {}", stl::shortened(std::string(plc)),
+                            names_of(plan.lines), names_of(plan.plcs));
+  return {};
+}
+
+}  // namespace
+
+serial::MasterSettings on_line(serial::MasterSettings master, const LinePlan& line) {
+  serial::LineSettings settings = line.settings;
+  settings.override_with(master);
+  master.override_with(settings);
+  return master;
+}
+
+const StationPlan* first_plc(const LinePlan& line) {
+  const auto found = std::ranges::find(line.stations, StationPlan::Kind::Plc, &StationPlan::kind);
+  return found == line.stations.end() ? nullptr : &*found;
+}
+
+std::optional<Spot> find_spot(const SystemPlan& plan, std::string_view name, std::string& why) {
+  if (name.empty() && plan.lines.size() > 1) {
+    why = fmt::format("there are several lines, {}: name one of them, or a PLC", names_of(plan.lines));
+    return {};
+  }
+  const auto line = name.empty() ? plan.lines.begin() : std::ranges::find(plan.lines, name, &LinePlan::name);
+  if (line == plan.lines.end()) return at_plc(plan, name, why);
+  return beside_first_plc(plan, static_cast<std::size_t>(line - plan.lines.begin()), why);
+}
+
+std::string why_no_room(const SystemPlan& plan, const Spot& spot) {
+  const LinePlan& line = plan.lines[spot.line];
+  if (line.stations.size() < serial::Line::kDrivers) return {};
+  return fmt::format("line '{}' has {} stations already, as many as a line takes: there is no place for one more master",
+                     line.name, line.stations.size());
+}
+
+}  // namespace s7200::tools
