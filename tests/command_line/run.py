@@ -1100,7 +1100,7 @@ class Scenarios(Case):
 
 
 class Systems(Case):
-    """System files: `s7200 run` takes them, all else refuses them."""
+    """System files, where a PROGRAM can be."""
     SYSTEM = f"""plcs:
   slave: {{program: {SLAVE}, copies: 2, station: 4, set: {{VW0: 16#0102}}, dump: [VW0]}}
 peers:
@@ -1139,8 +1139,114 @@ lines:
     def test_options_about_one_plc_and_other_verbs_are_refused(self):
         system = self.program(self.SYSTEM, "system.yaml")
         self.assertIn("--set is about one PLC", self.ends(UNUSABLE, "run", system, "--set", "VW0=1").stderr)
-        for verb in (["send", system, "01"], ["debug", system], ["master", system, "read", "40001"]):
-            self.assertIn("is a system file, which 's7200 run' takes", self.ends(UNUSABLE, *verb).stderr)
+        for verb in (["send", system, "01"], ["master", system, "read", "40001"]):
+            self.assertIn("--cpu is about one PLC", self.ends(UNUSABLE, *verb, "--cpu", "224").stderr)
+            self.assertIn("--times-band is about one PLC", self.ends(UNUSABLE, *verb, "--times-band", "2").stderr)
+        self.assertIn("names the files of its programs itself", self.ends(UNUSABLE, "run", system, SLAVE).stderr)
+        self.assertIn("is a system file, which 's7200 run', 'send', 'master' and 'test' take",
+                      self.ends(UNUSABLE, "debug", system).stderr)
+
+    GATEWAY = SOURCE / "stl_programs/systems/gateway.yaml"
+
+    def test_frames_go_onto_a_line_and_are_answered_by_who_is_there(self):
+        system = self.program(self.SYSTEM, "system.yaml")
+        done = self.ends(FINE, "send", system, "--crc", "050300000001")
+        self.assertRegex(done.stdout, r"(?m)05 03 02 01 02 .*\n(.*\n)*slave1:\n  VW0 +16#0102")
+        results = self.json(FAILED, "send", system, "--crc", "050300000001", "090300000001", "--timeout", "50ms", "--json")
+        self.assertEqual([exchange["response"] is None for exchange in results["exchanges"]], [False, True])
+        self.assertEqual([plc["mode"] for plc in results["plcs"]], ["RUN", "RUN"])
+
+    def test_the_place_in_a_system_is_a_line_or_a_plc(self):
+        frame = ["--crc", "050300000001"]
+        self.assertIn("there are several lines, office, field: name one of them, or a PLC (--at NAME)",
+                      self.ends(UNUSABLE, "send", self.GATEWAY, *frame).stderr)
+        latencies = {place: self.json(FINE, "send", self.GATEWAY, *frame, "--at", place, "--json")["exchanges"][0]["latency_us"]
+                     for place in ("office", "gateway", "field", "gateway.1", "pump")}
+        self.assertEqual(latencies["office"], latencies["gateway"])
+        self.assertEqual(latencies["field"], latencies["gateway.1"])
+        self.assertEqual(latencies["field"], latencies["pump"])
+        self.assertGreater(latencies["office"], latencies["pump"], "by the way over the gateway and back")
+        for place, why in (("attic", "there is no line or PLC 'attic': the lines are office, field, the PLCs gateway, pump"),
+                           ("pump.1", "port 1 of 'pump' is on no line")):
+            self.assertIn(why, self.ends(UNUSABLE, "send", self.GATEWAY, *frame, "--at", place).stderr)
+        self.assertIn("a PROGRAM has --port", self.ends(UNUSABLE, "send", SLAVE, *frame, "--at", "bus").stderr)
+
+    def test_a_full_line_has_no_place_for_one_more_master(self):
+        done = self.ends(UNUSABLE, "master", SOURCE / "stl_programs/systems/polled_slaves.yaml", "read", "40001")
+        self.assertIn("line 'bus' has 32 stations already, as many as a line takes", done.stderr)
+
+    def test_a_bridge_follows_the_clock_and_is_refused_where_none_does(self):
+        text = self.SYSTEM.replace("lines:", "bridges: {panel: {tcp: 127.0.0.1:0}}\nlines:").replace("slave]", "slave, panel]")
+        done = self.ends(UNUSABLE, "send", self.program(text, "system.yaml"), "01")
+        self.assertIn("bridge 'panel' of", done.stderr)
+
+    def test_a_master_joins_a_line(self):
+        done = self.ends(FINE, "master", self.GATEWAY, "--at", "office", "--station", "5", "read", "40001")
+        self.assertIn("1234", done.stdout)
+        results = self.json(FINE, "master", self.GATEWAY, "--at", "pump", "--station", "5", "read", "40001", "--json")
+        self.assertEqual(results["exchanges"][0]["values"], [0x1234])
+        self.assertEqual([line["name"] for line in results["lines"]], ["office", "field"])
+
+    def test_a_timeline_has_the_station_beside_each_event(self):
+        shown = self.ends(FINE, "send", self.GATEWAY, "--at", "office", "--crc", "050300000001", "--timeline").stdout
+        self.assertRegex(shown, r"(?m)^ +ms  station  at the port")
+        self.assertRegex(shown, r"(?m)^ +[\d.]+  gateway  (port 0 )?event 23 ")
+        self.assertRegex(shown, r"(?m)^ +[\d.]+  pump     received  05 ")
+        rows = self.json(FINE, "send", self.GATEWAY, "--at", "office", "--crc", "050300000001", "--timeline",
+                         "--json")["exchanges"][0]["timeline"]
+        self.assertEqual({row["station"] for row in rows}, {"gateway", "pump"})
+        self.assertEqual([row["at_us"] for row in rows], sorted(row["at_us"] for row in rows))
+
+    def test_a_trace_of_a_system_has_all_stations_in_the_order_of_time(self):
+        trace = self.folder / "all.txt"
+        for verb in (["run", self.program(self.SYSTEM, "system.yaml"), "--for", "1200ms"],
+                     ["send", self.GATEWAY, "--at", "field", "--crc", "050300000001"]):
+            self.ends(FINE, *verb, "--trace", trace, "--trace-events")
+            first, *lines = trace.read_text(encoding="utf-8").splitlines()
+            self.assertEqual(first, "# station, time in ms, what")
+            self.assertEqual({line.split()[0] for line in lines}, {"slave1", "slave2"} if verb[0] == "run" else {"gateway", "pump"})
+            times = [float(line.split()[1]) for line in lines]
+            self.assertEqual(times, sorted(times))
+        self.assertIn("cannot both have standard output",
+                      self.ends(UNUSABLE, "run", self.GATEWAY, "--trace", "-", "--json").stderr)
+
+    def test_a_scenario_names_a_system_and_whom_its_steps_are_about(self):
+        self.program(self.SYSTEM, "system.yaml")
+        head = "system: system.yaml\nsteps:\n"
+        for steps, why in (("  - {read: holding 0, on: slvae1}", "there is no line or PLC 'slvae1'"),
+                           ("  - power_off: slvae1", "there is no PLC 'slvae1'"),
+                           ("  - cut: bus", "a cut without 'after'"),
+                           ("  - wait: 2 scans", "scans of which PLC?"),
+                           ("  - power_cycle: memory kept", "'power_cycle' is about a program")):
+            self.assertIn(why, self.ends(UNUSABLE, "test", self.program(head + steps + "\n", "scenario.yaml")).stderr)
+        wrong = self.program(f"program: {SLAVE}\nsteps:\n  - {{wait: 1ms, on: bus}}\n", "wrong.yaml")
+        self.assertIn("'on' names a PLC or a line of a system", self.ends(UNUSABLE, "test", wrong).stderr)
+        self.assertIn("is a system file, which a scenario names", self.ends(UNUSABLE, "test", self.folder / "system.yaml").stderr)
+        both = self.program("system: system.yaml\ncpu: 224\nsteps: [wait: 1ms]\n", "both.yaml")
+        self.assertIn("'cpu' is of one program", self.ends(UNUSABLE, "test", both).stderr)
+        gateway = self.program(f"system: {self.GATEWAY}\nsteps: [{{read: holding 0}}]\n", "gateway.yaml")
+        self.assertIn("there are several lines, office, field", self.ends(UNUSABLE, "test", gateway).stderr)
+
+    def test_a_finding_says_which_station_and_shows_all_on_the_line(self):
+        self.program(self.SYSTEM, "system.yaml")
+        scenario = self.program("system: system.yaml\nsteps:\n  - {memory: {VW0: 7}, on: slave2}\n"
+                                "  - {read: holding 0, station: 4, on: slave1, expect: [7]}\n", "scenario.yaml")
+        shown = self.ends(FAILED, "test", scenario).stdout
+        self.assertRegex(shown, r"VW0 of slave2")
+        self.assertRegex(shown, r"(?m)^ +[\d.]+  slave2 +received  04 ")
+        done = self.ends(FAILED, "test", scenario, "--target", SLAVE)
+        self.assertIn("which --target cannot replace", done.stdout)
+
+    def test_a_scenario_of_a_system_is_replayed_from_its_transcript(self):
+        self.program(self.SYSTEM, "system.yaml")
+        scenario = self.program("system: system.yaml\nsteps:\n  - {read: holding 0, station: 5, on: slave2}\n  - power_off: slave2\n"
+                                "  - {read: holding 0, station: 5, on: bus, timeout: 50ms}\n  - {cut: bus, after: slave1}\n", "scenario.yaml")
+        transcript = self.folder / "transcript.yaml"
+        self.ends(FINE, "test", scenario, "--record", transcript)
+        text = transcript.read_text(encoding="utf-8")
+        for part in ('system: "system.yaml"', "- power_off: slave2", "on: slave2", "after: slave1", "expect: silence"):
+            self.assertIn(part, text)
+        self.ends(FINE, "test", transcript)
 
 
 class JsonPage(Case):
@@ -1173,6 +1279,11 @@ class JsonPage(Case):
                             "peers: {master: {polls: [{station: 1, read: 40001}]}}\nbridges: {panel: {tcp: 127.0.0.1:0}}\n"
                             "lines: {bus: {stations: [slave, master, panel]}}\n", "system.yaml")
 
+    def alone(self):
+        """The same without the bridge, which follows the clock."""
+        text = pathlib.Path(self.system()).read_text(encoding="utf-8")
+        return self.program(text.replace("bridges: {panel: {tcp: 127.0.0.1:0}}\n", "").replace(", panel]", "]"), "alone.yaml")
+
     def runs(self):
         echo, wrong = self.program(Json.ECHO, "echo.stl"), self.program("LD VB0\nMEND\n", "wrong.stl")
         faulty = self.program("LD SM0.0\nMOVR 1.5, VD20\nMOVD 0, *VD100\nMEND\n", "faulty.stl")
@@ -1201,7 +1312,8 @@ class JsonPage(Case):
                     ["send", SLAVE, "--crc", "0103000a0001", "--times-band", "2"], ["master", SLAVE, "read", "40001", "--times-band", "2"],
                     ["test", good, "--times-band", "2"], ["bench", "--each", "1ms"],
                     ["test", good, bad, gap], ["test", good, "--against", SLAVE], ["test", "--conformance", slave, "--only", "SL-crc"],
-                    ["test", good, "--list"], ["run", self.system(), "--for", "50ms"])
+                    ["test", good, "--list"], ["run", self.system(), "--for", "50ms"],
+                    ["send", self.alone(), "0103000a0001", "--timeline"], ["master", self.alone(), "read", "40001"])
         yield from (["run", SLAVE, "--for", "50ms", *bridge]
                     for bridge in (["--pty", self.folder / "plc"], ["--tcp", "0"], ["--rtu-over-tcp", "0"], ["--modbus-tcp", "0"],
                                    ["--device", os.ttyname(secondary)]))

@@ -119,7 +119,8 @@ bool is_to_run(const Scenario& scenario) { return scenario.skipped.empty(); }
 bool all_without_program(const std::vector<Scenario>& scenarios, Messages& messages) {
   const auto first = std::find_if(scenarios.begin(), scenarios.end(), is_to_run);
   if (first == scenarios.end()) return false;
-  if (std::any_of(scenarios.begin(), scenarios.end(), [](const Scenario& s) { return is_to_run(s) && !s.program.empty(); }))
+  if (std::any_of(scenarios.begin(), scenarios.end(),
+                  [](const Scenario& s) { return is_to_run(s) && (!s.program.empty() || s.plan); }))
     return false;
   add_error(messages, fmt::format("{}: '{}' names no program; give it 'program:', or name one with --target",
                                   first->source->name, first->name));
@@ -137,6 +138,7 @@ class ProgramBenches {
 
   /// False, with messages, if there is none and there will be none for all others either.
   bool add_to(Bench& bench, const Scenario& scenario, std::string& name, Messages& messages) {
+    if (scenario.plan) return add_system_to(bench, scenario, name), true;
     const std::string& path = target_.empty() ? scenario.program : target_;
     if (path.empty()) {
       bench.problem = "it names no program, and there is no --target";
@@ -157,6 +159,13 @@ class ProgramBenches {
   }
 
  private:
+  void add_system_to(Bench& bench, const Scenario& scenario, std::string& name) const {
+    if (!target_.empty())
+      bench.problem = fmt::format("it is about the system {}, which --target cannot replace", scenario.system);
+    if (settings_.band.random > 0) bench.problem = "--times-band is about one program, and this scenario about a system";
+    if (name.empty()) name = scenario.system;
+  }
+
   /// What a scenario gets that asks for a band if none is asked for on the command line.
   static constexpr std::size_t kUsualTables = 200;
   BandSettings band_settings() const {

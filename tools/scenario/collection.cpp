@@ -78,11 +78,20 @@ class Collector {
     if (error) return fail(fmt::format("cannot read {}: {}", path, error.message()));
     if (found.empty()) return fail(fmt::format("there is no .yaml file in {}", path));
     std::sort(found.begin(), found.end());
-    for (const std::string& file : found) read_one(file);
+    for (const std::string& file : found)
+      if (const auto text = text_of(file); text && !is_system(*text)) take(*text, file);
   }
 
   void read_one(const std::string& path) {
-    if (const auto text = text_of(path)) take(*text, path);
+    const auto text = text_of(path);
+    if (text && is_system(*text)) return fail(fmt::format("{0} is a system file, which a scenario names: system: {0}", path));
+    if (text) take(*text, path);
+  }
+
+  /// System files may stand beside the scenarios that name them.
+  static bool is_system(std::string_view text) {
+    constexpr std::string_view kPlcs = "plcs:";
+    return text.starts_with(kPlcs) || text.find(fmt::format("\n{}", kPlcs)) != std::string_view::npos;
   }
 
   void take(const std::string& text, const std::string& path) {

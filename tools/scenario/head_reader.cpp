@@ -7,6 +7,8 @@
 #include "interpreter/program/load.hpp"
 #include "interpreter/program/slips.hpp"
 #include "tools/rig/clock_text.hpp"
+#include "tools/rig/rig.hpp"
+#include "tools/rig/system_reader.hpp"
 #include "tools/scenario/memory_values.hpp"
 
 namespace s7200::tools {
@@ -41,6 +43,8 @@ class HeadReader {
       return false;
     }
     if (const auto path = optional_path(map, "program")) scenario.program = *path;
+    if (const auto path = optional_path(map, "system")) read_plan(map, *path, scenario);
+    if (const auto on = values_.optional_text(map, "on")) read_on(*map.find("on"), *on, scenario);
     if (const YamlNode* with = map.find("with")) read_parts(*with, scenario.with);
     read_symbols(scenario);
     if (const auto repair = values_.optional_text(map, "repair")) {
@@ -86,6 +90,37 @@ class HeadReader {
     const bool given =
         given_ && given_->parameters.values.contains(key) && map.find(key)->text == fmt::format("${{{}}}", key);
     return given ? *path : beside(scenario_file_, *path);
+  }
+
+  void read_plan(const YamlNode& map, const std::string& path, Scenario& scenario) {
+    const YamlNode& node = *map.find("system");
+    for (const char* const key : {"program", "with", "repair", "cpu", "times", "robust", "set", "input", "clock"})
+      if (const YamlNode* one = map.find(key))
+        values_.wrong(*one, fmt::format("'{}' is of one program: a system file says that of each PLC", key));
+    std::string why;
+    const auto text = read_text(path, why);
+    if (!text) return values_.wrong(node, fmt::format("cannot read {}: {}", path, why));
+    SystemFile file = read_system(*text, path);
+    if (!file.ok()) {
+      const stl::Diagnostic& first = file.file.diagnostics.front();
+      return values_.wrong(node, fmt::format("{}:{}: {}", path, first.position.line, first.message),
+                           fmt::format("'s7200 run {}' shows all that is wrong", path));
+    }
+    if (!file.plan.bridges.empty())
+      return values_.wrong(node, fmt::format("bridge '{}' of {} follows the clock", file.plan.bridges.front().name, path),
+                           "a scenario runs as fast as it can: leave bridges out");
+    forget_files(file.plan);
+    scenario.system = path;
+    scenario.plan = std::make_shared<const SystemPlan>(std::move(file.plan));
+  }
+
+  void read_on(const YamlNode& node, const std::string& on, Scenario& scenario) {
+    std::string why;
+    if (!scenario.plan)
+      values_.wrong(node, "'on' names a PLC or a line of a system", "name the file of one with 'system:'");
+    else if (!find_spot(*scenario.plan, on, why))
+      values_.wrong(node, why);
+    scenario.on = on;
   }
 
   void read_parts(const YamlNode& parts, std::vector<std::string>& with) {

@@ -1,8 +1,10 @@
 #include "tools/scenario/plant.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "tools/host/interruption.hpp"
+#include "tools/rig/first_scans.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
@@ -11,6 +13,24 @@ namespace s7200::tools {
 namespace {
 
 constexpr Time kSlice = 10 * kSecond;  // Ctrl-C is heard in between
+
+/// Those of the steps; the master stands beside the first of a line.
+std::vector<Spot> spots_of(const Scenario& scenario) {
+  const SystemPlan& plan = *scenario.plan;
+  std::vector<Spot> spots;
+  const auto add = [&](const std::optional<Spot>& spot) {
+    if (spot && std::ranges::find(spots, *spot) == spots.end()) spots.push_back(*spot);
+  };
+  std::string why;
+  add(find_spot(plan, scenario.on, why));
+  for (const Step& step : scenario.steps) {
+    if (step.spot) add(find_spot(plan, plan.lines[step.spot->line].name, why));
+    add(step.spot);
+  }
+  for (const LinePlan& line : plan.lines)
+    if (spots.empty()) add(find_spot(plan, line.name, why));
+  return spots;
+}
 
 }  // namespace
 
@@ -21,73 +41,118 @@ void InterruptCounter::record(const TraceRecord& record) {
 }
 
 Plant::Plant(const Scenario& scenario, std::shared_ptr<const Program> program)
-    : scenario_(scenario), program_(std::move(program)), timeline_(program_, nullptr) {
-  sinks_.add(&timeline_);
-  sinks_.add(&interrupts_);
+    : scenario_(scenario), program_(std::move(program)) {
+  watches_.push_back(std::make_unique<Watch>(program_));
   power_up(nullptr);
   if (scenario.clock) cpu().set_clock(*scenario.clock);
   for (const Assignment& assignment : scenario.set) assign(cpu(), assignment);
 }
 
+Plant::Plant(const Scenario& scenario) : scenario_(scenario) {
+  spots_ = spots_of(scenario);
+  std::vector<std::string> problems;
+  rig_ = Rig::assemble(*scenario.plan, {.path = scenario.system, .spots = spots_}, problems);
+  if (!rig_) throw std::logic_error(problems.empty() ? "interrupted" : problems.front());
+  for (std::size_t plc = 0; plc < scenario.plan->plcs.size(); ++plc) {
+    watches_.push_back(std::make_unique<Watch>(scenario.plan->plcs[plc].program));
+    rig_->sinks(plc).add(&watches_.back()->sinks);
+  }
+  rig_->power_up();
+  for (std::size_t spot = 0; spot < spots_.size(); ++spot)
+    slaves_.push_back(std::make_unique<SimulatedSlave>(rig_->simulation(spot), master_of(spots_[spot]), scenario.system));
+}
+
+void Plant::look_at(const Spot& spot) { here_ = static_cast<std::size_t>(std::ranges::find(spots_, spot) - spots_.begin()); }
+
+serial::MasterSettings Plant::master_of(const Spot& spot) const {
+  return scenario_.plan ? on_line(scenario_.line, scenario_.plan->lines[spot.line]) : scenario_.line;
+}
+
 void Plant::power_up(const RetentiveMemory* memory) {
-  slave_.reset();
+  slaves_.clear();
   simulation_ = std::make_unique<serial::Simulation>(program_, scenario_.field);
-  simulation_->cpu().set_sink(&sinks_);
+  simulation_->cpu().set_sink(&watches_.front()->sinks);
   simulation_->stop_when(&interruption());
   simulation_->power_up(memory);
-  slave_ = std::make_unique<SimulatedSlave>(*simulation_, scenario_.line, program_->source.name);
+  slaves_.push_back(std::make_unique<SimulatedSlave>(*simulation_, scenario_.line, program_->source.name));
 }
 
 void Plant::power_cycle(bool memory_lost, Time power_off) {
   RetentiveMemory memory = cpu().retentive_memory();
   memory.ram_lost = memory_lost;
   memory.power_off = power_off;
-  before_ += simulation_->time();
+  before_ += simulation().time();
   power_up(&memory);
 }
 
 bool Plant::get_ready() {
   if (scenario_.after != kNever) {
-    slave_->wait(scenario_.after - simulation_->time());
+    slave().wait(scenario_.after - simulation().time());
     return true;
   }
-  const bool ready = slave_->get_ready(kReadyWithin);
+  if (rig_ && !run_first_scans(*rig_, kReadyWithin)) return false;
+  const bool ready = slaves_[here_]->get_ready(kReadyWithin);
   return ready || cpu().state().mode == Mode::Stop;
 }
 
 void Plant::begin_exchange() {
-  timeline_.begin();
-  interrupts_.begin();
+  begin_reception();
+  for (const auto& watch : watches_) watch->interrupts.begin();
+}
+
+void Plant::begin_reception() {
+  for (const auto& watch : watches_) watch->timeline.begin();
+}
+
+void Plant::end_exchange() {
+  for (const auto& watch : watches_) watch->timeline.end();
 }
 
 bool Plant::wait_scans(std::uint64_t count) {
   cpu().pause_at_scan_end(true);
-  const Time limit = simulation_->time() + kReadyWithin;
-  for (; count > 0 && simulation_->run_until(limit) == serial::Halt::Paused; --count) {
+  const Time limit = simulation().time() + kReadyWithin;
+  for (; count > 0 && simulation().run_until(limit) == serial::Halt::Paused; --count) {
   }
   cpu().pause_at_scan_end(false);
-  simulation_->run_until(simulation_->time() + 1);  // running on, the CPU is no longer paused
+  simulation().run_until(simulation().time() + 1);  // running on, the CPU is no longer paused
   return count == 0;
 }
 
 bool Plant::wait_until(const std::function<bool()>& holds, Time timeout) {
-  const Time limit = simulation_->time() + timeout;
+  const Time limit = simulation().time() + timeout;
   bool held = holds();
   cpu().pause_at_scan_end(true);
-  while (!held && !interrupted() && simulation_->time() < limit) {
-    const serial::Halt halt = simulation_->run_until(std::min(limit, simulation_->time() + kSlice));
+  while (!held && !interrupted() && simulation().time() < limit) {
+    const serial::Halt halt = simulation().run_until(std::min(limit, simulation().time() + kSlice));
     held = holds();
     if (halt == serial::Halt::Stopped) break;
   }
   cpu().pause_at_scan_end(false);
-  cpu().run(simulation_->time());  // it is no longer paused
+  cpu().run(simulation().time());  // it is no longer paused
   return held;
 }
 
-std::string Plant::timeline(const serial::Exchange& exchange) const { return to_text(timeline_.report(), exchange, false); }
+std::string Plant::timeline(const serial::Exchange& exchange) const {
+  std::vector<StationTimeline> stations;
+  for (std::size_t plc = 0; plc < plcs(); ++plc)
+    if (is_on(spots_[here_].line, plc)) stations.push_back({name_of(plc), watches_[plc]->timeline.report()});
+  return to_text(stations, exchange, false);
+}
 
-std::string Plant::why_stopped() {
-  const std::string why = errors_text(cpu());
+bool Plant::is_on(std::size_t line, std::size_t plc) const {
+  if (!rig_) return true;
+  return std::ranges::any_of(rig_->plan().lines[line].stations, [&](const StationPlan& station) {
+    return station.kind == StationPlan::Kind::Plc && station.number == plc;
+  });
+}
+
+bool Plant::is_in_stop(std::size_t plc) const {
+  const bool powered = !rig_ || rig_->plc(plc).powered();
+  return powered && cpu_of(plc).state().mode == Mode::Stop;
+}
+
+std::string Plant::why_stopped(std::size_t plc) const {
+  const std::string why = errors_text(cpu_of(plc));
   return why.empty() ? "" : "\n" + why;
 }
 

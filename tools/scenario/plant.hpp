@@ -1,13 +1,15 @@
-// A program in simulation with all that watches it.
+// A program in simulation, or a system, with all that watches it.
 #pragma once
 
 #include <array>
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "interpreter/trace/fan_out.hpp"
 #include "serial_sim/system/simulation.hpp"
+#include "tools/rig/rig.hpp"
 #include "tools/scenario/scenario.hpp"
 #include "tools/slave/simulated_slave.hpp"
 #include "tools/views/timeline.hpp"
@@ -30,22 +32,44 @@ class InterruptCounter final : public TraceSink {
   std::uint64_t lost_ = 0;
 };
 
+/// What is seen of one CPU.
+struct Watch {
+  explicit Watch(std::shared_ptr<const Program> program) : timeline(std::move(program), nullptr) {
+    sinks.add(&timeline);
+    sinks.add(&interrupts);
+  }
+  Timeline timeline;
+  InterruptCounter interrupts;
+  FanOut sinks;
+};
+
+/// One program, or a system of which one PLC at a time is looked at.
 class Plant {
  public:
   /// Powered up, with what the head of the scenario sets. The scenario is not owned.
   Plant(const Scenario& scenario, std::shared_ptr<const Program> program);
 
-  /// Power goes off, and comes back after `power_off`: the clock goes on, and memory is kept unless it is lost.
+  /// The same of the scenario's system.
+  explicit Plant(const Scenario& scenario);
+
+  /// What follows is about that PLC of the system, and a master on that line.
+  void look_at(const Spot& spot);
+
+  /// Does it to the system, now.
+  void carry_out(const EventPlan& event) { rig_->carry_out(event); }
+
+  /// Power goes off, and comes back after `power_off`: the clock goes on, and memory is kept unless it is lost. Of a
+  /// program.
   void power_cycle(bool memory_lost, Time power_off);
 
   /// Runs to where the first step may begin. Returns false if that never comes.
   bool get_ready();
 
   void begin_exchange();
-  void end_exchange() { timeline_.end(); }
+  void end_exchange();
 
   /// Unlike a request, what is only waited for begins nothing that interrupts are counted from.
-  void begin_reception() { timeline_.begin(); }
+  void begin_reception();
 
   /// Returns false if they do not come within a minute.
   bool wait_scans(std::uint64_t count);
@@ -53,32 +77,45 @@ class Plant {
   /// Runs scan by scan until `holds`. Returns false if it does not when the time is over or the CPU is in STOP.
   bool wait_until(const std::function<bool()>& holds, Time timeout);
 
-  serial::Simulation& simulation() { return *simulation_; }
-  Cpu& cpu() { return simulation_->cpu(); }
-  Slave& slave() { return *slave_; }
-  SerialFormat format() const { return scenario_.line.over(simulation_->port_format()); }
-  const InterruptCounter& interrupts() const { return interrupts_; }  ///< since the last request began, or since power-up
+  serial::Simulation& simulation() { return rig_ ? rig_->simulation(here_) : *simulation_; }
+  const serial::Simulation& simulation() const { return rig_ ? rig_->simulation(here_) : *simulation_; }
+  Cpu& cpu() { return simulation().cpu(); }
+  Slave& slave() { return *slaves_[here_]; }
+  SerialFormat format() const { return master_of(spots_[here_]).over(simulation().port_format()); }
 
-  /// What the CPU did in that exchange.
+  /// Since the last request began, or since power-up.
+  const InterruptCounter& interrupts() const { return watches_[plc_number()]->interrupts; }
+
+  /// What the CPUs on the line did in that exchange.
   std::string timeline(const serial::Exchange& exchange) const;
 
   /// `\n` and the errors of the CPU, a line each; empty if there are none.
-  std::string why_stopped();
+  std::string why_stopped() { return why_stopped(plc_number()); }
+  std::string why_stopped(std::size_t plc) const;
+
+  std::size_t plcs() const { return watches_.size(); }
+  std::size_t plc_number() const { return spots_[here_].plc; }
+  std::string name_of(std::size_t plc) const { return rig_ ? rig_->plan().plcs[plc].name : ""; }
+  bool is_in_stop(std::size_t plc) const;
 
   /// Since the first power-up.
-  Time time() const { return before_ + simulation_->time(); }
+  Time time() const { return before_ + simulation().time(); }
 
  private:
   void power_up(const RetentiveMemory* memory);
+  serial::MasterSettings master_of(const Spot& spot) const;
+  const Cpu& cpu_of(std::size_t plc) const { return rig_ ? rig_->plc(plc).cpu() : simulation_->cpu(); }
+  bool is_on(std::size_t line, std::size_t plc) const;
 
   const Scenario& scenario_;
-  std::shared_ptr<const Program> program_;
-  Timeline timeline_;
-  InterruptCounter interrupts_;
-  FanOut sinks_;
-  std::unique_ptr<serial::Simulation> simulation_;
-  std::unique_ptr<SimulatedSlave> slave_;
-  Time before_ = 0;  ///< what had passed at the last power cycle
+  std::shared_ptr<const Program> program_;               // null: a system
+  std::vector<std::unique_ptr<Watch>> watches_;          // by PLC; outlive who is watched
+  std::unique_ptr<serial::Simulation> simulation_;       // of a program
+  std::unique_ptr<Rig> rig_;                             // of a system
+  std::vector<Spot> spots_{Spot{}};                      // from which it is looked at
+  std::vector<std::unique_ptr<SimulatedSlave>> slaves_;  // by spot
+  std::size_t here_ = 0;                                 // the spot
+  Time before_ = 0;                                      // what had passed at the last power cycle
 };
 
 }  // namespace s7200::tools

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "tools/scenario/plant.hpp"
@@ -67,8 +68,13 @@ class Run {
   /// False once nothing more is to be done: after an interruption, or without the slave.
   bool goes_on() const;
 
-  /// The mode in which the CPU may end.
-  void expect_mode(std::optional<Mode> mode) { mode_expected_ = mode; }
+  /// The mode in which the CPU that is looked at may end.
+  void expect_mode(std::optional<Mode> mode) {
+    if (mode)
+      modes_expected_.insert(plant_->plc_number());
+    else
+      modes_expected_.erase(plant_->plc_number());
+  }
 
  private:
   void do_step(const Step& step);
@@ -82,9 +88,9 @@ class Run {
   std::unique_ptr<Plant> plant_;
   std::size_t step_ = 0, turn_ = 0;
   Time begin_ = 0;
-  bool lost_ = false;            ///< the slave
-  bool times_unjudged_ = false;  ///< on a slave that is not a program
-  std::optional<Mode> mode_expected_;
+  bool lost_ = false;                     ///< the slave
+  bool times_unjudged_ = false;           ///< on a slave that is not a program
+  std::set<std::size_t> modes_expected_;  ///< of which PLCs
   ScenarioResult result_;
 };
 

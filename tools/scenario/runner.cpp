@@ -13,7 +13,8 @@ namespace s7200::tools {
 using Outcome = ScenarioResult::Outcome;
 
 Run::Run(const Scenario& scenario, const Bench& bench) : scenario_(scenario), bench_(bench) {
-  if (bench.program) plant_ = std::make_unique<Plant>(scenario, bench.program);
+  if (bench.slave) return;
+  plant_ = scenario.plan ? std::make_unique<Plant>(scenario) : std::make_unique<Plant>(scenario, bench.program);
 }
 
 ScenarioResult Run::result() {
@@ -69,6 +70,7 @@ void Run::turn_outcome() {
 
 /// What of the scenario only a program in simulation can be done to; empty if there is nothing.
 std::string Run::acted_inside() const {
+  if (scenario_.plan) return "it is about a system of PLCs";
   if (!scenario_.set.empty() || scenario_.clock || !scenario_.input_file.empty()) return "it sets memory, clock or inputs";
   const auto step = std::find_if(scenario_.steps.begin(), scenario_.steps.end(),
                                  [](const Step& s) { return s.action->needs() == Needs::ToChange; });
@@ -79,6 +81,7 @@ bool Run::goes_on() const { return !interrupted() && !lost_; }
 
 void Run::do_step(const Step& step) {
   turn_ = 0;
+  if (plant_ && step.spot) plant_->look_at(*step.spot);
   if (!plant_ && step.action->needs() == Needs::ToLook)
     skip_step();
   else
@@ -87,6 +90,8 @@ void Run::do_step(const Step& step) {
 
 void Run::add(Finding finding) {
   if (!scenario_.steps.empty()) finding.step = std::min(step_, scenario_.steps.size() - 1);
+  if (step_ < scenario_.steps.size() && !scenario_.steps[step_].on.empty())
+    finding.what += " of " + scenario_.steps[step_].on;
   result_.findings.push_back(std::move(finding));
 }
 
@@ -109,10 +114,13 @@ void Run::lose_slave(const std::string& why) {
 
 /// A STOP that no step expected is a failure.
 void Run::look_at_mode() {
-  if (!plant_ || mode_expected_ || plant_->cpu().state().mode == Mode::Run) return;
-  add({.what = "mode at the end",
-       .expected = "RUN, or a step 'mode: stop' or 'fatal:'",
-       .found = "STOP" + plant_->why_stopped()});
+  for (std::size_t plc = 0; plant_ && plc < plant_->plcs(); ++plc) {
+    if (modes_expected_.contains(plc) || !plant_->is_in_stop(plc)) continue;
+    const std::string name = plant_->name_of(plc);
+    add({.what = "mode at the end" + (name.empty() ? "" : " of " + name),
+         .expected = "RUN, or a step 'mode: stop' or 'fatal:'",
+         .found = "STOP" + plant_->why_stopped(plc)});
+  }
 }
 
 void add_remark(std::string& words, std::string_view remark) { words.append(words.empty() ? "" : ", ").append(remark); }

@@ -15,6 +15,7 @@
 #include "serial_sim/field/field_script.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/peers/requester.hpp"
+#include "tools/rig/system_plan.hpp"
 #include "tools/scenario/action.hpp"
 #include "tools/scenario/text.hpp"
 
@@ -23,8 +24,10 @@ namespace s7200::tools {
 struct Step {
   std::string_view key{};  ///< of the action; empty if it was not written
   stl::Position position{};
-  std::string note{};  ///< shown when it fails
-  std::string loop{};  ///< `function = 3, count = 126`: which turn of its loops
+  std::string note{};          ///< shown when it fails
+  std::string loop{};          ///< `function = 3, count = 126`: which turn of its loops
+  std::string on{};            ///< in a system: the PLC or line it is about, as it was written; empty if it was not
+  std::optional<Spot> spot{};  ///< that; nothing if it is about none
   std::shared_ptr<const Action> action{};
 };
 
@@ -41,11 +44,14 @@ struct Scenario {
   stl::Position position{};
   std::shared_ptr<const stl::SourceLines> source{};  ///< the file it is from
 
-  std::vector<std::string> with{};     ///< paths of the other files of its project
-  std::vector<stl::Symbol> symbols{};  ///< of those
-  std::string repair{};                ///< slips of its listing to be repaired: `R1,R2`, `all`
-  std::string program{};               ///< path; empty if only --target names one
-  bool may_be_missing = false;         ///< skip_without names it
+  std::vector<std::string> with{};           ///< paths of the other files of its project
+  std::vector<stl::Symbol> symbols{};        ///< of those
+  std::string repair{};                      ///< slips of its listing to be repaired: `R1,R2`, `all`
+  std::string program{};                     ///< path; empty if only --target names one
+  bool may_be_missing = false;               ///< skip_without names it
+  std::string system{};                      ///< instead of a program, the path of a system file
+  std::shared_ptr<const SystemPlan> plan{};  ///< that was read from it
+  std::string on{};                          ///< what its steps are about unless they say so themselves
   std::string cpu = "214";
   std::string times{};  ///< a name or a file; empty: the CPU's own
   std::vector<Assignment> set{};

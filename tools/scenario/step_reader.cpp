@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tools/scenario/steps/reception.hpp"
 #include "tools/scenario/steps/steps.hpp"
 
 namespace s7200::tools {
@@ -88,8 +89,26 @@ void StepReader::read_step(const YamlNode& node, const Scenario& scenario, std::
   Step step{.key = kind->key, .position = action->position, .loop = values_.loop};
   step.position.length = static_cast<std::uint32_t>(action->text.size());
   if (const auto note = values_.optional_text(node, "note")) step.note = *note;
-  step.action = kind->read({values_, node, is, scenario});
+  if (scenario.plan && kind->of != StepKind::Of::System)
+    read_spot(node, scenario, kind->of == StepKind::Of::Plc, step);
+  else if (const YamlNode* on = node.find("on"))
+    values_.wrong(*on, "'on' names a PLC or a line of a system", "name the file of one with 'system:', not 'program:'");
+  if (scenario.plan && kind->of == StepKind::Of::Plc && !step.spot) return;
+  const Program* const program = step.spot ? scenario.plan->plcs[step.spot->plc].program.get() : nullptr;
+  step.action = kind->read({values_, node, is, scenario, program});
+  if (const std::string why = step.spot && reception_of(step) ? why_no_room(*scenario.plan, *step.spot) : ""; !why.empty())
+    values_.wrong(node, why);
   steps.push_back(std::move(step));
+}
+
+/// Nothing after a complaint, or if it is not needed.
+void StepReader::read_spot(const YamlNode& node, const Scenario& scenario, bool needed, Step& step) {
+  step.on = values_.optional_text(node, "on").value_or("");
+  if (step.on.empty() && !needed) return;
+  std::string why;
+  step.spot = find_spot(*scenario.plan, step.on.empty() ? scenario.on : step.on, why);
+  const YamlNode* const on = node.find("on");
+  if (!step.spot) values_.wrong(on ? *on : node, why, on ? "" : "put on: NAME beside it");
 }
 
 // --- loops ---

@@ -28,6 +28,7 @@ class StepReader {
   void read_steps(const YamlNode& list, const Scenario& scenario, std::vector<Step>& steps);
   void read_step(const YamlNode& node, const Scenario& scenario, std::vector<Step>& steps);
   const YamlNode* find_action(const YamlNode& node);
+  void read_spot(const YamlNode& node, const Scenario& scenario, bool needed, Step& step);
   bool too_much(const YamlNode& node);
   const YamlNode* loop_body(const YamlNode& node);
   template <class Body>

@@ -71,7 +71,9 @@ bool TranscriptWriter::write_step(const serial::Exchange* seen) {
   seen_ = seen;
   const Action& action = *scenario().steps[step_].action;
   const bool reached_it = !live() || action.needs() == Needs::Line;
-  return reached_it && action.write(*this);
+  if (!reached_it || !action.write(*this)) return false;
+  if (const std::string& on = scenario().steps[step_].on; !on.empty()) beside("on: " + on);
+  return true;
 }
 
 std::optional<Time> TranscriptWriter::waited_in_vain() const {
@@ -92,6 +94,8 @@ std::string TranscriptWriter::near(const std::string& path) const {
 
 void TranscriptWriter::head(const Scenario& scenario) {
   if (!scenario.program.empty()) line(4, "program: " + near(scenario.program));
+  if (!scenario.system.empty()) line(4, "system: " + near(scenario.system));
+  if (!scenario.on.empty()) line(4, "on: " + scenario.on);
   if (!scenario.with.empty()) {
     std::string files;
     for (const std::string& file : scenario.with) files += (files.empty() ? "" : ", ") + near(file);

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "interpreter/base/diagnostic.hpp"
+#include "tests/support/source_path.hpp"
 #include "tools/scenario/memory_values.hpp"
 #include "tools/scenario/reader.hpp"
 #include "tools/scenario/steps/exchange.hpp"
@@ -250,12 +251,19 @@ TEST(ScenarioReader, EveryActionOfTheTableIsRead) {
                                                          {"errors", "none"},
                                                          {"fault", "none"},
                                                          {"power_cycle", "memory kept"},
+                                                         {"power_off", "pump"},
+                                                         {"power_on", "pump"},
+                                                         {"cut", "field\n    after: panel"},
+                                                         {"mend", "field"},
                                                          {"repeat", "2\n    steps: [{wait: 1ms}]"},
                                                          {"for", "{x: [1]}\n    steps: [{wait: 1ms}]"}};
   for (const ScenarioKey& key : scenario_keys()) {
     if (key.where != ScenarioKey::Where::Action) continue;
     ASSERT_TRUE(examples.contains(key.key)) << key.key;
-    EXPECT_FALSE(steps_of(fmt::format("  - {}: {}\n", key.key, examples.at(key.key))).empty()) << key.key;
+    const std::string steps = fmt::format("steps:\n  - {}: {}\n", key.key, examples.at(key.key));
+    const bool of_a_system = key.key == "power_off" || key.key == "power_on" || key.key == "cut" || key.key == "mend";
+    const std::string system = "system: " + test::source_path("stl_programs/systems/two_masters.yaml") + "\n";
+    EXPECT_FALSE(good((of_a_system ? system : "") + steps).steps.empty()) << key.key;
   }
 }
 
@@ -556,6 +564,32 @@ TEST(ScenarioReader, ATranscriptHasNoMoreStepsThanItsTextSays) {
 TEST(Transcript, ThatIsTooLongToBeReplayedIsNotOne) {
   EXPECT_EQ(why_not_replayed(kLongestTranscript), "");
   EXPECT_NE(why_not_replayed(kLongestTranscript + 1), "");
+}
+
+// --- systems ---
+
+const std::string kGateway = "system: " + test::source_path("stl_programs/systems/gateway.yaml") + "\n";
+
+TEST(ScenarioReader, AStepOfASystemIsAboutAPortOfAPlcAndItsLine) {
+  const Scenario s = good(kGateway +
+                          "on: office\nsteps:\n  - {read: holding 0}\n  - {memory: {VW0: 1}, on: pump}\n"
+                          "  - {read: holding 0, on: gateway.1}\n  - wait: 1ms\n  - power_off: pump\n");
+  EXPECT_EQ(s.steps[0].spot, (Spot{0, 0, 0}));
+  EXPECT_EQ(s.steps[1].spot, (Spot{1, 1, 0}));
+  EXPECT_EQ(s.steps[2].spot, (Spot{1, 0, 1}));
+  EXPECT_FALSE(s.steps[3].spot || s.steps[4].spot);
+}
+
+TEST(ScenarioReader, AddressesOfAStepAreThoseOfItsPlc) {
+  EXPECT_EQ(good(kGateway + "steps:\n  - {memory: {VB5119: 0}, on: gateway}\n").steps.size(), 1U) << "a CPU 226 has them";
+  const ScenarioFile file = read(kGateway + "steps:\n  - {memory: {VB5119: 0}, on: pump}\n");
+  ASSERT_EQ(file.diagnostics.size(), 1U) << "a CPU 214 does not";
+}
+
+TEST(ScenarioReader, WhatASystemFileWouldRecordIsLeftAside) {
+  const Scenario s = good(kGateway + "steps:\n  - wait: 1ms\n");
+  ASSERT_TRUE(s.plan);
+  for (const PlcPlan& plc : s.plan->plcs) EXPECT_TRUE(plc.settings.trace.empty() && plc.settings.memory.path.empty());
 }
 
 }  // namespace

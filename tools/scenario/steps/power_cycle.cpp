@@ -32,6 +32,8 @@ struct PowerCycleStep final : Action {
 std::shared_ptr<const Action> read_power_cycle(const StepSource& source) {
   auto step = std::make_shared<PowerCycleStep>();
   ValueReader& values = source.values;
+  if (source.scenario.plan)
+    values.wrong(source.node, "'power_cycle' is about a program", "power_off and power_on switch one PLC of a system");
   step->memory_lost = values.choice<bool>(&source.is, {{"memory kept", false}, {"memory lost", true}}).value_or(false);
   step->power_off =
       values

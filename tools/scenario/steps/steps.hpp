@@ -1,6 +1,7 @@
 // The kinds of steps. To add one: a file in this folder, its function here, and its row in steps.cpp.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -15,25 +16,30 @@ namespace s7200::tools {
 /// What a step is read from.
 struct StepSource {
   ValueReader& values;
-  const YamlNode& node;      ///< all of it
-  const YamlNode& is;        ///< what stands at its key
-  const Scenario& scenario;  ///< its head
+  const YamlNode& node;             ///< all of it
+  const YamlNode& is;               ///< what stands at its key
+  const Scenario& scenario;         ///< its head
+  const Program* of_plc = nullptr;  ///< in a system, that of the PLC it is about
 
   /// What stands beside its key; null if it does not.
   const YamlNode* beside(std::string_view key) const { return node.find(key); }
-  AddressSpace addresses() const { return scenario.addresses(); }
+  AddressSpace addresses() const { return of_plc ? AddressSpace(*of_plc) : scenario.addresses(); }
 };
 
 /// Complains about what is wrong; the action is not run then.
 using ReadStep = std::shared_ptr<const Action>(const StepSource& source);
 
 ReadStep read_send, read_request, read_read, read_write, read_receive, read_wait, read_wait_until, read_set, read_memory,
-    read_interrupts, read_mode, read_fatal, read_errors, read_fault, read_power_cycle;
+    read_interrupts, read_mode, read_fatal, read_errors, read_fault, read_power_cycle, read_event_of_system;
 
 struct StepKind {
+  /// Whether, in a system, it is about one PLC and its line.
+  enum class Of : std::uint8_t { Plc, Either, System };
+
   std::string_view key;
   ReadStep* read;
   std::string_view form, meaning;  ///< for the description of the format
+  Of of = Of::Plc;
 };
 std::span<const StepKind> step_kinds();
 
