@@ -124,7 +124,9 @@ void end(Core& core, std::uint8_t number, std::uint8_t status) {
 }
 
 /// Of a variable of an answer.
-std::uint8_t status_of(std::uint8_t code) { return code == s7::kDone ? kJobDone : failed(NetworkError::Message); }
+std::uint8_t status_of(std::uint8_t code) {
+  return code == s7::kDone ? std::uint8_t{kJobDone} : failed(NetworkError::Message);
+}
 
 /// How the job ends with this answer. Its data go to the port.
 std::uint8_t status_of(const Core& core, NetworkPort& port, Span pdu) {
