@@ -1234,7 +1234,7 @@ lines:
         shown = self.ends(FAILED, "test", scenario).stdout
         self.assertRegex(shown, r"VW0 of slave2")
         self.assertRegex(shown, r"(?m)^ +[\d.]+  slave2 +received  04 ")
-        done = self.ends(FAILED, "test", scenario, "--target", SLAVE)
+        done = self.ends(UNUSABLE, "test", scenario, "--target", SLAVE)
         self.assertIn("which --target cannot replace", done.stdout)
 
     def test_a_scenario_of_a_system_is_replayed_from_its_transcript(self):

@@ -84,7 +84,8 @@ class Collector {
 
   void read_one(const std::string& path) {
     const auto text = text_of(path);
-    if (text && is_system(*text)) return fail(fmt::format("{0} is a system file, which a scenario names: system: {0}", path));
+    if (text && is_system(*text))
+      return fail(fmt::format("{0} is a system file, which a scenario names: system: {0}", path));
     if (text) take(*text, path);
   }
 

@@ -48,7 +48,8 @@ bool StepReader::too_much(const YamlNode& node) {
   return true;
 }
 
-/// The key that makes it a step; null after a complaint. One that stands there twice is complained about already.
+/// The key that makes it a step; null after a complaint. One that stands there twice is complained about already. What makes
+/// a step by itself may stand beside another action: power_off beside power_cycle.
 const YamlNode* StepReader::find_action(const YamlNode& node) {
   const auto makes_a_step = [](const ScenarioKey& key) { return key.where == ScenarioKey::Where::Action; };
   const std::vector<ScenarioKey>& keys = scenario_keys();
@@ -56,8 +57,13 @@ const YamlNode* StepReader::find_action(const YamlNode& node) {
   for (const YamlNode& key : node.keys) {
     const bool known =
         std::any_of(keys.begin(), keys.end(), [&](const auto& k) { return makes_a_step(k) && k.key == key.text; });
-    if (!known || (action && action->text == key.text)) continue;
-    if (action) {
+    const auto stands_beside = [&](std::string_view word, std::string_view other) {
+      return std::any_of(keys.begin(), keys.end(), [&](const ScenarioKey& k) {
+        return k.key == word && k.belongs({ScenarioKey::Where::Modifier}, other);
+      });
+    };
+    if (!known || (action && (action->text == key.text || stands_beside(key.text, action->text)))) continue;
+    if (action && !stands_beside(action->text, key.text)) {
       values_.wrong(key, fmt::format("'{}' and '{}' in one step", action->text, key.text), "begin another step with '- '");
       return nullptr;
     }

@@ -580,6 +580,11 @@ TEST(ScenarioReader, AStepOfASystemIsAboutAPortOfAPlcAndItsLine) {
   EXPECT_FALSE(s.steps[3].spot || s.steps[4].spot);
 }
 
+TEST(ScenarioReader, WhatMakesAStepMayStandBesideAnother) {
+  for (const char* const step : {"{power_cycle: memory kept, power_off: 8h}", "{power_off: 8h, power_cycle: memory kept}"})
+    EXPECT_EQ(written(step), "power_cycle: memory kept\n        power_off: 8 h\n");
+}
+
 TEST(ScenarioReader, AddressesOfAStepAreThoseOfItsPlc) {
   EXPECT_EQ(good(kGateway + "steps:\n  - {memory: {VB5119: 0}, on: gateway}\n").steps.size(), 1U) << "a CPU 226 has them";
   const ScenarioFile file = read(kGateway + "steps:\n  - {memory: {VB5119: 0}, on: pump}\n");

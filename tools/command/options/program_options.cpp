@@ -114,8 +114,8 @@ void ProgramOptions::add_parts_to(CLI::App& app) {
 std::shared_ptr<const Program> ProgramOptions::load(int& exit_code) const {
   exit_code = kUnusable;
   if (is_system_file(path)) {
-    print_error(
-        fmt::format("{} is a system file, which 's7200 run', 'send', 'master' and 'test' take; name one PROGRAM here", path));
+    print_error(fmt::format(
+        "{} is a system file, which 's7200 run', 'send', 'master' and 'test' take; name one PROGRAM here", path));
     return nullptr;
   }
   auto text = model() ? read_project(path, parts) : std::nullopt;

@@ -111,8 +111,7 @@ std::unique_ptr<Rig> RigOptions::keep_why(std::unique_ptr<Rig> rig, const std::v
 
 void RigOptions::add_place_to(CLI::App& app) {
   app.add_option("--at", at_,
-                 "of a system file: the line, or the PLC on it, where this master joins (gateway.1 is its port 1) [the only "
-                 "line]")
+                 "where the master joins a system: a line, or a PLC on it, gateway.1 for its port 1 [the only line]")
       ->type_name("NAME");
 }
 
