@@ -759,11 +759,11 @@ class ModbusTcpTests(TcpCase):
         self.assertEqual((bridge["requests"], bridge["answered"]), (5, 5))
 
     def test_a_debugged_program_that_loses_its_master_goes_on_and_its_time_outs_are_its_own_affair(self):
-        self.assertIn("time-outs are their own affair", subprocess.run([S7200, "debug", "--help"], capture_output=True, text=True).stdout)
         with subprocess.Popen([S7200, "debug", SLAVE, "--modbus-tcp", "0", *PRESET, "-i", "-x", "continue 100ms"],
                               stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
             self.addCleanup(process.kill)
             port = int(re.search(r":(\d+)", process.stderr.readline()).group(1))
+            self.assertIn("their time-outs are their own affair", process.stderr.readline())
 
             def command(line, said):
                 process.stdin.write(line + "\n")

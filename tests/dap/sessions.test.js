@@ -377,6 +377,7 @@ test("a launch with a bridge runs as fast as the clock and says where it listens
   const initialized = s.client.waitForEvent("initialized");
   await Promise.all([initialized, s.ask("launch", { program: SLAVE, modbusTcp: "0" })]);
   assert.match((await output).body.output, /listening on 127.0.0.1:\d+/);
+  assert.match(s.printed, /their time-outs are their own affair/);
   await s.ask("configurationDone");
   assert.equal((await s.stops("pause")).reason, "pause");
   await s.end();

@@ -74,6 +74,7 @@ int run_debug(DebugOptions& options) {
     LiveRun live(rig->simulation(), {options.bridge.speed(), options.master, print_live_messages()},
                  options.bridge.bridge());
     if (!live.start(why)) return print_error(why), kUnusable;
+    if (options.bridge.bridge() != nullptr) print_note(kMastersWait);
     History::Settings history{.records = &rig->sinks()};
     if (options.bridge.realtime()) history.drive = [&live](Time end) { return live.run_until(end); };
     Debugger debugger(rig->simulation(), std::cout, session_options(options, *rig, program, history));

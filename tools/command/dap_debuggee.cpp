@@ -34,7 +34,11 @@ class RigDebuggee final : public dap::Debuggee {
               options_->bridge.bridge()),
         history_(rig_->simulation(), {.drive = drive(), .records = &rig_->sinks()}) {}
 
-  bool start(std::string& why) { return live_.start(why); }
+  bool start(std::string& why) {
+    const bool started = live_.start(why);
+    if (started && options_->bridge.bridge() != nullptr) say_(kMastersWait);
+    return started;
+  }
 
   serial::Simulation& simulation() override { return rig_->simulation(); }
   History& history() override { return history_; }

@@ -144,6 +144,7 @@ class Session {
   Stop searched_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer);
   bool send_what_is_due();
   void report(const Stop& stop, const std::string& reason);
+  void report_error(const TraceRecord& error);
   void report_stopped(Json body);
   Json body_of(const Stop& stop, const std::string& reason);
   Json body_of_hit(const Hit& hit);
@@ -163,6 +164,7 @@ class Session {
   Json disassemble(const Json& arguments);
   Json frame_of(std::uint32_t number, std::uint32_t op, const std::string& name) const;
   Json evaluated(const std::string& expression, bool hex);
+  std::string text_of_bad_pointer(const std::string& name, const MemoryRange& pointer);
   std::string resolved_text(std::uint32_t op) const;
 
   // Memory (session_memory.cpp).

@@ -9,6 +9,7 @@
 #include "interpreter/stl/printer.hpp"
 #include "tools/dap/addresses.hpp"
 #include "tools/dap/session.hpp"
+#include "tools/debugger/bad_pointers.hpp"
 #include "tools/debugger/call_stack.hpp"
 #include "tools/debugger/stop_words.hpp"
 #include "tools/views/machine_text.hpp"
@@ -103,11 +104,25 @@ Json Session::loaded_sources(const Json&) { return {{"sources", sources_->all()}
 
 // --- expressions ---
 
+/// Its value and, while the program stands still, who wrote it.
+std::string Session::text_of_bad_pointer(const std::string& name, const MemoryRange& pointer) {
+  const std::string address = pointer.name_of(0);
+  std::string text = bad_pointer_text(cpu(), pointer, name, address);
+  if (runs()) return text;
+  try {
+    text += "\n" + find_writer(address).body["text"].get<std::string>();
+  } catch (const Refused& nothing) {
+    text += fmt::format("\n{}", nothing.what());
+  }
+  return text;
+}
+
 Json Session::evaluated(const std::string& expression, bool hex) {
   std::string why, why_no_expression;
   if (const auto place = parse_place(expression, cpu().program(), why)) {
-    const MemoryRange range = range_for(expression);
-    const Variable variable = variable_of(cpu(), range, expression);
+    const auto range = range_now(*place, cpu());
+    if (!range) throw Refused(text_of_bad_pointer(expression, place->range));
+    const Variable variable = variable_of(cpu(), *range, expression);
     return {{"result", hex ? hex_of(variable.value) : variable.value},
             {"type", variable.type},
             {"variablesReference", 0},

@@ -10,6 +10,7 @@
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/dap/addresses.hpp"
 #include "tools/dap/session.hpp"
+#include "tools/debugger/bad_pointers.hpp"
 #include "tools/debugger/goals.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/report.hpp"
@@ -239,12 +240,19 @@ Json Session::go_to_moment(const Json& arguments) {
 void Session::report(const Stop& stop, const std::string& reason) {
   running_.reset();
   pause_asked_ = false;
-  if (first_error_) print(describe(*first_error_, cpu().program()), "important", first_error_->op);
+  if (first_error_) report_error(*first_error_);
   for (const StopPoint& skipped : stepper_->stops)
     if (skipped.skipped != 0)
       print(fmt::format("breakpoint {} was passed {} without power flow; with the condition 'always' it stops there too",
                         skipped.number, skipped.skipped == 1 ? "once" : fmt::format("{} times", skipped.skipped)));
   report_stopped(body_of(stop, reason));
+}
+
+void Session::report_error(const TraceRecord& error) {
+  print(describe(error, cpu().program()), "important", error.op);
+  if (error.op == kNoRoutine) return;
+  for (const MemoryRange& pointer : bad_pointers(cpu(), error.op))
+    print(text_of_bad_pointer("*" + pointer.name_of(0), pointer));
 }
 
 void Session::stopped_at(const std::string& reason, const std::string& description) {

@@ -6,6 +6,7 @@
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/ports.hpp"
+#include "tools/debugger/bad_pointers.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
@@ -91,20 +92,14 @@ std::string number_text(const std::optional<Value>& value, char form) {
 
 void Debugger::print_bad_pointer(const std::string& name, const MemoryRange& pointer) {
   const std::string address = name_of(pointer, pointer.name_of(0));
-  out_ << fmt::format("{}: {} is 16#{:08X}, which points nowhere\n", name, address,
-                      load32(&simulation_.cpu().state().image[pointer.at]));
+  out_ << bad_pointer_text(simulation_.cpu(), pointer, name, address) << '\n';
   if (const auto write = find_write(pointer, address)) report_write(*write, pointer, address);
 }
 
 /// The pointers of an instruction that it could not follow.
 void Debugger::print_bad_pointers(std::uint32_t number) {
-  const Cpu& cpu = simulation_.cpu();
-  const Op& op = cpu.program().ops[number];
-  for (std::size_t i = 0; i < op.instruction->rules().size(); ++i) {
-    if (op.instruction->rules()[i].kind != OperandKind::Memory || !op[i].pointer || cpu.place_of(op[i])) continue;
-    if (const auto pointer = range_at(op[i].at, Width::Double, *cpu.program().model))
-      print_bad_pointer("*" + pointer->name_of(0), *pointer);
-  }
+  for (const MemoryRange& pointer : bad_pointers(simulation_.cpu(), number))
+    print_bad_pointer("*" + pointer.name_of(0), pointer);
 }
 
 /// `VW100 (Speed)`, or as it was written.

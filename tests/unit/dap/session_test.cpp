@@ -327,6 +327,16 @@ TEST(DapSession, RunTimeErrorsStopByTheirCodes) {
   EXPECT_TRUE(has(editor.error_of("exceptionInfo", {{"threadId", 1}}), "has not stopped for an exception"));
 }
 
+TEST(DapSession, ARunTimeErrorOfABadPointerTellsItsValueAndWhoWroteIt) {
+  Editor editor("LD SM0.0\nMOVD 16#7F000000, VD10\nMOVB 1, *VD10\nMEND\n");
+  editor.begin();
+  editor("setExceptionBreakpoints", {{"filters", Json::array({"error"})}});
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(editor.stopped(), "exception");
+  EXPECT_TRUE(has(editor.printed(), "*VD10: VD10 is 16#7F000000, which points nowhere"));
+  EXPECT_TRUE(has(editor.printed(), "by main line 2 "));
+}
+
 TEST(DapSession, TheWatchdogStopsInFrontOfTheInstructionAndTheSessionLives) {
   Editor editor("LD SM0.0\nLBL 1\nINCW VW0\nJMP 1\nMEND\n");
   editor("initialize");
@@ -574,7 +584,9 @@ TEST(DapSession, ExpressionsAreInStlTerms) {
   EXPECT_EQ(editor.value("VB20:3"), "07 00 00");
   EXPECT_EQ(editor("evaluate", {{"expression", "VW10"}, {"format", {{"hex", true}}}})["result"], "16#0003");
   editor("setExpression", {{"expression", "VD200"}, {"value", "16#7F000000"}});
-  EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", "*VD200"}}), "points nowhere"));
+  const std::string bad = editor.error_of("evaluate", {{"expression", "*VD200"}});
+  EXPECT_TRUE(has(bad, "*VD200: VD200 is 16#7F000000, which points nowhere"));
+  EXPECT_TRUE(has(bad, "by 'set VD200', from outside"));
   EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", "frob"}}), "is not an address"));
   EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", "1 / 0"}}), "division by 0"));
   EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", std::string(5000, '(') + "1"}}), "nested too deeply"));

@@ -25,6 +25,10 @@ std::unique_ptr<Bridge> make_bridge(std::string_view kind, const std::string& wh
 /// Before masters lose patience: libmodbus waits 500 ms.
 inline constexpr Time kBridgeTimeout = 400 * kMillisecond;
 
+/// What is said when a program that can be stopped is joined to masters outside.
+inline constexpr const char* kMastersWait =
+    "while the program stands still, masters outside get no answers: their time-outs are their own affair";
+
 class BridgeOptions {
  public:
   void add_to(CLI::App& app);
