@@ -12,21 +12,20 @@ namespace {
 using Phase = NetworkPort::Phase;
 using Span = std::span<const std::uint8_t>;
 
-constexpr Time kTimeOutTime = 150 * kMillisecond;
+constexpr Time kTimeOutTime = 150 * kMillisecond;  // and three tries: what clients give a CPU (facts 10.9)
 constexpr int kTries = 3;
 
 // Places in a table.
 constexpr std::uint32_t kStation = 1, kPointer = 2, kLength = 6, kData = 7;
 
-/// What a table asks for.
-struct Table {
-  std::uint8_t station, length;
-  std::uint32_t pointer;
-};
-
-Table table_at(const Core& core, std::uint32_t table) {
+/// What a table asks for, as it is when the instruction is executed: the program may write to the table while the job waits.
+NetworkPort::Job job_of(const Core& core, std::uint32_t table, bool writes) {
   const std::uint8_t* const bytes = &core.s.image[table];
-  return {.station = bytes[kStation], .length = bytes[kLength], .pointer = load32(bytes + kPointer)};
+  return {.table = table,
+          .pointer = load32(bytes + kPointer),
+          .station = bytes[kStation],
+          .length = bytes[kLength],
+          .writes = writes};
 }
 
 bool is_master(const Core& core, std::uint8_t port) { return (core.s.port[port].control & sm::kProtocol) == sm::kPpiMaster; }
@@ -40,23 +39,22 @@ const s7::WireArea* area_of(std::uint32_t pointer) {
   return found == s7::kWireAreas.end() ? nullptr : found;
 }
 
-bool is_possible(const Core& core, std::uint8_t port, std::uint32_t at, const Table& table) {
-  return table.station <= ppi::kLastStation && table.station != core.s.station[port] && area_of(table.pointer) != nullptr &&
-         (table.pointer & 0xFF'FFFF) <= 0xFFFF && table.length >= 1 && table.length <= NetworkPort::kMostBytes &&
-         core.in_area(at, kData + table.length);
+bool is_possible(const Core& core, std::uint8_t port, const NetworkPort::Job& job) {
+  return job.station <= ppi::kLastStation && job.station != core.s.station[port] && area_of(job.pointer) != nullptr &&
+         (job.pointer & 0xFF'FFFF) <= 0xFFFF && job.length >= 1 && job.length <= NetworkPort::kMostBytes &&
+         core.in_area(job.table, kData + job.length);
 }
 
-void put_status(Core& core, std::uint8_t port, const NetworkPort::Job& job, std::uint8_t status, Time at) {
+void put_status(Core& core, std::uint8_t port, const NetworkPort::Job& job, std::uint8_t status) {
   core.s.image[job.table] = status;
-  const Table table = table_at(core, job.table);
-  core.trace({.at = at,
+  core.trace({.at = core.s.time,
               .kind = TraceKind::NetworkJob,
-              .event = table.station,
+              .event = job.station,
               .routine = job.writes,
               .byte = status,
               .port = port,
               .op = job.table,
-              .count = table.length});
+              .count = job.length});
 }
 
 constexpr std::uint8_t failed(NetworkError error) {
@@ -67,13 +65,12 @@ s7::Function function_of(const NetworkPort::Job& job) { return job.writes ? s7::
 
 Bytes request_of(const Core& core, const NetworkPort& port) {
   const NetworkPort::Job& job = port.jobs.front();
-  const Table table = table_at(core, job.table);
-  const s7::WireArea& area = *area_of(table.pointer);
-  const std::uint32_t bit = (table.pointer & 0xFFFF) * 8;
+  const s7::WireArea& area = *area_of(job.pointer);
+  const std::uint32_t bit = (job.pointer & 0xFFFF) * 8;
   Bytes parameters{function_of(job), 1};
   parameters.insert(parameters.end(), s7::kVariableHead.begin(), s7::kVariableHead.end());
   parameters.push_back(s7::kByte);
-  s7::append16(parameters, table.length);
+  s7::append16(parameters, job.length);
   s7::append16(parameters, area.area == Area::V ? 1 : 0);
   parameters.push_back(area.code);
   parameters.push_back(static_cast<std::uint8_t>(bit >> 16));
@@ -81,9 +78,9 @@ Bytes request_of(const Core& core, const NetworkPort& port) {
   Bytes data;
   if (job.writes) {
     data = {0, s7::kInBitsOfBytes};
-    s7::append16(data, std::size_t{table.length} * 8);
+    s7::append16(data, std::size_t{job.length} * 8);
     const auto first = core.s.image.begin() + job.table + kData;
-    data.insert(data.end(), first, first + table.length);
+    data.insert(data.end(), first, first + job.length);
   }
   Bytes pdu{s7::kProtocol, s7::kRequest, 0, 0};
   s7::append16(pdu, port.number);
@@ -97,8 +94,7 @@ Bytes request_of(const Core& core, const NetworkPort& port) {
 std::uint8_t timer_of(std::uint8_t port) { return static_cast<std::uint8_t>(kNetworkTimer0 + port); }
 
 void send(Core& core, std::uint8_t number, std::uint8_t function, const Bytes& data, Time at) {
-  const std::uint8_t station = table_at(core, core.s.network[number].jobs.front().table).station;
-  const Bytes frame = ppi::to_frame({station, core.s.station[number], function, data});
+  const Bytes frame = ppi::to_frame({core.s.network[number].jobs.front().station, core.s.station[number], function, data});
   ppi::send(core, number, frame, at);
   const Time end = at + static_cast<Time>(frame.size()) * ppi::kFormat.character_time();
   core.schedule(end + kTimeOutTime, timer_of(number));
@@ -129,7 +125,7 @@ std::uint8_t status_of(std::uint8_t code) {
 }
 
 /// How the job ends with this answer. Its data go to the port.
-std::uint8_t status_of(const Core& core, NetworkPort& port, Span pdu) {
+std::uint8_t status_of(NetworkPort& port, Span pdu) {
   constexpr std::size_t kCode = s7::kAnswerHead + 2, kValue = kCode + 4;
   const NetworkPort::Job& job = port.jobs.front();
   const bool is_answer = pdu.size() > kCode && pdu[0] == s7::kProtocol && pdu[1] == s7::kAnswer &&
@@ -137,24 +133,22 @@ std::uint8_t status_of(const Core& core, NetworkPort& port, Span pdu) {
                          pdu[s7::kAnswerHead] == function_of(job) && pdu[s7::kAnswerHead + 1] == 1;
   if (!is_answer) return failed(NetworkError::Layer7);
   if (job.writes || pdu[kCode] != s7::kDone) return status_of(pdu[kCode]);
-  const std::uint8_t length = table_at(core, job.table).length;
-  if (pdu.size() < kValue + length || pdu[kCode + 1] != s7::kInBitsOfBytes || load16(&pdu[kCode + 2]) != length * 8)
+  if (pdu.size() < kValue + job.length || pdu[kCode + 1] != s7::kInBitsOfBytes || load16(&pdu[kCode + 2]) != job.length * 8)
     return failed(NetworkError::Layer7);
-  std::copy_n(pdu.begin() + kValue, length, port.data.begin());
+  std::copy_n(pdu.begin() + kValue, job.length, port.data.begin());
   return kJobDone;
 }
 
 void take_reply(Core& core, std::uint8_t number, const ppi::Body& body) {
   NetworkPort& port = core.s.network[number];
-  const Table table = table_at(core, port.jobs.front().table);
-  if (body.source != table.station || body.destination != core.s.station[number]) return;
+  if (body.source != port.jobs.front().station || body.destination != core.s.station[number]) return;
   switch (body.function) {
     case ppi::kNoResource:
       return end(core, number, failed(NetworkError::NoResource));
     case ppi::kNoService:
       return end(core, number, failed(NetworkError::Layer7));
     case ppi::kData:
-      if (port.phase == Phase::Polled) return end(core, number, status_of(core, port, body.data));
+      if (port.phase == Phase::Polled) return end(core, number, status_of(port, body.data));
       return;
     default:
       return;
@@ -180,9 +174,9 @@ void hand_over(Core& core, std::uint8_t number) {
   NetworkPort& port = core.s.network[number];
   const NetworkPort::Job job = port.jobs.front();
   if (port.status == kJobDone && !job.writes)
-    std::copy_n(port.data.begin(), table_at(core, job.table).length, core.s.image.begin() + job.table + kData);
+    std::copy_n(port.data.begin(), job.length, core.s.image.begin() + job.table + kData);
   strike_off_first(port);
-  put_status(core, number, job, port.status, core.s.time);
+  put_status(core, number, job, port.status);
 }
 
 bool is_listed(const NetworkPort& port, std::uint32_t table) {
@@ -196,14 +190,12 @@ void start(Core& core, std::uint8_t number, std::uint32_t table, bool writes) {
   NetworkPort& port = core.s.network[number];
   if (!core.in_area(table, kData)) return core.run_error(RunError::OperandRange);
   if (is_listed(port, table)) return;
-  const NetworkPort::Job job{.table = table, .writes = writes};
-  if (!is_master(core, number)) return put_status(core, number, job, failed(NetworkError::NotMaster), core.s.time);
-  if (!is_possible(core, number, table, table_at(core, table)))
-    return put_status(core, number, job, failed(NetworkError::Parameter), core.s.time);
-  if (port.count == NetworkPort::kMostJobs)
-    return put_status(core, number, job, failed(NetworkError::Overflow), core.s.time);
+  const NetworkPort::Job job = job_of(core, table, writes);
+  if (!is_master(core, number)) return put_status(core, number, job, failed(NetworkError::NotMaster));
+  if (!is_possible(core, number, job)) return put_status(core, number, job, failed(NetworkError::Parameter));
+  if (port.count == NetworkPort::kMostJobs) return put_status(core, number, job, failed(NetworkError::Overflow));
   port.jobs[port.count++] = job;
-  put_status(core, number, job, kJobActive, core.s.time);
+  put_status(core, number, job, kJobActive);
 }
 
 void heard(Core& core, std::uint8_t number, Span frame, Time at) {
@@ -228,7 +220,7 @@ void follow_control(Core& core, std::uint8_t number) {
   while (port.count != 0) {
     const NetworkPort::Job job = port.jobs.front();
     strike_off_first(port);
-    put_status(core, number, job, failed(NetworkError::NotMaster), core.s.time);
+    put_status(core, number, job, failed(NetworkError::NotMaster));
   }
 }
 
@@ -244,6 +236,9 @@ void communicate(Core& core) {
 void handle(Core& core, std::uint8_t what, Time at) {
   const auto number = static_cast<std::uint8_t>(what - kNetworkTimer0);
   NetworkPort& port = core.s.network[number];
+  const PpiPort& line = core.s.ppi[number];
+  const Time silent = line.heard + ppi::kFormat.bit_times(ppi::kBitsOfSilence);
+  if (line.sending != 0 || at < silent) return core.schedule(std::max(silent, at + ppi::kFormat.character_time()), what);
   if (port.tries++ == kTries) return end(core, number, failed(port.damaged ? NetworkError::Damaged : NetworkError::TimeOut));
   return port.phase == Phase::Asked ? ask(core, number, at) : poll(core, number, at);
 }

@@ -7,9 +7,11 @@
 //
 // Not documented, modelled so:
 // - Requests are sent, and what has come is put into the table, in the communication part of the scan. What NETW sends is
-//   read from the table then. [Network.TheTableChangesInTheCommunicationPartOfTheScan]
-// - A station that does not answer within 150 ms is asked again, three times in all, and so is one whose answer is damaged;
-//   the jobs behind it wait. [Network.AStationThatDoesNotAnswerIsAskedThreeTimes, Network.ADamagedAnswerIsAReceiveError]
+//   read from the table then; station, pointer and length are those that the instruction has found.
+//   [Network.TheTableChangesInTheCommunicationPartOfTheScan, Network.WhatIsAskedForStaysWhenTheTableChanges]
+// - A station that does not answer within 150 ms is asked again when the line is silent, three times in all, and so is one
+//   whose answer is damaged; the jobs behind it wait. [Network.AStationThatDoesNotAnswerIsAskedThreeTimes,
+//   Network.ADamagedAnswerIsAReceiveError]
 // - A station that accepts a request and has no answer yet is polled again at once.
 // [Network.ASlowStationIsPolledUntilItAnswers]
 // - A job that cannot begin is done with its error at once. A table that is on the list already stays as it is.

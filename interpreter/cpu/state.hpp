@@ -159,7 +159,9 @@ struct PpiPort {
 struct NetworkPort {
   static constexpr std::size_t kMostJobs = 8, kMostBytes = 16;
   struct Job {
-    std::uint32_t table = 0;  ///< its place in the image
+    std::uint32_t table = 0;    ///< its place in the image
+    std::uint32_t pointer = 0;  ///< to the data of the station
+    std::uint8_t station = 0, length = 0;
     bool writes = false;
     bool operator==(const Job&) const = default;
   };

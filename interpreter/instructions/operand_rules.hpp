@@ -19,7 +19,7 @@ inline constexpr Areas kMemoryTC = kMemory | kTimers | kCounters;               
 inline constexpr Areas kValue = kMemory | set_of(Area::AC), kWordValue = kMemoryTC | set_of(Area::AC);  // others, words
 inline constexpr Areas kReadWord = kWordValue | kAnalogInputs, kWriteWord = kWordValue | kAnalogOutputs;
 inline constexpr Areas kLasting = kMemory & ~kLocal;  // XMT and RCV use it long after their routine has ended
-inline constexpr Areas kVMemory = set_of(Area::V), kStringMemory = kVMemory | kLocal;
+inline constexpr Areas kVMemory = set_of(Area::V), kVAndM = kVMemory | set_of(Area::M), kStringMemory = kVMemory | kLocal;
 inline constexpr Areas kReadDword = kValue | set_of(Area::HC);
 
 inline constexpr std::int64_t kLargestByte = 255;
@@ -146,7 +146,7 @@ inline constexpr OperandRule
     kPidLoop {.name = "TBL", .width = Width::Byte, .role = Role::InOut, .areas = kVMemory,                   .elements = 36},  // nine reals
     kMessage {.name = "TBL", .width = Width::Byte,                      .areas = kLasting,  .pointer = true},
     kReceived{.name = "TBL", .width = Width::Byte, .role = Role::Out,   .areas = kLasting,  .pointer = true},
-    kNetwork {.name = "TBL", .width = Width::Byte, .role = Role::InOut, .areas = kLasting,  .pointer = true, .elements = 8},  // with a byte of data
+    kNetwork {.name = "TBL", .width = Width::Byte, .role = Role::InOut, .areas = kVAndM,    .pointer = true, .elements = 8},  // with a byte of data
     kClockIn {.name = "T",   .width = Width::Byte,                      .areas = kMemory,   .pointer = true, .elements = 8},
     kClockOut{.name = "T",   .width = Width::Byte, .role = Role::Out,   .areas = kMemory,   .pointer = true, .elements = 8};
 

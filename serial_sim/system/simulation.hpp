@@ -64,8 +64,6 @@ class Simulation {
   Requester& master() { return master_->requester(); }
   const Requester& master() const { return master_->requester(); }
   Uart& master_uart() { return master_->uart(); }
-  bool has_master() const { return master_ != nullptr; }
-  bool has_host_port() const { return host_ != nullptr; }
   HostPort& host_port() { return host_->port(); }
   const HostPort& host_port() const { return host_->port(); }
   Time time() const { return system_->time(); }

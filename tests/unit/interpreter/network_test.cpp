@@ -40,10 +40,11 @@ class Stations {
 
   std::vector<Bytes> heard;
   Times times;  ///< when each began
+  Time delay = 11 * kBit;
 
  private:
   void reply(const Bytes& bytes) {
-    Time start = plc_.cpu.time() + 11 * kBit;
+    Time start = plc_.cpu.time() + delay;
     for (const std::uint8_t byte : bytes) {
       plc_.received_at({.byte = byte, .start = start, .end = start + 10 * kBit + kBit / 2});
       start += kCharacter;
@@ -225,6 +226,26 @@ TEST(Network, TheTableChangesInTheCommunicationPartOfTheScan) {
   while (status(plc) != 0x80 && plc.cpu.time() < 2000 * ms) others.run_until(plc.cpu.time() + ms);
   EXPECT_EQ(plc.value("VB2"), 0x40) << "the program that was running has not seen it";
   EXPECT_EQ(plc.value("VD107"), 0x01020304);
+}
+
+TEST(Network, WhatIsAskedForStaysWhenTheTableChanges) {
+  for (const char* change : {"MOVB 255, VB106", "MOVB 9, VB101", "MOVD 16#7F000000, VD102"}) {
+    Plc plc(master("NETR VB100, 0\nLDW= VW1000, 5\n" + std::string(change)));
+    Stations others(plc, with(answer({1, 2, 3, 4})));
+    others.run_until(300 * ms);
+    EXPECT_EQ(status(plc), 0x80) << change;
+    EXPECT_EQ(plc.value("VD107"), 0x01020304);
+    EXPECT_EQ(plc.value("VD111"), 0);
+  }
+}
+
+TEST(Network, AnAnswerThatIsComingInIsWaitedFor) {
+  Plc plc(master(kReads));
+  Stations others(plc, with(answer({1, 2, 3, 4})));
+  others.delay = 140 * ms;  // its last character comes after the 150 ms
+  others.run_until(1000 * ms);
+  EXPECT_EQ(others.heard.size(), 2U) << "nothing is asked again";
+  EXPECT_EQ(status(plc), 0x80);
 }
 
 TEST(Network, LeavingTheMasterModeEndsTheJobs) {

@@ -151,7 +151,7 @@ TEST(OperandRules, ABlockThatRunsPastTheEndOfItsAreaIsFoundInEveryInstructionTha
       }
     }
   EXPECT_EQ(tried, (std::set<std::string_view>{"S",    "R",    "BMB",  "BMW",  "BMD", "FILL", "SHRB", "ATH", "HTA", "ATT",
-                                               "FIFO", "LIFO", "TODR", "TODW", "PID", "ITA",  "DTA",  "RTA", "ITS", "DTS"}));
+                                               "FIFO", "LIFO", "TODR", "TODW", "PID", "ITA",  "DTA",  "RTA", "ITS", "DTS", "NETR", "NETW"}));
 }
 
 TEST(OperandRules, EachInstructionWithCountedOperandsHasOneCount) {
