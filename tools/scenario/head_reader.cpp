@@ -1,5 +1,6 @@
 #include "tools/scenario/head_reader.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "interpreter/base/numbers.hpp"
@@ -109,6 +110,9 @@ class HeadReader {
     if (!file.plan.bridges.empty())
       return values_.wrong(node, fmt::format("bridge '{}' of {} follows the clock", file.plan.bridges.front().name, path),
                            "a scenario runs as fast as it can: leave bridges out");
+    const auto has_plc = [&](const LinePlan& line) { return find_spot(file.plan, line.name, why).has_value(); };
+    if (std::ranges::none_of(file.plan.lines, has_plc))
+      return values_.wrong(node, fmt::format("{} has no PLC on a line", path), "a scenario talks to PLCs");
     forget_files(file.plan);
     scenario.system = path;
     scenario.plan = std::make_shared<const SystemPlan>(std::move(file.plan));

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <map>
 
 #include "interpreter/base/diagnostic.hpp"
@@ -589,6 +590,15 @@ TEST(ScenarioReader, AddressesOfAStepAreThoseOfItsPlc) {
   EXPECT_EQ(good(kGateway + "steps:\n  - {memory: {VB5119: 0}, on: gateway}\n").steps.size(), 1U) << "a CPU 226 has them";
   const ScenarioFile file = read(kGateway + "steps:\n  - {memory: {VB5119: 0}, on: pump}\n");
   ASSERT_EQ(file.diagnostics.size(), 1U) << "a CPU 214 does not";
+}
+
+TEST(ScenarioReader, ASystemWithoutAPlcIsRefused) {
+  const std::string path = testing::TempDir() + "no_plc.yaml";
+  std::ofstream(path) << "peers:\n  panel:\n    polls:\n      - {station: 7, read: 40001, count: 2}\n    every: 150ms\n"
+                         "lines:\n  field:\n    stations: [panel]\n";
+  const ScenarioFile file = read("system: " + path + "\nsteps:\n  - wait: 1ms\n");
+  ASSERT_EQ(file.diagnostics.size(), 1U);
+  EXPECT_EQ(file.diagnostics[0].message, path + " has no PLC on a line");
 }
 
 TEST(ScenarioReader, WhatASystemFileWouldRecordIsLeftAside) {
