@@ -54,6 +54,12 @@ constexpr Function kFunctions[] = {
     {"A", "general write", "general-write {0}:{1}={2}", {{{"segment", "0"}, {"offset", "0"}, {"bytes"}}}},
 };
 
+/// What the protocol makes an action of: in words, so that it goes to the slave that is set when it is done again.
+struct MenuRequest {
+  Words words{};
+  std::string_view option{};  ///< of the protocol
+};
+
 /// What else there is, in the view; the menu itself does it.
 constexpr std::pair<std::string_view, std::string_view> kOthers[] = {
     {"L", "loopbacks without end"},
@@ -125,9 +131,10 @@ class Menu {
   void execute(Words words);
   bool execute_key(const std::string& key, Words& answers);
   void do_function(const Function& function, Words& answers);
-  void do_actions(const Words& words, std::string_view option = {});
+  void do_request(MenuRequest request);
   void repeat();
-  void perform(std::uint64_t rounds);
+  std::vector<MasterAction> actions_of(const MenuRequest& request) const;
+  void perform(const std::vector<MasterAction>& actions, std::uint64_t rounds);
   void show(const MasterResult& result) const;
   void change_slave(Words& answers);
   void configure_port(Words& answers);
@@ -139,7 +146,7 @@ class Menu {
   SessionSettings session_;
   std::unique_ptr<Slave> slave_;
   ExchangeStatistics statistics_;
-  std::vector<MasterAction> last_;  ///< done last
+  MenuRequest last_;  ///< done last
   bool quit_ = false;
   LineEditor editor_{">> ", "master_menu_history", [](std::string_view) { return Completions{}; }};
   Screen screen_{{.name = "menu", .fewest_columns = 40, .fewest_rows = 10, .view = [](int columns, int rows) {
@@ -226,28 +233,34 @@ void Menu::do_function(const Function& function, Words& answers) {
   constexpr std::size_t kNotation = 5;  // digits, the first of which names the area
   const bool named = given[0].size() >= kNotation && std::ranges::all_of(given[0], stl::is_digit);
   if (words.size() == 3 && named) words.erase(words.begin() + 1);
-  do_actions(words, function.option);
+  do_request({std::move(words), function.option});
 }
 
-void Menu::do_actions(const Words& words, std::string_view option) {
+std::vector<MasterAction> Menu::actions_of(const MenuRequest& request) const {
   ProtocolUse use = use_;
-  if (!option.empty()) use.given[std::string(option)];
-  last_ = options_.protocol->actions(words, use);
-  perform(1);
+  if (!request.option.empty()) use.given[std::string(request.option)];
+  return options_.protocol->actions(request.words, use);
+}
+
+void Menu::do_request(MenuRequest request) {
+  const std::vector<MasterAction> actions = actions_of(request);
+  last_ = std::move(request);
+  perform(actions, 1);
 }
 
 void Menu::repeat() {
-  if (last_.empty()) throw Wrong("there is nothing to repeat yet");
+  if (last_.words.empty()) throw Wrong("there is nothing to repeat yet");
+  const std::vector<MasterAction> actions = actions_of(last_);
   fmt::print("until Ctrl-C …\n");
-  perform(UINT64_MAX);
+  perform(actions, UINT64_MAX);
   fmt::print("{}", statistics_.text());
 }
 
-void Menu::perform(std::uint64_t rounds) {
+void Menu::perform(const std::vector<MasterAction>& actions, std::uint64_t rounds) {
   if (!slave_) open();
   SessionSettings settings = session_;
   settings.rounds = rounds;
-  MasterSession session(*slave_, last_, settings);
+  MasterSession session(*slave_, actions, settings);
   int failures = 0;
   auto drawn = std::chrono::steady_clock::now();
   const auto take = [&](const MasterResult& result) {
@@ -310,7 +323,7 @@ bool Menu::execute_key(const std::string& key, Words& answers) {
   if (function != std::end(kFunctions)) {
     do_function(*function, answers);
   } else if (key == "L") {
-    last_ = options_.protocol->actions({"loopback"}, use_);
+    last_ = {.words = {"loopback"}};
     repeat();
   } else if (key == "T") {
     repeat();
@@ -338,7 +351,7 @@ void Menu::execute(Words words) {
   try {
     if (first.size() == 1 && !execute_key(stl::upper_case(first), answers))
       throw Wrong(fmt::format("'{}' is not a key; M shows the menu", stl::printable(first)));
-    if (first.size() > 1) do_actions(words);
+    if (first.size() > 1) do_request({.words = words});
   } catch (const Wrong& wrong) {
     fmt::print("{}\n", stl::printable(wrong.what()));
   } catch (const SlaveUnreachable& unreachable) {
