@@ -36,9 +36,19 @@ std::optional<Force> force_of(const std::vector<std::string>& assignments, const
     }
     force.assignments.push_back(*assignment);
   }
-  if (room_for(cpu.state().forcing, force.assignments)) return force;
-  why = fmt::format("no room: {} values of memory are forced already, as many as the CPU can; 'unforce' releases one",
-                    cpu.state().forcing.values);
+  const Forcing& now = cpu.state().forcing;
+  if (room_for(now, force.assignments)) return force;
+  const std::size_t limit = now.memory.size();
+  const auto given = std::ranges::count_if(
+      force.assignments, [](const Assignment& a) { return a.place.area != Area::I && a.place.area != Area::Q; });
+  if (now.values == limit)
+    why = fmt::format("no room: {} values of memory are forced already, as many as the CPU can; 'unforce' releases one",
+                      limit);
+  else if (now.values == 0)
+    why = fmt::format("no room: {} values of memory given, {} is the limit", given, limit);
+  else
+    why = fmt::format("no room: {} values of memory given, {} forced already, {} is the limit; 'unforce' releases one",
+                      given, now.values, limit);
   return {};
 }
 

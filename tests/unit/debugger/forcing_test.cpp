@@ -58,6 +58,12 @@ TEST(ForceCommand, RefusesWhatACpuCannotForceAndSaysWhatItCan) {
   EXPECT_TRUE(has(session.error_of("force M0.3=1"), "'M0.3=1' cannot be forced: the CPU forces points of I and Q"));
   EXPECT_TRUE(has(session.error_of("force I0.3"), "write one address, =, and a value"));
   EXPECT_TRUE(has(session.error_of("unforce VW10"), "VW10 is not forced"));
+  std::string seventeen = "force I0.0=1";
+  for (int i = 0; i < 17; ++i) seventeen += fmt::format(" VB{}=1", i);
+  EXPECT_TRUE(has(session.error_of(seventeen), "no room: 17 values of memory given, 16 is the limit"));
+  session("force VB300=1");
+  EXPECT_TRUE(has(session.error_of(seventeen), "17 values of memory given, 1 forced already, 16 is the limit"));
+  session("unforce all");
   for (int i = 0; i < 16; ++i) session(fmt::format("force VB{}=1", 100 + i));
   EXPECT_TRUE(has(session.error_of("force VB200=1"), "16 values of memory are forced already"));
 }
