@@ -41,8 +41,8 @@ Ending run_to_end(serial::Simulation& simulation, const RunOptions& options) {
 void print_text(const Rig& rig, const Ending& ending, const RunOptions& options) {
   const serial::Simulation& simulation = rig.simulation();
   const State& state = simulation.cpu().state();
-  fmt::print("ended by {} after {}: {} scans, {} instructions, CPU in {}\n", ending.reason, format_duration(state.time, 6),
-             state.scans, state.instructions, state.mode == Mode::Run ? "RUN" : "STOP");
+  fmt::print("{} after {}: {} scans, {} instructions, CPU in {}\n", ending_text(ending.reason),
+             format_duration(state.time, 6), state.scans, state.instructions, state.mode == Mode::Run ? "RUN" : "STOP");
   if (state.scans)
     fmt::print("scan time: shortest {}, longest {}\n", format_duration(state.shortest_scan),
                format_duration(state.longest_scan));

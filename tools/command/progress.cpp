@@ -21,4 +21,8 @@ void Progress::operator()() {
   if (now_() >= limits_.end) fmt::print(stderr, "\n");
 }
 
+std::string ending_text(std::string_view reason) {
+  return reason == "interrupted" ? std::string(reason) : fmt::format("ended by {}", reason);
+}
+
 }  // namespace s7200::tools

@@ -1,7 +1,9 @@
-// How far a long run has come.
+// How far a long run has come, and how it ended.
 #pragma once
 
 #include <functional>
+#include <string>
+#include <string_view>
 
 #include "tools/rig/run.hpp"
 
@@ -20,5 +22,8 @@ class Progress {
   const RunLimits& limits_;
   Time next_;  ///< of the host
 };
+
+/// `ended by time`, `interrupted`
+std::string ending_text(std::string_view reason);
 
 }  // namespace s7200::tools

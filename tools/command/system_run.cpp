@@ -95,7 +95,7 @@ Ending run_to_end(Rig& rig, const Bridges& bridges, const RunOptions& options) {
 
 void print_text(Rig& rig, const Ending& ending, const Bridges& bridges) {
   const SystemPlan& plan = rig.plan();
-  fmt::print("ended by {} after {}: {}, {}, {}\n", ending.reason, format_duration(rig.system().time(), 6),
+  fmt::print("{} after {}: {}, {}, {}\n", ending_text(ending.reason), format_duration(rig.system().time(), 6),
              counted(plan.plcs.size(), "PLC"), counted(plan.peers.size(), "peer"), counted(plan.lines.size(), "line"));
   for (std::size_t i = 0; i < plan.plcs.size(); ++i) {
     const State& state = rig.plc(i).cpu().state();
