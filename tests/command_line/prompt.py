@@ -204,6 +204,18 @@ class Prompt(unittest.TestCase):
         terminal.until("interrupted by Ctrl-C", PROMPT)
         self.quit(terminal)
 
+    def test_the_layout_after_ctrl_c_shows_what_was_executed(self):
+        terminal = self.session()
+        terminal.command("layout on")
+        terminal.type("continue 1000h\n")
+        terminal.until("\x1b[1;1H", "scan ", "\x1b[1;1H", "scan ")
+        terminal.signal(signal.SIGINT)
+        terminal.until("interrupted by Ctrl-C")
+        shown = terminal.until("\x1b[1;1H", PROMPT)
+        self.assertNotIn("interrupted while", shown)
+        self.assertRegex(shown, r">.{0,8}line \d+ .*S0=[01]")
+        self.quit(terminal)
+
     def test_a_signal_gives_the_terminal_back_too(self):
         for number, code in ((signal.SIGTERM, 1), (signal.SIGQUIT, -signal.SIGQUIT)):
             terminal = self.session()
@@ -287,6 +299,13 @@ class Menu(unittest.TestCase):
         self.assertIn("no answer", self.answer(terminal, "8"))
         self.answer(terminal, "c 9600 8 even 1")
         self.assertIn("function 8", self.answer(terminal, "8"))
+        self.answer(terminal, "s 2")
+        self.assertIn("no answer", self.answer(terminal, "8"))
+        self.answer(terminal, "s 1")
+        terminal.type("t\n")
+        terminal.until("until Ctrl-C", "1;1H", "requests", "1;1H")
+        terminal.signal(signal.SIGINT)
+        self.assertNotIn("no answer", terminal.until("requests", "latency", ">> "), "T goes to the slave that is set now")
         self.assertIn("is not none, even or odd", self.answer(terminal, "c 9600 8 mark 1"))
         self.quit(terminal)
 

@@ -70,6 +70,7 @@ void talk(Debugger& debugger) {
   editor.when_changed([&screen, &debugger] { fit(screen, debugger); });
   std::string last;
   while (!debugger.quit_asked()) {
+    forget_ctrl_c();  // it has ended the run, and is not meant for the view after it
     if (screen.on()) screen.draw(debugger.view(screen.view_rows()));
     const auto line = read_line(editor, last);
     if (!line) break;

@@ -300,7 +300,6 @@ Json Session::restart(const Json& arguments) {
   pause_asked_ = false;
   debuggee_->history().restart();
   note_new_branch();
-  for (StopPoint& stop : stepper_->stops) stop.hits = 0;
   frames_sent_ = 0;
   after_response([this] {
     if (!stop_on_entry_) send_event("continued", {{"threadId", 1}, {"allThreadsContinued", true}});

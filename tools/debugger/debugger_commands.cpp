@@ -22,7 +22,8 @@ namespace {
 
 constexpr std::size_t kListed = 15, kListedBefore = 6;
 
-constexpr std::string_view kBackwards = "It stops at breakpoints and watches on the way. Hits are not counted backwards.";
+constexpr std::string_view kBackwards =
+    "It stops at breakpoints and watches on the way. Counts of hits go back with the time.";
 
 }  // namespace
 
@@ -80,7 +81,9 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "The contacts of this rung, or what the main program or the interrupt routine came by last, with operand values.",
        &Debugger::why},
       {"rwhy", "ry", "rwhy", "back to in front of the instruction that 'why' names",
-       "In front of a jump or conditional return, after the contacts that decide on it: 'history' shows them.",
+       "Of a jump or conditional return: in front of it, after the contacts that decide on it, which 'history' shows. Of "
+       "contacts: after the last of them, where S0 is what they have decided; if it stands there already, in front of the "
+       "first.",
        &Debugger::back_to_decision, true},
       {"history", "", "history [n]", "the last 10 instructions before now, or n, with their operands and comments", "",
        &Debugger::history},
@@ -111,7 +114,8 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "  WHAT: event N [occurs | served], received or sent (a frame), xmt, rcv (its end), error [CODE], overflow (of a "
        "queue), "
        "lost (a character), mode, unanswered (a request).\n"
-       "  CONDITION in STL terms: break 40 if VW3300 > 8 and M31.7. hits N stops from the Nth time on. log prints a line "
+       "  CONDITION in STL terms: break 40 if VW3300 > 8 and M31.7. hits N stops from the Nth time on, "
+       "counted since it was set. log prints a line "
        "and "
        "goes on: break INT 123 log '{SMB2} at {time}'; also {scan} {line} {event}.",
        &Debugger::set_break},
@@ -176,7 +180,7 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "arrives and stops when the answer is complete.",
        &Debugger::send},
       {"fault", "", "fault KIND[:PARAMETER=VALUE,…] | none", "a fault of the line from now on, or none any more",
-       "As --fault of 's7200 run': fault flip:character=3,bit=5, fault noise:error-rate=0.001, fault cut:from=2ms. It "
+       "As --fault of 's7200 run': fault flip:character=3,bit=5, fault noise:ber=0.001, fault cut:from=2ms. It "
        "counts "
        "exchanges "
        "and times from now; 's7200 run --help' has all kinds. Going back undoes it.",
@@ -439,10 +443,8 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
   const SerialFormat format = options_.master.over(simulation_.port_format());
   if (serial::has_wrong_parity(*frame) && format.parity == Parity::None)
     return "send: a byte with wrong parity (p) needs a format with parity";
-  if (simulation_.master().busy()) {
-    out_ << "the last frame is still under way or waiting for its answer; 'continue' runs to its end\n";
-    return {};
-  }
+  if (simulation_.master().busy())
+    return "send: the last frame is still under way or waiting for its answer; 'continue' runs to its end";
   act(SendFrame{format, options_.master.request(*frame)});
   const std::string text = request_text(serial::bytes_of(*frame));
   out_ << fmt::format("on the line from now on: {}{} ({})\n", serial::to_hex(*frame), text.empty() ? "" : "  " + text,

@@ -9,6 +9,7 @@
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/goals.hpp"
+#include "tools/debugger/words.hpp"
 #include "tools/views/execution_text.hpp"
 #include "tools/views/machine_text.hpp"
 
@@ -21,7 +22,8 @@ Debugger::Error Debugger::back(const Arguments& arguments) {
     out_ << "there is no earlier state: nothing has run since power-up, or all states kept have been used\n";
     return {};
   }
-  if (*count > kept_.size()) out_ << fmt::format("only {} earlier states are kept\n", kept_.size());
+  if (*count > kept_.size())
+    out_ << fmt::format("only {} {} kept\n", counted(kept_.size(), "earlier state"), kept_.size() == 1 ? "is" : "are");
   kept_.resize(kept_.size() - std::min<std::size_t>(*count, kept_.size()) + 1);
   const History::BranchPtr left = history_.here().branch;
   history_.return_to(kept_.back().place);
@@ -254,8 +256,8 @@ Debugger::Error Debugger::branch(const Arguments& arguments) {
 /// Why nothing before the oldest moment can be reached.
 std::string Debugger::oldest_text(const History::Usage& usage) const {
   if (usage.forgotten == 0) return "where this session powered the CPU up";
-  return fmt::format("before which what came over the bridge is forgotten: {} actions, more than {} MB", usage.forgotten,
-                     options_.history.log_bound >> 20);
+  return fmt::format("before which what came over the bridge is forgotten: {}, more than {} MB",
+                     counted(usage.forgotten, "action"), options_.history.log_bound >> 20);
 }
 
 Debugger::Error Debugger::past(const Arguments& arguments) {
@@ -264,11 +266,11 @@ Debugger::Error Debugger::past(const Arguments& arguments) {
   constexpr double kMegabyte = 1 << 20;
   out_ << fmt::format(
       "from {}, {}, to {}; now {}\n"
-      "{} checkpoints, one every {} or more; {:.1f} of {:.0f} MB; {} actions from outside\n",
+      "{}, one every {} or more; {:.1f} of {:.0f} MB; {} from outside\n",
       moment_text(usage.oldest.time), oldest_text(usage), moment_text(history_.newest().time),
-      moment_text(simulation_.time()), usage.checkpoints, format_duration(usage.interval),
+      moment_text(simulation_.time()), counted(usage.checkpoints, "checkpoint"), format_duration(usage.interval),
       static_cast<double>(usage.bytes) / kMegabyte, static_cast<double>(options_.history.bound) / kMegabyte,
-      history_.actions().size());
+      counted(history_.actions().size(), "action"));
   return {};
 }
 
@@ -278,7 +280,6 @@ Debugger::Error Debugger::restart(const Arguments& arguments) {
   history_.restart();
   note_new_branch();
   note_going_elsewhere();
-  for (StopPoint& stop : stepper_.stops) stop.hits = 0;
   show_place();
   return {};
 }

@@ -7,6 +7,7 @@
 #include "interpreter/program/load.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/session_file.hpp"
+#include "tools/debugger/words.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/text_frame.hpp"
 
@@ -63,8 +64,8 @@ Debugger::Error Debugger::save(const Arguments& arguments) {
                          .recording = history_.recording(),
                          .state = digest_of(simulation_.cpu().state())};
   if (!write_result(*to, to_text(file), why)) return why;
-  out_ << fmt::format("saved: {} with {} actions from outside\n", moment_text(simulation_.time()),
-                      file.recording.actions.size());
+  out_ << fmt::format("saved: {} with {} from outside\n", moment_text(simulation_.time()),
+                      counted(file.recording.actions.size(), "action"));
   return {};
 }
 

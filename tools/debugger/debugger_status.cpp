@@ -26,16 +26,16 @@ LastExecutions Debugger::last_executions_of(std::uint32_t first, std::uint32_t e
 /// A line for each instruction of [first, end), as it was executed last.
 std::vector<std::string> Debugger::status_lines(std::uint32_t first, std::uint32_t end, const LastExecutions& last) {
   const Program& program = simulation_.cpu().program();
+  const std::string not_found = last.interrupted ? "interrupted while it was looked for"
+                                                 : "not executed within " + format_duration(simulation_.time() - last.since);
   std::vector<std::string> lines;
   for (std::uint32_t op = first; op < end; ++op) {
     const auto found = last.of.find(op);
-    lines.push_back(
-        fmt::format("{:>2} {}{}", mark_of(op),
-                    found != last.of.end()
-                        ? execution_text(found->second, program)
-                        : fmt::format("line {:<5} {:<28} not executed within {}", listing_.line_of(op),
-                                      stl::to_text(program.statement(op)), format_duration(simulation_.time() - last.since)),
-                    forced_text(operands_of(op))));
+    lines.push_back(fmt::format("{:>2} {}{}", mark_of(op),
+                                found != last.of.end() ? execution_text(found->second, program)
+                                                       : fmt::format("line {:<5} {:<28} {}", listing_.line_of(op),
+                                                                     stl::to_text(program.statement(op)), not_found),
+                                forced_text(operands_of(op))));
   }
   return lines;
 }
@@ -77,7 +77,8 @@ std::vector<std::string> Debugger::view(std::size_t rows) {
   const std::string place = place_text(cpu, listing_);
   std::vector<std::string> lines{place.substr(0, place.find('\n'))};
   const auto [op, end_op] = live_status_ ? std::pair(live_status_->first, live_status_->end) : ops_in_view();
-  const LastExecutions last = live_status_ ? LastExecutions{live_status_->last, 0} : last_executions_of(op, end_op, kInView);
+  const LastExecutions last =
+      live_status_ ? LastExecutions{.of = live_status_->last} : last_executions_of(op, end_op, kInView);
   for (std::string& line : status_lines(op, end_op, last)) lines.push_back(std::move(line));
   lines.resize(kOpsInView + 1);
   std::string memory;

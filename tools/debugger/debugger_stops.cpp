@@ -138,6 +138,7 @@ std::string Debugger::value_of(const MemoryRange& range) const {
 }
 
 void Debugger::list_stops() {
+  stepper_.count_hits();
   for (const bool watches : {false, true})
     for (const StopPoint& s : stepper_.stops) {
       if (s.is_watch() != watches) continue;

@@ -41,14 +41,14 @@ LastExecutions last_executions(History& history, std::uint32_t first, std::uint3
   const Moment start = history.now();
   const Time oldest = start.time - std::min(start.time, within);
   Time looked_at = start.time;
-  history.search_back(
+  const History::Search search = history.search_back(
       status, start, [&] { looked_at = history.now().time; },
       [&] {
         status.end_part();
         return status.complete() || looked_at <= oldest;
       });
   history.go_to(start);
-  return {std::move(status.last), looked_at};
+  return {std::move(status.last), looked_at, search == History::Search::Interrupted};
 }
 
 }  // namespace s7200::tools

@@ -20,16 +20,18 @@ Stepper::Stepper(serial::Simulation& simulation, History& history, const std::at
 
 Stop Stepper::run(const Goal& goal, Time limit, bool stop_at_answer) {
   const State& state = simulation_.cpu().state();
+  count_hits();
   goal_ = goal;
   limit_ = limit;
   stop_at_answer_ = stop_at_answer;
   standing_ = standing_at(state).has_value();
-  start_op_ = state.pc;
+  start_op_ = standing_at(state).value_or(0);
   started_in_interrupt_ = state.in_interrupt;
   executing_start_ = reached_start_ = false;
   progress_ = {.executed = 0, .left = !standing_};
   begin_watching();
   const serial::Halt halt = history_.run(*this);
+  listened_to_ = history_.now();
   if (halt == serial::Halt::Stopped) stop_.reason = StopReason::CpuStopped;
   if (halt == serial::Halt::Request) stop_.reason = StopReason::Request;
   return stop_;
@@ -37,6 +39,7 @@ Stop Stepper::run(const Goal& goal, Time limit, bool stop_at_answer) {
 
 Stop Stepper::run_back(const Goal& goal, std::uint64_t count, bool stop_at_answer) {
   const Moment start = history_.now();
+  count_hits();
   goal_ = goal;
   limit_ = kNever;
   stop_at_answer_ = stop_at_answer;
@@ -54,6 +57,7 @@ Stop Stepper::run_back(const Goal& goal, std::uint64_t count, bool stop_at_answe
     begin_watching();
   };
   const auto found = [&] {
+    if (end) note_silence();
     if (const auto reason = end ? reason_between() : std::nullopt) {
       stop_.reason = *reason;
       there = Found{*end, stop_};
@@ -77,13 +81,23 @@ Stop Stepper::run_back(const Goal& goal, std::uint64_t count, bool stop_at_answe
 void Stepper::begin_watching() {
   stop_ = {};
   accessed_.clear();
-  coming_in_.clear();
-  silent_ = simulation_.line_quiet_for(simulation_.port_format().silence());
-  came_in_ = simulation_.master_uart().state().send_end >= simulation_.last_activity();
+  const Moment now = history_.now();
+  const bool goes_on =
+      !backwards_ && listened_to_ && listened_to_->instructions == now.instructions && listened_to_->time == now.time;
+  if (!goes_on) listen_from_now_on();
   awaiting_answer_ = simulation_.master().busy();
   if (!backwards_)
     for (StopPoint& stop : stops) stop.skipped = 0;
   read_values();
+}
+
+/// What came before is not known, only when the last character on the line ended, and when the last one that the PLC sent.
+void Stepper::listen_from_now_on() {
+  coming_in_.clear();
+  const Time silence = simulation_.port_format().silence(), half_a_character = silence / 7;
+  const Time last = simulation_.last_activity();
+  silence_noted_ = simulation_.line_quiet_for(silence) ? last : 0;
+  came_in_ = last > simulation_.plc().state().uart.at(simulation_.port()).send_end + half_a_character;
 }
 
 void Stepper::read_values() {
@@ -157,15 +171,48 @@ void Stepper::instruction(const InstructionRecord& record) {
   on_instruction(record, executing_start_);
 }
 
-/// Counts, and stops unless there is a reason not to. Backwards every hit counts, whatever its number.
+void Stepper::count_hits() {
+  const History::Place here = history_.here();
+  const std::pair now{here.moment.instructions, here.moment.time};
+  const bool same_beginning =
+      counted_on_ && counted_on_->checkpoints.front() == here.branch->checkpoints.front();  // it has forked
+  for (StopPoint& stop : stops) {
+    const auto before = stop.hit_at.find(counted_on_);
+    const auto [counted, is_new] = stop.hit_at.try_emplace(here.branch);
+    StopPoint::Moments& moments = counted->second;
+    if (is_new && same_beginning && before != stop.hit_at.end())
+      moments.assign(before->second.begin(), std::ranges::upper_bound(before->second, now));
+    stop.hits = static_cast<std::uint64_t>(std::ranges::upper_bound(moments, now) - moments.begin());
+  }
+  counted_on_ = here.branch;
+}
+
+/// The number of the hit that is now. What is played again was counted the first time; backwards nothing is new.
+std::uint64_t Stepper::count(StopPoint& stop) {
+  const State& state = simulation_.cpu().state();
+  StopPoint::Moments& moments = stop.hit_at[counted_on_];
+  if (backwards_) {
+    const std::pair latest{state.instructions, kNever};
+    return static_cast<std::uint64_t>(std::ranges::upper_bound(moments, latest) - moments.begin());
+  }
+  const std::pair now{state.instructions, state.time};
+  const auto next = moments.begin() + static_cast<std::ptrdiff_t>(stop.hits);
+  if (next == moments.end() || *next != now) moments.insert(next, now);
+  return ++stop.hits;
+}
+
+/// Counts, and stops unless there is a reason not to. Backwards it also stops at hits from before the stop was set, unless
+/// it waits for a number.
 void Stepper::hit(StopPoint& stop, Hit with) {
   if (stop.condition && !stop.condition->holds(simulation_.cpu())) return;
-  if (!backwards_ && ++stop.hits < stop.from_hit) return;
+  const std::uint64_t number = count(stop);
+  if (stop.from_hit > 1 && number < stop.from_hit) return;
   if (!stop.log.empty()) {
     if (!backwards_) on_message(stop);
     return;
   }
   with.stop = stop;
+  with.stop.hits = number;
   stop_.hits.push_back(std::move(with));
 }
 
@@ -227,10 +274,12 @@ void Stepper::note_record(const TraceRecord& record) {
 
 /// A frame has ended when nothing came for 3.5 characters.
 void Stepper::note_silence() {
-  const bool silent = simulation_.line_quiet_for(simulation_.port_format().silence());
-  const bool begins = silent && !std::exchange(silent_, silent);
-  if (!begins || !came_in_) return;
-  const std::vector<std::uint8_t> frame = backwards_ ? std::vector<std::uint8_t>{} : std::exchange(coming_in_, {});
+  const Time last = simulation_.last_activity();
+  if (last == silence_noted_ || !simulation_.line_quiet_for(simulation_.port_format().silence())) return;
+  silence_noted_ = last;
+  const std::vector<std::uint8_t> heard = std::exchange(coming_in_, {});
+  if (!came_in_) return;
+  const std::vector<std::uint8_t> frame = backwards_ ? std::vector<std::uint8_t>{} : heard;
   for (StopPoint& stop : stops)
     if (stop.on == StopPoint::On::FrameReceived) hit(stop, {.frame = frame});
 }

@@ -38,8 +38,11 @@ class Stepper final : public Observer {
   Stop run(const Goal& goal, Time limit, bool stop_at_answer);
 
   /// Goes back to where the goal was last met, or to the `count`th time before now; or to the last stop, if that is later.
-  /// Hits are not counted. To the oldest moment if there is nothing of the kind; nowhere after a stop request.
+  /// To the oldest moment if there is nothing of the kind; nowhere after a stop request.
   Stop run_back(const Goal& goal, std::uint64_t count, bool stop_at_answer);
+
+  /// Counts the hits of all stops up to where it stands: someone may have gone there.
+  void count_hits();
 
   std::vector<StopPoint> stops;
 
@@ -70,8 +73,10 @@ class Stepper final : public Observer {
   std::optional<StopReason> reason_to_stop(std::uint32_t op, bool at_start);
   void hit_places(std::uint32_t op);
   void hit(StopPoint& stop, Hit with);
+  std::uint64_t count(StopPoint& stop);
   void note_accesses(std::uint32_t op);
   void note_record(const TraceRecord& record);
+  void listen_from_now_on();
   void note_silence();
   static bool is_meant(const StopPoint& stop, const TraceRecord& record);
   std::optional<StopReason> reason_between();
@@ -97,8 +102,10 @@ class Stepper final : public Observer {
   bool backwards_ = false;
   std::vector<std::size_t> accessed_;    ///< stops on memory that the instruction being executed reads or writes
   std::vector<std::uint8_t> coming_in_;  ///< characters since the last silence
-  bool silent_ = true;                   ///< the line has been quiet for 3.5 characters
+  Time silence_noted_ = 0;               ///< after the character that ended then; 0: after none
   bool came_in_ = false;                 ///< the last character on the line was received
+  History::BranchPtr counted_on_;        ///< the branch on which hits were counted last
+  std::optional<Moment> listened_to_;    ///< where the last run ended: one from there goes on listening
   std::optional<Moment> first_place_;    ///< backwards: of the part being played
   std::vector<Found> found_;             ///< backwards: in the part being played
   Progress progress_;

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "interpreter/trace/trace.hpp"
@@ -42,7 +45,9 @@ struct StopPoint {
   std::uint64_t from_hit = 1;  ///< the first that stops
   std::string log{};           ///< a line to print instead of stopping
 
-  std::uint64_t hits = 0;
+  std::uint64_t hits = 0;                                       ///< up to the moment where it stands, since it was set
+  using Moments = std::vector<std::pair<std::uint64_t, Time>>;  ///< instructions before each, and its time; in order
+  std::map<std::weak_ptr<const void>, Moments, std::owner_less<>> hit_at{};  ///< on each branch of the past
   std::uint64_t skipped = 0;          ///< times that it had no power flow, since the last stop
   std::vector<std::uint8_t> value{};  ///< of the memory as last seen, like bytes_of()
 

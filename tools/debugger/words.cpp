@@ -20,6 +20,10 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+std::string counted(std::size_t count, std::string_view thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
 std::vector<std::string> assignments_of(const std::vector<std::string>& arguments) {
   std::vector<std::string> texts;
   bool open = false;

@@ -14,6 +14,9 @@ std::string lower_case(std::string_view text);
 /// The words with a blank between them.
 std::string joined(const std::vector<std::string>& words);
 
+/// `1 action`, `2 actions`
+std::string counted(std::size_t count, std::string_view thing);
+
 /// `VW100 = 5` is written with or without blanks.
 std::vector<std::string> assignments_of(const std::vector<std::string>& arguments);
 

@@ -204,9 +204,11 @@ std::string place_text(const Cpu& cpu, const Listing& listing) {
   const std::string when = fmt::format("{}  {}", moment_text(state.time), scan_text(state));
   if (state.mode == Mode::Stop) return fmt::format("{}  STOP\n", when);
   const auto op = standing_at(state);
-  if (!op)
-    return fmt::format("{}  powered up, the inputs are read first\n > {:>5}  {}\n", when, listing.line_of(state.pc),
-                       listing.text_of(state.pc));
+  if (!op) {
+    const std::string where = state.instructions == 0 ? "powered up, the inputs are read first"
+                                                      : fmt::format("between two scans, {}", phase_text(state.phase));
+    return fmt::format("{}  {}\n > {:>5}  {}\n", when, where, listing.line_of(0), listing.text_of(0));
+  }
   const std::string serving = state.in_interrupt ? fmt::format(" for {}", event_text(state.serving_event)) : "";
   return fmt::format("{}  {}{}  S0={}\n > {:>5}  {}\n", when, listing.routine_of(*op), serving, state.stack.top() ? 1 : 0,
                      listing.line_of(*op), listing.text_of(*op));

@@ -158,6 +158,24 @@ TEST(Debugger, StopRequestEndsARun) {
   EXPECT_LT(session.simulation.time(), kSecond);
 }
 
+TEST(Debugger, BetweenTwoScansItSaysSoAndNamesTheNextInstruction) {
+  Session session(kNested);
+  session("continue 20ms");
+  while (standing_at(session.state())) session.simulation.run_until(session.simulation.time() + 10 * kMicrosecond);
+  session.out.str("");
+  session.debugger->show_place();
+  EXPECT_TRUE(has(session.out.str(), "  between two scans, the system"));
+  EXPECT_TRUE(has(session.out.str(), " >     1  LD      SM0.1"));
+}
+
+TEST(Debugger, AViewWhoseSearchIsInterruptedNeverSaysNotExecuted) {
+  std::atomic<bool> stop = false;
+  Session session(program_of(kNested), &stop);
+  session("continue 200ms");
+  stop = true;
+  for (const std::string& line : session.debugger->view(15)) EXPECT_EQ(line.find("not executed"), std::string::npos) << line;
+}
+
 // --- stopping ---
 
 TEST(Debugger, LineWithoutInstructionStandsForTheNextOneAndItSaysSo) {
@@ -252,6 +270,39 @@ TEST(Debugger, HitCountStopsFromThatHitOn) {
   EXPECT_EQ(session.vw(10), 5U);
 }
 
+TEST(Debugger, AHitHasTheSameNumberForwardsBackwardsAndAgain) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("break INT 0 hits 3; continue"), "hit 3 times"));
+  const Time third = session.simulation.time();
+  EXPECT_EQ(session.vw(30), 2U);
+  EXPECT_TRUE(has(session("at 1ms; break"), "0 hits  INT 0"));
+  EXPECT_TRUE(has(session("continue"), "hit 3 times"));
+  EXPECT_EQ(session.simulation.time(), third);
+  session("continue; continue");
+  EXPECT_TRUE(has(session("break"), "5 hits  INT 0"));
+  EXPECT_TRUE(has(session("rcontinue"), "hit 4 times"));
+  EXPECT_TRUE(has(session("rcontinue"), "hit 3 times"));
+  EXPECT_EQ(session.simulation.time(), third);
+  EXPECT_TRUE(has(session("break"), "3 hits  INT 0"));
+  EXPECT_TRUE(has(session("rcontinue"), "this is the oldest moment"));
+}
+
+TEST(Debugger, ABranchHasTheHitsBeforeItAndItsOwn) {
+  Session session(kNested);
+  session("break INT 0; continue; continue; continue; rcontinue; set VW100=1");
+  EXPECT_TRUE(has(session("continue; continue"), "hit 4 times"));
+  session("back 3");
+  EXPECT_TRUE(has(session("break"), "2 hits  INT 0"));
+  EXPECT_TRUE(has(session("continue"), "hit 3 times"));
+  EXPECT_TRUE(has(session("restart; break"), "0 hits  INT 0"));
+}
+
+TEST(Debugger, PlayingAgainCountsNoErrorTwice) {
+  Session session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100\nMOVB 1, *VD100\nMEND\n");
+  session("break error; continue; continue; at start; continue; continue");
+  EXPECT_TRUE(has(session("break"), "2 hits  error"));
+}
+
 TEST(Debugger, LogPrintsALineAndGoesOn) {
   Session session(kNested);
   const std::string text =
@@ -287,6 +338,36 @@ TEST(Debugger, StopsAtFramesReceivedAndSentAndAtXmt) {
                   "breakpoint 2, lost, hit for the first time\n"));
   EXPECT_TRUE(has(listening.out.str(), "breakpoint 1, received, hit for the first time\n  "));
   EXPECT_TRUE(has(listening("break unanswered; continue"), "breakpoint 3, unanswered, hit for the first time"));
+}
+
+constexpr std::string_view kListening =
+    "LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nENI\nMEND\nINT 1\nLD SM0.0\nINCW VW0\nRETI\n";
+
+TEST(Debugger, AFrameHasEndedAtTheSameMomentWhereverARunPausedInIt) {
+  Session whole(kListening), paused(kListening);
+  for (Session* session : {&whole, &paused}) (*session)("continue 100ms; break received; send 01 02 03 04");
+  const std::string text = whole("continue");
+  EXPECT_TRUE(has(text, "breakpoint 1, received, hit for the first time\n  01 02 03 04\n"));
+  EXPECT_TRUE(has(paused("continue 2ms; continue 1ms; step; continue"), "  01 02 03 04\n"));
+  EXPECT_EQ(paused.simulation.time(), whole.simulation.time());
+  const Time ended = whole.simulation.time();
+  EXPECT_TRUE(has(whole("continue 20ms; rcontinue"), "breakpoint 1, received"));
+  EXPECT_EQ(whole.simulation.time(), ended);
+  EXPECT_TRUE(has(whole("at 102ms; continue"), "breakpoint 1, received"));
+  EXPECT_EQ(whole.simulation.time(), ended) << "it went there in the middle of the frame";
+  EXPECT_TRUE(has(whole("delete all; continue 2s; break received; send 05 06; continue"),
+                  "received, hit for the first time\n  05 06\n"));
+}
+
+TEST(Debugger, ALineOnWhichNothingCameHasNoFrame) {
+  Session session(kListening);
+  EXPECT_TRUE(has(session("break received; continue 90ms"), "nothing to stop for"));
+  EXPECT_TRUE(has(session("rcontinue"), "this is the oldest moment"));
+}
+
+TEST(Debugger, WhatTheProgramSendsIsNotReceived) {
+  Session session("LD SM0.1\nMOVB 16#09, SMB30\nMOVW 16#0155, VW0\nXMT VB0, 0\nMEND\n");
+  EXPECT_TRUE(has(session("break received; continue 90ms"), "nothing to stop for"));
 }
 
 TEST(Debugger, StopsAtRunTimeErrorsOfACodeOrAny) {
@@ -356,6 +437,12 @@ TEST(Debugger, AnswerThatArrivesDuringAnotherCommandIsPrintedAndDoesNotStopIt) {
   Session session(kEcho);
   EXPECT_TRUE(has(session("scan 3; send 5a; scan 30"), "answer   5a"));
   EXPECT_EQ(session.state().scans, 33U);
+}
+
+TEST(Debugger, SendWhileAFrameIsUnderWayIsAWrongCommand) {
+  Session session(kEcho);
+  session("scan 3; send 5a");
+  EXPECT_TRUE(has(session.error_of("send 5b"), "send: the last frame is still under way or waiting for its answer"));
 }
 
 TEST(Debugger, SendTakesTextInQuotationMarks) {
@@ -580,6 +667,13 @@ TEST(Debugger, PastSaysHowFarBackItCanGoAndWhy) {
 }
 
 // --- observing changes nothing ---
+
+TEST(Debugger, OneOfAThingIsNotInThePlural) {
+  Session session(kEcho);
+  const std::string text = session("scan 3; set VB100=1; past");
+  EXPECT_TRUE(has(text, "\n1 checkpoint, one every"));
+  EXPECT_TRUE(has(text, "; 1 action from outside\n"));
+}
 
 TEST(Debugger, SteppedRunAndPlainRunEndInTheSameState) {
   const auto program = program_of(kEcho);
@@ -809,6 +903,21 @@ TEST(Debugger, HelpExplainsEveryCommand) {
   EXPECT_TRUE(has(session("help watch"), "short: w"));
   EXPECT_TRUE(has(session("help send"), "p after a byte"));
   EXPECT_TRUE(has(session("help; help quit"), "continue [TIME]"));
+}
+
+TEST(Debugger, EveryFaultInAHelpTextIsOneThatIsAccepted) {
+  Session session(kEcho);
+  for (const std::string command : {"fault", "help fault"}) {
+    std::string text = command == "fault" ? session.error_of(command) : session(command);
+    int examples = 0;
+    for (std::size_t at = 0; (at = text.find("fault ", at)) != std::string::npos; at += 6) {
+      const std::string fault = text.substr(at + 6, text.find_first_of(" \n;", at + 6) - at - 6);
+      if (fault.find('=') == std::string::npos || fault.front() == 'K') continue;  // KIND is a place holder
+      ++examples;
+      EXPECT_EQ(session.error_of("fault " + fault.substr(0, fault.find_last_not_of(",.") + 1)), "no error");
+    }
+    EXPECT_GT(examples, 0) << text;
+  }
 }
 
 // --- the tip document ---

@@ -50,7 +50,7 @@ const std::vector<std::pair<std::uint64_t, Action>>& deeds() {
       {2000, assignment("VW20=16#1234")},
       {6000, frame("0103000a0002e409")},
       {6000, assignment("I0.0=1")},
-      {8999, InjectFault{serial::parse_fault("noise:error-rate=0.01").fault}},
+      {8999, InjectFault{serial::parse_fault("noise:ber=0.01").fault}},
       {9000, frame("0103000a0002e408")},
       {9001, assignment("VB100=7")},
       {12000, assignment("I0.1=1")},
