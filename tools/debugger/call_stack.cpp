@@ -15,7 +15,8 @@ std::array<std::uint8_t, 16> accumulators_in(const State& state) {
 
 std::vector<OpenRoutine> open_routines(const State& state) {
   if (state.mode == Mode::Stop) return {};
-  std::vector<OpenRoutine> open{{.op = standing_at(state).value_or(0), .stack = state.stack, .accumulators = accumulators_in(state)}};
+  std::vector<OpenRoutine> open{
+      {.op = standing_at(state).value_or(0), .stack = state.stack, .accumulators = accumulators_in(state)}};
   const auto add_callers = [&](std::size_t from, std::size_t to) {
     for (std::size_t depth = from; depth > to; --depth)
       open.push_back({.op = state.calls[depth - 1].return_to - 1,

@@ -1,5 +1,6 @@
 #include "tests/support/source_path.hpp"
 #include "tests/unit/debugger/session.hpp"
+#include "tools/debugger/call_stack.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -166,6 +167,7 @@ TEST(Debugger, BetweenTwoScansItSaysSoAndNamesTheNextInstruction) {
   session.debugger->show_place();
   EXPECT_TRUE(has(session.out.str(), "  between two scans, the system"));
   EXPECT_TRUE(has(session.out.str(), " >     1  LD      SM0.1"));
+  EXPECT_EQ(open_routines(session.state()).front().op, 0U);
 }
 
 TEST(Debugger, AViewWhoseSearchIsInterruptedNeverSaysNotExecuted) {
