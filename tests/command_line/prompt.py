@@ -216,6 +216,14 @@ class Prompt(unittest.TestCase):
         self.assertRegex(shown, r">.{0,8}line \d+ .*S0=[01]")
         self.quit(terminal)
 
+    def test_a_run_says_which_signal_has_interrupted_it(self):
+        terminal = self.session()
+        terminal.type("continue 1000h\n")
+        time.sleep(0.2)
+        terminal.signal(signal.SIGTERM)
+        self.assertEqual(terminal.end(), 1)
+        self.assertIn("interrupted by SIGTERM", terminal.text)
+
     def test_a_signal_gives_the_terminal_back_too(self):
         for number, code in ((signal.SIGTERM, 1), (signal.SIGQUIT, -signal.SIGQUIT)):
             terminal = self.session()

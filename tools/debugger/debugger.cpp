@@ -7,6 +7,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
+#include "tools/host/interruption.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
@@ -192,7 +193,7 @@ void Debugger::report_reason(const Stop& stop, const Run& run) {
                           run.limit == kDefaultLimit ? " (the limit; 'continue TIME' sets another)" : "");
       return;
     case StopReason::Request:
-      out_ << "interrupted by Ctrl-C\n";
+      out_ << interruption_text() << '\n';
       return;
     case StopReason::CpuStopped:
       report_cpu_stop();

@@ -10,6 +10,7 @@
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/goals.hpp"
 #include "tools/debugger/words.hpp"
+#include "tools/host/interruption.hpp"
 #include "tools/views/execution_text.hpp"
 #include "tools/views/machine_text.hpp"
 
@@ -113,7 +114,7 @@ Debugger::Error Debugger::at(const Arguments& arguments) {
     history_.go_to(history_.usage().oldest);
   } else if (!history_.go_to(*time)) {
     kept_.pop_back();
-    out_ << "interrupted by Ctrl-C\n";
+    out_ << interruption_text() << '\n';
     return {};
   }
   note_going_elsewhere();
@@ -131,7 +132,7 @@ std::optional<MemoryRange> Debugger::one_range(const Arguments& arguments, std::
 
 std::optional<LastWrite> Debugger::find_write(const MemoryRange& range, std::string_view name) {
   const WriteSearch search = find_last_write(simulation_, history_, range, options_.stop_request);
-  if (search.interrupted) out_ << "interrupted by Ctrl-C\n";
+  if (search.interrupted) out_ << interruption_text() << '\n';
   if (!search.write && !search.interrupted)
     out_ << fmt::format("nothing has written {} since power-up; it is {}\n", name, value_of(range));
   return search.write;
@@ -160,7 +161,7 @@ static std::optional<std::uint8_t> event_of(const std::vector<std::string>& word
 
 std::optional<LastAttachment> Debugger::find_attachment(std::uint8_t event) {
   const AttachmentSearch search = find_last_attachment(history_, event, options_.stop_request);
-  if (search.interrupted) out_ << "interrupted by Ctrl-C\n";
+  if (search.interrupted) out_ << interruption_text() << '\n';
   if (!search.attachment) {
     if (!search.interrupted)
       out_ << fmt::format("no instruction has attached or detached {} since power-up\n", event_text(event));
@@ -186,7 +187,7 @@ Debugger::Error Debugger::history(const Arguments& arguments) {
 std::optional<LastDecision> Debugger::find_decision() {
   const DecisionSearch search = find_last_decision(simulation_, history_, options_.stop_request);
   if (search.interrupted)
-    out_ << "interrupted by Ctrl-C\n";
+    out_ << interruption_text() << '\n';
   else if (search.decision)
     out_ << fmt::format("{}  {}\n", moment_text(search.decision->by.at), search.decision->text);
   else

@@ -8,6 +8,7 @@
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/session_file.hpp"
 #include "tools/debugger/words.hpp"
+#include "tools/host/interruption.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/text_frame.hpp"
 
@@ -84,7 +85,7 @@ Debugger::Error Debugger::load(const Arguments& arguments) {
   const History::Place here = history_.here();
   if (!history_.replay(file->recording) || digest_of(simulation_.cpu().state()) != file->state) {
     history_.return_to(here);
-    if (stop_requested()) return "interrupted by Ctrl-C; nothing is loaded";
+    if (stop_requested()) return fmt::format("{}; nothing is loaded", interruption_text());
     return fmt::format(
         "cannot load {}: replayed here, it comes to another state; give --input, faults and the line's options as then",
         path);

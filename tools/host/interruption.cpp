@@ -67,6 +67,17 @@ bool forget_ctrl_c() {
 
 void before_the_kill(void (*restore)()) { restoring = restore; }
 
+std::string_view interruption_text() {
+  switch (noted_signal) {
+    case SIGTERM:
+      return "interrupted by SIGTERM";
+    case SIGHUP:
+      return "interrupted by SIGHUP";
+    default:
+      return "interrupted by Ctrl-C";
+  }
+}
+
 bool interrupted_by_signal() { return noted_signal != 0; }
 
 }  // namespace s7200::tools

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <atomic>
+#include <string_view>
 
 namespace s7200::tools {
 
@@ -27,6 +28,9 @@ bool forget_ctrl_c();
 
 /// Called by a second Ctrl-C just before it kills: `restore` may do what a signal handler may. Null: nothing is called.
 void before_the_kill(void (*restore)());
+
+/// `interrupted by Ctrl-C`, or by SIGTERM or SIGHUP if that came.
+std::string_view interruption_text();
 
 /// Whether a signal was the reason, not interrupt_quietly().
 bool interrupted_by_signal();
