@@ -63,8 +63,8 @@ inline constexpr std::array<std::uint32_t, 2> kPotentiometer{byte(28), byte(29)}
 
 /// Fields of a port's control byte: p p d b b b m m. Where it is, is in the row of the port (ports.hpp).
 enum PortControl : std::uint8_t {
-  kProtocol = 0x03,   ///< mm
-  kFreeport = 0x01,   ///< as the protocol
+  kProtocol = 0x03,  ///< mm
+  kFreeport = 0x01,  ///< as the protocol
   kPpiMaster = 0x02,
   kBaudRate = 0x1C,   ///< bbb
   kSevenBits = 0x20,  ///< d: characters of 7 bits; otherwise 8

@@ -37,10 +37,10 @@ enum class TraceKind : std::uint8_t {
   Enable,             ///< code: 1 ENI, 0 DISI
   PpiService,         ///< byte: S7 function, event: the master's station; code: error of the answer, 0 if it was carried out
   PpiAccess,          ///< a variable that a master reads or writes, like PpiService. Code FF: op is its place in the image,
-                      ///< count its bytes, 0 for the bit `routine`. Otherwise op is the address and routine the area asked for
-  NetworkJob,         ///< NETR, or NETW if routine is 1: byte: the status in its table, at place op; event: the station, count:
-                      ///< bytes of data
-  PpiIgnored,         ///< a frame with a wrong check sum or end; count: its characters
+              ///< count its bytes, 0 for the bit `routine`. Otherwise op is the address and routine the area asked for
+  NetworkJob,  ///< NETR, or NETW if routine is 1: byte: the status in its table, at place op; event: the station, count:
+               ///< bytes of data
+  PpiIgnored,  ///< a frame with a wrong check sum or end; count: its characters
 };
 
 struct TraceRecord {

@@ -150,8 +150,9 @@ TEST(OperandRules, ABlockThatRunsPastTheEndOfItsAreaIsFoundInEveryInstructionTha
         tried.insert(instruction.mnemonic);
       }
     }
-  EXPECT_EQ(tried, (std::set<std::string_view>{"S",    "R",    "BMB",  "BMW",  "BMD", "FILL", "SHRB", "ATH", "HTA", "ATT",
-                                               "FIFO", "LIFO", "TODR", "TODW", "PID", "ITA",  "DTA",  "RTA", "ITS", "DTS", "NETR", "NETW"}));
+  EXPECT_EQ(tried, (std::set<std::string_view>{"S",   "R",   "BMB",  "BMW",  "BMD",  "FILL", "SHRB", "ATH",
+                                               "HTA", "ATT", "FIFO", "LIFO", "TODR", "TODW", "PID",  "ITA",
+                                               "DTA", "RTA", "ITS",  "DTS",  "NETR", "NETW"}));
 }
 
 TEST(OperandRules, EachInstructionWithCountedOperandsHasOneCount) {
