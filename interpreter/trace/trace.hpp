@@ -38,8 +38,7 @@ enum class TraceKind : std::uint8_t {
   PpiService,         ///< byte: S7 function, event: the master's station; code: error of the answer, 0 if it was carried out
   PpiAccess,          ///< a variable that a master reads or writes, like PpiService. Code FF: op is its place in the image,
               ///< count its bytes, 0 for the bit `routine`. Otherwise op is the address and routine the area asked for
-  NetworkJob,  ///< NETR, or NETW if routine is 1: byte: the status in its table, at place op; event: the station, count:
-               ///< bytes of data
+  NetworkJob,  ///< NETR, or NETW if routine is 1; byte: status in its table at place op; event: station, count: bytes
   PpiIgnored,  ///< a frame with a wrong check sum or end; count: its characters
 };
 
