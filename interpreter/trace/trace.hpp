@@ -35,11 +35,11 @@ enum class TraceKind : std::uint8_t {
   RuntimeError,       ///< code; op: where
   FatalError,         ///< code; op: where
   Enable,             ///< code: 1 ENI, 0 DISI
+  NetworkJob,         ///< byte: the status in the table of NETR, or of NETW if routine is 1; op: its place in the image
   PpiService,         ///< byte: S7 function, event: the master's station; code: error of the answer, 0 if it was carried out
   PpiAccess,          ///< a variable that a master reads or writes, like PpiService. Code FF: op is its place in the image,
-              ///< count its bytes, 0 for the bit `routine`. Otherwise op is the address and routine the area asked for
-  NetworkJob,  ///< NETR, or NETW if routine is 1; byte: status in its table at place op; event: station, count: bytes
-  PpiIgnored,  ///< a frame with a wrong check sum or end; count: its characters
+                      ///< count its bytes, 0 for the bit `routine`. Otherwise op is the address and routine the area asked for
+  PpiIgnored,         ///< a frame with a wrong check sum or end; count: its characters
 };
 
 struct TraceRecord {
