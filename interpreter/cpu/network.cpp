@@ -119,11 +119,6 @@ void end(Core& core, std::uint8_t number, std::uint8_t status) {
   core.s.network[number].status = status;
 }
 
-/// Of a variable of an answer.
-std::uint8_t status_of(std::uint8_t code) {
-  return code == s7::kDone ? std::uint8_t{kJobDone} : failed(NetworkError::Message);
-}
-
 /// How the job ends with this answer. Its data go to the port.
 std::uint8_t status_of(NetworkPort& port, Span pdu) {
   constexpr std::size_t kCode = s7::kAnswerHead + 2, kValue = kCode + 4;
@@ -132,7 +127,8 @@ std::uint8_t status_of(NetworkPort& port, Span pdu) {
                          load16(&pdu[4]) == port.number && load16(&pdu[10]) == 0 &&
                          pdu[s7::kAnswerHead] == function_of(job) && pdu[s7::kAnswerHead + 1] == 1;
   if (!is_answer) return failed(NetworkError::Layer7);
-  if (job.writes || pdu[kCode] != s7::kDone) return status_of(pdu[kCode]);
+  if (pdu[kCode] != s7::kDone) return failed(NetworkError::Message);
+  if (job.writes) return kJobDone;
   if (pdu.size() < kValue + job.length || pdu[kCode + 1] != s7::kInBitsOfBytes || load16(&pdu[kCode + 2]) != job.length * 8)
     return failed(NetworkError::Layer7);
   std::copy_n(pdu.begin() + kValue, job.length, port.data.begin());
@@ -185,6 +181,10 @@ bool is_listed(const NetworkPort& port, std::uint32_t table) {
 }
 
 }  // namespace
+
+std::uint8_t length_of(const Core& core, std::uint32_t table) {
+  return core.in_area(table, kData) ? core.s.image[table + kLength] : std::uint8_t{0};
+}
 
 void start(Core& core, std::uint8_t number, std::uint32_t table, bool writes) {
   NetworkPort& port = core.s.network[number];

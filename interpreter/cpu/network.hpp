@@ -27,6 +27,9 @@
 
 namespace s7200::network {
 
+/// How many bytes a table asks for; 0 if it reaches beyond its area.
+std::uint8_t length_of(const Core& core, std::uint32_t table);
+
 /// NETR, or NETW if it `writes`; `table` is a place in the image.
 void start(Core& core, std::uint8_t port, std::uint32_t table, bool writes);
 

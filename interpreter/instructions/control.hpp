@@ -78,7 +78,7 @@ inline void detach(Core& core, const Op& op) { interrupts::detach(core, static_c
 /// NETR and NETW; NETW takes time for each byte.
 template <bool writes>
 void use_network(Core& core, const Op& op) {
-  core.spend(op, core.in_area(op[0].at, 7) ? core.s.image[op[0].at + 6] : 0);
+  core.spend(op, network::length_of(core, op[0].at));
   network::start(core, static_cast<std::uint8_t>(op[1].at), op[0].at, writes);
 }
 

@@ -126,7 +126,7 @@ void Line::drive(int number, Time at, bool mark) {
 
 void Line::drive(int number, unsigned levels, const BitTimes& times, Time at) {
   const unsigned stop_bit = 1U << first_stop_bit(times.clock.format);
-  if (idle() && (levels & stop_bit) != 0) {
+  if (may_imply() && (levels & stop_bit) != 0) {
     implied_.driver = number;
     implied_.levels = levels;
     implied_.start = at;
@@ -352,7 +352,7 @@ Time Line::space_held_from_before(Time edge) const {
 }
 
 void Line::forget(Time now) {
-  if (idle()) return;
+  if (may_imply()) return;  // there is nothing
   for (const LineListener* listener : wiring_.listeners) now = std::min(now, listener->needs_from());
   if (implied_.any() && now <= implied_.last_edge) return;
   implied_.driver = Implied::kNone;
