@@ -8,9 +8,9 @@
 
 #include "interpreter/instructions/bit_logic.hpp"
 #include "interpreter/instructions/compare.hpp"
-#include "interpreter/instructions/contact_chains.hpp"
 #include "interpreter/instructions/control.hpp"
 #include "interpreter/instructions/conversion.hpp"
+#include "interpreter/instructions/linked.hpp"
 #include "interpreter/instructions/math.hpp"
 #include "interpreter/instructions/move.hpp"
 #include "interpreter/instructions/operand_rules.hpp"
@@ -442,9 +442,6 @@ static_assert(std::ranges::all_of(kInstructions, has_room_for_a_hidden_operand))
 
 std::span<const Instruction> all_instructions() { return kInstructions; }
 
-Link link_of_chain(std::size_t contacts, std::size_t joins, std::size_t coils) {
-  return linked::find_chain(contacts, joins, coils, std::make_index_sequence<kMostCoils + 1>{});
-}
 Link link_of_any() { return linked::kTailCalls ? linked::on_core<nullptr> : nullptr; }
 Link link_of_step(Body step) {
   if (step == run_with_pointer_first) return linked::on_core<run_with_pointer_first>;

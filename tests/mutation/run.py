@@ -12,7 +12,8 @@ and runs the tests from the quickest to the slowest until one fails. A mutant th
     tests/mutation/run.py --work DIR      keeps the copy of the tree and its build, so that a second run starts at once
 
 Works on a copy of the tree. There the interpreter is a shared library, and a mutant is table.cpp with its bodies, built
-alone, that the tests find in front of it (LD_PRELOAD): a second or two, and nothing is linked again. CXX names the compiler
+alone, that the tests find in front of it (LD_PRELOAD): a second or two, and nothing is linked again. The chains of contacts
+take as long as all the rest, and are built with it only when the change is in them or in what they are made of. CXX names the compiler
 (clang++ where there is one): Clang is twice as quick, and has the fast loop without optimisation; GCC has not, so that the
 links of the fast loop are changed with Clang only.
 
@@ -39,7 +40,9 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BODIES = "interpreter/instructions"
 TABLE = f"{BODIES}/table.cpp"
 RULES = f"{BODIES}/operand_rules.hpp"
-LINKS = [f"{BODIES}/linked.hpp", f"{BODIES}/contact_chains.hpp"]
+CHAINS = f"{BODIES}/contact_chains.cpp"
+LINKS = [f"{BODIES}/linked.hpp", CHAINS]
+CHAINS_ARE_MADE_OF = [*LINKS, f"{BODIES}/bit_logic.hpp"]
 COMPILER = os.environ.get("CXX") or shutil.which("clang++") or "c++"
 EQUIVALENT = pathlib.Path(__file__).resolve().parent / "equivalent.txt"
 GOAL = 0.95
@@ -123,7 +126,7 @@ def mutants_of(path, patterns, is_changed):
 
 
 def all_mutants():
-    for path in sorted((ROOT / BODIES).glob("*.hpp")):
+    for path in [*sorted((ROOT / BODIES).glob("*.hpp")), ROOT / CHAINS]:
         name = f"{BODIES}/{path.name}"
         if name != RULES and (name not in LINKS or "clang" in COMPILER):
             yield from mutants_of(name, IN_BODIES, is_code)
@@ -154,7 +157,7 @@ class Tests:
     TARGETS = ["interpreter_tests", "program_tests", "lockstep_test", "generate_vectors", "s7200"]
     STAGES = ["vectors", "lock-step", "unit tests", "whole programs", "wrong programs", "programs that go wrong", "vectors as generated", "reference page"]
     SECONDS, KILOBYTES = 120, 4_000_000  # of processor time and memory; what needs more hangs
-    # What every mutant's table.cpp includes and no mutant changes.
+    # What every mutant includes and no mutant changes.
     PRECOMPILED = ["algorithm", "array", "bit", "cmath", "numeric", "optional", "type_traits", "interpreter/cpu/core.hpp",
                    "interpreter/model/instruction.hpp"]
 
@@ -215,16 +218,18 @@ class Tests:
         """Name of the first stage that fails, "" when none does, None when the mutant does not compile."""
         with tempfile.TemporaryDirectory(dir=self.work) as folder:
             place = pathlib.Path(folder)
-            library, (include, source) = place / "mutant.so", (place, self.tree / TABLE)
+            library, sources = place / "mutant.so", [self.tree / TABLE]
             if mutant:
                 lines = (self.tree / mutant.path).read_text(encoding="utf-8").split("\n")
                 lines[mutant.number - 1] = mutant.after
                 changed = place / mutant.path
                 changed.parent.mkdir(parents=True)
                 changed.write_text("\n".join(lines), encoding="utf-8")
-                source = changed if mutant.path == TABLE else source
+                if mutant.path in CHAINS_ARE_MADE_OF:
+                    sources.append(self.tree / CHAINS)
+                sources = [changed if self.tree / mutant.path == source else source for source in sources]
             # A changed header is found before that of the tree.
-            if not self.call([*self.compiler, "-include", self.work / "precompiled.hpp", "-I", include, "-I", self.tree, "-shared", source,
+            if not self.call([*self.compiler, "-include", self.work / "precompiled.hpp", "-I", place, "-I", self.tree, "-shared", *sources,
                               "-o", library, f"-L{self.build_dir}/interpreter", "-ls7200_interpreter",
                               f"-Wl,-rpath,{self.build_dir}/interpreter"]):
                 return None

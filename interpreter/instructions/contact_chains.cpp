@@ -1,7 +1,5 @@
 // Links of chains: contacts that stand one after the other and the coils that end them, in one go, with one look at the
 // time. There is one for each way to join up to four contacts, made from the same combine() that single contacts use.
-#pragma once
-
 #include <array>
 #include <utility>
 
@@ -57,3 +55,11 @@ Link find_chain(std::size_t contacts, std::size_t joins, std::size_t wanted, std
 }
 
 }  // namespace s7200::linked
+
+namespace s7200 {
+
+Link link_of_chain(std::size_t contacts, std::size_t joins, std::size_t coils) {
+  return linked::find_chain(contacts, joins, coils, std::make_index_sequence<kMostCoils + 1>{});
+}
+
+}  // namespace s7200
