@@ -71,27 +71,19 @@ std::string network_text(const TraceRecord& r) {
 
 }  // namespace
 
-const std::string& EventLines::event(std::uint8_t number) {
+const std::string& EventText::event(std::uint8_t number) {
   std::string& text = events_[number];
   if (text.empty()) text = fmt::format("event {} ({})", number, find_event(number)->cause);
   return text;
 }
 
-const std::string& EventLines::duration(Time time) {
+const std::string& EventText::duration(Time time) {
   Duration& known = durations_[static_cast<std::size_t>(time) / 100 % durations_.size()];
   if (known.time != time) known = {time, format_duration(time)};
   return known.text;
 }
 
-void EventLines::append_line(fmt::memory_buffer& text, const TraceRecord& record) {
-  append_clock(text, record.at);
-  append(text, "  ");
-  append_what(text, record);
-  append(text, reasons_.of(record), "\n");
-  reasons_.note(record);
-}
-
-void EventLines::append_what(fmt::memory_buffer& text, const TraceRecord& r) {
+void EventText::append_to(fmt::memory_buffer& text, const TraceRecord& r) {
   if (r.port != 0) append(text, "port ", r.port, ": ");  // port 0 goes without saying: most CPUs have no other
   const auto add = [&text](const auto&... parts) { append(text, parts...); };
   switch (r.kind) {
@@ -163,9 +155,17 @@ void EventLines::append_what(fmt::memory_buffer& text, const TraceRecord& r) {
   }
 }
 
+void EventLines::append_line(fmt::memory_buffer& text, const TraceRecord& record) {
+  append_clock(text, record.at);
+  append(text, "  ");
+  text_.append_to(text, record);
+  append(text, reasons_.of(record), "\n");
+  reasons_.note(record);
+}
+
 std::string describe(const TraceRecord& record, const Program& program) {
   fmt::memory_buffer text;
-  EventLines(program).append_what(text, record);
+  EventText(program).append_to(text, record);
   return fmt::to_string(text);
 }
 

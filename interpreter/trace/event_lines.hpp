@@ -13,20 +13,18 @@
 
 namespace s7200 {
 
-class EventLines {
+/// What happened, in words, without the reason.
+class EventText {
  public:
   /// The program must live as long as this.
-  explicit EventLines(const Program& program) : program_(program), reasons_(program) {}
+  explicit EventText(const Program& program) : program_(program) {}
 
-  /// Appends `     154.215259  INT 123 ends: took 259.4 us` and a line end. Must be told every record, in their order: a
-  /// line says why as well (trace_reasons.hpp).
-  void append_line(fmt::memory_buffer& text, const TraceRecord& record);
+  /// Appends `INT 122 begins: event 8 (…), waited 12 us`.
+  void append_to(fmt::memory_buffer& text, const TraceRecord& record);
 
  private:
-  void append_what(fmt::memory_buffer& text, const TraceRecord& record);
   const std::string& event(std::uint8_t number);
   const std::string& duration(Time time);
-  friend std::string describe(const TraceRecord& record, const Program& program);
 
   struct Duration {
     Time time = -1;
@@ -34,9 +32,22 @@ class EventLines {
   };
 
   const Program& program_;
-  TraceReasons reasons_;
   std::array<std::string, kEvents> events_;
   std::array<Duration, 64> durations_;  ///< the last ones, each at a place of its own
+};
+
+class EventLines {
+ public:
+  /// The program must live as long as this.
+  explicit EventLines(const Program& program) : text_(program), reasons_(program) {}
+
+  /// Appends `     154.215259  INT 123 ends: took 259.4 us` and a line end. Must be told every record, in their order: a
+  /// line says why as well (trace_reasons.hpp).
+  void append_line(fmt::memory_buffer& text, const TraceRecord& record);
+
+ private:
+  EventText text_;
+  TraceReasons reasons_;
 };
 
 /// One line for a record, without the time and the line end: `INT 122 begins: event 8 (…), waited 12 us`.

@@ -15,7 +15,9 @@ std::string text_of(const TraceReasons::Unanswered& frame) {
 std::string characters_text(std::size_t count) { return count == 1 ? "a character" : fmt::format("{} characters", count); }
 
 std::vector<TraceLine> TraceLines::of(const TraceRecord& record) {
-  std::vector<TraceLine> lines{{record.at, describe(record, program_) + reasons_.of(record)}};
+  fmt::memory_buffer text;
+  text_.append_to(text, record);
+  std::vector<TraceLine> lines{{record.at, fmt::to_string(text) + reasons_.of(record)}};
   if (const auto unanswered = reasons_.unanswered(record)) lines.push_back({record.at, text_of(*unanswered)});
   if (std::string way = path_.of(record); !way.empty()) lines.push_back({record.at, std::move(way)});
   reasons_.note(record);

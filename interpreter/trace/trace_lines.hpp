@@ -25,7 +25,7 @@ struct TraceLine {
 class TraceLines {
  public:
   /// The program must live as long as this.
-  explicit TraceLines(const Program& program) : program_(program), reasons_(program), path_(program) {}
+  explicit TraceLines(const Program& program) : text_(program), reasons_(program), path_(program) {}
 
   std::vector<TraceLine> of(const TraceRecord& record);
   std::vector<TraceLine> of(const InstructionRecord& record);
@@ -38,7 +38,7 @@ class TraceLines {
   void forget();
 
  private:
-  const Program& program_;
+  EventText text_;
   TraceReasons reasons_;
   ProgramPath path_;
 };
