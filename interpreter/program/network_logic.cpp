@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "interpreter/base/split_mix.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/program/operand_memory.hpp"
 #include "interpreter/stl/printer.hpp"
@@ -218,13 +219,6 @@ class LogicReader {
 
 constexpr std::size_t kAllValues = 12;  // so many contacts have 4096 combinations
 
-std::uint64_t next_random(std::uint64_t& state) {  // SplitMix64
-  std::uint64_t z = state += 0x9E37'79B9'7F4A'7C15;
-  z = (z ^ (z >> 30)) * 0xBF58'476D'1CE4'E5B9;
-  z = (z ^ (z >> 27)) * 0x94D0'49BB'1331'11EB;
-  return z ^ (z >> 31);
-}
-
 /// The values of all contacts in 64 trials at once: a word for each contact.
 class Trials {
  public:
@@ -261,8 +255,8 @@ class Trials {
   }
   /// Long series are on only if nearly all contacts are, so ones and zeros are not always as many.
   std::uint64_t random(std::size_t round) {
-    const std::uint64_t even = next_random(seed_);
-    return round % 3 == 0 ? even : round % 3 == 1 ? even | next_random(seed_) : even & next_random(seed_);
+    const std::uint64_t even = draw_split_mix(seed_);
+    return round % 3 == 0 ? even : round % 3 == 1 ? even | draw_split_mix(seed_) : even & draw_split_mix(seed_);
   }
   /// Every contact conducts, but one in each trial.
   std::uint64_t turned(std::size_t i, std::size_t round) const {

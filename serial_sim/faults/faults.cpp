@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "interpreter/base/split_mix.hpp"
+
 namespace s7200::serial {
 namespace {
 
@@ -57,12 +59,7 @@ bool hits_character(const Fault& fault, std::uint32_t number) {
 
 }  // namespace
 
-std::uint64_t Faults::Chance::draw() {
-  std::uint64_t z = state_ += 0x9E3779B97F4A7C15U;
-  z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
-  z = (z ^ z >> 27) * 0x94D049BB133111EBU;
-  return z ^ z >> 31;
-}
+std::uint64_t Faults::Chance::draw() { return draw_split_mix(state_); }
 
 bool Faults::Chance::hits(double probability) { return static_cast<double>(draw() >> 11) * 0x1p-53 < probability; }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "interpreter/base/split_mix.hpp"
+
 namespace s7200::serial {
 /// Counting is faster than searching: there are a handful of edges, and no branch to guess.
 std::size_t Line::Driver::edges_until(Time at) const {
@@ -185,12 +187,9 @@ void Line::note_whether_disturbed() {
   disturbed_ = !std::all_of(disturbances_.begin(), disturbances_.end(), [](const Periods& those) { return those.none(); });
 }
 
-/// SplitMix64 of the seed and the instant: the same on every computer.
+/// Of the seed and the instant, whoever asks first.
 static bool toss(std::uint64_t seed, Time at) {
-  std::uint64_t z = seed + static_cast<std::uint64_t>(at) * 0x9E3779B97F4A7C15U;
-  z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
-  z = (z ^ z >> 27) * 0x94D049BB133111EBU;
-  return ((z ^ z >> 31) & 1U) != 0;
+  return (split_mix(seed + static_cast<std::uint64_t>(at) * kSplitMixStep) & 1U) != 0;
 }
 
 /// Space wins where two drivers disagree; where chance says mark instead, receivers find mark.
