@@ -65,16 +65,11 @@ s7::Function function_of(const NetworkPort::Job& job) { return job.writes ? s7::
 
 Bytes request_of(const Core& core, const NetworkPort& port) {
   const NetworkPort::Job& job = port.jobs.front();
-  const s7::WireArea& area = *area_of(job.pointer);
-  const std::uint32_t bit = (job.pointer & 0xFFFF) * 8;
   Bytes parameters{function_of(job), 1};
-  parameters.insert(parameters.end(), s7::kVariableHead.begin(), s7::kVariableHead.end());
-  parameters.push_back(s7::kByte);
-  s7::append16(parameters, job.length);
-  s7::append16(parameters, area.area == Area::V ? 1 : 0);
-  parameters.push_back(area.code);
-  parameters.push_back(static_cast<std::uint8_t>(bit >> 16));
-  s7::append16(parameters, bit & 0xFFFF);
+  append(
+      parameters,
+      s7::Variable{
+          .type = s7::kByte, .count = job.length, .area = area_of(job.pointer)->area, .first = (job.pointer & 0xFFFF) * 8});
   Bytes data;
   if (job.writes) {
     data = {0, s7::kInBitsOfBytes};
@@ -82,13 +77,7 @@ Bytes request_of(const Core& core, const NetworkPort& port) {
     const auto first = core.s.image.begin() + job.table + kData;
     data.insert(data.end(), first, first + job.length);
   }
-  Bytes pdu{s7::kProtocol, s7::kRequest, 0, 0};
-  s7::append16(pdu, port.number);
-  s7::append16(pdu, parameters.size());
-  s7::append16(pdu, data.size());
-  pdu.insert(pdu.end(), parameters.begin(), parameters.end());
-  pdu.insert(pdu.end(), data.begin(), data.end());
-  return pdu;
+  return s7::pdu(s7::kRequest, port.number, parameters, data);
 }
 
 std::uint8_t timer_of(std::uint8_t port) { return static_cast<std::uint8_t>(kNetworkTimer0 + port); }

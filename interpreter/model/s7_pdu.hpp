@@ -60,4 +60,19 @@ inline void append16(Bytes& to, std::size_t value) {
   to.push_back(static_cast<std::uint8_t>(value));
 }
 
+/// 0 for an area that has none.
+std::uint8_t code_of(Area area);
+
+/// In the parameters of a read or write. T, C and HC have the code of their area as their type.
+struct Variable {
+  std::uint8_t type;
+  std::size_t count;
+  Area area;
+  std::uint32_t first;  ///< bit of the area, 24 bits; of T, C and HC their number
+};
+void append(Bytes& to, const Variable& variable);
+
+/// Anything but an answer, which has its error too.
+Bytes pdu(Kind kind, std::uint16_t number, const Bytes& parameters, const Bytes& data);
+
 }  // namespace s7200::s7

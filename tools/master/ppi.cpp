@@ -20,19 +20,8 @@ constexpr std::uint8_t kStation = 2, kProgrammingDevice = 0;
 /// A scan may last 500 ms, and a poll with its reply takes 10.
 constexpr int kMostPolls = 60;
 
-Bytes pdu(s7::Kind kind, const Bytes& parameters, const Bytes& data) {
-  Bytes pdu{s7::kProtocol, kind, 0, 0, 0, 1};
-  s7::append16(pdu, parameters.size());
-  s7::append16(pdu, data.size());
-  pdu.insert(pdu.end(), parameters.begin(), parameters.end());
-  pdu.insert(pdu.end(), data.begin(), data.end());
-  return pdu;
-}
-
-std::uint8_t area_code(Area area) {
-  const auto found = std::ranges::find_if(s7::kWireAreas, [&](const s7::WireArea& wire) { return wire.area == area; });
-  return found == s7::kWireAreas.end() ? std::uint8_t{0} : found->code;
-}
+/// Its number: there is one at a time.
+constexpr std::uint16_t kOnlyRequest = 1;
 
 bool is_element(const MemoryRange& range) { return info(range.area).element != 0; }
 
@@ -50,17 +39,10 @@ s7::Type type_of(Width width) {
   return s7::kByte;
 }
 
-Bytes variable(const MemoryRange& range) {
-  const std::uint8_t code = area_code(range.area);
-  const std::uint8_t type = is_element(range) ? code : std::uint8_t{type_of(range.width)};
-  const std::uint32_t address = is_element(range) ? range.number : range.number * 8 + range.bit;
-  Bytes bytes(s7::kVariableHead.begin(), s7::kVariableHead.end());
-  bytes.push_back(type);
-  s7::append16(bytes, range.count);
-  s7::append16(bytes, range.area == Area::V ? 1 : 0);
-  bytes.insert(bytes.end(), {code, static_cast<std::uint8_t>(address >> 16)});
-  s7::append16(bytes, address & 0xFFFF);
-  return bytes;
+s7::Variable variable(const MemoryRange& range) {
+  if (is_element(range))
+    return {.type = s7::code_of(range.area), .count = range.count, .area = range.area, .first = range.number};
+  return {.type = type_of(range.width), .count = range.count, .area = range.area, .first = range.number * 8 + range.bit};
 }
 
 /// A request, and what its answer is to be read as.
@@ -344,7 +326,7 @@ MemoryRange Parser::range_of(const std::string& text) {
   std::string why;
   const auto range = parse_range(text, cpu226(), why);
   if (!range) refuse(why);
-  if (area_code(range->area) == 0)
+  if (s7::code_of(range->area) == 0)
     refuse(fmt::format("'{}': a master cannot reach {}", stl::shortened(text), info(range->area).meaning));
   return *range;
 }
@@ -356,9 +338,8 @@ void Parser::read(const Words& operands) {
     const MemoryRange range = range_of(operand);
     if (range.bytes() > kMost) refuse(fmt::format("{}: {} bytes; a request reads {} at most", text_, range.bytes(), kMost));
     Bytes parameters{s7::kRead, 1};
-    const Bytes one = variable(range);
-    parameters.insert(parameters.end(), one.begin(), one.end());
-    add({.pdu = pdu(s7::kRequest, parameters, {}), .range = range});
+    append(parameters, variable(range));
+    add({.pdu = s7::pdu(s7::kRequest, kOnlyRequest, parameters, {}), .range = range});
   }
 }
 
@@ -394,13 +375,12 @@ void Parser::write(const Words& operands) {
     if (value.size() > kMost) refuse(fmt::format("{}: {} bytes; a request writes {} at most", text_, value.size(), kMost));
     range_of(range.name_of(range.count - 1));
     Bytes parameters{s7::kWrite, 1};
-    const Bytes one = variable(range);
-    parameters.insert(parameters.end(), one.begin(), one.end());
+    append(parameters, variable(range));
     const auto type = range.width == Width::Bit ? s7::kInBits : is_element(range) ? s7::kInBytes : s7::kInBitsOfBytes;
     Bytes data{0, type};
     s7::append16(data, type == s7::kInBitsOfBytes ? value.size() * 8 : value.size());
     data.insert(data.end(), value.begin(), value.end());
-    add({.pdu = pdu(s7::kRequest, parameters, data), .range = range});
+    add({.pdu = s7::pdu(s7::kRequest, kOnlyRequest, parameters, data), .range = range});
   }
 }
 
@@ -408,11 +388,12 @@ void Parser::change_mode(s7::Function function, Bytes parameters) {
   parameters.insert(parameters.begin(), function);
   parameters.push_back(static_cast<std::uint8_t>(s7::kProgram.size()));
   parameters.insert(parameters.end(), s7::kProgram.begin(), s7::kProgram.end());
-  add({.pdu = pdu(s7::kRequest, parameters, {}), .what = function == s7::kRun ? "run" : "stop"});
+  add({.pdu = s7::pdu(s7::kRequest, kOnlyRequest, parameters, {}), .what = function == s7::kRun ? "run" : "stop"});
 }
 
 void Parser::add_clock(std::uint8_t service, const Bytes& data) {
-  add({.pdu = pdu(s7::kUserData, {0, 1, 0x12, 4, 0x11, static_cast<std::uint8_t>(0x40 | s7::kClockGroup), service, 0}, data),
+  add({.pdu = s7::pdu(s7::kUserData, kOnlyRequest,
+                      {0, 1, 0x12, 4, 0x11, static_cast<std::uint8_t>(0x40 | s7::kClockGroup), service, 0}, data),
        .what = service == s7::kReadClock ? "clock" : "set-clock"});
 }
 
