@@ -294,6 +294,7 @@ class Menu(unittest.TestCase):
         self.assertIn("an answer is needed", self.answer(terminal, "6 1\n"))
         self.assertIn("holding registers 10…11", self.answer(terminal, "read 40011:2"), "actions do as well")
         for wrong, said in (("x", "'x' is not a key; M shows the menu"), ("3 frob 1", "frob"), ("7 5", "asks for nothing"),
+                            ("3 00003 1", "00003 is a coil, and this key is for holding"), ("3 40000 1", "there is no holding register 40000"),
                             ("frob", "'frob' is not an action"), ("s 300", "not a slave from 0 to 255")):
             self.assertIn(said, self.answer(terminal, wrong))
         self.quit(terminal)

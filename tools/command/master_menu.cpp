@@ -12,6 +12,7 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
+#include "serial_sim/modbus/address.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/line_editor.hpp"
 #include "tools/command/screen.hpp"
@@ -29,7 +30,7 @@ struct Question {
   std::string_view text, usual{};
 };
 
-/// A Modbus function: its action, with the answers in it. Addresses with five digits or more name their area themselves.
+/// A Modbus function: its action, with the answers in it.
 struct Function {
   std::string_view key, name, action;
   std::array<Question, 3> questions{};
@@ -58,18 +59,6 @@ constexpr Function kFunctions[] = {
 struct MenuRequest {
   Words words{};
   std::string_view option{};  ///< of the protocol
-};
-
-/// What else there is, in the view; the menu itself does it.
-constexpr std::pair<std::string_view, std::string_view> kOthers[] = {
-    {"L", "loopbacks without end"},
-    {"T", "test: the last one without end"},
-    {"S", "slave"},
-    {"C", "configure the port"},
-    {"N", "new statistics"},
-    {"M", "menu"},
-    {"H", "help"},
-    {"Q", "quit"},
 };
 
 constexpr std::string_view kHelp =
@@ -101,6 +90,19 @@ std::string joined_by_commas(const Words& words) {
   return text;
 }
 
+/// Of an address: 40011 does, 10 does not. It must be the area that the key is for.
+bool names_its_area(const std::string& address, const std::string& area) {
+  constexpr std::size_t kNotation = 5;  // digits
+  if (address.size() < kNotation || !std::ranges::all_of(address, stl::is_digit)) return false;
+  std::string why;
+  const auto named = modbus::parse_address(address, why);
+  if (!named) throw std::invalid_argument(why);
+  const modbus::AreaRow& row = modbus::row_of(named->area);
+  if (row.word != area)
+    throw std::invalid_argument(fmt::format("{} is a {}, and this key is for {}", address, row.singular, area));
+  return true;
+}
+
 std::size_t questions_of(const Function& function) {
   return static_cast<std::size_t>(
       std::ranges::count_if(function.questions, [](const Question& one) { return !one.text.empty(); }));
@@ -121,6 +123,13 @@ class Menu {
   /// What is wrong with what was typed.
   using Wrong = std::invalid_argument;
 
+  /// What the menu does itself.
+  struct Key {
+    std::string_view key, name;
+    void (Menu::*press)(Words& answers);
+  };
+  static const std::array<Key, 8> kOthers;
+
   void show_keys() const;
   std::vector<std::string> key_lines(int columns) const;
   std::vector<std::string> view() const;
@@ -132,7 +141,12 @@ class Menu {
   bool execute_key(const std::string& key, Words& answers);
   void do_function(const Function& function, Words& answers);
   void do_request(MenuRequest request);
-  void repeat();
+  void repeat_loopbacks(Words& answers);
+  void repeat(Words& answers);
+  void count_anew(Words&) { statistics_ = {}; }
+  void show_menu(Words&) { show_keys(); }
+  void help(Words&) { fmt::print("{}", kHelp); }
+  void quit(Words&) { quit_ = true; }
   std::vector<MasterAction> actions_of(const MenuRequest& request) const;
   void perform(const std::vector<MasterAction>& actions, std::uint64_t rounds);
   void show(const MasterResult& result) const;
@@ -154,12 +168,23 @@ class Menu {
                   }}};
 };
 
+constexpr std::array<Menu::Key, 8> Menu::kOthers{{
+    {"L", "loopbacks without end", &Menu::repeat_loopbacks},
+    {"T", "test: the last one without end", &Menu::repeat},
+    {"S", "slave", &Menu::change_slave},
+    {"C", "configure the port", &Menu::configure_port},
+    {"N", "new statistics", &Menu::count_anew},
+    {"M", "menu", &Menu::show_menu},
+    {"H", "help", &Menu::help},
+    {"Q", "quit", &Menu::quit},
+}};
+
 // --- what is seen ---
 
 std::vector<std::string> Menu::key_lines(int columns) const {
   std::vector<std::string> keys;
   for (const Function& function : kFunctions) keys.push_back(fmt::format("{}  {}", function.key, function.name));
-  for (const auto& [key, name] : kOthers) keys.push_back(fmt::format("{}  {}", key, name));
+  for (const Key& other : kOthers) keys.push_back(fmt::format("{}  {}", other.key, other.name));
   if (columns < 2 * kKeyWidth) return keys;
   const std::size_t rows = (keys.size() + 1) / 2;
   for (std::size_t i = 0; i + rows < keys.size(); ++i) keys[i] = fmt::format("{:<{}}{}", keys[i], kKeyWidth, keys[i + rows]);
@@ -230,9 +255,7 @@ void Menu::do_function(const Function& function, Words& answers) {
   for (std::size_t i = 0; i < count; ++i) given[i] = ask(function.questions[i], answers, i + 1 == count);
   if (!answers.empty()) throw Wrong(fmt::format("{} asks for nothing", function.name));
   Words words = words_of(fmt::format(fmt::runtime(function.action), given[0], given[1], given[2]));
-  constexpr std::size_t kNotation = 5;  // digits, the first of which names the area
-  const bool named = given[0].size() >= kNotation && std::ranges::all_of(given[0], stl::is_digit);
-  if (words.size() == 3 && named) words.erase(words.begin() + 1);
+  if (words.size() == 3 && names_its_area(given[0], words[1])) words.erase(words.begin() + 1);
   do_request({std::move(words), function.option});
 }
 
@@ -248,7 +271,12 @@ void Menu::do_request(MenuRequest request) {
   perform(actions, 1);
 }
 
-void Menu::repeat() {
+void Menu::repeat_loopbacks(Words& answers) {
+  last_ = {.words = {"loopback"}};
+  repeat(answers);
+}
+
+void Menu::repeat(Words&) {
   if (last_.words.empty()) throw Wrong("there is nothing to repeat yet");
   const std::vector<MasterAction> actions = actions_of(last_);
   fmt::print("until Ctrl-C …\n");
@@ -320,28 +348,10 @@ void Menu::configure_port(Words& answers) {
 /// False for what is not a key.
 bool Menu::execute_key(const std::string& key, Words& answers) {
   const auto function = std::ranges::find(kFunctions, key, &Function::key);
-  if (function != std::end(kFunctions)) {
-    do_function(*function, answers);
-  } else if (key == "L") {
-    last_ = {.words = {"loopback"}};
-    repeat();
-  } else if (key == "T") {
-    repeat();
-  } else if (key == "S") {
-    change_slave(answers);
-  } else if (key == "C") {
-    configure_port(answers);
-  } else if (key == "N") {
-    statistics_ = {};
-  } else if (key == "M") {
-    show_keys();
-  } else if (key == "H") {
-    fmt::print("{}", kHelp);
-  } else if (key == "Q") {
-    quit_ = true;
-  } else {
-    return false;
-  }
+  if (function != std::end(kFunctions)) return do_function(*function, answers), true;
+  const auto other = std::ranges::find(kOthers, key, &Key::key);
+  if (other == kOthers.end()) return false;
+  (this->*other->press)(answers);
   return true;
 }
 
