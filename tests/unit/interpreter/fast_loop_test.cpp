@@ -106,6 +106,14 @@ TEST(FastLoop, WhatNeedsAStepAroundItsBodyIsInNoChain) {
     }
 }
 
+TEST(FastLoop, ABoxWithoutPowerFlowLeavesNoEno) {
+  Plc plc("LD SM0.0\n+I VW0, VW2\nLD M0.0\n+I VW0, VW2\nLD SM0.0\nAENO\n= M1.0\nMEND\n", *find_cpu("224"));
+  plc.cpu.set_sink(nullptr);
+  plc.set("MB1", 1);
+  plc.run_until(20 * ms);
+  EXPECT_EQ(plc.value("MB1"), 0);
+}
+
 /// What a thread with little stack is given to do.
 void* run_a_million(void* plc) {
   static_cast<Plc*>(plc)->run_until(12 * kSecond);

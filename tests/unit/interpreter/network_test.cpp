@@ -105,6 +105,16 @@ TEST(Network, APointerMayPointToInputsOutputsAndMemoryBits) {
   }
 }
 
+TEST(Network, AJobIsOfThePortThatTheInstructionNames) {
+  std::string program = master("NETR VB100, 1");
+  program.replace(program.find("SMB30"), 5, "SMB130");
+  Plc plc(program, *find_cpu("226"));
+  plc.run_until(30 * ms);
+  EXPECT_EQ(status(plc), 0x40) << "active";
+  EXPECT_TRUE(plc.port.sent.empty());
+  EXPECT_FALSE(plc.port1.sent.empty());
+}
+
 TEST(Network, JobsAreDoneOneAfterTheOther) {
   Plc plc(master("MOVB 3, VB121\nMOVD &VB300, VD122\nMOVB 1, VB126\nNETR VB100, 0\nNETR VB120, 0"));
   unsigned number = 0;
