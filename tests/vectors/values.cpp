@@ -283,7 +283,7 @@ List reals_as_text() {
   for (const std::uint32_t format : {0x30u, 0x31u, 0x20u, 0x00u, 0x41u, 0x32u, 0x52u, 0xF5u, 0xFDu, 0xF6u, 0x84u, 0x85u})
     add(2.5f, format);
   for (const float value : {0.5f, 1.5f, -0.5f, 0.0f, -0.0f, 999.5f, 1e10f, 1e20f, kNoNumber, kInfinity}) add(value, 0x40);
-  for (const float value : {0.005f, 0.015625f, -123.456f, 16777216.0f, 1e-40f}) add(value, 0xF5);
+  for (const float value : {0.005f, 0.015625f, -123.456f, 16777216.0f, 1e-40f, 99.90625f}) add(value, 0xF5);
   return list;
 }
 
