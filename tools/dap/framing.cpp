@@ -10,14 +10,41 @@
 namespace s7200::tools::dap {
 
 std::optional<std::string> FrameReader::next(std::string& why) {
-  if (!header_complete_ && !read_header(why)) return {};
+  if (lost_ && !find_header()) return {};
+  if (!header_complete_ && !read_header(why)) {
+    lost_ = !why.empty();
+    if (lost_) begin_message();
+    return {};
+  }
   if (buffer_.size() < *length_) return {};
   std::string content = buffer_.substr(0, *length_);
   buffer_.erase(0, *length_);
+  begin_message();
+  return content;
+}
+
+void FrameReader::begin_message() {
   length_.reset();
   lines_ = header_bytes_ = 0;
   header_complete_ = false;
-  return content;
+}
+
+void FrameReader::reject(std::string_view content) {
+  buffer_.insert(0, content);
+  begin_message();
+  lost_ = true;
+}
+
+/// Skips what is in front of it.
+bool FrameReader::find_header() {
+  constexpr std::string_view kName = "CONTENT-LENGTH:";
+  const auto same = [](char c, char upper) { return stl::upper_case({&c, 1})[0] == upper; };
+  const auto found = std::search(buffer_.begin(), buffer_.end(), kName.begin(), kName.end(), same);
+  lost_ = found == buffer_.end();
+  const std::size_t kept =
+      lost_ ? std::min(buffer_.size(), kName.size() - 1) : static_cast<std::size_t>(buffer_.end() - found);
+  buffer_.erase(0, buffer_.size() - kept);
+  return !lost_;
 }
 
 /// Whether all of it has come.
@@ -26,6 +53,7 @@ bool FrameReader::read_header(std::string& why) {
     const std::size_t end = buffer_.find('\n');
     if (header_bytes_ + std::min(end, buffer_.size()) > kLongestHeader) {
       why = fmt::format("the header of a message is longer than {} bytes", kLongestHeader);
+      buffer_.erase(0, end == std::string::npos ? end : end + 1);
       return false;
     }
     if (end == std::string::npos) return false;

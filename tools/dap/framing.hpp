@@ -16,17 +16,23 @@ class FrameReader {
   void add(std::string_view bytes) { buffer_ += bytes; }
 
   /// The content of the next message; nothing if it is not complete yet. Sets `why` if what came cannot become a message:
-  /// nothing more can be read then.
+  /// all up to the next `Content-Length:` is skipped then.
   std::optional<std::string> next(std::string& why);
 
+  /// What next() gave was no message: its length may have been wrong, so the next header is looked for in it too.
+  void reject(std::string_view content);
+
   /// Whether a part of a message has come.
-  bool is_amid() const { return !buffer_.empty() || length_ || lines_ != 0; }
+  bool is_amid() const { return !lost_ && (!buffer_.empty() || length_ || lines_ != 0); }
 
  private:
   bool read_header(std::string& why);
   bool read_line(std::string_view line, std::string& why);
+  void begin_message();
+  bool find_header();
 
   std::string buffer_;
+  bool lost_ = false;  ///< looks for the next header
   std::optional<std::size_t> length_;
   std::size_t lines_ = 0;  ///< of the header, read
   std::size_t header_bytes_ = 0;

@@ -19,7 +19,8 @@ bool Inbox::is_urgent(const Json& message) {
   const Json arguments = object_in(message, "arguments");
   if (text_in(message, "command") == "cancel" && arguments.contains("requestId")) {
     const std::int64_t wanted = number_in(arguments, "requestId");
-    const auto waits = std::ranges::find_if(messages_, [&](const Json& one) { return number_in(one, "seq") == wanted; });
+    const auto waits =
+        std::ranges::find_if(messages_, [&](const Item& one) { return number_in(one.message, "seq") == wanted; });
     if (waits != messages_.end()) {
       cancelled_.insert(wanted);
       return false;
@@ -30,8 +31,18 @@ bool Inbox::is_urgent(const Json& message) {
 
 void Inbox::put(Json message) {
   const std::lock_guard lock(mutex_);
-  if (runs_ || is_urgent(message)) stop_request_ = true;
-  messages_.push_back(std::move(message));
+  const bool urgent = is_urgent(message);
+  put({std::move(message), false}, urgent);
+}
+
+void Inbox::put_unreadable(const std::string& wrong) {
+  const std::lock_guard lock(mutex_);
+  put({wrong, true}, false);
+}
+
+void Inbox::put(Item item, bool urgent) {
+  if (runs_ || urgent) stop_request_ = true;
+  messages_.push_back(std::move(item));
   come_.notify_one();
 }
 
@@ -53,9 +64,11 @@ Inbox::Next Inbox::take(bool runs, Json& message) {
     return Next::Run;
   }
   runs_ = false;
-  message = std::move(messages_.front());
+  message = std::move(messages_.front().message);
+  const bool unreadable = messages_.front().unreadable;
   messages_.pop_front();
-  stop_request_ = closed_ || std::ranges::any_of(messages_, ends_what_goes_on);
+  stop_request_ = closed_ || std::ranges::any_of(messages_, ends_what_goes_on, &Item::message);
+  if (unreadable) return Next::Unreadable;
   return cancelled_.erase(number_in(message, "seq")) != 0 ? Next::Cancelled : Next::Message;
 }
 

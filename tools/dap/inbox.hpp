@@ -21,24 +21,31 @@ class Inbox {
 
   // For the thread that reads.
   void put(Json message);
+  /// Something came that is no message: what is wrong with it.
+  void put_unreadable(const std::string& wrong);
   /// No more will come. `failure`: what is wrong with the stream; empty if it has ended as it should.
   void close(const std::string& failure = {});
 
-  enum class Next : std::uint8_t { Message, Cancelled, Run, Closed };
+  enum class Next : std::uint8_t { Message, Unreadable, Cancelled, Run, Closed };
 
   /// For the thread that handles: what to do next. It waits, unless the program `runs`, which goes on when there is nothing
-  /// else.
+  /// else. Of what is unreadable `message` is the text of what is wrong.
   Next take(bool runs, Json& message);
 
   std::string failure() const;
 
  private:
+  struct Item {
+    Json message;
+    bool unreadable = false;
+  };
   bool is_urgent(const Json& message);
+  void put(Item item, bool urgent);
 
   std::atomic<bool>& stop_request_;
   mutable std::mutex mutex_;
   std::condition_variable come_;
-  std::deque<Json> messages_;
+  std::deque<Item> messages_;
   std::set<std::int64_t> cancelled_;  ///< numbers of requests that wait
   bool runs_ = false, closed_ = false;
   std::string failure_;

@@ -40,25 +40,39 @@ class Reader {
       const ssize_t count = read(in_, bytes.data(), bytes.size());
       if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
       if (count < 0) return inbox_.close(fmt::format("cannot be read: {}", std::strerror(errno)));
-      if (count == 0) return inbox_.close(frames_.is_amid() ? "has ended within a message" : "");
+      if (count == 0) return inbox_.close(frames_.is_amid() ? "has ended within a message" : wrong_so_far_);
       frames_.add({bytes.data(), static_cast<std::size_t>(count)});
-      if (const std::string why = hand_over(); !why.empty()) return inbox_.close(why);
+      hand_over();
     }
   }
 
-  std::string hand_over() {
-    std::string why;
-    while (const auto content = frames_.next(why)) {
-      Json message = Json::parse(*content, nullptr, false);
-      if (message.is_discarded()) return fmt::format("'{}' is not JSON", stl::shortened(*content));
-      inbox_.put(std::move(message));
+  /// What cannot be framed cannot be answered: the client is told, and the next message is looked for.
+  void hand_over() {
+    for (;;) {
+      std::string why;
+      const auto content = frames_.next(why);
+      if (!content && why.empty()) return;
+      Json message = content ? Json::parse(*content, nullptr, false) : Json();
+      if (content && message.is_discarded()) {
+        why = fmt::format("'{}' is not JSON", stl::shortened(*content));
+        frames_.reject(*content);
+      }
+      if (why.empty()) {
+        any_message_ = true;
+        wrong_so_far_.clear();
+        inbox_.put(std::move(message));
+      } else {
+        if (!any_message_ && wrong_so_far_.empty()) wrong_so_far_ = why;
+        inbox_.put_unreadable(why);
+      }
     }
-    return why;
   }
 
   int in_;
   Inbox& inbox_;
   FrameReader frames_;
+  bool any_message_ = false;
+  std::string wrong_so_far_;  ///< with a stream on which no message has come yet
   std::atomic<bool> done_ = false;
   std::thread thread_;  // the last one: it uses all else
 };
@@ -77,6 +91,9 @@ std::string serve(int in, const Write& write, const SessionSettings& settings, s
     switch (inbox.take(session.runs(), message)) {
       case Inbox::Next::Message:
         session.handle(message);
+        break;
+      case Inbox::Next::Unreadable:
+        session.complain(message.get<std::string>());
         break;
       case Inbox::Next::Cancelled:
         session.refuse(message, "cancelled");

@@ -168,6 +168,8 @@ Json Session::dispatch(const Request& request, const Json& arguments) {
 
 void Session::refuse(const Json& message, const std::string& why) { respond(message, false, {}, why); }
 
+void Session::complain(const std::string& wrong) { print("skipped what is not a message: " + wrong, "stderr"); }
+
 void Session::respond(const Json& request, bool success, Json body, const std::string& message) {
   Json response{{"seq", ++sent_},
                 {"type", "response"},

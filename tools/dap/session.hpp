@@ -54,6 +54,9 @@ class Session {
   /// A request that was taken back before its turn.
   void refuse(const Json& message, const std::string& why);
 
+  /// Something came that is no message and was skipped: what is wrong with it.
+  void complain(const std::string& wrong);
+
   /// Whether the program is running, and how it goes on: until it stops, or a stop request.
   bool runs() const { return running_.has_value(); }
   void run();

@@ -47,6 +47,37 @@ TEST(Framing, LengthsHaveTheirLimits) {
             "the header of a message is longer than 4096 bytes");
 }
 
+/// What is read of a stream, and what is wrong with it, in order; whatever is not JSON is rejected.
+std::vector<std::string> read_all(std::string_view stream, std::size_t size) {
+  FrameReader reader;
+  std::vector<std::string> all;
+  for (std::size_t at = 0; at < stream.size(); at += size) {
+    reader.add(stream.substr(at, size));
+    for (;;) {
+      std::string why;
+      const auto content = reader.next(why);
+      if (!content && why.empty()) break;
+      if (content && !content->starts_with('{')) reader.reject(*content), why = *content;
+      all.push_back(why.empty() ? *content : "wrong");
+    }
+  }
+  return all;
+}
+
+TEST(Framing, TheNextHeaderIsFoundAfterWhatIsNotAMessageHoweverTheStreamIsCut) {
+  const std::string good = framed("{\"seq\":1}");
+  const std::vector<std::string> wrong_then_good{"wrong", "{\"seq\":1}"};
+  for (const std::string& wrong :
+       {std::string("hello\r\n"), std::string("Content-Length: 2\n\n{}\n"), std::string("Content-Length: two\r\n\r\n{}"),
+        std::string("Content-Type: x\r\n\r\n{}"), std::string("Content-Length: 99999999\r\n\r\n{}"), framed("hello"),
+        std::string("Content-Length: 60\r\n\r\n\"too long: the next one begins in it\"")})
+    for (std::size_t size : {std::size_t{1}, std::size_t{7}, std::size_t{1000}})
+      EXPECT_EQ(read_all(wrong + good + good, size), (std::vector<std::string>{"wrong", "{\"seq\":1}", "{\"seq\":1}"}))
+          << wrong << " in pieces of " << size;
+  EXPECT_EQ(read_all(std::string(5000, 'x') + good, 100'000), wrong_then_good);
+  EXPECT_EQ(read_all("Content-Length: " + std::string(5000, '9') + "\r\n\r\n" + good, 100'000), wrong_then_good);
+}
+
 TEST(Framing, APartOfAMessageIsKnownAsOne) {
   FrameReader reader;
   std::string why;

@@ -72,6 +72,20 @@ TEST(Inbox, WhatIsNotAMessageIsHandedOverAsItIs) {
   }
 }
 
+TEST(Inbox, WhatIsUnreadableIsHandedOverInItsTurnAndOnlyARunEndsForIt) {
+  Box box;
+  box.inbox.put(request(1, "threads"));
+  box.inbox.put_unreadable("'x' is not JSON");
+  EXPECT_FALSE(box.stop);
+  EXPECT_EQ(box.next(), Inbox::Next::Message);
+  EXPECT_EQ(box.next(), Inbox::Next::Unreadable);
+  EXPECT_EQ(box.message, "'x' is not JSON");
+  EXPECT_EQ(box.next(), Inbox::Next::Run);
+  box.inbox.put_unreadable("'y' is not JSON");
+  EXPECT_TRUE(box.stop);
+  EXPECT_EQ(box.next(), Inbox::Next::Unreadable);
+}
+
 TEST(Inbox, TheEndOfTheStreamComesAfterAllMessages) {
   Box box;
   box.inbox.put(request(1, "threads"));
