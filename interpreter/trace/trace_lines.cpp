@@ -3,22 +3,19 @@
 #include <fmt/format.h>
 
 namespace s7200 {
-namespace {
 
-std::string text_of(const TraceReasons::Unanswered& frame) {
+std::string characters_text(std::size_t count) { return count == 1 ? "a character" : fmt::format("{} characters", count); }
+
+std::string unanswered_text(const TraceReasons::Unanswered& frame) {
   return fmt::format("no answer to {} since {}.{:06} ms{}{}", characters_text(frame.characters), frame.since / kMillisecond,
                      frame.since % kMillisecond, frame.decided_by.empty() ? "" : ": ", frame.decided_by);
 }
-
-}  // namespace
-
-std::string characters_text(std::size_t count) { return count == 1 ? "a character" : fmt::format("{} characters", count); }
 
 std::vector<TraceLine> TraceLines::of(const TraceRecord& record) {
   fmt::memory_buffer text;
   text_.append_to(text, record);
   std::vector<TraceLine> lines{{record.at, fmt::to_string(text) + reasons_.of(record)}};
-  if (const auto unanswered = reasons_.unanswered(record)) lines.push_back({record.at, text_of(*unanswered)});
+  for (const auto& unanswered : reasons_.unanswered(record)) lines.push_back({record.at, unanswered_text(unanswered)});
   if (std::string way = path_.of(record); !way.empty()) lines.push_back({record.at, std::move(way)});
   reasons_.note(record);
   return lines;

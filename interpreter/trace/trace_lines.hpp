@@ -16,6 +16,9 @@ namespace s7200 {
 /// `8 characters`
 std::string characters_text(std::size_t count);
 
+/// `no answer to 8 characters since 2000.131000 ms: JMP 255 in line 141 (…)`
+std::string unanswered_text(const TraceReasons::Unanswered& frame);
+
 struct TraceLine {
   Time at = 0;
   std::string text;  ///< without the time

@@ -27,8 +27,6 @@ bool has_place(const TraceRecord& r) {
   }
 }
 
-constexpr std::size_t kContacts = 16;  // of a rung, that are kept
-
 /// Attaches, detaches or replaces what gets the characters of a port.
 bool is_about_reception(const TraceRecord& record) {
   const bool attachment = record.kind == TraceKind::Attach || record.kind == TraceKind::Detach;
@@ -40,9 +38,26 @@ std::size_t port_of(const TraceRecord& record) {
   return record.event == kPorts[1].received ? 1 : 0;
 }
 
-bool is_always_on(const InstructionRecord& contact, const Program& program) {
-  const Op& op = program.ops[contact.op];
-  return op[0].at == sm::kScanStatus && op[0].bit == 0 && op.instruction->mnemonic == "LD";
+/// Whether an instruction may look at SMB2, itself or in what it calls. No pointer reaches special memory.
+bool may_read_character(const Op& op) {
+  if (op.instruction->structure == Structure::Call) return true;
+  const auto rules = op.instruction->rules();
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    const OperandRule& rule = rules[i];
+    if (rule.kind != OperandKind::Memory || rule.role == Role::Out || op[i].pointer) continue;
+    const bool several = rule.counted != 0 || rule.elements != 1 || rule.text;
+    const std::uint32_t end = several && op[i].at >= image::kSM ? image::kSize : op[i].at + op[i].width;
+    if (op[i].at <= sm::kReceivedCharacter && sm::kReceivedCharacter < end) return true;
+  }
+  return false;
+}
+
+bool reads_character(const Program& program, std::uint32_t head) {
+  for (std::uint32_t op = head; op < program.ops.size(); ++op) {
+    if (may_read_character(program.ops[op])) return true;
+    if (program.ops[op].instruction->structure == Structure::InterruptEnd) return false;
+  }
+  return false;
 }
 
 /// `LDW= AC0, 0`: in a sentence, not in a column.
@@ -72,14 +87,19 @@ std::string ignored_because(const TraceRecord& record) {
 TraceReasons::TraceReasons(const Program& program) : program_(program) {
   for (std::uint32_t op = 0; op < program.ops.size(); ++op) {
     const Instruction& instruction = *program.ops[op].instruction;
-    const bool decides = instruction.structure == Structure::Jump || instruction.effect == Effect::ConditionalEnd;
     const bool none = instruction.structure == Structure::None || instruction.structure == Structure::Compare;
     Role role = none ? Role::Contact : Role::Mark;
     if (begins_rung(program, op)) role = Role::FirstContact;
     if (is_box_or_coil(program.ops[op])) role = Role::Other;
-    if (decides) role = Role::Decides;
+    if (instruction.structure == Structure::Jump) role = Role::Jump;
+    if (instruction.structure == Structure::Call) role = Role::Call;
+    if (instruction.structure == Structure::SubroutineEnd) role = Role::Return;
+    if (instruction.effect == Effect::ConditionalEnd) role = Role::ConditionalEnd;
     role_.push_back(role);
   }
+  for (std::size_t number = 0; number < program.interrupt.size(); ++number)
+    if (program.interrupt[number] != kNoRoutine)
+      reads_character_.set(number, reads_character(program, program.interrupt[number]));
 }
 
 std::string TraceReasons::line_of(std::uint32_t op) const {
@@ -156,15 +176,23 @@ std::string TraceReasons::text_of(const Decision& decision) const {
       decision.contacts.empty() ? "" : fmt::format(" ({})", contacts_text(decision.contacts)), comment_of(statement));
 }
 
+/// Not `LD SM0.0`, which decides nothing.
+bool TraceReasons::is_own(const InstructionRecord& contact) const {
+  const Op& op = program_.ops[contact.op];
+  return op[0].at != sm::kScanStatus || op[0].bit != 0 || op.instruction->mnemonic != "LD";
+}
+
+bool TraceReasons::has_own_contacts(const Way& way) const {
+  return std::ranges::any_of(way.contacts, [&](const auto& one) { return is_own(one); });
+}
+
 std::optional<TraceReasons::Cause> TraceReasons::cause() const {
-  const Flow& flow = in_interrupt_ ? interrupt_ : main_;
-  const bool own = std::ranges::any_of(flow.contacts, [&](const auto& one) { return !is_always_on(one, program_); });
-  if (own)
-    return Cause{
-        fmt::format("the contacts from {} on ({})", line_of(flow.contacts.front().op), contacts_text(flow.contacts)),
-        flow.contacts.back(), flow.contacts.front(), true, in_interrupt_};
-  if (!flow.decided) return {};
-  return Cause{text_of(flow.decision), flow.decision.by, flow.decision.by, false, in_interrupt_};
+  const Way& way = (in_interrupt_ ? interrupt_ : main_).way;
+  if (has_own_contacts(way))
+    return Cause{fmt::format("the contacts from {} on ({})", line_of(way.contacts.front().op), contacts_text(way.contacts)),
+                 way.contacts.back(), way.contacts.front(), true, in_interrupt_};
+  if (!way.decision) return {};
+  return Cause{text_of(*way.decision), way.decision->by, way.decision->by, false, in_interrupt_};
 }
 
 std::string TraceReasons::cause_text() const {
@@ -172,57 +200,143 @@ std::string TraceReasons::cause_text() const {
   return found ? found->text : "";
 }
 
-bool TraceReasons::begins_again(const TraceRecord& record) const {
+/// Whether the program does not go on with a frame after `record`, and has sent nothing.
+bool TraceReasons::is_left(const Frame& frame, const TraceRecord& record) const {
+  if (!last_ || frame.characters == 0) return false;
   if (record.kind == TraceKind::Receive) return true;
-  return record.kind == TraceKind::Attach && kPorts[port_of(record)].received == record.event &&
-         record.routine == frame_[port_of(record)].routine && !(in_interrupt_ && is_receive_event(serving_));
+  const bool attaches = record.kind == TraceKind::Attach && kPorts[port_of(record)].received == record.event;
+  return attaches && !serves_character() && (record.routine == frame.routine || frame.unread == frame.characters);
 }
 
-std::optional<TraceReasons::Unanswered> TraceReasons::unanswered(const TraceRecord& record) const {
-  if (!last_ || !is_about_reception(record)) return {};
-  const Frame& frame = frame_[port_of(record)];
-  if (frame.characters == 0 || !begins_again(record)) return {};
-  const std::string own = cause_text();
-  return Unanswered{frame.characters, frame.since, own.empty() ? frame.decided_by : own};
+/// `INT 121 (attached in line 102) took them without reading SMB2, and executed ATCH 120, 10 in line 665  // not quiet yet`
+std::string TraceReasons::unread_text(const Frame& frame) const {
+  std::string text = fmt::format("INT {}", frame.routine);
+  if (frame.attached_by) text += fmt::format(" (attached in {})", line_of(*frame.attached_by));
+  text += fmt::format(" took {} without reading SMB2", frame.characters == 1 ? "it" : "them");
+  if (!frame.executed) return text;
+  const stl::Statement& statement = program_.statement(*frame.executed);
+  return text +
+         fmt::format(", and executed {} in {}{}", short_text(statement), line_of(*frame.executed), comment_of(statement));
+}
+
+std::vector<TraceReasons::Unanswered> TraceReasons::unanswered(const TraceRecord& record) const {
+  std::vector<Unanswered> all;
+  if (!is_about_reception(record)) return all;
+  const auto add = [&](const Frame& frame, const std::string& own) {
+    if (!is_left(frame, record)) return;
+    const bool unread = frame.unread == frame.characters;
+    all.push_back({frame.characters, frame.since, unread ? unread_text(frame) : own.empty() ? frame.decided_by : own});
+  };
+  const Reception& reception = reception_[port_of(record)];
+  for (const Frame& frame : reception.earlier) add(frame, "");
+  add(reception.frame, cause_text());
+  return all;
+}
+
+std::vector<TraceReasons::Unanswered> TraceReasons::unread() const {
+  std::vector<Unanswered> all;
+  for (const auto& [frame, earlier, attached_by] : reception_)
+    if (frame.characters > 0 && frame.unread == frame.characters)
+      all.push_back({frame.characters, frame.since, unread_text(frame)});
+  return all;
 }
 
 // --- what has come ---
 
 /// A frame begins after a pause of three characters, if the program has attached a routine to its characters since.
 void TraceReasons::note_character(const TraceRecord& record) {
-  Frame& frame = frame_[record.port];
+  Reception& reception = reception_[record.port];
+  Frame& frame = reception.frame;
   const bool pause = record.since - frame.last > 3 * (record.at - record.since);
-  if (frame.characters == 0 || (frame.attached_anew && pause)) frame = {.since = record.since};
+  if (frame.characters == 0 || (frame.attached_anew && pause)) {
+    if (frame.characters > 0 && frame.passed_on) reception.earlier.push_back(std::move(frame));
+    if (reception.earlier.size() > kEarlier) reception.earlier.erase(reception.earlier.begin());
+    frame = {.since = record.since, .attached_by = reception.attached_by};
+  }
   ++frame.characters;
   frame.last = record.at;
   frame.attached_anew = false;
 }
 
+/// Which routine gets a character.
+void TraceReasons::note_event(const TraceRecord& record) {
+  for (std::size_t port = 0; port < kPorts.size(); ++port) {
+    if (record.event != kPorts[port].received) continue;
+    Frame& frame = reception_[port].frame;
+    if (frame.characters == 1) frame.routine = record.routine;
+    const bool served = record.kind == TraceKind::EventOccurred;
+    if (served && !reads_character_.test(record.routine)) ++frame.unread;
+  }
+}
+
+/// A routine that got a character attaches another event: a time begins anew.
+void TraceReasons::note_restart(const TraceRecord& record) {
+  for (std::size_t port = 0; port < kPorts.size(); ++port)
+    if (kPorts[port].received == serving_ && record.op != kNoRoutine) reception_[port].frame.executed = record.op;
+}
+
 void TraceReasons::note_reception(const TraceRecord& record) {
-  Frame& frame = frame_[port_of(record)];
-  if (unanswered(record)) frame = {};
+  Reception& reception = reception_[port_of(record)];
+  Frame& frame = reception.frame;
+  std::erase_if(reception.earlier, [&](const Frame& one) { return is_left(one, record); });
+  if (is_left(frame, record)) frame = {};
   frame.attached_anew = true;
+  frame.passed_on |= record.kind != TraceKind::Detach && !serves_character();
   frame.decided_by = frame.characters > 0 ? cause_text() : "";
+  reception.attached_by.reset();
+  if (record.kind == TraceKind::Attach && record.op != kNoRoutine) reception.attached_by = record.op;
+}
+
+void TraceReasons::decide(Flow& flow, const InstructionRecord& by) const {
+  flow.way.decision = Decision{by, flow.way.contacts};
+  if (by.powered) flow.way.contacts.clear();
+}
+
+/// What decided on the call has led to all that follows in the subroutine; a call that is always executed decides nothing.
+void TraceReasons::call(Flow& flow, const InstructionRecord& by) const {
+  Way inside{.contacts = {}, .decision = flow.way.decision};
+  if (has_own_contacts(flow.way)) inside.decision = Decision{by, flow.way.contacts};
+  flow.way.called = by.at;
+  flow.callers.push_back(std::exchange(flow.way, std::move(inside)));
+}
+
+/// Whatever happens in a subroutine, it returns: what was decided there counts for its caller only if it was taken, as a
+/// jump over the rest of it.
+void TraceReasons::return_to_caller(Flow& flow) {
+  if (flow.callers.empty()) return;
+  const Way inside = std::exchange(flow.way, std::move(flow.callers.back()));
+  flow.callers.pop_back();
+  if (!inside.decision || !inside.decision->by.powered || inside.decision->by.at <= flow.way.called) return;
+  flow.way.decision = inside.decision;
+  flow.way.contacts.clear();
 }
 
 void TraceReasons::note(const InstructionRecord& record) {
   last_ = record;
+  const bool failed = std::exchange(failed_, false);
   Flow& flow = in_interrupt_ ? interrupt_ : main_;
   switch (role_[record.op]) {
     case Role::Mark:
-      flow.contacts.clear();
+      flow.way.contacts.clear();
       break;
     case Role::FirstContact:
-      flow.contacts.clear();
+      flow.way.contacts.clear();
       [[fallthrough]];
     case Role::Contact:
-      if (flow.contacts.size() < kContacts) flow.contacts.push_back(record);
+      flow.way.contacts.push_back(record);
       break;
-    case Role::Decides:
-      flow.decision.by = record;
-      flow.decision.contacts = flow.contacts;
-      flow.decided = true;
-      if (record.powered) flow.contacts.clear();
+    case Role::Jump:
+      decide(flow, record);
+      break;
+    case Role::ConditionalEnd:
+      decide(flow, record);
+      if (record.powered) return_to_caller(flow);
+      break;
+    case Role::Call:
+      if (record.powered && !failed) call(flow, record);
+      break;
+    case Role::Return:
+      return_to_caller(flow);
       break;
     case Role::Other:
       break;
@@ -233,7 +347,7 @@ void TraceReasons::note(const InstructionRecord& record) {
 void TraceReasons::note(const TraceRecord& record) {
   switch (record.kind) {
     case TraceKind::ScanBegin:
-      main_.clear();
+      main_ = {};
       return;
     case TraceKind::ModeChange:
       forget();
@@ -253,7 +367,7 @@ void TraceReasons::note(const TraceRecord& record) {
       in_interrupt_ = true;
       interrupt_ends_ = false;
       serving_ = record.event;
-      interrupt_.clear();
+      interrupt_ = {};
       return;
     case TraceKind::ServiceEnd:
       interrupt_ends_ = true;
@@ -264,16 +378,19 @@ void TraceReasons::note(const TraceRecord& record) {
       return note_character(record);
     case TraceKind::EventOccurred:
     case TraceKind::EventLost:
-      for (std::size_t port = 0; port < kPorts.size(); ++port)
-        if (record.event == kPorts[port].received && frame_[port].characters == 1) frame_[port].routine = record.routine;
-      return;
+      return note_event(record);
     case TraceKind::Transmit:
-      frame_[record.port] = {};
+      reception_[record.port].frame = {};
+      reception_[record.port].earlier.clear();
       return;
     case TraceKind::Attach:
     case TraceKind::Detach:
     case TraceKind::Receive:
-      if (is_about_reception(record)) note_reception(record);
+      if (is_about_reception(record)) return note_reception(record);
+      if (record.kind == TraceKind::Attach && serves_character()) note_restart(record);
+      return;
+    case TraceKind::RuntimeError:
+      failed_ = true;
       return;
     default:
       return;
@@ -290,10 +407,10 @@ void TraceReasons::forget() {
 
 void TraceReasons::forget_instructions() {
   last_.reset();
-  in_interrupt_ = interrupt_ends_ = false;
-  main_.clear();
-  interrupt_.clear();
-  frame_ = {};
+  in_interrupt_ = interrupt_ends_ = failed_ = false;
+  main_ = {};
+  interrupt_ = {};
+  reception_ = {};
 }
 
 }  // namespace s7200

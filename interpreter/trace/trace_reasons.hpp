@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -39,13 +40,19 @@ class TraceReasons {
   std::string held_up_by(const TraceRecord& begin) const;
 
   /// Characters that the program leaves without an answer: it attaches the routine again that got the first of them, or
-  /// executes RCV again, and has sent nothing.
+  /// executes RCV again, and has sent nothing. Or it attaches another routine after one that has not read them: it waited
+  /// for silence, or for its turn.
   struct Unanswered {
     std::size_t characters = 0;
     Time since = 0;          ///< start edge of the first
-    std::string decided_by;  ///< `JMP 255 in line 141 (LDW= AC0, 0: AC0=16#7B06; NOT)`; nothing if it is not known
+    std::string decided_by;  ///< `JMP 255 in line 141 (LDW= AC0, 0: AC0=16#7B06; NOT)`, `INT 121 took them without reading
+                             ///< SMB2 …`; nothing if it is not known
   };
-  std::optional<Unanswered> unanswered(const TraceRecord& record) const;
+  /// In the order in which they came.
+  std::vector<Unanswered> unanswered(const TraceRecord& record) const;
+
+  /// Those that no routine has read so far.
+  std::vector<Unanswered> unread() const;
 
   /// What decided that the program has come where it is.
   struct Cause {
@@ -78,28 +85,38 @@ class TraceReasons {
     InstructionRecord by{};
     std::vector<InstructionRecord> contacts{};
   };
+  /// A routine that is open.
+  struct Way {
+    std::vector<InstructionRecord> contacts{};  ///< of the rung so far
+    std::optional<Decision> decision{};         ///< the last one that has led here
+    Time called = 0;                            ///< when it called another one
+  };
   /// The main program, or the interrupt routine that runs.
   struct Flow {
-    std::vector<InstructionRecord> contacts{};  ///< of the rung so far
-    Decision decision{};                        ///< the last one, if there was any
-    bool decided = false;
-
-    void clear() {
-      contacts.clear();
-      decided = false;
-    }
+    Way way{};                   ///< of the innermost subroutine
+    std::vector<Way> callers{};  ///< of those that wait for it
   };
   /// What came in at a port since the program has sent something, or has begun anew.
   struct Frame {
     std::size_t characters = 0;
+    std::size_t unread = 0;  ///< of them: their routine does not look at the character
     Time since = 0, last = 0;
-    std::uint8_t routine = 0;    ///< that got its first character
-    bool attached_anew = false;  ///< another routine, or the same, since its last character
-    std::string decided_by{};    ///< that one of them was attached
+    std::uint8_t routine = 0;                    ///< that got its first character
+    std::optional<std::uint32_t> attached_by{};  ///< the ATCH of that one
+    std::optional<std::uint32_t> executed{};     ///< the last ATCH of a routine that got one of them, of another event
+    bool attached_anew = false;                  ///< another routine, or the same, since its last character
+    bool passed_on = false;                      ///< and not by a routine that got one
+    std::string decided_by{};                    ///< that one of them was attached
   };
+  struct Reception {
+    Frame frame{};
+    std::vector<Frame> earlier{};  ///< that another one followed before it was decided about them
+    std::optional<std::uint32_t> attached_by{};
+  };
+  static constexpr std::size_t kEarlier = 8;
 
   /// What an instruction is for a decision.
-  enum class Role : std::uint8_t { Other, Contact, FirstContact, Mark, Decides };
+  enum class Role : std::uint8_t { Other, Contact, FirstContact, Mark, Jump, Call, Return, ConditionalEnd };
 
   const std::string& place_of(std::uint32_t op);
   std::string cause_of(const TraceRecord& begin) const;
@@ -108,8 +125,17 @@ class TraceReasons {
   std::string text_of(const Decision& decision) const;
   std::string contacts_text(const std::vector<InstructionRecord>& contacts) const;
   std::string cause_text() const;
-  bool begins_again(const TraceRecord& record) const;
+  bool is_own(const InstructionRecord& contact) const;
+  bool has_own_contacts(const Way& way) const;
+  void decide(Flow& flow, const InstructionRecord& by) const;
+  void call(Flow& flow, const InstructionRecord& by) const;
+  static void return_to_caller(Flow& flow);
+  bool serves_character() const { return in_interrupt_ && is_receive_event(serving_); }
+  bool is_left(const Frame& frame, const TraceRecord& record) const;
+  std::string unread_text(const Frame& frame) const;
   void note_character(const TraceRecord& record);
+  void note_event(const TraceRecord& record);
+  void note_restart(const TraceRecord& record);
   void note_reception(const TraceRecord& record);
 
   const Program& program_;
@@ -121,9 +147,11 @@ class TraceReasons {
   std::deque<Service> services_;                           ///< the last, newest last
   std::optional<InstructionRecord> last_;                  ///< executed
   bool in_interrupt_ = false, interrupt_ends_ = false;
+  bool failed_ = false;       ///< the instruction being executed has caused a run-time error
   std::uint8_t serving_ = 0;  ///< event, in an interrupt
   Flow main_, interrupt_;
-  std::array<Frame, kPorts.size()> frame_{};
+  std::array<Reception, kPorts.size()> reception_{};
+  std::bitset<128> reads_character_{};  ///< interrupt routines, by number
 };
 
 }  // namespace s7200

@@ -406,7 +406,7 @@ void Timeline::begin() {
 void Timeline::record(const TraceRecord& record) {
   if (looking_) {
     reader_->read(record, record.kind == TraceKind::ServiceBegin ? reasons_.held_up_by(record) : "");
-    if (auto unanswered = reasons_.unanswered(record)) reader_->read_unanswered(record, std::move(*unanswered));
+    for (auto& unanswered : reasons_.unanswered(record)) reader_->read_unanswered(record, std::move(unanswered));
   }
   reasons_.note(record);
   path_.of(record);

@@ -102,6 +102,32 @@ TEST(TraceReasons, AFrameWithoutAnswerNamesTheLastJumpBeforeItsRoutineIsAttached
           "  no answer to 2 characters since 1.000000 ms: JMP 1 in line 8, not taken (LDB= VB1, 16#41: VB1=16#42)\n"));
 }
 
+TEST(TraceReasons, AJumpThatASubroutineHasTakenCountsAfterItAndOneThatItPassedDoesNot) {
+  const auto judged_in = [](std::string_view subroutine) {
+    return "LD SM0.1\nMOVB 9, SMB30\nATCH 0, 8\nENI\nLDN I0.0\nJMP 9\nLD SM0.0\nCALL 1\nLD SM0.0\nATCH 0, 8\nLBL 9\nMEND\n" +
+           std::string(subroutine) + "INT 0\nLD SM0.0\nMOVB SMB2, VB1\nMOVB 1, VB0\nRETI\n";
+  };
+  EXPECT_TRUE(
+      has(trace_of_frame(judged_in("SBR 1\nLDB= VB1, 16#41\nNOT\nCRET // not ours\nLD SM0.0\nXMT VB0, 0\nRET\n"), {0x42}),
+          "no answer to a character since 1.000000 ms: CRET in line 16 (LDB= VB1, 16#41: VB1=16#42; NOT)  // not ours\n"));
+  EXPECT_TRUE(has(trace_of_frame(judged_in("SBR 1\nLDB= VB1, 16#41\nJMP 1\nLBL 1\nRET\n"), {0x42}),
+                  "no answer to a character since 1.000000 ms: JMP 9 in line 6, not taken (LDN I0.0: I0.0=1)\n"));
+}
+
+TEST(TraceReasons, AFrameThatNoRoutineReadIsLeftWhenAnotherOneIsAttached) {
+  constexpr std::string_view kWait =
+      "LD SM0.1\nMOVB 9, SMB30\nATCH 0, 8 // wait\nATCH 1, 0\nENI\nMEND\n"
+      "INT 0\nLD SM0.0\nINCW VW0\nRETI\n"
+      "INT 1\nLD SM0.0\nATCH 2, 8\nRETI\n"
+      "INT 2\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n";
+  EXPECT_TRUE(
+      has(trace_of_frame(kWait, {0x40, 0x42}),
+          "no answer to 2 characters since 1.000000 ms: INT 0 (attached in line 3) took them without reading SMB2\n"));
+  std::string reads(kWait);
+  reads.replace(reads.find("INCW VW0"), 8, "BMB SMB0, VB0, 4");
+  EXPECT_FALSE(has(trace_of_frame(reads, {0x40, 0x42}), "no answer")) << "the program has them, and may answer";
+}
+
 TEST(TraceReasons, AFrameWithAnAnswerIsNotSaidToHaveNone) {
   EXPECT_FALSE(has(trace_of_frame(kJudge, {0x41}), "no answer"));
   EXPECT_FALSE(has(trace_of_frame(kJudge, {}), "no answer"));
