@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
@@ -21,14 +22,25 @@ std::string text_of(const stl::NetworkHead& head) {
   return head.comment.empty() ? text : fmt::format("{} //{}", text, head.comment);
 }
 
+std::string name_of(const stl::NetworkHead& head) {
+  std::string name = "network";
+  if (head.number != 0) name += fmt::format(" {}", head.number);
+  const std::string title(stl::trim(head.comment));
+  return title.empty() ? name : fmt::format("{} \"{}\"", name, stl::printable(title));
+}
+
 }  // namespace
 
 Listing::Listing(const Program& program) : program_(program), networks_(program) {
   std::uint32_t op = 0;
+  std::string network;
   for (const stl::Line& line : program.source.lines) {
     if (const auto* statement = std::get_if<stl::Statement>(&line)) {
+      const bool goes_on = network.empty() && !networks_.begins(op);
+      network_.push_back(goes_on ? network_.back() : std::exchange(network, {}));
       entries_.push_back({statement->position.line, stl::printable(tools::text_of(*statement)), op++});
     } else if (const auto* head = std::get_if<stl::NetworkHead>(&line)) {
+      network = name_of(*head);
       entries_.push_back({head->position.line, stl::printable(tools::text_of(*head)), {}});
     } else if (const auto* comment = std::get_if<stl::CommentLine>(&line)) {
       entries_.push_back({comment->line, stl::printable("//" + comment->text), {}});

@@ -27,6 +27,9 @@ class Listing {
   /// `main`, `SBR 51`, `INT 123`
   const std::string& routine_of(std::uint32_t op) const { return networks_.routine_of(op); }
 
+  /// `network 6 "SBR 51: is it undisturbed?"`; nothing in front of the first NETWORK line of a routine, or without any.
+  const std::string& network_of(std::uint32_t op) const { return network_[op]; }
+
   /// Whether it is the first instruction of a network, or of a routine. A program without NETWORK lines has a network for
   /// each rung.
   bool begins_network(std::uint32_t op) const { return networks_.begins(op); }
@@ -48,7 +51,8 @@ class Listing {
 
   const Program& program_;
   Networks networks_;
-  std::vector<Entry> entries_;  ///< the lines that are not blank
+  std::vector<Entry> entries_;        ///< the lines that are not blank
+  std::vector<std::string> network_;  ///< by op
 };
 
 }  // namespace s7200::tools

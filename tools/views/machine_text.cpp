@@ -210,8 +210,10 @@ std::string place_text(const Cpu& cpu, const Listing& listing) {
     return fmt::format("{}  {}\n > {:>5}  {}\n", when, where, listing.line_of(0), listing.text_of(0));
   }
   const std::string serving = state.in_interrupt ? fmt::format(" for {}", event_text(state.serving_event)) : "";
-  return fmt::format("{}  {}{}  S0={}\n > {:>5}  {}\n", when, listing.routine_of(*op), serving, state.stack.top() ? 1 : 0,
-                     listing.line_of(*op), listing.text_of(*op));
+  const std::string& network = listing.network_of(*op);
+  return fmt::format("{}  {}{}  S0={}{}{}\n > {:>5}  {}\n", when, listing.routine_of(*op), serving,
+                     state.stack.top() ? 1 : 0, network.empty() ? "" : "  ", network, listing.line_of(*op),
+                     listing.text_of(*op));
 }
 
 std::string registers_text(const Cpu& cpu, const Listing& listing) {
