@@ -290,8 +290,9 @@ class GatewayBridge final : public TcpBridge {
   std::string more_summary() const override {
     const auto& counts = gateway_.counts();
     return fmt::format(
-        "; {} requests, {} answered, {} broadcast, {} without answer, {} with a damaged one, {} to no station",
-        counts.requests, counts.answers, counts.broadcasts, counts.silent, counts.damaged, counts.no_path);
+        "; {} request{}, {} answered, {} broadcast, {} without answer, {} with a damaged one, {} to no station",
+        counts.requests, counts.requests == 1 ? "" : "s", counts.answers, counts.broadcasts, counts.silent, counts.damaged,
+        counts.no_path);
   }
   nlohmann::ordered_json more_json() const override {
     const auto& counts = gateway_.counts();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "interpreter/base/numbers.hpp"
@@ -80,6 +81,24 @@ std::optional<Bytes> write_request(const std::string& what, std::string& why) {
   return area.bits ? modbus::write_coils(address->address, bits) : modbus::write_registers(address->address, values);
 }
 
+/// Of words that are neither hex nor a request: something in them belongs to a request; nothing if there is none.
+std::string misplaced_word(const std::vector<std::string>& words) {
+  const auto has = [&](std::string_view word) {
+    return std::ranges::any_of(words, [&](const std::string& one) { return lower_case(one) == word; });
+  };
+  if (has("read") || has("write")) return fmt::format("expected {}", kNamed);
+  if (has("station"))
+    return "'station n' goes with read and write; in hex the first byte is the station: 04 03 00 0a 00 01 crc";
+  return has("crc") ? "crc comes last: 01 03 00 0a 00 01 crc" : "";
+}
+
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words;
+  for (std::string& word : split(std::string(text), ' '))
+    if (!word.empty()) words.push_back(std::move(word));
+  return words;
+}
+
 std::optional<serial::Frame> named_frame(std::vector<std::string> words, std::uint8_t station, std::string& why) {
   if (words.size() == 4 && lower_case(words[2]) == "station") {
     const auto number = parse_decimal<std::uint8_t>(words[3]);
@@ -98,17 +117,16 @@ std::optional<serial::Frame> named_frame(std::vector<std::string> words, std::ui
 std::optional<serial::Frame> parse_frame(const std::string& text, std::uint8_t station, std::string& why) {
   std::string_view bytes = stl::trim(text);
   const std::string lower = lower_case(bytes);
-  if (lower.starts_with("read ") || lower.starts_with("write ")) {
-    std::vector<std::string> words;
-    for (std::string& word : split(std::string(bytes), ' '))
-      if (!word.empty()) words.push_back(std::move(word));
-    return named_frame(std::move(words), station, why);
-  }
+  if (lower.starts_with("read ") || lower.starts_with("write ")) return named_frame(words_of(bytes), station, why);
   const bool crc = lower.ends_with(" crc");
   if (crc) bytes = stl::trim(bytes.substr(0, bytes.size() - 4));
   serial::ParsedFrame parsed = parse_hex_or_quoted(bytes);
-  if (!parsed.ok())
-    return why = fmt::format("column {}: {}", parsed.errors[0].column, parsed.errors[0].message), std::nullopt;
+  const bool quoted = bytes.starts_with('\'') || bytes.starts_with('"');
+  if (!parsed.ok()) {
+    why = quoted ? "" : misplaced_word(words_of(bytes));
+    if (why.empty()) why = fmt::format("column {}: {}", parsed.errors[0].column, parsed.errors[0].message);
+    return {};
+  }
   if (parsed.frame.empty()) return why = "there is nothing to send", std::nullopt;
   if (crc) modbus::append_crc(parsed.frame);
   return parsed.frame;

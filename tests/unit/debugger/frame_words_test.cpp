@@ -36,6 +36,12 @@ TEST(FrameWords, WhatIsWrongWithARequestIsSaid) {
   EXPECT_EQ(frame_of("read 40001:2 station x"), "no frame: 'x' is not the number of a station");
   for (const char* wrong : {"read 40001:0", "read 40001 4", "write 40001"})
     EXPECT_TRUE(frame_of(wrong).starts_with("no frame: expected read ADDRESS[:COUNT]")) << wrong;
+  for (const char* wrong : {"station 4 read 40001", "4 read 40001:2", "read station 4 40001", "read"})
+    EXPECT_TRUE(frame_of(wrong).starts_with("no frame: expected read ADDRESS[:COUNT]")) << wrong;
+  for (const char* wrong : {"03 00 0a 00 01 crc station 4", "station 4"})
+    EXPECT_TRUE(frame_of(wrong).starts_with("no frame: 'station n' goes with read and write; in hex")) << wrong;
+  EXPECT_EQ(frame_of("crc 01 03"), "no frame: crc comes last: 01 03 00 0a 00 01 crc");
+  EXPECT_TRUE(frame_of("'station 4").starts_with("no frame: column")) << "a text without its end";
   EXPECT_TRUE(frame_of("read 11").starts_with("no frame: ")) << "it might be meant as an address on the wire";
 }
 
