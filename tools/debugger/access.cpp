@@ -46,6 +46,14 @@ std::vector<Bits> accessed(const Cpu& cpu, std::uint32_t op_number, Access acces
   return all;
 }
 
+bool may_access(const Cpu& cpu, std::uint32_t number, Access access, const Bits& range) {
+  const Op& op = cpu.program().ops[number];
+  const auto rules = op.instruction->rules();
+  for (std::size_t i = 0; i < rules.size(); ++i)
+    if (rules[i].count || (rules[i].kind == OperandKind::Memory && op[i].pointer)) return true;
+  return accesses(cpu, number, access, range);
+}
+
 bool accesses(const Cpu& cpu, std::uint32_t op, Access access, const Bits& range) {
   const std::vector<Bits> all = accessed(cpu, op, access);
   return std::any_of(all.begin(), all.end(), [&](const Bits& bits) { return bits.overlaps(range); });

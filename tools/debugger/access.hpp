@@ -25,6 +25,9 @@ enum class Access : std::uint8_t { Read, Write };
 /// writes.
 std::vector<Bits> accessed(const Cpu& cpu, std::uint32_t op, Access access);
 
+/// Whether `op` may ever do so in `range`, whatever pointers and counts will be: quicker to ask first.
+bool may_access(const Cpu& cpu, std::uint32_t op, Access access, const Bits& range);
+
 /// Whether one of them is in `range`.
 bool accesses(const Cpu& cpu, std::uint32_t op, Access access, const Bits& range);
 

@@ -1,5 +1,6 @@
 #include "tools/debugger/last_write.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "tools/debugger/access.hpp"
@@ -11,7 +12,10 @@ class WriteFinder final : public Observer {
  public:
   WriteFinder(serial::Simulation& simulation, const History& history, const MemoryRange& range,
               const std::atomic<bool>* stop_request)
-      : cpu_(simulation.cpu()), history_(history), range_(range), bits_(bits_of(range)), stop_request_(stop_request) {}
+      : cpu_(simulation.cpu()), history_(history), range_(range), bits_(bits_of(range)), stop_request_(stop_request) {
+    for (std::uint32_t op = 0; op < cpu_.program().ops.size(); ++op)
+      may_write_.push_back(may_access(cpu_, op, Access::Write, bits_));
+  }
 
   void begin() {
     value_ = range_.bytes_in(cpu_.state().image);
@@ -29,36 +33,42 @@ class WriteFinder final : public Observer {
 
   void acted() override {
     const std::size_t action = history_.now().actions - 1;
-    if (range_.bytes_in(cpu_.state().image) != value_) acted_ = action;
+    if (changed()) acted_ = action;
   }
 
   bool before(std::uint32_t op) override {
     if (stop_request_ && *stop_request_) return false;
     in_front_ = history_.in_front();
     note_change_between();
-    writes_ = accesses(cpu_, op, Access::Write, bits_);
+    writes_ = may_write_[op] && accesses(cpu_, op, Access::Write, bits_);
     errors_ = cpu_.state().error_count;
     in_interrupt_ = cpu_.state().in_interrupt;
     return true;
   }
 
   void instruction(const InstructionRecord& record) override {
-    std::vector<std::uint8_t> value = range_.bytes_in(cpu_.state().image);
     const bool wrote = writes_ && record.powered && errors_ == cpu_.state().error_count;
-    if (wrote || value != value_) note(record, std::move(value), record.end);
+    if (wrote || changed()) note(record, record.end);
   }
 
  private:
+  bool changed() const {
+    const auto& image = cpu_.state().image;
+    if (range_.width == Width::Bit) return (image[range_.at] >> range_.bit & 1) != value_[0];
+    return !std::equal(value_.begin(), value_.end(), image.begin() + range_.at);
+  }
+
   void note_change_between() {
-    if (std::vector<std::uint8_t> value = range_.bytes_in(cpu_.state().image); value != value_) {
-      note(std::nullopt, std::move(value), cpu_.time());
+    if (changed()) {
+      note(std::nullopt, cpu_.time());
       last_->action = acted_;
     }
     acted_.reset();
   }
 
-  void note(const std::optional<InstructionRecord>& by, std::vector<std::uint8_t> value, Time at) {
+  void note(const std::optional<InstructionRecord>& by, Time at) {
     const State& state = cpu_.state();
+    std::vector<std::uint8_t> value = range_.bytes_in(state.image);
     last_ = {.moment = in_front_,
              .by = by,
              .action = {},
@@ -75,6 +85,7 @@ class WriteFinder final : public Observer {
   MemoryRange range_;
   Bits bits_;
   const std::atomic<bool>* stop_request_;
+  std::vector<bool> may_write_;  ///< by op
   std::vector<std::uint8_t> value_;
   std::optional<std::size_t> acted_;  ///< action that has changed it since the last instruction
   Moment in_front_;
