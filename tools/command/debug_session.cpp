@@ -46,6 +46,27 @@ std::optional<SessionSteps> steps_of(const SessionRecord& record, std::string& w
   return why.empty() ? std::optional(steps) : std::nullopt;
 }
 
+std::string joined_or_none(const std::vector<std::string>& texts) {
+  return texts.empty() ? "none" : fmt::format("{}", fmt::join(texts, "; "));
+}
+
+/// Of the plant. How a master talks the debugger knows itself.
+std::vector<SessionOption> conditions(const RigSettings& settings, const PlcPlan& plc) {
+  std::vector<std::string> faults, assignments;
+  for (const serial::Fault& fault : settings.faults) faults.push_back(serial::to_text(fault));
+  for (const Assignment& one : settings.set) assignments.push_back(fmt::format("{}={}", one.place.name_of(0), one.value));
+  return {{"--port", fmt::format("{}", settings.port)},
+          {"--fault", joined_or_none(faults)},
+          {"--set", joined_or_none(assignments)},
+          {"--input", settings.input.empty() ? "none" : "with digest " + digest_of(plc.field)}};
+}
+
+/// In one line of the terminal, which the next output begins.
+void show_progress(std::string_view text) {
+  constexpr int kColumns = 60;
+  fmt::print(stderr, "\r{:<{}}\r{}", "", kColumns, text);
+}
+
 }  // namespace
 
 DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, const std::shared_ptr<const Program>& program,
@@ -55,7 +76,9 @@ DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, con
           .history = history,
           .files = options.rig.recorded_files(),
           .colour = colour_wanted(stdout),
+          .progress = can_redraw(stderr) ? show_progress : std::function<void(std::string_view)>(),
           .written = rig.files(),
+          .conditions = conditions(options.rig.settings(), rig.plan().plcs.front()),
           .write_scenario =
               [&options, program](const SessionRecord& record, const Destination& to, std::string& why) {
                 const auto steps = steps_of(record, why);

@@ -256,6 +256,7 @@ void Session::begin(std::shared_ptr<Debuggee> debuggee) {
   listing_ = std::make_unique<Listing>(*debuggee_->program());
   sources_ = std::make_unique<Sources>(*debuggee_->program());
   stepper_ = std::make_unique<Stepper>(debuggee_->simulation(), debuggee_->history(), settings_.stop_request);
+  stepper_->host_timeout = debuggee_->master().timeout;
   debuggee_->when_saying([this](const std::string& text) { print(text, "important"); });
   stepper_->on_message = [this](const StopPoint& stop) {
     print(filled_in(stop.log, cpu()), "console", standing_at(cpu().state()));

@@ -189,10 +189,14 @@ Json Session::reverse_to_last_write(const Json& arguments) {
 Session::Written Session::find_decision() {
   const DecisionSearch search = find_last_decision(debuggee_->simulation(), debuggee_->history(), settings_.stop_request);
   if (search.interrupted) refuse_interrupted();
-  if (!search.decision)
-    throw Refused("nothing has decided that it comes here: no contact, no jump and no conditional return so far");
+  std::string unanswered;
+  for (const TraceLine& line : search.unanswered) unanswered += fmt::format("\n{}  {}", moment_text(line.at), line.text);
+  const std::string nothing =
+      "nothing has decided that it comes here: no contact, no jump, no conditional call or return so far";
+  if (!search.decision && unanswered.empty()) throw Refused(nothing);
+  if (!search.decision) return {debuggee_->history().now(), {{"text", nothing + unanswered}}};
   const LastDecision& found = *search.decision;
-  Json body{{"text", fmt::format("{}  {}", moment_text(found.by.at), found.text)},
+  Json body{{"text", fmt::format("{}  {}{}", moment_text(found.by.at), found.text, unanswered)},
             {"instruction", execution_text(found.by, cpu().program())},
             {"routine", listing_->routine_of(found.by.op)}};
   body.update(client_place(found.by.op));

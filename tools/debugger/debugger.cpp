@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <istream>
 #include <ostream>
+#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
+#include "tools/host/host_time.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
@@ -39,9 +42,10 @@ std::vector<std::string> split(std::string_view text, std::string_view separator
   return parts;
 }
 
-History::Settings settings_of(const DebuggerOptions& options) {
+History::Settings settings_of(const DebuggerOptions& options, std::function<void()> progress) {
   History::Settings settings = options.history;
   settings.stop_request = options.stop_request;
+  if (options.progress) settings.progress = std::move(progress);
   return settings;
 }
 
@@ -52,9 +56,10 @@ Debugger::Debugger(serial::Simulation& simulation, std::ostream& out, const Debu
       out_(out),
       options_(options),
       listing_(simulation.cpu().program()),
-      history_(simulation, settings_of(options)),
+      history_(simulation, settings_of(options, [this] { show_progress(); })),
       stepper_(simulation, history_, options.stop_request),
       trace_lines_(simulation.cpu().program()) {
+  stepper_.host_timeout = options_.master.timeout;
   stepper_.on_record = [this](const TraceRecord& record) { print_trace(record); };
   stepper_.on_instruction = [this](const InstructionRecord& record, bool started_at) {
     print_instruction(record, started_at);
@@ -84,6 +89,20 @@ Debugger::Error Debugger::execute_one(std::string_view text) {
   command_ = std::string(command->name) + (arguments.empty() ? "" : " ") + joined(arguments);
   repeatable_ = command->repeats ? command_ : "";
   return (this->*command->run)(arguments);
+}
+
+/// Once a second.
+void Debugger::show_progress() {
+  if (host_time() < progress_at_ || (layout_.shown && layout_.shown())) return;
+  progress_at_ = host_time() + std::min(options_.patience, kSecond);
+  progress_shown_ = true;
+  out_.flush();
+  options_.progress(fmt::format("at {}; Ctrl-C ends it", moment_text(simulation_.time())));
+}
+
+/// Something else is to be printed.
+void Debugger::hide_progress() {
+  if (std::exchange(progress_shown_, false)) options_.progress("");
 }
 
 std::optional<ScriptError> Debugger::run_script(std::istream& in) {
@@ -117,7 +136,7 @@ void Debugger::go(const Run& run) {
   const std::uint64_t errors_before = simulation_.cpu().state().error_count;
   const Time end = simulation_.time() < kNever - run.limit ? simulation_.time() + run.limit : kNever;
   begin_live_status();
-  const Stop stop = stepper_.run(run.goal, end, run.stop_at_answer);
+  const Stop stop = at_length([&] { return stepper_.run(run.goal, end, run.stop_at_answer); });
   live_status_.reset();
   report(stop, run, simulation_.cpu().state().error_count - errors_before);
 }
@@ -136,7 +155,7 @@ void Debugger::remember() {
 void Debugger::go_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer) {
   remember();
   first_error_.reset();
-  const Stop stop = stepper_.run_back(goal, count, stop_at_answer);
+  const Stop stop = at_length([&] { return stepper_.run_back(goal, count, stop_at_answer); });
   note_going_elsewhere();
   report_hits(stop);
   report_reason(stop, {});
@@ -221,7 +240,15 @@ std::string Debugger::op_text(std::uint32_t op) const {
   return fmt::format("{} line {}: {}", listing_.routine_of(op), listing_.line_of(op), listing_.text_of(op));
 }
 
-void Debugger::print_answer(const serial::Exchange& exchange) { out_ << exchange_text(exchange, options_.master.timeout); }
+std::string Debugger::routine_text(std::uint32_t op) const {
+  const std::string& network = listing_.network_of(op);
+  return listing_.routine_of(op) + (network.empty() ? "" : ", ") + network;
+}
+
+void Debugger::print_answer(const serial::Exchange& exchange) {
+  hide_progress();
+  out_ << exchange_text(exchange, options_.master.timeout);
+}
 
 void Debugger::print_trace(const TraceRecord& record) {
   if (record.kind == TraceKind::RuntimeError && !first_error_) first_error_ = record;
@@ -231,6 +258,7 @@ void Debugger::print_trace(const TraceRecord& record) {
 }
 
 void Debugger::print_trace_lines(const std::vector<TraceLine>& lines) {
+  if (!lines.empty()) hide_progress();
   for (const TraceLine& line : lines) out_ << fmt::format("  {}  {}\n", clock_text(line.at), line.text);
 }
 
@@ -242,6 +270,7 @@ void Debugger::print_instruction(const InstructionRecord& record, bool started_a
   else
     trace_lines_.note(record);
   if (show_ == Show::None || (show_ == Show::Started && !started_at)) return;
+  hide_progress();
   out_ << fmt::format("   {}  {}\n", describe(record, simulation_.cpu().program()), format_duration(record.end - record.at));
 }
 

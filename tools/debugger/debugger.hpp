@@ -28,6 +28,7 @@
 #include "tools/debugger/session_file.hpp"
 #include "tools/debugger/stepper.hpp"
 #include "tools/debugger/words.hpp"
+#include "tools/host/host_time.hpp"
 #include "tools/host/written_files.hpp"
 #include "tools/views/listing.hpp"
 
@@ -39,7 +40,11 @@ struct DebuggerOptions {
   History::Settings history{};                      ///< with the records, which watch the CPU too
   std::string files{};                              ///< that the records and captures write: "the trace"; "" for none
   bool colour = false;                              ///< what is forced is shown in red
-  WrittenFiles written{};                           ///< that are read and written already
+  /// Shows how far a long command has come, in place of what it showed before; "" takes that away. None: nothing is shown.
+  std::function<void(std::string_view text)> progress{};
+  Time patience = 2 * kSecond;              ///< of the host: how long a command runs before it is shown
+  WrittenFiles written{};                   ///< that are read and written already
+  std::vector<SessionOption> conditions{};  ///< options that a saved session needs again, besides the master's
 
   /// Writes a session as a scenario. False, and why not.
   std::function<bool(const SessionRecord& record, const Destination& to, std::string& why)> write_scenario{};
@@ -108,6 +113,16 @@ class Debugger {
   static const std::vector<Command>& commands();
   static const Command* find_command(std::string_view word, std::string& why);
   Error execute_one(std::string_view text);
+  void show_progress();
+  void hide_progress();
+
+  /// What may take long: how far it has come is shown meanwhile.
+  auto at_length(const auto& work) {
+    if (options_.progress) progress_at_ = host_time() + options_.patience;
+    auto result = work();
+    hide_progress();
+    return result;
+  }
   bool stop_requested() const;
 
   Error list(const Arguments& arguments);
@@ -183,7 +198,12 @@ class Debugger {
   std::optional<LastDecision> find_decision();
   void go_to(const Moment& moment);
   void report_write(const LastWrite& write, const MemoryRange& range, std::string_view name);
-  std::optional<MemoryRange> one_range(const Arguments& arguments, std::string_view command, std::string& why) const;
+  struct Named {
+    MemoryRange range;
+    std::string name;
+  };
+  std::optional<Named> find_range(const std::string& text, std::string& why);
+  std::optional<Named> one_range(const Arguments& arguments, std::string_view command, std::string& why);
   void report(const Stop& stop, const Run& run, std::uint64_t errors);
   void report_reason(const Stop& stop, const Run& run);
   void report_hits(const Stop& stop);
@@ -205,6 +225,7 @@ class Debugger {
   std::string value_of(const MemoryRange& range) const;
   std::vector<Bits> operands_of(std::uint32_t op) const;
   std::string red(std::string text) const;  ///< on a terminal
+  std::vector<SessionOption> session_conditions() const;
   std::optional<Destination> destination(const Arguments& arguments, std::string_view command, FileKind kind,
                                          std::string& why) const;
   std::string oldest_text(const History::Usage& usage) const;
@@ -216,11 +237,12 @@ class Debugger {
   void note_live_status(const InstructionRecord& record);
   std::string forced_text(const std::vector<Bits>& places) const;  ///< `  forced: VW10=5`; nothing if nothing is
   std::string op_text(std::uint32_t op) const;                     ///< `INT 123 line 40: MOVB SMB2, VB1 // …`
+  std::string routine_text(std::uint32_t op) const;                ///< `SBR 51, network 6 "SBR 51: is it undisturbed?"`
   std::optional<std::uint32_t> current_op() const;
   std::optional<std::uint32_t> find_place(const Arguments& arguments, std::string_view command, std::string& why);
   std::string mark_of(std::uint32_t op) const;
   Error assign_all(const Arguments& arguments, bool inputs_only);
-  Error ranges_of(const Arguments& arguments, std::vector<MemoryRange>& ranges) const;
+  Error ranges_of(const Arguments& arguments, std::string_view command, std::vector<Named>& ranges);
 
   struct Kept {
     std::string command;
@@ -245,6 +267,8 @@ class Debugger {
   bool echoing_ = false;  ///< commands are printed after the prompt
   std::string command_;   ///< being executed, as written
   std::string repeatable_;
+  Time progress_at_ = kNever;  ///< of the host: when progress is shown next
+  bool progress_shown_ = false;
   Layout layout_{};
 
   /// What is in view while a run goes on.

@@ -8,6 +8,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/modbus/crc.hpp"
+#include "tools/debugger/bad_pointers.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/frame_words.hpp"
 #include "tools/debugger/goals.hpp"
@@ -72,7 +73,7 @@ const std::vector<Debugger::Command>& Debugger::commands() {
       {"who", "", "who ADDRESS | event N",
        "the instruction that wrote an address last, or attached an event, without going there",
        "With its operands, the interrupt and the time; also if the value stayed the same. Entries of tables, strings and "
-       "messages only if they changed it. 'rwho' goes there.",
+       "messages only if they changed it. who *VD3570 takes the address that the pointer holds now. 'rwho' goes there.",
        &Debugger::who},
       {"rwho", "rw", "rwho ADDRESS | event N", "back to in front of the instruction that 'who' names",
        "rwho event 8 goes to where the program last changed which routine gets the characters: where it dropped a frame.",
@@ -113,7 +114,8 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "coils stop only with power flow, or 'always'.\n"
        "  WHAT: event N [occurs | served], received or sent (a frame), xmt, rcv (its end), error [CODE], overflow (of a "
        "queue), "
-       "lost (a character), mode, unanswered (a request).\n"
+       "lost (a character), mode, unanswered (a request; of a master on a bridge: nothing is sent within --timeout, or "
+       "before it sends again).\n"
        "  CONDITION in STL terms: break 40 if VW3300 > 8 and M31.7. hits N stops from the Nth time on, "
        "counted since it was set. log prints a line "
        "and "
@@ -123,7 +125,8 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "stop after the instruction that changes M31.7, VB100, VW100, AC0 …, or reads or writes it",
        "Interrupt routines too. The system changes memory as well: inputs, SM bits, SMB2 before INT of event 8. 'write' "
        "stops "
-       "also if the value stays the same. Entries of tables, strings and messages count only if they change.",
+       "also if the value stays the same. Entries of tables, strings and messages count only if they change. watch *VD3570 "
+       "takes the address that the pointer holds now, and stays there.",
        &Debugger::watch},
       {"delete", "d", "delete N… | all", "remove breakpoints and watches", "", &Debugger::delete_stop},
       {"list", "l", "list [LINE | SBR n | INT n | LBL n | NETWORK n]", "the program around the current place or elsewhere",
@@ -149,7 +152,9 @@ const std::vector<Debugger::Command>& Debugger::commands() {
       {"expect", "", "expect EXPRESSION", "a wrong command unless it holds: a script with such lines is a test",
        "expect VW20 = 5 and M0.1. A script ends at the first that does not hold, with exit code 2.", &Debugger::expect},
       {"display", "", "display [ADDRESS[:COUNT]… | off]", "print memory after each stop",
-       "Further ones are added. Alone: print them now.", &Debugger::display},
+       "Further ones are added. Alone: print them now. display *VD3570 takes the address that the pointer holds now, and "
+       "stays there.",
+       &Debugger::display},
       {"port", "", "port", "SMB30 in words, receiver, transmitter, and the master on the line", "", &Debugger::port},
       {"errors", "e", "errors", "run-time and fatal errors up to now", "", &Debugger::errors},
       {"trace", "", "trace on | off", "print interrupts, characters and errors while running", "", &Debugger::trace},
@@ -316,10 +321,31 @@ Debugger::Error Debugger::stack(const Arguments& arguments) {
   return {};
 }
 
-Debugger::Error Debugger::ranges_of(const Arguments& arguments, std::vector<MemoryRange>& ranges) const {
+/// An address, or the one that a pointer holds now, which is said.
+std::optional<Debugger::Named> Debugger::find_range(const std::string& text, std::string& why) {
+  const Cpu& cpu = simulation_.cpu();
+  const auto place = parse_place(text, cpu.program(), why);
+  if (!place) return {};
+  const auto range = range_now(*place, cpu);
+  const std::string written = stl::upper_case(text);
+  if (!range) {
+    const std::string address = name_of(place->range, place->range.name_of(0));
+    why = bad_pointer_text(cpu, place->range, written, address);
+    return {};
+  }
+  if (!place->pointer) return Named{*range, name_of(*range, written)};
+  const std::string count = range->count > 1 ? fmt::format(":{}", range->count) : "";
+  const Named named{*range, name_of(*range, range->name_of(0) + count)};
+  out_ << fmt::format("{} is {} now\n", written, named.name);
+  return named;
+}
+
+Debugger::Error Debugger::ranges_of(const Arguments& arguments, std::string_view command, std::vector<Named>& ranges) {
   for (const std::string& text : arguments) {
-    std::string why;
-    const auto range = parse_range(text, simulation_.cpu().program(), why);
+    std::string why, no_expression;
+    const auto range = find_range(text, why);
+    if (!range && arguments.size() > 1 && Expression::parse(joined(arguments), simulation_.cpu().program(), no_expression))
+      return fmt::format("{} takes addresses; 'print {}' computes an expression", command, joined(arguments));
     if (!range) return why;
     ranges.push_back(*range);
   }
@@ -331,9 +357,9 @@ Debugger::Error Debugger::display(const Arguments& arguments) {
     displayed_.clear();
     return {};
   }
-  std::vector<MemoryRange> ranges;
-  if (Error error = ranges_of(arguments, ranges)) return error;
-  displayed_.insert(displayed_.end(), ranges.begin(), ranges.end());
+  std::vector<Named> added;
+  if (Error error = ranges_of(arguments, "display", added)) return error;
+  for (const Named& one : added) displayed_.push_back(one.range);
   if (displayed_.empty()) out_ << "nothing is displayed; 'display VW100' adds to it\n";
   for (const MemoryRange& range : displayed_) out_ << memory_text(range);
   return {};

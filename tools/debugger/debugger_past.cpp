@@ -112,7 +112,7 @@ Debugger::Error Debugger::at(const Arguments& arguments) {
   remember();
   if (lower_case(text) == "start" || *time == 0) {
     history_.go_to(history_.usage().oldest);
-  } else if (!history_.go_to(*time)) {
+  } else if (!at_length([&] { return history_.go_to(*time); })) {
     kept_.pop_back();
     out_ << interruption_text() << '\n';
     return {};
@@ -123,15 +123,14 @@ Debugger::Error Debugger::at(const Arguments& arguments) {
   return {};
 }
 
-std::optional<MemoryRange> Debugger::one_range(const Arguments& arguments, std::string_view command,
-                                               std::string& why) const {
-  if (arguments.size() == 1) return parse_range(arguments[0], simulation_.cpu().program(), why);
+std::optional<Debugger::Named> Debugger::one_range(const Arguments& arguments, std::string_view command, std::string& why) {
+  if (arguments.size() == 1) return find_range(arguments[0], why);
   why = expects(command, fmt::format("one address, or event and a number, for example: {} VW100", command));
   return {};
 }
 
 std::optional<LastWrite> Debugger::find_write(const MemoryRange& range, std::string_view name) {
-  const WriteSearch search = find_last_write(simulation_, history_, range, options_.stop_request);
+  const WriteSearch search = at_length([&] { return find_last_write(simulation_, history_, range, options_.stop_request); });
   if (search.interrupted) out_ << interruption_text() << '\n';
   if (!search.write && !search.interrupted)
     out_ << fmt::format("nothing has written {} since power-up; it is {}\n", name, value_of(range));
@@ -159,8 +158,17 @@ static std::optional<std::uint8_t> event_of(const std::vector<std::string>& word
   return number && find_event(*number) ? number : std::nullopt;
 }
 
+/// `who event …` without the number of an event.
+static std::string expects_event(std::string_view command, const std::vector<std::string>& words) {
+  std::uint8_t last = kEvents - 1;
+  while (!find_event(last)) --last;
+  const auto number = words.size() == 2 ? parse_decimal<std::uint64_t>(words[1]) : std::nullopt;
+  return fmt::format("{}{} expects an address, or event and a number up to {}, for example: {} event 8",
+                     number ? fmt::format("there is no event {}; ", *number) : "", command, last, command);
+}
+
 std::optional<LastAttachment> Debugger::find_attachment(std::uint8_t event) {
-  const AttachmentSearch search = find_last_attachment(history_, event, options_.stop_request);
+  const AttachmentSearch search = at_length([&] { return find_last_attachment(history_, event, options_.stop_request); });
   if (search.interrupted) out_ << interruption_text() << '\n';
   if (!search.attachment) {
     if (!search.interrupted)
@@ -178,20 +186,23 @@ Debugger::Error Debugger::history(const Arguments& arguments) {
   constexpr std::uint32_t kShown = 10, kMost = 10'000;
   const auto count = arguments.empty() ? kShown : parse_count(arguments);
   if (!count || *count > kMost) return expects("history", "how many instructions, up to 10000, for example: history 30");
-  for (const InstructionRecord& record : last_instructions(history_, *count, options_.stop_request))
+  for (const InstructionRecord& record :
+       at_length([&] { return last_instructions(history_, *count, options_.stop_request); }))
     out_ << fmt::format("{}  {:<7} {}\n", clock_text(record.at), listing_.routine_of(record.op),
                         execution_text(record, simulation_.cpu().program()));
   return {};
 }
 
 std::optional<LastDecision> Debugger::find_decision() {
-  const DecisionSearch search = find_last_decision(simulation_, history_, options_.stop_request);
+  const DecisionSearch search = at_length([&] { return find_last_decision(simulation_, history_, options_.stop_request); });
   if (search.interrupted)
     out_ << interruption_text() << '\n';
   else if (search.decision)
-    out_ << fmt::format("{}  {}\n", moment_text(search.decision->by.at), search.decision->text);
+    out_ << fmt::format("{}  {}\n  in {}\n", moment_text(search.decision->by.at), search.decision->text,
+                        routine_text(search.decision->by.op));
   else
-    out_ << "nothing has decided that it comes here: no contact, no jump and no conditional return so far\n";
+    out_ << "nothing has decided that it comes here: no contact, no jump, no conditional call or return so far\n";
+  for (const TraceLine& line : search.unanswered) out_ << fmt::format("{}  {}\n", moment_text(line.at), line.text);
   return search.decision;
 }
 
@@ -220,11 +231,11 @@ Debugger::Error Debugger::who(const Arguments& arguments) {
     find_attachment(*event);
     return {};
   }
+  if (!arguments.empty() && lower_case(arguments[0]) == "event") return expects_event("who", arguments);
   std::string why;
-  const auto range = one_range(arguments, "who", why);
-  if (!range) return why;
-  const std::string name = name_of(*range, arguments[0]);
-  if (const auto write = find_write(*range, name)) report_write(*write, *range, name);
+  const auto place = one_range(arguments, "who", why);
+  if (!place) return why;
+  if (const auto write = find_write(place->range, place->name)) report_write(*write, place->range, place->name);
   return {};
 }
 
@@ -233,13 +244,13 @@ Debugger::Error Debugger::back_to_write(const Arguments& arguments) {
     if (const auto attachment = find_attachment(*event)) go_to(attachment->moment);
     return {};
   }
+  if (!arguments.empty() && lower_case(arguments[0]) == "event") return expects_event("rwho", arguments);
   std::string why;
-  const auto range = one_range(arguments, "rwho", why);
-  if (!range) return why;
-  const std::string name = name_of(*range, arguments[0]);
-  const auto write = find_write(*range, name);
+  const auto place = one_range(arguments, "rwho", why);
+  if (!place) return why;
+  const auto write = find_write(place->range, place->name);
   if (!write) return {};
-  report_write(*write, *range, name);
+  report_write(*write, place->range, place->name);
   go_to(write->moment);
   return {};
 }

@@ -53,6 +53,13 @@ std::optional<Destination> Debugger::destination(const Arguments& arguments, std
   return to;
 }
 
+/// What a saved session depends on besides the program and what it began with.
+std::vector<SessionOption> Debugger::session_conditions() const {
+  std::vector<SessionOption> all = options_of(options_.master, history_.origin().clock);
+  all.insert(all.end(), options_.conditions.begin(), options_.conditions.end());
+  return all;
+}
+
 Debugger::Error Debugger::save(const Arguments& arguments) {
   std::string why;
   const auto to = destination(arguments, "save", {"a saved session", session_beginning()}, why);
@@ -62,6 +69,7 @@ Debugger::Error Debugger::save(const Arguments& arguments) {
   const SessionFile file{.cpu = std::string(program.model->name),
                          .program = digest_of(program),
                          .begin = digest_of(history_.origin()),
+                         .options = session_conditions(),
                          .recording = history_.recording(),
                          .state = digest_of(simulation_.cpu().state())};
   if (!write_result(*to, to_text(file), why)) return why;
@@ -79,16 +87,16 @@ Debugger::Error Debugger::load(const Arguments& arguments) {
   const Program& program = simulation_.cpu().program();
   const auto file = session_from_text(*text, *program.model, why);
   if (file && file->program != digest_of(program)) why = "it is of another program, or of other execution times";
+  const std::string differing = file ? differences(file->options, session_conditions()) : "";
+  if (why.empty() && !differing.empty()) why = fmt::format("it was saved with other options: {}", differing);
   if (why.empty() && file->begin != digest_of(history_.origin()))
-    why = "it began with other memory, inputs or time: give --set, --memory, --ram-lost and --clock as then";
+    why = "it began with other memory or inputs: give --memory, --ram-lost and --power-off as then";
   if (!why.empty()) return fmt::format("cannot load {}: {}", path, why);
   const History::Place here = history_.here();
-  if (!history_.replay(file->recording) || digest_of(simulation_.cpu().state()) != file->state) {
+  if (!at_length([&] { return history_.replay(file->recording); }) || digest_of(simulation_.cpu().state()) != file->state) {
     history_.return_to(here);
     if (stop_requested()) return fmt::format("{}; nothing is loaded", interruption_text());
-    return fmt::format(
-        "cannot load {}: replayed here, it comes to another state; give --input, faults and the line's options as then",
-        path);
+    return fmt::format("cannot load {}: replayed here, it comes to another state", path);
   }
   if (kept_.size() == kKeptStates) kept_.pop_front();
   kept_.push_back({command_, here});

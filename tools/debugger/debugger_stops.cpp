@@ -117,16 +117,16 @@ Debugger::Error Debugger::watch(const Arguments& arguments) {
     pattern.on = access == "read" ? On::Read : access == "write" ? On::Write : On::Change;
     addresses.pop_back();
   }
-  std::vector<MemoryRange> ranges;
-  if (Error error = ranges_of(addresses, ranges)) return error;
+  std::vector<Named> ranges;
+  if (Error error = ranges_of(addresses, "watch", ranges)) return error;
   std::string why;
   if (!read_options(words, simulation_.cpu().program(), pattern, why)) return why;
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
+  for (const auto& [range, name] : ranges) {
     StopPoint added = pattern;
     added.number = next_number_++;
-    added.range = ranges[i];
-    added.name = name_of(ranges[i], addresses[i]) + (added.on == On::Change ? "" : " " + access);
-    out_ << fmt::format("watch {}: {} is {}{}\n", added.number, added.name, value_of(ranges[i]), options_text(added));
+    added.range = range;
+    added.name = name + (added.on == On::Change ? "" : " " + access);
+    out_ << fmt::format("watch {}: {} is {}{}\n", added.number, added.name, value_of(range), options_text(added));
     stepper_.stops.push_back(std::move(added));
   }
   return {};
@@ -203,6 +203,7 @@ void Debugger::report_access(const Hit& hit) {
 }
 
 void Debugger::print_message(const StopPoint& stop) {
+  hide_progress();
   out_ << fmt::format("{}\n", stl::printable(filled_in(stop.log, simulation_.cpu())));
 }
 

@@ -33,7 +33,8 @@ std::size_t bytes_of(const serial::Simulation::Snapshot& state) {
   return bytes;
 }
 
-constexpr Time kSlice = 100 * kMillisecond;  // a stop request is heard in between
+constexpr Time kSlice = 100 * kMillisecond;    // a stop request is heard in between
+constexpr std::uint32_t kTellEvery = 1 << 10;  // instructions
 
 /// Comes to the first instruction.
 struct StopAtOnce final : Observer {
@@ -147,6 +148,7 @@ void History::record(const TraceRecord& record) {
 }
 
 bool History::before(std::uint32_t op) {
+  if (++looked_ % kTellEvery == 0) tell_progress();
   if (goal_ && simulation_.cpu().state().instructions == *goal_) return false;
   bool goes_on = true;
   if (live_ && settings_.records && settings_.records->wants_instructions()) goes_on = settings_.records->before(op);
@@ -210,6 +212,7 @@ bool History::play_to(Time time) {
   }
   while (simulation_.time() < time && simulation_.cpu().state().mode != Mode::Stop) {
     if (stop_requested()) return false;
+    tell_progress();
     simulation_.run_until(std::min(time, simulation_.time() + kSlice));
     settled_ = false;
   }

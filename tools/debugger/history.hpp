@@ -63,6 +63,7 @@ class History final : private TraceSink, private serial::HostJournal {
     std::size_t log_bound = 64 << 20;                 ///< bytes for what came in over a bridge
     Time interval = 500 * kMillisecond;               ///< of checkpoints, until they have to be thinned
     const std::atomic<bool>* stop_request = nullptr;  ///< ends what plays for long: go_to() a time, replay()
+    std::function<void()> progress{};                 ///< told now and then while something runs or plays
   };
 
   /// The past begins now. The simulation must live as long as this.
@@ -166,6 +167,9 @@ class History final : private TraceSink, private serial::HostJournal {
   void forget();
   void do_next_action();
   bool play_to(Time time);
+  void tell_progress() const {
+    if (settings_.progress) settings_.progress();
+  }
   bool stop_requested() const { return settings_.stop_request && *settings_.stop_request; }
   Moment go_to_before(const Moment& end, Time ahead);
   void begin_branch(serial::Simulation::Snapshot state);
@@ -192,6 +196,7 @@ class History final : private TraceSink, private serial::HostJournal {
   bool live_ = false;
   std::optional<std::uint64_t> goal_;  ///< instructions
   bool stopped_by_observer_ = false;
+  std::uint32_t looked_ = 0;  ///< instructions, for tell_progress()
 };
 
 /// What ran, from the beginning of the history: until `end`, and once or again.

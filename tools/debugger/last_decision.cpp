@@ -1,23 +1,31 @@
 #include "tools/debugger/last_decision.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "interpreter/trace/trace_reasons.hpp"
 
 namespace s7200::tools {
 namespace {
 
-constexpr Time kEarlier = kSecond;  // more than the watchdog gives a scan: what is known of it is complete
+constexpr Time kEarlier = kSecond;  // who attached the routine that got a frame is mostly seen, too
+constexpr Time kJust = 100 * kMillisecond;
+constexpr Time kHostRequest = 2 * kSecond;  // when a master on a bridge has asked is not kept: with its time-out before now
 
 class Reader final : public Observer {
  public:
   Reader(const Program& program, const std::atomic<bool>* stop_request) : reasons(program), stop_request_(stop_request) {}
   bool wants_instructions() const override { return true; }
   bool before(std::uint32_t) override { return !(stop_request_ && *stop_request_); }
-  void record(const TraceRecord& record) override { reasons.note(record); }
+  void record(const TraceRecord& record) override {
+    if (record.kind == TraceKind::Transmit) unanswered.clear();
+    for (const auto& frame : reasons.unanswered(record)) unanswered.push_back({record.at, unanswered_text(frame)});
+    reasons.note(record);
+  }
   void instruction(const InstructionRecord& record) override { reasons.note(record); }
 
   TraceReasons reasons;
+  std::vector<TraceLine> unanswered;
 
  private:
   const std::atomic<bool>* stop_request_;
@@ -36,14 +44,30 @@ class Finder final : public Observer {
   bool in_interrupt_;
 };
 
+/// Since when all is to be known: the scan, which an interrupt routine never outlasts, and a request without an answer.
+Time beginning(const serial::Simulation& simulation) {
+  const serial::Requester& master = simulation.master();
+  const serial::Exchange& exchange = master.exchange();
+  const Time now = simulation.time(), given_up = exchange.request_end + master.state().request.timeout;
+  Time from = simulation.cpu().state().scan_begin;
+  if (master.asks() || (exchange.timed_out && now - given_up < kJust)) from = std::min(from, exchange.request_start);
+  if (simulation.host_port().state().attached) from = std::min(from, now - std::min(now, kHostRequest));
+  return from;
+}
+
 }  // namespace
 
 DecisionSearch find_last_decision(serial::Simulation& simulation, History& history, const std::atomic<bool>* stop_request) {
   const Moment start = history.now();
+  const Time since = beginning(simulation);
   Reader reader(simulation.cpu().program(), stop_request);
-  const bool whole = history.go_to(start.time - std::min(start.time, kEarlier)) && history.play(reader, start);
+  const bool whole = history.go_to(since - std::min(since, kEarlier)) && history.play(reader, start);
   const auto cause = whole ? reader.reasons.cause() : std::nullopt;
-  DecisionSearch search{.decision = {}, .interrupted = !whole};
+  DecisionSearch search{.decision = {}, .unanswered = {}, .interrupted = !whole};
+  for (TraceLine& line : reader.unanswered)
+    if (line.at >= since) search.unanswered.push_back(std::move(line));
+  for (const auto& frame : reader.reasons.unread())
+    if (frame.since >= since) search.unanswered.push_back({start.time, unanswered_text(frame)});
   const auto in_front_of = [&](const InstructionRecord& from, std::uint32_t op) {
     Finder finder(simulation.cpu(), op, cause->in_interrupt);
     if (history.go_to(from.at)) history.play(finder, start);

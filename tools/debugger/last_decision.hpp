@@ -4,7 +4,9 @@
 #include <atomic>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "interpreter/trace/trace_lines.hpp"
 #include "tools/debugger/history.hpp"
 
 namespace s7200::tools {
@@ -18,10 +20,15 @@ struct LastDecision {
 
 struct DecisionSearch {
   std::optional<LastDecision> decision;  ///< nothing: the scan, or the interrupt routine, has come by none so far
+  /// Frames that have got no answer since the scan began, or since the master's request did if it waits for an answer or
+  /// has just given up, or in the last two seconds with a bridge; with the moment when that was decided, or now for one
+  /// that no routine has read so far.
+  std::vector<TraceLine> unanswered{};
   bool interrupted = false;
 };
 
-/// The contacts of the rung so far, or the last jump or conditional end before it. The simulation stands where it stood.
+/// The contacts of the rung so far, or the last jump, conditional end or conditional call before it. The simulation stands
+/// where it stood.
 DecisionSearch find_last_decision(serial::Simulation& simulation, History& history, const std::atomic<bool>* stop_request);
 
 }  // namespace s7200::tools

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -18,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kFormat = "s7200 session 1", kAnyFormat = "s7200 session ";
+constexpr std::string_view kFormat = "s7200 session 2", kAnyFormat = "s7200 session ";
 
 /// FNV-1a.
 class Digest {
@@ -196,10 +197,17 @@ Recording recording_from(const Json& json, const CpuModel& model) {
   return recording;
 }
 
+std::vector<SessionOption> options_from(const Json& json) {
+  std::vector<SessionOption> options;
+  for (const auto& [name, value] : json.items()) options.push_back({name, value.get<std::string>()});
+  return options;
+}
+
 SessionFile file_from(const Json& json, const CpuModel& model) {
   return {.cpu = json.at("cpu").get<std::string>(),
           .program = json.at("program").get<std::string>(),
           .begin = json.at("begin").get<std::string>(),
+          .options = options_from(json.at("options")),
           .recording = recording_from(json, model),
           .state = json.at("state").get<std::string>()};
 }
@@ -242,10 +250,53 @@ std::string digest_of(const State& state) {
   return digest.text();
 }
 
+std::string digest_of(const serial::FieldScript& script) {
+  Digest digest;
+  for (const serial::FieldChange& change : script.changes)
+    for (const std::uint64_t number : {static_cast<std::uint64_t>(change.at), std::uint64_t{change.place},
+                                       std::uint64_t{change.mask}, std::uint64_t{change.value}})
+      digest.add(number);
+  for (const serial::FieldPulses& pulses : script.pulses)
+    for (const std::uint64_t number : {static_cast<std::uint64_t>(pulses.at), std::uint64_t{pulses.place},
+                                       std::uint64_t{pulses.mask}, pulses.pulses, pulses.millihertz})
+      digest.add(number);
+  return digest.text();
+}
+
+std::vector<SessionOption> options_of(const serial::MasterSettings& master, const ClockTime& clock) {
+  const auto number = [](const auto& given) { return given ? fmt::format("{}", *given) : std::string("as the port"); };
+  return {{"--baud", number(master.baud)},
+          {"--parity", master.parity ? std::string(word_of(*master.parity)) : "as the port"},
+          {"--data-bits", number(master.data_bits)},
+          {"--stop-bits", number(master.stop_bits)},
+          {"--timeout", format_duration(master.timeout, 9)},
+          {"--gap", master.gap == 0 ? "none" : format_duration(master.gap, 9)},
+          {"--clock", fmt::format("{:02}-{:02}-{:02} {:02}:{:02}:{:02}", clock.year, clock.month, clock.day, clock.hour,
+                                  clock.minute, clock.second)}};
+}
+
+std::string differences(const std::vector<SessionOption>& then, const std::vector<SessionOption>& now) {
+  const auto value_in = [](const std::vector<SessionOption>& options, const std::string& name) {
+    const auto found = std::ranges::find(options, name, &SessionOption::name);
+    return found == options.end() ? std::string("none") : found->value;
+  };
+  std::string text;
+  const auto compare = [&](const std::string& name) {
+    const std::string old = value_in(then, name), is = value_in(now, name);
+    if (old != is) text += fmt::format("{}{} {} (here {})", text.empty() ? "" : ", ", name, old, is);
+  };
+  for (const SessionOption& option : then) compare(option.name);
+  for (const SessionOption& option : now)
+    if (std::ranges::find(then, option.name, &SessionOption::name) == then.end()) compare(option.name);
+  return text;
+}
+
 std::string to_text(const SessionFile& file) {
   const Recording& recording = file.recording;
   Json json{
       {"format", kFormat}, {"version", version()}, {"cpu", file.cpu}, {"program", file.program}, {"begin", file.begin}};
+  json["options"] = Json::object();
+  for (const SessionOption& option : file.options) json["options"][option.name] = option.value;
   if (recording.memory) {
     json["memory"] = Json::parse(memory_to_json(*recording.memory, *find_cpu(file.cpu)));
     json["memory_lost"] = recording.memory->ram_lost;

@@ -6,7 +6,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "serial_sim/field/field_script.hpp"
 #include "tools/debugger/history.hpp"
 
 namespace s7200::tools {
@@ -20,6 +22,22 @@ std::string digest_of(const Program& program);
 /// Of memory, clock and position: two runs with the same digest have come to the same state.
 std::string digest_of(const State& state);
 
+/// Of what drives the inputs: two that are the same have the same digest.
+std::string digest_of(const serial::FieldScript& script);
+
+/// What a session depends on besides program and memory, by the name of the option: `--gap`, `2 ms`.
+struct SessionOption {
+  std::string name, value;
+
+  bool operator==(const SessionOption&) const = default;
+};
+
+/// How a master talks, and the time of day at power-up.
+std::vector<SessionOption> options_of(const serial::MasterSettings& master, const ClockTime& clock);
+
+/// `--gap 2 ms (here none), --baud 19200 (here as the port)`: those that are not the same; nothing if all are.
+std::string differences(const std::vector<SessionOption>& then, const std::vector<SessionOption>& now);
+
 /// A session as it is to be written as a scenario.
 struct SessionRecord {
   Recording session;               ///< up to now
@@ -31,6 +49,7 @@ struct SessionRecord {
 
 struct SessionFile {
   std::string cpu, program, begin;  ///< model; digests of the program, and of the state that the session began with
+  std::vector<SessionOption> options;
   Recording recording;
   std::string state;  ///< digest of where it stood
 };

@@ -57,7 +57,10 @@ Stop Stepper::run_back(const Goal& goal, std::uint64_t count, bool stop_at_answe
     begin_watching();
   };
   const auto found = [&] {
-    if (end) note_silence();
+    if (end) {
+      note_silence();
+      note_host_timeout();
+    }
     if (const auto reason = end ? reason_between() : std::nullopt) {
       stop_.reason = *reason;
       there = Found{*end, stop_};
@@ -98,6 +101,9 @@ void Stepper::listen_from_now_on() {
   const Time last = simulation_.last_activity();
   silence_noted_ = simulation_.line_quiet_for(silence) ? last : 0;
   came_in_ = last > simulation_.plc().state().uart.at(simulation_.port()).send_end + half_a_character;
+  host_waits_.reset();
+  const bool waits = came_in_ && silence_noted_ != 0 && !simulation_.freeport().transmitting;
+  if (waits && simulation_.time() < last + host_timeout) note_host_request({}, last);
 }
 
 void Stepper::read_values() {
@@ -118,6 +124,7 @@ void Stepper::record(const TraceRecord& record) {
 bool Stepper::before(std::uint32_t op) {
   note_changes(nullptr);
   note_silence();
+  note_host_timeout();
   if (backwards_) {
     const bool goes_on = note_place(op);
     note_accesses(op);
@@ -266,8 +273,10 @@ bool Stepper::is_meant(const StopPoint& stop, const TraceRecord& record) {
 void Stepper::note_record(const TraceRecord& record) {
   const bool heard = record.kind == TraceKind::CharacterIgnored && record.code == 0;
   const bool received = record.kind == TraceKind::CharacterReceived || heard || record.kind == TraceKind::CharacterDropped;
+  if (received && std::exchange(host_waits_, std::nullopt)) note_unanswered(host_frame_);
   if (received) coming_in_.push_back(record.byte);
   if (received || record.kind == TraceKind::CharacterSent) came_in_ = received;
+  if (record.kind == TraceKind::Transmit || record.kind == TraceKind::CharacterSent) host_waits_.reset();
   for (StopPoint& stop : stops)
     if (is_meant(stop, record)) hit(stop, {.record = record});
 }
@@ -282,18 +291,32 @@ void Stepper::note_silence() {
   const std::vector<std::uint8_t> frame = backwards_ ? std::vector<std::uint8_t>{} : heard;
   for (StopPoint& stop : stops)
     if (stop.on == StopPoint::On::FrameReceived) hit(stop, {.frame = frame});
+  note_host_request(frame, last);
 }
 
-void Stepper::note_unanswered(const serial::Exchange& exchange) {
-  if (!exchange.timed_out) return;
+/// `frame`: of a master outside; nothing if it is not known.
+void Stepper::note_unanswered(const std::vector<std::uint8_t>& frame) {
   for (StopPoint& stop : stops)
-    if (stop.on == StopPoint::On::Unanswered) hit(stop, {});
+    if (stop.on == StopPoint::On::Unanswered) hit(stop, {.frame = frame});
+}
+
+/// What came in without the simulated master came from outside.
+void Stepper::note_host_request(std::vector<std::uint8_t> frame, Time end) {
+  if (!simulation_.host_port().state().attached || simulation_.master().busy()) return;
+  host_waits_ = end;
+  host_frame_ = std::move(frame);
+}
+
+void Stepper::note_host_timeout() {
+  if (!host_waits_ || simulation_.time() - *host_waits_ < host_timeout) return;
+  host_waits_.reset();
+  note_unanswered(host_frame_);
 }
 
 bool Stepper::answer_complete() {
   if (!awaiting_answer_ || simulation_.master().busy()) return false;
   awaiting_answer_ = false;
-  note_unanswered(simulation_.master().exchange());
+  if (simulation_.master().exchange().timed_out) note_unanswered({});
   if (!backwards_) on_answer(simulation_.master().exchange());
   return true;
 }

@@ -46,6 +46,10 @@ class Stepper final : public Observer {
 
   std::vector<StopPoint> stops;
 
+  /// How long a master on a bridge waits for an answer: its own time-out is not known here. One that sends again before has
+  /// given up then.
+  Time host_timeout = kSecond;
+
   // Told while running forwards; all must be set.
   std::function<void(const TraceRecord&)> on_record;
   std::function<void(const InstructionRecord&, bool started_at)> on_instruction;
@@ -82,7 +86,9 @@ class Stepper final : public Observer {
   std::optional<StopReason> reason_between();
   bool answer_complete();
   void note_changes(const InstructionRecord* by);
-  void note_unanswered(const serial::Exchange& exchange);
+  void note_unanswered(const std::vector<std::uint8_t>& frame);
+  void note_host_request(std::vector<std::uint8_t> frame, Time end);
+  void note_host_timeout();
   bool asked_to_stop() const { return stop_request_ && *stop_request_; }
 
   serial::Simulation& simulation_;
@@ -100,14 +106,16 @@ class Stepper final : public Observer {
   bool started_in_interrupt_ = false;
   bool executing_start_ = false;  ///< the instruction being executed is the one it started at
   bool backwards_ = false;
-  std::vector<std::size_t> accessed_;    ///< stops on memory that the instruction being executed reads or writes
-  std::vector<std::uint8_t> coming_in_;  ///< characters since the last silence
-  Time silence_noted_ = 0;               ///< after the character that ended then; 0: after none
-  bool came_in_ = false;                 ///< the last character on the line was received
-  History::BranchPtr counted_on_;        ///< the branch on which hits were counted last
-  std::optional<Moment> listened_to_;    ///< where the last run ended: one from there goes on listening
-  std::optional<Moment> first_place_;    ///< backwards: of the part being played
-  std::vector<Found> found_;             ///< backwards: in the part being played
+  std::vector<std::size_t> accessed_;     ///< stops on memory that the instruction being executed reads or writes
+  std::vector<std::uint8_t> coming_in_;   ///< characters since the last silence
+  Time silence_noted_ = 0;                ///< after the character that ended then; 0: after none
+  bool came_in_ = false;                  ///< the last character on the line was received
+  std::optional<Time> host_waits_;        ///< a master on a bridge, since the end of its frame
+  std::vector<std::uint8_t> host_frame_;  ///< that one; nothing if it is not known
+  History::BranchPtr counted_on_;         ///< the branch on which hits were counted last
+  std::optional<Moment> listened_to_;     ///< where the last run ended: one from there goes on listening
+  std::optional<Moment> first_place_;     ///< backwards: of the part being played
+  std::vector<Found> found_;              ///< backwards: in the part being played
   Progress progress_;
   Stop stop_;
 };

@@ -345,6 +345,106 @@ TEST(Debugger, StopsAtFramesReceivedAndSentAndAtXmt) {
 constexpr std::string_view kListening =
     "LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nENI\nMEND\nINT 1\nLD SM0.0\nINCW VW0\nRETI\n";
 
+TEST(Debugger, ALongCommandShowsHowFarItHasComeAndTakesThatAwayBeforeItsOutput) {
+  serial::Simulation simulation(program_of(kNested));
+  simulation.power_up();
+  std::ostringstream out;
+  std::string output_before;
+  std::size_t shown = 0, taken_away = 0;
+  DebuggerOptions options{};
+  options.patience = 0;
+  options.progress = [&](std::string_view text) {
+    if (text.empty()) {
+      ++taken_away;
+      output_before = out.str();
+    } else {
+      ++shown;
+      EXPECT_TRUE(has(std::string(text), " ms; Ctrl-C ends it"));
+    }
+  };
+  Debugger debugger(simulation, out, options);
+  for (const char* command : {"continue 3s", "rcontinue", "at 1.9s", "who VW20"}) {
+    shown = taken_away = 0;
+    out.str("");
+    EXPECT_FALSE(debugger.execute(command));
+    EXPECT_GT(shown, 0u) << command;
+    EXPECT_EQ(taken_away, 1u) << command;
+    EXPECT_EQ(output_before, "") << command;
+    EXPECT_NE(out.str(), "") << command;
+  }
+  shown = 0;
+  EXPECT_FALSE(debugger.execute("step; regs"));
+  EXPECT_EQ(shown, 0u);
+}
+
+/// A master on a bridge sends its frames at their times.
+struct Bridged {
+  explicit Bridged(std::string_view text, std::vector<Time> times) : simulation(program_of(text)), asks(std::move(times)) {
+    simulation.power_up();
+    DebuggerOptions options{};
+    options.history.drive = [this](Time end) { return drive(end); };
+    debugger = std::make_unique<Debugger>(simulation, out, options);
+  }
+  serial::Halt drive(Time end) {
+    serial::HostPort& port = simulation.host_port();
+    if (!port.state().attached) port.attach(kFormat, simulation.time());
+    for (;;) {
+      const Time next = asked < asks.size() ? asks[asked] : kNever;
+      const serial::Halt halt = simulation.run_until(std::min(end, next));
+      if (halt != serial::Halt::Time || next > end) return halt;
+      std::vector<serial::HostCharacter> frame;
+      for (const std::uint8_t byte : Bytes{0x01, 0x03, 0x00, 0x0a, 0x00, 0x01, 0xa4, 0x08})
+        frame.push_back({.byte = byte, .format = kFormat});
+      port.send(frame, simulation.time());
+      ++asked;
+    }
+  }
+  std::string operator()(std::string_view commands) {
+    out.str("");
+    const auto error = debugger->execute(commands);
+    EXPECT_FALSE(error.has_value()) << *error;
+    return out.str();
+  }
+
+  static constexpr SerialFormat kFormat{9600, 8, Parity::None, 1};
+  serial::Simulation simulation;
+  std::ostringstream out;
+  std::unique_ptr<Debugger> debugger;
+  std::vector<Time> asks;
+  std::size_t asked = 0;
+};
+
+TEST(Debugger, ARequestOfAMasterOnABridgeIsUnansweredAfterTheTimeOut) {
+  Bridged session(kListening, {2 * kSecond});
+  EXPECT_TRUE(has(session("break unanswered; continue"),
+                  "breakpoint 1, unanswered, hit for the first time\n  01 03 00 0a 00 01 a4 08\n"));
+  const Time end_of_frame = 2 * kSecond + 80 * kSecond / 9600, stopped = session.simulation.time();
+  EXPECT_GE(stopped, end_of_frame + kSecond);
+  EXPECT_LT(stopped, end_of_frame + kSecond + 10 * kMillisecond);
+  EXPECT_FALSE(has(session("continue"), "breakpoint")) << "once";
+  EXPECT_TRUE(has(session("rcontinue"), "breakpoint 1, unanswered"));
+  EXPECT_EQ(session.simulation.time(), stopped);
+}
+
+TEST(Debugger, ARequestOfAMasterOnABridgeIsUnansweredWhenItSendsAgain) {
+  Bridged session(kListening, {2 * kSecond, 2'200 * kMillisecond});
+  session("break unanswered; continue");
+  const Time stopped = session.simulation.time();
+  EXPECT_GT(stopped, 2'200 * kMillisecond);
+  EXPECT_LT(stopped, 2'210 * kMillisecond);
+  session("continue 10ms; rcontinue");
+  EXPECT_EQ(session.simulation.time(), stopped);
+}
+
+TEST(Debugger, AnAnsweredRequestOfAMasterOnABridgeDoesNotStop) {
+  Bridged session(
+      "LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nENI\nMEND\nINT 1\nLD SM0.0\nINCW VW2\nLDW= VW2, 8\nMOVB 1, VB0\nXMT VB0, "
+      "0\nRETI\n",
+      {2 * kSecond});
+  EXPECT_FALSE(has(session("break unanswered; break sent; continue"), "unanswered"));
+  EXPECT_FALSE(has(session("continue 5s"), "unanswered"));
+}
+
 TEST(Debugger, AFrameHasEndedAtTheSameMomentWhereverARunPausedInIt) {
   Session whole(kListening), paused(kListening);
   for (Session* session : {&whole, &paused}) (*session)("continue 100ms; break received; send 01 02 03 04");

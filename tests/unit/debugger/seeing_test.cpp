@@ -143,5 +143,52 @@ TEST(Seeing, WrongCommandsTellWhatIsExpected) {
   EXPECT_TRUE(has(session.error_of("who event 99"), "who expects one address, or event and a number"));
 }
 
+TEST(Seeing, DisplayWatchAndWhoTakeTheAddressThatAPointerHoldsNowAndSayIt) {
+  Session session("LD SM0.0\nMOVD &VB100, VD20\nMOVB 7, *VD20\nMOVD &VB200, AC1\nMOVR 1.5, VD40\nMEND\n");
+  session("step 2");
+  EXPECT_TRUE(has(session("display *VD20 VD40:real"), "*VD20 is VB100 now\n"));
+  EXPECT_TRUE(has(session("display"), "VB100 "));
+  EXPECT_TRUE(has(session("watch *VD20"), "*VD20 is VB100 now\nwatch 1: VB100 is 16#00 (0)\n"));
+  EXPECT_TRUE(has(session("continue 10ms"), "watch 1: VB100 was 16#00 (0), is 16#07 (7)\n"));
+  const std::string who = session("who *VD20");
+  EXPECT_TRUE(has(who, "*VD20 is VB100 now\nVB100 was 16#00 (0), became 16#07 (7)"));
+  EXPECT_TRUE(has(who, "by main line 3"));
+  EXPECT_TRUE(has(session("step 2; display *AC1:word"), "*AC1:WORD is VW200 now\n"));
+  EXPECT_TRUE(has(session("who VD40:real"), "VD40:REAL was"));
+  session("rwho *VD20");
+  EXPECT_EQ(session.line(), 3u);
+}
+
+TEST(Seeing, APointerThatPointsNowhereAndAnExpressionAreRefusedWithWhatToDo) {
+  Session session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100\nMEND\n");
+  session("step 2");
+  for (const char* command : {"who", "rwho", "watch", "display"})
+    EXPECT_EQ(session.error_of(std::string(command) + " *VD100"), "*VD100: VD100 is 16#7FFFFFFF, which points nowhere");
+  EXPECT_EQ(session.error_of("display VW2 + 1"), "display takes addresses; 'print VW2 + 1' computes an expression");
+  EXPECT_EQ(session.error_of("watch VW2 > 1"), "watch takes addresses; 'print VW2 > 1' computes an expression");
+}
+
+TEST(Seeing, WhoOfAnEventThatDoesNotExistSaysWhichDo) {
+  Session session(kEcho);
+  for (const char* command : {"who", "rwho"}) {
+    const std::string asks = std::string(command) + " event ";
+    EXPECT_TRUE(has(session.error_of(asks + "99"), "there is no event 99; " + std::string(command) +
+                                                       " expects an address, or event and a number up to 33, for example:"));
+    EXPECT_TRUE(has(session.error_of(asks + "x"), "expects an address, or event and a number"));
+  }
+}
+
+TEST(Seeing, ThePlaceNamesTheNetworkAndItsTitle) {
+  Session session(
+      "NETWORK 1 // count\nLD SM0.0\nINCW VW0\nCALL 1\nNETWORK 2\nLD SM0.0\nINCW VW2\nMEND\nNETWORK 7 // SBR 1: again\n"
+      "SBR 1\nLD SM0.0\nCRET\nRET\n");
+  EXPECT_TRUE(has(session("until 3"), "main  S0=1  network 1 \"count\"\n >     3  INCW"));
+  EXPECT_TRUE(has(session("until 12"), "SBR 1  S0=1  network 7 \"SBR 1: again\"\n"));
+  EXPECT_TRUE(has(session("until 7"), "main  S0=1  network 2\n"));
+  EXPECT_TRUE(has(session("why"), "CRET in line 12 (LD SM0.0: SM0.0=1)\n  in SBR 1, network 7 \"SBR 1: again\"\n"));
+  Session bare("LD SM0.0\nINCW VW0\nMEND\n");
+  EXPECT_TRUE(has(bare("until 2"), "main  S0=1\n")) << "without NETWORK lines";
+}
+
 }  // namespace
 }  // namespace s7200::tools

@@ -65,7 +65,44 @@ TEST_F(SavedSession, OfAnotherProgramCpuVersionOrBeginningIsRefused) {
   simulation.cpu().poke(image::kV, {&byte, 1});
   std::ostringstream out;
   Debugger otherwise(simulation, out, {});
-  EXPECT_TRUE(has(otherwise.execute("load " + file("a.json")).value_or(""), "it began with other memory, inputs or time"));
+  EXPECT_TRUE(has(otherwise.execute("load " + file("a.json")).value_or(""), "it began with other memory or inputs"));
+}
+
+TEST_F(SavedSession, OfOtherOptionsIsRefusedWithTheirNamesAndBothValues) {
+  const auto program = program_of(kEcho);
+  serial::Simulation simulation(program);
+  simulation.power_up();
+  std::ostringstream out;
+  serial::MasterSettings slow;
+  slow.baud = 1200;
+  slow.gap = 2 * kMillisecond;
+  DebuggerOptions options{.master = slow};
+  options.conditions = {{"--fault", "flip:bit=0"}};
+  Debugger saving(simulation, out, options);
+  EXPECT_FALSE(saving.execute("scan 2; save " + file("a.json")));
+  Session session(program);
+  EXPECT_TRUE(has(session.error_of("load " + file("a.json")),
+                  "it was saved with other options: --baud 1200 (here as the port), --gap 2 ms (here none), "
+                  "--fault flip:bit=0 (here none)"));
+  EXPECT_FALSE(saving.execute("load " + file("a.json")));
+
+  const serial::FieldScript rises{.changes = {{.at = 1, .place = 2, .value = 1}}, .pulses = {}};
+  serial::FieldScript falls = rises;
+  falls.changes[0].value = 0;
+  EXPECT_NE(digest_of(rises), digest_of(falls));
+}
+
+TEST_F(SavedSession, OfAnotherTimeOfDayIsRefused) {
+  const auto program = program_of(kEcho);
+  Session session(program);
+  session("scan 2; save " + file("a.json"));
+  serial::Simulation later(program);
+  later.power_up();
+  later.cpu().set_clock({.year = 26, .month = 11, .day = 21});
+  std::ostringstream out;
+  Debugger debugger(later, out, {});
+  EXPECT_TRUE(
+      has(debugger.execute("load " + file("a.json")).value_or(""), "--clock 90-01-01 00:00:00 (here 26-11-21 00:00:00)"));
 }
 
 TEST_F(SavedSession, DamagedIsRefusedWhereverTheDamageIs) {

@@ -1,4 +1,8 @@
 // "The slave does not answer this frame": from the symptom backwards to the instruction that dropped it, as in the README.
+#include <fmt/format.h>
+
+#include <tuple>
+
 #include "tests/support/tip41.hpp"
 #include "tests/unit/debugger/session.hpp"
 
@@ -102,6 +106,63 @@ TEST(WorkedExample, ATraceNamesWhatDroppedAFrameInTheTip) {
                                Reason{"01 03 00 00 00 01 00 00", ": JMP 255 in line "},
                                Reason{"02 03 00 00 00 01 crc", "(LDB= SMB2, VB4095: SMB2=16#02 VB4095=16#01"}})
     a_trace_names(program, reason);
+}
+
+constexpr std::string_view kWaiting =
+    ": INT 121 (attached in line 120) took them without reading SMB2, and executed ATCH 120, 10 in line 650  // start the "
+    "quiet time afresh";
+
+TEST(WorkedExample, AFrameThatComesWhileTheSlaveStillWaitsForSilenceIsNamedByTheTraceAndByWhy) {
+  const auto program = test::compile(test::slave_text());
+  Session traced(program);
+  const std::string trace = traced("trace on; continue 53ms; send 01 03 00 0a 00 01 crc; continue");
+  EXPECT_TRUE(has(trace, "no answer to 8 characters since 53."));
+  EXPECT_TRUE(has(trace, kWaiting));
+  Session session(program);
+  session("continue 53ms; break unanswered; send 01 03 00 0a 00 01 crc; continue");
+  EXPECT_TRUE(has(session("why"), "no answer to 8 characters since 53."));
+  EXPECT_TRUE(has(session("rwho event 8"), "ATCH: INT 122 to event 8"));
+  EXPECT_TRUE(has(session("why"), kWaiting)) << "in front of the ATCH that leaves it";
+  EXPECT_TRUE(has(session("rwho event 8"), "ATCH: INT 121 to event 8"));
+  EXPECT_TRUE(has(session("why"), "CALL 50 in line 77 (LD SM0.1: SM0.1=1)")) << "not the loop of a subroutine that is over";
+}
+
+TEST(WorkedExample, BothPartsOfAFrameWithAPauseInItAreNamed) {
+  const auto program = test::compile(test::slave_text());
+  for (const auto& [fault, first, rest] :
+       {std::tuple{"gap:character=4,length=10ms", "no answer to 3 characters since 2000.",
+                   "no answer to 5 characters since "},
+        std::tuple{"gap:length=10ms", "no answer to a character since 2000.", "no answer to 7 characters since "}}) {
+    SCOPED_TRACE(fault);
+    Session session(program);
+    const std::string trace =
+        session(fmt::format("continue 2s; trace on; fault {}; send 01 03 00 0a 00 01 crc; continue", fault));
+    EXPECT_TRUE(has(trace, first));
+    EXPECT_TRUE(has(trace, "JMP 255 in line 134 (LDW<= VW3300, 3"));
+    EXPECT_TRUE(has(trace, rest));
+    EXPECT_TRUE(has(trace, "took them without reading SMB2"));
+    EXPECT_TRUE(has(session("why"), "JMP 255 in line 134"));
+  }
+}
+
+TEST(WorkedExample, WhyKnowsAllOfALongScanAndEveryContactOfALongRung) {
+  Session session(
+      "LD SM0.0\nAN I0.0\nJMP 1\nLBL 1\nLD SM0.0\nFOR VW0, 1, 1500\nLD SM0.0\nWDR\nSQRT VD8, VD12\nNEXT\nLD SM0.0\nINCW "
+      "VW2\nMEND\n");
+  session("scan");
+  const Time begun = session.simulation.time();
+  const std::string text = session("until 12; why");
+  EXPECT_GT(session.simulation.time() - begun, 3 * kSecond);
+  EXPECT_TRUE(has(text, "JMP 1 in line 3 (LD SM0.0: SM0.0=1; AN I0.0: I0.0=0)"));
+
+  std::string rung = "LDN M0.0\n";
+  for (int bit = 1; bit < 20; ++bit) rung += fmt::format("AN M{}.{}\n", bit / 8, bit % 8);
+  Session wide(rung + "INCW VW0\nMEND\n");
+  const std::string why = wide("until 21; why");
+  EXPECT_TRUE(has(why, "LDN M0.0: M0.0=0; AN M0.1: M0.1=0"));
+  EXPECT_TRUE(has(why, "AN M2.3: M2.3=0)"));
+  wide("rwhy; rwhy");
+  EXPECT_EQ(wide.line(), 1u);
 }
 
 }  // namespace
