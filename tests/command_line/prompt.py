@@ -156,6 +156,14 @@ class Prompt(unittest.TestCase):
         terminal.until("interrupted by Ctrl-C", PROMPT)
         self.quit(terminal)
 
+    def test_a_long_command_shows_how_far_it_has_come_until_ctrl_c(self):
+        terminal = self.session()
+        terminal.type("continue 1000h\n")
+        terminal.until(" ms; Ctrl-C ends it", " ms; Ctrl-C ends it")
+        terminal.signal(signal.SIGINT)
+        terminal.until("interrupted by Ctrl-C", PROMPT)
+        self.quit(terminal)
+
     def test_the_end_of_the_input_and_a_polite_kill_end_the_session(self):
         self.quit(self.session(), "\x04")
         terminal = self.session()
