@@ -491,7 +491,7 @@ Debugger::Error Debugger::fault(const Arguments& arguments) {
   const serial::ParsedFault parsed = serial::parse_fault(text);
   if (!parsed.ok()) return fmt::format("fault, column {}: {}", parsed.error->column, parsed.error->message);
   act(InjectFault{parsed.fault});
-  out_ << fmt::format("on the line from now on: {}\n", serial::to_text(parsed.fault));
+  out_ << fmt::format("on the line from now on: {}\n  {}\n", serial::to_text(parsed.fault), serial::described(parsed.fault));
   return {};
 }
 

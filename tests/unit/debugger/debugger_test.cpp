@@ -345,6 +345,14 @@ TEST(Debugger, StopsAtFramesReceivedAndSentAndAtXmt) {
 constexpr std::string_view kListening =
     "LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nENI\nMEND\nINT 1\nLD SM0.0\nINCW VW0\nRETI\n";
 
+TEST(Debugger, AFaultSaysWhatItDoesAndWhereIfThatWasNotSaid) {
+  Session session(kEcho);
+  EXPECT_TRUE(has(session("fault gap:length=10ms"),
+                  "on the line from now on: gap:length=10ms\n  a pause before a character: character=2, of=request\n"));
+  EXPECT_TRUE(has(session("fault flip:character=3,bit=5,of=answer"), "  one bit inverted\n"));
+  EXPECT_TRUE(has(session("fault cut:from=2ms"), "  the line is cut: everybody hears mark"));
+}
+
 TEST(Debugger, ALongCommandShowsHowFarItHasComeAndTakesThatAwayBeforeItsOutput) {
   serial::Simulation simulation(program_of(kNested));
   simulation.power_up();
