@@ -14,9 +14,7 @@ bool is_interrupt_head(const Program& program, std::uint32_t op) {
 
 }  // namespace
 
-Stepper::Goal none() {
-  return [](const State&, std::uint32_t, const Progress&) { return false; };
-}
+Stepper::Goal none() { return {}; }
 
 Stepper::Goal instructions(std::uint64_t count) {
   return [count](const State&, std::uint32_t, const Progress& progress) { return progress.executed >= count; };

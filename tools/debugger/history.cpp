@@ -142,6 +142,11 @@ bool History::wants_instructions() const {
   return goal_ || observer_ || (live_ && settings_.records && settings_.records->wants_instructions());
 }
 
+bool History::wants_scans() const {
+  return goal_ || (observer_ && observer_->wants_scans()) ||
+         (live_ && settings_.records && settings_.records->wants_scans());
+}
+
 void History::record(const TraceRecord& record) {
   if (live_ && settings_.records) settings_.records->record(record);
   if (observer_) observer_->record(record);
@@ -336,6 +341,7 @@ void History::begin_branch(serial::Simulation::Snapshot state) {
 }
 
 const Moment& History::newest() const { return branch_->end; }
+Time History::interval() const { return branch_->interval; }
 const std::vector<Action>& History::actions() const { return branch_->actions; }
 const Action* History::action(std::size_t number) const {
   return number < branch_->forgotten ? nullptr : &branch_->actions.at(number - branch_->forgotten);

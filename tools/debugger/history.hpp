@@ -143,6 +143,8 @@ class History final : private TraceSink, private serial::HostJournal {
     std::size_t forgotten = 0;  ///< actions before it: not null if it is not the beginning
   };
   Usage usage() const;
+  /// What is new runs no further at once.
+  Time interval() const;
 
  private:
   struct Checkpoint {
@@ -156,6 +158,7 @@ class History final : private TraceSink, private serial::HostJournal {
   bool before(std::uint32_t op) override;
   void instruction(const InstructionRecord& record) override;
   bool wants_instructions() const override;
+  bool wants_scans() const override;
   void host_called(const serial::HostCall& call) override;
 
   serial::Halt run_live();

@@ -106,6 +106,14 @@ void Stepper::listen_from_now_on() {
   if (waits && simulation_.time() < last + host_timeout) note_host_request({}, last);
 }
 
+/// What comes from outside ends a row of such scans by itself. A time that has come is looked for here.
+bool Stepper::wants_scans() const {
+  const auto is_within_a_scan = [](const StopPoint& stop) { return stop.on == StopPoint::On::Place || stop.is_watch(); };
+  const bool waits = host_waits_ || simulation_.last_activity() != silence_noted_;
+  const bool ends_soon = limit_ != kNever && limit_ - simulation_.time() <= history_.interval();
+  return goal_ || backwards_ || waits || ends_soon || std::ranges::any_of(stops, is_within_a_scan);
+}
+
 void Stepper::read_values() {
   for (StopPoint& stop : stops)
     if (stop.range) stop.value = stop.range->bytes_in(simulation_.cpu().state().image);
@@ -159,7 +167,7 @@ std::optional<StopReason> Stepper::reason_to_stop(std::uint32_t op, bool at_star
   if (const auto reason = reason_between(); reason == StopReason::Answer) return reason;
   if (!(at_start && standing_)) hit_places(op);
   if (!stop_.hits.empty()) return StopReason::StopPoint;
-  if (goal_(state, op, progress_)) return StopReason::Goal;
+  if (goal_ && goal_(state, op, progress_)) return StopReason::Goal;
   if (state.time >= limit_) return StopReason::Limit;
   if (asked_to_stop()) return StopReason::Request;
   return {};

@@ -28,7 +28,7 @@ class Stepper final : public Observer {
     std::uint64_t executed = 0;  ///< instructions in this run
     bool left = false;           ///< the instruction it started at has been executed, or the run did not start at one
   };
-  /// Asked in front of each instruction: true stops there.
+  /// Asked in front of each instruction: true stops there. An empty one never does.
   using Goal = std::function<bool(const State& state, std::uint32_t op, const Progress& progress)>;
 
   /// `stop_request` may be set from a signal handler; it may be null. Nothing is owned.
@@ -62,6 +62,8 @@ class Stepper final : public Observer {
   bool before(std::uint32_t op) override;
   void instruction(const InstructionRecord& record) override;
   bool wants_instructions() const override { return true; }
+  /// Scans that are all alike are passed over while nothing in them can be a reason to stop.
+  bool wants_scans() const override;
   void acted() override;
 
  private:

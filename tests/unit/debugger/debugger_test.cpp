@@ -353,6 +353,38 @@ TEST(Debugger, AFaultSaysWhatItDoesAndWhereIfThatWasNotSaid) {
   EXPECT_TRUE(has(session("fault cut:from=2ms"), "  the line is cut: everybody hears mark"));
 }
 
+TEST(Debugger, ARunIsTheSameWhetherAlikeScansArePassedOverOrNot) {
+  Session passing(kEcho), looking(kEcho);
+  looking("break 15");  // in an interrupt routine that never runs
+  for (Session* session : {&passing, &looking}) (*session)("continue 3s; send 41; continue; continue 20s");
+  EXPECT_EQ(passing.simulation.snapshot(), looking.simulation.snapshot());
+  EXPECT_EQ(passing("at -9s; past"), looking("at -9s; past"));
+  EXPECT_EQ(passing.simulation.snapshot(), looking.simulation.snapshot());
+}
+
+TEST(Debugger, OnlyARunThatMayStopWithinAScanLooksAtEachOfThem) {
+  const auto looked = [](const StopPoint& stop, const Stepper::Goal& goal) {
+    serial::Simulation simulation(program_of(kNested));
+    simulation.power_up();
+    History history(simulation, {});
+    Stepper stepper(simulation, history, nullptr);
+    stepper.stops.push_back(stop);
+    std::size_t instructions = 0, wanted = 0;
+    stepper.on_instruction = [&](const InstructionRecord&, bool) {
+      ++instructions;
+      wanted += stepper.wants_scans();
+    };
+    stepper.run(goal, 3 * kSecond, true);
+    return static_cast<double>(wanted) / static_cast<double>(instructions);
+  };
+  std::string why;
+  const auto range = parse_range("VW100", *program_of(kNested), why);
+  EXPECT_LT(looked({.on = StopPoint::On::RuntimeError}, {}), 0.2) << "the last checkpoint's time, up to the limit";
+  EXPECT_EQ(looked({.on = StopPoint::On::Place, .op = 9}, {}), 1);
+  EXPECT_EQ(looked({.on = StopPoint::On::Change, .range = range}, {}), 1);
+  EXPECT_EQ(looked({.on = StopPoint::On::RuntimeError}, [](auto&&...) { return false; }), 1);
+}
+
 TEST(Debugger, ALongCommandShowsHowFarItHasComeAndTakesThatAwayBeforeItsOutput) {
   serial::Simulation simulation(program_of(kNested));
   simulation.power_up();
