@@ -403,20 +403,6 @@ std::string to_text(const Fault& fault) {
   return text;
 }
 
-std::string described(const Fault& fault) {
-  const FaultKindInfo& kind = info_of(fault.kind);
-  std::string text(kind.meaning), separator = ": ";
-  for (const ParameterOfKind& p : kind.parameters) {
-    if (std::ranges::find(kWhen, p.name, &ParameterOfKind::name) != kWhen.end()) continue;
-    if (fault.from && excluded_by_instant(fault, p.name)) continue;
-    const std::string value = parameter_named(p.name).write(fault);
-    if (value == kLeftOut || value != p.standard) continue;
-    text += fmt::format("{}{}={}", separator, p.name, value);
-    separator = ", ";
-  }
-  return text;
-}
-
 std::span<const FaultParameter> fault_parameters() {
   static const std::vector<FaultParameter> kTable(kParameters.begin(), kParameters.end());
   return kTable;

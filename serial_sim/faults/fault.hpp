@@ -99,9 +99,6 @@ ParsedFault parse_fault(std::string_view text);
 /// The shortest text that parse_fault reads as this fault.
 std::string to_text(const Fault& fault);
 
-/// `a pause before a character: character=2, of=request`: what it does, and where, as far as to_text() leaves that out.
-std::string described(const Fault& fault);
-
 struct FaultParameter {
   std::string_view name;
   std::string_view values;  ///< what may be written

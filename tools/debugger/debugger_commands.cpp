@@ -13,6 +13,7 @@
 #include "tools/debugger/frame_words.hpp"
 #include "tools/debugger/goals.hpp"
 #include "tools/debugger/stop_words.hpp"
+#include "tools/views/faults.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
@@ -491,7 +492,7 @@ Debugger::Error Debugger::fault(const Arguments& arguments) {
   const serial::ParsedFault parsed = serial::parse_fault(text);
   if (!parsed.ok()) return fmt::format("fault, column {}: {}", parsed.error->column, parsed.error->message);
   act(InjectFault{parsed.fault});
-  out_ << fmt::format("on the line from now on: {}\n  {}\n", serial::to_text(parsed.fault), serial::described(parsed.fault));
+  out_ << fmt::format("on the line from now on: {}\n  {}\n", serial::to_text(parsed.fault), described(parsed.fault));
   return {};
 }
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
+
 namespace s7200::tools {
 namespace {
 
@@ -9,7 +12,27 @@ nlohmann::ordered_json to_json(const serial::Fault& fault, std::uint64_t count, 
   return {{"fault", serial::to_text(fault)}, {"count", count}, {"impossible", impossible}};
 }
 
+/// Parameters that say when it happens: every kind has them.
+bool is_about_when(std::string_view name) {
+  const auto& of_all = serial::info_of(serial::FaultKind::Echo).parameters;  // an echo has no others
+  return std::ranges::find(of_all, name, &serial::ParameterOfKind::name) != of_all.end();
+}
+
 }  // namespace
+
+std::string described(const serial::Fault& fault) {
+  const serial::FaultKindInfo& kind = serial::info_of(fault.kind);
+  const std::string written = serial::to_text(fault);
+  std::string text(kind.meaning), separator = ": ";
+  if (fault.from && fault.kind != serial::FaultKind::Noise) return text;  // at an instant, not at a character
+  for (const serial::ParameterOfKind& p : kind.parameters) {
+    const bool has_standard = p.standard != serial::kRequired && p.standard != serial::kLeftOut;
+    if (!has_standard || is_about_when(p.name) || written.find(fmt::format("{}=", p.name)) != std::string::npos) continue;
+    text += fmt::format("{}{}={}", separator, p.name, p.standard);
+    separator = ", ";
+  }
+  return text;
+}
 
 std::vector<std::string> fault_notes(const serial::Faults& faults) {
   std::vector<std::string> notes;

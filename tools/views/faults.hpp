@@ -9,6 +9,9 @@
 
 namespace s7200::tools {
 
+/// `a pause before a character: character=2, of=request`: what it does, and where, as far as its text leaves that out.
+std::string described(const serial::Fault& fault);
+
 /// What has happened so far, a line for each fault.
 std::vector<std::string> fault_notes(const serial::Faults& faults);
 
