@@ -163,7 +163,7 @@ static std::string expects_event(std::string_view command, const std::vector<std
   std::uint8_t last = kEvents - 1;
   while (!find_event(last)) --last;
   const auto number = words.size() == 2 ? parse_decimal<std::uint64_t>(words[1]) : std::nullopt;
-  return fmt::format("{}{} expects an address, or event and a number up to {}, for example: {} event 8",
+  return fmt::format("{}{} expects one address, or event and a number up to {}, for example: {} event 8",
                      number ? fmt::format("there is no event {}; ", *number) : "", command, last, command);
 }
 

@@ -172,9 +172,10 @@ TEST(Seeing, WhoOfAnEventThatDoesNotExistSaysWhichDo) {
   Session session(kEcho);
   for (const char* command : {"who", "rwho"}) {
     const std::string asks = std::string(command) + " event ";
-    EXPECT_TRUE(has(session.error_of(asks + "99"), "there is no event 99; " + std::string(command) +
-                                                       " expects an address, or event and a number up to 33, for example:"));
-    EXPECT_TRUE(has(session.error_of(asks + "x"), "expects an address, or event and a number"));
+    EXPECT_TRUE(
+        has(session.error_of(asks + "99"), "there is no event 99; " + std::string(command) +
+                                               " expects one address, or event and a number up to 33, for example:"));
+    EXPECT_TRUE(has(session.error_of(asks + "x"), "expects one address, or event and a number"));
   }
 }
 

@@ -147,7 +147,7 @@ TEST(WorkedExample, BothPartsOfAFrameWithAPauseInItAreNamed) {
 
 TEST(WorkedExample, WhyKnowsAllOfALongScanAndEveryContactOfALongRung) {
   Session session(
-      "LD SM0.0\nAN I0.0\nJMP 1\nLBL 1\nLD SM0.0\nFOR VW0, 1, 1500\nLD SM0.0\nWDR\nSQRT VD8, VD12\nNEXT\nLD SM0.0\nINCW "
+      "LD SM0.0\nAN I0.0\nJMP 1\nLBL 1\nLD SM0.0\nFOR VW0, 1, 4000\nLD SM0.0\nWDR\nSQRT VD8, VD12\nNEXT\nLD SM0.0\nINCW "
       "VW2\nMEND\n");
   session("scan");
   const Time begun = session.simulation.time();
