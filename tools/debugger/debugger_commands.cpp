@@ -80,7 +80,9 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "rwho event 8 goes to where the program last changed which routine gets the characters: where it dropped a frame.",
        &Debugger::back_to_write, true},
       {"why", "", "why", "what decided that it has come here: contacts, a jump or a conditional return, without going there",
-       "The contacts of this rung, or what the main program or the interrupt routine came by last, with operand values.",
+       "The contacts of this rung, or what the main program or the interrupt routine came by last, with operand values. "
+       "While "
+       "a master waits for an answer, and where it gives up: also what has left the request without one.",
        &Debugger::why},
       {"rwhy", "ry", "rwhy", "back to in front of the instruction that 'why' names",
        "Of a jump or conditional return: in front of it, after the contacts that decide on it, which 'history' shows. Of "
