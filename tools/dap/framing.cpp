@@ -53,7 +53,7 @@ bool FrameReader::read_header(std::string& why) {
     const std::size_t end = buffer_.find('\n');
     if (header_bytes_ + std::min(end, buffer_.size()) > kLongestHeader) {
       why = fmt::format("the header of a message is longer than {} bytes", kLongestHeader);
-      buffer_.erase(0, end == std::string::npos ? end : end + 1);
+      buffer_.erase(0, std::min(end, kLongestHeader));
       return false;
     }
     if (end == std::string::npos) return false;
