@@ -1551,6 +1551,20 @@ class Files(Case):
     def test_a_server_of_other_computers_is_refused(self):
         self.assertIn("only this computer itself is served", self.ends(UNUSABLE, "dap", "--listen", "0.0.0.0:0").stderr)
 
+    def test_a_saved_session_is_loaded_with_the_same_options_only_and_names_those_that_differ(self):
+        rows, saved = self.program("10ms,I0.0,1\n", "inputs.csv"), self.folder / "saved.json"
+        path = self.program("LD SM0.1\nMOVB 9, SMB30\nLD I0.0\n= Q0.0\nMEND\n")
+        given = ("--input", rows, "--fault", "noise:ber=1e-9", "--set", "VW20=5", "--gap", "2ms", "--clock", "2026-11-21 10:00:00")
+        self.ends(FINE, "debug", path, *given, "-x", f"continue 20ms; save {saved}")
+        self.ends(FINE, "debug", path, *given, "-x", f"load {saved}; expect Q0.0 and VW20 = 5")
+        done = self.ends(UNUSABLE, "debug", path, "-x", f"load {saved}")
+        for said in ("it was saved with other options: --gap 2 ms (here none)", "--clock 26-11-21 10:00:00 (here ",
+                     "--fault noise:ber=1e-09 (here none)", "--set VW20=5 (here none)", "--input with digest "):
+            self.assertIn(said, done.stderr)
+        other = self.program("10ms,I0.1,1\n", "other.csv")
+        done = self.ends(UNUSABLE, "debug", path, "--input", other, *given[2:], "-x", f"load {saved}")
+        self.assertRegex(done.stderr, r"other options: --input with digest \w+ \(here with digest \w+\)")
+
     def test_the_debugger_has_the_plant_around_the_cpu_too(self):
         files = {option: self.folder / name for option, name in {
             "--trace": "run.trace", "--output": "outputs.csv", "--capture": "line.pcap", "--memory": "memory.json"}.items()}
