@@ -10,7 +10,7 @@
 
 namespace s7200::serial {
 
-/// The two directions, named as at the PLC's port.
+/// The two directions, named as at the port of a PLC, of whatever make.
 enum class Wire : std::uint8_t {
   Rx,  ///< what all others together make of the line: what the PLC hears, and what it would hear while it sends
   Tx,  ///< what the PLC drives

@@ -53,6 +53,7 @@ ResponderStation::ResponderStation(Dispatcher& events, SharedLine& line, std::un
     : line_(line),
       queue_(events.shared_queue()),
       uart_(line.line(), queue_, events.add(Rank::Uart, *this), line.add_driver()),
+      tap_(line.line(), uart_.driver()),
       responder_(uart_, queue_, events.add(Rank::Peer, *this), std::move(automaton)) {
   line.faults().add_plc(uart_);
 }
@@ -64,8 +65,9 @@ void ResponderStation::handle(const Event& event) {
   responder_.on(report);
 }
 
-void ResponderStation::restore(const State& state) {
+void ResponderStation::restore(const State& state, Time now) {
   uart_.restore(state.uart);
+  tap_.go_back(now);
   responder_.restore(state.responder);
 }
 

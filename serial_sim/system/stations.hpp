@@ -2,6 +2,7 @@
 #pragma once
 
 #include "serial_sim/line/uart.hpp"
+#include "serial_sim/line/wire_tap.hpp"
 #include "serial_sim/peers/host_port.hpp"
 #include "serial_sim/peers/poller.hpp"
 #include "serial_sim/peers/requester.hpp"
@@ -93,8 +94,16 @@ class ResponderStation final : private EventHandler {
   Responder& responder() { return responder_; }
   const Responder& responder() const { return responder_; }
 
+  /// Lets `sink` watch the line at its port from `from` on; null ends that. Not owned. After restore() it sees time go back.
+  void set_wire_sink(WireSink* sink, Time from) { tap_.watch(sink, from); }
+
+  /// No driver of the line gets an edge before `until` any more: whoever watches it is told.
+  void settle(Time until) { tap_.settle(until, uart_.state().format); }
+
   State state() const { return {uart_.state(), responder_.state()}; }
-  void restore(const State& state);
+
+  /// `now` is the time of the whole system.
+  void restore(const State& state, Time now);
 
  private:
   void handle(const Event& event) override;
@@ -102,6 +111,7 @@ class ResponderStation final : private EventHandler {
   SharedLine& line_;
   EventQueue& queue_;
   Uart uart_;
+  WireTap tap_;
   Responder responder_;
 };
 

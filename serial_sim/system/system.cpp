@@ -166,6 +166,7 @@ void System::handle_due_events(Time now) {
 
 void System::settle(Time until) {
   for (const auto& plc : plcs_) plc->settle(until);
+  for (const auto& responder : responders_) responder->settle(until);
 }
 
 System::Snapshot System::snapshot() const {
@@ -190,7 +191,7 @@ void System::restore(const Snapshot& snapshot) {
   restore_all(plcs_, snapshot.plcs, now);
   restore_all(requesters_, snapshot.requesters);
   restore_all(host_ports_, snapshot.host_ports);
-  restore_all(responders_, snapshot.responders);
+  restore_all(responders_, snapshot.responders, now);
   restore_all(pollers_, snapshot.pollers);
   clock_ = snapshot.clock;
   acted_ = snapshot.acted;

@@ -23,6 +23,7 @@ class LanPlc final : public PlcOf<LanPlc> {
   static const std::vector<Cells<LanPlc>>& cells();
 
   SerialFormat format() const override { return settings_.line; }
+  bool needs_sync() const override { return settings_.sync == LanSettings::Sync::Required; }
   void hear(const ReceivedCharacter& character) override;
   void sync(bool high, Time at) override;
   void wake(Time now) override;

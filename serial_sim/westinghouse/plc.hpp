@@ -21,6 +21,9 @@ class Plc : public serial::Automaton {
   /// Whether it holds what such a text says. Sets `why` if it does not.
   virtual bool holds(std::string_view text, std::string& why) const = 0;
 
+  /// It hears nothing without a sync signal beside the data.
+  virtual bool needs_sync() const { return false; }
+
   bool operator==(const Plc&) const = default;
 
  protected:

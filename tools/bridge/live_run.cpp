@@ -119,10 +119,10 @@ class LiveRun::Engine {
     Time now() const override { return engine_.now(); }
     const serial::HostPort& host_port() const override { return *end_.port; }
     SerialFormat program_format() const override {
-      return end_.plc ? end_.plc->cpu().state().port[end_.plc_port].format : SerialFormat{};
+      return end_.plc ? end_.plc->cpu().state().port[end_.plc_port].format : end_.without_program;
     }
     SerialFormat format() const override {
-      return end_.settings.over(end_.plc ? end_.plc->port_format(end_.plc_port) : SerialFormat{});
+      return end_.settings.over(end_.plc ? end_.plc->port_format(end_.plc_port) : end_.without_program);
     }
     bool program_is_up() const override { return !end_.plc || end_.plc->cpu().state().scans > 0; }
     Time last_activity() const override { return end_.line->last_activity(); }

@@ -42,6 +42,7 @@ struct LiveEnd {
   const serial::SharedLine* line = nullptr;
   const serial::Plc* plc = nullptr;  ///< null: there is no program on that line
   std::uint8_t plc_port = 0;
+  SerialFormat without_program{};   ///< how the line is set if there is none
   serial::LineSettings settings{};  ///< the other end of the line
 };
 

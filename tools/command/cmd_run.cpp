@@ -12,6 +12,7 @@
 #include "tools/command/system_run.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/rig/run.hpp"
+#include "tools/slave/slave_target.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -70,6 +71,9 @@ void print_json(const Rig& rig, const Ending& ending, const RunOptions& options)
 }
 
 int run_run(const CLI::App& verb, RunOptions& options) {
+  if (is_other_plc(options.program.path)) return run_other_plc(verb, options);
+  for (const CLI::Option* option : options.for_other_plcs)
+    if (option->count() > 0) return print_error(option->get_name() + " needs westinghouse:MODEL"), kUnusable;
   if (is_system_file(options.program.path)) return run_system(verb, options);
   int exit_code = kFine;
   const auto program = options.program.load(exit_code);
@@ -111,7 +115,7 @@ void add_run(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("run", "run a program, as fast as the computer can, or in real time for masters of this computer");
   options->add_to(*verb);
-  verb->footer(std::string(BridgeOptions::kAboutPty) + fault_help() + kAboutSystems +
+  verb->footer(std::string(BridgeOptions::kAboutPty) + fault_help() + kAboutSystems + kAboutOtherPlcs +
                "Example: s7200 run stl_programs/modbus_slave.stl --for 2s --set VW100=5 --dump VW100:4");
   verb->callback([options, verb, &exit_code] { exit_code = run_run(*verb, *options); });
 }

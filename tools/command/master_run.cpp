@@ -109,17 +109,13 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
 }
 
 int run_on_peer(MasterOptions& options, const std::string& model, const std::vector<MasterAction>& actions) {
-  std::string why;
-  const auto make_plc = [&] {
-    std::unique_ptr<westinghouse::Plc> plc = westinghouse::make_plc(*options.protocol->plcs, model, why);
-    if (!plc) throw std::invalid_argument(why);
-    for (const std::string& setting : options.plc)
-      if (!plc->set(setting, why)) throw std::invalid_argument("--plc: " + why);
-    return plc;
-  };
+  const auto make_plc = [&] { return options.other.make(*options.protocol, model); };
   const auto faults = options.rig.faults();
   if (!faults) return kUnusable;
+  const std::vector<std::string>& capture_paths = options.rig.settings().captures;
   if (options.wants_menu()) {
+    if (!capture_paths.empty())
+      throw std::invalid_argument("the menu begins with a new westinghouse:MODEL each time its port is set: give actions for --capture");
     const SerialFormat format = make_plc()->format();
     const auto open = [&](const serial::MasterSettings& master) {
       return std::make_unique<PeerSlave>(make_plc(), master, *faults, options.target);
@@ -127,7 +123,17 @@ int run_on_peer(MasterOptions& options, const std::string& model, const std::vec
     return run_menu(options,
                     {.open = open, .format = [&](const serial::MasterSettings& master) { return master.over(format); }});
   }
-  PeerSlave slave(make_plc(), options.master, *faults, options.target);
+  WrittenFiles files;
+  CaptureFiles captures;
+  std::string why;
+  std::unique_ptr<westinghouse::Plc> plc = make_plc();
+  if (!captures.claim(files, capture_paths, why) || !captures.open(why) || !captures.put(why)) {
+    if (!why.empty()) return print_error(why), kUnusable;
+    print_interruption();
+    return kCheckFailed;
+  }
+  PeerSlave slave(std::move(plc), options.master, *faults, options.target);
+  slave.capture(captures);
   MasterSession session(slave, actions, options.session(true));
   MasterOutput output(options.output(), slave.name());
   const int exit_code = run_session(
@@ -138,7 +144,10 @@ int run_on_peer(MasterOptions& options, const std::string& model, const std::vec
         return json;
       });
   print_notes(fault_notes(slave.faults()));
-  return exit_code;
+  std::vector<std::string> problems;
+  captures.close(problems);
+  for (const std::string& problem : problems) print_error(problem);
+  return problems.empty() ? exit_code : kUnusable;
 }
 
 }  // namespace s7200::tools

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <iostream>
 #include <optional>
+#include <span>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -16,6 +19,7 @@
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/rig/rig.hpp"
+#include "tools/slave/slave_target.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
@@ -33,8 +37,8 @@ struct Ending {
   std::optional<Pace::Report> pace;  // of a run in real time
 };
 
-/// The bridges of a system, by the plan's numbers.
-using Bridges = std::vector<std::unique_ptr<Bridge>>;
+/// The bridges of a system, by the plan's numbers. Not owned.
+using Bridges = std::span<Bridge* const>;
 
 class SystemMachine final : public LiveMachine {
  public:
@@ -46,26 +50,27 @@ class SystemMachine final : public LiveMachine {
   Rig& rig_;
 };
 
-std::vector<LiveEnd> ends_of(Rig& rig, const Bridges& bridges) {
+std::vector<LiveEnd> ends_of(Rig& rig, Bridges bridges) {
   std::vector<LiveEnd> ends;
   for (std::size_t line = 0; line < rig.plan().lines.size(); ++line) {
     const LinePlan& plan = rig.plan().lines[line];
     const StationPlan* const first = first_plc(plan);
     for (const StationPlan& station : plan.stations)
       if (station.kind == StationPlan::Kind::Bridge)
-        ends.push_back({.bridge = bridges[station.number].get(),
+        ends.push_back({.bridge = bridges[station.number],
                         .port = &rig.host_port(station.number),
                         .line = &rig.line(line),
                         .plc = first ? &rig.plc(first->number) : nullptr,
                         .plc_port = first ? first->port : std::uint8_t{0},
+                        .without_program = format_without_s7200(rig.plan(), plan),
                         .settings = plan.settings});
   }
   return ends;
 }
 
 /// Nothing after a message.
-std::optional<Bridges> make_bridges(const SystemPlan& plan) {
-  Bridges bridges(plan.bridges.size());
+std::optional<std::vector<std::unique_ptr<Bridge>>> make_bridges(const SystemPlan& plan) {
+  std::vector<std::unique_ptr<Bridge>> bridges(plan.bridges.size());
   for (const LinePlan& line : plan.lines)
     for (const StationPlan& station : line.stations) {
       if (station.kind != StationPlan::Kind::Bridge) continue;
@@ -78,7 +83,7 @@ std::optional<Bridges> make_bridges(const SystemPlan& plan) {
   return bridges;
 }
 
-Ending run_to_end(Rig& rig, const Bridges& bridges, const RunOptions& options) {
+Ending run_to_end(Rig& rig, Bridges bridges, const RunOptions& options) {
   const Time end = options.duration == kNever && bridges.empty() ? kSecond : options.duration;
   if (bridges.empty() && !options.bridge.realtime()) {
     const RunLimits limits{.end = end};
@@ -93,7 +98,7 @@ Ending run_to_end(Rig& rig, const Bridges& bridges, const RunOptions& options) {
   return {!live.failure().empty() ? "bridge" : halt == serial::Halt::Time ? "time" : "interrupted", live.pace()};
 }
 
-void print_text(Rig& rig, const Ending& ending, const Bridges& bridges) {
+void print_text(Rig& rig, const Ending& ending, Bridges bridges) {
   const SystemPlan& plan = rig.plan();
   fmt::print("{} after {}: {}, {}, {}\n", ending_text(ending.reason), format_duration(rig.system().time(), 6),
              counted(plan.plcs.size(), "PLC"), counted(plan.peers.size(), "peer"), counted(plan.lines.size(), "line"));
@@ -116,7 +121,7 @@ void print_text(Rig& rig, const Ending& ending, const Bridges& bridges) {
                format_duration(ending.pace->drift), format_duration(ending.pace->worst_lag));
 }
 
-void print_json(Rig& rig, const Ending& ending, const Bridges& bridges) {
+void print_json(Rig& rig, const Ending& ending, Bridges bridges) {
   auto results = results_of("run");
   results["stop_reason"] = ending.reason;
   results["time_ns"] = rig.system().time();
@@ -130,6 +135,60 @@ void print_json(Rig& rig, const Ending& ending, const Bridges& bridges) {
   fmt::print("{}", lines_of(results));
 }
 
+int run_plan(SystemPlan plan, const RigSurroundings& surroundings, Bridges bridges, const RunOptions& options) {
+  std::vector<std::string> problems;
+  const auto rig = Rig::assemble(std::move(plan), surroundings, problems);
+  for (const std::string& problem : problems) print_error(problem);
+  if (!rig) {
+    print_interruption();
+    return problems.empty() && interrupted() ? kCheckFailed : kUnusable;
+  }
+  rig->power_up();
+  const Ending ending = run_to_end(*rig, bridges, options);
+  if (ending.reason.empty()) return kUnusable;
+  problems = rig->finish();
+  for (const std::string& problem : problems) print_error(problem);
+  if (options.json)
+    print_json(*rig, ending, bridges);
+  else
+    print_text(*rig, ending, bridges);
+  print_notes(fault_notes(*rig));
+  if (!problems.empty() || ending.reason == "bridge") return kUnusable;
+  return exit_code_of(*rig);
+}
+
+/// False after a message if something was given that only an S7-200 has a use for.
+bool refuse_options_of_s7200(const CLI::App& verb, const RunOptions& options) {
+  const auto refused = [](const CLI::Option& option) {
+    const std::string& name = option.get_name();
+    return name == "--scans" || (is_about_one_plc(name) && !is_about_the_line(name));
+  };
+  for (const CLI::Option* option : verb.get_options())
+    if (option->count() > 0 && !option->get_positional() && refused(*option))
+      return print_error(option->get_name() + " needs a PROGRAM to run"), false;
+  if (options.program.parts.empty()) return true;
+  print_error(fmt::format("{} beside {}: there is no program that it could belong to", options.program.parts.front(),
+                          options.program.path));
+  return false;
+}
+
+/// It and the bridge on a line. Throws std::invalid_argument.
+SystemPlan plan_of_other_plc(RunOptions& options, std::vector<serial::Fault> faults) {
+  const std::string model = parse_slave_target(options.program.path).path;
+  std::shared_ptr<westinghouse::Plc> plc = options.other.make(*options.protocol, model);
+  if (plc->needs_sync())
+    throw std::invalid_argument("no bridge carries the sync signal that this PLC needs to hear anything: give --plc sync=ignored");
+  SystemPlan plan;
+  plan.peers.push_back({.name = model, .automaton = std::move(plc)});
+  plan.bridges.push_back({.name = "bridge", .kind = "", .where = ""});
+  plan.lines.push_back({.name = "line",
+                        .settings = options.bridge.line(),
+                        .faults = std::move(faults),
+                        .captures = options.rig.settings().captures,
+                        .stations = {{.kind = StationPlan::Kind::Peer}, {.kind = StationPlan::Kind::Bridge}}});
+  return plan;
+}
+
 }  // namespace
 
 int run_system(const CLI::App& verb, const RunOptions& options) {
@@ -141,27 +200,28 @@ int run_system(const CLI::App& verb, const RunOptions& options) {
   int exit_code = kFine;
   auto plan = load_system(options.program.path, exit_code);
   if (!plan) return exit_code;
-  const auto bridges = make_bridges(*plan);
-  if (!bridges) return kUnusable;
-  std::vector<std::string> problems;
-  const auto rig = Rig::assemble(std::move(*plan), options.rig.surroundings(options.program.path, {}, {}), problems);
-  for (const std::string& problem : problems) print_error(problem);
-  if (!rig) {
-    print_interruption();
-    return problems.empty() && interrupted() ? kCheckFailed : kUnusable;
+  const auto owned = make_bridges(*plan);
+  if (!owned) return kUnusable;
+  std::vector<Bridge*> bridges;
+  for (const auto& bridge : *owned) bridges.push_back(bridge.get());
+  return run_plan(std::move(*plan), options.rig.surroundings(options.program.path, {}, {}), bridges, options);
+}
+
+int run_other_plc(const CLI::App& verb, RunOptions& options) {
+  if (!refuse_options_of_s7200(verb, options)) return kUnusable;
+  auto faults = options.rig.faults();
+  if (!faults || !options.bridge.prepare()) return kUnusable;
+  Bridge* const bridge = options.bridge.bridge();
+  if (!bridge)
+    return print_error(fmt::format("nobody asks {}: give it a bridge, such as --pty LINK, or ask it with 's7200 master'",
+                                   stl::printable(options.program.path))),
+           kUnusable;
+  try {
+    SystemPlan plan = plan_of_other_plc(options, std::move(*faults));
+    return run_plan(std::move(plan), {.link = options.bridge.link(), .standard_output = &std::cout}, {&bridge, 1}, options);
+  } catch (const std::invalid_argument& error) {
+    return print_error(error.what()), kUnusable;
   }
-  rig->power_up();
-  const Ending ending = run_to_end(*rig, *bridges, options);
-  if (ending.reason.empty()) return kUnusable;
-  problems = rig->finish();
-  for (const std::string& problem : problems) print_error(problem);
-  if (options.json)
-    print_json(*rig, ending, *bridges);
-  else
-    print_text(*rig, ending, *bridges);
-  print_notes(fault_notes(*rig));
-  if (!problems.empty() || ending.reason == "bridge") return kUnusable;
-  return exit_code_of(*rig);
 }
 
 }  // namespace s7200::tools

@@ -70,6 +70,10 @@ void CaptureFiles::watch(serial::Plc& plc, std::uint8_t port) {
   if (!captures_.empty()) plc.set_wire_sink(this, port);
 }
 
+void CaptureFiles::watch(serial::ResponderStation& plc, Time from) {
+  if (!captures_.empty()) plc.set_wire_sink(this, from);
+}
+
 void CaptureFiles::close(std::vector<std::string>& problems) {
   finish();
   for (Capture& capture : captures_) {

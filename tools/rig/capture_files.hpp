@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "serial_sim/system/plc.hpp"
+#include "serial_sim/system/stations.hpp"
 #include "tools/host/record_file.hpp"
 
 namespace s7200::tools {
@@ -22,6 +23,9 @@ class CaptureFiles final : private serial::WireSink {
 
   /// Captures the line at a port from now on, until close() or the end of the PLC. This object outlives the PLC.
   void watch(serial::Plc& plc, std::uint8_t port);
+
+  /// The same at the port of a PLC of another make.
+  void watch(serial::ResponderStation& plc, Time from);
 
   /// Closes all of them; adds to `problems` what could not be written.
   void close(std::vector<std::string>& problems);

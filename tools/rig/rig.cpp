@@ -28,7 +28,7 @@ Rig::Rig(SystemPlan plan, const RigSurroundings& surroundings)
       surroundings_(surroundings),
       files_(surroundings.standard_output),
       pollers_(plan_.peers.size()),
-      peer_uarts_(plan_.peers.size()),
+      responders_(plan_.peers.size()),
       hosts_(plan_.bridges.size()) {
   for (const PlcPlan& plc : plan_.plcs) plc_rigs_.emplace_back(plc.program, plc.settings);
   captures_.resize(plan_.lines.size());
@@ -76,16 +76,23 @@ void Rig::add_other(const LinePlan& plan, serial::SharedLine& line, const Statio
   }
   const PeerPlan& peer = plan_.peers[number];
   if (peer.automaton) {
-    peer_uarts_[number] = &system_.add_responder(line, peer.automaton->clone()).uart();
+    responders_[number] = &system_.add_responder(line, peer.automaton->clone());
     return;
   }
   const StationPlan* const first = first_plc(plan);
   const auto format = [settings = plan.settings, plc = first ? plcs_[first->number] : nullptr,
-                       port = first ? first->port : std::uint8_t{0}] {
-    return settings.over(plc ? plc->line_format(port) : SerialFormat{});
+                       port = first ? first->port : std::uint8_t{0}, without = format_without_s7200(plan_, plan)] {
+    return settings.over(plc ? plc->line_format(port) : without);
   };
   pollers_[number] = &system_.add_poller(line, peer.polls, {.format = format, .right = is_right});
-  peer_uarts_[number] = &pollers_[number]->uart();
+}
+
+/// At its first PLC: an S7-200, or one of another make if there is none.
+void Rig::watch(std::size_t line, CaptureFiles& captures) {
+  if (const StationPlan* const first = first_plc(plan_.lines[line]))
+    captures.watch(*plcs_[first->number], first->port);
+  else if (const StationPlan* const other = first_other_plc(plan_, plan_.lines[line]))
+    captures.watch(*responders_[other->number], system_.time());
 }
 
 std::unique_ptr<Rig> Rig::assemble(std::shared_ptr<const Program> program, const RigSettings& settings,
@@ -150,7 +157,7 @@ void Rig::power_up() {
   system_.stop_when(&interruption());
   auto captures = captures_.begin();
   for (std::size_t line = 0; line < lines_.size(); ++line, ++captures) {
-    if (const StationPlan* first = first_plc(plan_.lines[line])) captures->watch(*plcs_[first->number], first->port);
+    watch(line, *captures);
     for (const serial::Fault& fault : plan_.lines[line].faults) lines_[line]->faults().inject(fault, 0);
     if (const auto seed = plan_.lines[line].contention) lines_[line]->line().leave_contention_to_chance(*seed);
   }
@@ -204,7 +211,8 @@ int Rig::driver_of(const StationPlan& station) const {
     case StationPlan::Kind::Plc:
       return plcs_[station.number]->driver(station.port);
     case StationPlan::Kind::Peer:
-      return peer_uarts_[station.number]->driver();
+      return responders_[station.number] ? responders_[station.number]->uart().driver()
+                                         : pollers_[station.number]->uart().driver();
     case StationPlan::Kind::Bridge:
       return hosts_[station.number]->driver();
   }

@@ -92,6 +92,7 @@ class Rig final {
   void add_plc(std::size_t number);
   void add_other(const LinePlan& plan, serial::SharedLine& line, const StationPlan& station);
   void join(const Spot& spot);
+  void watch(std::size_t line, CaptureFiles& captures);
   int driver_of(const StationPlan& station) const;
   std::uint32_t beyond(const EventPlan& cut) const;
   bool claim_files(std::string& why);
@@ -107,7 +108,7 @@ class Rig final {
   std::vector<serial::SharedLine*> lines_;
   std::vector<serial::Plc*> plcs_;
   std::vector<serial::PollerStation*> pollers_;  // by peer
-  std::vector<const serial::Uart*> peer_uarts_;  // by peer
+  std::vector<serial::ResponderStation*> responders_;  // by peer
   std::vector<serial::HostStation*> hosts_;      // by bridge
   struct Asker {
     serial::RequesterStation* requester = nullptr;  // null if there is no place for one

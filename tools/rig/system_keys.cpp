@@ -37,14 +37,14 @@ constexpr std::array kKeys{
     SystemKey{Where::Plc, "dump", "LIST", "memory to show at the end: `[VB0:16, VW100]`"},
 
     SystemKey{Where::Line, "stations", "LIST", "who is on it, in their order along the cable: names of PLCs (`gateway.1` is port 1; the name of several copies is all of them), of peers and of bridges; 32 at most"},
-    SystemKey{Where::Line, "baud", "NUMBER", "of the masters on it, 50 to 1000000; as its first PLC sets its port if left out, like the next three"},
+    SystemKey{Where::Line, "baud", "NUMBER", "of the masters on it, 50 to 1000000; as its first PLC sets its port if left out (an S7-200, if there is one), like the next three"},
     SystemKey{Where::Line, "parity", "none, even, odd", ""},
     SystemKey{Where::Line, "data_bits", "7, 8", ""},
     SystemKey{Where::Line, "stop_bits", "1, 2", ""},
     SystemKey{Where::Line, "turn_round", "TIME", "how long a master on it leaves it quiet between an answer and its next request; 7 characters and 10 ms if left out"},
     SystemKey{Where::Line, "faults", "LIST", "from the start on, each in the form of `s7200 run --fault`"},
     SystemKey{Where::Line, "contention", "SEED", "two drivers that disagree give no defined level: mark or space by chance, the same with the same seed; space if left out"},
-    SystemKey{Where::Line, "capture", "LIST", "files that it is written to: FILE.vcd (levels of rx and tx) or FILE.pcap (frames); rx and tx are those of its first PLC"},
+    SystemKey{Where::Line, "capture", "LIST", "files that it is written to: FILE.vcd (levels of rx and tx) or FILE.pcap (frames); rx and tx are those of its first PLC, an S7-200 if there is one"},
 
     SystemKey{Where::Master, "polls", "LIST", "what the master asks in Modbus RTU, in turn and without end, from 1 s after the start on"},
     SystemKey{Where::Master, "every", "TIME", "a round begins no sooner than so long after the one before; at once if left out"},
@@ -58,7 +58,7 @@ constexpr std::array kKeys{
 
     SystemKey{Where::OtherPlc, "westinghouse", "PROTOCOL", "modbus, lan, hppc, loader or westnet"},
     SystemKey{Where::OtherPlc, "model", "NAME", "pc1200, pc503, …; the first that speaks the protocol if left out"},
-    SystemKey{Where::OtherPlc, "settings", "LIST", "as `s7200 master --plc` takes them: `[unit=05, HR1=1234]`"},
+    SystemKey{Where::OtherPlc, "settings", "LIST", "as `s7200 master --plc` takes them: `[unit=05, HR1=1234]`; the PC1000 LAN has no sync signal here: `[sync=ignored]`"},
 
     SystemKey{Where::Bridge, "pty", "LINK", "a serial port that programs of this computer open as LINK; from the folder of this file"},
     SystemKey{Where::Bridge, "tcp", "[ADDRESS:]PORT", "raw bytes over TCP; without ADDRESS for this computer only"},

@@ -54,6 +54,18 @@ const StationPlan* first_plc(const LinePlan& line) {
   return found == line.stations.end() ? nullptr : &*found;
 }
 
+const StationPlan* first_other_plc(const SystemPlan& plan, const LinePlan& line) {
+  const auto found = std::ranges::find_if(line.stations, [&](const StationPlan& station) {
+    return station.kind == StationPlan::Kind::Peer && plan.peers[station.number].automaton;
+  });
+  return found == line.stations.end() ? nullptr : &*found;
+}
+
+SerialFormat format_without_s7200(const SystemPlan& plan, const LinePlan& line) {
+  const StationPlan* const other = first_other_plc(plan, line);
+  return other ? plan.peers[other->number].automaton->format() : SerialFormat{};
+}
+
 std::optional<Spot> find_spot(const SystemPlan& plan, std::string_view name, std::string& why) {
   if (name.empty() && plan.lines.size() > 1) {
     why = fmt::format("there are several lines, {}: name one of them, or a PLC", names_of(plan.lines));

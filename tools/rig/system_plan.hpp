@@ -93,6 +93,12 @@ serial::MasterSettings on_line(serial::MasterSettings master, const LinePlan& li
 /// Of a line, the first PLC along the cable; null if there is none.
 const StationPlan* first_plc(const LinePlan& line);
 
+/// Of a line, the first PLC of another make along the cable; null if there is none.
+const StationPlan* first_other_plc(const SystemPlan& plan, const LinePlan& line);
+
+/// How a line without an S7-200 is set: as its first PLC of another make sets its port; the default format if there is none.
+SerialFormat format_without_s7200(const SystemPlan& plan, const LinePlan& line);
+
 /// The spot that `name` means: a line, there beside its first PLC; or a PLC, `gateway`, or one of its ports, `gateway.1`. An
 /// empty one is the only line. Returns nothing and sets `why` if there is none.
 std::optional<Spot> find_spot(const SystemPlan& plan, std::string_view name, std::string& why);

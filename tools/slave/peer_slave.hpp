@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "serial_sim/system/system.hpp"
+#include "tools/rig/capture_files.hpp"
 #include "tools/slave/slave.hpp"
 
 namespace s7200::tools {
@@ -26,6 +27,9 @@ class PeerSlave final : public Slave {
   std::string name() const override { return name_; }
 
   const serial::Faults& faults() { return line_.faults(); }
+
+  /// The line at the station's port is captured from now on. Not owned; they outlive the slave.
+  void capture(CaptureFiles& captures) { captures.watch(station_, system_.time()); }
 
  private:
   serial::Exchange finish();

@@ -51,7 +51,7 @@ SlaveTarget parse_slave_target(const std::string& text) {
   } else if (text.starts_with(kModbusTcp)) {
     target.kind = SlaveTarget::Kind::ModbusTcp;
     split(text, std::string_view(text).substr(kModbusTcp.size()), target);
-  } else if (text.starts_with(kPeer)) {
+  } else if (is_other_plc(text)) {
     target.kind = SlaveTarget::Kind::Peer;
     target.path = text.substr(kPeer.size());
   } else if (text.find("://") != std::string::npos) {
@@ -65,6 +65,8 @@ SlaveTarget parse_slave_target(const std::string& text) {
   }
   return target;
 }
+
+bool is_other_plc(std::string_view text) { return text.starts_with(kPeer); }
 
 std::string slave_targets_help() {
   return "Targets:\n"

@@ -27,6 +27,9 @@ struct SlaveTarget {
 /// Throws std::invalid_argument for an address without host or port, and for a scheme that is neither.
 SlaveTarget parse_slave_target(const std::string& text);
 
+/// Whether it is westinghouse:MODEL.
+bool is_other_plc(std::string_view text);
+
 /// All of them, one a line, for --help.
 std::string slave_targets_help();
 

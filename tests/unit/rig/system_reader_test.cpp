@@ -20,7 +20,7 @@ TEST(SystemFile, NamesPlcsPeersAndLinesAndWhoIsOnThem) {
       "  slave: {program: ../modbus_slave.stl, copies: 2, station: 3}\n"
       "peers:\n"
       "  master: {polls: [{station: 3..4, read: 40001, count: 2}, {station: 9, write: 00005, value: 1}], every: 1s}\n"
-      "  old: {westinghouse: lan, model: pc1250, settings: [unit=07]}\n"
+      "  old: {westinghouse: lan, model: pc1250, settings: [unit=07, sync=ignored]}\n"
       "lines:\n"
       "  field: {stations: [master, slave, gateway], turn_round: 7ms, faults: [\"noise:ber=0.001\"]}\n"
       "  office: {stations: [gateway.1, old], baud: 19200, parity: none}\n");

@@ -8,9 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
-#include "tools/command/options/choices.hpp"
 #include "tools/command/options/line_options.hpp"
 #include "tools/command/options/number_option.hpp"
 
@@ -32,12 +30,6 @@ std::vector<CLI::Option*> added_by(CLI::App& app, Add add) {
   std::vector<CLI::Option*> added = app.get_options();
   std::erase_if(added, [&](const CLI::Option* option) { return std::ranges::find(before, option) != before.end(); });
   return added;
-}
-
-std::string protocol_names() {
-  std::string text;
-  for (const Protocol* protocol : protocols()) text.append(text.empty() ? "" : ", ").append(protocol->name);
-  return text;
 }
 
 /// What holds without an option: `0; pc1000-lan, hppc: 2`.
@@ -66,18 +58,7 @@ bool has_option(const Protocol& protocol, std::string_view name) {
 void MasterOptions::add_to(CLI::App& app) {
   app.add_option("TARGET", target, "a PROGRAM to run in simulation, a device, or an address; see below")->required();
   app.add_option("ACTION", words, "what to do, see below");
-  std::vector<std::string> names;
-  for (const Protocol* one : protocols()) names.emplace_back(one->name);
-  offer(app.add_option_function<std::string>(
-            "--protocol", [this](const std::string& name) { protocol = find_protocol(name); },
-            fmt::format("what to speak: {} [{}]", protocol_names(), protocol->name)),
-        names)
-      ->check([](const std::string& name) {
-        return find_protocol(name) != nullptr
-                   ? std::string()
-                   : fmt::format("'{}' is not a protocol; there are {}", stl::shortened(name), protocol_names());
-      })
-      ->type_name("NAME");
+  add_protocol_option(app, protocol, {protocols().begin(), protocols().end()}, "what to speak");
   add_whole_number(
       app, "--station", [this](std::uint64_t given) { station_ = static_cast<std::uint8_t>(given); }, {0, UINT8_MAX},
       "station to ask; in Modbus 0 is all, above 247 is Modbus TCP",
@@ -109,9 +90,7 @@ void MasterOptions::add_to(CLI::App& app) {
                                     usual([](const Protocol& one) { return format_duration(one.patience.timeout); })));
   for_rtu_.push_back(add_duration(app, "--silence", silence,
                                   "silence that ends an answer [3.5 characters; outside simulation 20ms if that is more]"));
-  plc_ = app.add_option("--plc", plc, "setting of a simulated PLC of another make, see below (repeatable)")
-             ->type_name("NAME=VALUE")
-             ->allow_extra_args(false);
+  plc_ = other.add_to(app);
   for_programs_ = added_by(app, [&] {
     program.add_parts_to(app);
     program.CpuOptions::add_to(app);
@@ -175,14 +154,14 @@ void MasterOptions::refuse_what_a_peer_does_not_take(Kind kind) const {
   if (!peer) refuse_options({plc_}, "westinghouse:MODEL");
   if (peer && protocol->plcs == nullptr) {
     std::string names;
-    for (const Protocol* one : protocols())
-      if (one->plcs != nullptr) names.append(names.empty() ? "" : ", ").append(one->name);
+    for (const Protocol* one : protocols_of_other_plcs()) names.append(names.empty() ? "" : ", ").append(one->name);
     throw std::invalid_argument(
         fmt::format("PLCs of westinghouse:MODEL do not speak {}; they speak {}", protocol->name, names));
   }
   if (kind == Kind::Program) return;
   std::vector<CLI::Option*> refused = for_programs_;
-  if (peer) std::erase_if(refused, [](const CLI::Option* option) { return option->get_name() == "--fault"; });
+  if (peer)
+    std::erase_if(refused, [](const CLI::Option* option) { return is_about_the_line(option->get_name()); });
   refuse_options(refused, "a PROGRAM to run in simulation");
 }
 

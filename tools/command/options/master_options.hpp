@@ -8,9 +8,9 @@
 
 #include "tools/command/master_output.hpp"
 #include "tools/command/options/band_options.hpp"
+#include "tools/command/options/other_plc_options.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/options/rig_options.hpp"
-#include "tools/master/protocol.hpp"
 #include "tools/slave/slave_target.hpp"
 
 namespace CLI {
@@ -31,7 +31,7 @@ struct MasterOptions {
   Time after = kNever;      ///< kNever: when the program is ready
   Time silence = kNever;    ///< kNever: as the slave has it
   serial::MasterSettings master;
-  std::vector<std::string> plc;  ///< settings of a simulated PLC of another make
+  OtherPlcOptions other;
   ProgramOptions program;
   RigOptions rig;
   BandOptions band;

@@ -192,6 +192,8 @@ int RigOptions::exit_code_without_rig() const {
   return only_interrupted_ ? kCheckFailed : kUnusable;
 }
 
+bool is_about_the_line(std::string_view option) { return option == "--fault" || option == "--capture"; }
+
 bool finish(Rig& rig) {
   const std::vector<std::string> problems = rig.finish();
   for (const std::string& problem : problems) print_error(problem);

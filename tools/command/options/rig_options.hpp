@@ -67,7 +67,7 @@ class RigOptions {
   /// The files that are written while it runs, by their names; empty if there are none.
   std::string recorded_files() const;
 
-  /// The faults alone, for a line without a program. Nothing after messages.
+  /// The faults alone, for a line without an S7-200. Nothing after messages.
   std::optional<std::vector<serial::Fault>> faults();
 
   /// Whether there are faults.
@@ -96,6 +96,9 @@ class RigOptions {
   FaultOptions faults_;
   RigSettings settings_;
 };
+
+/// Whether an option of a rig makes sense for a line without an S7-200.
+bool is_about_the_line(std::string_view option);
 
 /// Completes the records and keeps the memory. False after messages.
 bool finish(Rig& rig);

@@ -16,6 +16,8 @@ void RunOptions::add_to(CLI::App& app) {
   add_whole_number(app, "--scans", scans, {1, UINT64_MAX}, "how many scans; with --for whichever comes first ends the run");
   bridge.add_to(app);
   rig.add_to(app);
+  for_other_plcs = {add_protocol_option(app, protocol, protocols_of_other_plcs(), "what westinghouse:MODEL speaks"),
+                    other.add_to(app)};
   app.add_flag_callback(
       "--keys",
       [] {

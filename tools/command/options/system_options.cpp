@@ -30,8 +30,7 @@ std::optional<SystemPlan> load_system(const std::string& path, int& exit_code) {
   return {};
 }
 
-bool refuse_options_of_one_plc(const CLI::App& verb, const ProgramOptions& program,
-                               std::initializer_list<std::string_view> more) {
+bool is_about_one_plc(const std::string& option) {
   CLI::App of_one_plc;
   ProgramOptions programs;
   RigOptions rigs;
@@ -40,10 +39,15 @@ bool refuse_options_of_one_plc(const CLI::App& verb, const ProgramOptions& progr
   programs.add_parts_to(of_one_plc);
   rigs.add_to(of_one_plc);
   bands.add_to(of_one_plc);
+  return of_one_plc.get_option_no_throw(option) != nullptr;
+}
+
+bool refuse_options_of_one_plc(const CLI::App& verb, const ProgramOptions& program,
+                               std::initializer_list<std::string_view> more) {
   const auto refused = [&](const CLI::Option& option) {
     const std::string& name = option.get_name();
     if (name.starts_with("--trace")) return false;  // of all of them, in one file
-    return of_one_plc.get_option_no_throw(name) || std::ranges::find(more, name) != more.end();
+    return is_about_one_plc(name) || std::ranges::find(more, name) != more.end();
   };
   for (const CLI::Option* option : verb.get_options()) {
     if (option->count() == 0 || option->get_positional() || !refused(*option)) continue;

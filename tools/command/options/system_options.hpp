@@ -19,6 +19,9 @@ std::optional<SystemPlan> load_system(const std::string& path, int& exit_code);
 
 struct ProgramOptions;
 
+/// Whether an option of this name is about one PLC, its program or its line: one of the program or its rig.
+bool is_about_one_plc(const std::string& option);
+
 /// False after a message if something was given that is about one PLC or its line: an option of the program or its rig, one
 /// of `more`, or another file of the project.
 bool refuse_options_of_one_plc(const CLI::App& verb, const ProgramOptions& program,

@@ -1,0 +1,57 @@
+#include "tools/command/options/other_plc_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "interpreter/base/text.hpp"
+#include "tools/command/options/choices.hpp"
+
+namespace s7200::tools {
+
+CLI::Option* add_protocol_option(CLI::App& app, const Protocol*& protocol, std::vector<const Protocol*> choices,
+                                 const std::string& meaning) {
+  protocol = choices.front();
+  std::vector<std::string> names;
+  for (const Protocol* one : choices) names.emplace_back(one->name);
+  const std::string known = fmt::format("{}", fmt::join(names, ", "));
+  const auto named = [choices = std::move(choices)](const std::string& name) {
+    const auto found = std::ranges::find(choices, name, &Protocol::name);
+    return found == choices.end() ? nullptr : *found;
+  };
+  return offer(app.add_option_function<std::string>(
+                   "--protocol", [&protocol, named](const std::string& name) { protocol = named(name); },
+                   fmt::format("{}: {} [{}]", meaning, known, protocol->name)),
+               names)
+      ->check([named, known](const std::string& name) {
+        return named(name) ? std::string()
+                           : fmt::format("'{}' is not a protocol; there are {}", stl::shortened(name), known);
+      })
+      ->type_name("NAME");
+}
+
+std::vector<const Protocol*> protocols_of_other_plcs() {
+  std::vector<const Protocol*> spoken;
+  std::ranges::copy_if(protocols(), std::back_inserter(spoken), [](const Protocol* one) { return one->plcs != nullptr; });
+  return spoken;
+}
+
+CLI::Option* OtherPlcOptions::add_to(CLI::App& app) {
+  return app.add_option("--plc", settings_, "setting of a simulated PLC of another make, see below (repeatable)")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+}
+
+std::unique_ptr<westinghouse::Plc> OtherPlcOptions::make(const Protocol& protocol, std::string_view model) const {
+  std::string why;
+  std::unique_ptr<westinghouse::Plc> plc = westinghouse::make_plc(*protocol.plcs, model, why);
+  if (!plc) throw std::invalid_argument(why);
+  for (const std::string& setting : settings_)
+    if (!plc->set(setting, why)) throw std::invalid_argument("--plc: " + why);
+  return plc;
+}
+
+}  // namespace s7200::tools
