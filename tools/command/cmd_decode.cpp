@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <stdexcept>
 
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
@@ -8,6 +10,7 @@
 #include "tools/command/terminal.hpp"
 #include "tools/recordings/decoded.hpp"
 #include "tools/views/results_json.hpp"
+#include "tools/views/streamed_results.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -17,18 +20,40 @@ struct DecodeOptions {
   bool json = false;
 };
 
+nlohmann::ordered_json head_of(const DecodeOptions& options, const std::string& form) {
+  auto results = results_of("decode");
+  results["file"] = options.recording.file;
+  results["form"] = form;
+  results["protocol"] = options.recording.protocol;
+  return results;
+}
+
+/// Frame by frame as they come.
+int run_live(const DecodeOptions& options, const SlaveTarget& line) {
+  StreamedResults results(head_of(options, "live"), "frames");
+  DecodedSummary summary;
+  const bool colour = colour_wanted(stdout);
+  if (!options.json) fmt::print("{}", decoded_heading(colour));
+  std::fflush(stdout);
+  const bool heard = listen(options.recording, line, [&](const ReadFrame& frame) {
+    summary.add(frame);
+    fmt::print("{}", options.json ? results.entry(decoded_json(frame)) : decoded_text(frame, false, colour));
+    std::fflush(stdout);
+  });
+  fmt::print("{}", options.json ? results.end({{"summary", summary.json()}}) : summary.text());
+  return heard ? kFine : kUnusable;
+}
+
 int run_decode(const DecodeOptions& options) {
+  if (const auto line = options.recording.live()) return run_live(options, *line);
   const auto read = read_conversation(options.recording);
   if (!read) return kUnusable;
   if (options.json) {
-    auto results = results_of("decode");
-    results["file"] = options.recording.file;
-    results["form"] = read->recording.form;
-    results["protocol"] = options.recording.protocol;
-    add_decoded(results, read->frames, read->stamps);
+    auto results = head_of(options, read->recording.form);
+    add_decoded(results, read->frames);
     fmt::print("{}", lines_of(results));
   } else {
-    fmt::print("{}", decoded_text(read->frames, read->stamps, colour_wanted(stdout)));
+    fmt::print("{}", decoded_text(read->frames, colour_wanted(stdout)));
   }
   return kFine;
 }
@@ -38,11 +63,20 @@ int run_decode(const DecodeOptions& options) {
 void add_decode(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DecodeOptions>();
   CLI::App* verb =
-      app.add_subcommand("decode", "show a recording of a line as requests and answers, with gaps and latencies");
+      app.add_subcommand("decode", "show a recording of a line, or a line itself, as requests and answers, with gaps and latencies");
   options->recording.add_to(*verb);
   verb->add_flag("--json", options->json, "print the frames as JSON");
-  verb->footer("Example: s7200 decode tests/recordings/plant.log");
-  verb->callback([options, &exit_code] { exit_code = run_decode(*options); });
+  verb->footer(
+      "A device is opened for reading alone; nothing is sent. Who else speaks there is heard as far as the adapter hears it.\n"
+      "Example: s7200 decode tests/recordings/plant.log");
+  verb->callback([options, &exit_code] {
+    try {
+      exit_code = run_decode(*options);
+    } catch (const std::invalid_argument& error) {
+      print_error(error.what());
+      exit_code = kUnusable;
+    }
+  });
 }
 
 }  // namespace s7200::tools

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <stdexcept>
 
 #include "interpreter/base/text.hpp"
 #include "tools/command/commands.hpp"
@@ -62,7 +63,7 @@ int run_import_capture(const ImportCaptureOptions& options) {
 
 void add_import_capture(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ImportCaptureOptions>();
-  CLI::App* verb = app.add_subcommand("import-capture", "write a recording of a line as a scenario for `test`");
+  CLI::App* verb = app.add_subcommand("import-capture", "write a recording of a line, or what is heard on it, as a scenario for `test`");
   options->recording.add_to(*verb);
   verb->add_option("--program", options->program, "that is to be tested; without it the scenario is for test --against")
       ->type_name("FILE");
@@ -75,7 +76,14 @@ void add_import_capture(CLI::App& app, int& exit_code) {
   verb->add_flag("--force", options->force, "overwrite an existing file");
   verb->add_flag("--json", options->json, "print what was written as JSON, with the scenario if no file is written");
   verb->footer("Example: s7200 import-capture tests/recordings/plant.log --program stl_programs/modbus_slave.stl");
-  verb->callback([options, &exit_code] { exit_code = run_import_capture(*options); });
+  verb->callback([options, &exit_code] {
+    try {
+      exit_code = run_import_capture(*options);
+    } catch (const std::invalid_argument& error) {
+      print_error(error.what());
+      exit_code = kUnusable;
+    }
+  });
 }
 
 }  // namespace s7200::tools

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <utility>
 
 #include "interpreter/base/ppi_frame.hpp"
 #include "interpreter/model/s7_pdu.hpp"
@@ -14,6 +14,7 @@
 #include "serial_sim/modbus/rtu_stream.hpp"
 #include "serial_sim/pc_protocol/answer.hpp"
 #include "serial_sim/pc_protocol/command.hpp"
+#include "tools/recordings/westinghouse.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -46,7 +47,7 @@ std::string modbus_request_text(Data frame) {
 
 ReadFrame read_modbus(const RecordedFrame& frame, const RecordedFrame* open) {
   const Data bytes(frame.bytes);
-  ReadFrame read{.frame = &frame};
+  ReadFrame read;
   if (open != nullptr && frame.direction != Direction::Request) {
     const modbus::Answer answer = modbus::check_answer(open->bytes, bytes);
     const bool fits = answer.verdict == modbus::Verdict::Right || answer.verdict == modbus::Verdict::Exception;
@@ -65,9 +66,26 @@ ReadFrame read_modbus(const RecordedFrame& frame, const RecordedFrame* open) {
   }
   read.direction = Direction::Request;
   read.station = bytes[0];
+  read.needs_no_answer = bytes[0] == modbus::kBroadcast;
   read.right = crc;
   read.text = crc ? modbus_request_text(bytes) : "wrong CRC, or not a whole frame";
   return read;
+}
+
+/// Only what the function says of its length counts: part of a long frame may have a right CRC by chance.
+std::size_t first_modbus_message(Data bytes, const RecordedFrame* open) {
+  const auto answers = [&](std::size_t length) {
+    const modbus::Verdict verdict = modbus::check_answer(open->bytes, bytes.first(length)).verdict;
+    return verdict == modbus::Verdict::Right || verdict == modbus::Verdict::Exception;
+  };
+  constexpr std::size_t kLongest = 2 * modbus::kLongestRtuFrame;  // PLCs with limits of their own
+  for (std::size_t length = kShortestRtu; length <= std::min(bytes.size(), kLongest); ++length) {
+    if (open != nullptr && answers(length)) return length;
+    const bool request = modbus::extent_of_request(bytes.first(length)) == modbus::Extent::Whole &&
+                         modbus::extent_of_request(bytes.first(length - 1)) == modbus::Extent::Part;
+    if (request && modbus::crc_ok(bytes.first(length))) return length;
+  }
+  return 0;
 }
 
 // --- PPI ---
@@ -103,7 +121,7 @@ std::string s7_text(Data pdu) {
 }
 
 ReadFrame read_ppi(const RecordedFrame& frame, const RecordedFrame* open) {
-  ReadFrame read{.frame = &frame};
+  ReadFrame read;
   const Data bytes(frame.bytes);
   if (bytes.size() == 1 && bytes[0] == ppi::kAccepted) {
     read.direction = open != nullptr ? Direction::Answer : Direction::Unknown;
@@ -128,10 +146,15 @@ ReadFrame read_ppi(const RecordedFrame& frame, const RecordedFrame* open) {
   return read;
 }
 
+std::size_t first_ppi_message(Data bytes, const RecordedFrame*) {
+  const auto length = ppi::frame_length(bytes);
+  return length && *length <= bytes.size() ? *length : 0;
+}
+
 // --- the Freeport protocol of the PC ---
 
 ReadFrame read_freeport_pc(const RecordedFrame& frame, const RecordedFrame* open) {
-  ReadFrame read{.frame = &frame};
+  ReadFrame read;
   const Data bytes(frame.bytes);
   if (const auto command = pc_protocol::parse_command(bytes)) {
     read.direction = Direction::Request;
@@ -156,8 +179,60 @@ ReadFrame read_freeport_pc(const RecordedFrame& frame, const RecordedFrame* open
   return read;
 }
 
-constexpr std::array kProtocols{RecordedProtocol{"modbus", read_modbus}, RecordedProtocol{"ppi", read_ppi},
-                                RecordedProtocol{"freeport-pc", read_freeport_pc}};
+std::size_t first_freeport_pc_message(Data bytes, const RecordedFrame* open) {
+  const std::size_t length = open == nullptr ? pc_protocol::kCommandLength : pc_protocol::kAnswerLength;
+  return length <= bytes.size() ? length : 0;
+}
+
+// --- all of them ---
+
+/// A protocol whose frames say all by themselves.
+template <ReadFrame (*Read)(const RecordedFrame&, const RecordedFrame*), std::size_t (*First)(Data, const RecordedFrame*)>
+class PlainReader final : public FrameReader {
+ public:
+  ReadFrame read(const RecordedFrame& frame, const RecordedFrame* open) override { return Read(frame, open); }
+  std::size_t first_message(Data bytes, const RecordedFrame* open) const override { return First(bytes, open); }
+};
+
+template <class Reader>
+std::unique_ptr<FrameReader> make() {
+  return std::make_unique<Reader>();
+}
+
+constexpr std::array kProtocols{
+    RecordedProtocol{"modbus", make<PlainReader<read_modbus, first_modbus_message>>},
+    RecordedProtocol{"ppi", make<PlainReader<read_ppi, first_ppi_message>>},
+    RecordedProtocol{"freeport-pc", make<PlainReader<read_freeport_pc, first_freeport_pc_message>>},
+    RecordedProtocol{"pc1000-lan", pc1000_lan_reader},
+    RecordedProtocol{"westnet", westnet_reader},
+    RecordedProtocol{"pc500-loader", pc500_loader_reader},
+    RecordedProtocol{"hppc", hppc_reader},
+};
+
+/// The first characters of a frame, which is left with the others. Each has a time.
+RecordedFrame take_first(RecordedFrame& frame, std::size_t count) {
+  const auto at = static_cast<std::ptrdiff_t>(count);
+  RecordedFrame first = frame;
+  first.bytes.resize(count);
+  first.times.resize(count);
+  std::erase_if(first.damaged, [&](std::size_t place) { return place >= count; });
+  frame.bytes.erase(frame.bytes.begin(), frame.bytes.begin() + at);
+  frame.times.erase(frame.times.begin(), frame.times.begin() + at);
+  frame.at = frame.times.empty() ? std::nullopt : std::optional(frame.times.front());
+  std::erase_if(frame.damaged, [&](std::size_t place) { return place < count; });
+  for (std::size_t& place : frame.damaged) place -= count;
+  return first;
+}
+
+Time begin_of(const RecordedFrame& frame, const Stamps& stamps) {
+  const auto characters = static_cast<Time>(frame.times.empty() ? frame.bytes.size() : 1);
+  return *frame.at - (stamps.at_end ? characters * stamps.character : 0);
+}
+
+Time end_of(const RecordedFrame& frame, const Stamps& stamps) {
+  if (!frame.times.empty()) return frame.times.back() + (stamps.at_end ? 0 : stamps.character);
+  return *frame.at + (stamps.at_end ? 0 : static_cast<Time>(frame.bytes.size()) * stamps.character);
+}
 
 }  // namespace
 
@@ -168,29 +243,67 @@ const RecordedProtocol* find_recorded_protocol(std::string_view name) {
   return found == kProtocols.end() ? nullptr : &*found;
 }
 
-std::vector<ReadFrame> conversation(const LineRecording& recording, const RecordedProtocol& protocol) {
+Conversation::Stream& Conversation::stream_of(const RecordedFrame& frame) {
+  Stream& stream = streams_[frame.stream];
+  if (!stream.reader) stream.reader = protocol_.reader();
+  return stream;
+}
+
+ReadFrame Conversation::read(Stream& stream, RecordedFrame frame) {
+  ReadFrame read = stream.reader->read(frame, stream.open ? &*stream.open : nullptr);
+  if (!frame.damaged.empty()) {
+    read.right = false;
+    read.text =
+        fmt::format("character {} is damaged{}{}", frame.damaged.front() + 1, read.text.empty() ? "" : "; ", read.text);
+  }
+  if (last_) read.silence = silence(*last_, frame, stamps_);
+  if (read.direction == Direction::Answer && stream.open) {
+    read.other = stream.number;
+    read.latency = silence(*stream.open, frame, stamps_);
+    stream.open.reset();
+  } else if (read.direction == Direction::Request) {
+    stream.open.reset();
+    if (!read.needs_no_answer) stream.open = frame;
+    stream.number = count_;
+  }
+  ++count_;
+  last_ = frame;
+  read.frame = std::move(frame);
+  return read;
+}
+
+std::vector<ReadFrame> Conversation::take_complete(RecordedFrame& frame) {
+  Stream& stream = stream_of(frame);
   std::vector<ReadFrame> all;
-  std::map<std::uint32_t, std::size_t> open;  // by connection
-  for (const RecordedFrame& frame : recording.frames) {
-    const auto waits = open.find(frame.stream);
-    ReadFrame read = protocol.read(frame, waits == open.end() ? nullptr : all[waits->second].frame);
-    if (read.direction == Direction::Answer) {
-      read.other = waits->second;
-      all[waits->second].other = all.size();
-      open.erase(waits);
-    } else if (read.direction == Direction::Request) {
-      open[frame.stream] = all.size();
-    }
-    all.push_back(std::move(read));
+  while (!frame.bytes.empty()) {
+    const std::size_t length = stream.reader->first_message(frame.bytes, stream.open ? &*stream.open : nullptr);
+    if (length == 0) break;
+    all.push_back(read(stream, take_first(frame, length)));
   }
   return all;
 }
 
-std::optional<Time> silence(const ReadFrame& before, const ReadFrame& after, const Stamps& stamps) {
-  if (!before.frame->at || !after.frame->at) return {};
-  const RecordedFrame& between = stamps.at_end ? *after.frame : *before.frame;
-  return std::max<Time>(0,
-                        *after.frame->at - *before.frame->at - static_cast<Time>(between.bytes.size()) * stamps.character);
+std::vector<ReadFrame> Conversation::add(RecordedFrame frame) {
+  std::vector<ReadFrame> all;
+  if (frame.direction == Direction::Unknown && !frame.times.empty()) all = take_complete(frame);
+  if (!frame.bytes.empty()) all.push_back(read(stream_of(frame), std::move(frame)));
+  return all;
+}
+
+std::vector<ReadFrame> conversation(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps) {
+  Conversation reading(protocol, stamps);
+  std::vector<ReadFrame> all;
+  for (const RecordedFrame& frame : recording.frames)
+    for (ReadFrame& read : reading.add(frame)) {
+      if (read.other) all[*read.other].other = all.size();
+      all.push_back(std::move(read));
+    }
+  return all;
+}
+
+std::optional<Time> silence(const RecordedFrame& before, const RecordedFrame& after, const Stamps& stamps) {
+  if (!before.at || !after.at) return {};
+  return std::max<Time>(0, begin_of(after, stamps) - end_of(before, stamps));
 }
 
 }  // namespace s7200::tools

@@ -1,6 +1,8 @@
 // Frames of a recording as requests and answers of a protocol.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,26 +15,37 @@ namespace s7200::tools {
 
 /// A frame, read.
 struct ReadFrame {
-  const RecordedFrame* frame = nullptr;
+  RecordedFrame frame{};
   Direction direction = Direction::Unknown;  ///< Unknown: neither a request nor an answer to one
   bool right = false;
   std::string text{};                     ///< what it says, or what is wrong with it
   std::optional<std::uint8_t> station{};  ///< of a request: who is asked
+  bool needs_no_answer = false;           ///< of a request: to all stations, or the last word of a session
   std::optional<std::size_t> other{};     ///< of an answer its request, of a request its answer: number in the conversation
+  std::optional<Time> silence{};          ///< before it; nothing if the recording has no times
+  std::optional<Time> latency{};          ///< of an answer: the silence between its request and it
+};
+
+/// Reads the frames of one line, or of one connection, in turn.
+class FrameReader {
+ public:
+  virtual ~FrameReader() = default;
+
+  /// The direction, whether it is right, and what it says. `open`: the request that still waits for an answer; null if none
+  /// does.
+  virtual ReadFrame read(const RecordedFrame& frame, const RecordedFrame* open) = 0;
+
+  /// How many of the bytes are the first message, by what it says of itself; 0 if it is not all there, or does not say.
+  virtual std::size_t first_message(std::span<const std::uint8_t> bytes, const RecordedFrame* open) const = 0;
 };
 
 /// A protocol that recordings are read in.
 struct RecordedProtocol {
   std::string_view name;  ///< as for `master --protocol`
-
-  /// `open`: the request that still waits for an answer; null if none does.
-  ReadFrame (*read)(const RecordedFrame& frame, const RecordedFrame* open);
+  std::unique_ptr<FrameReader> (*reader)();
 };
 std::span<const RecordedProtocol> recorded_protocols();
 const RecordedProtocol* find_recorded_protocol(std::string_view name);
-
-/// Each frame in turn; an answer goes to the last request of its connection that has none.
-std::vector<ReadFrame> conversation(const LineRecording& recording, const RecordedProtocol& protocol);
 
 /// What a recording leaves open about its times.
 struct Stamps {
@@ -40,8 +53,41 @@ struct Stamps {
   bool at_end = false;  ///< a frame's time is that of its end; otherwise of its begin
 };
 
+/// Frame after frame; an answer goes to the last request of its connection that has none.
+class Conversation {
+ public:
+  Conversation(const RecordedProtocol& protocol, const Stamps& stamps) : protocol_(protocol), stamps_(stamps) {}
+
+  /// What a frame says. One that was put together from characters, and whose direction is not known, may be several messages
+  /// that followed each other closely.
+  std::vector<ReadFrame> add(RecordedFrame frame);
+
+  /// The messages that characters begin with, as far as they are all there; they are taken off the frame.
+  std::vector<ReadFrame> take_complete(RecordedFrame& frame);
+
+ private:
+  struct Stream {
+    std::unique_ptr<FrameReader> reader;
+    std::optional<RecordedFrame> open{};  ///< a request
+    std::size_t number = 0;               ///< of it
+  };
+
+  Stream& stream_of(const RecordedFrame& frame);
+  ReadFrame read(Stream& stream, RecordedFrame frame);
+
+  const RecordedProtocol& protocol_;
+  Stamps stamps_;
+  std::map<std::uint32_t, Stream> streams_;  // by connection
+  std::optional<RecordedFrame> last_;
+  std::size_t count_ = 0;
+};
+
+/// A whole recording, each request with its answer.
+std::vector<ReadFrame> conversation(const LineRecording& recording, const RecordedProtocol& protocol,
+                                    const Stamps& stamps = {});
+
 /// How long nothing was on the line, from the end of one frame to the begin of another, 0 at least; between a request and
 /// its answer the latency. Nothing if the recording has no times.
-std::optional<Time> silence(const ReadFrame& before, const ReadFrame& after, const Stamps& stamps);
+std::optional<Time> silence(const RecordedFrame& before, const RecordedFrame& after, const Stamps& stamps);
 
 }  // namespace s7200::tools

@@ -9,11 +9,31 @@
 
 namespace s7200::tools {
 
-/// A line for each frame: when, the silence before it, who, its bytes, what it says; and a summary.
-std::string decoded_text(const std::vector<ReadFrame>& frames, const Stamps& stamps, bool colour);
+/// What became of the requests.
+class DecodedSummary {
+ public:
+  void add(const ReadFrame& frame);
+
+  /// `requests: 5, answered: 3 after 15.833 ms to 16.833 ms; wrong frames: 1, frames of no request: 0`
+  std::string text() const;
+  nlohmann::ordered_json json() const;
+
+ private:
+  std::size_t requests_ = 0, answered_ = 0, need_no_answer_ = 0, wrong_ = 0, strays_ = 0;
+  std::optional<Time> shortest_{}, longest_{};
+};
+
+/// The heading, and what is said of a frame: when, the silence before it, who, its bytes, what it says. What is wrong is
+/// yellow, and so is a request if it is known that it was not answered.
+std::string decoded_heading(bool colour);
+std::string decoded_text(const ReadFrame& frame, bool unanswered, bool colour);
+nlohmann::ordered_json decoded_json(const ReadFrame& frame);
+
+/// All frames and a summary.
+std::string decoded_text(const std::vector<ReadFrame>& frames, bool colour);
 
 /// The keys `frames` and `summary`.
-void add_decoded(nlohmann::ordered_json& results, const std::vector<ReadFrame>& frames, const Stamps& stamps);
+void add_decoded(nlohmann::ordered_json& results, const std::vector<ReadFrame>& frames);
 
 struct PlaybackChoices {
   std::string name{};                     ///< of the scenario

@@ -116,10 +116,9 @@ void join_characters(LineRecording& recording, Time gap) {
     const bool joins =
         !frames.empty() && frames.back().direction == row.direction && last && row.at && *row.at - *last <= gap;
     last = row.at;
-    if (joins)
-      frames.back().bytes.insert(frames.back().bytes.end(), row.bytes.begin(), row.bytes.end());
-    else
-      frames.push_back(std::move(row));
+    if (!joins) frames.push_back({.at = row.at, .direction = row.direction, .place = row.place, .stream = row.stream});
+    frames.back().bytes.insert(frames.back().bytes.end(), row.bytes.begin(), row.bytes.end());
+    if (row.at) frames.back().times.push_back(*row.at);
   }
   recording.frames = std::move(frames);
 }

@@ -17,9 +17,11 @@ enum class Direction : std::uint8_t { Unknown, Request, Answer };
 struct RecordedFrame {
   std::optional<Time> at{};  ///< when it began, since the first frame; nothing if the recording does not say
   Direction direction = Direction::Unknown;
-  Bytes bytes{};             ///< as on a serial line: a message of Modbus TCP has its unit for the station, and a CRC
-  std::string place{};       ///< `packet 3`, `line 12`
-  std::uint32_t stream = 0;  ///< of Modbus TCP: which connection; a request and its answer are of the same
+  Bytes bytes{};              ///< as on a serial line: a message of Modbus TCP has its unit for the station, and a CRC
+  std::string place{};        ///< `packet 3`, `line 12`
+  std::uint32_t stream = 0;   ///< of Modbus TCP: which connection; a request and its answer are of the same
+  std::vector<Time> times{};  ///< of each character, if the recording says; the first is `at`
+  std::vector<std::size_t> damaged{};  ///< which of them had a parity or framing error, from 0
 };
 
 struct LineRecording {

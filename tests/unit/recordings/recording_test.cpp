@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <sstream>
 
@@ -215,8 +216,9 @@ TEST(Recordings, RandomPacketsAreNeverReadBeyondTheirEnd) {
 
 // --- conversations ---
 
-std::vector<ReadFrame> read(const LineRecording& recording, std::string_view protocol = "modbus") {
-  return conversation(recording, *find_recorded_protocol(protocol));
+std::vector<ReadFrame> read(const LineRecording& recording, std::string_view protocol = "modbus",
+                            const Stamps& stamps = {}) {
+  return conversation(recording, *find_recorded_protocol(protocol), stamps);
 }
 
 TEST(Conversation, AnAnswerIsKnownByItsRequestWhereNoDirectionIsSaid) {
@@ -234,8 +236,9 @@ TEST(Conversation, AnAnswerIsKnownByItsRequestWhereNoDirectionIsSaid) {
 TEST(Conversation, TheLatencyIsTheSilenceBetweenThem) {
   const LineRecording recording = recording_of("0.000 TX 01 03 00 00 00 01 84 0A\n0.025 RX 01 03 02 12 34 B5 33\n");
   const auto frames = read(recording);
-  EXPECT_EQ(silence(frames[0], frames[1], {.character = 1 * ms}), 17 * ms) << "eight characters of the request";
-  EXPECT_EQ(silence(frames[0], frames[1], {.character = 1 * ms, .at_end = true}), 18 * ms) << "seven of the answer";
+  EXPECT_EQ(silence(frames[0].frame, frames[1].frame, {.character = 1 * ms}), 17 * ms) << "eight characters of the request";
+  EXPECT_EQ(silence(frames[0].frame, frames[1].frame, {.character = 1 * ms, .at_end = true}), 18 * ms)
+      << "seven of the answer";
 }
 
 TEST(Conversation, PpiIsReadFrameByFrame) {
@@ -254,11 +257,167 @@ TEST(Conversation, PpiIsReadFrameByFrame) {
   EXPECT_EQ(frames[4].direction, Direction::Unknown);
 }
 
+/// A character in each row, `gap` after the one before; the rows of each string follow those of the one before after
+/// `between`.
+std::string character_rows(std::initializer_list<const char*> messages, Time gap, Time between) {
+  std::string csv = "Time [us],Value\n";
+  Time at = 0;
+  for (const char* message : messages) {
+    for (const std::uint8_t byte : *bytes_of_text(message))
+      csv += fmt::format("{},0x{:02X}\n", (at += gap) / kMicrosecond, byte);
+    at += between;
+  }
+  return csv;
+}
+
+std::vector<std::string> texts(const std::vector<ReadFrame>& frames) {
+  std::vector<std::string> all;
+  for (const ReadFrame& frame : frames)
+    all.push_back((frame.direction == Direction::Request  ? "> "
+                   : frame.direction == Direction::Answer ? "< "
+                                                          : "? ") +
+                  frame.text);
+  return all;
+}
+
+TEST(Conversation, MessagesThatFollowEachOtherCloselyAreToldApartByWhatTheySay) {
+  const LineRecording recording = recording_of(character_rows(
+      {"01 03 00 00 00 01 84 0A", "01 03 02 12 34 B5 33", "01 06 00 00 00 01 48 0A", "01 06 00 00 00 01 48 0A"}, ms,
+      2 * ms));
+  EXPECT_EQ(recording.frames.size(), 1U) << "the gap of 5 ms joins them";
+  const auto frames = read(recording, "modbus", {.character = ms});
+  EXPECT_EQ(texts(frames),
+            (std::vector<std::string>{"> station 1, read holding registers 40001, 1 of them", "< 1 register: 16#1234",
+                                      "> station 1, write register 40001 = 16#0001", "< register 0 written: 16#0001"}));
+  EXPECT_EQ(frames[1].latency, 2 * ms);
+  EXPECT_EQ(frames[2].silence, 2 * ms);
+}
+
+TEST(Conversation, AFrameThatARecordingHasAsOneIsNotDivided) {
+  const auto frames = read(recording_of("0.000 01 03 00 00 00 01 84 0A 01 03 02 12 34 B5 33\n"));
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_FALSE(frames[0].right);
+}
+
+TEST(Conversation, ThePc1000LanIsReadMessageByMessageWithTheUnitThatWasAddressedLast) {
+  const auto frames = read(recording_of(character_rows({"0A 05 00 00 00 0F", "0A 05 09 04 02 1E", "05 00 40 03 00 48",
+                                                        "05 00 40 03 00 48 34 12 78 56 14", "07 FF 00 01 00 07 CD AB 78",
+                                                        "07 FF 00 01 00 07", "03 05 82 11 00 9B", "03 05 82 11 00 9B"},
+                                                       ms, ms)),
+                           "pc1000-lan", {.character = ms});
+  EXPECT_EQ(texts(frames),
+            (std::vector<std::string>{"> address unit 16#05", "< keyswitch in stop, fault mode, fault register 16#0204",
+                                      "> read 4 bytes from word 16#4000 on", "< 34 12 78 56",
+                                      "> write 2 bytes from word 16#00FF on: cd ab", "< done", "> set bit 1 of word 16#8205",
+                                      "< done"}));
+  for (const ReadFrame& frame : frames) EXPECT_TRUE(frame.right) << frame.text;
+  EXPECT_EQ(frames[2].station, 5);
+  EXPECT_EQ(frames[3].latency, ms) << "one character";
+}
+
+TEST(Conversation, AMessageOfTheLanWithAWrongCheckIsNone) {
+  const auto frames = read(
+      recording_of("0.000 TX 0A 05 00 00 00 0E\n0.100 TX 0A 05 00 00 00 0F\n0.110 RX 0A 06 01 00 00 11\n"), "pc1000-lan");
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[0].text, "not a message: its opcode, length or check is wrong");
+  EXPECT_EQ(frames[2].other, 1U);
+  EXPECT_FALSE(frames[2].right) << "another unit";
+}
+
+TEST(Conversation, WestnetIsReadWithItsCommandsAndErrors) {
+  const auto frames = read(
+      recording_of("0.000 09 00 00 05 01 0F\n0.010 09 00 00 05 01 0F\n0.020 09 05 00 00 00 0E\n0.030 09 05 00 01 00 0F\n"
+                   "0.040 05 00 00 01 00 06\n0.050 FF 12\n"),
+      "westnet");
+  EXPECT_EQ(texts(frames),
+            (std::vector<std::string>{"> address 00.05.01", "< PLC 00.05.01 addressed", "> read session status",
+                                      "< session of 00.01.00", "> read 2 bytes from word 16#0000 on",
+                                      "< error 12: PLC in session with another computer"}));
+}
+
+TEST(Conversation, ALoaderSessionIsReadStepByStep) {
+  const auto frames = read(
+      recording_of(character_rows({"02", "10 06", "04", "02", "10 06", "16 10 03", "10 06 90 00 90 01 10 04", "10 06 02",
+                                   "10 06", "00 00 00 00 00 10 10 06 10 03", "10 06", "02", "10 06", "12 10 03", "10 06"},
+                                  ms, 0)),
+      "pc500-loader");
+  EXPECT_EQ(texts(frames),
+            (std::vector<std::string>{"> begin of a session", "< acknowledged", "> read memory", "< ready", "> acknowledged",
+                                      "< wants arguments", "> bytes 16#9000…9001", "< arguments accepted", "> acknowledged",
+                                      "< 00 00 00 00 00 10 06", "> acknowledged", "< ready", "> acknowledged", "< end",
+                                      "> session closed"}));
+  EXPECT_TRUE(frames.back().needs_no_answer);
+  for (const ReadFrame& frame : frames) EXPECT_TRUE(frame.right) << frame.text;
+}
+
+TEST(Conversation, ALoaderSessionThatIsRefusedOrBrokenOffBeginsAnew) {
+  const auto frames = read(recording_of("0.0 02\n0.1 10 06\n0.2 05\n0.3 10 15\n0.4 02\n0.5 02\n0.6 10 06\n0.7 03\n0.8 55\n"),
+                           "pc500-loader");
+  EXPECT_EQ(texts(frames), (std::vector<std::string>{"> begin of a session", "< acknowledged", "> opcode 05", "< refused",
+                                                     "> begin of a session", "> begin of a session", "< acknowledged",
+                                                     "> write memory", "? does not fit the hand-shake: 02 was due"}));
+}
+
+TEST(Conversation, HppcIsReadWithEitherFrameCheck) {
+  const auto frames =
+      read(recording_of("0.000 0C 00 20 40 00 0C 01 00 09 02 C7 86\n0.010 0B 00 40 00 00 0C 02 22 33 86 C3\n"
+                        "0.020 0C 00 20 40 00 0C 02 00 08 02 6F 2F\n0.030 0B 00 40 00 00 10 11 00 00 AE D1\n"
+                        "0.040 0C 00 20 40 00 0C 02 00 08 02 6F 6B\n0.050 0C 00 20 40 00 0C 02 00 08 02 6F 6C\n"),
+           "hppc");
+  EXPECT_EQ(texts(frames), (std::vector<std::string>{"> read 2 bytes from 16#90001 on", "< 02 22 33",
+                                                     "> read 2 bytes from 16#80002 on", "< error 11: invalid operand",
+                                                     "> read 2 bytes from 16#80002 on", "> wrong frame check"}));
+  EXPECT_TRUE(frames[4].right) << "the polynomial's";
+  EXPECT_FALSE(frames[5].right);
+}
+
+TEST(Conversation, RandomCharactersAreReadInEveryProtocolToTheirEnd) {
+  std::uint32_t random = 1;
+  const auto next = [&random] { return (random = random * 1'664'525 + 1'013'904'223) >> 16; };
+  constexpr std::array<std::uint8_t, 12> kLikely{0x02, 0x10, 0x06, 0x03, 0x04, 0x05, 0x07, 0x09, 0x0A, 0x0F, 0x00, 0xFF};
+  for (const RecordedProtocol& protocol : recorded_protocols()) {
+    for (int round = 0; round < 300; ++round) {
+      LineRecording recording;
+      std::size_t characters = 0, read_back = 0;
+      for (std::uint32_t count = next() % 6; count > 0; --count) {
+        RecordedFrame frame{.at = 0, .direction = static_cast<Direction>(next() % 3)};
+        for (std::uint32_t length = 1 + next() % 40; length > 0; --length) {
+          frame.bytes.push_back(next() % 4 == 0 ? static_cast<std::uint8_t>(next()) : kLikely[next() % kLikely.size()]);
+          frame.times.push_back(0);
+        }
+        characters += frame.bytes.size();
+        recording.frames.push_back(std::move(frame));
+      }
+      for (const ReadFrame& frame : conversation(recording, protocol)) read_back += frame.frame.bytes.size();
+      EXPECT_EQ(read_back, characters) << protocol.name;
+    }
+  }
+}
+
+TEST(Conversation, ADamagedCharacterIsNamedInItsOwnMessage) {
+  LineRecording recording = recording_of(character_rows({"01 03 00 00 00 01 84 0A", "01 03 02 12 34 B5 33"}, ms, 0));
+  recording.frames[0].damaged = {10};
+  const auto frames = read(recording);
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_TRUE(frames[0].right);
+  EXPECT_FALSE(frames[1].right);
+  EXPECT_EQ(frames[1].text, "character 3 is damaged; 1 register: 16#1234");
+}
+
+TEST(Conversation, ARequestThatNeedsNoAnswerIsNotCountedAsUnanswered) {
+  const auto frames = read(recording_of("0.000 00 06 00 00 00 01 49 DB\n"));
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_TRUE(frames[0].needs_no_answer);
+  DecodedSummary summary;
+  summary.add(frames[0]);
+  EXPECT_EQ(summary.text(), "requests: 1, answered: 0, 1 need no answer; wrong frames: 0, frames of no request: 0\n");
+}
+
 TEST(Conversation, AScenarioAsksTheSameWithTheSameGaps) {
   const LineRecording recording =
       recording_of("0.000 TX 01 03 00 00 00 01 84 0A\n0.025 RX 01 03 02 12 34 B5 33\n0.100 TX 02 03 00 00 00 01 84 39\n");
-  const auto frames = read(recording);
   const Stamps stamps{.character = 1 * ms};
+  const auto frames = read(recording, "modbus", stamps);
   EXPECT_EQ(scenario_text(frames, stamps, {.name = "a \"plant\"", .program = "slave.stl", .tolerance = 5 * ms}),
             "scenarios:\n  - name: \"a \\\"plant\\\"\"\n    program: \"slave.stl\"\n    tolerance: 5 ms\n    steps:\n"
             "      - send: 01 03 00 00 00 01 84 0a\n        expect: 01 03 02 12 34 b5 33\n        latency: 17 ms\n"

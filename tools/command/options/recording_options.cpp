@@ -3,10 +3,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <stdexcept>
 
+#include "interpreter/base/text.hpp"
+#include "tools/command/line_listener.hpp"
 #include "tools/command/options/input.hpp"
+#include "tools/command/options/line_options.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
+#include "tools/master/protocol.hpp"
 
 namespace s7200::tools {
 
@@ -14,25 +21,80 @@ void RecordingOptions::add_to(CLI::App& verb) {
   std::vector<std::string> names;
   for (const RecordedProtocol& each : recorded_protocols()) names.emplace_back(each.name);
   verb.add_option("FILE", file,
-                  "pcap (serial, or Modbus TCP), CSV, or a text log with a frame in each line; - is standard input")
+                  "pcap (serial, or Modbus TCP), CSV, or a text log with a frame in each line; - is standard input; or a line "
+                  "to listen to: a serial device, a pty, tcp://HOST:PORT")
       ->required();
   verb.add_option("--protocol", protocol, "what was spoken")
       ->check(CLI::IsMember(names))
       ->capture_default_str()
       ->type_name("NAME");
-  add_whole_number(verb, "--baud", format.baud, {300, 115'200}, "of a serial line, for latencies", "9600");
-  verb.add_option("--stamps", stamps, "which instant of a frame its time is")
-      ->check(CLI::IsMember({"begin", "end"}))
-      ->capture_default_str()
-      ->type_name("WHICH");
+  add_line_options(verb, line, "as the protocol has it");
+  for_files_.push_back(verb.add_option("--stamps", stamps, "which instant of a frame its time is, in a recording")
+                           ->check(CLI::IsMember({"begin", "end"}))
+                           ->capture_default_str()
+                           ->type_name("WHICH"));
   add_duration(verb, "--gap", reading.gap,
-               "silence that ends a frame, in recordings with a character in each row; 5ms without it",
+               "silence that ends a frame, in recordings with a character in each row, 5ms without it, and of a line, 20ms",
                {1, kLongestDuration});
-  add_whole_number(verb, "--tcp-port", reading.tcp_port, {1, 65'535}, "of the Modbus TCP server", "502");
+  add_whole_number(verb, "--tcp-port", reading.tcp_port, {1, 65'535}, "of the Modbus TCP server, in a recording", "502");
+  for_files_.push_back(verb.get_option("--tcp-port"));
+  for_lines_.push_back(add_duration(verb, "--for", duration, "how long to listen to a line [until Ctrl-C]"));
+}
+
+std::optional<SlaveTarget> RecordingOptions::live() const {
+  SlaveTarget target = parse_slave_target(file);
+  const auto refuse = [](const std::vector<CLI::Option*>& options, const char* need) {
+    for (const CLI::Option* option : options)
+      if (option->count() > 0) throw std::invalid_argument(fmt::format("{} needs {}", option->get_name(), need));
+  };
+  switch (target.kind) {
+    case SlaveTarget::Kind::Program:
+      refuse(for_lines_, "a line to listen to");
+      return {};
+    case SlaveTarget::Kind::Device:
+    case SlaveTarget::Kind::Tcp:
+      refuse(for_files_, "a recording");
+      return target;
+    case SlaveTarget::Kind::ModbusTcp:
+    case SlaveTarget::Kind::Peer:
+      break;
+  }
+  throw std::invalid_argument(
+      fmt::format("{}: nothing is said there unless it is asked; listen to a serial device or tcp://HOST:PORT, or ask it "
+                  "with 's7200 master'",
+                  stl::shortened(file)));
+}
+
+SerialFormat RecordingOptions::format() const { return line.over(find_protocol(protocol)->format); }
+
+bool listen(const RecordingOptions& options, const SlaveTarget& line, const std::function<void(ReadFrame)>& tell) {
+  catch_interruption();
+  const SerialFormat format = options.format();
+  const Stamps stamps{.character = line.kind == SlaveTarget::Kind::Tcp ? 0 : format.character_time()};
+  Conversation conversation(*find_recorded_protocol(options.protocol), stamps);
+  try {
+    LineListener(line, format, options.reading.gap).listen(options.duration, conversation, tell);
+    return true;
+  } catch (const SlaveUnreachable& error) {
+    print_error(error.what());
+    return false;
+  }
 }
 
 std::optional<ReadRecording> read_conversation(const RecordingOptions& options) {
   ReadRecording read;
+  const SerialFormat format = options.format();
+  if (const auto line = options.live()) {
+    read.name = options.file;
+    read.recording.form = "live";
+    read.stamps.character = line->kind == SlaveTarget::Kind::Tcp ? 0 : format.character_time();
+    const auto keep = [&](ReadFrame frame) {
+      if (frame.other) read.frames[*frame.other].other = read.frames.size();
+      read.frames.push_back(std::move(frame));
+    };
+    if (!listen(options, *line, keep)) return {};
+    return read;
+  }
   const auto bytes = read_input(options.file, read.name);
   if (!bytes) return {};
   std::string why;
@@ -42,8 +104,8 @@ std::optional<ReadRecording> read_conversation(const RecordingOptions& options) 
   read.recording = std::move(*recording);
   const bool over_tcp =
       std::ranges::any_of(read.recording.frames, [](const RecordedFrame& frame) { return frame.stream != 0; });
-  read.stamps = {.character = over_tcp ? 0 : options.format.character_time(), .at_end = options.stamps == "end"};
-  read.frames = conversation(read.recording, *find_recorded_protocol(options.protocol));
+  read.stamps = {.character = over_tcp ? 0 : format.character_time(), .at_end = options.stamps == "end"};
+  read.frames = conversation(read.recording, *find_recorded_protocol(options.protocol), read.stamps);
   return read;
 }
 

@@ -1,36 +1,54 @@
 // What `decode` and `import-capture` read, and what the recording itself does not say.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "interpreter/base/serial_format.hpp"
+#include "serial_sim/line/line_settings.hpp"
 #include "tools/recordings/conversation.hpp"
+#include "tools/slave/slave_target.hpp"
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace s7200::tools {
 
 struct RecordingOptions {
-  std::string file;
+  std::string file;  ///< or a device, or an address
   std::string protocol = "modbus";
   ReadingChoices reading{};
-  SerialFormat format{};  ///< of the line
+  serial::LineSettings line{};
   std::string stamps = "begin";
+  Time duration = kNever;  ///< of what is heard live
 
   void add_to(CLI::App& verb);
+
+  /// A line to listen to; nothing if a file is to be read. Throws std::invalid_argument for another kind of target, and for
+  /// options that do not go with what it is.
+  std::optional<SlaveTarget> live() const;
+
+  /// Of the line: as the protocol has it where no option says otherwise.
+  SerialFormat format() const;
+
+ private:
+  std::vector<CLI::Option*> for_files_, for_lines_;
 };
 
 /// A recording with what it says.
 struct ReadRecording {
   LineRecording recording;
-  std::vector<ReadFrame> frames;  ///< of the recording
+  std::vector<ReadFrame> frames;  ///< of the recording, or heard live
   Stamps stamps;
   std::string name;  ///< what messages call the file
 };
+
+/// Listens as the options say, and tells each frame. False after a message. Ends by an interruption or after `duration`.
+bool listen(const RecordingOptions& options, const SlaveTarget& line, const std::function<void(ReadFrame)>& tell);
 
 /// Nothing after a message. Notes are printed.
 std::optional<ReadRecording> read_conversation(const RecordingOptions& options);

@@ -1,0 +1,409 @@
+#include "tools/recordings/westinghouse.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "serial_sim/line/frame.hpp"
+#include "serial_sim/westinghouse/block_message.hpp"
+#include "serial_sim/westinghouse/hppc_message.hpp"
+#include "serial_sim/westinghouse/loader_session.hpp"
+#include "serial_sim/westinghouse/pc1000.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Data = std::span<const std::uint8_t>;
+using serial::to_hex;
+using serial::Verdict;
+
+unsigned low_first(Data bytes, std::size_t place) { return bytes[place] | bytes[place + 1] * 256U; }
+unsigned high_first(Data bytes, std::size_t place) { return bytes[place] * 256U + bytes[place + 1]; }
+
+bool fits(const serial::Answer& answer) { return answer.verdict == Verdict::Right || answer.verdict == Verdict::Exception; }
+
+std::string plural(std::size_t count, std::string_view thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+// --- six-byte messages ---
+
+class BlockReader final : public FrameReader {
+ public:
+  ReadFrame read(const RecordedFrame& frame, const RecordedFrame* open) override {
+    const Data bytes(frame.bytes);
+    ReadFrame read;
+    if (open != nullptr && frame.direction != Direction::Request) {
+      const serial::Answer answer = westinghouse::check_block_answer(open->bytes, bytes);
+      if (fits(answer) || frame.direction == Direction::Answer) {
+        read.direction = Direction::Answer;
+        read.right = fits(answer);
+        read.text = answer_text(open->bytes, answer);
+        return read;
+      }
+    }
+    const std::size_t length = frame.direction == Direction::Answer ? 0 : request_length(bytes);
+    if (length != bytes.size()) {
+      read.text = frame.direction == Direction::Answer ? "an answer without its request"
+                                                       : "not a message: its opcode, length or check is wrong";
+      return read;
+    }
+    if (bytes[0] == static_cast<std::uint8_t>(westinghouse::Opcode::SetUnitAddress)) unit_ = bytes[1];
+    read.direction = Direction::Request;
+    read.right = true;
+    read.station = unit_;
+    read.text = request_text(bytes);
+    return read;
+  }
+
+  std::size_t first_message(Data bytes, const RecordedFrame* open) const override {
+    if (open == nullptr || (bytes[0] != open->bytes[0] && bytes[0] != westinghouse::kHighwayError))
+      return request_length(bytes);
+    for (std::size_t length = 1; length <= bytes.size(); ++length)
+      if (westinghouse::is_whole_answer(bytes.first(length))) return length;
+    return 0;
+  }
+
+ private:
+  /// 0 if it is none, or not all there.
+  static std::size_t request_length(Data bytes) {
+    using westinghouse::kMessageLength;
+    if (bytes.size() < kMessageLength || !westinghouse::Pc1000::check_right(bytes)) return 0;
+    const std::size_t length = westinghouse::Pc1000::length(bytes);
+    return length <= bytes.size() ? length : 0;
+  }
+
+  static std::string request_text(Data bytes) {
+    using westinghouse::Opcode;
+    constexpr std::size_t kAddress = 1, kCount = 3;
+    const unsigned address = low_first(bytes, kAddress);
+    const std::string count = plural(bytes[kCount] + 1U, "byte");
+    switch (static_cast<Opcode>(bytes[0])) {
+      case Opcode::BitWrite:
+        return fmt::format("{} bit {} of word 16#{:04X}", bytes[kCount] >> 4 != 0 ? "set" : "reset", bytes[kCount] & 0xF,
+                           address);
+      case Opcode::ReadBlock:
+        return fmt::format("read {} from word 16#{:04X} on", count, address);
+      case Opcode::WriteBlock: {
+        const Data data = bytes.subspan(westinghouse::kMessageLength, bytes[kCount] + 1U);
+        const bool right = westinghouse::sum(data) == bytes.back();
+        return fmt::format("write {} from word 16#{:04X} on: {}{}", count, address, to_hex(data),
+                           right ? "" : "; wrong data check");
+      }
+      case Opcode::Highway:
+        return highway_text(bytes);
+      case Opcode::SetUnitAddress:
+        return fmt::format("address unit 16#{:02X}", bytes[1]);
+      case Opcode::Erase:
+        return "erase memory";
+    }
+    return to_hex(bytes);
+  }
+
+  static std::string highway_text(Data bytes) {
+    static constexpr std::array<std::string_view, 7> kCommands{
+        "address",       "read remote address", "read highway status", "open session",
+        "close session", "read session status", "read local address"};
+    if (bytes[1] >= kCommands.size()) return fmt::format("highway command {:02X}", bytes[1]);
+    const std::string name(kCommands[bytes[1]]);
+    return bytes[1] != 0 ? name : fmt::format("{} {:02X}.{:02X}.{:02X}", name, bytes[2], bytes[3], bytes[4]);
+  }
+
+  static std::string answer_text(Data request, const serial::Answer& answer) {
+    using westinghouse::Opcode;
+    if (answer.verdict == Verdict::Exception)
+      return fmt::format("error {:02X}: {}", answer.exception, westinghouse::highway_error_name(answer.exception));
+    if (answer.verdict != Verdict::Right) return answer.fault;
+    switch (static_cast<Opcode>(request[0])) {
+      case Opcode::SetUnitAddress:
+        return westinghouse::unit_text(answer.bytes);
+      case Opcode::Highway:
+        return westinghouse::highway_text(request, answer.bytes);
+      default:
+        return answer.bytes.empty() ? "done" : to_hex(answer.bytes);
+    }
+  }
+
+  std::optional<std::uint8_t> unit_;  // that was addressed last
+};
+
+// --- the hand-shakes of the loader ---
+
+class LoaderReader final : public FrameReader {
+ public:
+  ReadFrame read(const RecordedFrame& frame, const RecordedFrame*) override {
+    const Data bytes(frame.bytes);
+    if (first_message(bytes, nullptr) != bytes.size() && begins_session(bytes)) step_ = Step::Begin;
+    ReadFrame read;
+    const bool whole = first_message(bytes, nullptr) == bytes.size();
+    const Direction side = from_plc(step_) ? Direction::Answer : Direction::Request;
+    if (!whole || (frame.direction != Direction::Unknown && frame.direction != side)) {
+      read.text = fmt::format("does not fit the hand-shake: {} was due", due_text());
+      step_ = Step::Begin;
+      return read;
+    }
+    read.direction = side;
+    read.right = true;
+    read.text = go_on(bytes);
+    read.needs_no_answer = side == Direction::Request && step_ == Step::Begin;
+    return read;
+  }
+
+  std::size_t first_message(Data bytes, const RecordedFrame*) const override {
+    if (from_plc(step_) && begins_with(bytes, kRefusal)) return kRefusal.size();
+    switch (step_) {
+      case Step::Opcode:
+        return 1;
+      case Step::Arguments:
+        return begins_with(bytes, kAcknowledge) ? up_to(bytes, kAcknowledge.size(), westinghouse::kEot) : 0;
+      case Step::Data:
+        return up_to(bytes, 0, westinghouse::kEtx);
+      default: {
+        const Bytes due = fixed(step_);
+        return begins_with(bytes, due) ? due.size() : 0;
+      }
+    }
+  }
+
+ private:
+  /// In their order; the computer begins.
+  enum class Step : std::uint8_t {
+    Begin,
+    BeginHeard,
+    Opcode,
+    Ready,
+    Header,
+    HeaderHeard,
+    Arguments,
+    ArgumentsHeard,
+    DataWanted,
+    Data,
+    DataHeard,
+    EndReady,
+    EndWanted,
+    End,
+    Close
+  };
+
+  static constexpr std::array kAcknowledge{westinghouse::kDle, westinghouse::kAck};
+  static constexpr std::array kRefusal{westinghouse::kDle, westinghouse::kNak};
+
+  static bool from_plc(Step step) { return static_cast<unsigned>(step) % 2 == 1; }
+
+  static bool begins_with(Data text, Data beginning) {
+    return text.size() >= beginning.size() && std::ranges::equal(text.first(beginning.size()), beginning);
+  }
+
+  static bool begins_session(Data bytes) { return bytes.size() == 1 && bytes[0] == westinghouse::kStx; }
+
+  /// Up to DLE and `end`, both included; 0 if that has not come. A doubled DLE is one of the data.
+  static std::size_t up_to(Data bytes, std::size_t from, std::uint8_t end) {
+    using westinghouse::kDle;
+    for (std::size_t at = from; at + 1 < bytes.size(); at += bytes[at] == kDle && bytes[at + 1] == kDle ? 2 : 1)
+      if (bytes[at] == kDle && bytes[at + 1] == end) return at + 2;
+    return 0;
+  }
+
+  /// What a step always is.
+  static Bytes fixed(Step step) {
+    using namespace westinghouse;
+    switch (step) {
+      case Step::Begin:
+      case Step::Ready:
+      case Step::EndReady:
+        return {kStx};
+      case Step::HeaderHeard:
+        return {kHeader, kDle, kEtx};
+      case Step::ArgumentsHeard:
+        return {kDle, kAck, kStx};
+      case Step::End:
+        return {westinghouse::kEnd, kDle, kEtx};
+      default:
+        return {kDle, kAck};
+    }
+  }
+
+  std::string due_text() const {
+    switch (step_) {
+      case Step::Opcode:
+        return "an opcode";
+      case Step::Arguments:
+        return "arguments with 10 04 after them";
+      case Step::Data:
+        return "data with 10 03 after them";
+      default:
+        return to_hex(fixed(step_));
+    }
+  }
+
+  /// What the step says; the next one is due.
+  std::string go_on(Data bytes) {
+    const Step step = step_;
+    const bool refused = from_plc(step) && begins_with(bytes, kRefusal);
+    step_ = refused || step == Step::Close ? Step::Begin : static_cast<Step>(static_cast<unsigned>(step) + 1);
+    if (refused) return "refused";
+    switch (step) {
+      case Step::Begin:
+        return "begin of a session";
+      case Step::Opcode:
+        opcode_ = bytes[0];
+        return operation_text();
+      case Step::Arguments:
+        return arguments_text(unstuffed(bytes.subspan(kAcknowledge.size(), bytes.size() - 2 * kAcknowledge.size())));
+      case Step::ArgumentsHeard:
+        if (!westinghouse::has_data(static_cast<westinghouse::LoaderOpcode>(opcode_))) step_ = Step::EndWanted;
+        return "arguments accepted";
+      case Step::Data:
+        return to_hex(unstuffed(bytes.first(bytes.size() - kAcknowledge.size())));
+      case Step::Ready:
+      case Step::EndReady:
+        return "ready";
+      case Step::HeaderHeard:
+        return "wants arguments";
+      case Step::End:
+        return "end";
+      case Step::Close:
+        return "session closed";
+      default:
+        return "acknowledged";
+    }
+  }
+
+  static Bytes unstuffed(Data bytes) {
+    Bytes plain;
+    for (std::size_t at = 0; at < bytes.size(); ++at) {
+      plain.push_back(bytes[at]);
+      if (bytes[at] == westinghouse::kDle && at + 1 < bytes.size() && bytes[at + 1] == westinghouse::kDle) ++at;
+    }
+    return plain;
+  }
+
+  std::string operation_text() const {
+    using westinghouse::LoaderOpcode;
+    switch (static_cast<LoaderOpcode>(opcode_)) {
+      case LoaderOpcode::Write:
+        return "write memory";
+      case LoaderOpcode::Read:
+        return "read memory";
+      case LoaderOpcode::Pointers:
+        return "read system parameters";
+      case LoaderOpcode::Block:
+        return "where a block is";
+      case LoaderOpcode::Directory:
+        return "directory of blocks";
+    }
+    return fmt::format("opcode {:02X}", opcode_);
+  }
+
+  std::string arguments_text(Data arguments) const {
+    using westinghouse::LoaderOpcode;
+    const auto opcode = static_cast<LoaderOpcode>(opcode_);
+    if (opcode == LoaderOpcode::Read && arguments.size() == 4)
+      return fmt::format("bytes 16#{:04X}…{:04X}", high_first(arguments, 0), high_first(arguments, 2));
+    if (opcode == LoaderOpcode::Write && arguments.size() > 2)
+      return fmt::format("from 16#{:04X} on: {}", high_first(arguments, 0), to_hex(arguments.subspan(2)));
+    if (opcode == LoaderOpcode::Block && arguments.size() == 2)
+      return fmt::format("type {}, block {}", arguments[0], arguments[1]);
+    if (opcode == LoaderOpcode::Directory && arguments.size() == 1) return fmt::format("type {}", arguments[0]);
+    return arguments.empty() ? "no arguments" : to_hex(arguments);
+  }
+
+  Step step_ = Step::Begin;
+  std::uint8_t opcode_ = 0;
+};
+
+// --- HPPC ---
+
+class HppcReader final : public FrameReader {
+ public:
+  ReadFrame read(const RecordedFrame& frame, const RecordedFrame* open) override {
+    const Data bytes(frame.bytes);
+    ReadFrame read;
+    if (first_message(bytes, open) != bytes.size()) {
+      read.text = "not a message: its length is wrong";
+      return read;
+    }
+    const auto table = right_table(bytes);
+    read.right = table.has_value();
+    if (bytes[kDestination] == westinghouse::kApl) {
+      read.direction = open != nullptr ? Direction::Answer : Direction::Unknown;
+      read.text = open == nullptr ? "an answer without its request" : answer_text(open->bytes, bytes, table);
+      if (open != nullptr && table) read.right = fits(westinghouse::check_hppc_answer(open->bytes, bytes, *table));
+    } else {
+      read.direction = Direction::Request;
+      read.station = bytes[kDestination];
+      read.needs_no_answer = bytes[kDestination] == westinghouse::kAll;
+      read.text = table ? request_text(bytes) : "wrong frame check";
+    }
+    return read;
+  }
+
+  std::size_t first_message(Data bytes, const RecordedFrame*) const override {
+    using westinghouse::kLongestHppc;
+    using westinghouse::kShortestHppc;
+    if (bytes.size() < kShortestHppc) return 0;
+    const std::size_t length = low_first(bytes, 0);
+    return length >= kShortestHppc && length <= std::min(bytes.size(), kLongestHppc) ? length : 0;
+  }
+
+ private:
+  static constexpr std::size_t kDestination = 2, kOpcode = 5, kCheck = 2, kAddress = 3;
+
+  static Data operands_of(Data bytes) {
+    return bytes.subspan(westinghouse::kHppcHeader, bytes.size() - westinghouse::kHppcHeader - kCheck);
+  }
+
+  static std::optional<westinghouse::FcsTable> right_table(Data bytes) {
+    using westinghouse::FcsTable;
+    for (const FcsTable table : {FcsTable::Document, FcsTable::Polynomial})
+      if (westinghouse::hppc_fcs(bytes, table) == 0) return table;
+    return {};
+  }
+
+  static std::string request_text(Data bytes) {
+    using westinghouse::HppcOpcode;
+    const Data operands = operands_of(bytes);
+    const auto address = [&] { return westinghouse::hppc_address(operands); };
+    switch (static_cast<HppcOpcode>(bytes[kOpcode])) {
+      case HppcOpcode::Read:
+        if (operands.size() == kAddress + 1)
+          return fmt::format("read {} from 16#{:05X} on", plural(operands[kAddress], "byte"), address());
+        break;
+      case HppcOpcode::Write:
+        if (operands.size() > kAddress)
+          return fmt::format("write from 16#{:05X} on: {}", address(), to_hex(operands.subspan(kAddress + 1)));
+        break;
+      case HppcOpcode::BitWrite:
+        if (operands.size() >= kAddress)
+          return fmt::format("write bits of 16#{:05X}: {}", address(), to_hex(operands.subspan(kAddress)));
+        break;
+      case HppcOpcode::Parameters:
+        if (operands.size() == 1) return fmt::format("parameter table, {}", plural(operands[0], "byte"));
+        break;
+      case HppcOpcode::Monitor:
+        return fmt::format("monitor: {}", to_hex(operands));
+      case HppcOpcode::Error:
+        break;
+    }
+    return fmt::format("opcode {:02X}{}{}", bytes[kOpcode], operands.empty() ? "" : ": ", to_hex(operands));
+  }
+
+  static std::string answer_text(Data request, Data bytes, std::optional<westinghouse::FcsTable> table) {
+    if (!table) return "wrong frame check";
+    const serial::Answer answer = westinghouse::check_hppc_answer(request, bytes, *table);
+    if (answer.verdict == Verdict::Exception)
+      return fmt::format("error {:02X}: {}", answer.exception, westinghouse::hppc_error_name(answer.exception));
+    if (answer.verdict != Verdict::Right) return answer.fault;
+    return answer.bytes.empty() ? "done" : to_hex(answer.bytes);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<FrameReader> pc1000_lan_reader() { return std::make_unique<BlockReader>(); }
+std::unique_ptr<FrameReader> westnet_reader() { return std::make_unique<BlockReader>(); }
+std::unique_ptr<FrameReader> pc500_loader_reader() { return std::make_unique<LoaderReader>(); }
+std::unique_ptr<FrameReader> hppc_reader() { return std::make_unique<HppcReader>(); }
+
+}  // namespace s7200::tools

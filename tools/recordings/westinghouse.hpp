@@ -1,0 +1,20 @@
+// The protocols of the Westinghouse PLCs in recordings.
+#pragma once
+
+#include <memory>
+
+#include "tools/recordings/conversation.hpp"
+
+namespace s7200::tools {
+
+/// The six-byte messages and their blocks. A block has no address: whoever was addressed last is asked.
+std::unique_ptr<FrameReader> pc1000_lan_reader();
+std::unique_ptr<FrameReader> westnet_reader();
+
+/// Step after step of the hand-shake. Its sides take turns, so that a step says whose it is.
+std::unique_ptr<FrameReader> pc500_loader_reader();
+
+/// With either table of the frame check.
+std::unique_ptr<FrameReader> hppc_reader();
+
+}  // namespace s7200::tools
