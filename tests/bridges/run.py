@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`s7200 run` with its bridges, as programs outside meet them: run.py S7200 SOURCE_DIR pty|tcp|modbus_tcp|device|ppi|run|scenarios
+"""`s7200 run` with its bridges, as programs outside meet them: run.py S7200 SOURCE_DIR pty|tcp|modbus_tcp|device|ppi|other_plcs|run|scenarios
 
 Nothing here depends on how fast the computer is: what has to come is waited for, for long; what must not come is waited for
 in multiples of the time it would need.
@@ -1084,6 +1084,163 @@ class PpiMaster:
         self.ask(bytes([function]) + extra + b"\x09P_PROGRAM")
 
 
+class OtherPlcTests(Case):
+    """Simulated PLCs of other makes, as our master outside meets them; and a line that is listened to."""
+
+    TALK = {"modbus": ("pc1200", ["write", "40003=7", "read", "40001:3", "general-read", "0:0:4"], [[0x1234, 0x5678, 7]]),
+            "pc1000-lan": ("pc1200", ["unit", "5", "write", "16#4000=16#1234", "read", "16#4000"], [[0x1234]]),
+            "westnet": ("pc1200", ["address", "17", "open", "write", "0=5", "read", "0", "close"], [[5]]),
+            "pc500-loader": ("pc503", ["write", "QB0=16#7F", "read", "QB0:2"], [[0x7F, 0x34]]),
+            "hppc": ("hppc", ["write-register", "1=16#1234,5", "read-register", "1:2"], [[0x1234, 5]])}
+    SETTINGS = {"modbus": ["--plc", "HR1=1234,5678"], "pc1000-lan": ["--plc", "sync=ignored"]}
+
+    def serve(self, protocol, *arguments):
+        return self.start(*arguments, "--protocol", protocol, *self.SETTINGS.get(protocol, []),
+                          program="westinghouse:" + self.TALK[protocol][0])
+
+    def talk(self, protocol, target, *options):
+        """What was read. Asked until all is right: a busy computer may be late for a protocol with short time-outs."""
+        until = time.monotonic() + LONG
+        while True:
+            done = subprocess.run([S7200, "master", str(target), "--protocol", protocol, *options, "--json", *self.TALK[protocol][1]],
+                                  capture_output=True, text=True, timeout=LONG, check=False)
+            if done.returncode == FINE:
+                return [e["values"] for e in json.loads(done.stdout)["exchanges"] if e["values"]]
+            if time.monotonic() > until:
+                raise AssertionError(done.stdout + done.stderr)
+
+    def test_every_protocol_is_spoken_over_a_pty(self):
+        for protocol, (_, _, values) in self.TALK.items():
+            with self.subTest(protocol):
+                link = self.folder / protocol
+                running = self.serve(protocol, "--pty", link)
+                options = [] if protocol == "pc500-loader" else ["--parity", "none"]
+                self.assertEqual(self.talk(protocol, link, *options), values)
+                result = running.end()
+                self.assertEqual((result["stop_reason"], result["plcs"]), ("interrupted", []))
+                self.assertRegex(result["bridges"][0]["summary"], "opened [0-9]+ times?, [0-9]+ bytes from it")
+
+    def test_every_protocol_is_spoken_over_tcp(self):
+        for protocol, (_, _, values) in self.TALK.items():
+            with self.subTest(protocol):
+                running = self.serve(protocol, "--tcp", "0")
+                self.assertEqual(self.talk(protocol, f"tcp://127.0.0.1:{running.port}"), values)
+                running.end()
+
+    def test_its_modbus_is_served_over_modbus_tcp(self):
+        running = self.serve("modbus", "--modbus-tcp", "0")
+        self.assertEqual(self.talk("modbus", f"modbus-tcp://127.0.0.1:{running.port}"), self.TALK["modbus"][2])
+        running.end()
+
+    def test_what_is_served_is_captured_and_decoded(self):
+        capture = self.folder / "line.pcap"
+        running = self.serve("westnet", "--tcp", "0", "--capture", capture)
+        self.talk("westnet", f"tcp://127.0.0.1:{running.port}")
+        running.end()
+        done = subprocess.run([S7200, "decode", capture, "--protocol", "westnet", "--json"], capture_output=True, text=True, check=True)
+        texts = [frame["text"] for frame in json.loads(done.stdout)["frames"]]
+        self.assertEqual(texts[-10:], ["address 00.11.00", "PLC 00.11.00 addressed", "open session", "session open",
+                                       "write 2 bytes from word 16#0000 on: 05 00", "done", "read 2 bytes from word 16#0000 on",
+                                       "05 00", "close session", "session closed"])
+
+    def test_a_fault_of_its_line_is_met(self):
+        running = self.serve("modbus", "--tcp", "0", "--fault", "flip:character=2,bit=0,exchange=1")
+        with socket.create_connection(("127.0.0.1", running.port)) as client:
+            client.settimeout(SILENCE)
+            client.sendall(bytes.fromhex("010300000001840a"))
+            with self.assertRaises(TimeoutError):
+                client.recv(100)
+            client.settimeout(LONG)
+            client.sendall(bytes.fromhex("010300000001840a"))
+            answer = b""
+            while len(answer) < len(self.REPLY):
+                answer += client.recv(100)
+            self.assertEqual(answer, self.REPLY)
+        running.end()
+
+    # --- listening ---
+
+    def listen(self, *arguments):
+        """The computer's side of a serial line, and who listens there."""
+        near, far = os.openpty()
+        attributes = termios.tcgetattr(far)
+        attributes[0] = attributes[1] = attributes[3] = 0
+        termios.tcsetattr(far, termios.TCSANOW, attributes)
+        path = os.ttyname(far)
+        process = subprocess.Popen([S7200, *arguments, path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(lambda: (process.kill(), process.communicate(), os.close(near)))
+        self.eventually(lambda: self.opened(process, path) or process.poll() is not None)
+        os.close(far)
+        return near, process
+
+    @staticmethod
+    def opened(process, path):
+        folder = f"/proc/{process.pid}/fd"
+        return any(os.path.realpath(f"{folder}/{fd}") == path for fd in os.listdir(folder))
+
+    REQUEST = bytes.fromhex("010300000001840a")
+    REPLY = framed(bytes.fromhex("0103021234"))
+
+    def test_a_line_is_decoded_as_it_is_heard_until_ctrl_c(self):
+        near, process = self.listen("decode")
+        self.assertIn("silence", process.stdout.readline())
+        os.write(near, self.REQUEST)
+        self.assertIn("request  01 03 00 00 00 01 84 0a", process.stdout.readline())
+        self.assertIn("station 1, read holding registers 40001, 1 of them", process.stdout.readline())
+        os.write(near, self.REPLY)
+        self.assertIn("answer   01 03 02 12 34 b5 33", process.stdout.readline(), "at once: it is complete")
+        self.assertIn("1 register: 16#1234", process.stdout.readline())
+        os.write(near, self.REQUEST[:5])
+        self.assertIn("?        01 03 00 00 00", process.stdout.readline(), "after a silence")
+        self.assertIn("not a whole frame", process.stdout.readline())
+        process.send_signal(signal.SIGINT)
+        out, error = process.communicate(timeout=LONG)
+        self.assertRegex(out, "^requests: 1, answered: 1 after .* to .*; wrong frames: 1, frames of no request: 1\n$")
+        self.assertEqual((process.returncode, error), (FINE, ""))
+
+    def test_a_line_is_decoded_for_a_time_as_json(self):
+        near, process = self.listen("decode", "--json", "--for", "1s", "--protocol", "pc1000-lan")
+        os.write(near, bytes.fromhex("0a050000000f" "0a0501000010"))
+        out, _ = process.communicate(timeout=LONG)
+        result = json.loads(out)
+        self.assertEqual(result["form"], "live")
+        self.assertEqual([frame["text"] for frame in result["frames"]], ["address unit 16#05", "keyswitch in stop, fault register 16#0000"])
+        self.assertEqual((result["summary"]["requests"], result["summary"]["answered"]), (1, 1))
+
+    def test_what_is_heard_becomes_a_scenario(self):
+        near, process = self.listen("import-capture", "--for", "1s")
+        os.write(near, self.REQUEST)
+        time.sleep(0.1)
+        os.write(near, self.REPLY)
+        out, _ = process.communicate(timeout=LONG)
+        self.assertIn("- send: 01 03 00 00 00 01 84 0a\n        expect: 01 03 02 12 34 b5 33\n        latency: ", out)
+
+    def test_a_device_that_goes_away_ends_listening_with_what_was_heard(self):
+        near, process = self.listen("decode")
+        process.stdout.readline()
+        os.write(near, self.REQUEST)
+        process.stdout.readline()
+        nothing = os.open("/dev/null", os.O_RDONLY)
+        os.dup2(nothing, near)
+        os.close(nothing)
+        out, error = process.communicate(timeout=LONG)
+        self.assertEqual(process.returncode, UNUSABLE)
+        self.assertIn("is gone", error)
+        self.assertIn("requests: 1, answered: 0", out)
+
+    def test_what_makes_no_sense_for_a_line_or_a_recording_is_refused(self):
+        for arguments, why in ((["decode", "/dev/ttyNOT_HERE"], "cannot open /dev/ttyNOT_HERE"),
+                               (["decode", "westinghouse:pc1200"], "nothing is said there unless it is asked"),
+                               (["decode", "modbus-tcp://localhost"], "nothing is said there unless it is asked"),
+                               (["decode", "/dev/ttyNOT_HERE", "--stamps", "end"], "--stamps needs a recording"),
+                               (["decode", "/dev/ttyNOT_HERE", "--tcp-port", "503"], "--tcp-port needs a recording"),
+                               (["import-capture", str(SOURCE / "tests/recordings/plant.log"), "--for", "1s"], "--for needs a line to listen to")):
+            with self.subTest(arguments):
+                done = subprocess.run([S7200, *arguments], capture_output=True, text=True, timeout=LONG, check=False)
+                self.assertEqual((done.returncode, done.stdout), (UNUSABLE, ""), done.stderr)
+                self.assertIn(why, done.stderr)
+
+
 class PpiTests(Case):
     COUNTING = "LD SM0.0\nINCW VW0\nLD SM0.1\nINCW VW2\nMEND\n"
 
@@ -1308,7 +1465,7 @@ class ScenarioTests(Case):
 
 
 if __name__ == "__main__":
-    group = {"pty": PtyTests, "tcp": TcpTests, "modbus_tcp": ModbusTcpTests, "device": DeviceTests, "ppi": PpiTests,
+    group = {"pty": PtyTests, "tcp": TcpTests, "modbus_tcp": ModbusTcpTests, "device": DeviceTests, "ppi": PpiTests, "other_plcs": OtherPlcTests,
              "run": RunTests, "scenarios": ScenarioTests}[GROUP]
     result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
     sys.exit(0 if result.wasSuccessful() else 1)

@@ -157,6 +157,72 @@ class Verbs(Case):
         self.assertEqual((result["target"], result["mode"]), ("westinghouse:pc1200", None))
         self.assertIn("illegal function", self.ends(FAILED, "master", "westinghouse:pc503", "read", "30001").stdout)
 
+    def test_the_line_of_a_simulated_plc_is_captured_and_decoded_in_its_protocol(self):
+        for protocol, model, words, said in (
+                ("modbus", "pc1200", ["write", "40001=7", "read", "40001", "general-read", "0:0:2"],
+                 ["station 1, write register 40001 = 16#0007", "register 0 written: 16#0007", "station 1, read holding registers 40001, 1 of them",
+                  "1 register: 16#0007", "station 1, read file record", "reference 51: 07 00"]),
+                ("pc1000-lan", "pc1200", ["unit", "5", "read", "16#4000"],
+                 ["address unit 16#05", "keyswitch in stop, fault register 16#0000", "read 2 bytes from word 16#4000 on", "00 00"]),
+                ("westnet", "pc1200", ["address", "17", "open"],
+                 ["address 00.11.00", "PLC 00.11.00 addressed", "open session", "session open"]),
+                ("hppc", "hppc", ["read", "16#80000:2"], ["read 2 bytes from 16#80000 on", "02 8a 00"])):
+            with self.subTest(protocol):
+                files = [self.folder / f"{protocol}.pcap", self.folder / f"{protocol}.vcd"]
+                self.ends(FINE, "master", f"westinghouse:{model}", "--protocol", protocol, *words, "--capture", files[0], "--capture", files[1])
+                decoded = self.json(FINE, "decode", files[0], "--protocol", protocol, "--json")
+                self.assertEqual([frame["text"] for frame in decoded["frames"]], said)
+                self.assertEqual([frame["kind"] for frame in decoded["frames"]], ["request", "answer"] * (len(said) // 2))
+                self.assertGreater(min(frame["latency_us"] for frame in decoded["frames"][1::2]), 1000)
+                levels = files[1].read_text(encoding="utf-8")
+                self.assertIn("\n0r\n", levels)
+                self.assertIn("\n0t\n", levels)
+        loader = self.folder / "loader.pcap"
+        self.ends(FINE, "master", "westinghouse:pc503", "--protocol", "pc500-loader", "read", "QB0:4", "--capture", loader)
+        decoded = self.json(FINE, "decode", loader, "--protocol", "pc500-loader", "--json")
+        self.assertIn("bytes 16#EF80…EF83", [frame["text"] for frame in decoded["frames"]])
+        self.assertIn("00 00 00 00 00 12 34 56 78", [frame["text"] for frame in decoded["frames"]])
+        self.assertEqual({key: decoded["summary"][key] for key in ("requests", "answered", "need_no_answer", "wrong", "strays")},
+                         {"requests": 8, "answered": 7, "need_no_answer": 1, "wrong": 0, "strays": 0})
+        self.assertIn("neither in .vcd", self.ends(UNUSABLE, "master", "westinghouse:pc1200", "slave-id", "--capture", "x.txt").stderr)
+
+    def test_a_capture_of_a_simulated_plc_becomes_a_scenario(self):
+        capture, scenario = self.folder / "lan.pcap", self.folder / "lan.yaml"
+        self.ends(FINE, "master", "westinghouse:pc1200", "--protocol", "westnet", "address", "17", "write", "5=7", "read", "5", "--capture", capture)
+        self.ends(FINE, "import-capture", capture, "--protocol", "westnet", "-o", scenario)
+        text = scenario.read_text(encoding="utf-8")
+        for part in ("- send: 09 00 00 11 00 1a\n", "expect: 05 05 00 01 00 0b 07 00 07\n", "write 2 bytes from word 16#0005 on: 07 00; done"):
+            self.assertIn(part, text)
+
+    def test_a_simulated_plc_is_run_behind_a_bridge_or_not_at_all(self):
+        for arguments, why in ((["westinghouse:pc1200"], "nobody asks westinghouse:pc1200: give it a bridge, such as --pty LINK"),
+                               (["westinghouse:pc9", "--tcp", "0"], "'pc9' is not a PLC of this family that speaks this protocol"),
+                               (["westinghouse:pc1200", "--tcp", "0", "--plc", "colour=red"], "--plc: 'colour=red' is not a setting of this PLC"),
+                               (["westinghouse:pc1200", "--tcp", "0", "--protocol", "pc1000-lan"], "give --plc sync=ignored"),
+                               (["westinghouse:pc1200", "--tcp", "0", "--protocol", "ppi"], "'ppi' is not a protocol; there are modbus, pc1000-lan,"),
+                               (["westinghouse:pc1200", "--tcp", "0", "--set", "VW0=1"], "--set needs a PROGRAM to run"),
+                               (["westinghouse:pc1200", "--tcp", "0", "--scans", "5"], "--scans needs a PROGRAM to run"),
+                               (["westinghouse:pc1200", "--tcp", "0", "--cpu", "226"], "--cpu needs a PROGRAM to run"),
+                               (["westinghouse:pc1200", "symbols.txt", "--tcp", "0"], "symbols.txt beside westinghouse:pc1200"),
+                               ([SLAVE, "--plc", "slave=02"], "--plc needs westinghouse:MODEL"),
+                               ([SLAVE, "--protocol", "modbus"], "--protocol needs westinghouse:MODEL")):
+            with self.subTest(arguments):
+                self.assertIn(why, self.ends(UNUSABLE, "run", *arguments).stderr)
+        result = self.json(FINE, "run", "westinghouse:pc1200", "--tcp", "0", "--for", "50ms", "--json")
+        self.assertEqual((result["stop_reason"], result["plcs"], [b["name"] for b in result["bridges"]]), ("time", [], ["bridge"]))
+
+    def test_a_system_without_an_s7200_is_captured_at_its_other_plc_and_set_as_that(self):
+        system = self.program("peers:\n"
+                              "  pc1200: {westinghouse: modbus, settings: [plc=pc1200, 'HR1=1234']}\n"
+                              "  master: {polls: [{read: 40001}], every: 1s}\n"
+                              "lines: {field: {stations: [master, pc1200], capture: [field.pcap]}}\n", "system.yaml")
+        self.assertIn("master: 1 requests, 1 answered", self.ends(FINE, "run", system, "--for", "1500ms").stdout)
+        decoded = self.json(FINE, "decode", self.folder / "field.pcap", "--json")
+        self.assertEqual([frame["text"] for frame in decoded["frames"]], ["station 1, read holding registers 40001, 1 of them", "1 register: 16#1234"])
+        for text, why in (("peers: {m: {polls: [{read: 40001}]}}\nlines: {l: {stations: [m], capture: [x.pcap]}}\n", "no PLC is on line 'l'"),
+                          ("peers: {p: {westinghouse: lan}}\nlines: {l: {stations: [p]}}\n", "settings: [sync=ignored]")):
+            self.assertIn(why, self.ends(UNUSABLE, "run", self.program(text, "wrong.yaml")).stderr)
+
     def test_a_line_with_a_simulated_plc_has_its_faults(self):
         result = self.json(FAILED, "master", "westinghouse:pc1200", "--fault", "flip:character=2,bit=0,exchange=2", "--json",
                            "exception-status", "exception-status", "exception-status")

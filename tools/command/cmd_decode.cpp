@@ -29,13 +29,15 @@ nlohmann::ordered_json head_of(const DecodeOptions& options, const std::string& 
 }
 
 /// Frame by frame as they come.
-int run_live(const DecodeOptions& options, const SlaveTarget& line) {
+int run_live(const DecodeOptions& options, const SlaveTarget& target) {
+  const auto line = open_line(options.recording, target);
+  if (!line) return kUnusable;
   StreamedResults results(head_of(options, "live"), "frames");
   DecodedSummary summary;
   const bool colour = colour_wanted(stdout);
   if (!options.json) fmt::print("{}", decoded_heading(colour));
   std::fflush(stdout);
-  const bool heard = listen(options.recording, line, [&](const ReadFrame& frame) {
+  const bool heard = listen(*line, options.recording, [&](const ReadFrame& frame) {
     summary.add(frame);
     fmt::print("{}", options.json ? results.entry(decoded_json(frame)) : decoded_text(frame, false, colour));
     std::fflush(stdout);
@@ -45,7 +47,7 @@ int run_live(const DecodeOptions& options, const SlaveTarget& line) {
 }
 
 int run_decode(const DecodeOptions& options) {
-  if (const auto line = options.recording.live()) return run_live(options, *line);
+  if (const auto target = options.recording.live()) return run_live(options, *target);
   const auto read = read_conversation(options.recording);
   if (!read) return kUnusable;
   if (options.json) {
@@ -62,12 +64,14 @@ int run_decode(const DecodeOptions& options) {
 
 void add_decode(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DecodeOptions>();
-  CLI::App* verb =
-      app.add_subcommand("decode", "show a recording of a line, or a line itself, as requests and answers, with gaps and latencies");
+  CLI::App* verb = app.add_subcommand(
+      "decode", "show a recording of a line, or a line itself, as requests and answers, with gaps and latencies");
   options->recording.add_to(*verb);
   verb->add_flag("--json", options->json, "print the frames as JSON");
   verb->footer(
-      "A device is opened for reading alone; nothing is sent. Who else speaks there is heard as far as the adapter hears it.\n"
+      "A line is listened to until Ctrl-C, and nothing is sent there. Times are those of arrival: a USB adapter delivers up "
+      "to\n"
+      "16 ms late.\n"
       "Example: s7200 decode tests/recordings/plant.log");
   verb->callback([options, &exit_code] {
     try {

@@ -25,6 +25,9 @@ class LineListener {
 
   std::string name() const { return link_->name(); }
 
+  /// How long a character takes there; over TCP that is not known.
+  Stamps stamps() const { return {.character = character_}; }
+
  private:
   void take(RecordedFrame& frame);
 

@@ -115,7 +115,8 @@ int run_on_peer(MasterOptions& options, const std::string& model, const std::vec
   const std::vector<std::string>& capture_paths = options.rig.settings().captures;
   if (options.wants_menu()) {
     if (!capture_paths.empty())
-      throw std::invalid_argument("the menu begins with a new westinghouse:MODEL each time its port is set: give actions for --capture");
+      throw std::invalid_argument(
+          "the menu begins with a new westinghouse:MODEL each time its port is set: give actions for --capture");
     const SerialFormat format = make_plc()->format();
     const auto open = [&](const serial::MasterSettings& master) {
       return std::make_unique<PeerSlave>(make_plc(), master, *faults, options.target);

@@ -177,7 +177,8 @@ SystemPlan plan_of_other_plc(RunOptions& options, std::vector<serial::Fault> fau
   const std::string model = parse_slave_target(options.program.path).path;
   std::shared_ptr<westinghouse::Plc> plc = options.other.make(*options.protocol, model);
   if (plc->needs_sync())
-    throw std::invalid_argument("no bridge carries the sync signal that this PLC needs to hear anything: give --plc sync=ignored");
+    throw std::invalid_argument(
+        "no bridge carries the sync signal that this PLC needs to hear anything: give --plc sync=ignored");
   SystemPlan plan;
   plan.peers.push_back({.name = model, .automaton = std::move(plc)});
   plan.bridges.push_back({.name = "bridge", .kind = "", .where = ""});

@@ -30,11 +30,11 @@ nlohmann::ordered_json microseconds(std::optional<Time> time) {
 }  // namespace
 
 void DecodedSummary::add(const ReadFrame& frame) {
-  requests_ += frame.direction == Direction::Request ? 1 : 0;
-  need_no_answer_ += frame.needs_no_answer ? 1 : 0;
-  answered_ += frame.direction == Direction::Answer && frame.other ? 1 : 0;
-  strays_ += frame.direction == Direction::Unknown ? 1 : 0;
-  wrong_ += frame.right ? 0 : 1;
+  requests_ += frame.direction == Direction::Request ? 1U : 0U;
+  need_no_answer_ += frame.needs_no_answer ? 1U : 0U;
+  answered_ += frame.direction == Direction::Answer && frame.other ? 1U : 0U;
+  strays_ += frame.direction == Direction::Unknown ? 1U : 0U;
+  wrong_ += frame.right ? 0U : 1U;
   if (!frame.latency) return;
   shortest_ = std::min(shortest_.value_or(*frame.latency), *frame.latency);
   longest_ = std::max(longest_.value_or(*frame.latency), *frame.latency);

@@ -157,7 +157,7 @@ class LoaderReader final : public FrameReader {
         return 1;
       case Step::Arguments:
         return begins_with(bytes, kAcknowledge) ? up_to(bytes, kAcknowledge.size(), westinghouse::kEot) : 0;
-      case Step::Data:
+      case Step::DataSent:
         return up_to(bytes, 0, westinghouse::kEtx);
       default: {
         const Bytes due = fixed(step_);
@@ -178,7 +178,7 @@ class LoaderReader final : public FrameReader {
     Arguments,
     ArgumentsHeard,
     DataWanted,
-    Data,
+    DataSent,
     DataHeard,
     EndReady,
     EndWanted,
@@ -200,7 +200,7 @@ class LoaderReader final : public FrameReader {
   /// Up to DLE and `end`, both included; 0 if that has not come. A doubled DLE is one of the data.
   static std::size_t up_to(Data bytes, std::size_t from, std::uint8_t end) {
     using westinghouse::kDle;
-    for (std::size_t at = from; at + 1 < bytes.size(); at += bytes[at] == kDle && bytes[at + 1] == kDle ? 2 : 1)
+    for (std::size_t at = from; at + 1 < bytes.size(); at += bytes[at] == kDle && bytes[at + 1] == kDle ? 2U : 1U)
       if (bytes[at] == kDle && bytes[at + 1] == end) return at + 2;
     return 0;
   }
@@ -230,7 +230,7 @@ class LoaderReader final : public FrameReader {
         return "an opcode";
       case Step::Arguments:
         return "arguments with 10 04 after them";
-      case Step::Data:
+      case Step::DataSent:
         return "data with 10 03 after them";
       default:
         return to_hex(fixed(step_));
@@ -254,7 +254,7 @@ class LoaderReader final : public FrameReader {
       case Step::ArgumentsHeard:
         if (!westinghouse::has_data(static_cast<westinghouse::LoaderOpcode>(opcode_))) step_ = Step::EndWanted;
         return "arguments accepted";
-      case Step::Data:
+      case Step::DataSent:
         return to_hex(unstuffed(bytes.first(bytes.size() - kAcknowledge.size())));
       case Step::Ready:
       case Step::EndReady:

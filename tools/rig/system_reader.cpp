@@ -542,7 +542,8 @@ class Reader {
     for (const YamlNode* item : list(map, "stations", "master, slave")) read_station(*item, plan);
     if (plan.stations.empty() && values_.complaints.count() == 0)
       values_.wrong(line.key, fmt::format("no one is on line '{}'", line.key.text), "name them: stations: [master, slave]");
-    if (!plan.captures.empty() && values_.complaints.count() == 0 && !first_plc(plan) && !first_other_plc(this->plan(), plan))
+    if (!plan.captures.empty() && values_.complaints.count() == 0 && !first_plc(plan) &&
+        !first_other_plc(this->plan(), plan))
       values_.wrong(*map.find("capture"), fmt::format("no PLC is on line '{}': rx and tx are those of one", line.key.text));
     if (plan.stations.size() > static_cast<std::size_t>(serial::Line::kDrivers))
       values_.wrong(*map.find("stations"),

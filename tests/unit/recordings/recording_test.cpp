@@ -263,8 +263,8 @@ std::string character_rows(std::initializer_list<const char*> messages, Time gap
   std::string csv = "Time [us],Value\n";
   Time at = 0;
   for (const char* message : messages) {
-    for (const std::uint8_t byte : *bytes_of_text(message))
-      csv += fmt::format("{},0x{:02X}\n", (at += gap) / kMicrosecond, byte);
+    const Bytes bytes = bytes_of_text(message).value_or(Bytes{});
+    for (const std::uint8_t byte : bytes) csv += fmt::format("{},0x{:02X}\n", (at += gap) / kMicrosecond, byte);
     at += between;
   }
   return csv;

@@ -160,8 +160,7 @@ void MasterOptions::refuse_what_a_peer_does_not_take(Kind kind) const {
   }
   if (kind == Kind::Program) return;
   std::vector<CLI::Option*> refused = for_programs_;
-  if (peer)
-    std::erase_if(refused, [](const CLI::Option* option) { return is_about_the_line(option->get_name()); });
+  if (peer) std::erase_if(refused, [](const CLI::Option* option) { return is_about_the_line(option->get_name()); });
   refuse_options(refused, "a PROGRAM to run in simulation");
 }
 

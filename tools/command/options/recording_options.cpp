@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "interpreter/base/text.hpp"
-#include "tools/command/line_listener.hpp"
 #include "tools/command/options/input.hpp"
 #include "tools/command/options/line_options.hpp"
 #include "tools/command/options/number_option.hpp"
@@ -20,9 +19,10 @@ namespace s7200::tools {
 void RecordingOptions::add_to(CLI::App& verb) {
   std::vector<std::string> names;
   for (const RecordedProtocol& each : recorded_protocols()) names.emplace_back(each.name);
-  verb.add_option("FILE", file,
-                  "pcap (serial, or Modbus TCP), CSV, or a text log with a frame in each line; - is standard input; or a line "
-                  "to listen to: a serial device, a pty, tcp://HOST:PORT")
+  verb.add_option(
+          "FILE", file,
+          "pcap (serial, or Modbus TCP), CSV, or a text log with a frame in each line; - is standard input; or a line "
+          "to listen to: a serial device, a pty, tcp://HOST:PORT")
       ->required();
   verb.add_option("--protocol", protocol, "what was spoken")
       ->check(CLI::IsMember(names))
@@ -67,32 +67,37 @@ std::optional<SlaveTarget> RecordingOptions::live() const {
 
 SerialFormat RecordingOptions::format() const { return line.over(find_protocol(protocol)->format); }
 
-bool listen(const RecordingOptions& options, const SlaveTarget& line, const std::function<void(ReadFrame)>& tell) {
+std::unique_ptr<LineListener> open_line(const RecordingOptions& options, const SlaveTarget& line) {
   catch_interruption();
-  const SerialFormat format = options.format();
-  const Stamps stamps{.character = line.kind == SlaveTarget::Kind::Tcp ? 0 : format.character_time()};
-  Conversation conversation(*find_recorded_protocol(options.protocol), stamps);
   try {
-    LineListener(line, format, options.reading.gap).listen(options.duration, conversation, tell);
-    return true;
+    return std::make_unique<LineListener>(line, options.format(), options.reading.gap);
   } catch (const SlaveUnreachable& error) {
-    print_error(error.what());
-    return false;
+    return print_error(error.what()), nullptr;
+  }
+}
+
+bool listen(LineListener& line, const RecordingOptions& options, const std::function<void(ReadFrame)>& tell) {
+  Conversation conversation(*find_recorded_protocol(options.protocol), line.stamps());
+  try {
+    line.listen(options.duration, conversation, tell);
+    return true;
+  } catch (const SlaveLost& error) {
+    return print_error(error.what()), false;
   }
 }
 
 std::optional<ReadRecording> read_conversation(const RecordingOptions& options) {
   ReadRecording read;
-  const SerialFormat format = options.format();
-  if (const auto line = options.live()) {
-    read.name = options.file;
-    read.recording.form = "live";
-    read.stamps.character = line->kind == SlaveTarget::Kind::Tcp ? 0 : format.character_time();
+  if (const auto target = options.live()) {
+    const auto line = open_line(options, *target);
+    if (!line) return {};
+    read.name = line->name();
+    read.stamps = line->stamps();
     const auto keep = [&](ReadFrame frame) {
       if (frame.other) read.frames[*frame.other].other = read.frames.size();
       read.frames.push_back(std::move(frame));
     };
-    if (!listen(options, *line, keep)) return {};
+    if (!listen(*line, options, keep)) return {};
     return read;
   }
   const auto bytes = read_input(options.file, read.name);
@@ -104,7 +109,7 @@ std::optional<ReadRecording> read_conversation(const RecordingOptions& options) 
   read.recording = std::move(*recording);
   const bool over_tcp =
       std::ranges::any_of(read.recording.frames, [](const RecordedFrame& frame) { return frame.stream != 0; });
-  read.stamps = {.character = over_tcp ? 0 : format.character_time(), .at_end = options.stamps == "end"};
+  read.stamps = {.character = over_tcp ? 0 : options.format().character_time(), .at_end = options.stamps == "end"};
   read.frames = conversation(read.recording, *find_recorded_protocol(options.protocol), read.stamps);
   return read;
 }

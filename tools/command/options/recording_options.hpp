@@ -2,12 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "interpreter/base/serial_format.hpp"
 #include "serial_sim/line/line_settings.hpp"
+#include "tools/command/line_listener.hpp"
 #include "tools/recordings/conversation.hpp"
 #include "tools/slave/slave_target.hpp"
 
@@ -47,8 +49,12 @@ struct ReadRecording {
   std::string name;  ///< what messages call the file
 };
 
-/// Listens as the options say, and tells each frame. False after a message. Ends by an interruption or after `duration`.
-bool listen(const RecordingOptions& options, const SlaveTarget& line, const std::function<void(ReadFrame)>& tell);
+/// Null after a message. Interruptions are noted from here on.
+std::unique_ptr<LineListener> open_line(const RecordingOptions& options, const SlaveTarget& line);
+
+/// Listens as the options say, and tells each frame. Ends by an interruption or after `duration`. False after a message: the
+/// line is gone.
+bool listen(LineListener& line, const RecordingOptions& options, const std::function<void(ReadFrame)>& tell);
 
 /// Nothing after a message. Notes are printed.
 std::optional<ReadRecording> read_conversation(const RecordingOptions& options);
