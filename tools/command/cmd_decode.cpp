@@ -69,6 +69,8 @@ void add_decode(CLI::App& app, int& exit_code) {
   options->recording.add_to(*verb);
   verb->add_flag("--json", options->json, "print the frames as JSON");
   verb->footer(
+      "Recordings are pcap of a serial line (link type 147) or of Modbus TCP, CSV, and text logs with a frame in each "
+      "line.\n"
       "A line is listened to until Ctrl-C, and nothing is sent there. Times are those of arrival: a USB adapter delivers up "
       "to\n"
       "16 ms late.\n"

@@ -19,10 +19,8 @@ namespace s7200::tools {
 void RecordingOptions::add_to(CLI::App& verb) {
   std::vector<std::string> names;
   for (const RecordedProtocol& each : recorded_protocols()) names.emplace_back(each.name);
-  verb.add_option(
-          "FILE", file,
-          "pcap (serial, or Modbus TCP), CSV, or a text log with a frame in each line; - is standard input; or a line "
-          "to listen to: a serial device, a pty, tcp://HOST:PORT")
+  verb.add_option("FILE", file,
+                  "a recording: pcap, CSV, a text log; - is standard input; or a line: a serial device, tcp://HOST:PORT")
       ->required();
   verb.add_option("--protocol", protocol, "what was spoken")
       ->check(CLI::IsMember(names))
