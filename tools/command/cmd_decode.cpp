@@ -73,7 +73,7 @@ void add_decode(CLI::App& app, int& exit_code) {
       "line.\n"
       "A line is listened to until Ctrl-C, and nothing is sent there. Times are those of arrival: a USB adapter delivers up "
       "to\n"
-      "16 ms late.\n"
+      "16 ms late. Behind a --pty of `s7200 run` only what the simulated line says is heard, not what others ask it.\n"
       "Example: s7200 decode tests/recordings/plant.log");
   verb->callback([options, &exit_code] {
     try {

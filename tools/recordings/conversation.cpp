@@ -45,6 +45,15 @@ std::string modbus_request_text(Data frame) {
   return text;
 }
 
+/// As long as its function says, if that does.
+bool has_length_of_request(Data bytes) {
+  if (bytes.size() < kShortestRtu || (bytes[1] & modbus::kExceptionFlag) != 0) return false;
+  const modbus::Extent extent = modbus::extent_of_request(bytes);
+  return extent == modbus::Extent::Unknown ||
+         (extent == modbus::Extent::Whole &&
+          modbus::extent_of_request(bytes.first(bytes.size() - 1)) == modbus::Extent::Part);
+}
+
 ReadFrame read_modbus(const RecordedFrame& frame, const RecordedFrame* open) {
   const Data bytes(frame.bytes);
   ReadFrame read;
@@ -59,7 +68,7 @@ ReadFrame read_modbus(const RecordedFrame& frame, const RecordedFrame* open) {
     }
   }
   const bool crc = bytes.size() >= kShortestRtu && modbus::crc_ok(bytes);
-  const bool whole = modbus::first_request(bytes) == bytes.size();
+  const bool whole = crc && has_length_of_request(bytes);
   if (frame.direction == Direction::Answer || (frame.direction == Direction::Unknown && !whole)) {
     read.text = !crc ? "wrong CRC, or not a whole frame" : "an answer without its request";
     return read;
@@ -81,9 +90,9 @@ std::size_t first_modbus_message(Data bytes, const RecordedFrame* open) {
   constexpr std::size_t kLongest = 2 * modbus::kLongestRtuFrame;  // PLCs with limits of their own
   for (std::size_t length = kShortestRtu; length <= std::min(bytes.size(), kLongest); ++length) {
     if (open != nullptr && answers(length)) return length;
-    const bool request = modbus::extent_of_request(bytes.first(length)) == modbus::Extent::Whole &&
-                         modbus::extent_of_request(bytes.first(length - 1)) == modbus::Extent::Part;
-    if (request && modbus::crc_ok(bytes.first(length))) return length;
+    const Data first = bytes.first(length);
+    if (modbus::extent_of_request(first) == modbus::Extent::Whole && has_length_of_request(first) && modbus::crc_ok(first))
+      return length;
   }
   return 0;
 }

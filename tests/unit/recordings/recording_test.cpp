@@ -299,6 +299,13 @@ TEST(Conversation, AFrameThatARecordingHasAsOneIsNotDivided) {
   EXPECT_FALSE(frames[0].right);
 }
 
+TEST(Conversation, AnAnswerThatNoRequestWasHeardOfIsNotTakenForOne) {
+  const auto frames = read(recording_of("0.000 01 03 04 00 00 00 00 FA 33\n"));
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].direction, Direction::Unknown);
+  EXPECT_EQ(frames[0].text, "an answer without its request");
+}
+
 TEST(Conversation, ThePc1000LanIsReadMessageByMessageWithTheUnitThatWasAddressedLast) {
   const auto frames = read(recording_of(character_rows({"0A 05 00 00 00 0F", "0A 05 09 04 02 1E", "05 00 40 03 00 48",
                                                         "05 00 40 03 00 48 34 12 78 56 14", "07 FF 00 01 00 07 CD AB 78",
