@@ -485,6 +485,7 @@ class Reader {
       return nullptr;
     }
     std::string why;
+    const std::size_t before = values_.complaints.count();
     const std::string model = values_.optional_text(map, "model").value_or(std::string(row->models.front()));
     std::shared_ptr<westinghouse::Plc> plc = westinghouse::make_plc(*row, model, why);
     if (!plc) values_.wrong(*map.find("model"), why);
@@ -492,7 +493,7 @@ class Reader {
       const auto text = values_.text(*setting);
       if (plc && text && !plc->set(*text, why)) values_.wrong(*setting, why);
     }
-    if (plc && plc->needs_sync())
+    if (plc && values_.complaints.count() == before && plc->needs_sync())
       values_.wrong(protocol, "no station of a system gives the sync signal that this PLC needs to hear anything",
                     "write settings: [sync=ignored]");
     return plc;
