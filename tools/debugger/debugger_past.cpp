@@ -198,8 +198,8 @@ std::optional<LastDecision> Debugger::find_decision() {
   if (search.interrupted)
     out_ << interruption_text() << '\n';
   else if (search.decision)
-    out_ << fmt::format("{}  {}\n  in {}\n", moment_text(search.decision->by.at), search.decision->text,
-                        routine_text(search.decision->by.op));
+    out_ << fmt::format("{}  {}: {}\n", moment_text(search.decision->by.at), routine_text(search.decision->by.op),
+                        search.decision->text);
   else
     out_ << "nothing has decided that it comes here: no contact, no jump, no conditional call or return so far\n";
   for (const TraceLine& line : search.unanswered) out_ << fmt::format("{}  {}\n", moment_text(line.at), line.text);

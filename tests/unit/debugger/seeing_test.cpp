@@ -186,7 +186,7 @@ TEST(Seeing, ThePlaceNamesTheNetworkAndItsTitle) {
   EXPECT_TRUE(has(session("until 3"), "main  S0=1  network 1 \"count\"\n >     3  INCW"));
   EXPECT_TRUE(has(session("until 12"), "SBR 1  S0=1  network 7 \"SBR 1: again\"\n"));
   EXPECT_TRUE(has(session("until 7"), "main  S0=1  network 2\n"));
-  EXPECT_TRUE(has(session("why"), "CRET in line 12 (LD SM0.0: SM0.0=1)\n  in SBR 1, network 7 \"SBR 1: again\"\n"));
+  EXPECT_TRUE(has(session("why"), "SBR 1, network 7 \"SBR 1: again\": CRET in line 12 (LD SM0.0: SM0.0=1)\n"));
   Session bare("LD SM0.0\nINCW VW0\nMEND\n");
   EXPECT_TRUE(has(bare("until 2"), "main  S0=1\n")) << "without NETWORK lines";
 }
