@@ -200,7 +200,7 @@ std::optional<LastDecision> Debugger::find_decision() {
   else if (search.decision)
     out_ << fmt::format("{}  {}: {}\n", moment_text(search.decision->by.at), routine_text(search.decision->by.op),
                         search.decision->text);
-  else
+  else if (search.unanswered.empty())
     out_ << "nothing has decided that it comes here: no contact, no jump, no conditional call or return so far\n";
   for (const TraceLine& line : search.unanswered) out_ << fmt::format("{}  {}\n", moment_text(line.at), line.text);
   return search.decision;
