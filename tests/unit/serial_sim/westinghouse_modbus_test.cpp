@@ -4,6 +4,7 @@
 
 #include "serial_sim/faults/fault.hpp"
 #include "serial_sim/line/frame.hpp"
+#include "serial_sim/line/frame_splitter.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/westinghouse/modbus_plc.hpp"
 #include "tests/unit/serial_sim/westinghouse_bench.hpp"
@@ -245,6 +246,33 @@ TEST(WestinghouseModbus, FaultsOfTheLineAreMet) {
   bench.line().faults().inject(serial::parse_fault("flip:of=answer,character=2,bit=0,exchange=1").fault,
                                bench.system().time());
   EXPECT_NE(asked(bench, "03 00 00 00 01"), "03 02 00 00");
+}
+
+TEST(WestinghouseModbus, WhoWatchesItsPortHearsBothDirectionsAndAgainAfterASnapshot) {
+  Bench bench("modbus", "HR1=1234");
+  std::vector<std::string> heard;
+  serial::FrameSplitter frames([&heard](const serial::WireFrame& frame) {
+    Bytes bytes;
+    for (const ReceivedCharacter& character : frame.characters) bytes.push_back(character.byte);
+    heard.push_back((frame.wire == serial::Wire::Rx ? "rx " : "tx ") + serial::to_hex(bytes));
+  });
+  bench.station().set_wire_sink(&frames, bench.system().time());
+  const auto before = bench.system().snapshot();
+  const std::vector<std::string> exchange{"rx 01 03 00 00 00 01 84 0a", "tx 01 03 02 12 34 b5 33"};
+  bench.ask("01 03 00 00 00 01 84 0A");
+  bench.wait(20 * kMillisecond);
+  EXPECT_EQ(heard, exchange);
+  bench.system().restore(before);
+  heard.clear();
+  serial::FrameSplitter again(
+      [&heard](const serial::WireFrame& frame) { heard.push_back(frame.wire == serial::Wire::Rx ? "rx" : "tx"); });
+  bench.station().set_wire_sink(&again, bench.system().time());
+  bench.ask("01 03 00 00 00 01 84 0A");
+  bench.wait(20 * kMillisecond);
+  EXPECT_EQ(heard, (std::vector<std::string>{"rx", "tx"}));
+  bench.station().set_wire_sink(nullptr, bench.system().time());
+  bench.ask("01 03 00 00 00 01 84 0A");
+  EXPECT_EQ(heard.size(), 2U) << "no one watches any more";
 }
 
 TEST(WestinghouseModbus, ASnapshotGoesOnAsItWouldHave) {
