@@ -1167,7 +1167,7 @@ class OtherPlcTests(Case):
         attributes[0] = attributes[1] = attributes[3] = 0
         termios.tcsetattr(far, termios.TCSANOW, attributes)
         path = os.ttyname(far)
-        process = subprocess.Popen([S7200, *arguments, path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen([S7200, *map(str, arguments), path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(lambda: (process.kill(), process.communicate(), os.close(near)))
         self.eventually(lambda: self.opened(process, path) or process.poll() is not None)
         os.close(far)
@@ -1214,6 +1214,24 @@ class OtherPlcTests(Case):
         os.write(near, self.REPLY)
         out, _ = process.communicate(timeout=LONG)
         self.assertIn("- send: 01 03 00 00 00 01 84 0a\n        expect: 01 03 02 12 34 b5 33\n        latency: ", out)
+
+    def test_ctrl_c_ends_what_is_heard_and_the_scenario_is_written(self):
+        scenario = self.folder / "heard.yaml"
+        near, process = self.listen("import-capture", "-o", scenario)
+        os.write(near, self.REQUEST + self.REPLY)
+        time.sleep(SILENCE)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(LONG), FINE)
+        self.assertIn("expect: 01 03 02 12 34 b5 33", scenario.read_text(encoding="utf-8"))
+
+    def test_listening_for_no_one_ends(self):
+        near, process = self.listen("decode")
+        process.stdout.readline()
+        process.stdout.close()
+        os.write(near, self.REQUEST)
+        self.assertEqual(process.wait(LONG), -signal.SIGPIPE)
+        self.assertEqual(process.stderr.read(), "")
+        process.stdout = None
 
     def test_a_device_that_goes_away_ends_listening_with_what_was_heard(self):
         near, process = self.listen("decode")
