@@ -72,7 +72,7 @@ WORDS = {
     r"\bk(Fine|CheckFailed|Unusable|CpuFatal)\b|\b_?exit\(": ["tools/command", "tests"],
     r"\bmodbus\b": ["serial_sim/modbus", "serial_sim/westinghouse", "serial_sim/record", "tools", "tests"],
     r"\bpc_protocol\b": ["serial_sim/pc_protocol", "tools/master", "tools/recordings", "tests"],
-    r"\bwestinghouse\b": ["serial_sim/westinghouse", "tools/rig", "tools/master", "tools/command", "tests"],
+    r"\bwestinghouse\b": ["serial_sim/westinghouse", "tools/rig", "tools/master", "tools/recordings", "tools/command", "tests"],
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

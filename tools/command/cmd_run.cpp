@@ -12,7 +12,6 @@
 #include "tools/command/system_run.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/rig/run.hpp"
-#include "tools/slave/slave_target.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -71,10 +70,7 @@ void print_json(const Rig& rig, const Ending& ending, const RunOptions& options)
 }
 
 int run_run(const CLI::App& verb, RunOptions& options) {
-  if (is_other_plc(options.program.path)) return run_other_plc(verb, options);
-  for (const CLI::Option* option : options.for_other_plcs)
-    if (option->count() > 0) return print_error(option->get_name() + " needs westinghouse:MODEL"), kUnusable;
-  if (is_system_file(options.program.path)) return run_system(verb, options);
+  if (const auto code = run_without_program(verb, options)) return *code;
   int exit_code = kFine;
   const auto program = options.program.load(exit_code);
   if (!program) return exit_code;

@@ -190,8 +190,6 @@ SystemPlan plan_of_other_plc(RunOptions& options, std::vector<serial::Fault> fau
   return plan;
 }
 
-}  // namespace
-
 int run_system(const CLI::App& verb, const RunOptions& options) {
   if (!refuse_options_of_one_plc(verb, options.program,
                                  {"--scans", "--pty", "--tcp", "--rtu-over-tcp", "--modbus-tcp", "--device", "--timeout"}))
@@ -223,6 +221,16 @@ int run_other_plc(const CLI::App& verb, RunOptions& options) {
   } catch (const std::invalid_argument& error) {
     return print_error(error.what()), kUnusable;
   }
+}
+
+}  // namespace
+
+std::optional<int> run_without_program(const CLI::App& verb, RunOptions& options) {
+  if (is_other_plc(options.program.path)) return run_other_plc(verb, options);
+  for (const CLI::Option* option : options.for_other_plcs)
+    if (option->count() > 0) return print_error(option->get_name() + " needs westinghouse:MODEL"), kUnusable;
+  if (is_system_file(options.program.path)) return run_system(verb, options);
+  return {};
 }
 
 }  // namespace s7200::tools
