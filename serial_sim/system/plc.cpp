@@ -94,6 +94,7 @@ Ports Plc::devices() const {
 }
 
 void Plc::power_up(const RetentiveMemory* memory) {
+  executed_before_ = 0;
   cpu_.power_up(true, memory);
   field_.power_up();
 }
@@ -111,6 +112,7 @@ void Plc::power_on(Time at) {
   RetentiveMemory memory = cpu_.retentive_memory();
   memory.power_off = at - cpu_.time();
   powered_ = true;
+  executed_before_ = executed();
   cpu_.power_up(true, &memory, at);
   field_.power_up(at);
 }
@@ -133,6 +135,10 @@ Time Plc::may_run_until(Time horizon) const {
 void Plc::set_wire_sink(WireSink* sink, std::uint8_t port) {
   ports_.at(port)->tap.watch(sink, cpu_.time());
   watched_ = std::ranges::any_of(ports_, [](const auto& each) { return each->tap.watched(); });
+}
+
+void Plc::unwatch_lines() {
+  for (std::uint8_t port = 0; port < ports_.size(); ++port) set_wire_sink(nullptr, port);
 }
 
 void Plc::settle_taps(Time until) {
@@ -158,7 +164,7 @@ void Plc::hear(std::uint8_t port, const Event& event) {
 }
 
 Plc::State Plc::state() const {
-  State state{cpu_.state(), {}, {}, field_.state(), powered_};
+  State state{cpu_.state(), {}, {}, field_.state(), powered_, executed_before_};
   for (std::size_t port = 0; port < ports_.size(); ++port) {
     state.uart[port] = ports_[port]->uart.state();
     state.actions[port] = ports_[port]->actions;
@@ -170,6 +176,7 @@ void Plc::restore(const State& state, Time now) {
   cpu_.restore(state.cpu);
   field_.restore(state.field);
   powered_ = state.powered;
+  executed_before_ = state.executed_before;
   for (std::size_t port = 0; port < ports_.size(); ++port) {
     ports_[port]->uart.restore(state.uart[port]);
     ports_[port]->actions = state.actions[port];

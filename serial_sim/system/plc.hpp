@@ -37,6 +37,7 @@ class Plc final : private EventHandler {
     std::array<std::vector<PortAction>, kPorts.size()> actions;  ///< that are still to come
     Field::State field;
     bool powered = true;
+    std::uint64_t executed_before = 0;  ///< instructions, before power came back last
     bool operator==(const State&) const = default;
   };
 
@@ -52,6 +53,12 @@ class Plc final : private EventHandler {
   void power_off(Time at);
   void power_on(Time at);
   bool powered() const { return powered_; }
+
+  /// Whether it executes a program: with power, and in RUN.
+  bool executes() const { return powered_ && cpu_.state().mode == Mode::Run; }
+
+  /// Instructions since the beginning, however often power came back in between.
+  std::uint64_t executed() const { return executed_before_ + cpu_.state().instructions; }
 
   Cpu& cpu() { return cpu_; }
   const Cpu& cpu() const { return cpu_; }
@@ -72,6 +79,9 @@ class Plc final : private EventHandler {
 
   /// Lets `sink` watch the line at a port from now on; null ends that. Not owned. After restore() it sees time go back.
   void set_wire_sink(WireSink* sink, std::uint8_t port = 0);
+
+  /// Nobody watches the lines any more.
+  void unwatch_lines();
 
   /// How far the CPU may run if nothing happens to the system before `horizon`: until then it hears nothing from others.
   Time may_run_until(Time horizon) const;
@@ -137,6 +147,7 @@ class Plc final : private EventHandler {
   Cpu cpu_;
   Field field_;
   bool powered_ = true;
+  std::uint64_t executed_before_ = 0;
   bool watched_ = false;  // there is a sink at a port, which is wiring, not state
 };
 

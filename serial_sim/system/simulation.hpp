@@ -58,12 +58,15 @@ class Simulation {
 
   System& system() { return *system_; }
   Plc& plc() { return *plc_; }
+  const Plc& plc() const { return *plc_; }
   const SharedLine& line() const { return *line_; }
   Cpu& cpu() { return plc_->cpu(); }
   const Cpu& cpu() const { return plc_->cpu(); }
+  bool has_master() const { return master_ != nullptr; }
   Requester& master() { return master_->requester(); }
   const Requester& master() const { return master_->requester(); }
   Uart& master_uart() { return master_->uart(); }
+  bool has_host_port() const { return host_ != nullptr; }
   HostPort& host_port() { return host_->port(); }
   const HostPort& host_port() const { return host_->port(); }
   Time time() const { return system_->time(); }

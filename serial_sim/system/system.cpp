@@ -111,6 +111,7 @@ Halt System::step(Time end) {
   end = std::min(end, next_act());
   if (plcs_.size() == 1 && plcs_.front()->powered()) return step_one_plc(plcs_.front()->cpu(), end);
   if (!any_powered()) return step_without_plc(end);
+  if (in_step_) return step_in_step(end);
   const Time horizon = this->horizon();
   Halt halt = Halt::Time;
   for (const auto& plc : plcs_) {
@@ -134,6 +135,42 @@ Halt System::step_one_plc(Cpu& cpu, Time end) {
   handle_due_events(cpu.time());
   act();
   return runs && cpu.paused() ? Halt::Paused : Halt::Time;
+}
+
+/// Either all come to the instant when one of them may act next, or that one acts: until another one may, or to the next
+/// event. At the same instant the one with the lower number is first.
+Halt System::step_in_step(Time end) {
+  Plc* first = nullptr;
+  for (const auto& plc : plcs_)
+    if (plc->powered() && (!first || plc->cpu().next_action() < first->cpu().next_action())) first = plc.get();
+  Cpu& cpu = first->cpu();
+  const Time most = std::min({end, events_.next(), after(time(), kFurthestAtOnce)});
+  const Time acts = std::min(most, cpu.next_action());
+  Halt halt = Halt::Time;
+  if (time() < acts) {
+    come_to(acts);
+  } else if (cpu.time() < most) {
+    cpu.run(std::min(most, std::max(next_action_besides(*first), cpu.time() + 1)), kLookEvery);
+    if (cpu.paused()) come_to(cpu.time());
+    if (cpu.paused()) halt = Halt::Paused;
+  }
+  handle_due_events(time());
+  act();
+  return halt;
+}
+
+/// Those that are behind, which do not act until then.
+void System::come_to(Time now) {
+  for (const auto& plc : plcs_)
+    if (plc->powered() && plc->cpu().time() < now) plc->cpu().run(now, kLookEvery);
+}
+
+/// When one of the others may act next.
+Time System::next_action_besides(const Plc& plc) const {
+  Time next = kNever;
+  for (const auto& other : plcs_)
+    if (other.get() != &plc && other->powered()) next = std::min(next, other->cpu().next_action());
+  return next;
 }
 
 Halt System::step_without_plc(Time end) {

@@ -13,6 +13,10 @@
 // can make it act. CPUs run one after the other, each for most of a character, and which one is first does not matter: the
 // order of events follows from their instants alone. It is the same in one run or in slices, traced or not. With one PLC
 // there is no one to run ahead of, and it stops at every event, so that whoever looks finds all at the same instant.
+//
+// In step. Who looks at several CPUs between two instructions has them run in step: none ahead of another one, and all stop
+// at every event. Their instructions then come in the order of the instants at which they start, and of the numbers of the
+// PLCs at the same instant. What is computed is the same, only slower.
 #pragma once
 
 #include <atomic>
@@ -57,6 +61,9 @@ class System {
   /// All that runs ends early once `request` is true; it is looked at every 100 ms. Not owned; null: nothing ends it.
   void stop_when(const std::atomic<bool>* request) { stop_request_ = request; }
 
+  /// From now on CPUs run in step, or ahead of each other.
+  void run_in_step(bool on) { in_step_ = on; }
+
   /// Powers up all PLCs, as new. Plc::power_up() does so for one, before anything runs.
   void power_up();
 
@@ -67,6 +74,9 @@ class System {
   /// What is done to the system from outside when all clocks have come to `at`: power, cables, faults, inputs. It is told in
   /// the order of the instants, before anything runs.
   void schedule(Time at, std::function<void()> act);
+
+  /// Whether anything is scheduled, or was.
+  bool has_schedule() const { return !acts_.empty(); }
 
   /// How many PLCs there are.
   std::size_t plcs() const { return plcs_.size(); }
@@ -110,6 +120,9 @@ class System {
   Time horizon() const;
   bool any_powered() const;
   Halt step_one_plc(Cpu& cpu, Time end);
+  Halt step_in_step(Time end);
+  void come_to(Time now);
+  Time next_action_besides(const Plc& plc) const;
   Halt step_without_plc(Time end);
   Time next_act() const { return acted_ < acts_.size() ? acts_[acted_].at : kNever; }
   void act();
@@ -132,6 +145,7 @@ class System {
   std::vector<Act> acts_;
   std::size_t acted_ = 0;  // so many of them
   Time clock_ = 0;         // while no CPU has power
+  bool in_step_ = false;   // how it runs, which is no state
   const std::atomic<bool>* stop_request_ = nullptr;
 };
 

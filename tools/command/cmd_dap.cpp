@@ -46,14 +46,14 @@ int serve_clients(const DapOptions& options, const dap::SessionSettings& setting
   return kFine;
 }
 
-int run_dap(const DapOptions& options) {
+int run_dap(const CLI::App& verb, const DapOptions& options) {
   std::atomic<bool> stop_request = false;
   int exit_code = kFine;
   dap::SessionSettings settings{
       .launch = [&](const dap::Json& arguments) { return launch_debuggee(arguments, stop_request); },
       .stop_request = &stop_request};
   if (!options.debuggee->program.path.empty()) {
-    settings.attachable = make_debuggee(options.debuggee, stop_request, exit_code);
+    settings.attachable = make_debuggee(verb, options.debuggee, stop_request, exit_code);
     if (!settings.attachable) return exit_code;
   }
   if (!options.listen.empty()) {
@@ -89,7 +89,7 @@ void add_dap(CLI::App& app, int& exit_code) {
       "wait\n"
       "while it stands still. tools/dap/README.md has all requests, tools/vscode-s7200 is the extension for VS Code.\n"
       "Example: s7200 dap");
-  verb->callback([options, &exit_code] { exit_code = run_dap(*options); });
+  verb->callback([options, &exit_code, verb] { exit_code = run_dap(*verb, *options); });
 }
 
 }  // namespace s7200::tools

@@ -6,10 +6,10 @@
 #include <iostream>
 #include <sstream>
 
-#include "tools/bridge/live_run.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/console.hpp"
 #include "tools/command/debug_session.hpp"
+#include "tools/command/debuggee_run.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/debug_options.hpp"
 #include "tools/command/rig_output.hpp"
@@ -50,34 +50,33 @@ bool run_commands(Debugger& debugger, const std::string& script, const DebugOpti
   return true;
 }
 
-int run_debug(DebugOptions& options) {
+int run_debug(const CLI::App& verb, DebugOptions& options) {
   if (is_standard_input(options.program.path) && (!options.given() || options.interactive)) {
     print_error(
         "the program comes from standard input, so the commands cannot: give them with -x or --commands, without -i");
     return kUnusable;
   }
   int exit_code = kFine;
-  const auto program = options.program.load(exit_code);
-  if (!program) return exit_code;
+  if (!options.rig.load_all(verb, options.program, exit_code)) return exit_code;
   std::string why;
   const auto script = options.commands_file.empty() ? std::string() : read_file(options.commands_file, why);
   if (!script) return print_error(fmt::format("cannot read {}: {}", options.commands_file, why)), kUnusable;
   options.bridge.set_line(options.master);
   if (!options.bridge.prepare()) return kUnusable;
-  const auto rig = options.rig.assemble(program, false, options.bridge.link());
+  auto bridges = bridges_of(options);
+  if (!bridges) return kUnusable;
+  const auto rig = options.rig.assemble(false, options.bridge.link());
   if (!rig) return options.rig.exit_code_without_rig();
+  if (!has_room_for_bridge(options, *rig)) return kUnusable;
   rig->power_up();
   rig->simulation().stop_when(nullptr);  // the debugger looks itself, in front of each instruction
 
   bool good = false;
   {
-    LiveRun live(rig->simulation(), {options.bridge.speed(), options.master, print_live_messages()},
-                 options.bridge.bridge());
+    DebuggeeRun live(*rig, options, std::move(*bridges), print_live_messages(), nullptr);
     if (!live.start(why)) return print_error(why), kUnusable;
-    if (options.bridge.bridge() != nullptr) print_note(kMastersWait);
-    History::Settings history{.records = &rig->sinks()};
-    if (options.bridge.realtime()) history.drive = [&live](Time end) { return live.run_until(end); };
-    Debugger debugger(rig->simulation(), std::cout, session_options(options, *rig, program, history));
+    if (live.has_bridges()) print_note(kMastersWait);
+    Debugger debugger(options.rig.stations(*rig), std::cout, session_options(options, *rig, live.history()));
     good = run_commands(debugger, *script, options);
     if (!live.failure().empty()) print_error(live.failure());
     good &= live.failure().empty();
@@ -90,7 +89,7 @@ int run_debug(DebugOptions& options) {
   if (interrupted()) return kCheckFailed;
   if (!good) return kUnusable;
   if (options.rig.failed_strictly(rig->cpu()) && !rig->cpu().state().fatal_code) return kCheckFailed;
-  return exit_code_of(rig->cpu());
+  return exit_code_of(*rig);
 }
 
 }  // namespace
@@ -108,8 +107,10 @@ void add_debug(CLI::App& app, int& exit_code) {
       "time-outs are their own affair. Traces and captures get everything once: what is played again is not written again. "
       "A\n"
       "new branch goes on in traces after what ran before, and ends captures.\n"
+      "A system file (.yaml) instead of a PROGRAM: all its PLCs run, and go back, in one time; 'station NAME' goes over from\n"
+      "one to another.\n"
       "Example: s7200 debug stl_programs/modbus_slave.stl -x \"continue 2s; send 01 03 00 00 00 02 crc; continue; regs\"");
-  verb->callback([options, &exit_code] { exit_code = run_debug(*options); });
+  verb->callback([options, &exit_code, verb] { exit_code = run_debug(*verb, *options); });
 }
 
 }  // namespace s7200::tools

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "interpreter/base/text.hpp"
-#include "tools/bridge/live_run.hpp"
+#include "tools/command/debuggee_run.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/rig_output.hpp"
 #include "tools/command/terminal.hpp"
@@ -21,29 +21,29 @@ using dap::Json;
 /// A rig, and the bridge that its line may be joined to.
 class RigDebuggee final : public dap::Debuggee {
  public:
-  RigDebuggee(std::shared_ptr<DebuggeeOptions> options, std::shared_ptr<const Program> program, std::unique_ptr<Rig> rig,
+  RigDebuggee(std::shared_ptr<DebuggeeOptions> options, std::unique_ptr<Rig> rig, SystemBridges bridges,
               const std::atomic<bool>& stop_request)
       : options_(std::move(options)),
-        program_(std::move(program)),
         rig_(std::move(rig)),
-        live_(rig_->simulation(),
-              {options_->bridge.speed(),
-               options_->master,
-               {[this](const std::string& text) { say_(text); }, [this](const std::string& text) { say_(text); }},
-               &stop_request},
-              options_->bridge.bridge()),
-        history_(rig_->simulation(), {.drive = drive(), .records = &rig_->sinks()}) {}
+        stations_(options_->rig.named_stations(options_->master)),
+        live_(*rig_, *options_, std::move(bridges),
+              {[this](const std::string& text) { say_(text); }, [this](const std::string& text) { say_(text); }},
+              &stop_request),
+        history_(options_->rig.stations(*rig_), live_.history()) {}
 
   bool start(std::string& why) {
     const bool started = live_.start(why);
-    if (started && options_->bridge.bridge() != nullptr) say_(kMastersWait);
+    if (started && live_.has_bridges()) say_(kMastersWait);
     return started;
   }
 
-  serial::Simulation& simulation() override { return rig_->simulation(); }
   History& history() override { return history_; }
-  std::shared_ptr<const Program> program() const override { return program_; }
-  const serial::MasterSettings& master() const override { return options_->master; }
+  std::shared_ptr<const Program> program(std::size_t station) const override { return rig_->plan().plcs[station].program; }
+  std::string name(std::size_t station) const override { return rig_->plan().plcs[station].name; }
+  std::size_t first_station() const override { return options_->rig.first_station(); }
+  const serial::MasterSettings& master(std::size_t station) const override {
+    return stations_.empty() ? options_->master : stations_[station].master;
+  }
   std::string recorded_files() const override { return options_->rig.recorded_files(); }
   std::string failure() const override { return live_.failure(); }
 
@@ -53,7 +53,7 @@ class RigDebuggee final : public dap::Debuggee {
   }
 
   std::vector<std::string> finish() override {
-    std::vector<std::string> said = fault_notes(rig_->simulation().faults());
+    std::vector<std::string> said = fault_notes(*rig_);
     const std::vector<std::string> problems = rig_->finish();
     said.insert(said.end(), problems.begin(), problems.end());
     if (const std::string dump = dump_text(*rig_); !dump.empty()) said.push_back(dump);
@@ -61,17 +61,12 @@ class RigDebuggee final : public dap::Debuggee {
   }
 
  private:
-  History::Drive drive() {
-    if (!options_->bridge.realtime()) return {};
-    return [this](Time end) { return live_.run_until(end); };
-  }
-
   std::vector<std::string> unsaid_;  ///< before anyone listens
   std::function<void(const std::string&)> say_ = [this](const std::string& text) { unsaid_.push_back(text); };
   std::shared_ptr<DebuggeeOptions> options_;
-  std::shared_ptr<const Program> program_;
   std::unique_ptr<Rig> rig_;
-  LiveRun live_;
+  std::vector<RigOptions::Station> stations_;
+  DebuggeeRun live_;
   History history_;
 };
 
@@ -136,26 +131,28 @@ std::vector<std::string> words_of(const Json& arguments, const CLI::App& app) {
 
 }  // namespace
 
-std::shared_ptr<dap::Debuggee> make_debuggee(std::shared_ptr<DebuggeeOptions> options, const std::atomic<bool>& stop_request,
-                                             int& exit_code) {
+std::shared_ptr<dap::Debuggee> make_debuggee(const CLI::App& app, std::shared_ptr<DebuggeeOptions> options,
+                                             const std::atomic<bool>& stop_request, int& exit_code) {
   exit_code = kUnusable;
   if (is_standard_input(options->program.path)) {
     print_error("the program cannot come from standard input, where the messages come from");
     return nullptr;
   }
-  const auto program = options->program.load(exit_code);
-  if (!program) return nullptr;
+  if (!options->rig.load_all(app, options->program, exit_code)) return nullptr;
   exit_code = kUnusable;
   options->bridge.set_line(options->master);
   if (!options->bridge.prepare()) return nullptr;
-  auto rig = options->rig.assemble(program, true, options->bridge.link());
+  auto bridges = bridges_of(*options);
+  if (!bridges) return nullptr;
+  auto rig = options->rig.assemble(true, options->bridge.link());
   if (!rig) {
     exit_code = options->rig.exit_code_without_rig();
     return nullptr;
   }
+  if (!has_room_for_bridge(*options, *rig)) return nullptr;
   rig->power_up();
   rig->simulation().stop_when(nullptr);  // the debugger looks itself, in front of each instruction
-  auto debuggee = std::make_shared<RigDebuggee>(std::move(options), program, std::move(rig), stop_request);
+  auto debuggee = std::make_shared<RigDebuggee>(std::move(options), std::move(rig), std::move(*bridges), stop_request);
   if (std::string why; !debuggee->start(why)) {
     print_error(why);
     return nullptr;
@@ -175,7 +172,7 @@ std::shared_ptr<dap::Debuggee> launch_debuggee(const Json& arguments, const std:
     std::vector<std::string> words = words_of(arguments, app);
     std::reverse(words.begin(), words.end());  // as CLI11 takes them
     app.parse(std::move(words));
-    if (auto debuggee = make_debuggee(std::move(options), stop_request, exit_code)) return debuggee;
+    if (auto debuggee = make_debuggee(app, std::move(options), stop_request, exit_code)) return debuggee;
   } catch (const CLI::ParseError& error) {
     throw dap::Refused(fmt::format("launch: {}", error.what()));
   }

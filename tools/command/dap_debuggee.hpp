@@ -11,8 +11,8 @@
 namespace s7200::tools {
 
 /// Null after messages, and `exit_code` says how to end. The options have to live as long; `stop_request` ends its runs.
-std::shared_ptr<dap::Debuggee> make_debuggee(std::shared_ptr<DebuggeeOptions> options, const std::atomic<bool>& stop_request,
-                                             int& exit_code);
+std::shared_ptr<dap::Debuggee> make_debuggee(const CLI::App& app, std::shared_ptr<DebuggeeOptions> options,
+                                             const std::atomic<bool>& stop_request, int& exit_code);
 
 /// Each attribute is an option of `s7200 debug` without its dashes, as `modbusTcp` or `modbus-tcp`; a list gives it several
 /// times. Throws dap::Refused with all that is wrong.

@@ -32,17 +32,21 @@ struct StepOf {
   }
 };
 
-std::optional<SessionSteps> steps_of(const SessionRecord& record, std::string& why) {
-  SessionSteps steps{.end = record.session.now.time,
-                     .memory = record.memory,
-                     .stopped = record.stopped,
-                     .fatal_code = record.fatal_code,
-                     .last = record.last};
+/// `places` of the stations, as scenarios name them; none of a PROGRAM.
+std::optional<SessionSteps> steps_of(const SessionRecord& record, const std::vector<RigOptions::Station>& places,
+                                     std::string& why) {
+  SessionSteps steps{.end = record.session.now.time, .last = record.last};
+  const auto place_of = [&](std::size_t station) { return places.empty() ? std::string() : places[station].place; };
+  for (std::size_t i = 0; i < record.stations.size(); ++i) {
+    const SessionRecord::Station& station = record.stations[i];
+    steps.ends.push_back({place_of(i), station.memory, station.stopped, station.fatal_code});
+  }
   for (std::size_t i = 0; i < record.session.actions.size() && why.empty(); ++i) {
     auto step = std::visit(StepOf{record.session.moments[i].time, why}, record.session.actions[i]);
+    if (why.empty()) step.on = place_of(record.session.stations[i]);
     if (step.send || !step.set.empty() || !step.fault.empty()) steps.steps.push_back(std::move(step));
   }
-  if (record.session.memory) why = "power was switched off, from where times count anew: record it before";
+  if (!record.session.memory.empty()) why = "power was switched off, from where times count anew: record it before";
   return why.empty() ? std::optional(steps) : std::nullopt;
 }
 
@@ -69,9 +73,13 @@ void show_progress(std::string_view text) {
 
 }  // namespace
 
-DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, const std::shared_ptr<const Program>& program,
-                                const History::Settings& history) {
+DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, const History::Settings& history) {
+  std::vector<DebuggedStation> stations;
+  for (const RigOptions::Station& station : options.rig.named_stations(options.master))
+    stations.push_back({station.name, station.master});
   return {.master = options.master,
+          .stations = std::move(stations),
+          .station = options.rig.first_station(),
           .stop_request = &interruption(),
           .history = history,
           .files = options.rig.recorded_files(),
@@ -80,9 +88,9 @@ DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, con
           .written = rig.files(),
           .conditions = conditions(options.rig.settings(), rig.plan().plcs.front()),
           .write_scenario =
-              [&options, program](const SessionRecord& record, const Destination& to, std::string& why) {
-                const auto steps = steps_of(record, why);
-                return steps && write_session_scenario(options, program, *steps, to, why);
+              [&options](const SessionRecord& record, const Destination& to, std::string& why) {
+                const auto steps = steps_of(record, options.rig.named_stations(options.master), why);
+                return steps && write_session_scenario(options, options.rig.program(), *steps, to, why);
               },
           .scenario_beginning = session_scenario_beginning()};
 }

@@ -9,7 +9,6 @@
 namespace s7200::tools {
 
 /// All that is given must live as long as the session.
-DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, const std::shared_ptr<const Program>& program,
-                                const History::Settings& history);
+DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, const History::Settings& history);
 
 }  // namespace s7200::tools

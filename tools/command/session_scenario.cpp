@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "tools/rig/system_reader.hpp"
 #include "tools/scenario/reader.hpp"
 #include "tools/scenario/runner.hpp"
 #include "tools/scenario/transcript.hpp"
@@ -13,17 +14,23 @@
 namespace s7200::tools {
 namespace {
 
-std::string send_text(const serial::Request& request, Time at) {
-  std::string text = fmt::format("  - send: {}\n    at: {}\n", serial::to_hex(request.frame), exact(at));
+/// Of a step, and of what is expected at the end.
+std::string on_text(const std::string& on, std::string_view indentation) {
+  return on.empty() ? "" : fmt::format("{}on: {}\n", indentation, in_quotes(on));
+}
+
+std::string send_text(const serial::Request& request, Time at, const std::string& on) {
+  std::string text = fmt::format("  - send: {}\n    at: {}\n", serial::to_hex(request.frame), exact(at)) + on_text(on, "    ");
   if (request.gap != 0) text += fmt::format("    gap: {}\n", exact(request.gap));
   if (request.silence) text += fmt::format("    listen: {}\n", exact(*request.silence));
   return text;
 }
 
 std::string step_text(const SessionSteps::Step& step) {
-  if (step.send) return send_text(*step.send, step.at);
+  if (step.send) return send_text(*step.send, step.at, step.on);
   return fmt::format("  - wait: until {}\n  - {}\n", exact(step.at),
-                     step.fault.empty() ? "set: " + assignments_text(step.set) : "fault: " + step.fault);
+                     step.fault.empty() ? "set: " + assignments_text(step.set) : "fault: " + step.fault) +
+         on_text(step.on, "    ");
 }
 
 std::string steps_text(const SessionSteps& session) {
@@ -36,12 +43,16 @@ std::string steps_text(const SessionSteps& session) {
 
 /// What holds at the end, in the form of a transcript.
 std::string end_text(const SessionSteps& session) {
+  constexpr std::string_view kIndentation = "        ";
   std::string text;
-  if (!session.memory.empty()) text += fmt::format("      - memory: {}\n", assignments_text(session.memory));
-  if (session.fatal_code != 0)
-    text += fmt::format("      - fatal: \"{:04X}\"\n", session.fatal_code);
-  else if (session.stopped)
-    text += "      - mode: stop\n";
+  for (const SessionSteps::End& end : session.ends) {
+    const std::string on = on_text(end.on, kIndentation);
+    if (!end.memory.empty()) text += fmt::format("      - memory: {}\n", assignments_text(end.memory)) + on;
+    if (end.fatal_code != 0)
+      text += fmt::format("      - fatal: \"{:04X}\"\n", end.fatal_code) + on;
+    else if (end.stopped)
+      text += "      - mode: stop\n" + on;
+  }
   return text;
 }
 
@@ -68,22 +79,25 @@ bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<c
   why = without_a_key(options);
   const std::string steps = steps_text(session);
   if (!why.empty()) return false;
-  const std::string name = std::filesystem::path(program->source.name).filename().string();
-  ScenarioFile file =
-      read_scenarios(fmt::format("name: {}\ncpu: \"{}\"\n{}after: 0 ms\nsteps:\n{}", in_quotes("a session with " + name),
-                                 program->model->name, input_text(options.rig.settings().input), steps),
-                     to.path);
+  const bool is_system = is_system_file(options.program.path);
+  const std::string path = is_system ? options.program.path : program->source.name;
+  const std::string name = std::filesystem::path(path).filename().string();
+  const std::string head =
+      is_system ? fmt::format("system: {}\n", in_quotes(std::filesystem::absolute(path).string()))
+                : fmt::format("cpu: \"{}\"\n{}", program->model->name, input_text(options.rig.settings().input));
+  ScenarioFile file = read_scenarios(
+      fmt::format("name: {}\n{}after: 0 ms\nsteps:\n{}", in_quotes("a session with " + name), head, steps), to.path);
   if (!file.diagnostics.empty() || file.scenarios.size() != 1) {
     why = file.diagnostics.empty() ? "it has no steps" : file.diagnostics.front().message;
     return false;
   }
   const RigSettings& rig = options.rig.settings();
   Scenario& scenario = file.scenarios.front();
-  scenario.program = options.program.path;
+  scenario.program = is_system ? "" : options.program.path;
   scenario.with = options.program.parts;
   scenario.times = options.program.times_table;
   scenario.line = options.master;
-  scenario.repair = repairs_text(options.program.repairs);
+  if (!is_system) scenario.repair = repairs_text(options.program.repairs);
   scenario.set = rig.set;
   scenario.clock = rig.clock;
   Report report{&scenario, run_scenario(scenario, {.program = program})};

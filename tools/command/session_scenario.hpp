@@ -19,17 +19,24 @@ struct SessionSteps {
     std::vector<Assignment> set{};
     std::optional<serial::Request> send{};
     std::string fault{};
+    std::string on{};  ///< a PLC of a system
+  };
+
+  /// How a PLC must be at the end.
+  struct End {
+    std::string on{};  ///< its name in a system
+    std::vector<Assignment> memory{};
+    bool stopped = false;
+    std::uint16_t fatal_code = 0;
   };
 
   std::vector<Step> steps{};
   Time end = 0;
-  std::vector<Assignment> memory{};  ///< as it must be at the end
-  bool stopped = false;
-  std::uint16_t fatal_code = 0;
+  std::vector<End> ends{};
   std::optional<serial::Exchange> last{};  ///< the last exchange, if it is over
 };
 
-/// Writes it. False, and why not, if no scenario can do what was done.
+/// Writes it: of a system file if the program of the options is one. False, and why not, if no scenario can do what was done.
 bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<const Program>& program,
                             const SessionSteps& session, const Destination& to, std::string& why);
 

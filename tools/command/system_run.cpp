@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <optional>
-#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "tools/command/options/system_options.hpp"
 #include "tools/command/progress.hpp"
 #include "tools/command/rig_output.hpp"
+#include "tools/command/system_bridges.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/rig/rig.hpp"
@@ -37,60 +37,14 @@ struct Ending {
   std::optional<Pace::Report> pace;  // of a run in real time
 };
 
-/// The bridges of a system, by the plan's numbers. Not owned.
-using Bridges = std::span<Bridge* const>;
-
-class SystemMachine final : public LiveMachine {
- public:
-  explicit SystemMachine(Rig& rig) : rig_(rig) {}
-  Time time() const override { return rig_.system().time(); }
-  serial::Halt run_until(Time end) override { return rig_.system().run_until(end); }
-
- private:
-  Rig& rig_;
-};
-
-std::vector<LiveEnd> ends_of(Rig& rig, Bridges bridges) {
-  std::vector<LiveEnd> ends;
-  for (std::size_t line = 0; line < rig.plan().lines.size(); ++line) {
-    const LinePlan& plan = rig.plan().lines[line];
-    const StationPlan* const first = first_plc(plan);
-    for (const StationPlan& station : plan.stations)
-      if (station.kind == StationPlan::Kind::Bridge)
-        ends.push_back({.bridge = bridges[station.number],
-                        .port = &rig.host_port(station.number),
-                        .line = &rig.line(line),
-                        .plc = first ? &rig.plc(first->number) : nullptr,
-                        .plc_port = first ? first->port : std::uint8_t{0},
-                        .without_program = format_without_s7200(rig.plan(), plan),
-                        .settings = plan.settings});
-  }
-  return ends;
-}
-
-/// Nothing after a message.
-std::optional<std::vector<std::unique_ptr<Bridge>>> make_bridges(const SystemPlan& plan) {
-  std::vector<std::unique_ptr<Bridge>> bridges(plan.bridges.size());
-  for (const LinePlan& line : plan.lines)
-    for (const StationPlan& station : line.stations) {
-      if (station.kind != StationPlan::Kind::Bridge) continue;
-      const BridgePlan& bridge = plan.bridges[station.number];
-      std::string why;
-      bridges[station.number] = make_bridge(bridge.kind, bridge.where, line.settings, kBridgeTimeout, why);
-      if (!bridges[station.number])
-        return print_error(fmt::format("bridge {} at {}: {}", bridge.name, bridge.where, why)), std::nullopt;
-    }
-  return bridges;
-}
-
 Ending run_to_end(Rig& rig, Bridges bridges, const RunOptions& options) {
   const Time end = options.duration == kNever && bridges.empty() ? kSecond : options.duration;
   if (bridges.empty() && !options.bridge.realtime()) {
     const RunLimits limits{.end = end};
     return {run(rig, end, Progress([&] { return rig.system().time(); }, limits)), {}};
   }
-  SystemMachine machine(rig);
-  LiveRun live(machine, ends_of(rig, bridges), {.speed = options.bridge.speed(), .messages = print_live_messages()});
+  const auto machine = machine_of(rig.system());
+  LiveRun live(*machine, ends_of(rig, bridges), {.speed = options.bridge.speed(), .messages = print_live_messages()});
   std::string why;
   if (!live.start(why)) return print_error(why), Ending{};
   const serial::Halt halt = live.run_until(end);
@@ -201,9 +155,7 @@ int run_system(const CLI::App& verb, const RunOptions& options) {
   if (!plan) return exit_code;
   const auto owned = make_bridges(*plan);
   if (!owned) return kUnusable;
-  std::vector<Bridge*> bridges;
-  for (const auto& bridge : *owned) bridges.push_back(bridge.get());
-  return run_plan(std::move(*plan), options.rig.surroundings(options.program.path, {}, {}), bridges, options);
+  return run_plan(std::move(*plan), options.rig.surroundings(options.program.path, {}, {}), those_of(*owned), options);
 }
 
 int run_other_plc(const CLI::App& verb, RunOptions& options) {

@@ -105,6 +105,25 @@ std::string level_reference(std::uint32_t open, std::uint32_t level) {
   return address_text(kRoutines + open * kOfARoutine + level);
 }
 
+std::string at_station(const std::string& reference, std::size_t station) {
+  if (station == 0 || reference.empty()) return reference;
+  if (const auto number = number_of(reference)) return address_text(*number + static_cast<std::int64_t>(station) * kOfAStation);
+  return fmt::format("{}@{}", reference, station);
+}
+
+std::optional<StationReference> find_station(std::string_view reference, std::size_t stations) {
+  StationReference found{0, std::string(reference)};
+  const std::size_t sign = reference.rfind('@');
+  if (const auto number = number_of(reference)) {
+    found = {static_cast<std::size_t>(*number / kOfAStation), address_text(*number % kOfAStation)};
+  } else if (sign != std::string_view::npos) {
+    const auto station = parse_decimal<std::uint32_t>(reference.substr(sign + 1));
+    if (!station) return {};
+    found = {*station, std::string(reference.substr(0, sign))};
+  }
+  return found.station < stations ? std::optional(found) : std::nullopt;
+}
+
 std::string instruction_reference(std::int64_t op) { return address_text(kInstructions + op); }
 
 std::optional<std::int64_t> find_instruction_number(std::string_view reference) {

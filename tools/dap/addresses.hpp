@@ -2,6 +2,9 @@
 // STL, `V`, `VB100`, or by a number: where it is among all areas. What an open routine has of its own is above them: its
 // logic stack, `stack` and `stack:1` by the routine's number from the innermost, and the accumulators that an interrupted
 // one will find again, `AC:1`. Instructions have numbers above those.
+//
+// Of a system, references to the first station are the same; those to another one have its number: `VB100@2` is of the third
+// one, and numbers of it are higher by two times kOfAStation.
 #pragma once
 
 #include <cstdint>
@@ -40,6 +43,19 @@ std::string stack_reference(std::uint32_t open);
 std::string accumulators_reference(std::uint32_t open, bool interrupted);
 /// A level of the logic stack, by its number.
 std::string level_reference(std::uint32_t open, std::uint32_t level);
+
+/// From the numbers of one station to those of the next.
+inline constexpr std::int64_t kOfAStation = std::int64_t{1} << 32;
+
+/// `VB100@2`, or a number.
+std::string at_station(const std::string& reference, std::size_t station);
+
+struct StationReference {
+  std::size_t station = 0;
+  std::string reference{};  ///< without the station
+};
+/// Nothing if there is no such station among so many.
+std::optional<StationReference> find_station(std::string_view reference, std::size_t stations);
 
 std::string instruction_reference(std::int64_t op);
 std::optional<std::int64_t> find_instruction_number(std::string_view reference);

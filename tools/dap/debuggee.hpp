@@ -1,4 +1,4 @@
-// What a session debugs: a PLC that is powered up, with everything attached and its past.
+// What a session debugs: a PLC that is powered up, or all those of a system, with everything attached and their past.
 #pragma once
 
 #include <functional>
@@ -15,12 +15,18 @@ class Debuggee {
  public:
   virtual ~Debuggee() = default;
 
-  virtual serial::Simulation& simulation() = 0;
+  /// It has the stations.
   virtual History& history() = 0;
-  virtual std::shared_ptr<const Program> program() const = 0;
+  virtual std::shared_ptr<const Program> program(std::size_t station) const = 0;
 
-  /// How the master on the line talks.
-  virtual const serial::MasterSettings& master() const = 0;
+  /// Its name in a system; empty if there is only one PLC.
+  virtual std::string name(std::size_t station) const = 0;
+
+  /// The one that is looked at first, on whose line frames are sent.
+  virtual std::size_t first_station() const = 0;
+
+  /// How the master on a station's line talks.
+  virtual const serial::MasterSettings& master(std::size_t station) const = 0;
 
   /// The files that are written while it runs, by their names; empty if there are none.
   virtual std::string recorded_files() const = 0;

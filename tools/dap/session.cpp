@@ -163,7 +163,38 @@ Json Session::dispatch(const Request& request, const Json& arguments) {
   if (request.needs_program && !debuggee_) throw Refused("there is no program yet: launch or attach comes first");
   if (request.needs_program && terminated_ && request.command != "disconnect") throw Refused("the session has ended");
   if (request.needs_standstill && runs()) throw Refused("the program runs: pause it first");
-  return (this->*request.handler)(arguments);
+  if (!debuggee_) return (this->*request.handler)(arguments);
+  Json of_station = arguments;
+  const auto station = take_station(of_station);
+  if (station && request.needs_standstill) stepper_->look_at(*station);  // and there it runs
+  const LookAt look(*this, station.value_or(looks_at()));
+  return (this->*request.handler)(of_station);
+}
+
+/// The station that a request names, which does not stand in its references then; nothing if it names none.
+std::optional<std::size_t> Session::take_station(Json& arguments) const {
+  std::optional<std::int64_t> station;
+  const auto take_number = [&](const char* key, std::int64_t of_a_station) {
+    if (!arguments.contains(key)) return;
+    const auto number = arguments[key].get<std::int64_t>();
+    station = number / of_a_station;
+    arguments[key] = number % of_a_station;
+  };
+  if (arguments.contains("threadId")) station = arguments["threadId"].get<std::int64_t>() - 1;
+  take_number("frameId", kFramesOfAStation);
+  take_number("variablesReference", kContainersOfAStation);
+  for (const char* const key : {"memoryReference", "name"}) {
+    if (!arguments.contains(key) || (key == std::string_view("name") && !arguments.value("asAddress", false))) continue;
+    const auto text = arguments[key].get<std::string>();
+    const auto found = find_station(text, stations());
+    if (!found) throw Refused(fmt::format("'{}' is of no station of this system", stl::shortened(text)));
+    station = static_cast<std::int64_t>(found->station);
+    arguments[key] = found->reference;
+  }
+  if (!station) return {};
+  if (*station < 0 || static_cast<std::size_t>(*station) >= stations())
+    throw Refused(fmt::format("there is no thread {}", *station + 1));
+  return static_cast<std::size_t>(*station);
 }
 
 void Session::refuse(const Json& message, const std::string& why) { respond(message, false, {}, why); }
@@ -190,6 +221,25 @@ void Session::send_event(const std::string& event, Json body) {
   send_(message);
 }
 
+std::string Session::said_of(std::size_t station) const {
+  const std::string name = debuggee_->name(station);
+  return name.empty() ? name : name + ": ";
+}
+
+/// The first one that has the file in its program; the one looked at if it has it too, or none has.
+std::size_t Session::station_with(const std::string& path) const {
+  const auto has = [&](std::size_t station) { return stations_[station].sources.line_in(path, 1).has_value(); };
+  for (std::size_t station = 0; station < stations() && !has(looks_at()); ++station)
+    if (has(station)) return station;
+  return looks_at();
+}
+
+void Session::print_of(std::size_t station, const std::string& text, const std::string& category,
+                       std::optional<std::uint32_t> op) {
+  const LookAt look(*this, station);
+  print(said_of(station) + text, category, op);
+}
+
 void Session::print(const std::string& text, const std::string& category, std::optional<std::uint32_t> op) {
   if (text.empty()) return;
   Json body{{"category", category}, {"output", text.ends_with('\n') ? text : text + "\n"}};
@@ -201,7 +251,7 @@ void Session::refuse_interrupted() const { throw Refused("cancelled"); }
 
 Json Session::client_place(std::uint32_t op) const {
   const stl::Position& position = cpu().program().statement(op).position;
-  Json place = sources_->place_of(position.line);
+  Json place = sources().place_of(position.line);
   place["line"] = client_line(place["line"].get<std::uint32_t>());
   place["column"] = std::max(position.column, 1u) - 1 + column_base_;
   return place;
@@ -253,19 +303,21 @@ void Session::read_wishes(const Json& arguments) {
 
 void Session::begin(std::shared_ptr<Debuggee> debuggee) {
   debuggee_ = std::move(debuggee);
-  listing_ = std::make_unique<Listing>(*debuggee_->program());
-  sources_ = std::make_unique<Sources>(*debuggee_->program());
-  stepper_ = std::make_unique<Stepper>(debuggee_->simulation(), debuggee_->history(), settings_.stop_request);
-  stepper_->host_timeout = debuggee_->master().timeout;
+  stepper_ = std::make_unique<Stepper>(debuggee_->history(), settings_.stop_request);
+  stepper_->look_at(debuggee_->first_station());
+  stations_.clear();
+  for (std::size_t station = 0; station < stations(); ++station) stations_.emplace_back(*debuggee_->program(station));
+  stepper_->host_timeout = master().timeout;
   debuggee_->when_saying([this](const std::string& text) { print(text, "important"); });
   stepper_->on_message = [this](const StopPoint& stop) {
-    print(filled_in(stop.log, cpu()), "console", standing_at(cpu().state()));
+    const Cpu& at = debuggee_->history().station(stop.station).cpu();
+    print_of(stop.station, filled_in(stop.log, at), "console", standing_at(at.state()));
   };
   stepper_->on_answer = [this](const serial::Exchange& exchange) {
-    print(exchange_text(exchange, debuggee_->master().timeout));
+    print(exchange_text(exchange, master().timeout));
   };
-  stepper_->on_record = [this](const TraceRecord& record) {
-    if (record.kind == TraceKind::RuntimeError && !first_error_) first_error_ = record;
+  stepper_->on_record = [this](std::size_t station, const TraceRecord& record) {
+    if (record.kind == TraceKind::RuntimeError && !first_error_) first_error_ = {station, record};
   };
   after_response([this] { send_event("initialized", {}); });
 }
@@ -305,7 +357,7 @@ Json Session::restart(const Json& arguments) {
   note_new_branch();
   frames_sent_ = 0;
   after_response([this] {
-    if (!stop_on_entry_) send_event("continued", {{"threadId", 1}, {"allThreadsContinued", true}});
+    if (!stop_on_entry_) send_event("continued", {{"threadId", thread()}, {"allThreadsContinued", true}});
     start();
   });
   return {};
@@ -322,7 +374,10 @@ void Session::end_debuggee() {
   if (!debuggee_ || terminated_) return;
   terminated_ = true;
   leave();
-  if (!attached_) send_event("exited", {{"exitCode", cpu().state().fatal_code ? 3 : 0}});
+  bool fatal = false;
+  for (std::size_t station = 0; station < stations(); ++station)
+    fatal |= debuggee_->history().station(station).cpu().state().fatal_code != 0;
+  if (!attached_) send_event("exited", {{"exitCode", fatal ? 3 : 0}});
   send_event("terminated", {});
 }
 

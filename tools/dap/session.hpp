@@ -1,7 +1,10 @@
 // A session of the Debug Adapter Protocol (1.68): messages in, messages out. It knows no streams and no threads.
 //
-// One thread is shown, the CPU; its frames are the routines that are open. A line is an instruction, a statement in the
+// Each CPU is shown as a thread; its frames are the routines that are open. A line is an instruction, a statement in the
 // sense of the protocol is a network. Every step and stop has its brother that goes back in time.
+//
+// Of the stations of a system it looks at one: the one that has stopped, or that a request names by a thread, a frame, a
+// variable or memory. All of them run and stand still together.
 //
 // Messages may come while the program runs: whoever runs it has run() end by the stop request, hands the messages over, and
 // goes on if runs() says so. The program does what it does in one go.
@@ -9,6 +12,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -17,6 +21,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tools/dap/addresses.hpp"
@@ -27,6 +32,9 @@
 #include "tools/views/listing.hpp"
 
 namespace s7200::tools::dap {
+
+/// From the numbers of a station's frames to those of the next one; and of what has variables.
+inline constexpr std::int64_t kFramesOfAStation = 1 << 16, kContainersOfAStation = 1 << 23;
 
 /// A request that cannot be done, and why.
 class Refused : public std::runtime_error {
@@ -76,6 +84,7 @@ class Session {
   };
   static const std::vector<Request>& requests();
   Json dispatch(const Request& request, const Json& arguments);
+  std::optional<std::size_t> take_station(Json& arguments) const;
 
   // Life of the session (session.cpp).
   Json initialize(const Json& arguments);
@@ -115,9 +124,11 @@ class Session {
   void take_away(int number);
   StopPoint with_conditions(StopPoint stop, const Json& wanted) const;
   StopPoint stop_at(std::uint32_t op) const;
-  std::vector<StopPoint> line_stops(const std::string& path, const Json& wanted, Json& answer) const;
-  std::vector<StopPoint> function_stops(const Json& wanted, Json& answer) const;
-  std::vector<StopPoint> data_stops(const Json& wanted) const;
+  using StopOfStation = std::function<std::optional<StopPoint>(std::string& why)>;
+  std::vector<StopPoint> at_all_stations(const Json& wanted, Json& answer, const StopOfStation& find);
+  std::vector<StopPoint> line_stops(const std::string& path, const Json& wanted, Json& answer);
+  std::vector<StopPoint> function_stops(const Json& wanted, Json& answer);
+  std::vector<StopPoint> data_stops(const Json& wanted);
   std::vector<StopPoint> exception_stops(const Json& wanted) const;
 
   // Running (session_steps.cpp).
@@ -147,7 +158,7 @@ class Session {
   Stop searched_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer);
   bool send_what_is_due();
   void report(const Stop& stop, const std::string& reason);
-  void report_error(const TraceRecord& error);
+  void report_error(std::size_t station, const TraceRecord& error);
   void report_stopped(Json body);
   Json body_of(const Stop& stop, const std::string& reason);
   Json body_of_hit(const Hit& hit);
@@ -209,10 +220,36 @@ class Session {
   void send_event(const std::string& event, Json body);
   void respond(const Json& request, bool success, Json body, const std::string& message = {});
   void print(const std::string& text, const std::string& category = "console", std::optional<std::uint32_t> op = {});
+  void print_of(std::size_t station, const std::string& text, const std::string& category, std::optional<std::uint32_t> op);
   void after_response(std::function<void()> action) { later_.push_back(std::move(action)); }
   [[noreturn]] void refuse_interrupted() const;
 
-  const Cpu& cpu() const { return debuggee_->simulation().cpu(); }
+  std::size_t stations() const { return debuggee_->history().stations(); }
+  std::size_t looks_at() const { return stepper_->looks_at(); }
+  serial::Simulation& simulation() const { return debuggee_->history().station(looks_at()); }
+  const serial::MasterSettings& master() const { return debuggee_->master(looks_at()); }
+  std::shared_ptr<const Program> program() const { return debuggee_->program(looks_at()); }
+  const Listing& listing() const { return stations_[looks_at()].listing; }
+  const Sources& sources() const { return stations_[looks_at()].sources; }
+  const Cpu& cpu() const { return simulation().cpu(); }
+  std::string said_of(std::size_t station) const;  ///< `slave: `; nothing if there is but one PLC
+  std::int64_t thread() const { return static_cast<std::int64_t>(looks_at()) + 1; }
+
+  /// While it lives another station is looked at.
+  class LookAt {
+   public:
+    LookAt(Session& session, std::size_t station) : stepper_(*session.stepper_), before_(stepper_.looks_at()) {
+      stepper_.look_at(station);
+    }
+    ~LookAt() { stepper_.look_at(before_); }
+    LookAt(const LookAt&) = delete;
+    LookAt& operator=(const LookAt&) = delete;
+
+   private:
+    Stepper& stepper_;
+    std::size_t before_;
+  };
+  std::size_t station_with(const std::string& path) const;
   std::uint32_t client_line(std::uint32_t line) const { return line_base_ == 1 ? line : line - 1; }
   std::uint32_t line_of_client(std::uint32_t line) const { return line_base_ == 1 ? line : line + 1; }
   Json client_place(std::uint32_t op) const;
@@ -229,8 +266,12 @@ class Session {
   // What is debugged.
   std::shared_ptr<Debuggee> debuggee_;
   bool attached_ = false;
-  std::unique_ptr<Listing> listing_;
-  std::unique_ptr<Sources> sources_;
+  struct Station {
+    explicit Station(const Program& program) : listing(program), sources(program) {}
+    Listing listing;
+    Sources sources;
+  };
+  std::deque<Station> stations_;
   std::unique_ptr<Stepper> stepper_;
   bool stop_on_entry_ = false, no_debug_ = false, steps_are_networks_ = false;
   std::vector<serial::Frame> frames_;  ///< to be sent, as the launch asks for
@@ -246,9 +287,9 @@ class Session {
   // The run under way, and the last stop.
   std::optional<Run> running_;
   bool configured_ = false, begun_ = false, pause_asked_ = false, over_ = false, terminated_ = false;
-  std::optional<TraceRecord> first_error_;  ///< run-time error of the run under way
+  std::optional<std::pair<std::size_t, TraceRecord>> first_error_;  ///< run-time error of the run under way, and its station
   Json exception_;                          ///< of the last stop; null if it was none
-  std::map<std::int64_t, std::uint32_t> goto_targets_;
+  std::map<std::int64_t, std::pair<std::size_t, std::uint32_t>> goto_targets_;  ///< station and instruction
   std::map<std::string, std::vector<std::uint8_t>> read_;  ///< memory that the client has read: area and its bytes then
   std::int64_t handling_ = 0;                              ///< number of the request
 };

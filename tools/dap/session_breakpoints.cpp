@@ -56,9 +56,10 @@ bool is_wanted(const Json& wanted, const char* key) {
 }  // namespace
 
 StopPoint Session::stop_at(std::uint32_t op) const {
-  return {.on = On::Place,
+  return {.station = looks_at(),
+          .on = On::Place,
           .op = op,
-          .name = fmt::format("{} line {}", listing_->routine_of(op), listing_->line_of(op)),
+          .name = fmt::format("{} line {}", listing().routine_of(op), listing().line_of(op)),
           .needs_power = true};
 }
 
@@ -105,7 +106,7 @@ Json Session::place(StopKind kind, const std::string& group, const Json& wanted,
     try {
       for (StopPoint& stop : make(one, answer)) {
         stop.number = number;
-        if (stop.range) stop.value = stop.range->bytes_in(cpu().state().image);
+        if (stop.range) stop.value = stop.range->bytes_in(debuggee_->history().station(stop.station).cpu().state().image);
         if (!no_debug_) stepper_->stops.push_back(std::move(stop));
       }
     } catch (const Refused& refused) {
@@ -122,17 +123,41 @@ Json Session::place(StopKind kind, const std::string& group, const Json& wanted,
 
 // --- lines, routines, events, instructions ---
 
-std::vector<StopPoint> Session::line_stops(const std::string& path, const Json& wanted, Json& answer) const {
+/// Of the stations at which `find` finds one; the answer says where the first is.
+std::vector<StopPoint> Session::at_all_stations(const Json& wanted, Json& answer, const StopOfStation& find) {
+  std::vector<StopPoint> stops;
+  std::string why_none;
+  for (std::size_t station = 0; station < stations(); ++station) {
+    const LookAt look(*this, station);
+    std::string why;
+    auto stop = find(why);
+    if (!stop && why_none.empty()) why_none = why;
+    if (!stop) continue;
+    stop->station = station;
+    if (stop->on == On::Place && stops.empty()) {
+      answer.update(client_place(stop->op));
+      answer["instructionReference"] = at_station(instruction_reference(stop->op), station);
+    }
+    stops.push_back(with_conditions(std::move(*stop), wanted));
+  }
+  if (stops.empty()) throw Refused(why_none);
+  return stops;
+}
+
+std::vector<StopPoint> Session::line_stops(const std::string& path, const Json& wanted, Json& answer) {
   const auto wanted_line = wanted.at("line").get<std::uint32_t>();
-  const auto line = sources_->line_in(path, line_of_client(wanted_line));
-  if (!line) throw Refused(fmt::format("{} is not a file of this program, or has no line {}", path, wanted_line));
-  const auto op = listing_->op_from_line(*line);
-  if (!op) throw Refused(fmt::format("the last instruction is in line {}", client_line(listing_->last_line())));
-  answer.update(client_place(*op));
-  answer["instructionReference"] = instruction_reference(*op);
-  if (listing_->line_of(*op) != *line)
-    answer["message"] = fmt::format("line {} has no instruction; this is the next one", wanted_line);
-  return {with_conditions(stop_at(*op), wanted)};
+  const LookAt look(*this, station_with(path));
+  if (!sources().line_in(path, line_of_client(wanted_line)))
+    throw Refused(fmt::format("{} is not a file of this program, or has no line {}", path, wanted_line));
+  return at_all_stations(wanted, answer, [&](std::string& why) -> std::optional<StopPoint> {
+    const auto line = sources().line_in(path, line_of_client(wanted_line));
+    const auto op = line ? listing().op_from_line(*line) : std::nullopt;
+    if (line && !op) why = fmt::format("the last instruction is in line {}", client_line(listing().last_line()));
+    if (!op) return {};
+    if (listing().line_of(*op) != *line)
+      answer["message"] = fmt::format("line {} has no instruction; this is the next one", wanted_line);
+    return stop_at(*op);
+  });
 }
 
 Json Session::set_breakpoints(const Json& arguments) {
@@ -142,22 +167,20 @@ Json Session::set_breakpoints(const Json& arguments) {
 }
 
 /// `SBR 51`, `INT 123`, `NETWORK 4`, `event 8 occurs`, `received` …, or what causes an event: `port 0: character received`.
-std::vector<StopPoint> Session::function_stops(const Json& wanted, Json& answer) const {
+std::vector<StopPoint> Session::function_stops(const Json& wanted, Json& answer) {
   const auto name = wanted.at("name").get<std::string>();
   std::vector<std::string> words = words_of(name);
   if (words.empty()) throw Refused("the name is empty; write for example SBR 51, INT 123, event 8 or received");
   for (const InterruptEvent& event : all_events())
     if (lower_case(event.cause) == lower_case(stl::trim(name))) words = {"event", std::to_string(event.number), "served"};
-  if (lower_case(name) == "main") words = {std::to_string(listing_->line_of(0))};
-  std::string why, note;
-  auto stop = find_stop(words, cpu().program(), *listing_, why, note);
-  if (!stop) throw Refused(why);
-  stop->name = name;
-  if (stop->on == On::Place) {
-    answer.update(client_place(stop->op));
-    answer["instructionReference"] = instruction_reference(stop->op);
-  }
-  return {with_conditions(std::move(*stop), wanted)};
+  return at_all_stations(wanted, answer, [&](std::string& why) {
+    const bool is_main = lower_case(name) == "main";
+    std::string note;
+    auto stop = find_stop(is_main ? std::vector{std::to_string(listing().line_of(0))} : words, cpu().program(), listing(), why,
+                          note);
+    if (stop) stop->name = name;
+    return stop;
+  });
 }
 
 Json Session::set_function_breakpoints(const Json& arguments) {
@@ -168,27 +191,30 @@ Json Session::set_function_breakpoints(const Json& arguments) {
 Json Session::set_instruction_breakpoints(const Json& arguments) {
   return place(StopKind::Instruction, "", arguments.at("breakpoints"), [&](const Json& wanted, Json& answer) {
     const auto reference = wanted.at("instructionReference").get<std::string>();
-    const auto number = find_instruction_number(reference);
+    const auto of = find_station(reference, stations());
+    const LookAt look(*this, of ? of->station : looks_at());
+    const auto number = of ? find_instruction_number(of->reference) : std::nullopt;
     const std::int64_t op = number.value_or(-1) + amount_in(wanted, "offset", 0);
     if (!number || op < 0 || op >= static_cast<std::int64_t>(cpu().program().ops.size()))
       throw Refused(fmt::format("{} is not an instruction of this program", stl::shortened(reference)));
     StopPoint stop = stop_at(static_cast<std::uint32_t>(op));
     stop.needs_power = false;
     answer.update(client_place(stop.op));
-    answer["instructionReference"] = instruction_reference(op);
+    answer["instructionReference"] = at_station(instruction_reference(op), looks_at());
     return std::vector{with_conditions(std::move(stop), wanted)};
   });
 }
 
 Json Session::breakpoint_locations(const Json& arguments) {
   const std::string path = arguments.at("source").value("path", "");
+  const LookAt look(*this, station_with(path));
   const auto first = arguments.at("line").get<std::uint32_t>();
-  const auto last = std::min(arguments.value("endLine", first), client_line(listing_->last_line()));
+  const auto last = std::min(arguments.value("endLine", first), client_line(listing().last_line()));
   Json locations = Json::array();
   for (std::uint32_t line = first; line <= last; ++line) {
-    const auto of_program = sources_->line_in(path, line_of_client(line));
-    const auto op = of_program ? listing_->op_from_line(*of_program) : std::nullopt;
-    if (op && listing_->line_of(*op) == of_program) locations.push_back({{"line", line}});
+    const auto of_program = sources().line_in(path, line_of_client(line));
+    const auto op = of_program ? listing().op_from_line(*of_program) : std::nullopt;
+    if (op && listing().line_of(*op) == of_program) locations.push_back({{"line", line}});
   }
   return {{"breakpoints", locations}};
 }
@@ -216,16 +242,20 @@ Json Session::data_breakpoint_info(const Json& arguments) {
     text = range->count > 1 ? fmt::format("{}:{}", range->name_of(0), range->count) : range->name_of(0);
   }
   const bool every_write = lower_case(name).ends_with(" write");
-  return {{"dataId", every_write ? text + " write" : text},
+  const std::string id = at_station(text, looks_at());
+  return {{"dataId", every_write ? id + " write" : id},
           {"description", every_write ? text + ", each write" : text},
           {"accessTypes", Json::array({"read", "write", "readWrite"})},
           {"canPersist", true}};
 }
 
 /// `write` stops when the value changes, whoever changes it; with `write` in the name at each write of an instruction.
-std::vector<StopPoint> Session::data_stops(const Json& wanted) const {
+std::vector<StopPoint> Session::data_stops(const Json& wanted) {
   const auto id = wanted.at("dataId").get<std::string>();
-  const std::string name = id.substr(0, id.find(' ')), access = wanted.value("accessType", "write");
+  const auto of = find_station(id.substr(0, id.find(' ')), stations());
+  if (!of) throw Refused(fmt::format("'{}' is of no station of this system", stl::shortened(id)));
+  const LookAt look(*this, of->station);
+  const std::string &name = of->reference, access = wanted.value("accessType", "write");
   std::string why;
   const auto range = parse_range(name, cpu().program(), why);
   if (!range) throw Refused(why);
@@ -235,7 +265,7 @@ std::vector<StopPoint> Session::data_stops(const Json& wanted) const {
   if (access == "write" || access == "readWrite") on.push_back(written);
   if (on.empty()) throw Refused(fmt::format("accessType: '{}' is not read, write or readWrite", stl::shortened(access)));
   std::vector<StopPoint> stops;
-  for (const On one : on) stops.push_back(with_conditions({.on = one, .range = *range, .name = name}, wanted));
+  for (const On one : on) stops.push_back(with_conditions({.station = of->station, .on = one, .range = *range, .name = name}, wanted));
   return stops;
 }
 
@@ -270,7 +300,15 @@ std::vector<StopPoint> Session::exception_stops(const Json& wanted) const {
 Json Session::set_exception_breakpoints(const Json& arguments) {
   Json wanted = arguments.value("filterOptions", Json::array());
   for (const Json& filter : arguments.value("filters", Json::array())) wanted.push_back({{"filterId", filter}});
-  return place(StopKind::Exception, "", wanted, [&](const Json& one, Json&) { return exception_stops(one); });
+  return place(StopKind::Exception, "", wanted, [&](const Json& one, Json&) {
+    std::vector<StopPoint> stops;
+    for (std::size_t station = 0; station < stations(); ++station)
+      for (StopPoint& stop : exception_stops(one)) {
+        stop.station = station;
+        stops.push_back(std::move(stop));
+      }
+    return stops;
+  });
 }
 
 Json Session::exception_info(const Json&) {

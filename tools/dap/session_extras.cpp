@@ -59,15 +59,17 @@ serial::Frame Session::frame_of(const std::string& text) const {
 
 Json Session::send_frame(const Json& arguments) {
   const serial::Frame frame = frame_of(arguments.at("frame").get<std::string>());
-  serial::Simulation& simulation = debuggee_->simulation();
-  const SerialFormat format = debuggee_->master().over(simulation.port_format());
+  serial::Simulation& line = simulation();
+  if (!line.has_master())
+    throw Refused("this line has as many stations already as it takes: there is no place for one more master");
+  const SerialFormat format = master().over(line.port_format());
   if (serial::has_wrong_parity(frame) && format.parity == Parity::None)
     throw Refused("a byte with wrong parity (p) needs a format with parity");
-  if (simulation.master().busy()) throw Refused("the last frame is still under way or waiting for its answer");
-  act(SendFrame{format, debuggee_->master().request(frame)});
+  if (line.master().busy()) throw Refused("the last frame is still under way or waiting for its answer");
+  act(SendFrame{format, master().request(frame)});
   std::string text = fmt::format("on the line from now on: {} ({})", serial::to_hex(frame), format_text(format));
-  if (!simulation.freeport().active)
-    text += fmt::format("\nport {} is not in Freeport mode: the program will not hear it", simulation.port());
+  if (!line.freeport().active)
+    text += fmt::format("\nport {} is not in Freeport mode: the program will not hear it", line.port());
   print(text);
   return {{"frame", serial::to_hex(frame)}};
 }
@@ -120,14 +122,14 @@ Json Session::unforce(const Json& arguments) {
 
 /// Of the last exchange, unless `from` names an earlier moment.
 Json Session::timeline(const Json& arguments) {
-  const serial::Exchange& exchange = debuggee_->simulation().master().exchange();
+  const serial::Exchange exchange = simulation().has_master() ? simulation().master().exchange() : serial::Exchange{};
   Time from = exchange.request_start;
   if (arguments.contains("from")) {
     const auto time = parse_duration(arguments["from"].get<std::string>());
     if (!time) throw Refused("from: a moment, for example 15.193ms");
     from = *time;
   }
-  const auto report = timeline_of_past(debuggee_->history(), debuggee_->program(), from, settings_.stop_request);
+  const auto report = timeline_of_past(debuggee_->history(), looks_at(), program(), from, settings_.stop_request);
   if (!report) refuse_interrupted();
   return {{"text", to_text(*report, exchange, false)}, {"timeline", to_json(*report, exchange)}};
 }
@@ -139,24 +141,24 @@ Session::Written Session::find_writer(const std::string& expression) {
   const Program& program = cpu().program();
   History& history = debuggee_->history();
   const auto body_of = [&](const InstructionRecord& by, const std::string& text) {
-    Json body{{"text", text}, {"instruction", execution_text(by, program)}, {"routine", listing_->routine_of(by.op)}};
+    Json body{{"text", text}, {"instruction", execution_text(by, program)}, {"routine", listing().routine_of(by.op)}};
     body.update(client_place(by.op));
     return body;
   };
   if (lower_case(expression).starts_with("event ")) {
     const auto event = parse_decimal<std::uint8_t>(stl::trim(std::string_view(expression).substr(6)));
     if (!event || !find_event(*event)) throw Refused("expected the number of an event, for example event 8");
-    const AttachmentSearch search = find_last_attachment(history, *event, settings_.stop_request);
+    const AttachmentSearch search = find_last_attachment(history, looks_at(), *event, settings_.stop_request);
     if (search.interrupted) refuse_interrupted();
     if (!search.attachment)
       throw Refused(fmt::format("no instruction has attached or detached {} since power-up", event_text(*event)));
     const LastAttachment& found = *search.attachment;
     return {found.moment,
             body_of(found.by, fmt::format("{}  {}\n  by {} {}", moment_text(found.what.at), describe(found.what, program),
-                                          listing_->routine_of(found.by.op), execution_text(found.by, program)))};
+                                          listing().routine_of(found.by.op), execution_text(found.by, program)))};
   }
   const MemoryRange range = range_for(expression);
-  const WriteSearch search = find_last_write(debuggee_->simulation(), history, range, settings_.stop_request);
+  const WriteSearch search = find_last_write(history, looks_at(), range, settings_.stop_request);
   if (search.interrupted) refuse_interrupted();
   if (!search.write) throw Refused(fmt::format("nothing has written {} since power-up", expression));
   const LastWrite& write = *search.write;
@@ -164,7 +166,7 @@ Session::Written Session::find_writer(const std::string& expression) {
                                  value_text(program, range, write.after), moment_text(write.at));
   if (write.by)
     return {write.moment,
-            body_of(*write.by, text + fmt::format("  by {} {}{}", listing_->routine_of(write.by->op),
+            body_of(*write.by, text + fmt::format("  by {} {}{}", listing().routine_of(write.by->op),
                                                   execution_text(*write.by, program),
                                                   write.in_interrupt ? ", serving " + event_text(write.event) : ""))};
   text += write.action ? fmt::format("  by '{}', from outside", describe(history.actions()[*write.action]))
@@ -187,7 +189,7 @@ Json Session::reverse_to_last_write(const Json& arguments) {
 // --- why ---
 
 Session::Written Session::find_decision() {
-  const DecisionSearch search = find_last_decision(debuggee_->simulation(), debuggee_->history(), settings_.stop_request);
+  const DecisionSearch search = find_last_decision(debuggee_->history(), looks_at(), settings_.stop_request);
   if (search.interrupted) refuse_interrupted();
   std::string unanswered;
   for (const TraceLine& line : search.unanswered) unanswered += fmt::format("\n{}  {}", moment_text(line.at), line.text);
@@ -198,7 +200,7 @@ Session::Written Session::find_decision() {
   const LastDecision& found = *search.decision;
   Json body{{"text", fmt::format("{}  {}{}", moment_text(found.by.at), found.text, unanswered)},
             {"instruction", execution_text(found.by, cpu().program())},
-            {"routine", listing_->routine_of(found.by.op)}};
+            {"routine", listing().routine_of(found.by.op)}};
   body.update(client_place(found.by.op));
   return {found.moment, body};
 }
@@ -221,9 +223,9 @@ Json Session::last_instructions(const Json& arguments) {
   if (count < 1 || count > kMost) throw Refused("count: how many instructions, up to 10000");
   Json list = Json::array();
   for (const InstructionRecord& record :
-       tools::last_instructions(debuggee_->history(), static_cast<std::size_t>(count), settings_.stop_request)) {
+       tools::last_instructions(debuggee_->history(), looks_at(), static_cast<std::size_t>(count), settings_.stop_request)) {
     Json one{{"time", clock_text(record.at)},
-             {"routine", listing_->routine_of(record.op)},
+             {"routine", listing().routine_of(record.op)},
              {"text", execution_text(record, cpu().program())}};
     one.update(client_place(record.op));
     list.push_back(std::move(one));
@@ -234,15 +236,16 @@ Json Session::last_instructions(const Json& arguments) {
 /// What each instruction of some lines did when it was last executed.
 Json Session::stl_status(const Json& arguments) {
   const std::string path = arguments.at("source").value("path", "");
-  const auto first_line = sources_->line_in(path, line_of_client(arguments.at("line").get<std::uint32_t>()));
-  const auto last_line = sources_->line_in(path, line_of_client(arguments.at("endLine").get<std::uint32_t>()));
+  const LookAt look(*this, station_with(path));
+  const auto first_line = sources().line_in(path, line_of_client(arguments.at("line").get<std::uint32_t>()));
+  const auto last_line = sources().line_in(path, line_of_client(arguments.at("endLine").get<std::uint32_t>()));
   const Program& program = cpu().program();
-  const auto first = first_line ? listing_->op_from_line(*first_line) : std::nullopt;
+  const auto first = first_line ? listing().op_from_line(*first_line) : std::nullopt;
   Json lines = Json::array();
   if (first) {
     auto end = static_cast<std::uint32_t>(program.ops.size());
-    while (last_line && end > *first && listing_->line_of(end - 1) > *last_line) --end;
-    const LastExecutions last = tools::last_executions(debuggee_->history(), *first, end, kLookedAt, settings_.stop_request);
+    while (last_line && end > *first && listing().line_of(end - 1) > *last_line) --end;
+    const LastExecutions last = tools::last_executions(debuggee_->history(), looks_at(), *first, end, kLookedAt, settings_.stop_request);
     for (const auto& [op, record] : last.of) {
       const std::string text = describe(record, program);
       const std::size_t values = text.find("S0=");

@@ -32,12 +32,12 @@ Json Session::read_memory(const Json& arguments) {
   const std::int64_t first = place.at + amount_in(arguments, "offset", 0);
   const std::int64_t begin = std::clamp<std::int64_t>(first, place.begin, area_end);
   const std::int64_t end = std::clamp<std::int64_t>(first + std::max<std::int64_t>(count, 0), begin, area_end);
-  Json body{{"address", address_text(begin)}};
+  Json body{{"address", at_station(address_text(begin), looks_at())}};
   if (first + count > end) body["unreadableBytes"] = std::max<std::int64_t>(0, first + count - end);
   if (begin == end) return body;
   body["data"] = to_base64(
       std::span(all).subspan(static_cast<std::size_t>(begin - place.begin), static_cast<std::size_t>(end - begin)));
-  read_[arguments["memoryReference"].get<std::string>()] = all;  // to tell when it changes, an area is looked at as a whole
+  read_[at_station(arguments["memoryReference"].get<std::string>(), looks_at())] = all;  // to tell when it changes, an area is looked at as a whole
   return body;
 }
 
@@ -100,7 +100,9 @@ Json Session::assign(const std::string& expression, const std::string& value) {
         fmt::format("'{}' is not a value that fits {}; write for example 5, 16#FF, 1.5", stl::shortened(value), expression));
   act(SetMemory{{*assignment}});
   const Variable variable = variable_of(cpu(), range, expression);
-  Json body{{"value", variable.value}, {"type", variable.type}, {"memoryReference", variable.memory}};
+  Json body{{"value", variable.value},
+            {"type", variable.type},
+            {"memoryReference", at_station(variable.memory, looks_at())}};
   if (range.area == Area::I && standing_at(cpu().state()))
     print("the input points are set; the program finds them in I when the next scan reads its inputs");
   return body;
@@ -111,13 +113,13 @@ Json Session::set_level(const Variable& level, const std::string& value) {
   if (!bit || *bit > 1) throw Refused(fmt::format("'{}' is not a level of the logic stack: 0 or 1", stl::shortened(value)));
   const auto place = find_memory(level.memory, cpu().program());
   write_levels(*place, place->at, {*bit});
-  return {{"value", std::to_string(*bit)}, {"type", level.type}, {"memoryReference", level.memory}};
+  return {{"value", std::to_string(*bit)}, {"type", level.type}, {"memoryReference", at_station(level.memory, looks_at())}};
 }
 
 Json Session::set_variable(const Json& arguments) {
   const auto name = arguments.at("name").get<std::string>();
   const auto container = arguments.at("variablesReference").get<Container>();
-  for (const Variable& variable : variables_of(debuggee_->simulation(), debuggee_->history(), container))
+  for (const Variable& variable : variables_of(simulation(), debuggee_->history(), container))
     if (variable.name == name && variable.settable) {
       const auto value = arguments.at("value").get<std::string>();
       return variable.expression.empty() ? set_level(variable, value) : assign(variable.expression, value);
@@ -134,7 +136,7 @@ void Session::act(Action action) {
   History& history = debuggee_->history();
   const bool branches = history.in_the_past();
   const Time left = history.newest().time;
-  history.act(std::move(action));
+  history.act(std::move(action), looks_at());
   if (branches) {
     print(fmt::format("a new branch begins here; what ran up to {} is on the old one", moment_text(left)));
     note_new_branch();
@@ -147,7 +149,7 @@ void Session::act(Action action) {
 
 /// A record of what went on cannot go back: a capture ends, a trace says so by its times.
 void Session::note_new_branch() {
-  debuggee_->simulation().set_wire_sink(nullptr);
+  for (std::size_t station = 0; station < stations(); ++station) debuggee_->history().station(station).plc().unwatch_lines();
   const std::string files = debuggee_->recorded_files();
   if (files.empty() || std::exchange(captures_end_, true)) return;
   print(fmt::format("{}: traces go on with what is new, after what ran before; captures of the line end", files));
@@ -157,7 +159,9 @@ void Session::note_new_branch() {
 void Session::report_memory_changes() {
   if (!client_takes_memory_events_) return;
   for (auto& [reference, before] : read_) {
-    const auto place = find_memory(reference, cpu().program());
+    const auto of = find_station(reference, stations());
+    const LookAt look(*this, of->station);
+    const auto place = find_memory(of->reference, cpu().program());
     auto now = bytes_of(*place, cpu().state());
     const std::size_t size = std::max(before.size(), now.size());  // one of them is none: the routine is not open
     const auto same = [&before = before, &now](std::size_t i) {

@@ -18,11 +18,16 @@
 namespace s7200::tools::dap {
 namespace {
 
-Json to_json(const Variable& variable) {
-  Json json{{"name", variable.name}, {"value", variable.value}, {"variablesReference", variable.parts}};
+std::int64_t container_at(std::size_t station, Container container) {
+  return container == kNoParts ? 0 : static_cast<std::int64_t>(station) * kContainersOfAStation + container;
+}
+
+Json to_json(const Variable& variable, std::size_t station) {
+  Json json{
+      {"name", variable.name}, {"value", variable.value}, {"variablesReference", container_at(station, variable.parts)}};
   if (!variable.type.empty()) json["type"] = variable.type;
   if (!variable.expression.empty()) json["evaluateName"] = variable.expression;
-  if (!variable.memory.empty()) json["memoryReference"] = variable.memory;
+  if (!variable.memory.empty()) json["memoryReference"] = at_station(variable.memory, station);
   if (!variable.settable) json["presentationHint"] = {{"attributes", Json::array({"readOnly"})}};
   return json;
 }
@@ -43,14 +48,20 @@ constexpr std::string_view kForms[] = {"VB", "VW", "VD", "MB", "MW", "MD", "IB",
 }  // namespace
 
 Json Session::threads(const Json&) {
-  const std::string name = debuggee_ ? fmt::format("CPU {}", cpu().program().model->name) : "CPU";
-  return {{"threads", Json::array({{{"id", 1}, {"name", name}}})}};
+  Json threads = Json::array();
+  if (!debuggee_) threads.push_back({{"id", 1}, {"name", "CPU"}});
+  for (std::size_t station = 0; debuggee_ && station < stations(); ++station) {
+    const std::string name = debuggee_->name(station);
+    threads.push_back({{"id", station + 1},
+                       {"name", name.empty() ? fmt::format("CPU {}", debuggee_->program(station)->model->name) : name}});
+  }
+  return {{"threads", threads}};
 }
 
 Json Session::frame_of(std::uint32_t number, std::uint32_t op, const std::string& name) const {
-  Json frame{{"id", number + 1}, {"name", name}};
+  Json frame{{"id", static_cast<std::int64_t>(looks_at()) * kFramesOfAStation + number + 1}, {"name", name}};
   frame.update(client_place(op));
-  frame["instructionPointerReference"] = instruction_reference(op);
+  frame["instructionPointerReference"] = at_station(instruction_reference(op), looks_at());
   return frame;
 }
 
@@ -60,11 +71,12 @@ Json Session::stack_trace(const Json& arguments) {
   const auto add = [&](std::uint32_t op, const std::string& name) {
     frames.push_back(frame_of(static_cast<std::uint32_t>(frames.size()), op, name));
   };
-  for (const OpenRoutine& open : open_routines(state)) {
-    const std::string& routine = listing_->routine_of(open.op);
+  const bool powered = simulation().plc().powered();
+  for (const OpenRoutine& open : powered ? open_routines(state) : std::vector<OpenRoutine>{}) {
+    const std::string& routine = listing().routine_of(open.op);
     add(open.op, open.event ? fmt::format("{} for {}", routine, event_text(*open.event)) : routine);
   }
-  if (frames.empty()) add(state.fatal_code && state.fatal_op != kNoRoutine ? state.fatal_op : 0, "STOP");
+  if (frames.empty()) add(state.fatal_code && state.fatal_op != kNoRoutine ? state.fatal_op : 0, powered ? "STOP" : "without power");
   const auto total = frames.size();
   const auto start = std::min(arguments.value("startFrame", std::size_t{0}), total);
   const auto levels = arguments.value("levels", std::size_t{0});
@@ -77,10 +89,10 @@ Json Session::stack_trace(const Json& arguments) {
 Json Session::scopes(const Json& arguments) {
   const auto frame = arguments.at("frameId").get<std::uint32_t>();
   Json scopes = Json::array();
-  for (const Scope& scope : scopes_of(debuggee_->simulation(), frame == 0 ? 0 : frame - 1)) {
-    Json json{{"name", scope.name}, {"variablesReference", scope.variables}, {"expensive", false}};
+  for (const Scope& scope : scopes_of(simulation(), frame == 0 ? 0 : frame - 1)) {
+    Json json{{"name", scope.name}, {"variablesReference", container_at(looks_at(), scope.variables)}, {"expensive", false}};
     if (scope.registers) json["presentationHint"] = "registers";
-    if (!scope.memory.empty()) json["memoryReference"] = scope.memory;
+    if (!scope.memory.empty()) json["memoryReference"] = at_station(scope.memory, looks_at());
     scopes.push_back(std::move(json));
   }
   return {{"scopes", scopes}};
@@ -88,19 +100,25 @@ Json Session::scopes(const Json& arguments) {
 
 Json Session::variables(const Json& arguments) {
   const auto container = arguments.at("variablesReference").get<Container>();
-  const auto all = variables_of(debuggee_->simulation(), debuggee_->history(), container);
+  const auto all = variables_of(simulation(), debuggee_->history(), container);
   const auto start = std::min(arguments.value("start", std::size_t{0}), all.size());
   const auto count = arguments.value("count", std::size_t{0});
   const auto end = count == 0 ? all.size() : std::min(all.size(), start + count);
   Json variables = Json::array();
   for (std::size_t i = start; i < end; ++i) {
-    variables.push_back(to_json(all[i]));
+    variables.push_back(to_json(all[i], looks_at()));
     if (wants_hex(arguments) && !all[i].memory.empty()) variables.back()["value"] = hex_of(all[i].value);
   }
   return {{"variables", variables}};
 }
 
-Json Session::loaded_sources(const Json&) { return {{"sources", sources_->all()}}; }
+Json Session::loaded_sources(const Json&) {
+  Json all = Json::array();
+  for (const Station& station : stations_)
+    for (const Json& source : station.sources.all())
+      if (std::ranges::find(all, source) == all.end()) all.push_back(source);
+  return {{"sources", all}};
+}
 
 // --- expressions ---
 
@@ -126,7 +144,7 @@ Json Session::evaluated(const std::string& expression, bool hex) {
     return {{"result", hex ? hex_of(variable.value) : variable.value},
             {"type", variable.type},
             {"variablesReference", 0},
-            {"memoryReference", variable.memory}};
+            {"memoryReference", at_station(variable.memory, looks_at())}};
   }
   const auto parsed = Expression::parse(expression, cpu().program(), why_no_expression);
   const bool one_word = expression.find_first_of(" (+-/<>=") == std::string::npos;
@@ -202,7 +220,7 @@ Json Session::disassemble(const Json& arguments) {
   const auto size = static_cast<std::int64_t>(cpu().program().ops.size());
   Json instructions = Json::array();
   for (std::int64_t i = first; i < first + count; ++i) {
-    Json one{{"address", instruction_reference(i)}};
+    Json one{{"address", at_station(instruction_reference(i), looks_at())}};
     if (i < 0 || i >= size) {
       one.update({{"instruction", "-"}, {"presentationHint", "invalid"}});
     } else {
@@ -211,7 +229,7 @@ Json Session::disassemble(const Json& arguments) {
       one["instruction"] = resolved_text(op);
       one["location"] = place["source"];
       one["line"] = place["line"];
-      if (op == 0 || listing_->routine_of(op) != listing_->routine_of(op - 1)) one["symbol"] = listing_->routine_of(op);
+      if (op == 0 || listing().routine_of(op) != listing().routine_of(op - 1)) one["symbol"] = listing().routine_of(op);
     }
     instructions.push_back(std::move(one));
   }

@@ -48,12 +48,12 @@ bool Session::by_networks(const Json& arguments) const {
 
 Json Session::next(const Json& arguments) {
   const State& now = cpu().state();
-  run_to(by_networks(arguments) ? goal::network_over(now, *listing_) : goal::over(now), "step");
+  run_to(by_networks(arguments) ? goal::network_over(now, listing()) : goal::over(now), "step");
   return {};
 }
 
 Json Session::step_in(const Json& arguments) {
-  run_to(by_networks(arguments) ? goal::network_into(*listing_) : goal::instructions(1), "step");
+  run_to(by_networks(arguments) ? goal::network_into(listing()) : goal::instructions(1), "step");
   return {};
 }
 
@@ -82,23 +82,24 @@ Json Session::pause(const Json&) {
 
 /// Puts the next frame of the launch on the line. False if there is none, or not yet.
 bool Session::send_what_is_due() {
-  serial::Simulation& simulation = debuggee_->simulation();
-  if (frames_sent_ == frames_.size() || debuggee_->history().in_the_past() || simulation.master().busy() ||
-      simulation.time() < send_after_ || cpu().state().mode == Mode::Stop)
+  const std::size_t first = debuggee_->first_station();
+  serial::Simulation& there = debuggee_->history().station(first);
+  if (frames_sent_ == frames_.size() || debuggee_->history().in_the_past() || there.master().busy() ||
+      there.time() < send_after_ || !there.plc().executes())
     return false;
-  const serial::MasterSettings& master = debuggee_->master();
-  debuggee_->history().act(SendFrame{master.over(simulation.port_format()), master.request(frames_[frames_sent_++])});
+  const serial::MasterSettings& master = debuggee_->master(first);
+  debuggee_->history().act(SendFrame{master.over(there.port_format()), master.request(frames_[frames_sent_++])}, first);
   return true;
 }
 
 void Session::run() {
   while (running_) {
-    if (pause_asked_) return report({.reason = StopReason::Request}, "pause");
-    if (cpu().state().mode == Mode::Stop && !debuggee_->history().in_the_past())
-      return report({.reason = StopReason::CpuStopped}, "");
+    if (pause_asked_) return report({.reason = StopReason::Request, .station = looks_at()}, "pause");
+    if (stations() == 1 && cpu().state().mode == Mode::Stop && !debuggee_->history().in_the_past())
+      return report({.reason = StopReason::CpuStopped, .station = looks_at()}, "");
     send_what_is_due();
     const bool more = frames_sent_ < frames_.size();
-    const Time now = debuggee_->simulation().time();
+    const Time now = simulation().time();
     const Stop stop = stepper_->run(running_->goal, more && now < send_after_ ? send_after_ : kNever, more);
     if (!debuggee_->failure().empty()) return report(stop, "pause");
     if (stop.reason == StopReason::Request) {
@@ -113,7 +114,7 @@ void Session::run() {
 
 Json Session::step_back(const Json& arguments) {
   if (by_networks(arguments))
-    run_back(goal::back_network_into(*listing_), count_in(arguments), false);
+    run_back(goal::back_network_into(listing()), count_in(arguments), false);
   else
     run_back(goal::back_instruction(), count_in(arguments), false);
   return {};
@@ -126,7 +127,7 @@ Json Session::reverse_continue(const Json&) {
 
 Json Session::reverse_step_over(const Json& arguments) {
   const State& now = cpu().state();
-  run_back(by_networks(arguments) ? goal::back_network_over(now, *listing_) : goal::back_over(now), 1, false);
+  run_back(by_networks(arguments) ? goal::back_network_over(now, listing()) : goal::back_over(now), 1, false);
   return {};
 }
 
@@ -164,7 +165,7 @@ void Session::run_back(Stepper::Goal goal, std::uint64_t count, bool stop_at_ans
 Stop Session::searched_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point since = Clock::now();
-  const Time start = debuggee_->simulation().time();
+  const Time start = simulation().time();
   const std::string id = fmt::format("back {}", handling_);
   bool shown = false;
   stepper_->on_search = [&](Time from) {
@@ -185,28 +186,31 @@ Stop Session::searched_back(const Stepper::Goal& goal, std::uint64_t count, bool
 // --- elsewhere ---
 
 Json Session::goto_targets(const Json& arguments) {
+  const LookAt look(*this, station_with(arguments.at("source").value("path", "")));
   const auto line =
-      sources_->line_in(arguments.at("source").value("path", ""), line_of_client(arguments.at("line").get<std::uint32_t>()));
-  const auto op = line ? listing_->op_from_line(*line) : std::nullopt;
+      sources().line_in(arguments.at("source").value("path", ""), line_of_client(arguments.at("line").get<std::uint32_t>()));
+  const auto op = line ? listing().op_from_line(*line) : std::nullopt;
   const auto here = standing_at(cpu().state());
   Json targets = Json::array();
-  if (!op || !here || listing_->routine_of(*op) != listing_->routine_of(*here)) return {{"targets", targets}};
-  goto_targets_[*op + 1] = *op;
+  if (!op || !here || listing().routine_of(*op) != listing().routine_of(*here)) return {{"targets", targets}};
+  const std::int64_t id = static_cast<std::int64_t>(looks_at()) * kContainersOfAStation + *op + 1;
+  goto_targets_[id] = {looks_at(), *op};
   const Json place = client_place(*op);
-  targets.push_back({{"id", *op + 1},
-                     {"label", listing_->text_of(*op)},
+  targets.push_back({{"id", id},
+                     {"label", listing().text_of(*op)},
                      {"line", place["line"]},
                      {"column", place["column"]},
-                     {"instructionPointerReference", instruction_reference(*op)}});
+                     {"instructionPointerReference", at_station(instruction_reference(*op), looks_at())}});
   return {{"targets", targets}};
 }
 
 Json Session::go_to(const Json& arguments) {
   const auto target = goto_targets_.find(arguments.at("targetId").get<std::int64_t>());
   const auto here = standing_at(cpu().state());
-  if (target == goto_targets_.end() || !here || listing_->routine_of(target->second) != listing_->routine_of(*here))
+  if (target == goto_targets_.end() || !here || target->second.first != looks_at() ||
+      listing().routine_of(target->second.second) != listing().routine_of(*here))
     throw Refused("goto leads only to an instruction of the routine that runs, which gotoTargets has named");
-  act(Jump{target->second});
+  act(Jump{target->second.second});
   after_response([this] { stopped_at("goto", "the next instruction is another one now"); });
   return {};
 }
@@ -220,7 +224,7 @@ Json Session::go_to_moment(const Json& arguments) {
   if (text == "start") time = 0;
   if (text == "end") time = history.newest().time;
   if (!time) throw Refused("time: a moment, for example 15.193ms, -5ms, start, end");
-  const Time now = debuggee_->simulation().time();
+  const Time now = simulation().time();
   if (before_now) time = now - std::min(*time, now);
   if (*time > history.newest().time)
     throw Refused(fmt::format("nothing has run after {}", moment_text(history.newest().time)));
@@ -230,7 +234,7 @@ Json Session::go_to_moment(const Json& arguments) {
       past.go_to(past.usage().oldest);
     else
       past.go_to(to);
-    stopped_at("goto", fmt::format("at {}", moment_text(debuggee_->simulation().time())));
+    stopped_at("goto", fmt::format("at {}", moment_text(simulation().time())));
   });
   return {};
 }
@@ -240,7 +244,8 @@ Json Session::go_to_moment(const Json& arguments) {
 void Session::report(const Stop& stop, const std::string& reason) {
   running_.reset();
   pause_asked_ = false;
-  if (first_error_) report_error(*first_error_);
+  stepper_->look_at(stop.station);
+  if (first_error_) report_error(first_error_->first, first_error_->second);
   for (const StopPoint& skipped : stepper_->stops)
     if (skipped.skipped != 0)
       print(fmt::format("breakpoint {} was passed {} without power flow; with the condition 'always' it stops there too",
@@ -248,8 +253,9 @@ void Session::report(const Stop& stop, const std::string& reason) {
   report_stopped(body_of(stop, reason));
 }
 
-void Session::report_error(const TraceRecord& error) {
-  print(describe(error, cpu().program()), "important", error.op);
+void Session::report_error(std::size_t station, const TraceRecord& error) {
+  const LookAt look(*this, station);
+  print(said_of(station) + describe(error, cpu().program()), "important", error.op);
   if (error.op == kNoRoutine) return;
   for (const MemoryRange& pointer : bad_pointers(cpu(), error.op))
     print(text_of_bad_pointer("*" + pointer.name_of(0), pointer));
@@ -261,7 +267,7 @@ void Session::stopped_at(const std::string& reason, const std::string& descripti
 }
 
 void Session::report_stopped(Json body) {
-  body["threadId"] = 1;
+  body["threadId"] = thread();
   body["allThreadsStopped"] = true;
   show_the_past();
   send_event("stopped", std::move(body));
@@ -272,7 +278,7 @@ void Session::show_the_past() {
   const History& history = debuggee_->history();
   if (history.in_the_past())
     print(fmt::format("in the past, at {}; going forward plays what has run, up to {}",
-                      moment_text(debuggee_->simulation().time()), moment_text(history.newest().time)));
+                      moment_text(simulation().time()), moment_text(history.newest().time)));
 }
 
 Json Session::body_of(const Stop& stop, const std::string& reason) {
@@ -308,15 +314,17 @@ Json Session::body_of_hit(const Hit& hit) {
 
 /// `breakpoint 2, unanswered, hit 3 times: …`
 std::string Session::text_of(const Hit& hit) const {
-  const Program& program = cpu().program();
-  std::string text = fmt::format("{} {}: {}", hit.stop.is_watch() ? "watch" : "breakpoint", hit.stop.number, hit.stop.name);
+  const Program& program = *debuggee_->program(hit.stop.station);
+  const Listing& listing = stations_[hit.stop.station].listing;
+  std::string text = said_of(hit.stop.station);
+  text += fmt::format("{} {}: {}", hit.stop.is_watch() ? "watch" : "breakpoint", hit.stop.number, hit.stop.name);
   if (hit.record) text += fmt::format(", {}  {}", moment_text(hit.record->at), describe(*hit.record, program));
   if (!hit.frame.empty()) text += ", " + serial::to_hex(hit.frame);
   if (hit.stop.is_watch()) {
     const std::string was = value_text(program, *hit.stop.range, hit.stop.value);
     const std::string is = value_text(program, *hit.stop.range, hit.value);
     text += was == is ? fmt::format(" is {} as before", is) : fmt::format(" was {}, is {}", was, is);
-    text += hit.by ? fmt::format(", by {} {}", listing_->routine_of(hit.by->op), describe(*hit.by, program))
+    text += hit.by ? fmt::format(", by {} {}", listing.routine_of(hit.by->op), describe(*hit.by, program))
                    : ", by the system, between two instructions";
   }
   return text;
@@ -325,13 +333,13 @@ std::string Session::text_of(const Hit& hit) const {
 /// With the filter it stands in front of the instruction that made the CPU stop.
 Json Session::body_of_cpu_stop() {
   const State& state = cpu().state();
-  if (state.fatal_code == 0) return {{"reason", "pause"}, {"description", "the CPU is in STOP"}};
+  if (state.fatal_code == 0) return {{"reason", "pause"}, {"description", said_of(looks_at()) + "the CPU is in STOP"}};
   const auto code = state.fatal_code;
   const std::uint32_t op = state.fatal_op;
   const bool between = op == kNoRoutine;
   const std::string text = fmt::format(
-      "the CPU went to STOP: fatal error {:04X}, {}, {}", code, meaning_of(FatalError{code}),
-      between ? "between two scans" : fmt::format("in {} line {}", listing_->routine_of(op), listing_->line_of(op)));
+      "{}the CPU went to STOP: fatal error {:04X}, {}, {}", said_of(looks_at()), code, meaning_of(FatalError{code}),
+      between ? "between two scans" : fmt::format("in {} line {}", listing().routine_of(op), listing().line_of(op)));
   print(text, "important", between ? std::nullopt : std::optional(op));
   exception_ = {{"exceptionId", fmt::format("fatal {:04X}", code)}, {"description", text}, {"breakMode", "always"}};
   const bool wanted = std::ranges::any_of(placed_, [](const auto& entry) {

@@ -9,6 +9,7 @@ namespace {
 
 struct Doer {
   serial::Simulation& simulation;
+  serial::HostPort* host;
 
   void operator()(const SetMemory& set) const {
     for (const Assignment& assignment : set.assignments) assign(simulation.cpu(), assignment);
@@ -33,7 +34,7 @@ struct Doer {
       simulation.clear_faults();
   }
   void operator()(const SetStack& set) const { simulation.cpu().set_stack(set.stack); }
-  void operator()(const serial::HostCall& call) const { simulation.host_port().repeat(call, simulation.time()); }
+  void operator()(const serial::HostCall& call) const { host->repeat(call, simulation.time()); }
 };
 
 struct Teller {
@@ -63,7 +64,9 @@ struct Teller {
 
 }  // namespace
 
-void perform(const Action& action, serial::Simulation& simulation) { std::visit(Doer{simulation}, action); }
+void perform(const Action& action, serial::Simulation& simulation, serial::HostPort* host) {
+  std::visit(Doer{simulation, host}, action);
+}
 
 std::string describe(const Action& action) { return std::visit(Teller{}, action); }
 

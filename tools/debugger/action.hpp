@@ -48,7 +48,8 @@ struct SetStack {
 
 using Action = std::variant<SetMemory, SendFrame, Jump, serial::HostCall, Force, Unforce, SetStack, InjectFault>;
 
-void perform(const Action& action, serial::Simulation& simulation);
+/// `host`: the port that a HostCall is made to.
+void perform(const Action& action, serial::Simulation& simulation, serial::HostPort* host = nullptr);
 
 /// `set VW100`, `send 01 03 …`: what it was, in a few words.
 std::string describe(const Action& action);

@@ -6,7 +6,7 @@ namespace {
 /// Sees every instruction until someone asks it to stop.
 class Reader : public Observer {
  public:
-  explicit Reader(const std::atomic<bool>* stop_request) : stop_request_(stop_request) {}
+  Reader(std::size_t station, const std::atomic<bool>* stop_request) : Observer(station), stop_request_(stop_request) {}
   bool wants_instructions() const override { return true; }
   bool before(std::uint32_t) override { return !(stop_request_ && *stop_request_); }
 
@@ -16,8 +16,8 @@ class Reader : public Observer {
 
 class AttachmentFinder final : public Reader {
  public:
-  AttachmentFinder(const History& history, std::uint8_t event, const std::atomic<bool>* stop_request)
-      : Reader(stop_request), history_(history), event_(event) {}
+  AttachmentFinder(const History& history, std::size_t station, std::uint8_t event, const std::atomic<bool>* stop_request)
+      : Reader(station, stop_request), history_(history), event_(event) {}
 
   bool before(std::uint32_t op) override {
     in_front_ = history_.in_front();
@@ -60,19 +60,19 @@ class Collector final : public Reader {
 
 }  // namespace
 
-AttachmentSearch find_last_attachment(History& history, std::uint8_t event, const std::atomic<bool>* stop_request) {
+AttachmentSearch find_last_attachment(History& history, std::size_t station, std::uint8_t event, const std::atomic<bool>* stop_request) {
   const Moment start = history.now();
-  AttachmentFinder finder(history, event, stop_request);
+  AttachmentFinder finder(history, station, event, stop_request);
   const auto search = history.search_back(
       finder, start, [] {}, [&] { return finder.last.has_value(); });
   history.go_to(start);
   return {search == History::Search::Found ? finder.last : std::nullopt, search == History::Search::Interrupted};
 }
 
-std::vector<InstructionRecord> last_instructions(History& history, std::size_t count,
+std::vector<InstructionRecord> last_instructions(History& history, std::size_t station, std::size_t count,
                                                  const std::atomic<bool>* stop_request) {
   const Moment start = history.now();
-  Collector collector(stop_request);
+  Collector collector(station, stop_request);
   const auto search = history.search_back(
       collector, start, [&] { collector.begin(); }, [&] { return collector.size() >= count; });
   history.go_to(start);

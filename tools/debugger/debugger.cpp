@@ -52,17 +52,17 @@ History::Settings settings_of(const DebuggerOptions& options, std::function<void
 }  // namespace
 
 Debugger::Debugger(serial::Simulation& simulation, std::ostream& out, const DebuggerOptions& options)
-    : simulation_(simulation),
-      out_(out),
-      options_(options),
-      listing_(simulation.cpu().program()),
-      history_(simulation, settings_of(options, [this] { show_progress(); })),
-      stepper_(simulation, history_, options.stop_request),
-      trace_lines_(simulation.cpu().program()) {
+    : Debugger(std::vector{&simulation}, out, options) {}
+
+Debugger::Debugger(const std::vector<serial::Simulation*>& stations, std::ostream& out, const DebuggerOptions& options)
+    : out_(out), options_(options), history_(stations, settings_of(options, [this] { show_progress(); })), stepper_(history_, options.stop_request) {
+  for (serial::Simulation* const station : stations) stations_.emplace_back(*station);
+  for (const DebuggedStation& station : options_.stations) name_width_ = std::max(name_width_, station.name.size());
+  stepper_.look_at(options_.station);
   stepper_.host_timeout = options_.master.timeout;
-  stepper_.on_record = [this](const TraceRecord& record) { print_trace(record); };
-  stepper_.on_instruction = [this](const InstructionRecord& record, bool started_at) {
-    print_instruction(record, started_at);
+  stepper_.on_record = [this](std::size_t station, const TraceRecord& record) { print_trace(station, record); };
+  stepper_.on_instruction = [this](std::size_t station, const InstructionRecord& record, bool started_at) {
+    print_instruction(station, record, started_at);
   };
   stepper_.on_message = [this](const StopPoint& stop) { print_message(stop); };
   stepper_.on_answer = [this](const serial::Exchange& exchange) { print_answer(exchange); };
@@ -97,7 +97,7 @@ void Debugger::show_progress() {
   progress_at_ = host_time() + std::min(options_.patience, kSecond);
   progress_shown_ = true;
   out_.flush();
-  options_.progress(fmt::format("at {}; Ctrl-C ends it", moment_text(simulation_.time())));
+  options_.progress(fmt::format("at {}; Ctrl-C ends it", moment_text(simulation().time())));
 }
 
 /// Something else is to be printed.
@@ -120,46 +120,58 @@ std::optional<ScriptError> Debugger::run_script(std::istream& in) {
 bool Debugger::stop_requested() const { return options_.stop_request && *options_.stop_request; }
 
 void Debugger::show_place() {
-  out_ << place_text(simulation_.cpu(), listing_);
-  for (const MemoryRange& range : displayed_) out_ << memory_text(range);
+  if (is_system()) out_ << name_of(focus()) << "  ";
+  out_ << (simulation().plc().powered() ? place_text(simulation().cpu(), listing()) : place_line(focus()) + "\n");
+  for (const auto& [station, range] : displayed_) out_ << said_of(station) << memory_text(station, range);
 }
 
 void Debugger::go(const Run& run) {
-  if (simulation_.cpu().state().mode == Mode::Stop) {
+  const bool executes = simulation().plc().executes();
+  if (!executes && !is_system()) {
     out_ << "the CPU is in STOP and executes nothing; 'rstep' and 'back' return to before that, 'restart' powers it up "
             "again\n";
+    return;
+  }
+  if (!executes && !run.of_all) {
+    out_ << fmt::format("{} {} and executes nothing; 'continue' runs the others, 'station NAME' goes over to one of them\n",
+                        name_of(focus()), simulation().plc().powered() ? "is in STOP" : "is without power");
     return;
   }
   remember();
   show_ = run.show;
   first_error_.reset();
-  const std::uint64_t errors_before = simulation_.cpu().state().error_count;
-  const Time end = simulation_.time() < kNever - run.limit ? simulation_.time() + run.limit : kNever;
+  const std::uint64_t errors_before = errors_of_all();
+  const Time now = history_.now().time, end = now < kNever - run.limit ? now + run.limit : kNever;
   begin_live_status();
   const Stop stop = at_length([&] { return stepper_.run(run.goal, end, run.stop_at_answer); });
   live_status_.reset();
-  report(stop, run, simulation_.cpu().state().error_count - errors_before);
+  write_trace(kNever);
+  look_at(stop.station);
+  report(stop, run, errors_of_all() - errors_before);
 }
 
 /// What ran before says nothing of what comes.
 void Debugger::note_going_elsewhere() {
-  last_op_.reset();
-  trace_lines_.forget();
+  for (Station& station : stations_) {
+    station.last_op.reset();
+    station.trace_lines.forget();
+  }
 }
 
 void Debugger::remember() {
   if (kept_.size() == kKeptStates) kept_.pop_front();
-  kept_.push_back({command_, history_.here()});
+  kept_.push_back({command_, history_.here(), focus()});
 }
 
 void Debugger::go_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer) {
   remember();
   first_error_.reset();
   const Stop stop = at_length([&] { return stepper_.run_back(goal, count, stop_at_answer); });
+  look_at(stop.station);
   note_going_elsewhere();
   report_hits(stop);
   report_reason(stop, {});
-  if (stop.reason == StopReason::Answer) print_answer(simulation_.master().exchange());
+  if (stop.reason == StopReason::Answer) print_answer(simulation().master().exchange());
   show_place();
   note_the_past();
 }
@@ -174,7 +186,7 @@ void Debugger::act(Action action) {
   const bool branches = history_.in_the_past();
   const Time left = history_.newest().time;
   if (branches) remember();
-  history_.act(std::move(action));
+  history_.act(std::move(action), focus());
   if (!branches) return;
   out_ << fmt::format("a new branch begins here; what ran up to {} is on the old one, to which 'back' returns\n",
                       moment_text(left));
@@ -183,7 +195,7 @@ void Debugger::act(Action action) {
 
 /// A record of what went on cannot go back: a capture ends, a trace says so by its times.
 void Debugger::note_new_branch() {
-  simulation_.set_wire_sink(nullptr);
+  for (const Station& station : stations_) station.simulation->plc().unwatch_lines();
   if (options_.files.empty()) return;
   out_ << fmt::format("{}: traces go on with what is new, after what ran before; captures of the line end\n",
                       options_.files);
@@ -192,9 +204,10 @@ void Debugger::note_new_branch() {
 
 void Debugger::report(const Stop& stop, const Run& run, std::uint64_t errors) {
   if (first_error_) {
-    out_ << describe(*first_error_, simulation_.cpu().program());
+    const auto& [station, error] = *first_error_;
+    out_ << said_of(station) << describe(error, stations_[station].simulation->cpu().program());
     out_ << (errors > 1 ? fmt::format(" and {} more; 'errors' lists them\n", errors - 1) : "\n");
-    if (first_error_->op != kNoRoutine) print_bad_pointers(first_error_->op);
+    if (station == focus() && error.op != kNoRoutine) print_bad_pointers(error.op);
   }
   report_hits(stop);
   report_reason(stop, run);
@@ -226,58 +239,79 @@ void Debugger::report_reason(const Stop& stop, const Run& run) {
 }
 
 void Debugger::report_cpu_stop() {
-  const State& state = simulation_.cpu().state();
+  const State& state = simulation().cpu().state();
+  const auto last_op = stations_[focus()].last_op;
   if (state.fatal_code != 0) {
     const std::string place = state.fatal_op == kNoRoutine ? "between two scans" : "in " + op_text(state.fatal_op);
-    out_ << fmt::format("the CPU went to STOP: fatal error {:04X}, {},\n  {}\n", state.fatal_code,
+    out_ << fmt::format("{}the CPU went to STOP: fatal error {:04X}, {},\n  {}\n", said_of(focus()), state.fatal_code,
                         meaning_of(FatalError{state.fatal_code}), place);
-  } else if (last_op_) {
-    out_ << fmt::format("the CPU went to STOP; the last instruction was in {}\n", op_text(*last_op_));
+  } else if (last_op) {
+    out_ << fmt::format("{}the CPU went to STOP; the last instruction was in {}\n", said_of(focus()), op_text(*last_op));
   }
 }
 
-std::string Debugger::op_text(std::uint32_t op) const {
-  return fmt::format("{} line {}: {}", listing_.routine_of(op), listing_.line_of(op), listing_.text_of(op));
+std::string Debugger::op_text(const Listing& listing, std::uint32_t op) {
+  return fmt::format("{} line {}: {}", listing.routine_of(op), listing.line_of(op), listing.text_of(op));
 }
 
 std::string Debugger::routine_text(std::uint32_t op) const {
-  const std::string& network = listing_.network_of(op);
-  return listing_.routine_of(op) + (network.empty() ? "" : ", ") + network;
+  const std::string& network = listing().network_of(op);
+  return listing().routine_of(op) + (network.empty() ? "" : ", ") + network;
 }
 
 void Debugger::print_answer(const serial::Exchange& exchange) {
   hide_progress();
-  out_ << exchange_text(exchange, options_.master.timeout);
+  out_ << exchange_text(exchange, master().timeout);
 }
 
-void Debugger::print_trace(const TraceRecord& record) {
-  if (record.kind == TraceKind::RuntimeError && !first_error_) first_error_ = record;
-  if (!tracing_) return trace_lines_.note(record);
-  const std::vector<TraceLine> lines = trace_lines_.of(record);
-  if (record.kind != TraceKind::ScanBegin) print_trace_lines(lines);
+void Debugger::print_trace(std::size_t station, const TraceRecord& record) {
+  if (record.kind == TraceKind::RuntimeError && !first_error_) first_error_ = {station, record};
+  TraceLines& lines = stations_[station].trace_lines;
+  if (!tracing_) return lines.note(record);
+  const std::vector<TraceLine> of_record = lines.of(record);
+  if (record.kind != TraceKind::ScanBegin) print_trace_lines(station, of_record);
 }
 
-void Debugger::print_trace_lines(const std::vector<TraceLine>& lines) {
-  if (!lines.empty()) hide_progress();
-  for (const TraceLine& line : lines) out_ << fmt::format("  {}  {}\n", clock_text(line.at), line.text);
+/// CPUs of a system end their instructions at different times: lines wait until no other one can come before them.
+void Debugger::print_trace_lines(std::size_t station, const std::vector<TraceLine>& lines) {
+  if (!is_system()) {
+    if (!lines.empty()) hide_progress();
+    for (const TraceLine& line : lines) out_ << fmt::format("  {}  {}\n", clock_text(line.at), line.text);
+    return;
+  }
+  for (const TraceLine& line : lines)
+    trace_waiting_.push_back({line.at, fmt::format("{:<{}}  {}", name_of(station), name_width_, line.text)});
+  write_trace(history_.now().time);
 }
 
-void Debugger::print_instruction(const InstructionRecord& record, bool started_at) {
-  last_op_ = record.op;
-  if (live_status_) note_live_status(record);
+void Debugger::write_trace(Time until) {
+  std::ranges::stable_sort(trace_waiting_, {}, &TraceLine::at);
+  const auto rest = std::ranges::lower_bound(trace_waiting_, until, {}, &TraceLine::at);
+  for (auto line = trace_waiting_.begin(); line != rest; ++line)
+    out_ << fmt::format("  {}  {}\n", clock_text(line->at), line->text);
+  trace_waiting_.erase(trace_waiting_.begin(), rest);
+}
+
+void Debugger::print_instruction(std::size_t station, const InstructionRecord& record, bool started_at) {
+  const bool looked_at = station == focus();
+  Station& of = stations_[station];
+  of.last_op = record.op;
+  if (looked_at && live_status_) note_live_status(record);
   if (tracing_)
-    print_trace_lines(trace_lines_.of(record));
+    print_trace_lines(station, of.trace_lines.of(record));
   else
-    trace_lines_.note(record);
-  if (show_ == Show::None || (show_ == Show::Started && !started_at)) return;
+    of.trace_lines.note(record);
+  if (!looked_at || show_ == Show::None || (show_ == Show::Started && !started_at)) return;
   hide_progress();
-  out_ << fmt::format("   {}  {}\n", describe(record, simulation_.cpu().program()), format_duration(record.end - record.at));
+  out_ << fmt::format("   {}  {}\n", describe(record, of.simulation->cpu().program()),
+                      format_duration(record.end - record.at));
 }
 
 std::optional<std::uint32_t> Debugger::current_op() const {
-  const State& state = simulation_.cpu().state();
+  const State& state = simulation().cpu().state();
   if (state.mode == Mode::Run) return standing_at(state).value_or(0);
-  return state.fatal_code != 0 && state.fatal_op != kNoRoutine ? std::optional(state.fatal_op) : last_op_;
+  return state.fatal_code != 0 && state.fatal_op != kNoRoutine ? std::optional(state.fatal_op)
+                                                               : stations_[focus()].last_op;
 }
 
 }  // namespace s7200::tools

@@ -2,6 +2,8 @@
 //
 // Every moment since power-up can be reached again (history.hpp), and a command that ran something can be taken back.
 // Commands that only look change nothing, and neither does stepping: the program does what it does in one go.
+//
+// Of the stations of a system it looks at one, with which steps and addresses are concerned; all of them run.
 #pragma once
 
 #include <atomic>
@@ -34,8 +36,16 @@
 
 namespace s7200::tools {
 
+/// A PLC of a system.
+struct DebuggedStation {
+  std::string name;
+  serial::MasterSettings master{};  ///< how `send` talks on its line
+};
+
 struct DebuggerOptions {
   serial::MasterSettings master{};                  ///< how `send` talks
+  std::vector<DebuggedStation> stations{};          ///< of a system, which says itself how; none: one PLC without a name
+  std::size_t station = 0;                          ///< that it looks at first
   const std::atomic<bool>* stop_request = nullptr;  ///< ends a run when it becomes true; may be set by a signal handler
   History::Settings history{};                      ///< with the records, which watch the CPU too
   std::string files{};                              ///< that the records and captures write: "the trace"; "" for none
@@ -67,6 +77,8 @@ class Debugger {
 
   /// The simulation has been powered up; `restart` goes back to how it is now. Both must live as long as this.
   Debugger(serial::Simulation& simulation, std::ostream& out, const DebuggerOptions& options);
+  /// The same of a system, seen from each of its PLCs, in their order.
+  Debugger(const std::vector<serial::Simulation*>& stations, std::ostream& out, const DebuggerOptions& options);
 
   /// Where it stands, and what is displayed.
   void show_place();
@@ -125,6 +137,7 @@ class Debugger {
   }
   bool stop_requested() const;
 
+  Error station(const Arguments& arguments);
   Error list(const Arguments& arguments);
   Error step(const Arguments& arguments);
   Error over(const Arguments& arguments);
@@ -185,12 +198,14 @@ class Debugger {
     Time limit = kDefaultLimit;  ///< from now on
     bool stop_at_answer = false;
     Show show = Show::None;
+    bool of_all = false;  ///< of all stations, and not of the one that it looks at
   };
   void go(const Run& run);
   void go_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer = false);
   void remember();
   void note_going_elsewhere();
   void act(Action action);
+  void look_at(std::size_t station);
   void note_new_branch();
   void note_the_past();
   std::optional<LastWrite> find_write(const MemoryRange& range, std::string_view name);
@@ -212,9 +227,9 @@ class Debugger {
   void print_message(const StopPoint& stop);
   void report_cpu_stop();
   void print_answer(const serial::Exchange& exchange);
-  void print_trace(const TraceRecord& record);
-  void print_trace_lines(const std::vector<TraceLine>& lines);
-  void print_instruction(const InstructionRecord& record, bool started_at);
+  void print_trace(std::size_t station, const TraceRecord& record);
+  void print_trace_lines(std::size_t station, const std::vector<TraceLine>& lines);
+  void print_instruction(std::size_t station, const InstructionRecord& record, bool started_at);
 
   std::string name_of(const MemoryRange& range, std::string_view written) const;
   void print_bad_pointer(const std::string& name, const MemoryRange& pointer);
@@ -222,22 +237,23 @@ class Debugger {
   void print_place(const Place& place, const std::string& name, char form);
   void list_stops();
   std::optional<StopPoint> stop_of(const Arguments& words, std::string& why);
-  std::string value_of(const MemoryRange& range) const;
+  static std::string value_of(const Cpu& cpu, const MemoryRange& range);
   std::vector<Bits> operands_of(std::uint32_t op) const;
   std::string red(std::string text) const;  ///< on a terminal
   std::vector<SessionOption> session_conditions() const;
   std::optional<Destination> destination(const Arguments& arguments, std::string_view command, FileKind kind,
                                          std::string& why) const;
   std::string oldest_text(const History::Usage& usage) const;
-  std::string memory_text(const MemoryRange& range) const;  ///< with what of it is forced
+  std::string memory_text(std::size_t station, const MemoryRange& range) const;  ///< with what of it is forced
   std::vector<std::string> status_lines(std::uint32_t first, std::uint32_t end, const LastExecutions& last);
   std::pair<std::uint32_t, std::uint32_t> ops_in_view() const;
   LastExecutions last_executions_of(std::uint32_t first, std::uint32_t end, Time within);
   void begin_live_status();
   void note_live_status(const InstructionRecord& record);
-  std::string forced_text(const std::vector<Bits>& places) const;  ///< `  forced: VW10=5`; nothing if nothing is
-  std::string op_text(std::uint32_t op) const;                     ///< `INT 123 line 40: MOVB SMB2, VB1 // …`
-  std::string routine_text(std::uint32_t op) const;                ///< `SBR 51, network 6 "SBR 51: is it undisturbed?"`
+  std::string forced_text(const Cpu& cpu, const std::vector<Bits>& places) const;  ///< `  forced: VW10=5`, or nothing
+  std::string op_text(std::uint32_t op) const { return op_text(listing(), op); }
+  static std::string op_text(const Listing& listing, std::uint32_t op);  ///< `INT 123 line 40: MOVB SMB2, VB1 // …`
+  std::string routine_text(std::uint32_t op) const;  ///< `SBR 51, network 6 "SBR 51: is it undisturbed?"`
   std::optional<std::uint32_t> current_op() const;
   std::optional<std::uint32_t> find_place(const Arguments& arguments, std::string_view command, std::string& why);
   std::string mark_of(std::uint32_t op) const;
@@ -247,19 +263,59 @@ class Debugger {
   struct Kept {
     std::string command;
     History::Place place;
+    std::size_t station = 0;  ///< that it looked at
   };
 
-  serial::Simulation& simulation_;
+  /// What belongs to one PLC.
+  struct Station {
+    explicit Station(serial::Simulation& its_simulation)
+        : simulation(&its_simulation), listing(its_simulation.cpu().program()), trace_lines(its_simulation.cpu().program()) {}
+
+    serial::Simulation* simulation;
+    Listing listing;
+    TraceLines trace_lines;
+    std::optional<std::uint32_t> last_op{};  ///< executed last
+  };
+
+  /// Memory of a station.
+  struct Displayed {
+    std::size_t station = 0;
+    MemoryRange range{};
+  };
+
+  /// A run-time error of a station.
+  struct StationError {
+    std::size_t station = 0;
+    TraceRecord record{};
+  };
+
+  std::size_t focus() const { return stepper_.looks_at(); }
+  serial::Simulation& simulation() { return *stations_[focus()].simulation; }
+  const serial::Simulation& simulation() const { return *stations_[focus()].simulation; }
+  const Listing& listing() const { return stations_[focus()].listing; }
+  bool is_system() const { return !options_.stations.empty(); }
+  const serial::MasterSettings& master() const {
+    return is_system() ? options_.stations[focus()].master : options_.master;
+  }
+  std::string name_of(std::size_t station) const;
+  std::string said_of(std::size_t station) const;  ///< `slave: `; nothing if there is but one PLC
+  std::string place_line(std::size_t station) const;
+  std::uint64_t errors_of_all() const;
+  SessionFile session_file() const;
+  bool has_come_to(const SessionFile& file) const;
+  SessionRecord::Station record_of(std::size_t station) const;
+  void write_trace(Time until);
+
   std::ostream& out_;
   DebuggerOptions options_;
-  Listing listing_;
   History history_;
   Stepper stepper_;
-  std::deque<Kept> kept_;  ///< newest last
-  std::vector<MemoryRange> displayed_;
-  std::optional<std::uint32_t> last_op_;  ///< executed last
-  TraceLines trace_lines_;
-  std::optional<TraceRecord> first_error_;  ///< run-time error of the run under way
+  std::deque<Station> stations_;
+  std::size_t name_width_ = 0;            ///< of the longest
+  std::vector<TraceLine> trace_waiting_;  ///< of a system: others may come before them
+  std::deque<Kept> kept_;                 ///< newest last
+  std::vector<Displayed> displayed_;
+  std::optional<StationError> first_error_;  ///< of the run under way
   Show show_ = Show::None;
   int next_number_ = 1;  ///< of a breakpoint or watch
   bool tracing_ = false;

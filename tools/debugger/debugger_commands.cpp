@@ -132,6 +132,10 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "takes the address that the pointer holds now, and stays there.",
        &Debugger::watch},
       {"delete", "d", "delete N… | all", "remove breakpoints and watches", "", &Debugger::delete_stop},
+      {"station", "", "station [NAME]", "the stations of a system: where each stands; or go over to another one",
+       "Steps, addresses, places and 'send' are about one station at a time; all of them run, and breakpoints and watches "
+       "stay with the station that they were set at. What stops at another station goes over to it.",
+       &Debugger::station},
       {"list", "l", "list [LINE | SBR n | INT n | LBL n | NETWORK n]", "the program around the current place or elsewhere",
        "> is the current line, * a breakpoint.", &Debugger::list},
       {"status", "", "status [LINE | SBR n | INT n | LBL n | NETWORK n]",
@@ -227,13 +231,13 @@ Debugger::Error Debugger::step(const Arguments& arguments) {
 
 Debugger::Error Debugger::over(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("over");
-  go({.goal = goal::over(simulation_.cpu().state()), .show = Show::Started});
+  go({.goal = goal::over(simulation().cpu().state()), .show = Show::Started});
   return {};
 }
 
 Debugger::Error Debugger::out(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("out");
-  const State& now = simulation_.cpu().state();
+  const State& now = simulation().cpu().state();
   if (now.mode == Mode::Run && !goal::is_in_routine(now)) {
     out_ << "this is the main program, in no subroutine and no interrupt routine; 'scan' runs to the next scan\n";
     return {};
@@ -244,14 +248,14 @@ Debugger::Error Debugger::out(const Arguments& arguments) {
 
 Debugger::Error Debugger::network(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("network");
-  go({.goal = goal::network_over(simulation_.cpu().state(), listing_)});
+  go({.goal = goal::network_over(simulation().cpu().state(), listing())});
   return {};
 }
 
 Debugger::Error Debugger::interrupt(const Arguments& arguments) {
   const auto ends = wants_end(arguments);
   if (!ends) return expects("interrupt", kBeginsOrEnds);
-  const Cpu& cpu = simulation_.cpu();
+  const Cpu& cpu = simulation().cpu();
   go({.goal = *ends ? goal::interrupt_ends(cpu.state()) : goal::interrupt_begins(cpu.program())});
   return {};
 }
@@ -259,12 +263,12 @@ Debugger::Error Debugger::interrupt(const Arguments& arguments) {
 Debugger::Error Debugger::scan(const Arguments& arguments) {
   const auto count = parse_count(arguments);
   if (!count) return expects("scan", "how many scans, for example: scan 3");
-  go({.goal = goal::scan(simulation_.cpu().state(), *count)});
+  go({.goal = goal::scan(simulation().cpu().state(), *count)});
   return {};
 }
 
 Debugger::Error Debugger::continue_run(const Arguments& arguments) {
-  Run run{.goal = goal::none(), .stop_at_answer = true};
+  Run run{.goal = goal::none(), .stop_at_answer = true, .of_all = true};
   if (!arguments.empty()) {
     const auto time = parse_duration(joined(arguments));
     if (!time || *time == 0) return expects("continue", "a duration, for example: continue 250ms");
@@ -286,7 +290,7 @@ Debugger::Error Debugger::until(const Arguments& arguments) {
 
 /// A place that a command names; nothing, and `why`, when there is no such place.
 std::optional<std::uint32_t> Debugger::find_place(const Arguments& arguments, std::string_view command, std::string& why) {
-  const auto place = tools::find_place(arguments, simulation_.cpu().program(), listing_, command, why);
+  const auto place = tools::find_place(arguments, simulation().cpu().program(), listing(), command, why);
   if (!place) return {};
   out_ << place->note;
   return place->op;
@@ -297,36 +301,36 @@ std::optional<std::uint32_t> Debugger::find_place(const Arguments& arguments, st
 Debugger::Error Debugger::list(const Arguments& arguments) {
   const auto mark = [this](std::uint32_t op) { return mark_of(op); };
   if (arguments.empty()) {
-    out_ << listing_.around(listing_.line_of(current_op().value_or(0)), kListedBefore, kListed, mark);
+    out_ << listing().around(listing().line_of(current_op().value_or(0)), kListedBefore, kListed, mark);
     return {};
   }
   if (const auto line = parse_decimal<std::uint32_t>(joined(arguments))) {
-    if (*line > listing_.last_line()) return fmt::format("the last instruction is in line {}", listing_.last_line());
-    out_ << listing_.around(*line, kListedBefore, kListed, mark);
+    if (*line > listing().last_line()) return fmt::format("the last instruction is in line {}", listing().last_line());
+    out_ << listing().around(*line, kListedBefore, kListed, mark);
     return {};
   }
   std::string why;
   const auto op = find_place(arguments, "list", why);
   if (!op) return why;
-  out_ << listing_.around(listing_.line_of(*op), 0, kListed, mark);
+  out_ << listing().around(listing().line_of(*op), 0, kListed, mark);
   return {};
 }
 
 Debugger::Error Debugger::registers(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("regs");
-  out_ << registers_text(simulation_.cpu(), listing_);
+  out_ << registers_text(simulation().cpu(), listing());
   return {};
 }
 
 Debugger::Error Debugger::stack(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("stack");
-  out_ << stack_text(simulation_.cpu().state());
+  out_ << stack_text(simulation().cpu().state());
   return {};
 }
 
 /// An address, or the one that a pointer holds now, which is said.
 std::optional<Debugger::Named> Debugger::find_range(const std::string& text, std::string& why) {
-  const Cpu& cpu = simulation_.cpu();
+  const Cpu& cpu = simulation().cpu();
   const auto place = parse_place(text, cpu.program(), why);
   if (!place) return {};
   const auto range = range_now(*place, cpu);
@@ -347,7 +351,7 @@ Debugger::Error Debugger::ranges_of(const Arguments& arguments, std::string_view
   for (const std::string& text : arguments) {
     std::string why, no_expression;
     const auto range = find_range(text, why);
-    if (!range && arguments.size() > 1 && Expression::parse(joined(arguments), simulation_.cpu().program(), no_expression))
+    if (!range && arguments.size() > 1 && Expression::parse(joined(arguments), simulation().cpu().program(), no_expression))
       return fmt::format("{} takes addresses; 'print {}' computes an expression", command, joined(arguments));
     if (!range) return why;
     ranges.push_back(*range);
@@ -362,21 +366,21 @@ Debugger::Error Debugger::display(const Arguments& arguments) {
   }
   std::vector<Named> added;
   if (Error error = ranges_of(arguments, "display", added)) return error;
-  for (const Named& one : added) displayed_.push_back(one.range);
+  for (const Named& one : added) displayed_.push_back({focus(), one.range});
   if (displayed_.empty()) out_ << "nothing is displayed; 'display VW100' adds to it\n";
-  for (const MemoryRange& range : displayed_) out_ << memory_text(range);
+  for (const auto& [station, range] : displayed_) out_ << said_of(station) << memory_text(station, range);
   return {};
 }
 
 Debugger::Error Debugger::port(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("port");
-  out_ << port_text(simulation_);
+  out_ << port_text(simulation());
   return {};
 }
 
 Debugger::Error Debugger::errors(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("errors");
-  const std::string text = errors_text(simulation_.cpu());
+  const std::string text = errors_text(simulation().cpu());
   out_ << (text.empty() ? "no errors\n" : text);
   return {};
 }
@@ -432,7 +436,7 @@ Debugger::Error Debugger::assign_all(const Arguments& arguments, bool inputs_onl
   std::vector<Assignment> assignments;
   for (const std::string& text : assignments_of(arguments)) {
     std::string why;
-    const auto assignment = parse_assignment(text, simulation_.cpu().program(), why);
+    const auto assignment = parse_assignment(text, simulation().cpu().program(), why);
     if (!assignment) return why;
     if (inputs_only && assignment->place.area != Area::I)
       return fmt::format("'{}' is not an input; 'input' expects for example I0.3=1, and 'set' writes other memory",
@@ -441,11 +445,11 @@ Debugger::Error Debugger::assign_all(const Arguments& arguments, bool inputs_onl
   }
   act(SetMemory{assignments});
   for (const Assignment& assignment : assignments)
-    if (const std::string forced = forced_text({bits_of(assignment.place)}); !forced.empty())
+    if (const std::string forced = forced_text(simulation().cpu(), {bits_of(assignment.place)}); !forced.empty())
       out_ << fmt::format("{} keeps what is forced until 'unforce {}':{}\n", assignment.place.name_of(0),
                           assignment.place.name_of(0), forced);
   const auto is_input = [](const Assignment& a) { return a.place.area == Area::I; };
-  if (std::any_of(assignments.begin(), assignments.end(), is_input) && standing_at(simulation_.cpu().state()))
+  if (std::any_of(assignments.begin(), assignments.end(), is_input) && standing_at(simulation().cpu().state()))
     out_ << "the input points are set; the program finds them in I when the next scan reads its inputs\n";
   return {};
 }
@@ -467,19 +471,21 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
                    "a frame in hex, text in quotation marks, or a request, for example: send 01 03 00 00 00 02 crc, send "
                    "'HELLO\\r', or send read 40011:2");
   std::string why;
+  if (!simulation().has_master())
+    return "send: this line has as many stations already as it takes: there is no place for one more master";
   const auto frame = parse_frame(joined(arguments), kStation, why);
   if (!frame) return fmt::format("send {}: {}", joined(arguments), why);
-  const SerialFormat format = options_.master.over(simulation_.port_format());
+  const SerialFormat format = master().over(simulation().port_format());
   if (serial::has_wrong_parity(*frame) && format.parity == Parity::None)
     return "send: a byte with wrong parity (p) needs a format with parity";
-  if (simulation_.master().busy())
+  if (simulation().master().busy())
     return "send: the last frame is still under way or waiting for its answer; 'continue' runs to its end";
-  act(SendFrame{format, options_.master.request(*frame)});
+  act(SendFrame{format, master().request(*frame)});
   const std::string text = request_text(serial::bytes_of(*frame));
   out_ << fmt::format("on the line from now on: {}{} ({})\n", serial::to_hex(*frame), text.empty() ? "" : "  " + text,
                       format_text(format));
-  if (!simulation_.freeport().active)
-    out_ << fmt::format("port {} is not in Freeport mode: the program will not hear it\n", simulation_.port());
+  if (!simulation().freeport().active)
+    out_ << fmt::format("port {} is not in Freeport mode: the program will not hear it\n", simulation().port());
   return {};
 }
 

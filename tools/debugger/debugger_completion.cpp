@@ -66,7 +66,7 @@ Words words_of(std::string_view line) {
   return words;
 }
 
-enum class Takes : std::uint8_t { Nothing, Addresses, Places, Files, Commands, Switch };
+enum class Takes : std::uint8_t { Nothing, Addresses, Places, Files, Commands, Switch, Stations };
 
 constexpr std::pair<std::string_view, Takes> kTakes[]{
     {"help", Takes::Commands},    {"save", Takes::Files},        {"load", Takes::Files},        {"record", Takes::Files},
@@ -74,14 +74,14 @@ constexpr std::pair<std::string_view, Takes> kTakes[]{
     {"runtil", Takes::Places},    {"list", Takes::Places},       {"status", Takes::Places},     {"print", Takes::Addresses},
     {"expect", Takes::Addresses}, {"display", Takes::Addresses}, {"watch", Takes::Addresses},   {"set", Takes::Addresses},
     {"input", Takes::Addresses},  {"force", Takes::Addresses},   {"unforce", Takes::Addresses}, {"who", Takes::Addresses},
-    {"rwho", Takes::Addresses}};
+    {"rwho", Takes::Addresses},   {"station", Takes::Stations}};
 
 }  // namespace
 
 Debugger::Offers Debugger::completions(std::string_view line) const {
   const Words words = words_of(line);
   const std::string& last = words.back();
-  const Program& program = simulation_.cpu().program();
+  const Program& program = simulation().cpu().program();
   Words all;
   const auto add_commands = [&] {
     for (const Command& command : commands()) all.emplace_back(command.name);
@@ -100,6 +100,9 @@ Debugger::Offers Debugger::completions(std::string_view line) const {
       break;
     case Takes::Switch:
       all = {"on", "off"};
+      break;
+    case Takes::Stations:
+      for (const DebuggedStation& station : options_.stations) all.push_back(station.name);
       break;
     case Takes::Files:
       all = files_of(last);

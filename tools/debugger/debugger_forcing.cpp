@@ -15,9 +15,9 @@ constexpr std::string_view kRed = "\x1b[31m", kPlain = "\x1b[0m";
 
 }  // namespace
 
-std::string Debugger::forced_text(const std::vector<Bits>& places) const {
+std::string Debugger::forced_text(const Cpu& cpu, const std::vector<Bits>& places) const {
   std::string text;
-  for (const Forced& forced : forced_in(simulation_.cpu())) {
+  for (const Forced& forced : forced_in(cpu)) {
     const Bits bits = bits_of(forced.place);
     if (std::ranges::none_of(places, [&](const Bits& place) { return place.overlaps(bits); })) continue;
     text += fmt::format("{} {}={}", text.empty() ? "  forced:" : ",", forced.place.name_of(0), forced.value);
@@ -29,13 +29,14 @@ std::string Debugger::red(std::string text) const {
   return text.empty() || !options_.colour ? text : fmt::format("{}{}{}", kRed, text, kPlain);
 }
 
-std::string Debugger::memory_text(const MemoryRange& range) const {
-  const std::string forced = forced_text({bits_of(range)});
-  return dump_text(simulation_.cpu(), range) + (forced.empty() ? "" : "       " + forced + "\n");
+std::string Debugger::memory_text(std::size_t station, const MemoryRange& range) const {
+  const Cpu& cpu = stations_[station].simulation->cpu();
+  const std::string forced = forced_text(cpu, {bits_of(range)});
+  return dump_text(cpu, range) + (forced.empty() ? "" : "       " + forced + "\n");
 }
 
 Debugger::Error Debugger::force(const Arguments& arguments) {
-  const Cpu& cpu = simulation_.cpu();
+  const Cpu& cpu = simulation().cpu();
   if (arguments.empty()) {
     const std::vector<Forced> all = forced_in(cpu);
     if (all.empty()) out_ << "nothing is forced; 'force I0.3=1' forces an input\n";
@@ -52,7 +53,7 @@ Debugger::Error Debugger::force(const Arguments& arguments) {
 Debugger::Error Debugger::unforce(const Arguments& arguments) {
   if (arguments.empty()) return expects("unforce", "addresses that 'force' lists, or all");
   std::string why;
-  auto unforce = unforce_of(arguments, simulation_.cpu(), why);
+  auto unforce = unforce_of(arguments, simulation().cpu(), why);
   if (!unforce) return why;
   if (!unforce->places.empty()) act(std::move(*unforce));
   return {};

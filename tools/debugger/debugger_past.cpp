@@ -29,6 +29,7 @@ Debugger::Error Debugger::back(const Arguments& arguments) {
   const History::BranchPtr left = history_.here().branch;
   history_.return_to(kept_.back().place);
   out_ << fmt::format("back to before '{}'\n", stl::printable(kept_.back().command));
+  stepper_.look_at(kept_.back().station);
   kept_.pop_back();
   note_going_elsewhere();
   if (history_.here().branch != left) note_new_branch();
@@ -45,13 +46,13 @@ Debugger::Error Debugger::back_step(const Arguments& arguments) {
 
 Debugger::Error Debugger::back_over(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("rover");
-  go_back(goal::back_over(simulation_.cpu().state()), 1);
+  go_back(goal::back_over(simulation().cpu().state()), 1);
   return {};
 }
 
 Debugger::Error Debugger::back_out(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("rout");
-  const State& now = simulation_.cpu().state();
+  const State& now = simulation().cpu().state();
   if (!goal::is_in_routine(now)) {
     out_ << "this is the main program, in no subroutine and no interrupt routine; 'rscan' goes to the start of its scan\n";
     return {};
@@ -62,14 +63,14 @@ Debugger::Error Debugger::back_out(const Arguments& arguments) {
 
 Debugger::Error Debugger::back_network(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("rnetwork");
-  go_back(goal::back_network_over(simulation_.cpu().state(), listing_), 1);
+  go_back(goal::back_network_over(simulation().cpu().state(), listing()), 1);
   return {};
 }
 
 Debugger::Error Debugger::back_interrupt(const Arguments& arguments) {
   const auto ends = wants_end(arguments);
   if (!ends) return expects("rinterrupt", kBeginsOrEnds);
-  const Program& program = simulation_.cpu().program();
+  const Program& program = simulation().cpu().program();
   go_back(*ends ? goal::back_interrupt_ends(program) : goal::back_interrupt_begins(program), 1);
   return {};
 }
@@ -104,7 +105,8 @@ Debugger::Error Debugger::at(const Arguments& arguments) {
   if (lower_case(text) == "start") time = 0;
   if (lower_case(text) == "end") time = history_.newest().time;
   if (!time) return expects("at", kTimes);
-  if (before_now) time = simulation_.time() - std::min(*time, simulation_.time());
+  const Time now = history_.now().time;
+  if (before_now) time = now - std::min(*time, now);
   if (const History::Usage usage = history_.usage(); *time < usage.oldest.time && lower_case(text) != "start")
     return fmt::format("the oldest moment is {}, {}", moment_text(usage.oldest.time), oldest_text(usage));
   if (*time > history_.newest().time)
@@ -130,25 +132,25 @@ std::optional<Debugger::Named> Debugger::one_range(const Arguments& arguments, s
 }
 
 std::optional<LastWrite> Debugger::find_write(const MemoryRange& range, std::string_view name) {
-  const WriteSearch search = at_length([&] { return find_last_write(simulation_, history_, range, options_.stop_request); });
+  const WriteSearch search = at_length([&] { return find_last_write(history_, focus(), range, options_.stop_request); });
   if (search.interrupted) out_ << interruption_text() << '\n';
   if (!search.write && !search.interrupted)
-    out_ << fmt::format("nothing has written {} since power-up; it is {}\n", name, value_of(range));
+    out_ << fmt::format("nothing has written {} since power-up; it is {}\n", name, value_of(simulation().cpu(), range));
   return search.write;
 }
 
 void Debugger::report_write(const LastWrite& write, const MemoryRange& range, std::string_view name) {
-  const Program& program = simulation_.cpu().program();
+  const Program& program = simulation().cpu().program();
   out_ << fmt::format("{} was {}, became {}, at {}\n", name, value_text(program, range, write.before),
                       value_text(program, range, write.after), moment_text(write.at));
   if (write.by)
-    out_ << fmt::format("  by {} {}{}{}\n", listing_.routine_of(write.by->op), describe(*write.by, program),
+    out_ << fmt::format("  by {} {}{}{}\n", listing().routine_of(write.by->op), describe(*write.by, program),
                         write.in_interrupt ? fmt::format(", serving {}", event_text(write.event)) : "",
                         remark_on(write.by->op, program));
   else if (const Action* action = write.action ? history_.action(*write.action) : nullptr)
     out_ << fmt::format("  by '{}', from outside\n", describe(*action));
   else
-    out_ << "  by the system, between two instructions" << forced_text({bits_of(range)}) << '\n';
+    out_ << "  by the system, between two instructions" << forced_text(simulation().cpu(), {bits_of(range)}) << '\n';
 }
 
 /// The number in `event 8`; nothing if the words are something else.
@@ -168,7 +170,7 @@ static std::string expects_event(std::string_view command, const std::vector<std
 }
 
 std::optional<LastAttachment> Debugger::find_attachment(std::uint8_t event) {
-  const AttachmentSearch search = at_length([&] { return find_last_attachment(history_, event, options_.stop_request); });
+  const AttachmentSearch search = at_length([&] { return find_last_attachment(history_, focus(), event, options_.stop_request); });
   if (search.interrupted) out_ << interruption_text() << '\n';
   if (!search.attachment) {
     if (!search.interrupted)
@@ -176,9 +178,9 @@ std::optional<LastAttachment> Debugger::find_attachment(std::uint8_t event) {
     return {};
   }
   out_ << fmt::format("{}  {}\n  by {} {}\n", moment_text(search.attachment->what.at),
-                      describe(search.attachment->what, simulation_.cpu().program()),
-                      listing_.routine_of(search.attachment->by.op),
-                      execution_text(search.attachment->by, simulation_.cpu().program()));
+                      describe(search.attachment->what, simulation().cpu().program()),
+                      listing().routine_of(search.attachment->by.op),
+                      execution_text(search.attachment->by, simulation().cpu().program()));
   return search.attachment;
 }
 
@@ -187,14 +189,14 @@ Debugger::Error Debugger::history(const Arguments& arguments) {
   const auto count = arguments.empty() ? kShown : parse_count(arguments);
   if (!count || *count > kMost) return expects("history", "how many instructions, up to 10000, for example: history 30");
   for (const InstructionRecord& record :
-       at_length([&] { return last_instructions(history_, *count, options_.stop_request); }))
-    out_ << fmt::format("{}  {:<7} {}\n", clock_text(record.at), listing_.routine_of(record.op),
-                        execution_text(record, simulation_.cpu().program()));
+       at_length([&] { return last_instructions(history_, focus(), *count, options_.stop_request); }))
+    out_ << fmt::format("{}  {:<7} {}\n", clock_text(record.at), listing().routine_of(record.op),
+                        execution_text(record, simulation().cpu().program()));
   return {};
 }
 
 std::optional<LastDecision> Debugger::find_decision() {
-  const DecisionSearch search = at_length([&] { return find_last_decision(simulation_, history_, options_.stop_request); });
+  const DecisionSearch search = at_length([&] { return find_last_decision(history_, focus(), options_.stop_request); });
   if (search.interrupted)
     out_ << interruption_text() << '\n';
   else if (search.decision)
@@ -280,7 +282,7 @@ Debugger::Error Debugger::past(const Arguments& arguments) {
       "from {}, {}, to {}; now {}\n"
       "{}, one every {} or more; {:.1f} of {:.0f} MB; {} from outside\n",
       moment_text(usage.oldest.time), oldest_text(usage), moment_text(history_.newest().time),
-      moment_text(simulation_.time()), counted(usage.checkpoints, "checkpoint"), format_duration(usage.interval),
+      moment_text(history_.now().time), counted(usage.checkpoints, "checkpoint"), format_duration(usage.interval),
       static_cast<double>(usage.bytes) / kMegabyte, static_cast<double>(options_.history.bound) / kMegabyte,
       counted(history_.actions().size(), "action"));
   return {};

@@ -92,25 +92,25 @@ std::string number_text(const std::optional<Value>& value, char form) {
 
 void Debugger::print_bad_pointer(const std::string& name, const MemoryRange& pointer) {
   const std::string address = name_of(pointer, pointer.name_of(0));
-  out_ << bad_pointer_text(simulation_.cpu(), pointer, name, address) << '\n';
+  out_ << bad_pointer_text(simulation().cpu(), pointer, name, address) << '\n';
   if (const auto write = find_write(pointer, address)) report_write(*write, pointer, address);
 }
 
 /// The pointers of an instruction that it could not follow.
 void Debugger::print_bad_pointers(std::uint32_t number) {
-  for (const MemoryRange& pointer : bad_pointers(simulation_.cpu(), number))
+  for (const MemoryRange& pointer : bad_pointers(simulation().cpu(), number))
     print_bad_pointer("*" + pointer.name_of(0), pointer);
 }
 
 /// `VW100 (Speed)`, or as it was written.
 std::string Debugger::name_of(const MemoryRange& range, std::string_view written) const {
-  const stl::Symbol* symbol = symbol_of(simulation_.cpu().program(), range);
+  const stl::Symbol* symbol = symbol_of(simulation().cpu().program(), range);
   if (!symbol) return stl::upper_case(written);
   return fmt::format("{} ({})", range.name_of(0), stl::printable(symbol->name));
 }
 
 void Debugger::print_place(const Place& place, const std::string& name, char form) {
-  const Cpu& cpu = simulation_.cpu();
+  const Cpu& cpu = simulation().cpu();
   const auto range = range_now(place, cpu);
   if (!range) {
     print_bad_pointer(name, place.range);
@@ -118,7 +118,7 @@ void Debugger::print_place(const Place& place, const std::string& name, char for
   }
   if (place.pointer) out_ << fmt::format("{} is {}\n", name, range->name_of(0));
   out_ << range_text(cpu, *range, form);
-  if (const std::string forced = forced_text({bits_of(*range)}); !forced.empty()) out_ << "       " << forced << '\n';
+  if (const std::string forced = forced_text(simulation().cpu(), {bits_of(*range)}); !forced.empty()) out_ << "       " << forced << '\n';
   if (const std::string symbol = symbol_text(cpu.program(), *range); !symbol.empty()) out_ << "         " << symbol << '\n';
   out_ << element_text(cpu.state(), *range) << special_text(cpu, *range);
 }
@@ -132,7 +132,7 @@ Debugger::Error Debugger::print(const Arguments& arguments) {
     words.erase(words.begin());
   }
   if (words.empty()) return expects("print", "addresses or an expression, for example: print VB100:16 M31.7 *AC1");
-  const Program& program = simulation_.cpu().program();
+  const Program& program = simulation().cpu().program();
   std::string why;
   std::vector<Place> places;
   for (const std::string& word : words)
@@ -145,7 +145,7 @@ Debugger::Error Debugger::print(const Arguments& arguments) {
   const auto expression = Expression::parse(joined(words), program, why_no_expression);
   if (!expression) return words.size() == 1 ? why : why_no_expression;
   out_ << fmt::format("{} = {}\n", stl::printable(expression->text()),
-                      number_text(expression->value(simulation_.cpu()), form));
+                      number_text(expression->value(simulation().cpu()), form));
   return {};
 }
 

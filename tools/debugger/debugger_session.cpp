@@ -55,25 +55,38 @@ std::optional<Destination> Debugger::destination(const Arguments& arguments, std
 
 /// What a saved session depends on besides the program and what it began with.
 std::vector<SessionOption> Debugger::session_conditions() const {
-  std::vector<SessionOption> all = options_of(options_.master, history_.origin().clock);
+  std::vector<SessionOption> all = options_of(options_.master, history_.origin(0).clock);
   all.insert(all.end(), options_.conditions.begin(), options_.conditions.end());
   return all;
+}
+
+SessionFile Debugger::session_file() const {
+  SessionFile file{.stations = {}, .options = session_conditions(), .recording = history_.recording()};
+  for (std::size_t number = 0; number < stations_.size(); ++number) {
+    const Cpu& cpu = stations_[number].simulation->cpu();
+    file.stations.push_back({.name = is_system() ? options_.stations[number].name : "",
+                             .cpu = std::string(cpu.program().model->name),
+                             .program = digest_of(cpu.program()),
+                             .begin = digest_of(history_.origin(number)),
+                             .state = digest_of(cpu.state())});
+  }
+  return file;
+}
+
+bool Debugger::has_come_to(const SessionFile& file) const {
+  for (std::size_t number = 0; number < stations_.size(); ++number)
+    if (digest_of(stations_[number].simulation->cpu().state()) != file.stations[number].state) return false;
+  return true;
 }
 
 Debugger::Error Debugger::save(const Arguments& arguments) {
   std::string why;
   const auto to = destination(arguments, "save", {"a saved session", session_beginning()}, why);
   if (!to) return why;
-  if (!history_.recording().complete) return "cannot save: " + oldest_text(history_.usage());
-  const Program& program = simulation_.cpu().program();
-  const SessionFile file{.cpu = std::string(program.model->name),
-                         .program = digest_of(program),
-                         .begin = digest_of(history_.origin()),
-                         .options = session_conditions(),
-                         .recording = history_.recording(),
-                         .state = digest_of(simulation_.cpu().state())};
+  const SessionFile file = session_file();
+  if (!file.recording.complete) return "cannot save: " + oldest_text(history_.usage());
   if (!write_result(*to, to_text(file), why)) return why;
-  out_ << fmt::format("saved: {} with {} from outside\n", moment_text(simulation_.time()),
+  out_ << fmt::format("saved: {} with {} from outside\n", moment_text(history_.now().time),
                       counted(file.recording.actions.size(), "action"));
   return {};
 }
@@ -84,22 +97,32 @@ Debugger::Error Debugger::load(const Arguments& arguments) {
   std::string why;
   const auto text = read_file(path, why);
   if (!text) return fmt::format("cannot read {}: {}", path, why);
-  const Program& program = simulation_.cpu().program();
-  const auto file = session_from_text(*text, *program.model, why);
-  if (file && file->program != digest_of(program)) why = "it is of another program, or of other execution times";
-  const std::string differing = file ? differences(file->options, session_conditions()) : "";
-  if (why.empty() && !differing.empty()) why = fmt::format("it was saved with other options: {}", differing);
-  if (why.empty() && file->begin != digest_of(history_.origin()))
-    why = "it began with other memory or inputs: give --memory, --ram-lost and --power-off as then";
+  const SessionFile here = session_file();
+  std::vector<const CpuModel*> models;
+  std::vector<std::string> names;
+  for (const Station& station : stations_) models.push_back(station.simulation->cpu().program().model);
+  for (const DebuggedStation& station : options_.stations) names.push_back(station.name);
+  const auto file = session_from_text(*text, models, names, why);
+  const std::string differing = file ? differences(file->options, here.options) : "";
+  for (std::size_t number = 0; file && why.empty() && number < stations_.size(); ++number) {
+    const SessionFile::Station &its = file->stations[number], &ours = here.stations[number];
+    const std::string of = is_system() ? fmt::format("{}: ", name_of(number)) : "";
+    if (its.program != ours.program)
+      why = of + "it is of another program, or of other execution times";
+    else if (!differing.empty())
+      why = fmt::format("it was saved with other options: {}", differing);
+    else if (its.begin != ours.begin)
+      why = of + "it began with other memory or inputs: give --memory, --ram-lost and --power-off as then";
+  }
   if (!why.empty()) return fmt::format("cannot load {}: {}", path, why);
-  const History::Place here = history_.here();
-  if (!at_length([&] { return history_.replay(file->recording); }) || digest_of(simulation_.cpu().state()) != file->state) {
-    history_.return_to(here);
+  const History::Place place = history_.here();
+  if (!at_length([&] { return history_.replay(file->recording); }) || !has_come_to(*file)) {
+    history_.return_to(place);
     if (stop_requested()) return fmt::format("{}; nothing is loaded", interruption_text());
     return fmt::format("cannot load {}: replayed here, it comes to another state", path);
   }
   if (kept_.size() == kKeptStates) kept_.pop_front();
-  kept_.push_back({command_, here});
+  kept_.push_back({command_, place, focus()});
   note_new_branch();
   note_going_elsewhere();
   show_place();
@@ -107,40 +130,52 @@ Debugger::Error Debugger::load(const Arguments& arguments) {
   return {};
 }
 
+/// How a station is left, as a scenario expects it.
+SessionRecord::Station Debugger::record_of(std::size_t number) const {
+  const State& state = stations_[number].simulation->cpu().state();
+  SessionRecord::Station record{
+      .memory = {}, .stopped = state.mode == Mode::Stop, .fatal_code = state.fatal_code};
+  for (const auto& [station, range] : displayed_)
+    for (std::uint32_t i = 0; i < range.count && station == number; ++i) record.memory.push_back(object_of(state, range, i));
+  return record;
+}
+
 Debugger::Error Debugger::record(const Arguments& arguments) {
   if (!options_.write_scenario) return "record: scenarios cannot be written here";
   std::string why;
   const auto to = destination(arguments, "record", {"a transcript", std::string(options_.scenario_beginning)}, why);
   if (!to) return why;
-  const State& state = simulation_.cpu().state();
-  SessionRecord record{
-      .session = history_.recording(), .memory = {}, .stopped = state.mode == Mode::Stop, .fatal_code = state.fatal_code};
+  SessionRecord record{.session = history_.recording(), .stations = {}};
   if (!record.session.complete) return "cannot record: " + oldest_text(history_.usage());
   record.session.actions.resize(record.session.now.actions);
   record.session.moments.resize(record.session.now.actions);
-  for (const MemoryRange& range : displayed_)
-    for (std::uint32_t i = 0; i < range.count; ++i) record.memory.push_back(object_of(state, range, i));
-  if (!simulation_.master().busy() && !simulation_.master().exchange().request.empty())
-    record.last = simulation_.master().exchange();
+  record.session.stations.resize(record.session.now.actions);
+  for (std::size_t number = 0; number < stations_.size(); ++number) record.stations.push_back(record_of(number));
+  if (simulation().has_master() && !simulation().master().busy() && !simulation().master().exchange().request.empty())
+    record.last = simulation().master().exchange();
   if (!options_.write_scenario(record, *to, why)) return fmt::format("cannot record this session: {}", why);
-  out_ << fmt::format("recorded up to {}; 's7200 test {}' replays it\n", moment_text(simulation_.time()),
+  out_ << fmt::format("recorded up to {}; 's7200 test {}' replays it\n", moment_text(history_.now().time),
                       stl::printable(to->path));
   return {};
 }
 
 Debugger::Error Debugger::power(const Arguments& arguments) {
   Arguments words = arguments;
-  RetentiveMemory memory = simulation_.cpu().retentive_memory();
-  memory.ram_lost = !words.empty() && lower_case(words.back()) == "lost";
-  if (memory.ram_lost) words.pop_back();
+  const bool lost = !words.empty() && lower_case(words.back()) == "lost";
+  if (lost) words.pop_back();
   const auto off = words.empty() ? std::optional<Time>(0) : parse_duration(joined(words));
   if (!off) return expects("power", "how long it was off, and lost if that was too long for the RAM: power 8h, power lost");
-  memory.power_off = *off;
+  std::vector<RetentiveMemory> memory;
+  for (const Station& station : stations_) {
+    memory.push_back(station.simulation->cpu().retentive_memory());
+    memory.back().ram_lost = lost;
+    memory.back().power_off = *off;
+  }
   remember();
   history_.power_up(memory);
   out_ << fmt::format(
       "power was off{}: {}\n", *off == 0 ? "" : " for " + format_duration(*off),
-      memory.ram_lost ? "the EEPROM is left, RAM and clock are lost" : "retentive memory, EEPROM and clock are kept");
+      lost ? "the EEPROM is left, RAM and clock are lost" : "retentive memory, EEPROM and clock are kept");
   note_new_branch();
   note_going_elsewhere();
   show_place();

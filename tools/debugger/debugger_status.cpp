@@ -20,22 +20,22 @@ constexpr Time kInView = 100 * kMillisecond;
 }  // namespace
 
 LastExecutions Debugger::last_executions_of(std::uint32_t first, std::uint32_t end, Time within) {
-  return last_executions(history_, first, end, within, options_.stop_request);
+  return last_executions(history_, focus(), first, end, within, options_.stop_request);
 }
 
 /// A line for each instruction of [first, end), as it was executed last.
 std::vector<std::string> Debugger::status_lines(std::uint32_t first, std::uint32_t end, const LastExecutions& last) {
-  const Program& program = simulation_.cpu().program();
+  const Program& program = simulation().cpu().program();
   const std::string not_found = last.interrupted ? "interrupted while it was looked for"
-                                                 : "not executed within " + format_duration(simulation_.time() - last.since);
+                                                 : "not executed within " + format_duration(simulation().time() - last.since);
   std::vector<std::string> lines;
   for (std::uint32_t op = first; op < end; ++op) {
     const auto found = last.of.find(op);
     lines.push_back(fmt::format("{:>2} {}{}", mark_of(op),
                                 found != last.of.end() ? execution_text(found->second, program)
-                                                       : fmt::format("line {:<5} {:<28} {}", listing_.line_of(op),
+                                                       : fmt::format("line {:<5} {:<28} {}", listing().line_of(op),
                                                                      stl::to_text(program.statement(op)), not_found),
-                                forced_text(operands_of(op))));
+                                forced_text(simulation().cpu(), operands_of(op))));
   }
   return lines;
 }
@@ -44,7 +44,7 @@ Debugger::Error Debugger::status(const Arguments& arguments) {
   std::string why;
   const auto place = arguments.empty() ? current_op() : find_place(arguments, "status", why);
   if (!why.empty()) return why;
-  const auto ops = static_cast<std::uint32_t>(simulation_.cpu().program().ops.size());
+  const auto ops = static_cast<std::uint32_t>(simulation().cpu().program().ops.size());
   const std::uint32_t at = place.value_or(0);
   const std::uint32_t first = arguments.empty() ? at - std::min(at, kBefore) : at;
   const std::uint32_t end = std::min(ops, first + kShown);
@@ -53,7 +53,7 @@ Debugger::Error Debugger::status(const Arguments& arguments) {
 }
 
 std::pair<std::uint32_t, std::uint32_t> Debugger::ops_in_view() const {
-  const auto ops = static_cast<std::uint32_t>(simulation_.cpu().program().ops.size());
+  const auto ops = static_cast<std::uint32_t>(simulation().cpu().program().ops.size());
   const std::uint32_t at = current_op().value_or(0), first = at - std::min(at, kOpsBefore);
   return {first, std::min(ops, first + kOpsInView)};
 }
@@ -73,17 +73,16 @@ void Debugger::note_live_status(const InstructionRecord& record) {
 }
 
 std::vector<std::string> Debugger::view(std::size_t rows) {
-  const Cpu& cpu = simulation_.cpu();
-  const std::string place = place_text(cpu, listing_);
-  std::vector<std::string> lines{place.substr(0, place.find('\n'))};
+  const Cpu& cpu = simulation().cpu();
+  std::vector<std::string> lines{said_of(focus()) + place_line(focus())};
   const auto [op, end_op] = live_status_ ? std::pair(live_status_->first, live_status_->end) : ops_in_view();
   const LastExecutions last =
       live_status_ ? LastExecutions{.of = live_status_->last} : last_executions_of(op, end_op, kInView);
   for (std::string& line : status_lines(op, end_op, last)) lines.push_back(std::move(line));
   lines.resize(kOpsInView + 1);
   std::string memory;
-  for (const MemoryRange& range : displayed_) memory += memory_text(range);
-  if (displayed_.empty()) memory = registers_text(cpu, listing_) + "'display VW100' shows memory here\n";
+  for (const auto& [station, range] : displayed_) memory += said_of(station) + memory_text(station, range);
+  if (displayed_.empty()) memory = registers_text(cpu, listing()) + "'display VW100' shows memory here\n";
   for (std::size_t begin = 0; begin < memory.size() && lines.size() < rows;) {
     const std::size_t end = std::min(memory.find('\n', begin), memory.size());
     lines.push_back(memory.substr(begin, end - begin));
@@ -94,7 +93,7 @@ std::vector<std::string> Debugger::view(std::size_t rows) {
 
 /// The memory of the direct operands of an instruction.
 std::vector<Bits> Debugger::operands_of(std::uint32_t number) const {
-  const Op& op = simulation_.cpu().program().ops[number];
+  const Op& op = simulation().cpu().program().ops[number];
   const auto rules = op.instruction->rules();
   std::vector<Bits> all;
   for (std::size_t i = 0; i < rules.size(); ++i) {
@@ -110,9 +109,9 @@ std::vector<Bits> Debugger::operands_of(std::uint32_t number) const {
 Debugger::Error Debugger::expect(const Arguments& arguments) {
   std::string why;
   if (arguments.empty()) return expects("expect", "what must hold, for example: expect VW20 = 5 and M0.1");
-  const auto expression = Expression::parse(joined(arguments), simulation_.cpu().program(), why);
+  const auto expression = Expression::parse(joined(arguments), simulation().cpu().program(), why);
   if (!expression) return why;
-  if (!expression->holds(simulation_.cpu())) return fmt::format("expected {}, which does not hold here", expression->text());
+  if (!expression->holds(simulation().cpu())) return fmt::format("expected {}, which does not hold here", expression->text());
   return {};
 }
 

@@ -78,7 +78,7 @@ std::string options_text(const StopPoint& stop) {
 
 std::optional<StopPoint> Debugger::stop_of(const Arguments& words, std::string& why) {
   std::string note;
-  auto stop = find_stop(words, simulation_.cpu().program(), listing_, why, note);
+  auto stop = find_stop(words, simulation().cpu().program(), listing(), why, note);
   out_ << note;
   return stop;
 }
@@ -93,14 +93,15 @@ Debugger::Error Debugger::set_break(const Arguments& arguments) {
   std::string why;
   if (place.empty()) return expects("break", "a place or what happens first, for example: break 40 if VW2 > 8");
   auto stop = stop_of(place, why);
-  if (!stop || !read_options(words, simulation_.cpu().program(), *stop, why)) return why;
+  if (!stop || !read_options(words, simulation().cpu().program(), *stop, why)) return why;
   std::vector<StopPoint>& all = stepper_.stops;
-  const auto same = std::ranges::find_if(all, [&](const StopPoint& s) { return s.on == On::Place && s.op == stop->op; });
+  const auto same = std::ranges::find_if(all, [&](const StopPoint& s) { return s.on == On::Place && s.op == stop->op && s.station == focus(); });
   if (stop->on == On::Place && same != all.end() && words.empty()) {
     out_ << fmt::format("breakpoint {} is already in {}\n", same->number, op_text(stop->op));
     return {};
   }
   stop->number = next_number_++;
+  stop->station = focus();
   out_ << fmt::format("breakpoint {} {}{}\n", stop->number,
                       stop->on == On::Place ? "in " + op_text(stop->op) : "at " + stop->name, options_text(*stop));
   all.push_back(std::move(*stop));
@@ -120,20 +121,20 @@ Debugger::Error Debugger::watch(const Arguments& arguments) {
   std::vector<Named> ranges;
   if (Error error = ranges_of(addresses, "watch", ranges)) return error;
   std::string why;
-  if (!read_options(words, simulation_.cpu().program(), pattern, why)) return why;
+  if (!read_options(words, simulation().cpu().program(), pattern, why)) return why;
   for (const auto& [range, name] : ranges) {
     StopPoint added = pattern;
     added.number = next_number_++;
+    added.station = focus();
     added.range = range;
     added.name = name + (added.on == On::Change ? "" : " " + access);
-    out_ << fmt::format("watch {}: {} is {}{}\n", added.number, added.name, value_of(range), options_text(added));
+    out_ << fmt::format("watch {}: {} is {}{}\n", added.number, added.name, value_of(simulation().cpu(), range), options_text(added));
     stepper_.stops.push_back(std::move(added));
   }
   return {};
 }
 
-std::string Debugger::value_of(const MemoryRange& range) const {
-  const Cpu& cpu = simulation_.cpu();
+std::string Debugger::value_of(const Cpu& cpu, const MemoryRange& range) {
   return value_text(cpu.program(), range, range.bytes_in(cpu.state().image));
 }
 
@@ -142,8 +143,9 @@ void Debugger::list_stops() {
   for (const bool watches : {false, true})
     for (const StopPoint& s : stepper_.stops) {
       if (s.is_watch() != watches) continue;
-      std::string what = s.on == On::Place ? op_text(s.op) : s.name;
-      if (watches) what += " is " + value_of(*s.range);
+      const Station& of = stations_[s.station];
+      std::string what = said_of(s.station) + (s.on == On::Place ? op_text(of.listing, s.op) : s.name);
+      if (watches) what += " is " + value_of(of.simulation->cpu(), *s.range);
       out_ << fmt::format("{:<3} {}  {:>8}  {}{}\n", s.number, watches ? "watch" : "break",
                           fmt::format("{} hit{}", s.hits, s.hits == 1 ? "" : "s"), what, options_text(s));
     }
@@ -167,7 +169,7 @@ Debugger::Error Debugger::delete_stop(const Arguments& arguments) {
 
 std::string Debugger::mark_of(std::uint32_t op) const {
   const bool breakpoint =
-      std::ranges::any_of(stepper_.stops, [&](const StopPoint& s) { return s.on == On::Place && s.op == op; });
+      std::ranges::any_of(stepper_.stops, [&](const StopPoint& s) { return s.on == On::Place && s.op == op && s.station == focus(); });
   return std::string(breakpoint ? "*" : " ") + (op == current_op() ? ">" : " ");
 }
 
@@ -182,29 +184,32 @@ void Debugger::report_hits(const Stop& stop) {
 }
 
 void Debugger::report_breakpoint(const Hit& hit) {
-  const Program& program = simulation_.cpu().program();
+  const Program& program = stations_[hit.stop.station].simulation->cpu().program();
   const std::string hits = hit.stop.hits == 0 ? "" : ", hit " + times_text(hit.stop.hits);
   const std::string name = hit.stop.on == On::Place ? "" : ", " + hit.stop.name;
-  out_ << fmt::format("breakpoint {}{}{}\n", hit.stop.number, name, hits);
+  out_ << fmt::format("{}breakpoint {}{}{}\n", said_of(hit.stop.station), hit.stop.number, name, hits);
   if (hit.record) out_ << fmt::format("  {}  {}\n", moment_text(hit.record->at), describe(*hit.record, program));
   if (!hit.frame.empty()) out_ << fmt::format("  {}\n", serial::to_hex(hit.frame));
 }
 
 void Debugger::report_access(const Hit& hit) {
-  const Program& program = simulation_.cpu().program();
+  const Station& station = stations_[hit.stop.station];
+  const Program& program = station.simulation->cpu().program();
   const std::string was = value_text(program, *hit.stop.range, hit.stop.value);
   const std::string is = value_text(program, *hit.stop.range, hit.value);
+  out_ << said_of(hit.stop.station);
   out_ << (was == is ? fmt::format("watch {}: {} is {} as before\n", hit.stop.number, hit.stop.name, is)
                      : fmt::format("watch {}: {} was {}, is {}\n", hit.stop.number, hit.stop.name, was, is));
   if (hit.by)
-    out_ << fmt::format("  by {} {}\n", listing_.routine_of(hit.by->op), execution_text(*hit.by, program));
+    out_ << fmt::format("  by {} {}\n", station.listing.routine_of(hit.by->op), execution_text(*hit.by, program));
   else
     out_ << "  by the system, between two instructions\n";
 }
 
 void Debugger::print_message(const StopPoint& stop) {
   hide_progress();
-  out_ << fmt::format("{}\n", stl::printable(filled_in(stop.log, simulation_.cpu())));
+  out_ << fmt::format("{}{}\n", said_of(stop.station),
+                      stl::printable(filled_in(stop.log, stations_[stop.station].simulation->cpu())));
 }
 
 }  // namespace s7200::tools

@@ -45,27 +45,54 @@ struct StopAtOnce final : Observer {
 }  // namespace
 
 History::History(serial::Simulation& simulation, Settings settings)
-    : simulation_(simulation), settings_(std::move(settings)), bytes_(std::make_shared<std::size_t>(0)) {
-  simulation_.cpu().set_sink(this);
-  simulation_.host_port().set_journal(this);
-  begin_branch(simulation_.snapshot());
+    : History(std::vector{&simulation}, std::move(settings)) {}
+
+History::History(std::vector<serial::Simulation*> stations, Settings settings)
+    : stations_(std::move(stations)),
+      settings_(std::move(settings)),
+      alone_(stations_.size() == 1 && !system().has_schedule()),
+      bytes_(std::make_shared<std::size_t>(0)) {
+  if (stations_.size() == 1 && settings_.hosts.empty() && station(0).has_host_port())
+    settings_.hosts.push_back(&station(0).host_port());
+  for (std::size_t number = 0; number < stations_.size(); ++number)
+    station(number).cpu().set_sink(taps_.emplace_back(std::make_unique<Tap>(*this, number)).get());
+  for (std::size_t number = 0; number < settings_.hosts.size(); ++number)
+    settings_.hosts[number]->set_journal(journals_.emplace_back(std::make_unique<Journal>(*this, number)).get());
+  begin_branch(system().snapshot());
   origin_ = branch_->checkpoints.front();
 }
 
 History::~History() {
-  simulation_.cpu().set_sink(nullptr);
-  simulation_.host_port().set_journal(nullptr);
+  for (serial::Simulation* station : stations_) station->cpu().set_sink(nullptr);
+  for (serial::HostPort* host : settings_.hosts) host->set_journal(nullptr);
 }
 
-Moment History::now() const {
-  const State& state = simulation_.cpu().state();
-  return {state.instructions, actions_, settled_, state.mode == Mode::Stop, state.time};
+std::uint64_t History::executed() const {
+  std::uint64_t executed = 0;
+  for (const serial::Simulation* station : stations_) executed += station->plc().executed();
+  return executed;
 }
 
-Moment History::in_front() const {
-  const State& state = simulation_.cpu().state();
-  return {state.instructions, actions_, true, false, state.time};
+std::optional<std::size_t> History::next_station() const {
+  std::optional<std::size_t> next;
+  for (std::size_t number = 0; number < stations_.size(); ++number)
+    if (station(number).plc().executes() &&
+        (!next || station(number).cpu().next_action() < station(*next).cpu().next_action()))
+      next = number;
+  return next;
 }
+
+bool History::stopped() const { return alone_ && station(0).cpu().state().mode == Mode::Stop; }
+
+Time History::latest_clock() const {
+  Time latest = 0;
+  for (const serial::Simulation* station : stations_) latest = std::max(latest, station->cpu().time());
+  return latest;
+}
+
+Moment History::now() const { return {executed(), actions_, settled_, stopped(), time()}; }
+
+Moment History::in_front() const { return {executed(), actions_, true, false, station(told_of_).cpu().time()}; }
 
 // --- running ---
 
@@ -78,21 +105,42 @@ serial::Halt History::run(Observer& observer) {
 }
 
 serial::Halt History::run_live() {
-  if (simulation_.cpu().state().mode == Mode::Stop) return serial::Halt::Stopped;
+  if (stopped()) return serial::Halt::Stopped;
   live_ = true;
   serial::Halt halt = serial::Halt::Time;
   while (halt == serial::Halt::Time) {
     const Time last = branch_->checkpoints.back()->moment.time;
-    halt = drive(last < kNever - branch_->interval ? last + branch_->interval : kNever);
+    const Time next = last < kNever - branch_->interval ? last + branch_->interval : kNever;
+    const Time idle = executes() ? kNever : observer_->idles_until(time());
+    if (idle <= time()) break;
+    halt = drive(executes() ? next : std::min({next, idle, time() + kSlice}));
     settled_ = halt == serial::Halt::Paused;
     branch_->end = now();
-    if (halt == serial::Halt::Time) keep_checkpoint();
+    if (halt == serial::Halt::Time && time() >= next) keep_checkpoint();
   }
   live_ = false;
   return halt;
 }
 
-serial::Halt History::drive(Time end) { return settings_.drive ? settings_.drive(end) : simulation_.run_until(end); }
+serial::Halt History::drive(Time end) {
+  if (!settings_.drive) return run_until(end);
+  system().run_in_step(true);
+  return settings_.drive(end);
+}
+
+/// A live run ends early when the last CPU that executed a program does so no more, and all clocks are at the same instant:
+/// the observer is asked then.
+serial::Halt History::run_until(Time end) {
+  system().run_in_step(observer_ != nullptr || goal_.has_value());
+  if (alone_) return station(0).run_until(end);
+  const bool executed = executes();
+  serial::Halt halt = serial::Halt::Time;
+  while (halt == serial::Halt::Time && time() < end) {
+    halt = system().step(end);
+    if (live_ && executed && !executes()) end = std::min(end, latest_clock());
+  }
+  return halt;
+}
 
 bool History::play(Observer& observer, const Moment& end) {
   observer_ = &observer;
@@ -114,23 +162,28 @@ bool History::has_next_action() const { return actions_ - branch_->forgotten < b
 const Moment& History::next_action() const { return branch_->moments[actions_ - branch_->forgotten]; }
 
 void History::do_next_action() {
-  perform(branch_->actions[actions_++ - branch_->forgotten], simulation_);
+  const std::size_t number = actions_++ - branch_->forgotten;
+  const Action& action = branch_->actions[number];
+  const std::size_t where = branch_->stations[number];
+  if (std::holds_alternative<serial::HostCall>(action))
+    perform(action, station(0), settings_.hosts[where]);
+  else
+    perform(action, station(where));
   settled_ = false;
   if (observer_) observer_->acted();
 }
 
 /// Plays until a moment that has as many actions before it as have been done.
 bool History::reach(const Moment& moment) {
-  const State& state = simulation_.cpu().state();
   stopped_by_observer_ = false;
-  if (now() == moment || state.mode == Mode::Stop) return true;
+  if (now() == moment || stopped()) return true;
   settled_ = false;
   if (moment.stopped || !moment.settled) {
-    simulation_.run_until(moment.time + (moment.stopped ? 1 : 0));
+    run_until(moment.time + (moment.stopped ? 1 : 0));
   } else {
-    if (!observer_) simulation_.run_until(moment.time);
+    if (!observer_) run_until(moment.time);
     goal_ = moment.instructions;
-    simulation_.run_until(moment.time + 1);
+    run_until(moment.time + 1);
     goal_.reset();
     settled_ = true;
   }
@@ -138,33 +191,43 @@ bool History::reach(const Moment& moment) {
   return !stopped_by_observer_;
 }
 
-bool History::wants_instructions() const {
-  return goal_ || observer_ || (live_ && settings_.records && settings_.records->wants_instructions());
+/// Of a live run; null if there are none.
+TraceSink* History::records_of(std::size_t station) const {
+  return live_ && station < settings_.records.size() ? settings_.records[station] : nullptr;
 }
 
-bool History::wants_scans() const {
-  return goal_ || (observer_ && observer_->wants_scans()) ||
-         (live_ && settings_.records && settings_.records->wants_scans());
+bool History::wants_instructions(std::size_t station) const {
+  const TraceSink* const records = records_of(station);
+  return goal_ || (observer_ && observer_->watches(station)) || (records && records->wants_instructions());
 }
 
-void History::record(const TraceRecord& record) {
-  if (live_ && settings_.records) settings_.records->record(record);
-  if (observer_) observer_->record(record);
+bool History::wants_scans(std::size_t station) const {
+  const TraceSink* const records = records_of(station);
+  return goal_ || (observer_ && observer_->watches(station) && observer_->wants_scans()) ||
+         (records && records->wants_scans());
 }
 
-bool History::before(std::uint32_t op) {
+void History::record(std::size_t station, const TraceRecord& record) {
+  told_of_ = station;
+  if (TraceSink* const records = records_of(station)) records->record(record);
+  if (observer_ && observer_->watches(station)) observer_->record(record);
+}
+
+bool History::before(std::size_t station, std::uint32_t op) {
+  told_of_ = station;
   if (++looked_ % kTellEvery == 0) tell_progress();
-  if (goal_ && simulation_.cpu().state().instructions == *goal_) return false;
+  if (goal_ && executed() == *goal_) return false;
   bool goes_on = true;
-  if (live_ && settings_.records && settings_.records->wants_instructions()) goes_on = settings_.records->before(op);
-  if (observer_) goes_on &= observer_->before(op);
+  if (TraceSink* const records = records_of(station); records && records->wants_instructions()) goes_on = records->before(op);
+  if (observer_ && observer_->watches(station)) goes_on &= observer_->before(op);
   stopped_by_observer_ = !goes_on;
   return goes_on;
 }
 
-void History::instruction(const InstructionRecord& record) {
-  if (live_ && settings_.records && settings_.records->wants_instructions()) settings_.records->instruction(record);
-  if (observer_) observer_->instruction(record);
+void History::instruction(std::size_t station, const InstructionRecord& record) {
+  told_of_ = station;
+  if (TraceSink* const records = records_of(station); records && records->wants_instructions()) records->instruction(record);
+  if (observer_ && observer_->watches(station)) observer_->instruction(record);
 }
 
 // --- going elsewhere ---
@@ -177,8 +240,9 @@ const History::Checkpoint& History::checkpoint_before(const Moment& moment) cons
 }
 
 void History::restore(const Checkpoint& checkpoint) {
-  simulation_.restore(checkpoint.state);
-  simulation_.cpu().core().loop.op = checkpoint.op;
+  system().restore(checkpoint.state);
+  for (std::size_t number = 0; number < stations_.size(); ++number)
+    station(number).cpu().core().loop.op = checkpoint.ops[number];
   actions_ = checkpoint.moment.actions;
   settled_ = checkpoint.moment.settled;
 }
@@ -204,7 +268,7 @@ bool History::go_to(Time time) {
     return false;
   }
   StopAtOnce here;
-  play(here, newest());
+  if (executes()) play(here, newest());
   return true;
 }
 
@@ -215,10 +279,10 @@ bool History::play_to(Time time) {
     reach(next_action());
     do_next_action();
   }
-  while (simulation_.time() < time && simulation_.cpu().state().mode != Mode::Stop) {
+  while (this->time() < time && !stopped()) {
     if (stop_requested()) return false;
     tell_progress();
-    simulation_.run_until(std::min(time, simulation_.time() + kSlice));
+    run_until(std::min(time, this->time() + kSlice));
     settled_ = false;
   }
   return true;
@@ -263,22 +327,24 @@ void History::return_to(const Place& place) {
 
 // --- doing something ---
 
-void History::act(Action action) {
+void History::act(Action action, std::size_t station) {
   if (in_the_past()) fork();
   branch_->actions.push_back(std::move(action));
+  branch_->stations.push_back(station);
   branch_->moments.push_back(now());
   do_next_action();
   branch_->end = now();
 }
 
-void History::host_called(const serial::HostCall& call) {
+void History::host_called(std::size_t host, const serial::HostCall& call) {
   if (!live_) return;
   Moment moment = now();
   const Moment* const last = branch_->moments.empty() ? nullptr : &branch_->moments.back();
   const bool just_acted = last && last->instructions == moment.instructions && last->time == moment.time;
-  moment.settled = simulation_.cpu().paused() && !just_acted;
+  moment.settled = system().paused() && !just_acted;
   branch_->log_bytes += bytes_of(call);
   branch_->actions.emplace_back(call);
+  branch_->stations.push_back(host);
   branch_->moments.push_back(moment);
   ++actions_;
 }
@@ -288,6 +354,7 @@ void History::fork() {
   const Moment here = now();
   std::erase_if(branch->checkpoints, [&](const CheckpointPtr& checkpoint) { return here < checkpoint->moment; });
   branch->actions.resize(actions_ - branch->forgotten);
+  branch->stations.resize(actions_ - branch->forgotten);
   branch->moments.resize(actions_ - branch->forgotten);
   branch->end = here;
   branches_.push_back(branch);
@@ -296,28 +363,30 @@ void History::fork() {
 
 void History::restart() { begin_with(origin_->state); }
 
-void History::power_up(const RetentiveMemory& memory) {
-  simulation_.restore(origin_->state);
-  simulation_.power_up(&memory);
-  begin_branch(simulation_.snapshot());
+void History::power_up(const std::vector<RetentiveMemory>& memory) {
+  system().restore(origin_->state);
+  for (std::size_t number = 0; number < stations_.size(); ++number) station(number).power_up(&memory[number]);
+  begin_branch(system().snapshot());
   branch_->memory = memory;
 }
 
 Recording History::recording() const {
-  return {branch_->memory, branch_->actions, branch_->moments, branch_->end, now(), branch_->forgotten == 0};
+  return {branch_->memory, branch_->actions, branch_->stations,       branch_->moments,
+          branch_->end,    now(),            branch_->forgotten == 0};
 }
 
 bool History::replay(Recording recording) {
-  if (recording.memory)
-    power_up(*recording.memory);
-  else
+  if (recording.memory.empty())
     restart();
+  else
+    power_up(recording.memory);
   branch_->actions = std::move(recording.actions);
+  branch_->stations = std::move(recording.stations);
   branch_->moments = std::move(recording.moments);
   branch_->end = recording.end;
   for (Time time = branch_->interval; time < recording.end.time; time += branch_->interval) {
     if (!play_to(time)) return false;
-    if (simulation_.cpu().state().mode == Mode::Run) keep_checkpoint();
+    if (!stopped()) keep_checkpoint();
   }
   go_to(recording.end);
   if (now() != recording.end) return false;
@@ -326,7 +395,7 @@ bool History::replay(Recording recording) {
 }
 
 void History::begin_with(serial::Simulation::Snapshot state) {
-  simulation_.restore(state);
+  system().restore(state);
   begin_branch(std::move(state));
 }
 
@@ -353,7 +422,9 @@ const std::vector<Moment>& History::action_moments() const { return branch_->mom
 History::CheckpointPtr History::checkpoint_of(serial::Simulation::Snapshot state) {
   const std::size_t size = sizeof(Checkpoint) + bytes_of(state);
   *bytes_ += size;
-  return {new Checkpoint{now(), std::move(state), simulation_.cpu().core().loop.op},
+  std::vector<std::uint32_t> ops;
+  for (serial::Simulation* station : stations_) ops.push_back(station->cpu().core().loop.op);
+  return {new Checkpoint{now(), std::move(state), std::move(ops)},
           [total = bytes_, size](const Checkpoint* checkpoint) {
             *total -= size;
             delete checkpoint;
@@ -361,7 +432,7 @@ History::CheckpointPtr History::checkpoint_of(serial::Simulation::Snapshot state
 }
 
 void History::keep_checkpoint() {
-  branch_->checkpoints.push_back(checkpoint_of(simulation_.snapshot()));
+  branch_->checkpoints.push_back(checkpoint_of(system().snapshot()));
   if (*bytes_ > settings_.bound) thin();
   if (branch_->log_bytes > settings_.log_bound) forget();
 }
@@ -381,6 +452,7 @@ void History::forget() {
   branch.checkpoints.erase(branch.checkpoints.begin(), oldest);
   for (std::size_t i = 0; i < gone; ++i) branch.log_bytes -= bytes_of(branch.actions[i]);
   branch.actions.erase(branch.actions.begin(), branch.actions.begin() + static_cast<std::ptrdiff_t>(gone));
+  branch.stations.erase(branch.stations.begin(), branch.stations.begin() + static_cast<std::ptrdiff_t>(gone));
   branch.moments.erase(branch.moments.begin(), branch.moments.begin() + static_cast<std::ptrdiff_t>(gone));
   branch.forgotten += gone;
 }

@@ -1,5 +1,8 @@
 // The past of a simulation: every moment since its beginning can be reached again.
 //
+// It may have several PLCs, its stations. While anyone looks at instructions the CPUs run in step (system.hpp), so that there
+// is one order of all instructions, in which a moment has its place.
+//
 // A run is deterministic, so the past is computed anew: from the last checkpoint before the moment, with everything that was
 // done to the simulation from outside done again where it was done. Checkpoints are thinned when they take more memory than
 // they may; the beginning stays, unless what came in over a bridge takes more memory than it may: then the older half of it
@@ -25,11 +28,11 @@ namespace s7200::tools {
 /// A place in a run. Instructions may take no time, and several actions may come between two of them: so it takes more than
 /// the time to name one.
 struct Moment {
-  std::uint64_t instructions = 0;  ///< executed before
+  std::uint64_t instructions = 0;  ///< executed before, by all stations
   std::size_t actions = 0;         ///< done before
   bool settled = false;            ///< interrupts that were due have been taken: it is exactly in front of an instruction
-  bool stopped = false;            ///< the CPU is in STOP
-  Time time = 0;
+  bool stopped = false;            ///< the only CPU is in STOP, which ends the run
+  Time time = 0;                   ///< the earliest clock of all stations
 
   /// The order in which a run comes by; two of one run are never unordered.
   auto operator<=>(const Moment&) const = default;
@@ -37,9 +40,10 @@ struct Moment {
 
 /// All that it takes to run a history again, and where it stands.
 struct Recording {
-  std::optional<RetentiveMemory> memory;  ///< it begins with power coming back; otherwise as the simulation was given
+  std::vector<RetentiveMemory> memory;  ///< by station: it begins with power coming back; none: as the simulation was given
   std::vector<Action> actions;
-  std::vector<Moment> moments;  ///< of the actions
+  std::vector<std::size_t> stations;  ///< at which the actions were done; of a HostCall the number of the host port
+  std::vector<Moment> moments;        ///< of the actions
   Moment end, now;
   bool complete = true;  ///< false: its beginning is forgotten, and it cannot be run again
 };
@@ -47,18 +51,30 @@ struct Recording {
 /// Watches a run: live, or played again.
 class Observer : public TraceSink {
  public:
+  Observer() = default;
+  /// Is told of one station alone.
+  explicit Observer(std::size_t station) : only_(station) {}
+  bool watches(std::size_t station) const { return !only_ || *only_ == station; }
+
   /// Something was done to the simulation, which is the same as it was in front of an instruction otherwise.
   virtual void acted() {}
+
+  /// How far to run on from `now` while no CPU executes a program; `now` ends the run. It is asked again on the way.
+  virtual Time idles_until(Time /*now*/) { return kNever; }
+
+ private:
+  std::optional<std::size_t> only_;
 };
 
-class History final : private TraceSink, private serial::HostJournal {
+class History final {
  public:
   /// Runs the simulation for real: Simulation::run_until(), or the same at the pace of a clock.
   using Drive = std::function<serial::Halt(Time end)>;
 
   struct Settings {
-    Drive drive{};                                    ///< none: as fast as the computer can
-    TraceSink* records = nullptr;                     ///< is told what happens for the first time, and nothing twice
+    Drive drive{};                      ///< none: as fast as the computer can
+    std::vector<TraceSink*> records{};  ///< by station, null for none: told what happens for the first time, nothing twice
+    std::vector<serial::HostPort*> hosts{};  ///< through which something comes in; none: the one beside the only station
     std::size_t bound = 256 << 20;                    ///< bytes for checkpoints
     std::size_t log_bound = 64 << 20;                 ///< bytes for what came in over a bridge
     Time interval = 500 * kMillisecond;               ///< of checkpoints, until they have to be thinned
@@ -68,15 +84,28 @@ class History final : private TraceSink, private serial::HostJournal {
 
   /// The past begins now. The simulation must live as long as this.
   History(serial::Simulation& simulation, Settings settings);
-  ~History() override;
+  /// The same of a system, seen from each of its PLCs, in their order; all must live as long as this.
+  History(std::vector<serial::Simulation*> stations, Settings settings);
+  ~History();
   History(const History&) = delete;
   History& operator=(const History&) = delete;
+
+  std::size_t stations() const { return stations_.size(); }
+  serial::Simulation& station(std::size_t number) { return *stations_[number]; }
+  const serial::Simulation& station(std::size_t number) const { return *stations_[number]; }
+
+  /// For observers: the station that they are being told of.
+  std::size_t told_of() const { return told_of_; }
+
+  /// The one whose instruction is next, of those that execute a program. None: no one does.
+  std::optional<std::size_t> next_station() const;
 
   Moment now() const;
   const Moment& newest() const;
   bool in_the_past() const { return now() < newest(); }
 
-  /// Runs from now on until the observer stops it or the CPU goes to STOP: first what has run already, then what is new.
+  /// Runs from now on until the observer stops it or the only CPU goes to STOP: first what has run already, then what is new.
+  /// Halt::Time if it was to end while no CPU executed a program.
   serial::Halt run(Observer& observer);
 
   /// Plays what has run from now on until `end`, or until the observer stops it; returns whether it came to the end. The
@@ -90,7 +119,7 @@ class History final : private TraceSink, private serial::HostJournal {
   /// where it stood then.
   bool go_to(Time time);
 
-  /// For observers, in front of an instruction: that moment.
+  /// For observers, in front of an instruction: that moment. Other clocks may be behind until the run stops there.
   Moment in_front() const;
 
   enum class Search : std::uint8_t { Found, Oldest, Interrupted };
@@ -100,8 +129,8 @@ class History final : private TraceSink, private serial::HostJournal {
   /// moment if nothing was found.
   Search search_back(Observer& observer, Moment end, const std::function<void()>& begin, const std::function<bool()>& found);
 
-  /// Does something to the simulation now. In the past a new branch begins; what ran on the old one stays in it.
-  void act(Action action);
+  /// Does something to a station, or on its line, now. In the past a new branch begins; what ran on the old one stays in it.
+  void act(Action action, std::size_t station = 0);
 
   struct Branch;
   using BranchPtr = std::shared_ptr<Branch>;
@@ -117,12 +146,13 @@ class History final : private TraceSink, private serial::HostJournal {
   /// A new branch that begins as the whole history did, with a state of its own, or with power coming back.
   void restart();
   void begin_with(serial::Simulation::Snapshot state);
-  void power_up(const RetentiveMemory& memory);
+  /// By station.
+  void power_up(const std::vector<RetentiveMemory>& memory);
 
   Recording recording() const;
 
-  /// Of the CPU, when all this began.
-  const State& origin() const { return origin_->state.plcs.front().cpu; }
+  /// Of a station's CPU, when all this began.
+  const State& origin(std::size_t station) const { return origin_->state.plcs[station].cpu; }
 
   /// A new branch: runs the recording, and stands where it stood. False if it cannot come there, or after a stop request; it
   /// stands anywhere then.
@@ -150,18 +180,53 @@ class History final : private TraceSink, private serial::HostJournal {
   struct Checkpoint {
     Moment moment;
     serial::Simulation::Snapshot state;
-    std::uint32_t op = 0;  ///< being executed last: an error that comes now names it
+    std::vector<std::uint32_t> ops;  ///< being executed last, by station: an error that comes now names it
   };
   using CheckpointPtr = std::shared_ptr<const Checkpoint>;
 
-  void record(const TraceRecord& record) override;
-  bool before(std::uint32_t op) override;
-  void instruction(const InstructionRecord& record) override;
-  bool wants_instructions() const override;
-  bool wants_scans() const override;
-  void host_called(const serial::HostCall& call) override;
+  /// What watches a station's CPU.
+  class Tap final : public TraceSink {
+   public:
+    Tap(History& history, std::size_t station) : history_(history), station_(station) {}
+    void record(const TraceRecord& record) override { history_.record(station_, record); }
+    bool before(std::uint32_t op) override { return history_.before(station_, op); }
+    void instruction(const InstructionRecord& record) override { history_.instruction(station_, record); }
+    bool wants_instructions() const override { return history_.wants_instructions(station_); }
+    bool wants_scans() const override { return history_.wants_scans(station_); }
+
+   private:
+    History& history_;
+    std::size_t station_;
+  };
+
+  /// What writes down the calls of a host port.
+  class Journal final : public serial::HostJournal {
+   public:
+    Journal(History& history, std::size_t host) : history_(history), host_(host) {}
+    void host_called(const serial::HostCall& call) override { history_.host_called(host_, call); }
+
+   private:
+    History& history_;
+    std::size_t host_;
+  };
+
+  void record(std::size_t station, const TraceRecord& record);
+  bool before(std::size_t station, std::uint32_t op);
+  void instruction(std::size_t station, const InstructionRecord& record);
+  bool wants_instructions(std::size_t station) const;
+  bool wants_scans(std::size_t station) const;
+  void host_called(std::size_t host, const serial::HostCall& call);
+  TraceSink* records_of(std::size_t station) const;
+
+  serial::System& system() const { return stations_.front()->system(); }
+  Time time() const { return system().time(); }
+  std::uint64_t executed() const;
+  bool executes() const { return next_station().has_value(); }
+  bool stopped() const;
+  Time latest_clock() const;
 
   serial::Halt run_live();
+  serial::Halt run_until(Time end);
   bool advance(const Moment& target);
   bool reach(const Moment& moment);
   serial::Halt drive(Time end);
@@ -183,8 +248,11 @@ class History final : private TraceSink, private serial::HostJournal {
   void restore(const Checkpoint& checkpoint);
   const Checkpoint& checkpoint_before(const Moment& moment) const;
 
-  serial::Simulation& simulation_;
+  std::vector<serial::Simulation*> stations_;
   Settings settings_;
+  std::vector<std::unique_ptr<Tap>> taps_;          // by station
+  std::vector<std::unique_ptr<Journal>> journals_;  // by host port
+  bool alone_;                                      // one CPU, whose STOP is the end: nothing brings it back
   std::shared_ptr<std::size_t> bytes_;  ///< of all checkpoints
   CheckpointPtr origin_;
   BranchPtr branch_;
@@ -197,6 +265,7 @@ class History final : private TraceSink, private serial::HostJournal {
   // Of the run under way.
   Observer* observer_ = nullptr;
   bool live_ = false;
+  std::size_t told_of_ = 0;
   std::optional<std::uint64_t> goal_;  ///< instructions
   bool stopped_by_observer_ = false;
   std::uint32_t looked_ = 0;  ///< instructions, for tell_progress()
@@ -206,12 +275,13 @@ class History final : private TraceSink, private serial::HostJournal {
 struct History::Branch {
   std::vector<CheckpointPtr> checkpoints;  ///< in order; the first is the beginning
   std::vector<Action> actions;
-  std::vector<Moment> moments;  ///< of the actions
+  std::vector<std::size_t> stations;  ///< of the actions
+  std::vector<Moment> moments;        ///< of the actions
   std::size_t forgotten = 0;    ///< actions before these
   std::size_t log_bytes = 0;    ///< of the actions
   Moment end;
   Time interval = 0;
-  std::optional<RetentiveMemory> memory{};  ///< it begins with power coming back
+  std::vector<RetentiveMemory> memory{};  ///< by station: it begins with power coming back
 };
 
 }  // namespace s7200::tools

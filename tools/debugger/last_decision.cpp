@@ -14,7 +14,8 @@ constexpr Time kHostRequest = 2 * kSecond;  // when a master on a bridge has ask
 
 class Reader final : public Observer {
  public:
-  Reader(const Program& program, const std::atomic<bool>* stop_request) : reasons(program), stop_request_(stop_request) {}
+  Reader(const History& history, std::size_t station, const std::atomic<bool>* stop_request)
+      : Observer(station), reasons(history.station(station).cpu().program()), stop_request_(stop_request) {}
   bool wants_instructions() const override { return true; }
   bool before(std::uint32_t) override { return !(stop_request_ && *stop_request_); }
   void record(const TraceRecord& record) override {
@@ -34,7 +35,8 @@ class Reader final : public Observer {
 /// Stops in front of an instruction, in an interrupt or not.
 class Finder final : public Observer {
  public:
-  Finder(const Cpu& cpu, std::uint32_t op, bool in_interrupt) : cpu_(cpu), op_(op), in_interrupt_(in_interrupt) {}
+  Finder(const History& history, std::size_t station, std::uint32_t op, bool in_interrupt)
+      : Observer(station), cpu_(history.station(station).cpu()), op_(op), in_interrupt_(in_interrupt) {}
   bool wants_instructions() const override { return true; }
   bool before(std::uint32_t op) override { return op != op_ || cpu_.state().in_interrupt != in_interrupt_; }
 
@@ -46,21 +48,24 @@ class Finder final : public Observer {
 
 /// Since when all is to be known: the scan, which an interrupt routine never outlasts, and a request without an answer.
 Time beginning(const serial::Simulation& simulation) {
-  const serial::Requester& master = simulation.master();
-  const serial::Exchange& exchange = master.exchange();
-  const Time now = simulation.time(), given_up = exchange.request_end + master.state().request.timeout;
+  const Time now = simulation.time();
   Time from = simulation.cpu().state().scan_begin;
-  if (master.asks() || (exchange.timed_out && now - given_up < kJust)) from = std::min(from, exchange.request_start);
-  if (simulation.host_port().state().attached) from = std::min(from, now - std::min(now, kHostRequest));
+  if (simulation.has_master()) {
+    const serial::Requester& master = simulation.master();
+    const serial::Exchange& exchange = master.exchange();
+    const Time given_up = exchange.request_end + master.state().request.timeout;
+    if (master.asks() || (exchange.timed_out && now - given_up < kJust)) from = std::min(from, exchange.request_start);
+  }
+  if (simulation.has_host_port() && simulation.host_port().state().attached) from = std::min(from, now - std::min(now, kHostRequest));
   return from;
 }
 
 }  // namespace
 
-DecisionSearch find_last_decision(serial::Simulation& simulation, History& history, const std::atomic<bool>* stop_request) {
+DecisionSearch find_last_decision(History& history, std::size_t station, const std::atomic<bool>* stop_request) {
   const Moment start = history.now();
-  const Time since = beginning(simulation);
-  Reader reader(simulation.cpu().program(), stop_request);
+  const Time since = beginning(history.station(station));
+  Reader reader(history, station, stop_request);
   const bool whole = history.go_to(since - std::min(since, kEarlier)) && history.play(reader, start);
   const auto cause = whole ? reader.reasons.cause() : std::nullopt;
   DecisionSearch search{.decision = {}, .unanswered = {}, .interrupted = !whole};
@@ -69,7 +74,7 @@ DecisionSearch find_last_decision(serial::Simulation& simulation, History& histo
   for (const auto& frame : reader.reasons.unread())
     if (frame.since >= since) search.unanswered.push_back({start.time, unanswered_text(frame)});
   const auto in_front_of = [&](const InstructionRecord& from, std::uint32_t op) {
-    Finder finder(simulation.cpu(), op, cause->in_interrupt);
+    Finder finder(history, station, op, cause->in_interrupt);
     if (history.go_to(from.at)) history.play(finder, start);
     return history.now();
   };

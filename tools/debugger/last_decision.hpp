@@ -27,8 +27,8 @@ struct DecisionSearch {
   bool interrupted = false;
 };
 
-/// The contacts of the rung so far, or the last jump, conditional end or conditional call before it. The simulation stands
-/// where it stood.
-DecisionSearch find_last_decision(serial::Simulation& simulation, History& history, const std::atomic<bool>* stop_request);
+/// Of a station: the contacts of the rung so far, or the last jump, conditional end or conditional call before it. The
+/// simulation stands where it stood.
+DecisionSearch find_last_decision(History& history, std::size_t station, const std::atomic<bool>* stop_request);
 
 }  // namespace s7200::tools

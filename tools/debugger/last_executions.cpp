@@ -9,8 +9,8 @@ namespace {
 /// The last execution of each instruction of [first, end).
 class Status final : public Observer {
  public:
-  Status(std::uint32_t first, std::uint32_t end, const std::atomic<bool>* stop_request)
-      : first_(first), end_(end), stop_request_(stop_request) {}
+  Status(std::size_t station, std::uint32_t first, std::uint32_t end, const std::atomic<bool>* stop_request)
+      : Observer(station), first_(first), end_(end), stop_request_(stop_request) {}
 
   bool wants_instructions() const override { return true; }
   bool before(std::uint32_t) override { return !(stop_request_ && *stop_request_); }
@@ -35,9 +35,9 @@ class Status final : public Observer {
 
 }  // namespace
 
-LastExecutions last_executions(History& history, std::uint32_t first, std::uint32_t end, Time within,
+LastExecutions last_executions(History& history, std::size_t station, std::uint32_t first, std::uint32_t end, Time within,
                                const std::atomic<bool>* stop_request) {
-  Status status(first, end, stop_request);
+  Status status(station, first, end, stop_request);
   const Moment start = history.now();
   const Time oldest = start.time - std::min(start.time, within);
   Time looked_at = start.time;

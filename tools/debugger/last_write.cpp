@@ -10,9 +10,14 @@ namespace {
 
 class WriteFinder final : public Observer {
  public:
-  WriteFinder(serial::Simulation& simulation, const History& history, const MemoryRange& range,
+  WriteFinder(const History& history, std::size_t station, const MemoryRange& range,
               const std::atomic<bool>* stop_request)
-      : cpu_(simulation.cpu()), history_(history), range_(range), bits_(bits_of(range)), stop_request_(stop_request) {
+      : Observer(station),
+        cpu_(history.station(station).cpu()),
+        history_(history),
+        range_(range),
+        bits_(bits_of(range)),
+        stop_request_(stop_request) {
     for (std::uint32_t op = 0; op < cpu_.program().ops.size(); ++op)
       may_write_.push_back(may_access(cpu_, op, Access::Write, bits_));
   }
@@ -96,10 +101,10 @@ class WriteFinder final : public Observer {
 
 }  // namespace
 
-WriteSearch find_last_write(serial::Simulation& simulation, History& history, const MemoryRange& range,
+WriteSearch find_last_write(History& history, std::size_t station, const MemoryRange& range,
                             const std::atomic<bool>* stop_request) {
   const Moment start = history.now();
-  WriteFinder finder(simulation, history, range, stop_request);
+  WriteFinder finder(history, station, range, stop_request);
   const auto search = history.search_back(
       finder, start, [&] { finder.begin(); }, [&] { return finder.found(); });
   history.go_to(start);

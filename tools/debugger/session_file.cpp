@@ -179,18 +179,37 @@ Action action_from(const Json& json, const CpuModel& model) {
   return unforce;
 }
 
-Recording recording_from(const Json& json, const CpuModel& model) {
+using Models = std::span<const CpuModel* const>;
+
+RetentiveMemory retentive_from(const Json& json, const CpuModel& model) {
+  std::string why;
+  auto memory = memory_from_json(json.at("memory").dump(), model, why);
+  if (!memory) throw std::runtime_error(why);
+  memory->ram_lost = json.at("memory_lost").get<bool>();
+  memory->power_off = json.at("power_off").get<Time>();
+  return *memory;
+}
+
+/// Of the only PLC they are in `json` itself, of several in its `stations`.
+template <class Take>
+void for_each_station(const Json& json, std::size_t count, Take take) {
+  if (!json.contains("stations")) return take(0, json);
+  for (std::size_t number = 0; number < count; ++number) take(number, json.at("stations").at(number));
+}
+
+Recording recording_from(const Json& json, Models models) {
   Recording recording;
-  if (json.contains("memory")) {
-    std::string why;
-    recording.memory = memory_from_json(json.at("memory").dump(), model, why);
-    if (!recording.memory) throw std::runtime_error(why);
-    recording.memory->ram_lost = json.at("memory_lost").get<bool>();
-    recording.memory->power_off = json.at("power_off").get<Time>();
-  }
+  for_each_station(json, models.size(), [&](std::size_t number, const Json& station) {
+    if (station.contains("memory")) recording.memory.push_back(retentive_from(station, *models[number]));
+  });
+  if (!recording.memory.empty() && recording.memory.size() != models.size())
+    throw std::runtime_error("only some PLCs have a memory");
   for (const Json& action : json.at("actions")) {
+    const auto station = action.value("station", std::size_t{0});
+    if (station >= models.size()) throw std::runtime_error("something was done to a station that it has not");
     recording.moments.push_back(moment_from(action.at("at")));
-    recording.actions.push_back(action_from(action, model));
+    recording.stations.push_back(station);
+    recording.actions.push_back(action_from(action, *models[station]));
   }
   recording.end = moment_from(json.at("end"));
   recording.now = moment_from(json.at("now"));
@@ -203,13 +222,47 @@ std::vector<SessionOption> options_from(const Json& json) {
   return options;
 }
 
-SessionFile file_from(const Json& json, const CpuModel& model) {
-  return {.cpu = json.at("cpu").get<std::string>(),
-          .program = json.at("program").get<std::string>(),
-          .begin = json.at("begin").get<std::string>(),
-          .options = options_from(json.at("options")),
-          .recording = recording_from(json, model),
-          .state = json.at("state").get<std::string>()};
+SessionFile file_from(const Json& json, Models models) {
+  SessionFile file{.stations = {}, .options = options_from(json.at("options")), .recording = recording_from(json, models)};
+  for_each_station(json, models.size(), [&](std::size_t, const Json& station) {
+    file.stations.push_back({.name = station.value("name", ""),
+                             .cpu = station.at("cpu").get<std::string>(),
+                             .program = station.at("program").get<std::string>(),
+                             .begin = station.at("begin").get<std::string>(),
+                             .state = station.at("state").get<std::string>()});
+  });
+  return file;
+}
+
+Json json_of(const SessionFile::Station& station) {
+  return {{"cpu", station.cpu}, {"program", station.program}, {"begin", station.begin}};
+}
+
+void add_memory(Json& json, const SessionFile& file, std::size_t number) {
+  if (file.recording.memory.empty()) return;
+  const RetentiveMemory& memory = file.recording.memory[number];
+  json["memory"] = Json::parse(memory_to_json(memory, *find_cpu(file.stations[number].cpu)));
+  json["memory_lost"] = memory.ram_lost;
+  json["power_off"] = memory.power_off;
+}
+
+/// Why it is not of the PLCs that are here; empty if it is.
+std::string why_other_plcs(const Json& json, Models models, std::span<const std::string> names) {
+  const bool of_system = !names.empty();
+  if (json.contains("stations") != of_system)
+    return of_system ? "it is of one program, not of a system" : "it is of a system, not of one program";
+  if (of_system && json.at("stations").size() != names.size())
+    return fmt::format("it is of a system of {} PLCs, not of {}", json.at("stations").size(), names.size());
+  std::string why;
+  for_each_station(json, models.size(), [&](std::size_t number, const Json& station) {
+    const auto cpu = station.at("cpu").get<std::string>(), name = station.value("name", "");
+    if (!why.empty()) return;
+    if (of_system && name != names[number])
+      why = fmt::format("it is of a system with the PLC '{}', not '{}'", stl::shortened(name), names[number]);
+    else if (cpu != models[number]->name)
+      why = fmt::format("it is of a CPU {}, not of a CPU {}", cpu, models[number]->name);
+  });
+  return why;
 }
 
 }  // namespace
@@ -293,29 +346,37 @@ std::string differences(const std::vector<SessionOption>& then, const std::vecto
 
 std::string to_text(const SessionFile& file) {
   const Recording& recording = file.recording;
-  Json json{
-      {"format", kFormat}, {"version", version()}, {"cpu", file.cpu}, {"program", file.program}, {"begin", file.begin}};
+  const bool one = file.stations.size() == 1 && file.stations.front().name.empty();
+  Json json{{"format", kFormat}, {"version", version()}};
+  if (one) {
+    json.update(json_of(file.stations.front()));
+    add_memory(json, file, 0);
+  }
   json["options"] = Json::object();
   for (const SessionOption& option : file.options) json["options"][option.name] = option.value;
-  if (recording.memory) {
-    json["memory"] = Json::parse(memory_to_json(*recording.memory, *find_cpu(file.cpu)));
-    json["memory_lost"] = recording.memory->ram_lost;
-    json["power_off"] = recording.memory->power_off;
+  for (std::size_t number = 0; number < file.stations.size() && !one; ++number) {
+    Json station{{"name", file.stations[number].name}};
+    station.update(json_of(file.stations[number]));
+    add_memory(station, file, number);
+    station["state"] = file.stations[number].state;
+    json["stations"].push_back(std::move(station));
   }
   json["actions"] = Json::array();
   for (std::size_t i = 0; i < recording.actions.size(); ++i) {
     Json action = std::visit(Writer{}, recording.actions[i]);
+    if (!one) action["station"] = recording.stations[i];
     action["at"] = json_of(recording.moments[i]);
     json["actions"].push_back(std::move(action));
   }
   json["end"] = json_of(recording.end);
   json["now"] = json_of(recording.now);
-  json["state"] = file.state;
+  if (one) json["state"] = file.stations.front().state;
   json["sum"] = sum_of(json);
   return json.dump(2) + "\n";
 }
 
-std::optional<SessionFile> session_from_text(std::string_view text, const CpuModel& model, std::string& why) {
+std::optional<SessionFile> session_from_text(std::string_view text, std::span<const CpuModel* const> models,
+                                             std::span<const std::string> names, std::string& why) {
   Json json = Json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("format") || !json["format"].is_string() ||
       !json["format"].get_ref<const std::string&>().starts_with(kAnyFormat)) {
@@ -336,10 +397,8 @@ std::optional<SessionFile> session_from_text(std::string_view text, const CpuMod
   try {
     if (const auto by = json.at("version").get<std::string>(); by != version())
       why = fmt::format("s7200 {} has written it, and this is s7200 {}: they may run differently", by, version());
-    else if (const auto cpu = json.at("cpu").get<std::string>(); cpu != model.name)
-      why = fmt::format("it is of a CPU {}, not of a CPU {}", cpu, model.name);
-    else
-      return file_from(json, model);
+    else if (why = why_other_plcs(json, models, names); why.empty())
+      return file_from(json, models);
   } catch (const std::exception& error) {
     why = fmt::format("it is damaged: {}", error.what());
   }

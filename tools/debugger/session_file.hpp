@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,23 +41,34 @@ std::string differences(const std::vector<SessionOption>& then, const std::vecto
 
 /// A session as it is to be written as a scenario.
 struct SessionRecord {
-  Recording session;               ///< up to now
-  std::vector<Assignment> memory;  ///< that is displayed, with its values
-  bool stopped = false;
-  std::uint16_t fatal_code = 0;
+  struct Station {
+    std::vector<Assignment> memory;  ///< that is displayed, with its values
+    bool stopped = false;
+    std::uint16_t fatal_code = 0;
+  };
+
+  Recording session;  ///< up to now
+  std::vector<Station> stations;  ///< all
   std::optional<serial::Exchange> last{};  ///< if it is over
 };
 
 struct SessionFile {
-  std::string cpu, program, begin;  ///< model; digests of the program, and of the state that the session began with
+  /// A PLC: its model; digests of the program, of the state that the session began with, and of where it stood.
+  struct Station {
+    std::string name;  ///< empty: it is the only one
+    std::string cpu, program, begin, state;
+  };
+
+  std::vector<Station> stations;
   std::vector<SessionOption> options;
   Recording recording;
-  std::string state;  ///< digest of where it stood
 };
 
 std::string to_text(const SessionFile& file);
 
-/// Returns nothing and sets `why` if it is not such a file, damaged, of another version of the file, or of another CPU.
-std::optional<SessionFile> session_from_text(std::string_view text, const CpuModel& model, std::string& why);
+/// `models` and `names` are those of the PLCs here. Returns nothing and sets `why` if it is not such a file, damaged, of
+/// another version of the file, or of other PLCs.
+std::optional<SessionFile> session_from_text(std::string_view text, std::span<const CpuModel* const> models,
+                                             std::span<const std::string> names, std::string& why);
 
 }  // namespace s7200::tools

@@ -8,33 +8,51 @@
 
 namespace s7200::tools {
 
-Stepper::Stepper(serial::Simulation& simulation, History& history, const std::atomic<bool>* stop_request)
-    : on_record([](const TraceRecord&) {}),
-      on_instruction([](const InstructionRecord&, bool) {}),
+Stepper::Stepper(History& history, const std::atomic<bool>* stop_request)
+    : on_record([](std::size_t, const TraceRecord&) {}),
+      on_instruction([](std::size_t, const InstructionRecord&, bool) {}),
       on_answer([](const serial::Exchange&) {}),
       on_message([](const StopPoint&) {}),
       on_search([](Time) {}),
-      simulation_(simulation),
       history_(history),
-      stop_request_(stop_request) {}
+      stop_request_(stop_request),
+      listening_(history.stations()) {}
 
 Stop Stepper::run(const Goal& goal, Time limit, bool stop_at_answer) {
-  const State& state = simulation_.cpu().state();
   count_hits();
   goal_ = goal;
   limit_ = limit;
   stop_at_answer_ = stop_at_answer;
-  standing_ = standing_at(state).has_value();
-  start_op_ = standing_at(state).value_or(0);
-  started_in_interrupt_ = state.in_interrupt;
-  executing_start_ = reached_start_ = false;
-  progress_ = {.executed = 0, .left = !standing_};
+  const State& state = station(focus_).cpu().state();
+  start_ = Instruction{focus_, standing_at(state).value_or(0), state.in_interrupt};
+  progress_ = {.executed = 0, .left = !standing_at(state)};
+  next_.reset();
+  if (const auto at = history_.next_station()) {
+    const State& next = station(*at).cpu().state();
+    if (const auto op = standing_at(next)) next_ = {*at, *op, next.in_interrupt};
+  }
+  executing_start_ = answered_ = false;
+  cpu_stopped_.reset();
   begin_watching();
   const serial::Halt halt = history_.run(*this);
   listened_to_ = history_.now();
   if (halt == serial::Halt::Stopped) stop_.reason = StopReason::CpuStopped;
   if (halt == serial::Halt::Request) stop_.reason = StopReason::Request;
+  if (halt == serial::Halt::Time) stop_.reason = reason_to_end_idle();
   return stop_;
+}
+
+Time Stepper::idles_until(Time now) {
+  answered_ |= answer_complete() && stop_at_answer_;
+  const bool ends = answered_ || !stop_.hits.empty() || cpu_stopped_ || asked_to_stop();
+  return ends ? now : std::max(now, limit_);
+}
+
+StopReason Stepper::reason_to_end_idle() const {
+  if (cpu_stopped_) return StopReason::CpuStopped;
+  if (answered_) return StopReason::Answer;
+  if (!stop_.hits.empty()) return StopReason::StopPoint;
+  return asked_to_stop() ? StopReason::Request : StopReason::Limit;
 }
 
 Stop Stepper::run_back(const Goal& goal, std::uint64_t count, bool stop_at_answer) {
@@ -43,28 +61,21 @@ Stop Stepper::run_back(const Goal& goal, std::uint64_t count, bool stop_at_answe
   goal_ = goal;
   limit_ = kNever;
   stop_at_answer_ = stop_at_answer;
-  standing_ = false;
+  cpu_stopped_.reset();
   progress_ = {.executed = 1, .left = true};
   backwards_ = true;
-  first_place_.reset();
+  first_places_.assign(history_.stations(), {});
   std::optional<Found> there;
-  std::optional<Moment> end;  // where the part that is played ends: the first place of the part played before it
+  Places ends = first_places_;  // by station: its first place after the part that is played
   const auto begin = [&] {
-    if (first_place_) end = first_place_;
-    first_place_.reset();
+    for (std::size_t number = 0; number < ends.size(); ++number)
+      if (const auto first = std::exchange(first_places_[number], {})) ends[number] = first;
     found_.clear();
-    on_search(simulation_.time());
+    on_search(history_.now().time);
     begin_watching();
   };
   const auto found = [&] {
-    if (end) {
-      note_silence();
-      note_host_timeout();
-    }
-    if (const auto reason = end ? reason_between() : std::nullopt) {
-      stop_.reason = *reason;
-      there = Found{*end, stop_};
-    }
+    there = found_between(ends);
     for (auto last = found_.rbegin(); last != found_.rend() && !there; ++last)
       if (last->stop || --count == 0) there = std::move(*last);
     return there.has_value();
@@ -74,116 +85,180 @@ Stop Stepper::run_back(const Goal& goal, std::uint64_t count, bool stop_at_answe
   found_ = {};
   if (search == History::Search::Interrupted) {
     history_.go_to(start);
-    return {.reason = StopReason::Request};
+    return {.reason = StopReason::Request, .station = focus_};
   }
-  if (!there) return {.reason = StopReason::Oldest};
+  if (!there) return {.reason = StopReason::Oldest, .station = focus_};
   history_.go_to(there->moment);
-  return there->stop.value_or(Stop{.reason = StopReason::Goal});
+  return there->stop.value_or(Stop{.reason = StopReason::Goal, .station = focus_});
+}
+
+/// What has come up between the last instructions of the part that was played and the first ones after it.
+std::optional<Stepper::Found> Stepper::found_between(const Places& ends) {
+  std::optional<Moment> earliest;
+  for (std::size_t number = 0; number < ends.size(); ++number) {
+    if (!ends[number]) continue;
+    note_changes(number, nullptr);
+    note_silence(number, ends[number]->time);
+    note_host_timeout(number, ends[number]->time);
+    earliest = earliest ? std::min(*earliest, *ends[number]) : ends[number];
+  }
+  if (!earliest) return {};
+  const bool answer = answer_complete() && stop_at_answer_;
+  if (!answer && stop_.hits.empty()) return {};
+  std::optional<Moment> place;
+  for (const Hit& hit : stop_.hits) {
+    const std::size_t of = hit.stop.station;
+    const Moment at = station(of).plc().executes() && ends[of] ? *ends[of] : *earliest;
+    if (!place || at < *place) {
+      place = at;
+      stop_.station = of;
+    }
+  }
+  stop_.reason = answer ? StopReason::Answer : StopReason::StopPoint;
+  return Found{answer ? *earliest : *place, stop_};
 }
 
 void Stepper::begin_watching() {
-  stop_ = {};
+  stop_ = {.station = focus_};
   accessed_.clear();
+  executing_since_ = kNever;
   const Moment now = history_.now();
   const bool goes_on =
       !backwards_ && listened_to_ && listened_to_->instructions == now.instructions && listened_to_->time == now.time;
-  if (!goes_on) listen_from_now_on();
-  awaiting_answer_ = simulation_.master().busy();
+  for (std::size_t number = 0; number < listening_.size() && !goes_on; ++number) listen_from_now_on(number);
+  for (Listening& listening : listening_) listening.awaits_answer = false;
+  note_masters();
   if (!backwards_)
     for (StopPoint& stop : stops) stop.skipped = 0;
   read_values();
 }
 
+/// Stations on one line have the same master.
+void Stepper::note_masters() {
+  for (std::size_t number = 0; number < listening_.size(); ++number) {
+    const serial::Simulation& here = station(number);
+    if (!here.has_master() || !here.master().busy()) continue;
+    bool known = false;
+    for (std::size_t before = 0; before < number; ++before) known |= have_same_master(before, number);
+    listening_[number].awaits_answer = !known;
+  }
+}
+
 /// What came before is not known, only when the last character on the line ended, and when the last one that the PLC sent.
-void Stepper::listen_from_now_on() {
-  coming_in_.clear();
-  const Time silence = simulation_.port_format().silence(), half_a_character = silence / 7;
-  const Time last = simulation_.last_activity();
-  silence_noted_ = simulation_.line_quiet_for(silence) ? last : 0;
-  came_in_ = last > simulation_.plc().state().uart.at(simulation_.port()).send_end + half_a_character;
-  host_waits_.reset();
-  const bool waits = came_in_ && silence_noted_ != 0 && !simulation_.freeport().transmitting;
-  if (waits && simulation_.time() < last + host_timeout) note_host_request({}, last);
+void Stepper::listen_from_now_on(std::size_t number) {
+  const serial::Simulation& here = station(number);
+  Listening& listening = listening_[number];
+  listening.coming_in.clear();
+  const Time silence = here.port_format().silence(), half_a_character = silence / 7;
+  const Time last = here.last_activity();
+  listening.silence_noted = here.line_quiet_for(silence) ? last : 0;
+  listening.came_in = last > here.plc().state().uart.at(here.port()).send_end + half_a_character;
+  listening.host_waits.reset();
+  const bool waits = listening.came_in && listening.silence_noted != 0 && !here.freeport().transmitting;
+  if (waits && here.time() < last + host_timeout) note_host_request(number, {}, last);
 }
 
 /// What comes from outside ends a row of such scans by itself. A time that has come is looked for here.
 bool Stepper::wants_scans() const {
+  if (history_.stations() > 1) return true;  // a CPU in step never runs a whole one at once
   const auto is_within_a_scan = [](const StopPoint& stop) { return stop.on == StopPoint::On::Place || stop.is_watch(); };
-  const bool waits = host_waits_ || simulation_.last_activity() != silence_noted_;
-  const bool ends_soon = limit_ != kNever && limit_ - simulation_.time() <= history_.interval();
+  const serial::Simulation& only = station(0);
+  const bool waits = listening_[0].host_waits || only.last_activity() != listening_[0].silence_noted;
+  const bool ends_soon = limit_ != kNever && limit_ - only.time() <= history_.interval();
   return goal_ || backwards_ || waits || ends_soon || std::ranges::any_of(stops, is_within_a_scan);
 }
 
 void Stepper::read_values() {
   for (StopPoint& stop : stops)
-    if (stop.range) stop.value = stop.range->bytes_in(simulation_.cpu().state().image);
+    if (stop.range) stop.value = stop.range->bytes_in(station(stop.station).cpu().state().image);
 }
 
 void Stepper::acted() {
-  awaiting_answer_ |= simulation_.master().busy();
+  note_masters();
   read_values();
 }
 
 void Stepper::record(const TraceRecord& record) {
+  const std::size_t station = history_.told_of();
   note_record(record);
-  if (!backwards_) on_record(record);
+  if (backwards_) return;
+  if (history_.stations() > 1 && record.kind == TraceKind::ModeChange && record.code == 0) cpu_stopped_ = station;
+  on_record(station, record);
+}
+
+/// What a station does not execute any more cannot be waited for.
+bool Stepper::is_turn_of(std::size_t number) const {
+  return history_.told_of() == number || !station(number).plc().executes();
 }
 
 bool Stepper::before(std::uint32_t op) {
-  note_changes(nullptr);
-  note_silence();
-  note_host_timeout();
+  const std::size_t number = history_.told_of();
+  note_changes(number, nullptr);
+  note_silence(number, station(number).cpu().time());
+  note_host_timeout(number, station(number).cpu().time());
   if (backwards_) {
     const bool goes_on = note_place(op);
     note_accesses(op);
+    executing_since_ = station(number).cpu().time();
     return goes_on;
   }
-  const bool in_interrupt = simulation_.cpu().state().in_interrupt;
-  const bool at_start = !reached_start_ && op == start_op_ && in_interrupt == started_in_interrupt_;
-  if (const auto reason = reason_to_stop(op, at_start)) {
+  const Instruction here{number, op, station(number).cpu().state().in_interrupt};
+  const bool stood_there = next_ == here;
+  if (const auto reason = reason_to_stop(op, stood_there)) {
     stop_.reason = *reason;
     return false;
   }
-  executing_start_ = at_start;
-  if (at_start) reached_start_ = progress_.left = true;
+  if (stood_there) next_.reset();
+  executing_start_ = start_ == here;
+  if (executing_start_) {
+    start_.reset();
+    progress_.left = true;
+  }
   note_accesses(op);
+  executing_since_ = station(number).cpu().time();
   return true;
 }
 
 bool Stepper::note_place(std::uint32_t op) {
   if (asked_to_stop()) return false;
-  if (!first_place_) first_place_ = history_.in_front();
-  if (const auto reason = reason_to_stop(op, false)) {
-    stop_.reason = *reason;
-    const bool goal = *reason == StopReason::Goal && stop_.hits.empty();
-    found_.push_back({history_.in_front(), goal ? std::nullopt : std::optional(stop_)});
-  }
-  stop_ = {};
+  auto& first = first_places_[history_.told_of()];
+  if (!first) first = history_.in_front();
+  const auto reason = reason_to_stop(op, false);
+  if (!reason) return true;
+  stop_.reason = *reason;
+  const bool goal = *reason == StopReason::Goal && stop_.hits.empty();
+  found_.push_back({history_.in_front(), goal ? std::nullopt : std::optional(stop_)});
+  stop_ = {.station = focus_};
   return true;
 }
 
-std::optional<StopReason> Stepper::reason_to_stop(std::uint32_t op, bool at_start) {
-  const State& state = simulation_.cpu().state();
-  if (const auto reason = reason_between(); reason == StopReason::Answer) return reason;
-  if (!(at_start && standing_)) hit_places(op);
-  if (!stop_.hits.empty()) return StopReason::StopPoint;
-  if (goal_ && goal_(state, op, progress_)) return StopReason::Goal;
-  if (state.time >= limit_) return StopReason::Limit;
+/// `stood_there`: the run started in front of this instruction, which is no hit then.
+std::optional<StopReason> Stepper::reason_to_stop(std::uint32_t op, bool stood_there) {
+  const std::size_t number = history_.told_of();
+  if (cpu_stopped_) {
+    stop_.station = *cpu_stopped_;
+    return StopReason::CpuStopped;
+  }
+  if (answer_complete() && stop_at_answer_) return StopReason::Answer;
+  if (!stood_there) hit_places(op);
+  const auto due = std::ranges::find_if(stop_.hits, [this](const Hit& hit) { return is_turn_of(hit.stop.station); });
+  if (due != stop_.hits.end()) {
+    stop_.station = due->stop.station;
+    return StopReason::StopPoint;
+  }
+  if (number == focus_ && goal_ && goal_(station(number).cpu().state(), op, progress_)) return StopReason::Goal;
+  if (is_turn_of(focus_) && history_.in_front().time >= limit_) return StopReason::Limit;
   if (asked_to_stop()) return StopReason::Request;
   return {};
 }
 
-/// A reason that has come up since the last instruction.
-std::optional<StopReason> Stepper::reason_between() {
-  if (answer_complete() && stop_at_answer_) return StopReason::Answer;
-  return stop_.hits.empty() ? std::nullopt : std::optional(StopReason::StopPoint);
-}
-
 void Stepper::instruction(const InstructionRecord& record) {
-  note_changes(&record);
+  const std::size_t number = history_.told_of();
+  note_changes(number, &record);
+  executing_since_ = kNever;
   if (backwards_) return;
-  ++progress_.executed;
-  on_instruction(record, executing_start_);
+  if (number == focus_) ++progress_.executed;
+  on_instruction(number, record, executing_start_);
 }
 
 void Stepper::count_hits() {
@@ -202,15 +277,21 @@ void Stepper::count_hits() {
   counted_on_ = here.branch;
 }
 
+/// When a hit was, in the order of instructions: not after the next one of any station begins.
+Time Stepper::time_of(const Hit& hit) const {
+  if (hit.by) return hit.by->at;
+  return hit.record ? std::min(hit.record->at, executing_since_) : history_.in_front().time;
+}
+
 /// The number of the hit that is now. What is played again was counted the first time; backwards nothing is new.
-std::uint64_t Stepper::count(StopPoint& stop) {
-  const State& state = simulation_.cpu().state();
+std::uint64_t Stepper::count(StopPoint& stop, Time at) {
+  const std::uint64_t instructions = history_.in_front().instructions;
   StopPoint::Moments& moments = stop.hit_at[counted_on_];
   if (backwards_) {
-    const std::pair latest{state.instructions, kNever};
+    const std::pair latest{instructions, kNever};
     return static_cast<std::uint64_t>(std::ranges::upper_bound(moments, latest) - moments.begin());
   }
-  const std::pair now{state.instructions, state.time};
+  const std::pair now{instructions, at};
   const auto next = moments.begin() + static_cast<std::ptrdiff_t>(stop.hits);
   if (next == moments.end() || *next != now) moments.insert(next, now);
   return ++stop.hits;
@@ -219,8 +300,8 @@ std::uint64_t Stepper::count(StopPoint& stop) {
 /// Counts, and stops unless there is a reason not to. Backwards it also stops at hits from before the stop was set, unless
 /// it waits for a number.
 void Stepper::hit(StopPoint& stop, Hit with) {
-  if (stop.condition && !stop.condition->holds(simulation_.cpu())) return;
-  const std::uint64_t number = count(stop);
+  if (stop.condition && !stop.condition->holds(station(stop.station).cpu())) return;
+  const std::uint64_t number = count(stop, time_of(with));
   if (stop.from_hit > 1 && number < stop.from_hit) return;
   if (!stop.log.empty()) {
     if (!backwards_) on_message(stop);
@@ -232,9 +313,9 @@ void Stepper::hit(StopPoint& stop, Hit with) {
 }
 
 void Stepper::hit_places(std::uint32_t op) {
-  const Cpu& cpu = simulation_.cpu();
+  const Cpu& cpu = station(history_.told_of()).cpu();
   for (StopPoint& stop : stops) {
-    if (stop.on != StopPoint::On::Place || stop.op != op) continue;
+    if (stop.station != history_.told_of() || stop.on != StopPoint::On::Place || stop.op != op) continue;
     const bool idle = stop.needs_power && is_box_or_coil(cpu.program().ops[op]) && !cpu.state().stack.top();
     if (!idle) hit(stop, {});
     if (idle && !backwards_) ++stop.skipped;
@@ -245,9 +326,10 @@ void Stepper::note_accesses(std::uint32_t op) {
   accessed_.clear();
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const auto on = stops[i].on;
+    if (stops[i].station != history_.told_of()) continue;
     if (on != StopPoint::On::Read && on != StopPoint::On::Write) continue;
     const Access access = on == StopPoint::On::Read ? Access::Read : Access::Write;
-    if (accesses(simulation_.cpu(), op, access, bits_of(*stops[i].range))) accessed_.push_back(i);
+    if (accesses(station(stops[i].station).cpu(), op, access, bits_of(*stops[i].range))) accessed_.push_back(i);
   }
 }
 
@@ -279,61 +361,81 @@ bool Stepper::is_meant(const StopPoint& stop, const TraceRecord& record) {
 }
 
 void Stepper::note_record(const TraceRecord& record) {
+  const std::size_t number = history_.told_of();
+  Listening& listening = listening_[number];
   const bool heard = record.kind == TraceKind::CharacterIgnored && record.code == 0;
   const bool received = record.kind == TraceKind::CharacterReceived || heard || record.kind == TraceKind::CharacterDropped;
-  if (received && std::exchange(host_waits_, std::nullopt)) note_unanswered(host_frame_);
-  if (received) coming_in_.push_back(record.byte);
-  if (received || record.kind == TraceKind::CharacterSent) came_in_ = received;
-  if (record.kind == TraceKind::Transmit || record.kind == TraceKind::CharacterSent) host_waits_.reset();
+  if (received && std::exchange(listening.host_waits, std::nullopt)) note_unanswered(number, listening.host_frame);
+  if (received) listening.coming_in.push_back(record.byte);
+  if (received || record.kind == TraceKind::CharacterSent) listening.came_in = received;
+  if (record.kind == TraceKind::Transmit || record.kind == TraceKind::CharacterSent) listening.host_waits.reset();
   for (StopPoint& stop : stops)
-    if (is_meant(stop, record)) hit(stop, {.record = record});
+    if (stop.station == number && is_meant(stop, record)) hit(stop, {.record = record});
 }
 
 /// A frame has ended when nothing came for 3.5 characters.
-void Stepper::note_silence() {
-  const Time last = simulation_.last_activity();
-  if (last == silence_noted_ || !simulation_.line_quiet_for(simulation_.port_format().silence())) return;
-  silence_noted_ = last;
-  const std::vector<std::uint8_t> heard = std::exchange(coming_in_, {});
-  if (!came_in_) return;
+void Stepper::note_silence(std::size_t number, Time now) {
+  const serial::Simulation& here = station(number);
+  Listening& listening = listening_[number];
+  const Time last = here.last_activity();
+  if (last == listening.silence_noted || now - last < here.port_format().silence()) return;
+  listening.silence_noted = last;
+  const std::vector<std::uint8_t> heard = std::exchange(listening.coming_in, {});
+  if (!listening.came_in) return;
   const std::vector<std::uint8_t> frame = backwards_ ? std::vector<std::uint8_t>{} : heard;
   for (StopPoint& stop : stops)
-    if (stop.on == StopPoint::On::FrameReceived) hit(stop, {.frame = frame});
-  note_host_request(frame, last);
+    if (stop.station == number && stop.on == StopPoint::On::FrameReceived) hit(stop, {.frame = frame});
+  note_host_request(number, frame, last);
 }
 
-/// `frame`: of a master outside; nothing if it is not known.
-void Stepper::note_unanswered(const std::vector<std::uint8_t>& frame) {
+/// A request on the line of a station, by the master of all stations there or by one outside. `frame`: of one outside; nothing
+/// if it is not known.
+void Stepper::note_unanswered(std::size_t number, const std::vector<std::uint8_t>& frame) {
   for (StopPoint& stop : stops)
-    if (stop.on == StopPoint::On::Unanswered) hit(stop, {.frame = frame});
+    if (stop.on == StopPoint::On::Unanswered && have_same_master(stop.station, number)) hit(stop, {.frame = frame});
 }
 
-/// What came in without the simulated master came from outside.
-void Stepper::note_host_request(std::vector<std::uint8_t> frame, Time end) {
-  if (!simulation_.host_port().state().attached || simulation_.master().busy()) return;
-  host_waits_ = end;
-  host_frame_ = std::move(frame);
+bool Stepper::have_same_master(std::size_t one, std::size_t other) {
+  if (one == other) return true;
+  serial::Simulation &first = station(one), &second = station(other);
+  return first.has_master() && second.has_master() && &first.master() == &second.master();
 }
 
-void Stepper::note_host_timeout() {
-  if (!host_waits_ || simulation_.time() - *host_waits_ < host_timeout) return;
-  host_waits_.reset();
-  note_unanswered(host_frame_);
+/// What came in without the simulated master came from outside. In a system it may have come from another PLC: there a master
+/// outside is not known to wait.
+void Stepper::note_host_request(std::size_t number, std::vector<std::uint8_t> frame, Time end) {
+  serial::Simulation& here = station(number);
+  if (history_.stations() > 1 || !here.has_host_port() || !here.host_port().state().attached || here.master().busy()) return;
+  listening_[number].host_waits = end;
+  listening_[number].host_frame = std::move(frame);
+}
+
+void Stepper::note_host_timeout(std::size_t number, Time now) {
+  Listening& listening = listening_[number];
+  if (!listening.host_waits || now - *listening.host_waits < host_timeout) return;
+  listening.host_waits.reset();
+  note_unanswered(number, listening.host_frame);
 }
 
 bool Stepper::answer_complete() {
-  if (!awaiting_answer_ || simulation_.master().busy()) return false;
-  awaiting_answer_ = false;
-  if (simulation_.master().exchange().timed_out) note_unanswered({});
-  if (!backwards_) on_answer(simulation_.master().exchange());
-  return true;
+  bool complete = false;
+  for (std::size_t number = 0; number < listening_.size(); ++number) {
+    if (!listening_[number].awaits_answer || station(number).master().busy()) continue;
+    complete = true;
+    listening_[number].awaits_answer = false;
+    if (station(number).master().exchange().timed_out) note_unanswered(number, {});
+    if (!backwards_) on_answer(station(number).master().exchange());
+  }
+  return complete;
 }
 
-void Stepper::note_changes(const InstructionRecord* by) {
+/// By an instruction of a station; or between two, also of those that execute none.
+void Stepper::note_changes(std::size_t number, const InstructionRecord* by) {
   for (std::size_t i = 0; i < stops.size(); ++i) {
     StopPoint& stop = stops[i];
-    if (!stop.range) continue;
-    std::vector<std::uint8_t> value = stop.range->bytes_in(simulation_.cpu().state().image);
+    const bool is_turn = stop.station == number || (!by && !station(stop.station).plc().executes());
+    if (!stop.range || !is_turn) continue;
+    std::vector<std::uint8_t> value = stop.range->bytes_in(station(stop.station).cpu().state().image);
     const bool changed = value != stop.value;
     const bool touched = by && by->powered && std::ranges::find(accessed_, i) != accessed_.end();
     const bool meant = stop.on == StopPoint::On::Read    ? touched

@@ -3,6 +3,9 @@
 //
 // Every stop but the change to STOP is in front of an instruction. What lies between two instructions (interrupts being
 // taken, the system's part of the scan) is over by then. Backwards it stops where a run forwards would have stopped last.
+//
+// Of several stations it looks at one: steps and goals are of that one. A stop is of the station that it is about, and is in
+// front of an instruction of that one; if it executes none any more, in front of the next one of any other.
 #pragma once
 
 #include <atomic>
@@ -19,6 +22,7 @@ enum class StopReason : std::uint8_t { Goal, StopPoint, Answer, Limit, Request, 
 
 struct Stop {
   StopReason reason{};
+  std::size_t station = 0;  ///< that stopped it; the one looked at if none did
   std::vector<Hit> hits{};  ///< whatever the reason
 };
 
@@ -32,9 +36,14 @@ class Stepper final : public Observer {
   using Goal = std::function<bool(const State& state, std::uint32_t op, const Progress& progress)>;
 
   /// `stop_request` may be set from a signal handler; it may be null. Nothing is owned.
-  Stepper(serial::Simulation& simulation, History& history, const std::atomic<bool>* stop_request);
+  Stepper(History& history, const std::atomic<bool>* stop_request);
 
-  /// Runs a CPU that is in RUN. A breakpoint on the instruction it stands at does not count.
+  /// Which of the stations it looks at, from the next run on; the first one until then.
+  void look_at(std::size_t station) { focus_ = station; }
+  std::size_t looks_at() const { return focus_; }
+
+  /// Runs until there is something to stop for, or the goal is met. A breakpoint on the instruction that is next does not
+  /// count.
   Stop run(const Goal& goal, Time limit, bool stop_at_answer);
 
   /// Goes back to where the goal was last met, or to the `count`th time before now; or to the last stop, if that is later.
@@ -51,8 +60,8 @@ class Stepper final : public Observer {
   Time host_timeout = kSecond;
 
   // Told while running forwards; all must be set.
-  std::function<void(const TraceRecord&)> on_record;
-  std::function<void(const InstructionRecord&, bool started_at)> on_instruction;
+  std::function<void(std::size_t station, const TraceRecord&)> on_record;
+  std::function<void(std::size_t station, const InstructionRecord&, bool started_at)> on_instruction;
   std::function<void(const serial::Exchange&)> on_answer;
   std::function<void(const StopPoint&)> on_message;  ///< instead of stopping
 
@@ -65,6 +74,7 @@ class Stepper final : public Observer {
   /// Scans that are all alike are passed over while nothing in them can be a reason to stop.
   bool wants_scans() const override;
   void acted() override;
+  Time idles_until(Time now) override;
 
  private:
   /// Where a run forwards would have stopped.
@@ -73,51 +83,73 @@ class Stepper final : public Observer {
     std::optional<Stop> stop;  ///< nothing: the goal
   };
 
+  /// An instruction that is to come, until it has come.
+  struct Instruction {
+    std::size_t station = 0;
+    std::uint32_t op = 0;
+    bool in_interrupt = false;
+    bool operator==(const Instruction&) const = default;
+  };
+  using Places = std::vector<std::optional<Moment>>;
+
+  /// What is heard on the line of a station.
+  struct Listening {
+    std::vector<std::uint8_t> coming_in{};  ///< characters since the last silence
+    Time silence_noted = 0;                 ///< after the character that ended then; 0: after none
+    bool came_in = false;                   ///< the last character on the line was received
+    std::optional<Time> host_waits{};       ///< a master on a bridge, since the end of its frame
+    std::vector<std::uint8_t> host_frame{};  ///< that one; nothing if it is not known
+    bool awaits_answer = false;             ///< its master is busy, and no station before it has the same one
+  };
+
+  serial::Simulation& station(std::size_t number) { return history_.station(number); }
+  const serial::Simulation& station(std::size_t number) const { return history_.station(number); }
+  bool is_turn_of(std::size_t station) const;
   void begin_watching();
+  void note_masters();
   void read_values();
   bool note_place(std::uint32_t op);
-  std::optional<StopReason> reason_to_stop(std::uint32_t op, bool at_start);
+  StopReason reason_to_end_idle() const;
+  std::optional<StopReason> reason_to_stop(std::uint32_t op, bool stood_there);
+  std::optional<Found> found_between(const Places& ends);
   void hit_places(std::uint32_t op);
   void hit(StopPoint& stop, Hit with);
-  std::uint64_t count(StopPoint& stop);
+  Time time_of(const Hit& hit) const;
+  std::uint64_t count(StopPoint& stop, Time at);
   void note_accesses(std::uint32_t op);
   void note_record(const TraceRecord& record);
-  void listen_from_now_on();
-  void note_silence();
+  void listen_from_now_on(std::size_t station);
+  void note_silence(std::size_t station, Time now);
   static bool is_meant(const StopPoint& stop, const TraceRecord& record);
-  std::optional<StopReason> reason_between();
   bool answer_complete();
-  void note_changes(const InstructionRecord* by);
-  void note_unanswered(const std::vector<std::uint8_t>& frame);
-  void note_host_request(std::vector<std::uint8_t> frame, Time end);
-  void note_host_timeout();
+  void note_changes(std::size_t station, const InstructionRecord* by);
+  void note_unanswered(std::size_t station, const std::vector<std::uint8_t>& frame);
+  bool have_same_master(std::size_t one, std::size_t other);
+  void note_host_request(std::size_t station, std::vector<std::uint8_t> frame, Time end);
+  void note_host_timeout(std::size_t station, Time now);
   bool asked_to_stop() const { return stop_request_ && *stop_request_; }
 
-  serial::Simulation& simulation_;
   History& history_;
   const std::atomic<bool>* stop_request_;
+  std::size_t focus_ = 0;
 
   // Of the run under way.
   Goal goal_;
   Time limit_ = 0;
   bool stop_at_answer_ = false;
-  bool awaiting_answer_ = false;
-  bool standing_ = false;       ///< it started in front of an instruction
-  bool reached_start_ = false;  ///< that, or the first one after power-up, has come
-  std::uint32_t start_op_ = 0;
-  bool started_in_interrupt_ = false;
-  bool executing_start_ = false;  ///< the instruction being executed is the one it started at
+  std::optional<Instruction> start_;  ///< of the station it looks at, where it started or the first one after power-up
+  std::optional<Instruction> next_;   ///< of any station, that the run started in front of
+  std::optional<std::size_t> cpu_stopped_;  ///< one of several, in this run
+  bool answered_ = false;                   ///< the master has its answer
+  bool executing_start_ = false;            ///< the instruction being executed is the one it started at
   bool backwards_ = false;
-  std::vector<std::size_t> accessed_;     ///< stops on memory that the instruction being executed reads or writes
-  std::vector<std::uint8_t> coming_in_;   ///< characters since the last silence
-  Time silence_noted_ = 0;                ///< after the character that ended then; 0: after none
-  bool came_in_ = false;                  ///< the last character on the line was received
-  std::optional<Time> host_waits_;        ///< a master on a bridge, since the end of its frame
-  std::vector<std::uint8_t> host_frame_;  ///< that one; nothing if it is not known
-  History::BranchPtr counted_on_;         ///< the branch on which hits were counted last
-  std::optional<Moment> listened_to_;     ///< where the last run ended: one from there goes on listening
-  std::optional<Moment> first_place_;     ///< backwards: of the part being played
-  std::vector<Found> found_;              ///< backwards: in the part being played
+  std::vector<std::size_t> accessed_;    ///< stops on memory that the instruction being executed reads or writes
+  std::vector<Listening> listening_;     ///< by station
+  History::BranchPtr counted_on_;        ///< the branch on which hits were counted last
+  std::optional<Moment> listened_to_;    ///< where the last run ended: one from there goes on listening
+  Time executing_since_ = kNever;            ///< the start of the instruction being executed; kNever: none is
+  Places first_places_;                  ///< backwards: of the part being played, by station
+  std::vector<Found> found_;             ///< backwards: in the part being played
   Progress progress_;
   Stop stop_;
 };

@@ -34,6 +34,7 @@ struct StopPoint {
   };
 
   int number = 0;
+  std::size_t station = 0;  ///< that it is about
   On on{};
   std::uint32_t op = 0;                 ///< Place
   std::optional<std::uint8_t> event{};  ///< EventOccurs, EventServed; any without

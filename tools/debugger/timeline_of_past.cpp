@@ -7,8 +7,8 @@ namespace {
 
 class Teller final : public Observer {
  public:
-  Teller(const std::shared_ptr<const Program>& program, const std::atomic<bool>* stop_request)
-      : timeline_(program, nullptr, Timeline::Looks::AtInstructions), stop_request_(stop_request) {
+  Teller(std::size_t station, const std::shared_ptr<const Program>& program, const std::atomic<bool>* stop_request)
+      : Observer(station), timeline_(program, nullptr, Timeline::Looks::AtInstructions), stop_request_(stop_request) {
     timeline_.begin();
   }
 
@@ -29,12 +29,13 @@ class Teller final : public Observer {
 
 }  // namespace
 
-std::optional<TimelineReport> timeline_of_past(History& history, const std::shared_ptr<const Program>& program, Time from,
+std::optional<TimelineReport> timeline_of_past(History& history, std::size_t station, const std::shared_ptr<const Program>& program,
+                                                Time from,
                                                const std::atomic<bool>* stop_request) {
   const Moment now = history.now();
   history.go_to(std::min(from, now.time));
   if (now < history.now()) history.go_to(now);
-  Teller teller(program, stop_request);
+  Teller teller(station, program, stop_request);
   const bool complete = history.play(teller, now);
   history.go_to(now);
   return complete ? std::optional(teller.report()) : std::nullopt;

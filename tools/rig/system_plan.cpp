@@ -76,6 +76,17 @@ std::optional<Spot> find_spot(const SystemPlan& plan, std::string_view name, std
   return beside_first_plc(plan, static_cast<std::size_t>(line - plan.lines.begin()), why);
 }
 
+std::vector<Spot> spots_of_plcs(const SystemPlan& plan) {
+  std::vector<std::optional<Spot>> found(plan.plcs.size());
+  for (std::size_t line = 0; line < plan.lines.size(); ++line)
+    for (const StationPlan& station : plan.lines[line].stations)
+      if (station.kind == StationPlan::Kind::Plc && !found[station.number])
+        found[station.number] = Spot{line, station.number, station.port};
+  std::vector<Spot> spots;
+  for (const auto& spot : found) spots.push_back(spot.value());
+  return spots;
+}
+
 std::string why_no_room(const SystemPlan& plan, const Spot& spot) {
   const LinePlan& line = plan.lines[spot.line];
   if (line.stations.size() < serial::Line::kDrivers) return {};

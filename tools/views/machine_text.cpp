@@ -240,7 +240,8 @@ std::string port_text(const serial::Simulation& simulation) {
   std::string text;
   for (std::size_t port = 0; port < simulation.cpu().program().model->ports; ++port) {
     text += port_text(simulation.cpu().state(), port);
-    if (port == simulation.port()) text += fmt::format("master     {}\n", master_text(simulation.master().state()));
+    if (port == simulation.port() && simulation.has_master())
+      text += fmt::format("master     {}\n", master_text(simulation.master().state()));
   }
   return text;
 }

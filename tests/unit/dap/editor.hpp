@@ -21,10 +21,12 @@ class BareDebuggee final : public Debuggee {
     history_ = std::make_unique<History>(*simulation_, History::Settings{});
   }
 
-  serial::Simulation& simulation() override { return *simulation_; }
+  serial::Simulation& simulation() { return *simulation_; }
   History& history() override { return *history_; }
-  std::shared_ptr<const Program> program() const override { return program_; }
-  const serial::MasterSettings& master() const override { return master_; }
+  std::shared_ptr<const Program> program(std::size_t) const override { return program_; }
+  std::string name(std::size_t) const override { return {}; }
+  std::size_t first_station() const override { return 0; }
+  const serial::MasterSettings& master(std::size_t) const override { return master_; }
   std::string recorded_files() const override { return {}; }
   std::string failure() const override { return failure_text; }
   void when_saying(std::function<void(const std::string&)>) override {}

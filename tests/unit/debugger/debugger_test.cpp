@@ -367,10 +367,10 @@ TEST(Debugger, OnlyARunThatMayStopWithinAScanLooksAtEachOfThem) {
     serial::Simulation simulation(program_of(kNested));
     simulation.power_up();
     History history(simulation, {});
-    Stepper stepper(simulation, history, nullptr);
+    Stepper stepper(history, nullptr);
     stepper.stops.push_back(stop);
     std::size_t instructions = 0, wanted = 0;
-    stepper.on_instruction = [&](const InstructionRecord&, bool) {
+    stepper.on_instruction = [&](std::size_t, const InstructionRecord&, bool) {
       ++instructions;
       wanted += stepper.wants_scans();
     };

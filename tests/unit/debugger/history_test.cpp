@@ -179,7 +179,7 @@ TEST(History, RandomWalksOfStepsInBothDirectionsStandWhereAPlainRunStands) {
   const auto program = slave();
   Recorded session(program, {.interval = 10 * kMillisecond});
   session.live_through_it();
-  Stepper stepper(session.simulation, *session.history, nullptr);
+  Stepper stepper(*session.history, nullptr);
   const Cpu& cpu = session.simulation.cpu();
   std::mt19937 chance(12);
   session.history->go_to(Time{100 * kMillisecond});
@@ -239,7 +239,7 @@ TEST(History, AnActionInThePastBeginsABranchAndTheOldOneCanBeReturnedTo) {
 
 TEST(History, WhatIsPlayedAgainIsNotRecordedAgain) {
   CountRecords records;
-  Recorded session(slave(), {.records = &records});
+  Recorded session(slave(), {.records = {&records}});
   session.live_through_it();
   const std::size_t before = records.times.size();
   session.history->go_to(Time{0});
@@ -403,7 +403,7 @@ TEST(History, TheLastWriteIsFoundAlsoOfAnEqualValueThroughAPointerAndInABlock) {
   const auto line_of = [&](const char* address) -> std::uint32_t {
     std::string why;
     const Snapshot before = session.simulation.snapshot();
-    const auto search = find_last_write(session.simulation, *session.history, *parse_range(address, cpu214(), why), nullptr);
+    const auto search = find_last_write(*session.history, 0, *parse_range(address, cpu214(), why), nullptr);
     EXPECT_TRUE(session.simulation.snapshot() == before);
     return search.write && search.write->by ? program->statement(search.write->by->op).position.line : 0;
   };
@@ -422,11 +422,11 @@ TEST(History, TheLastWriteMayBeAnActionOrTheSystem) {
   session.history->act(assignment("VW50=3"));
   session.run_to(20);
   std::string why;
-  const auto by_action = find_last_write(session.simulation, *session.history, *parse_range("VW50", cpu214(), why), nullptr);
+  const auto by_action = find_last_write(*session.history, 0, *parse_range("VW50", cpu214(), why), nullptr);
   ASSERT_TRUE(by_action.write.has_value());
   EXPECT_EQ(by_action.write->action, 0U);
   const auto by_system =
-      find_last_write(session.simulation, *session.history, *parse_range("SM0.6", cpu214(), why), nullptr);
+      find_last_write(*session.history, 0, *parse_range("SM0.6", cpu214(), why), nullptr);
   ASSERT_TRUE(by_system.write.has_value());
   EXPECT_FALSE(by_system.write->by.has_value() || by_system.write->action.has_value());
 }

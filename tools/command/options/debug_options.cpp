@@ -16,6 +16,7 @@ void DebuggeeOptions::add_plant_to(CLI::App& app) {
   bridge.add_pace(app);
   bridge.add_bridges(app);
   rig.add_to(app);
+  rig.add_first_station_to(app);
 }
 
 void DebugOptions::add_to(CLI::App& app) {

@@ -115,7 +115,52 @@ void RigOptions::add_place_to(CLI::App& app) {
       ->type_name("NAME");
 }
 
+void RigOptions::add_first_station_to(CLI::App& app) {
+  app.add_option("--at", at_,
+                 "which PLC of a system to look at first, gateway.1 for its port 1, or a line: its first PLC [the only line]")
+      ->type_name("NAME");
+}
+
 bool RigOptions::load(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
+  if (!load_one(verb, program, exit_code)) return false;
+  if (!plan_) return true;
+  std::string why = why_no_room(*plan_, spot_);
+  if (!why.empty()) why = fmt::format("{}: {}", program.path, why);
+  if (!plan_->bridges.empty())
+    why = fmt::format("bridge '{}' of {} follows the clock, which 's7200 {}' does not: leave it out, or use 's7200 run'",
+                      plan_->bridges.front().name, program.path, verb.get_name());
+  if (why.empty()) return true;
+  exit_code = kUnusable;
+  print_error(why);
+  return false;
+}
+
+bool RigOptions::load_all(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
+  if (!load_one(verb, program, exit_code)) return false;
+  if (!plan_) return true;
+  stations_ = spots_of_plcs(*plan_);
+  stations_[spot_.plc] = spot_;
+  return true;
+}
+
+std::vector<serial::Simulation*> RigOptions::stations(Rig& rig) const {
+  std::vector<serial::Simulation*> simulations;
+  for (std::size_t spot = 0; spot < stations_.size(); ++spot) simulations.push_back(&rig.simulation(1 + spot));
+  return plan_ ? simulations : std::vector{&rig.simulation()};
+}
+
+std::vector<RigOptions::Station> RigOptions::named_stations(const serial::MasterSettings& master) const {
+  std::vector<Station> stations;
+  for (const Spot& spot : stations_) {
+    const std::string& name = plan_->plcs[spot.plc].name;
+    stations.push_back({.name = name,
+                        .place = spot.port == 0 ? name : fmt::format("{}.{}", name, spot.port),
+                        .master = tools::on_line(master, plan_->lines[spot.line])});
+  }
+  return stations;
+}
+
+bool RigOptions::load_one(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
   path_ = program.path;
   if (is_system_file(program.path)) return load_system(verb, program, exit_code);
   if (!at_.empty()) {
@@ -133,16 +178,9 @@ bool RigOptions::load_system(const CLI::App& verb, const ProgramOptions& program
   plan_ = tools::load_system(program.path, exit_code);
   if (!plan_) return false;
   exit_code = kUnusable;
-  if (!plan_->bridges.empty()) {
-    print_error(
-        fmt::format("bridge '{}' of {} follows the clock, which 's7200 {}' does not: leave it out, or use 's7200 run'",
-                    plan_->bridges.front().name, program.path, verb.get_name()));
-    return false;
-  }
   std::string why;
   const auto spot = find_spot(*plan_, at_, why);
   if (!spot) return print_error(fmt::format("{}: {} (--at NAME)", program.path, why)), false;
-  if (why = why_no_room(*plan_, *spot); !why.empty()) return print_error(fmt::format("{}: {}", program.path, why)), false;
   spot_ = *spot;
   program_ = plan_->plcs[spot_.plc].program;
   exit_code = kFine;
@@ -154,7 +192,9 @@ std::unique_ptr<Rig> RigOptions::assemble(bool json, const std::string& link) {
   if (json && settings_.trace == "-")
     return print_error("--trace - and --json cannot both have standard output; write one to a file"), nullptr;
   std::vector<std::string> problems;
-  auto rig = Rig::assemble(*plan_, surroundings(path_, link, {spot_}), problems);
+  std::vector<Spot> spots{spot_};  // beside the first one stands whoever asks on its line
+  spots.insert(spots.end(), stations_.begin(), stations_.end());
+  auto rig = Rig::assemble(*plan_, surroundings(path_, link, std::move(spots)), problems);
   return keep_why(std::move(rig), problems);
 }
 
@@ -202,8 +242,14 @@ bool finish(Rig& rig) {
 
 std::string RigOptions::recorded_files() const {
   std::vector<std::string> files = settings_.captures;
-  for (const std::string& file : {settings_.output, settings_.trace})
-    if (!file.empty()) files.insert(files.begin(), stl::printable(file));
+  const auto add_first = [&files](const PlcSettings& settings) {
+    for (const std::string& file : {settings.output, settings.trace})
+      if (!file.empty()) files.insert(files.begin(), stl::printable(file));
+  };
+  add_first(settings_);
+  if (!plan_) return fmt::format("{}", fmt::join(files, ", "));
+  for (const PlcPlan& plc : plan_->plcs) add_first(plc.settings);
+  for (const LinePlan& line : plan_->lines) files.insert(files.end(), line.captures.begin(), line.captures.end());
   return fmt::format("{}", fmt::join(files, ", "));
 }
 

@@ -27,9 +27,31 @@ class RigOptions {
   /// --at, of verbs that join a system at one place.
   void add_place_to(CLI::App& app);
 
+  /// The same of verbs that look at all its PLCs, and at one of them first.
+  void add_first_station_to(CLI::App& app);
+
   /// Loads the PROGRAM, or the system file that stands in its place. False after messages: `exit_code` says which way to
   /// end.
   bool load(const CLI::App& verb, const ProgramOptions& program, int& exit_code);
+
+  /// The same for verbs that look at all PLCs of a system.
+  bool load_all(const CLI::App& verb, const ProgramOptions& program, int& exit_code);
+
+  /// Of a system that was loaded; nothing of a PROGRAM.
+  const std::optional<SystemPlan>& plan() const { return plan_; }
+
+  /// The simulations of a rig of what load_all() has loaded, by PLC; and the one that is looked at first.
+  std::vector<serial::Simulation*> stations(Rig& rig) const;
+  std::size_t first_station() const { return spot_.plc; }
+
+  /// A PLC of a system, as it is looked at.
+  struct Station {
+    std::string name;
+    std::string place;  ///< with its port, as --at takes it: `gateway.1`
+    serial::MasterSettings master{};
+  };
+  /// By PLC, with `master` as it is on each line; none of a PROGRAM.
+  std::vector<Station> named_stations(const serial::MasterSettings& master) const;
 
   /// A rig of what was loaded. Null after messages, as below.
   std::unique_ptr<Rig> assemble(bool json, const std::string& link = {});
@@ -83,6 +105,7 @@ class RigOptions {
   static nlohmann::ordered_json no_json();
 
  private:
+  bool load_one(const CLI::App& verb, const ProgramOptions& program, int& exit_code);
   bool load_system(const CLI::App& verb, const ProgramOptions& program, int& exit_code);
   std::unique_ptr<Rig> keep_why(std::unique_ptr<Rig> rig, const std::vector<std::string>& problems);
 
@@ -91,6 +114,7 @@ class RigOptions {
   std::shared_ptr<const Program> program_;
   std::optional<SystemPlan> plan_;  ///< of a system
   Spot spot_;
+  std::vector<Spot> stations_;  ///< of a system, if it is about all PLCs: where each is looked at from
   bool strict_ = false;
   bool only_interrupted_ = false;  ///< while a record waited for its reader
   FaultOptions faults_;

@@ -1,0 +1,54 @@
+#include "tools/command/debuggee_run.hpp"
+
+#include <utility>
+
+#include "tools/command/terminal.hpp"
+
+namespace s7200::tools {
+
+DebuggeeRun::DebuggeeRun(Rig& rig, const DebuggeeOptions& options, SystemBridges bridges, const LiveMessages& messages,
+                         const std::atomic<bool>* stop)
+    : rig_(rig), bridges_(std::move(bridges)) {
+  Bridge* const bridge = options.bridge.bridge();
+  has_bridges_ = bridge != nullptr || !bridges_.empty();
+  realtime_ = has_bridges_ || options.bridge.realtime();
+  serial::Simulation& simulation = rig.simulation();
+  const LiveRunOptions live{
+      .speed = options.bridge.speed(), .line = options.rig.on_line(options.master), .messages = messages, .stop = stop};
+  if (!options.rig.plan()) {
+    live_ = std::make_unique<LiveRun>(simulation, live, bridge);
+    return;
+  }
+  std::vector<LiveEnd> ends = ends_of(rig, those_of(bridges_));
+  if (bridge)
+    ends.push_back({.bridge = bridge,
+                    .port = &simulation.host_port(),
+                    .line = &simulation.line(),
+                    .plc = &simulation.plc(),
+                    .plc_port = simulation.port(),
+                    .settings = live.line});
+  machine_ = machine_of(rig.system());
+  live_ = std::make_unique<LiveRun>(*machine_, ends, live);
+}
+
+History::Settings DebuggeeRun::history() {
+  History::Settings settings;
+  for (std::size_t plc = 0; plc < rig_.plan().plcs.size(); ++plc) settings.records.push_back(&rig_.sinks(plc));
+  if (rig_.simulation().has_host_port()) settings.hosts.push_back(&rig_.simulation().host_port());
+  for (std::size_t bridge = 0; bridge < bridges_.size(); ++bridge) settings.hosts.push_back(&rig_.host_port(bridge));
+  if (realtime_) settings.drive = [this](Time end) { return live_->run_until(end); };
+  return settings;
+}
+
+std::optional<SystemBridges> bridges_of(const DebuggeeOptions& options) {
+  const auto& plan = options.rig.plan();
+  return plan ? make_bridges(*plan) : std::optional(SystemBridges{});
+}
+
+bool has_room_for_bridge(const DebuggeeOptions& options, const Rig& rig) {
+  if (options.bridge.bridge() == nullptr || rig.simulation().has_host_port()) return true;
+  print_error("this line has as many stations already as it takes: there is no place for a bridge");
+  return false;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,63 @@
+#include "tools/command/system_bridges.hpp"
+
+#include <fmt/format.h>
+
+#include "tools/command/options/bridge_options.hpp"
+#include "tools/command/terminal.hpp"
+
+namespace s7200::tools {
+namespace {
+
+class SystemMachine final : public LiveMachine {
+ public:
+  explicit SystemMachine(serial::System& system) : system_(system) {}
+  Time time() const override { return system_.time(); }
+  serial::Halt run_until(Time end) override { return system_.run_until(end); }
+
+ private:
+  serial::System& system_;
+};
+
+}  // namespace
+
+std::vector<Bridge*> those_of(const SystemBridges& bridges) {
+  std::vector<Bridge*> those;
+  for (const auto& bridge : bridges) those.push_back(bridge.get());
+  return those;
+}
+
+std::vector<LiveEnd> ends_of(Rig& rig, Bridges bridges) {
+  std::vector<LiveEnd> ends;
+  for (std::size_t line = 0; line < rig.plan().lines.size(); ++line) {
+    const LinePlan& plan = rig.plan().lines[line];
+    const StationPlan* const first = first_plc(plan);
+    for (const StationPlan& station : plan.stations)
+      if (station.kind == StationPlan::Kind::Bridge)
+        ends.push_back({.bridge = bridges[station.number],
+                        .port = &rig.host_port(station.number),
+                        .line = &rig.line(line),
+                        .plc = first ? &rig.plc(first->number) : nullptr,
+                        .plc_port = first ? first->port : std::uint8_t{0},
+                        .without_program = format_without_s7200(rig.plan(), plan),
+                        .settings = plan.settings});
+  }
+  return ends;
+}
+
+std::optional<SystemBridges> make_bridges(const SystemPlan& plan) {
+  SystemBridges bridges(plan.bridges.size());
+  for (const LinePlan& line : plan.lines)
+    for (const StationPlan& station : line.stations) {
+      if (station.kind != StationPlan::Kind::Bridge) continue;
+      const BridgePlan& bridge = plan.bridges[station.number];
+      std::string why;
+      bridges[station.number] = make_bridge(bridge.kind, bridge.where, line.settings, kBridgeTimeout, why);
+      if (!bridges[station.number])
+        return print_error(fmt::format("bridge {} at {}: {}", bridge.name, bridge.where, why)), std::nullopt;
+    }
+  return bridges;
+}
+
+std::unique_ptr<LiveMachine> machine_of(serial::System& system) { return std::make_unique<SystemMachine>(system); }
+
+}  // namespace s7200::tools
