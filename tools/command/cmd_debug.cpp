@@ -107,7 +107,8 @@ void add_debug(CLI::App& app, int& exit_code) {
       "time-outs are their own affair. Traces and captures get everything once: what is played again is not written again. "
       "A\n"
       "new branch goes on in traces after what ran before, and ends captures.\n"
-      "A system file (.yaml) instead of a PROGRAM: all its PLCs run, and go back, in one time; 'station NAME' goes over from\n"
+      "A system file (.yaml) instead of a PROGRAM: all its PLCs run, and go back, in one time; 'station NAME' goes over "
+      "from\n"
       "one to another.\n"
       "Example: s7200 debug stl_programs/modbus_slave.stl -x \"continue 2s; send 01 03 00 00 00 02 crc; continue; regs\"");
   verb->callback([options, &exit_code, verb] { exit_code = run_debug(*verb, *options); });

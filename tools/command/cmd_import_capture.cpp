@@ -63,7 +63,8 @@ int run_import_capture(const ImportCaptureOptions& options) {
 
 void add_import_capture(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ImportCaptureOptions>();
-  CLI::App* verb = app.add_subcommand("import-capture", "write a recording of a line, or what is heard on it, as a scenario for `test`");
+  CLI::App* verb =
+      app.add_subcommand("import-capture", "write a recording of a line, or what is heard on it, as a scenario for `test`");
   options->recording.add_to(*verb);
   verb->add_option("--program", options->program, "that is to be tested; without it the scenario is for test --against")
       ->type_name("FILE");

@@ -20,7 +20,8 @@ std::string on_text(const std::string& on, std::string_view indentation) {
 }
 
 std::string send_text(const serial::Request& request, Time at, const std::string& on) {
-  std::string text = fmt::format("  - send: {}\n    at: {}\n", serial::to_hex(request.frame), exact(at)) + on_text(on, "    ");
+  std::string text =
+      fmt::format("  - send: {}\n    at: {}\n", serial::to_hex(request.frame), exact(at)) + on_text(on, "    ");
   if (request.gap != 0) text += fmt::format("    gap: {}\n", exact(request.gap));
   if (request.silence) text += fmt::format("    listen: {}\n", exact(*request.silence));
   return text;

@@ -36,7 +36,8 @@ struct SessionSteps {
   std::optional<serial::Exchange> last{};  ///< the last exchange, if it is over
 };
 
-/// Writes it: of a system file if the program of the options is one. False, and why not, if no scenario can do what was done.
+/// Writes it: of a system file if the program of the options is one. False, and why not, if no scenario can do what was
+/// done.
 bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<const Program>& program,
                             const SessionSteps& session, const Destination& to, std::string& why);
 

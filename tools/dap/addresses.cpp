@@ -107,7 +107,8 @@ std::string level_reference(std::uint32_t open, std::uint32_t level) {
 
 std::string at_station(const std::string& reference, std::size_t station) {
   if (station == 0 || reference.empty()) return reference;
-  if (const auto number = number_of(reference)) return address_text(*number + static_cast<std::int64_t>(station) * kOfAStation);
+  if (const auto number = number_of(reference))
+    return address_text(*number + static_cast<std::int64_t>(station) * kOfAStation);
   return fmt::format("{}@{}", reference, station);
 }
 

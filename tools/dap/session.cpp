@@ -313,9 +313,7 @@ void Session::begin(std::shared_ptr<Debuggee> debuggee) {
     const Cpu& at = debuggee_->history().station(stop.station).cpu();
     print_of(stop.station, filled_in(stop.log, at), "console", standing_at(at.state()));
   };
-  stepper_->on_answer = [this](const serial::Exchange& exchange) {
-    print(exchange_text(exchange, master().timeout));
-  };
+  stepper_->on_answer = [this](const serial::Exchange& exchange) { print(exchange_text(exchange, master().timeout)); };
   stepper_->on_record = [this](std::size_t station, const TraceRecord& record) {
     if (record.kind == TraceKind::RuntimeError && !first_error_) first_error_ = {station, record};
   };

@@ -288,7 +288,7 @@ class Session {
   std::optional<Run> running_;
   bool configured_ = false, begun_ = false, pause_asked_ = false, over_ = false, terminated_ = false;
   std::optional<std::pair<std::size_t, TraceRecord>> first_error_;  ///< run-time error of the run under way, and its station
-  Json exception_;                          ///< of the last stop; null if it was none
+  Json exception_;                                                  ///< of the last stop; null if it was none
   std::map<std::int64_t, std::pair<std::size_t, std::uint32_t>> goto_targets_;  ///< station and instruction
   std::map<std::string, std::vector<std::uint8_t>> read_;  ///< memory that the client has read: area and its bytes then
   std::int64_t handling_ = 0;                              ///< number of the request

@@ -42,7 +42,7 @@ std::uint64_t first_hit(const std::string& text) {
 bool take_always(std::string& condition) {
   constexpr std::string_view kAlways = "always";
   const std::string_view text = stl::trim(condition);
-  if (!lower_case(text).starts_with(kAlways)) return false;
+  if (lower_case(text.substr(0, text.find(' '))) != kAlways) return false;
   std::string_view rest = stl::trim(text.substr(kAlways.size()));
   if (lower_case(rest).starts_with("if ")) rest = stl::trim(rest.substr(3));
   condition = std::string(rest);
@@ -176,8 +176,8 @@ std::vector<StopPoint> Session::function_stops(const Json& wanted, Json& answer)
   return at_all_stations(wanted, answer, [&](std::string& why) {
     const bool is_main = lower_case(name) == "main";
     std::string note;
-    auto stop = find_stop(is_main ? std::vector{std::to_string(listing().line_of(0))} : words, cpu().program(), listing(), why,
-                          note);
+    auto stop = find_stop(is_main ? std::vector{std::to_string(listing().line_of(0))} : words, cpu().program(), listing(),
+                          why, note);
     if (stop) stop->name = name;
     return stop;
   });
@@ -265,7 +265,8 @@ std::vector<StopPoint> Session::data_stops(const Json& wanted) {
   if (access == "write" || access == "readWrite") on.push_back(written);
   if (on.empty()) throw Refused(fmt::format("accessType: '{}' is not read, write or readWrite", stl::shortened(access)));
   std::vector<StopPoint> stops;
-  for (const On one : on) stops.push_back(with_conditions({.station = of->station, .on = one, .range = *range, .name = name}, wanted));
+  for (const On one : on)
+    stops.push_back(with_conditions({.station = of->station, .on = one, .range = *range, .name = name}, wanted));
   return stops;
 }
 

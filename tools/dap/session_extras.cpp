@@ -169,8 +169,8 @@ Session::Written Session::find_writer(const std::string& expression) {
             body_of(*write.by, text + fmt::format("  by {} {}{}", listing().routine_of(write.by->op),
                                                   execution_text(*write.by, program),
                                                   write.in_interrupt ? ", serving " + event_text(write.event) : ""))};
-  text += write.action ? fmt::format("  by '{}', from outside", describe(history.actions()[*write.action]))
-                       : "  by the system, between two instructions";
+  const Action* const action = write.action ? history.action(*write.action) : nullptr;
+  text += action ? fmt::format("  by '{}', from outside", describe(*action)) : "  by the system, between two instructions";
   return {write.moment, {{"text", text}}};
 }
 
@@ -221,9 +221,11 @@ Json Session::last_instructions(const Json& arguments) {
   constexpr std::int64_t kUsual = 10, kMost = 10'000;
   const auto count = arguments.value("count", kUsual);
   if (count < 1 || count > kMost) throw Refused("count: how many instructions, up to 10000");
+  const auto found =
+      tools::last_instructions(debuggee_->history(), looks_at(), static_cast<std::size_t>(count), settings_.stop_request);
+  if (!found) refuse_interrupted();
   Json list = Json::array();
-  for (const InstructionRecord& record :
-       tools::last_instructions(debuggee_->history(), looks_at(), static_cast<std::size_t>(count), settings_.stop_request)) {
+  for (const InstructionRecord& record : *found) {
     Json one{{"time", clock_text(record.at)},
              {"routine", listing().routine_of(record.op)},
              {"text", execution_text(record, cpu().program())}};
@@ -245,7 +247,8 @@ Json Session::stl_status(const Json& arguments) {
   if (first) {
     auto end = static_cast<std::uint32_t>(program.ops.size());
     while (last_line && end > *first && listing().line_of(end - 1) > *last_line) --end;
-    const LastExecutions last = tools::last_executions(debuggee_->history(), looks_at(), *first, end, kLookedAt, settings_.stop_request);
+    const LastExecutions last =
+        tools::last_executions(debuggee_->history(), looks_at(), *first, end, kLookedAt, settings_.stop_request);
     for (const auto& [op, record] : last.of) {
       const std::string text = describe(record, program);
       const std::size_t values = text.find("S0=");

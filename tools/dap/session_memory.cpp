@@ -37,7 +37,8 @@ Json Session::read_memory(const Json& arguments) {
   if (begin == end) return body;
   body["data"] = to_base64(
       std::span(all).subspan(static_cast<std::size_t>(begin - place.begin), static_cast<std::size_t>(end - begin)));
-  read_[at_station(arguments["memoryReference"].get<std::string>(), looks_at())] = all;  // to tell when it changes, an area is looked at as a whole
+  read_[at_station(arguments["memoryReference"].get<std::string>(), looks_at())] =
+      all;  // to tell when it changes, an area is looked at as a whole
   return body;
 }
 
@@ -100,9 +101,8 @@ Json Session::assign(const std::string& expression, const std::string& value) {
         fmt::format("'{}' is not a value that fits {}; write for example 5, 16#FF, 1.5", stl::shortened(value), expression));
   act(SetMemory{{*assignment}});
   const Variable variable = variable_of(cpu(), range, expression);
-  Json body{{"value", variable.value},
-            {"type", variable.type},
-            {"memoryReference", at_station(variable.memory, looks_at())}};
+  Json body{
+      {"value", variable.value}, {"type", variable.type}, {"memoryReference", at_station(variable.memory, looks_at())}};
   if (range.area == Area::I && standing_at(cpu().state()))
     print("the input points are set; the program finds them in I when the next scan reads its inputs");
   return body;

@@ -76,7 +76,8 @@ Json Session::stack_trace(const Json& arguments) {
     const std::string& routine = listing().routine_of(open.op);
     add(open.op, open.event ? fmt::format("{} for {}", routine, event_text(*open.event)) : routine);
   }
-  if (frames.empty()) add(state.fatal_code && state.fatal_op != kNoRoutine ? state.fatal_op : 0, powered ? "STOP" : "without power");
+  if (frames.empty())
+    add(state.fatal_code && state.fatal_op != kNoRoutine ? state.fatal_op : 0, powered ? "STOP" : "without power");
   const auto total = frames.size();
   const auto start = std::min(arguments.value("startFrame", std::size_t{0}), total);
   const auto levels = arguments.value("levels", std::size_t{0});

@@ -277,8 +277,8 @@ void Session::report_stopped(Json body) {
 void Session::show_the_past() {
   const History& history = debuggee_->history();
   if (history.in_the_past())
-    print(fmt::format("in the past, at {}; going forward plays what has run, up to {}",
-                      moment_text(simulation().time()), moment_text(history.newest().time)));
+    print(fmt::format("in the past, at {}; going forward plays what has run, up to {}", moment_text(simulation().time()),
+                      moment_text(history.newest().time)));
 }
 
 Json Session::body_of(const Stop& stop, const std::string& reason) {

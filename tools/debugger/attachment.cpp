@@ -60,7 +60,8 @@ class Collector final : public Reader {
 
 }  // namespace
 
-AttachmentSearch find_last_attachment(History& history, std::size_t station, std::uint8_t event, const std::atomic<bool>* stop_request) {
+AttachmentSearch find_last_attachment(History& history, std::size_t station, std::uint8_t event,
+                                      const std::atomic<bool>* stop_request) {
   const Moment start = history.now();
   AttachmentFinder finder(history, station, event, stop_request);
   const auto search = history.search_back(
@@ -69,8 +70,8 @@ AttachmentSearch find_last_attachment(History& history, std::size_t station, std
   return {search == History::Search::Found ? finder.last : std::nullopt, search == History::Search::Interrupted};
 }
 
-std::vector<InstructionRecord> last_instructions(History& history, std::size_t station, std::size_t count,
-                                                 const std::atomic<bool>* stop_request) {
+std::optional<std::vector<InstructionRecord>> last_instructions(History& history, std::size_t station, std::size_t count,
+                                                                const std::atomic<bool>* stop_request) {
   const Moment start = history.now();
   Collector collector(station, stop_request);
   const auto search = history.search_back(

@@ -55,7 +55,10 @@ Debugger::Debugger(serial::Simulation& simulation, std::ostream& out, const Debu
     : Debugger(std::vector{&simulation}, out, options) {}
 
 Debugger::Debugger(const std::vector<serial::Simulation*>& stations, std::ostream& out, const DebuggerOptions& options)
-    : out_(out), options_(options), history_(stations, settings_of(options, [this] { show_progress(); })), stepper_(history_, options.stop_request) {
+    : out_(out),
+      options_(options),
+      history_(stations, settings_of(options, [this] { show_progress(); })),
+      stepper_(history_, options.stop_request) {
   for (serial::Simulation* const station : stations) stations_.emplace_back(*station);
   for (const DebuggedStation& station : options_.stations) name_width_ = std::max(name_width_, station.name.size());
   stepper_.look_at(options_.station);
@@ -310,8 +313,7 @@ void Debugger::print_instruction(std::size_t station, const InstructionRecord& r
 std::optional<std::uint32_t> Debugger::current_op() const {
   const State& state = simulation().cpu().state();
   if (state.mode == Mode::Run) return standing_at(state).value_or(0);
-  return state.fatal_code != 0 && state.fatal_op != kNoRoutine ? std::optional(state.fatal_op)
-                                                               : stations_[focus()].last_op;
+  return state.fatal_code != 0 && state.fatal_op != kNoRoutine ? std::optional(state.fatal_op) : stations_[focus()].last_op;
 }
 
 }  // namespace s7200::tools

@@ -269,7 +269,9 @@ class Debugger {
   /// What belongs to one PLC.
   struct Station {
     explicit Station(serial::Simulation& its_simulation)
-        : simulation(&its_simulation), listing(its_simulation.cpu().program()), trace_lines(its_simulation.cpu().program()) {}
+        : simulation(&its_simulation),
+          listing(its_simulation.cpu().program()),
+          trace_lines(its_simulation.cpu().program()) {}
 
     serial::Simulation* simulation;
     Listing listing;
@@ -294,9 +296,7 @@ class Debugger {
   const serial::Simulation& simulation() const { return *stations_[focus()].simulation; }
   const Listing& listing() const { return stations_[focus()].listing; }
   bool is_system() const { return !options_.stations.empty(); }
-  const serial::MasterSettings& master() const {
-    return is_system() ? options_.stations[focus()].master : options_.master;
-  }
+  const serial::MasterSettings& master() const { return is_system() ? options_.stations[focus()].master : options_.master; }
   std::string name_of(std::size_t station) const;
   std::string said_of(std::size_t station) const;  ///< `slave: `; nothing if there is but one PLC
   std::string place_line(std::size_t station) const;

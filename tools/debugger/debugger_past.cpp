@@ -170,7 +170,8 @@ static std::string expects_event(std::string_view command, const std::vector<std
 }
 
 std::optional<LastAttachment> Debugger::find_attachment(std::uint8_t event) {
-  const AttachmentSearch search = at_length([&] { return find_last_attachment(history_, focus(), event, options_.stop_request); });
+  const AttachmentSearch search =
+      at_length([&] { return find_last_attachment(history_, focus(), event, options_.stop_request); });
   if (search.interrupted) out_ << interruption_text() << '\n';
   if (!search.attachment) {
     if (!search.interrupted)
@@ -188,8 +189,12 @@ Debugger::Error Debugger::history(const Arguments& arguments) {
   constexpr std::uint32_t kShown = 10, kMost = 10'000;
   const auto count = arguments.empty() ? kShown : parse_count(arguments);
   if (!count || *count > kMost) return expects("history", "how many instructions, up to 10000, for example: history 30");
-  for (const InstructionRecord& record :
-       at_length([&] { return last_instructions(history_, focus(), *count, options_.stop_request); }))
+  const auto found = at_length([&] { return last_instructions(history_, focus(), *count, options_.stop_request); });
+  if (!found) {
+    out_ << interruption_text() << '\n';
+    return {};
+  }
+  for (const InstructionRecord& record : *found)
     out_ << fmt::format("{}  {:<7} {}\n", clock_text(record.at), listing().routine_of(record.op),
                         execution_text(record, simulation().cpu().program()));
   return {};

@@ -118,7 +118,8 @@ void Debugger::print_place(const Place& place, const std::string& name, char for
   }
   if (place.pointer) out_ << fmt::format("{} is {}\n", name, range->name_of(0));
   out_ << range_text(cpu, *range, form);
-  if (const std::string forced = forced_text(simulation().cpu(), {bits_of(*range)}); !forced.empty()) out_ << "       " << forced << '\n';
+  if (const std::string forced = forced_text(simulation().cpu(), {bits_of(*range)}); !forced.empty())
+    out_ << "       " << forced << '\n';
   if (const std::string symbol = symbol_text(cpu.program(), *range); !symbol.empty()) out_ << "         " << symbol << '\n';
   out_ << element_text(cpu.state(), *range) << special_text(cpu, *range);
 }

@@ -133,8 +133,7 @@ Debugger::Error Debugger::load(const Arguments& arguments) {
 /// How a station is left, as a scenario expects it.
 SessionRecord::Station Debugger::record_of(std::size_t number) const {
   const State& state = stations_[number].simulation->cpu().state();
-  SessionRecord::Station record{
-      .memory = {}, .stopped = state.mode == Mode::Stop, .fatal_code = state.fatal_code};
+  SessionRecord::Station record{.memory = {}, .stopped = state.mode == Mode::Stop, .fatal_code = state.fatal_code};
   for (const auto& [station, range] : displayed_)
     for (std::uint32_t i = 0; i < range.count && station == number; ++i) record.memory.push_back(object_of(state, range, i));
   return record;
@@ -173,9 +172,8 @@ Debugger::Error Debugger::power(const Arguments& arguments) {
   }
   remember();
   history_.power_up(memory);
-  out_ << fmt::format(
-      "power was off{}: {}\n", *off == 0 ? "" : " for " + format_duration(*off),
-      lost ? "the EEPROM is left, RAM and clock are lost" : "retentive memory, EEPROM and clock are kept");
+  out_ << fmt::format("power was off{}: {}\n", *off == 0 ? "" : " for " + format_duration(*off),
+                      lost ? "the EEPROM is left, RAM and clock are lost" : "retentive memory, EEPROM and clock are kept");
   note_new_branch();
   note_going_elsewhere();
   show_place();

@@ -26,8 +26,9 @@ LastExecutions Debugger::last_executions_of(std::uint32_t first, std::uint32_t e
 /// A line for each instruction of [first, end), as it was executed last.
 std::vector<std::string> Debugger::status_lines(std::uint32_t first, std::uint32_t end, const LastExecutions& last) {
   const Program& program = simulation().cpu().program();
-  const std::string not_found = last.interrupted ? "interrupted while it was looked for"
-                                                 : "not executed within " + format_duration(simulation().time() - last.since);
+  const std::string not_found = last.interrupted
+                                    ? "interrupted while it was looked for"
+                                    : "not executed within " + format_duration(simulation().time() - last.since);
   std::vector<std::string> lines;
   for (std::uint32_t op = first; op < end; ++op) {
     const auto found = last.of.find(op);
@@ -111,7 +112,8 @@ Debugger::Error Debugger::expect(const Arguments& arguments) {
   if (arguments.empty()) return expects("expect", "what must hold, for example: expect VW20 = 5 and M0.1");
   const auto expression = Expression::parse(joined(arguments), simulation().cpu().program(), why);
   if (!expression) return why;
-  if (!expression->holds(simulation().cpu())) return fmt::format("expected {}, which does not hold here", expression->text());
+  if (!expression->holds(simulation().cpu()))
+    return fmt::format("expected {}, which does not hold here", expression->text());
   return {};
 }
 

@@ -95,7 +95,8 @@ Debugger::Error Debugger::set_break(const Arguments& arguments) {
   auto stop = stop_of(place, why);
   if (!stop || !read_options(words, simulation().cpu().program(), *stop, why)) return why;
   std::vector<StopPoint>& all = stepper_.stops;
-  const auto same = std::ranges::find_if(all, [&](const StopPoint& s) { return s.on == On::Place && s.op == stop->op && s.station == focus(); });
+  const auto same = std::ranges::find_if(
+      all, [&](const StopPoint& s) { return s.on == On::Place && s.op == stop->op && s.station == focus(); });
   if (stop->on == On::Place && same != all.end() && words.empty()) {
     out_ << fmt::format("breakpoint {} is already in {}\n", same->number, op_text(stop->op));
     return {};
@@ -128,7 +129,8 @@ Debugger::Error Debugger::watch(const Arguments& arguments) {
     added.station = focus();
     added.range = range;
     added.name = name + (added.on == On::Change ? "" : " " + access);
-    out_ << fmt::format("watch {}: {} is {}{}\n", added.number, added.name, value_of(simulation().cpu(), range), options_text(added));
+    out_ << fmt::format("watch {}: {} is {}{}\n", added.number, added.name, value_of(simulation().cpu(), range),
+                        options_text(added));
     stepper_.stops.push_back(std::move(added));
   }
   return {};
@@ -168,8 +170,8 @@ Debugger::Error Debugger::delete_stop(const Arguments& arguments) {
 }
 
 std::string Debugger::mark_of(std::uint32_t op) const {
-  const bool breakpoint =
-      std::ranges::any_of(stepper_.stops, [&](const StopPoint& s) { return s.on == On::Place && s.op == op && s.station == focus(); });
+  const bool breakpoint = std::ranges::any_of(
+      stepper_.stops, [&](const StopPoint& s) { return s.on == On::Place && s.op == op && s.station == focus(); });
   return std::string(breakpoint ? "*" : " ") + (op == current_op() ? ">" : " ");
 }
 

@@ -218,7 +218,8 @@ bool History::before(std::size_t station, std::uint32_t op) {
   if (++looked_ % kTellEvery == 0) tell_progress();
   if (goal_ && executed() == *goal_) return false;
   bool goes_on = true;
-  if (TraceSink* const records = records_of(station); records && records->wants_instructions()) goes_on = records->before(op);
+  if (TraceSink* const records = records_of(station); records && records->wants_instructions())
+    goes_on = records->before(op);
   if (observer_ && observer_->watches(station)) goes_on &= observer_->before(op);
   stopped_by_observer_ = !goes_on;
   return goes_on;
@@ -371,8 +372,8 @@ void History::power_up(const std::vector<RetentiveMemory>& memory) {
 }
 
 Recording History::recording() const {
-  return {branch_->memory, branch_->actions, branch_->stations,       branch_->moments,
-          branch_->end,    now(),            branch_->forgotten == 0};
+  return {branch_->memory, branch_->actions,       branch_->stations, branch_->moments, branch_->end,
+          now(),           branch_->forgotten == 0};
 }
 
 bool History::replay(Recording recording) {
@@ -424,8 +425,7 @@ History::CheckpointPtr History::checkpoint_of(serial::Simulation::Snapshot state
   *bytes_ += size;
   std::vector<std::uint32_t> ops;
   for (serial::Simulation* station : stations_) ops.push_back(station->cpu().core().loop.op);
-  return {new Checkpoint{now(), std::move(state), std::move(ops)},
-          [total = bytes_, size](const Checkpoint* checkpoint) {
+  return {new Checkpoint{now(), std::move(state), std::move(ops)}, [total = bytes_, size](const Checkpoint* checkpoint) {
             *total -= size;
             delete checkpoint;
           }};

@@ -1,7 +1,7 @@
 // The past of a simulation: every moment since its beginning can be reached again.
 //
-// It may have several PLCs, its stations. While anyone looks at instructions the CPUs run in step (system.hpp), so that there
-// is one order of all instructions, in which a moment has its place.
+// It may have several PLCs, its stations. While anyone looks at instructions the CPUs run in step (system.hpp), so that
+// there is one order of all instructions, in which a moment has its place.
 //
 // A run is deterministic, so the past is computed anew: from the last checkpoint before the moment, with everything that was
 // done to the simulation from outside done again where it was done. Checkpoints are thinned when they take more memory than
@@ -75,9 +75,9 @@ class History final {
     Drive drive{};                      ///< none: as fast as the computer can
     std::vector<TraceSink*> records{};  ///< by station, null for none: told what happens for the first time, nothing twice
     std::vector<serial::HostPort*> hosts{};  ///< through which something comes in; none: the one beside the only station
-    std::size_t bound = 256 << 20;                    ///< bytes for checkpoints
-    std::size_t log_bound = 64 << 20;                 ///< bytes for what came in over a bridge
-    Time interval = 500 * kMillisecond;               ///< of checkpoints, until they have to be thinned
+    std::size_t bound = 256 << 20;           ///< bytes for checkpoints
+    std::size_t log_bound = 64 << 20;        ///< bytes for what came in over a bridge
+    Time interval = 500 * kMillisecond;      ///< of checkpoints, until they have to be thinned
     const std::atomic<bool>* stop_request = nullptr;  ///< ends what plays for long: go_to() a time, replay()
     std::function<void()> progress{};                 ///< told now and then while something runs or plays
   };
@@ -104,8 +104,8 @@ class History final {
   const Moment& newest() const;
   bool in_the_past() const { return now() < newest(); }
 
-  /// Runs from now on until the observer stops it or the only CPU goes to STOP: first what has run already, then what is new.
-  /// Halt::Time if it was to end while no CPU executed a program.
+  /// Runs from now on until the observer stops it or the only CPU goes to STOP: first what has run already, then what is
+  /// new. Halt::Time if it was to end while no CPU executed a program.
   serial::Halt run(Observer& observer);
 
   /// Plays what has run from now on until `end`, or until the observer stops it; returns whether it came to the end. The
@@ -253,7 +253,7 @@ class History final {
   std::vector<std::unique_ptr<Tap>> taps_;          // by station
   std::vector<std::unique_ptr<Journal>> journals_;  // by host port
   bool alone_;                                      // one CPU, whose STOP is the end: nothing brings it back
-  std::shared_ptr<std::size_t> bytes_;  ///< of all checkpoints
+  std::shared_ptr<std::size_t> bytes_;              ///< of all checkpoints
   CheckpointPtr origin_;
   BranchPtr branch_;
   std::vector<std::weak_ptr<Branch>> branches_;
@@ -277,8 +277,8 @@ struct History::Branch {
   std::vector<Action> actions;
   std::vector<std::size_t> stations;  ///< of the actions
   std::vector<Moment> moments;        ///< of the actions
-  std::size_t forgotten = 0;    ///< actions before these
-  std::size_t log_bytes = 0;    ///< of the actions
+  std::size_t forgotten = 0;          ///< actions before these
+  std::size_t log_bytes = 0;          ///< of the actions
   Moment end;
   Time interval = 0;
   std::vector<RetentiveMemory> memory{};  ///< by station: it begins with power coming back

@@ -56,7 +56,8 @@ Time beginning(const serial::Simulation& simulation) {
     const Time given_up = exchange.request_end + master.state().request.timeout;
     if (master.asks() || (exchange.timed_out && now - given_up < kJust)) from = std::min(from, exchange.request_start);
   }
-  if (simulation.has_host_port() && simulation.host_port().state().attached) from = std::min(from, now - std::min(now, kHostRequest));
+  if (simulation.has_host_port() && simulation.host_port().state().attached)
+    from = std::min(from, now - std::min(now, kHostRequest));
   return from;
 }
 

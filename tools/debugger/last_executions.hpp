@@ -17,7 +17,8 @@ struct LastExecutions {
 /// How far back it is worth looking.
 inline constexpr Time kLookedAt = 2 * kSecond;
 
-/// Of the instructions [first, end) of a station, up to now: of the last `within` at least. The simulation stands where it stood.
+/// Of the instructions [first, end) of a station, up to now: of the last `within` at least. The simulation stands where it
+/// stood.
 LastExecutions last_executions(History& history, std::size_t station, std::uint32_t first, std::uint32_t end, Time within,
                                const std::atomic<bool>* stop_request);
 

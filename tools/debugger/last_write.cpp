@@ -10,8 +10,7 @@ namespace {
 
 class WriteFinder final : public Observer {
  public:
-  WriteFinder(const History& history, std::size_t station, const MemoryRange& range,
-              const std::atomic<bool>* stop_request)
+  WriteFinder(const History& history, std::size_t station, const MemoryRange& range, const std::atomic<bool>* stop_request)
       : Observer(station),
         cpu_(history.station(station).cpu()),
         history_(history),

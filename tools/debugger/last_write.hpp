@@ -24,8 +24,8 @@ struct WriteSearch {
   bool interrupted = false;
 };
 
-/// The last write to memory of a station before now, also of the value that was there already; the simulation stands where it stood. Instructions
-/// that fill tables, strings and messages are found only if they change the value.
+/// The last write to memory of a station before now, also of the value that was there already; the simulation stands where
+/// it stood. Instructions that fill tables, strings and messages are found only if they change the value.
 WriteSearch find_last_write(History& history, std::size_t station, const MemoryRange& range,
                             const std::atomic<bool>* stop_request);
 

@@ -47,8 +47,8 @@ struct SessionRecord {
     std::uint16_t fatal_code = 0;
   };
 
-  Recording session;  ///< up to now
-  std::vector<Station> stations;  ///< all
+  Recording session;                       ///< up to now
+  std::vector<Station> stations;           ///< all
   std::optional<serial::Exchange> last{};  ///< if it is over
 };
 

@@ -388,8 +388,8 @@ void Stepper::note_silence(std::size_t number, Time now) {
   note_host_request(number, frame, last);
 }
 
-/// A request on the line of a station, by the master of all stations there or by one outside. `frame`: of one outside; nothing
-/// if it is not known.
+/// A request on the line of a station, by the master of all stations there or by one outside. `frame`: of one outside;
+/// nothing if it is not known.
 void Stepper::note_unanswered(std::size_t number, const std::vector<std::uint8_t>& frame) {
   for (StopPoint& stop : stops)
     if (stop.on == StopPoint::On::Unanswered && have_same_master(stop.station, number)) hit(stop, {.frame = frame});
@@ -401,8 +401,8 @@ bool Stepper::have_same_master(std::size_t one, std::size_t other) {
   return first.has_master() && second.has_master() && &first.master() == &second.master();
 }
 
-/// What came in without the simulated master came from outside. In a system it may have come from another PLC: there a master
-/// outside is not known to wait.
+/// What came in without the simulated master came from outside. In a system it may have come from another PLC: there a
+/// master outside is not known to wait.
 void Stepper::note_host_request(std::size_t number, std::vector<std::uint8_t> frame, Time end) {
   serial::Simulation& here = station(number);
   if (history_.stations() > 1 || !here.has_host_port() || !here.host_port().state().attached || here.master().busy()) return;

@@ -94,12 +94,12 @@ class Stepper final : public Observer {
 
   /// What is heard on the line of a station.
   struct Listening {
-    std::vector<std::uint8_t> coming_in{};  ///< characters since the last silence
-    Time silence_noted = 0;                 ///< after the character that ended then; 0: after none
-    bool came_in = false;                   ///< the last character on the line was received
-    std::optional<Time> host_waits{};       ///< a master on a bridge, since the end of its frame
+    std::vector<std::uint8_t> coming_in{};   ///< characters since the last silence
+    Time silence_noted = 0;                  ///< after the character that ended then; 0: after none
+    bool came_in = false;                    ///< the last character on the line was received
+    std::optional<Time> host_waits{};        ///< a master on a bridge, since the end of its frame
     std::vector<std::uint8_t> host_frame{};  ///< that one; nothing if it is not known
-    bool awaits_answer = false;             ///< its master is busy, and no station before it has the same one
+    bool awaits_answer = false;              ///< its master is busy, and no station before it has the same one
   };
 
   serial::Simulation& station(std::size_t number) { return history_.station(number); }
@@ -137,19 +137,19 @@ class Stepper final : public Observer {
   Goal goal_;
   Time limit_ = 0;
   bool stop_at_answer_ = false;
-  std::optional<Instruction> start_;  ///< of the station it looks at, where it started or the first one after power-up
-  std::optional<Instruction> next_;   ///< of any station, that the run started in front of
+  std::optional<Instruction> start_;        ///< of the station it looks at, where it started or the first one after power-up
+  std::optional<Instruction> next_;         ///< of any station, that the run started in front of
   std::optional<std::size_t> cpu_stopped_;  ///< one of several, in this run
   bool answered_ = false;                   ///< the master has its answer
   bool executing_start_ = false;            ///< the instruction being executed is the one it started at
   bool backwards_ = false;
-  std::vector<std::size_t> accessed_;    ///< stops on memory that the instruction being executed reads or writes
-  std::vector<Listening> listening_;     ///< by station
-  History::BranchPtr counted_on_;        ///< the branch on which hits were counted last
-  std::optional<Moment> listened_to_;    ///< where the last run ended: one from there goes on listening
-  Time executing_since_ = kNever;            ///< the start of the instruction being executed; kNever: none is
-  Places first_places_;                  ///< backwards: of the part being played, by station
-  std::vector<Found> found_;             ///< backwards: in the part being played
+  std::vector<std::size_t> accessed_;  ///< stops on memory that the instruction being executed reads or writes
+  std::vector<Listening> listening_;   ///< by station
+  History::BranchPtr counted_on_;      ///< the branch on which hits were counted last
+  std::optional<Moment> listened_to_;  ///< where the last run ended: one from there goes on listening
+  Time executing_since_ = kNever;      ///< the start of the instruction being executed; kNever: none is
+  Places first_places_;                ///< backwards: of the part being played, by station
+  std::vector<Found> found_;           ///< backwards: in the part being played
   Progress progress_;
   Stop stop_;
 };

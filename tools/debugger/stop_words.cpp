@@ -74,7 +74,11 @@ std::optional<StopPoint> event_stop(const std::vector<std::string>& words, std::
 std::optional<StopPoint> happening_stop(const Happening& happening, const std::vector<std::string>& words,
                                         std::string& why) {
   if (words.size() == 1) return StopPoint{.on = happening.on};
-  const auto code = words.size() == 2 && happening.on == On::RuntimeError ? parse_integer("16#" + words[1]) : std::nullopt;
+  if (happening.on != On::RuntimeError) {
+    why = fmt::format("break {} expects nothing more", happening.word);
+    return {};
+  }
+  const auto code = words.size() == 2 ? parse_integer("16#" + words[1]) : std::nullopt;
   if (code && *code > 0 && *code <= 0xFFFF) return StopPoint{.on = happening.on, .code = static_cast<std::uint16_t>(*code)};
   why = expects("break error", "nothing or a code in hex, for example: break error 0006");
   return {};

@@ -29,8 +29,8 @@ class Teller final : public Observer {
 
 }  // namespace
 
-std::optional<TimelineReport> timeline_of_past(History& history, std::size_t station, const std::shared_ptr<const Program>& program,
-                                                Time from,
+std::optional<TimelineReport> timeline_of_past(History& history, std::size_t station,
+                                               const std::shared_ptr<const Program>& program, Time from,
                                                const std::atomic<bool>* stop_request) {
   const Moment now = history.now();
   history.go_to(std::min(from, now.time));

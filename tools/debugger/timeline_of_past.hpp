@@ -10,9 +10,10 @@
 
 namespace s7200::tools {
 
-/// Of what happened at a station from `from` on up to now; nothing after a stop request. The simulation stands where it stood.
-std::optional<TimelineReport> timeline_of_past(History& history, std::size_t station, const std::shared_ptr<const Program>& program,
-                                                Time from,
+/// Of what happened at a station from `from` on up to now; nothing after a stop request. The simulation stands where it
+/// stood.
+std::optional<TimelineReport> timeline_of_past(History& history, std::size_t station,
+                                               const std::shared_ptr<const Program>& program, Time from,
                                                const std::atomic<bool>* stop_request);
 
 }  // namespace s7200::tools
