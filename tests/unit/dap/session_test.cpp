@@ -227,6 +227,14 @@ TEST(DapSession, BoxesWithoutPowerFlowAreSkippedUnlessAlways) {
   EXPECT_EQ(editor.value("VW2"), "16#0001 (1)");
 }
 
+TEST(DapSession, ASymbolThatBeginsWithAlwaysIsOne) {
+  Editor editor(kNested);
+  editor.begin();
+  const Json refused = editor.breakpoint({{"line", 6}, {"condition", "Always_On = 1"}});
+  EXPECT_FALSE(refused["verified"]);
+  EXPECT_TRUE(has(refused["message"], "Always_On")) << refused;
+}
+
 TEST(DapSession, ABreakpointThatStaysKeepsItsHits) {
   Editor editor(kNested);
   editor.begin();

@@ -966,6 +966,7 @@ TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
       {"break 4 log '{VX}'", "is not an address"},
       {"break event 99", "break event expects the number of an event"},
       {"break error xyz", "break error expects nothing or a code in hex"},
+      {"break mode 1", "break mode expects nothing more"},
       {"break network", "break expects a line number"},
       {"break 99", "the last instruction is in line 22"},
       {"list 99", "the last instruction is in line 22"},
