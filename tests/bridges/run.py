@@ -1169,14 +1169,9 @@ class OtherPlcTests(Case):
         path = os.ttyname(far)
         process = subprocess.Popen([S7200, *map(str, arguments), path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(lambda: (process.kill(), process.communicate(), os.close(near)))
-        self.eventually(lambda: self.opened(process, path) or process.poll() is not None)
+        self.assertRegex(process.stderr.readline(), f"^listening to {path} 9600 8[EN]1$")
         os.close(far)
         return near, process
-
-    @staticmethod
-    def opened(process, path):
-        folder = f"/proc/{process.pid}/fd"
-        return any(os.path.realpath(f"{folder}/{fd}") == path for fd in os.listdir(folder))
 
     REQUEST = bytes.fromhex("010300000001840a")
     REPLY = framed(bytes.fromhex("0103021234"))

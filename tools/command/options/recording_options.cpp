@@ -68,7 +68,9 @@ SerialFormat RecordingOptions::format() const { return line.over(find_protocol(p
 std::unique_ptr<LineListener> open_line(const RecordingOptions& options, const SlaveTarget& line) {
   catch_interruption();
   try {
-    return std::make_unique<LineListener>(line, options.format(), options.reading.gap);
+    auto listener = std::make_unique<LineListener>(line, options.format(), options.reading.gap);
+    fmt::print(stderr, "listening to {}\n", stl::printable(listener->name()));
+    return listener;
   } catch (const SlaveUnreachable& error) {
     return print_error(error.what()), nullptr;
   }

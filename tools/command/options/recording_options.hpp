@@ -49,7 +49,7 @@ struct ReadRecording {
   std::string name;  ///< what messages call the file
 };
 
-/// Null after a message. Interruptions are noted from here on.
+/// Says on standard error that it listens. Null after another message. Interruptions are noted from here on.
 std::unique_ptr<LineListener> open_line(const RecordingOptions& options, const SlaveTarget& line);
 
 /// Listens as the options say, and tells each frame. Ends by an interruption or after `duration`. False after a message: the
