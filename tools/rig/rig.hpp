@@ -107,9 +107,9 @@ class Rig final {
   serial::System system_;
   std::vector<serial::SharedLine*> lines_;
   std::vector<serial::Plc*> plcs_;
-  std::vector<serial::PollerStation*> pollers_;  // by peer
+  std::vector<serial::PollerStation*> pollers_;        // by peer
   std::vector<serial::ResponderStation*> responders_;  // by peer
-  std::vector<serial::HostStation*> hosts_;      // by bridge
+  std::vector<serial::HostStation*> hosts_;            // by bridge
   struct Asker {
     serial::RequesterStation* requester = nullptr;  // null if there is no place for one
     serial::HostStation* host = nullptr;            // the same
