@@ -1209,8 +1209,10 @@ lines:
             self.assertIn("--cpu is about one PLC", self.ends(UNUSABLE, *verb, "--cpu", "224").stderr)
             self.assertIn("--times-band is about one PLC", self.ends(UNUSABLE, *verb, "--times-band", "2").stderr)
         self.assertIn("names the files of its programs itself", self.ends(UNUSABLE, "run", system, SLAVE).stderr)
-        self.assertIn("is a system file, which 's7200 run', 'send', 'master' and 'test' take",
-                      self.ends(UNUSABLE, "debug", system).stderr)
+        self.assertIn("is a system file, which 's7200 run', 'send', 'master', 'test', 'debug' and 'dap' take",
+                      self.ends(UNUSABLE, "bench", system).stderr)
+        for verb in ("debug", "dap"):
+            self.assertIn("--set is about one PLC", self.ends(UNUSABLE, verb, system, "--set", "VW0=1").stderr)
 
     GATEWAY = SOURCE / "stl_programs/systems/gateway.yaml"
 

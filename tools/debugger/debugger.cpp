@@ -49,6 +49,9 @@ History::Settings settings_of(const DebuggerOptions& options, std::function<void
   return settings;
 }
 
+/// By then whatever belongs to an instant has been told.
+constexpr Time kTold = kSecond;
+
 }  // namespace
 
 Debugger::Debugger(serial::Simulation& simulation, std::ostream& out, const DebuggerOptions& options)
@@ -275,7 +278,8 @@ void Debugger::print_trace(std::size_t station, const TraceRecord& record) {
   if (record.kind != TraceKind::ScanBegin) print_trace_lines(station, of_record);
 }
 
-/// CPUs of a system end their instructions at different times: lines wait until no other one can come before them.
+/// CPUs of a system end their instructions at different times, and the way of a program is told at its end: lines wait until
+/// no other one can come before them.
 void Debugger::print_trace_lines(std::size_t station, const std::vector<TraceLine>& lines) {
   if (!is_system()) {
     if (!lines.empty()) hide_progress();
@@ -284,11 +288,13 @@ void Debugger::print_trace_lines(std::size_t station, const std::vector<TraceLin
   }
   for (const TraceLine& line : lines)
     trace_waiting_.push_back({line.at, fmt::format("{:<{}}  {}", name_of(station), name_width_, line.text)});
-  write_trace(history_.now().time);
+  constexpr std::size_t kMostWaiting = 10'000;
+  if (trace_waiting_.size() >= kMostWaiting) write_trace(history_.now().time - std::min(history_.now().time, kTold));
 }
 
 void Debugger::write_trace(Time until) {
   std::ranges::stable_sort(trace_waiting_, {}, &TraceLine::at);
+  if (!trace_waiting_.empty()) hide_progress();
   const auto rest = std::ranges::lower_bound(trace_waiting_, until, {}, &TraceLine::at);
   for (auto line = trace_waiting_.begin(); line != rest; ++line)
     out_ << fmt::format("  {}  {}\n", clock_text(line->at), line->text);

@@ -425,8 +425,7 @@ TEST(History, TheLastWriteMayBeAnActionOrTheSystem) {
   const auto by_action = find_last_write(*session.history, 0, *parse_range("VW50", cpu214(), why), nullptr);
   ASSERT_TRUE(by_action.write.has_value());
   EXPECT_EQ(by_action.write->action, 0U);
-  const auto by_system =
-      find_last_write(*session.history, 0, *parse_range("SM0.6", cpu214(), why), nullptr);
+  const auto by_system = find_last_write(*session.history, 0, *parse_range("SM0.6", cpu214(), why), nullptr);
   ASSERT_TRUE(by_system.write.has_value());
   EXPECT_FALSE(by_system.write->by.has_value() || by_system.write->action.has_value());
 }

@@ -158,7 +158,8 @@ TEST(SystemHistory, RandomWalksForwardsAndBackwardsStandWhereAPlainRunStands) {
   for (int i = 0; i < walks; ++i) {
     const auto& [moment, state] = plain[chance() % plain.size()];
     session.history.go_to(moment);
-    ASSERT_EQ(difference(session.system().snapshot(), state), "") << "walk " << i << " to instruction " << moment.instructions;
+    ASSERT_EQ(difference(session.system().snapshot(), state), "")
+        << "walk " << i << " to instruction " << moment.instructions;
     ASSERT_TRUE(session.system().snapshot() == state);
     const auto& [next, state_then] = plain[chance() % plain.size()];
     if (next < moment) continue;

@@ -115,7 +115,8 @@ std::shared_ptr<const Program> ProgramOptions::load(int& exit_code) const {
   exit_code = kUnusable;
   if (is_system_file(path)) {
     print_error(fmt::format(
-        "{} is a system file, which 's7200 run', 'send', 'master', 'test' and 'debug' take; name one PROGRAM here", path));
+        "{} is a system file, which 's7200 run', 'send', 'master', 'test', 'debug' and 'dap' take; name one PROGRAM here",
+        path));
     return nullptr;
   }
   auto text = model() ? read_project(path, parts) : std::nullopt;

@@ -1,0 +1,156 @@
+// A system in an editor: a thread for each PLC.
+#include <gtest/gtest.h>
+
+#include "tests/unit/debugger/system_bench.hpp"
+#include "tools/dap/session.hpp"
+
+namespace s7200::tools::dap {
+namespace {
+
+class SystemDebuggee final : public Debuggee {
+ public:
+  SystemDebuggee() : history_(bench.stations, {}) {}
+
+  History& history() override { return history_; }
+  std::shared_ptr<const Program> program(std::size_t station) const override {
+    return bench.rig->plan().plcs[station].program;
+  }
+  std::string name(std::size_t station) const override { return bench.rig->plan().plcs[station].name; }
+  std::size_t first_station() const override { return kSlave1; }
+  const serial::MasterSettings& master(std::size_t) const override { return master_; }
+  std::string recorded_files() const override { return {}; }
+  std::string failure() const override { return {}; }
+  void when_saying(std::function<void(const std::string&)>) override {}
+  std::vector<std::string> finish() override { return {}; }
+
+  SystemBench bench;
+
+ private:
+  serial::MasterSettings master_{};
+  History history_;
+};
+
+struct SystemEditor {
+  SystemEditor()
+      : debuggee(std::make_shared<SystemDebuggee>()),
+        session({.launch = [this](const Json&) { return debuggee; }, .stop_request = &stop},
+                [this](const Json& message) { messages.push_back(message); }) {
+    (*this)("initialize", {{"adapterID", "s7200"}});
+    (*this)("launch", {{"stopOnEntry", true}});
+    (*this)("configurationDone");
+  }
+
+  Json ask(const std::string& command, Json arguments = Json::object()) {
+    const std::size_t first = messages.size();
+    session.handle({{"seq", ++sent}, {"type", "request"}, {"command", command}, {"arguments", std::move(arguments)}});
+    Json response;
+    for (std::size_t i = first; i < messages.size(); ++i)
+      if (messages[i]["type"] == "response") response = messages[i];
+    if (session.runs()) session.run();
+    return response;
+  }
+  Json operator()(const std::string& command, Json arguments = Json::object()) {
+    const Json response = ask(command, std::move(arguments));
+    EXPECT_TRUE(response["success"]) << response.dump(1);
+    return response.value("body", Json::object());
+  }
+  Json stopped() const {
+    for (auto i = messages.rbegin(); i != messages.rend(); ++i)
+      if ((*i)["type"] == "event" && (*i)["event"] == "stopped") return (*i)["body"];
+    return {};
+  }
+  Json frame(int thread) { return (*this)("stackTrace", {{"threadId", thread}})["stackFrames"][0]; }
+  std::string value(int thread, const std::string& expression) {
+    return (*this)("evaluate", {{"expression", expression}, {"frameId", frame(thread)["id"]}})["result"];
+  }
+  std::uint64_t executed(std::size_t station) const { return debuggee->bench.stations[station]->plc().executed(); }
+
+  std::atomic<bool> stop = false;
+  std::vector<Json> messages;
+  std::shared_ptr<SystemDebuggee> debuggee;
+  Session session;
+  int sent = 0;
+};
+
+constexpr int kMasterThread = 1, kSlave1Thread = 2, kSlave2Thread = 3;
+
+TEST(DapSystem, EachPlcIsAThreadUnderItsName) {
+  SystemEditor editor;
+  const Json threads = editor("threads")["threads"];
+  ASSERT_EQ(threads.size(), 3U);
+  EXPECT_EQ(threads[0], (Json{{"id", kMasterThread}, {"name", "master"}}));
+  EXPECT_EQ(threads[2], (Json{{"id", kSlave2Thread}, {"name", "slave2"}}));
+  EXPECT_EQ(editor.stopped()["threadId"], kSlave1Thread) << "the one that is looked at first";
+  EXPECT_EQ(editor.stopped()["allThreadsStopped"], true);
+  EXPECT_EQ(editor("loadedSources")["sources"].size(), 2U) << "two slaves with one program";
+}
+
+TEST(DapSystem, ABreakpointHoldsAtEveryPlcThatHasTheLineAndTheStopSaysWhereItIs) {
+  SystemEditor editor;
+  const Json source = editor.frame(kSlave1Thread)["source"];
+  const Json breakpoint =
+      editor("setFunctionBreakpoints", {{"breakpoints", Json::array({{{"name", "received"}}})}})["breakpoints"][0];
+  EXPECT_EQ(breakpoint["verified"], true) << breakpoint.dump();
+  editor("continue", {{"threadId", kMasterThread}});
+  std::set<int> threads;
+  for (int i = 0; i < 8; ++i) {
+    threads.insert(editor.stopped()["threadId"].get<int>());
+    editor("continue", {{"threadId", editor.stopped()["threadId"]}});
+  }
+  EXPECT_EQ(threads, (std::set{kMasterThread, kSlave1Thread, kSlave2Thread}));
+  editor("setFunctionBreakpoints", {{"breakpoints", Json::array()}});
+  const int line = editor.frame(kSlave1Thread)["line"];
+  editor("setBreakpoints", {{"source", source}, {"breakpoints", Json::array({{{"line", line}, {"condition", "always"}}})}});
+  threads.clear();
+  for (int i = 0; i < 6; ++i) {
+    editor("continue", {{"threadId", kSlave1Thread}});
+    threads.insert(editor.stopped()["threadId"].get<int>());
+    EXPECT_EQ(editor.frame(editor.stopped()["threadId"])["line"], line);
+  }
+  EXPECT_EQ(threads, (std::set{kSlave1Thread, kSlave2Thread}));
+}
+
+TEST(DapSystem, AStepIsOfItsThreadAndAllOthersRunMeanwhileForwardsAndBackwards) {
+  SystemEditor editor;
+  editor("stepScan", {{"threadId", kMasterThread}, {"count", 3}});
+  EXPECT_EQ(editor.stopped()["threadId"], kMasterThread);
+  const serial::System::Snapshot before = editor.debuggee->bench.system().snapshot();
+  const std::uint64_t master = editor.executed(kMaster), slave = editor.executed(kSlave1);
+  for (int i = 0; i < 20; ++i) editor("stepIn", {{"threadId", kMasterThread}});
+  EXPECT_EQ(editor.executed(kMaster), master + 20);
+  EXPECT_GT(editor.executed(kSlave1), slave);
+  for (int i = 0; i < 20; ++i) editor("stepBack", {{"threadId", kMasterThread}});
+  EXPECT_TRUE(editor.debuggee->bench.system().snapshot() == before);
+  editor("stepIn", {{"threadId", kSlave2Thread}});
+  EXPECT_EQ(editor.stopped()["threadId"], kSlave2Thread);
+  EXPECT_FALSE(editor.ask("next", {{"threadId", 4}})["success"]);
+}
+
+TEST(DapSystem, FramesVariablesAndMemoryAreThoseOfTheirThread) {
+  SystemEditor editor;
+  editor("stepScan", {{"threadId", kSlave1Thread}});
+  const Json set = editor("setExpression",
+                          {{"expression", "VW20"}, {"value", "16#1234"}, {"frameId", editor.frame(kSlave2Thread)["id"]}});
+  EXPECT_EQ(editor.value(kSlave2Thread, "VW20"), "16#1234 (4660)");
+  EXPECT_EQ(editor.value(kSlave1Thread, "VW20"), "16#0000 (0)");
+  const std::string reference = set["memoryReference"];
+  EXPECT_EQ(reference, "VW20@2");
+  EXPECT_EQ(editor("readMemory", {{"memoryReference", reference}, {"count", 2}})["data"], "EjQ=");
+  EXPECT_EQ(editor("readMemory", {{"memoryReference", "VW20@1"}, {"count", 2}})["data"], "AAA=");
+  EXPECT_FALSE(editor.ask("readMemory", {{"memoryReference", "VW20@3"}, {"count", 2}})["success"]);
+  const Json scopes = editor("scopes", {{"frameId", editor.frame(kSlave2Thread)["id"]}})["scopes"];
+  for (const Json& scope : scopes) {
+    if (scope["name"] != "V") continue;
+    EXPECT_EQ(scope["memoryReference"], "V@2");
+    const Json variables = editor("variables", {{"variablesReference", scope["variablesReference"]}})["variables"];
+    EXPECT_GT(variables.size(), 10U);
+  }
+  const Json info = editor("dataBreakpointInfo", {{"name", "VW20"}, {"frameId", editor.frame(kSlave2Thread)["id"]}});
+  EXPECT_EQ(info["dataId"], "VW20@2");
+  const std::string instruction = editor.frame(kSlave2Thread)["instructionPointerReference"];
+  const Json first = editor("disassemble", {{"memoryReference", instruction}, {"instructionCount", 1}})["instructions"][0];
+  EXPECT_EQ(first["address"], instruction);
+}
+
+}  // namespace
+}  // namespace s7200::tools::dap

@@ -1,0 +1,173 @@
+// A session with the stations of a system, at the prompt.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "tests/unit/debugger/session.hpp"
+#include "tests/unit/debugger/system_bench.hpp"
+
+namespace s7200::tools {
+namespace {
+
+struct SystemSession {
+  explicit SystemSession(std::string_view text = kPolled, std::size_t first = kMaster) : bench(text) {
+    DebuggerOptions options{};
+    for (const PlcPlan& plc : bench.rig->plan().plcs) options.stations.push_back({.name = plc.name});
+    options.station = first;
+    debugger = std::make_unique<Debugger>(bench.stations, out, options);
+  }
+
+  /// What good commands print.
+  std::string operator()(std::string_view commands) {
+    out.str("");
+    const auto error = debugger->execute(commands);
+    EXPECT_FALSE(error.has_value()) << commands << ": " << *error;
+    return out.str();
+  }
+  std::string error_of(std::string_view commands) { return debugger->execute(commands).value_or("no error"); }
+
+  SystemBench bench;
+  std::ostringstream out;
+  std::unique_ptr<Debugger> debugger;
+};
+
+/// Two PLCs; `first` counts its scans, `second` goes to STOP when M0.0 is set.
+std::string two_programs() {
+  const std::string folder = testing::TempDir();
+  std::ofstream(folder + "counts.stl") << "LD SM0.0\nINCW VW0\nMEND\n";
+  std::ofstream(folder + "stops.stl") << "LD M0.0\nSTOP\nLD SM0.0\nINCW VW2\nMEND\n";
+  return "plcs:\n  first: {program: " + folder + "counts.stl}\n  second: {program: " + folder +
+         "stops.stl}\nlines:\n  bus: {stations: [first, second]}\n";
+}
+
+TEST(SystemDebugger, StationShowsWhereEachStandsAndGoesOverToAnother) {
+  SystemSession session;
+  session("continue 100ms");
+  const std::string all = session("station");
+  EXPECT_TRUE(has(all, "> master  100."));
+  EXPECT_TRUE(has(all, "\n  slave1  100."));
+  EXPECT_TRUE(has(all, "\n  slave2  100."));
+  EXPECT_TRUE(session("station slave2").starts_with("slave2  100.")) << session("");
+  EXPECT_TRUE(has(session("station"), "> slave2"));
+  EXPECT_TRUE(has(session.error_of("station slave9"), "there is no station 'slave9'"));
+}
+
+TEST(SystemDebugger, AStationWithoutPowerIsShownSoAndComesBack) {
+  SystemSession session;
+  session("station slave2; continue 300ms");
+  EXPECT_TRUE(has(session("station"), "> slave2  300."));
+  EXPECT_TRUE(has(session("station"), "without power"));
+  EXPECT_TRUE(has(session("step"), "slave2 is without power and executes nothing"));
+  EXPECT_TRUE(has(session("continue 100ms; station"), "slave2  400."));
+  EXPECT_FALSE(has(session("station"), "without power"));
+  EXPECT_TRUE(has(session("at 290ms; station"), "without power"));
+}
+
+TEST(SystemDebugger, AStopAtAnotherStationGoesOverToItAndAStepBackIsOfTheStationLookedAt) {
+  SystemSession session;
+  session("station slave1; break event 8 served; station master");
+  const std::string stopped = session("continue 1s");
+  EXPECT_TRUE(has(stopped, "now at slave1\nslave1: breakpoint 1, event 8 served, hit for the first time\n"));
+  EXPECT_TRUE(has(stopped, "slave1  "));
+  const Time at_slave = session.bench.system().time();
+  const std::uint64_t of_master = session.bench.stations[kMaster]->plc().executed();
+  const std::string back = session("station master; rstep");
+  EXPECT_TRUE(has(back, "master  "));
+  EXPECT_TRUE(has(back, "in the past"));
+  EXPECT_EQ(session.bench.stations[kMaster]->plc().executed() + 1, of_master);
+  EXPECT_LT(session.bench.system().time(), at_slave);
+  EXPECT_TRUE(has(session("continue"), "now at slave1\nslave1: breakpoint 1")) << "it is played, and the same";
+  EXPECT_EQ(session.bench.system().time(), at_slave);
+}
+
+TEST(SystemDebugger, StopsStayWithTheStationThatTheyWereSetAt) {
+  SystemSession session(kPolled, kSlave1);
+  session("continue 100ms; watch VW20; station slave2; break 76 always; station master");
+  const std::string listed = session("break");
+  EXPECT_TRUE(has(listed, "slave1: VW20 is 16#0000"));
+  EXPECT_TRUE(has(listed, "slave2: main line 76"));
+  session("delete 2; station slave2; set VW20=7; continue 20ms");
+  EXPECT_TRUE(has(session("station slave1; set VW20=5; continue 20ms"), "nothing to stop for"))
+      << "what is done from outside is no change while it runs";
+  EXPECT_TRUE(has(session("who VW20"), "by 'set VW20', from outside"));
+}
+
+TEST(SystemDebugger, TheTraceNamesTheStationInTheOrderOfTime) {
+  SystemSession session;
+  session("continue 60ms; trace on");
+  std::istringstream trace(session("continue 20ms"));
+  std::set<std::string> stations;
+  double before = 0;
+  for (std::string line; std::getline(trace, line);) {
+    std::istringstream words(line);
+    double time = 0;
+    std::string station;
+    if (!line.starts_with("  ") || !(words >> time >> station)) continue;
+    EXPECT_GE(time, before) << line;
+    before = time;
+    stations.insert(station);
+  }
+  EXPECT_TRUE(stations.contains("master"));
+  EXPECT_TRUE(stations.contains("slave1"));
+}
+
+TEST(SystemDebugger, ACpuThatGoesToStopEndsTheRunAndTheOthersGoOn) {
+  SystemSession session(two_programs());
+  session("continue 20ms; station second; set M0.0=1; station first");
+  const std::string stopped = session("continue 1s");
+  EXPECT_TRUE(has(stopped, "now at second\nsecond: the CPU went to STOP; the last instruction was in main line 2: STOP"));
+  EXPECT_TRUE(has(session("step"), "second is in STOP and executes nothing; 'continue' runs the others"));
+  const std::uint64_t of_first = session.bench.stations[0]->plc().executed();
+  EXPECT_TRUE(has(session("continue 10ms"), "10 ms of simulated time passed"));
+  EXPECT_GT(session.bench.stations[0]->plc().executed(), of_first);
+  session("rscan");
+  EXPECT_EQ(session.bench.stations[1]->cpu().state().mode, Mode::Run) << "the start of its last scan";
+}
+
+TEST(SystemDebugger, DisplayedMemoryIsShownWithItsStation) {
+  SystemSession session(two_programs());
+  session("continue 20ms; display VW0; station second; display VW2");
+  const std::string shown = session("scan");
+  EXPECT_TRUE(has(shown, "first: VW0"));
+  EXPECT_TRUE(has(shown, "second: VW2"));
+}
+
+TEST(SystemDebugger, RestartAndPowerAreOfAllStations) {
+  SystemSession session(two_programs());
+  session("continue 20ms; restart");
+  for (const serial::Simulation* station : session.bench.stations) EXPECT_EQ(station->plc().executed(), 0U);
+  session("back");
+  EXPECT_GE(session.bench.system().time(), 20 * kMillisecond);
+  session("power 8h");
+  for (const serial::Simulation* station : session.bench.stations) EXPECT_EQ(station->cpu().time(), 0);
+}
+
+TEST(SystemDebugger, ASavedSessionOfASystemIsLoadedInAnother) {
+  const std::string file = testing::TempDir() + "system_session.json";
+  serial::System::Snapshot saved;
+  {
+    SystemSession session;
+    session("continue 100ms; station slave2; set VW20=16#1234; station slave1; set VW20=1; continue 200ms; rscan 3; save " +
+            file + " !");
+    saved = session.bench.system().snapshot();
+  }
+  SystemSession session;
+  session("load " + file);
+  EXPECT_TRUE(session.bench.system().snapshot() == saved);
+  EXPECT_TRUE(has(session("who VW20"), "nothing has written VW20")) << "of the master";
+  EXPECT_TRUE(has(session("station slave2; who VW20"), "by 'set VW20', from outside"));
+  SystemSession other(two_programs());
+  EXPECT_TRUE(has(other.error_of("load " + file), "it is of a system of 3 PLCs, not of 2"));
+  Session one(kNested);
+  EXPECT_TRUE(has(one.error_of("load " + file), "it is of a system, not of one program"));
+}
+
+TEST(SystemDebugger, OneProgramHasNoStations) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session.error_of("station"), "there is one PLC only"));
+}
+
+}  // namespace
+}  // namespace s7200::tools
