@@ -1278,6 +1278,45 @@ lines:
         self.assertIn("cannot both have standard output",
                       self.ends(UNUSABLE, "run", self.GATEWAY, "--trace", "-", "--json").stderr)
 
+    def test_the_debugger_steps_and_goes_back_with_all_stations(self):
+        system = self.program(self.SYSTEM, "system.yaml")
+        shown = self.ends(FINE, "debug", system, "--at", "slave2", "-x",
+                          "continue 1s; break event 8 served; station slave1; continue 1s; station slave1; rstep; station").stdout
+        self.assertRegex(shown, r"now at slave2\nslave2: breakpoint 1, event 8 served, hit for the first time")
+        self.assertIn("in the past; going forward plays what has run", shown)
+        self.assertRegex(shown, r"\n> slave1  \d+\.\d+ ms .*\n  slave2  \d+\.\d+ ms ")
+        self.assertIn("VW0", shown.splitlines()[-1] + shown.splitlines()[-3], "--dump of the system file, by PLC")
+        done = self.ends(UNUSABLE, "debug", self.GATEWAY, "-x", "station")
+        self.assertIn("there are several lines, office, field: name one of them, or a PLC (--at NAME)", done.stderr)
+        full = SOURCE / "stl_programs/systems/polled_slaves.yaml"
+        done = self.ends(UNUSABLE, "debug", full, "--at", "slave31", "-x", "continue 20ms; send read 40001 station 31")
+        self.assertIn("there is no place for one more master", done.stderr)
+
+    def test_a_session_with_a_system_becomes_a_scenario_and_a_file_that_is_loaded(self):
+        system = self.program(f"plcs:\n  slave: {{program: {SLAVE}, copies: 2, station: 4}}\nlines:\n  bus: {{stations: [slave]}}\n",
+                              "system.yaml")
+        scenario, saved = self.folder / "here.yaml", self.folder / "here.json"
+        self.ends(FINE, "debug", system, "-x",
+                  "continue 100ms; station slave2; set VW20=16#1234; display VW20; continue 50ms; send read 40011 station 5; continue; "
+                  f"save {saved}; record {scenario}")
+        text = scenario.read_text(encoding="utf-8")
+        for part in ('system: "system.yaml"', 'on: slave2', "16#1234"):
+            self.assertIn(part, text.replace('on: "slave2"', "on: slave2"))
+        self.assertIn("1 passed", self.ends(FINE, "test", scenario).stdout)
+        loaded = self.ends(FINE, "debug", system, "-x", f"load {saved}; station slave2; expect VW20 = 16#1234; who VW20").stdout
+        self.assertIn("by 'set VW20', from outside", loaded)
+        done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"load {saved}")
+        self.assertIn("it is of a system, not of one program", done.stderr)
+
+    def test_a_bridge_of_a_system_is_served_while_the_debugger_runs(self):
+        link = self.folder / "desk"
+        system = self.program(f"plcs:\n  slave: {{program: {SLAVE}, copies: 2, station: 4}}\n"
+                              f"bridges:\n  desk: {{pty: {link}}}\nlines:\n  bus: {{stations: [slave, desk]}}\n", "system.yaml")
+        done = self.ends(FINE, "debug", system, "-x", "continue 30ms; station")
+        self.assertIn("masters outside get no answers", done.stderr)
+        self.assertRegex(done.stdout, r"> slave1  3\d\.\d+ ms")
+        self.assertIn("follows the clock", self.ends(UNUSABLE, "send", system, "01").stderr)
+
     def test_a_scenario_names_a_system_and_whom_its_steps_are_about(self):
         self.program(self.SYSTEM, "system.yaml")
         head = "system: system.yaml\nsteps:\n"

@@ -95,7 +95,8 @@ bool Session::send_what_is_due() {
 void Session::run() {
   while (running_) {
     if (pause_asked_) return report({.reason = StopReason::Request, .station = looks_at()}, "pause");
-    if (stations() == 1 && cpu().state().mode == Mode::Stop && !debuggee_->history().in_the_past())
+    if (stations() == 1 && !simulation().system().has_schedule() && cpu().state().mode == Mode::Stop &&
+        !debuggee_->history().in_the_past())
       return report({.reason = StopReason::CpuStopped, .station = looks_at()}, "");
     send_what_is_due();
     const bool more = frames_sent_ < frames_.size();

@@ -182,7 +182,8 @@ void Stepper::record(const TraceRecord& record) {
   const std::size_t station = history_.told_of();
   note_record(record);
   if (backwards_) return;
-  if (history_.stations() > 1 && record.kind == TraceKind::ModeChange && record.code == 0) cpu_stopped_ = station;
+  const bool others_go_on = history_.stations() > 1 || history_.station(station).system().has_schedule();
+  if (others_go_on && record.kind == TraceKind::ModeChange && record.code == 0) cpu_stopped_ = station;
   on_record(station, record);
 }
 

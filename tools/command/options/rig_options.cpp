@@ -116,9 +116,7 @@ void RigOptions::add_place_to(CLI::App& app) {
 }
 
 void RigOptions::add_first_station_to(CLI::App& app) {
-  app.add_option(
-         "--at", at_,
-         "which PLC of a system to look at first, gateway.1 for its port 1, or a line: its first PLC [the only line]")
+  app.add_option("--at", at_, "of a system: the PLC to look at first, gateway.1 at its port 1, or a line [the only line]")
       ->type_name("NAME");
 }
 
