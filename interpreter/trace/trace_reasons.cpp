@@ -195,11 +195,6 @@ std::optional<TraceReasons::Cause> TraceReasons::cause() const {
   return Cause{text_of(*way.decision), way.decision->by, way.decision->by, false, in_interrupt_};
 }
 
-std::string TraceReasons::cause_text() const {
-  const auto found = cause();
-  return found ? found->text : "";
-}
-
 /// Whether the program does not go on with a frame after `record`, and has sent nothing.
 bool TraceReasons::is_left(const Frame& frame, const TraceRecord& record) const {
   if (!last_ || frame.characters == 0) return false;
@@ -214,30 +209,34 @@ std::string TraceReasons::unread_text(const Frame& frame) const {
   if (frame.attached_by) text += fmt::format(" (attached in {})", line_of(*frame.attached_by));
   text += fmt::format(" took {} without reading SMB2", frame.characters == 1 ? "it" : "them");
   if (!frame.executed) return text;
-  const stl::Statement& statement = program_.statement(*frame.executed);
+  const stl::Statement& statement = program_.statement(frame.executed->op);
   return text +
-         fmt::format(", and executed {} in {}{}", short_text(statement), line_of(*frame.executed), comment_of(statement));
+         fmt::format(", and executed {} in {}{}", short_text(statement), line_of(frame.executed->op), comment_of(statement));
+}
+
+TraceReasons::Unanswered TraceReasons::unanswered(const Frame& frame, const std::optional<Cause>& cause) const {
+  if (frame.unread < frame.characters) return {frame.characters, frame.since, cause ? cause->text : "", cause};
+  Unanswered unread{frame.characters, frame.since, unread_text(frame)};
+  if (const auto& by = frame.executed) unread.cause = Cause{unread.decided_by, *by, *by, false, true};
+  return unread;
 }
 
 std::vector<TraceReasons::Unanswered> TraceReasons::unanswered(const TraceRecord& record) const {
   std::vector<Unanswered> all;
   if (!is_about_reception(record)) return all;
-  const auto add = [&](const Frame& frame, const std::string& own) {
-    if (!is_left(frame, record)) return;
-    const bool unread = frame.unread == frame.characters;
-    all.push_back({frame.characters, frame.since, unread ? unread_text(frame) : own.empty() ? frame.decided_by : own});
+  const auto add = [&](const Frame& frame, const std::optional<Cause>& own) {
+    if (is_left(frame, record)) all.push_back(unanswered(frame, own ? own : frame.cause));
   };
   const Reception& reception = reception_[port_of(record)];
-  for (const Frame& frame : reception.earlier) add(frame, "");
-  add(reception.frame, cause_text());
+  for (const Frame& frame : reception.earlier) add(frame, {});
+  add(reception.frame, cause());
   return all;
 }
 
 std::vector<TraceReasons::Unanswered> TraceReasons::unread() const {
   std::vector<Unanswered> all;
   for (const auto& [frame, earlier, attached_by] : reception_)
-    if (frame.characters > 0 && frame.unread == frame.characters)
-      all.push_back({frame.characters, frame.since, unread_text(frame)});
+    if (frame.characters > 0 && frame.unread == frame.characters) all.push_back(unanswered(frame, {}));
   return all;
 }
 
@@ -272,7 +271,8 @@ void TraceReasons::note_event(const TraceRecord& record) {
 /// A routine that got a character attaches another event: a time begins anew.
 void TraceReasons::note_restart(const TraceRecord& record) {
   for (std::size_t port = 0; port < kPorts.size(); ++port)
-    if (kPorts[port].received == serving_ && record.op != kNoRoutine) reception_[port].frame.executed = record.op;
+    if (kPorts[port].received == serving_ && record.op != kNoRoutine)
+      reception_[port].frame.executed = {.at = record.at - program_.ops[record.op].cost, .end = record.at, .op = record.op};
 }
 
 void TraceReasons::note_reception(const TraceRecord& record) {
@@ -282,7 +282,7 @@ void TraceReasons::note_reception(const TraceRecord& record) {
   if (is_left(frame, record)) frame = {};
   frame.attached_anew = true;
   frame.passed_on |= record.kind != TraceKind::Detach && !serves_character();
-  frame.decided_by = frame.characters > 0 ? cause_text() : "";
+  frame.cause = frame.characters > 0 ? cause() : std::nullopt;
   reception.attached_by.reset();
   if (record.kind == TraceKind::Attach && record.op != kNoRoutine) reception.attached_by = record.op;
 }

@@ -39,21 +39,6 @@ class TraceReasons {
   /// Of a ServiceBegin: that interrupts were disabled, which other routines ran, or a long instruction; nothing otherwise.
   std::string held_up_by(const TraceRecord& begin) const;
 
-  /// Characters that the program leaves without an answer: it attaches the routine again that got the first of them, or
-  /// executes RCV again, and has sent nothing. Or it attaches another routine after one that has not read them: it waited
-  /// for silence, or for its turn.
-  struct Unanswered {
-    std::size_t characters = 0;
-    Time since = 0;          ///< start edge of the first
-    std::string decided_by;  ///< `JMP 255 in line 141 (LDW= AC0, 0: AC0=16#7B06; NOT)`, `INT 121 took them without reading
-                             ///< SMB2 …`; nothing if it is not known
-  };
-  /// In the order in which they came.
-  std::vector<Unanswered> unanswered(const TraceRecord& record) const;
-
-  /// Those that no routine has read so far.
-  std::vector<Unanswered> unread() const;
-
   /// What decided that the program has come where it is.
   struct Cause {
     std::string text;         ///< `JMP 255 in line 141 (LDW= AC0, 0: AC0=16#7B06; NOT)`
@@ -62,8 +47,25 @@ class TraceReasons {
     bool contacts = false;    ///< that are in front of it in its own rung
     bool in_interrupt = false;
   };
-  /// The contacts of the rung so far, or the last jump or conditional end before it; nothing if the main program, or the
-  /// interrupt routine, has met none so far.
+
+  /// Characters that the program leaves without an answer: it attaches the routine again that got the first of them, or
+  /// executes RCV again, and has sent nothing. Or it attaches another routine after one that has not read them: it waited
+  /// for silence, or for its turn.
+  struct Unanswered {
+    std::size_t characters = 0;
+    Time since = 0;          ///< start edge of the first
+    std::string decided_by;  ///< `JMP 255 in line 141 (LDW= AC0, 0: AC0=16#7B06; NOT)`, `INT 121 took them without reading
+                             ///< SMB2 …`; nothing if it is not known
+    std::optional<Cause> cause{};  ///< that; of characters that no routine has read the last ATCH of theirs, if there is one
+  };
+  /// In the order in which they came.
+  std::vector<Unanswered> unanswered(const TraceRecord& record) const;
+
+  /// Those that no routine has read so far.
+  std::vector<Unanswered> unread() const;
+
+  /// Of the place where the program is: the contacts of the rung so far, or the last jump or conditional end before it;
+  /// nothing if the main program, or the interrupt routine, has met none so far.
   std::optional<Cause> cause() const;
 
   /// This one has come; to be told after all that is asked about it.
@@ -101,12 +103,12 @@ class TraceReasons {
     std::size_t characters = 0;
     std::size_t unread = 0;  ///< of them: their routine does not look at the character
     Time since = 0, last = 0;
-    std::uint8_t routine = 0;                    ///< that got its first character
-    std::optional<std::uint32_t> attached_by{};  ///< the ATCH of that one
-    std::optional<std::uint32_t> executed{};     ///< the last ATCH of a routine that got one of them, of another event
-    bool attached_anew = false;                  ///< another routine, or the same, since its last character
-    bool passed_on = false;                      ///< and not by a routine that got one
-    std::string decided_by{};                    ///< that one of them was attached
+    std::uint8_t routine = 0;                     ///< that got its first character
+    std::optional<std::uint32_t> attached_by{};   ///< the ATCH of that one
+    std::optional<InstructionRecord> executed{};  ///< the last ATCH of a routine that got one of them, of another event
+    bool attached_anew = false;                   ///< another routine, or the same, since its last character
+    bool passed_on = false;                       ///< and not by a routine that got one
+    std::optional<Cause> cause{};                 ///< that one of them was attached
   };
   struct Reception {
     Frame frame{};
@@ -124,7 +126,7 @@ class TraceReasons {
   std::string line_of(std::uint32_t op) const;
   std::string text_of(const Decision& decision) const;
   std::string contacts_text(const std::vector<InstructionRecord>& contacts) const;
-  std::string cause_text() const;
+  Unanswered unanswered(const Frame& frame, const std::optional<Cause>& cause) const;
   bool is_own(const InstructionRecord& contact) const;
   bool has_own_contacts(const Way& way) const;
   void decide(Flow& flow, const InstructionRecord& by) const;

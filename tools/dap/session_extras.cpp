@@ -196,9 +196,11 @@ Session::Written Session::find_decision() {
   const std::string nothing =
       "nothing has decided that it comes here: no contact, no jump, no conditional call or return so far";
   if (!search.decision && unanswered.empty()) throw Refused(nothing);
-  if (!search.decision) return {debuggee_->history().now(), {{"text", nothing + unanswered}}};
-  const LastDecision& found = *search.decision;
-  Json body{{"text", fmt::format("{}  {}{}", moment_text(found.by.at), found.text, unanswered)},
+  if (!search.origin()) return {debuggee_->history().now(), {{"text", unanswered.substr(1)}}};
+  const LastDecision& found = *search.origin();
+  const std::string decision =
+      search.decision ? fmt::format("{}  {}", moment_text(search.decision->by.at), search.decision->text) : "";
+  Json body{{"text", decision.empty() ? unanswered.substr(1) : decision + unanswered},
             {"instruction", execution_text(found.by, cpu().program())},
             {"routine", listing().routine_of(found.by.op)}};
   body.update(client_place(found.by.op));

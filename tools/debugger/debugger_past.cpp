@@ -200,6 +200,7 @@ Debugger::Error Debugger::history(const Arguments& arguments) {
   return {};
 }
 
+/// Where it goes back to.
 std::optional<LastDecision> Debugger::find_decision() {
   const DecisionSearch search = at_length([&] { return find_last_decision(history_, focus(), options_.stop_request); });
   if (search.interrupted)
@@ -210,7 +211,7 @@ std::optional<LastDecision> Debugger::find_decision() {
   else if (search.unanswered.empty())
     out_ << "nothing has decided that it comes here: no contact, no jump, no conditional call or return so far\n";
   for (const TraceLine& line : search.unanswered) out_ << fmt::format("{}  {}\n", moment_text(line.at), line.text);
-  return search.decision;
+  return search.origin();
 }
 
 Debugger::Error Debugger::why(const Arguments& arguments) {

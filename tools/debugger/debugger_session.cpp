@@ -114,6 +114,8 @@ Debugger::Error Debugger::load(const Arguments& arguments) {
     else if (its.begin != ours.begin)
       why = of + "it began with other memory or inputs: give --memory, --ram-lost and --power-off as then";
   }
+  if (why.empty() && !history_.has_hosts_of(file->recording))
+    why = "a bridge belongs to it, and there is no port for that here: give --pty, --device or --tcp as then";
   if (!why.empty()) return fmt::format("cannot load {}: {}", path, why);
   const History::Place place = history_.here();
   if (!at_length([&] { return history_.replay(file->recording); }) || !has_come_to(*file)) {

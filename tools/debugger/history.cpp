@@ -162,6 +162,7 @@ bool History::has_next_action() const { return actions_ - branch_->forgotten < b
 const Moment& History::next_action() const { return branch_->moments[actions_ - branch_->forgotten]; }
 
 void History::do_next_action() {
+  if (observer_) observer_->before_action();
   const std::size_t number = actions_++ - branch_->forgotten;
   const Action& action = branch_->actions[number];
   const std::size_t where = branch_->stations[number];
@@ -366,9 +367,34 @@ void History::restart() { begin_with(origin_->state); }
 
 void History::power_up(const std::vector<RetentiveMemory>& memory) {
   system().restore(origin_->state);
-  for (std::size_t number = 0; number < stations_.size(); ++number) station(number).power_up(&memory[number]);
+  power_up_stations(memory);
   begin_branch(system().snapshot());
   branch_->memory = memory;
+}
+
+void History::power_up_stations(const std::vector<RetentiveMemory>& memory) {
+  for (std::size_t number = 0; number < memory.size(); ++number) station(number).power_up(&memory[number]);
+}
+
+bool History::has_hosts_of(const Recording& recording) const {
+  for (std::size_t i = 0; i < recording.actions.size(); ++i)
+    if (std::holds_alternative<serial::HostCall>(recording.actions[i]) && recording.stations[i] >= settings_.hosts.size())
+      return false;
+  return true;
+}
+
+/// A bridge attaches its port before the past begins, which is no action then. In which format it listens changes nothing
+/// for the PLCs.
+void History::attach_hosts_of(const Recording& recording) {
+  std::vector<bool> seen(settings_.hosts.size());
+  for (std::size_t i = 0; i < recording.actions.size(); ++i) {
+    const auto* const call = std::get_if<serial::HostCall>(&recording.actions[i]);
+    if (!call || seen[recording.stations[i]]) continue;
+    seen[recording.stations[i]] = true;
+    serial::HostPort& host = *settings_.hosts[recording.stations[i]];
+    if (call->what != serial::HostCall::What::Attach && !host.state().attached)
+      host.attach(station(0).port_format(), time());
+  }
 }
 
 Recording History::recording() const {
@@ -377,10 +403,11 @@ Recording History::recording() const {
 }
 
 bool History::replay(Recording recording) {
-  if (recording.memory.empty())
-    restart();
-  else
-    power_up(recording.memory);
+  system().restore(origin_->state);
+  power_up_stations(recording.memory);
+  attach_hosts_of(recording);
+  begin_branch(system().snapshot());
+  branch_->memory = std::move(recording.memory);
   branch_->actions = std::move(recording.actions);
   branch_->stations = std::move(recording.stations);
   branch_->moments = std::move(recording.moments);
@@ -415,6 +442,9 @@ Time History::interval() const { return branch_->interval; }
 const std::vector<Action>& History::actions() const { return branch_->actions; }
 const Action* History::action(std::size_t number) const {
   return number < branch_->forgotten ? nullptr : &branch_->actions.at(number - branch_->forgotten);
+}
+std::size_t History::station_of_action(std::size_t number) const {
+  return branch_->stations.at(number - branch_->forgotten);
 }
 const std::vector<Moment>& History::action_moments() const { return branch_->moments; }
 

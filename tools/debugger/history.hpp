@@ -56,6 +56,9 @@ class Observer : public TraceSink {
   explicit Observer(std::size_t station) : only_(station) {}
   bool watches(std::size_t station) const { return !only_ || *only_ == station; }
 
+  /// Something is about to be done to the simulation, now().
+  virtual void before_action() {}
+
   /// Something was done to the simulation, which is the same as it was in front of an instruction otherwise.
   virtual void acted() {}
 
@@ -154,8 +157,12 @@ class History final {
   /// Of a station's CPU, when all this began.
   const State& origin(std::size_t station) const { return origin_->state.plcs[station].cpu; }
 
-  /// A new branch: runs the recording, and stands where it stood. False if it cannot come there, or after a stop request; it
-  /// stands anywhere then.
+  /// Whether each host port is here through which something came in.
+  bool has_hosts_of(const Recording& recording) const;
+
+  /// A new branch: runs the recording, and stands where it stood. Host ports through which something came in need no bridge:
+  /// they are attached as it was. False if it cannot come there, or after a stop request; it stands anywhere then.
+  /// has_hosts_of() must hold.
   bool replay(Recording recording);
 
   /// Those that are not forgotten.
@@ -164,6 +171,8 @@ class History final {
   const std::vector<Moment>& action_moments() const;
   /// By its number, which counts those that are forgotten; null if it is one of them.
   const Action* action(std::size_t number) const;
+  /// At which it was done, of one that is not forgotten; of a HostCall the number of the host port.
+  std::size_t station_of_action(std::size_t number) const;
 
   struct Usage {
     std::size_t checkpoints = 0;  ///< of this branch
@@ -241,6 +250,8 @@ class History final {
   bool stop_requested() const { return settings_.stop_request && *settings_.stop_request; }
   Moment go_to_before(const Moment& end, Time ahead);
   void begin_branch(serial::Simulation::Snapshot state);
+  void power_up_stations(const std::vector<RetentiveMemory>& memory);
+  void attach_hosts_of(const Recording& recording);
   void fork();
   CheckpointPtr checkpoint_of(serial::Simulation::Snapshot state);
   void keep_checkpoint();

@@ -21,10 +21,15 @@ struct LastDecision {
 struct DecisionSearch {
   std::optional<LastDecision> decision;  ///< nothing: the scan, or the interrupt routine, has come by none so far
   /// Frames that have got no answer since the scan began, or since the master's request did if it waits for an answer or
-  /// has just given up, or in the last two seconds with a bridge; with the moment when that was decided, or now for one
-  /// that no routine has read so far.
+  /// has just given up; with a bridge the last one of the last two seconds. With the moment when that was decided; now for
+  /// one that no routine has read so far.
   std::vector<TraceLine> unanswered{};
+  /// What decided about the last of them; nothing if there is none, or if that is not known.
+  std::optional<LastDecision> left{};
   bool interrupted = false;
+
+  /// Where to go back to: in the main program to what left a frame, if one was.
+  const std::optional<LastDecision>& origin() const { return left ? left : decision; }
 };
 
 /// Of a station: the contacts of the rung so far, or the last jump, conditional end or conditional call before it. The

@@ -14,6 +14,7 @@ class WriteFinder final : public Observer {
       : Observer(station),
         cpu_(history.station(station).cpu()),
         history_(history),
+        station_(station),
         range_(range),
         bits_(bits_of(range)),
         stop_request_(stop_request) {
@@ -21,10 +22,7 @@ class WriteFinder final : public Observer {
       may_write_.push_back(may_access(cpu_, op, Access::Write, bits_));
   }
 
-  void begin() {
-    value_ = range_.bytes_in(cpu_.state().image);
-    acted_.reset();
-  }
+  void begin() { value_ = range_.bytes_in(cpu_.state().image); }
   /// Whether there was a write, in this part or between its last instruction and its end.
   bool found() {
     in_front_ = history_.now();
@@ -35,9 +33,18 @@ class WriteFinder final : public Observer {
 
   bool wants_instructions() const override { return true; }
 
+  void before_action() override {
+    in_front_ = history_.now();
+    note_change_between();
+  }
+
   void acted() override {
-    const std::size_t action = history_.now().actions - 1;
-    if (changed()) acted_ = action;
+    const std::size_t number = in_front_.actions;
+    const Action* const action = history_.action(number);
+    const bool own = action && history_.station_of_action(number) == station_;
+    if (!changed() && !(own && assigns(*action))) return;
+    note(std::nullopt, cpu_.time());
+    last_->action = number;
   }
 
   bool before(std::uint32_t op) override {
@@ -63,11 +70,19 @@ class WriteFinder final : public Observer {
   }
 
   void note_change_between() {
-    if (changed()) {
-      note(std::nullopt, cpu_.time());
-      last_->action = acted_;
-    }
-    acted_.reset();
+    if (changed()) note(std::nullopt, cpu_.time());
+  }
+
+  /// Whether it has written the value that is there. Inputs get theirs when they are read.
+  bool assigns(const Action& action) const {
+    const auto holds = [this](const Assignment& one) {
+      std::uint32_t value = 0;
+      for (const std::uint8_t byte : one.place.bytes_in(cpu_.state().image)) value = value << 8 | byte;
+      return value == one.value && bits_of(one.place).overlaps(bits_);
+    };
+    if (const auto* set = std::get_if<SetMemory>(&action)) return std::ranges::any_of(set->assignments, holds);
+    const auto* const force = std::get_if<Force>(&action);
+    return force && std::ranges::any_of(force->assignments, holds);
   }
 
   void note(const std::optional<InstructionRecord>& by, Time at) {
@@ -86,12 +101,12 @@ class WriteFinder final : public Observer {
 
   const Cpu& cpu_;
   const History& history_;
+  std::size_t station_;
   MemoryRange range_;
   Bits bits_;
   const std::atomic<bool>* stop_request_;
   std::vector<bool> may_write_;  ///< by op
   std::vector<std::uint8_t> value_;
-  std::optional<std::size_t> acted_;  ///< action that has changed it since the last instruction
   Moment in_front_;
   bool writes_ = false, in_interrupt_ = false;
   std::uint64_t errors_ = 0;

@@ -10,7 +10,7 @@
 namespace s7200::tools {
 
 struct LastWrite {
-  Moment moment;                        ///< in front of the instruction; otherwise of the next one after it
+  Moment moment;                        ///< in front of the instruction or the action; otherwise of what came next
   std::optional<InstructionRecord> by;  ///< nothing: between two instructions, by the system or an action
   std::optional<std::size_t> action;    ///< its number in History::actions()
   Time at = 0;                          ///< end of the instruction, or when it was found changed

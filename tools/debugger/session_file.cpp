@@ -206,10 +206,11 @@ Recording recording_from(const Json& json, Models models) {
     throw std::runtime_error("only some PLCs have a memory");
   for (const Json& action : json.at("actions")) {
     const auto station = action.value("station", std::size_t{0});
-    if (station >= models.size()) throw std::runtime_error("something was done to a station that it has not");
+    const bool of_bridge = action.contains("host");  // `station` is its number then
+    if (station >= models.size() && !of_bridge) throw std::runtime_error("something was done to a station that it has not");
     recording.moments.push_back(moment_from(action.at("at")));
     recording.stations.push_back(station);
-    recording.actions.push_back(action_from(action, *models[station]));
+    recording.actions.push_back(action_from(action, *models[of_bridge ? 0 : station]));
   }
   recording.end = moment_from(json.at("end"));
   recording.now = moment_from(json.at("now"));

@@ -1,12 +1,23 @@
 #include "tools/debugger/stepper.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "interpreter/program/networks.hpp"
+#include "serial_sim/modbus/crc.hpp"
+#include "serial_sim/modbus/functions.hpp"
 #include "tools/debugger/access.hpp"
 
 namespace s7200::tools {
+namespace {
+
+/// Of Modbus RTU: no station answers it, and its master does not wait.
+bool is_broadcast(std::span<const std::uint8_t> frame) {
+  return !frame.empty() && frame.front() == modbus::kBroadcast && modbus::crc_ok(frame);
+}
+
+}  // namespace
 
 Stepper::Stepper(History& history, const std::atomic<bool>* stop_request)
     : on_record([](std::size_t, const TraceRecord&) {}),
@@ -407,8 +418,25 @@ bool Stepper::have_same_master(std::size_t one, std::size_t other) {
 void Stepper::note_host_request(std::size_t number, std::vector<std::uint8_t> frame, Time end) {
   serial::Simulation& here = station(number);
   if (history_.stations() > 1 || !here.has_host_port() || !here.host_port().state().attached || here.master().busy()) return;
+  if (has_host_sent_broadcast()) return;
   listening_[number].host_waits = end;
   listening_[number].host_frame = std::move(frame);
+}
+
+/// Its last characters, from the beginning of what it gave to the line at once, are a broadcast.
+bool Stepper::has_host_sent_broadcast() const {
+  std::vector<std::uint8_t> sent;
+  for (std::size_t number = history_.now().actions; number > 0 && sent.size() < modbus::kLongestRtuFrame;) {
+    const Action* const action = history_.action(--number);
+    if (!action) return false;
+    const auto* const call = std::get_if<serial::HostCall>(action);
+    if (!call || call->what != serial::HostCall::What::Send) continue;
+    std::vector<std::uint8_t> bytes;
+    for (const serial::HostCharacter& character : call->characters) bytes.push_back(character.byte);
+    sent.insert(sent.begin(), bytes.begin(), bytes.end());
+    if (is_broadcast(sent)) return true;
+  }
+  return false;
 }
 
 void Stepper::note_host_timeout(std::size_t number, Time now) {
@@ -424,7 +452,8 @@ bool Stepper::answer_complete() {
     if (!listening_[number].awaits_answer || station(number).master().busy()) continue;
     complete = true;
     listening_[number].awaits_answer = false;
-    if (station(number).master().exchange().timed_out) note_unanswered(number, {});
+    const serial::Exchange& exchange = station(number).master().exchange();
+    if (exchange.timed_out && !is_broadcast(serial::bytes_of(exchange.request))) note_unanswered(number, {});
     if (!backwards_) on_answer(station(number).master().exchange());
   }
   return complete;

@@ -126,6 +126,7 @@ class Stepper final : public Observer {
   void note_unanswered(std::size_t station, const std::vector<std::uint8_t>& frame);
   bool have_same_master(std::size_t one, std::size_t other);
   void note_host_request(std::size_t station, std::vector<std::uint8_t> frame, Time end);
+  bool has_host_sent_broadcast() const;
   void note_host_timeout(std::size_t station, Time now);
   bool asked_to_stop() const { return stop_request_ && *stop_request_; }
 
