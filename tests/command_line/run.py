@@ -1211,6 +1211,7 @@ lines:
         self.assertIn("names the files of its programs itself", self.ends(UNUSABLE, "run", system, SLAVE).stderr)
         self.assertIn("is a system file, which 's7200 run', 'send', 'master', 'test', 'debug' and 'dap' take",
                       self.ends(UNUSABLE, "bench", system).stderr)
+        self.assertIn("is a system file", self.ends(UNUSABLE, "check", system).stderr)
         for verb in ("debug", "dap"):
             self.assertIn("--set is about one PLC", self.ends(UNUSABLE, verb, system, "--set", "VW0=1").stderr)
 
@@ -1297,7 +1298,7 @@ lines:
                               "system.yaml")
         scenario, saved = self.folder / "here.yaml", self.folder / "here.json"
         self.ends(FINE, "debug", system, "-x",
-                  "continue 100ms; station slave2; set VW20=16#1234; display VW20; continue 50ms; send read 40011 station 5; continue; "
+                  "continue 100ms; station slave2; set VW20=16#1234; display VW20; continue 50ms; send read 40011 station 5; continue; continue 20ms; "
                   f"save {saved}; record {scenario}")
         text = scenario.read_text(encoding="utf-8")
         for part in ('system: "system.yaml"', 'on: slave2', "16#1234"):

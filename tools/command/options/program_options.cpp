@@ -113,12 +113,6 @@ void ProgramOptions::add_parts_to(CLI::App& app) {
 
 std::shared_ptr<const Program> ProgramOptions::load(int& exit_code) const {
   exit_code = kUnusable;
-  if (is_system_file(path)) {
-    print_error(fmt::format(
-        "{} is a system file, which 's7200 run', 'send', 'master', 'test', 'debug' and 'dap' take; name one PROGRAM here",
-        path));
-    return nullptr;
-  }
   auto text = model() ? read_project(path, parts) : std::nullopt;
   return text ? load(std::move(*text), exit_code) : nullptr;
 }
@@ -149,6 +143,12 @@ std::optional<std::vector<TitledTimes>> load_all(const std::vector<std::string>&
 }
 
 std::optional<SourceText> read_program_text(const std::string& path, bool force_document) {
+  if (is_system_file(path)) {
+    print_error(fmt::format(
+        "{} is a system file, which 's7200 run', 'send', 'master', 'test', 'debug' and 'dap' take; name one PROGRAM here",
+        path));
+    return {};
+  }
   std::string name, why;
   const auto bytes = read_input(path, name);
   if (!bytes) return {};
