@@ -56,6 +56,8 @@ class Reader {
       if (content && message.is_discarded()) {
         why = fmt::format("'{}' is not JSON", stl::shortened(*content));
         frames_.reject(*content);
+      } else if (content && !message.is_object()) {
+        why = fmt::format("'{}' is not a JSON object", stl::shortened(*content));
       }
       if (why.empty()) {
         any_message_ = true;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "interpreter/base/numbers.hpp"
@@ -153,8 +154,11 @@ void Session::handle(const Json& message) {
     respond(message, true, dispatch(*found, object_in(message, "arguments")));
   } catch (const Refused& refused) {
     respond(message, false, {}, refused.what());
-  } catch (const Json::exception& error) {
-    respond(message, false, {}, fmt::format("the arguments of {} are not as the protocol says: {}", command, error.what()));
+  } catch (const Json::out_of_range&) {
+    respond(message, false, {}, fmt::format("the arguments of {} are not as the protocol says: one is missing", command));
+  } catch (const Json::exception&) {
+    respond(message, false, {},
+            fmt::format("the arguments of {} are not as the protocol says: one is of another type", command));
   }
   for (const auto& action : std::exchange(later_, {})) action();
 }
@@ -255,6 +259,14 @@ Json Session::client_place(std::uint32_t op) const {
   place["line"] = client_line(place["line"].get<std::uint32_t>());
   place["column"] = std::max(position.column, 1u) - 1 + column_base_;
   return place;
+}
+
+/// As the client counts lines.
+std::uint32_t Session::client_line_in(const Json& arguments, const char* key) const {
+  const auto line = arguments.at(key).get<std::int64_t>();
+  if (line < std::int64_t{line_base_} || line >= std::numeric_limits<std::uint32_t>::max())
+    throw Refused(fmt::format("there is no line {}: lines are counted from {}", line, line_base_));
+  return static_cast<std::uint32_t>(line);
 }
 
 // --- the life of a session ---

@@ -251,6 +251,7 @@ class Session {
   };
   std::size_t station_with(const std::string& path) const;
   std::uint32_t client_line(std::uint32_t line) const { return line_base_ == 1 ? line : line - 1; }
+  std::uint32_t client_line_in(const Json& arguments, const char* key = "line") const;
   std::uint32_t line_of_client(std::uint32_t line) const { return line_base_ == 1 ? line : line + 1; }
   Json client_place(std::uint32_t op) const;
 

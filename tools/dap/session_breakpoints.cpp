@@ -17,16 +17,6 @@ namespace {
 
 using On = StopPoint::On;
 
-std::vector<std::string> words_of(std::string_view text) {
-  std::vector<std::string> words;
-  while (!(text = stl::trim(text)).empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    words.emplace_back(text.substr(0, end));
-    text.remove_prefix(end);
-  }
-  return words;
-}
-
 /// `5`, `>= 5`, `> 4`: the first hit that stops.
 std::uint64_t first_hit(const std::string& text) {
   std::string_view number = stl::trim(text);
@@ -145,7 +135,7 @@ std::vector<StopPoint> Session::at_all_stations(const Json& wanted, Json& answer
 }
 
 std::vector<StopPoint> Session::line_stops(const std::string& path, const Json& wanted, Json& answer) {
-  const auto wanted_line = wanted.at("line").get<std::uint32_t>();
+  const auto wanted_line = client_line_in(wanted);
   const LookAt look(*this, station_with(path));
   if (!sources().line_in(path, line_of_client(wanted_line)))
     throw Refused(fmt::format("{} is not a file of this program, or has no line {}", path, wanted_line));
@@ -169,7 +159,7 @@ Json Session::set_breakpoints(const Json& arguments) {
 /// `SBR 51`, `INT 123`, `NETWORK 4`, `event 8 occurs`, `received` …, or what causes an event: `port 0: character received`.
 std::vector<StopPoint> Session::function_stops(const Json& wanted, Json& answer) {
   const auto name = wanted.at("name").get<std::string>();
-  std::vector<std::string> words = words_of(name);
+  std::vector<std::string> words = split_words(name);
   if (words.empty()) throw Refused("the name is empty; write for example SBR 51, INT 123, event 8 or received");
   for (const InterruptEvent& event : all_events())
     if (lower_case(event.cause) == lower_case(stl::trim(name))) words = {"event", std::to_string(event.number), "served"};
@@ -208,8 +198,8 @@ Json Session::set_instruction_breakpoints(const Json& arguments) {
 Json Session::breakpoint_locations(const Json& arguments) {
   const std::string path = arguments.at("source").value("path", "");
   const LookAt look(*this, station_with(path));
-  const auto first = arguments.at("line").get<std::uint32_t>();
-  const auto last = std::min(arguments.value("endLine", first), client_line(listing().last_line()));
+  const auto first = client_line_in(arguments);
+  const auto last = std::min(arguments.contains("endLine") ? client_line_in(arguments, "endLine") : first, client_line(listing().last_line()));
   Json locations = Json::array();
   for (std::uint32_t line = first; line <= last; ++line) {
     const auto of_program = sources().line_in(path, line_of_client(line));
@@ -287,7 +277,7 @@ std::vector<StopPoint> Session::exception_stops(const Json& wanted) const {
   std::string codes = wanted.value("condition", "");
   std::ranges::replace(codes, ',', ' ');
   std::vector<StopPoint> stops;
-  for (const std::string& text : words_of(codes)) {
+  for (const std::string& text : split_words(codes)) {
     const auto code = parse_integer("16#" + text);
     if (!code || *code <= 0 || *code > 0xFFFF)
       throw Refused(

@@ -145,9 +145,9 @@ Session::Written Session::find_writer(const std::string& expression) {
     body.update(client_place(by.op));
     return body;
   };
-  if (lower_case(expression).starts_with("event ")) {
-    const auto event = parse_decimal<std::uint8_t>(stl::trim(std::string_view(expression).substr(6)));
-    if (!event || !find_event(*event)) throw Refused("expected the number of an event, for example event 8");
+  if (const auto words = split_words(expression); !words.empty() && lower_case(words[0]) == "event") {
+    const auto event = event_of(words);
+    if (!event) throw Refused(expects_event("who", words));
     const AttachmentSearch search = find_last_attachment(history, looks_at(), *event, settings_.stop_request);
     if (search.interrupted) refuse_interrupted();
     if (!search.attachment)
@@ -241,8 +241,8 @@ Json Session::last_instructions(const Json& arguments) {
 Json Session::stl_status(const Json& arguments) {
   const std::string path = arguments.at("source").value("path", "");
   const LookAt look(*this, station_with(path));
-  const auto first_line = sources().line_in(path, line_of_client(arguments.at("line").get<std::uint32_t>()));
-  const auto last_line = sources().line_in(path, line_of_client(arguments.at("endLine").get<std::uint32_t>()));
+  const auto first_line = sources().line_in(path, line_of_client(client_line_in(arguments)));
+  const auto last_line = sources().line_in(path, line_of_client(client_line_in(arguments, "endLine")));
   const Program& program = cpu().program();
   const auto first = first_line ? listing().op_from_line(*first_line) : std::nullopt;
   Json lines = Json::array();

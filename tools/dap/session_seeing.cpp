@@ -37,10 +37,6 @@ std::string hex_of(const std::string& value) { return value.substr(0, value.find
 
 bool wants_hex(const Json& arguments) { return arguments.contains("format") && arguments["format"].value("hex", false); }
 
-std::string number_text(const Value& value) {
-  return value.real ? fmt::format("{:.7g}", value.number) : fmt::format("{:.0f}", value.number);
-}
-
 constexpr std::string_view kCommands[] = {"set", "send", "fault",   "force",    "unforce",
                                           "who", "why",  "history", "timeline", "help"};
 constexpr std::string_view kForms[] = {"VB", "VW", "VD", "MB", "MW", "MD", "IB", "IW", "QB", "QW", "SMB", "SMW", "AC", "LB"};
@@ -150,8 +146,8 @@ Json Session::evaluated(const std::string& expression, bool hex) {
   const auto parsed = Expression::parse(expression, cpu().program(), why_no_expression);
   const bool one_word = expression.find_first_of(" (+-/<>=") == std::string::npos;
   if (!parsed) throw Refused(one_word ? why : why_no_expression);
-  const auto value = parsed->value(cpu());
-  if (!value) throw Refused("cannot be computed: a pointer points nowhere, or a division by 0");
+  const auto value = parsed->value(cpu(), why);
+  if (!value) throw Refused("cannot be computed: " + why);
   const std::string text = hex && !value->real
                                ? fmt::format("16#{:X}", static_cast<std::uint32_t>(std::llround(value->number)))
                                : number_text(*value);

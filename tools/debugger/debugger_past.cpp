@@ -153,22 +153,6 @@ void Debugger::report_write(const LastWrite& write, const MemoryRange& range, st
     out_ << "  by the system, between two instructions" << forced_text(simulation().cpu(), {bits_of(range)}) << '\n';
 }
 
-/// The number in `event 8`; nothing if the words are something else.
-static std::optional<std::uint8_t> event_of(const std::vector<std::string>& words) {
-  if (words.size() != 2 || lower_case(words[0]) != "event") return {};
-  const auto number = parse_decimal<std::uint8_t>(words[1]);
-  return number && find_event(*number) ? number : std::nullopt;
-}
-
-/// `who event …` without the number of an event.
-static std::string expects_event(std::string_view command, const std::vector<std::string>& words) {
-  std::uint8_t last = kEvents - 1;
-  while (!find_event(last)) --last;
-  const auto number = words.size() == 2 ? parse_decimal<std::uint64_t>(words[1]) : std::nullopt;
-  return fmt::format("{}{} expects one address, or event and a number up to {}, for example: {} event 8",
-                     number ? fmt::format("there is no event {}; ", *number) : "", command, last, command);
-}
-
 std::optional<LastAttachment> Debugger::find_attachment(std::uint8_t event) {
   const AttachmentSearch search =
       at_length([&] { return find_last_attachment(history_, focus(), event, options_.stop_request); });

@@ -80,10 +80,9 @@ std::string element_text(const State& state, const MemoryRange& range) {
   return text;
 }
 
-std::string number_text(const std::optional<Value>& value, char form) {
-  if (!value) return "cannot be computed: a pointer points nowhere, or a division by 0";
-  if (value->real) return fmt::format("{:.7g}", value->number);
-  const auto integer = static_cast<std::int64_t>(value->number);
+std::string number_text(const Value& value, char form) {
+  if (value.real) return number_text(value);
+  const auto integer = static_cast<std::int64_t>(value.number);
   const std::string text = number_text(static_cast<std::uint32_t>(integer), Width::Double, form == 0 ? 'x' : form);
   return form == 0 ? fmt::format("{} ({})", integer, text) : text;
 }
@@ -145,8 +144,9 @@ Debugger::Error Debugger::print(const Arguments& arguments) {
   std::string why_no_expression;
   const auto expression = Expression::parse(joined(words), program, why_no_expression);
   if (!expression) return words.size() == 1 ? why : why_no_expression;
-  out_ << fmt::format("{} = {}\n", stl::printable(expression->text()),
-                      number_text(expression->value(simulation().cpu()), form));
+  const auto value = expression->value(simulation().cpu(), why);
+  out_ << fmt::format("{} {}\n", stl::printable(expression->text()),
+                      value ? "= " + number_text(*value, form) : "cannot be computed: " + why);
   return {};
 }
 

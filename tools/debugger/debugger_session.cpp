@@ -42,14 +42,18 @@ std::optional<Destination> Debugger::destination(const Arguments& arguments, std
     why = expects(command, fmt::format("a file, and ! if it may replace one that exists, for example: {} a.txt", command));
     return {};
   }
-  WrittenFiles files = options_.written;
   const std::string path = without_quotes(arguments[0]);
-  auto to = files.claim(command, path, std::move(kind), replaces ? Replace::Judged : Replace::Own, why);
+  const auto claim = [&](Replace replace, std::string& why_not) {
+    WrittenFiles files = options_.written;
+    return files.claim(command, path, kind, replace, why_not);
+  };
+  auto to = claim(replaces ? Replace::Judged : Replace::Own, why);
   if (to && to->stream) {
     why = fmt::format("{} is not a file", path);
     return {};
   }
-  if (!to) why += fmt::format("; '{} {} !' replaces what may be replaced", command, path);
+  std::string why_not;
+  if (!to && claim(Replace::Judged, why_not)) why += fmt::format("; '{} {} !' replaces it", command, path);
   return to;
 }
 
@@ -167,6 +171,7 @@ Debugger::Error Debugger::power(const Arguments& arguments) {
   const auto off = words.empty() ? std::optional<Time>(0) : parse_duration(joined(words));
   if (!off) return expects("power", "how long it was off, and lost if that was too long for the RAM: power 8h, power lost");
   std::vector<RetentiveMemory> memory;
+  const bool asks = simulation().has_master() && simulation().master().asks();
   for (const Station& station : stations_) {
     memory.push_back(station.simulation->cpu().retentive_memory());
     memory.back().ram_lost = lost;
@@ -176,6 +181,7 @@ Debugger::Error Debugger::power(const Arguments& arguments) {
   history_.power_up(memory);
   out_ << fmt::format("power was off{}: {}\n", *off == 0 ? "" : " for " + format_duration(*off),
                       lost ? "the EEPROM is left, RAM and clock are lost" : "retentive memory, EEPROM and clock are kept");
+  if (asks) out_ << "the request under way went down with the CPU: nobody waits for its answer any more\n";
   note_new_branch();
   note_going_elsewhere();
   show_place();

@@ -112,9 +112,9 @@ Debugger::Error Debugger::expect(const Arguments& arguments) {
   if (arguments.empty()) return expects("expect", "what must hold, for example: expect VW20 = 5 and M0.1");
   const auto expression = Expression::parse(joined(arguments), simulation().cpu().program(), why);
   if (!expression) return why;
-  if (!expression->holds(simulation().cpu()))
-    return fmt::format("expected {}, which does not hold here", expression->text());
-  return {};
+  if (expression->holds(simulation().cpu())) return {};
+  const std::string found = expression->places_text(simulation().cpu());
+  return fmt::format("expected {}, which does not hold here{}{}", expression->text(), found.empty() ? "" : ": ", found);
 }
 
 }  // namespace s7200::tools

@@ -90,6 +90,7 @@ struct Expression::Node {
   std::string_view op{};
   Value constant{};
   Place place{};
+  std::string name{};  ///< of the place, as it is written
   std::shared_ptr<const Node> left{}, right{};
 };
 
@@ -174,7 +175,7 @@ class Reader {
       at_ = begin;
       return fail(why);
     }
-    return std::make_shared<Node>(Node{.kind = Node::Kind::Memory, .place = *place});
+    return std::make_shared<Node>(Node{.kind = Node::Kind::Memory, .place = *place, .name = std::string(word)});
   }
 
   static std::optional<double> parse_real(std::string_view word) {
@@ -240,6 +241,12 @@ std::optional<Value> value_of(const Place& place, const Cpu& cpu) {
   return {};
 }
 
+/// `*VD100 points nowhere: VD100 is 16#00000000`
+std::string nowhere_text(const Node& node, const Cpu& cpu) {
+  return fmt::format("{} points nowhere: {} is 16#{:08X}", stl::printable(node.name), node.place.range.name_of(0),
+                     pointer_value(node.place, cpu));
+}
+
 /// 16#FFFF beside a word is -1: the same bits.
 double beside(const Value& constant, const Value& memory) {
   const double range = std::ldexp(1, memory.bits);
@@ -248,7 +255,7 @@ double beside(const Value& constant, const Value& memory) {
   return wraps ? constant.number - range : constant.number;
 }
 
-std::optional<Value> compute(std::string_view op, const Value& left, const Value& right) {
+std::optional<Value> compute(std::string_view op, const Value& left, const Value& right, std::string& why) {
   const double a = beside(left, right), b = beside(right, left);
   const bool real = left.real || right.real;
   if (op == "or") return Value{left.truth() || right.truth() ? 1.0 : 0.0};
@@ -262,21 +269,33 @@ std::optional<Value> compute(std::string_view op, const Value& left, const Value
   if (op == "+") return Value{a + b, real};
   if (op == "-") return Value{a - b, real};
   if (op == "*") return Value{a * b, real};
-  if (b == 0) return {};
+  if (b == 0) return why = "a division by 0", std::nullopt;
   return Value{real ? a / b : std::trunc(a / b), real};
 }
 
-std::optional<Value> evaluate(const Node& node, const Cpu& cpu) {
+std::optional<Value> evaluate(const Node& node, const Cpu& cpu, std::string& why) {
   if (node.kind == Node::Kind::Constant) return node.constant;
-  if (node.kind == Node::Kind::Memory) return value_of(node.place, cpu);
-  const auto left = evaluate(*node.left, cpu);
+  if (node.kind == Node::Kind::Memory) {
+    const auto value = value_of(node.place, cpu);
+    if (!value) why = nowhere_text(node, cpu);
+    return value;
+  }
+  const auto left = evaluate(*node.left, cpu, why);
   if (!left) return {};
   if (node.kind == Node::Kind::Not) return Value{left->truth() ? 0.0 : 1.0};
   if (node.kind == Node::Kind::Negate) return Value{-left->number, left->real};
   if (node.op == "and" && !left->truth()) return Value{0};
   if (node.op == "or" && left->truth()) return Value{1};
-  const auto right = evaluate(*node.right, cpu);
-  return right ? compute(node.op, *left, *right) : std::nullopt;
+  const auto right = evaluate(*node.right, cpu, why);
+  return right ? compute(node.op, *left, *right, why) : std::nullopt;
+}
+
+/// Each place once, in the order in which they are written.
+void collect_places(const Node& node, std::vector<const Node*>& places) {
+  const auto same = [&](const Node* other) { return other->name == node.name; };
+  if (node.kind == Node::Kind::Memory && std::ranges::none_of(places, same)) places.push_back(&node);
+  for (const Node* const side : {node.left.get(), node.right.get()})
+    if (side) collect_places(*side, places);
 }
 
 }  // namespace
@@ -291,6 +310,22 @@ std::optional<Expression> Expression::parse(std::string_view text, const Program
   return {};
 }
 
-std::optional<Value> Expression::value(const Cpu& cpu) const { return evaluate(*root_, cpu); }
+std::optional<Value> Expression::value(const Cpu& cpu, std::string& why) const { return evaluate(*root_, cpu, why); }
+
+std::string Expression::places_text(const Cpu& cpu) const {
+  std::vector<const Node*> places;
+  collect_places(*root_, places);
+  std::string text;
+  for (const Node* const place : places) {
+    const auto value = value_of(place->place, cpu);
+    text += text.empty() ? "" : ", ";
+    text += value ? fmt::format("{} is {}", stl::printable(place->name), number_text(*value)) : nowhere_text(*place, cpu);
+  }
+  return text;
+}
+
+std::string number_text(const Value& value) {
+  return value.real ? fmt::format("{:.7g}", value.number) : fmt::format("{:.0f}", value.number);
+}
 
 }  // namespace s7200::tools

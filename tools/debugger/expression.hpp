@@ -44,6 +44,9 @@ struct Value {
   bool truth() const { return number != 0; }
 };
 
+/// `7`, `1.5`
+std::string number_text(const Value& value);
+
 class Expression {
  public:
   struct Node;
@@ -51,12 +54,16 @@ class Expression {
   /// Returns nothing and sets `why`, with the column, if it cannot be read.
   static std::optional<Expression> parse(std::string_view text, const Program& program, std::string& why);
 
-  /// Nothing where a pointer points nowhere, or by division by 0.
-  std::optional<Value> value(const Cpu& cpu) const;
+  /// Nothing where a pointer points nowhere, or by division by 0; `why` says which.
+  std::optional<Value> value(const Cpu& cpu, std::string& why) const;
   bool holds(const Cpu& cpu) const {
-    const auto result = value(cpu);
+    std::string why;
+    const auto result = value(cpu, why);
     return result && result->truth();
   }
+
+  /// `VW20 is 7, M0.1 is 0`: all its places, as they are written in it; empty if it has none.
+  std::string places_text(const Cpu& cpu) const;
 
   const std::string& text() const { return text_; }
 

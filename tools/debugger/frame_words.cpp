@@ -92,13 +92,6 @@ std::string misplaced_word(const std::vector<std::string>& words) {
   return has("crc") ? "crc comes last: 01 03 00 0a 00 01 crc" : "";
 }
 
-std::vector<std::string> words_of(std::string_view text) {
-  std::vector<std::string> words;
-  for (std::string& word : split(std::string(text), ' '))
-    if (!word.empty()) words.push_back(std::move(word));
-  return words;
-}
-
 std::optional<serial::Frame> named_frame(std::vector<std::string> words, std::uint8_t station, std::string& why) {
   if (words.size() == 4 && lower_case(words[2]) == "station") {
     const auto number = parse_decimal<std::uint8_t>(words[3]);
@@ -117,13 +110,13 @@ std::optional<serial::Frame> named_frame(std::vector<std::string> words, std::ui
 std::optional<serial::Frame> parse_frame(const std::string& text, std::uint8_t station, std::string& why) {
   std::string_view bytes = stl::trim(text);
   const std::string lower = lower_case(bytes);
-  if (lower.starts_with("read ") || lower.starts_with("write ")) return named_frame(words_of(bytes), station, why);
+  if (lower.starts_with("read ") || lower.starts_with("write ")) return named_frame(split_words(bytes), station, why);
   const bool crc = lower.ends_with(" crc");
   if (crc) bytes = stl::trim(bytes.substr(0, bytes.size() - 4));
   serial::ParsedFrame parsed = parse_hex_or_quoted(bytes);
   const bool quoted = bytes.starts_with('\'') || bytes.starts_with('"');
   if (!parsed.ok()) {
-    why = quoted ? "" : misplaced_word(words_of(bytes));
+    why = quoted ? "" : misplaced_word(split_words(bytes));
     if (why.empty()) why = fmt::format("column {}: {}", parsed.errors[0].column, parsed.errors[0].message);
     return {};
   }

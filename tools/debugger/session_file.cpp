@@ -400,6 +400,8 @@ std::optional<SessionFile> session_from_text(std::string_view text, std::span<co
       why = fmt::format("s7200 {} has written it, and this is s7200 {}: they may run differently", by, version());
     else if (why = why_other_plcs(json, models, names); why.empty())
       return file_from(json, models);
+  } catch (const Json::exception&) {  // whose texts are of no help to a user
+    why = "it is damaged: something in it is missing, or of another type";
   } catch (const std::exception& error) {
     why = fmt::format("it is damaged: {}", error.what());
   }

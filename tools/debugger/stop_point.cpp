@@ -23,11 +23,6 @@ std::optional<std::string> word_text(std::string_view word, const Cpu& cpu) {
 
 constexpr std::string_view kWords[] = {"time", "scan", "line", "event"};
 
-std::string number_text(const std::optional<Value>& value) {
-  if (!value) return "?";
-  return value->real ? fmt::format("{:.7g}", value->number) : fmt::format("{:.0f}", value->number);
-}
-
 /// Each piece of text outside braces, and of those inside.
 void split(const std::string& text, const std::function<void(std::string_view)>& outside,
            const std::function<void(std::string_view)>& inside) {
@@ -52,7 +47,8 @@ std::string filled_in(const std::string& text, const Cpu& cpu) {
         std::string why;
         const auto word = word_text(part, cpu);
         const auto expression = word ? std::nullopt : Expression::parse(part, cpu.program(), why);
-        filled += word ? *word : expression ? number_text(expression->value(cpu)) : fmt::format("{{{}}}", part);
+        const auto value = expression ? expression->value(cpu, why) : std::nullopt;
+        filled += word ? *word : value ? number_text(*value) : expression ? "?" : fmt::format("{{{}}}", part);
       });
   return filled;
 }

@@ -4,6 +4,7 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/model/cpu_model.hpp"
 
 namespace s7200::tools {
 
@@ -12,6 +13,16 @@ std::string lower_case(std::string_view text) {
   for (char& c : lower)
     if (stl::is_upper(c)) c = static_cast<char>(c - 'A' + 'a');
   return lower;
+}
+
+std::vector<std::string> split_words(std::string_view text) {
+  std::vector<std::string> words;
+  while (!(text = stl::trim(text)).empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    words.emplace_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+  return words;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -45,6 +56,20 @@ std::optional<std::uint32_t> parse_count(const std::vector<std::string>& argumen
   if (arguments.empty()) return 1;
   const auto number = parse_decimal<std::uint32_t>(arguments[0]);
   return arguments.size() == 1 && number && *number > 0 ? number : std::nullopt;
+}
+
+std::optional<std::uint8_t> event_of(const std::vector<std::string>& words) {
+  if (words.size() != 2 || lower_case(words[0]) != "event") return {};
+  const auto number = parse_decimal<std::uint8_t>(words[1]);
+  return number && find_event(*number) ? number : std::nullopt;
+}
+
+std::string expects_event(std::string_view command, const std::vector<std::string>& words) {
+  std::uint8_t last = kEvents - 1;
+  while (!find_event(last)) --last;
+  const auto number = words.size() == 2 ? parse_decimal<std::uint64_t>(words[1]) : std::nullopt;
+  return fmt::format("{}{} expects one address, or event and a number up to {}, for example: {} event 8",
+                     number ? fmt::format("there is no event {}; ", *number) : "", command, last, command);
 }
 
 std::optional<bool> wants_end(const std::vector<std::string>& arguments) {

@@ -11,6 +11,9 @@ namespace s7200::tools {
 
 std::string lower_case(std::string_view text);
 
+/// What blanks separate.
+std::vector<std::string> split_words(std::string_view text);
+
 /// The words with a blank between them.
 std::string joined(const std::vector<std::string>& words);
 
@@ -28,6 +31,12 @@ std::string no_argument(std::string_view command);
 
 /// The optional `[n]` of a command: 1 when it is not there, nothing when it is not a number above 0 or more follows.
 std::optional<std::uint32_t> parse_count(const std::vector<std::string>& arguments);
+
+/// The number in `event 8`; nothing if the words are something else.
+std::optional<std::uint8_t> event_of(const std::vector<std::string>& words);
+
+/// What `who event …` says without the number of an event.
+std::string expects_event(std::string_view command, const std::vector<std::string>& words);
 
 /// Of a step by interrupts: whether to its end. Its begin is meant if nothing is said; nothing for other words.
 std::optional<bool> wants_end(const std::vector<std::string>& arguments);
