@@ -1642,7 +1642,8 @@ class Files(Case):
     def test_a_stream_that_is_not_the_protocol_is_said_with_what_is_wrong(self):
         for stream, said in (("hello\r\n", "'hello' is not a line of a header"), ("Content-Length: 99999999\r\n\r\n", "is longer than"),
                              ("Content-Length: 5\r\n\r\n{", "has ended within a message"),
-                             ("Content-Length: 5\r\n\r\nhello", "'hello' is not JSON")):
+                             ("Content-Length: 5\r\n\r\nhello", "'hello' is not JSON"),
+                             ("Content-Length: 3\r\n\r\n[5]", "'[5]' is not a JSON object")):
             done = self.ends(UNUSABLE, "dap", stdin=None, input=stream)
             self.assertRegex(done.stderr, f"^s7200: error: standard input .*{re.escape(said)}")
         initialize = 'Content-Length: 54\r\n\r\n{"seq": 1, "type": "request", "command": "initialize"}'
@@ -1720,7 +1721,7 @@ class Files(Case):
         good = self.program("continue 100ms\nsend 01 03 00 0a 00 01 crc\ncontinue\nexpect VW3300 = 7\n", "good")
         self.ends(FINE, "debug", SLAVE, "--commands", good)
         bad = self.program("continue 100ms\nexpect VW3290 = 66\n", "bad")
-        self.assertIn("bad:2: expected VW3290 = 66, which does not hold here", self.ends(UNUSABLE, "debug", SLAVE, "--commands", bad).stderr)
+        self.assertIn("bad:2: expected VW3290 = 66, which does not hold here: VW3290 is ", self.ends(UNUSABLE, "debug", SLAVE, "--commands", bad).stderr)
 
     def test_captures_overwrite_only_captures_of_their_kind(self):
         path = self.program(Json.ECHO)

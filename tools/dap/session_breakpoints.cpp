@@ -199,7 +199,8 @@ Json Session::breakpoint_locations(const Json& arguments) {
   const std::string path = arguments.at("source").value("path", "");
   const LookAt look(*this, station_with(path));
   const auto first = client_line_in(arguments);
-  const auto last = std::min(arguments.contains("endLine") ? client_line_in(arguments, "endLine") : first, client_line(listing().last_line()));
+  const auto last = std::min(arguments.contains("endLine") ? client_line_in(arguments, "endLine") : first,
+                             client_line(listing().last_line()));
   Json locations = Json::array();
   for (std::uint32_t line = first; line <= last; ++line) {
     const auto of_program = sources().line_in(path, line_of_client(line));

@@ -188,8 +188,7 @@ Stop Session::searched_back(const Stepper::Goal& goal, std::uint64_t count, bool
 
 Json Session::goto_targets(const Json& arguments) {
   const LookAt look(*this, station_with(arguments.at("source").value("path", "")));
-  const auto line =
-      sources().line_in(arguments.at("source").value("path", ""), line_of_client(client_line_in(arguments)));
+  const auto line = sources().line_in(arguments.at("source").value("path", ""), line_of_client(client_line_in(arguments)));
   const auto op = line ? listing().op_from_line(*line) : std::nullopt;
   const auto here = standing_at(cpu().state());
   Json targets = Json::array();

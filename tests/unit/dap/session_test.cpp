@@ -52,11 +52,26 @@ TEST(DapSession, WhatIsNotOfferedIsRefusedByNameAndNotAnnounced) {
 TEST(DapSession, WrongArgumentsAreAnErrorAndTheSessionGoesOn) {
   Editor editor(kNested);
   editor.begin();
-  EXPECT_TRUE(has(editor.error_of("evaluate"), "the arguments of evaluate are not as the protocol says"));
-  EXPECT_TRUE(has(editor.error_of("readMemory", {{"memoryReference", 5}, {"count", "x"}}), "arguments of readMemory"));
+  EXPECT_EQ(editor.error_of("evaluate"), "the arguments of evaluate are not as the protocol says: one is missing");
+  EXPECT_EQ(editor.error_of("readMemory", {{"memoryReference", 5}, {"count", "x"}}),
+            "the arguments of readMemory are not as the protocol says: one is of another type");
+  EXPECT_EQ(editor.breakpoint({{"line", -3}})["message"], "there is no line -3: lines are counted from 1");
+  EXPECT_TRUE(has(editor.error_of("lastWrite", {{"expression", "event 99"}}), "there is no event 99; who expects one address"));
+  EXPECT_EQ(editor.error_of("evaluate", {{"expression", "1 / 0"}}), "cannot be computed: a division by 0");
   editor.session.handle(Json::array());
   editor.session.handle({{"type", "response"}});
   EXPECT_EQ(editor.value("1 + 1"), "2");
+}
+
+TEST(DapSession, BackToAWriteFromOutsideStopsBeforeItAndFindsTheEarlierOneNext) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("setExpression", {{"expression", "VW40"}, {"value", "7"}});
+  editor("stepIn", {{"threadId", 1}});
+  editor("setExpression", {{"expression", "VW40"}, {"value", "8"}});
+  EXPECT_TRUE(has(editor("reverseToLastWrite", {{"expression", "VW40"}})["text"].get<std::string>(), "was 7, became 8"));
+  EXPECT_TRUE(has(editor("reverseToLastWrite", {{"expression", "VW40"}})["text"].get<std::string>(), "was 0, became 7"));
+  EXPECT_TRUE(has(editor.error_of("reverseToLastWrite", {{"expression", "VW40"}}), "nothing has written VW40"));
 }
 
 TEST(DapSession, NothingInAMessageIsBelieved) {

@@ -1,3 +1,5 @@
+#include "serial_sim/modbus/crc.hpp"
+#include "tests/support/slave_bench.hpp"
 #include "tests/support/source_path.hpp"
 #include "tests/unit/debugger/session.hpp"
 #include "tools/debugger/call_stack.hpp"
@@ -419,7 +421,9 @@ TEST(Debugger, ALongCommandShowsHowFarItHasComeAndTakesThatAwayBeforeItsOutput) 
 
 /// A master on a bridge sends its frames at their times.
 struct Bridged {
-  explicit Bridged(std::string_view text, std::vector<Time> times) : simulation(program_of(text)), asks(std::move(times)) {
+  explicit Bridged(std::string_view text, std::vector<Time> times,
+                   Bytes request = {0x01, 0x03, 0x00, 0x0a, 0x00, 0x01, 0xa4, 0x08})
+      : simulation(program_of(text)), asks(std::move(times)), asked_for(std::move(request)) {
     simulation.power_up();
     DebuggerOptions options{};
     options.history.drive = [this](Time end) { return drive(end); };
@@ -433,8 +437,7 @@ struct Bridged {
       const serial::Halt halt = simulation.run_until(std::min(end, next));
       if (halt != serial::Halt::Time || next > end) return halt;
       std::vector<serial::HostCharacter> frame;
-      for (const std::uint8_t byte : Bytes{0x01, 0x03, 0x00, 0x0a, 0x00, 0x01, 0xa4, 0x08})
-        frame.push_back({.byte = byte, .format = kFormat});
+      for (const std::uint8_t byte : asked_for) frame.push_back({.byte = byte, .format = kFormat});
       port.send(frame, simulation.time());
       ++asked;
     }
@@ -451,6 +454,7 @@ struct Bridged {
   std::ostringstream out;
   std::unique_ptr<Debugger> debugger;
   std::vector<Time> asks;
+  Bytes asked_for;
   std::size_t asked = 0;
 };
 
@@ -464,6 +468,47 @@ TEST(Debugger, ARequestOfAMasterOnABridgeIsUnansweredAfterTheTimeOut) {
   EXPECT_FALSE(has(session("continue"), "breakpoint")) << "once";
   EXPECT_TRUE(has(session("rcontinue"), "breakpoint 1, unanswered"));
   EXPECT_EQ(session.simulation.time(), stopped);
+}
+
+TEST(Debugger, ABroadcastIsNeverUnanswered) {
+  Bytes broadcast{0x00, 0x06, 0x00, 0x0a, 0x00, 0x01};
+  modbus::add_crc(broadcast);
+  Bridged bridged(kListening, {2 * kSecond, 2'200 * kMillisecond}, broadcast);
+  EXPECT_FALSE(has(bridged("break unanswered; continue"), "breakpoint 1"));
+  EXPECT_FALSE(has(bridged("rcontinue"), "breakpoint 1"));
+  Session session(kListening);
+  EXPECT_FALSE(has(session("break unanswered; send 00 06 00 0a 00 01 crc; continue"), "breakpoint 1"));
+  EXPECT_FALSE(has(session("rcontinue"), "breakpoint 1"));
+  EXPECT_TRUE(has(session("at end; send 00 06 00 0a 00 01 00 00; continue"), "breakpoint 1")) << "disturbed";
+}
+
+TEST(Debugger, WhyNamesOfAMasterOnABridgeOnlyItsLastRequest) {
+  Bridged session(test::slave_text(), {2 * kSecond, 2'500 * kMillisecond, 3 * kSecond},
+                  {0x01, 0x03, 0x00, 0x0a, 0x00, 0x01, 0x00, 0x00});
+  const std::string text = session("continue 3.5s; why");
+  EXPECT_TRUE(has(text, "no answer to 8 characters since 3000."));
+  EXPECT_FALSE(has(text, "since 2500."));
+}
+
+TEST(Debugger, WhoNamesTheActionThatHasWrittenOfSeveralAtOneMoment) {
+  Session session(kEcho);
+  EXPECT_TRUE(has(session("continue 100ms; set VW20=7; force VW22=9; who VW20"), "by 'set VW20', from outside"));
+  EXPECT_TRUE(has(session("send 41; who VW20"), "by 'set VW20', from outside"));
+  EXPECT_TRUE(has(session("who VB23"), "by 'force VW22', from outside"));
+  session("unforce all; step; set VW20=7 VW24=8; set VW20=9");
+  EXPECT_TRUE(has(session("who VW20"), "VW20 was 7, became 9"));
+  EXPECT_TRUE(has(session("force VW22=9; who VW22"), "by 'force VW22', from outside")) << "the value that was there";
+}
+
+TEST(Debugger, BackToAWriteFromOutsideStopsBeforeItAndFindsTheEarlierOneNext) {
+  Session session(kEcho);
+  session("continue 100ms; set VW20=7; step; set VW20=8; set VB100=1");
+  EXPECT_TRUE(has(session("rwho VW20"), "VW20 was 7, became 8"));
+  EXPECT_EQ(session.vw(20), 7);
+  EXPECT_TRUE(has(session("rwho VW20"), "VW20 was 0, became 7"));
+  EXPECT_EQ(session.vw(20), 0);
+  EXPECT_TRUE(has(session("rwho VW20"), "nothing has written VW20"));
+  session("at end; expect VW20 = 8 and VB100 = 1");
 }
 
 TEST(Debugger, ARequestOfAMasterOnABridgeIsUnansweredWhenItSendsAgain) {

@@ -416,6 +416,17 @@ TEST(History, TheLastWriteIsFoundAlsoOfAnEqualValueThroughAPointerAndInABlock) {
   EXPECT_EQ(line_of("VW208"), 0U);
 }
 
+TEST(History, KnowsWhetherARecordingNeedsAHostPortThatIsNotHere) {
+  Recorded session(slave());
+  Recording recording = session.history->recording();
+  recording.actions.emplace_back(serial::HostCall{});
+  recording.moments.push_back(recording.end);
+  recording.stations.push_back(0);
+  EXPECT_TRUE(session.history->has_hosts_of(recording));
+  recording.stations.back() = 1;
+  EXPECT_FALSE(session.history->has_hosts_of(recording));
+}
+
 TEST(History, TheLastWriteMayBeAnActionOrTheSystem) {
   Recorded session(test::compile("LD SM0.0\nMOVW 1, VW0\nMEND\n"));
   session.run_to(10);

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "tests/unit/debugger/session.hpp"
 
@@ -50,6 +52,31 @@ TEST_F(SavedSession, KeepsAPowerCycleThatItBeganWith) {
   Session other(kNested);
   other("load " + file("a.json") + "; expect MB14 = 9");
   EXPECT_EQ(other.simulation.snapshot(), session.simulation.snapshot());
+}
+
+/// A bridge attaches its port before the session begins.
+TEST_F(SavedSession, ThatHadAMasterOnABridgeIsLoadedWithoutTheBridge) {
+  constexpr SerialFormat kFormat{9600, 8, Parity::None, 1};
+  serial::Simulation simulation(program_of(kEcho));
+  simulation.power_up();
+  serial::HostPort& port = simulation.host_port();
+  port.attach(kFormat, simulation.time());
+  bool asked = false;
+  DebuggerOptions options{};
+  options.history.drive = [&](Time end) {
+    serial::Halt halt = simulation.run_until(std::min(end, simulation.time() + 300 * kMillisecond));
+    if (halt != serial::Halt::Time) return halt;
+    const serial::HostCharacter character{.byte = 0x41, .format = kFormat};
+    if (!std::exchange(asked, true)) port.send({&character, 1}, simulation.time());
+    return simulation.run_until(end);
+  };
+  std::ostringstream out;
+  Debugger saving(simulation, out, options);
+  EXPECT_FALSE(saving.execute("continue 1s; expect VB1 = 16#41; save " + file("a.json")));
+  Session session(kEcho);
+  session("scan 2; load " + file("a.json") + "; expect VB1 = 16#41");
+  EXPECT_EQ(session.state().instructions, simulation.cpu().state().instructions);
+  session("at 1ms; expect VB1 = 0; at end; expect VB1 = 16#41; power; restart; scan 2");
 }
 
 TEST_F(SavedSession, OfAnotherProgramCpuVersionOrBeginningIsRefused) {
@@ -132,6 +159,13 @@ TEST_F(SavedSession, ReplacesItsOwnKindOfFileAndOthersOnlyWhenToldTo) {
   EXPECT_TRUE(read("mine.txt").starts_with(session_beginning()));
 }
 
+TEST_F(SavedSession, IsToldToReplaceOnlyWhatIsThere) {
+  Session session(kNested);
+  write("mine.txt", "mine");
+  EXPECT_TRUE(has(session.error_of("save " + file("mine.txt")), "mine.txt !' replaces it"));
+  EXPECT_FALSE(has(session.error_of("save " + file("nowhere/a.json")), "!"));
+}
+
 TEST(PowerCommand, KeepsWhatTheCpuKeepsAndBackTakesItBack) {
   Session session(kNested);
   session("scan 5; set MB0=5 MB14=9");
@@ -140,6 +174,12 @@ TEST(PowerCommand, KeepsWhatTheCpuKeepsAndBackTakesItBack) {
   EXPECT_EQ(session.state().time, 0);
   EXPECT_TRUE(has(session("power lost"), "the EEPROM is left, RAM and clock are lost"));
   session("expect MB14 = 0 and SM0.2; back 2; expect MB0 = 5");
+}
+
+TEST(PowerCommand, SaysThatARequestUnderWayWentDownToo) {
+  Session session(kEcho);
+  EXPECT_FALSE(has(session("continue 20ms; power"), "request"));
+  EXPECT_TRUE(has(session("continue 20ms; send 41 42; step; power"), "the request under way went down with the CPU"));
 }
 
 TEST(PowerCommand, WrongWordsTellWhatIsExpected) {

@@ -5,6 +5,7 @@
 
 #include "tests/support/tip41.hpp"
 #include "tests/unit/debugger/session.hpp"
+#include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -125,6 +126,20 @@ TEST(WorkedExample, AFrameThatComesWhileTheSlaveStillWaitsForSilenceIsNamedByThe
   EXPECT_TRUE(has(session("why"), kWaiting)) << "in front of the ATCH that leaves it";
   EXPECT_TRUE(has(session("rwho event 8"), "ATCH: INT 121 to event 8"));
   EXPECT_TRUE(has(session("why"), "CALL 50 in line 77 (LD SM0.1: SM0.1=1)")) << "not the loop of a subroutine that is over";
+}
+
+TEST(WorkedExample, FromAnUnansweredRequestItGoesStraightBackToWhatDroppedTheFrame) {
+  const auto program = test::compile(test::slave_text());
+  for (const auto& [frame, line] : {std::pair{"01 03 00 0a 00 01 00 00", 141u}, std::pair{"01 03 00", 134u}}) {
+    SCOPED_TRACE(frame);
+    Session session(program);
+    session(std::string("continue 2s; break unanswered; send ") + frame + "; continue");
+    const std::string text = session("rwhy");
+    EXPECT_TRUE(has(text, fmt::format("JMP 255 in line {}", line)));
+    EXPECT_FALSE(has(text, "nothing has decided"));
+    EXPECT_EQ(session.line(), line);
+    EXPECT_TRUE(has(text, fmt::format("{}  no answer to ", moment_text(session.simulation.time())))) << "its time";
+  }
 }
 
 TEST(WorkedExample, BothPartsOfAFrameWithAPauseInItAreNamed) {
