@@ -69,8 +69,8 @@ TEST(DapSession, BackToAWriteFromOutsideStopsBeforeItAndFindsTheEarlierOneNext) 
   editor("setExpression", {{"expression", "VW40"}, {"value", "7"}});
   editor("stepIn", {{"threadId", 1}});
   editor("setExpression", {{"expression", "VW40"}, {"value", "8"}});
-  EXPECT_TRUE(has(editor("reverseToLastWrite", {{"expression", "VW40"}})["text"].get<std::string>(), "was 7, became 8"));
-  EXPECT_TRUE(has(editor("reverseToLastWrite", {{"expression", "VW40"}})["text"].get<std::string>(), "was 0, became 7"));
+  EXPECT_TRUE(has(editor("reverseToLastWrite", {{"expression", "VW40"}})["text"].get<std::string>(), "VW40 was 16#0007 (7), became 16#0008 (8)"));
+  EXPECT_TRUE(has(editor("reverseToLastWrite", {{"expression", "VW40"}})["text"].get<std::string>(), "VW40 was 16#0000 (0), became 16#0007 (7)"));
   EXPECT_TRUE(has(editor.error_of("reverseToLastWrite", {{"expression", "VW40"}}), "nothing has written VW40"));
 }
 

@@ -117,11 +117,12 @@ TEST(Seeing, ExpectIsAWrongCommandUnlessItHolds) {
   Session session(kNested);
   session("scan 3; expect VW10 = 3 and SM0.0");
   EXPECT_EQ(session.error_of("expect VW10 = 4"), "expected VW10 = 4, which does not hold here: VW10 is 3");
+  session("set VD500=16#FF000000");
   EXPECT_EQ(session.error_of("expect VW10 = 4 and (M0.1 or VW10 > 8) or *VD500 = 1"),
             "expected VW10 = 4 and (M0.1 or VW10 > 8) or *VD500 = 1, which does not hold here: VW10 is 3, M0.1 is 0, *VD500 "
-            "points nowhere: VD500 is 16#00000000");
+            "points nowhere: VD500 is 16#FF000000");
   EXPECT_TRUE(has(session("print 1/0"), "1/0 cannot be computed: a division by 0\n"));
-  EXPECT_TRUE(has(session("print *VD500 + 1"), "cannot be computed: *VD500 points nowhere: VD500 is 16#00000000\n"));
+  EXPECT_TRUE(has(session("print *VD500 + 1"), "cannot be computed: *VD500 points nowhere: VD500 is 16#FF000000\n"));
   std::istringstream script("scan 2\nexpect VW10 = 5\nexpect VW10 = 6\nstep\n");
   const auto error = session.debugger->run_script(script);
   ASSERT_TRUE(error.has_value());
