@@ -56,7 +56,8 @@ TEST(DapSession, WrongArgumentsAreAnErrorAndTheSessionGoesOn) {
   EXPECT_EQ(editor.error_of("readMemory", {{"memoryReference", 5}, {"count", "x"}}),
             "the arguments of readMemory are not as the protocol says: one is of another type");
   EXPECT_EQ(editor.breakpoint({{"line", -3}})["message"], "there is no line -3: lines are counted from 1");
-  EXPECT_TRUE(has(editor.error_of("lastWrite", {{"expression", "event 99"}}), "there is no event 99; who expects one address"));
+  EXPECT_TRUE(
+      has(editor.error_of("lastWrite", {{"expression", "event 99"}}), "there is no event 99; who expects one address"));
   EXPECT_EQ(editor.error_of("evaluate", {{"expression", "1 / 0"}}), "cannot be computed: a division by 0");
   editor.session.handle(Json::array());
   editor.session.handle({{"type", "response"}});
@@ -69,8 +70,10 @@ TEST(DapSession, BackToAWriteFromOutsideStopsBeforeItAndFindsTheEarlierOneNext) 
   editor("setExpression", {{"expression", "VW40"}, {"value", "7"}});
   editor("stepIn", {{"threadId", 1}});
   editor("setExpression", {{"expression", "VW40"}, {"value", "8"}});
-  EXPECT_TRUE(has(editor("reverseToLastWrite", {{"expression", "VW40"}})["text"].get<std::string>(), "VW40 was 16#0007 (7), became 16#0008 (8)"));
-  EXPECT_TRUE(has(editor("reverseToLastWrite", {{"expression", "VW40"}})["text"].get<std::string>(), "VW40 was 16#0000 (0), became 16#0007 (7)"));
+  EXPECT_TRUE(has(editor("reverseToLastWrite", {{"expression", "VW40"}})["text"].get<std::string>(),
+                  "VW40 was 16#0007 (7), became 16#0008 (8)"));
+  EXPECT_TRUE(has(editor("reverseToLastWrite", {{"expression", "VW40"}})["text"].get<std::string>(),
+                  "VW40 was 16#0000 (0), became 16#0007 (7)"));
   EXPECT_TRUE(has(editor.error_of("reverseToLastWrite", {{"expression", "VW40"}}), "nothing has written VW40"));
 }
 
