@@ -268,6 +268,35 @@ TEST(Pid, TheOutputAndTheBiasStayBetween0And1) {
   EXPECT_EQ(loop.real(kMx), 1.0f) << "-(MP + MD)";
 }
 
+TEST(Pid, TheBiasOfAnOutputAtItsLimitHasTheDerivativeTerm) {
+  Loop loop(kAlways);
+  const auto sample = [&](float setpoint, float variable, float previous, float bias) {
+    loop.put(kKc, 1.0f);
+    loop.put(kTd, 1.0f);
+    loop.put(kSp, setpoint);
+    loop.put(kPv, variable);
+    loop.put(kLastPv, previous);
+    loop.put(kMx, bias);
+    loop.scan();
+  };
+  sample(0.75f, 0.25f, 0.5f, 0.375f);  // 0.5 + (0.125 + 0.375) + 0.25
+  EXPECT_EQ(loop.real(kM), 1.0f);
+  EXPECT_EQ(loop.real(kMx), 0.25f) << "1 - (MP + MD)";
+  sample(0.25f, 0.75f, 0.5f, 0.25f);  // -0.5 + (-0.125 + 0.25) - 0.25
+  EXPECT_EQ(loop.real(kM), 0.0f);
+  EXPECT_EQ(loop.real(kMx), 0.75f) << "-(MP + MD)";
+}
+
+TEST(Pid, WithoutPowerFlowItLeavesNoEno) {
+  Loop loop("LD SM0.0\n+I VW10, VW12\nLD V0.0\nPID VB100, 0\nLD SM0.0\nAENO\n= V0.1\nMEND\n");
+  loop.set("VB0", 2);
+  loop.scan();
+  EXPECT_EQ(loop.value("V0.1"), 0);
+  loop.set("VB0", 1);
+  loop.scan();
+  EXPECT_EQ(loop.value("V0.1"), 1);
+}
+
 TEST(Pid, AGainOf0LeavesTheIntegralTermWithAGainOf1) {
   Loop loop(kAlways);
   loop.put(kKc, 0);
@@ -339,6 +368,11 @@ TEST(Pid, AutoTuningIsRefused) {
   loop.set("VB140", 1);
   loop.scan();
   EXPECT_EQ(loop.records.errors(), std::vector{0x13});
+  Loop at_the_end("LD SM0.0\nPID VB8151, 0\nMEND\n");
+  at_the_end.set("VD8187", 0x50494441);
+  at_the_end.set("VB8191", 1);
+  at_the_end.scan();
+  EXPECT_EQ(at_the_end.records.errors(), std::vector{0x13});
   Loop first_edition(kAlways, cpu224r1());
   first_edition.set("VD136", 0x50494441);
   first_edition.set("VB140", 1);
