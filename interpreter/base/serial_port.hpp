@@ -24,8 +24,8 @@ class SerialPort {
  public:
   virtual ~SerialPort() = default;
 
-  /// Takes effect with the next character in either direction.
-  virtual void configure(const SerialFormat& format) = 0;
+  /// Takes effect with the next character in either direction that begins after `at`.
+  virtual void configure(const SerialFormat& format, Time at) = 0;
 
   /// Half duplex: the receiver is off while the port sends. A character being received is lost.
   virtual void enable_receiver(bool enabled, Time at) = 0;

@@ -30,7 +30,7 @@ void take_control(Core& core, std::uint8_t number, std::uint32_t op) {
   if (!port.active) message_receiver::abandon(core, number);
   port.format = format_of(port.control, core.model());
   if (port.active) {
-    core.port(number).configure(port.format);
+    core.port(number).configure(port.format, core.s.time);
     core.port(number).enable_receiver(!port.transmitting, core.s.time);
   } else if (was_active && !port.transmitting) {
     ppi::begin(core, number, core.s.time);

@@ -102,7 +102,7 @@ void send(Core& core, std::uint8_t number, std::span<const std::uint8_t> frame, 
 
 void begin(Core& core, std::uint8_t number, Time at) {
   core.s.ppi[number] = {.heard = at};
-  core.port(number).configure(kFormat);
+  core.port(number).configure(kFormat, at);
   core.port(number).enable_receiver(true, at);
 }
 

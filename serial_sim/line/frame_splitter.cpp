@@ -22,7 +22,7 @@ void FrameSplitter::finish() {
 }
 
 void FrameSplitter::hear(Ear& ear, Time until, const SerialFormat& port) {
-  if (port != ear.uart.state().format) ear.uart.configure(port);
+  if (port != ear.uart.state().format) ear.uart.configure(port, until);
   WireFrame& open = ear.open;
   while (ear.queue.next() < until) {
     const auto received = ear.uart.handle(ear.queue.pop()).received;

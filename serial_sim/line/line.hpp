@@ -96,6 +96,12 @@ class Line {
   /// without one the cable counts as whole, here and below.
   bool level(Time at, int listener = kWholeCable) const;
 
+  /// Whether a character alone on the undisturbed line has the start bit that begins at `start` and lasts beyond `until`:
+  /// as long as no listener is told of a change by then, that stays so.
+  bool has_start_bit_alone(Time start, Time until) const {
+    return implied_.any() && implied_.start == start && implied_.in_start_bit(until);
+  }
+
   /// The level in the middle of each bit, up to the first stop bit, of a character that begins at `start`: that of the start
   /// bit in bit 0.
   unsigned levels(Time start, const BitTimes& times, int listener = kWholeCable) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace s7200::serial {
 namespace {
@@ -39,9 +40,10 @@ void Uart::plug_in() {
 
 Uart::~Uart() { line_.detach(*this); }
 
-void Uart::configure(const SerialFormat& format) {
+void Uart::configure(const SerialFormat& format, Time at) {
   state_.format = format;
-  if (!state_.receiving && state_.start_edge != kNever) await_start_edge();
+  const bool verified = state_.receiving || (state_.certain && start_check() < at);
+  if (!verified && state_.start_edge != kNever) await_start_edge();
 }
 
 void Uart::enable_receiver(bool enabled, Time at) {
@@ -54,7 +56,7 @@ void Uart::enable_receiver(bool enabled, Time at) {
   } else {
     // The instant may lie ahead: what is sampled before it is still heard.
     state_.off_from = at;
-    if (next_sample() >= at) {
+    if (last_sample() >= at) {
       if (bystander_ && state_.start_edge < at && bystander_->looks())
         tell_missed(character_of_others(state_.start_edge, clock_of_character()), at);
       abandon_character();
@@ -159,7 +161,8 @@ Uart::Report Uart::handle(const Event& event) {
 
 void Uart::line_changed(Time at) {
   const bool may_bring_an_earlier_start = !state_.receiving && at <= state_.start_edge && at < state_.off_from;
-  if (may_bring_an_earlier_start) return await_start_edge();
+  const bool is_certain_no_more = state_.certain && at <= start_check();
+  if (may_bring_an_earlier_start || is_certain_no_more) return await_start_edge();
   if (!state_.receiver_enabled() && bystander_ && bystander_->looks()) look_for_missed(at);
 }
 
@@ -177,10 +180,19 @@ void Uart::tell_missed(ReceivedCharacter character, Time lost_at) {
 }
 
 void Uart::await_start_edge() {
+  const bool was_certain = std::exchange(state_.certain, false);
   state_.receiving = false;
   state_.clock_error = clock_error();
   state_.start_edge = line_.falling_edge(state_.listen_from, driver_);
-  expect(kStartCheck, next_sample());
+  state_.certain = line_.has_start_bit_alone(state_.start_edge, start_check());
+  if (was_certain != state_.certain) queue_.cancel(owner_, was_certain ? kStopSample : kStartCheck);
+  if (state_.certain) return expect_stop_bit();
+  expect(kStartCheck, start_check());
+}
+
+void Uart::expect_stop_bit() {
+  state_.receiving_as = {state_.format, state_.clock_error};
+  expect(kStopSample, character_due());
 }
 
 void Uart::check_start_bit(Time now) {
@@ -190,8 +202,7 @@ void Uart::check_start_bit(Time now) {
     return;
   }
   state_.receiving = true;
-  state_.receiving_as = {state_.format, state_.clock_error};
-  expect(kStopSample, next_sample());
+  expect_stop_bit();
 }
 
 ReceivedCharacter Uart::take_character(Time now) {
@@ -221,15 +232,17 @@ void Uart::power_off(Time at) {
   abandon_character();
 }
 
-/// When the start bit is to be verified or, once it was, the stop bit to be sampled.
-Time Uart::next_sample() const {
+/// When the start bit awaited is, or was, to be verified.
+Time Uart::start_check() const {
   if (state_.start_edge == kNever) return kNever;
-  if (state_.receiving) return character_due();
-  return state_.start_edge + times_of({state_.format, state_.clock_error}, receiving_times_).middle_of_bit(0);
+  return state_.start_edge + times_of(clock_of_character(), receiving_times_).middle_of_bit(0);
 }
 
+/// The last of its instants to come that is known: that of the stop bit once the start bit is certain.
+Time Uart::last_sample() const { return state_.receiving || state_.certain ? character_due() : start_check(); }
+
 BitClock Uart::clock_of_character() const {
-  return state_.receiving ? state_.receiving_as : BitClock{state_.format, state_.clock_error};
+  return state_.receiving || state_.certain ? state_.receiving_as : BitClock{state_.format, state_.clock_error};
 }
 
 Time Uart::character_due() const {
@@ -251,7 +264,7 @@ void Uart::expect(What what, Time at) {
 void Uart::abandon_character() {
   queue_.cancel(owner_, kStartCheck);
   queue_.cancel(owner_, kStopSample);
-  state_.receiving = false;
+  state_.receiving = state_.certain = false;
   state_.start_edge = kNever;
   if (!state_.receiver_enabled()) state_.listen_from = state_.off_from;
 }

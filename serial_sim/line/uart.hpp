@@ -22,7 +22,8 @@ namespace s7200::serial {
 /// Not documented, modelled so: space in every sample, from the start bit to the stop bit, is a break; whether the line
 /// stays at space after the middle of the stop bit does not matter. [Uart.SpaceInEverySampleIsABreak]
 ///
-/// A character is three events at most: start bit verified, stop bit sampled, character sent.
+/// A character is three events at most: start bit verified, stop bit sampled, character sent. The first is left out when it
+/// is certain what it finds: the start bit is that of a character alone on the line.
 class Uart final : public SerialPort, private LineListener {
  public:
   /// What handle() reports back to the owner.
@@ -34,9 +35,10 @@ class Uart final : public SerialPort, private LineListener {
   /// Plain, so that a snapshot is a copy.
   struct State {
     SerialFormat format{};         ///< of the next character in either direction
-    BitClock receiving_as{};       ///< of the character being received
+    BitClock receiving_as{};       ///< of the character being received, or certain to be
     std::int32_t clock_error = 0;  ///< of the receiver while it awaits a character, in millionths
     bool receiving = false;        ///< a start bit was verified and its character is not complete
+    bool certain = false;          ///< the start bit awaited needs no event to verify it
     Time start_edge = kNever;      ///< of the character being received, or awaited at a known future instant
     Time listen_from = 0;          ///< edges before this are past
     Time off_from = kNever;        ///< the receiver is switched off from then on
@@ -70,8 +72,8 @@ class Uart final : public SerialPort, private LineListener {
   /// Wiring, not state; not owned.
   void set_bystander(Bystander* bystander) { bystander_ = bystander; }
 
-  /// A character whose start bit has been verified is still received in the old format.
-  void configure(const SerialFormat& format) override;
+  /// A character whose start bit has been verified before `at` is still received in the old format.
+  void configure(const SerialFormat& format, Time at) override;
   void enable_receiver(bool enabled, Time at) override;
   void send(std::uint8_t byte, Time at) override;
   void send_break(int bit_times, Time at) override;
@@ -122,12 +124,14 @@ class Uart final : public SerialPort, private LineListener {
 
   void await_start_edge();
   void check_start_bit(Time now);
+  void expect_stop_bit();
   ReceivedCharacter take_character(Time now);
   ReceivedCharacter character_of_others(Time start, const BitClock& clock) const;
   void look_for_missed(Time at);
   void tell_missed(ReceivedCharacter character, Time lost_at);
   void expect(What what, Time at);
-  Time next_sample() const;
+  Time start_check() const;
+  Time last_sample() const;
   BitClock clock_of_character() const;
   void abandon_character();
 

@@ -10,18 +10,18 @@ HostPort::HostPort(Uart& uart) : uart_(uart) { uart_.enable_receiver(false, 0); 
 void HostPort::attach(const SerialFormat& format, Time at) {
   assert(!state_.attached);
   note({.what = HostCall::What::Attach, .format = format, .characters = {}});
-  receive_as(format);
+  receive_as(format, at);
   state_.attached = true;
   uart_.plug_in();
   uart_.enable_receiver(true, at);
 }
 
-void HostPort::receive_as(const SerialFormat& format) {
+void HostPort::receive_as(const SerialFormat& format, Time at) {
   if (state_.format == format && uart_.state().format == format) return;
   const bool changes = state_.format != format || !sending();
   if (state_.attached && changes) note({.what = HostCall::What::ReceiveAs, .format = format, .characters = {}});
   state_.format = format;
-  if (!sending()) uart_.configure(format);
+  if (!sending()) uart_.configure(format, at);
 }
 
 void HostPort::send(std::span<const HostCharacter> characters, Time at) {
@@ -38,7 +38,7 @@ void HostPort::send_next(Time at) {
   const HostCharacter character = state_.to_send.front();
   state_.to_send.pop_front();
   if (const auto waiting = state_.waiting.find(character.sender); --waiting->second == 0) state_.waiting.erase(waiting);
-  uart_.configure(character.format);
+  uart_.configure(character.format, at);
   switch (character.fault) {
     case HostCharacter::Fault::None:
       return uart_.send(character.byte, at);
@@ -72,7 +72,7 @@ void HostPort::repeat(const HostCall& call, Time at) {
       attach(call.format, at);
       break;
     case HostCall::What::ReceiveAs:
-      receive_as(call.format);
+      receive_as(call.format, at);
       break;
     case HostCall::What::Send:
       send(call.characters, at);
@@ -91,7 +91,7 @@ void HostPort::on(const Uart::Report& report) {
   if (report.received) state_.received.push_back(*report.received);
   if (!report.sent) return;
   if (!state_.to_send.empty()) return send_next(*report.sent);
-  uart_.configure(state_.format);
+  uart_.configure(state_.format, *report.sent);
   uart_.enable_receiver(true, *report.sent);
 }
 

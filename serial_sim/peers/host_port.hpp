@@ -64,8 +64,8 @@ class HostPort {
   /// Listens from `at` on.
   void attach(const SerialFormat& format, Time at);
 
-  /// How characters are received from the next one on.
-  void receive_as(const SerialFormat& format);
+  /// How characters are received from the next one after `at` on.
+  void receive_as(const SerialFormat& format, Time at);
 
   /// Appends to what is sent. Characters follow each other back to back, each in its own format; the first start bit begins
   /// at `at`, which is not in the past, or when the characters before are over.

@@ -19,7 +19,7 @@ void Poller::handle(const Event& event) {
   state_.waiting = false;
   if (state_.next == 0) state_.round_begin = event.at;
   ++state_.asked;
-  uart_.configure(wiring_.format());
+  uart_.configure(wiring_.format(), event.at);
   requester_.start(plan_.requests[state_.next], event.at);
 }
 

@@ -6,7 +6,7 @@ namespace s7200::serial {
 
 Responder::Responder(Uart& uart, EventQueue& queue, EventOwner owner, std::unique_ptr<Automaton> automaton)
     : uart_(uart), queue_(queue), owner_(owner), state_{AutomatonValue(std::move(automaton))} {
-  uart_.configure(state_.automaton->format());
+  uart_.configure(state_.automaton->format(), 0);
 }
 
 void Responder::sync(bool high, Time at) {

@@ -18,9 +18,7 @@ EventQueue& Dispatcher::shared_queue() {
   return *shared_;
 }
 
-void Dispatcher::handle_next() {
-  const Time at = next();
-  if (at == kNever) return;
+void Dispatcher::handle_next(Time at) {
   EventQueue* due = nullptr;
   for (const auto& queue : queues_) {
     if (queue->next() != at) continue;

@@ -51,9 +51,9 @@ class Dispatcher {
     return next;
   }
 
-  /// Handles the events of the next instant, in their order. One that is scheduled for the same instant meanwhile is left to
-  /// the next call unless its rank is still to come in its queue.
-  void handle_next();
+  /// Handles the events of the next instant, which is `at`, in their order. One that is scheduled for the same instant
+  /// meanwhile is left to the next call unless its rank is still to come in its queue.
+  void handle_next(Time at);
 
   std::vector<EventQueue> state() const;
   void restore(const std::vector<EventQueue>& state);

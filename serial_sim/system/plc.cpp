@@ -18,8 +18,8 @@ Plc::Port::Port(Plc& of, std::uint8_t its_number, SharedLine& shared_line, Dispa
   line.faults().add_plc(uart);
 }
 
-void Plc::Port::configure(const SerialFormat& format) {
-  act({.what = PortAction::What::Configure, .at = plc.cpu_.time(), .format = format});
+void Plc::Port::configure(const SerialFormat& format, Time at) {
+  act({.what = PortAction::What::Configure, .at = at, .format = format});
 }
 void Plc::Port::enable_receiver(bool enabled, Time at) {
   act({.what = PortAction::What::EnableReceiver, .at = at, .value = enabled});
@@ -46,8 +46,8 @@ void Plc::Port::act_until(Time now) {
 void Plc::Port::perform(const PortAction& action) {
   switch (action.what) {
     case PortAction::What::Configure:
-      uart.configure(action.format);
-      if (follower) follower(action.format);
+      uart.configure(action.format, action.at);
+      if (follower) follower(action.format, action.at);
       break;
     case PortAction::What::EnableReceiver:
       uart.enable_receiver(action.value != 0, action.at);

@@ -72,8 +72,8 @@ class Plc final : private EventHandler {
   /// Which of the line's drivers a port is.
   int driver(std::uint8_t port = 0) const { return ports_.at(port)->uart.driver(); }
 
-  /// `follower` is told, at once, each time the program sets a port; an empty function ends that.
-  void when_configured(std::function<void(const SerialFormat& format)> follower, std::uint8_t port = 0) {
+  /// `follower` is told, at once, each time the program sets a port, and when; an empty function ends that.
+  void when_configured(std::function<void(const SerialFormat& format, Time at)> follower, std::uint8_t port = 0) {
     ports_.at(port)->follower = std::move(follower);
   }
 
@@ -102,7 +102,7 @@ class Plc final : private EventHandler {
   struct Port final : SerialPort, private Uart::Bystander {
     Port(Plc& of, std::uint8_t number, SharedLine& shared_line, Dispatcher& events);
 
-    void configure(const SerialFormat& format) override;
+    void configure(const SerialFormat& format, Time at) override;
     void enable_receiver(bool enabled, Time at) override;
     void send(std::uint8_t byte, Time at) override;
     void send_break(int bit_times, Time at) override;
@@ -125,7 +125,7 @@ class Plc final : private EventHandler {
     Uart uart;
     WireTap tap;
     std::vector<PortAction> actions{};  ///< in order of time
-    std::function<void(const SerialFormat&)> follower{};
+    std::function<void(const SerialFormat&, Time)> follower{};
 
    private:
     void perform(const PortAction& action);

@@ -30,10 +30,10 @@ std::vector<SharedLine*> Simulation::lines(const CpuModel& model) {
 
 void Simulation::let_master_follow(std::function<SerialFormat(const SerialFormat& port)> of) {
   if (!master_) return;
-  const auto follow = [this, of = std::move(of)](const SerialFormat& port) {
-    if (!master().asks()) master_uart().configure(of(port));
+  const auto follow = [this, of = std::move(of)](const SerialFormat& port, Time at) {
+    if (!master().asks()) master_uart().configure(of(port), at);
   };
-  follow(freeport().format);
+  follow(freeport().format, time());
   plc_->when_configured(follow, port_);
 }
 

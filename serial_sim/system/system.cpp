@@ -196,7 +196,7 @@ const Exchange& System::finish_exchange(const RequesterStation& station) {
 void System::handle_due_events(Time now) {
   for (Time next = events_.next(); next <= now; next = events_.next()) {
     settle(next);  // whatever is sent from now on begins no earlier
-    events_.handle_next();
+    events_.handle_next(next);
   }
   settle(now);
 }

@@ -64,7 +64,7 @@ void serving(benchmark::State& bench) {
   simulation.power_up();
   simulation.run_until_ready(serial::default_quiet({}), 60 * kSecond);
   const SerialFormat format = simulation.cpu().state().port[0].format;
-  simulation.master_uart().configure(format);
+  simulation.configure_master(format);
   const std::uint64_t before = simulation.cpu().state().instructions;
   for (auto _ : bench) {
     simulation.master().start({.frame = request}, simulation.time());

@@ -277,7 +277,7 @@ class Trials {
     const SerialFormat slowest{300, 8, Parity::Even, 1};
     if (!simulation.run_until_ready(serial::default_quiet(slowest), 10 * kSecond))
       throw std::runtime_error("the program is not ready within 10 s");
-    simulation.master_uart().configure(simulation.cpu().state().port[0].format);
+    simulation.configure_master(simulation.cpu().state().port[0].format);
     quiet_ = simulation.cpu().state().image[image::kSM + 34] * kMillisecond;
     ready_ = simulation.snapshot();
   }

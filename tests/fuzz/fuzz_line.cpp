@@ -69,7 +69,7 @@ class Slave {
     simulation_.cpu().set_sink(&answers_);
     simulation_.power_up();
     require(simulation_.run_until_ready(200 * kMillisecond, 10 * kSecond), "the slave gets ready");
-    simulation_.master_uart().configure(simulation_.cpu().state().port[0].format);
+    simulation_.configure_master(simulation_.cpu().state().port[0].format);
     ready_ = simulation_.snapshot();
   }
 

@@ -17,7 +17,7 @@ Time begin_of(std::size_t frame) { return kSecond + static_cast<Time>(frame) * 6
 constexpr Time kEnd = 6 * kSecond;
 
 void start_request(SlaveBench& bench, std::size_t frame) {
-  bench.simulation().master_uart().configure(bench.format());
+  bench.simulation().configure_master(bench.format());
   bench.simulation().master().start({.frame = serial::parse_hex_frame(kFrames[frame]).frame, .timeout = 500 * kMillisecond},
                                     begin_of(frame));
 }

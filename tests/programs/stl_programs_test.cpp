@@ -78,7 +78,7 @@ Served send_thirty_characters(std::uint8_t port_control) {
   bench.set_vb(10, port_control);
   bench.cpu().set_sink(&sink);
   bench.run_for(10 * kMillisecond);
-  bench.simulation().master_uart().configure(bench.format());
+  bench.simulation().configure_master(bench.format());
   bench.send({.frame = serial::to_frame(Bytes(30, 0x55)), .timeout = 100 * kMillisecond});
   return {bench.vw(0), (bench.state().image[image::kM] & 1) != 0, sink.of(TraceKind::EventLost)};
 }

@@ -7,7 +7,7 @@ namespace s7200::reference {
 
 class SilentPort : public SerialPort {
  public:
-  void configure(const SerialFormat&) override {}
+  void configure(const SerialFormat&, Time) override {}
   void enable_receiver(bool, Time) override {}
   void send(std::uint8_t, Time) override {}
   void send_break(int, Time) override {}

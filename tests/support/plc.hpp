@@ -57,7 +57,7 @@ class Port final : public SerialPort {
   };
 
   explicit Port(EventQueue& queue, std::uint8_t number = 0) : queue_(queue), number_(number) {}
-  void configure(const SerialFormat& to) override { format = to; }
+  void configure(const SerialFormat& to, Time) override { format = to; }
   void enable_receiver(bool enabled, Time at) override {
     if (enabled != receiver) switched_at = at;
     receiver = enabled;
@@ -194,6 +194,10 @@ class Plc {
   }
   void set(std::string_view address, std::uint32_t value_to_set) {
     const MemoryRange range = place(address);
+    if (range.width == Width::Bit) {
+      const auto others = static_cast<std::uint8_t>(cpu.state().image[range.at] & ~(1U << range.bit));
+      value_to_set = others | value_to_set << range.bit;
+    }
     std::array<std::uint8_t, 4> bytes{};
     store32(bytes.data(), value_to_set);
     cpu.poke(range.at, {bytes.data() + 4 - bytes_of(range.width), bytes_of(range.width)});

@@ -102,7 +102,7 @@ class SlaveBench {
     cpu().poke(image::kV, Bytes(4096, content));
     constexpr SerialFormat kSlowest{300, 8, Parity::Even, 1};
     ASSERT_TRUE(simulation_.run_until_ready(serial::default_quiet(kSlowest), 10 * kSecond));
-    simulation_.master_uart().configure(format());
+    simulation_.configure_master(format());
   }
 
   void run_for(Time time) { simulation_.run_until(simulation_.time() + time); }

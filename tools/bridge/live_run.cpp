@@ -101,7 +101,7 @@ class LiveRun::Engine {
     }
 
     Bridge& bridge() const { return *end_.bridge; }
-    void listen() { end_.port->receive_as(end_.bridge->receive_format()); }
+    void listen() { end_.port->receive_as(end_.bridge->receive_format(), now()); }
     void deliver() {
       const auto characters = end_.port->take_received();
       if (characters.empty()) return;

@@ -15,7 +15,7 @@ struct Doer {
     for (const Assignment& assignment : set.assignments) assign(simulation.cpu(), assignment);
   }
   void operator()(const SendFrame& send) const {
-    simulation.master_uart().configure(send.format);
+    simulation.configure_master(send.format);
     simulation.master().start(send.request, simulation.time());
   }
   void operator()(const Force& force) const {

@@ -57,7 +57,7 @@ const serial::Frame& ten_registers() {
 class CharacterPort final : public SerialPort {
  public:
   explicit CharacterPort(EventQueue& queue) : queue_(queue) {}
-  void configure(const SerialFormat& format) override { format_ = format; }
+  void configure(const SerialFormat& format, Time) override { format_ = format; }
   void enable_receiver(bool, Time) override {}
   void send(std::uint8_t, Time at) override { queue_.schedule(at + format_.character_time(), kUart, kSent); }
   void send_break(int, Time) override {}
@@ -88,7 +88,7 @@ class CharacterPort final : public SerialPort {
 
 /// A port with nothing on it.
 class IdlePort final : public SerialPort {
-  void configure(const SerialFormat&) override {}
+  void configure(const SerialFormat&, Time) override {}
   void enable_receiver(bool, Time) override {}
   void send(std::uint8_t, Time) override {}
   void send_break(int, Time) override {}
@@ -208,7 +208,7 @@ std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time 
   simulation.power_up();
   const auto quiet = [&] { return serial::default_quiet(simulation.freeport().format); };
   simulation.run_until_ready(quiet, 60 * kSecond);
-  simulation.master_uart().configure(simulation.freeport().format);
+  simulation.configure_master(simulation.freeport().format);
   simulation.cpu().use_steady_scans(SteadyScansUse::Off);
   figures.push_back(
       {"idle scans", "instructions", best_rate(each, [&] { return timed([&] { return idle_scans(simulation); }); })});

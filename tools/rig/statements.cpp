@@ -142,7 +142,7 @@ class Tip41 {
     simulation.power_up();
     const bool ready =
         simulation.run_until_ready([&] { return serial::default_quiet(simulation.freeport().format); }, 60 * kSecond);
-    simulation.master_uart().configure(simulation.freeport().format);
+    simulation.configure_master(simulation.freeport().format);
     return ready;
   }
 

@@ -14,7 +14,7 @@ PeerSlave::PeerSlave(std::unique_ptr<serial::Automaton> station, const serial::L
       station_(system_.add_responder(line_, std::move(station))),
       master_(system_.add_requester(line_)),
       name_(std::move(name)) {
-  master_.uart().configure(line.over(station_.responder().automaton().format()));
+  master_.uart().configure(line.over(station_.responder().automaton().format()), 0);
   master_.requester().when_sync([this](bool high, Time at) { station_.responder().sync(high, at); });
   for (const serial::Fault& fault : faults) line_.faults().inject(fault, 0);
   system_.stop_when(&interruption());

@@ -51,12 +51,11 @@ serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
     throw std::invalid_argument("a byte with wrong parity (p) needs a format with parity");
   simulation_.finish_exchange();  // what Ctrl-C has left under way
   remark_ = ignored_text(serial::bytes_of(simulation_.master().heard()));
-  simulation_.master_uart().configure(format);
+  simulation_.configure_master(format);
   simulation_.master().start(request, simulation_.time());
   serial::Exchange exchange = simulation_.finish_exchange();
   if (simulation_.master().busy()) exchange.timed_out = exchange.response.empty();  // after Ctrl-C
-  if (const SerialFormat now = master_.over(simulation_.port_format()); now != format)
-    simulation_.master_uart().configure(now);
+  if (const SerialFormat now = master_.over(simulation_.port_format()); now != format) simulation_.configure_master(now);
   return exchange;
 }
 

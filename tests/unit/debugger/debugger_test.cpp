@@ -878,7 +878,7 @@ TEST(Debugger, SteppedRunAndPlainRunEndInTheSameState) {
   serial::Simulation plain(program);
   plain.power_up();
   plain.run_until(sent);
-  plain.master_uart().configure(plain.cpu().state().port[0].format);
+  plain.configure_master(plain.cpu().state().port[0].format);
   plain.master().start({.frame = {{0x5a, false}}}, plain.time());
   const Time end = session.simulation.time() + kSecond;
   plain.run_until(end);

@@ -226,7 +226,7 @@ TEST(SystemRig, WhoJoinsAtAPlcIsOnItsPartOfACutLine) {
     serial::Simulation& simulation = rig->simulation();
     for (int station = 1; station <= 3; ++station) {
       const Bytes frame = modbus::rtu_frame(static_cast<std::uint8_t>(station), modbus::read_holding_registers(0, 1));
-      simulation.master_uart().configure(simulation.port_format());
+      simulation.configure_master(simulation.port_format());
       simulation.master().start({.frame = serial::to_frame(frame), .timeout = 60 * kMillisecond}, simulation.time());
       const bool answered = !simulation.finish_exchange().response.empty();
       EXPECT_EQ(answered, (station == 1) == (reached == 1)) << "beside slave" << beside + 1 << ", station " << station;

@@ -55,8 +55,8 @@ struct Plant {
 
   explicit Plant(std::initializer_list<const char*> specs = {}, const SerialFormat& format = k8E1) {
     faults.add_plc(plc);
-    plc.configure(format);
-    master_uart.configure(format);
+    plc.configure(format, 0);
+    master_uart.configure(format, 0);
     for (const char* spec : specs) faults.inject(fault_of(spec), 0);
   }
 
@@ -420,7 +420,7 @@ TEST(Faults, SeveralWorkTogether) {
 TEST(Faults, PeerThatAnnouncesNothingBeginsAnExchangeBehindAnAnswerOrASilence) {
   Plant plant({"flip:every=2"});
   Uart peer(plant.line, plant.queue, kPeerUart, 2);
-  peer.configure(k8E1);
+  peer.configure(k8E1, plant.now);
   peer.enable_receiver(false, 0);
   const auto send = [&](std::uint8_t byte) {
     plant.heard.clear();

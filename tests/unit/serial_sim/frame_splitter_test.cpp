@@ -33,7 +33,7 @@ struct Wires {
 
   /// The end of the last stop bit.
   static Time send(Sender& sender, Time at, const Bytes& bytes, const SerialFormat& format = k8E1) {
-    sender.uart.configure(format);
+    sender.uart.configure(format, at);
     for (const std::uint8_t byte : bytes) {
       sender.uart.send(byte, at);
       at = sender.queue.next();
@@ -103,11 +103,11 @@ TEST(FrameSplitter, AWrongRateIsReadAsThePortReadsIt) {
   Line line;
   EventQueue queue;
   Uart port(line, queue, EventOwner{}, 0);
-  port.configure(k8E1);
+  port.configure(k8E1, 0);
   EventQueue other;
   Uart peer(line, other, EventOwner{}, 1);
   peer.enable_receiver(false, 0);
-  peer.configure(twice);
+  peer.configure(twice, 0);
   Time at = 1000;
   for (const std::uint8_t byte : Bytes{0x01, 0x03, 0x00, 0x0a}) {
     peer.send(byte, at);
@@ -125,7 +125,7 @@ TEST(FrameSplitter, AWrongRateIsReadAsThePortReadsIt) {
 
 TEST(FrameSplitter, WhatCarriesAnErrorIsInTheFrameToo) {
   Wires wires;
-  wires.peer.uart.configure(k8E1);
+  wires.peer.uart.configure(k8E1, 0);
   wires.peer.uart.send_with_wrong_parity(0x01, 1000);
   wires.peer.uart.handle(wires.peer.queue.pop());
   wires.peer.uart.send_break(20, 1000 + kCharacter);

@@ -29,7 +29,7 @@ struct Wire {
   HostPort port{uart};
   std::vector<ReceivedCharacter> heard;
 
-  Wire() { other.configure(k8E1); }
+  Wire() { other.configure(k8E1, 0); }
 
   void run(Time end = kNever) {
     while (queue.next() < end) {
@@ -143,11 +143,11 @@ TEST(HostPort, ReceivesInItsOwnFormatWhateverItSent) {
   wire.port.attach(k8N2, 0);
   wire.port.send(characters({1}, k8E1), 0);
   wire.run();
-  wire.other.configure(k8N2);
+  wire.other.configure(k8N2, 10 * kMillisecond);
   wire.other.send(0x77, 10 * kMillisecond);
   wire.run();
-  wire.port.receive_as(k8E1);
-  wire.other.configure(k8E1);
+  wire.port.receive_as(k8E1, 20 * kMillisecond);
+  wire.other.configure(k8E1, 20 * kMillisecond);
   wire.other.send(0x78, 20 * kMillisecond);
   wire.run();
   const auto received = wire.port.take_received();

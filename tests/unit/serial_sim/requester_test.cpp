@@ -35,8 +35,8 @@ struct Conversation {
   Time now = 0;
 
   Conversation() {
-    slave_uart.configure(k8E1);
-    master_uart.configure(k8E1);
+    slave_uart.configure(k8E1, 0);
+    master_uart.configure(k8E1, 0);
   }
 
   void answer_next(Time at) {
@@ -260,7 +260,7 @@ TEST(Requester, WrongBaudRateIsErrorsOrSilenceAndEnds) {
     Conversation talk;
     SerialFormat format = k8E1;
     format.baud = baud;
-    talk.slave_uart.configure(format);
+    talk.slave_uart.configure(format, 0);
     talk.answer = to_frame(kAnswer);
     talk.after = 1;
     EXPECT_NE(talk.exchange(request_of(kRequest)).response_bytes(), kAnswer);

@@ -70,7 +70,7 @@ TEST(SimulationStop, AsLongAsNoOneAsksNothingChanges) {
     if (may_be_asked) simulation.stop_when(&never);
     simulation.power_up();
     EXPECT_EQ(simulation.run_until(kSecond), Halt::Time);
-    simulation.master_uart().configure(simulation.cpu().state().port[0].format);
+    simulation.configure_master(simulation.cpu().state().port[0].format);
     simulation.master().start({.frame = serial::to_frame(Bytes{1, 3, 0, 0, 0, 1, 0x84, 0x0A})}, simulation.time());
     EXPECT_FALSE(simulation.finish_exchange().response.empty());
     return simulation.snapshot();
@@ -85,7 +85,7 @@ TEST(SimulationTrace, ATraceWithItsReasonsChangesNothingOfTheRun) {
     simulation.cpu().set_sink(trace);
     simulation.power_up();
     simulation.run_until(kSecond);
-    simulation.master_uart().configure(simulation.cpu().state().port[0].format);
+    simulation.configure_master(simulation.cpu().state().port[0].format);
     simulation.host_port().attach(simulation.cpu().state().port[0].format, simulation.time());
     const HostCharacter character{.byte = 0x55, .format = simulation.cpu().state().port[0].format};
     for (const std::uint8_t last : Bytes{0x0A, 0x0B, 0x0A}) {

@@ -51,7 +51,7 @@ struct Plant {
   }
   void start() {
     system.run_until(kReady);
-    master->uart().configure(plcs[0]->port_format());
+    master->uart().configure(plcs[0]->port_format(), 0);
   }
 
   const Exchange& send(const Frame& frame) {
@@ -126,7 +126,7 @@ struct Conversation {
   static Time begin_of(std::size_t number) { return Plant::kReady + static_cast<Time>(number) * kEvery; }
   void ask_next(Time slice = kNever) {
     run_to(begin_of(asked), slice);
-    plant.master->uart().configure(plant.plcs[0]->port_format());
+    plant.master->uart().configure(plant.plcs[0]->port_format(), 0);
     const auto station = static_cast<std::uint8_t>(1 + asked % 2);
     const auto value = static_cast<std::uint16_t>(0x1111 * asked);
     const Bytes pdu = asked < 3 ? modbus::write_register(3, value) : modbus::read_holding_registers(3, 5);
@@ -206,8 +206,8 @@ TEST(System, OnePlcInASystemIsASimulationToTheNanosecond) {
 
   system.run_until(kSecond);
   simulation.run_until(kSecond);
-  master.uart().configure(plc.port_format());
-  simulation.master_uart().configure(simulation.port_format());
+  master.uart().configure(plc.port_format(), 0);
+  simulation.configure_master(simulation.port_format());
   for (int i = 0; i < 3; ++i) {
     const Frame frame = request(1, modbus::read_holding_registers(0, 20));
     master.requester().start({.frame = frame}, system.time());
@@ -224,7 +224,7 @@ TEST(System, APlcRunsBesideOthersAsItDoesAlone) {
   Simulation alone(slave(1));
   alone.power_up();
   alone.run_until(Plant::kReady);
-  alone.master_uart().configure(alone.port_format());
+  alone.configure_master(alone.port_format());
   for (int i = 1; i <= 4; ++i) {
     const Time at = Plant::kReady + i * 200 * kMillisecond;
     plant.system.run_until(at - kMillisecond);
@@ -297,7 +297,7 @@ TEST(System, APlcThatAsksGetsItsAnswerAndIsHeardAsAnyMasterIs) {
   Simulation alone(slave(1));
   alone.power_up();
   alone.run_until(Plant::kReady);
-  alone.master_uart().configure(alone.port_format());
+  alone.configure_master(alone.port_format());
   const Bytes values{0x12, 0x34, 0x56, 0x78};
   alone.cpu().poke(image::kV, values);
   alone.master().start({.frame = request(1, modbus::read_holding_registers(0, 2))}, asks.last_of(TraceKind::Transmit).at);
@@ -338,7 +338,7 @@ TEST(System, WhatOthersSendIsKnownWheneverAProgramSetsItsPort) {
     Simulation alone(programs[1 - asker]);
     alone.power_up();
     alone.run_until(Plant::kReady);
-    alone.master_uart().configure(plant.plcs[asker]->port_format());
+    alone.configure_master(plant.plcs[asker]->port_format());
     alone.master().start({.frame = request(1, modbus::read_holding_registers(0, 2))}, asks.last_of(TraceKind::Transmit).at);
     alone.run_until(3 * kSecond);
     EXPECT_NE(load32(&alone.cpu().state().image[image::kV + 200]), 0U);
@@ -350,7 +350,7 @@ TEST(System, APlcInStopLeavesTheOthersAlone) {
   Plant plant({test::compile(kStops), slave(2)});
   EXPECT_EQ(plant.system.run_until(Plant::kReady), Halt::Time);
   EXPECT_EQ(plant.plcs[0]->cpu().state().mode, Mode::Stop);
-  plant.master->uart().configure(plant.plcs[1]->port_format());
+  plant.master->uart().configure(plant.plcs[1]->port_format(), 0);
   EXPECT_EQ(plant.ask(2, modbus::read_holding_registers(0, 1)), "02 03 02 00 00");
 }
 
@@ -402,7 +402,7 @@ TEST(System, LinesDoNotHearOneAnother) {
   system.run_until(kSecond);
   const Request ask{.frame = request(1, modbus::read_holding_registers(0, 1))};
   for (RequesterStation* master : masters) {
-    master->uart().configure(plcs[0]->port_format());
+    master->uart().configure(plcs[0]->port_format(), 0);
     master->requester().start(ask, system.time());
   }
   const Exchange first = system.finish_exchange(*masters[0]), second = system.finish_exchange(*masters[1]);
@@ -461,7 +461,7 @@ TEST(System, ASegmentHoldsThirtyTwoStations) {
   for (int station = 1; station < Line::kDrivers; ++station) programs.push_back(slave(station));
   Plant plant(programs);
   plant.system.run_until(100 * kMillisecond);
-  plant.master->uart().configure(plant.plcs[0]->port_format());
+  plant.master->uart().configure(plant.plcs[0]->port_format(), 0);
   for (std::size_t i = 0; i < plant.plcs.size(); ++i) set_register(*plant.plcs[i], 0, static_cast<std::uint16_t>(i + 1));
   EXPECT_EQ(plant.ask(31, modbus::read_holding_registers(0, 1)), "1f 03 02 00 1f");
   EXPECT_EQ(plant.ask(0, modbus::write_register(1, 77)), "-");
@@ -488,7 +488,7 @@ TEST(Dispatcher, OneInstantGoesByRankAndThenInTheOrderOfAdding) {
       queue.schedule(5, owner, 0);
     }
   for (const auto& of_rank : added) expected.insert(expected.end(), of_rank.begin(), of_rank.end());
-  while (events.next() != kNever) events.handle_next();
+  for (Time next = events.next(); next != kNever; next = events.next()) events.handle_next(next);
   EXPECT_EQ(handled, expected);
 }
 
@@ -585,7 +585,7 @@ TEST(System, ASimulationMayPutItsMasterOnPort1) {
   simulation.power_up();
   simulation.run_until(20 * kMillisecond);
   EXPECT_EQ(simulation.port_format().parity, Parity::Even);
-  simulation.master_uart().configure(simulation.port_format());
+  simulation.configure_master(simulation.port_format());
   simulation.master().start({.frame = to_frame(Bytes{0x41, 0x42})}, simulation.time());
   EXPECT_EQ(to_hex(simulation.finish_exchange().response_bytes()), "41 42");
 }

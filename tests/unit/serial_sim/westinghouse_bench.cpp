@@ -103,8 +103,8 @@ void Bench::set(const std::string& settings) {
     std::string why;
     EXPECT_TRUE(plc().set(text, why)) << why;
   }
-  station_.uart().configure(plc().format());
-  master_.uart().configure(plc().format());
+  station_.uart().configure(plc().format(), 0);
+  master_.uart().configure(plc().format(), 0);
 }
 
 std::string Bench::ask(const std::string& hex, bool sync, Time timeout) {

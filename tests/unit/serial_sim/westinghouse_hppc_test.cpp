@@ -182,7 +182,7 @@ TEST(Hppc, ACharacterReceivedWhileItSendsAbortsTheAnswer) {
   copy->hear({.byte = 0x55, .start = now, .end = now + kMillisecond});
   EXPECT_TRUE(copy->take_abort());
   auto& other = bench.system().add_requester(bench.line());
-  other.uart().configure(bench.plc().format());
+  other.uart().configure(bench.plc().format(), 0);
   other.requester().start({.frame = serial::to_frame(Bytes{0x55}), .timeout = kMillisecond}, now);
   bench.system().finish_exchange(bench.master());
   const std::size_t length = bench.master().requester().exchange().response.size();

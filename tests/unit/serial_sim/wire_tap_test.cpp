@@ -135,7 +135,7 @@ TEST(WireTap, HowOftenTheSimulationComesBackChangesNothing) {
     test::SlaveBench bench(test::slave_text());
     bench.simulation().set_wire_sink(record);
     bench.simulation().power_up();
-    bench.simulation().master_uart().configure(k8E1);
+    bench.simulation().configure_master(k8E1);
     bench.simulation().master().start({.frame = serial::parse_hex_frame("0103000a0002e409").frame}, 200 * kMillisecond);
     while (bench.simulation().time() < kSecond)
       bench.simulation().run_until(std::min(kSecond, bench.simulation().time() + slice));
