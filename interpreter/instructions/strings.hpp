@@ -30,7 +30,7 @@ namespace s7200::bodies {
 
 // --- numbers as text ---
 
-inline constexpr std::uint32_t kIntegerText = 8, kDoubleText = 12, kLongestRealText = 15, kShortestRealText = 3;
+inline constexpr std::uint32_t kIntegerText = 8, kDoubleText = 12, kShortestRealText = 3;
 
 /// FMT, without the size.
 struct NumberFormat {

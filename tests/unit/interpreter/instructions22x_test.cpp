@@ -156,6 +156,13 @@ TEST(PortAddress, SpaSetsWhatGpaReads) {
   EXPECT_EQ(plc.value("VB0"), 17);
 }
 
+TEST(PortAddress, IsOneOfEachPort) {
+  Plc plc("LD SM0.0\nSPA 17, 1\nGPA VB0, 0\nGPA VB1, 1\nMEND\n", cpu226());
+  plc.run_scans(1);
+  EXPECT_EQ(plc.value("VB0"), 2);
+  EXPECT_EQ(plc.value("VB1"), 17);
+}
+
 TEST(PortAddress, SpaInAnInterruptRoutineIsError0004) {
   Plc plc("LD SM0.1\nATCH 0, 0\nENI\nMEND\nINT 0\nLD SM0.0\nSPA 17, 0\nGPA VB0, 0\nRETI\n", cpu224());
   plc.input_at(2 * ms, "I0.0", true);
@@ -189,6 +196,14 @@ TEST(PointsAtOnce, BiwIsSeenBeforeTheScanEndsAndBirDoesNotChangeTheImage) {
   EXPECT_EQ(plc.value("QB1"), 0x5A);
   EXPECT_EQ(plc.value("VB0"), 8);
   EXPECT_EQ(plc.value("VB1"), 0);
+}
+
+TEST(PointsAtOnce, NextToTheInputsAreNoInputsAndNextToTheOutputsNoOutputs) {
+  for (const std::string program : {"MOVD &QB0, VD0\nBIR *VD0, VB10\n", "MOVD &MB0, VD0\nBIW 1, *VD0\n"}) {
+    Plc plc("LD SM0.0\n" + program + "MEND\n", cpu224());
+    plc.run_scans(1);
+    EXPECT_EQ(plc.records.errors(), std::vector{0x91}) << program;
+  }
 }
 
 // Facts 3.4: current value = preset, which a TOF reaches after its input has gone off.

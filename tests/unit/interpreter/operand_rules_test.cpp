@@ -56,6 +56,20 @@ TEST(OperandRules, APresetOfCtudMayBeNegativeBecauseItsValueMay) {
             "write -25536 if that is what you mean; a signed word is -32768 to 32767 [other-sign]");
 }
 
+// --- how much of memory ---
+
+TEST(OperandRules, TextsMayEndAtTheLastByteOfVMemory) {
+  const std::pair<const char*, std::uint32_t> kLengths[] = {
+      {"ITA VW0, {}, 0", 8}, {"DTA VD0, {}, 0", 12}, {"ITS VW0, {}, 0", 9}, {"DTS VD0, {}, 0", 13}};
+  for (const auto& [statement, length] : kLengths) {
+    const auto at = [&, text = statement](std::uint32_t byte) {
+      return verdict(fmt::format(fmt::runtime(text), fmt::format("VB{}", byte)), cpu224());
+    };
+    EXPECT_EQ(at(8192 - length), "fine") << statement;
+    EXPECT_NE(at(8192 - length + 1), "fine") << statement;
+  }
+}
+
 // --- signs ---
 
 TEST(OperandRules, ADecimalConstantThatIsReadWithTheOtherSignGetsAWarning) {

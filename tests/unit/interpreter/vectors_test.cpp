@@ -110,13 +110,15 @@ class Execution {
     cpu.run(checked_.program->scan_phase[0]);
     prepare(cpu);
     const Time start = cpu.time();
-    Image expected = cpu.state().image;
+    const Image before = cpu.state().image;
+    Image expected = before;
     if (vector_.until)
       run_until(cpu, *vector_.until);
     else
       run_steps(cpu);
     for (const auto& assignment : vector_.after) assign(expected, assignment);
     compare_memory(expected, cpu.state().image);
+    if (!vector_.is_program()) compare_with_roles(cpu, before);
     compare_state(cpu.state());
     if (vector_.time) compare("time in ns", *vector_.time, cpu.time() - start);
     return wrong_;
@@ -185,6 +187,28 @@ class Execution {
       if (expected[at] != found[at])
         wrong_ += fmt::format("  {}: expected 16#{:02X}, found 16#{:02X}\n", name_of_place(at), expected[at], found[at]);
     }
+  }
+
+  /// What an instruction has written is an operand whose rule says that it is written, SM and points apart.
+  void compare_with_roles(const Cpu& cpu, const Image& before) {
+    for (std::uint32_t at = 0; at < image::kConstants; ++at) {
+      const bool is_an_operand = at < image::kSM || (at >= image::kS && at < image::kInputs) || at >= image::kV;
+      if (is_an_operand && before[at] != cpu.state().image[at] && !is_of_a_written_operand(cpu, at))
+        wrong_ += fmt::format("  {}: written, and no operand's rule says so\n", name_of_place(at));
+    }
+  }
+
+  /// One of the same area begins before the byte or at it. The bits of timers and counters are theirs.
+  bool is_of_a_written_operand(const Cpu& cpu, std::uint32_t at) const {
+    const Op& op = checked_.program->ops[prefix_];
+    const std::string area = name_of_place(at).substr(0, 2);
+    for (std::size_t i = 0; i < op.instruction->rules().size(); ++i) {
+      const OperandRule& rule = op.instruction->operand[i];
+      if (rule.role == Role::In || rule.kind != OperandKind::Memory) continue;
+      const auto place = cpu.place_of(op[i]);
+      if (place && name_of_place(*place).substr(0, 2) == area && (*place <= at || area == "T " || area == "C ")) return true;
+    }
+    return false;
   }
 
   void compare_state(const State& state) {
