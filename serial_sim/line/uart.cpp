@@ -179,13 +179,19 @@ void Uart::tell_missed(ReceivedCharacter character, Time lost_at) {
   bystander_->missed(character);
 }
 
+/// The event that was expected has come.
+void Uart::listen_again(Time now) {
+  state_.start_edge = kNever;
+  state_.listen_from = now;
+  await_start_edge();
+}
+
 void Uart::await_start_edge() {
-  const bool was_certain = std::exchange(state_.certain, false);
-  state_.receiving = false;
+  expect_nothing();
   state_.clock_error = clock_error();
   state_.start_edge = line_.falling_edge(state_.listen_from, driver_);
+  if (state_.start_edge == kNever) return abandon_character();
   state_.certain = line_.has_start_bit_alone(state_.start_edge, start_check());
-  if (was_certain != state_.certain) queue_.cancel(owner_, was_certain ? kStopSample : kStartCheck);
   if (state_.certain) return expect_stop_bit();
   expect(kStartCheck, start_check());
 }
@@ -196,11 +202,7 @@ void Uart::expect_stop_bit() {
 }
 
 void Uart::check_start_bit(Time now) {
-  if (line_.level(now, driver_)) {
-    state_.listen_from = now;
-    await_start_edge();
-    return;
-  }
+  if (line_.level(now, driver_)) return listen_again(now);
   state_.receiving = true;
   expect_stop_bit();
 }
@@ -209,8 +211,7 @@ ReceivedCharacter Uart::take_character(Time now) {
   const BitTimes& times = times_of(state_.receiving_as, receiving_times_);
   const unsigned levels = line_.levels(state_.start_edge, times, driver_);
   const ReceivedCharacter character = character_of(levels, state_.receiving_as.format, state_.start_edge, now);
-  state_.listen_from = now;
-  await_start_edge();
+  listen_again(now);
   return character;
 }
 
@@ -227,9 +228,9 @@ ReceivedCharacter Uart::character_of_others(Time start, const BitClock& clock) c
 void Uart::power_off(Time at) {
   line_.release(driver_, at);
   queue_.cancel(owner_, kSent);
+  expect_nothing();
   state_ = {};
-  state_.send_end = state_.off_from = at;
-  abandon_character();
+  state_.send_end = state_.off_from = state_.listen_from = at;
 }
 
 /// When the start bit awaited is, or was, to be verified.
@@ -261,11 +262,15 @@ void Uart::expect(What what, Time at) {
   }
 }
 
-void Uart::abandon_character() {
-  queue_.cancel(owner_, kStartCheck);
-  queue_.cancel(owner_, kStopSample);
+/// An event is pending as long as there is a start edge.
+void Uart::expect_nothing() {
+  if (state_.start_edge != kNever) queue_.cancel(owner_, state_.receiving || state_.certain ? kStopSample : kStartCheck);
   state_.receiving = state_.certain = false;
   state_.start_edge = kNever;
+}
+
+void Uart::abandon_character() {
+  expect_nothing();
   if (!state_.receiver_enabled()) state_.listen_from = state_.off_from;
 }
 

@@ -122,6 +122,7 @@ class Uart final : public SerialPort, private LineListener {
   void line_changed(Time at) override;
   Time needs_from() const override { return state_.start_edge; }
 
+  void listen_again(Time now);
   void await_start_edge();
   void check_start_bit(Time now);
   void expect_stop_bit();
@@ -133,6 +134,7 @@ class Uart final : public SerialPort, private LineListener {
   Time start_check() const;
   Time last_sample() const;
   BitClock clock_of_character() const;
+  void expect_nothing();
   void abandon_character();
 
   void put_character(unsigned levels, Time at);
