@@ -18,6 +18,13 @@ bool Exchange::framing_error() const {
   return std::any_of(response.begin(), response.end(), [](const ReceivedCharacter& c) { return c.framing_error; });
 }
 
+std::string_view Exchange::damage() const {
+  if (too_long) return "an answer without end, cut off";
+  if (parity_error()) return "characters with wrong parity";
+  if (framing_error()) return "characters with framing errors";
+  return {};
+}
+
 Bytes bytes_of(const std::vector<ReceivedCharacter>& characters) {
   Bytes bytes;
   bytes.reserve(characters.size());

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -60,6 +61,9 @@ struct Exchange {
   std::optional<Time> latency() const;
   bool parity_error() const;
   bool framing_error() const;
+  /// What is wrong with the characters of the answer, whatever they say: `characters with wrong parity`. Empty if it is
+  /// intact.
+  std::string_view damage() const;
   Bytes response_bytes() const { return bytes_of(response); }
 };
 

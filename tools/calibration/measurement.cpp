@@ -34,8 +34,7 @@ Measured ask(Slave& slave, const Command& command) {
     const serial::Exchange exchange = slave.exchange({.frame = serial::to_frame(request), .timeout = kTimeout});
     slave.wait(slave.pause());
     const Bytes answer = exchange.response_bytes();
-    const bool damaged = exchange.parity_error() || exchange.framing_error();
-    if (answer.size() != kAnswer || damaged || answer[0] != 0x4D ||
+    if (answer.size() != kAnswer || !exchange.damage().empty() || answer[0] != 0x4D ||
         !std::equal(request.begin() + 1, request.end(), answer.begin() + 1))
       continue;
     if (answer[9] != kVersion)

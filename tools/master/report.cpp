@@ -35,20 +35,18 @@ bool has_right_answer(const MasterResult& result) {
 serial::Answer assess(const MasterAction& action, const serial::Exchange& exchange, bool broadcasts_are_silent) {
   const bool expected = !action.request->turnaround();
   serial::Answer answer = action.request->judge(serial::bytes_of(exchange.request), exchange.response_bytes());
-  const auto wrong = [&](const char* fault) {
-    answer = {};
-    answer.verdict = Verdict::Wrong;
-    answer.fault = fault;
-    return answer;
+  const auto wrong = [](std::string_view fault) {
+    serial::Answer judged;
+    judged.verdict = Verdict::Wrong;
+    judged.fault = fault;
+    return judged;
   };
   if (!expected && exchange.response.empty()) {
     answer.verdict = Verdict::Right;
     return answer;
   }
   if (exchange.response.empty()) return answer;
-  if (exchange.too_long) return wrong("an answer without end, cut off");
-  if (exchange.parity_error()) return wrong("characters with wrong parity");
-  if (exchange.framing_error()) return wrong("characters with framing errors");
+  if (const std::string_view damage = exchange.damage(); !damage.empty()) return wrong(damage);
   if (!expected && broadcasts_are_silent) return wrong("an answer to what is never answered");
   return answer;
 }

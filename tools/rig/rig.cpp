@@ -18,7 +18,8 @@ constexpr Time kFirstPoll = kSecond;
 
 bool is_right(const serial::Exchange& exchange) {
   const Bytes request = serial::bytes_of(exchange.request);
-  return modbus::check_answer(request, exchange.response_bytes()).verdict == serial::Verdict::Right;
+  return exchange.damage().empty() &&
+         modbus::check_answer(request, exchange.response_bytes()).verdict == serial::Verdict::Right;
 }
 
 }  // namespace
@@ -228,8 +229,9 @@ std::uint32_t Rig::beyond(const EventPlan& cut) const {
     const StationPlan& station = stations[i];
     far |= bit(driver_of(station));
     const auto& [requester, host, spot] = askers_[cut.line];
-    if (requester && station.kind == StationPlan::Kind::Plc && spot.plc == station.number && spot.port == station.port)
-      far |= bit(requester->uart().driver());
+    if (station.kind != StationPlan::Kind::Plc || spot.plc != station.number || spot.port != station.port) continue;
+    if (requester) far |= bit(requester->uart().driver());
+    if (host) far |= bit(host->driver());
   }
   return far;
 }

@@ -104,7 +104,7 @@ std::string exchange_text(const serial::Exchange& exchange, Time timeout) {
 
 bool is_damaged(const serial::Exchange& exchange) {
   if (exchange.timed_out) return false;
-  return exchange.early || exchange.parity_error() || exchange.framing_error() ||
+  return exchange.early || !exchange.damage().empty() ||
          (modbus::crc_ok(serial::bytes_of(exchange.request)) && !modbus::crc_ok(exchange.response_bytes()));
 }
 

@@ -144,6 +144,17 @@ TEST(SystemRig, AFaultFromAnInstantOnIsThereUntilItIsCleared) {
   EXPECT_EQ(quiet.answered - quiet.wrong, 12U);
 }
 
+TEST(SystemRig, AnAnswerOfRightBytesWithWrongParityIsCountedAsWrong) {
+  const auto rig = rig_of(
+      "plcs: {slave: {program: ../modbus_slave.stl, station: 1}}\n"
+      "peers: {master: {polls: [{station: 1, read: 40001}]}}\n"
+      "lines: {bus: {stations: [master, slave], faults: [\"parity:character=each,of=answer\"]}}\n");
+  ASSERT_TRUE(rig);
+  const auto polls = polls_until(*rig, 2 * kSecond);
+  EXPECT_GT(polls.answered, 10U);
+  EXPECT_EQ(polls.wrong, polls.answered);
+}
+
 TEST(SystemRig, ASimulatedPlcOfAnotherMakeAnswersOnTheLine) {
   const auto rig = rig_of(
       "plcs: {slave: {program: ../modbus_slave.stl, station: 2}}\n"
@@ -212,17 +223,42 @@ TEST(SystemRig, ASpotIsALineOrAPlcOrOneOfItsPorts) {
     EXPECT_FALSE(find_spot(rig->plan(), wrong, why)) << wrong;
 }
 
+/// The three slaves and who joins beside one of them, 100 ms after the cable was cut after slave1.
+std::unique_ptr<Rig> cut_after_slave1(std::size_t beside) {
+  SystemFile file = read_system(kThreeSlaves, example("test.yaml"));
+  file.plan.events.push_back({.what = EventPlan::What::Cut, .at = 100 * kMillisecond, .line = 0, .near = 2});
+  std::vector<std::string> problems;
+  auto rig = Rig::assemble(std::move(file.plan), {.spots = {Spot{0, beside, 0}}}, problems);
+  if (!rig) return rig;
+  rig->power_up();
+  rig->system().run_until(200 * kMillisecond);
+  return rig;
+}
+
+TEST(SystemRig, ABridgeAtAPlcIsOnItsPartOfACutLine) {
+  for (std::size_t beside = 0; beside < 3; ++beside) {
+    const auto rig = cut_after_slave1(beside);
+    ASSERT_TRUE(rig);
+    serial::HostPort& port = rig->simulation().host_port();
+    const SerialFormat format = rig->simulation().port_format();
+    port.attach(format, rig->system().time());
+    for (int station = 1; station <= 3; ++station) {
+      std::vector<serial::HostCharacter> request;
+      for (const std::uint8_t byte :
+           modbus::rtu_frame(static_cast<std::uint8_t>(station), modbus::read_holding_registers(0, 1)))
+        request.push_back({.byte = byte, .format = format});
+      port.send(request, rig->system().time());
+      rig->system().run_until(rig->system().time() + 60 * kMillisecond);
+      const bool answered = !port.take_received().empty();
+      EXPECT_EQ(answered, (station == 1) == (beside == 0)) << "beside slave" << beside + 1 << ", station " << station;
+    }
+  }
+}
+
 TEST(SystemRig, WhoJoinsAtAPlcIsOnItsPartOfACutLine) {
   for (const auto& [beside, reached] : {std::pair<std::size_t, int>{0, 1}, {1, 2}, {2, 3}}) {
-    SystemFile file = read_system(kThreeSlaves, example("test.yaml"));
-    ASSERT_TRUE(file.ok());
-    file.plan.events.push_back(
-        {.what = EventPlan::What::Cut, .at = 100 * kMillisecond, .line = 0, .near = 2});  // after slave1
-    std::vector<std::string> problems;
-    const auto rig = Rig::assemble(file.plan, {.spots = {Spot{0, beside, 0}}}, problems);
+    const auto rig = cut_after_slave1(beside);
     ASSERT_TRUE(rig);
-    rig->power_up();
-    rig->system().run_until(200 * kMillisecond);
     serial::Simulation& simulation = rig->simulation();
     for (int station = 1; station <= 3; ++station) {
       const Bytes frame = modbus::rtu_frame(static_cast<std::uint8_t>(station), modbus::read_holding_registers(0, 1));

@@ -226,6 +226,16 @@ TEST(Requester, AnswerOf1024CharactersIsHeardInFull) {
   EXPECT_FALSE(exchange.too_long);
 }
 
+TEST(Requester, AnAnswerIsIntactUnlessItIsCutOffOrACharacterIsDamaged) {
+  Conversation talk;
+  talk.answer = to_frame(kAnswer);
+  EXPECT_EQ(talk.exchange(request_of(kRequest)).damage(), "");
+  talk.answer[3].wrong_parity = true;
+  EXPECT_EQ(talk.exchange(request_of(kRequest)).damage(), "characters with wrong parity");
+  talk.answer = to_frame(Bytes(1025, 0x5A));
+  EXPECT_EQ(talk.exchange(request_of(kRequest)).damage(), "an answer without end, cut off");
+}
+
 TEST(Requester, AnswerThatDoesNotEndIsCutOff) {
   Conversation talk;
   talk.answer = to_frame(Bytes(1025, 0x5A));
