@@ -33,13 +33,13 @@ class EventHandler {
 /// stations there are, nor are there many of them where there is one PLC.
 class Dispatcher {
  public:
-  static constexpr std::size_t kMostOfARank = 256;
+  static constexpr std::size_t kMostOfARank = 4096;
 
   /// Of a CPU, and of anything else. They live as long as the dispatcher.
   EventQueue& add_queue() { return *queues_.emplace_back(std::make_unique<EventQueue>()); }
   EventQueue& shared_queue();
 
-  /// A number of its own for `handler`, which is not owned.
+  /// A number of its own for `handler`, which is not owned. There are kMostOfARank for a rank.
   EventOwner add(Rank rank, EventHandler& handler);
 
   static Rank rank_of(EventOwner owner) { return static_cast<Rank>(static_cast<std::size_t>(owner) / kMostOfARank); }

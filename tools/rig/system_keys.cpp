@@ -12,7 +12,7 @@ using Where = SystemKey::Where;
 
 // clang-format off
 constexpr std::array kKeys{
-    SystemKey{Where::File, "plcs", "MAP", "names of PLCs, and what each is"},
+    SystemKey{Where::File, "plcs", "MAP", "names of PLCs, and what each is; PLCs, peers and bridges are 1000 at most"},
     SystemKey{Where::File, "peers", "MAP", "names of the other stations, and what each is: a master that polls, or a PLC of another make"},
     SystemKey{Where::File, "bridges", "MAP", "names of bridges to this computer, and what each is; with one the system runs as fast as the clock"},
     SystemKey{Where::File, "lines", "MAP", "names of lines, and who is on each"},

@@ -16,6 +16,7 @@
 #include "serial_sim/line/line.hpp"
 #include "serial_sim/modbus/address.hpp"
 #include "serial_sim/modbus/request.hpp"
+#include "serial_sim/system/dispatcher.hpp"
 #include "serial_sim/westinghouse/plcs.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/rig/system_keys.hpp"
@@ -27,6 +28,11 @@ namespace {
 using Where = SystemKey::Where;
 
 constexpr std::int64_t kMostCopies = serial::Line::kDrivers, kMostStation = 247;
+
+/// Of a whole system. A master takes two numbers of a rank, as a PLC with two ports does; whoever joins a line takes two
+/// more.
+constexpr std::size_t kMostStations = 1000;
+static_assert(2 * kMostStations + 2 * kMostYamlKeys <= serial::Dispatcher::kMostOfARank);
 
 /// Where our Modbus slaves and Application Tip 41 keep their station address.
 constexpr std::string_view kStationByte = "VB4095";
@@ -136,6 +142,14 @@ class Reader {
     return is_new;
   }
 
+  /// One station more, with a name of its own. False after a complaint.
+  bool take_station(const YamlNode& key, const std::string& name) {
+    if (++stations_ == kMostStations + 1)
+      values_.wrong(key, fmt::format("more than {} stations: a system takes no more PLCs, peers and bridges", kMostStations),
+                    "lines that have no station in common may be systems of their own");
+    return stations_ <= kMostStations && take_name(key, name);
+  }
+
   std::vector<const YamlNode*> list(const YamlNode& map, std::string_view key, std::string_view example) {
     const YamlNode* const node = map.find(key);
     if (!node) return {};
@@ -174,7 +188,7 @@ class Reader {
     if (numbered) take_name(plc.key, plc.key.text);
     for (std::int64_t copy = 0; copy < copies; ++copy) {
       const std::string name = numbered ? fmt::format("{}{}", plc.key.text, copy + 1) : plc.key.text;
-      if (!take_name(plc.key, name)) return;
+      if (!take_station(plc.key, name)) return;
       those.push_back(plan().plcs.size());
       PlcPlan& each = plan().plcs.emplace_back();
       each.name = name;
@@ -384,7 +398,7 @@ class Reader {
     if (master == other)
       values_.wrong(peer.key, fmt::format("'{}' is neither a master nor another PLC", stl::shortened(peer.key.text)),
                     "a master has 'polls', a PLC of another make 'westinghouse'");
-    if (!take_name(peer.key, peer.key.text)) return;
+    if (!take_station(peer.key, peer.key.text)) return;
     others_[peer.key.text] = {&peer.key, {StationPlan::Kind::Peer, plan().peers.size(), 0}};
     PeerPlan& plan = this->plan().peers.emplace_back();
     plan.name = peer.key.text;
@@ -504,7 +518,7 @@ class Reader {
   void read_bridge(const Named& bridge) {
     const YamlNode& map = bridge.item;
     check_keys(map, {Where::Bridge});
-    if (!take_name(bridge.key, bridge.key.text)) return;
+    if (!take_station(bridge.key, bridge.key.text)) return;
     if (map.keys.size() != 1)
       return values_.wrong(bridge.key, fmt::format("'{}' is not one kind of bridge", bridge.key.text),
                            "write for example {tcp: 5020}");
@@ -715,6 +729,7 @@ class Reader {
   YamlValues& values_;
   std::map<std::string, SourceText> texts_{};                 // by path
   std::map<std::string, std::uint32_t> names_{}, written_{};  // and the line where they stand
+  std::size_t stations_ = 0;
   std::map<std::string, std::vector<std::size_t>> groups_{};  // PLCs by the name in the file
   struct Other {
     const YamlNode* key;

@@ -1,6 +1,7 @@
 // System files: what is read, and what is complained about, at which place.
 #include "tools/rig/system_reader.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -112,6 +113,20 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
     EXPECT_EQ(first.position.line, each.line) << each.text << first.message;
     EXPECT_EQ(first.position.column, each.column) << each.text << first.message;
   }
+}
+
+TEST(SystemFile, ASystemTakesAThousandStations) {
+  std::string text = "plcs: {a: {program: ../modbus_slave.stl}}\npeers:\n";
+  for (int i = 0; i < 500; ++i) text += fmt::format("  m{}: {{polls: [{{read: 40001}}]}}\n", i);
+  text += "bridges:\n";
+  for (int i = 0; i < 500; ++i) text += fmt::format("  b{}: {{tcp: 0}}\n", i);
+  const SystemFile file = read(text);
+  ASSERT_FALSE(file.ok());
+  const auto& diagnostics = file.file.diagnostics;
+  const auto too_many = std::ranges::find_if(
+      diagnostics, [](const stl::Diagnostic& d) { return d.message.starts_with("more than 1000 stations"); });
+  ASSERT_NE(too_many, diagnostics.end());
+  EXPECT_EQ(too_many->position.line, 1003U) << "b499, the thousand and first";
 }
 
 TEST(SystemFile, AProgramWithErrorsIsShownWithItsOwnLines) {

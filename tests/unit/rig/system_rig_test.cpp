@@ -1,4 +1,5 @@
 // Systems as their files describe them: PLC against PLC, peers, gateways, and what befalls them in the field.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "interpreter/program/load.hpp"
@@ -165,6 +166,25 @@ TEST(SystemRig, ASimulatedPlcOfAnotherMakeAnswersOnTheLine) {
   ASSERT_TRUE(rig);
   rig->system().run_until(2 * kSecond);
   EXPECT_GT(rig->poller(1)->state().answered, 5U);
+}
+
+TEST(SystemRig, AHundredAndFiftyMastersOnSixLinesAllAsk) {
+  constexpr std::size_t kLines = 6, kMastersOnALine = 25;
+  std::string masters = "peers:\n", lines = "lines:\n";
+  for (std::size_t line = 0; line < kLines; ++line) {
+    lines += fmt::format("  l{}: {{stations: [", line);
+    for (std::size_t i = 0; i < kMastersOnALine; ++i) {
+      const std::string name = fmt::format("m{}_{}", line, i);
+      masters += fmt::format("  {}: {{polls: [{{read: 40001}}], timeout: 20ms}}\n", name);
+      lines += fmt::format("{}{}", i == 0 ? "" : ", ", name);
+    }
+    lines += "]}\n";
+  }
+  const auto rig = rig_of(masters + lines);
+  ASSERT_TRUE(rig);
+  rig->system().run_until(1200 * kMillisecond);
+  for (std::size_t peer = 0; peer < kLines * kMastersOnALine; ++peer)
+    EXPECT_GE(rig->poller(peer)->state().asked, 2U) << rig->plan().peers[peer].name;
 }
 
 // --- one time ---
