@@ -267,9 +267,11 @@ FaultKindInfo kind_info(FaultKind kind, std::string_view name, std::string_view 
   return {kind, name, meaning, example, std::move(parameters)};
 }
 
-/// With `from` a fault has its instant; what says in which exchange and where would contradict it.
+/// With `from` a fault has its instant, and so has a cut that is made at once; what says in which exchange and where would
+/// contradict it.
 bool excluded_by_instant(const Fault& fault, std::string_view parameter) {
-  if (fault.kind == FaultKind::Noise) return false;
+  const bool at_once = fault.kind == FaultKind::Cut && !fault.character;
+  if (fault.kind == FaultKind::Noise || (!fault.from && !at_once)) return false;
   return parameter == "character" || parameter == "at" || parameter == "of" || parameter == "exchange" ||
          parameter == "every" || parameter == "probability";
 }
@@ -347,13 +349,18 @@ class Reader {
                                kind_->example));
         return;
       }
-    if (!result_.fault.from) return;
     for (const std::string_view given : given_)
       if (excluded_by_instant(result_.fault, given)) {
-        fail(given, fmt::format("{} says where in an exchange, from={} at which instant; give one of the two", given,
-                                duration_text(*result_.fault.from)));
+        fail(given, contradiction(given));
         return;
       }
+  }
+
+  std::string contradiction(std::string_view given) const {
+    if (!result_.fault.from)
+      return fmt::format("{} says where in an exchange, but at no character of it: write character=N too", given);
+    return fmt::format("{} says where in an exchange, from={} at which instant; give one of the two", given,
+                       duration_text(*result_.fault.from));
   }
 
   std::string_view text_;
@@ -394,7 +401,7 @@ std::string to_text(const Fault& fault) {
   std::string text(kind.name);
   char separator = ':';
   for (const ParameterOfKind& p : kind.parameters) {
-    if (fault.from && excluded_by_instant(fault, p.name)) continue;
+    if (excluded_by_instant(fault, p.name)) continue;
     const std::string value = parameter_named(p.name).write(fault);
     if (value == p.standard || value == kLeftOut) continue;
     text += fmt::format("{}{}={}", separator, p.name, value);

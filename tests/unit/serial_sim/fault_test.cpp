@@ -120,6 +120,8 @@ TEST(Fault, WrongTextIsRefusedWithItsPlace) {
            {"baud:error=0%", 12, 2, "is not a deviation"},
            {"baud:error=nan%", 12, 4, "is not a deviation"},
            {"baud:error=-3%,station=me", 24, 2, "is none of master, plc"},
+           {"cut:exchange=3,for=200ms", 5, 8, "exchange says where in an exchange, but at no character of it"},
+           {"cut:of=answer", 5, 2, "of says where in an exchange, but at no character of it: write character=N too"},
            {"cut:for=soon", 9, 4, "is not a duration"},
            {"echo:of=request", 6, 2, "there is no parameter of echo 'of'; there are exchange"},
        }) {
