@@ -103,7 +103,7 @@ SerialFormat format_without_s7200(const SystemPlan& plan, const LinePlan& line);
 /// empty one is the only line. Returns nothing and sets `why` if there is none.
 std::optional<Spot> find_spot(const SystemPlan& plan, std::string_view name, std::string& why);
 
-/// Where each PLC is first on a line, by number.
+/// Where each PLC is first on a line, by number. Each is on one.
 std::vector<Spot> spots_of_plcs(const SystemPlan& plan);
 
 /// Why no master can join there: the line has as many stations as it takes. Empty if one can.

@@ -61,10 +61,7 @@ class Reader {
     if (values_.complaints.count() == 0)
       for (const YamlNode* event : list(root, "events", "{at: 1s, power_off: slave}")) read_event(*event);
     std::ranges::stable_sort(plan().events, {}, &EventPlan::at);
-    const bool whole = values_.complaints.count() == 0;
-    for (const auto& [name, station] : others_)
-      if (whole && !on_a_line(station.plan))
-        values_.wrong(*station.key, fmt::format("'{}' is on no line", name), "name it in the 'stations' of one");
+    if (values_.complaints.count() == 0) check_all_are_on_lines();
   }
 
   /// What is done in an event; nothing after a complaint.
@@ -190,6 +187,7 @@ class Reader {
       const std::string name = numbered ? fmt::format("{}{}", plc.key.text, copy + 1) : plc.key.text;
       if (!take_station(plc.key, name)) return;
       those.push_back(plan().plcs.size());
+      plc_keys_.push_back(&plc.key);
       PlcPlan& each = plan().plcs.emplace_back();
       each.name = name;
       if (!model) continue;
@@ -665,6 +663,17 @@ class Reader {
     values_.wrong(node, fmt::format("there is no {} '{}'", what, stl::shortened(*name)), "known: " + known);
     return {};
   }
+  /// Of a PLC one port is enough.
+  void check_all_are_on_lines() {
+    const auto check = [&](const YamlNode& key, const std::string& name, bool on_a_line) {
+      if (!on_a_line) values_.wrong(key, fmt::format("'{}' is on no line", name), "name it in the 'stations' of one");
+    };
+    for (std::size_t plc = 0; plc < plan().plcs.size(); ++plc)
+      check(*plc_keys_[plc], plan().plcs[plc].name,
+            on_a_line({StationPlan::Kind::Plc, plc, 0}) || on_a_line({StationPlan::Kind::Plc, plc, 1}));
+    for (const auto& [name, station] : others_) check(*station.key, name, on_a_line(station.plan));
+  }
+
   std::optional<std::size_t> plc_named(const YamlNode& node) { return named(node, plan().plcs, "PLC"); }
   std::optional<std::size_t> line_named(const YamlNode& node) { return named(node, plan().lines, "line"); }
 
@@ -731,6 +740,7 @@ class Reader {
   std::map<std::string, std::uint32_t> names_{}, written_{};  // and the line where they stand
   std::size_t stations_ = 0;
   std::map<std::string, std::vector<std::size_t>> groups_{};  // PLCs by the name in the file
+  std::vector<const YamlNode*> plc_keys_{};                   // by number
   struct Other {
     const YamlNode* key;
     StationPlan plan;
