@@ -196,6 +196,7 @@ void Rig::carry_out(const EventPlan& event) {
       lines_[event.line]->line().separate(now, 0);
       break;
     case What::Set:
+      if (!plcs_[event.plc]->powered()) break;
       for (const Assignment& assignment : event.set) assign(plcs_[event.plc]->cpu(), assignment);
       break;
     case What::Fault:

@@ -37,7 +37,7 @@ constexpr std::array kKeys{
     SystemKey{Where::Plc, "dump", "LIST", "memory to show at the end: `[VB0:16, VW100]`"},
 
     SystemKey{Where::Line, "stations", "LIST", "who is on it, in their order along the cable: names of PLCs (`gateway.1` is port 1; the name of several copies is all of them), of peers and of bridges; 32 at most"},
-    SystemKey{Where::Line, "baud", "NUMBER", "of the masters on it, 50 to 1000000; as its first PLC sets its port if left out (an S7-200, if there is one), like the next three"},
+    SystemKey{Where::Line, "baud", "NUMBER", "of the masters and bridges on it and of who joins it, 50 to 1000000; as its first PLC sets its port if left out (an S7-200, if there is one), like the next three"},
     SystemKey{Where::Line, "parity", "none, even, odd", ""},
     SystemKey{Where::Line, "data_bits", "7, 8", ""},
     SystemKey{Where::Line, "stop_bits", "1, 2", ""},
@@ -50,10 +50,10 @@ constexpr std::array kKeys{
     SystemKey{Where::Master, "every", "TIME", "a round begins no sooner than so long after the one before; at once if left out"},
     SystemKey{Where::Master, "timeout", "TIME", "how long to wait for an answer to start; `1s` if left out"},
 
-    SystemKey{Where::Poll, "station", "NUMBER, FIRST..LAST", "who is asked, 1 to 247; several are asked one after the other"},
+    SystemKey{Where::Poll, "station", "NUMBER, FIRST..LAST", "who is asked, 1 to 247; several are asked one after the other; 1 if left out"},
     SystemKey{Where::Poll, "read", "ADDRESS", "as manuals write it: 1 or 00001 (coil), 10001 (input), 30001 (input register), 40001 (holding register)"},
     SystemKey{Where::Poll, "write", "ADDRESS", "instead of `read`: a coil or a holding register"},
-    SystemKey{Where::Poll, "count", "NUMBER", "how many to read, 1 to 2000; 1 if left out"},
+    SystemKey{Where::Poll, "count", "NUMBER", "how many to read, up to 2000 coils or inputs or 125 registers; 1 if left out"},
     SystemKey{Where::Poll, "value", "NUMBER", "the one to write"},
 
     SystemKey{Where::OtherPlc, "westinghouse", "PROTOCOL", "modbus, lan, hppc, loader or westnet"},
@@ -72,7 +72,7 @@ constexpr std::array kKeys{
     SystemKey{Where::Event, "cut", "LINE", "the cable is cut: both parts go on without each other"},
     SystemKey{Where::Event, "after", "NAME", "beside `cut`: the last station on the first part, in the order of `stations`"},
     SystemKey{Where::Event, "mend", "LINE", "the cable is whole again"},
-    SystemKey{Where::Event, "set", "MAP", "memory and inputs of `plc`, as a programming device sets them; SMB30 and SMB130 set a port to another rate"},
+    SystemKey{Where::Event, "set", "MAP", "memory and inputs of `plc`, as a programming device sets them: nothing while it has no power; SMB30 and SMB130 set a port to another rate"},
     SystemKey{Where::Event, "plc", "NAME", "beside `set`"},
     SystemKey{Where::Event, "fault", "TEXT", "a fault of `line` from then on, in the form of `s7200 run --fault`"},
     SystemKey{Where::Event, "line", "LINE", "beside `fault`"},

@@ -18,6 +18,7 @@
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/system/dispatcher.hpp"
 #include "serial_sim/westinghouse/plcs.hpp"
+#include "tools/host/listen_address.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/rig/system_keys.hpp"
 #include "tools/yaml/values.hpp"
@@ -27,7 +28,7 @@ namespace {
 
 using Where = SystemKey::Where;
 
-constexpr std::int64_t kMostCopies = serial::Line::kDrivers, kMostStation = 247;
+constexpr std::int64_t kMostCopies = serial::Line::kDrivers;
 
 /// Of a whole system. A master takes two numbers of a rank, as a PLC with two ports does; whoever joins a line takes two
 /// more.
@@ -66,30 +67,22 @@ class Reader {
 
   /// What is done in an event; nothing after a complaint.
   std::optional<EventPlan> read_what(const YamlNode& node) {
-    using What = EventPlan::What;
-    static constexpr std::pair<std::string_view, What> kWhats[] = {{"power_off", What::PowerOff},
-                                                                   {"power_on", What::PowerOn},
-                                                                   {"cut", What::Cut},
-                                                                   {"mend", What::Mend},
-                                                                   {"set", What::Set},
-                                                                   {"fault", What::Fault},
-                                                                   {"clear_faults", What::ClearFaults}};
-    EventPlan event;
-    std::string_view key;
-    for (const auto& [word, what] : kWhats) {
-      if (!node.find(word)) continue;
-      if (!key.empty()) {
-        values_.wrong(node, fmt::format("both '{}' and '{}'", key, word), "one is done at a time");
+    const EventWord* done = nullptr;
+    for (const EventWord& each : event_words()) {
+      if (!node.find(each.word)) continue;
+      if (done) {
+        values_.wrong(node, fmt::format("both '{}' and '{}'", done->word, each.word), "one is done at a time");
         return {};
       }
-      key = word;
-      event.what = what;
+      done = &each;
     }
-    if (key.empty()) {
+    if (!done) {
       values_.wrong(node, "nothing is done in this event", std::string(kEventExample));
       return {};
     }
-    return read_object(node, *node.find(key), event) ? std::optional(event) : std::nullopt;
+    EventPlan event{.what = done->what};
+    const bool good = only_its_own_beside(node, *done) && read_object(node, *node.find(done->word), event);
+    return good ? std::optional(event) : std::nullopt;
   }
 
  private:
@@ -179,7 +172,7 @@ class Reader {
     const CpuModel* const model = read_cpu(map);
     const std::int64_t copies = values_.number(map.find("copies"), 1, kMostCopies).value_or(1);
     const bool numbered = map.find("copies") != nullptr;
-    const auto station = values_.number(map.find("station"), 1, kMostStation - (copies - 1));
+    const auto station = values_.number(map.find("station"), 1, modbus::kLastStation - (copies - 1));
     const std::size_t before = values_.complaints.count();
     std::vector<std::size_t>& those = groups_[plc.key.text];
     if (numbered) take_name(plc.key, plc.key.text);
@@ -392,9 +385,14 @@ class Reader {
   void read_peer(const Named& peer) {
     const YamlNode& map = peer.item;
     const bool master = map.find("polls") != nullptr, other = map.find("westinghouse") != nullptr;
-    check_keys(map, {other && !master ? Where::OtherPlc : Where::Master});
+    if (master && other)
+      check_keys(map, {Where::OtherPlc, Where::Master});
+    else
+      check_keys(map, {other ? Where::OtherPlc : Where::Master});
     if (master == other)
-      values_.wrong(peer.key, fmt::format("'{}' is neither a master nor another PLC", stl::shortened(peer.key.text)),
+      values_.wrong(peer.key,
+                    fmt::format("'{}' is {} a master {} another PLC", stl::shortened(peer.key.text),
+                                master ? "both" : "neither", master ? "and" : "nor"),
                     "a master has 'polls', a PLC of another make 'westinghouse'");
     if (!take_station(peer.key, peer.key.text)) return;
     others_[peer.key.text] = {&peer.key, {StationPlan::Kind::Peer, plan().peers.size(), 0}};
@@ -428,14 +426,14 @@ class Reader {
   std::optional<Between<std::int64_t>> read_stations(const YamlNode& poll) {
     const YamlNode* const node = poll.find("station");
     if (!node) return Between<std::int64_t>{1, 1};
-    return values_.value(node, fmt::format("a station from 1 to {}, or FIRST..LAST", kMostStation), "5, 1..31",
+    return values_.value(node, fmt::format("a station from 1 to {}, or FIRST..LAST", modbus::kLastStation), "5, 1..31",
                          [](const std::string& t) -> std::optional<Between<std::int64_t>> {
                            const std::size_t dots = t.find("..");
                            const auto first = parse_integer(stl::trim(std::string_view(t).substr(0, dots)));
                            const auto last = dots == std::string::npos
                                                  ? first
                                                  : parse_integer(stl::trim(std::string_view(t).substr(dots + 2)));
-                           if (!first || !last || *first < 1 || *last < *first || *last > kMostStation) return {};
+                           if (!first || !last || *first < 1 || *last < *first || *last > modbus::kLastStation) return {};
                            return Between<std::int64_t>{*first, *last};
                          });
   }
@@ -455,18 +453,38 @@ class Reader {
       return {};
     }
     const auto address = read_data_address(reads ? *reads : *writes);
-    const auto count = values_.number(poll.find("count"), 1, 2000).value_or(1);
-    const auto value = values_.number(poll.find("value"), 0, 0xFFFF);
     if (!address) return {};
-    if (reads) return read_of(*address, static_cast<std::uint16_t>(count));
-    if (!value) {
+    return reads ? read_read(poll, *address) : read_write(poll, *address);
+  }
+
+  std::optional<Bytes> read_read(const YamlNode& poll, const modbus::DataAddress& address) {
+    const YamlNode *const count = poll.find("count"), *const value = poll.find("value");
+    if (value) values_.wrong(*value, "'value' has no place beside 'read'", "it is what is written with 'write'");
+    const auto number = count ? values_.number(count, 1, UINT16_MAX) : 1;
+    if (value || !number) return {};
+    Bytes pdu = read_of(address, static_cast<std::uint16_t>(*number));
+    const std::string why = modbus::beyond_limits(pdu);
+    if (why.empty()) return pdu;
+    values_.wrong(count ? *count : *poll.find("read"), why);
+    return {};
+  }
+
+  std::optional<Bytes> read_write(const YamlNode& poll, const modbus::DataAddress& address) {
+    if (const YamlNode* const count = poll.find("count")) {
+      values_.wrong(*count, "'count' has no place beside 'write'",
+                    "one coil or register is written; several are several polls");
+      return {};
+    }
+    if (!poll.find("value")) {
       values_.wrong(poll, "'write' without the 'value' to write");
       return {};
     }
-    if (address->area == modbus::Area::Coils) return modbus::write_coil(address->address, *value != 0);
-    if (address->area == modbus::Area::HoldingRegisters)
-      return modbus::write_register(address->address, static_cast<std::uint16_t>(*value));
-    values_.wrong(*writes, "inputs cannot be written", "write a coil (00001) or a holding register (40001)");
+    const auto value = values_.number(poll.find("value"), 0, 0xFFFF);
+    if (!value) return {};
+    if (address.area == modbus::Area::Coils) return modbus::write_coil(address.address, *value != 0);
+    if (address.area == modbus::Area::HoldingRegisters)
+      return modbus::write_register(address.address, static_cast<std::uint16_t>(*value));
+    values_.wrong(*poll.find("write"), "inputs cannot be written", "write a coil (00001) or a holding register (40001)");
     return {};
   }
 
@@ -522,11 +540,23 @@ class Reader {
                            "write for example {tcp: 5020}");
     BridgePlan plan{bridge.key.text, map.keys[0].text, values_.text(map.items[0]).value_or("")};
     if (plan.kind == "pty") plan.where = beside(path_, plan.where);
-    const auto [known, is_new] = served_.emplace(plan.where, bridge.key.position.line);
-    if (!is_new && plan.where != "0")
-      values_.wrong(map.items[0], fmt::format("two bridges at {}, the first in line {}", plan.where, known->second));
+    if (const std::string place = place_of(plan, map.items[0]); !place.empty()) {
+      const auto [known, is_new] = served_.emplace(place, bridge.key.position.line);
+      if (!is_new)
+        values_.wrong(map.items[0], fmt::format("two bridges at {}, the first in line {}", plan.where, known->second));
+    }
     others_[plan.name] = {&bridge.key, {StationPlan::Kind::Bridge, this->plan().bridges.size(), 0}};
     this->plan().bridges.push_back(std::move(plan));
+  }
+
+  /// What only one bridge can have: a link, a device, a port of an address. Empty for a port that is free then, and after a
+  /// complaint.
+  std::string place_of(const BridgePlan& bridge, const YamlNode& where) {
+    if (bridge.kind == "pty" || bridge.kind == "device") return bridge.where;
+    std::string why;
+    const auto address = parse_listen_address(bridge.where, why);
+    if (!address) values_.wrong(where, why, "write for example 5020 or 0.0.0.0:5020");
+    return address && address->port != 0 ? to_text(*address) : "";
   }
 
   // --- lines ---
@@ -536,6 +566,9 @@ class Reader {
     check_keys(map, {Where::Line});
     LinePlan& plan = this->plan().lines.emplace_back();
     plan.name = line.key.text;
+    if (std::ranges::find(this->plan().plcs, plan.name, &PlcPlan::name) != this->plan().plcs.end())
+      values_.wrong(line.key, fmt::format("a PLC is called '{}' too", stl::shortened(plan.name)),
+                    "give the line a name of its own: --at and 'on' take either");
     if (const auto baud = values_.number(map.find("baud"), 50, 1'000'000))
       plan.settings.baud = static_cast<std::uint32_t>(*baud);
     plan.settings.parity =
@@ -562,9 +595,22 @@ class Reader {
       values_.wrong(*map.find("stations"),
                     fmt::format("{} stations: a line takes {}", plan.stations.size(), serial::Line::kDrivers),
                     "more need a repeater; a second line and a gateway with two ports do it too");
-    if (const auto pause = values_.duration(map.find("turn_round")))
-      for (const StationPlan& station : plan.stations)
-        if (station.kind == StationPlan::Kind::Peer) this->plan().peers[station.number].polls.pause = *pause;
+    read_turn_round(map, plan);
+  }
+
+  void read_turn_round(const YamlNode& map, const LinePlan& line) {
+    const auto pause = values_.duration(map.find("turn_round"));
+    if (!pause) return;
+    bool any = false;
+    for (const StationPlan& station : line.stations) {
+      if (station.kind != StationPlan::Kind::Peer) continue;
+      serial::PollPlan& polls = plan().peers[station.number].polls;
+      polls.pause = *pause;
+      any = any || !polls.requests.empty();
+    }
+    if (!any && values_.complaints.count() == 0)
+      values_.wrong(*map.find("turn_round"),
+                    fmt::format("no peer on line '{}' is a master: none keeps this pause", line.name));
   }
 
   void read_faults(const YamlNode& map, LinePlan& line) {
@@ -589,6 +635,19 @@ class Reader {
     if (!node.find("at")) return values_.wrong(node, "an event without 'at'", std::string(kEventExample));
     event->at = values_.duration(node.find("at")).value_or(0);
     plan().events.push_back(std::move(*event));
+  }
+
+  /// What belongs beside another word has no place here. False after a complaint.
+  bool only_its_own_beside(const YamlNode& node, const EventWord& word) {
+    for (const YamlNode& key : node.keys) {
+      const auto belongs_to = [&](const EventWord& w) { return std::ranges::find(w.beside, key.text) != w.beside.end(); };
+      if (belongs_to(word) || std::ranges::none_of(event_words(), belongs_to)) continue;
+      const EventWord& other = *std::ranges::find_if(event_words(), belongs_to);
+      values_.wrong(key, fmt::format("'{}' has no place beside '{}'", key.text, word.word),
+                    fmt::format("it belongs beside '{}'", other.word));
+      return false;
+    }
+    return true;
   }
 
   static constexpr std::string_view kEventExample = "write for example {at: 1s, power_off: slave}";
@@ -750,6 +809,17 @@ class Reader {
 };
 
 }  // namespace
+
+std::span<const EventWord> event_words() {
+  using What = EventPlan::What;
+  static const std::vector<EventWord> kWords{{"power_off", What::PowerOff},      {"power_on", What::PowerOn},
+                                             {"cut", What::Cut, {"after"}},      {"mend", What::Mend},
+                                             {"set", What::Set, {"plc"}},        {"fault", What::Fault, {"line"}},
+                                             {"clear_faults", What::ClearFaults}};
+  return kWords;
+}
+
+const EventWord& word_of(EventPlan::What what) { return *std::ranges::find(event_words(), what, &EventWord::what); }
 
 bool is_system_file(std::string_view path) {
   const std::string extension = std::filesystem::path(path).extension().string();

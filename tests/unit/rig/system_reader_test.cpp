@@ -100,6 +100,22 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, cut: l, after: a}]\n", 3, 34, "or its last station"},
       {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, set: {VW0: 1}}]\n", 3, 10, "'set' without the 'plc'"},
       {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, mend: l, cut: l}]\n", 3, 10, "both 'cut' and 'mend'"},
+      {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, power_off: a, after: a}]\n", 3, 33,
+       "'after' has no place beside 'power_off'"},
+      {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, line: l, mend: l}]\n", 3, 19,
+       "'line' has no place beside 'mend'"},
+      {"peers: {m: {polls: [{read: 40001, value: 7}]}}\n", 1, 42, "'value' has no place beside 'read'"},
+      {"peers: {m: {polls: [{write: 40001, value: 7, count: 300}]}}\n", 1, 53, "'count' has no place beside 'write'"},
+      {"peers: {m: {polls: [{write: 40001}]}}\n", 1, 21, "'write' without the 'value' to write"},
+      {"peers: {m: {polls: [{read: 40001, count: 126}]}}\n", 1, 42, "126 registers in one request: function 3"},
+      {"peers: {m: {polls: [{read: 10001, count: 2001}]}}\n", 1, 42, "2001 inputs in one request: function 2"},
+      {"peers: {m: {polls: [{read: 465536, count: 2}]}}\n", 1, 43, "the last is 65535"},
+      {"peers: {m: {polls: [{read: 40001}], westinghouse: modbus}}\n", 1, 9, "'m' is both a master and another PLC"},
+      {slave + "lines: {l: {stations: [a], turn_round: 5ms}}\n", 2, 40, "no peer on line 'l' is a master"},
+      {slave + "lines: {a: {stations: [a]}}\n", 2, 9, "a PLC is called 'a' too"},
+      {"bridges: {b: {tcp: 15020}, c: {modbus-tcp: \"127.0.0.1:15020\"}}\n", 1, 44,
+       "two bridges at 127.0.0.1:15020, the first in line 1"},
+      {"bridges: {b: {tcp: here}}\n", 1, 20, "'here' is not a port from 0 to 65535"},
       {"bridges: {b: {}}\n", 1, 11, "'b' is not one kind of bridge"},
       {"bridges: {b: {smoke: x}}\n", 1, 15, "'smoke' has no place here"},
       {"bridges: {b: {tcp: 5020}, c: {tcp: 5020}}\n", 1, 36, "two bridges at 5020, the first in line 1"},
@@ -130,6 +146,26 @@ TEST(SystemFile, ASystemTakesAThousandStations) {
       diagnostics, [](const stl::Diagnostic& d) { return d.message.starts_with("more than 1000 stations"); });
   ASSERT_NE(too_many, diagnostics.end());
   EXPECT_EQ(too_many->position.line, 1003U) << "b499, the thousand and first";
+}
+
+TEST(SystemFile, EachBridgeAtPort0GetsAPortOfItsOwn) {
+  const SystemFile file = read(
+      "plcs: {a: {program: ../modbus_slave.stl}}\n"
+      "bridges: {x: {tcp: \"127.0.0.1:0\"}, y: {tcp: \"127.0.0.1:0\"}, z: {modbus-tcp: 0}}\n"
+      "lines: {l: {stations: [a, x, y, z]}}\n");
+  EXPECT_TRUE(file.ok()) << file.file.diagnostics.front().message;
+}
+
+TEST(SystemFile, EveryEventHasItsWordAndTheTableOfKeysHasAllOfThem) {
+  const auto is_key = [](std::string_view word) {
+    return std::ranges::any_of(system_keys(),
+                               [&](const SystemKey& k) { return k.where == SystemKey::Where::Event && k.key == word; });
+  };
+  for (const EventWord& each : event_words()) {
+    EXPECT_EQ(&word_of(each.what), &each) << each.word;
+    EXPECT_TRUE(is_key(each.word)) << each.word;
+    for (const std::string_view beside : each.beside) EXPECT_TRUE(is_key(beside)) << beside;
+  }
 }
 
 TEST(SystemFile, AProgramWithErrorsIsShownWithItsOwnLines) {

@@ -107,6 +107,18 @@ TEST(SystemRig, ASlaveThatIsSwitchedOffIsSilentAndAnswersWhenItIsOnAgain) {
   EXPECT_EQ(rig->plc(1).cpu().state().error_count, 0U);
 }
 
+TEST(SystemRig, NothingIsSetInAPlcWithoutPower) {
+  const auto rig = rig_of(std::string(kThreeSlaves) +
+                          "events:\n"
+                          "  - {at: 1s, plc: slave1, set: {VW100: 7}}\n"
+                          "  - {at: 2s, power_off: slave1}\n"
+                          "  - {at: 2500ms, plc: slave1, set: {VW100: 8}}\n"
+                          "  - {at: 3s, power_on: slave1}\n");
+  ASSERT_TRUE(rig);
+  rig->system().run_until(4 * kSecond);
+  EXPECT_EQ(word(*rig, 0, 100), 7U);
+}
+
 TEST(SystemRig, ACutCableDividesTheLineUntilItIsMended) {
   const auto rig =
       rig_of(std::string(kThreeSlaves) + "events: [{at: 2240ms, cut: bus, after: slave1}, {at: 3240ms, mend: bus}]\n");

@@ -1,4 +1,4 @@
-// power_off, power_on, cut, mend: what happens to a system in the field.
+// What happens to a system in the field, as under `events` of its file: power_off, cut …
 #include "tools/rig/system_reader.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/steps.hpp"
@@ -9,7 +9,8 @@ namespace {
 
 struct EventOfSystemStep final : Action {
   EventPlan event{};
-  std::string written{}, after{};  ///< `power_off: slave2`; the last station before a cut
+  std::string written{};              ///< `cut: bus`
+  std::vector<std::string> beside{};  ///< `after: slave1`
 
   Needs needs() const override { return Needs::ToChange; }
 
@@ -17,7 +18,7 @@ struct EventOfSystemStep final : Action {
 
   bool write(TranscriptWriter& writer) const override {
     writer.step(written);
-    if (!after.empty()) writer.beside("after: " + after);
+    for (const std::string& each : beside) writer.beside(each);
     return true;
   }
 };
@@ -31,10 +32,16 @@ std::shared_ptr<const Action> read_event_of_system(const StepSource& source) {
                         "name its file with 'system:', not 'program:'");
     return step;
   }
-  if (const auto event = read_event(source.node, *source.scenario.plan, source.values)) step->event = *event;
-  for (const char* const key : {"power_off", "power_on", "cut", "mend"})
-    if (const auto name = source.values.optional_text(source.node, key)) step->written = fmt::format("{}: {}", key, *name);
-  step->after = source.values.optional_text(source.node, "after").value_or("");
+  const auto event = read_event(source.node, *source.scenario.plan, source.values);
+  if (!event) return step;
+  step->event = *event;
+  const auto line_of = [&](std::string_view key) {
+    return fmt::format("{}: {}", key, source.values.optional_text(source.node, key).value_or(""));
+  };
+  const EventWord& word = word_of(event->what);
+  step->written = line_of(word.word);
+  for (const std::string_view key : word.beside)
+    if (source.beside(key)) step->beside.push_back(line_of(key));
   return step;
 }
 
