@@ -267,13 +267,10 @@ FaultKindInfo kind_info(FaultKind kind, std::string_view name, std::string_view 
   return {kind, name, meaning, example, std::move(parameters)};
 }
 
-/// With `from` a fault has its instant, and so has a cut that is made at once; what says in which exchange and where would
-/// contradict it.
+/// What says in which exchange and where contradicts an instant.
 bool excluded_by_instant(const Fault& fault, std::string_view parameter) {
-  const bool at_once = fault.kind == FaultKind::Cut && !fault.character;
-  if (fault.kind == FaultKind::Noise || (!fault.from && !at_once)) return false;
-  return parameter == "character" || parameter == "at" || parameter == "of" || parameter == "exchange" ||
-         parameter == "every" || parameter == "probability";
+  return at_an_instant(fault) && (parameter == "character" || parameter == "at" || parameter == "of" ||
+                                  parameter == "exchange" || parameter == "every" || parameter == "probability");
 }
 
 class Reader {
@@ -393,6 +390,13 @@ Time Length::at(const BitClock& clock) const {
   const Wide per_microbit = Wide{clock.format.baud} * (1'000'000 + clock.clock_error);
   return time + static_cast<Time>((Wide{microbits} * kSecond + per_microbit / 2) / per_microbit);
 }
+
+bool at_an_instant(const Fault& fault) {
+  const bool cut_at_once = fault.kind == FaultKind::Cut && !fault.character;
+  return fault.kind != FaultKind::Noise && (fault.from || cut_at_once);
+}
+
+bool is_of_a_station(const Fault& fault) { return fault.kind != FaultKind::Noise && !at_an_instant(fault); }
 
 ParsedFault parse_fault(std::string_view text) { return Reader(text).read(); }
 

@@ -78,6 +78,12 @@ struct Fault {
   bool operator==(const Fault&) const = default;
 };
 
+/// Has an instant, `from` or a cut at once, and not a place in an exchange.
+bool at_an_instant(const Fault& fault);
+
+/// Is about what one station sends, its clock or its adapter: not noise, nor what has an instant.
+bool is_of_a_station(const Fault& fault);
+
 struct FaultError {
   std::size_t column = 1;  ///< in the text, from 1
   std::size_t length = 1;

@@ -1,6 +1,7 @@
 #include "serial_sim/faults/faults.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "interpreter/base/split_mix.hpp"
 
@@ -29,25 +30,11 @@ bool bound_to_character(const Fault& fault) {
     case FaultKind::Flip:
     case FaultKind::Parity:
     case FaultKind::Framing:
-      return true;
-    case FaultKind::Break:
-    case FaultKind::Glitch:
-    case FaultKind::Collision:
-      return !fault.from;
-    case FaultKind::Cut:
-      return fault.character.has_value();
-    default:
-      return false;
-  }
-}
-
-bool at_an_instant(const Fault& fault) {
-  switch (fault.kind) {
     case FaultKind::Break:
     case FaultKind::Glitch:
     case FaultKind::Collision:
     case FaultKind::Cut:
-      return !bound_to_character(fault);
+      return !at_an_instant(fault);
     default:
       return false;
   }
@@ -63,8 +50,9 @@ std::uint64_t Faults::Chance::draw() { return draw_split_mix(state_); }
 
 bool Faults::Chance::hits(double probability) { return static_cast<double>(draw() >> 11) * 0x1p-53 < probability; }
 
-void Faults::inject(const Fault& fault, Time now) {
-  state_.injected.push_back({.fault = fault, .at = now, .chance = Chance(fault.seed)});
+void Faults::inject(const Fault& fault, Time now, int driver) {
+  assert(driver == kAnyDriver || is_of_a_station(fault));
+  state_.injected.push_back({.fault = fault, .at = now, .driver = driver, .chance = Chance(fault.seed)});
   listen_in();
   Injected& injected = state_.injected.back();
   const Time from = later(now, fault.from.value_or(0));
@@ -130,7 +118,10 @@ Mishap Faults::character_begins(int driver, const SerialFormat& format, Time at)
   const std::uint32_t number = ++state_.characters[index(half)];
   const BitClock clock{format, clock_error(driver)};
 
-  const auto disturbed_by = [&](const Injected& injected) { return injected.applies && concerns(injected.fault, half); };
+  const auto disturbed_by = [&](const Injected& injected) {
+    const bool is_its_own = injected.driver == driver || (injected.driver == kAnyDriver && concerns(injected.fault, half));
+    return injected.applies && is_its_own;
+  };
   Mishap mishap;
   for (Injected& injected : state_.injected)
     if (disturbed_by(injected)) disturb_sender(injected, number, clock, mishap);
@@ -301,14 +292,18 @@ std::int32_t Faults::clock_error(int driver) const {
   std::int32_t error = 0;
   for (const Injected& injected : state_.injected) {
     const Fault& fault = injected.fault;
-    if (fault.kind == FaultKind::Baud && fault.station == station && works_now(injected)) error += fault.clock_error;
+    const bool is_its_own = injected.driver == driver || (injected.driver == kAnyDriver && fault.station == station);
+    if (fault.kind == FaultKind::Baud && is_its_own && works_now(injected)) error += fault.clock_error;
   }
   return std::clamp(error, -Fault::kLargestClockError, Fault::kLargestClockError);
 }
 
 bool Faults::echoes(int driver) const {
-  return !is_plc(driver) && std::any_of(state_.injected.begin(), state_.injected.end(),
-                                        [](const Injected& i) { return i.fault.kind == FaultKind::Echo && works_now(i); });
+  const bool master = !is_plc(driver);
+  return std::any_of(state_.injected.begin(), state_.injected.end(), [&](const Injected& i) {
+    const bool is_its_own = i.driver == driver || (i.driver == kAnyDriver && master);
+    return i.fault.kind == FaultKind::Echo && is_its_own && works_now(i);
+  });
 }
 
 }  // namespace s7200::serial

@@ -34,9 +34,12 @@ class Faults final : private Interference {
     std::uint64_t state_;
   };
 
+  static constexpr int kAnyDriver = -1;
+
   struct Injected {
     Fault fault;
     Time at = 0;                   ///< when it was injected
+    int driver = kAnyDriver;       ///< of the station that it is about
     Chance chance;                 ///< what is left of it to chance
     std::uint64_t exchanges = 0;   ///< begun since the injection
     bool applies = false;          ///< in the present exchange
@@ -63,8 +66,9 @@ class Faults final : private Interference {
   /// The characters of this UART are answers. Noise and lengths in bits go by the rate of the first one. Not owned.
   void add_plc(const Uart& plc) { plcs_.push_back(&plc); }
 
-  /// Several may be at work at once.
-  void inject(const Fault& fault, Time now);
+  /// Several may be at work at once. With a `driver` the fault is about what that station sends, its clock or its adapter,
+  /// whatever its own `of` and `station` say; characters and exchanges are counted as without it.
+  void inject(const Fault& fault, Time now, int driver = kAnyDriver);
 
   /// No fault any more, and the line is whole again.
   void clear(Time now);

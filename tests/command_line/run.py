@@ -1385,7 +1385,8 @@ class JsonPage(Case):
     def system(self):
         return self.program(f"plcs: {{slave: {{program: {SLAVE}}}}}\n"
                             "peers: {master: {polls: [{station: 1, read: 40001}]}}\nbridges: {panel: {tcp: 127.0.0.1:0}}\n"
-                            "lines: {bus: {stations: [slave, master, panel]}}\n", "system.yaml")
+                            "lines: {bus: {stations: [slave, master, panel], faults: [{fault: \"flip:exchange=9\", station: slave}]}}\n",
+                            "system.yaml")
 
     def alone(self):
         """The same without the bridge, which follows the clock."""

@@ -55,7 +55,8 @@ int run_send(const CLI::App& verb, SendOptions& options) {
     damaged += is_damaged(exchange);
     if (options.json) {
       auto json = exchange_json(exchange, unasked);
-      if (options.rig.faulted()) json["faults"] = faults_json(simulation.faults(), faults_before);
+      if (options.rig.faulted())
+        json["faults"] = faults_json(simulation.faults(), faults_before, stations_of(*rig, options.rig.line()));
       if (options.timeline) json["timeline"] = timelines.json(exchange);
       fmt::print("{}", results.entry(json));
     } else {

@@ -77,11 +77,15 @@ std::string errors_text(const Rig& rig) {
   return by_plc(rig, [&](std::size_t plc) { return errors_text(rig.plc(plc).cpu()); });
 }
 
+StationName stations_of(const Rig& rig, std::size_t line) {
+  return [&rig, line](int driver) { return rig.station_at(line, driver); };
+}
+
 std::vector<std::string> fault_notes(const Rig& rig) {
   std::vector<std::string> notes;
   for (std::size_t i = 0; i < rig.plan().lines.size(); ++i) {
     const std::string& name = rig.plan().lines[i].name;
-    for (const std::string& note : fault_notes(rig.faults(i)))
+    for (const std::string& note : fault_notes(rig.faults(i), stations_of(rig, i)))
       notes.push_back(name.empty() ? note : fmt::format("{}: {}", name, note));
   }
   return notes;
@@ -121,7 +125,7 @@ nlohmann::ordered_json rig_json(const Rig& rig) {
     if (const serial::Poller* poller = rig.poller(i))
       json["masters"].push_back(poll_json(plan.peers[i].name, poller->state()));
   for (std::size_t i = 0; i < plan.lines.size(); ++i)
-    json["lines"].push_back({{"name", plan.lines[i].name}, {"faults", faults_json(rig.faults(i))}});
+    json["lines"].push_back({{"name", plan.lines[i].name}, {"faults", faults_json(rig.faults(i), stations_of(rig, i))}});
   return json;
 }
 

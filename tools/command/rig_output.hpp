@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/rig/rig.hpp"
+#include "tools/views/faults.hpp"
 #include "tools/views/timeline.hpp"
 
 namespace s7200::tools {
@@ -29,6 +30,9 @@ std::string errors_text(const Rig& rig);
 
 /// Faults that found nothing to do, and which CPUs are in STOP.
 std::vector<std::string> fault_notes(const Rig& rig);
+
+/// Of a line of a system. The rig outlives it.
+StationName stations_of(const Rig& rig, std::size_t line);
 std::vector<std::string> stop_notes(const Rig& rig);
 
 /// What a master of the system has come to.

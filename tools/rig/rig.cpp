@@ -107,10 +107,10 @@ std::unique_ptr<Rig> Rig::assemble(std::shared_ptr<const Program> program, const
   const auto port = static_cast<std::uint8_t>(settings.port);
   SystemPlan plan;
   plan.plcs.push_back({.name = "", .program = std::move(program), .settings = settings, .field = std::move(*field)});
-  plan.lines.push_back({.name = "",
-                        .faults = settings.faults,
-                        .captures = settings.captures,
-                        .stations = {{StationPlan::Kind::Plc, 0, port}}});
+  LinePlan& line = plan.lines.emplace_back();
+  for (const serial::Fault& fault : settings.faults) line.faults.push_back({.fault = fault});
+  line.captures = settings.captures;
+  line.stations = {{StationPlan::Kind::Plc, 0, port}};
   const RigSurroundings surroundings{
       .link = settings.link, .standard_output = settings.standard_output, .spots = {Spot{0, 0, port}}};
   return assemble(std::move(plan), surroundings, problems);
@@ -159,7 +159,7 @@ void Rig::power_up() {
   auto captures = captures_.begin();
   for (std::size_t line = 0; line < lines_.size(); ++line, ++captures) {
     watch(line, *captures);
-    for (const serial::Fault& fault : plan_.lines[line].faults) lines_[line]->faults().inject(fault, 0);
+    for (const FaultPlan& fault : plan_.lines[line].faults) inject(line, fault, 0);
     if (const auto seed = plan_.lines[line].contention) lines_[line]->line().leave_contention_to_chance(*seed);
   }
   auto rig = plc_rigs_.begin();
@@ -200,12 +200,23 @@ void Rig::carry_out(const EventPlan& event) {
       for (const Assignment& assignment : event.set) assign(plcs_[event.plc]->cpu(), assignment);
       break;
     case What::Fault:
-      lines_[event.line]->faults().inject(event.fault, now);
+      inject(event.line, event.fault, now);
       break;
     case What::ClearFaults:
       lines_[event.line]->faults().clear(now);
       break;
   }
+}
+
+void Rig::inject(std::size_t line, const FaultPlan& fault, Time now) {
+  const int driver = fault.station ? driver_of(plan_.lines[line].stations[*fault.station]) : serial::Faults::kAnyDriver;
+  lines_[line]->faults().inject(fault.fault, now, driver);
+}
+
+std::string Rig::station_at(std::size_t line, int driver) const {
+  for (const StationPlan& station : plan_.lines[line].stations)
+    if (driver_of(station) == driver) return name_of(plan_, station);
+  return {};
 }
 
 int Rig::driver_of(const StationPlan& station) const {

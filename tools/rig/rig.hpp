@@ -71,6 +71,8 @@ class Rig final {
   const serial::Plc& plc(std::size_t number) const { return *plcs_[number]; }
   serial::SharedLine& line(std::size_t number) { return *lines_[number]; }
   const serial::Faults& faults(std::size_t line) const { return lines_[line]->faults(); }
+  /// Of the station with that driver; empty if it is none of the plan.
+  std::string station_at(std::size_t line, int driver) const;
   /// Null if the peer is not a master.
   const serial::Poller* poller(std::size_t peer) const { return pollers_[peer] ? &pollers_[peer]->poller() : nullptr; }
   serial::HostPort& host_port(std::size_t bridge) { return hosts_[bridge]->port(); }
@@ -93,6 +95,7 @@ class Rig final {
   void add_other(const LinePlan& plan, serial::SharedLine& line, const StationPlan& station);
   void join(const Spot& spot);
   void watch(std::size_t line, CaptureFiles& captures);
+  void inject(std::size_t line, const FaultPlan& fault, Time now);
   int driver_of(const StationPlan& station) const;
   std::uint32_t beyond(const EventPlan& cut) const;
   bool claim_files(std::string& why);

@@ -42,9 +42,12 @@ constexpr std::array kKeys{
     SystemKey{Where::Line, "data_bits", "7, 8", ""},
     SystemKey{Where::Line, "stop_bits", "1, 2", ""},
     SystemKey{Where::Line, "turn_round", "TIME", "how long a master on it leaves it quiet between an answer and its next request; 7 characters and 10 ms if left out"},
-    SystemKey{Where::Line, "faults", "LIST", "from the start on, each in the form of `s7200 run --fault`"},
+    SystemKey{Where::Line, "faults", "LIST", "from the start on, each in the form of `s7200 run --fault`, or a map if it is of one station"},
     SystemKey{Where::Line, "contention", "SEED", "two drivers that disagree give no defined level: mark or space by chance, the same with the same seed; space if left out"},
     SystemKey{Where::Line, "capture", "LIST", "files that it is written to: FILE.vcd (levels of rx and tx) or FILE.pcap (frames); rx and tx are those of its first PLC, an S7-200 if there is one"},
+
+    SystemKey{Where::Fault, "fault", "TEXT", "in the form of `s7200 run --fault`: `parity:character=each`"},
+    SystemKey{Where::Fault, "station", "NAME", "whose it is: what this station sends is disturbed, be it request or answer, or its clock is off, or it hears its echo; noise, and what happens at an instant, is of the line"},
 
     SystemKey{Where::Master, "polls", "LIST", "what the master asks in Modbus RTU, in turn and without end, from 1 s after the start on"},
     SystemKey{Where::Master, "every", "TIME", "a round begins no sooner than so long after the one before; at once if left out"},
@@ -76,6 +79,7 @@ constexpr std::array kKeys{
     SystemKey{Where::Event, "plc", "NAME", "beside `set`"},
     SystemKey{Where::Event, "fault", "TEXT", "a fault of `line` from then on, in the form of `s7200 run --fault`"},
     SystemKey{Where::Event, "line", "LINE", "beside `fault`"},
+    SystemKey{Where::Event, "station", "NAME", "beside `fault`, if it is of one station"},
     SystemKey{Where::Event, "clear_faults", "LINE", "no fault there any more"},
 };
 // clang-format on
@@ -89,6 +93,7 @@ std::string system_keys_markdown() {
       {Where::File, "Of the file"},
       {Where::Plc, "Of a PLC"},
       {Where::Line, "Of a line"},
+      {Where::Fault, "Of a fault of one station"},
       {Where::Master, "Of a peer that is a master"},
       {Where::Poll, "Of what it polls"},
       {Where::OtherPlc, "Of a peer that is a simulated PLC of another make"},

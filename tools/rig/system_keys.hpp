@@ -9,7 +9,7 @@
 namespace s7200::tools {
 
 struct SystemKey {
-  enum class Where : std::uint8_t { File, Plc, Line, Master, Poll, OtherPlc, Bridge, Event };
+  enum class Where : std::uint8_t { File, Plc, Line, Fault, Master, Poll, OtherPlc, Bridge, Event };
   Where where{};
   std::string_view key, form, meaning;
 };

@@ -42,6 +42,11 @@ std::optional<Spot> at_plc(const SystemPlan& plan, std::string_view name, std::s
 
 }  // namespace
 
+const std::string& name_of(const SystemPlan& plan, const StationPlan& station) {
+  if (station.kind == StationPlan::Kind::Plc) return plan.plcs[station.number].name;
+  return station.kind == StationPlan::Kind::Peer ? plan.peers[station.number].name : plan.bridges[station.number].name;
+}
+
 serial::MasterSettings on_line(serial::MasterSettings master, const LinePlan& line) {
   serial::LineSettings settings = line.settings;
   settings.override_with(master);

@@ -50,6 +50,12 @@ struct StationPlan {
   std::uint8_t port = 0;  ///< of a PLC
 };
 
+/// A fault of a line, of anyone there or of one station.
+struct FaultPlan {
+  serial::Fault fault{};
+  std::optional<std::size_t> station{};  ///< of the line's stations
+};
+
 /// Something that is done to the system at an instant.
 struct EventPlan {
   enum class What : std::uint8_t { PowerOff, PowerOn, Cut, Mend, Set, Fault, ClearFaults };
@@ -59,13 +65,13 @@ struct EventPlan {
   std::size_t line = 0;           ///< Cut, Mend, Fault, ClearFaults
   std::size_t near = 0;           ///< Cut: so many of the line's stations stay on this side
   std::vector<Assignment> set{};  ///< Set
-  serial::Fault fault{};          ///< Fault
+  FaultPlan fault{};              ///< Fault
 };
 
 struct LinePlan {
   std::string name;
   serial::LineSettings settings{};  ///< of masters on it, as far as not as its first PLC sets its port
-  std::vector<serial::Fault> faults{};
+  std::vector<FaultPlan> faults{};
   std::optional<std::uint64_t> contention{};  ///< the seed, if drivers that disagree give no defined level
   std::vector<std::string> captures{};
   std::vector<StationPlan> stations{};  ///< in their order along the cable
@@ -86,6 +92,8 @@ struct Spot {
   std::uint8_t port = 0;
   bool operator==(const Spot&) const = default;
 };
+
+const std::string& name_of(const SystemPlan& plan, const StationPlan& station);
 
 /// How a master talks on a line: as it was asked to, and for the rest as the line says.
 serial::MasterSettings on_line(serial::MasterSettings master, const LinePlan& line);

@@ -579,13 +579,13 @@ class Reader {
       plan.settings.stop_bits = static_cast<std::uint8_t>(*bits);
     if (const auto seed = values_.number(map.find("contention"), 0, UINT32_MAX))
       plan.contention = static_cast<std::uint64_t>(*seed);
-    read_faults(map, plan);
     for (const YamlNode* item : list(map, "capture", "bus.pcap"))
       if (const auto written = values_.text(*item)) {
         plan.captures.push_back(beside(path_, *written));
         take_file(*item, plan.captures.back());
       }
     for (const YamlNode* item : list(map, "stations", "master, slave")) read_station(*item, plan);
+    read_faults(map, plan);
     if (plan.stations.empty() && values_.complaints.count() == 0)
       values_.wrong(line.key, fmt::format("no one is on line '{}'", line.key.text), "name them: stations: [master, slave]");
     if (!plan.captures.empty() && values_.complaints.count() == 0 && !first_plc(plan) &&
@@ -615,14 +615,53 @@ class Reader {
 
   void read_faults(const YamlNode& map, LinePlan& line) {
     for (const YamlNode* item : list(map, "faults", "\"noise:ber=1e-5\"")) {
-      const auto text = values_.text(*item);
-      if (!text) continue;
-      const serial::ParsedFault parsed = serial::parse_fault(*text);
-      if (parsed.error)
-        values_.wrong(*item, parsed.error->message, "`s7200 run --help` has the kinds of faults");
-      else
-        line.faults.push_back(parsed.fault);
+      if (item->is_map()) check_keys(*item, {Where::Fault});
+      const YamlNode* const what = item->is_map() ? item->find("fault") : item;
+      if (!what)
+        values_.wrong(*item, "a fault of a station without the 'fault' itself",
+                      "write for example {fault: parity, station: slave}");
+      else if (const auto fault = read_fault(*what, item->find("station"), line))
+        line.faults.push_back(*fault);
     }
+  }
+
+  /// `station`: what stands beside the fault to say whose it is, or null.
+  std::optional<FaultPlan> read_fault(const YamlNode& what, const YamlNode* station, const LinePlan& line) {
+    const auto text = values_.text(what);
+    if (!text) return {};
+    const serial::ParsedFault parsed = serial::parse_fault(*text);
+    if (parsed.error) values_.wrong(what, parsed.error->message, "`s7200 run --help` has the kinds of faults");
+    const auto place = station ? station_on(line, *station) : std::nullopt;
+    if (parsed.error || (station && !place)) return {};
+    if (place && !may_be_of(line.stations[*place], parsed.fault, what, *station)) return {};
+    return FaultPlan{parsed.fault, place};
+  }
+
+  /// False after a complaint.
+  bool may_be_of(const StationPlan& station, const serial::Fault& fault, const YamlNode& what, const YamlNode& name) {
+    if (!serial::is_of_a_station(fault))
+      values_.wrong(name, "noise, and a fault at an instant, are of the line and not of a station");
+    else if (fault.of != serial::Half::Request || fault.station != serial::Station::Master)
+      values_.wrong(what, "the fault says whose it is, and so does 'station' beside it", "leave 'of=' or 'station=' out");
+    else if (fault.kind == serial::FaultKind::Echo && station.kind == StationPlan::Kind::Plc)
+      values_.wrong(name, "the port of an S7-200 does not hear what it sends", "an echo is of a peer or a bridge");
+    else
+      return true;
+    return false;
+  }
+
+  /// The number of a station among those of its line: `slave2`, `gateway.1`.
+  std::optional<std::size_t> station_on(const LinePlan& line, const YamlNode& node) {
+    const auto name = values_.text(node);
+    if (!name) return {};
+    std::string known;
+    for (std::size_t i = 0; i < line.stations.size(); ++i) {
+      const std::string& each = name_of(plan(), line.stations[i]);
+      if (each == *name || fmt::format("{}.{}", each, line.stations[i].port) == *name) return i;
+      known.append(known.empty() ? "" : ", ").append(each);
+    }
+    values_.wrong(node, fmt::format("'{}' is not on line '{}'", stl::shortened(*name), line.name), "known: " + known);
+    return {};
   }
 
   // --- events ---
@@ -668,13 +707,11 @@ class Reader {
     const YamlNode* const line = node.find("line");
     if (!line) values_.wrong(node, "a fault without its 'line'");
     const auto number = line ? line_named(*line) : std::nullopt;
-    const auto text = values_.text(what);
-    if (!number || !text) return false;
-    const serial::ParsedFault parsed = serial::parse_fault(*text);
-    if (parsed.error) values_.wrong(what, parsed.error->message, "`s7200 run --help` has the kinds of faults");
+    const auto fault = number ? read_fault(what, node.find("station"), plan().lines[*number]) : std::nullopt;
+    if (!fault) return false;
     event.line = *number;
-    event.fault = parsed.fault;
-    return !parsed.error;
+    event.fault = *fault;
+    return true;
   }
 
   bool read_set_event(const YamlNode& node, const YamlNode& what, EventPlan& event) {
@@ -694,7 +731,7 @@ class Reader {
     if (!name) return false;
     const std::vector<StationPlan>& stations = plan().lines[event.line].stations;
     for (std::size_t i = 0; i < stations.size(); ++i)
-      if (name_of(stations[i]) == *name) event.near = i + 1;
+      if (name_of(plan(), stations[i]) == *name) event.near = i + 1;
     if (event.near == 0 || event.near == stations.size()) {
       values_.wrong(
           *after,
@@ -703,11 +740,6 @@ class Reader {
       return false;
     }
     return true;
-  }
-
-  const std::string& name_of(const StationPlan& station) {
-    if (station.kind == StationPlan::Kind::Plc) return plan().plcs[station.number].name;
-    return station.kind == StationPlan::Kind::Peer ? plan().peers[station.number].name : plan().bridges[station.number].name;
   }
 
   template <class Plans>
@@ -814,7 +846,7 @@ std::span<const EventWord> event_words() {
   using What = EventPlan::What;
   static const std::vector<EventWord> kWords{{"power_off", What::PowerOff},      {"power_on", What::PowerOn},
                                              {"cut", What::Cut, {"after"}},      {"mend", What::Mend},
-                                             {"set", What::Set, {"plc"}},        {"fault", What::Fault, {"line"}},
+                                             {"set", What::Set, {"plc"}},        {"fault", What::Fault, {"line", "station"}},
                                              {"clear_faults", What::ClearFaults}};
   return kWords;
 }

@@ -8,8 +8,35 @@
 namespace s7200::tools {
 namespace {
 
-nlohmann::ordered_json to_json(const serial::Fault& fault, std::uint64_t count, std::uint64_t impossible) {
-  return {{"fault", serial::to_text(fault)}, {"count", count}, {"impossible", impossible}};
+using serial::Faults;
+
+struct Counts {
+  std::uint64_t happened = 0, impossible = 0;
+  bool operator==(const Counts&) const = default;
+};
+
+Counts counts_of(const Faults::Injected& injected) { return {injected.count, injected.impossible}; }
+
+/// Of the same fault as it stood then; none if it was injected since.
+Counts counts_then(const Faults::Injected& injected, const Faults::State& then) {
+  const auto same = [&](const Faults::Injected& i) {
+    return i.fault == injected.fault && i.at == injected.at && i.driver == injected.driver;
+  };
+  const auto found = std::ranges::find_if(then.injected, same);
+  return found == then.injected.end() ? Counts{} : counts_of(*found);
+}
+
+/// Nothing if it is of the whole line.
+std::string name_of(const Faults::Injected& injected, const StationName& station) {
+  return injected.driver == Faults::kAnyDriver ? "" : station(injected.driver);
+}
+
+nlohmann::ordered_json to_json(const Faults::Injected& injected, const Counts& since, const StationName& station) {
+  nlohmann::ordered_json json{{"fault", serial::to_text(injected.fault)}};
+  if (const std::string name = name_of(injected, station); !name.empty()) json["station"] = name;
+  json["count"] = injected.count - since.happened;
+  json["impossible"] = injected.impossible - since.impossible;
+  return json;
 }
 
 /// Parameters that say when it happens: every kind has them.
@@ -24,7 +51,7 @@ std::string described(const serial::Fault& fault) {
   const serial::FaultKindInfo& kind = serial::info_of(fault.kind);
   const std::string written = serial::to_text(fault);
   std::string text(kind.meaning), separator = ": ";
-  if (fault.from && fault.kind != serial::FaultKind::Noise) return text;  // at an instant, not at a character
+  if (serial::at_an_instant(fault)) return text;
   for (const serial::ParameterOfKind& p : kind.parameters) {
     const bool has_standard = p.standard != serial::kRequired && p.standard != serial::kLeftOut;
     if (!has_standard || is_about_when(p.name) || written.find(fmt::format("{}=", p.name)) != std::string::npos) continue;
@@ -34,29 +61,29 @@ std::string described(const serial::Fault& fault) {
   return text;
 }
 
-std::vector<std::string> fault_notes(const serial::Faults& faults) {
+std::vector<std::string> fault_notes(const Faults& faults, const StationName& station) {
   std::vector<std::string> notes;
-  for (const serial::Faults::Injected& injected : faults.state().injected) {
-    std::string& note = notes.emplace_back(fmt::format("fault {}: {}×", serial::to_text(injected.fault), injected.count));
+  for (const Faults::Injected& injected : faults.state().injected) {
+    const std::string name = name_of(injected, station);
+    std::string& note = notes.emplace_back(
+        fmt::format("fault {}{}{}: {}×", serial::to_text(injected.fault), name.empty() ? "" : " of ", name, injected.count));
     if (injected.impossible != 0)
       note += fmt::format(", and {}× the format of the character had no such bit", injected.impossible);
   }
   return notes;
 }
 
-nlohmann::ordered_json faults_json(const serial::Faults& faults) {
+nlohmann::ordered_json faults_json(const Faults& faults, const StationName& station) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const serial::Faults::Injected& injected : faults.state().injected)
-    json.push_back(to_json(injected.fault, injected.count, injected.impossible));
+  for (const Faults::Injected& injected : faults.state().injected) json.push_back(to_json(injected, {}, station));
   return json;
 }
 
-nlohmann::ordered_json faults_json(const serial::Faults& faults, const serial::Faults::State& since) {
+nlohmann::ordered_json faults_json(const Faults& faults, const Faults::State& since, const StationName& station) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < since.injected.size(); ++i) {
-    const serial::Faults::Injected &now = faults.state().injected.at(i), &then = since.injected[i];
-    if (now.count != then.count || now.impossible != then.impossible)
-      json.push_back(to_json(now.fault, now.count - then.count, now.impossible - then.impossible));
+  for (const Faults::Injected& now : faults.state().injected) {
+    const Counts then = counts_then(now, since);
+    if (counts_of(now) != then) json.push_back(to_json(now, then, station));
   }
   return json;
 }

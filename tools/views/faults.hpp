@@ -1,6 +1,7 @@
 // What the faults of a line have done.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -12,13 +13,18 @@ namespace s7200::tools {
 /// `a pause before a character: character=2, of=request`: what it does, and where, as far as its text leaves that out.
 std::string described(const serial::Fault& fault);
 
+/// The name of the station with a driver, where faults are of one; empty if it has none.
+using StationName = std::function<std::string(int driver)>;
+inline std::string without_names(int) { return {}; }
+
 /// What has happened so far, a line for each fault.
-std::vector<std::string> fault_notes(const serial::Faults& faults);
+std::vector<std::string> fault_notes(const serial::Faults& faults, const StationName& station = without_names);
 
-/// [{"fault": "flip:bit=3", "count": 2, "impossible": 0}]
-nlohmann::ordered_json faults_json(const serial::Faults& faults);
+/// [{"fault": "flip:bit=3", "count": 2, "impossible": 0}], and "station" if it is of one.
+nlohmann::ordered_json faults_json(const serial::Faults& faults, const StationName& station = without_names);
 
-/// The same of those that have happened since then, with the difference; the faults are the same as then.
-nlohmann::ordered_json faults_json(const serial::Faults& faults, const serial::Faults::State& since);
+/// The same of those that have happened since then, with the difference.
+nlohmann::ordered_json faults_json(const serial::Faults& faults, const serial::Faults::State& since,
+                                   const StationName& station = without_names);
 
 }  // namespace s7200::tools

@@ -82,18 +82,20 @@ TEST(SystemRig, AGatewayWithBothPortsOfACpu226PassesRequestsAndAnswersOn) {
   EXPECT_EQ(word(*rig, 0, 2), word(*rig, 0, 0)) << "as many answers as requests";
 }
 
-constexpr const char* kThreeSlaves =
-    "plcs: {slave: {program: ../modbus_slave.stl, copies: 3, station: 1}}\n"
-    "peers: {master: {polls: [{station: 1..3, read: 40001}], timeout: 50ms, every: 250ms}}\n"
-    "lines: {bus: {stations: [master, slave]}}\n";
+std::string three_slaves(const std::string& faults) {
+  return "plcs: {slave: {program: ../modbus_slave.stl, copies: 3, station: 1}}\n"
+         "peers: {master: {polls: [{station: 1..3, read: 40001}], timeout: 50ms, every: 250ms}}\n"
+         "lines: {bus: {stations: [master, slave], faults: [" +
+         faults + "]}}\n";
+}
+const std::string kThreeSlaves = three_slaves("");
 
 /// Rounds begin every quarter of a second from the first one on: an instant in between, when the one before is over.
 constexpr Time kSecondRounds = 2240 * kMillisecond, kThirdRounds = kSecondRounds + kSecond,
                kFourthRounds = kThirdRounds + kSecond, kFifthRounds = kFourthRounds + kSecond;
 
 TEST(SystemRig, ASlaveThatIsSwitchedOffIsSilentAndAnswersWhenItIsOnAgain) {
-  const auto rig =
-      rig_of(std::string(kThreeSlaves) + "events: [{at: 2240ms, power_off: slave2}, {at: 3240ms, power_on: slave2}]\n");
+  const auto rig = rig_of(kThreeSlaves + "events: [{at: 2240ms, power_off: slave2}, {at: 3240ms, power_on: slave2}]\n");
   ASSERT_TRUE(rig);
   const auto all = polls_until(*rig, kSecondRounds);
   EXPECT_FALSE(rig->plc(1).powered());
@@ -108,7 +110,7 @@ TEST(SystemRig, ASlaveThatIsSwitchedOffIsSilentAndAnswersWhenItIsOnAgain) {
 }
 
 TEST(SystemRig, NothingIsSetInAPlcWithoutPower) {
-  const auto rig = rig_of(std::string(kThreeSlaves) +
+  const auto rig = rig_of(kThreeSlaves +
                           "events:\n"
                           "  - {at: 1s, plc: slave1, set: {VW100: 7}}\n"
                           "  - {at: 2s, power_off: slave1}\n"
@@ -120,8 +122,7 @@ TEST(SystemRig, NothingIsSetInAPlcWithoutPower) {
 }
 
 TEST(SystemRig, ACutCableDividesTheLineUntilItIsMended) {
-  const auto rig =
-      rig_of(std::string(kThreeSlaves) + "events: [{at: 2240ms, cut: bus, after: slave1}, {at: 3240ms, mend: bus}]\n");
+  const auto rig = rig_of(kThreeSlaves + "events: [{at: 2240ms, cut: bus, after: slave1}, {at: 3240ms, mend: bus}]\n");
   ASSERT_TRUE(rig);
   polls_until(*rig, kSecondRounds);
   const auto divided = polls_until(*rig, kThirdRounds);
@@ -132,7 +133,7 @@ TEST(SystemRig, ACutCableDividesTheLineUntilItIsMended) {
 }
 
 TEST(SystemRig, AStationAtTheWrongRateIsNotUnderstoodAndComesBack) {
-  const auto rig = rig_of(std::string(kThreeSlaves) +
+  const auto rig = rig_of(kThreeSlaves +
                           "events:\n"
                           "  - {at: 2240ms, plc: slave3, set: {SMB30: 16#45}}\n"
                           "  - {at: 3240ms, plc: slave3, set: {SMB30: 16#49}}\n");
@@ -146,7 +147,7 @@ TEST(SystemRig, AStationAtTheWrongRateIsNotUnderstoodAndComesBack) {
 }
 
 TEST(SystemRig, AFaultFromAnInstantOnIsThereUntilItIsCleared) {
-  const auto rig = rig_of(std::string(kThreeSlaves) +
+  const auto rig = rig_of(kThreeSlaves +
                           "events: [{at: 2240ms, line: bus, fault: \"noise:ber=0.2\"}, {at: 3240ms, clear_faults: bus}]\n");
   ASSERT_TRUE(rig);
   polls_until(*rig, kSecondRounds);
@@ -166,6 +167,29 @@ TEST(SystemRig, AnAnswerOfRightBytesWithWrongParityIsCountedAsWrong) {
   const auto polls = polls_until(*rig, 2 * kSecond);
   EXPECT_GT(polls.answered, 10U);
   EXPECT_EQ(polls.wrong, polls.answered);
+}
+
+TEST(SystemRig, AFaultOfOneStationDisturbsWhatThisOneSends) {
+  for (const char* const fault : {"parity:character=each", "flip", "missing", "baud:error=20%", "cut:character=2,for=3ms"}) {
+    const auto rig = rig_of(three_slaves(fmt::format("{{fault: \"{}\", station: slave2}}", fault)));
+    ASSERT_TRUE(rig) << fault;
+    const auto polls = polls_until(*rig, kSecondRounds);
+    EXPECT_EQ(polls.asked, 15U) << fault;
+    EXPECT_EQ(polls.answered - polls.wrong, 10U) << fault;
+  }
+  const auto of_master = rig_of(three_slaves("{fault: flip, station: master}"));
+  ASSERT_TRUE(of_master);
+  EXPECT_EQ(polls_until(*of_master, kSecondRounds).answered, 0U) << "no slave gets a right request";
+}
+
+TEST(SystemRig, AFaultOfOneStationComesAsAnEventAndGoes) {
+  const auto rig = rig_of(kThreeSlaves +
+                          "events: [{at: 2240ms, line: bus, fault: \"parity:character=each\", station: slave3}, "
+                          "{at: 3240ms, clear_faults: bus}]\n");
+  ASSERT_TRUE(rig);
+  EXPECT_EQ(polls_until(*rig, kSecondRounds).wrong, 0U);
+  EXPECT_EQ(polls_until(*rig, kThirdRounds).wrong, 4U);
+  EXPECT_EQ(polls_until(*rig, kFourthRounds).wrong, 0U);
 }
 
 TEST(SystemRig, ASimulatedPlcOfAnotherMakeAnswersOnTheLine) {

@@ -43,6 +43,7 @@ class RigOptions {
   /// The simulations of a rig of what load_all() has loaded, by PLC; and the one that is looked at first.
   std::vector<serial::Simulation*> stations(Rig& rig) const;
   std::size_t first_station() const { return spot_.plc; }
+  std::size_t line() const { return spot_.line; }
 
   /// A PLC of a system, as it is looked at.
   struct Station {
