@@ -112,7 +112,6 @@ class Plc final : private EventHandler {
 
     void act(const PortAction& action);
     void act_until(Time now);
-    Time next_action() const { return actions.empty() ? kNever : actions.front().at; }
 
     /// No station can make the CPU hear a whole character sooner: the shortest, at the fastest that a faulty clock makes of
     /// it.

@@ -8,7 +8,7 @@
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tests/support/source_path.hpp"
-#include "tools/rig/mixed_program.hpp"
+#include "tools/measuring/mixed_program.hpp"
 
 namespace s7200 {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "interpreter/program/load.hpp"
-#include "tools/rig/long_listing.hpp"
+#include "tools/measuring/long_listing.hpp"
 #include "tools/views/check_report.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 #include "tools/command/exit_code.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
-#include "tools/rig/parallel_run.hpp"
+#include "tools/measuring/parallel_run.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {

@@ -13,7 +13,7 @@
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/terminal.hpp"
-#include "tools/rig/measure.hpp"
+#include "tools/measuring/measure.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {

@@ -8,7 +8,7 @@
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/statements_output.hpp"
 #include "tools/command/terminal.hpp"
-#include "tools/rig/statements.hpp"
+#include "tools/measuring/statements.hpp"
 #include "tools/views/results_json.hpp"
 #include "tools/views/times_text.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "interpreter/model/cpu_model.hpp"
-#include "tools/rig/statements.hpp"
+#include "tools/measuring/statements.hpp"
 
 namespace s7200::tools {
 

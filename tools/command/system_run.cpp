@@ -19,6 +19,7 @@
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/rig/rig.hpp"
+#include "tools/rig/run.hpp"
 #include "tools/slave/slave_target.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
@@ -127,7 +128,7 @@ bool refuse_options_of_s7200(const CLI::App& verb, const RunOptions& options) {
 }
 
 /// It and the bridge on a line. Throws std::invalid_argument.
-SystemPlan plan_of_other_plc(RunOptions& options, std::vector<serial::Fault> faults) {
+SystemPlan plan_of_other_plc(RunOptions& options, const std::vector<serial::Fault>& faults) {
   const std::string model = parse_slave_target(options.program.path).path;
   std::shared_ptr<westinghouse::Plc> plc = options.other.make(*options.protocol, model);
   if (plc->needs_sync())
@@ -138,7 +139,7 @@ SystemPlan plan_of_other_plc(RunOptions& options, std::vector<serial::Fault> fau
   plan.bridges.push_back({.name = "bridge", .kind = "", .where = ""});
   plan.lines.push_back({.name = "line",
                         .settings = options.bridge.line(),
-                        .faults = std::move(faults),
+                        .faults = of_anyone(faults),
                         .captures = options.rig.settings().captures,
                         .stations = {{.kind = StationPlan::Kind::Peer}, {.kind = StationPlan::Kind::Bridge}}});
   return plan;
@@ -168,7 +169,7 @@ int run_other_plc(const CLI::App& verb, RunOptions& options) {
                                    stl::printable(options.program.path))),
            kUnusable;
   try {
-    SystemPlan plan = plan_of_other_plc(options, std::move(*faults));
+    SystemPlan plan = plan_of_other_plc(options, *faults);
     return run_plan(std::move(plan), {.link = options.bridge.link(), .standard_output = &std::cout}, {&bridge, 1}, options);
   } catch (const std::invalid_argument& error) {
     return print_error(error.what()), kUnusable;

@@ -107,10 +107,10 @@ std::unique_ptr<Rig> Rig::assemble(std::shared_ptr<const Program> program, const
   const auto port = static_cast<std::uint8_t>(settings.port);
   SystemPlan plan;
   plan.plcs.push_back({.name = "", .program = std::move(program), .settings = settings, .field = std::move(*field)});
-  LinePlan& line = plan.lines.emplace_back();
-  for (const serial::Fault& fault : settings.faults) line.faults.push_back({.fault = fault});
-  line.captures = settings.captures;
-  line.stations = {{StationPlan::Kind::Plc, 0, port}};
+  plan.lines.push_back({.name = "",
+                        .faults = of_anyone(settings.faults),
+                        .captures = settings.captures,
+                        .stations = {{StationPlan::Kind::Plc, 0, port}}});
   const RigSurroundings surroundings{
       .link = settings.link, .standard_output = settings.standard_output, .spots = {Spot{0, 0, port}}};
   return assemble(std::move(plan), surroundings, problems);
@@ -251,16 +251,6 @@ std::uint32_t Rig::beyond(const EventPlan& cut) const {
 void forget_files(SystemPlan& plan) {
   for (PlcPlan& plc : plan.plcs) plc.settings.trace = plc.settings.output = plc.settings.memory.path = "";
   for (LinePlan& line : plan.lines) line.captures.clear();
-}
-
-std::string_view run(Rig& rig, Time end, const std::function<void()>& progress) {
-  constexpr Time kSlice = kSecond;
-  while (rig.system().time() < end) {
-    if (interrupted()) return "interrupted";
-    rig.system().run_until(std::min(end, rig.system().time() + kSlice));
-    progress();
-  }
-  return "time";
 }
 
 }  // namespace s7200::tools

@@ -3,12 +3,10 @@
 // system from a file.
 #pragma once
 
-#include <functional>
 #include <iosfwd>
 #include <list>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "serial_sim/system/simulation.hpp"
@@ -56,7 +54,7 @@ class Rig final {
   ~Rig();
 
   /// Time 0: every PLC begins with its memory, clock and assignments, the lines with their faults, the records watch them,
-  /// and every master asks its first request a scan or two later. All that runs ends early after an interruption.
+  /// and every master asks its first request 1 s later. All that runs ends early after an interruption.
   void power_up();
 
   serial::System& system() { return system_; }
@@ -124,8 +122,5 @@ class Rig final {
 
 /// Lets nothing be recorded, and no memory be read or kept.
 void forget_files(SystemPlan& plan);
-
-/// Runs to `end`; `progress` is told now and then. Returns why it ended: `time` or `interrupted`.
-std::string_view run(Rig& rig, Time end, const std::function<void()>& progress);
 
 }  // namespace s7200::tools

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tools/host/interruption.hpp"
+#include "tools/rig/rig.hpp"
 
 namespace s7200::tools {
 
@@ -21,6 +22,16 @@ std::string_view run(serial::Simulation& simulation, const RunLimits& limits, co
     if (halt == serial::Halt::Time) progress();
   }
   return until_scans ? "endless scan" : "time";
+}
+
+std::string_view run(Rig& rig, Time end, const std::function<void()>& progress) {
+  constexpr Time kSlice = kSecond;
+  while (rig.system().time() < end) {
+    if (interrupted()) return "interrupted";
+    rig.system().run_until(std::min(end, rig.system().time() + kSlice));
+    progress();
+  }
+  return "time";
 }
 
 }  // namespace s7200::tools

@@ -1,4 +1,4 @@
-// Runs a simulation as fast as the computer can, until it has done what was asked.
+// Runs a simulation or a whole rig as fast as the computer can, until it has done what was asked.
 #pragma once
 
 #include <functional>
@@ -7,6 +7,8 @@
 #include "serial_sim/system/simulation.hpp"
 
 namespace s7200::tools {
+
+class Rig;
 
 /// A scan that goes on for so long in simulated time is taken for one that never ends; only WDR lets it come so far.
 inline constexpr Time kEndlessScan = 10 * kSecond;
@@ -20,5 +22,8 @@ struct RunLimits {
 /// Runs in slices; `progress` is told between them, and what is computed does not depend on it. Returns why it ended:
 /// `time`, `scans`, `endless scan`, `stop`, `fatal`, `run-time error` or `interrupted`.
 std::string_view run(serial::Simulation& simulation, const RunLimits& limits, const std::function<void()>& progress);
+
+/// The same of a system, to `end`: `time` or `interrupted`.
+std::string_view run(Rig& rig, Time end, const std::function<void()>& progress);
 
 }  // namespace s7200::tools

@@ -42,6 +42,12 @@ std::optional<Spot> at_plc(const SystemPlan& plan, std::string_view name, std::s
 
 }  // namespace
 
+std::vector<FaultPlan> of_anyone(const std::vector<serial::Fault>& faults) {
+  std::vector<FaultPlan> plans;
+  for (const serial::Fault& fault : faults) plans.push_back({.fault = fault});
+  return plans;
+}
+
 const std::string& name_of(const SystemPlan& plan, const StationPlan& station) {
   if (station.kind == StationPlan::Kind::Plc) return plan.plcs[station.number].name;
   return station.kind == StationPlan::Kind::Peer ? plan.peers[station.number].name : plan.bridges[station.number].name;

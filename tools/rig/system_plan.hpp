@@ -56,6 +56,9 @@ struct FaultPlan {
   std::optional<std::size_t> station{};  ///< of the line's stations
 };
 
+/// Faults of anyone on a line.
+std::vector<FaultPlan> of_anyone(const std::vector<serial::Fault>& faults);
+
 /// Something that is done to the system at an instant.
 struct EventPlan {
   enum class What : std::uint8_t { PowerOff, PowerOn, Cut, Mend, Set, Fault, ClearFaults };

@@ -9,6 +9,7 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/model/named_times.hpp"
+#include "interpreter/program/constants.hpp"
 #include "interpreter/program/load.hpp"
 #include "interpreter/program/load_times.hpp"
 #include "interpreter/program/slips.hpp"
@@ -286,22 +287,6 @@ class Reader {
                       fmt::format("the program moves no constant to {}", stl::shortened(constants->keys[i].text)),
                       "MOVB, MOVW or MOVD with a constant and that address would");
     }
-  }
-
-  /// Whatever constant the program moves there is `value` then. Whether it moves any.
-  static bool set_constant(stl::Source& source, std::string_view address, std::int64_t value) {
-    bool any = false;
-    for (stl::Line& line : source.lines) {
-      auto* const statement = std::get_if<stl::Statement>(&line);
-      if (!statement || statement->operands.size() != 2) continue;
-      const std::string& what = statement->mnemonic;
-      if (what != "MOVB" && what != "MOVW" && what != "MOVD") continue;
-      auto* const constant = std::get_if<stl::Integer>(&statement->operands[0].value);
-      if (!constant || stl::to_text(statement->operands[1]) != stl::upper_case(std::string(address))) continue;
-      *constant = {.value = value};
-      any = true;
-    }
-    return any;
   }
 
   void read_settings(const YamlNode& map, PlcPlan& plc, bool one_of_several) {

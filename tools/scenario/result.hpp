@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "serial_sim/peers/requester.hpp"
-#include "tools/rig/band.hpp"
+#include "tools/measuring/band.hpp"
 #include "tools/scenario/text.hpp"
 
 namespace s7200::tools {

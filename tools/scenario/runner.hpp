@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "interpreter/program/program.hpp"
-#include "tools/rig/band.hpp"
+#include "tools/measuring/band.hpp"
 #include "tools/scenario/result.hpp"
 #include "tools/scenario/scenario.hpp"
 #include "tools/slave/slave.hpp"

@@ -8,7 +8,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "tools/host/interruption.hpp"
-#include "tools/rig/parallel_run.hpp"
+#include "tools/measuring/parallel_run.hpp"
 
 namespace s7200::tools {
 namespace {

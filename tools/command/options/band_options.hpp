@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tools/command/options/program_options.hpp"
-#include "tools/rig/band.hpp"
+#include "tools/measuring/band.hpp"
 
 namespace s7200::tools {
 

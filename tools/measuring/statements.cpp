@@ -1,4 +1,4 @@
-#include "tools/rig/statements.hpp"
+#include "tools/measuring/statements.hpp"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,11 @@
 #include <set>
 
 #include "interpreter/base/numbers.hpp"
+#include "interpreter/program/constants.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
+#include "tools/measuring/band.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -19,8 +21,8 @@ Verdict verdict_of(bool holds) { return holds ? Verdict::Holds : Verdict::Fails;
 
 // --- what manuals print ---
 
-/// A figure that a manual prints for some CPUs.
-struct Figure {
+/// A time that a manual prints for some CPUs.
+struct PrintedTime {
   CpuSet cpus;
   std::string_view mnemonic;
   std::optional<Area> area;
@@ -33,19 +35,19 @@ constexpr std::string_view kGerman2002 = "S7-200 manual, German edition 2002, 44
 constexpr std::string_view kFrench2004 = "S7-200 manual, French edition 2004, appendix F";
 
 /// Five percent to each side of a figure: a measurement that is farther off contradicts it.
-constexpr Figure about(CpuSet cpus, std::string_view mnemonic, std::optional<Area> area, std::string_view what, Time figure,
-                       std::string_view source) {
+constexpr PrintedTime about(CpuSet cpus, std::string_view mnemonic, std::optional<Area> area, std::string_view what,
+                            Time figure, std::string_view source) {
   return {cpus, mnemonic, area, what, figure * 95 / 100, figure * 105 / 100, source};
 }
 
-const std::array kFigures{
-    Figure{kCpu21x,
-           name_of(SystemTime::EepromSave),
-           {},
-           "saving a value to EEPROM takes 15 to 20 ms",
-           15 * kMillisecond,
-           20 * kMillisecond,
-           "S7-200 manual C230-02, 7-16"},
+const std::array kPrintedTimes{
+    PrintedTime{kCpu21x,
+                name_of(SystemTime::EepromSave),
+                {},
+                "saving a value to EEPROM takes 15 to 20 ms",
+                15 * kMillisecond,
+                20 * kMillisecond,
+                "S7-200 manual C230-02, 7-16"},
     about(kCpu22xRelease1, "RCV", {}, "RCV takes 80 us", 80 * kMicrosecond, kGerman2002),
     about(kCpu22xRelease1, "RET", {}, "RET takes 13 us", 13 * kMicrosecond, kGerman2002),
     about(kCpu22xRelease1, "RETI", {}, "RETI takes 23 us", 23 * kMicrosecond, kGerman2002),
@@ -57,12 +59,12 @@ const std::array kFigures{
           kMicrosecond, kFrench2004),
 };
 
-void check_figures(const CpuModel& model, const TimeTable& times, std::vector<Statement>& statements) {
-  for (const Figure& figure : kFigures) {
-    if (!(figure.cpus & model.self)) continue;
-    const Time found = times.cost(figure.mnemonic, figure.area).value_or(Cost{}).base;
-    statements.push_back({std::string(figure.what), std::string(figure.source), in_microseconds(found) + " us",
-                          verdict_of(found >= figure.least && found <= figure.most)});
+void check_printed_times(const CpuModel& model, const TimeTable& times, std::vector<Statement>& statements) {
+  for (const PrintedTime& printed : kPrintedTimes) {
+    if (!(printed.cpus & model.self)) continue;
+    const Time found = times.cost(printed.mnemonic, printed.area).value_or(Cost{}).base;
+    statements.push_back({std::string(printed.what), std::string(printed.source), in_microseconds(found) + " us",
+                          verdict_of(found >= printed.least && found <= printed.most)});
   }
 }
 
@@ -82,23 +84,6 @@ constexpr std::array<Rate, 7> kRates{{{300, 0x5D, 166},
                                       {19200, 0x45, 5}}};
 constexpr Rate k38400{38400, 0x41, 5};
 
-/// Sets what the program moves into a byte of special memory.
-void set_byte(stl::Source& source, std::uint32_t number, std::int64_t value) {
-  for (stl::Line& line : source.lines) {
-    auto* statement = std::get_if<stl::Statement>(&line);
-    if (!statement || statement->mnemonic != "MOVB" || statement->operands.size() != 2) continue;
-    const auto* to = std::get_if<stl::Address>(&statement->operands[1].value);
-    auto* constant = std::get_if<stl::Integer>(&statement->operands[0].value);
-    if (to && constant && to->area == "SM" && to->number == number) constant->value = value;
-  }
-}
-
-struct LostCharacters : TraceSink {
-  void record(const TraceRecord& record) override { count += record.kind == TraceKind::EventLost; }
-  bool wants_scans() const override { return false; }
-  std::size_t count = 0;
-};
-
 /// How the slave serves the longest request that it takes, 60 registers, and a read.
 struct Served {
   bool all_answered = false;
@@ -117,7 +102,7 @@ class Tip41 {
 
   Served serve(const Rate& rate) const {
     serial::Simulation simulation(program(rate));
-    LostCharacters lost;
+    LostEvents lost;
     simulation.cpu().set_sink(&lost);
     if (!start(simulation)) return {};
     const std::vector<std::uint16_t> values(60, 0x5AA5);
@@ -127,14 +112,14 @@ class Tip41 {
       answered &= !simulation.finish_exchange().timed_out;
       simulation.run_until(simulation.time() + serial::default_quiet(simulation.freeport().format));
     }
-    return {answered, lost.count};
+    return {answered, lost.take()};
   }
 
  private:
   std::shared_ptr<const Program> program(const Rate& rate) const {
     stl::ParseResult parsed = text_.parsed;
-    set_byte(parsed.source, 30, rate.port_control);
-    set_byte(parsed.source, 34, rate.quiet_ms);
+    set_constant(parsed.source, "SMB30", rate.port_control);
+    set_constant(parsed.source, "SMB34", rate.quiet_ms);
     return check(std::move(parsed), model_, times_).program;
   }
 
@@ -191,7 +176,7 @@ void check_tip41(const CpuModel& model, const TimeTable& times, const SourceText
 std::vector<Statement> check_statements(const CpuModel& model, const TimeTable& times, const SourceText* tip41) {
   std::vector<Statement> statements;
   if (model.self == kCpu214) check_tip41(model, times, tip41, statements);
-  check_figures(model, times, statements);
+  check_printed_times(model, times, statements);
   return statements;
 }
 

@@ -1,4 +1,4 @@
-#include "tools/rig/measure.hpp"
+#include "tools/measuring/measure.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -8,8 +8,8 @@
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
-#include "tools/rig/long_listing.hpp"
-#include "tools/rig/mixed_program.hpp"
+#include "tools/measuring/long_listing.hpp"
+#include "tools/measuring/mixed_program.hpp"
 #include "tools/views/check_report.hpp"
 
 namespace s7200::tools {

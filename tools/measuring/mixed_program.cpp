@@ -1,4 +1,4 @@
-#include "tools/rig/mixed_program.hpp"
+#include "tools/measuring/mixed_program.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // Bands of execution times: which tables they have, and how what came of them is added up.
-#include "tools/rig/band.hpp"
+#include "tools/measuring/band.hpp"
 
 #include <gtest/gtest.h>
 

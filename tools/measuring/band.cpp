@@ -1,4 +1,4 @@
-#include "tools/rig/band.hpp"
+#include "tools/measuring/band.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "tools/rig/long_listing.hpp"
+#include "tools/measuring/long_listing.hpp"
 
 #include <fmt/format.h>
 
