@@ -28,7 +28,7 @@ constexpr std::array kKeys{
     SystemKey{Where::Plc, "station", "NUMBER", "address on the line, 1 to 247: the constant that the program moves into VB4095, as our slaves and Application Tip 41 do"},
     SystemKey{Where::Plc, "constants", "MAP", "constants that the program moves to an address with MOVB, MOVW or MOVD, instead of its own: `{SMB30: 16#45}`"},
     SystemKey{Where::Plc, "set", "MAP", "memory and inputs before the first scan: `{VW20: 16#1234, I0.3: 1}`"},
-    SystemKey{Where::Plc, "input", "PATH", "inputs over time, CSV in the format of `s7200 run --input`"},
+    SystemKey{Where::Plc, "input", "PATH", "inputs over time, I, AIW and the potentiometers SMB28 and SMB29: CSV in the format of `s7200 run --input`"},
     SystemKey{Where::Plc, "clock", "TIME", "time of day at the start: `2026-11-21 10:00:00`"},
     SystemKey{Where::Plc, "memory", "PATH", "retentive memory, EEPROM and clock: read at the start if it exists, written at the end"},
     SystemKey{Where::Plc, "trace", "PATH", "interrupts, characters, attachments and errors are written there"},
