@@ -31,8 +31,7 @@ void RigOptions::add_to(CLI::App& app) {
       ->type_name("ADDRESS[:COUNT]")
       ->allow_extra_args(false);
   app.add_option("--input", settings_.input,
-                 "inputs (I, AIW, SMB28, SMB29) over time, CSV rows such as 10ms,I0.3,1 or 1s,AIW0,6400 or "
-                 "1s,I0.6,pulses,5kHz,200ms")
+                 "I, AIW, SMB28 and SMB29 over time, CSV rows such as 10ms,I0.3,1  1s,AIW0,6400  1s,I0.6,pulses,5kHz,200ms")
       ->type_name("FILE");
   app.add_option("--output", settings_.output,
                  "write each change of an output (Q, AQ) to FILE, as CSV; - is standard output")
