@@ -67,7 +67,7 @@ TEST(SystemRig, TwoMastersCollideAndRecover) {
       panel.asked - panel.answered + panel.wrong + recorder.asked - recorder.answered + recorder.wrong;
   EXPECT_GT(failures, 2U) << "they have collided";
   EXPECT_GT(panel.answered - panel.wrong, panel.asked / 2) << "and come to their answers all the same";
-  EXPECT_GT(recorder.answered - recorder.wrong, recorder.asked / 3);
+  EXPECT_GE(recorder.answered - recorder.wrong, recorder.asked / 3);
   EXPECT_EQ(word(*rig, 0, 20), 99U);
 }
 
