@@ -38,6 +38,16 @@ struct Loop {
 /// The devices on the ports of a CPU, by number; null for those that it does not have.
 using Ports = std::array<SerialPort*, kPorts.size()>;
 
+/// Whoever is wired to the output points of a CPU.
+class OutputListener {
+ public:
+  /// The points of `byte` that `changed` has a 1 for are different from `at` on; `points` is what all of them are then.
+  virtual void outputs_changed(std::uint32_t byte, std::uint8_t points, std::uint8_t changed, Time at) = 0;
+
+ protected:
+  ~OutputListener() = default;
+};
+
 class Core {
  public:
   /// Owns nothing but the program.
@@ -134,6 +144,13 @@ class Core {
     return *port_[number];
   }
 
+  void set_output_listener(OutputListener* listener) { output_listener_ = listener; }
+  void tell_of_outputs(std::uint32_t byte, std::uint8_t before, Time at) const {
+    const std::uint8_t points = s.image[image::kOutputs + byte];
+    trace({.at = at, .kind = TraceKind::OutputChanged, .byte = points, .op = byte});
+    if (output_listener_) output_listener_->outputs_changed(byte, points, static_cast<std::uint8_t>(points ^ before), at);
+  }
+
   void set_sink(TraceSink* sink) { sink_ = sink; }
   TraceSink* sink() const { return sink_; }
   void trace(const TraceRecord& record) const {
@@ -149,6 +166,7 @@ class Core {
   EventOwner owner_;
   Ports port_;
   TraceSink* sink_ = nullptr;
+  OutputListener* output_listener_ = nullptr;
 };
 
 template <class Value>

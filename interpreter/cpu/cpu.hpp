@@ -98,6 +98,9 @@ class Cpu {
 
   void set_sink(TraceSink* sink) { core_.set_sink(sink); }
 
+  /// Who is wired to the output points; null: nobody. Not owned.
+  void set_output_listener(OutputListener* listener) { core_.set_output_listener(listener); }
+
   /// The value of operand `i` as the instruction would find it now; nothing for a bad pointer.
   std::optional<std::uint32_t> peek(const Op& op, std::size_t i) const;
 

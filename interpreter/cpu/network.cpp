@@ -28,8 +28,6 @@ NetworkPort::Job job_of(const Core& core, std::uint32_t table, bool writes) {
           .writes = writes};
 }
 
-bool is_master(const Core& core, std::uint8_t port) { return (core.s.port[port].control & sm::kProtocol) == sm::kPpiMaster; }
-
 /// By the top byte of a pointer to it; null for an area that has none, or that other stations do not show.
 const s7::WireArea* area_of(std::uint32_t pointer) {
   constexpr std::array kShown{Area::I, Area::Q, Area::M, Area::V};
@@ -85,7 +83,7 @@ std::uint8_t timer_of(std::uint8_t port) { return static_cast<std::uint8_t>(kNet
 void send(Core& core, std::uint8_t number, std::uint8_t function, const Bytes& data, Time at) {
   const Bytes frame = ppi::to_frame({core.s.network[number].jobs.front().station, core.s.station[number], function, data});
   ppi::send(core, number, frame, at);
-  const Time end = at + static_cast<Time>(frame.size()) * ppi::kFormat.character_time();
+  const Time end = at + static_cast<Time>(frame.size()) * ppi::format_of(core.program(), number).character_time();
   core.schedule(end + kTimeOutTime, timer_of(number));
 }
 
@@ -140,13 +138,17 @@ void take_reply(Core& core, std::uint8_t number, const ppi::Body& body) {
   }
 }
 
+/// When the line has been silent for long enough to ask, if nothing more comes.
+Time silent_from(const Core& core, std::uint8_t number) {
+  return core.s.ppi[number].heard + ppi::format_of(core.program(), number).bit_times(ppi::kBitsOfSilence);
+}
+
 void take_up_next(Core& core, std::uint8_t number) {
   NetworkPort& port = core.s.network[number];
-  const PpiPort& line = core.s.ppi[number];
   ++port.number;
   port.tries = 1;
   port.damaged = port.frame_count = false;
-  ask(core, number, std::max(core.s.time, line.heard + ppi::kFormat.bit_times(ppi::kBitsOfSilence)));
+  ask(core, number, std::max(core.s.time, silent_from(core, number)));
 }
 
 void strike_off_first(NetworkPort& port) {
@@ -170,6 +172,8 @@ bool is_listed(const NetworkPort& port, std::uint32_t table) {
 }
 
 }  // namespace
+
+bool is_master(const Core& core, std::uint8_t port) { return (core.s.port[port].control & sm::kProtocol) == sm::kPpiMaster; }
 
 std::uint8_t length_of(const Core& core, std::uint32_t table) {
   return core.in_area(table, kData) ? core.s.image[table + kLength] : std::uint8_t{0};
@@ -225,9 +229,8 @@ void communicate(Core& core) {
 void handle(Core& core, std::uint8_t what, Time at) {
   const auto number = static_cast<std::uint8_t>(what - kNetworkTimer0);
   NetworkPort& port = core.s.network[number];
-  const PpiPort& line = core.s.ppi[number];
-  const Time silent = line.heard + ppi::kFormat.bit_times(ppi::kBitsOfSilence);
-  if (line.sending != 0 || at < silent) return core.schedule(std::max(silent, at + ppi::kFormat.character_time()), what);
+  const Time silent = silent_from(core, number), character = ppi::format_of(core.program(), number).character_time();
+  if (core.s.ppi[number].sending != 0 || at < silent) return core.schedule(std::max(silent, at + character), what);
   if (port.tries++ == kTries) return end(core, number, failed(port.damaged ? NetworkError::Damaged : NetworkError::TimeOut));
   return port.phase == Phase::Asked ? ask(core, number, at) : poll(core, number, at);
 }

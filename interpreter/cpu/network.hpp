@@ -18,6 +18,8 @@
 //   [Network.AJobThatCannotBeginSaysWhy, Network.ATableOnTheListIsNotListedAgain]
 // - A port that leaves the master mode ends its jobs with error 5. [Network.LeavingTheMasterModeEndsTheJobs]
 // - Jobs go on in STOP. [Network.JobsGoOnInStop]
+// - A master that hears another one goes on as if it were alone: when the line is silent it asks, and frames may collide.
+//   [Network.AMasterThatHearsAnotherOneGoesOnAndTheTraceSaysSo]
 // Not modelled: the token of several masters, the search for stations that are new.
 #pragma once
 
@@ -26,6 +28,9 @@
 #include "interpreter/cpu/core.hpp"
 
 namespace s7200::network {
+
+/// Whether a port is in PPI master mode.
+bool is_master(const Core& core, std::uint8_t port);
 
 /// How many bytes a table asks for; 0 if it reaches beyond its area.
 std::uint8_t length_of(const Core& core, std::uint32_t table);

@@ -1,6 +1,7 @@
 #include "interpreter/cpu/points.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "interpreter/cpu/forcing.hpp"
 #include "interpreter/cpu/pulse_outputs.hpp"
@@ -9,10 +10,6 @@
 namespace s7200 {
 namespace points {
 namespace {
-
-void trace_output(const Core& core, std::uint32_t byte, Time at) {
-  core.trace({.at = at, .kind = TraceKind::OutputChanged, .byte = core.s.image[image::kOutputs + byte], .op = byte});
-}
 
 /// Writes an output byte; points with running pulse outputs keep their level.
 void put_outputs(Core& core, std::uint32_t byte, std::uint8_t value) {
@@ -23,8 +20,8 @@ void put_outputs(Core& core, std::uint32_t byte, std::uint8_t value) {
     if (pulse_outputs::drive(core, byte, output)) value = static_cast<std::uint8_t>((value & ~mask) | (points & mask));
   }
   if (points == value) return;
-  points = value;
-  trace_output(core, byte, core.s.time);
+  const std::uint8_t before = std::exchange(points, value);
+  core.tell_of_outputs(byte, before, core.s.time);
 }
 
 using AnalogOutputs = std::array<std::uint8_t, image::kT - image::kAQ>;
@@ -64,7 +61,7 @@ void set_inputs(Core& core, std::uint32_t byte, std::uint8_t value, Time at) {
 void put_output(Core& core, std::uint32_t byte, std::uint8_t bit, bool value, Time at) {
   const std::uint8_t before = core.s.image[image::kOutputs + byte];
   core.put_bit(image::kOutputs + byte, bit, value);
-  if (core.s.image[image::kOutputs + byte] != before) trace_output(core, byte, at);
+  if (core.s.image[image::kOutputs + byte] != before) core.tell_of_outputs(byte, before, at);
 }
 
 void write_output(Core& core, std::uint32_t byte, std::uint8_t bit, bool value) {

@@ -44,7 +44,30 @@ void take_poll(Core& core, std::uint8_t number, const Body& body, Time at) {
   reply(core, number, port.master, kData, {port.message.data(), port.length}, at);
 }
 
+void trace_unmodelled(const Core& core, std::uint8_t number, PpiUnmodelled what, std::uint8_t source,
+                      std::uint8_t destination, Time at) {
+  core.trace({.at = at,
+              .kind = TraceKind::PpiNotModelled,
+              .event = source,
+              .byte = destination,
+              .port = number,
+              .code = static_cast<std::uint16_t>(what)});
+}
+
+void pass_by(const Core& core, std::uint8_t number, const Body& body, Time at) {
+  const bool asks = (body.function & kIsRequest) != 0;
+  const auto trace = [&](PpiUnmodelled what) { trace_unmodelled(core, number, what, body.source, body.destination, at); };
+  if (body.destination == kEveryStation) return trace(PpiUnmodelled::Broadcast);
+  if (asks && network::is_master(core, number)) trace(PpiUnmodelled::AnotherMaster);
+}
+
 void take_frame(Core& core, std::uint8_t number, std::span<const std::uint8_t> frame, Time at) {
+  const std::uint8_t own = core.s.station[number];
+  if (const auto token = token_of(frame)) {
+    if (token->destination == own)
+      trace_unmodelled(core, number, PpiUnmodelled::Token, token->source, token->destination, at);
+    return;
+  }
   const auto body = body_of(frame);
   if (!body) {
     if (frame.size() < kShortestWithBody) return network::heard(core, number, frame, at);
@@ -52,7 +75,12 @@ void take_frame(Core& core, std::uint8_t number, std::span<const std::uint8_t> f
     core.trace({.at = at, .kind = TraceKind::PpiIgnored, .port = number, .count = frame.size()});
     return;
   }
-  if (body->destination != core.s.station[number]) return;
+  if (((body->destination | body->source) & kExtension) != 0) {
+    if ((body->destination & ~kExtension) == own)
+      trace_unmodelled(core, number, PpiUnmodelled::ExtendedAddress, body->source, body->destination, at);
+    return;
+  }
+  if (body->destination != own) return pass_by(core, number, *body, at);
   if ((body->function & kIsRequest) == 0) return network::heard(core, number, frame, at);
   switch (body->function & kService) {
     case kStatus:
@@ -74,8 +102,9 @@ void take_character(Core& core, std::uint8_t number, const ReceivedCharacter& ch
   port.lost = character.parity_error || character.framing_error || length == 0U;
   if (port.lost || length != port.received) return;
   port.received = 0;
-  const Time end = character.end + kFormat.half_bits(1);
-  take_frame(core, number, Bytes(frame.begin(), frame.end()), end + kFormat.bit_times(kBitsToReply));
+  const SerialFormat format = format_of(core.program(), number);
+  const Time end = character.end + format.half_bits(1);
+  take_frame(core, number, Bytes(frame.begin(), frame.end()), end + format.bit_times(kBitsToReply));
 }
 
 void carry_out(Core& core, std::uint8_t number) {
@@ -88,6 +117,12 @@ void carry_out(Core& core, std::uint8_t number) {
 }
 
 }  // namespace
+
+SerialFormat format_of(const Program& program, std::uint8_t port) {
+  SerialFormat format = kFormat;
+  format.baud = program.ppi_rates[port];
+  return format;
+}
 
 void send(Core& core, std::uint8_t number, std::span<const std::uint8_t> frame, Time at) {
   PpiPort& port = core.s.ppi[number];
@@ -102,13 +137,13 @@ void send(Core& core, std::uint8_t number, std::span<const std::uint8_t> frame, 
 
 void begin(Core& core, std::uint8_t number, Time at) {
   core.s.ppi[number] = {.heard = at};
-  core.port(number).configure(kFormat, at);
+  core.port(number).configure(format_of(core.program(), number), at);
   core.port(number).enable_receiver(true, at);
 }
 
 void character_received(Core& core, std::uint8_t number, const ReceivedCharacter& character) {
   PpiPort& port = core.s.ppi[number];
-  if (character.start - port.heard >= kFormat.bit_times(kBitsOfSilence)) {
+  if (character.start - port.heard >= format_of(core.program(), number).bit_times(kBitsOfSilence)) {
     port.received = 0;
     port.lost = false;
   }

@@ -1,5 +1,5 @@
 // PPI, the protocol of a port that is not in Freeport mode: the CPU is a slave at its station, 2 unless the program says
-// otherwise, in RUN and in STOP (facts 2.1, 10.9). 9600 baud, 8E1.
+// otherwise, in RUN and in STOP (facts 2.1, 10.9). 8E1, at the rate of the system block (program/ppi_rates.hpp).
 //
 //   master                                  slave
 //   SD2 with a request, function 6C         E5: accepted
@@ -19,9 +19,12 @@
 //   resource (SD1, function 02). [Ppi.AnotherMasterIsToldThatThereIsNoResource]
 // - A poll that repeats the frame count bit of the one before gets the same answer again.
 // [Ppi.ARepeatedPollGetsTheAnswerAgain]
-// - The status of the station (function 49) is asked and answered with SD1, function 00. [Ppi.TheStatusIsThatOfASlave]
+// - The status of the station (function 49) is asked and answered with SD1, function 00, by a port in master mode too: it
+//   waits for no token. [Ppi.TheStatusIsThatOfASlave, Network.TheMasterAnswersOtherMastersAsASlave]
+// - A token, a broadcast and a frame with a longer address are ignored, and the trace says so.
+//   [Ppi.WhatIsNotModelledIsIgnoredAndNamedInTheTrace]
 // - XMT begins when the last character of a PPI answer has left. [Ppi.XmtWaitsForTheCharacterThatIsLeaving]
-// Not modelled: other rates than 9600 baud, the token of several masters, broadcasts. A CPU as master is in network.hpp.
+// Not modelled: the token of several masters, broadcasts, longer addresses. A CPU as master is in network.hpp.
 #pragma once
 
 #include <span>
@@ -30,8 +33,11 @@
 
 namespace s7200::ppi {
 
-/// How the port is set while it speaks PPI.
-inline constexpr SerialFormat kFormat{.baud = 9600, .data_bits = 8, .parity = Parity::Even, .stop_bits = 1};
+/// How a port is set while it speaks PPI, at the usual rate.
+inline constexpr SerialFormat kFormat{.baud = kUsualPpiRates[0], .data_bits = 8, .parity = Parity::Even, .stop_bits = 1};
+
+/// The same at the rate of this port.
+SerialFormat format_of(const Program& program, std::uint8_t port);
 
 /// A reply begins so long after the last character; silence ends what was being received.
 inline constexpr int kBitsToReply = 11, kBitsOfSilence = 33;

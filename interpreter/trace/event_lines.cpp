@@ -42,6 +42,24 @@ std::string variable_text(const TraceRecord& r) {
 }
 
 /// What a master has asked the CPU for.
+std::string unmodelled_ppi_text(const TraceRecord& r) {
+  switch (static_cast<PpiUnmodelled>(r.code)) {
+    case PpiUnmodelled::Token:
+      return fmt::format("PPI token from station {} ignored: passing the token on is not modelled", r.event);
+    case PpiUnmodelled::AnotherMaster:
+      return fmt::format(
+          "PPI station {} asks station {}: another master; without the token, which is not modelled, its "
+          "frames and those of NETR and NETW here may collide",
+          r.event, r.byte);
+    case PpiUnmodelled::Broadcast:
+      return fmt::format("PPI broadcast from station {} ignored: broadcasts are not modelled", r.event);
+    case PpiUnmodelled::ExtendedAddress:
+      return fmt::format("PPI frame from 16#{:02X} to 16#{:02X} ignored: addresses above 127 are not modelled", r.event,
+                         r.byte);
+  }
+  return {};
+}
+
 std::string ppi_text(const TraceRecord& r) {
   const std::string who = fmt::format("PPI station {}", r.event);
   if (r.kind == TraceKind::PpiAccess) {
@@ -150,6 +168,8 @@ void EventText::append_to(fmt::memory_buffer& text, const TraceRecord& r) {
       return add(ppi_text(r));
     case TraceKind::NetworkJob:
       return add(network_text(r));
+    case TraceKind::PpiNotModelled:
+      return add(unmodelled_ppi_text(r));
     case TraceKind::PpiIgnored:
       return add("PPI frame of ", r.count, " characters ignored: its check sum or end is wrong");
   }

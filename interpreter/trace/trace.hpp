@@ -38,8 +38,17 @@ enum class TraceKind : std::uint8_t {
   NetworkJob,         ///< byte: the status in the table of NETR, or of NETW if routine is 1; op: its place in the image
   PpiService,         ///< byte: S7 function, event: the master's station; code: error of the answer, 0 if it was carried out
   PpiAccess,          ///< a variable that a master reads or writes, like PpiService. Code FF: op is its place in the image,
-                      ///< count its bytes, 0 for the bit `routine`. Otherwise op is the address and routine the area asked for
-  PpiIgnored,         ///< a frame with a wrong check sum or end; count: its characters
+              ///< count its bytes, 0 for the bit `routine`. Otherwise op is the address and routine the area asked for
+  PpiIgnored,      ///< a frame with a wrong check sum or end; count: its characters
+  PpiNotModelled,  ///< a right frame from station `event` to `byte` of which nothing comes here; code: PpiUnmodelled
+};
+
+/// What is not documented of several masters on a line, and of longer addresses.
+enum class PpiUnmodelled : std::uint8_t {
+  Token,            ///< for this station: it takes no part in passing it on
+  AnotherMaster,    ///< that asks another station, while this port is a master too: nothing says whose turn it is
+  Broadcast,        ///< to station 127
+  ExtendedAddress,  ///< station numbers above 127
 };
 
 struct TraceRecord {

@@ -184,7 +184,8 @@ void Line::heal(Time at) {
 
 void Line::note_whether_disturbed() {
   changed();
-  disturbed_ = !std::all_of(disturbances_.begin(), disturbances_.end(), [](const Periods& those) { return those.none(); });
+  const auto any = [](const Periods& those) { return !those.none(); };
+  disturbed_ = std::ranges::any_of(disturbances_, any) || std::ranges::any_of(contention_.marks, any);
 }
 
 /// Of the seed and the instant, whoever asks first.
@@ -192,20 +193,41 @@ static bool toss(std::uint64_t seed, Time at) {
   return (split_mix(seed + static_cast<std::uint64_t>(at) * kSplitMixStep) & 1U) != 0;
 }
 
-/// Space wins where two drivers disagree; where chance says mark instead, receivers find mark.
 void Line::contend(int number, Time from, Time to) {
-  const auto own = static_cast<std::size_t>(number);
-  contention_.on_until[own] = to;
-  for (int other = 0; other < kDrivers; ++other) {
-    const Time end = std::min(to, contention_.on_until[static_cast<std::size_t>(other)]);
-    if (other == number || end <= from) continue;
-    for (Time at = from; at < end;) {
-      const Time next = std::min({end, next_edge_of(number, at + 1), next_edge_of(other, at + 1)});
-      if (level_of(number, at) != level_of(other, at) && toss(contention_.seed, at))
-        disturb({.effect = Disturbance::Effect::Cuts, .from = at, .to = next});
-      at = next;
+  contention_.on_until[static_cast<std::size_t>(number)] = to;
+  bool any = false;
+  for (int other = 0; other < kDrivers; ++other)
+    if (other != number) any |= contend(number, other, from, to);
+  if (!any) return;
+  note_whether_disturbed();
+  tell(from);
+}
+
+/// What drivers that are on make of it from `at` on, after one of them has gone off or the cable has been cut or mended.
+void Line::contend_anew(Time at) {
+  if (contention_.on_until.empty()) return;
+  for (Periods& marks : contention_.marks) marks.end(at);
+  for (int number = 0; number < kDrivers; ++number)
+    for (int other = 0; other < number; ++other)
+      contend(number, other, at, contention_.on_until[static_cast<std::size_t>(number)]);
+  note_whether_disturbed();
+}
+
+/// Space wins where two drivers disagree; where chance says mark instead, receivers find mark. Whether there is such a
+/// place.
+bool Line::contend(int number, int other, Time from, Time to) {
+  bool any = false;
+  const Time end = std::min(to, contention_.on_until[static_cast<std::size_t>(other)]);
+  for (Time at = from; at < end;) {
+    const Time next = std::min({end, next_edge_of(number, at + 1), next_edge_of(other, at + 1), next_separation(at + 1)});
+    const std::size_t part = part_of(number, at);
+    if (part == part_of(other, at) && level_of(number, at) != level_of(other, at) && toss(contention_.seed, at)) {
+      contention_.marks[part].unite(at, next);
+      any = true;
     }
+    at = next;
   }
+  return any;
 }
 
 Time Line::next_edge_of(int number, Time from) const {
@@ -217,6 +239,7 @@ Time Line::next_edge_of(int number, Time from) const {
 void Line::separate(Time at, std::uint32_t far) {
   reveal();
   separations_.push_back({at, far});
+  contend_anew(at);
   changed();
   tell(at);
 }
@@ -225,15 +248,31 @@ void Line::release(int number, Time at) {
   driver(number).release(at);
   changed(number);
   if (!contention_.on_until.empty()) contention_.on_until[static_cast<std::size_t>(number)] = at;
+  contend_anew(at);
   tell(at);
 }
 
-std::uint32_t Line::audible(int listener, Time at) const {
-  if (listener == kWholeCable) return ~0U;
+std::uint32_t Line::far_at(Time at) const {
   std::uint32_t far = 0;
   for (const Separation& separation : separations_)
     if (separation.at <= at) far = separation.far;
+  return far;
+}
+
+/// Of the cable: 0 the near one, and the whole; 1 the far one.
+std::size_t Line::part_of(int driver, Time at) const { return driver == kWholeCable ? 0 : far_at(at) >> driver & 1U; }
+
+std::uint32_t Line::audible(int listener, Time at) const {
+  if (listener == kWholeCable) return ~0U;
+  const std::uint32_t far = far_at(at);
   return (far >> listener & 1U) != 0 ? far : ~far;
+}
+
+bool Line::chance_says_mark(Time at, int listener) const { return contention_.marks[part_of(listener, at)].lasts(at); }
+
+Time Line::next_separation(Time from) const {
+  const auto next = std::ranges::find_if(separations_, [&](const Separation& each) { return each.at >= from; });
+  return next == separations_.end() ? kNever : next->at;
 }
 
 bool Line::level(Time at, int listener) const {
@@ -245,7 +284,7 @@ bool Line::level(Time at, int listener) const {
 }
 
 bool Line::irregular_level(Time at, int listener) const {
-  return disturbed_level(driven_level(at, audible(listener, at)), at);
+  return disturbed_level(driven_level(at, audible(listener, at)) || chance_says_mark(at, listener), at);
 }
 
 unsigned Line::levels(Time start, const BitTimes& times, int listener) const {
@@ -294,7 +333,7 @@ bool Line::level_of(int driver, Time at) const {
 }
 
 bool Line::level_without(int driver, Time at) const {
-  return disturbed_level(driven_level(at, audible(driver, at) & ~(1U << driver)), at);
+  return disturbed_level(driven_level(at, audible(driver, at) & ~(1U << driver)) || chance_says_mark(at, driver), at);
 }
 
 Time Line::next_change(Time from) const {
@@ -304,9 +343,8 @@ Time Line::next_change(Time from) const {
     if (index < driver.edges.size()) change = std::min(change, driver.edges[index]);
   });
   for (const Periods& those : disturbances_) change = std::min(change, those.next_change(from));
-  for (const Separation& separation : separations_)
-    if (separation.at >= from) change = std::min(change, separation.at);
-  return change;
+  for (const Periods& those : contention_.marks) change = std::min(change, those.next_change(from));
+  return std::min(change, next_separation(from));
 }
 
 Time Line::falling_edge(Time from, int listener) const {
@@ -365,6 +403,7 @@ void Line::forget(Time now) {
   if (separations_.size() == 1 && separations_[0].far == 0 && separations_[0].at <= now) separations_.clear();
   if (!disturbed_) return;
   for (Periods& those : disturbances_) those.forget(now);
+  for (Periods& those : contention_.marks) those.forget(now);
   note_whether_disturbed();
 }
 

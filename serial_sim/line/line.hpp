@@ -72,12 +72,12 @@ class Line {
   Interference* interference() const { return wiring_.interference; }
   void set_interference(Interference* interference) { wiring_.interference = interference; }
 
-  /// From `at` on the drivers of `far`, a bit each, and all others do not hear each other: the cable is cut between them. 0:
-  /// it is whole again. Instants ascend. Every listener is told.
+  /// From `at` on the drivers of `far`, a bit each, and all others neither hear each other nor disagree: the cable is cut
+  /// between them. 0: it is whole again. Instants ascend. Every listener is told.
   void separate(Time at, std::uint32_t far);
 
   /// From now on the level of a bit for which drivers that are switched on disagree follows from chance: mark or space, for
-  /// all receivers alike. The same seed gives the same levels.
+  /// all receivers on their part of the cable alike. The same seed gives the same levels.
   void leave_contention_to_chance(std::uint64_t seed) {
     contention_ = {.seed = seed, .on_until = std::vector<Time>(kDrivers)};
   }
@@ -193,6 +193,8 @@ class Line {
   struct Contention {
     std::uint64_t seed = 0;
     std::vector<Time> on_until{};  // by driver; empty: space wins
+    std::array<Periods, 2>
+        marks{};  // chance says mark where a driver holds space: on the near and the far part of the cable
     bool operator==(const Contention&) const = default;
   };
 
@@ -238,12 +240,18 @@ class Line {
     answers_.levels_at.clear();
   }
   bool irregular() const { return disturbed_ || !separations_.empty(); }
+  std::uint32_t far_at(Time at) const;
+  std::size_t part_of(int driver, Time at) const;
   std::uint32_t audible(int listener, Time at) const;
+  bool chance_says_mark(Time at, int listener) const;
   bool irregular_level(Time at, int listener) const;
   unsigned levels(std::span<const Time> at, int listener) const;
   unsigned sampled(std::span<const Time> at, int listener) const;
   void contend(int driver, Time from, Time to);
+  void contend_anew(Time at);
+  bool contend(int driver, int other, Time from, Time to);
   Time next_edge_of(int driver, Time from) const;
+  Time next_separation(Time from) const;
   bool driven_level(Time at, std::uint32_t audible = ~0U) const;
   bool disturbed_level(bool driven, Time at) const;
   Time driven_falling_edge(Time from) const;
@@ -261,7 +269,7 @@ class Line {
   std::vector<Separation> separations_;  // in order of time
   Contention contention_;
   std::array<Periods, 3> disturbances_;  // by effect; however many overlap, they are no more than what is left of them
-  bool disturbed_ = false;               // there are any
+  bool disturbed_ = false;               // there are any, or marks by chance
   Wiring wiring_;
   mutable Answers answers_;
 };

@@ -98,6 +98,7 @@ class Uart final : public SerialPort, private LineListener {
   bool hears_itself() const { return line_.interference() != nullptr && line_.interference()->echoes(driver_); }
 
   int driver() const { return driver_; }
+  const Line& line() const { return line_; }
 
   /// Whether another station, or a disturbance, holds the line at space.
   bool others_space(Time at) const { return !line_.level_without(driver_, at); }

@@ -35,6 +35,15 @@ class Automaton {
   /// The signal beside the data that some lines have.
   virtual void sync(bool /*high*/, Time /*at*/) {}
 
+  /// Its power has gone off, or has come, at `at`: what it was told, and what it was about to say, is gone. Memory and
+  /// settings stay.
+  void reset(Time at) {
+    due_ = kNever;
+    answer_.reset();
+    abort_ = false;
+    restart(at);
+  }
+
   /// due() has come, and no character is just coming in.
   virtual void wake(Time /*now*/) {}
 
@@ -52,6 +61,9 @@ class Automaton {
   bool operator==(const Automaton&) const = default;
 
  protected:
+  /// What of its state belongs to a message or a session becomes what it is after power has come at `at`.
+  virtual void restart(Time at) = 0;
+
   Automaton() = default;
   Automaton(const Automaton&) = default;
   Automaton& operator=(const Automaton&) = default;

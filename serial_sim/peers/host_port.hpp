@@ -87,6 +87,11 @@ class HostPort {
   /// When a character that is coming in will be complete; kNever when there is none.
   Time character_due() const { return uart_.character_due(); }
 
+  /// End of the last character that it has sent, or is sending; 0 if there is none.
+  Time sent_until() const { return uart_.state().send_end; }
+
+  bool is_on(const Line& line) const { return &uart_.line() == &line; }
+
   void on(const Uart::Report& report);
 
   /// Null: no one is told. Not owned.

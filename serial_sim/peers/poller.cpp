@@ -15,6 +15,16 @@ void Poller::start(Time at) {
   await(at);
 }
 
+void Poller::power_off() {
+  state_.waiting = true;
+  queue_.cancel(owner_, 0);
+}
+
+void Poller::begin_round(Time at) {
+  state_.next = 0;
+  await(at);
+}
+
 void Poller::handle(const Event& event) {
   state_.waiting = false;
   if (state_.next == 0) state_.round_begin = event.at;

@@ -41,6 +41,12 @@ class Poller {
   /// The first request is at `at`.
   void start(Time at);
 
+  /// Its requester has no power, and asks no more.
+  void power_off();
+
+  /// It asks its first request at `at`, and goes on from there.
+  void begin_round(Time at);
+
   void go_on(Time now);
   void handle(const Event& event);
 

@@ -164,6 +164,13 @@ void Requester::finish() {
   state_.phase = Phase::Idle;
 }
 
+void Requester::power_off(Time at) {
+  if (state_.phase == Phase::Sending) drive_sync(false, at);
+  queue_.cancel(owner_, kBegin);
+  finish();
+  state_.heard.clear();
+}
+
 void Requester::drive_sync(bool high, Time at) const {
   if (state_.request.sync && sync_wire_) sync_wire_(high, at);
 }

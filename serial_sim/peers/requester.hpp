@@ -97,6 +97,9 @@ class Requester {
   /// ends it. The last exchange is over; this one is, at once, if the transmission is.
   void listen(const Listening& listening, Time at);
 
+  /// Its station has lost power: what it was doing is over, and what it heard is forgotten.
+  void power_off(Time at);
+
   bool busy() const { return state_.phase != Phase::Idle; }
 
   /// Busy with a request and its answer, not with listening.

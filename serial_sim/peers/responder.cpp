@@ -14,6 +14,19 @@ void Responder::sync(bool high, Time at) {
   look();
 }
 
+void Responder::power_off(Time at) {
+  state_.automaton->reset(at);
+  queue_.cancel(owner_, kSend);
+  queue_.cancel(owner_, kWake);
+  state_.transmission = {};
+  state_.sent = 0;
+}
+
+void Responder::power_on(Time at) {
+  uart_.configure(state_.automaton->format());
+  state_.automaton->reset(at);
+}
+
 void Responder::on(const Uart::Report& report) {
   if (report.received && !(sending() && is_own(*report.received))) {
     state_.automaton->hear(*report.received);

@@ -33,6 +33,10 @@ class Responder {
   /// The sync signal of the line has changed.
   void sync(bool high, Time at);
 
+  /// Its station loses power, and has it again.
+  void power_off(Time at);
+  void power_on(Time at);
+
   void on(const Uart::Report& report);
   void handle(const Event& event);
 

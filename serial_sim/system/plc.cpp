@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "interpreter/cpu/ppi.hpp"
+
 namespace s7200::serial {
 
 Plc::Port::Port(Plc& of, std::uint8_t its_number, SharedLine& shared_line, Dispatcher& events)
@@ -102,6 +104,8 @@ void Plc::power_up(const RetentiveMemory* memory) {
 void Plc::power_off(Time at) {
   powered_ = false;
   queue_ = {};
+  output_edges_.clear();
+  for (const OutputWire& wire : output_wires_) wire.end(false, at);
   for (const auto& port : ports_) {
     port->actions.clear();
     port->uart.power_off(at);
@@ -119,7 +123,33 @@ void Plc::power_on(Time at) {
 
 SerialFormat Plc::port_format(std::uint8_t port) const {
   const Freeport& freeport = cpu_.state().port.at(port);
-  return freeport.active ? freeport.format : SerialFormat{};
+  return freeport.active ? freeport.format : ppi::format_of(cpu_.program(), port);
+}
+
+void Plc::wire_output(Dispatcher& events, const OutputPoint& output, std::function<void(bool on, Time at)> end) {
+  if (output_wires_.empty()) {
+    outputs_owner_ = events.add(Rank::Port, *this);
+    cpu_.set_output_listener(this);
+  }
+  output_wires_.push_back({output, std::move(end)});
+}
+
+/// Like what the CPU does to its ports, this comes to pass when the time of the system has come to it.
+void Plc::outputs_changed(std::uint32_t byte, std::uint8_t points, std::uint8_t changed, Time at) {
+  for (std::size_t wire = 0; wire < output_wires_.size(); ++wire) {
+    const OutputPoint& output = output_wires_[wire].output;
+    if (output.byte != byte || (changed >> output.bit & 1U) == 0) continue;
+    const OutputEdge edge{.wire = wire, .on = (points >> output.bit & 1U) != 0, .at = at};
+    output_edges_.insert(std::ranges::upper_bound(output_edges_, at, {}, &OutputEdge::at), edge);
+  }
+  if (!output_edges_.empty()) carry_output_edges(handled_);
+}
+
+void Plc::carry_output_edges(Time until) {
+  auto next = output_edges_.begin();
+  for (; next != output_edges_.end() && next->at <= until; ++next) output_wires_[next->wire].end(next->on, next->at);
+  output_edges_.erase(output_edges_.begin(), next);
+  if (!output_edges_.empty()) queue_.schedule(output_edges_.front().at, outputs_owner_, 0);
 }
 
 Time Plc::may_run_until(Time horizon) const {
@@ -149,6 +179,7 @@ void Plc::handle(const Event& event) {
   handled_ = event.at;
   if (event.owner == owner_) cpu_.handle(event);
   if (event.owner == field_owner_) field_.handle(event);
+  if (!output_wires_.empty() && event.owner == outputs_owner_) carry_output_edges(event.at);
   for (std::uint8_t port = 0; port < ports_.size(); ++port) {
     if (event.owner == ports_[port]->owner) hear(port, event);
     if (event.owner == ports_[port]->actor) ports_[port]->act_until(event.at);
@@ -164,7 +195,7 @@ void Plc::hear(std::uint8_t port, const Event& event) {
 }
 
 Plc::State Plc::state() const {
-  State state{cpu_.state(), {}, {}, field_.state(), powered_, executed_before_};
+  State state{cpu_.state(), {}, {}, output_edges_, field_.state(), powered_, executed_before_};
   for (std::size_t port = 0; port < ports_.size(); ++port) {
     state.uart[port] = ports_[port]->uart.state();
     state.actions[port] = ports_[port]->actions;
@@ -174,6 +205,7 @@ Plc::State Plc::state() const {
 
 void Plc::restore(const State& state, Time now) {
   cpu_.restore(state.cpu);
+  output_edges_ = state.output_edges;
   field_.restore(state.field);
   powered_ = state.powered;
   executed_before_ = state.executed_before;

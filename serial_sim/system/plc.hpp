@@ -28,13 +28,29 @@ struct PortAction {
   bool operator==(const PortAction&) const = default;
 };
 
-class Plc final : private EventHandler {
+/// An output point, as data.
+struct OutputPoint {
+  std::uint32_t byte = 0;
+  std::uint8_t bit = 0;
+  bool operator==(const OutputPoint&) const = default;
+};
+
+/// What happens at an output that something is wired to.
+struct OutputEdge {
+  std::size_t wire = 0;  ///< in the order in which they were wired
+  bool on = false;
+  Time at = 0;
+  bool operator==(const OutputEdge&) const = default;
+};
+
+class Plc final : private EventHandler, private OutputListener {
  public:
   /// Plain, so that a snapshot is a copy.
   struct State {
     s7200::State cpu;
     std::array<Uart::State, kPorts.size()> uart;
     std::array<std::vector<PortAction>, kPorts.size()> actions;  ///< that are still to come
+    std::vector<OutputEdge> output_edges{};                      ///< the same
     Field::State field;
     bool powered = true;
     std::uint64_t executed_before = 0;  ///< instructions, before power came back last
@@ -63,7 +79,11 @@ class Plc final : private EventHandler {
   Cpu& cpu() { return cpu_; }
   const Cpu& cpu() const { return cpu_; }
 
-  /// What the program has set a port to; the default format until it has switched it to Freeport mode.
+  /// `end` is told, at its instant, each time the output goes on or off; without power it is off. All outputs are off when
+  /// the CPU is powered up. Wiring, not state; before anything runs.
+  void wire_output(Dispatcher& events, const OutputPoint& output, std::function<void(bool on, Time at)> end);
+
+  /// What the program has set a port to; that of PPI until it has switched it to Freeport mode.
   SerialFormat port_format(std::uint8_t port = 0) const;
 
   /// How the UART of a port is set: as of the last event that was handled, however far the CPU has run ahead of it.
@@ -136,13 +156,21 @@ class Plc final : private EventHandler {
   Ports devices() const;
 
   void handle(const Event& event) override;
+  void outputs_changed(std::uint32_t byte, std::uint8_t points, std::uint8_t changed, Time at) override;
+  void carry_output_edges(Time until);
   void hear(std::uint8_t port, const Event& event);
   void settle_taps(Time until);
 
   EventQueue& queue_;  // of the CPU, its field and what it does to its ports
-  EventOwner owner_, field_owner_;
+  EventOwner owner_, field_owner_, outputs_owner_{};
   Time handled_ = -1;  // the instant whose event the CPU is being told of; before all of them if there is none
   std::vector<std::unique_ptr<Port>> ports_;
+  struct OutputWire {
+    OutputPoint output;
+    std::function<void(bool on, Time at)> end;
+  };
+  std::vector<OutputWire> output_wires_{};
+  std::vector<OutputEdge> output_edges_{};  // still to come, in order of time
   Cpu cpu_;
   Field field_;
   bool powered_ = true;

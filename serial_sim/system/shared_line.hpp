@@ -27,6 +27,7 @@ class SharedLine final : private EventHandler {
   SharedLine& operator=(const SharedLine&) = delete;
 
   Line& line() { return line_; }
+  const Line& line() const { return line_; }
   Faults& faults() { return faults_; }
   const Faults& faults() const { return faults_; }
 

@@ -12,7 +12,29 @@
 
 namespace s7200::serial {
 
-class RequesterStation final : private EventHandler {
+/// What they have in common.
+class PeerStation : protected EventHandler {
+ public:
+  PeerStation(const PeerStation&) = delete;
+  PeerStation& operator=(const PeerStation&) = delete;
+
+  Uart& uart() { return uart_; }
+  const Uart& uart() const { return uart_; }
+
+ protected:
+  /// Neither reference is owned. Unless it is plugged in, whoever uses the UART does that.
+  PeerStation(Dispatcher& events, SharedLine& line, bool plugged_in = true);
+  ~PeerStation() = default;
+
+  /// An event of the UART.
+  Uart::Report hear(const Event& event);
+
+  SharedLine& line_;
+  EventQueue& queue_;
+  Uart uart_;
+};
+
+class RequesterStation final : public PeerStation {
  public:
   /// Plain, so that a snapshot is a copy.
   struct State {
@@ -21,12 +43,8 @@ class RequesterStation final : private EventHandler {
     bool operator==(const State&) const = default;
   };
 
-  /// Neither is owned.
   RequesterStation(Dispatcher& events, SharedLine& line);
-  RequesterStation(const RequesterStation&) = delete;
-  RequesterStation& operator=(const RequesterStation&) = delete;
 
-  Uart& uart() { return uart_; }
   Requester& requester() { return requester_; }
   const Requester& requester() const { return requester_; }
 
@@ -36,63 +54,62 @@ class RequesterStation final : private EventHandler {
  private:
   void handle(const Event& event) override;
 
-  SharedLine& line_;
-  EventQueue& queue_;
-  Uart uart_;
   Requester requester_;
 };
 
-class PollerStation final : private EventHandler {
+class PollerStation final : public PeerStation {
  public:
   /// Plain, so that a snapshot is a copy.
   struct State {
     Uart::State uart;
     Requester::State requester;
     Poller::State poller;
+    bool powered = true;
     bool operator==(const State&) const = default;
   };
 
-  /// Neither reference is owned.
   PollerStation(Dispatcher& events, SharedLine& line, PollPlan plan, Poller::Wiring wiring);
-  PollerStation(const PollerStation&) = delete;
-  PollerStation& operator=(const PollerStation&) = delete;
 
-  const Uart& uart() const { return uart_; }
   Poller& poller() { return poller_; }
   const Poller& poller() const { return poller_; }
 
-  State state() const { return {uart_.state(), requester_.state(), poller_.state()}; }
+  /// It falls silent at `at`, in the middle of a character or not.
+  void power_off(Time at);
+  /// It has power again, and begins with its first request at `first`.
+  void power_on(Time at, Time first);
+  bool powered() const { return powered_; }
+
+  State state() const { return {uart_.state(), requester_.state(), poller_.state(), powered_}; }
   void restore(const State& state);
 
  private:
   void handle(const Event& event) override;
 
-  SharedLine& line_;
-  EventQueue& queue_;
-  Uart uart_;
   EventOwner requester_owner_;
   Requester requester_;
   Poller poller_;
+  bool powered_ = true;
 };
 
-class ResponderStation final : private EventHandler {
+class ResponderStation final : public PeerStation {
  public:
   /// Plain, so that a snapshot is a copy.
   struct State {
     Uart::State uart;
     Responder::State responder;
+    bool powered = true;
     bool operator==(const State&) const = default;
   };
 
-  /// Neither reference is owned.
   ResponderStation(Dispatcher& events, SharedLine& line, std::unique_ptr<Automaton> automaton);
-  ResponderStation(const ResponderStation&) = delete;
-  ResponderStation& operator=(const ResponderStation&) = delete;
 
-  Uart& uart() { return uart_; }
-  const Uart& uart() const { return uart_; }
   Responder& responder() { return responder_; }
   const Responder& responder() const { return responder_; }
+
+  /// It falls silent at `at`, in the middle of a character or not; and comes back with its memory and settings.
+  void power_off(Time at);
+  void power_on(Time at);
+  bool powered() const { return powered_; }
 
   /// Lets `sink` watch the line at its port from `from` on; null ends that. Not owned. After restore() it sees time go back.
   void set_wire_sink(WireSink* sink, Time from) { tap_.watch(sink, from); }
@@ -100,7 +117,7 @@ class ResponderStation final : private EventHandler {
   /// No driver of the line gets an edge before `until` any more: whoever watches it is told.
   void settle(Time until) { tap_.settle(until, uart_.state().format); }
 
-  State state() const { return {uart_.state(), responder_.state()}; }
+  State state() const { return {uart_.state(), responder_.state(), powered_}; }
 
   /// `now` is the time of the whole system.
   void restore(const State& state, Time now);
@@ -108,14 +125,13 @@ class ResponderStation final : private EventHandler {
  private:
   void handle(const Event& event) override;
 
-  SharedLine& line_;
-  EventQueue& queue_;
-  Uart uart_;
   WireTap tap_;
   Responder responder_;
+  bool powered_ = true;
 };
 
-class HostStation final : private EventHandler {
+/// It is plugged into the line when its port is attached.
+class HostStation final : public PeerStation {
  public:
   /// Plain, so that a snapshot is a copy.
   struct State {
@@ -124,12 +140,8 @@ class HostStation final : private EventHandler {
     bool operator==(const State&) const = default;
   };
 
-  /// Neither is owned. It is plugged into the line when the port is attached.
   HostStation(Dispatcher& events, SharedLine& line);
-  HostStation(const HostStation&) = delete;
-  HostStation& operator=(const HostStation&) = delete;
 
-  int driver() const { return uart_.driver(); }
   HostPort& port() { return port_; }
   const HostPort& port() const { return port_; }
 
@@ -137,11 +149,8 @@ class HostStation final : private EventHandler {
   void restore(const State& state);
 
  private:
-  void handle(const Event& event) override;
+  void handle(const Event& event) override { port_.on(hear(event)); }
 
-  SharedLine& line_;
-  EventQueue& queue_;
-  Uart uart_;
   HostPort port_;
 };
 

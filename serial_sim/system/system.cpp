@@ -63,6 +63,10 @@ ResponderStation& System::add_responder(SharedLine& line, std::unique_ptr<Automa
   return add(responders_, events_, line, std::move(automaton));
 }
 
+void System::wire_sync(Plc& from, const OutputPoint& output, ResponderStation& to) {
+  from.wire_output(events_, output, [&to](bool on, Time at) { to.responder().sync(on, at); });
+}
+
 void System::power_up() {
   for (const auto& plc : plcs_) plc->power_up();
 }

@@ -58,6 +58,9 @@ class System {
   PollerStation& add_poller(SharedLine& line, PollPlan plan, Poller::Wiring wiring);
   ResponderStation& add_responder(SharedLine& line, std::unique_ptr<Automaton> automaton);
 
+  /// An output of a PLC drives the sync signal beside a line, as a responder there sees it. Before anything runs.
+  void wire_sync(Plc& from, const OutputPoint& output, ResponderStation& to);
+
   /// All that runs ends early once `request` is true; it is looked at every 100 ms. Not owned; null: nothing ends it.
   void stop_when(const std::atomic<bool>* request) { stop_request_ = request; }
 
@@ -67,7 +70,7 @@ class System {
   /// Powers up all PLCs, as new. Plc::power_up() does so for one, before anything runs.
   void power_up();
 
-  /// Power of one PLC goes off, and comes back, now.
+  /// Power of one PLC goes off, and comes back, now. Peers have their own: ResponderStation, PollerStation.
   void power_off(Plc& plc);
   void power_on(Plc& plc);
 

@@ -63,8 +63,14 @@ void HppcPlc::begin_anew() {
 /// A gap, or a message that takes too long.
 void HppcPlc::wake(Time) { begin_anew(); }
 
+void HppcPlc::restart(Time at) {
+  begin_anew();
+  sends_until_ = 0;
+  powered_since_ = at;
+}
+
 void HppcPlc::hear(const ReceivedCharacter& character) {
-  if (character.start < settings_.search_ms * kMillisecond) return;
+  if (character.start < powered_since_ + settings_.search_ms * kMillisecond) return;
   if (character.start < sends_until_) {
     abort();
     sends_until_ = 0;

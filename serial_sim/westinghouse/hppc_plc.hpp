@@ -44,6 +44,7 @@ class HppcPlc final : public PlcOf<HppcPlc> {
   SerialFormat format() const override { return settings_.line; }
   void hear(const ReceivedCharacter& character) override;
   void wake(Time now) override;
+  void restart(Time at) override;
   bool full_duplex() const override { return true; }
 
   bool operator==(const HppcPlc&) const = default;
@@ -76,6 +77,7 @@ class HppcPlc final : public PlcOf<HppcPlc> {
   Bytes message_;
   bool deaf_ = false;  // until a gap
   Time begun_ = 0;     // the message
+  Time powered_since_ = 0;
   Time sends_until_ = 0;
 };
 

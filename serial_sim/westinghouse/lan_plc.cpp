@@ -17,6 +17,13 @@ void LanPlc::sync(bool high, Time at) {
   begin_anew();
 }
 
+/// The sync signal is what it is, and counts from now on.
+void LanPlc::restart(Time at) {
+  begin_anew();
+  on_line_ = false;
+  sync_since_ = at;
+}
+
 /// The gap between two characters was too long.
 void LanPlc::wake(Time) { begin_anew(); }
 

@@ -27,6 +27,7 @@ class LanPlc final : public PlcOf<LanPlc> {
   void hear(const ReceivedCharacter& character) override;
   void sync(bool high, Time at) override;
   void wake(Time now) override;
+  void restart(Time at) override;
 
   bool operator==(const LanPlc&) const = default;
 

@@ -63,6 +63,8 @@ void LoaderPlc::go_idle() {
 /// No byte for too long within a session.
 void LoaderPlc::wake(Time) { go_idle(); }
 
+void LoaderPlc::restart(Time) { go_idle(); }
+
 void LoaderPlc::say(Bytes bytes, Time request_end) {
   const Time at = request_end + settings_.latency_us * kMicrosecond;
   const Time end = at + static_cast<Time>(bytes.size()) * settings_.line.character_time();

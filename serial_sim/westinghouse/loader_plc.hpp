@@ -38,6 +38,7 @@ class LoaderPlc final : public PlcOf<LoaderPlc> {
   SerialFormat format() const override { return settings_.line; }
   void hear(const ReceivedCharacter& character) override;
   void wake(Time now) override;
+  void restart(Time at) override;
 
   bool operator==(const LoaderPlc&) const = default;
 

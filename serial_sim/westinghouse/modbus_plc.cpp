@@ -69,6 +69,11 @@ void ModbusPlc::wake(Time now) {
   answer(std::move(reply), now);
 }
 
+void ModbusPlc::restart(Time) {
+  frame_.clear();
+  damaged_ = false;
+}
+
 bool ModbusPlc::supports(std::uint8_t function) const {
   if (function == static_cast<std::uint8_t>(Function::ReadExceptionStatus)) {
     const bool by_41 = settings_.function_7 == ModbusSettings::Function7::Section41;

@@ -58,6 +58,7 @@ class ModbusPlc final : public PlcOf<ModbusPlc> {
   SerialFormat format() const override { return settings_.line; }
   void hear(const ReceivedCharacter& character) override;
   void wake(Time now) override;
+  void restart(Time at) override;
 
   const ModbusSettings& setting() const { return settings_; }
   ModbusSettings& setting() { return settings_; }

@@ -22,6 +22,13 @@ void WestnetPlc::wake(Time) {
   wake_at(kNever);
 }
 
+/// No drop is addressed, and no one is in session.
+void WestnetPlc::restart(Time) {
+  reader_.begin_anew();
+  settings_.remote = settings_.session = kNowhere;
+  status_ = kNoError;
+}
+
 void WestnetPlc::hear(const ReceivedCharacter& character) {
   const Time end = character.start + settings_.line.character_time();
   wake_at(end + settings_.gap_ms * kMillisecond);

@@ -40,6 +40,7 @@ class WestnetPlc final : public PlcOf<WestnetPlc> {
   SerialFormat format() const override { return settings_.line; }
   void hear(const ReceivedCharacter& character) override;
   void wake(Time now) override;
+  void restart(Time at) override;
 
   bool operator==(const WestnetPlc&) const = default;
 

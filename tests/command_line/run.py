@@ -1345,6 +1345,45 @@ lines:
         done = self.ends(UNUSABLE, "test", scenario, "--target", SLAVE)
         self.assertIn("which --target cannot replace", done.stdout)
 
+    def test_ports_in_ppi_mode_have_the_rate_of_the_system_block(self):
+        ask = ["master", "--protocol", "ppi", SLAVE, "--cpu", "226", "--port", "1", "write", "VW20=4660", "read", "VW20"]
+        self.assertIn("after 1.146 ms", self.ends(FINE, *ask).stdout)
+        for rates in ("187500", "9600,187500"):
+            shown = self.ends(FINE, *ask, "--ppi-baud", rates).stdout
+            self.assertIn("after 0.059 ms", shown)
+            self.assertIn("16#1234", shown)
+        self.ends(FAILED, *ask, "--ppi-baud", "19200", "--baud", "9600")
+        for arguments, why in ((["--ppi-baud", "187500"], "--ppi-baud: PPI at 187500 baud needs CPU 22x"),
+                               (["--ppi-baud", "9600,19200"], "--ppi-baud: CPU 214 has no port 1 for the second rate"),
+                               (["--ppi-baud", "38400"], "--ppi-baud: '38400' is not a rate of PPI; there are 9600, 19200 and")):
+            self.assertIn(why, self.ends(UNUSABLE, "run", SLAVE, *arguments, "--scans", "1").stderr)
+        system = self.program(f"plcs: {{a: {{program: {SLAVE}, cpu: 226, ppi_baud: \"9600,187500\"}}}}\nlines: {{l: {{stations: [a.1]}}}}\n",
+                              "system.yaml")
+        self.assertIn("after 0.059 ms", self.ends(FINE, "master", "--protocol", "ppi", system, "read", "VW20").stdout)
+        self.assertIn("--ppi-baud is about one PLC", self.ends(UNUSABLE, "run", system, "--ppi-baud", "19200").stderr)
+
+    def test_a_scenario_and_a_recorded_session_keep_the_rate_of_ppi(self):
+        program = self.program("LD SM0.0\nINCW VW0\nMEND\n")
+        ask = "68 1b 1b 68 02 00 6c 32 01 00 00 00 01 00 0e 00 00 04 01 12 0a 10 02 00 04 00 01 84 00 03 20 8f 16"
+        scenario = self.program(f"program: {program}\ncpu: 224\nppi_baud: 187500\nsteps:\n  - send: {ask}\n    expect: e5\n    latency: 50us..70us\n",
+                                "scenario.yaml")
+        self.ends(FINE, "test", scenario)
+        transcript, session = self.folder / "transcript.yaml", self.folder / "session.yaml"
+        self.ends(FINE, "test", scenario, "--record", transcript)
+        self.assertIn('ppi_baud: "187500"', transcript.read_text(encoding="utf-8"))
+        self.ends(FINE, "test", transcript)
+        self.ends(FINE, "debug", program, "--cpu", "224", "--ppi-baud", "187500", "-x", f"continue 10ms; send {ask}; continue 20ms; record {session}")
+        self.assertIn('ppi_baud: "187500"', session.read_text(encoding="utf-8"))
+        self.ends(FINE, "test", session)
+        self.assertIn("'38400' is not a rate of PPI", self.ends(UNUSABLE, "test", self.program("program: x.stl\nppi_baud: 38400\nsteps: []\n", "wrong.yaml")).stderr)
+
+    def test_a_master_of_a_system_is_switched_off_and_on(self):
+        system = self.program(self.SYSTEM + "events: [{at: 1120ms, power_off: master}, {at: 1300ms, power_on: master}]\n", "system.yaml")
+        self.assertRegex(self.ends(FINE, "run", system, "--for", "2250ms").stdout, r"(?m)^master: 2 requests, 2 answered, after ")
+        bridged = self.program(self.SYSTEM.replace("lines:", "bridges: {outside: {tcp: 0}}\nlines:").replace("slave]", "slave, outside]")
+                               + "events: [{at: 1s, power_off: outside}]\n", "bridged.yaml")
+        self.assertIn("'outside' is a bridge, which has no power to switch", self.ends(UNUSABLE, "run", bridged, "--for", "1s").stderr)
+
     def test_a_scenario_of_a_system_is_replayed_from_its_transcript(self):
         self.program(self.SYSTEM, "system.yaml")
         scenario = self.program("system: system.yaml\nsteps:\n  - {read: holding 0, station: 5, on: slave2}\n  - power_off: slave2\n"

@@ -117,7 +117,9 @@ class Records final : public TraceSink {
 class Plc {
  public:
   explicit Plc(std::string_view stl, const RetentiveMemory* memory = nullptr, const CpuModel& model = cpu214())
-      : cpu(program_of(stl, model), queue, kCpu, {&port, &port1}) {
+      : Plc(program_of(stl, model), memory) {}
+  explicit Plc(std::shared_ptr<const Program> program, const RetentiveMemory* memory = nullptr)
+      : cpu(std::move(program), queue, kCpu, {&port, &port1}) {
     cpu.set_sink(&records);
     cpu.power_up(true, memory);
   }

@@ -12,6 +12,11 @@ namespace s7200::test::ppi {
 
 inline constexpr Time kBit = 104'167, kCharacter = 1'145'833;  // 9600 baud, 8E1: 11 bits
 
+/// A PLC whose port is at another rate.
+inline std::shared_ptr<const Program> at_rate(std::string_view stl, std::uint32_t baud, const CpuModel& model) {
+  return with_ppi_rates(*program_of(stl, model), {baud, baud});
+}
+
 inline std::uint8_t sum(const Bytes& bytes) {
   unsigned total = 0;
   for (const std::uint8_t byte : bytes) total += byte;
@@ -71,17 +76,18 @@ inline Bytes writing(const Bytes& variable, std::uint8_t data_type, unsigned len
 /// Speaks to port 0 of a PLC. A call of the master is a frame and what comes back.
 class Master {
  public:
-  explicit Master(Plc& plc, std::uint8_t station = 0) : plc_(plc), station_(station) {}
+  explicit Master(Plc& plc, std::uint8_t station = 0, std::uint32_t baud = 9600)
+      : plc_(plc), station_(station), bit_(kSecond / baud), character_(11 * kSecond / baud) {}
 
   /// Sends bytes, the first start bit at `plc.cpu.time()` plus a silence, and waits; what the CPU has sent since.
   Bytes say(const Bytes& frame, Time wait = 400 * ms) {
     plc_.port.sent.clear();
-    begin_ = plc_.cpu.time() + 40 * kBit;
+    begin_ = plc_.cpu.time() + 40 * bit_;
     for (std::size_t i = 0; i < frame.size(); ++i) {
-      const Time start = begin_ + static_cast<Time>(i) * kCharacter;
-      plc_.received_at({.byte = frame[i], .start = start, .end = start + 10 * kBit + kBit / 2});
+      const Time start = begin_ + static_cast<Time>(i) * character_;
+      plc_.received_at({.byte = frame[i], .start = start, .end = start + 10 * bit_ + bit_ / 2});
     }
-    end_ = begin_ + static_cast<Time>(frame.size()) * kCharacter;
+    end_ = begin_ + static_cast<Time>(frame.size()) * character_;
     plc_.run_until(end_ + wait);
     Bytes heard;
     for (const Port::Sent& sent : plc_.port.sent) heard.push_back(sent.byte);
@@ -105,6 +111,7 @@ class Master {
  private:
   Plc& plc_;
   std::uint8_t station_;
+  Time bit_, character_;
   Time begin_ = 0, end_ = 0;
 };
 

@@ -112,7 +112,7 @@ Debugger::Error Debugger::load(const Arguments& arguments) {
     const SessionFile::Station &its = file->stations[number], &ours = here.stations[number];
     const std::string of = is_system() ? fmt::format("{}: ", name_of(number)) : "";
     if (its.program != ours.program)
-      why = of + "it is of another program, or of other execution times";
+      why = of + "it is of another program, or of other execution times or rates of PPI";
     else if (!differing.empty())
       why = fmt::format("it was saved with other options: {}", differing);
     else if (its.begin != ours.begin)

@@ -97,6 +97,9 @@ class History final {
   serial::Simulation& station(std::size_t number) { return *stations_[number]; }
   const serial::Simulation& station(std::size_t number) const { return *stations_[number]; }
 
+  /// Through which something may come in, by their numbers.
+  const std::vector<serial::HostPort*>& hosts() const { return settings_.hosts; }
+
   /// For observers: the station that they are being told of.
   std::size_t told_of() const { return told_of_; }
 

@@ -289,6 +289,8 @@ std::string digest_of(const Program& program) {
   for (const Time time : {program.no_power_flow, program.interrupt_entry, program.eeprom_save})
     digest.add(static_cast<std::uint64_t>(time));
   for (const Time time : program.scan_phase) digest.add(static_cast<std::uint64_t>(time));
+  if (program.ppi_rates != kUsualPpiRates)  // else as in sessions from before there were others
+    for (const std::uint32_t baud : program.ppi_rates) digest.add(std::uint64_t{baud});
   return digest.text();
 }
 

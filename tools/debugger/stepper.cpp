@@ -149,9 +149,7 @@ void Stepper::note_masters() {
   for (std::size_t number = 0; number < listening_.size(); ++number) {
     const serial::Simulation& here = station(number);
     if (!here.has_master() || !here.master().busy()) continue;
-    bool known = false;
-    for (std::size_t before = 0; before < number; ++before) known |= have_same_master(before, number);
-    listening_[number].awaits_answer = !known;
+    listening_[number].awaits_answer = first_beside(number) == number;
   }
 }
 
@@ -165,6 +163,7 @@ void Stepper::listen_from_now_on(std::size_t number) {
   listening.silence_noted = here.line_quiet_for(silence) ? last : 0;
   listening.came_in = last > here.plc().state().uart.at(here.port()).send_end + half_a_character;
   listening.host_waits.reset();
+  listening.host_frame_end = 0;
   const bool waits = listening.came_in && listening.silence_noted != 0 && !here.freeport().transmitting;
   if (waits && here.time() < last + host_timeout) note_host_request(number, {}, last);
 }
@@ -376,11 +375,14 @@ void Stepper::note_record(const TraceRecord& record) {
   const std::size_t number = history_.told_of();
   Listening& listening = listening_[number];
   const bool heard = record.kind == TraceKind::CharacterIgnored && record.code == 0;
-  const bool received = record.kind == TraceKind::CharacterReceived || heard || record.kind == TraceKind::CharacterDropped;
-  if (received && std::exchange(listening.host_waits, std::nullopt)) note_unanswered(number, listening.host_frame);
+  const bool on_line = record.port == station(number).port();
+  const bool received =
+      on_line && (record.kind == TraceKind::CharacterReceived || heard || record.kind == TraceKind::CharacterDropped);
+  const bool sent = on_line && record.kind == TraceKind::CharacterSent;
+  const bool sends = sent || (on_line && record.kind == TraceKind::Transmit);
+  if (received || sends) note_end_of_wait(number, sends ? nullptr : &record);
   if (received) listening.coming_in.push_back(record.byte);
-  if (received || record.kind == TraceKind::CharacterSent) listening.came_in = received;
-  if (record.kind == TraceKind::Transmit || record.kind == TraceKind::CharacterSent) listening.host_waits.reset();
+  if (received || sent) listening.came_in = received;
   for (StopPoint& stop : stops)
     if (stop.station == number && is_meant(stop, record)) hit(stop, {.record = record});
 }
@@ -400,37 +402,67 @@ void Stepper::note_silence(std::size_t number, Time now) {
   note_host_request(number, frame, last);
 }
 
+/// A station sends, or hears a character: that of an answer, unless it is damaged, or of the next request.
+void Stepper::note_end_of_wait(std::size_t number, const TraceRecord* heard) {
+  Listening& line = line_of(number);
+  const bool again = heard && is_of_a_master(number, *heard), noise = heard && (heard->parity_error || heard->framing_error);
+  if (!line.host_waits || (noise && !again)) return;
+  line.host_waits.reset();
+  if (again) note_unanswered(number, line.host_frame);
+}
+
 /// A request on the line of a station, by the master of all stations there or by one outside. `frame`: of one outside;
 /// nothing if it is not known.
 void Stepper::note_unanswered(std::size_t number, const std::vector<std::uint8_t>& frame) {
   for (StopPoint& stop : stops)
-    if (stop.on == StopPoint::On::Unanswered && have_same_master(stop.station, number)) hit(stop, {.frame = frame});
+    if (stop.on == StopPoint::On::Unanswered && first_beside(stop.station) == first_beside(number))
+      hit(stop, {.frame = frame});
 }
 
-bool Stepper::have_same_master(std::size_t one, std::size_t other) {
-  if (one == other) return true;
-  serial::Simulation &first = station(one), &second = station(other);
-  return first.has_master() && second.has_master() && &first.master() == &second.master();
+/// Of those on the line of a station.
+std::size_t Stepper::first_beside(std::size_t number) const {
+  std::size_t first = 0;
+  while (&station(first).line() != &station(number).line()) ++first;
+  return first;
 }
 
-/// What came in without the simulated master came from outside. In a system it may have come from another PLC: there a
-/// master outside is not known to wait.
+/// A bridge on the line of a station that was sending then, or later.
+std::optional<std::size_t> Stepper::host_that_sent(std::size_t number, Time after) const {
+  const auto sent = [&](const serial::HostPort* host) {
+    return host->state().attached && host->is_on(station(number).line().line()) && host->sent_until() > after;
+  };
+  const auto host = std::ranges::find_if(history_.hosts(), sent);
+  if (host == history_.hosts().end()) return {};
+  return static_cast<std::size_t>(host - history_.hosts().begin());
+}
+
+/// Of the simulated one or of one on a bridge. Any other character is of a station that answers.
+bool Stepper::is_of_a_master(std::size_t number, const TraceRecord& received) const {
+  const serial::Simulation& here = station(number);
+  return (here.has_master() && here.master().asks()) || host_that_sent(number, received.since);
+}
+
+/// What a bridge has sent is a request. All stations on its line hear it, one of them later than another.
 void Stepper::note_host_request(std::size_t number, std::vector<std::uint8_t> frame, Time end) {
-  serial::Simulation& here = station(number);
-  if (history_.stations() > 1 || !here.has_host_port() || !here.host_port().state().attached || here.master().busy()) return;
-  if (has_host_sent_broadcast()) return;
-  listening_[number].host_waits = end;
-  listening_[number].host_frame = std::move(frame);
+  const serial::Simulation& here = station(number);
+  Listening& line = line_of(number);
+  const Time half_a_character = here.port_format().silence() / 7;
+  const auto host = host_that_sent(number, end - half_a_character);
+  if (!host || end <= line.host_frame_end || (here.has_master() && here.master().busy())) return;
+  line.host_frame_end = end;
+  if (has_sent_broadcast(*host)) return;
+  line.host_waits = end;
+  line.host_frame = std::move(frame);
 }
 
-/// Its last characters, from the beginning of what it gave to the line at once, are a broadcast.
-bool Stepper::has_host_sent_broadcast() const {
+/// The last characters of a bridge, from the beginning of what it gave to the line at once, are a broadcast.
+bool Stepper::has_sent_broadcast(std::size_t host) const {
   std::vector<std::uint8_t> sent;
   for (std::size_t number = history_.now().actions; number > 0 && sent.size() < modbus::kLongestRtuFrame;) {
     const Action* const action = history_.action(--number);
     if (!action) return false;
     const auto* const call = std::get_if<serial::HostCall>(action);
-    if (!call || call->what != serial::HostCall::What::Send) continue;
+    if (!call || call->what != serial::HostCall::What::Send || history_.station_of_action(number) != host) continue;
     std::vector<std::uint8_t> bytes;
     for (const serial::HostCharacter& character : call->characters) bytes.push_back(character.byte);
     sent.insert(sent.begin(), bytes.begin(), bytes.end());
@@ -440,10 +472,10 @@ bool Stepper::has_host_sent_broadcast() const {
 }
 
 void Stepper::note_host_timeout(std::size_t number, Time now) {
-  Listening& listening = listening_[number];
-  if (!listening.host_waits || now - *listening.host_waits < host_timeout) return;
-  listening.host_waits.reset();
-  note_unanswered(number, listening.host_frame);
+  Listening& line = line_of(number);
+  if (!line.host_waits || now - *line.host_waits < host_timeout) return;
+  line.host_waits.reset();
+  note_unanswered(number, line.host_frame);
 }
 
 bool Stepper::answer_complete() {

@@ -94,10 +94,12 @@ class Stepper final : public Observer {
 
   /// What is heard on the line of a station.
   struct Listening {
-    std::vector<std::uint8_t> coming_in{};   ///< characters since the last silence
-    Time silence_noted = 0;                  ///< after the character that ended then; 0: after none
-    bool came_in = false;                    ///< the last character on the line was received
+    std::vector<std::uint8_t> coming_in{};  ///< characters since the last silence
+    Time silence_noted = 0;                 ///< after the character that ended then; 0: after none
+    bool came_in = false;                   ///< the last character on the line was received
+    // Of the line, noted at the first station on it.
     std::optional<Time> host_waits{};        ///< a master on a bridge, since the end of its frame
+    Time host_frame_end = 0;                 ///< of its last frame that was noted
     std::vector<std::uint8_t> host_frame{};  ///< that one; nothing if it is not known
     bool awaits_answer = false;              ///< its master is busy, and no station before it has the same one
   };
@@ -124,9 +126,13 @@ class Stepper final : public Observer {
   bool answer_complete();
   void note_changes(std::size_t station, const InstructionRecord* by);
   void note_unanswered(std::size_t station, const std::vector<std::uint8_t>& frame);
-  bool have_same_master(std::size_t one, std::size_t other);
+  std::size_t first_beside(std::size_t station) const;
+  Listening& line_of(std::size_t station) { return listening_[first_beside(station)]; }
+  std::optional<std::size_t> host_that_sent(std::size_t station, Time after) const;
+  void note_end_of_wait(std::size_t station, const TraceRecord* heard);
+  bool is_of_a_master(std::size_t station, const TraceRecord& received) const;
   void note_host_request(std::size_t station, std::vector<std::uint8_t> frame, Time end);
-  bool has_host_sent_broadcast() const;
+  bool has_sent_broadcast(std::size_t host) const;
   void note_host_timeout(std::size_t station, Time now);
   bool asked_to_stop() const { return stop_request_ && *stop_request_; }
 

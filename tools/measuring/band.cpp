@@ -21,15 +21,20 @@ std::optional<std::vector<TimeTable>> load_band(const CpuModel& model, const std
   return times_band(*in_use, others, settings);
 }
 
-ProgramBand::ProgramBand(stl::ParseResult parsed, const CpuModel& model, std::vector<TimeTable> tables)
-    : parsed_(std::move(parsed)), model_(model), tables_(std::move(tables)), programs_(tables_.size()) {}
+ProgramBand::ProgramBand(stl::ParseResult parsed, const CpuModel& model, std::vector<TimeTable> tables,
+                         const PpiRates& ppi_rates)
+    : parsed_(std::move(parsed)),
+      model_(model),
+      tables_(std::move(tables)),
+      ppi_rates_(ppi_rates),
+      programs_(tables_.size()) {}
 
 std::shared_ptr<const Program> ProgramBand::program(std::size_t table) const {
   {
     const std::lock_guard lock(mutex_);
     if (programs_[table]) return programs_[table];
   }
-  auto program = check(parsed_, model_, tables_[table]).program;
+  auto program = with_ppi_rates(*check(parsed_, model_, tables_[table]).program, ppi_rates_);
   const std::lock_guard lock(mutex_);
   return programs_[table] = std::move(program);
 }

@@ -13,7 +13,7 @@
 namespace s7200::tools {
 namespace {
 
-/// When masters begin: programs have set their ports by then.
+/// When masters begin, after they have power: programs have set their ports by then.
 constexpr Time kFirstPoll = kSecond;
 
 bool is_right(const serial::Exchange& exchange) {
@@ -37,6 +37,7 @@ Rig::Rig(SystemPlan plan, const RigSurroundings& surroundings)
   for (std::size_t plc = 0; plc < plan_.plcs.size(); ++plc) add_plc(plc);
   for (std::size_t line = 0; line < plan_.lines.size(); ++line)
     for (const StationPlan& station : plan_.lines[line].stations) add_other(plan_.lines[line], *lines_[line], station);
+  wire_sync();
   for (const EventPlan& event : plan_.events) system_.schedule(event.at, [this, &event] { carry_out(event); });
   askers_.resize(lines_.size());
   for (const Spot& spot : surroundings.spots) join(spot);
@@ -86,6 +87,11 @@ void Rig::add_other(const LinePlan& plan, serial::SharedLine& line, const Statio
     return settings.over(plc ? plc->line_format(port) : without);
   };
   pollers_[number] = &system_.add_poller(line, peer.polls, {.format = format, .right = is_right});
+}
+
+void Rig::wire_sync() {
+  for (std::size_t peer = 0; peer < plan_.peers.size(); ++peer)
+    if (const auto& sync = plan_.peers[peer].sync) system_.wire_sync(*plcs_[sync->plc], sync->point, *responders_[peer]);
 }
 
 /// At its first PLC: an S7-200, or one of another make if there is none.
@@ -184,11 +190,9 @@ void Rig::carry_out(const EventPlan& event) {
   const Time now = system_.time();
   switch (event.what) {
     case What::PowerOff:
-      if (plcs_[event.plc]->powered()) system_.power_off(*plcs_[event.plc]);
-      break;
+      return switch_power(event.station, false);
     case What::PowerOn:
-      if (!plcs_[event.plc]->powered()) system_.power_on(*plcs_[event.plc]);
-      break;
+      return switch_power(event.station, true);
     case What::Cut:
       lines_[event.line]->line().separate(now, beyond(event));
       break;
@@ -219,6 +223,23 @@ std::string Rig::station_at(std::size_t line, int driver) const {
   return {};
 }
 
+/// What has power keeps it, and what has none.
+void Rig::switch_power(const StationPlan& station, bool on) {
+  const Time now = system_.time();
+  if (station.kind == StationPlan::Kind::Plc) {
+    serial::Plc& plc = *plcs_[station.number];
+    if (plc.powered() == on) return;
+    on ? system_.power_on(plc) : system_.power_off(plc);
+  } else if (serial::ResponderStation* const responder = responders_[station.number]) {
+    if (responder->powered() == on) return;
+    on ? responder->power_on(now) : responder->power_off(now);
+  } else {
+    serial::PollerStation& poller = *pollers_[station.number];
+    if (poller.powered() == on) return;
+    on ? poller.power_on(now, now + kFirstPoll) : poller.power_off(now);
+  }
+}
+
 int Rig::driver_of(const StationPlan& station) const {
   switch (station.kind) {
     case StationPlan::Kind::Plc:
@@ -227,7 +248,7 @@ int Rig::driver_of(const StationPlan& station) const {
       return responders_[station.number] ? responders_[station.number]->uart().driver()
                                          : pollers_[station.number]->uart().driver();
     case StationPlan::Kind::Bridge:
-      return hosts_[station.number]->driver();
+      return hosts_[station.number]->uart().driver();
   }
   return 0;
 }
@@ -243,7 +264,7 @@ std::uint32_t Rig::beyond(const EventPlan& cut) const {
     const auto& [requester, host, spot] = askers_[cut.line];
     if (station.kind != StationPlan::Kind::Plc || spot.plc != station.number || spot.port != station.port) continue;
     if (requester) far |= bit(requester->uart().driver());
-    if (host) far |= bit(host->driver());
+    if (host) far |= bit(host->uart().driver());
   }
   return far;
 }

@@ -90,6 +90,8 @@ class Rig final {
  private:
   Rig(SystemPlan plan, const RigSurroundings& surroundings);
   void add_plc(std::size_t number);
+  void wire_sync();
+  void switch_power(const StationPlan& station, bool on);
   void add_other(const LinePlan& plan, serial::SharedLine& line, const StationPlan& station);
   void join(const Spot& spot);
   void watch(std::size_t line, CaptureFiles& captures);

@@ -24,6 +24,7 @@ constexpr std::array kKeys{
     SystemKey{Where::Plc, "repair", "TEXT", "slips of a published listing to repair, as `s7200 check` names them: `R1,R2` or `all`"},
     SystemKey{Where::Plc, "cpu", "TYPE", "`214` if left out"},
     SystemKey{Where::Plc, "times", "TABLE", "execution times: the name of a table, or the path of a CSV file as `s7200 times --csv` writes it"},
+    SystemKey{Where::Plc, "ppi_baud", "NUMBER", "rate of its ports in PPI mode, as the system block sets it: 9600, 19200 or, on CPU 22x, 187500; `\"9600,187500\"` is port 0 and port 1; 9600 if left out"},
     SystemKey{Where::Plc, "copies", "NUMBER", "so many PLCs like this, 1 to 32, with a number after the name: `slave1`, `slave2`, …; `station` goes up by one with each"},
     SystemKey{Where::Plc, "station", "NUMBER", "address on the line, 1 to 247: the constant that the program moves into VB4095, as our slaves and Application Tip 41 do"},
     SystemKey{Where::Plc, "constants", "MAP", "constants that the program moves to an address with MOVB, MOVW or MOVD, instead of its own: `{SMB30: 16#45}`"},
@@ -61,7 +62,8 @@ constexpr std::array kKeys{
 
     SystemKey{Where::OtherPlc, "westinghouse", "PROTOCOL", "modbus, lan, hppc, loader or westnet"},
     SystemKey{Where::OtherPlc, "model", "NAME", "pc1200, pc503, …; the first that speaks the protocol if left out"},
-    SystemKey{Where::OtherPlc, "settings", "LIST", "as `s7200 master --plc` takes them: `[unit=05, HR1=1234]`; the PC1000 LAN has no sync signal here: `[sync=ignored]`"},
+    SystemKey{Where::OtherPlc, "settings", "LIST", "as `s7200 master --plc` takes them: `[unit=05, HR1=1234]`"},
+    SystemKey{Where::OtherPlc, "sync", "NAME.OUTPUT", "of the PC1000 LAN: the output of a PLC that drives its sync signal, `gateway.Q0.0`; without it the PLC needs the setting `sync=ignored`"},
 
     SystemKey{Where::Bridge, "pty", "LINK", "a serial port that programs of this computer open as LINK; from the folder of this file"},
     SystemKey{Where::Bridge, "tcp", "[ADDRESS:]PORT", "raw bytes over TCP; without ADDRESS for this computer only"},
@@ -70,8 +72,8 @@ constexpr std::array kKeys{
     SystemKey{Where::Bridge, "device", "DEVICE", "a serial device of this computer"},
 
     SystemKey{Where::Event, "at", "TIME", "since the start; beside one of the following"},
-    SystemKey{Where::Event, "power_off", "NAME", "a PLC loses power: it falls silent in the middle of a character and keeps what a real one keeps"},
-    SystemKey{Where::Event, "power_on", "NAME", "its power comes back; it begins anew in RUN"},
+    SystemKey{Where::Event, "power_off", "NAME", "a PLC or a peer loses power: it falls silent in the middle of a character and keeps what a real one keeps"},
+    SystemKey{Where::Event, "power_on", "NAME", "its power comes back; a PLC begins anew in RUN, a master asks its first request 1 s later"},
     SystemKey{Where::Event, "cut", "LINE", "the cable is cut: both parts go on without each other"},
     SystemKey{Where::Event, "after", "NAME", "beside `cut`: the last station on the first part, in the order of `stations`"},
     SystemKey{Where::Event, "mend", "LINE", "the cable is whole again"},

@@ -30,9 +30,16 @@ struct PlcPlan {
 
 /// A master that polls, or a simulated PLC of another make.
 struct PeerPlan {
+  /// An output of a PLC.
+  struct Output {
+    std::size_t plc = 0;
+    serial::OutputPoint point{};
+  };
+
   std::string name;
   serial::PollPlan polls{};                              ///< of a master; without requests it is none
   std::shared_ptr<const serial::Automaton> automaton{};  ///< of another PLC; null: it is none
+  std::optional<Output> sync{};                          ///< of another PLC: what drives its sync signal
 };
 
 /// Where programs and devices of this computer join a line, in real time.
@@ -64,7 +71,8 @@ struct EventPlan {
   enum class What : std::uint8_t { PowerOff, PowerOn, Cut, Mend, Set, Fault, ClearFaults };
   What what{};
   Time at = 0;
-  std::size_t plc = 0;            ///< PowerOff, PowerOn, Set
+  StationPlan station{};          ///< PowerOff, PowerOn: a PLC or a peer
+  std::size_t plc = 0;            ///< Set
   std::size_t line = 0;           ///< Cut, Mend, Fault, ClearFaults
   std::size_t near = 0;           ///< Cut: so many of the line's stations stay on this side
   std::vector<Assignment> set{};  ///< Set

@@ -31,10 +31,10 @@ using Where = SystemKey::Where;
 
 constexpr std::int64_t kMostCopies = serial::Line::kDrivers;
 
-/// Of a whole system. A master takes two numbers of a rank, as a PLC with two ports does; whoever joins a line takes two
-/// more.
+/// Of a whole system. A PLC with two ports and a sync signal takes three numbers of a rank, a master two; whoever joins a
+/// line takes two more.
 constexpr std::size_t kMostStations = 1000;
-static_assert(2 * kMostStations + 2 * kMostYamlKeys <= serial::Dispatcher::kMostOfARank);
+static_assert(3 * kMostStations + 2 * kMostYamlKeys <= serial::Dispatcher::kMostOfARank);
 
 /// Where our Modbus slaves and Application Tip 41 keep their station address.
 constexpr std::string_view kStationByte = "VB4095";
@@ -247,7 +247,7 @@ class Reader {
     const auto times = read_times(map, model);
     if (!times) return nullptr;
     CheckResult result = check(std::move(project->parsed), model, *times);
-    if (result.program) return result.program;
+    if (result.program) return with_ppi_rates_of(map, std::move(result.program));
     std::erase_if(result.diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
     values_.wrong(*map.find("program"), fmt::format("{} has errors", result.source.name));
     file_.programs.push_back({std::make_shared<stl::SourceLines>(std::move(result.source)), std::move(result.diagnostics)});
@@ -272,6 +272,15 @@ class Reader {
     auto times = load_times(model, !written ? "" : find_times(*written) ? *written : beside(path_, *written), errors);
     if (!times) values_.wrong(*map.find("times"), errors.empty() ? "no such table" : errors.front());
     return times;
+  }
+
+  std::shared_ptr<const Program> with_ppi_rates_of(const YamlNode& map, std::shared_ptr<const Program> program) {
+    const auto written = values_.optional_text(map, "ppi_baud");
+    if (!written) return program;
+    std::string why;
+    const auto rates = parse_ppi_rates(*written, *program->model, why);
+    if (!rates) values_.wrong(*map.find("ppi_baud"), why);
+    return rates ? with_ppi_rates(*program, *rates) : nullptr;
   }
 
   void set_constants(const YamlNode& map, stl::Source& source) {
@@ -384,7 +393,7 @@ class Reader {
     PeerPlan& plan = this->plan().peers.emplace_back();
     plan.name = peer.key.text;
     if (master) read_polls(map, plan.polls);
-    if (other && !master) plan.automaton = read_other_plc(map);
+    if (other && !master) plan.automaton = read_other_plc(map, plan.sync);
   }
 
   void read_polls(const YamlNode& map, serial::PollPlan& polls) {
@@ -487,7 +496,7 @@ class Reader {
     return {};
   }
 
-  std::shared_ptr<const serial::Automaton> read_other_plc(const YamlNode& map) {
+  std::shared_ptr<const serial::Automaton> read_other_plc(const YamlNode& map, std::optional<PeerPlan::Output>& sync) {
     const YamlNode& protocol = *map.find("westinghouse");
     const auto name = values_.text(protocol);
     const westinghouse::PlcRow* const row = name ? westinghouse::find_plc(*name) : nullptr;
@@ -508,10 +517,40 @@ class Reader {
       const auto text = values_.text(*setting);
       if (plc && text && !plc->set(*text, why)) values_.wrong(*setting, why);
     }
-    if (plc && values_.complaints.count() == before && plc->needs_sync())
-      values_.wrong(protocol, "no station of a system gives the sync signal that this PLC needs to hear anything",
-                    "write settings: [sync=ignored]");
+    if (!plc || values_.complaints.count() > before) return plc;
+    const YamlNode* const wire = map.find("sync");
+    if (wire && !plc->needs_sync())
+      values_.wrong(*wire, "this PLC has no sync signal, or ignores it", "the PC1000 LAN with sync=required has one");
+    else if (wire)
+      sync = read_output(*wire);
+    else if (plc->needs_sync())
+      values_.wrong(protocol, "nothing drives the sync signal that this PLC needs to hear anything",
+                    "write sync: gateway.Q0.0, or settings: [sync=ignored]");
     return plc;
+  }
+
+  /// `gateway.Q0.0`
+  std::optional<PeerPlan::Output> read_output(const YamlNode& node) {
+    constexpr const char* kExample = "write for example gateway.Q0.0";
+    const auto written = values_.text(node);
+    if (!written) return {};
+    const std::size_t dot = written->find('.');
+    const std::string name = written->substr(0, dot);
+    const auto plc = std::ranges::find(plan().plcs, name, &PlcPlan::name);
+    if (dot == std::string::npos || plc == plan().plcs.end()) {
+      values_.wrong(node, fmt::format("'{}' is not an output of a PLC", stl::shortened(*written)), kExample);
+      return {};
+    }
+    if (!plc->program) return {};
+    std::string why;
+    const auto output = parse_range(written->substr(dot + 1), *plc->program, why);
+    if (output && (output->area != Area::Q || output->width != Width::Bit || output->count != 1))
+      why = fmt::format("'{}' is not an output point", stl::shortened(written->substr(dot + 1)));
+    if (!why.empty()) {
+      values_.wrong(node, why, kExample);
+      return {};
+    }
+    return PeerPlan::Output{static_cast<std::size_t>(plc - plan().plcs.begin()), {output->number, output->bit}};
   }
 
   // --- bridges ---
@@ -681,11 +720,28 @@ class Reader {
     using What = EventPlan::What;
     if (event.what == What::Fault) return read_fault_event(node, what, event);
     if (event.what == What::Set) return read_set_event(node, what, event);
-    const bool of_plc = event.what == What::PowerOff || event.what == What::PowerOn;
-    const auto of = of_plc ? plc_named(what) : line_named(what);
-    if (!of) return false;
-    (of_plc ? event.plc : event.line) = *of;
+    if (event.what == What::PowerOff || event.what == What::PowerOn) return read_powered(what, event);
+    const auto line = line_named(what);
+    if (!line) return false;
+    event.line = *line;
     return event.what != What::Cut || read_cut(node, event);
+  }
+
+  bool read_powered(const YamlNode& what, EventPlan& event) {
+    const auto name = values_.text(what);
+    if (!name) return false;
+    const auto peer = std::ranges::find(plan().peers, *name, &PeerPlan::name);
+    if (peer != plan().peers.end()) {
+      event.station = {StationPlan::Kind::Peer, static_cast<std::size_t>(peer - plan().peers.begin())};
+      return true;
+    }
+    if (std::ranges::find(plan().bridges, *name, &BridgePlan::name) != plan().bridges.end()) {
+      values_.wrong(what, fmt::format("'{}' is a bridge, which has no power to switch", *name), "cut the cable before it");
+      return false;
+    }
+    const auto plc = plc_named(what);
+    if (plc) event.station = {StationPlan::Kind::Plc, *plc};
+    return plc.has_value();
   }
 
   bool read_fault_event(const YamlNode& node, const YamlNode& what, EventPlan& event) {

@@ -33,6 +33,7 @@ const ScenarioKey kBeforeActions[] = {
     {Where::Scenario, "skip_without", "", "PATH", "a file without which the scenario is skipped, such as a document that is not ours"},
     {Where::Scenario, "cpu", "", "TYPE", "`214` if left out"},
     {Where::Scenario, "times", "", "TABLE", "execution times: the name of a table, or the path of a CSV file as `s7200 times --csv` writes it"},
+    {Where::Scenario, "ppi_baud", "", "NUMBER", "rate of ports in PPI mode, as the system block sets it: 9600, 19200 or, on CPU 22x, 187500; `\"9600,187500\"` is port 0 and port 1; 9600 if left out"},
     {Where::Scenario, "robust", "", "SHARE", "`95%`: it must pass with so many of the tables of execution times, as `--times-band 200` runs them; not on a slave that is not a program"},
     {Where::Scenario, "line", "", "MAP", "how the master talks, if not as the program has set its port"},
     {Where::Scenario, "station", "", "NUMBER", "address of the slave; 1 if left out"},

@@ -105,6 +105,7 @@ void TranscriptWriter::head(const Scenario& scenario) {
   if (!scenario.program.empty() && scenario.may_be_missing) line(4, "skip_without: " + near(scenario.program));
   if (scenario.cpu != "214") line(4, "cpu: " + scenario.cpu);
   if (!scenario.times.empty()) line(4, "times: " + (find_times(scenario.times) ? scenario.times : near(scenario.times)));
+  if (scenario.ppi_rates != kUsualPpiRates) line(4, fmt::format("ppi_baud: \"{}\"", s7200::to_text(scenario.ppi_rates)));
   line_settings(scenario.line);
   if (transcript_.tolerance > 0) line(4, "tolerance: " + exact(transcript_.tolerance));
   if (transcript_.live) return;

@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "serial_sim/modbus/crc.hpp"
 #include "tests/unit/debugger/session.hpp"
 #include "tests/unit/debugger/system_bench.hpp"
 
@@ -92,6 +93,78 @@ TEST(SystemDebugger, StopsStayWithTheStationThatTheyWereSetAt) {
   EXPECT_TRUE(has(session("station slave1; set VW20=5; continue 20ms"), "nothing to stop for"))
       << "what is done from outside is no change while it runs";
   EXPECT_TRUE(has(session("who VW20"), "by 'set VW20', from outside"));
+}
+
+/// Two slaves, 1 and 2, and a master on a bridge, which asks stations at their times.
+struct BridgedSystem {
+  struct Ask {
+    Time at;
+    std::uint8_t station;
+  };
+
+  explicit BridgedSystem(std::vector<Ask> all) : asks(std::move(all)) {
+    DebuggerOptions options{};
+    for (const PlcPlan& plc : bench.rig->plan().plcs) options.stations.push_back({.name = plc.name});
+    options.history.hosts = {&bench.rig->host_port(0)};
+    options.history.drive = [this](Time end) { return drive(end); };
+    debugger = std::make_unique<Debugger>(bench.stations, out, options);
+  }
+
+  serial::Halt drive(Time end) {
+    serial::HostPort& port = bench.rig->host_port(0);
+    if (!port.state().attached) port.attach(SerialFormat{}, bench.system().time());
+    for (;;) {
+      const Time next = asked < asks.size() ? asks[asked].at : kNever;
+      const serial::Halt halt = bench.system().run_until(std::min(end, next));
+      if (halt != serial::Halt::Time || next > end) return halt;
+      Bytes request{asks[asked++].station, 0x03, 0x00, 0x00, 0x00, 0x01};
+      modbus::add_crc(request);
+      std::vector<serial::HostCharacter> frame;
+      for (const std::uint8_t byte : request) frame.push_back({.byte = byte, .format = SerialFormat{}});
+      port.send(frame, bench.system().time());
+    }
+  }
+
+  std::string operator()(std::string_view commands) {
+    out.str("");
+    const auto error = debugger->execute(commands);
+    EXPECT_FALSE(error.has_value()) << commands << ": " << *error;
+    return out.str();
+  }
+
+  SystemBench bench{
+      "plcs: {slave: {program: ../modbus_slave.stl, copies: 2, station: 1}}\n"
+      "bridges: {host: {tcp: 0}}\n"
+      "lines: {bus: {stations: [slave, host]}}\n"};
+  std::vector<Ask> asks;
+  std::size_t asked = 0;
+  std::ostringstream out;
+  std::unique_ptr<Debugger> debugger;
+};
+
+TEST(SystemDebugger, ARequestOfAMasterOnABridgeThatNoStationAnswersIsUnanswered) {
+  BridgedSystem session({{kSecond, 1}, {1'500 * kMillisecond, 2}, {2 * kSecond, 9}});
+  EXPECT_TRUE(has(session("break unanswered; continue"),
+                  "slave1: breakpoint 1, unanswered, hit for the first time\n  09 03 00 00 00 01 85 42\n"))
+      << session.out.str();
+  const Time end_of_frame = 2 * kSecond + 8 * SerialFormat{}.character_time(), stopped = session.bench.system().time();
+  EXPECT_GE(stopped, end_of_frame + kSecond);
+  EXPECT_LT(stopped, end_of_frame + kSecond + 10 * kMillisecond);
+  EXPECT_FALSE(has(session("continue"), "breakpoint")) << "once, however many stations have heard it";
+  EXPECT_TRUE(has(session("rcontinue"), "breakpoint 1, unanswered"));
+  EXPECT_EQ(session.bench.system().time(), stopped);
+}
+
+TEST(SystemDebugger, ARequestOfAMasterOnABridgeIsUnansweredWhenItSendsAgain) {
+  BridgedSystem session({{2 * kSecond, 9}, {2'200 * kMillisecond, 1}});
+  session("station slave2; break unanswered; station slave1; continue");
+  EXPECT_GT(session.bench.system().time(), 2'200 * kMillisecond);
+  EXPECT_LT(session.bench.system().time(), 2'210 * kMillisecond);
+}
+
+TEST(SystemDebugger, ABroadcastOfAMasterOnABridgeIsNeverUnanswered) {
+  BridgedSystem session({{2 * kSecond, 0}, {2'200 * kMillisecond, 1}});
+  EXPECT_FALSE(has(session("break unanswered; continue 5s"), "breakpoint 1, unanswered, hit"));
 }
 
 TEST(SystemDebugger, TheTraceNamesTheStationInTheOrderOfTime) {

@@ -286,6 +286,28 @@ TEST(Network, TheMasterAnswersOtherMastersAsASlave) {
   EXPECT_EQ(Master(plc, 0).say(sd1(2, 0, 0x49)), sd1(0, 2, 0x00));
 }
 
+TEST(Network, AMasterThatHearsAnotherOneGoesOnAndTheTraceSaysSo) {
+  Plc plc(master(kReads));
+  plc.run_until(100 * ms);  // it waits for the answer of station 3
+  EXPECT_EQ(Master(plc, 0).say(sd1(4, 0, 0x5C), 150 * ms), sd2(3, 2, 0x6C, reading({variable(0x02, 4, kV, 200 * 8, 1)})))
+      << "asked again";
+  const auto records = plc.records.of(TraceKind::PpiNotModelled);
+  ASSERT_EQ(records.size(), 1U);
+  EXPECT_EQ(
+      describe(records[0], plc.cpu.program()),
+      "PPI station 0 asks station 4: another master; without the token, which is not modelled, its frames and those of "
+      "NETR and NETW here may collide");
+}
+
+TEST(Network, JobsAreDoneAtTheRateOfThePort) {
+  constexpr Time kFastBit = kSecond / 187500;
+  Plc plc(at_rate(master(kReads), 187500, cpu224()));
+  plc.run_until(20 * ms);
+  ASSERT_GT(plc.port.sent.size(), 20U);
+  EXPECT_EQ(plc.port.sent[1].at - plc.port.sent[0].at, plc.port.format.character_time());
+  EXPECT_LT(plc.port.format.character_time(), 12 * kFastBit);
+}
+
 TEST(Network, TheTraceSaysWhatBecameOfAJob) {
   Plc plc(master(kReads));
   Stations others(plc, [](const Bytes&) { return Bytes{}; });

@@ -118,6 +118,79 @@ TEST(Ppi, AfterABadCharacterNothingIsUnderstoodUntilThereIsSilence) {
   EXPECT_EQ(plc.port.sent.size(), 6U);
 }
 
+TEST(Ppi, ThePortIsAtTheRateOfTheSystemBlock) {
+  for (const auto& [baud, model] : {std::pair{9600U, &cpu214()}, {19200U, &cpu214()}, {187500U, &cpu224()}}) {
+    Plc plc(at_rate(kQuiet, baud, *model));
+    EXPECT_EQ(plc.port.format, (SerialFormat{baud, 8, Parity::Even, 1}));
+    Master master(plc, 0, baud);
+    EXPECT_EQ(master.say(sd1(2, 0, 0x49)), sd1(0, 2, 0x00)) << baud;
+    ASSERT_EQ(plc.port.sent.size(), 6U);
+    EXPECT_NEAR(static_cast<double>(plc.port.sent[0].at - master.end_of_frame()), 11e9 / baud, 200);
+    EXPECT_EQ(code_of(master.ask(kReadVb100)), 0xFF) << baud;
+  }
+}
+
+TEST(Ppi, SilenceIsOfTheRateOfThePort) {
+  Plc plc(at_rate(kQuiet, 187500, cpu224()));
+  Master master(plc, 0, 187500);
+  plc.received_at({.byte = 0x68, .start = 10 * ms, .end = 10 * ms + 56 * us});  // the begin of a frame that is cut off
+  plc.run_until(10 * ms + 100 * us);
+  EXPECT_EQ(master.say(sd1(2, 0, 0x49)), sd1(0, 2, 0x00)) << "213 us later, which is 40 bits";
+}
+
+TEST(Ppi, EachPortHasARateOfItsOwnAndComesBackToItFromFreeport) {
+  const auto program = with_ppi_rates(*program_of("LD SM0.7\nMOVB 16#89, SMB30\nLDN SM0.7\nMOVB 0, SMB30\nMEND\n", cpu226()),
+                                      {19200, 187500});
+  Plc plc(program);
+  EXPECT_EQ(plc.port.format.baud, 19200U);
+  EXPECT_EQ(plc.port1.format.baud, 187500U);
+  plc.run_until(5 * ms);
+  EXPECT_EQ(plc.port.format.baud, 9600U) << "as SMB30 says in Freeport mode";
+  plc.set("SMB0", plc.value("SMB0") & 0x7F);
+  plc.run_until(10 * ms);
+  EXPECT_EQ(plc.port.format.baud, 19200U);
+}
+
+TEST(PpiRates, AreThoseOfTheCpu) {
+  std::string why;
+  const auto rates = [&](std::string_view text, const CpuModel& model) {
+    why.clear();
+    return parse_ppi_rates(text, model, why).value_or(PpiRates{});
+  };
+  EXPECT_EQ(rates("19200", cpu214()), (PpiRates{19200, 19200}));
+  EXPECT_EQ(rates("187500", cpu221()), (PpiRates{187500, 187500}));
+  EXPECT_EQ(rates("9600, 187500", cpu226()), (PpiRates{9600, 187500}));
+  EXPECT_EQ(rates("187500", cpu214()), PpiRates{});
+  EXPECT_EQ(why, "PPI at 187500 baud needs CPU 22x; choose one: --cpu 224");
+  EXPECT_EQ(rates("38400", cpu224()), PpiRates{});
+  EXPECT_EQ(why, "'38400' is not a rate of PPI; there are 9600, 19200 and, on CPU 22x, 187500");
+  EXPECT_EQ(rates("9600,19200", cpu214()), PpiRates{});
+  EXPECT_EQ(why, "CPU 214 has no port 1 for the second rate; a second port needs CPU 216, 224XP, 226, 226r1 or 226XM");
+  EXPECT_EQ(rates("9600,", cpu226()), PpiRates{});
+  EXPECT_EQ(to_text(PpiRates{9600, 19200}), "9600,19200");
+  EXPECT_EQ(to_text(PpiRates{19200, 19200}), "19200");
+}
+
+TEST(Ppi, WhatIsNotModelledIsIgnoredAndNamedInTheTrace) {
+  Plc plc(kQuiet);
+  Master master(plc, 1);
+  const auto named = [&](const Bytes& frame) {
+    plc.records.all.clear();
+    EXPECT_EQ(master.say(frame, 20 * ms), Bytes{});
+    const auto records = plc.records.of(TraceKind::PpiNotModelled);
+    return records.size() == 1 ? describe(records[0], plc.cpu.program()) : std::to_string(records.size()) + " records";
+  };
+  EXPECT_EQ(named({0xDC, 2, 1}), "PPI token from station 1 ignored: passing the token on is not modelled");
+  EXPECT_EQ(named({0xDC, 3, 1}), "0 records") << "for another master";
+  EXPECT_EQ(named(sd2(127, 1, 0x6C, kReadVb100)), "PPI broadcast from station 1 ignored: broadcasts are not modelled");
+  EXPECT_EQ(named(sd2(0x82, 1, 0x6C, kReadVb100)),
+            "PPI frame from 16#01 to 16#82 ignored: addresses above 127 are not modelled");
+  EXPECT_EQ(named(sd2(2, 0x81, 0x6C, kReadVb100)),
+            "PPI frame from 16#81 to 16#02 ignored: addresses above 127 are not modelled");
+  EXPECT_EQ(named(sd2(0x83, 1, 0x6C, kReadVb100)), "0 records") << "for another station";
+  EXPECT_EQ(named(sd2(3, 1, 0x6C, kReadVb100)), "0 records") << "a slave hears a master and another slave";
+}
+
 TEST(Ppi, AServiceThatASlaveHasNotIsRefused) {
   Plc plc(kQuiet);
   EXPECT_EQ(Master(plc).say(sd2(2, 0, 0x73, {1, 2})), sd1(0, 2, 0x03));

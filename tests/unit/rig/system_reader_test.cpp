@@ -17,11 +17,12 @@ SystemFile read(const std::string& text) { return read_system(text, test::source
 TEST(SystemFile, NamesPlcsPeersAndLinesAndWhoIsOnThem) {
   const SystemFile file = read(
       "plcs:\n"
-      "  gateway: {program: ../modbus_slave.stl, cpu: 226, station: 9, set: {VW0: 5}, dump: [VW0]}\n"
+      "  gateway: {program: ../modbus_slave.stl, cpu: 226, ppi_baud: \"9600,187500\", station: 9, set: {VW0: 5}, dump: "
+      "[VW0]}\n"
       "  slave: {program: ../modbus_slave.stl, copies: 2, station: 3}\n"
       "peers:\n"
       "  master: {polls: [{station: 3..4, read: 40001, count: 2}, {station: 9, write: 00005, value: 1}], every: 1s}\n"
-      "  old: {westinghouse: lan, model: pc1250, settings: [unit=07, sync=ignored]}\n"
+      "  old: {westinghouse: lan, model: pc1250, settings: [unit=07], sync: gateway.Q1.2}\n"
       "lines:\n"
       "  field: {stations: [master, slave, gateway], turn_round: 7ms, faults: [\"noise:ber=0.001\"]}\n"
       "  office: {stations: [gateway.1, old], baud: 19200, parity: none}\n");
@@ -35,6 +36,11 @@ TEST(SystemFile, NamesPlcsPeersAndLinesAndWhoIsOnThem) {
   EXPECT_EQ(plan.peers[0].polls.pause, 7 * kMillisecond);
   EXPECT_EQ(plan.peers[0].polls.every, kSecond);
   EXPECT_TRUE(plan.peers[1].automaton);
+  ASSERT_TRUE(plan.peers[1].sync);
+  EXPECT_EQ(plan.peers[1].sync->plc, 0U);
+  EXPECT_EQ(plan.peers[1].sync->point, (serial::OutputPoint{1, 2}));
+  EXPECT_EQ(plan.plcs[0].program->ppi_rates, (PpiRates{9600, 187500}));
+  EXPECT_EQ(plan.plcs[1].program->ppi_rates, kUsualPpiRates);
   ASSERT_EQ(plan.lines.size(), 2U);
   EXPECT_EQ(plan.lines[0].stations.size(), 4U);
   EXPECT_EQ(plan.lines[1].stations[0].port, 1);
@@ -78,7 +84,15 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {"peers: {m: {polls: [{read: 40001}]}}\nlines: {}\n", 1, 1, "no line"},
       {"peers: {m: {westinghouse: telex}}\n", 1, 27, "there is no protocol 'telex'"},
       {"peers: {m: {westinghouse: lan, settings: [colour=red]}}\n", 1, 43, "'colour=red' is not a setting"},
-      {"peers: {m: {westinghouse: lan}}\n", 1, 27, "no station of a system gives the sync signal"},
+      {"peers: {m: {westinghouse: lan}}\n", 1, 27, "nothing drives the sync signal"},
+      {slave + "peers: {m: {westinghouse: lan, sync: a.I0.0}}\n", 2, 38, "'I0.0' is not an output point"},
+      {slave + "peers: {m: {westinghouse: lan, sync: a.QB0}}\n", 2, 38, "'QB0' is not an output point"},
+      {slave + "peers: {m: {westinghouse: lan, sync: a.Q9.0}}\n", 2, 38, "Q9.0"},
+      {slave + "peers: {m: {westinghouse: lan, sync: b.Q0.0}}\n", 2, 38, "'b.Q0.0' is not an output of a PLC"},
+      {slave + "peers: {m: {westinghouse: lan, sync: Q0}}\n", 2, 38, "'Q0' is not an output of a PLC"},
+      {slave + "peers: {m: {westinghouse: hppc, sync: a.Q0.0}}\n", 2, 39, "this PLC has no sync signal, or ignores it"},
+      {"plcs: {a: {program: ../modbus_slave.stl, ppi_baud: 38400}}\n", 1, 52, "'38400' is not a rate of PPI"},
+      {"plcs: {a: {program: ../modbus_slave.stl, ppi_baud: 187500}}\n", 1, 52, "PPI at 187500 baud needs CPU 22x"},
       {"peers: {m: {polls: [{read: 40001}]}}\nlines: {l: {stations: [m], capture: [x.pcap]}}\n", 2, 37,
        "no PLC is on line 'l'"},
       {"peers: {m: {polls: [{read: 40001}]}}\n" + slave + "lines: {l: {stations: [a]}}\n", 1, 9, "'m' is on no line"},
@@ -130,6 +144,8 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {"bridges: {b: {smoke: x}}\n", 1, 15, "'smoke' has no place here"},
       {"bridges: {b: {tcp: 5020}, c: {tcp: 5020}}\n", 1, 36, "two bridges at 5020, the first in line 1"},
       {slave + "bridges: {b: {tcp: 5020}}\nlines: {l: {stations: [a]}}\n", 2, 11, "'b' is on no line"},
+      {slave + "bridges: {b: {tcp: 5020}}\nlines: {l: {stations: [a, b]}}\nevents: [{at: 1s, power_off: b}]\n", 4, 30,
+       "'b' is a bridge, which has no power to switch"},
       {"plcs: {a: {program: ../modbus_slave.stl, copies: 32}, b: {program: ../modbus_slave.stl}}\n"
        "lines: {l: {stations: [a, b]}}\n",
        2, 23, "33 stations: a line takes 32"},

@@ -281,6 +281,94 @@ TEST(DisturbedLine, HealedLineIsAsItIsDriven) {
   EXPECT_FALSE(line.level(550));
 }
 
+// --- drivers that disagree, with levels left to chance ---
+
+constexpr Time kEdge = 10;  // from one edge of a driver to its next one
+constexpr int kEdges = 100;
+
+/// Space and mark in turn, from `at` on; the driver is on all the while.
+void drive_in_turn(Line& line, int driver, Time at) {
+  for (int i = 0; i <= kEdges; ++i) line.drive(driver, at + i * kEdge, i % 2 != 0 || i == kEdges);
+  line.occupy(driver, at, at + kEdges * kEdge);
+}
+
+/// On, at mark.
+void hold_mark(Line& line, int driver, Time until = kEdges * kEdge) { line.occupy(driver, 0, until); }
+
+/// How many of the spaces of drive_in_turn() a listener finds at mark, of those that begin in [from, to).
+int spaces_lost(const Line& line, int listener, Time from = 0, Time to = kEdges * kEdge) {
+  int lost = 0;
+  for (Time at = from; at < to; at += 2 * kEdge) lost += line.level(at + kEdge / 2, listener);
+  return lost;
+}
+
+TEST(ContestedLine, DriversThatDisagreeGiveMarkOrSpaceByChance) {
+  Line line;
+  line.leave_contention_to_chance(1);
+  hold_mark(line, 0);
+  drive_in_turn(line, 1, 0);
+  EXPECT_GT(spaces_lost(line, 2), 10);
+  EXPECT_LT(spaces_lost(line, 2), 40);
+}
+
+TEST(ContestedLine, DriversOnDifferentPartsOfACutCableDoNotDisagree) {
+  Line line;
+  line.leave_contention_to_chance(1);
+  line.separate(0, 0b1010);
+  hold_mark(line, 0);
+  drive_in_turn(line, 1, 0);
+  EXPECT_EQ(spaces_lost(line, 3), 0) << "with the one that sends";
+  EXPECT_EQ(spaces_lost(line, 2), kEdges / 2) << "with the one that is at mark: nothing is heard";
+}
+
+TEST(ContestedLine, DriversThatDisagreeOnOnePartAreNotHeardOnTheOther) {
+  for (const std::uint32_t far : {0b0111U, 0b11000U}) {
+    Line line;
+    line.leave_contention_to_chance(1);
+    line.separate(0, far);
+    hold_mark(line, 0);
+    drive_in_turn(line, 1, 0);
+    drive_in_turn(line, 3, 0);
+    EXPECT_GT(spaces_lost(line, 2), 10);
+    EXPECT_EQ(spaces_lost(line, 4), 0);
+  }
+}
+
+TEST(ContestedLine, ACutInTheMiddleOfACharacterEndsTheDisagreementAndMendingBringsItBack) {
+  constexpr Time kCut = 30 * kEdge, kMended = 60 * kEdge;
+  Line line;
+  line.leave_contention_to_chance(1);
+  hold_mark(line, 0);
+  drive_in_turn(line, 1, 0);
+  line.separate(kCut, 0b1010);
+  line.separate(kMended, 0);
+  EXPECT_GT(spaces_lost(line, 3, 0, kCut), 2);
+  EXPECT_EQ(spaces_lost(line, 3, kCut, kMended), 0);
+  EXPECT_GT(spaces_lost(line, 3, kMended), 2);
+}
+
+TEST(ContestedLine, ADriverThatLosesPowerDisagreesNoMore) {
+  constexpr Time kOff = 30 * kEdge;
+  Line line;
+  line.leave_contention_to_chance(1);
+  hold_mark(line, 0);
+  drive_in_turn(line, 1, 0);
+  line.release(0, kOff);
+  EXPECT_GT(spaces_lost(line, 2, 0, kOff), 2);
+  EXPECT_EQ(spaces_lost(line, 2, kOff), 0);
+}
+
+TEST(ContestedLine, HealingALineLeavesItsDriversAsTheyAre) {
+  Line line;
+  line.leave_contention_to_chance(1);
+  hold_mark(line, 0);
+  drive_in_turn(line, 1, 0);
+  const int lost = spaces_lost(line, 2);
+  line.disturb({.effect = Disturbance::Effect::Inverts, .from = 10'000, .to = 20'000});
+  line.heal(0);
+  EXPECT_EQ(spaces_lost(line, 2), lost);
+}
+
 TEST(DisturbedLine, TellsWhoeverListens) {
   Line line;
   Listener listener;

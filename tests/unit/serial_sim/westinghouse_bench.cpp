@@ -114,6 +114,12 @@ std::string Bench::ask(const std::string& hex, bool sync, Time timeout) {
   return serial::to_hex(system_.finish_exchange(master_).response_bytes());
 }
 
+void Bench::lose_power() {
+  station_.power_off(system_.time());
+  wait(100 * kMillisecond);
+  station_.power_on(system_.time());
+}
+
 std::string Bench::fault_of(const std::string& texts) const {
   std::string all;
   for (const std::string& text : words_of(texts)) {

@@ -22,6 +22,9 @@ class Bench {
   /// Sends a frame in hex, and returns the answer in hex; empty if none began within `timeout`.
   std::string ask(const std::string& hex, bool sync = false, Time timeout = 60 * kMillisecond);
 
+  /// Of the PLC, for a while.
+  void lose_power();
+
   void wait(Time time) { system_.run_until(system_.time() + time); }
 
   /// Empty if the PLC holds what the texts say; otherwise what it holds.

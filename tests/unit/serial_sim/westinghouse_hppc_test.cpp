@@ -66,6 +66,16 @@ TEST(Hppc, H2ItIsAsynchronousFromPowerUpUnlessItSearchesForItsLine) {
   EXPECT_EQ(asked(bench, request(HppcOpcode::Read, hppc_read(0, 0))), "0c 00");
 }
 
+TEST(Hppc, AfterPowerHasBeenOffItSearchesForItsLineAgainAndHasItsMemory) {
+  Bench bench("hppc", "search_ms=1000 M[90000]=12");
+  bench.wait(2 * kSecond);
+  EXPECT_EQ(asked(bench, request(HppcOpcode::Read, hppc_read(0x90000, 1))), "0c 01 12");
+  bench.lose_power();
+  EXPECT_EQ(asked(bench, request(HppcOpcode::Read, hppc_read(0x90000, 1))), "");
+  bench.wait(kSecond);
+  EXPECT_EQ(asked(bench, request(HppcOpcode::Read, hppc_read(0x90000, 1))), "0c 01 12");
+}
+
 TEST(Hppc, H3TheFifthByteIsNotChecked) {
   Bytes message{0x0C, 0x00, kIop, kApl, 0x55, 0x0C, 0, 0, 0, 0};
   const std::uint16_t fcs = hppc_fcs(message, FcsTable::Document);

@@ -56,6 +56,25 @@ TEST(Pc1000Lan, L2ASyncEdgeThrowsAwayWhatIsNotComplete) {
   EXPECT_NE(bench.ask(part(3, 6), false), "");
 }
 
+TEST(Pc1000Lan, AfterPowerHasBeenOffMemoryIsKeptAndNoUnitIsAddressed) {
+  OnLine plc("W[0000]=1234");
+  EXPECT_NE(plc(read_block(0, 2)), "");
+  plc.bench.lose_power();
+  EXPECT_EQ(plc(read_block(0, 2)), "");
+  EXPECT_NE(plc(set_unit_address(5)), "");
+  EXPECT_EQ(plc(read_block(0, 2)), "05 00 00 01 00 06 34 12 46");
+}
+
+TEST(Pc1000Lan, WithoutPowerItIsSilentAndHalfAMessageFromBeforeIsForgotten) {
+  Bench bench("lan", "sync=ignored");
+  const Bytes unit = set_unit_address(5);
+  EXPECT_EQ(bench.ask(serial::to_hex(Bytes(unit.begin(), unit.begin() + 3)), false, 5 * kMillisecond), "");
+  bench.station().power_off(bench.system().time());
+  EXPECT_EQ(bench.ask(serial::to_hex(unit)), "");
+  bench.station().power_on(bench.system().time());
+  EXPECT_NE(bench.ask(serial::to_hex(unit)), "");
+}
+
 TEST(Pc1000Lan, L3AGapOf100MillisecondsThrowsAMessageAwayAndTheAnswerComesOneCharacterAfterIt) {
   Bench bench("lan", "sync=ignored");
   const auto with_gap = [&](Time gap) {

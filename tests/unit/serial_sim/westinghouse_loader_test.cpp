@@ -117,6 +117,14 @@ TEST(Loader, S4ASessionEndsSilentlyAfter500MillisecondsWithoutAByte) {
   EXPECT_EQ(patient.ask("04"), "02");
 }
 
+TEST(Loader, AfterPowerHasBeenOffTheSessionIsOver) {
+  Bench bench("loader");
+  EXPECT_EQ(bench.ask("02"), "10 06");
+  bench.lose_power();
+  EXPECT_EQ(bench.ask("04"), "");
+  EXPECT_EQ(bench.ask("02"), "10 06");
+}
+
 TEST(Loader, S4WhatDoesNotFitTheHandshakeIsAnsweredWithANak) {
   const std::string nak = "10 15";
   Bench bench("loader");

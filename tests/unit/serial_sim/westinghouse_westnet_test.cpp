@@ -71,6 +71,15 @@ TEST(Westnet, W4ASessionIsClosedExplicitlyOnly) {
   EXPECT_EQ(closes(highway(ReadSessionStatus)), "09 05 80 00 00 8e");
 }
 
+TEST(Westnet, AfterPowerHasBeenOffNoDropIsAddressedAndNoSessionIsOpen) {
+  Addressed plc;
+  plc(highway(OpenSession));
+  plc.bench.lose_power();
+  EXPECT_EQ(plc(read_block(0, 2)), "ff 02") << "no drop is addressed";
+  plc(highway(SetAddress, 0, 0x11));
+  EXPECT_EQ(plc(highway(ReadSessionStatus)), "09 05 80 00 00 8e");
+}
+
 TEST(Westnet, W4TheSessionOfAnotherIsInTheWayOfThePlcButNotOfThePci) {
   Addressed plc("session=00.22.00");
   for (const Bytes& message :

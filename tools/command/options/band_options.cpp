@@ -39,7 +39,7 @@ std::unique_ptr<ProgramBand> BandOptions::load(const ProgramOptions& program, in
   auto tables = load_band(*model, program.times_table, settings_, errors);
   if (!tables) return nullptr;  // load() has said why
   repair(text->parsed.source, program.repairs, unknown);
-  return std::make_unique<ProgramBand>(std::move(text->parsed), *model, std::move(*tables));
+  return std::make_unique<ProgramBand>(std::move(text->parsed), *model, std::move(*tables), *program.ppi_rates(*model));
 }
 
 std::string band_title(const CpuOptions& cpu, const BandSettings& settings) {

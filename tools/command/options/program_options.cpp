@@ -70,6 +70,11 @@ void CpuOptions::add_to(CLI::App& app) {
   app.add_option("--times", times_table,
                  "execution times: the name of a table, or a CSV file; both as `s7200 times` has them")
       ->type_name("FILE");
+  app.add_option("--ppi-baud", ppi_baud,
+                 fmt::format("rate of ports in PPI mode, as the system block sets it: 9600, 19200 or, on CPU 22x, 187500; "
+                             "9600,187500 is port 0 and port 1 [{}]",
+                             s7200::to_text(kUsualPpiRates)))
+      ->type_name("BAUD[,BAUD]");
   add_repair_option(app, repairs);
   add_no_skip_option(app, every_scan);
 }
@@ -85,6 +90,14 @@ std::optional<TimeTable> CpuOptions::times(const CpuModel& model) const {
   auto times = load_times(model, times_table, errors);
   for (const std::string& error : errors) print_error(error);
   return times;
+}
+
+std::optional<PpiRates> CpuOptions::ppi_rates(const CpuModel& model) const {
+  if (ppi_baud.empty()) return kUsualPpiRates;
+  std::string why;
+  const auto rates = parse_ppi_rates(ppi_baud, model, why);
+  if (!rates) print_error("--ppi-baud: " + why);
+  return rates;
 }
 
 void ProgramOptions::add_to(CLI::App& app) {
@@ -122,7 +135,8 @@ std::shared_ptr<const Program> ProgramOptions::load(SourceText text, int& exit_c
   const CpuModel* cpu_model = model();
   if (!cpu_model) return nullptr;
   const auto table = times(*cpu_model);
-  if (!table) return nullptr;
+  const auto rates = ppi_rates(*cpu_model);
+  if (!table || !rates) return nullptr;
   if (!repair(text, repairs)) return nullptr;
   print_note_if_any(left_out_note(text));
   CheckResult result = check(text.parsed, *cpu_model, *table);
@@ -130,7 +144,9 @@ std::shared_ptr<const Program> ProgramOptions::load(SourceText text, int& exit_c
   print_diagnostics(result.diagnostics, result.source);
   if (!result.program) print_error(fmt::format("{} has errors; nothing was run", result.source.name));
   exit_code = result.program ? kFine : kCheckFailed;
-  return every_scan && result.program ? with_every_scan(*result.program) : result.program;
+  auto program = std::move(result.program);
+  if (program && !ppi_baud.empty()) program = with_ppi_rates(*program, *rates);
+  return every_scan && program ? with_every_scan(*program) : program;
 }
 
 std::optional<std::vector<TitledTimes>> load_all(const std::vector<std::string>& tables, const CpuModel& model) {

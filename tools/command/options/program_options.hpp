@@ -31,6 +31,7 @@ bool repair(SourceText& text, const Repairs& repairs);
 struct CpuOptions {
   std::string cpu = "214";
   std::string times_table;  ///< a name or a file; empty: the CPU's own
+  std::string ppi_baud;     ///< as parse_ppi_rates() takes them; empty: the usual ones
   Repairs repairs;
   bool every_scan = false;  ///< scans that are all alike are run, too
 
@@ -39,6 +40,7 @@ struct CpuOptions {
   /// The model and its times; nothing after a message. Ends in kUnusable.
   const CpuModel* model() const;
   std::optional<TimeTable> times(const CpuModel& model) const;
+  std::optional<PpiRates> ppi_rates(const CpuModel& model) const;
 };
 
 struct ProgramOptions : CpuOptions {

@@ -20,8 +20,8 @@ constexpr StepKind kKinds[] = {
     {"errors", read_errors, "MAP or none", "all run-time errors there must have been: `{0092: 3, 0006: 1..}`"},
     {"fault", read_fault, "FAULT or none", "a fault of the line from now on, as of `--fault`; or none any more"},
     {"power_cycle", read_power_cycle, "memory kept, memory lost", "power off and on again, for a short or a long time; of a program"},
-    {"power_off", read_event_of_system, "PLC", "one PLC of a system loses power; if it is off already it stays off", StepKind::Of::System},
-    {"power_on", read_event_of_system, "PLC", "its power comes back", StepKind::Of::System},
+    {"power_off", read_event_of_system, "NAME", "one PLC or peer of a system loses power; if it is off already it stays off", StepKind::Of::System},
+    {"power_on", read_event_of_system, "NAME", "its power comes back", StepKind::Of::System},
     {"cut", read_event_of_system, "LINE", "the cable is cut: both parts go on without each other", StepKind::Of::System},
     {"mend", read_event_of_system, "LINE", "the cable is whole again", StepKind::Of::System},
 };
