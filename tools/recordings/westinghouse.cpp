@@ -134,37 +134,32 @@ class LoaderReader final : public FrameReader {
  public:
   ReadFrame read(const RecordedFrame& frame, const RecordedFrame*) override {
     const Data bytes(frame.bytes);
-    if (first_message(bytes, nullptr) != bytes.size() && begins_session(bytes)) step_ = Step::Begin;
     ReadFrame read;
-    const bool whole = first_message(bytes, nullptr) == bytes.size();
-    const Direction side = from_plc(step_) ? Direction::Answer : Direction::Request;
-    if (!whole || (frame.direction != Direction::Unknown && frame.direction != side)) {
+    const auto step = step_of(frame);
+    if (!step) {
       read.text = fmt::format("does not fit the hand-shake: {} was due", due_text());
       step_ = Step::Begin;
+      opcode_.reset();
       return read;
     }
-    read.direction = side;
+    step_ = *step;
+    read.direction = side_of(step_);
     read.right = true;
     read.text = go_on(bytes);
-    read.needs_no_answer = side == Direction::Request && step_ == Step::Begin;
+    read.needs_no_answer = read.direction == Direction::Request && step_ == Step::Begin;
     return read;
   }
 
   std::size_t first_message(Data bytes, const RecordedFrame*) const override {
-    if (from_plc(step_) && begins_with(bytes, kRefusal)) return kRefusal.size();
-    switch (step_) {
-      case Step::Opcode:
-        return 1;
-      case Step::Arguments:
-        return begins_with(bytes, kAcknowledge) ? up_to(bytes, kAcknowledge.size(), westinghouse::kEot) : 0;
-      case Step::DataSent:
-        return up_to(bytes, 0, westinghouse::kEtx);
-      default: {
-        const Bytes due = fixed(step_);
-        return begins_with(bytes, due) ? due.size() : 0;
-      }
-    }
+    std::size_t length = first_of(step_, bytes);
+    if (step_ == Step::DataSent) return length;  // anything may be data
+    for (auto landmark = kLandmarks.begin(); length == 0 && landmark != kLandmarks.end(); ++landmark)
+      length = first_of(*landmark, bytes);
+    return length;
   }
+
+  /// The computer begins a session right after it has closed the one before.
+  bool messages_share_frames() const override { return true; }
 
  private:
   /// In their order; the computer begins.
@@ -189,13 +184,46 @@ class LoaderReader final : public FrameReader {
   static constexpr std::array kAcknowledge{westinghouse::kDle, westinghouse::kAck};
   static constexpr std::array kRefusal{westinghouse::kDle, westinghouse::kNak};
 
+  /// Known wherever the hand-shake is, so that it is found again after what does not fit.
+  static constexpr std::array kLandmarks{Step::Begin, Step::HeaderHeard, Step::End};
+
   static bool from_plc(Step step) { return static_cast<unsigned>(step) % 2 == 1; }
+  static Direction side_of(Step step) { return from_plc(step) ? Direction::Answer : Direction::Request; }
+
+  static bool fits(Step step, const RecordedFrame& frame) {
+    return first_of(step, frame.bytes) == frame.bytes.size() &&
+           (frame.direction == Direction::Unknown || frame.direction == side_of(step));
+  }
+
+  /// The step that is due, or a landmark; nothing if the frame is neither.
+  std::optional<Step> step_of(const RecordedFrame& frame) const {
+    const bool ends_without_data = step_ == Step::DataSent && !opcode_ && fits(Step::End, frame);
+    if (ends_without_data) return Step::End;
+    if (fits(step_, frame)) return step_;
+    const auto landmark = std::ranges::find_if(kLandmarks, [&](Step step) { return fits(step, frame); });
+    return landmark == kLandmarks.end() ? std::nullopt : std::optional(*landmark);
+  }
+
+  /// How many of the bytes are this step; 0 if they are not, or not all there.
+  static std::size_t first_of(Step step, Data bytes) {
+    if (from_plc(step) && begins_with(bytes, kRefusal)) return kRefusal.size();
+    switch (step) {
+      case Step::Opcode:
+        return begins_with(bytes, fixed(Step::HeaderHeard)) || begins_with(bytes, fixed(Step::End)) ? 0 : 1;
+      case Step::Arguments:
+        return begins_with(bytes, kAcknowledge) ? up_to(bytes, kAcknowledge.size(), westinghouse::kEot) : 0;
+      case Step::DataSent:
+        return up_to(bytes, 0, westinghouse::kEtx);
+      default: {
+        const Bytes due = fixed(step);
+        return begins_with(bytes, due) ? due.size() : 0;
+      }
+    }
+  }
 
   static bool begins_with(Data text, Data beginning) {
     return text.size() >= beginning.size() && std::ranges::equal(text.first(beginning.size()), beginning);
   }
-
-  static bool begins_session(Data bytes) { return bytes.size() == 1 && bytes[0] == westinghouse::kStx; }
 
   /// Up to DLE and `end`, both included; 0 if that has not come. A doubled DLE is one of the data.
   static std::size_t up_to(Data bytes, std::size_t from, std::uint8_t end) {
@@ -245,6 +273,7 @@ class LoaderReader final : public FrameReader {
     if (refused) return "refused";
     switch (step) {
       case Step::Begin:
+        opcode_.reset();
         return "begin of a session";
       case Step::Opcode:
         opcode_ = bytes[0];
@@ -252,7 +281,7 @@ class LoaderReader final : public FrameReader {
       case Step::Arguments:
         return arguments_text(unstuffed(bytes.subspan(kAcknowledge.size(), bytes.size() - 2 * kAcknowledge.size())));
       case Step::ArgumentsHeard:
-        if (!westinghouse::has_data(static_cast<westinghouse::LoaderOpcode>(opcode_))) step_ = Step::EndWanted;
+        if (opcode() && !westinghouse::has_data(*opcode())) step_ = Step::EndWanted;
         return "arguments accepted";
       case Step::DataSent:
         return to_hex(unstuffed(bytes.first(bytes.size() - kAcknowledge.size())));
@@ -281,7 +310,7 @@ class LoaderReader final : public FrameReader {
 
   std::string operation_text() const {
     using westinghouse::LoaderOpcode;
-    switch (static_cast<LoaderOpcode>(opcode_)) {
+    switch (*opcode()) {
       case LoaderOpcode::Write:
         return "write memory";
       case LoaderOpcode::Read:
@@ -293,12 +322,12 @@ class LoaderReader final : public FrameReader {
       case LoaderOpcode::Directory:
         return "directory of blocks";
     }
-    return fmt::format("opcode {:02X}", opcode_);
+    return fmt::format("opcode {:02X}", *opcode_);
   }
 
   std::string arguments_text(Data arguments) const {
     using westinghouse::LoaderOpcode;
-    const auto opcode = static_cast<LoaderOpcode>(opcode_);
+    const auto opcode = this->opcode();
     if (opcode == LoaderOpcode::Read && arguments.size() == 4)
       return fmt::format("bytes 16#{:04X}…{:04X}", high_first(arguments, 0), high_first(arguments, 2));
     if (opcode == LoaderOpcode::Write && arguments.size() > 2)
@@ -309,8 +338,12 @@ class LoaderReader final : public FrameReader {
     return arguments.empty() ? "no arguments" : to_hex(arguments);
   }
 
+  std::optional<westinghouse::LoaderOpcode> opcode() const {
+    return opcode_ ? std::optional(static_cast<westinghouse::LoaderOpcode>(*opcode_)) : std::nullopt;
+  }
+
   Step step_ = Step::Begin;
-  std::uint8_t opcode_ = 0;
+  std::optional<std::uint8_t> opcode_;  // of this session; nothing if it was not heard
 };
 
 // --- HPPC ---
