@@ -68,9 +68,10 @@ void add_decode(CLI::App& app, int& exit_code) {
       "decode", "show a recording of a line, or a line itself, as requests and answers, with gaps and latencies");
   options->recording.add_to(*verb);
   verb->add_flag("--json", options->json, "print the frames as JSON");
+  std::string forms;
+  for (const RecordingForm& form : recording_forms()) forms += fmt::format("  {}\n", form.meaning);
   verb->footer(
-      "Recordings are pcap of a serial line (link type 147) or of Modbus TCP, CSV, and text logs with a frame in each "
-      "line.\n"
+      "Recordings are\n" + forms +
       "A line is listened to until Ctrl-C, and nothing is sent there. Times are those of arrival: a USB adapter delivers up "
       "to\n"
       "16 ms late. Behind a --pty of `s7200 run` only what the simulated line says is heard, not what others ask it.\n"
