@@ -54,7 +54,8 @@ Bytes Pc1000::refusal() const { return settings.error == 0 ? Bytes{} : Bytes{kHi
 
 std::uint8_t Pc1000::key_byte() const {
   const unsigned position = 1U << static_cast<unsigned>(settings.key);
-  return static_cast<std::uint8_t>(static_cast<unsigned>(settings.key_upper_bits) << 4 | position | (settings.fault != 0 ? kFaultMode : 0));
+  return static_cast<std::uint8_t>(static_cast<unsigned>(settings.key_upper_bits) << 4 | position |
+                                   (settings.fault != 0 ? kFaultMode : 0));
 }
 
 Bytes Pc1000::carry_out(Data message) {
