@@ -62,12 +62,13 @@ class PlcOf : public Plc {
 
   bool set(std::string_view text, std::string& why) final {
     if (const auto cells = parse_cells(text)) {
-      if (const Cells<Self>* row = find(*cells, why)) {
+      const auto [row, fault] = find(*cells);
+      if (!fault.empty()) return why = fault, false;
+      if (row != nullptr) {
         std::uint32_t place = cells->first;
         for (const std::uint32_t value : cells->values) row->write(self(), place++, value);
         return true;
       }
-      if (!why.empty()) return false;
     }
     const Setting<Self>* setting = nullptr;
     const auto value = parse(text, setting, why);
@@ -77,16 +78,19 @@ class PlcOf : public Plc {
 
   bool holds(std::string_view text, std::string& why) const final {
     if (const auto cells = parse_cells(text)) {
-      if (const Cells<Self>* row = find(*cells, why)) {
+      const auto [row, fault] = find(*cells);
+      if (!fault.empty()) return why = fault, false;
+      if (row != nullptr) {
+        std::string other;
         std::uint32_t place = cells->first;
         for (const std::uint32_t value : cells->values) {
           const std::uint32_t found = row->read(self(), place);
-          if (found != value) why += fmt::format("{} {:X} holds {:X}, not {:X}; ", row->name, place, found, value);
+          if (found != value) other += fmt::format("{} {:X} holds {:X}, not {:X}; ", row->name, place, found, value);
           ++place;
         }
-        return why.empty();
+        if (!other.empty()) why = other;
+        return other.empty();
       }
-      if (!why.empty()) return false;
     }
     const Setting<Self>* setting = nullptr;
     const auto value = parse(text, setting, why);
@@ -102,25 +106,23 @@ class PlcOf : public Plc {
   Self& self() { return static_cast<Self&>(*this); }
   const Self& self() const { return static_cast<const Self&>(*this); }
 
-  /// Null if there are none of this name, and, with `why`, if they do not take the values.
-  static const Cells<Self>* find(const CellsText& text, std::string& why) {
+  struct Found {
+    const Cells<Self>* row = nullptr;  ///< null if there are none of this name
+    std::string fault{};               ///< why they do not take the values
+  };
+  static Found find(const CellsText& text) {
     for (const Cells<Self>& row : Self::cells()) {
       if (row.name != text.name || row.by_address != text.by_address) continue;
       const bool inside =
           text.first >= row.least && text.first <= row.most && text.values.size() <= row.most - text.first + 1;
-      if (!inside) {
-        why = row.by_address ? fmt::format("{}: addresses are from {:X} to {:X}", row.name, row.least, row.most)
-                             : fmt::format("{}: numbers are from {} to {}", row.name, row.least, row.most);
-        return nullptr;
-      }
+      if (!inside)
+        return {&row, row.by_address ? fmt::format("{}: addresses are from {:X} to {:X}", row.name, row.least, row.most)
+                                     : fmt::format("{}: numbers are from {} to {}", row.name, row.least, row.most)};
       for (const std::uint32_t value : text.values)
-        if (value > row.largest) {
-          why = fmt::format("{}: {:X} is more than {:X}", row.name, value, row.largest);
-          return nullptr;
-        }
-      return &row;
+        if (value > row.largest) return {&row, fmt::format("{}: {:X} is more than {:X}", row.name, value, row.largest)};
+      return {&row};
     }
-    return nullptr;
+    return {};
   }
 
   static std::optional<std::uint32_t> parse(std::string_view text, const Setting<Self>*& setting, std::string& why) {
