@@ -27,7 +27,7 @@ void LanPlc::hear(const ReceivedCharacter& character) {
   wake_at(end + settings_.gap_ms * kMillisecond);
   switch (reader_.take(character)) {
     case MessageReader::State::Wrong:
-      return say(on_line_ ? pc_.refusal() : Bytes{}, end);
+      return say(on_line_ ? refusal() : Bytes{}, end);
     case MessageReader::State::Whole: {
       Bytes reply = this->reply(reader_.message());
       begin_anew();
@@ -44,7 +44,14 @@ void LanPlc::say(Bytes reply, Time request_end) {
 
 Bytes LanPlc::reply(std::span<const std::uint8_t> message) {
   if (static_cast<Opcode>(message[0]) == Opcode::SetUnitAddress) return set_unit_address(message);
-  return on_line_ ? pc_.carry_out(message) : Bytes{};
+  if (!on_line_) return {};
+  Bytes reply = pc_.carry_out(message);
+  return reply.empty() ? refusal() : reply;
+}
+
+Bytes LanPlc::refusal() const {
+  const std::uint8_t code = pc_.settings.error;
+  return code == 0 ? Bytes{} : Bytes{kHighwayError, code};
 }
 
 Bytes LanPlc::set_unit_address(std::span<const std::uint8_t> message) {

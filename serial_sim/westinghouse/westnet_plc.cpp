@@ -27,7 +27,7 @@ void WestnetPlc::hear(const ReceivedCharacter& character) {
   wake_at(end + settings_.gap_ms * kMillisecond);
   switch (reader_.take(character)) {
     case MessageReader::State::Wrong:
-      return say(malformed(), end);
+      return say(error(settings_.malformed), end);
     case MessageReader::State::Whole: {
       Bytes reply = this->reply(reader_.message());
       wake(end);
@@ -43,12 +43,9 @@ void WestnetPlc::say(Bytes reply, Time request_end) {
 }
 
 Bytes WestnetPlc::error(std::uint8_t code) {
+  if (code == kNoError) return {};
   status_ = code;
   return {settings_.error_byte, code};
-}
-
-Bytes WestnetPlc::malformed() const {
-  return settings_.malformed == 0 ? Bytes{} : Bytes{settings_.error_byte, settings_.malformed};
 }
 
 std::uint8_t WestnetPlc::fault_of_plc() const { return settings_.remote == settings_.plc_at ? kNoError : kInvalidDrop; }
@@ -62,12 +59,12 @@ Bytes WestnetPlc::reply(Data message) {
   const auto opcode = static_cast<Opcode>(message[0]);
   if (opcode == Opcode::Highway) return highway(message);
   const bool block = opcode == Opcode::ReadBlock || opcode == Opcode::WriteBlock;
-  if (!block && opcode != Opcode::BitWrite) return malformed();
+  if (!block && opcode != Opcode::BitWrite) return error(settings_.malformed);
   if (const std::uint8_t code = fault_of_plc()) return error(code);
   if (block && message[3] >= kMostBytes) return error(kInvalidSize);
   if (const std::uint8_t code = fault_of_session()) return error(code);
   Bytes reply = pc_.carry_out(message);
-  if (reply.empty()) return malformed();
+  if (reply.empty()) return error(pc_.settings.error != kNoError ? pc_.settings.error : settings_.malformed);
   status_ = kNoError;
   return reply;
 }
@@ -75,7 +72,7 @@ Bytes WestnetPlc::reply(Data message) {
 Bytes WestnetPlc::highway(Data message) {
   const auto command = static_cast<HighwayCommand>(message[1]);
   if (command == HighwayCommand::SetAddress) return set_address(message);
-  if (message[2] != 0 || message[3] != 0 || message[4] != 0) return malformed();
+  if (message[2] != 0 || message[3] != 0 || message[4] != 0) return error(settings_.malformed);
   const auto done = [&](std::uint32_t drop) {
     status_ = kNoError;
     return answer_with(command, drop);
@@ -105,7 +102,7 @@ Bytes WestnetPlc::highway(Data message) {
     case HighwayCommand::SetAddress:
       break;
   }
-  return malformed();
+  return error(settings_.malformed);
 }
 
 Bytes WestnetPlc::set_address(Data message) {

@@ -101,6 +101,15 @@ TEST(Pc1000Lan, L7AddressesCountWordsAndAnOddBlockEndsWithALowByte) {
   EXPECT_EQ(plc(read_block(0xFFFF, 2)), "05 ff ff 01 00 04 00 00 00");
 }
 
+TEST(Pc1000Lan, L7AddressesOfBitsAreWordsEvenWhereThoseOfBlocksCountBytes) {
+  OnLine plc("addresses=bytes");
+  EXPECT_EQ(plc(write_bit(0x4000, 1, true)), "03 00 40 11 00 54");
+  EXPECT_EQ(plc(read_block(0x8000, 2)), "05 00 80 01 00 86 02 00 02");
+  plc.bench.set("fault=0204");
+  plc(write_bit(kRetestWord, kRetestBit, true));
+  EXPECT_EQ(plc.bench.fault_of("fault=0000"), "");
+}
+
 TEST(Pc1000Lan, L8WhatIsWrongOrRefusedIsNotAnswered) {
   OnLine plc("W[0000]=0");
   EXPECT_EQ(plc(read_block(0xFFFF, 3)), "");
