@@ -19,19 +19,19 @@ constexpr std::uint8_t kExtendedMemory = 0x33;
 constexpr std::uint32_t kMemoryBytes = 0x20000, kWords = 0x10000;
 constexpr unsigned kStatusRegister = 6;  // function 7 on NCMZ
 
-/// The functions of each model, without 7 [M1].
+constexpr std::uint8_t kOfPc503[]{1, 2, 3, 5, 6, 8, 15, 16};
+constexpr std::uint8_t kOfPc1200[]{1, 2, 3, 4, 5, 6, 7, 8, 15, 16, 17, 20, 21};
+constexpr std::uint8_t kOfPc2000[]{1, 2, 3, 4, 5, 6, 8, 16};
+constexpr std::uint8_t kOfNcmz[]{1, 2, 3, 4, 5, 6, 7, 8, 16};
+constexpr std::uint8_t kOfHppc[]{1, 2, 3, 4, 5, 6, 8, 15, 16};
+
+/// In the order of Model. [M1] is in supports().
 struct ModelRow {
   std::string_view word;
-  std::array<std::uint8_t, 12> functions;
+  std::span<const std::uint8_t> functions;
 };
-constexpr std::array kModels{
-    ModelRow{"pc503", {1, 2, 3, 5, 6, 8, 15, 16}},
-    ModelRow{"pc1200", {1, 2, 3, 4, 5, 6, 8, 15, 16, 17, 20, 21}},
-    ModelRow{"pc1250", {1, 2, 3, 4, 5, 6, 8, 15, 16, 17, 20, 21}},
-    ModelRow{"pc2000", {1, 2, 3, 4, 5, 6, 8, 16}},
-    ModelRow{"ncmz", {1, 2, 3, 4, 5, 6, 8, 16}},
-    ModelRow{"hppc", {1, 2, 3, 4, 5, 6, 8, 15, 16}},
-};
+constexpr std::array kModels{ModelRow{"pc503", kOfPc503},   ModelRow{"pc1200", kOfPc1200}, ModelRow{"pc1250", kOfPc1200},
+                             ModelRow{"pc2000", kOfPc2000}, ModelRow{"ncmz", kOfNcmz},     ModelRow{"hppc", kOfHppc}};
 
 unsigned word_at(std::span<const std::uint8_t> bytes, std::size_t place) { return bytes[place] * 256U + bytes[place + 1]; }
 
@@ -69,14 +69,14 @@ void ModbusPlc::wake(Time now) {
   answer(std::move(reply), now);
 }
 
+/// [M1] Section 4.1 gives function 7 to the HPPC, section 4.2.2, which the rows follow, to NCMZ.
 bool ModbusPlc::supports(std::uint8_t function) const {
-  if (function == static_cast<std::uint8_t>(Function::ReadExceptionStatus)) {
-    const bool by_41 = settings_.function_7 == ModbusSettings::Function7::Section41;
-    return settings_.plc == Model::Pc1200 || settings_.plc == Model::Pc1250 ||
-           settings_.plc == (by_41 ? Model::Hppc : Model::Ncmz);
+  const bool by_41 = settings_.function_7 == ModbusSettings::Function7::Section41;
+  if (by_41 && function == static_cast<std::uint8_t>(Function::ReadExceptionStatus)) {
+    if (settings_.plc == Model::Ncmz) return false;
+    if (settings_.plc == Model::Hppc) return true;
   }
-  const auto& row = kModels[static_cast<std::size_t>(settings_.plc)].functions;
-  return function != 0 && std::ranges::find(row, function) != row.end();
+  return std::ranges::count(kModels[static_cast<std::size_t>(settings_.plc)].functions, function) != 0;
 }
 
 bool ModbusPlc::carries_out_broadcast(std::uint8_t function) const {
