@@ -68,11 +68,9 @@ const std::vector<Setting<LanPlc>>& LanPlc::settings() {
   using S = LanSettings;
   static const std::vector<Setting<LanPlc>> kSettings = [] {
     std::vector<Setting<LanPlc>> rows;
+    const auto own = [](auto& plc) -> auto& { return plc.settings_; };
     const auto add = [&](SettingForm form, auto member) {
-      rows.push_back({std::move(form), [=](const LanPlc& plc) { return static_cast<std::uint32_t>(plc.settings_.*member); },
-                      [=](LanPlc& plc, std::uint32_t value) {
-                        plc.settings_.*member = static_cast<std::remove_cvref_t<decltype(plc.settings_.*member)>>(value);
-                      }});
+      rows.push_back(setting_of<LanPlc>(std::move(form), own, member));
     };
     add({"unit", "", "its address, in hex"}, &S::unit);
     add_pc1000_settings(

@@ -220,12 +220,9 @@ const std::vector<Setting<LoaderPlc>>& LoaderPlc::settings() {
   using S = LoaderSettings;
   static const std::vector<Setting<LoaderPlc>> kSettings = [] {
     std::vector<Setting<LoaderPlc>> rows;
+    const auto own = [](auto& plc) -> auto& { return plc.settings_; };
     const auto add = [&](SettingForm form, auto member) {
-      rows.push_back({std::move(form),
-                      [=](const LoaderPlc& plc) { return static_cast<std::uint32_t>(plc.settings_.*member); },
-                      [=](LoaderPlc& plc, std::uint32_t value) {
-                        plc.settings_.*member = static_cast<std::remove_cvref_t<decltype(plc.settings_.*member)>>(value);
-                      }});
+      rows.push_back(setting_of<LoaderPlc>(std::move(form), own, member));
     };
     add_line_settings(
         rows, "", [](auto& plc) -> auto& { return plc.settings_.line; });

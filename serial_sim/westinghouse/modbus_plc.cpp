@@ -278,12 +278,9 @@ const std::vector<Setting<ModbusPlc>>& ModbusPlc::settings() {
   using S = ModbusSettings;
   static const std::vector<Setting<ModbusPlc>> kSettings = [] {
     std::vector<Setting<ModbusPlc>> rows;
+    const auto own = [](auto& plc) -> auto& { return plc.settings_; };
     const auto add = [&](SettingForm form, auto member) {
-      rows.push_back({std::move(form),
-                      [=](const ModbusPlc& plc) { return static_cast<std::uint32_t>(plc.settings_.*member); },
-                      [=](ModbusPlc& plc, std::uint32_t value) {
-                        plc.settings_.*member = static_cast<std::remove_cvref_t<decltype(plc.settings_.*member)>>(value);
-                      }});
+      rows.push_back(setting_of<ModbusPlc>(std::move(form), own, member));
     };
     std::vector<std::string_view> models;
     for (const ModelRow& row : kModels) models.push_back(row.word);

@@ -97,11 +97,9 @@ template <class Self, class Pc>
 void add_pc1000_settings(std::vector<Setting<Self>>& rows, Pc pc) {
   using enum SettingForm::Notation;
   using S = Pc1000Settings;
+  const auto settings = [pc](auto& plc) -> auto& { return pc(plc).settings; };
   const auto add = [&](SettingForm form, auto member) {
-    rows.push_back({std::move(form), [=](const Self& plc) { return static_cast<std::uint32_t>(pc(plc).settings.*member); },
-                    [=](Self& plc, std::uint32_t value) {
-                      pc(plc).settings.*member = static_cast<std::remove_cvref_t<decltype(pc(plc).settings.*member)>>(value);
-                    }});
+    rows.push_back(setting_of<Self>(std::move(form), settings, member));
   };
   add({"plc", "", "model; a PC1100 does not erase", Word, {"pc1200", "pc1250", "pc1100"}}, &S::plc);
   add({"key", "", "keyswitch", Word, {"stop", "protect", "modify"}}, &S::key);

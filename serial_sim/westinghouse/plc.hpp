@@ -36,13 +36,7 @@ class Plc : public serial::Automaton {
 template <class Self, class Line>
 void add_line_settings(std::vector<Setting<Self>>& rows, std::string_view choice, Line line) {
   using enum SettingForm::Notation;
-  const auto add = [&](SettingForm form, auto member) {
-    rows.push_back({std::move(form), [=](const Self& plc) { return static_cast<std::uint32_t>(line(plc).*member); },
-                    [=](Self& plc, std::uint32_t value) {
-                      using Value = std::remove_reference_t<decltype(line(plc).*member)>;
-                      line(plc).*member = static_cast<Value>(value);
-                    }});
-  };
+  const auto add = [&](SettingForm form, auto member) { rows.push_back(setting_of<Self>(std::move(form), line, member)); };
   add({"baud", choice, "rate of its port", Decimal, {}, 50, 1'000'000}, &SerialFormat::baud);
   add({"parity", choice, "of its characters", Word, {kParityWords.begin(), kParityWords.end()}}, &SerialFormat::parity);
   add({"data_bits", choice, "of its characters", Decimal, {}, 7, 8}, &SerialFormat::data_bits);

@@ -49,7 +49,7 @@ PlcRow row(std::string_view name, std::string_view only_model = "") {
 
 const std::vector<PlcRow>& rows() {
   static const std::vector<PlcRow> kRows{
-      row<ModbusPlc>("modbus"),          row<LanPlc>("lan"), row<HppcPlc>("hppc", "hppc"),
+      row<ModbusPlc>("modbus"),          row<LanPlc>("lan"),         row<HppcPlc>("hppc", "hppc"),
       row<LoaderPlc>("loader", "pc503"), row<WestnetPlc>("westnet"),
   };
   return kRows;

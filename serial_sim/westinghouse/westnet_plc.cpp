@@ -122,12 +122,9 @@ const std::vector<Setting<WestnetPlc>>& WestnetPlc::settings() {
   using S = WestnetSettings;
   static const std::vector<Setting<WestnetPlc>> kSettings = [] {
     std::vector<Setting<WestnetPlc>> rows;
+    const auto own = [](auto& plc) -> auto& { return plc.settings_; };
     const auto add = [&](SettingForm form, auto member) {
-      rows.push_back({std::move(form),
-                      [=](const WestnetPlc& plc) { return static_cast<std::uint32_t>(plc.settings_.*member); },
-                      [=](WestnetPlc& plc, std::uint32_t value) {
-                        plc.settings_.*member = static_cast<std::remove_cvref_t<decltype(plc.settings_.*member)>>(value);
-                      }});
+      rows.push_back(setting_of<WestnetPlc>(std::move(form), own, member));
     };
     add({"local", "", "drop of the computer", Drop}, &S::local);
     add({"plc_at", "", "drop of the PLC", Drop}, &S::plc_at);
