@@ -23,23 +23,20 @@ void LanPlc::wake(Time) { begin_anew(); }
 void LanPlc::hear(const ReceivedCharacter& character) {
   const bool counts = settings_.sync == LanSettings::Sync::Ignored || (sync_high_ && character.start >= sync_since_);
   if (!counts) return;
-  const Time end = character.start + settings_.line.character_time();
+  const Time length = settings_.line.character_time(), end = character.start + length;
+  const Time reply_at = end + settings_.answer_after * length;
   wake_at(end + settings_.gap_ms * kMillisecond);
   switch (reader_.take(character)) {
     case MessageReader::State::Wrong:
-      return say(on_line_ ? refusal() : Bytes{}, end);
+      return answer_or_be_silent(on_line_ ? refusal() : Bytes{}, reply_at);
     case MessageReader::State::Whole: {
       Bytes reply = this->reply(reader_.message());
       begin_anew();
-      return say(std::move(reply), end);
+      return answer_or_be_silent(std::move(reply), reply_at);
     }
     default:
       return;
   }
-}
-
-void LanPlc::say(Bytes reply, Time request_end) {
-  if (!reply.empty()) answer(std::move(reply), request_end + settings_.answer_after * settings_.line.character_time());
 }
 
 Bytes LanPlc::reply(std::span<const std::uint8_t> message) {

@@ -37,7 +37,6 @@ class LanPlc final : public PlcOf<LanPlc> {
   /// Silence, or what is answered instead of it [L8].
   Bytes refusal() const;
   void begin_anew();
-  void say(Bytes reply, Time request_end);
 
   LanSettings settings_;
   Pc1000 pc_;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "serial_sim/peers/automaton.hpp"
@@ -30,6 +31,11 @@ class Plc : public serial::Automaton {
   Plc() = default;
   Plc(const Plc&) = default;
   Plc& operator=(const Plc&) = default;
+
+  /// Says nothing if `reply` is empty.
+  void answer_or_be_silent(Bytes reply, Time at) {
+    if (!reply.empty()) answer(std::move(reply), at);
+  }
 };
 
 /// The line as settings: `baud`, `parity`, `data_bits`, `stop_bits`. `line` is a member of the PLC.

@@ -23,23 +23,20 @@ void WestnetPlc::wake(Time) {
 }
 
 void WestnetPlc::hear(const ReceivedCharacter& character) {
-  const Time end = character.start + settings_.line.character_time();
+  const Time length = settings_.line.character_time(), end = character.start + length;
+  const Time reply_at = end + settings_.answer_after * length;
   wake_at(end + settings_.gap_ms * kMillisecond);
   switch (reader_.take(character)) {
     case MessageReader::State::Wrong:
-      return say(error(settings_.malformed), end);
+      return answer_or_be_silent(error(settings_.malformed), reply_at);
     case MessageReader::State::Whole: {
       Bytes reply = this->reply(reader_.message());
       wake(end);
-      return say(std::move(reply), end);
+      return answer_or_be_silent(std::move(reply), reply_at);
     }
     default:
       return;
   }
-}
-
-void WestnetPlc::say(Bytes reply, Time request_end) {
-  if (!reply.empty()) answer(std::move(reply), request_end + settings_.answer_after * settings_.line.character_time());
 }
 
 Bytes WestnetPlc::error(std::uint8_t code) {
