@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "interpreter/base/word_bytes.hpp"
+
 namespace s7200::westinghouse {
 namespace {
 
@@ -78,7 +80,7 @@ void HppcPlc::hear(const ReceivedCharacter& character) {
   if (deaf_) return;
   message_.push_back(character.byte);
   if (message_.size() < 2) return;
-  const std::size_t length = message_[0] + message_[1] * 256U;
+  const std::size_t length = load16_low_first(message_.data());
   deaf_ = length < kShortestHppc || length > kLongestHppc;
   if (deaf_ || message_.size() < length) return;
   const Bytes message = message_;
@@ -162,8 +164,7 @@ HppcPlc::Reply HppcPlc::write_bits(Data operands) {
   if (operands.size() != 7) return {.error = kInvalidLength};
   const std::uint32_t address = hppc_address(operands);
   if (address + 2 > kHppcMemory) return {.error = kInvalidOperand};
-  const auto word_at = [&](std::size_t place) { return operands[place] + operands[place + 1] * 256U; };
-  std::uint32_t pattern = word_at(3), mask = word_at(5);
+  std::uint32_t pattern = load16_low_first(&operands[3]), mask = load16_low_first(&operands[5]);
   if (settings_.layout.bit_write == HppcLayout::BitWrite::MaskFirst) std::swap(pattern, mask);
   put(address, (value(address, 2) & ~mask) | (pattern & mask), 2);
   return {};

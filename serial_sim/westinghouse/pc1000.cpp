@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "interpreter/base/word_bytes.hpp"
+
 namespace s7200::westinghouse {
 namespace {
 
@@ -11,9 +13,7 @@ constexpr std::uint32_t kRegisters = 2048;
 constexpr std::uint8_t kFaultMode = 8;
 constexpr std::size_t kCount = 3;  // place of the number of bytes minus one, or of the bit
 
-std::uint16_t address_of(std::span<const std::uint8_t> message) {
-  return static_cast<std::uint16_t>(message[1] | message[2] << 8);
-}
+std::uint16_t address_of(std::span<const std::uint8_t> message) { return load16_low_first(&message[1]); }
 
 Bytes header_of(std::span<const std::uint8_t> message) { return {message.begin(), message.begin() + kMessageLength}; }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "interpreter/base/bytes.hpp"
+#include "interpreter/base/word_bytes.hpp"
 #include "serial_sim/line/frame.hpp"
 #include "serial_sim/westinghouse/block_message.hpp"
 #include "serial_sim/westinghouse/hppc_message.hpp"
@@ -17,9 +19,6 @@ namespace {
 using Data = std::span<const std::uint8_t>;
 using serial::to_hex;
 using serial::Verdict;
-
-unsigned low_first(Data bytes, std::size_t place) { return bytes[place] | bytes[place + 1] * 256U; }
-unsigned high_first(Data bytes, std::size_t place) { return bytes[place] * 256U + bytes[place + 1]; }
 
 bool fits(const serial::Answer& answer) { return answer.verdict == Verdict::Right || answer.verdict == Verdict::Exception; }
 
@@ -77,7 +76,7 @@ class BlockReader final : public FrameReader {
   static std::string request_text(Data bytes) {
     using westinghouse::Opcode;
     constexpr std::size_t kAddress = 1, kCount = 3;
-    const unsigned address = low_first(bytes, kAddress);
+    const unsigned address = load16_low_first(&bytes[kAddress]);
     const std::string count = plural(bytes[kCount] + 1U, "byte");
     switch (static_cast<Opcode>(bytes[0])) {
       case Opcode::BitWrite:
@@ -300,9 +299,9 @@ class LoaderReader final : public FrameReader {
     using westinghouse::LoaderOpcode;
     const auto opcode = static_cast<LoaderOpcode>(opcode_);
     if (opcode == LoaderOpcode::Read && arguments.size() == 4)
-      return fmt::format("bytes 16#{:04X}…{:04X}", high_first(arguments, 0), high_first(arguments, 2));
+      return fmt::format("bytes 16#{:04X}…{:04X}", load16(&arguments[0]), load16(&arguments[2]));
     if (opcode == LoaderOpcode::Write && arguments.size() > 2)
-      return fmt::format("from 16#{:04X} on: {}", high_first(arguments, 0), to_hex(arguments.subspan(2)));
+      return fmt::format("from 16#{:04X} on: {}", load16(&arguments[0]), to_hex(arguments.subspan(2)));
     if (opcode == LoaderOpcode::Block && arguments.size() == 2)
       return fmt::format("type {}, block {}", arguments[0], arguments[1]);
     if (opcode == LoaderOpcode::Directory && arguments.size() == 1) return fmt::format("type {}", arguments[0]);
@@ -343,7 +342,7 @@ class HppcReader final : public FrameReader {
     using westinghouse::kLongestHppc;
     using westinghouse::kShortestHppc;
     if (bytes.size() < kShortestHppc) return 0;
-    const std::size_t length = low_first(bytes, 0);
+    const std::size_t length = load16_low_first(&bytes[0]);
     return length >= kShortestHppc && length <= std::min(bytes.size(), kLongestHppc) ? length : 0;
   }
 
