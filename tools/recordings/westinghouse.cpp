@@ -155,9 +155,9 @@ class LoaderReader final : public FrameReader {
       case Step::Opcode:
         return 1;
       case Step::Arguments:
-        return begins_with(bytes, kAcknowledge) ? up_to(bytes, kAcknowledge.size(), westinghouse::kEot) : 0;
+        return begins_with(bytes, kAcknowledge) ? up_to(bytes, kAcknowledge.size(), kEndOfArguments) : 0;
       case Step::DataSent:
-        return up_to(bytes, 0, westinghouse::kEtx);
+        return up_to(bytes, 0, kEndOfData);
       default: {
         const Bytes due = fixed(step_);
         return begins_with(bytes, due) ? due.size() : 0;
@@ -187,6 +187,8 @@ class LoaderReader final : public FrameReader {
 
   static constexpr std::array kAcknowledge{westinghouse::kDle, westinghouse::kAck};
   static constexpr std::array kRefusal{westinghouse::kDle, westinghouse::kNak};
+  static constexpr std::array kEndOfArguments{westinghouse::kDle, westinghouse::kEot};
+  static constexpr std::array kEndOfData{westinghouse::kDle, westinghouse::kEtx};
 
   static bool from_plc(Step step) { return static_cast<unsigned>(step) % 2 == 1; }
 
@@ -196,11 +198,11 @@ class LoaderReader final : public FrameReader {
 
   static bool begins_session(Data bytes) { return bytes.size() == 1 && bytes[0] == westinghouse::kStx; }
 
-  /// Up to DLE and `end`, both included; 0 if that has not come. A doubled DLE is one of the data.
-  static std::size_t up_to(Data bytes, std::size_t from, std::uint8_t end) {
+  /// Up to `end`, a DLE and another, included; 0 if that has not come. A doubled DLE is one of the data.
+  static std::size_t up_to(Data bytes, std::size_t from, Data end) {
     using westinghouse::kDle;
     for (std::size_t at = from; at + 1 < bytes.size(); at += bytes[at] == kDle && bytes[at + 1] == kDle ? 2U : 1U)
-      if (bytes[at] == kDle && bytes[at + 1] == end) return at + 2;
+      if (begins_with(bytes.subspan(at), end)) return at + end.size();
     return 0;
   }
 
@@ -249,12 +251,12 @@ class LoaderReader final : public FrameReader {
         opcode_ = bytes[0];
         return operation_text();
       case Step::Arguments:
-        return arguments_text(unstuffed(bytes.subspan(kAcknowledge.size(), bytes.size() - 2 * kAcknowledge.size())));
+        return arguments_text(unstuffed(without_end(bytes.subspan(kAcknowledge.size()), kEndOfArguments)));
       case Step::ArgumentsHeard:
         if (!westinghouse::has_data(static_cast<westinghouse::LoaderOpcode>(opcode_))) step_ = Step::EndWanted;
         return "arguments accepted";
       case Step::DataSent:
-        return to_hex(unstuffed(bytes.first(bytes.size() - kAcknowledge.size())));
+        return to_hex(unstuffed(without_end(bytes, kEndOfData)));
       case Step::Ready:
       case Step::EndReady:
         return "ready";
@@ -268,6 +270,8 @@ class LoaderReader final : public FrameReader {
         return "acknowledged";
     }
   }
+
+  static Data without_end(Data bytes, Data end) { return bytes.first(bytes.size() - end.size()); }
 
   static Bytes unstuffed(Data bytes) {
     Bytes plain;
