@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -133,12 +134,13 @@ class PlcOf : public Plc {
         setting = &row;
         return parse_value(row.form, text.substr(equals + 1), why);
       }
-    std::string known;
-    for (const Setting<Self>& row : Self::settings()) known.append(known.empty() ? "" : ", ").append(row.form.name);
-    for (const Cells<Self>& row : Self::cells())
-      known +=
-          fmt::format(", {}", row.by_address ? fmt::format("{}[ADDRESS]", row.name) : fmt::format("{}NUMBER", row.name));
-    why = fmt::format("'{}' is not a setting of this PLC; there are {}", stl::shortened(text), known);
+    const auto name_of = [](const Setting<Self>& row) { return row.form.name; };
+    const auto cell_of = [](const Cells<Self>& row) {
+      return fmt::format("{}{}", row.name, row.by_address ? "[ADDRESS]" : "NUMBER");
+    };
+    why = fmt::format("'{}' is not a setting of this PLC; there are {}, {}", stl::shortened(text),
+                      fmt::join(Self::settings() | std::views::transform(name_of), ", "),
+                      fmt::join(Self::cells() | std::views::transform(cell_of), ", "));
     return {};
   }
 };

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <ranges>
 #include <stdexcept>
 
 #include "tools/command/commands.hpp"
@@ -68,10 +69,9 @@ void add_decode(CLI::App& app, int& exit_code) {
       "decode", "show a recording of a line, or a line itself, as requests and answers, with gaps and latencies");
   options->recording.add_to(*verb);
   verb->add_flag("--json", options->json, "print the frames as JSON");
-  std::string forms;
-  for (const RecordingForm& form : recording_forms()) forms += fmt::format("  {}\n", form.meaning);
   verb->footer(
-      "Recordings are\n" + forms +
+      fmt::format("Recordings are\n  {}\n",
+                  fmt::join(recording_forms() | std::views::transform(&RecordingForm::meaning), "\n  ")) +
       "A line is listened to until Ctrl-C, and nothing is sent there. Times are those of arrival: a USB adapter delivers up "
       "to\n"
       "16 ms late. Behind a --pty of `s7200 run` only what the simulated line says is heard, not what others ask it.\n"

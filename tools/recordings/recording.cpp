@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <ranges>
 
 #include "tools/recordings/forms.hpp"
 
@@ -26,9 +27,7 @@ bool is_text(std::string_view bytes) { return bytes.find('\0') == std::string_vi
 std::optional<LineRecording> read_recording(const std::string& bytes, const ReadingChoices& choices, std::string& why) {
   const auto form = std::ranges::find_if(kForms, [&](const RecordingForm& each) { return each.looks_like(bytes); });
   if (form == kForms.end()) {
-    std::string known;
-    for (const RecordingForm& each : kForms) known += fmt::format("{}{}", known.empty() ? "" : ", ", each.name);
-    why = fmt::format("it has none of the forms {}", known);
+    why = fmt::format("it has none of the forms {}", fmt::join(kForms | std::views::transform(&RecordingForm::name), ", "));
     return {};
   }
   auto recording = form->read(bytes, choices, why);

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <ranges>
 #include <stdexcept>
 
 #include "interpreter/base/text.hpp"
@@ -19,10 +20,9 @@ namespace s7200::tools {
 void RecordingOptions::add_to(CLI::App& verb) {
   std::vector<std::string> names;
   for (const RecordedProtocol& each : recorded_protocols()) names.emplace_back(each.name);
-  std::string forms;
-  for (const RecordingForm& form : recording_forms()) forms += fmt::format("{}{}", forms.empty() ? "" : ", ", form.name);
   verb.add_option("FILE", file,
-                  fmt::format("a recording: {}; - is standard input; or a line: a serial device, tcp://HOST:PORT", forms))
+                  fmt::format("a recording: {}; - is standard input; or a line: a serial device, tcp://HOST:PORT",
+                              fmt::join(recording_forms() | std::views::transform(&RecordingForm::name), ", ")))
       ->required();
   verb.add_option("--protocol", protocol, "what was spoken")
       ->check(CLI::IsMember(names))
