@@ -194,6 +194,25 @@ class Verbs(Case):
         for part in ("- send: 09 00 00 11 00 1a\n", "expect: 05 05 00 01 00 0b 07 00 07\n", "write 2 bytes from word 16#0005 on: 07 00; done"):
             self.assertIn(part, text)
 
+    def test_a_wrong_answer_in_a_recording_is_neither_counted_nor_expected_again(self):
+        log = self.program("0.000 TX 01 03 00 00 00 01 84 0a\n0.020 RX 01 03 02 12 34 b5 34\n", "damaged.log")
+        summary = self.json(FINE, "decode", log, "--json")["summary"]
+        self.assertEqual([summary[key] for key in ("requests", "answered", "wrong", "shortest_latency_us")], [1, 0, 1, None])
+        refused = self.ends(UNUSABLE, "import-capture", log).stderr
+        self.assertIn("line 1: left out: its answer (line 2): wrong CRC", refused)
+        self.assertIn("no request in it that can be asked again", refused)
+        more = self.program(log.read_text(encoding="utf-8") + "0.100 TX 01 03 00 00 00 01 84 0a\n0.120 RX 01 03 02 12 34 b5 33\n", "damaged.log")
+        done = self.ends(FINE, "import-capture", more)
+        self.assertIn("line 1: left out", done.stderr)
+        self.assertEqual(done.stdout.count("- send:"), 1)
+        self.assertIn("expect: 01 03 02 12 34 b5 33\n", done.stdout)
+
+    def test_the_help_of_decode_names_every_form_of_recording(self):
+        said = " ".join(self.ends(FINE, "decode", "--help").stdout.split())
+        for part in ("a recording: pcap, CSV, text;", "pcap of a serial line (link type 147) or of Modbus TCP", "CSV with a frame or a character in each row",
+                     "text logs with a frame or a character in each line", "5 ms without it"):
+            self.assertIn(part, said)
+
     def test_a_simulated_plc_is_run_behind_a_bridge_or_not_at_all(self):
         for arguments, why in ((["westinghouse:pc1200"], "nobody asks westinghouse:pc1200: give it a bridge, such as --pty LINK"),
                                (["westinghouse:pc9", "--tcp", "0"], "'pc9' is not a PLC of this family that speaks this protocol"),

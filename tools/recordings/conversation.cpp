@@ -99,9 +99,15 @@ std::size_t first_modbus_message(Data bytes, const RecordedFrame* open) {
 
 // --- PPI ---
 
+/// An answer that ends within its head.
+bool cut_short(Data pdu) {
+  return pdu.size() >= s7::kRequestHead && pdu.size() < s7::kAnswerHead && pdu[0] == s7::kProtocol && pdu[1] == s7::kAnswer;
+}
+
 std::string s7_text(Data pdu) {
   if (pdu.size() < s7::kRequestHead || pdu[0] != s7::kProtocol) return fmt::format("{} bytes", pdu.size());
   if (pdu[1] == s7::kUserData) return "user data";
+  if (cut_short(pdu)) return "an answer without its error code";
   const bool answer = pdu[1] == s7::kAnswer;
   const std::size_t head = answer ? s7::kAnswerHead : s7::kRequestHead;
   if (pdu.size() <= head) return answer ? fmt::format("error {:04X}", load16(&pdu[10])) : "an empty request";
@@ -144,7 +150,7 @@ ReadFrame read_ppi(const RecordedFrame& frame, const RecordedFrame* open) {
     return read;
   }
   const bool request = (body->function & ppi::kIsRequest) != 0;
-  read.right = true;
+  read.right = !cut_short(body->data);
   read.direction = request ? Direction::Request : open != nullptr ? Direction::Answer : Direction::Unknown;
   const std::string what = !body->data.empty()                                ? s7_text(body->data)
                            : !request                                         ? "no data"
@@ -280,8 +286,9 @@ ReadFrame Conversation::read(Stream& stream, RecordedFrame frame) {
   ReadFrame read = what_it_says(stream, frame);
   if (!frame.damaged.empty()) {
     read.right = false;
-    read.text =
-        fmt::format("character {} is damaged{}{}", frame.damaged.front() + 1, read.text.empty() ? "" : "; ", read.text);
+    const bool all = frame.damaged.size() == frame.bytes.size();
+    read.text = fmt::format("{} damaged{}{}", all ? "it is" : fmt::format("character {} is", frame.damaged.front() + 1),
+                            read.text.empty() ? "" : "; ", read.text);
   }
   if (last_) read.silence = silence(*last_, frame, stamps_);
   if (read.direction == Direction::Answer && stream.open) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "interpreter/base/bytes.hpp"
+#include "interpreter/base/word_bytes.hpp"
 #include "serial_sim/line/frame.hpp"
 #include "serial_sim/westinghouse/block_message.hpp"
 #include "serial_sim/westinghouse/hppc_message.hpp"
@@ -17,9 +19,6 @@ namespace {
 using Data = std::span<const std::uint8_t>;
 using serial::to_hex;
 using serial::Verdict;
-
-unsigned low_first(Data bytes, std::size_t place) { return bytes[place] | bytes[place + 1] * 256U; }
-unsigned high_first(Data bytes, std::size_t place) { return bytes[place] * 256U + bytes[place + 1]; }
 
 bool fits(const serial::Answer& answer) { return answer.verdict == Verdict::Right || answer.verdict == Verdict::Exception; }
 
@@ -77,7 +76,7 @@ class BlockReader final : public FrameReader {
   static std::string request_text(Data bytes) {
     using westinghouse::Opcode;
     constexpr std::size_t kAddress = 1, kCount = 3;
-    const unsigned address = low_first(bytes, kAddress);
+    const unsigned address = load16_low_first(&bytes[kAddress]);
     const std::string count = plural(bytes[kCount] + 1U, "byte");
     switch (static_cast<Opcode>(bytes[0])) {
       case Opcode::BitWrite:
@@ -183,6 +182,8 @@ class LoaderReader final : public FrameReader {
 
   static constexpr std::array kAcknowledge{westinghouse::kDle, westinghouse::kAck};
   static constexpr std::array kRefusal{westinghouse::kDle, westinghouse::kNak};
+  static constexpr std::array kEndOfArguments{westinghouse::kDle, westinghouse::kEot};
+  static constexpr std::array kEndOfData{westinghouse::kDle, westinghouse::kEtx};
 
   /// Known wherever the hand-shake is, so that it is found again after what does not fit.
   static constexpr std::array kLandmarks{Step::Begin, Step::HeaderHeard, Step::End};
@@ -211,9 +212,9 @@ class LoaderReader final : public FrameReader {
       case Step::Opcode:
         return begins_with(bytes, fixed(Step::HeaderHeard)) || begins_with(bytes, fixed(Step::End)) ? 0 : 1;
       case Step::Arguments:
-        return begins_with(bytes, kAcknowledge) ? up_to(bytes, kAcknowledge.size(), westinghouse::kEot) : 0;
+        return begins_with(bytes, kAcknowledge) ? up_to(bytes, kAcknowledge.size(), kEndOfArguments) : 0;
       case Step::DataSent:
-        return up_to(bytes, 0, westinghouse::kEtx);
+        return up_to(bytes, 0, kEndOfData);
       default: {
         const Bytes due = fixed(step);
         return begins_with(bytes, due) ? due.size() : 0;
@@ -225,11 +226,11 @@ class LoaderReader final : public FrameReader {
     return text.size() >= beginning.size() && std::ranges::equal(text.first(beginning.size()), beginning);
   }
 
-  /// Up to DLE and `end`, both included; 0 if that has not come. A doubled DLE is one of the data.
-  static std::size_t up_to(Data bytes, std::size_t from, std::uint8_t end) {
+  /// Up to `end`, a DLE and another, included; 0 if that has not come. A doubled DLE is one of the data.
+  static std::size_t up_to(Data bytes, std::size_t from, Data end) {
     using westinghouse::kDle;
     for (std::size_t at = from; at + 1 < bytes.size(); at += bytes[at] == kDle && bytes[at + 1] == kDle ? 2U : 1U)
-      if (bytes[at] == kDle && bytes[at + 1] == end) return at + 2;
+      if (begins_with(bytes.subspan(at), end)) return at + end.size();
     return 0;
   }
 
@@ -279,12 +280,12 @@ class LoaderReader final : public FrameReader {
         opcode_ = bytes[0];
         return operation_text();
       case Step::Arguments:
-        return arguments_text(unstuffed(bytes.subspan(kAcknowledge.size(), bytes.size() - 2 * kAcknowledge.size())));
+        return arguments_text(unstuffed(without_end(bytes.subspan(kAcknowledge.size()), kEndOfArguments)));
       case Step::ArgumentsHeard:
         if (opcode() && !westinghouse::has_data(*opcode())) step_ = Step::EndWanted;
         return "arguments accepted";
       case Step::DataSent:
-        return to_hex(unstuffed(bytes.first(bytes.size() - kAcknowledge.size())));
+        return to_hex(unstuffed(without_end(bytes, kEndOfData)));
       case Step::Ready:
       case Step::EndReady:
         return "ready";
@@ -298,6 +299,8 @@ class LoaderReader final : public FrameReader {
         return "acknowledged";
     }
   }
+
+  static Data without_end(Data bytes, Data end) { return bytes.first(bytes.size() - end.size()); }
 
   static Bytes unstuffed(Data bytes) {
     Bytes plain;
@@ -329,9 +332,9 @@ class LoaderReader final : public FrameReader {
     using westinghouse::LoaderOpcode;
     const auto opcode = this->opcode();
     if (opcode == LoaderOpcode::Read && arguments.size() == 4)
-      return fmt::format("bytes 16#{:04X}…{:04X}", high_first(arguments, 0), high_first(arguments, 2));
+      return fmt::format("bytes 16#{:04X}…{:04X}", load16(&arguments[0]), load16(&arguments[2]));
     if (opcode == LoaderOpcode::Write && arguments.size() > 2)
-      return fmt::format("from 16#{:04X} on: {}", high_first(arguments, 0), to_hex(arguments.subspan(2)));
+      return fmt::format("from 16#{:04X} on: {}", load16(&arguments[0]), to_hex(arguments.subspan(2)));
     if (opcode == LoaderOpcode::Block && arguments.size() == 2)
       return fmt::format("type {}, block {}", arguments[0], arguments[1]);
     if (opcode == LoaderOpcode::Directory && arguments.size() == 1) return fmt::format("type {}", arguments[0]);
@@ -376,7 +379,7 @@ class HppcReader final : public FrameReader {
     using westinghouse::kLongestHppc;
     using westinghouse::kShortestHppc;
     if (bytes.size() < kShortestHppc) return 0;
-    const std::size_t length = low_first(bytes, 0);
+    const std::size_t length = load16_low_first(&bytes[0]);
     return length >= kShortestHppc && length <= std::min(bytes.size(), kLongestHppc) ? length : 0;
   }
 

@@ -47,6 +47,7 @@ TEST(RecordedFields, TimesAreReadInTheFormsOfTools) {
   EXPECT_EQ(time("[0.123456] 01 03"), 123'456 * kMicrosecond);
   EXPECT_EQ(time("12.5 ms 01"), 12'500 * kMicrosecond);
   EXPECT_EQ(time("+7ms 01"), 7 * ms);
+  EXPECT_EQ(time("[-0.002] 01 03"), -2 * ms) << "before the trigger";
   EXPECT_EQ(time("01 03 00"), std::nullopt) << "bytes";
   EXPECT_EQ(time("TX 01 03"), std::nullopt);
 }
@@ -113,8 +114,68 @@ TEST(Recordings, ACsvHasItsColumnsByName) {
       recording_of("No;Time (ms);Direction;Data\n1;0;TX;01 03 00 00 00 01 84 0A\n2;25,5;RX;\"01 03 02 12 34 B5 33\"\n");
   ASSERT_EQ(recording.frames.size(), 2U);
   EXPECT_EQ(recording.frames[1].direction, Direction::Answer);
+  EXPECT_EQ(recording.frames[1].at, 25'500 * kMicrosecond) << "the comma of a decimal, in the column's unit";
   EXPECT_EQ(refusal_of("Time,Data\n0,01 03\nnever,01 03\n"), "line 3: 'never' is not a time");
   EXPECT_EQ(refusal_of("Time,Data\n0,zz\n"), "line 2: 'zz' is not bytes in hex");
+}
+
+std::vector<std::optional<Time>> times_of(const LineRecording& recording) {
+  std::vector<std::optional<Time>> times;
+  for (const RecordedFrame& frame : recording.frames) times.push_back(frame.at);
+  return times;
+}
+
+TEST(Recordings, ATimeInACsvIsReadAsAWholeOrNotAtAll) {
+  EXPECT_EQ(times_of(recording_of("Time (us);Data\n0;01 03\n12.3 ms;01 03\n")).back(), 12'300 * kMicrosecond)
+      << "a unit of its own counts";
+  EXPECT_EQ(times_of(recording_of("time,data\n12:00:00.5,01 03\n12:00:01,01 03\n")).back(), 500 * ms);
+  EXPECT_EQ(times_of(recording_of("time,data\n1700000000.25,01 03\n1700000000.5,01 03\n")).back(), 250 * ms)
+      << "seconds since 1970";
+  EXPECT_EQ(refusal_of("Time (ms),Data\n\"25,5\",01 03\n"), "line 2: '25,5' is not a time") << "or thousands";
+  EXPECT_EQ(refusal_of("Time;Data\n1.5 x;01 03\n"), "line 2: '1.5 x' is not a time");
+  EXPECT_EQ(refusal_of("Time;Data\n1.5 s later;01 03\n"), "line 2: '1.5 s later' is not a time");
+  EXPECT_EQ(refusal_of("Time;Data\nnan;01 03\n"), "line 2: 'nan' is not a time");
+}
+
+TEST(Recordings, TimesBeforeTheTriggerAreCountedFromTheFirstRow) {
+  EXPECT_EQ(times_of(recording_of("Time [s],Value\n-0.002,0103\n-0.5e-3,0103\n0.001,0103\n")),
+            (std::vector<std::optional<Time>>{0, 1500 * kMicrosecond, 3 * ms}));
+  EXPECT_EQ(times_of(recording_of("-0.002 01 03\n0.001 01 03\n")), (std::vector<std::optional<Time>>{0, 3 * ms}));
+}
+
+TEST(Recordings, ACharacterThatTheCsvSaysWasDamagedIsKnownInItsFrame) {
+  const LineRecording recording = recording_of(
+      "Time [s],Value,Parity Error,Framing Error\n0.000,0x01,,\n0.001,0x03,Error,\n0.002,0x00,0,false\n"
+      "0.003,0x00,,Error\n0.500,0x02,none,ok\n");
+  ASSERT_EQ(recording.frames.size(), 2U);
+  EXPECT_EQ(recording.frames[0].damaged, (std::vector<std::size_t>{1, 3})) << "in whichever column it is said";
+  EXPECT_TRUE(recording.frames[1].damaged.empty());
+}
+
+TEST(Recordings, AFrameThatTheCsvSaysWasDamagedIsSoAsAWhole) {
+  const LineRecording recording = recording_of("Time,Frame Error,Data\n0,CRC,01 03 00 00 00 01 84 0A\n");
+  ASSERT_EQ(recording.frames.size(), 1U);
+  EXPECT_EQ(recording.frames[0].bytes, kRequest);
+  const auto frames = conversation(recording, *find_recorded_protocol("modbus"));
+  EXPECT_FALSE(frames[0].right);
+  EXPECT_EQ(frames[0].text, "it is damaged; station 1, read holding registers 40001, 1 of them");
+}
+
+TEST(Recordings, DatesCountWhereALogHasThem) {
+  constexpr Time kHour = 3600 * kSecond;
+  const auto hours = [](const char* first, const char* second) {
+    return *times_of(recording_of(fmt::format("{} TX 01 03\n{} RX 01 03\n", first, second))).back() / kHour;
+  };
+  EXPECT_EQ(hours("2026-11-22 23:00:00", "2026-11-23 12:00:00"), 13);
+  EXPECT_EQ(hours("2026-12-31T23:00:00", "2027-01-02T01:00:00"), 26);
+  EXPECT_EQ(hours("22.11.2026 23:00:00", "23.11.2026 12:00:00"), 13);
+  EXPECT_EQ(hours("28.02.26 12:00:00", "01.03.26 12:00:00"), 24);
+  EXPECT_EQ(hours("11/22/2026 23:00:00", "11/23/2026 12:00:00"), 13) << "the month first";
+  EXPECT_EQ(hours("22/11/2026 23:00:00", "23/11/2026 12:00:00"), 13) << "the day first";
+  EXPECT_EQ(hours("03/06/2026 12:00:00", "03/09/2026 12:00:00"), 72) << "either: three days rather than three months";
+  EXPECT_EQ(hours("2026-11-22 12:00:00", "2026-11-22 11:00:00"), -1) << "no midnight between them";
+  EXPECT_EQ(hours("2026-13-45 23:00:00", "2026-13-46 01:00:00"), 2) << "such dates do not exist; midnight has passed";
+  EXPECT_EQ(times_of(recording_of("time;data\n2026-11-22 23:00:00;01 03\n2026-11-23 12:00:00;01 03\n")).back(), 13 * kHour);
 }
 
 TEST(Recordings, MidnightPassesOnce) {
@@ -179,6 +240,37 @@ TEST(Recordings, ModbusTcpIsReadAsOnASerialLine) {
   EXPECT_EQ(recording.frames[0].stream, recording.frames[1].stream);
 }
 
+TEST(Recordings, ASegmentThatIsSentAgainWithMoreHasItsNewPartRead) {
+  const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
+  const Bytes head(request.begin(), request.begin() + 6);
+  const LineRecording recording = recording_of(ethernet_pcap(
+      {segment(true, 100, head), segment(true, 99, {0}), segment(true, 100, request), segment(true, 100, request)}));
+  ASSERT_EQ(recording.frames.size(), 1U);
+  EXPECT_EQ(recording.frames[0].bytes, kRequest);
+  EXPECT_EQ(recording.notes, std::vector<std::string>{});
+}
+
+TEST(Recordings, APacketWithoutItsLengthGoesToItsEnd) {
+  Bytes packet = segment(true, 100, modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}}));
+  packet[16] = packet[17] = 0;
+  const LineRecording recording = recording_of(ethernet_pcap({packet}));
+  ASSERT_EQ(recording.frames.size(), 1U);
+  EXPECT_EQ(recording.frames[0].bytes, kRequest);
+}
+
+TEST(Recordings, WhatIsLeftOutOfACaptureIsCountedByItsReason) {
+  const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
+  const Bytes good = segment(true, 100, request);
+  Bytes cut_off = good, fragment = good, other_port = good;
+  cut_off.resize(cut_off.size() - 4);
+  fragment[20] = 0x20;  // more of them follow
+  store16(&other_port[36], 80);
+  const LineRecording recording = recording_of(ethernet_pcap({good, cut_off, fragment, other_port}));
+  EXPECT_EQ(recording.frames.size(), 1U);
+  EXPECT_EQ(recording.notes, (std::vector<std::string>{"a packet not of TCP port 502 was left out",
+                                                       "2 packets of TCP in fragments or cut off were left out"}));
+}
+
 TEST(Recordings, AConnectionWithSegmentsMissingIsLeftOutFromThereOn) {
   const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
   const auto length = static_cast<std::uint32_t>(request.size());
@@ -192,7 +284,7 @@ TEST(Recordings, AConnectionWithSegmentsMissingIsLeftOutFromThereOn) {
 TEST(Recordings, WhatIsNoRecordingIsRefused) {
   EXPECT_EQ(refusal_of(""), "no frame in it");
   EXPECT_EQ(refusal_of("a letter\n"), "no frame in it; a line without bytes was left out");
-  EXPECT_EQ(refusal_of(std::string("a\0b", 3)), "neither a pcap file nor text");
+  EXPECT_EQ(refusal_of(std::string("a\0b", 3)), "it has none of the forms pcap, CSV, text");
   EXPECT_NE(refusal_of("\xD4\xC3\xB2\xA1 cut off"), "");
   std::string other = ethernet_pcap({});
   other[20] = 105;
@@ -255,6 +347,16 @@ TEST(Conversation, PpiIsReadFrameByFrame) {
   EXPECT_EQ(frames[3].text, "2 to 0, function 08: read");
   EXPECT_EQ(frames[3].other, 2U);
   EXPECT_EQ(frames[4].direction, Direction::Unknown);
+}
+
+TEST(Conversation, APpiAnswerThatEndsWithinItsHeadIsWrong) {
+  const auto frames = read(recording_of("0.0 TX 68 0d 0d 68 02 00 6c 32 01 00 00 00 01 00 00 00 00 a2 16\n"
+                                        "0.1 RX 68 0d 0d 68 00 02 08 32 03 00 00 00 01 00 00 00 00 40 16\n"),
+                           "ppi");
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_TRUE(frames[0].right);
+  EXPECT_FALSE(frames[1].right);
+  EXPECT_EQ(frames[1].text, "2 to 0, function 08: an answer without its error code");
 }
 
 /// A character in each row, `gap` after the one before; the rows of each string follow those of the one before after
@@ -425,13 +527,36 @@ TEST(Conversation, AScenarioAsksTheSameWithTheSameGaps) {
       recording_of("0.000 TX 01 03 00 00 00 01 84 0A\n0.025 RX 01 03 02 12 34 B5 33\n0.100 TX 02 03 00 00 00 01 84 39\n");
   const Stamps stamps{.character = 1 * ms};
   const auto frames = read(recording, "modbus", stamps);
-  EXPECT_EQ(scenario_text(frames, stamps, {.name = "a \"plant\"", .program = "slave.stl", .tolerance = 5 * ms}),
+  EXPECT_EQ(playback(frames, stamps, {.name = "a \"plant\"", .program = "slave.stl", .tolerance = 5 * ms}).scenario,
             "scenarios:\n  - name: \"a \\\"plant\\\"\"\n    program: \"slave.stl\"\n    tolerance: 5 ms\n    steps:\n"
             "      - send: 01 03 00 00 00 01 84 0a\n        expect: 01 03 02 12 34 b5 33\n        latency: 17 ms\n"
             "        # line 1: station 1, read holding registers 40001, 1 of them; 1 register: 16#1234\n"
             "      - send: 02 03 00 00 00 01 84 39\n        pause: 68 ms\n        expect: silence\n        timeout: 1 s\n"
             "        # line 3: station 2, read holding registers 40001, 1 of them\n");
-  EXPECT_EQ(scenario_text(frames, stamps, {.station = 9}), "");
+  EXPECT_EQ(playback(frames, stamps, {.station = 9}).scenario, "");
+}
+
+TEST(Conversation, AWrongAnswerIsNoneAndNotExpectedByAScenario) {
+  const LineRecording recording =
+      recording_of("0.000 TX 01 03 00 00 00 01 84 0A\n0.025 RX 01 03 02 12 34 B5 34\n0.100 TX 02 03 00 00 00 01 84 39\n");
+  const auto frames = read(recording);
+  DecodedSummary summary;
+  for (const ReadFrame& frame : frames) summary.add(frame);
+  EXPECT_EQ(summary.text(), "requests: 2, answered: 0; wrong frames: 1, frames of no request: 0\n");
+  const Playback left = playback(frames, {}, {.name = "plant"});
+  EXPECT_EQ(left.scenario.find("b5 34"), std::string::npos);
+  EXPECT_NE(left.scenario.find("send: 02 03 00 00 00 01 84 39\n        expect: silence"), std::string::npos);
+  EXPECT_EQ(left.notes, std::vector<std::string>{"line 1: left out: its answer (line 2): wrong CRC"});
+}
+
+TEST(Conversation, AScenarioLeavesOutWhatNoSlaveAnswersTheSame) {
+  LineRecording recording = recording_of("0.000 01 03 00 00 00 01 84 0A\n0.025 01 03 02 12 34 B5 34\n");
+  EXPECT_EQ(playback(read(recording), {}, {}).notes,
+            std::vector<std::string>{
+                "line 1: left out: what follows it (line 2) may be its answer: wrong CRC, or not a whole frame"});
+  recording.frames.pop_back();
+  recording.frames[0].damaged = {3};
+  EXPECT_EQ(playback(read(recording), {}, {}).notes, std::vector<std::string>{"line 1: left out: the request is damaged"});
 }
 
 }  // namespace

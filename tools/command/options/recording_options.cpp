@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <ranges>
 #include <stdexcept>
 
 #include "interpreter/base/text.hpp"
@@ -20,7 +21,8 @@ void RecordingOptions::add_to(CLI::App& verb) {
   std::vector<std::string> names;
   for (const RecordedProtocol& each : recorded_protocols()) names.emplace_back(each.name);
   verb.add_option("FILE", file,
-                  "a recording: pcap, CSV, a text log; - is standard input; or a line: a serial device, tcp://HOST:PORT")
+                  fmt::format("a recording: {}; - is standard input; or a line: a serial device, tcp://HOST:PORT",
+                              fmt::join(recording_forms() | std::views::transform(&RecordingForm::name), ", ")))
       ->required();
   verb.add_option("--protocol", protocol, "what was spoken")
       ->check(CLI::IsMember(names))
@@ -32,7 +34,9 @@ void RecordingOptions::add_to(CLI::App& verb) {
                            ->capture_default_str()
                            ->type_name("WHICH"));
   add_duration(verb, "--gap", reading.gap,
-               "silence that ends a frame, in recordings with a character in each row, 5ms without it, and of a line, 20ms",
+               fmt::format("silence that ends a frame, in recordings with a character in each row, {} without it, and of a "
+                           "line, 20 ms",
+                           format_duration(kCharacterGap)),
                {1, kLongestDuration});
   add_whole_number(verb, "--tcp-port", reading.tcp_port, {1, 65'535}, "of the Modbus TCP server, in a recording", "502");
   for_files_.push_back(verb.get_option("--tcp-port"));
