@@ -35,10 +35,14 @@ std::string why_left_out(const std::vector<ReadFrame>& frames, std::size_t numbe
     const ReadFrame& answer = frames[*request.other];
     return answer.right ? "" : fmt::format("its answer ({}): {}", answer.frame.place, answer.text);
   }
-  const ReadFrame* next = number + 1 < frames.size() ? &frames[number + 1] : nullptr;
-  const bool unclear =
-      next != nullptr && next->direction == Direction::Unknown && next->frame.stream == request.frame.stream;
-  if (!unclear || request.needs_no_answer) return {};
+  if (request.needs_no_answer) return {};
+  if (request.repeats) return fmt::format("it may be the late echo of {}", frames[*request.repeats].frame.place);
+  if (request.frame.more_was_lost) return "the recording is cut off after it";
+  const auto next = std::find_if(frames.begin() + static_cast<std::ptrdiff_t>(number) + 1, frames.end(),
+                                 [&](const ReadFrame& frame) { return frame.frame.stream == request.frame.stream; });
+  if (next == frames.end()) return {};
+  if (next->repeats) return fmt::format("the same after it ({}) may be its late echo", next->frame.place);
+  if (next->direction != Direction::Unknown) return {};
   return fmt::format("what follows it ({}) may be its answer: {}", next->frame.place, next->text);
 }
 
@@ -124,6 +128,7 @@ Playback playback(const std::vector<ReadFrame>& frames, const Stamps& stamps, co
   constexpr Time kLongestWait = kSecond;
   Playback playback;
   std::string steps;
+  bool asks = false;
   const ReadFrame* last = nullptr;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const ReadFrame& request = frames[i];
@@ -132,9 +137,11 @@ Playback playback(const std::vector<ReadFrame>& frames, const Stamps& stamps, co
     const ReadFrame* answer = request.other ? &frames[*request.other] : nullptr;
     if (const std::string why = why_left_out(frames, i); !why.empty()) {
       playback.notes.push_back(fmt::format("{}: left out: {}", request.frame.place, why));
+      steps += fmt::format("      # {}\n", playback.notes.back());
       last = nullptr;
       continue;
     }
+    asks = true;
     steps += fmt::format("      - send: {}\n", serial::to_hex(request.frame.bytes));
     if (last != nullptr)
       if (const auto pause = silence(last->frame, request.frame, stamps))
@@ -152,7 +159,7 @@ Playback playback(const std::vector<ReadFrame>& frames, const Stamps& stamps, co
     steps +=
         fmt::format("        # {}: {}{}\n", request.frame.place, request.text, answer == nullptr ? "" : "; " + answer->text);
   }
-  if (steps.empty()) return playback;
+  if (!asks) return playback;
   playback.scenario = fmt::format("scenarios:\n  - name: {}\n", in_quotes(choices.name));
   if (!choices.program.empty()) playback.scenario += fmt::format("    program: {}\n", in_quotes(choices.program));
   playback.scenario += fmt::format("    tolerance: {}\n    steps:\n{}", exact(choices.tolerance), steps);

@@ -115,6 +115,11 @@ class Reader {
       ++others_;
   }
 
+  /// What comes after the last frame of every connection is missing.
+  void cut_off() {
+    for (std::uint32_t connection = 0; connection <= connections_; ++connection) mark_last(connection);
+  }
+
   LineRecording finish() {
     note_left_out(others_, fmt::format("not of TCP port {}", choices_.tcp_port));
     note_left_out(broken_, "of TCP in fragments or cut off");
@@ -139,7 +144,7 @@ class Reader {
     }
     if (segment.data.empty() || stream.lost) return;
     const auto ahead = static_cast<std::int32_t>(segment.sequence - stream.next.value_or(segment.sequence));
-    if (ahead > 0) return lose(stream, place, "segments before it are missing");
+    if (ahead > 0) return lose(segment, place, "segments before it are missing");
     const auto sent_again = static_cast<std::size_t>(-std::int64_t{ahead});
     if (sent_again >= segment.data.size()) return;
     stream.next = segment.sequence + static_cast<std::uint32_t>(segment.data.size());
@@ -150,7 +155,7 @@ class Reader {
                                    .bytes = modbus::rtu_frame(message->unit, message->pdu),
                                    .place = place,
                                    .stream = stream.connection});
-    if (!stream.reader.error().empty()) lose(stream, place, stream.reader.error());
+    if (!stream.reader.error().empty()) lose(segment, place, stream.reader.error());
   }
 
   void note_left_out(std::size_t packets, std::string_view kind) {
@@ -159,9 +164,18 @@ class Reader {
                                             : fmt::format("{} packets {} were left out", packets, kind));
   }
 
-  void lose(Stream& stream, const std::string& place, std::string_view why) {
-    stream.lost = true;
+  /// Both directions: a request without its answer would seem not to have been answered.
+  void lose(const Segment& segment, const std::string& place, std::string_view why) {
+    for (const auto& ends : {std::pair(segment.from, segment.to), std::pair(segment.to, segment.from)})
+      streams_[ends].lost = true;
+    mark_last(streams_[{segment.from, segment.to}].connection);
     recording_.notes.push_back(fmt::format("{}: the rest of this connection was left out: {}", place, why));
+  }
+
+  void mark_last(std::uint32_t connection) {
+    const auto last = std::find_if(recording_.frames.rbegin(), recording_.frames.rend(),
+                                   [&](const RecordedFrame& frame) { return frame.stream == connection; });
+    if (last != recording_.frames.rend()) last->more_was_lost = true;
   }
 
   const ReadingChoices& choices_;
@@ -208,6 +222,7 @@ std::optional<LineRecording> read_pcap(const std::string& bytes, const ReadingCh
   std::size_t number = 0;
   while ((result = pcap_next_ex(capture.get(), &head, &data)) == 1)
     reader.take(++number, head->ts.tv_sec * kSecond + head->ts.tv_usec, {data, head->caplen});
+  if (result == PCAP_ERROR) reader.cut_off();
   LineRecording recording = reader.finish();
   if (result == PCAP_ERROR)
     recording.notes.push_back(

@@ -24,6 +24,7 @@ struct RecordedFrame {
   std::vector<Time> times{};  ///< of each character, if the recording says; the first is `at`
   /// Which of the bytes had a parity or framing error, from 0; all if the recording says it of the frame as a whole.
   std::vector<std::size_t> damaged{};
+  bool more_was_lost = false;  ///< what came after it on its line or connection is missing
 };
 
 struct LineRecording {

@@ -359,6 +359,24 @@ TEST(Conversation, APpiAnswerThatEndsWithinItsHeadIsWrong) {
   EXPECT_EQ(frames[1].text, "2 to 0, function 08: an answer without its error code");
 }
 
+TEST(Conversation, WhatSeveralMastersOfPpiSayToEachOtherIsNamed) {
+  const LineRecording recording = recording_of(
+      "0.000 DC 02 01\n0.010 10 03 01 49 4D 16\n0.020 10 01 03 00 04 16\n0.030 10 03 01 5C 60 16\n0.040 10 01 03 02 06 16\n"
+      "0.050 10 7F 01 44 C4 16\n0.060 DC 01 02\n");
+  const auto frames = read(recording, "ppi");
+  ASSERT_EQ(frames.size(), 7U);
+  EXPECT_EQ(frames[0].text, "token from station 1 to station 2");
+  EXPECT_TRUE(frames[0].needs_no_answer);
+  EXPECT_EQ(frames[1].text, "1 to 3, function 49: status?");
+  EXPECT_EQ(frames[2].text, "3 to 1, function 00: a slave");
+  EXPECT_EQ(frames[2].other, 1U);
+  EXPECT_EQ(frames[4].text, "3 to 1, function 02: no resource");
+  EXPECT_EQ(frames[5].text, "1 to 127, function 44: a service that is not known");
+  EXPECT_TRUE(frames[5].needs_no_answer);
+  EXPECT_EQ(frames[6].text, "token from station 2 to station 1");
+  for (const ReadFrame& frame : frames) EXPECT_TRUE(frame.right) << frame.text;
+}
+
 /// A character in each row, `gap` after the one before; the rows of each string follow those of the one before after
 /// `between`.
 std::string character_rows(std::initializer_list<const char*> messages, Time gap, Time between) {

@@ -38,6 +38,9 @@ void RecordingOptions::add_to(CLI::App& verb) {
                            "line, 20 ms",
                            format_duration(kCharacterGap)),
                {1, kLongestDuration});
+  add_duration(verb, "--timeout", timeout,
+               fmt::format("of the master: the same frame after a longer silence is the request repeated, not its echo [{}]",
+                           format_duration(kMasterTimeout)));
   add_whole_number(verb, "--tcp-port", reading.tcp_port, {1, 65'535}, "of the Modbus TCP server, in a recording", "502");
   for_files_.push_back(verb.get_option("--tcp-port"));
   for_lines_.push_back(add_duration(verb, "--for", duration, "how long to listen to a line [until Ctrl-C]"));
@@ -67,6 +70,11 @@ std::optional<SlaveTarget> RecordingOptions::live() const {
                   stl::shortened(file)));
 }
 
+Stamps RecordingOptions::complete(Stamps stamps) const {
+  stamps.timeout = timeout;
+  return stamps;
+}
+
 SerialFormat RecordingOptions::format() const { return line.over(find_protocol(protocol)->format); }
 
 std::unique_ptr<LineListener> open_line(const RecordingOptions& options, const SlaveTarget& line) {
@@ -81,7 +89,7 @@ std::unique_ptr<LineListener> open_line(const RecordingOptions& options, const S
 }
 
 bool listen(LineListener& line, const RecordingOptions& options, const std::function<void(ReadFrame)>& tell) {
-  Conversation conversation(*find_recorded_protocol(options.protocol), line.stamps());
+  Conversation conversation(*find_recorded_protocol(options.protocol), options.complete(line.stamps()));
   try {
     line.listen(options.duration, conversation, tell);
     return true;
@@ -96,7 +104,7 @@ std::optional<ReadRecording> read_conversation(const RecordingOptions& options) 
     const auto line = open_line(options, *target);
     if (!line) return {};
     read.name = line->name();
-    read.stamps = line->stamps();
+    read.stamps = options.complete(line->stamps());
     const auto keep = [&](ReadFrame frame) {
       if (frame.other) read.frames[*frame.other].other = read.frames.size();
       read.frames.push_back(std::move(frame));
@@ -113,7 +121,8 @@ std::optional<ReadRecording> read_conversation(const RecordingOptions& options) 
   read.recording = std::move(*recording);
   const bool over_tcp =
       std::ranges::any_of(read.recording.frames, [](const RecordedFrame& frame) { return frame.stream != 0; });
-  read.stamps = {.character = over_tcp ? 0 : options.format().character_time(), .at_end = options.stamps == "end"};
+  read.stamps = options.complete(
+      {.character = over_tcp ? 0 : options.format().character_time(), .at_end = options.stamps == "end"});
   read.frames = conversation(read.recording, *find_recorded_protocol(options.protocol), read.stamps);
   return read;
 }

@@ -1,0 +1,26 @@
+// The protocols of our own programs, and PPI, in recordings.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "tools/recordings/conversation.hpp"
+
+namespace s7200::tools {
+
+std::unique_ptr<FrameReader> modbus_reader();
+std::unique_ptr<FrameReader> ppi_reader();
+std::unique_ptr<FrameReader> freeport_pc_reader();
+
+/// Of a protocol whose frames say all by themselves: it keeps nothing from frame to frame.
+template <ReadFrame (*Read)(const RecordedFrame& frame, const RecordedFrame* open),
+          std::size_t (*First)(std::span<const std::uint8_t> bytes, const RecordedFrame* open)>
+class PlainReader final : public FrameReader {
+ public:
+  ReadFrame read(const RecordedFrame& frame, const RecordedFrame* open) override { return Read(frame, open); }
+  std::size_t first_message(std::span<const std::uint8_t> bytes, const RecordedFrame* open) const override {
+    return First(bytes, open);
+  }
+};
+
+}  // namespace s7200::tools
