@@ -10,7 +10,6 @@ enum Delimiter : std::uint8_t { kSd1 = 0x10, kSd2 = 0x68, kSd3 = 0xA2, kToken = 
 
 constexpr std::size_t kHeadOfSd2 = 4, kTail = 2;  // 68 LE LE 68, and FCS 16
 constexpr std::size_t kAddressing = 3;            // DA SA FC
-constexpr std::size_t kTokenLength = 3;           // DC DA SA
 
 std::uint8_t check_sum(std::span<const std::uint8_t> body) {
   return static_cast<std::uint8_t>(std::accumulate(body.begin(), body.end(), 0U));
@@ -24,7 +23,7 @@ std::optional<std::size_t> frame_length(std::span<const std::uint8_t> begin) {
     case kAccepted:
       return 1;
     case kToken:
-      return kTokenLength;
+      return 3;
     case kSd1:
       return 1 + kAddressing + kTail;
     case kSd3:
@@ -45,11 +44,6 @@ std::optional<Body> body_of(std::span<const std::uint8_t> frame) {
   const auto body = frame.subspan(head, frame.size() - head - kTail);
   if (frame.back() != kEnd || frame[frame.size() - kTail] != check_sum(body)) return {};
   return Body{body[0], body[1], body[2], body.subspan(kAddressing)};
-}
-
-std::optional<Token> token_of(std::span<const std::uint8_t> frame) {
-  if (frame.size() != kTokenLength || frame[0] != kToken) return {};
-  return Token{frame[1], frame[2]};
 }
 
 Bytes to_frame(const Body& body) {

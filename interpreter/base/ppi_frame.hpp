@@ -17,10 +17,8 @@ namespace s7200::ppi {
 inline constexpr std::uint8_t kAccepted = 0xE5;
 inline constexpr std::size_t kLongestBody = 249, kLongestFrame = kLongestBody + 6, kLongestData = kLongestBody - 3;
 
-/// Stations are 0 to 126; 127 is all of them.
-inline constexpr std::uint8_t kLastStation = 126, kEveryStation = 127;
-/// In an address: there is more of it in the data.
-inline constexpr std::uint8_t kExtension = 0x80;
+/// Stations are 0 to 126.
+inline constexpr std::uint8_t kLastStation = 126;
 
 // The function of a request: its low bits say what is asked for. kFrameCount alternates from poll to poll, so that a
 // repeated one is known.
@@ -42,14 +40,6 @@ std::optional<std::size_t> frame_length(std::span<const std::uint8_t> begin);
 
 /// Of a complete frame. Nothing if it has none, and for a wrong check sum or end.
 std::optional<Body> body_of(std::span<const std::uint8_t> frame);
-
-/// A token, passed from one master to another.
-struct Token {
-  std::uint8_t destination = 0, source = 0;
-};
-
-/// Of a complete frame; nothing if it is none.
-std::optional<Token> token_of(std::span<const std::uint8_t> frame);
 
 /// SD1 without data, SD2 with data; kLongestData at most.
 Bytes to_frame(const Body& body);

@@ -278,13 +278,6 @@ class PpiReader final : public FrameReader {
       read.text = open != nullptr && polls(open->bytes) ? "no answer yet" : "accepted";
       return read;
     }
-    if (const auto token = ppi::token_of(bytes)) {
-      read.direction = Direction::Request;
-      read.right = read.needs_no_answer = true;
-      read.station = token->destination;
-      read.text = fmt::format("token from station {} to station {}", token->source, token->destination);
-      return read;
-    }
     const auto body = ppi::frame_length(bytes) == bytes.size() ? ppi::body_of(bytes) : std::nullopt;
     if (!body) {
       read.text = "not a frame: its length, check sum or end is wrong";
@@ -293,7 +286,6 @@ class PpiReader final : public FrameReader {
     const bool request = (body->function & ppi::kIsRequest) != 0;
     read.direction = request ? Direction::Request : open != nullptr ? Direction::Answer : Direction::Unknown;
     if (request) read.station = body->destination;
-    read.needs_no_answer = request && body->destination == ppi::kEveryStation;
     std::string wrong;
     const std::string text =
         body->data.empty() ? std::string(function_text(body->function)) : text_of(*body, request, wrong);

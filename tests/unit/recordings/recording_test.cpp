@@ -7,7 +7,10 @@
 #include <array>
 #include <fstream>
 #include <sstream>
+#include <tuple>
 
+#include "interpreter/base/ppi_frame.hpp"
+#include "interpreter/model/s7_pdu.hpp"
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/record/pcap_capture.hpp"
@@ -344,7 +347,7 @@ TEST(Conversation, PpiIsReadFrameByFrame) {
   EXPECT_EQ(frames[0].text, "0 to 2, function 6C: read VB100:4");
   EXPECT_EQ(frames[1].text, "accepted");
   EXPECT_EQ(frames[2].text, "0 to 2, function 5C: poll");
-  EXPECT_EQ(frames[3].text, "2 to 0, function 08: read");
+  EXPECT_EQ(frames[3].text, "2 to 0, function 08: VB100:4 = 16#12 16#34 16#56 16#78");
   EXPECT_EQ(frames[3].other, 2U);
   EXPECT_EQ(frames[4].direction, Direction::Unknown);
 }
@@ -357,24 +360,6 @@ TEST(Conversation, APpiAnswerThatEndsWithinItsHeadIsWrong) {
   EXPECT_TRUE(frames[0].right);
   EXPECT_FALSE(frames[1].right);
   EXPECT_EQ(frames[1].text, "2 to 0, function 08: an answer without its error code");
-}
-
-TEST(Conversation, WhatSeveralMastersOfPpiSayToEachOtherIsNamed) {
-  const LineRecording recording = recording_of(
-      "0.000 DC 02 01\n0.010 10 03 01 49 4D 16\n0.020 10 01 03 00 04 16\n0.030 10 03 01 5C 60 16\n0.040 10 01 03 02 06 16\n"
-      "0.050 10 7F 01 44 C4 16\n0.060 DC 01 02\n");
-  const auto frames = read(recording, "ppi");
-  ASSERT_EQ(frames.size(), 7U);
-  EXPECT_EQ(frames[0].text, "token from station 1 to station 2");
-  EXPECT_TRUE(frames[0].needs_no_answer);
-  EXPECT_EQ(frames[1].text, "1 to 3, function 49: status?");
-  EXPECT_EQ(frames[2].text, "3 to 1, function 00: a slave");
-  EXPECT_EQ(frames[2].other, 1U);
-  EXPECT_EQ(frames[4].text, "3 to 1, function 02: no resource");
-  EXPECT_EQ(frames[5].text, "1 to 127, function 44: a service that is not known");
-  EXPECT_TRUE(frames[5].needs_no_answer);
-  EXPECT_EQ(frames[6].text, "token from station 2 to station 1");
-  for (const ReadFrame& frame : frames) EXPECT_TRUE(frame.right) << frame.text;
 }
 
 /// A character in each row, `gap` after the one before; the rows of each string follow those of the one before after
@@ -398,6 +383,157 @@ std::vector<std::string> texts(const std::vector<ReadFrame>& frames) {
                                                           : "? ") +
                   frame.text);
   return all;
+}
+
+/// Requests of master 0 to station 2, each with what is fetched of its answer.
+std::vector<std::string> ppi_texts(const std::vector<std::pair<Bytes, Bytes>>& jobs) {
+  LineRecording recording;
+  const auto say = [&](const Bytes& bytes) { recording.frames.push_back({.bytes = bytes}); };
+  for (const auto& [request, answer] : jobs) {
+    say(ppi::to_frame({2, 0, ppi::kRequestFunction, request}));
+    say({ppi::kAccepted});
+    say(ppi::to_frame({2, 0, ppi::kPollFunction}));
+    say(ppi::to_frame({0, 2, ppi::kData, answer}));
+  }
+  std::vector<std::string> said;
+  for (const ReadFrame& frame : read(recording, "ppi")) {
+    EXPECT_TRUE(frame.right) << frame.text;
+    if (frame.frame.bytes.size() > 6) said.push_back(frame.text.substr(frame.text.find(": ") + 2));
+  }
+  return said;
+}
+
+/// The answer to request 1.
+Bytes ppi_answer(const Bytes& parameters, const Bytes& data, std::uint16_t error = 0) {
+  Bytes bytes = s7::pdu(s7::kAnswer, 1, parameters, data);
+  bytes.insert(bytes.begin() + s7::kRequestHead, {static_cast<std::uint8_t>(error >> 8), static_cast<std::uint8_t>(error)});
+  return bytes;
+}
+
+TEST(Conversation, AVariableOfPpiHasTheWidthOfItsTypeAndItsAnswerItsValues) {
+  const auto wanted = [](std::initializer_list<s7::Variable> variables) {
+    Bytes parameters{s7::kRead, static_cast<std::uint8_t>(variables.size())};
+    for (const s7::Variable& variable : variables) append(parameters, variable);
+    return s7::pdu(s7::kRequest, 1, parameters, {});
+  };
+  const auto found = [](const Bytes& data) { return ppi_answer({s7::kRead, 1}, data); };
+  EXPECT_EQ(
+      ppi_texts({{wanted({{s7::kWord, 3, Area::V, 800}}), found({0xFF, 4, 0, 48, 0, 1, 0, 2, 0xFF, 0xFF})},
+                 {wanted({{s7::kByte, 1, Area::V, 800}}), found({0xFF, 4, 0, 8, 0x41})},
+                 {wanted({{s7::kDouble, 1, Area::V, 800}}), found({0xFF, 4, 0, 32, 0, 1, 0, 2})},
+                 {wanted({{s7::kReal, 1, Area::V, 800}}), found({0xFF, 4, 0, 32, 0x3F, 0xC0, 0, 0})},
+                 {wanted({{s7::kBit, 1, Area::M, 255}}), found({0xFF, 3, 0, 1, 1})},
+                 {wanted({{0x1F, 1, Area::T, 37}}), found({0xFF, 9, 0, 2, 0x12, 0x34})},
+                 {wanted({{s7::kByte, 1, Area::Q, 0}, {s7::kWord, 1, Area::V, 80'000}}), found({0xFF, 4, 0, 8, 7, 0, 5, 0, 0, 0})},
+                 {wanted({{0x1D, 1, Area::V, 800}}), ppi_answer({s7::kRead, 1}, {}, 0x8104)}}),
+      (std::vector<std::string>{"read VW100:3", "VW100:3 = 16#0001 16#0002 16#FFFF", "read VB100", "VB100 = 16#41", "read VD100",
+                                "VD100 = 16#00010002", "read VD100:real", "VD100:real = 1.5", "read M31.7", "M31.7 = 1",
+                                "read T37", "T37 = 16#1234", "read QB0, VW10000",
+                                "QB0 = 16#07, VW10000: outside the memory of this CPU", "read V byte 100:1 of type 16#1D",
+                                "error 8104: function not available"}));
+}
+
+TEST(Conversation, WritesModesAndTheClockOfPpiAreInWords) {
+  Bytes write{s7::kWrite, 1};
+  append(write, s7::Variable{s7::kWord, 2, Area::V, 800});
+  const Bytes time{0xFF, 9, 0, 10, 0, 0x20, 0x26, 0x11, 0x22, 0x15, 0x45, 0x30, 0, 1};
+  const auto clock = [](std::uint8_t kind, std::uint8_t service, const Bytes& data) {
+    Bytes parameters{0, 1, 0x12, 4, 0x11, static_cast<std::uint8_t>(kind | s7::kClockGroup), service, 0};
+    if (kind == 0x80) parameters.insert(parameters.end(), {0, 0, 0, 0});
+    return s7::pdu(s7::kUserData, 1, parameters, data);
+  };
+  EXPECT_EQ(ppi_texts({{s7::pdu(s7::kRequest, 1, write, {0, 4, 0, 32, 0, 5, 0, 6}), ppi_answer({s7::kWrite, 1}, {0xFF})},
+                       {s7::pdu(s7::kRequest, 1, write, {0, 4, 0, 32, 0, 5, 0, 6}), ppi_answer({s7::kWrite, 1}, {0x03})},
+                       {s7::pdu(s7::kRequest, 1, {s7::kRun}, {}), ppi_answer({s7::kRun}, {})},
+                       {s7::pdu(s7::kRequest, 1, {s7::kStop}, {}), ppi_answer({s7::kStop}, {})},
+                       {s7::pdu(s7::kRequest, 1, {s7::kSetup, 0, 0, 1, 0, 1, 3, 0xC0}, {}),
+                        ppi_answer({s7::kSetup, 0, 0, 1, 0, 1, 0, 240}, {})},
+                       {clock(0x40, s7::kReadClock, {0x0A, 0, 0, 0}), clock(0x80, s7::kReadClock, time)},
+                       {clock(0x40, s7::kSetClock, time), clock(0x80, s7::kSetClock, {0x0A, 0, 0, 0})}}),
+            (std::vector<std::string>{"write VW100:2 = 16#0005 16#0006", "VW100:2 written", "write VW100:2 = 16#0005 16#0006",
+                                      "VW100:2: not allowed", "go to RUN", "goes to RUN", "go to STOP", "goes to STOP",
+                                      "set up: 960 bytes at once", "set up: 240 bytes at once", "read the clock",
+                                      "clock: 2026-11-22 15:45:30", "set the clock to 2026-11-22 15:45:30", "clock set"}));
+}
+
+TEST(Conversation, TheSameFrameAfterTheMastersTimeoutIsTheRequestRepeated) {
+  const char* write = "01 06 00 00 00 01 48 0A";
+  const auto after = [&](const char* time, const char* direction = "") {
+    return recording_of(fmt::format("0.000 {0} {1}\n{2} {3} {1}\n", *direction != 0 ? "TX" : "", write, time, direction));
+  };
+  EXPECT_EQ(texts(read(after("0.080"))),
+            (std::vector<std::string>{"> station 1, write register 40001 = 16#0001", "< register 0 written: 16#0001"}));
+  const auto frames = read(after("0.250"));
+  EXPECT_EQ(texts(frames), (std::vector<std::string>{"> station 1, write register 40001 = 16#0001",
+                                                     "> station 1, write register 40001 = 16#0001; repeated after 250 ms, "
+                                                     "or its late echo"}));
+  EXPECT_EQ(frames[1].repeats, 0U);
+  EXPECT_EQ(read(after("0.250", "RX"))[1].direction, Direction::Answer) << "the recording says so";
+  EXPECT_EQ(read(after("0.250"), "modbus", {.timeout = 300 * ms})[1].direction, Direction::Answer);
+  const auto timeless = read(recording_of(fmt::format("{0}\n{0}\n", write)));
+  EXPECT_EQ(timeless[1].direction, Direction::Answer);
+}
+
+TEST(Conversation, AnAnswerAfterARepeatedRequestIsTheAnswerToThat) {
+  for (const auto& [protocol, request, answer] :
+       {std::tuple{"modbus", "01 06 00 00 00 01 48 0A", "01 06 00 00 00 01 48 0A"},
+        std::tuple{"modbus", "01 08 00 00 12 34 ED 7C", "01 08 00 00 12 34 ED 7C"},
+        std::tuple{"pc1000-lan", "0A 05 00 00 00 0F", "0A 05 01 00 00 10"}}) {
+    const auto frames =
+        read(recording_of(fmt::format("0.000 {0}\n0.250 {0}\n0.260 {1}\n0.300 {0}\n0.310 {1}\n", request, answer)), protocol);
+    ASSERT_EQ(frames.size(), 5U);
+    EXPECT_EQ(frames[0].other, std::nullopt) << request;
+    EXPECT_EQ(frames[1].repeats, 0U);
+    EXPECT_EQ(frames[1].other, 2U);
+    EXPECT_EQ(frames[3].other, 4U);
+  }
+}
+
+TEST(Conversation, ARepeatedReadIsInNoDoubt) {
+  const auto frames = read(recording_of("0.000 01 03 00 00 00 01 84 0A\n0.250 01 03 00 00 00 01 84 0A\n"));
+  EXPECT_EQ(frames[1].direction, Direction::Request);
+  EXPECT_EQ(frames[1].repeats, std::nullopt) << "it is no answer to itself";
+}
+
+TEST(Conversation, AScenarioLeavesOutRequestsThatMayHaveBeenAnsweredByTheirEcho) {
+  const auto frames = read(recording_of("0.000 09 06 00 0A 00 05 68 83\n0.250 09 06 00 0A 00 05 68 83\n"
+                                        "0.500 01 03 00 00 00 01 84 0A\n0.525 01 03 02 12 34 B5 33\n"));
+  const Playback left = playback(frames, {}, {});
+  EXPECT_EQ(left.notes, (std::vector<std::string>{"line 1: left out: the same after it (line 2) may be its late echo",
+                                                  "line 2: left out: it may be the late echo of line 1"}));
+  EXPECT_EQ(left.scenario.find("send: 09"), std::string::npos);
+  EXPECT_NE(left.scenario.find("    steps:\n      # line 1: left out: the same after it (line 2) may be its late echo\n"
+                               "      # line 2: left out: it may be the late echo of line 1\n      - send: 01 03"),
+            std::string::npos)
+      << left.scenario;
+}
+
+TEST(Conversation, AnAnswerThatACutOffFileHasLostIsNotExpectedToBeSilence) {
+  std::ostringstream file;
+  serial::PcapWriter writer(file);
+  for (Time at = 0; at < 2 * kSecond; at += kSecond) {
+    writer.packet(at, kRequest);
+    writer.packet(at + 25 * ms, kAnswer);
+  }
+  const std::string whole = file.str();
+  EXPECT_TRUE(playback(read(recording_of(whole)), {}, {}).notes.empty());
+  const Playback cut = playback(read(recording_of(whole.substr(0, whole.size() - 1))), {}, {});
+  EXPECT_EQ(cut.notes, std::vector<std::string>{"packet 3: left out: the recording is cut off after it"});
+  EXPECT_EQ(cut.scenario.find("silence"), std::string::npos);
+  EXPECT_NE(cut.scenario.find("      # packet 3: left out: the recording is cut off after it\n"), std::string::npos);
+}
+
+TEST(Conversation, RequestsOfAConnectionWhoseAnswersAreMissingAreNotExpectedToBeSilence) {
+  const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
+  const Bytes answer = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 2, 0x12, 0x34}});
+  const auto asked = static_cast<std::uint32_t>(request.size()), answered = static_cast<std::uint32_t>(answer.size());
+  const Playback left = playback(
+      read(recording_of(ethernet_pcap({segment(true, 100, request), segment(false, 500, answer),
+                                       segment(true, 100 + asked, request), segment(false, 500 + 2 * answered, answer),
+                                       segment(true, 100 + 2 * asked, request)}))),
+      {}, {});
+  EXPECT_EQ(left.notes, std::vector<std::string>{"packet 3: left out: the recording is cut off after it"});
+  EXPECT_EQ(left.scenario.find("silence"), std::string::npos);
 }
 
 TEST(Conversation, MessagesThatFollowEachOtherCloselyAreToldApartByWhatTheySay) {
@@ -475,6 +611,53 @@ TEST(Conversation, ALoaderSessionIsReadStepByStep) {
                                       "> session closed"}));
   EXPECT_TRUE(frames.back().needs_no_answer);
   for (const ReadFrame& frame : frames) EXPECT_TRUE(frame.right) << frame.text;
+}
+
+TEST(Conversation, TheLastWordOfALoaderSessionAndTheFirstOfTheNextMayStandInOneFrame) {
+  const LineRecording recording = recording_of(
+      "0.000 02\n0.010 10 06\n0.020 03\n0.030 02\n0.040 10 06\n0.050 16 10 03\n0.060 10 06 90 00 07 10 04\n0.070 10 06 02\n"
+      "0.080 10 06\n0.090 12 10 03\n0.100 10 06 02\n0.110 10 06\n");
+  const auto frames = read(recording, "pc500-loader", {.character = ms});
+  const std::vector<std::string> end{"< end", "> session closed", "> begin of a session", "< acknowledged"};
+  const auto said = texts(frames);
+  ASSERT_EQ(said.size(), 13U);
+  EXPECT_EQ(std::vector(said.end() - 4, said.end()), end);
+  EXPECT_EQ(frames[10].frame.at, 100 * ms);
+  EXPECT_EQ(frames[11].frame.at, 102 * ms) << "after two characters";
+  EXPECT_EQ(frames[11].silence, 0);
+  EXPECT_EQ(frames[12].latency, 7 * ms);
+  const auto at_end = read(recording, "pc500-loader", {.character = ms, .at_end = true});
+  EXPECT_EQ(at_end[10].frame.at, 99 * ms);
+  EXPECT_EQ(at_end[11].frame.at, 100 * ms);
+}
+
+TEST(Conversation, ALoaderSessionIsFoundAgainAfterWhatDoesNotFit) {
+  const std::string session =
+      "02\n10 06\n04\n02\n10 06\n16 10 03\n10 06 90 00 90 00 10 04\n10 06 02\n10 06\n00 00 00 00 00 05 10 03\n10 06\n02\n"
+      "10 06\n12 10 03\n10 06\n";
+  const auto of_next = [&](const std::string& broken) {
+    const auto said = texts(read(recording_of(broken + session), "pc500-loader"));
+    return std::vector(said.end() - 15, said.end());
+  };
+  const auto right = texts(read(recording_of(session), "pc500-loader"));
+  ASSERT_EQ(right.size(), 15U);
+  EXPECT_EQ(right.back(), "> session closed");
+  EXPECT_EQ(of_next(session), right);
+  std::vector<std::string> lines;
+  for (std::istringstream in(session); std::getline(in, lines.emplace_back());) {
+  }
+  lines.pop_back();
+  for (std::size_t place = 0; place < lines.size(); ++place) {
+    std::string without, damaged, broken_off;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      without += i == place ? "" : lines[i] + "\n";
+      damaged += (i == place ? "55 AA" : lines[i]) + "\n";
+      broken_off += i < place ? lines[i] + "\n" : "";
+    }
+    EXPECT_EQ(of_next(without), right) << "without step " << place + 1;
+    EXPECT_EQ(of_next(damaged), right) << "with step " << place + 1 << " damaged";
+    EXPECT_EQ(of_next(broken_off), right) << "broken off before step " << place + 1;
+  }
 }
 
 TEST(Conversation, ALoaderSessionThatIsRefusedOrBrokenOffBeginsAnew) {
