@@ -103,7 +103,8 @@ bool add(Forcing& forcing, const MemoryRange& place, std::uint32_t value) {
     release_values(without, place);
     if (without.values == without.memory.size()) return false;
     forcing = without;
-    forcing.memory[forcing.values++] = {place.at, value, place.width};
+    const std::uint32_t bits = UINT32_MAX >> (32 - 8 * bytes_of(place.width));
+    forcing.memory[forcing.values++] = {place.at, value & bits, place.width};
   }
   note_any(forcing);
   return true;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/bytes.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "serial_sim/modbus/request.hpp"
 
@@ -18,13 +19,9 @@ constexpr std::size_t kAroundData = 4;  // station, function, two bytes of CRC
 
 Data data_of(std::span<const std::uint8_t> frame) { return frame.subspan(2, frame.size() - kAroundData); }
 
-std::uint16_t word_at(Data bytes, std::size_t place) {
-  return static_cast<std::uint16_t>(bytes[place] << 8 | bytes[place + 1]);
-}
-
 std::vector<std::uint16_t> words(Data bytes) {
   std::vector<std::uint16_t> values;
-  for (std::size_t place = 0; place + 1 < bytes.size(); place += 2) values.push_back(word_at(bytes, place));
+  for (std::size_t place = 0; place + 1 < bytes.size(); place += 2) values.push_back(load16(&bytes[place]));
   return values;
 }
 
@@ -63,7 +60,7 @@ const FunctionRow* row_of(std::span<const std::uint8_t> request) {
 
 /// Each check returns what is wrong, or nothing when the answer is right and its values are taken.
 std::string check_read(Data asked, Data answer, Shape shape, Answer& result) {
-  const std::size_t count = word_at(asked, 2);
+  const std::size_t count = load16(&asked[2]);
   const std::size_t bytes = shape == Shape::ReadBits ? (count + 7) / 8 : 2 * count;
   if (answer.size() != 1 + bytes) return wrong_length(1 + bytes, answer.size());
   if (answer[0] != bytes) return fmt::format("wrong byte count: {}, expected {}", answer[0], bytes);
@@ -85,9 +82,9 @@ std::string check_write(Data asked, Data answer) {
 
 std::string check_diagnostics(Data asked, Data answer, Answer& result) {
   if (answer.size() < 2) return wrong_length(asked.size(), answer.size());
-  const std::uint16_t subfunction = word_at(asked, 0);
-  if (word_at(answer, 0) != subfunction)
-    return fmt::format("answer to subfunction {}, not {}", word_at(answer, 0), subfunction);
+  const std::uint16_t subfunction = load16(&asked[0]);
+  if (load16(&answer[0]) != subfunction)
+    return fmt::format("answer to subfunction {}, not {}", load16(&answer[0]), subfunction);
   const DiagnosticRow* row = find_diagnostics_subfunction(subfunction);
   if (row != nullptr && row->answer == DiagnosticRow::Answer::SameData && !std::ranges::equal(asked, answer))
     return not_repeated(answer);
@@ -187,7 +184,7 @@ std::string slave_id_text(const Bytes& bytes) {
 }
 
 std::string diagnostics_text(Data asked, const Answer& answer) {
-  const std::uint16_t subfunction = word_at(asked, 0);
+  const std::uint16_t subfunction = load16(&asked[0]);
   const DiagnosticRow* row = find_diagnostics_subfunction(subfunction);
   std::string text = row != nullptr ? std::string(row->name) : fmt::format("subfunction {}", subfunction);
   if (row != nullptr && row->answer == DiagnosticRow::Answer::Value) return fmt::format("{}: {}", text, answer.values[0]);
@@ -209,8 +206,8 @@ std::string file_text(Data asked, const Answer& answer) {
 }
 
 std::string written_text(Function function, Data asked) {
-  const unsigned first = word_at(asked, 0);
-  const std::uint16_t second = word_at(asked, 2);
+  const unsigned first = load16(&asked[0]);
+  const std::uint16_t second = load16(&asked[2]);
   switch (function) {
     case Function::WriteCoil:
       return fmt::format("coil {} written: {}", first, second == 0 ? 0 : 1);
@@ -226,7 +223,7 @@ std::string written_text(Function function, Data asked) {
 std::string right_text(const FunctionRow& row, Data asked, const Answer& answer) {
   switch (row.shape) {
     case Shape::ReadBits: {
-      const unsigned first = word_at(asked, 0);
+      const unsigned first = load16(&asked[0]);
       const std::size_t count = answer.values.size();
       if (count == 0) return fmt::format("no {}s", row.object);
       if (count == 1) return fmt::format("{} {}: {}", row.object, first, bits_text(answer.values));

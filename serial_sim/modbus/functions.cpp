@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "interpreter/base/bytes.hpp"
 #include "serial_sim/modbus/request.hpp"
 
 namespace s7200::modbus {
@@ -68,14 +69,12 @@ constexpr std::array<ExceptionName, 10> kExceptionNames{{
     {11, "gateway target device failed to respond"},
 }};
 
-unsigned word_at(std::span<const std::uint8_t> bytes, std::size_t place) { return bytes[place] * 256U + bytes[place + 1]; }
-
 std::string function_text(const FunctionRow& row) {
   return fmt::format("function {} ({})", static_cast<int>(row.function), row.name);
 }
 
 std::string wrong_range(const FunctionRow& row, std::span<const std::uint8_t> data) {
-  const unsigned first = word_at(data, 0), count = row.shape == Shape::WriteOne ? 1 : word_at(data, 2);
+  const unsigned first = load16(&data[0]), count = row.shape == Shape::WriteOne ? 1 : load16(&data[2]);
   if (count == 0 || count > row.most)
     return fmt::format("{} {}s in one request: {} takes 1 to {}", count, row.object, function_text(row), row.most);
   constexpr unsigned kAddresses = 65536;
@@ -93,7 +92,7 @@ std::string wrong_file(const FunctionRow& row, std::span<const std::uint8_t> dat
   std::size_t answer = 0;
   for (std::size_t place = 1; place + kReference <= data.size();) {
     if (data[place] != kFileReference) return {};  // the makers' own kinds have limits of their own
-    const unsigned file = word_at(data, place + 1), record = word_at(data, place + 3), count = word_at(data, place + 5);
+    const unsigned file = load16(&data[place + 1]), record = load16(&data[place + 3]), count = load16(&data[place + 5]);
     if (file == 0) return "files are counted from 1";
     if (count == 0) return "0 registers of a file: a reference takes at least 1";
     if (record + count > kRecords)

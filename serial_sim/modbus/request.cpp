@@ -6,12 +6,14 @@
 #include <array>
 #include <iterator>
 
+#include "interpreter/base/word_bytes.hpp"
+
 namespace s7200::modbus {
 namespace {
 
 void add_word(Bytes& bytes, std::uint16_t word) {
-  bytes.push_back(static_cast<std::uint8_t>(word >> 8));
-  bytes.push_back(static_cast<std::uint8_t>(word & 0xFF));
+  bytes.push_back(high_byte(word));
+  bytes.push_back(low_byte(word));
 }
 
 Bytes pdu(Function function, std::uint16_t first, std::uint16_t second) {
@@ -19,10 +21,6 @@ Bytes pdu(Function function, std::uint16_t first, std::uint16_t second) {
   add_word(bytes, first);
   add_word(bytes, second);
   return bytes;
-}
-
-std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t place) {
-  return static_cast<std::uint16_t>(bytes[place] << 8 | bytes[place + 1]);
 }
 
 }  // namespace
@@ -100,7 +98,7 @@ std::vector<Reference> references_of(std::span<const std::uint8_t> bytes, bool w
   std::vector<Reference> references;
   while (bytes.size() >= kHead) {
     Reference reference{
-        .type = bytes[0], .file = word_at(bytes, 1), .record = word_at(bytes, 3), .count = word_at(bytes, 5)};
+        .type = bytes[0], .file = load16(&bytes[1]), .record = load16(&bytes[3]), .count = load16(&bytes[5])};
     bytes = bytes.subspan(kHead);
     if (with_data) {
       const std::size_t size = std::size_t{reference.count} * (reference.type == kFileReference ? 2 : 1);

@@ -8,6 +8,7 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/base/word_bytes.hpp"
 
 namespace s7200::pc_protocol {
 namespace {
@@ -21,8 +22,6 @@ struct AreaRow {
 };
 constexpr std::array kAreas{AreaRow{Area::I, "I"}, AreaRow{Area::Q, "Q"}, AreaRow{Area::M, "M"}, AreaRow{Area::V, "V"}};
 
-std::uint8_t high(std::uint16_t word) { return static_cast<std::uint8_t>(word >> 8); }
-std::uint8_t low(std::uint16_t word) { return static_cast<std::uint8_t>(word & 0xFF); }
 std::optional<Area> area_of(std::uint16_t word) {
   const auto row =
       std::ranges::find_if(kAreas, [&](const AreaRow& r) { return static_cast<std::uint16_t>(r.area) == word; });
@@ -78,7 +77,7 @@ Bytes to_bytes(const Command& command) {
   const auto area = static_cast<std::uint16_t>(command.address.area);
   const std::uint16_t number = command.address.number;
   Bytes bytes{kStart, static_cast<std::uint8_t>(command.type)};
-  append_digits(bytes, std::array{command.station, high(area), low(area), high(number), low(number),
+  append_digits(bytes, std::array{command.station, high_byte(area), low_byte(area), high_byte(number), low_byte(number),
                                   static_cast<std::uint8_t>(2 * command.data.size())});
   append_digits(bytes, command.data);
   bytes.resize(kCheckCode, kZero);

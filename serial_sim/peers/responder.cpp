@@ -23,7 +23,7 @@ void Responder::power_off(Time at) {
 }
 
 void Responder::power_on(Time at) {
-  uart_.configure(state_.automaton->format());
+  uart_.configure(state_.automaton->format(), at);
   state_.automaton->reset(at);
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <numeric>
 
+#include "interpreter/base/word_bytes.hpp"
 #include "serial_sim/line/frame.hpp"
 
 namespace s7200::westinghouse {
@@ -14,9 +15,6 @@ namespace {
 constexpr std::array<std::uint8_t, kEraseKeyLength> kEraseKey{0xC5, 0x3A, 0xA3, 0x5C, 0xEE, 0x2A, 0xE2, 0xAE,
                                                               0x2A, 0xEE, 0xAE, 0xE2, 0xC5, 0x3A, 0xA3, 0x5C};
 constexpr std::size_t kErrorLength = 2;
-
-std::uint8_t low(std::uint16_t word) { return static_cast<std::uint8_t>(word & 0xFF); }
-std::uint8_t high(std::uint16_t word) { return static_cast<std::uint8_t>(word >> 8); }
 
 Opcode opcode_of(std::span<const std::uint8_t> message) { return static_cast<Opcode>(message[0]); }
 
@@ -55,18 +53,19 @@ Bytes message(Opcode opcode, std::uint8_t b1, std::uint8_t b2, std::uint8_t b3, 
 Bytes set_unit_address(std::uint8_t unit) { return message(Opcode::SetUnitAddress, unit); }
 
 Bytes read_block(std::uint16_t address, std::size_t bytes) {
-  return message(Opcode::ReadBlock, low(address), high(address), static_cast<std::uint8_t>(bytes - 1));
+  return message(Opcode::ReadBlock, low_byte(address), high_byte(address), static_cast<std::uint8_t>(bytes - 1));
 }
 
 Bytes write_block(std::uint16_t address, std::span<const std::uint8_t> data) {
-  Bytes bytes = message(Opcode::WriteBlock, low(address), high(address), static_cast<std::uint8_t>(data.size() - 1));
+  Bytes bytes =
+      message(Opcode::WriteBlock, low_byte(address), high_byte(address), static_cast<std::uint8_t>(data.size() - 1));
   bytes.insert(bytes.end(), data.begin(), data.end());
   bytes.push_back(sum(data));
   return bytes;
 }
 
 Bytes write_bit(std::uint16_t address, std::uint8_t bit, bool on) {
-  return message(Opcode::BitWrite, low(address), high(address), static_cast<std::uint8_t>((on ? 0x10 : 0) | bit));
+  return message(Opcode::BitWrite, low_byte(address), high_byte(address), static_cast<std::uint8_t>((on ? 0x10 : 0) | bit));
 }
 
 Bytes erase() {

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "interpreter/base/word_bytes.hpp"
 #include "serial_sim/line/frame.hpp"
 
 namespace s7200::westinghouse {
@@ -31,7 +32,7 @@ constexpr Table kDocument = [] {
 
 constexpr std::size_t kDestination = 2, kOpcode = 5, kAround = 8;
 
-unsigned length_of(std::span<const std::uint8_t> message) { return message[0] + message[1] * 256U; }
+unsigned length_of(std::span<const std::uint8_t> message) { return load16_low_first(message.data()); }
 
 }  // namespace
 
@@ -45,12 +46,11 @@ std::uint16_t hppc_fcs(std::span<const std::uint8_t> bytes, FcsTable table) {
 Bytes hppc_message(std::uint8_t destination, std::uint8_t source, HppcOpcode opcode, std::span<const std::uint8_t> operands,
                    FcsTable table) {
   const std::size_t length = kAround + operands.size();
-  Bytes bytes{static_cast<std::uint8_t>(length & 0xFF), static_cast<std::uint8_t>(length >> 8), destination, source, 0,
-              static_cast<std::uint8_t>(opcode)};
+  Bytes bytes{low_byte(length), high_byte(length), destination, source, 0, static_cast<std::uint8_t>(opcode)};
   bytes.insert(bytes.end(), operands.begin(), operands.end());
   const std::uint16_t fcs = hppc_fcs(bytes, table);
-  bytes.push_back(static_cast<std::uint8_t>(fcs >> 8));
-  bytes.push_back(static_cast<std::uint8_t>(fcs & 0xFF));
+  bytes.push_back(high_byte(fcs));
+  bytes.push_back(low_byte(fcs));
   return bytes;
 }
 

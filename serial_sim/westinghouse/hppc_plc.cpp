@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "interpreter/base/word_bytes.hpp"
+
 namespace s7200::westinghouse {
 namespace {
 
@@ -84,7 +86,7 @@ void HppcPlc::hear(const ReceivedCharacter& character) {
   if (deaf_) return;
   message_.push_back(character.byte);
   if (message_.size() < 2) return;
-  const std::size_t length = message_[0] + message_[1] * 256U;
+  const std::size_t length = load16_low_first(message_.data());
   deaf_ = length < kShortestHppc || length > kLongestHppc;
   if (deaf_ || message_.size() < length) return;
   const Bytes message = message_;
@@ -168,8 +170,7 @@ HppcPlc::Reply HppcPlc::write_bits(Data operands) {
   if (operands.size() != 7) return {.error = kInvalidLength};
   const std::uint32_t address = hppc_address(operands);
   if (address + 2 > kHppcMemory) return {.error = kInvalidOperand};
-  const auto word_at = [&](std::size_t place) { return operands[place] + operands[place + 1] * 256U; };
-  std::uint32_t pattern = word_at(3), mask = word_at(5);
+  std::uint32_t pattern = load16_low_first(&operands[3]), mask = load16_low_first(&operands[5]);
   if (settings_.layout.bit_write == HppcLayout::BitWrite::MaskFirst) std::swap(pattern, mask);
   put(address, (value(address, 2) & ~mask) | (pattern & mask), 2);
   return {};
@@ -210,17 +211,14 @@ const std::vector<Setting<HppcPlc>>& HppcPlc::settings() {
   using L = HppcLayout;
   static const std::vector<Setting<HppcPlc>> kSettings = [] {
     std::vector<Setting<HppcPlc>> rows;
-    const auto add_of = [&](SettingForm form, auto part, auto member) {
-      rows.push_back({std::move(form), [=](const HppcPlc& plc) { return static_cast<std::uint32_t>(part(plc).*member); },
-                      [=](HppcPlc& plc, std::uint32_t value) {
-                        part(plc).*member = static_cast<std::remove_cvref_t<decltype(part(plc).*member)>>(value);
-                      }});
-    };
+    const auto own = [](auto& plc) -> auto& { return plc.settings_; };
     const auto add = [&](SettingForm form, auto member) {
-      add_of(
-          std::move(form), [](auto& plc) -> auto& { return plc.settings_; }, member);
+      rows.push_back(setting_of<HppcPlc>(std::move(form), own, member));
     };
-    const auto layout = [](auto& plc) -> auto& { return plc.settings_.layout; };
+    const auto add_to_layout = [&](SettingForm form, auto member) {
+      const auto layout = [](auto& plc) -> auto& { return plc.settings_.layout; };
+      rows.push_back(setting_of<HppcPlc>(std::move(form), layout, member));
+    };
     add({"port", "", "where the computer is plugged in", Word, {"sim0", "iop"}}, &S::port);
     add({"run", "", "whether the processor runs", Word, {"running", "stopped"}}, &S::run);
     add({"fcs", "", "frame check: with the odd entry of the document's table, or without", Word, {"document", "polynomial"}},
@@ -231,11 +229,11 @@ const std::vector<Setting<HppcPlc>>& HppcPlc::settings() {
         rows, "H1", [](auto& plc) -> auto& { return plc.settings_.line; });
     add({"search_ms", "H2", "how long after power-up it looks for its line", Decimal, {}, 0, 10'000}, &S::search_ms);
     add({"zero_byte", "H3", "the fifth byte of a message", Word, {"ignored", "checked"}}, &S::zero_byte);
-    add_of({"read_request", "H4", "operands of a read", Word, {"address_and_number", "number"}}, layout, &L::read_request);
-    add_of({"bit_write", "H5", "order of the words of a bit write", Word, {"pattern_first", "mask_first"}}, layout,
-           &L::bit_write);
-    add_of({"monitor_address_bytes", "H6", "of each address of a monitor", Decimal, {}, 3, 4}, layout,
-           &L::monitor_address_bytes);
+    add_to_layout({"read_request", "H4", "operands of a read", Word, {"address_and_number", "number"}}, &L::read_request);
+    add_to_layout({"bit_write", "H5", "order of the words of a bit write", Word, {"pattern_first", "mask_first"}},
+                  &L::bit_write);
+    add_to_layout({"monitor_address_bytes", "H6", "of each address of a monitor", Decimal, {}, 3, 4},
+                  &L::monitor_address_bytes);
     add({"status", "H7", "of a monitor; FF: as the processor and the networks are"}, &S::status);
     add({"errors", "H8", "what is wrong", Word, {"answered", "ignored"}}, &S::errors);
     rows.push_back(

@@ -30,28 +30,32 @@ void LanPlc::wake(Time) { begin_anew(); }
 void LanPlc::hear(const ReceivedCharacter& character) {
   const bool counts = settings_.sync == LanSettings::Sync::Ignored || (sync_high_ && character.start >= sync_since_);
   if (!counts) return;
-  const Time end = character.start + settings_.line.character_time();
+  const Time length = settings_.line.character_time(), end = character.start + length;
+  const Time reply_at = end + settings_.answer_after * length;
   wake_at(end + settings_.gap_ms * kMillisecond);
   switch (reader_.take(character)) {
     case MessageReader::State::Wrong:
-      return say(on_line_ ? pc_.refusal() : Bytes{}, end);
+      return answer_or_be_silent(on_line_ ? refusal() : Bytes{}, reply_at);
     case MessageReader::State::Whole: {
       Bytes reply = this->reply(reader_.message());
       begin_anew();
-      return say(std::move(reply), end);
+      return answer_or_be_silent(std::move(reply), reply_at);
     }
     default:
       return;
   }
 }
 
-void LanPlc::say(Bytes reply, Time request_end) {
-  if (!reply.empty()) answer(std::move(reply), request_end + settings_.answer_after * settings_.line.character_time());
-}
-
 Bytes LanPlc::reply(std::span<const std::uint8_t> message) {
   if (static_cast<Opcode>(message[0]) == Opcode::SetUnitAddress) return set_unit_address(message);
-  return on_line_ ? pc_.carry_out(message) : Bytes{};
+  if (!on_line_) return {};
+  Bytes reply = pc_.carry_out(message);
+  return reply.empty() ? refusal() : reply;
+}
+
+Bytes LanPlc::refusal() const {
+  const std::uint8_t code = pc_.settings.error;
+  return code == 0 ? Bytes{} : Bytes{kHighwayError, code};
 }
 
 Bytes LanPlc::set_unit_address(std::span<const std::uint8_t> message) {
@@ -68,11 +72,9 @@ const std::vector<Setting<LanPlc>>& LanPlc::settings() {
   using S = LanSettings;
   static const std::vector<Setting<LanPlc>> kSettings = [] {
     std::vector<Setting<LanPlc>> rows;
+    const auto own = [](auto& plc) -> auto& { return plc.settings_; };
     const auto add = [&](SettingForm form, auto member) {
-      rows.push_back({std::move(form), [=](const LanPlc& plc) { return static_cast<std::uint32_t>(plc.settings_.*member); },
-                      [=](LanPlc& plc, std::uint32_t value) {
-                        plc.settings_.*member = static_cast<std::remove_cvref_t<decltype(plc.settings_.*member)>>(value);
-                      }});
+      rows.push_back(setting_of<LanPlc>(std::move(form), own, member));
     };
     add({"unit", "", "its address, in hex"}, &S::unit);
     add_pc1000_settings(

@@ -35,8 +35,9 @@ class LanPlc final : public PlcOf<LanPlc> {
   /// What a whole message earns; empty for silence.
   Bytes reply(std::span<const std::uint8_t> message);
   Bytes set_unit_address(std::span<const std::uint8_t> message);
+  /// Silence, or what is answered instead of it [L8].
+  Bytes refusal() const;
   void begin_anew();
-  void say(Bytes reply, Time request_end);
 
   LanSettings settings_;
   Pc1000 pc_;

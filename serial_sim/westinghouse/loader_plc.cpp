@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "interpreter/base/word_bytes.hpp"
+
 namespace s7200::westinghouse {
 namespace {
 
@@ -168,8 +170,8 @@ bool LoaderPlc::run() {
     case LoaderOpcode::Pointers:
       data_.assign(settings_.head_bytes, 0);
       for (const std::uint16_t pointer : kPointers) {
-        data_.push_back(static_cast<std::uint8_t>(pointer >> 8));
-        data_.push_back(static_cast<std::uint8_t>(pointer & 0xFF));
+        data_.push_back(high_byte(pointer));
+        data_.push_back(low_byte(pointer));
       }
       data_.resize(data_.size() + settings_.tail_bytes);
       return arguments_.empty();
@@ -212,7 +214,7 @@ bool LoaderPlc::describe_block() {
   if (arguments_.size() != 2 || arguments_[0] != kDataBlocks) return false;
   const std::uint16_t address = word(kDirectory + 2U * arguments_[1]);
   if (address < kBlockHeader) return false;
-  data_ = {0, static_cast<std::uint8_t>(address >> 8), static_cast<std::uint8_t>(address & 0xFF)};
+  data_ = {0, high_byte(address), low_byte(address)};
   add_memory(address - kBlockHeader, kBlockHeader);
   return true;
 }
@@ -222,12 +224,9 @@ const std::vector<Setting<LoaderPlc>>& LoaderPlc::settings() {
   using S = LoaderSettings;
   static const std::vector<Setting<LoaderPlc>> kSettings = [] {
     std::vector<Setting<LoaderPlc>> rows;
+    const auto own = [](auto& plc) -> auto& { return plc.settings_; };
     const auto add = [&](SettingForm form, auto member) {
-      rows.push_back({std::move(form),
-                      [=](const LoaderPlc& plc) { return static_cast<std::uint32_t>(plc.settings_.*member); },
-                      [=](LoaderPlc& plc, std::uint32_t value) {
-                        plc.settings_.*member = static_cast<std::remove_cvref_t<decltype(plc.settings_.*member)>>(value);
-                      }});
+      rows.push_back(setting_of<LoaderPlc>(std::move(form), own, member));
     };
     add_line_settings(
         rows, "", [](auto& plc) -> auto& { return plc.settings_.line; });

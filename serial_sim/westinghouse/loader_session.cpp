@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "interpreter/base/word_bytes.hpp"
 #include "serial_sim/line/frame.hpp"
 
 namespace s7200::westinghouse {
@@ -14,9 +15,6 @@ using Data = std::span<const std::uint8_t>;
 
 constexpr int kArguments = 3, kDataStep = 4;
 constexpr std::array<std::uint8_t, 2> kAcknowledge{kDle, kAck}, kRefusal{kDle, kNak}, kEndOfData{kDle, kEtx};
-
-std::uint8_t low(std::size_t word) { return static_cast<std::uint8_t>(word & 0xFF); }
-std::uint8_t high(std::size_t word) { return static_cast<std::uint8_t>(word >> 8 & 0xFF); }
 
 bool begins_with(Data text, Data beginning) {
   return text.size() >= beginning.size() && std::ranges::equal(text.first(beginning.size()), beginning);
@@ -44,11 +42,11 @@ bool has_data(LoaderOpcode opcode) { return opcode != LoaderOpcode::Write; }
 
 LoaderOperation loader_read(std::uint16_t first, std::size_t count) {
   const std::size_t last = first + count - 1;
-  return {LoaderOpcode::Read, {high(first), low(first), high(last), low(last)}, kReadHead + count};
+  return {LoaderOpcode::Read, {high_byte(first), low_byte(first), high_byte(last), low_byte(last)}, kReadHead + count};
 }
 
 LoaderOperation loader_write(std::uint16_t first, std::span<const std::uint8_t> data) {
-  LoaderOperation operation{LoaderOpcode::Write, {high(first), low(first)}, 0};
+  LoaderOperation operation{LoaderOpcode::Write, {high_byte(first), low_byte(first)}, 0};
   operation.arguments.insert(operation.arguments.end(), data.begin(), data.end());
   return operation;
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <span>
 
+#include "interpreter/base/bytes.hpp"
+#include "interpreter/base/word_bytes.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "serial_sim/modbus/functions.hpp"
 
@@ -19,24 +21,19 @@ constexpr std::uint8_t kExtendedMemory = 0x33;
 constexpr std::uint32_t kMemoryBytes = 0x20000, kWords = 0x10000;
 constexpr unsigned kStatusRegister = 6;  // function 7 on NCMZ
 
-/// The functions of each model, without 7 [M1].
+constexpr std::uint8_t kOfPc503[]{1, 2, 3, 5, 6, 8, 15, 16};
+constexpr std::uint8_t kOfPc1200[]{1, 2, 3, 4, 5, 6, 7, 8, 15, 16, 17, 20, 21};
+constexpr std::uint8_t kOfPc2000[]{1, 2, 3, 4, 5, 6, 8, 16};
+constexpr std::uint8_t kOfNcmz[]{1, 2, 3, 4, 5, 6, 7, 8, 16};
+constexpr std::uint8_t kOfHppc[]{1, 2, 3, 4, 5, 6, 8, 15, 16};
+
+/// In the order of Model. [M1] is in supports().
 struct ModelRow {
   std::string_view word;
-  std::array<std::uint8_t, 12> functions;
+  std::span<const std::uint8_t> functions;
 };
-constexpr std::array kModels{
-    ModelRow{"pc503", {1, 2, 3, 5, 6, 8, 15, 16}},
-    ModelRow{"pc1200", {1, 2, 3, 4, 5, 6, 8, 15, 16, 17, 20, 21}},
-    ModelRow{"pc1250", {1, 2, 3, 4, 5, 6, 8, 15, 16, 17, 20, 21}},
-    ModelRow{"pc2000", {1, 2, 3, 4, 5, 6, 8, 16}},
-    ModelRow{"ncmz", {1, 2, 3, 4, 5, 6, 8, 16}},
-    ModelRow{"hppc", {1, 2, 3, 4, 5, 6, 8, 15, 16}},
-};
-
-unsigned word_at(std::span<const std::uint8_t> bytes, std::size_t place) { return bytes[place] * 256U + bytes[place + 1]; }
-
-std::uint8_t low(unsigned word) { return static_cast<std::uint8_t>(word & 0xFF); }
-std::uint8_t high(unsigned word) { return static_cast<std::uint8_t>(word >> 8 & 0xFF); }
+constexpr std::array kModels{ModelRow{"pc503", kOfPc503},   ModelRow{"pc1200", kOfPc1200}, ModelRow{"pc1250", kOfPc1200},
+                             ModelRow{"pc2000", kOfPc2000}, ModelRow{"ncmz", kOfNcmz},     ModelRow{"hppc", kOfHppc}};
 
 Bytes exception(std::span<const std::uint8_t> pdu, std::uint8_t code) {
   return {static_cast<std::uint8_t>(pdu[0] | modbus::kExceptionFlag), code};
@@ -74,14 +71,14 @@ void ModbusPlc::restart(Time) {
   damaged_ = false;
 }
 
+/// [M1] Section 4.1 gives function 7 to the HPPC, section 4.2.2, which the rows follow, to NCMZ.
 bool ModbusPlc::supports(std::uint8_t function) const {
-  if (function == static_cast<std::uint8_t>(Function::ReadExceptionStatus)) {
-    const bool by_41 = settings_.function_7 == ModbusSettings::Function7::Section41;
-    return settings_.plc == Model::Pc1200 || settings_.plc == Model::Pc1250 ||
-           settings_.plc == (by_41 ? Model::Hppc : Model::Ncmz);
+  const bool by_41 = settings_.function_7 == ModbusSettings::Function7::Section41;
+  if (by_41 && function == static_cast<std::uint8_t>(Function::ReadExceptionStatus)) {
+    if (settings_.plc == Model::Ncmz) return false;
+    if (settings_.plc == Model::Hppc) return true;
   }
-  const auto& row = kModels[static_cast<std::size_t>(settings_.plc)].functions;
-  return function != 0 && std::ranges::find(row, function) != row.end();
+  return std::ranges::count(kModels[static_cast<std::size_t>(settings_.plc)].functions, function) != 0;
 }
 
 bool ModbusPlc::carries_out_broadcast(std::uint8_t function) const {
@@ -138,11 +135,11 @@ std::uint8_t ModbusPlc::fault_of_range(bool quantity_right, unsigned address, un
 Bytes ModbusPlc::read_bits(Data pdu) {
   if (pdu.size() != 5) return {};
   const bool coils = pdu[0] == static_cast<std::uint8_t>(Function::ReadCoils);
-  const unsigned address = word_at(pdu, 1), count = word_at(pdu, 3);
+  const unsigned address = load16(&pdu[1]), count = load16(&pdu[3]);
   const unsigned size = coils ? settings_.coils : settings_.inputs;
   if (const auto code = fault_of_range(count >= 1 && count <= settings_.most_read_bits, address, count, size))
     return exception(pdu, code);
-  Bytes reply{pdu[0], low((count + 7) / 8)};
+  Bytes reply{pdu[0], low_byte((count + 7) / 8)};
   reply.resize(2 + reply[1]);
   const unsigned first = address - settings_.first_address + 1;
   for (unsigned bit = 0; bit < count; ++bit)
@@ -158,22 +155,22 @@ std::uint16_t ModbusPlc::register_at(unsigned address) const {
 Bytes ModbusPlc::read_registers(Data pdu) {
   if (pdu.size() != 5) return {};
   const bool holding = pdu[0] == static_cast<std::uint8_t>(Function::ReadHoldingRegisters);
-  const unsigned address = word_at(pdu, 1), count = word_at(pdu, 3);
+  const unsigned address = load16(&pdu[1]), count = load16(&pdu[3]);
   const unsigned size = holding ? settings_.holding_registers : settings_.input_registers;
   if (const auto code = fault_of_range(count >= 1 && count <= settings_.most_registers, address, count, size))
     return exception(pdu, code);
-  Bytes reply{pdu[0], low(2 * count)};
+  Bytes reply{pdu[0], low_byte(2 * count)};
   for (unsigned place = address; place < address + count; ++place) {
     const unsigned value = holding ? register_at(place) : input_registers_.read(place - settings_.first_address + 1);
-    reply.push_back(high(value));
-    reply.push_back(low(value));
+    reply.push_back(high_byte(value));
+    reply.push_back(low_byte(value));
   }
   return reply;
 }
 
 Bytes ModbusPlc::write_coil(Data pdu) {
   if (pdu.size() != 5) return {};
-  const unsigned address = word_at(pdu, 1), value = word_at(pdu, 3);
+  const unsigned address = load16(&pdu[1]), value = load16(&pdu[3]);
   if (const auto code = fault_of_range(value == 0 || value == 0xFF00, address, 1, settings_.coils))
     return exception(pdu, code);
   coils_.write(address - settings_.first_address + 1, value != 0 ? 1 : 0);
@@ -183,20 +180,20 @@ Bytes ModbusPlc::write_coil(Data pdu) {
 Bytes ModbusPlc::write_register(Data pdu) {
   if (pdu.size() != 5) return {};
   const bool anywhere = settings_.plc == Model::Ncmz && settings_.ncmz_preset == ModbusSettings::NcmzPreset::Memory;
-  const unsigned address = word_at(pdu, 1);
+  const unsigned address = load16(&pdu[1]);
   const unsigned size = anywhere ? kWords - settings_.holding_word : settings_.holding_registers;
   if (const auto code = fault_of_range(true, address, 1, size)) return exception(pdu, code);
-  words_.write(settings_.holding_word + address - settings_.first_address, static_cast<std::uint16_t>(word_at(pdu, 3)));
+  words_.write(settings_.holding_word + address - settings_.first_address, load16(&pdu[3]));
   return begin_of(pdu, pdu.size());
 }
 
 Bytes ModbusPlc::status(Data pdu) const {
   if (pdu.size() != 1) return {};
   if (settings_.exception != 0) return exception(pdu, settings_.exception);
-  if (settings_.plc == Model::Ncmz) return {pdu[0], low(words_.read(settings_.holding_word + kStatusRegister - 1))};
+  if (settings_.plc == Model::Ncmz) return {pdu[0], low_byte(words_.read(settings_.holding_word + kStatusRegister - 1))};
   unsigned bits = 0;
   for (unsigned bit = 0; bit < 8; ++bit) bits |= static_cast<unsigned>(coils_.read(settings_.status_coil + bit)) << bit;
-  return {pdu[0], low(bits)};
+  return {pdu[0], low_byte(bits)};
 }
 
 /// Any four bytes come back: no loopback code is interpreted.
@@ -207,7 +204,7 @@ Bytes ModbusPlc::loopback(Data pdu) const {
 
 Bytes ModbusPlc::write_coils(Data pdu) {
   if (pdu.size() < 6) return {};
-  const unsigned address = word_at(pdu, 1), count = word_at(pdu, 3);
+  const unsigned address = load16(&pdu[1]), count = load16(&pdu[3]);
   const bool fits = pdu[5] == (count + 7) / 8 && pdu.size() == 6U + pdu[5];
   const bool right = fits && count >= 1 && count <= settings_.most_written_coils;
   if (const auto code = fault_of_range(right, address, count, settings_.coils)) return exception(pdu, code);
@@ -218,12 +215,12 @@ Bytes ModbusPlc::write_coils(Data pdu) {
 
 Bytes ModbusPlc::write_registers(Data pdu) {
   if (pdu.size() < 6) return {};
-  const unsigned address = word_at(pdu, 1), count = word_at(pdu, 3);
+  const unsigned address = load16(&pdu[1]), count = load16(&pdu[3]);
   const bool fits = pdu[5] == 2 * count && pdu.size() == 6U + pdu[5];
   const bool right = fits && count >= 1 && count <= settings_.most_registers;
   if (const auto code = fault_of_range(right, address, count, settings_.holding_registers)) return exception(pdu, code);
   const unsigned first = settings_.holding_word + address - settings_.first_address;
-  for (unsigned i = 0; i < count; ++i) words_.write(first + i, static_cast<std::uint16_t>(word_at(pdu, 6 + 2 * i)));
+  for (unsigned i = 0; i < count; ++i) words_.write(first + i, load16(&pdu[6 + 2 * i]));
   return begin_of(pdu, 5);
 }
 
@@ -235,17 +232,17 @@ Bytes ModbusPlc::slave_id(Data pdu) const {
   if (settings_.slave_id_layout == ModbusSettings::Layout::Aligned) reply.push_back(0);
   const bool high_first = settings_.slave_id_order == ModbusSettings::ByteOrder::HighFirst;
   for (const std::uint16_t word : {settings_.err, settings_.mode_chg}) {
-    reply.push_back(high_first ? high(word) : low(word));
-    reply.push_back(high_first ? low(word) : high(word));
+    reply.push_back(high_first ? high_byte(word) : low_byte(word));
+    reply.push_back(high_first ? low_byte(word) : high_byte(word));
   }
-  reply[1] = low(static_cast<unsigned>(reply.size()) - 2);
+  reply[1] = low_byte(static_cast<unsigned>(reply.size()) - 2);
   return reply;
 }
 
 std::uint8_t ModbusPlc::memory_byte(std::uint32_t address) const {
   const std::uint16_t word = words_.read(address / 2);
   const bool is_low = (address % 2 == 0) == (settings_.memory_order == ModbusSettings::ByteOrder::LowFirst);
-  return is_low ? low(word) : high(word);
+  return is_low ? low_byte(word) : high_byte(word);
 }
 
 void ModbusPlc::set_memory_byte(std::uint32_t address, std::uint8_t value) {
@@ -258,8 +255,8 @@ Bytes ModbusPlc::general(Data pdu) {
   constexpr std::size_t kHead = 9;  // function, byte count, reference type, segment, offset, number
   if (pdu.size() < kHead) return {};
   const bool reads = pdu[0] == static_cast<std::uint8_t>(Function::ReadFileRecord);
-  const unsigned count = word_at(pdu, 7), carried = reads ? 0 : count;
-  const std::uint32_t first = word_at(pdu, 3) * settings_.segment_bytes + word_at(pdu, 5);
+  const unsigned count = load16(&pdu[7]), carried = reads ? 0 : count;
+  const std::uint32_t first = std::uint32_t{load16(&pdu[3])} * settings_.segment_bytes + load16(&pdu[5]);
   const bool fits = pdu[1] == kHead - 2 + carried && pdu.size() == kHead + carried;
   const bool right = fits && count >= 1 && count <= settings_.most_bytes;
   const bool inside = pdu[2] == kExtendedMemory && first + count <= kMemoryBytes;
@@ -271,9 +268,9 @@ Bytes ModbusPlc::general(Data pdu) {
     for (unsigned i = 0; i < count; ++i) set_memory_byte(first + i, pdu[kHead + i]);
     return begin_of(pdu, pdu.size());
   }
-  Bytes reply{pdu[0], low(count)};
+  Bytes reply{pdu[0], low_byte(count)};
   if (settings_.read_answer == ModbusSettings::ReadAnswer::Record)
-    reply = {pdu[0], low(count + 2), low(count + 1), kExtendedMemory};
+    reply = {pdu[0], low_byte(count + 2), low_byte(count + 1), kExtendedMemory};
   for (unsigned i = 0; i < count; ++i) reply.push_back(memory_byte(first + i));
   return reply;
 }
@@ -283,12 +280,9 @@ const std::vector<Setting<ModbusPlc>>& ModbusPlc::settings() {
   using S = ModbusSettings;
   static const std::vector<Setting<ModbusPlc>> kSettings = [] {
     std::vector<Setting<ModbusPlc>> rows;
+    const auto own = [](auto& plc) -> auto& { return plc.settings_; };
     const auto add = [&](SettingForm form, auto member) {
-      rows.push_back({std::move(form),
-                      [=](const ModbusPlc& plc) { return static_cast<std::uint32_t>(plc.settings_.*member); },
-                      [=](ModbusPlc& plc, std::uint32_t value) {
-                        plc.settings_.*member = static_cast<std::remove_cvref_t<decltype(plc.settings_.*member)>>(value);
-                      }});
+      rows.push_back(setting_of<ModbusPlc>(std::move(form), own, member));
     };
     std::vector<std::string_view> models;
     for (const ModelRow& row : kModels) models.push_back(row.word);
@@ -341,9 +335,9 @@ const std::vector<Setting<ModbusPlc>>& ModbusPlc::settings() {
 const std::vector<Cells<ModbusPlc>>& ModbusPlc::cells() {
   static const std::vector<Cells<ModbusPlc>> kCells{
       {"CR", false, 1, UINT16_MAX, 1, "coils", [](const ModbusPlc& plc, std::uint32_t n) { return plc.coils_.read(n); },
-       [](ModbusPlc& plc, std::uint32_t n, std::uint32_t value) { plc.coils_.write(n, low(value)); }},
+       [](ModbusPlc& plc, std::uint32_t n, std::uint32_t value) { plc.coils_.write(n, low_byte(value)); }},
       {"IN", false, 1, UINT16_MAX, 1, "inputs", [](const ModbusPlc& plc, std::uint32_t n) { return plc.inputs_.read(n); },
-       [](ModbusPlc& plc, std::uint32_t n, std::uint32_t value) { plc.inputs_.write(n, low(value)); }},
+       [](ModbusPlc& plc, std::uint32_t n, std::uint32_t value) { plc.inputs_.write(n, low_byte(value)); }},
       {"HR", false, 1, UINT16_MAX, UINT16_MAX, "holding registers",
        [](const ModbusPlc& plc, std::uint32_t n) { return plc.words_.read(plc.settings_.holding_word + n - 1); },
        [](ModbusPlc& plc, std::uint32_t n, std::uint32_t value) {

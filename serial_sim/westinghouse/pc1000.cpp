@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "interpreter/base/word_bytes.hpp"
+
 namespace s7200::westinghouse {
 namespace {
 
@@ -11,9 +13,7 @@ constexpr std::uint32_t kRegisters = 2048;
 constexpr std::uint8_t kFaultMode = 8;
 constexpr std::size_t kCount = 3;  // place of the number of bytes minus one, or of the bit
 
-std::uint16_t address_of(std::span<const std::uint8_t> message) {
-  return static_cast<std::uint16_t>(message[1] | message[2] << 8);
-}
+std::uint16_t address_of(std::span<const std::uint8_t> message) { return load16_low_first(&message[1]); }
 
 Bytes header_of(std::span<const std::uint8_t> message) { return {message.begin(), message.begin() + kMessageLength}; }
 
@@ -50,26 +50,25 @@ MessageReader::State MessageReader::take(const ReceivedCharacter& character) {
   return length == 0 || message_.size() < length ? State::Part : State::Whole;
 }
 
-Bytes Pc1000::refusal() const { return settings.error == 0 ? Bytes{} : Bytes{kHighwayError, settings.error}; }
-
 std::uint8_t Pc1000::key_byte() const {
   const unsigned position = 1U << static_cast<unsigned>(settings.key);
-  return static_cast<std::uint8_t>(static_cast<unsigned>(settings.key_upper_bits) << 4 | position | (settings.fault != 0 ? kFaultMode : 0));
+  return static_cast<std::uint8_t>(static_cast<unsigned>(settings.key_upper_bits) << 4 | position |
+                                   (settings.fault != 0 ? kFaultMode : 0));
 }
 
 Bytes Pc1000::carry_out(Data message) {
   // What the messages have at the place of no operand is 00 in all of them.
   switch (static_cast<Opcode>(message[0])) {
     case Opcode::ReadBlock:
-      return message[4] == 0 ? read(message) : refusal();
+      return message[4] == 0 ? read(message) : Bytes{};
     case Opcode::WriteBlock:
-      return message[4] == 0 ? write(message) : refusal();
+      return message[4] == 0 ? write(message) : Bytes{};
     case Opcode::BitWrite:
-      return message[4] == 0 ? write_bit(message) : refusal();
+      return message[4] == 0 ? write_bit(message) : Bytes{};
     case Opcode::Erase:
       return erase(message);
     default:
-      return refusal();
+      return {};
   }
 }
 
@@ -99,7 +98,7 @@ std::uint8_t Pc1000::data_check(Data data) const {
 
 Bytes Pc1000::read(Data message) const {
   const auto first = first_byte(message);
-  if (!first) return refusal();
+  if (!first) return {};
   Bytes reply = header_of(message);
   for (std::uint32_t i = 0; i <= message[kCount]; ++i) reply.push_back(byte(*first + i));
   reply.push_back(data_check(std::span(reply).subspan(kMessageLength)));
@@ -110,7 +109,7 @@ Bytes Pc1000::write(Data message) {
   const auto first = first_byte(message);
   const bool allowed = settings.write == Pc1000Settings::WriteIn::Always || settings.key != Pc1000Settings::Key::Protect;
   const Data data = message.subspan(kMessageLength, message[kCount] + 1U);
-  if (!first || !allowed || data_check(data) != message.back()) return refusal();
+  if (!first || !allowed || data_check(data) != message.back()) return {};
   for (std::uint32_t i = 0; i < data.size(); ++i) set_byte(*first + i, data[i]);
   return header_of(message);
 }
@@ -119,7 +118,7 @@ Bytes Pc1000::write_bit(Data message) {
   const std::uint8_t nibble = message[kCount] >> 4, bit = message[kCount] & 0xF;
   const bool sets = nibble == settings.set_nibble;
   const bool allowed = settings.write == Pc1000Settings::WriteIn::Always || settings.key != Pc1000Settings::Key::Protect;
-  if ((!sets && nibble != 0) || !allowed) return refusal();
+  if ((!sets && nibble != 0) || !allowed) return {};
   const std::uint16_t address = address_of(message);
   const unsigned word = words.read(address), mask = 1U << bit;
   words.write(address, static_cast<std::uint16_t>(sets ? word | mask : word & ~mask));
@@ -133,7 +132,7 @@ Bytes Pc1000::erase(Data message) {
   if (settings.plc == Pc1000Settings::Model::Pc1100 || settings.key != Pc1000Settings::Key::Stop ||
       !std::ranges::equal(message.subspan(1, kOperands.size()), kOperands) ||
       !std::ranges::equal(message.subspan(kMessageLength), erase_key()))
-    return refusal();
+    return {};
   if (settings.erases == Pc1000Settings::Erases::Memory)
     words.clear();
   else

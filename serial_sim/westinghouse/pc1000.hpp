@@ -29,8 +29,8 @@ struct Pc1000Settings {
   DataCheck data_check = DataCheck::Sum;   ///< [L4]
   std::uint8_t key_upper_bits = 0;         ///< [L5]
   std::uint8_t set_nibble = 1;             ///< [L6] of a bit write that sets; 0 resets
-  Addresses addresses = Addresses::Words;  ///< [L7]
-  std::uint8_t error = 0;                  ///< [L8] answered as FF and this; 0: silence
+  Addresses addresses = Addresses::Words;  ///< [L7] of blocks; those of bits are words, as that of the retest is said to be
+  std::uint8_t error = 0;                  ///< [L8] code of what is answered to what is wrong or refused; 0: silence
   RetestIn retest = RetestIn::Stop;        ///< [L9]
   WriteIn write = WriteIn::Always;         ///< [L9]
   Erases erases = Erases::Memory;          ///< [L9]
@@ -43,17 +43,14 @@ class Pc1000 {
   /// How many bytes a message has that begins like this: six or more; 0 if no opcode has this number.
   static std::size_t length(std::span<const std::uint8_t> begin);
 
-  /// Does what a whole message says, and returns the answer; empty for silence. Set unit address and the highway's commands
-  /// are not for the PLC.
+  /// Does what a whole message says, and returns the answer; empty if it is wrong or refused. Set unit address and the
+  /// highway's commands are not for the PLC.
   Bytes carry_out(std::span<const std::uint8_t> message);
 
   /// Whether the check of a message's first six bytes is right.
   static bool check_right(std::span<const std::uint8_t> message);
 
   std::uint8_t key_byte() const;
-
-  /// Silence, or what is answered instead of it [L8].
-  Bytes refusal() const;
 
   Pc1000Settings settings{};
   WordMemory words{};
@@ -100,11 +97,9 @@ template <class Self, class Pc>
 void add_pc1000_settings(std::vector<Setting<Self>>& rows, Pc pc) {
   using enum SettingForm::Notation;
   using S = Pc1000Settings;
+  const auto settings = [pc](auto& plc) -> auto& { return pc(plc).settings; };
   const auto add = [&](SettingForm form, auto member) {
-    rows.push_back({std::move(form), [=](const Self& plc) { return static_cast<std::uint32_t>(pc(plc).settings.*member); },
-                    [=](Self& plc, std::uint32_t value) {
-                      pc(plc).settings.*member = static_cast<std::remove_cvref_t<decltype(pc(plc).settings.*member)>>(value);
-                    }});
+    rows.push_back(setting_of<Self>(std::move(form), settings, member));
   };
   add({"plc", "", "model; a PC1100 does not erase", Word, {"pc1200", "pc1250", "pc1100"}}, &S::plc);
   add({"key", "", "keyswitch", Word, {"stop", "protect", "modify"}}, &S::key);
@@ -113,8 +108,9 @@ void add_pc1000_settings(std::vector<Setting<Self>>& rows, Pc pc) {
   add({"data_check", "L4", "of a block of data", Word, {"sum", "xor"}}, &S::data_check);
   add({"key_upper_bits", "L5", "bits 4 to 7 of the keyswitch byte", Hex, {}, 0, 15}, &S::key_upper_bits);
   add({"set_nibble", "L6", "high nibble of a bit write that sets the bit; 0 resets it", Hex, {}, 1, 15}, &S::set_nibble);
-  add({"addresses", "L7", "what addresses count", Word, {"words", "bytes"}}, &S::addresses);
-  add({"error", "L8", "answered as FF and this to what is wrong or refused; 00 for silence"}, &S::error);
+  add({"addresses", "L7", "what addresses of blocks count; those of bits are words", Word, {"words", "bytes"}},
+      &S::addresses);
+  add({"error", "L8", "code of the error that answers what is wrong or refused; 00 for silence"}, &S::error);
   add({"retest", "L9", "keyswitch that lets a retest clear the fault register", Word, {"stop", "always"}}, &S::retest);
   add({"write", "L9", "keyswitch that lets blocks and bits be written", Word, {"always", "unprotected"}}, &S::write);
   add({"erases", "L9", "what is erased: all memory, or the holding registers 1 to 2048", Word, {"memory", "registers"}},

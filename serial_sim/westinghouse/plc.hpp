@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <ranges>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "serial_sim/peers/automaton.hpp"
@@ -30,19 +32,18 @@ class Plc : public serial::Automaton {
   Plc() = default;
   Plc(const Plc&) = default;
   Plc& operator=(const Plc&) = default;
+
+  /// Says nothing if `reply` is empty.
+  void answer_or_be_silent(Bytes reply, Time at) {
+    if (!reply.empty()) answer(std::move(reply), at);
+  }
 };
 
 /// The line as settings: `baud`, `parity`, `data_bits`, `stop_bits`. `line` is a member of the PLC.
 template <class Self, class Line>
 void add_line_settings(std::vector<Setting<Self>>& rows, std::string_view choice, Line line) {
   using enum SettingForm::Notation;
-  const auto add = [&](SettingForm form, auto member) {
-    rows.push_back({std::move(form), [=](const Self& plc) { return static_cast<std::uint32_t>(line(plc).*member); },
-                    [=](Self& plc, std::uint32_t value) {
-                      using Value = std::remove_reference_t<decltype(line(plc).*member)>;
-                      line(plc).*member = static_cast<Value>(value);
-                    }});
-  };
+  const auto add = [&](SettingForm form, auto member) { rows.push_back(setting_of<Self>(std::move(form), line, member)); };
   add({"baud", choice, "rate of its port", Decimal, {}, 50, 1'000'000}, &SerialFormat::baud);
   add({"parity", choice, "of its characters", Word, {kParityWords.begin(), kParityWords.end()}}, &SerialFormat::parity);
   add({"data_bits", choice, "of its characters", Decimal, {}, 7, 8}, &SerialFormat::data_bits);
@@ -62,12 +63,13 @@ class PlcOf : public Plc {
 
   bool set(std::string_view text, std::string& why) final {
     if (const auto cells = parse_cells(text)) {
-      if (const Cells<Self>* row = find(*cells, why)) {
+      const auto [row, fault] = find(*cells);
+      if (!fault.empty()) return why = fault, false;
+      if (row != nullptr) {
         std::uint32_t place = cells->first;
         for (const std::uint32_t value : cells->values) row->write(self(), place++, value);
         return true;
       }
-      if (!why.empty()) return false;
     }
     const Setting<Self>* setting = nullptr;
     const auto value = parse(text, setting, why);
@@ -77,16 +79,19 @@ class PlcOf : public Plc {
 
   bool holds(std::string_view text, std::string& why) const final {
     if (const auto cells = parse_cells(text)) {
-      if (const Cells<Self>* row = find(*cells, why)) {
+      const auto [row, fault] = find(*cells);
+      if (!fault.empty()) return why = fault, false;
+      if (row != nullptr) {
+        std::string other;
         std::uint32_t place = cells->first;
         for (const std::uint32_t value : cells->values) {
           const std::uint32_t found = row->read(self(), place);
-          if (found != value) why += fmt::format("{} {:X} holds {:X}, not {:X}; ", row->name, place, found, value);
+          if (found != value) other += fmt::format("{} {:X} holds {:X}, not {:X}; ", row->name, place, found, value);
           ++place;
         }
-        return why.empty();
+        if (!other.empty()) why = other;
+        return other.empty();
       }
-      if (!why.empty()) return false;
     }
     const Setting<Self>* setting = nullptr;
     const auto value = parse(text, setting, why);
@@ -102,25 +107,23 @@ class PlcOf : public Plc {
   Self& self() { return static_cast<Self&>(*this); }
   const Self& self() const { return static_cast<const Self&>(*this); }
 
-  /// Null if there are none of this name, and, with `why`, if they do not take the values.
-  static const Cells<Self>* find(const CellsText& text, std::string& why) {
+  struct Found {
+    const Cells<Self>* row = nullptr;  ///< null if there are none of this name
+    std::string fault{};               ///< why they do not take the values
+  };
+  static Found find(const CellsText& text) {
     for (const Cells<Self>& row : Self::cells()) {
       if (row.name != text.name || row.by_address != text.by_address) continue;
       const bool inside =
           text.first >= row.least && text.first <= row.most && text.values.size() <= row.most - text.first + 1;
-      if (!inside) {
-        why = row.by_address ? fmt::format("{}: addresses are from {:X} to {:X}", row.name, row.least, row.most)
-                             : fmt::format("{}: numbers are from {} to {}", row.name, row.least, row.most);
-        return nullptr;
-      }
+      if (!inside)
+        return {&row, row.by_address ? fmt::format("{}: addresses are from {:X} to {:X}", row.name, row.least, row.most)
+                                     : fmt::format("{}: numbers are from {} to {}", row.name, row.least, row.most)};
       for (const std::uint32_t value : text.values)
-        if (value > row.largest) {
-          why = fmt::format("{}: {:X} is more than {:X}", row.name, value, row.largest);
-          return nullptr;
-        }
-      return &row;
+        if (value > row.largest) return {&row, fmt::format("{}: {:X} is more than {:X}", row.name, value, row.largest)};
+      return {&row};
     }
-    return nullptr;
+    return {};
   }
 
   static std::optional<std::uint32_t> parse(std::string_view text, const Setting<Self>*& setting, std::string& why) {
@@ -131,12 +134,13 @@ class PlcOf : public Plc {
         setting = &row;
         return parse_value(row.form, text.substr(equals + 1), why);
       }
-    std::string known;
-    for (const Setting<Self>& row : Self::settings()) known.append(known.empty() ? "" : ", ").append(row.form.name);
-    for (const Cells<Self>& row : Self::cells())
-      known +=
-          fmt::format(", {}", row.by_address ? fmt::format("{}[ADDRESS]", row.name) : fmt::format("{}NUMBER", row.name));
-    why = fmt::format("'{}' is not a setting of this PLC; there are {}", stl::shortened(text), known);
+    const auto name_of = [](const Setting<Self>& row) { return row.form.name; };
+    const auto cell_of = [](const Cells<Self>& row) {
+      return fmt::format("{}{}", row.name, row.by_address ? "[ADDRESS]" : "NUMBER");
+    };
+    why = fmt::format("'{}' is not a setting of this PLC; there are {}, {}", stl::shortened(text),
+                      fmt::join(Self::settings() | std::views::transform(name_of), ", "),
+                      fmt::join(Self::cells() | std::views::transform(cell_of), ", "));
     return {};
   }
 };

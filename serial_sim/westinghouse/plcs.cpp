@@ -12,6 +12,8 @@
 namespace s7200::westinghouse {
 namespace {
 
+constexpr std::string_view kModelSetting = "plc";
+
 template <class Kind>
 std::vector<std::string> settings_of() {
   const Kind bench;
@@ -36,18 +38,19 @@ std::unique_ptr<Plc> make() {
   return std::make_unique<Kind>();
 }
 
+/// The words of its setting `plc`; without one it is the only model.
 template <class Kind>
-PlcRow row(std::string_view name, std::vector<std::string_view> models) {
+PlcRow row(std::string_view name, std::string_view only_model = "") {
+  std::vector<std::string_view> models{only_model};
+  for (const Setting<Kind>& row : Kind::settings())
+    if (row.form.name == kModelSetting) models = row.form.words;
   return {name, std::move(models), make<Kind>, settings_of<Kind>};
 }
 
 const std::vector<PlcRow>& rows() {
   static const std::vector<PlcRow> kRows{
-      row<ModbusPlc>("modbus", {"pc503", "pc1200", "pc1250", "pc2000", "ncmz", "hppc"}),
-      row<LanPlc>("lan", {"pc1200", "pc1250", "pc1100"}),
-      row<HppcPlc>("hppc", {"hppc"}),
-      row<LoaderPlc>("loader", {"pc503"}),
-      row<WestnetPlc>("westnet", {"pc1200", "pc1250", "pc1100"}),
+      row<ModbusPlc>("modbus"),          row<LanPlc>("lan"),         row<HppcPlc>("hppc", "hppc"),
+      row<LoaderPlc>("loader", "pc503"), row<WestnetPlc>("westnet"),
   };
   return kRows;
 }
@@ -68,7 +71,7 @@ std::unique_ptr<Plc> make_plc(const PlcRow& row, std::string_view model, std::st
     return nullptr;
   }
   std::unique_ptr<Plc> plc = row.make();
-  if (row.models.size() > 1 && !plc->set(fmt::format("plc={}", model), why)) return nullptr;
+  if (row.models.size() > 1 && !plc->set(fmt::format("{}={}", kModelSetting, model), why)) return nullptr;
   return plc;
 }
 

@@ -31,12 +31,6 @@ std::optional<std::uint32_t> parse_drop(std::string_view text) {
   return *highway << 16 | *drop << 8 | *subdrop;
 }
 
-std::string words_text(const SettingForm& form) {
-  std::string text;
-  for (const std::string_view word : form.words) text.append(text.empty() ? "" : ", ").append(word);
-  return text;
-}
-
 std::optional<std::uint32_t> parse_as(const SettingForm& form, std::string_view text) {
   using enum SettingForm::Notation;
   switch (form.notation) {
@@ -64,7 +58,7 @@ std::optional<std::uint32_t> parse_value(const SettingForm& form, std::string_vi
     return value;
   const std::string shown = stl::shortened(text);
   if (form.notation == Word)
-    why = fmt::format("{}: '{}' is not one of {}", form.name, shown, words_text(form));
+    why = fmt::format("{}: '{}' is not one of {}", form.name, shown, fmt::join(form.words, ", "));
   else if (form.notation == Drop)
     why = fmt::format("{}: '{}' is not a drop; write highway, drop and subdrop in hex: 00.11.00", form.name, shown);
   else

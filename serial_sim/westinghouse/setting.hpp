@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "interpreter/base/serial_format.hpp"
@@ -43,6 +45,14 @@ struct Setting {
   std::function<std::uint32_t(const Plc&)> get;
   std::function<void(Plc&, std::uint32_t)> set;
 };
+
+/// Of `part(plc).*member`: a number, or an enumeration in the order of the words.
+template <class Plc, class Part, class Member>
+Setting<Plc> setting_of(SettingForm form, Part part, Member member) {
+  using Value = std::remove_cvref_t<decltype(part(std::declval<Plc&>()).*member)>;
+  return {std::move(form), [=](const Plc& plc) { return static_cast<std::uint32_t>(part(plc).*member); },
+          [=](Plc& plc, std::uint32_t value) { part(plc).*member = static_cast<Value>(value); }};
+}
 
 /// Memory of a PLC that texts name.
 template <class Plc>

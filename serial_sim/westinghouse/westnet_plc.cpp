@@ -30,32 +30,26 @@ void WestnetPlc::restart(Time) {
 }
 
 void WestnetPlc::hear(const ReceivedCharacter& character) {
-  const Time end = character.start + settings_.line.character_time();
+  const Time length = settings_.line.character_time(), end = character.start + length;
+  const Time reply_at = end + settings_.answer_after * length;
   wake_at(end + settings_.gap_ms * kMillisecond);
   switch (reader_.take(character)) {
     case MessageReader::State::Wrong:
-      return say(malformed(), end);
+      return answer_or_be_silent(error(settings_.malformed), reply_at);
     case MessageReader::State::Whole: {
       Bytes reply = this->reply(reader_.message());
       wake(end);
-      return say(std::move(reply), end);
+      return answer_or_be_silent(std::move(reply), reply_at);
     }
     default:
       return;
   }
 }
 
-void WestnetPlc::say(Bytes reply, Time request_end) {
-  if (!reply.empty()) answer(std::move(reply), request_end + settings_.answer_after * settings_.line.character_time());
-}
-
 Bytes WestnetPlc::error(std::uint8_t code) {
+  if (code == kNoError) return {};
   status_ = code;
   return {settings_.error_byte, code};
-}
-
-Bytes WestnetPlc::malformed() const {
-  return settings_.malformed == 0 ? Bytes{} : Bytes{settings_.error_byte, settings_.malformed};
 }
 
 std::uint8_t WestnetPlc::fault_of_plc() const { return settings_.remote == settings_.plc_at ? kNoError : kInvalidDrop; }
@@ -69,12 +63,12 @@ Bytes WestnetPlc::reply(Data message) {
   const auto opcode = static_cast<Opcode>(message[0]);
   if (opcode == Opcode::Highway) return highway(message);
   const bool block = opcode == Opcode::ReadBlock || opcode == Opcode::WriteBlock;
-  if (!block && opcode != Opcode::BitWrite) return malformed();
+  if (!block && opcode != Opcode::BitWrite) return error(settings_.malformed);
   if (const std::uint8_t code = fault_of_plc()) return error(code);
   if (block && message[3] >= kMostBytes) return error(kInvalidSize);
   if (const std::uint8_t code = fault_of_session()) return error(code);
   Bytes reply = pc_.carry_out(message);
-  if (reply.empty()) return malformed();
+  if (reply.empty()) return error(pc_.settings.error != kNoError ? pc_.settings.error : settings_.malformed);
   status_ = kNoError;
   return reply;
 }
@@ -82,7 +76,7 @@ Bytes WestnetPlc::reply(Data message) {
 Bytes WestnetPlc::highway(Data message) {
   const auto command = static_cast<HighwayCommand>(message[1]);
   if (command == HighwayCommand::SetAddress) return set_address(message);
-  if (message[2] != 0 || message[3] != 0 || message[4] != 0) return malformed();
+  if (message[2] != 0 || message[3] != 0 || message[4] != 0) return error(settings_.malformed);
   const auto done = [&](std::uint32_t drop) {
     status_ = kNoError;
     return answer_with(command, drop);
@@ -112,7 +106,7 @@ Bytes WestnetPlc::highway(Data message) {
     case HighwayCommand::SetAddress:
       break;
   }
-  return malformed();
+  return error(settings_.malformed);
 }
 
 Bytes WestnetPlc::set_address(Data message) {
@@ -132,12 +126,9 @@ const std::vector<Setting<WestnetPlc>>& WestnetPlc::settings() {
   using S = WestnetSettings;
   static const std::vector<Setting<WestnetPlc>> kSettings = [] {
     std::vector<Setting<WestnetPlc>> rows;
+    const auto own = [](auto& plc) -> auto& { return plc.settings_; };
     const auto add = [&](SettingForm form, auto member) {
-      rows.push_back({std::move(form),
-                      [=](const WestnetPlc& plc) { return static_cast<std::uint32_t>(plc.settings_.*member); },
-                      [=](WestnetPlc& plc, std::uint32_t value) {
-                        plc.settings_.*member = static_cast<std::remove_cvref_t<decltype(plc.settings_.*member)>>(value);
-                      }});
+      rows.push_back(setting_of<WestnetPlc>(std::move(form), own, member));
     };
     add({"local", "", "drop of the computer", Drop}, &S::local);
     add({"plc_at", "", "drop of the PLC", Drop}, &S::plc_at);

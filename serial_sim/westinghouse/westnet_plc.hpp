@@ -54,9 +54,8 @@ class WestnetPlc final : public PlcOf<WestnetPlc> {
   std::uint8_t fault_of_plc() const;
   std::uint8_t fault_of_session() const;
   std::uint8_t busy() const { return settings_.busy_code == WestnetSettings::BusyCode::Hex ? 0x12 : 12; }
+  /// What the status of the highway shows from then on; silence if there is no code.
   Bytes error(std::uint8_t code);
-  Bytes malformed() const;
-  void say(Bytes reply, Time request_end);
 
   WestnetSettings settings_;
   Pc1000 pc_;

@@ -186,6 +186,88 @@ class Verbs(Case):
                          {"requests": 8, "answered": 7, "need_no_answer": 1, "wrong": 0, "strays": 0})
         self.assertIn("neither in .vcd", self.ends(UNUSABLE, "master", "westinghouse:pc1200", "slave-id", "--capture", "x.txt").stderr)
 
+    # Every action of each protocol, and what nobody answers.
+    RECORDED = {
+        "modbus": ("westinghouse:pc1200",
+                   ["read", "40001:3", "00001:9", "10001", "30001", "write", "40001=5", "40001=1,2", "00001=on", "00001=1,0,1", "loopback", "1",
+                    "diagnostics", "2", "exception-status", "slave-id", "general-read", "0:0:2", "general-write", "0:0=1,2", "read", "49999",
+                    "function", "65", "00"],
+                   ["station", "9", "read", "40001", "write", "40001=5", "loopback", "5"]),
+        "freeport-pc": ("stl_programs/freeport_host_slave.stl", ["read", "VB100:4", "MB8", "IB0", "write", "VB100=1,2"], ["station", "9", "read", "VB1"]),
+        "pc1000-lan": ("westinghouse:pc1200",
+                       ["unit", "5", "write", "16#4000=16#1234,-1", "read", "16#4000:2", "set", "16#4000.0", "reset", "16#4000.2", "retest", "unit",
+                        "erase", "read", "16#4000"], ["unit", "6"]),
+        "westnet": ("westinghouse:pc1200",
+                    ["local", "address", "17", "session", "open", "write", "0=16#1234", "read", "0", "set", "0.1", "reset", "0.1", "retest", "close",
+                     "remote", "status"], []),
+        "pc500-loader": ("westinghouse:pc503", ["read", "QB0:2", "write", "QB1=16,3", "read", "QB1:2", "block", "1", "blocks", "parameters"], []),
+        "hppc": ("westinghouse:hppc",
+                 ["write-register", "1=16#1234,5", "read-register", "1:2", "write", "16#ABFFC=1,2", "read", "16#ABFFC:4", "bits",
+                  "16#ABFFE=16#F000/16#FF00", "monitor", "w:16#ABFFE", "b:16#ABFFC", "resync", "parameters", "0", "read", "16#FFFFF:2"], []),
+        "ppi": ("idle.stl",
+                ["read", "VB100:4", "VW100:2", "VD20:real", "M31.7", "QB0", "SMB0", "AIW0", "T37", "C5", "write", "VB100=65,66", "VW100=-5",
+                 "M31.7=1", "C5=0", "stop", "run", "set-clock", "2026-11-22T15:45:30", "clock", "status"], ["station", "9", "read", "VB0"])}
+
+    def recorded(self, protocol, words, *options):
+        """What the master says of its exchanges, and what its capture says."""
+        target = self.RECORDED[protocol][0]
+        if target.endswith(".stl"):
+            target = self.program("LD SM0.0\nMOVW VW0, VW2\nMEND\n", target) if protocol == "ppi" else SOURCE / target
+        options = (*options, *(("--cpu", 226) if protocol == "freeport-pc" else ()))
+        capture = self.folder / f"{protocol}.pcap"
+        done = s7200("master", target, "--protocol", protocol, *words, *options, "--json", "--capture", capture)
+        self.assertLess(done.returncode, UNUSABLE, done.stderr)
+        return json.loads(done.stdout)["exchanges"], self.json(FINE, "decode", capture, "--protocol", protocol, "--json"), capture
+
+    def test_a_capture_says_of_every_action_what_the_master_said(self):
+        for protocol, (_, words, _) in self.RECORDED.items():
+            for options in ([], ["--pause", "0ms"]):
+                with self.subTest(protocol=protocol, options=options):
+                    exchanges, decoded, _ = self.recorded(protocol, [*words, *words], *options)
+                    summary = decoded["summary"]
+                    self.assertEqual((summary["wrong"], summary["strays"]), (0, 0), [f["text"] for f in decoded["frames"] if not f["right"]])
+                    self.assertEqual(summary["answered"] + summary["need_no_answer"], summary["requests"])
+                    self.assertEqual({e["verdict"] for e in exchanges} - {"right", "exception"}, set())
+                    self.assertTrue(all(e["attempts"] == 1 or e["verdict"] == "exception" for e in exchanges))
+                    answers = "".join(f["bytes"] for f in decoded["frames"] if f["kind"] == "answer")
+                    for exchange in exchanges:
+                        self.assertIn(exchange["response"], answers)
+                        answers = answers.split(exchange["response"], 1)[1]
+                    if protocol == "pc500-loader":
+                        texts = [frame["text"] for frame in decoded["frames"]]
+                        self.assertEqual((texts.count("begin of a session"), texts.count("session closed")), (len(exchanges), len(exchanges)))
+
+    def test_a_capture_has_every_attempt_as_a_request_and_none_as_its_answer(self):
+        for protocol, (_, words, silent) in self.RECORDED.items():
+            if not silent:
+                continue
+            with self.subTest(protocol):
+                exchanges, decoded, capture = self.recorded(protocol, [*silent, *silent], "--retries", "2", "--timeout", "200ms")
+                summary = decoded["summary"]
+                self.assertEqual({e["verdict"] for e in exchanges}, {"silent"})
+                self.assertEqual([summary[key] for key in ("requests", "answered", "wrong", "strays")], [sum(e["attempts"] for e in exchanges), 0, 0, 0])
+
+    def test_a_capture_with_silence_and_repetition_plays_back_as_it_was(self):
+        for protocol, arguments in (("modbus", ["--program", SLAVE]), ("ppi", ["--program", self.folder / "idle.stl"])):
+            with self.subTest(protocol):
+                _, words, silent = self.RECORDED[protocol]
+                target = SLAVE if protocol == "modbus" else self.program("LD SM0.0\nMOVW VW0, VW2\nMEND\n", "idle.stl")
+                capture, scenario = self.folder / "played.pcap", self.folder / f"{protocol}.yaml"
+                chosen = ["read", "40011:2", "write", "40011=5", "read", "40011"] if protocol == "modbus" else [w for w in words if w != "clock"]
+                s7200("master", target, "--protocol", protocol, *chosen, *silent, "--retries", "1", "--timeout", "200ms", "--capture", capture)
+                done = self.ends(FINE, "import-capture", capture, "--protocol", protocol, *arguments, "-o", scenario)
+                text = scenario.read_text(encoding="utf-8")
+                self.assertIn("expect: silence\n", text, "a read that nobody answers is certain")
+                self.assertEqual("may be its late echo" in text, protocol == "modbus", "and a write is not")
+                self.assertEqual("may be its late echo" in done.stderr, protocol == "modbus")
+                self.ends(FINE, "test", scenario)
+
+    def test_the_masters_timeout_tells_a_late_echo_from_a_request_repeated(self):
+        log = self.program("0.000 01 06 00 00 00 01 48 0a\n0.250 01 06 00 00 00 01 48 0a\n", "late.log")
+        kinds = lambda *options: [frame["kind"] for frame in self.json(FINE, "decode", log, "--json", *options)["frames"]]
+        self.assertEqual(kinds(), ["request", "request"])
+        self.assertEqual(kinds("--timeout", "1s"), ["request", "answer"])
+
     def test_a_capture_of_a_simulated_plc_becomes_a_scenario(self):
         capture, scenario = self.folder / "lan.pcap", self.folder / "lan.yaml"
         self.ends(FINE, "master", "westinghouse:pc1200", "--protocol", "westnet", "address", "17", "write", "5=7", "read", "5", "--capture", capture)
@@ -193,6 +275,25 @@ class Verbs(Case):
         text = scenario.read_text(encoding="utf-8")
         for part in ("- send: 09 00 00 11 00 1a\n", "expect: 05 05 00 01 00 0b 07 00 07\n", "write 2 bytes from word 16#0005 on: 07 00; done"):
             self.assertIn(part, text)
+
+    def test_a_wrong_answer_in_a_recording_is_neither_counted_nor_expected_again(self):
+        log = self.program("0.000 TX 01 03 00 00 00 01 84 0a\n0.020 RX 01 03 02 12 34 b5 34\n", "damaged.log")
+        summary = self.json(FINE, "decode", log, "--json")["summary"]
+        self.assertEqual([summary[key] for key in ("requests", "answered", "wrong", "shortest_latency_us")], [1, 0, 1, None])
+        refused = self.ends(UNUSABLE, "import-capture", log).stderr
+        self.assertIn("line 1: left out: its answer (line 2): wrong CRC", refused)
+        self.assertIn("no request in it that can be asked again", refused)
+        more = self.program(log.read_text(encoding="utf-8") + "0.100 TX 01 03 00 00 00 01 84 0a\n0.120 RX 01 03 02 12 34 b5 33\n", "damaged.log")
+        done = self.ends(FINE, "import-capture", more)
+        self.assertIn("line 1: left out", done.stderr)
+        self.assertEqual(done.stdout.count("- send:"), 1)
+        self.assertIn("expect: 01 03 02 12 34 b5 33\n", done.stdout)
+
+    def test_the_help_of_decode_names_every_form_of_recording(self):
+        said = " ".join(self.ends(FINE, "decode", "--help").stdout.split())
+        for part in ("a recording: pcap, CSV, text;", "pcap of a serial line (link type 147) or of Modbus TCP", "CSV with a frame or a character in each row",
+                     "text logs with a frame or a character in each line", "5 ms without it"):
+            self.assertIn(part, said)
 
     def test_a_simulated_plc_is_run_behind_a_bridge_or_not_at_all(self):
         for arguments, why in ((["westinghouse:pc1200"], "nobody asks westinghouse:pc1200: give it a bridge, such as --pty LINK"),

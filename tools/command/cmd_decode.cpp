@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <ranges>
 #include <stdexcept>
 
 #include "tools/command/commands.hpp"
@@ -69,8 +70,8 @@ void add_decode(CLI::App& app, int& exit_code) {
   options->recording.add_to(*verb);
   verb->add_flag("--json", options->json, "print the frames as JSON");
   verb->footer(
-      "Recordings are pcap of a serial line (link type 147) or of Modbus TCP, CSV, and text logs with a frame in each "
-      "line.\n"
+      fmt::format("Recordings are\n  {}\n",
+                  fmt::join(recording_forms() | std::views::transform(&RecordingForm::meaning), "\n  ")) +
       "A line is listened to until Ctrl-C, and nothing is sent there. Times are those of arrival: a USB adapter delivers up "
       "to\n"
       "16 ms late. Behind a --pty of `s7200 run` only what the simulated line says is heard, not what others ask it.\n"

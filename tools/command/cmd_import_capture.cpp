@@ -19,7 +19,7 @@ namespace {
 
 struct ImportCaptureOptions {
   RecordingOptions recording;
-  PlaybackChoices playback{.tolerance = 5 * kMillisecond};
+  PlaybackChoices choices{.tolerance = 5 * kMillisecond};
   std::string program, output;
   bool force = false, json = false;
 
@@ -36,12 +36,15 @@ std::string seen_from(const std::string& path, const ImportCaptureOptions& optio
 int run_import_capture(const ImportCaptureOptions& options) {
   const auto read = read_conversation(options.recording);
   if (!read) return kUnusable;
-  PlaybackChoices playback = options.playback;
-  playback.name = read->name;
-  playback.program = seen_from(options.program, options);
-  const std::string scenario = scenario_text(read->frames, read->stamps, playback);
+  PlaybackChoices choices = options.choices;
+  choices.name = read->name;
+  choices.program = seen_from(options.program, options);
+  const auto [scenario, notes] = playback(read->frames, read->stamps, choices);
+  print_notes(notes);
   if (scenario.empty())
-    return print_error(fmt::format("{}: no request in it; s7200 decode shows what is", read->name)), kUnusable;
+    return print_error(fmt::format("{}: no request in it{}; s7200 decode shows what is", read->name,
+                                   notes.empty() ? "" : " that can be asked again")),
+           kUnusable;
   const std::string text =
       fmt::format("# Imported from {} by s7200 import-capture. Run by s7200 test{}.\n{}", stl::printable(read->name),
                   options.program.empty() ? " --against TARGET" : "", scenario);
@@ -70,9 +73,9 @@ void add_import_capture(CLI::App& app, int& exit_code) {
       ->type_name("FILE");
   add_whole_number(
       *verb, "--station",
-      [options](std::uint64_t station) { options->playback.station = static_cast<std::uint8_t>(station); }, {0, 255},
+      [options](std::uint64_t station) { options->choices.station = static_cast<std::uint8_t>(station); }, {0, 255},
       "only what this station was asked");
-  add_duration(*verb, "--tolerance", options->playback.tolerance, "by which latencies may differ; 5ms without it");
+  add_duration(*verb, "--tolerance", options->choices.tolerance, "by which latencies may differ; 5ms without it");
   verb->add_option("-o,--output", options->output, "file to write; standard output if not given")->type_name("FILE");
   verb->add_flag("--force", options->force, "overwrite an existing file");
   verb->add_flag("--json", options->json, "print what was written as JSON, with the scenario if no file is written");

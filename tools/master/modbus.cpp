@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <ranges>
 
 #include "interpreter/base/numbers.hpp"
 #include "serial_sim/modbus/address.hpp"
@@ -288,11 +289,9 @@ modbus::DataAddress Parser::address(const std::string& text) const {
   if (area_ != nullptr) return {area_->area, word(text, fmt::format("address of {}s", area_->singular))};
   std::string why;
   const auto parsed = modbus::parse_address(text, why);
-  if (!parsed) {
-    std::string words;
-    for (const modbus::AreaRow& row : modbus::areas()) words.append(words.empty() ? "" : ", ").append(row.word);
-    refuse(fmt::format("{}; or name the area ({}) and count from 0", why, words));
-  }
+  if (!parsed)
+    refuse(fmt::format("{}; or name the area ({}) and count from 0", why,
+                       fmt::join(modbus::areas() | std::views::transform(&modbus::AreaRow::word), ", ")));
   return *parsed;
 }
 
@@ -422,9 +421,7 @@ std::string actions_help() {
 }
 
 std::string form_names() {
-  std::string text;
-  for (const ValueFormName& form : value_forms()) text.append(text.empty() ? "" : ", ").append(form.name);
-  return text;
+  return fmt::format("{}", fmt::join(value_forms() | std::views::transform(&ValueFormName::name), ", "));
 }
 
 std::string fault_of_form(const std::string& name) {

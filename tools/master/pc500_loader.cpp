@@ -1,6 +1,7 @@
 // The loader port of PC500 and PC2000: an operation is a session of several steps.
 #include <array>
 
+#include "interpreter/base/bytes.hpp"
 #include "serial_sim/westinghouse/loader_session.hpp"
 #include "tools/master/words.hpp"
 #include "tools/views/register_text.hpp"
@@ -95,10 +96,6 @@ serial::Answer LoaderRequest::judge(Data, Data response) const {
   return answer;
 }
 
-std::uint16_t word_at(Data bytes, std::size_t place) {
-  return static_cast<std::uint16_t>(bytes[place] << 8 | bytes[place + 1]);
-}
-
 std::vector<std::string> LoaderRequest::texts(const serial::Answer& answer) const {
   std::vector<std::string> texts;
   const Data bytes = answer.bytes;
@@ -111,16 +108,16 @@ std::vector<std::string> LoaderRequest::texts(const serial::Answer& answer) cons
       return texts;
     case LoaderOpcode::Pointers:
       for (std::size_t i = 0; i < kPointers.size(); ++i)
-        texts.push_back(fmt::format("{:<12} 16#{:04X}", kPointers[i], word_at(bytes, westinghouse::kReadHead + 2 * i)));
+        texts.push_back(fmt::format("{:<12} 16#{:04X}", kPointers[i], load16(&bytes[westinghouse::kReadHead + 2 * i])));
       return texts;
     case LoaderOpcode::Block: {
       constexpr std::size_t kNumber = 6, kLength = 11, kHeaderWords = 5;
-      return {fmt::format("DB{:03} at 16#{:04X}, {} data words", bytes[kNumber], word_at(bytes, 1),
-                          word_at(bytes, kLength) - kHeaderWords)};
+      return {fmt::format("DB{:03} at 16#{:04X}, {} data words", bytes[kNumber], load16(&bytes[1]),
+                          load16(&bytes[kLength]) - kHeaderWords)};
     }
     case LoaderOpcode::Directory:
       for (std::size_t block = 0; 2 * block + 2 < bytes.size(); ++block)
-        if (const std::uint16_t address = word_at(bytes, 1 + 2 * block); address != 0)
+        if (const std::uint16_t address = load16(&bytes[1 + 2 * block]); address != 0)
           texts.push_back(fmt::format("DB{:03} at 16#{:04X}", block, address));
       if (texts.empty()) texts.emplace_back("no data blocks");
       return texts;

@@ -7,6 +7,7 @@
 #include "interpreter/program/address.hpp"
 #include "tools/master/words.hpp"
 #include "tools/rig/clock_text.hpp"
+#include "tools/views/ppi_text.hpp"
 #include "tools/views/register_text.hpp"
 
 namespace s7200::tools {
@@ -73,7 +74,7 @@ class PpiRequest final : public ProtocolRequest {
   }
 
   serial::Answer judge(Data request, Data response) const override;
-  std::string_view exception_name(std::uint8_t code) const override;
+  std::string_view exception_name(std::uint8_t code) const override { return s7_error_name(code); }
   std::string subject() const override;
   std::string in_short(const serial::Answer& answer, Data request, Data response) const override;
   std::vector<std::string> in_lines(const serial::Answer& answer, Data request, Data response) const override;
@@ -174,27 +175,6 @@ void PpiRequest::take_value(Data data, serial::Answer& answer) const {
   }
 }
 
-std::string_view PpiRequest::exception_name(std::uint8_t code) const {
-  switch (code) {
-    case s7::kNotAllowed:
-      return "not allowed";
-    case s7::kOutside:
-      return "outside the memory of this CPU";
-    case s7::kWrongType:
-      return "the type does not go with the area";
-    case s7::kNoArea:
-      return "no such area";
-    case static_cast<std::uint16_t>(s7::Refusal::Unknown) >> 8:
-      return "function not available";
-    case static_cast<std::uint16_t>(s7::Refusal::TooLong) >> 8:
-      return "the answer would be too long";
-    case static_cast<std::uint16_t>(s7::Refusal::Malformed) >> 8:
-      return "malformed request";
-    default:
-      return "unknown";
-  }
-}
-
 std::string range_text(const MemoryRange& range) {
   return range.count == 1 ? range.name_of(0) : fmt::format("{}…{}", range.name_of(0), range.name_of(range.count - 1));
 }
@@ -221,19 +201,12 @@ std::string PpiRequest::value_text(const serial::Answer& answer, std::uint32_t i
   return {};
 }
 
-/// The clock as it comes: FF 09 00 0A 00 century year month day hour minute second milliseconds weekday, in BCD.
-std::string clock_reply_text(Data data) {
-  constexpr std::size_t kLength = 14;
-  if (data.size() < kLength) return "done";
-  return fmt::format("{:02x}{:02x}-{:02x}-{:02x} {:02x}:{:02x}:{:02x}", data[5], data[6], data[7], data[8], data[9],
-                     data[10], data[11]);
-}
-
 std::string PpiRequest::in_short(const serial::Answer& answer, Data, Data response) const {
   if (!raw_.empty()) return serial::to_hex(response);
   if (wanted_.pdu.empty())
     return answer.bytes == Bytes{ppi::kSlave} ? "a slave, ready" : fmt::format("16#{:02X}", answer.bytes[0]);
-  if (!wanted_.range) return wanted_.what == "clock" ? clock_reply_text(answer.bytes) : "done";
+  if (const std::string clock = s7_clock_text(answer.bytes); wanted_.what == "clock" && !clock.empty()) return clock;
+  if (!wanted_.range) return "done";
   if (!reads()) return range_text(*wanted_.range) + " written";
   std::string text;
   for (std::uint32_t i = 0; i < wanted_.range->count; ++i) text += (i == 0 ? "" : "  ") + value_text(answer, i);

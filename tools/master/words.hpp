@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -74,11 +75,9 @@ std::vector<MasterAction> WordParser::parse_with(Parser& parser, std::span<const
   if (words.empty()) refuse(fmt::format("nothing to do: give actions, for example {}", example));
   for (std::size_t place = 0; place < words.size();) {
     const Verb<Parser>* verb = find_verb(words[place]);
-    if (verb == nullptr) {
-      std::string known;
-      for (const Verb<Parser>& one : verbs) known.append(known.empty() ? "" : ", ").append(one.word);
-      refuse(fmt::format("'{}' is not an action; there are {}", stl::shortened(words[place]), known));
-    }
+    if (verb == nullptr)
+      refuse(fmt::format("'{}' is not an action; there are {}", stl::shortened(words[place]),
+                         fmt::join(verbs | std::views::transform(&Verb<Parser>::word), ", ")));
     const auto first = words.begin() + static_cast<std::ptrdiff_t>(place) + 1;
     const auto last = std::find_if(first, words.end(), [&](const std::string& word) { return find_verb(word) != nullptr; });
     const Words operands(first, last);

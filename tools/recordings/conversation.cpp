@@ -22,18 +22,25 @@ constexpr std::array kProtocols{
     RecordedProtocol{"hppc", hppc_reader},
 };
 
-/// The first characters of a frame, which is left with the others. Each has a time.
-RecordedFrame take_first(RecordedFrame& frame, std::size_t count) {
+/// The first characters of a frame, which is left with the others.
+RecordedFrame take_first(RecordedFrame& frame, std::size_t count, const Stamps& stamps) {
   const auto at = static_cast<std::ptrdiff_t>(count);
   RecordedFrame first = frame;
+  first.more_was_lost = frame.more_was_lost && count == frame.bytes.size();
   first.bytes.resize(count);
-  first.times.resize(count);
   std::erase_if(first.damaged, [&](std::size_t place) { return place >= count; });
   frame.bytes.erase(frame.bytes.begin(), frame.bytes.begin() + at);
-  frame.times.erase(frame.times.begin(), frame.times.begin() + at);
-  frame.at = frame.times.empty() ? std::nullopt : std::optional(frame.times.front());
   std::erase_if(frame.damaged, [&](std::size_t place) { return place < count; });
   for (std::size_t& place : frame.damaged) place -= count;
+  if (!frame.times.empty()) {
+    first.times.resize(count);
+    frame.times.erase(frame.times.begin(), frame.times.begin() + at);
+    frame.at = frame.times.empty() ? std::nullopt : std::optional(frame.times.front());
+  } else if (frame.at && stamps.at_end) {
+    *first.at -= static_cast<Time>(frame.bytes.size()) * stamps.character;
+  } else if (frame.at) {
+    *frame.at += static_cast<Time>(count) * stamps.character;
+  }
   return first;
 }
 
@@ -62,12 +69,25 @@ Conversation::Stream& Conversation::stream_of(const RecordedFrame& frame) {
   return stream;
 }
 
-ReadFrame Conversation::read(Stream& stream, RecordedFrame frame) {
+ReadFrame Conversation::what_it_says(Stream& stream, const RecordedFrame& frame) const {
   ReadFrame read = stream.reader->read(frame, stream.open ? &*stream.open : nullptr);
+  const bool echoes = read.direction == Direction::Answer && frame.direction == Direction::Unknown && stream.open &&
+                      frame.bytes == stream.open->bytes;
+  const auto waited = echoes ? silence(*stream.open, frame, stamps_) : std::nullopt;
+  if (!waited || *waited <= stamps_.timeout) return read;
+  read = stream.reader->read(frame, nullptr);
+  read.repeats = stream.number;
+  read.text += fmt::format("; repeated after {}, or its late echo", format_duration(*waited));
+  return read;
+}
+
+ReadFrame Conversation::read(Stream& stream, RecordedFrame frame) {
+  ReadFrame read = what_it_says(stream, frame);
   if (!frame.damaged.empty()) {
     read.right = false;
-    read.text =
-        fmt::format("character {} is damaged{}{}", frame.damaged.front() + 1, read.text.empty() ? "" : "; ", read.text);
+    const bool all = frame.damaged.size() == frame.bytes.size();
+    read.text = fmt::format("{} damaged{}{}", all ? "it is" : fmt::format("character {} is", frame.damaged.front() + 1),
+                            read.text.empty() ? "" : "; ", read.text);
   }
   if (last_) read.silence = silence(*last_, frame, stamps_);
   if (read.direction == Direction::Answer && stream.open) {
@@ -91,15 +111,17 @@ std::vector<ReadFrame> Conversation::take_complete(RecordedFrame& frame) {
   while (!frame.bytes.empty()) {
     const std::size_t length = stream.reader->first_message(frame.bytes, stream.open ? &*stream.open : nullptr);
     if (length == 0) break;
-    all.push_back(read(stream, take_first(frame, length)));
+    all.push_back(read(stream, take_first(frame, length, stamps_)));
   }
   return all;
 }
 
 std::vector<ReadFrame> Conversation::add(RecordedFrame frame) {
   std::vector<ReadFrame> all;
-  if (frame.direction == Direction::Unknown && !frame.times.empty()) all = take_complete(frame);
-  if (!frame.bytes.empty()) all.push_back(read(stream_of(frame), std::move(frame)));
+  Stream& stream = stream_of(frame);
+  const bool has_characters = frame.direction == Direction::Unknown && !frame.times.empty();
+  if (has_characters || stream.reader->messages_share_frames()) all = take_complete(frame);
+  if (!frame.bytes.empty()) all.push_back(read(stream, std::move(frame)));
   return all;
 }
 

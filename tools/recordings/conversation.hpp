@@ -22,6 +22,7 @@ struct ReadFrame {
   std::optional<std::uint8_t> station{};  ///< of a request: who is asked
   bool needs_no_answer = false;           ///< of a request: to all stations, a token, or the last word of a session
   std::optional<std::size_t> other{};     ///< of an answer its request, of a request its answer: number in the conversation
+  std::optional<std::size_t> repeats{};   ///< number of the request that this one repeats, or is the late echo of
   std::optional<Time> silence{};          ///< before it; nothing if the recording has no times
   std::optional<Time> latency{};          ///< of an answer: the silence between its request and it
 };
@@ -37,6 +38,9 @@ class FrameReader {
 
   /// How many of the bytes are the first message, by what it says of itself; 0 if it is not all there, or does not say.
   virtual std::size_t first_message(std::span<const std::uint8_t> bytes, const RecordedFrame* open) const = 0;
+
+  /// Whether a station sends one message after the other without a silence between them, so that a frame may be several.
+  virtual bool messages_share_frames() const { return false; }
 };
 
 /// A protocol that recordings are read in.
@@ -47,10 +51,15 @@ struct RecordedProtocol {
 std::span<const RecordedProtocol> recorded_protocols();
 const RecordedProtocol* find_recorded_protocol(std::string_view name);
 
+/// How long a master waits for an answer, at least, where nobody says so. Few slaves are slower.
+inline constexpr Time kMasterTimeout = 100 * kMillisecond;
+
 /// What a recording leaves open about its times.
 struct Stamps {
   Time character = 0;   ///< how long one takes on the line; 0 on TCP
   bool at_end = false;  ///< a frame's time is that of its end; otherwise of its begin
+  /// The same frame as the request, of unknown direction and after a longer silence, is the request repeated; else its echo.
+  Time timeout = kMasterTimeout;
 };
 
 /// Frame after frame; an answer goes to the last request of its connection that has none.
@@ -59,7 +68,7 @@ class Conversation {
   Conversation(const RecordedProtocol& protocol, const Stamps& stamps) : protocol_(protocol), stamps_(stamps) {}
 
   /// What a frame says. One that was put together from characters, and whose direction is not known, may be several messages
-  /// that followed each other closely.
+  /// that followed each other closely, and so may every frame of some protocols.
   std::vector<ReadFrame> add(RecordedFrame frame);
 
   /// The messages that characters begin with, as far as they are all there; they are taken off the frame.
@@ -74,6 +83,8 @@ class Conversation {
 
   Stream& stream_of(const RecordedFrame& frame);
   ReadFrame read(Stream& stream, RecordedFrame frame);
+  /// As an answer to the request that is open, or as a request.
+  ReadFrame what_it_says(Stream& stream, const RecordedFrame& frame) const;
 
   const RecordedProtocol& protocol_;
   Stamps stamps_;

@@ -2,19 +2,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
+#include "tools/recordings/forms.hpp"
 
 namespace s7200::tools {
 namespace {
 
-std::string_view next_line(std::string_view& text) {
-  const std::size_t end = std::min(text.find('\n'), text.size());
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
-}
+std::string_view first_line(std::string_view text) { return text.substr(0, text.find_first_of("\r\n")); }
 
 char separator_of(std::string_view line) {
   for (const char c : {'\t', ';', ','})
@@ -39,13 +38,15 @@ std::vector<std::string> fields_of(std::string_view line, char separator) {
 
 struct Columns {
   char separator = 0;
-  std::optional<std::size_t> time{}, direction{}, data{}, error{};
+  std::optional<std::size_t> time{}, direction{}, data{};
+  std::vector<std::size_t> errors{};
   Time unit = kSecond;
 };
 
-bool contains(std::string text, std::initializer_list<std::string_view> words) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::ranges::any_of(words, [&](std::string_view word) { return text.find(word) != std::string::npos; });
+/// `text` in any case, `words` in capitals.
+bool contains(std::string_view text, std::initializer_list<std::string_view> words) {
+  const std::string capitals = stl::upper_case(text);
+  return std::ranges::any_of(words, [&](std::string_view word) { return capitals.find(word) != std::string::npos; });
 }
 
 Columns columns_of(std::string_view line) {
@@ -53,69 +54,81 @@ Columns columns_of(std::string_view line) {
   if (columns.separator == 0) return columns;
   const auto names = fields_of(line, columns.separator);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!columns.time && contains(names[i], {"time", "start"})) {
+    if (contains(names[i], {"ERROR"})) {
+      columns.errors.push_back(i);
+    } else if (!columns.time && contains(names[i], {"TIME", "START"})) {
       columns.time = i;
-      if (contains(names[i], {"[ms]", "(ms)", "_ms"})) columns.unit = kMillisecond;
-      if (contains(names[i], {"[us]", "(us)", "_us", "µs"})) columns.unit = kMicrosecond;
-    } else if (!columns.direction && contains(names[i], {"dir", "side", "channel", "port", "name"})) {
+      if (contains(names[i], {"[MS]", "(MS)", "_MS"})) columns.unit = kMillisecond;
+      if (contains(names[i], {"[US]", "(US)", "_US", "µS"})) columns.unit = kMicrosecond;
+    } else if (!columns.direction && contains(names[i], {"DIR", "SIDE", "CHANNEL", "PORT", "NAME"})) {
       columns.direction = i;
-    } else if (!columns.data && contains(names[i], {"data", "value", "hex", "bytes", "frame", "payload"})) {
+    } else if (!columns.data && contains(names[i], {"DATA", "VALUE", "HEX", "BYTES", "FRAME", "PAYLOAD"})) {
       columns.data = i;
-    } else if (!columns.error && contains(names[i], {"error"})) {
-      columns.error = i;
     }
   }
   return columns;
 }
 
-/// A number in the column's unit, or a time as in a text.
-std::optional<Time> time_of(const std::string& field, Time unit) {
-  std::size_t used = 0;
-  try {
-    const long double number = std::stold(field, &used);
-    if (field.find_first_not_of(" \t", used) == std::string::npos && number >= 0 && number < 1e9L)
-      return static_cast<Time>(number * static_cast<long double>(unit) + 0.5L);
-  } catch (const std::exception&) {
-    // Not a number: a time of day, perhaps.
+/// A number in the column's unit, or a time as in a text. Where commas divide the columns, one in a number may stand for
+/// thousands, and is not read.
+std::optional<LeadingTime> time_of(const std::string& field, const Columns& columns) {
+  constexpr double kMost = 4e9;  // seconds; the difference of two still fits a Time
+  std::string figure(stl::trim(field));
+  std::ranges::replace(figure, ',', '.');
+  if (const auto number = parse_decimal<long double>(figure)) {
+    const long double time = *number * static_cast<long double>(columns.unit);
+    const bool readable = columns.separator != ',' || field.find(',') == std::string::npos;
+    if (!readable || !(std::abs(time) < kMost * kSecond)) return {};
+    return LeadingTime{.time = std::llround(time)};
   }
   const auto time = leading_time(field);
-  return time ? std::optional(time->time) : std::nullopt;
+  return time && time->length == field.size() ? time : std::nullopt;
+}
+
+/// What a column of errors holds where there is none.
+bool says_error(std::string_view field) {
+  static constexpr std::array<std::string_view, 8> kNone{"", "0", "-", "NO", "NONE", "FALSE", "OK", "NO ERROR"};
+  return std::ranges::find(kNone, stl::upper_case(stl::trim(field))) == kNone.end();
 }
 
 }  // namespace
 
-bool looks_like_csv(std::string_view text) {
-  const Columns columns = columns_of(next_line(text));
+bool looks_like_csv(std::string_view bytes) {
+  if (!is_text(bytes)) return false;
+  const Columns columns = columns_of(first_line(bytes));
   return columns.time && columns.data;
 }
 
-std::optional<LineRecording> read_csv(std::string_view text, const ReadingChoices& choices, std::string& why) {
-  constexpr Time kGap = 5 * kMillisecond;
-  LineRecording recording{.form = "CSV"};
-  const Columns columns = columns_of(next_line(text));
+std::optional<LineRecording> read_csv(const std::string& bytes, const ReadingChoices& choices, std::string& why) {
+  LineRecording recording;
+  const std::vector<std::string> lines = stl::split_lines(bytes);
+  const Columns columns = columns_of(lines.front());
+  DayCounter days;
   bool characters = true;
-  for (std::size_t number = 2; !text.empty(); ++number) {
-    const std::string_view line = next_line(text);
-    if (line.find_first_not_of(" \t,;") == std::string_view::npos) continue;
-    const auto fields = fields_of(line, columns.separator);
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    if (lines[i].find_first_not_of(" \t,;") == std::string::npos) continue;
+    const auto fields = fields_of(lines[i], columns.separator);
     const auto field = [&](std::optional<std::size_t> column) {
       return column && *column < fields.size() ? fields[*column] : "";
     };
-    const auto time = time_of(field(columns.time), columns.unit);
-    const auto bytes = bytes_of_text(field(columns.data));
-    if (!time || !bytes) {
-      why = fmt::format("line {}: '{}' is not {}", number, !time ? field(columns.time) : field(columns.data),
+    const auto time = time_of(field(columns.time), columns);
+    auto data = bytes_of_text(field(columns.data));
+    if (!time || !data) {
+      why = fmt::format("line {}: '{}' is not {}", i + 1, stl::shortened(!time ? field(columns.time) : field(columns.data)),
                         !time ? "a time" : "bytes in hex");
       return {};
     }
-    characters = characters && bytes->size() == 1;
-    recording.frames.push_back({.at = *time,
-                                .direction = direction_of(field(columns.direction)),
-                                .bytes = *bytes,
-                                .place = fmt::format("line {}", number)});
+    RecordedFrame frame{.at = days.since_first_midnight(*time),
+                        .direction = direction_of(field(columns.direction)),
+                        .bytes = std::move(*data),
+                        .place = fmt::format("line {}", i + 1)};
+    if (std::ranges::any_of(columns.errors, [&](std::size_t column) { return says_error(field(column)); }))
+      for (std::size_t place = 0; place < frame.bytes.size(); ++place) frame.damaged.push_back(place);
+    characters = characters && frame.bytes.size() == 1;
+    recording.frames.push_back(std::move(frame));
   }
   count_from_first(recording);
-  if (characters) join_characters(recording, choices.gap == 0 ? kGap : choices.gap);
+  if (characters) join_characters(recording, choices);
   return recording;
 }
 

@@ -27,14 +27,34 @@ nlohmann::ordered_json microseconds(std::optional<Time> time) {
   return static_cast<double>(*time) / kMicrosecond;
 }
 
+/// What keeps a request and its answer out of a scenario; empty if nothing does.
+std::string why_left_out(const std::vector<ReadFrame>& frames, std::size_t number) {
+  const ReadFrame& request = frames[number];
+  if (!request.frame.damaged.empty()) return "the request is damaged";
+  if (request.other) {
+    const ReadFrame& answer = frames[*request.other];
+    return answer.right ? "" : fmt::format("its answer ({}): {}", answer.frame.place, answer.text);
+  }
+  if (request.needs_no_answer) return {};
+  if (request.repeats) return fmt::format("it may be the late echo of {}", frames[*request.repeats].frame.place);
+  if (request.frame.more_was_lost) return "the recording is cut off after it";
+  const auto next = std::find_if(frames.begin() + static_cast<std::ptrdiff_t>(number) + 1, frames.end(),
+                                 [&](const ReadFrame& frame) { return frame.frame.stream == request.frame.stream; });
+  if (next == frames.end()) return {};
+  if (next->repeats) return fmt::format("the same after it ({}) may be its late echo", next->frame.place);
+  if (next->direction != Direction::Unknown) return {};
+  return fmt::format("what follows it ({}) may be its answer: {}", next->frame.place, next->text);
+}
+
 }  // namespace
 
 void DecodedSummary::add(const ReadFrame& frame) {
   requests_ += frame.direction == Direction::Request ? 1U : 0U;
   need_no_answer_ += frame.needs_no_answer ? 1U : 0U;
-  answered_ += frame.direction == Direction::Answer && frame.other ? 1U : 0U;
   strays_ += frame.direction == Direction::Unknown ? 1U : 0U;
   wrong_ += frame.right ? 0U : 1U;
+  if (frame.direction != Direction::Answer || !frame.other || !frame.right) return;
+  ++answered_;
   if (!frame.latency) return;
   shortest_ = std::min(shortest_.value_or(*frame.latency), *frame.latency);
   longest_ = std::max(longest_.value_or(*frame.latency), *frame.latency);
@@ -104,15 +124,24 @@ void add_decoded(nlohmann::ordered_json& results, const std::vector<ReadFrame>& 
   results["summary"] = summary.json();
 }
 
-std::string scenario_text(const std::vector<ReadFrame>& frames, const Stamps& stamps, const PlaybackChoices& choices) {
+Playback playback(const std::vector<ReadFrame>& frames, const Stamps& stamps, const PlaybackChoices& choices) {
   constexpr Time kLongestWait = kSecond;
+  Playback playback;
   std::string steps;
+  bool asks = false;
   const ReadFrame* last = nullptr;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const ReadFrame& request = frames[i];
     const bool wanted = request.direction == Direction::Request && (!choices.station || request.station == choices.station);
     if (!wanted) continue;
     const ReadFrame* answer = request.other ? &frames[*request.other] : nullptr;
+    if (const std::string why = why_left_out(frames, i); !why.empty()) {
+      playback.notes.push_back(fmt::format("{}: left out: {}", request.frame.place, why));
+      steps += fmt::format("      # {}\n", playback.notes.back());
+      last = nullptr;
+      continue;
+    }
+    asks = true;
     steps += fmt::format("      - send: {}\n", serial::to_hex(request.frame.bytes));
     if (last != nullptr)
       if (const auto pause = silence(last->frame, request.frame, stamps))
@@ -130,10 +159,11 @@ std::string scenario_text(const std::vector<ReadFrame>& frames, const Stamps& st
     steps +=
         fmt::format("        # {}: {}{}\n", request.frame.place, request.text, answer == nullptr ? "" : "; " + answer->text);
   }
-  if (steps.empty()) return {};
-  std::string text = fmt::format("scenarios:\n  - name: {}\n", in_quotes(choices.name));
-  if (!choices.program.empty()) text += fmt::format("    program: {}\n", in_quotes(choices.program));
-  return text + fmt::format("    tolerance: {}\n    steps:\n{}", exact(choices.tolerance), steps);
+  if (!asks) return playback;
+  playback.scenario = fmt::format("scenarios:\n  - name: {}\n", in_quotes(choices.name));
+  if (!choices.program.empty()) playback.scenario += fmt::format("    program: {}\n", in_quotes(choices.program));
+  playback.scenario += fmt::format("    tolerance: {}\n    steps:\n{}", exact(choices.tolerance), steps);
+  return playback;
 }
 
 }  // namespace s7200::tools

@@ -42,7 +42,13 @@ struct PlaybackChoices {
   std::optional<std::uint8_t> station{};  ///< only what it was asked; nothing: all
 };
 
-/// A scenario that sends the requests with their gaps and expects the answers; nothing if there is no request to send.
-std::string scenario_text(const std::vector<ReadFrame>& frames, const Stamps& stamps, const PlaybackChoices& choices);
+struct Playback {
+  std::string scenario{};            ///< empty if there is no request to send
+  std::vector<std::string> notes{};  ///< which requests were left out, and why
+};
+
+/// A scenario that sends the requests with their gaps and expects the answers. Left out are requests that are damaged, and
+/// those whose answer is wrong: no slave can give it.
+Playback playback(const std::vector<ReadFrame>& frames, const Stamps& stamps, const PlaybackChoices& choices);
 
 }  // namespace s7200::tools

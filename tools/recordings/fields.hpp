@@ -1,6 +1,8 @@
 // Times, directions and bytes, as tools that record lines write them.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -8,11 +10,17 @@
 
 namespace s7200::tools {
 
+/// Days since 1970 of a date, with the day first and with the month first. They differ only in dates with slashes, of which
+/// tools write both; nothing for one that does not exist.
+using ReadDate = std::array<std::optional<std::int32_t>, 2>;
+
 /// A time at the beginning of a text, and what comes after it: `12:34:56.789`, `2026-11-22 12:34:56,789`, `[0.123456]`,
-/// `12.3 ms`. A plain number is one only with a fraction or a unit.
+/// `-12.3 ms`. A plain number is one only with a fraction or a unit.
 struct LeadingTime {
-  Time time = 0;
+  Time time = 0;           ///< of day: since midnight
   std::size_t length = 0;  ///< of its text
+  bool of_day = false;
+  ReadDate date{};  ///< of a time of day
 };
 std::optional<LeadingTime> leading_time(std::string_view text);
 
@@ -29,10 +37,23 @@ struct TrailingBytes {
 };
 std::optional<TrailingBytes> trailing_bytes(std::string_view line);
 
-/// Rows with one character each become frames: those that follow within `gap`, in the same direction.
-void join_characters(LineRecording& recording, Time gap);
+/// Rows with one character each become frames: those that follow within the gap, in the same direction.
+void join_characters(LineRecording& recording, const ReadingChoices& choices);
 
-/// Times count from the first frame. Those of day that go back have passed midnight.
+/// Puts times of day, row after row, on one axis. Between dates that can be read in two ways lie the fewer days. Without a
+/// date, midnight has passed where the time goes back by more than half a day.
+class DayCounter {
+ public:
+  /// Since the midnight before the first time of day; of any other time, what was read.
+  Time since_first_midnight(const LeadingTime& read);
+
+ private:
+  Time days_ = 0;
+  std::optional<Time> last_;
+  ReadDate date_{};
+};
+
+/// Times count from the first frame; a row before it in time has one below 0.
 void count_from_first(LineRecording& recording);
 
 }  // namespace s7200::tools

@@ -11,6 +11,7 @@
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tools/recordings/fields.hpp"
+#include "tools/recordings/forms.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -20,6 +21,7 @@ using Data = std::span<const std::uint8_t>;
 constexpr int kSerial = 147;  // LINKTYPE_USER0, which s7200 writes
 
 struct Segment {
+  bool whole = true;   ///< otherwise a fragment, or cut off, and the rest does not count
   Bytes from{}, to{};  ///< addresses with ports: who talks to whom
   std::uint16_t source_port = 0, destination_port = 0;
   std::uint32_t sequence = 0;
@@ -27,24 +29,32 @@ struct Segment {
   Data data{};
 };
 
-/// The TCP segment in an IP packet; nothing if it has none, or is a fragment.
+/// The TCP segment in an IP packet; nothing if it has none. Where the network card divides what is sent, the length may be 0
+/// in the recording: then it goes to the end.
 std::optional<Segment> tcp_of(Data packet) {
   constexpr std::uint8_t kTcp = 6;
+  constexpr std::size_t kIp4Head = 20, kIp6Head = 40, kTcpHead = 20;
   if (packet.empty()) return {};
+  const auto broken = [] { return Segment{.whole = false}; };
   Data from, to, tcp;
-  if (packet[0] >> 4 == 4 && packet.size() >= 20) {
+  if (packet[0] >> 4 == 4 && packet.size() >= kIp4Head) {
     const std::size_t head = std::size_t{packet[0] & 15U} * 4, length = load16(&packet[2]);
+    const std::size_t end = length == 0 ? packet.size() : length;
     const bool fragment = (load16(&packet[6]) & 0x3FFF) != 0;
-    if (packet[9] != kTcp || fragment || head < 20 || length < head || length > packet.size()) return {};
-    from = packet.subspan(12, 4), to = packet.subspan(16, 4), tcp = packet.subspan(head, length - head);
-  } else if (packet[0] >> 4 == 6 && packet.size() >= 40) {
+    if (packet[9] != kTcp) return {};
+    if (fragment || head < kIp4Head || end < head || end > packet.size()) return broken();
+    from = packet.subspan(12, 4), to = packet.subspan(16, 4), tcp = packet.subspan(head, end - head);
+  } else if (packet[0] >> 4 == 6 && packet.size() >= kIp6Head) {
     const std::size_t length = load16(&packet[4]);
-    if (packet[6] != kTcp || 40 + length > packet.size()) return {};
-    from = packet.subspan(8, 16), to = packet.subspan(24, 16), tcp = packet.subspan(40, length);
+    if (packet[6] != kTcp) return {};
+    if (kIp6Head + length > packet.size()) return broken();
+    from = packet.subspan(8, 16), to = packet.subspan(24, 16);
+    tcp = length == 0 ? packet.subspan(kIp6Head) : packet.subspan(kIp6Head, length);
+  } else {
+    return {};
   }
-  if (tcp.size() < 20) return {};
-  const std::size_t head = std::size_t{tcp[12]} / 16 * 4;
-  if (head < 20 || head > tcp.size()) return {};
+  const std::size_t head = tcp.size() < kTcpHead ? 0 : std::size_t{tcp[12]} / 16 * 4;
+  if (head < kTcpHead || head > tcp.size()) return broken();
   Segment segment{.from = Bytes(from.begin(), from.end()),
                   .to = Bytes(to.begin(), to.end()),
                   .source_port = load16(&tcp[0]),
@@ -97,19 +107,22 @@ class Reader {
       return;
     }
     const auto segment = tcp_of(ip_of(packet, link_type_));
-    const bool ours =
-        segment && (segment->source_port == choices_.tcp_port || segment->destination_port == choices_.tcp_port);
-    if (ours)
+    if (segment && !segment->whole)
+      ++broken_;
+    else if (segment && (segment->source_port == choices_.tcp_port || segment->destination_port == choices_.tcp_port))
       take(*segment, at, place);
     else
-      ++left_out_;
+      ++others_;
+  }
+
+  /// What comes after the last frame of every connection is missing.
+  void cut_off() {
+    for (std::uint32_t connection = 0; connection <= connections_; ++connection) mark_last(connection);
   }
 
   LineRecording finish() {
-    if (left_out_ > 0)
-      recording_.notes.push_back(fmt::format("{} not of TCP port {} {} left out",
-                                             left_out_ == 1 ? "a packet" : fmt::format("{} packets", left_out_),
-                                             choices_.tcp_port, left_out_ == 1 ? "was" : "were"));
+    note_left_out(others_, fmt::format("not of TCP port {}", choices_.tcp_port));
+    note_left_out(broken_, "of TCP in fragments or cut off");
     count_from_first(recording_);
     return std::move(recording_);
   }
@@ -130,34 +143,58 @@ class Reader {
       return;
     }
     if (segment.data.empty() || stream.lost) return;
-    const std::uint32_t ahead = stream.next ? segment.sequence - *stream.next : 0;
-    if (ahead > 0x8000'0000) return;  // sent again
-    if (ahead != 0) return lose(stream, place, "segments before it are missing");
+    const auto ahead = static_cast<std::int32_t>(segment.sequence - stream.next.value_or(segment.sequence));
+    if (ahead > 0) return lose(segment, place, "segments before it are missing");
+    const auto sent_again = static_cast<std::size_t>(-std::int64_t{ahead});
+    if (sent_again >= segment.data.size()) return;
     stream.next = segment.sequence + static_cast<std::uint32_t>(segment.data.size());
-    stream.reader.take(segment.data);
+    stream.reader.take(segment.data.subspan(sent_again));
     while (const auto message = stream.reader.next())
       recording_.frames.push_back({.at = at,
                                    .direction = asks ? Direction::Request : Direction::Answer,
                                    .bytes = modbus::rtu_frame(message->unit, message->pdu),
                                    .place = place,
                                    .stream = stream.connection});
-    if (!stream.reader.error().empty()) lose(stream, place, stream.reader.error());
+    if (!stream.reader.error().empty()) lose(segment, place, stream.reader.error());
   }
 
-  void lose(Stream& stream, const std::string& place, std::string_view why) {
-    stream.lost = true;
+  void note_left_out(std::size_t packets, std::string_view kind) {
+    if (packets == 0) return;
+    recording_.notes.push_back(packets == 1 ? fmt::format("a packet {} was left out", kind)
+                                            : fmt::format("{} packets {} were left out", packets, kind));
+  }
+
+  /// Both directions: a request without its answer would seem not to have been answered.
+  void lose(const Segment& segment, const std::string& place, std::string_view why) {
+    for (const auto& ends : {std::pair(segment.from, segment.to), std::pair(segment.to, segment.from)})
+      streams_[ends].lost = true;
+    mark_last(streams_[{segment.from, segment.to}].connection);
     recording_.notes.push_back(fmt::format("{}: the rest of this connection was left out: {}", place, why));
+  }
+
+  void mark_last(std::uint32_t connection) {
+    const auto last = std::find_if(recording_.frames.rbegin(), recording_.frames.rend(),
+                                   [&](const RecordedFrame& frame) { return frame.stream == connection; });
+    if (last != recording_.frames.rend()) last->more_was_lost = true;
   }
 
   const ReadingChoices& choices_;
   int link_type_;
-  LineRecording recording_{.form = "pcap"};
+  LineRecording recording_;
   std::map<std::pair<Bytes, Bytes>, Stream> streams_;
   std::uint32_t connections_ = 0;
-  std::size_t left_out_ = 0;
+  std::size_t others_ = 0, broken_ = 0;
 };
 
 }  // namespace
+
+bool looks_like_pcap(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  for (const std::string_view magic :
+       {"\xA1\xB2\xC3\xD4"sv, "\xD4\xC3\xB2\xA1"sv, "\xA1\xB2\x3C\x4D"sv, "\x4D\x3C\xB2\xA1"sv, "\x0A\x0D\x0D\x0A"sv})
+    if (bytes.starts_with(magic)) return true;
+  return false;
+}
 
 std::optional<LineRecording> read_pcap(const std::string& bytes, const ReadingChoices& choices, std::string& why) {
   std::array<char, PCAP_ERRBUF_SIZE> error{};
@@ -185,6 +222,7 @@ std::optional<LineRecording> read_pcap(const std::string& bytes, const ReadingCh
   std::size_t number = 0;
   while ((result = pcap_next_ex(capture.get(), &head, &data)) == 1)
     reader.take(++number, head->ts.tv_sec * kSecond + head->ts.tv_usec, {data, head->caplen});
+  if (result == PCAP_ERROR) reader.cut_off();
   LineRecording recording = reader.finish();
   if (result == PCAP_ERROR)
     recording.notes.push_back(

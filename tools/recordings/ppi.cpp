@@ -1,45 +1,244 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
+#include <map>
 
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/ppi_frame.hpp"
 #include "interpreter/model/s7_pdu.hpp"
+#include "interpreter/program/address.hpp"
+#include "serial_sim/line/frame.hpp"
 #include "tools/recordings/readers.hpp"
+#include "tools/views/ppi_text.hpp"
 
 namespace s7200::tools {
 namespace {
 
 using Data = std::span<const std::uint8_t>;
 
-std::string s7_text(Data pdu) {
-  if (pdu.size() < s7::kRequestHead || pdu[0] != s7::kProtocol) return fmt::format("{} bytes", pdu.size());
-  if (pdu[1] == s7::kUserData) return "user data";
-  const bool answer = pdu[1] == s7::kAnswer;
-  const std::size_t head = answer ? s7::kAnswerHead : s7::kRequestHead;
-  if (pdu.size() <= head) return answer ? fmt::format("error {:04X}", load16(&pdu[10])) : "an empty request";
-  const std::uint8_t function = pdu[head];
-  const std::string name = function == s7::kRead    ? "read"
-                           : function == s7::kWrite ? "write"
-                           : function == s7::kRun   ? "RUN"
-                           : function == s7::kStop  ? "STOP"
-                           : function == s7::kSetup ? "set up"
-                                                    : fmt::format("function {:02X}", function);
-  if (answer || (function != s7::kRead && function != s7::kWrite)) return name;
-  std::string text = name;
-  for (std::size_t at = head + 2; at + s7::kVariableBytes <= pdu.size() && pdu[at] == s7::kVariableHead[0];
-       at += s7::kVariableBytes) {
-    const auto area = std::ranges::find(s7::kWireAreas, pdu[at + 8], &s7::WireArea::code);
-    const std::uint32_t address = load32(&pdu[at + 8]) & 0xFF'FFFF;
-    const bool known = area != s7::kWireAreas.end();
-    const bool element = known && info(area->area).element != 0;
-    text += fmt::format(" {}", known ? info(area->area).name : fmt::format("area 16#{:02X} ", pdu[at + 8]));
-    text += element                   ? fmt::format("{}", address)
-            : pdu[at + 3] == s7::kBit ? fmt::format("{}.{}", address / 8, address % 8)
-                                      : fmt::format("B{}", address / 8);
-    text += fmt::format(":{}", load16(&pdu[at + 4]));
+// --- variables and values ---
+
+/// Of what a variable's count counts; nothing for a type that the S7-200 does not have.
+std::optional<Width> width_of(std::uint8_t type, const AreaInfo& area) {
+  if (area.element != 0) {
+    if (type != s7::code_of(area.area)) return {};
+    return area.element == bytes_of(Width::Double) ? Width::Double : Width::Word;
   }
+  switch (type) {
+    case s7::kBit:
+      return Width::Bit;
+    case s7::kByte:
+    case s7::kCharacter:
+      return Width::Byte;
+    case s7::kWord:
+    case s7::kInteger:
+      return Width::Word;
+    case s7::kDouble:
+    case s7::kLong:
+    case s7::kReal:
+      return Width::Double;
+    default:
+      return {};
+  }
+}
+
+/// What a request reads or writes.
+struct Variable {
+  std::optional<MemoryRange> range{};  ///< nothing for an area or a type that is not known
+  std::string name{};                  ///< `VW100:3`, `V100.7`, `T37`, as for `master --protocol ppi`
+};
+
+std::string name_of(const MemoryRange& range) {
+  return range.name_of(0) + (range.count == 1 ? "" : fmt::format(":{}", range.count)) + (range.real ? ":real" : "");
+}
+
+Variable variable_of(Data bytes) {
+  const std::uint8_t type = bytes[3];
+  const std::uint16_t count = load16(&bytes[4]);
+  const std::uint32_t address = load32(&bytes[8]) & 0xFF'FFFF;
+  const auto wire = std::ranges::find(s7::kWireAreas, bytes[8], &s7::WireArea::code);
+  if (wire == s7::kWireAreas.end()) return {.name = fmt::format("area 16#{:02X} byte {}:{}", bytes[8], address / 8, count)};
+  const AreaInfo& area = info(wire->area);
+  const auto width = width_of(type, area);
+  if (!width) return {.name = fmt::format("{} byte {}:{} of type 16#{:02X}", area.name, address / 8, count, type)};
+  MemoryRange range{.area = area.area, .width = *width, .count = count, .real = type == s7::kReal};
+  range.number = area.element != 0 ? address : address / 8;
+  range.bit = *width == Width::Bit ? static_cast<std::uint8_t>(address % 8) : std::uint8_t{0};
+  return {.range = range, .name = name_of(range)};
+}
+
+std::vector<Variable> variables_in(Data parameters) {
+  std::vector<Variable> variables;
+  for (std::size_t at = 2; at + s7::kVariableBytes <= parameters.size(); at += s7::kVariableBytes)
+    variables.push_back(variable_of(parameters.subspan(at, s7::kVariableBytes)));
+  return variables;
+}
+
+/// In the data of a write, or of the answer to a read.
+struct Value {
+  std::uint8_t code = 0;
+  Data bytes{};
+};
+
+std::vector<Value> values_in(Data data) {
+  constexpr std::size_t kHead = 4;
+  std::vector<Value> values;
+  for (std::size_t at = 0; at + kHead <= data.size();) {
+    const std::size_t length = load16(&data[at + 2]);
+    const std::size_t bytes = data[at + 1] == s7::kInBytes ? length : (length + 7) / 8;
+    const Data rest = data.subspan(at + kHead);
+    values.push_back({data[at], rest.first(std::min(bytes, rest.size()))});
+    at += kHead + bytes + bytes % 2;
+  }
+  return values;
+}
+
+std::string element_text(const MemoryRange& range, const std::uint8_t* at) {
+  switch (range.width) {
+    case Width::Bit:
+      return fmt::format("{}", *at & 1);
+    case Width::Byte:
+      return fmt::format("16#{:02X}", *at);
+    case Width::Word:
+      return fmt::format("16#{:04X}", load16(at));
+    case Width::Double:
+      return range.real ? fmt::format("{}", std::bit_cast<float>(load32(at))) : fmt::format("16#{:08X}", load32(at));
+  }
+  return {};
+}
+
+/// `VW100:2 = 16#04D2 16#FFFB`
+std::string value_text(const Variable& variable, Data bytes) {
+  if (!variable.range) return fmt::format("{} = {}", variable.name, serial::to_hex(bytes));
+  std::string text = variable.name + " =";
+  const std::size_t step = bytes_of(variable.range->width);
+  for (std::size_t at = 0; at + step <= bytes.size(); at += step) text += " " + element_text(*variable.range, &bytes[at]);
   return text;
+}
+
+// --- requests and answers ---
+
+/// What a frame carries.
+struct Pdu {
+  std::uint8_t kind = 0;
+  std::uint16_t number = 0;
+  std::uint16_t error = 0;
+  Data parameters{}, data{};
+
+  std::uint8_t function() const { return parameters.empty() ? std::uint8_t{0} : parameters[0]; }
+};
+
+/// Returns nothing and sets `why` if its lengths are wrong.
+std::optional<Pdu> pdu_of(Data bytes, std::string& why) {
+  if (bytes.size() < s7::kRequestHead || bytes[0] != s7::kProtocol)
+    return why = fmt::format("{} bytes that are not of S7", bytes.size()), std::nullopt;
+  Pdu pdu{.kind = bytes[1], .number = load16(&bytes[4])};
+  const bool answer = pdu.kind == s7::kAnswer;
+  const std::size_t head = answer ? s7::kAnswerHead : s7::kRequestHead, parameters = load16(&bytes[6]);
+  if (bytes.size() < head) return why = "an answer without its error code", std::nullopt;
+  if (bytes.size() != head + parameters + load16(&bytes[8]))
+    return why = "its lengths do not fit what it carries", std::nullopt;
+  if (answer) pdu.error = load16(&bytes[10]);
+  pdu.parameters = bytes.subspan(head, parameters);
+  pdu.data = bytes.subspan(head + parameters);
+  return pdu;
+}
+
+std::string error_text(std::uint16_t error) {
+  return fmt::format("error {:04X}: {}", error, s7_error_name(static_cast<std::uint8_t>(error >> 8)));
+}
+
+/// 00 01 12 length kind group service number, and in an answer 00 00 error(2).
+std::string user_data_text(const Pdu& pdu) {
+  constexpr std::size_t kGroup = 5, kService = 6, kError = 10;
+  if (pdu.parameters.size() <= kService) return "user data";
+  const std::uint8_t group = pdu.parameters[kGroup] & 0x0F, service = pdu.parameters[kService];
+  const bool answer = (pdu.parameters[kGroup] & 0xF0) == 0x80;
+  if (answer && pdu.parameters.size() >= kError + 2)
+    if (const std::uint16_t error = load16(&pdu.parameters[kError]); error != 0) return error_text(error);
+  const std::string clock = s7_clock_text(pdu.data);
+  if (group == s7::kClockGroup && service == s7::kReadClock) return answer ? "clock: " + clock : "read the clock";
+  if (group == s7::kClockGroup && service == s7::kSetClock) return answer ? "clock set" : "set the clock to " + clock;
+  return fmt::format("user data, group {}, service {}", group, service);
+}
+
+std::string set_up_text(const Pdu& pdu) {
+  constexpr std::size_t kLongest = 6;
+  if (pdu.parameters.size() < kLongest + 2) return "set up";
+  return fmt::format("set up: {} bytes at once", load16(&pdu.parameters[kLongest]));
+}
+
+std::string write_text(const Pdu& pdu, const std::vector<Variable>& variables) {
+  const std::vector<Value> values = values_in(pdu.data);
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    texts.push_back(i < values.size() ? value_text(variables[i], values[i].bytes) : variables[i].name);
+  return fmt::format("write {}", fmt::join(texts, ", "));
+}
+
+std::string request_text(const Pdu& pdu) {
+  if (pdu.kind == s7::kUserData) return user_data_text(pdu);
+  if (pdu.parameters.empty()) return "an empty request";
+  const std::vector<Variable> variables = variables_in(pdu.parameters);
+  std::vector<std::string> names;
+  for (const Variable& variable : variables) names.push_back(variable.name);
+  switch (pdu.function()) {
+    case s7::kRead:
+      return fmt::format("read {}", fmt::join(names, ", "));
+    case s7::kWrite:
+      return write_text(pdu, variables);
+    case s7::kRun:
+      return "go to RUN";
+    case s7::kStop:
+      return "go to STOP";
+    case s7::kSetup:
+      return set_up_text(pdu);
+    default:
+      return fmt::format("function {:02X}", pdu.function());
+  }
+}
+
+std::string read_answer_text(const Pdu& pdu, const std::vector<Variable>& variables) {
+  const std::vector<Value> values = values_in(pdu.data);
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Variable variable = i < variables.size() ? variables[i] : Variable{.name = "read"};
+    texts.push_back(values[i].code == s7::kDone ? value_text(variable, values[i].bytes)
+                                                : fmt::format("{}: {}", variable.name, s7_error_name(values[i].code)));
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+std::string write_answer_text(const Pdu& pdu, const std::vector<Variable>& variables) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < pdu.data.size(); ++i) {
+    const std::string name = i < variables.size() ? variables[i].name + (pdu.data[i] == s7::kDone ? "" : ":") : "";
+    texts.push_back(fmt::format("{}{}{}", name, name.empty() ? "" : " ",
+                                pdu.data[i] == s7::kDone ? "written" : s7_error_name(pdu.data[i])));
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+/// `variables`: of the request; none if that was not heard.
+std::string answer_text(const Pdu& pdu, const std::vector<Variable>& variables) {
+  if (pdu.kind == s7::kUserData) return user_data_text(pdu);
+  if (pdu.error != 0) return error_text(pdu.error);
+  switch (pdu.function()) {
+    case s7::kRead:
+      return read_answer_text(pdu, variables);
+    case s7::kWrite:
+      return write_answer_text(pdu, variables);
+    case s7::kRun:
+      return "goes to RUN";
+    case s7::kStop:
+      return "goes to STOP";
+    case s7::kSetup:
+      return set_up_text(pdu);
+    default:
+      return fmt::format("function {:02X}: done", pdu.function());
+  }
 }
 
 /// Of a frame without data.
@@ -67,44 +266,79 @@ std::string_view function_text(std::uint8_t function) {
   }
 }
 
-ReadFrame read_ppi(const RecordedFrame& frame, const RecordedFrame* open) {
-  ReadFrame read;
-  const Data bytes(frame.bytes);
-  if (bytes.size() == 1 && bytes[0] == ppi::kAccepted) {
-    read.direction = open != nullptr ? Direction::Answer : Direction::Unknown;
-    read.right = true;
-    read.text = "accepted";
+/// An answer comes with a later frame than its request, and says nothing of its variables.
+class PpiReader final : public FrameReader {
+ public:
+  ReadFrame read(const RecordedFrame& frame, const RecordedFrame* open) override {
+    const Data bytes(frame.bytes);
+    ReadFrame read;
+    if (bytes.size() == 1 && bytes[0] == ppi::kAccepted) {
+      read.direction = open != nullptr ? Direction::Answer : Direction::Unknown;
+      read.right = true;
+      read.text = open != nullptr && polls(open->bytes) ? "no answer yet" : "accepted";
+      return read;
+    }
+    if (const auto token = ppi::token_of(bytes)) {
+      read.direction = Direction::Request;
+      read.right = read.needs_no_answer = true;
+      read.station = token->destination;
+      read.text = fmt::format("token from station {} to station {}", token->source, token->destination);
+      return read;
+    }
+    const auto body = ppi::frame_length(bytes) == bytes.size() ? ppi::body_of(bytes) : std::nullopt;
+    if (!body) {
+      read.text = "not a frame: its length, check sum or end is wrong";
+      return read;
+    }
+    const bool request = (body->function & ppi::kIsRequest) != 0;
+    read.direction = request ? Direction::Request : open != nullptr ? Direction::Answer : Direction::Unknown;
+    if (request) read.station = body->destination;
+    read.needs_no_answer = request && body->destination == ppi::kEveryStation;
+    std::string wrong;
+    const std::string text =
+        body->data.empty() ? std::string(function_text(body->function)) : text_of(*body, request, wrong);
+    read.right = wrong.empty();
+    read.text = fmt::format("{} to {}, function {:02X}: {}", body->source, body->destination, body->function,
+                            wrong.empty() ? text : wrong);
     return read;
   }
-  if (const auto token = ppi::token_of(bytes)) {
-    read.direction = Direction::Request;
-    read.right = read.needs_no_answer = true;
-    read.station = token->destination;
-    read.text = fmt::format("token from station {} to station {}", token->source, token->destination);
-    return read;
-  }
-  const auto body = ppi::frame_length(bytes) == bytes.size() ? ppi::body_of(bytes) : std::nullopt;
-  if (!body) {
-    read.text = "not a frame: its length, check sum or end is wrong";
-    return read;
-  }
-  const bool request = (body->function & ppi::kIsRequest) != 0;
-  read.right = true;
-  read.direction = request ? Direction::Request : open != nullptr ? Direction::Answer : Direction::Unknown;
-  if (request) read.station = body->destination;
-  read.needs_no_answer = request && body->destination == ppi::kEveryStation;
-  read.text = fmt::format("{} to {}, function {:02X}: {}", body->source, body->destination, body->function,
-                          body->data.empty() ? function_text(body->function) : s7_text(body->data));
-  return read;
-}
 
-std::size_t first_ppi_message(Data bytes, const RecordedFrame*) {
-  const auto length = ppi::frame_length(bytes);
-  return length && *length <= bytes.size() ? *length : 0;
-}
+  std::size_t first_message(Data bytes, const RecordedFrame*) const override {
+    const auto length = ppi::frame_length(bytes);
+    return length && *length <= bytes.size() ? *length : 0;
+  }
+
+ private:
+  /// The last request of a master to a station, which waits to be fetched.
+  struct Job {
+    std::uint16_t number = 0;
+    std::vector<Variable> variables{};
+  };
+
+  static bool polls(Data frame) {
+    const auto body = ppi::body_of(frame);
+    return body && body->data.empty();
+  }
+
+  std::string text_of(const ppi::Body& body, bool request, std::string& wrong) {
+    const auto pdu = pdu_of(body.data, wrong);
+    if (!pdu) return {};
+    if (request) {
+      const bool names = pdu->kind == s7::kRequest && (pdu->function() == s7::kRead || pdu->function() == s7::kWrite);
+      jobs_[{body.destination, body.source}] = {pdu->number,
+                                                names ? variables_in(pdu->parameters) : std::vector<Variable>{}};
+      return request_text(*pdu);
+    }
+    const auto job = jobs_.find({body.source, body.destination});
+    const bool known = job != jobs_.end() && job->second.number == pdu->number;
+    return answer_text(*pdu, known ? job->second.variables : std::vector<Variable>{});
+  }
+
+  std::map<std::pair<std::uint8_t, std::uint8_t>, Job> jobs_;  // by station and master
+};
 
 }  // namespace
 
-std::unique_ptr<FrameReader> ppi_reader() { return std::make_unique<PlainReader<read_ppi, first_ppi_message>>(); }
+std::unique_ptr<FrameReader> ppi_reader() { return std::make_unique<PpiReader>(); }
 
 }  // namespace s7200::tools

@@ -1,4 +1,4 @@
-// The protocols of our own programs, and PPI, in recordings: their frames say all by themselves.
+// The protocols of our own programs, and PPI, in recordings.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ std::unique_ptr<FrameReader> modbus_reader();
 std::unique_ptr<FrameReader> ppi_reader();
 std::unique_ptr<FrameReader> freeport_pc_reader();
 
-/// Of such a protocol. It keeps nothing from frame to frame.
+/// Of a protocol whose frames say all by themselves: it keeps nothing from frame to frame.
 template <ReadFrame (*Read)(const RecordedFrame& frame, const RecordedFrame* open),
           std::size_t (*First)(std::span<const std::uint8_t> bytes, const RecordedFrame* open)>
 class PlainReader final : public FrameReader {

@@ -1,30 +1,39 @@
 #include "tools/recordings/recording.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <ranges>
+
+#include "tools/recordings/forms.hpp"
+
 namespace s7200::tools {
 namespace {
 
-/// By the first four bytes: pcap in microseconds and nanoseconds, in either order of bytes, and pcapng.
-bool looks_like_pcap(std::string_view bytes) {
-  using namespace std::string_view_literals;
-  for (const std::string_view magic :
-       {"\xA1\xB2\xC3\xD4"sv, "\xD4\xC3\xB2\xA1"sv, "\xA1\xB2\x3C\x4D"sv, "\x4D\x3C\xB2\xA1"sv, "\x0A\x0D\x0D\x0A"sv})
-    if (bytes.starts_with(magic)) return true;
-  return false;
-}
+/// The first that a file looks like is the one that it is read as.
+constexpr std::array kForms{
+    RecordingForm{"pcap", "pcap of a serial line (link type 147) or of Modbus TCP", looks_like_pcap, read_pcap},
+    RecordingForm{"CSV", "CSV with a frame or a character in each row", looks_like_csv, read_csv},
+    RecordingForm{"text", "text logs with a frame or a character in each line", is_text, read_text_log},
+};
 
 }  // namespace
 
+std::span<const RecordingForm> recording_forms() { return kForms; }
+
+bool is_text(std::string_view bytes) { return bytes.find('\0') == std::string_view::npos; }
+
 std::optional<LineRecording> read_recording(const std::string& bytes, const ReadingChoices& choices, std::string& why) {
-  std::optional<LineRecording> recording;
-  if (looks_like_pcap(bytes))
-    recording = read_pcap(bytes, choices, why);
-  else if (bytes.find('\0') != std::string::npos)
-    why = "neither a pcap file nor text";
-  else if (looks_like_csv(bytes))
-    recording = read_csv(bytes, choices, why);
-  else
-    recording = read_text_log(bytes, choices);
-  if (recording && recording->frames.empty()) {
+  const auto form = std::ranges::find_if(kForms, [&](const RecordingForm& each) { return each.looks_like(bytes); });
+  if (form == kForms.end()) {
+    why = fmt::format("it has none of the forms {}", fmt::join(kForms | std::views::transform(&RecordingForm::name), ", "));
+    return {};
+  }
+  auto recording = form->read(bytes, choices, why);
+  if (!recording) return {};
+  recording->form = form->name;
+  if (recording->frames.empty()) {
     why = "no frame in it";
     for (const std::string& note : recording->notes) why += "; " + note;
     return {};

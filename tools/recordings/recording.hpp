@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,30 +22,35 @@ struct RecordedFrame {
   std::string place{};        ///< `packet 3`, `line 12`
   std::uint32_t stream = 0;   ///< of Modbus TCP: which connection; a request and its answer are of the same
   std::vector<Time> times{};  ///< of each character, if the recording says; the first is `at`
-  std::vector<std::size_t> damaged{};  ///< which of them had a parity or framing error, from 0
+  /// Which of the bytes had a parity or framing error, from 0; all if the recording says it of the frame as a whole.
+  std::vector<std::size_t> damaged{};
+  bool more_was_lost = false;  ///< what came after it on its line or connection is missing
 };
 
 struct LineRecording {
   std::vector<RecordedFrame> frames{};
-  std::string form{};                ///< `pcap`, `text`, `CSV`
+  std::string form{};                ///< name of its RecordingForm
   std::vector<std::string> notes{};  ///< what was left out, and why
 };
 
+/// Characters of a recording with one in each row belong to a frame up to this silence, unless told otherwise.
+inline constexpr Time kCharacterGap = 5 * kMillisecond;
+
 struct ReadingChoices {
-  Time gap = 0;  ///< characters of a recording with one in each row belong to a frame up to this silence; 0: 5 ms
+  Time gap = 0;  ///< between the characters of a frame, at most; 0: kCharacterGap
   std::uint16_t tcp_port = 502;
 };
 
-/// Reads a pcap or pcapng file (link types 147, Ethernet, Linux cooked, raw IP), a CSV file or a text log. Nothing and `why`
-/// if `bytes` are none of these, or have no frame.
+/// What tools write.
+struct RecordingForm {
+  std::string_view name;     ///< `pcap`
+  std::string_view meaning;  ///< for the help
+  bool (*looks_like)(std::string_view bytes);
+  std::optional<LineRecording> (*read)(const std::string& bytes, const ReadingChoices& choices, std::string& why);
+};
+std::span<const RecordingForm> recording_forms();
+
+/// Reads a file of any of the forms. Returns nothing and sets `why` if `bytes` have none of them, or no frame.
 std::optional<LineRecording> read_recording(const std::string& bytes, const ReadingChoices& choices, std::string& why);
-
-// The readers behind it. Frames may be none.
-std::optional<LineRecording> read_pcap(const std::string& bytes, const ReadingChoices& choices, std::string& why);
-std::optional<LineRecording> read_csv(std::string_view text, const ReadingChoices& choices, std::string& why);
-LineRecording read_text_log(std::string_view text, const ReadingChoices& choices);
-
-/// Whether a text begins with a row that names its columns.
-bool looks_like_csv(std::string_view text);
 
 }  // namespace s7200::tools

@@ -1,5 +1,9 @@
 // Logs of serial sniffers and of mbpoll: a frame in each line.
+#include <fmt/format.h>
+
+#include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
+#include "tools/recordings/forms.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -13,18 +17,15 @@ Direction direction_of_brackets(std::string_view bytes) {
 
 }  // namespace
 
-LineRecording read_text_log(std::string_view text, const ReadingChoices& choices) {
-  constexpr Time kGap = 5 * kMillisecond;
-  LineRecording recording{.form = "text"};
+std::optional<LineRecording> read_text_log(const std::string& bytes, const ReadingChoices& choices, std::string&) {
+  LineRecording recording;
+  DayCounter days;
   std::size_t number = 0, left_out = 0;
   bool characters = true;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
+  for (const std::string& text : stl::split_lines(bytes)) {
+    std::string_view line = text;
     ++number;
-    const std::size_t first = line.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos || line[first] == '#') continue;
+    if (const std::string_view rest = stl::trim(line); rest.empty() || rest.front() == '#') continue;
     const auto time = leading_time(line);
     if (time) line.remove_prefix(time->length);
     const auto found = trailing_bytes(line);
@@ -37,16 +38,16 @@ LineRecording read_text_log(std::string_view text, const ReadingChoices& choices
     if (direction == Direction::Unknown && bracket != std::string_view::npos && bracket <= found->begin)
       direction = direction_of_brackets(line.substr(bracket));
     characters = characters && found->bytes.size() == 1 && time.has_value();
-    recording.frames.push_back({.at = time ? std::optional(time->time) : std::nullopt,
+    recording.frames.push_back({.at = time ? std::optional(days.since_first_midnight(*time)) : std::nullopt,
                                 .direction = direction,
                                 .bytes = found->bytes,
-                                .place = "line " + std::to_string(number)});
+                                .place = fmt::format("line {}", number)});
   }
   if (left_out > 0)
     recording.notes.push_back(left_out == 1 ? "a line without bytes was left out"
-                                            : std::to_string(left_out) + " lines without bytes were left out");
+                                            : fmt::format("{} lines without bytes were left out", left_out));
   count_from_first(recording);
-  if (characters) join_characters(recording, choices.gap == 0 ? kGap : choices.gap);
+  if (characters) join_characters(recording, choices);
   return recording;
 }
 

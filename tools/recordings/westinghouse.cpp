@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "interpreter/base/bytes.hpp"
+#include "interpreter/base/word_bytes.hpp"
 #include "serial_sim/line/frame.hpp"
 #include "serial_sim/westinghouse/block_message.hpp"
 #include "serial_sim/westinghouse/hppc_message.hpp"
@@ -17,9 +19,6 @@ namespace {
 using Data = std::span<const std::uint8_t>;
 using serial::to_hex;
 using serial::Verdict;
-
-unsigned low_first(Data bytes, std::size_t place) { return bytes[place] | bytes[place + 1] * 256U; }
-unsigned high_first(Data bytes, std::size_t place) { return bytes[place] * 256U + bytes[place + 1]; }
 
 bool fits(const serial::Answer& answer) { return answer.verdict == Verdict::Right || answer.verdict == Verdict::Exception; }
 
@@ -77,7 +76,7 @@ class BlockReader final : public FrameReader {
   static std::string request_text(Data bytes) {
     using westinghouse::Opcode;
     constexpr std::size_t kAddress = 1, kCount = 3;
-    const unsigned address = low_first(bytes, kAddress);
+    const unsigned address = load16_low_first(&bytes[kAddress]);
     const std::string count = plural(bytes[kCount] + 1U, "byte");
     switch (static_cast<Opcode>(bytes[0])) {
       case Opcode::BitWrite:
@@ -134,37 +133,32 @@ class LoaderReader final : public FrameReader {
  public:
   ReadFrame read(const RecordedFrame& frame, const RecordedFrame*) override {
     const Data bytes(frame.bytes);
-    if (first_message(bytes, nullptr) != bytes.size() && begins_session(bytes)) step_ = Step::Begin;
     ReadFrame read;
-    const bool whole = first_message(bytes, nullptr) == bytes.size();
-    const Direction side = from_plc(step_) ? Direction::Answer : Direction::Request;
-    if (!whole || (frame.direction != Direction::Unknown && frame.direction != side)) {
+    const auto step = step_of(frame);
+    if (!step) {
       read.text = fmt::format("does not fit the hand-shake: {} was due", due_text());
       step_ = Step::Begin;
+      opcode_.reset();
       return read;
     }
-    read.direction = side;
+    step_ = *step;
+    read.direction = side_of(step_);
     read.right = true;
     read.text = go_on(bytes);
-    read.needs_no_answer = side == Direction::Request && step_ == Step::Begin;
+    read.needs_no_answer = read.direction == Direction::Request && step_ == Step::Begin;
     return read;
   }
 
   std::size_t first_message(Data bytes, const RecordedFrame*) const override {
-    if (from_plc(step_) && begins_with(bytes, kRefusal)) return kRefusal.size();
-    switch (step_) {
-      case Step::Opcode:
-        return 1;
-      case Step::Arguments:
-        return begins_with(bytes, kAcknowledge) ? up_to(bytes, kAcknowledge.size(), westinghouse::kEot) : 0;
-      case Step::DataSent:
-        return up_to(bytes, 0, westinghouse::kEtx);
-      default: {
-        const Bytes due = fixed(step_);
-        return begins_with(bytes, due) ? due.size() : 0;
-      }
-    }
+    std::size_t length = first_of(step_, bytes);
+    if (step_ == Step::DataSent) return length;  // anything may be data
+    for (auto landmark = kLandmarks.begin(); length == 0 && landmark != kLandmarks.end(); ++landmark)
+      length = first_of(*landmark, bytes);
+    return length;
   }
+
+  /// The computer begins a session right after it has closed the one before.
+  bool messages_share_frames() const override { return true; }
 
  private:
   /// In their order; the computer begins.
@@ -188,20 +182,55 @@ class LoaderReader final : public FrameReader {
 
   static constexpr std::array kAcknowledge{westinghouse::kDle, westinghouse::kAck};
   static constexpr std::array kRefusal{westinghouse::kDle, westinghouse::kNak};
+  static constexpr std::array kEndOfArguments{westinghouse::kDle, westinghouse::kEot};
+  static constexpr std::array kEndOfData{westinghouse::kDle, westinghouse::kEtx};
+
+  /// Known wherever the hand-shake is, so that it is found again after what does not fit.
+  static constexpr std::array kLandmarks{Step::Begin, Step::HeaderHeard, Step::End};
 
   static bool from_plc(Step step) { return static_cast<unsigned>(step) % 2 == 1; }
+  static Direction side_of(Step step) { return from_plc(step) ? Direction::Answer : Direction::Request; }
+
+  static bool fits(Step step, const RecordedFrame& frame) {
+    return first_of(step, frame.bytes) == frame.bytes.size() &&
+           (frame.direction == Direction::Unknown || frame.direction == side_of(step));
+  }
+
+  /// The step that is due, or a landmark; nothing if the frame is neither.
+  std::optional<Step> step_of(const RecordedFrame& frame) const {
+    const bool ends_without_data = step_ == Step::DataSent && !opcode_ && fits(Step::End, frame);
+    if (ends_without_data) return Step::End;
+    if (fits(step_, frame)) return step_;
+    const auto landmark = std::ranges::find_if(kLandmarks, [&](Step step) { return fits(step, frame); });
+    return landmark == kLandmarks.end() ? std::nullopt : std::optional(*landmark);
+  }
+
+  /// How many of the bytes are this step; 0 if they are not, or not all there.
+  static std::size_t first_of(Step step, Data bytes) {
+    if (from_plc(step) && begins_with(bytes, kRefusal)) return kRefusal.size();
+    switch (step) {
+      case Step::Opcode:
+        return begins_with(bytes, fixed(Step::HeaderHeard)) || begins_with(bytes, fixed(Step::End)) ? 0 : 1;
+      case Step::Arguments:
+        return begins_with(bytes, kAcknowledge) ? up_to(bytes, kAcknowledge.size(), kEndOfArguments) : 0;
+      case Step::DataSent:
+        return up_to(bytes, 0, kEndOfData);
+      default: {
+        const Bytes due = fixed(step);
+        return begins_with(bytes, due) ? due.size() : 0;
+      }
+    }
+  }
 
   static bool begins_with(Data text, Data beginning) {
     return text.size() >= beginning.size() && std::ranges::equal(text.first(beginning.size()), beginning);
   }
 
-  static bool begins_session(Data bytes) { return bytes.size() == 1 && bytes[0] == westinghouse::kStx; }
-
-  /// Up to DLE and `end`, both included; 0 if that has not come. A doubled DLE is one of the data.
-  static std::size_t up_to(Data bytes, std::size_t from, std::uint8_t end) {
+  /// Up to `end`, a DLE and another, included; 0 if that has not come. A doubled DLE is one of the data.
+  static std::size_t up_to(Data bytes, std::size_t from, Data end) {
     using westinghouse::kDle;
     for (std::size_t at = from; at + 1 < bytes.size(); at += bytes[at] == kDle && bytes[at + 1] == kDle ? 2U : 1U)
-      if (bytes[at] == kDle && bytes[at + 1] == end) return at + 2;
+      if (begins_with(bytes.subspan(at), end)) return at + end.size();
     return 0;
   }
 
@@ -245,17 +274,18 @@ class LoaderReader final : public FrameReader {
     if (refused) return "refused";
     switch (step) {
       case Step::Begin:
+        opcode_.reset();
         return "begin of a session";
       case Step::Opcode:
         opcode_ = bytes[0];
         return operation_text();
       case Step::Arguments:
-        return arguments_text(unstuffed(bytes.subspan(kAcknowledge.size(), bytes.size() - 2 * kAcknowledge.size())));
+        return arguments_text(unstuffed(without_end(bytes.subspan(kAcknowledge.size()), kEndOfArguments)));
       case Step::ArgumentsHeard:
-        if (!westinghouse::has_data(static_cast<westinghouse::LoaderOpcode>(opcode_))) step_ = Step::EndWanted;
+        if (opcode() && !westinghouse::has_data(*opcode())) step_ = Step::EndWanted;
         return "arguments accepted";
       case Step::DataSent:
-        return to_hex(unstuffed(bytes.first(bytes.size() - kAcknowledge.size())));
+        return to_hex(unstuffed(without_end(bytes, kEndOfData)));
       case Step::Ready:
       case Step::EndReady:
         return "ready";
@@ -270,6 +300,8 @@ class LoaderReader final : public FrameReader {
     }
   }
 
+  static Data without_end(Data bytes, Data end) { return bytes.first(bytes.size() - end.size()); }
+
   static Bytes unstuffed(Data bytes) {
     Bytes plain;
     for (std::size_t at = 0; at < bytes.size(); ++at) {
@@ -281,7 +313,7 @@ class LoaderReader final : public FrameReader {
 
   std::string operation_text() const {
     using westinghouse::LoaderOpcode;
-    switch (static_cast<LoaderOpcode>(opcode_)) {
+    switch (*opcode()) {
       case LoaderOpcode::Write:
         return "write memory";
       case LoaderOpcode::Read:
@@ -293,24 +325,28 @@ class LoaderReader final : public FrameReader {
       case LoaderOpcode::Directory:
         return "directory of blocks";
     }
-    return fmt::format("opcode {:02X}", opcode_);
+    return fmt::format("opcode {:02X}", *opcode_);
   }
 
   std::string arguments_text(Data arguments) const {
     using westinghouse::LoaderOpcode;
-    const auto opcode = static_cast<LoaderOpcode>(opcode_);
+    const auto opcode = this->opcode();
     if (opcode == LoaderOpcode::Read && arguments.size() == 4)
-      return fmt::format("bytes 16#{:04X}…{:04X}", high_first(arguments, 0), high_first(arguments, 2));
+      return fmt::format("bytes 16#{:04X}…{:04X}", load16(&arguments[0]), load16(&arguments[2]));
     if (opcode == LoaderOpcode::Write && arguments.size() > 2)
-      return fmt::format("from 16#{:04X} on: {}", high_first(arguments, 0), to_hex(arguments.subspan(2)));
+      return fmt::format("from 16#{:04X} on: {}", load16(&arguments[0]), to_hex(arguments.subspan(2)));
     if (opcode == LoaderOpcode::Block && arguments.size() == 2)
       return fmt::format("type {}, block {}", arguments[0], arguments[1]);
     if (opcode == LoaderOpcode::Directory && arguments.size() == 1) return fmt::format("type {}", arguments[0]);
     return arguments.empty() ? "no arguments" : to_hex(arguments);
   }
 
+  std::optional<westinghouse::LoaderOpcode> opcode() const {
+    return opcode_ ? std::optional(static_cast<westinghouse::LoaderOpcode>(*opcode_)) : std::nullopt;
+  }
+
   Step step_ = Step::Begin;
-  std::uint8_t opcode_ = 0;
+  std::optional<std::uint8_t> opcode_;  // of this session; nothing if it was not heard
 };
 
 // --- HPPC ---
@@ -343,7 +379,7 @@ class HppcReader final : public FrameReader {
     using westinghouse::kLongestHppc;
     using westinghouse::kShortestHppc;
     if (bytes.size() < kShortestHppc) return 0;
-    const std::size_t length = low_first(bytes, 0);
+    const std::size_t length = load16_low_first(&bytes[0]);
     return length >= kShortestHppc && length <= std::min(bytes.size(), kLongestHppc) ? length : 0;
   }
 

@@ -78,7 +78,7 @@ std::string take_row(const std::string& address, const std::string& hex, const s
   std::uint8_t* to = part->bytes + (place->at - part->range.at());
   for (std::size_t i = 0; i < count; ++i) {
     const auto high = hex_digit(hex[2 * i]), low = hex_digit(hex[2 * i + 1]);
-    if (!high || !low) return fmt::format("'{}' holds something else than lower-case hex", stl::shortened(address));
+    if (!high || !low) return fmt::format("'{}' holds something else than hex", stl::shortened(address));
     to[i] = static_cast<std::uint8_t>(*high << 4 | *low);
   }
   return {};
@@ -90,6 +90,7 @@ std::string take_rows(const Json& rows, const std::vector<Kept>& kept, const Cpu
   return {};
 }
 
+/// What TODW takes: it does not check dates, and what a program has set comes back.
 std::string take_clock(const Json& json, ClockTime& clock) {
   for (const auto& [name, field] : kClockFields) {
     const auto value = json.at(name).get<std::int64_t>();
@@ -105,8 +106,13 @@ std::string take_forced(const Json& values, const CpuModel& model, Forcing& forc
     std::string why;
     const auto place = parse_range(address, model, why);
     if (!place) return why;
-    if (place->count != 1 || !forcing::possible(*place) || !forcing::add(forcing, *place, value.get<std::uint32_t>()))
+    if (place->count != 1 || !forcing::possible(*place))
       return fmt::format("'{}' cannot be forced", stl::shortened(address));
+    const auto forced = parse_value(*place, value.dump());
+    if (!forced) return fmt::format("'{}' cannot be forced to {}", stl::shortened(address), stl::shortened(value.dump()));
+    if (!forcing::add(forcing, *place, forced->value))
+      return fmt::format("'{}' cannot be forced: there is room for {} values of memory", stl::shortened(address),
+                         forcing.memory.size());
   }
   return {};
 }

@@ -7,7 +7,10 @@
 #include <array>
 #include <fstream>
 #include <sstream>
+#include <tuple>
 
+#include "interpreter/base/ppi_frame.hpp"
+#include "interpreter/model/s7_pdu.hpp"
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/record/pcap_capture.hpp"
@@ -47,6 +50,7 @@ TEST(RecordedFields, TimesAreReadInTheFormsOfTools) {
   EXPECT_EQ(time("[0.123456] 01 03"), 123'456 * kMicrosecond);
   EXPECT_EQ(time("12.5 ms 01"), 12'500 * kMicrosecond);
   EXPECT_EQ(time("+7ms 01"), 7 * ms);
+  EXPECT_EQ(time("[-0.002] 01 03"), -2 * ms) << "before the trigger";
   EXPECT_EQ(time("01 03 00"), std::nullopt) << "bytes";
   EXPECT_EQ(time("TX 01 03"), std::nullopt);
 }
@@ -113,8 +117,68 @@ TEST(Recordings, ACsvHasItsColumnsByName) {
       recording_of("No;Time (ms);Direction;Data\n1;0;TX;01 03 00 00 00 01 84 0A\n2;25,5;RX;\"01 03 02 12 34 B5 33\"\n");
   ASSERT_EQ(recording.frames.size(), 2U);
   EXPECT_EQ(recording.frames[1].direction, Direction::Answer);
+  EXPECT_EQ(recording.frames[1].at, 25'500 * kMicrosecond) << "the comma of a decimal, in the column's unit";
   EXPECT_EQ(refusal_of("Time,Data\n0,01 03\nnever,01 03\n"), "line 3: 'never' is not a time");
   EXPECT_EQ(refusal_of("Time,Data\n0,zz\n"), "line 2: 'zz' is not bytes in hex");
+}
+
+std::vector<std::optional<Time>> times_of(const LineRecording& recording) {
+  std::vector<std::optional<Time>> times;
+  for (const RecordedFrame& frame : recording.frames) times.push_back(frame.at);
+  return times;
+}
+
+TEST(Recordings, ATimeInACsvIsReadAsAWholeOrNotAtAll) {
+  EXPECT_EQ(times_of(recording_of("Time (us);Data\n0;01 03\n12.3 ms;01 03\n")).back(), 12'300 * kMicrosecond)
+      << "a unit of its own counts";
+  EXPECT_EQ(times_of(recording_of("time,data\n12:00:00.5,01 03\n12:00:01,01 03\n")).back(), 500 * ms);
+  EXPECT_EQ(times_of(recording_of("time,data\n1700000000.25,01 03\n1700000000.5,01 03\n")).back(), 250 * ms)
+      << "seconds since 1970";
+  EXPECT_EQ(refusal_of("Time (ms),Data\n\"25,5\",01 03\n"), "line 2: '25,5' is not a time") << "or thousands";
+  EXPECT_EQ(refusal_of("Time;Data\n1.5 x;01 03\n"), "line 2: '1.5 x' is not a time");
+  EXPECT_EQ(refusal_of("Time;Data\n1.5 s later;01 03\n"), "line 2: '1.5 s later' is not a time");
+  EXPECT_EQ(refusal_of("Time;Data\nnan;01 03\n"), "line 2: 'nan' is not a time");
+}
+
+TEST(Recordings, TimesBeforeTheTriggerAreCountedFromTheFirstRow) {
+  EXPECT_EQ(times_of(recording_of("Time [s],Value\n-0.002,0103\n-0.5e-3,0103\n0.001,0103\n")),
+            (std::vector<std::optional<Time>>{0, 1500 * kMicrosecond, 3 * ms}));
+  EXPECT_EQ(times_of(recording_of("-0.002 01 03\n0.001 01 03\n")), (std::vector<std::optional<Time>>{0, 3 * ms}));
+}
+
+TEST(Recordings, ACharacterThatTheCsvSaysWasDamagedIsKnownInItsFrame) {
+  const LineRecording recording = recording_of(
+      "Time [s],Value,Parity Error,Framing Error\n0.000,0x01,,\n0.001,0x03,Error,\n0.002,0x00,0,false\n"
+      "0.003,0x00,,Error\n0.500,0x02,none,ok\n");
+  ASSERT_EQ(recording.frames.size(), 2U);
+  EXPECT_EQ(recording.frames[0].damaged, (std::vector<std::size_t>{1, 3})) << "in whichever column it is said";
+  EXPECT_TRUE(recording.frames[1].damaged.empty());
+}
+
+TEST(Recordings, AFrameThatTheCsvSaysWasDamagedIsSoAsAWhole) {
+  const LineRecording recording = recording_of("Time,Frame Error,Data\n0,CRC,01 03 00 00 00 01 84 0A\n");
+  ASSERT_EQ(recording.frames.size(), 1U);
+  EXPECT_EQ(recording.frames[0].bytes, kRequest);
+  const auto frames = conversation(recording, *find_recorded_protocol("modbus"));
+  EXPECT_FALSE(frames[0].right);
+  EXPECT_EQ(frames[0].text, "it is damaged; station 1, read holding registers 40001, 1 of them");
+}
+
+TEST(Recordings, DatesCountWhereALogHasThem) {
+  constexpr Time kHour = 3600 * kSecond;
+  const auto hours = [](const char* first, const char* second) {
+    return *times_of(recording_of(fmt::format("{} TX 01 03\n{} RX 01 03\n", first, second))).back() / kHour;
+  };
+  EXPECT_EQ(hours("2026-11-22 23:00:00", "2026-11-23 12:00:00"), 13);
+  EXPECT_EQ(hours("2026-12-31T23:00:00", "2027-01-02T01:00:00"), 26);
+  EXPECT_EQ(hours("22.11.2026 23:00:00", "23.11.2026 12:00:00"), 13);
+  EXPECT_EQ(hours("28.02.26 12:00:00", "01.03.26 12:00:00"), 24);
+  EXPECT_EQ(hours("11/22/2026 23:00:00", "11/23/2026 12:00:00"), 13) << "the month first";
+  EXPECT_EQ(hours("22/11/2026 23:00:00", "23/11/2026 12:00:00"), 13) << "the day first";
+  EXPECT_EQ(hours("03/06/2026 12:00:00", "03/09/2026 12:00:00"), 72) << "either: three days rather than three months";
+  EXPECT_EQ(hours("2026-11-22 12:00:00", "2026-11-22 11:00:00"), -1) << "no midnight between them";
+  EXPECT_EQ(hours("2026-13-45 23:00:00", "2026-13-46 01:00:00"), 2) << "such dates do not exist; midnight has passed";
+  EXPECT_EQ(times_of(recording_of("time;data\n2026-11-22 23:00:00;01 03\n2026-11-23 12:00:00;01 03\n")).back(), 13 * kHour);
 }
 
 TEST(Recordings, MidnightPassesOnce) {
@@ -179,6 +243,37 @@ TEST(Recordings, ModbusTcpIsReadAsOnASerialLine) {
   EXPECT_EQ(recording.frames[0].stream, recording.frames[1].stream);
 }
 
+TEST(Recordings, ASegmentThatIsSentAgainWithMoreHasItsNewPartRead) {
+  const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
+  const Bytes head(request.begin(), request.begin() + 6);
+  const LineRecording recording = recording_of(ethernet_pcap(
+      {segment(true, 100, head), segment(true, 99, {0}), segment(true, 100, request), segment(true, 100, request)}));
+  ASSERT_EQ(recording.frames.size(), 1U);
+  EXPECT_EQ(recording.frames[0].bytes, kRequest);
+  EXPECT_EQ(recording.notes, std::vector<std::string>{});
+}
+
+TEST(Recordings, APacketWithoutItsLengthGoesToItsEnd) {
+  Bytes packet = segment(true, 100, modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}}));
+  packet[16] = packet[17] = 0;
+  const LineRecording recording = recording_of(ethernet_pcap({packet}));
+  ASSERT_EQ(recording.frames.size(), 1U);
+  EXPECT_EQ(recording.frames[0].bytes, kRequest);
+}
+
+TEST(Recordings, WhatIsLeftOutOfACaptureIsCountedByItsReason) {
+  const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
+  const Bytes good = segment(true, 100, request);
+  Bytes cut_off = good, fragment = good, other_port = good;
+  cut_off.resize(cut_off.size() - 4);
+  fragment[20] = 0x20;  // more of them follow
+  store16(&other_port[36], 80);
+  const LineRecording recording = recording_of(ethernet_pcap({good, cut_off, fragment, other_port}));
+  EXPECT_EQ(recording.frames.size(), 1U);
+  EXPECT_EQ(recording.notes, (std::vector<std::string>{"a packet not of TCP port 502 was left out",
+                                                       "2 packets of TCP in fragments or cut off were left out"}));
+}
+
 TEST(Recordings, AConnectionWithSegmentsMissingIsLeftOutFromThereOn) {
   const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
   const auto length = static_cast<std::uint32_t>(request.size());
@@ -192,7 +287,7 @@ TEST(Recordings, AConnectionWithSegmentsMissingIsLeftOutFromThereOn) {
 TEST(Recordings, WhatIsNoRecordingIsRefused) {
   EXPECT_EQ(refusal_of(""), "no frame in it");
   EXPECT_EQ(refusal_of("a letter\n"), "no frame in it; a line without bytes was left out");
-  EXPECT_EQ(refusal_of(std::string("a\0b", 3)), "neither a pcap file nor text");
+  EXPECT_EQ(refusal_of(std::string("a\0b", 3)), "it has none of the forms pcap, CSV, text");
   EXPECT_NE(refusal_of("\xD4\xC3\xB2\xA1 cut off"), "");
   std::string other = ethernet_pcap({});
   other[20] = 105;
@@ -252,7 +347,7 @@ TEST(Conversation, PpiIsReadFrameByFrame) {
   EXPECT_EQ(frames[0].text, "0 to 2, function 6C: read VB100:4");
   EXPECT_EQ(frames[1].text, "accepted");
   EXPECT_EQ(frames[2].text, "0 to 2, function 5C: poll");
-  EXPECT_EQ(frames[3].text, "2 to 0, function 08: read");
+  EXPECT_EQ(frames[3].text, "2 to 0, function 08: VB100:4 = 16#12 16#34 16#56 16#78");
   EXPECT_EQ(frames[3].other, 2U);
   EXPECT_EQ(frames[4].direction, Direction::Unknown);
 }
@@ -273,6 +368,16 @@ TEST(Conversation, WhatSeveralMastersOfPpiSayToEachOtherIsNamed) {
   EXPECT_TRUE(frames[5].needs_no_answer);
   EXPECT_EQ(frames[6].text, "token from station 2 to station 1");
   for (const ReadFrame& frame : frames) EXPECT_TRUE(frame.right) << frame.text;
+}
+
+TEST(Conversation, APpiAnswerThatEndsWithinItsHeadIsWrong) {
+  const auto frames = read(recording_of("0.0 TX 68 0d 0d 68 02 00 6c 32 01 00 00 00 01 00 00 00 00 a2 16\n"
+                                        "0.1 RX 68 0d 0d 68 00 02 08 32 03 00 00 00 01 00 00 00 00 40 16\n"),
+                           "ppi");
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_TRUE(frames[0].right);
+  EXPECT_FALSE(frames[1].right);
+  EXPECT_EQ(frames[1].text, "2 to 0, function 08: an answer without its error code");
 }
 
 /// A character in each row, `gap` after the one before; the rows of each string follow those of the one before after
@@ -296,6 +401,157 @@ std::vector<std::string> texts(const std::vector<ReadFrame>& frames) {
                                                           : "? ") +
                   frame.text);
   return all;
+}
+
+/// Requests of master 0 to station 2, each with what is fetched of its answer.
+std::vector<std::string> ppi_texts(const std::vector<std::pair<Bytes, Bytes>>& jobs) {
+  LineRecording recording;
+  const auto say = [&](const Bytes& bytes) { recording.frames.push_back({.bytes = bytes}); };
+  for (const auto& [request, answer] : jobs) {
+    say(ppi::to_frame({2, 0, ppi::kRequestFunction, request}));
+    say({ppi::kAccepted});
+    say(ppi::to_frame({2, 0, ppi::kPollFunction}));
+    say(ppi::to_frame({0, 2, ppi::kData, answer}));
+  }
+  std::vector<std::string> said;
+  for (const ReadFrame& frame : read(recording, "ppi")) {
+    EXPECT_TRUE(frame.right) << frame.text;
+    if (frame.frame.bytes.size() > 6) said.push_back(frame.text.substr(frame.text.find(": ") + 2));
+  }
+  return said;
+}
+
+/// The answer to request 1.
+Bytes ppi_answer(const Bytes& parameters, const Bytes& data, std::uint16_t error = 0) {
+  Bytes bytes = s7::pdu(s7::kAnswer, 1, parameters, data);
+  bytes.insert(bytes.begin() + s7::kRequestHead, {static_cast<std::uint8_t>(error >> 8), static_cast<std::uint8_t>(error)});
+  return bytes;
+}
+
+TEST(Conversation, AVariableOfPpiHasTheWidthOfItsTypeAndItsAnswerItsValues) {
+  const auto wanted = [](std::initializer_list<s7::Variable> variables) {
+    Bytes parameters{s7::kRead, static_cast<std::uint8_t>(variables.size())};
+    for (const s7::Variable& variable : variables) append(parameters, variable);
+    return s7::pdu(s7::kRequest, 1, parameters, {});
+  };
+  const auto found = [](const Bytes& data) { return ppi_answer({s7::kRead, 1}, data); };
+  EXPECT_EQ(
+      ppi_texts({{wanted({{s7::kWord, 3, Area::V, 800}}), found({0xFF, 4, 0, 48, 0, 1, 0, 2, 0xFF, 0xFF})},
+                 {wanted({{s7::kByte, 1, Area::V, 800}}), found({0xFF, 4, 0, 8, 0x41})},
+                 {wanted({{s7::kDouble, 1, Area::V, 800}}), found({0xFF, 4, 0, 32, 0, 1, 0, 2})},
+                 {wanted({{s7::kReal, 1, Area::V, 800}}), found({0xFF, 4, 0, 32, 0x3F, 0xC0, 0, 0})},
+                 {wanted({{s7::kBit, 1, Area::M, 255}}), found({0xFF, 3, 0, 1, 1})},
+                 {wanted({{0x1F, 1, Area::T, 37}}), found({0xFF, 9, 0, 2, 0x12, 0x34})},
+                 {wanted({{s7::kByte, 1, Area::Q, 0}, {s7::kWord, 1, Area::V, 80'000}}), found({0xFF, 4, 0, 8, 7, 0, 5, 0, 0, 0})},
+                 {wanted({{0x1D, 1, Area::V, 800}}), ppi_answer({s7::kRead, 1}, {}, 0x8104)}}),
+      (std::vector<std::string>{"read VW100:3", "VW100:3 = 16#0001 16#0002 16#FFFF", "read VB100", "VB100 = 16#41", "read VD100",
+                                "VD100 = 16#00010002", "read VD100:real", "VD100:real = 1.5", "read M31.7", "M31.7 = 1",
+                                "read T37", "T37 = 16#1234", "read QB0, VW10000",
+                                "QB0 = 16#07, VW10000: outside the memory of this CPU", "read V byte 100:1 of type 16#1D",
+                                "error 8104: function not available"}));
+}
+
+TEST(Conversation, WritesModesAndTheClockOfPpiAreInWords) {
+  Bytes write{s7::kWrite, 1};
+  append(write, s7::Variable{s7::kWord, 2, Area::V, 800});
+  const Bytes time{0xFF, 9, 0, 10, 0, 0x20, 0x26, 0x11, 0x22, 0x15, 0x45, 0x30, 0, 1};
+  const auto clock = [](std::uint8_t kind, std::uint8_t service, const Bytes& data) {
+    Bytes parameters{0, 1, 0x12, 4, 0x11, static_cast<std::uint8_t>(kind | s7::kClockGroup), service, 0};
+    if (kind == 0x80) parameters.insert(parameters.end(), {0, 0, 0, 0});
+    return s7::pdu(s7::kUserData, 1, parameters, data);
+  };
+  EXPECT_EQ(ppi_texts({{s7::pdu(s7::kRequest, 1, write, {0, 4, 0, 32, 0, 5, 0, 6}), ppi_answer({s7::kWrite, 1}, {0xFF})},
+                       {s7::pdu(s7::kRequest, 1, write, {0, 4, 0, 32, 0, 5, 0, 6}), ppi_answer({s7::kWrite, 1}, {0x03})},
+                       {s7::pdu(s7::kRequest, 1, {s7::kRun}, {}), ppi_answer({s7::kRun}, {})},
+                       {s7::pdu(s7::kRequest, 1, {s7::kStop}, {}), ppi_answer({s7::kStop}, {})},
+                       {s7::pdu(s7::kRequest, 1, {s7::kSetup, 0, 0, 1, 0, 1, 3, 0xC0}, {}),
+                        ppi_answer({s7::kSetup, 0, 0, 1, 0, 1, 0, 240}, {})},
+                       {clock(0x40, s7::kReadClock, {0x0A, 0, 0, 0}), clock(0x80, s7::kReadClock, time)},
+                       {clock(0x40, s7::kSetClock, time), clock(0x80, s7::kSetClock, {0x0A, 0, 0, 0})}}),
+            (std::vector<std::string>{"write VW100:2 = 16#0005 16#0006", "VW100:2 written", "write VW100:2 = 16#0005 16#0006",
+                                      "VW100:2: not allowed", "go to RUN", "goes to RUN", "go to STOP", "goes to STOP",
+                                      "set up: 960 bytes at once", "set up: 240 bytes at once", "read the clock",
+                                      "clock: 2026-11-22 15:45:30", "set the clock to 2026-11-22 15:45:30", "clock set"}));
+}
+
+TEST(Conversation, TheSameFrameAfterTheMastersTimeoutIsTheRequestRepeated) {
+  const char* write = "01 06 00 00 00 01 48 0A";
+  const auto after = [&](const char* time, const char* direction = "") {
+    return recording_of(fmt::format("0.000 {0} {1}\n{2} {3} {1}\n", *direction != 0 ? "TX" : "", write, time, direction));
+  };
+  EXPECT_EQ(texts(read(after("0.080"))),
+            (std::vector<std::string>{"> station 1, write register 40001 = 16#0001", "< register 0 written: 16#0001"}));
+  const auto frames = read(after("0.250"));
+  EXPECT_EQ(texts(frames), (std::vector<std::string>{"> station 1, write register 40001 = 16#0001",
+                                                     "> station 1, write register 40001 = 16#0001; repeated after 250 ms, "
+                                                     "or its late echo"}));
+  EXPECT_EQ(frames[1].repeats, 0U);
+  EXPECT_EQ(read(after("0.250", "RX"))[1].direction, Direction::Answer) << "the recording says so";
+  EXPECT_EQ(read(after("0.250"), "modbus", {.timeout = 300 * ms})[1].direction, Direction::Answer);
+  const auto timeless = read(recording_of(fmt::format("{0}\n{0}\n", write)));
+  EXPECT_EQ(timeless[1].direction, Direction::Answer);
+}
+
+TEST(Conversation, AnAnswerAfterARepeatedRequestIsTheAnswerToThat) {
+  for (const auto& [protocol, request, answer] :
+       {std::tuple{"modbus", "01 06 00 00 00 01 48 0A", "01 06 00 00 00 01 48 0A"},
+        std::tuple{"modbus", "01 08 00 00 12 34 ED 7C", "01 08 00 00 12 34 ED 7C"},
+        std::tuple{"pc1000-lan", "0A 05 00 00 00 0F", "0A 05 01 00 00 10"}}) {
+    const auto frames =
+        read(recording_of(fmt::format("0.000 {0}\n0.250 {0}\n0.260 {1}\n0.300 {0}\n0.310 {1}\n", request, answer)), protocol);
+    ASSERT_EQ(frames.size(), 5U);
+    EXPECT_EQ(frames[0].other, std::nullopt) << request;
+    EXPECT_EQ(frames[1].repeats, 0U);
+    EXPECT_EQ(frames[1].other, 2U);
+    EXPECT_EQ(frames[3].other, 4U);
+  }
+}
+
+TEST(Conversation, ARepeatedReadIsInNoDoubt) {
+  const auto frames = read(recording_of("0.000 01 03 00 00 00 01 84 0A\n0.250 01 03 00 00 00 01 84 0A\n"));
+  EXPECT_EQ(frames[1].direction, Direction::Request);
+  EXPECT_EQ(frames[1].repeats, std::nullopt) << "it is no answer to itself";
+}
+
+TEST(Conversation, AScenarioLeavesOutRequestsThatMayHaveBeenAnsweredByTheirEcho) {
+  const auto frames = read(recording_of("0.000 09 06 00 0A 00 05 68 83\n0.250 09 06 00 0A 00 05 68 83\n"
+                                        "0.500 01 03 00 00 00 01 84 0A\n0.525 01 03 02 12 34 B5 33\n"));
+  const Playback left = playback(frames, {}, {});
+  EXPECT_EQ(left.notes, (std::vector<std::string>{"line 1: left out: the same after it (line 2) may be its late echo",
+                                                  "line 2: left out: it may be the late echo of line 1"}));
+  EXPECT_EQ(left.scenario.find("send: 09"), std::string::npos);
+  EXPECT_NE(left.scenario.find("    steps:\n      # line 1: left out: the same after it (line 2) may be its late echo\n"
+                               "      # line 2: left out: it may be the late echo of line 1\n      - send: 01 03"),
+            std::string::npos)
+      << left.scenario;
+}
+
+TEST(Conversation, AnAnswerThatACutOffFileHasLostIsNotExpectedToBeSilence) {
+  std::ostringstream file;
+  serial::PcapWriter writer(file);
+  for (Time at = 0; at < 2 * kSecond; at += kSecond) {
+    writer.packet(at, kRequest);
+    writer.packet(at + 25 * ms, kAnswer);
+  }
+  const std::string whole = file.str();
+  EXPECT_TRUE(playback(read(recording_of(whole)), {}, {}).notes.empty());
+  const Playback cut = playback(read(recording_of(whole.substr(0, whole.size() - 1))), {}, {});
+  EXPECT_EQ(cut.notes, std::vector<std::string>{"packet 3: left out: the recording is cut off after it"});
+  EXPECT_EQ(cut.scenario.find("silence"), std::string::npos);
+  EXPECT_NE(cut.scenario.find("      # packet 3: left out: the recording is cut off after it\n"), std::string::npos);
+}
+
+TEST(Conversation, RequestsOfAConnectionWhoseAnswersAreMissingAreNotExpectedToBeSilence) {
+  const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
+  const Bytes answer = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 2, 0x12, 0x34}});
+  const auto asked = static_cast<std::uint32_t>(request.size()), answered = static_cast<std::uint32_t>(answer.size());
+  const Playback left = playback(
+      read(recording_of(ethernet_pcap({segment(true, 100, request), segment(false, 500, answer),
+                                       segment(true, 100 + asked, request), segment(false, 500 + 2 * answered, answer),
+                                       segment(true, 100 + 2 * asked, request)}))),
+      {}, {});
+  EXPECT_EQ(left.notes, std::vector<std::string>{"packet 3: left out: the recording is cut off after it"});
+  EXPECT_EQ(left.scenario.find("silence"), std::string::npos);
 }
 
 TEST(Conversation, MessagesThatFollowEachOtherCloselyAreToldApartByWhatTheySay) {
@@ -375,6 +631,53 @@ TEST(Conversation, ALoaderSessionIsReadStepByStep) {
   for (const ReadFrame& frame : frames) EXPECT_TRUE(frame.right) << frame.text;
 }
 
+TEST(Conversation, TheLastWordOfALoaderSessionAndTheFirstOfTheNextMayStandInOneFrame) {
+  const LineRecording recording = recording_of(
+      "0.000 02\n0.010 10 06\n0.020 03\n0.030 02\n0.040 10 06\n0.050 16 10 03\n0.060 10 06 90 00 07 10 04\n0.070 10 06 02\n"
+      "0.080 10 06\n0.090 12 10 03\n0.100 10 06 02\n0.110 10 06\n");
+  const auto frames = read(recording, "pc500-loader", {.character = ms});
+  const std::vector<std::string> end{"< end", "> session closed", "> begin of a session", "< acknowledged"};
+  const auto said = texts(frames);
+  ASSERT_EQ(said.size(), 13U);
+  EXPECT_EQ(std::vector(said.end() - 4, said.end()), end);
+  EXPECT_EQ(frames[10].frame.at, 100 * ms);
+  EXPECT_EQ(frames[11].frame.at, 102 * ms) << "after two characters";
+  EXPECT_EQ(frames[11].silence, 0);
+  EXPECT_EQ(frames[12].latency, 7 * ms);
+  const auto at_end = read(recording, "pc500-loader", {.character = ms, .at_end = true});
+  EXPECT_EQ(at_end[10].frame.at, 99 * ms);
+  EXPECT_EQ(at_end[11].frame.at, 100 * ms);
+}
+
+TEST(Conversation, ALoaderSessionIsFoundAgainAfterWhatDoesNotFit) {
+  const std::string session =
+      "02\n10 06\n04\n02\n10 06\n16 10 03\n10 06 90 00 90 00 10 04\n10 06 02\n10 06\n00 00 00 00 00 05 10 03\n10 06\n02\n"
+      "10 06\n12 10 03\n10 06\n";
+  const auto of_next = [&](const std::string& broken) {
+    const auto said = texts(read(recording_of(broken + session), "pc500-loader"));
+    return std::vector(said.end() - 15, said.end());
+  };
+  const auto right = texts(read(recording_of(session), "pc500-loader"));
+  ASSERT_EQ(right.size(), 15U);
+  EXPECT_EQ(right.back(), "> session closed");
+  EXPECT_EQ(of_next(session), right);
+  std::vector<std::string> lines;
+  for (std::istringstream in(session); std::getline(in, lines.emplace_back());) {
+  }
+  lines.pop_back();
+  for (std::size_t place = 0; place < lines.size(); ++place) {
+    std::string without, damaged, broken_off;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      without += i == place ? "" : lines[i] + "\n";
+      damaged += (i == place ? "55 AA" : lines[i]) + "\n";
+      broken_off += i < place ? lines[i] + "\n" : "";
+    }
+    EXPECT_EQ(of_next(without), right) << "without step " << place + 1;
+    EXPECT_EQ(of_next(damaged), right) << "with step " << place + 1 << " damaged";
+    EXPECT_EQ(of_next(broken_off), right) << "broken off before step " << place + 1;
+  }
+}
+
 TEST(Conversation, ALoaderSessionThatIsRefusedOrBrokenOffBeginsAnew) {
   const auto frames = read(recording_of("0.0 02\n0.1 10 06\n0.2 05\n0.3 10 15\n0.4 02\n0.5 02\n0.6 10 06\n0.7 03\n0.8 55\n"),
                            "pc500-loader");
@@ -443,13 +746,36 @@ TEST(Conversation, AScenarioAsksTheSameWithTheSameGaps) {
       recording_of("0.000 TX 01 03 00 00 00 01 84 0A\n0.025 RX 01 03 02 12 34 B5 33\n0.100 TX 02 03 00 00 00 01 84 39\n");
   const Stamps stamps{.character = 1 * ms};
   const auto frames = read(recording, "modbus", stamps);
-  EXPECT_EQ(scenario_text(frames, stamps, {.name = "a \"plant\"", .program = "slave.stl", .tolerance = 5 * ms}),
+  EXPECT_EQ(playback(frames, stamps, {.name = "a \"plant\"", .program = "slave.stl", .tolerance = 5 * ms}).scenario,
             "scenarios:\n  - name: \"a \\\"plant\\\"\"\n    program: \"slave.stl\"\n    tolerance: 5 ms\n    steps:\n"
             "      - send: 01 03 00 00 00 01 84 0a\n        expect: 01 03 02 12 34 b5 33\n        latency: 17 ms\n"
             "        # line 1: station 1, read holding registers 40001, 1 of them; 1 register: 16#1234\n"
             "      - send: 02 03 00 00 00 01 84 39\n        pause: 68 ms\n        expect: silence\n        timeout: 1 s\n"
             "        # line 3: station 2, read holding registers 40001, 1 of them\n");
-  EXPECT_EQ(scenario_text(frames, stamps, {.station = 9}), "");
+  EXPECT_EQ(playback(frames, stamps, {.station = 9}).scenario, "");
+}
+
+TEST(Conversation, AWrongAnswerIsNoneAndNotExpectedByAScenario) {
+  const LineRecording recording =
+      recording_of("0.000 TX 01 03 00 00 00 01 84 0A\n0.025 RX 01 03 02 12 34 B5 34\n0.100 TX 02 03 00 00 00 01 84 39\n");
+  const auto frames = read(recording);
+  DecodedSummary summary;
+  for (const ReadFrame& frame : frames) summary.add(frame);
+  EXPECT_EQ(summary.text(), "requests: 2, answered: 0; wrong frames: 1, frames of no request: 0\n");
+  const Playback left = playback(frames, {}, {.name = "plant"});
+  EXPECT_EQ(left.scenario.find("b5 34"), std::string::npos);
+  EXPECT_NE(left.scenario.find("send: 02 03 00 00 00 01 84 39\n        expect: silence"), std::string::npos);
+  EXPECT_EQ(left.notes, std::vector<std::string>{"line 1: left out: its answer (line 2): wrong CRC"});
+}
+
+TEST(Conversation, AScenarioLeavesOutWhatNoSlaveAnswersTheSame) {
+  LineRecording recording = recording_of("0.000 01 03 00 00 00 01 84 0A\n0.025 01 03 02 12 34 B5 34\n");
+  EXPECT_EQ(playback(read(recording), {}, {}).notes,
+            std::vector<std::string>{
+                "line 1: left out: what follows it (line 2) may be its answer: wrong CRC, or not a whole frame"});
+  recording.frames.pop_back();
+  recording.frames[0].damaged = {3};
+  EXPECT_EQ(playback(read(recording), {}, {}).notes, std::vector<std::string>{"line 1: left out: the request is damaged"});
 }
 
 }  // namespace

@@ -172,6 +172,11 @@ TEST(MemoryFile, AFileThatIsNotMemoryOfThisCpuIsRefusedWithTheReason) {
     EXPECT_NE(at, std::string::npos) << from;
     return text.replace(at, from.size(), to);
   };
+  const auto with_forced = [&](const std::string& values) {
+    return changed("\"eeprom\"", "\"forced\": {" + values + "}, \"eeprom\"");
+  };
+  std::string too_many = "\"VB0\": 1";
+  for (int i = 1; i <= 16; ++i) too_many += fmt::format(", \"VB{}\": 1", i);
   const std::pair<std::string, std::string_view> kCases[] = {
       {"", "no JSON object"},
       {"MEND\n", "no JSON object"},
@@ -189,6 +194,12 @@ TEST(MemoryFile, AFileThatIsNotMemoryOfThisCpuIsRefusedWithTheReason) {
       {changed("\"month\": 11", "\"month\": 100"), "month"},
       {changed("\"month\": 11", "\"month\": \"May\""), "damaged"},
       {changed("\"eeprom\"", "\"eprom\""), "damaged"},
+      {with_forced("\"VB10\": 70000"), "'VB10' cannot be forced to 70000"},
+      {with_forced("\"VB12\": 1.5"), "'VB12' cannot be forced to 1.5"},
+      {with_forced("\"I0.0\": 2"), "'I0.0' cannot be forced to 2"},
+      {with_forced("\"VB10\": \"5\""), "'VB10' cannot be forced to \"5\""},
+      {with_forced("\"SMB0\": 1"), "'SMB0' cannot be forced"},
+      {with_forced(too_many), "there is room for 16 values"},
   };
   for (const auto& [json, reason] : kCases) {
     std::string why;
@@ -205,6 +216,30 @@ TEST(MemoryFile, HasWhatIsForced) {
   const auto memory = memory_from_json(memory_to_json(plc.cpu.retentive_memory(), cpu214()), cpu214(), why);
   ASSERT_TRUE(memory) << why;
   EXPECT_EQ(memory->forcing, plc.cpu.state().forcing);
+}
+
+TEST(MemoryFile, ANegativeForcedValueReadsBackAsItself) {
+  Plc plc(kIdle);
+  plc.cpu.force(plc.place("VB10"), static_cast<std::uint32_t>(-1));
+  plc.cpu.force(plc.place("VW20"), static_cast<std::uint32_t>(-2));
+  std::string why;
+  const std::string json = memory_to_json(plc.cpu.retentive_memory(), cpu214());
+  EXPECT_NE(json.find("\"VB10\": 255"), std::string::npos) << json;
+  EXPECT_NE(json.find("\"VW20\": 65534"), std::string::npos) << json;
+  const auto memory = memory_from_json(json, cpu214(), why);
+  ASSERT_TRUE(memory) << why;
+  EXPECT_EQ(memory->forcing, plc.cpu.state().forcing);
+}
+
+// TODW takes any BCD.
+TEST(MemoryFile, AClockThatAProgramHasSetToNoDateReadsBackAsItself) {
+  Plc plc("LD SM0.1\nMOVD 16#02991012, VD0\nMOVD 16#30000002, VD4\nTODW VB0\nMEND\n");
+  plc.run_scans(1);
+  std::string why;
+  const auto memory = memory_from_json(memory_to_json(plc.cpu.retentive_memory(), cpu214()), cpu214(), why);
+  ASSERT_TRUE(memory) << why;
+  EXPECT_EQ(memory->clock.month, 99);
+  EXPECT_EQ(memory->clock, plc.cpu.clock());
 }
 
 }  // namespace

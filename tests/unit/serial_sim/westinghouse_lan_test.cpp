@@ -120,6 +120,15 @@ TEST(Pc1000Lan, L7AddressesCountWordsAndAnOddBlockEndsWithALowByte) {
   EXPECT_EQ(plc(read_block(0xFFFF, 2)), "05 ff ff 01 00 04 00 00 00");
 }
 
+TEST(Pc1000Lan, L7AddressesOfBitsAreWordsEvenWhereThoseOfBlocksCountBytes) {
+  OnLine plc("addresses=bytes");
+  EXPECT_EQ(plc(write_bit(0x4000, 1, true)), "03 00 40 11 00 54");
+  EXPECT_EQ(plc(read_block(0x8000, 2)), "05 00 80 01 00 86 02 00 02");
+  plc.bench.set("fault=0204");
+  plc(write_bit(kRetestWord, kRetestBit, true));
+  EXPECT_EQ(plc.bench.fault_of("fault=0000"), "");
+}
+
 TEST(Pc1000Lan, L8WhatIsWrongOrRefusedIsNotAnswered) {
   OnLine plc("W[0000]=0");
   EXPECT_EQ(plc(read_block(0xFFFF, 3)), "");
@@ -226,6 +235,22 @@ TEST(Pc1000Lan, ASnapshotGoesOnAsItWouldHave) {
   EXPECT_EQ(system.finish_exchange(plc.bench.master()).response_bytes(), answer);
   EXPECT_EQ(system.snapshot(), end);
   EXPECT_FALSE(answer.empty());
+}
+
+TEST(Pc1000Lan, EachTextIsJudgedByItselfWhateverWasSaidOfTheOneBefore) {
+  Bench bench("lan");
+  std::string why;
+  EXPECT_FALSE(bench.plc().set("parity=nonsense", why));
+  EXPECT_FALSE(bench.plc().set("ZZ1=5", why));
+  EXPECT_NE(why.find("'ZZ1=5' is not a setting of this PLC"), std::string::npos) << why;
+  EXPECT_FALSE(bench.plc().holds("W[10000]=5", why));
+  EXPECT_EQ(why, "W: addresses are from 0 to FFFF");
+  EXPECT_FALSE(bench.plc().set("W[0000]=12345", why));
+  EXPECT_EQ(why, "W: 12345 is more than FFFF");
+  EXPECT_TRUE(bench.plc().set("W[0000]=1234", why));
+  EXPECT_TRUE(bench.plc().holds("W[0000]=1234", why));
+  EXPECT_FALSE(bench.plc().holds("W[0000]=1235", why));
+  EXPECT_EQ(why, "W 0 holds 1234, not 1235; ");
 }
 
 // What a master makes of answers.

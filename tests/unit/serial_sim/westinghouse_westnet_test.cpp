@@ -104,6 +104,15 @@ TEST(Westnet, W5AnErrorIsFFAndItsCodeWhichTheHighwayStatusShowsUntilACommandSucc
   EXPECT_EQ(asked(other, highway(ReadHighwayStatus)), "09 02 00 00 00 0b");
 }
 
+TEST(Westnet, W5WhatThePlcRefusesWithACodeIsAnErrorOfTheHighwayToo) {
+  Addressed plc("error=05 key=protect write=unprotected error_byte=fe");
+  EXPECT_EQ(plc(write_block(0, Bytes{1, 2})), "fe 05");
+  EXPECT_EQ(plc(highway(ReadHighwayStatus)), "09 02 05 00 00 10");
+  Addressed silent("key=protect write=unprotected");
+  EXPECT_EQ(silent(write_block(0, Bytes{1, 2})), "");
+  EXPECT_EQ(silent(highway(ReadHighwayStatus)), "09 02 00 00 00 0b");
+}
+
 TEST(Westnet, W6ADropThatCannotBeIsRefusedAndAMissingPlcWhenItIsAsked) {
   Addressed plc;
   for (const Bytes& message : {highway(SetAddress, 1, 0x11), highway(SetAddress, 0, 0), highway(SetAddress, 0, 0xFF),
@@ -139,7 +148,9 @@ TEST(Westnet, W7WhatIsNotUnderstoodIsNotAnswered) {
   EXPECT_TRUE(silent(wrong_data));
   EXPECT_EQ(plc.bench.fault_of("W[0000]=0"), "");
   EXPECT_EQ(plc(highway(ReadHighwayStatus)), "09 02 00 00 00 0b");
-  EXPECT_EQ(Addressed("malformed=04")(wrong), "ff 04");
+  Addressed loud("malformed=04");
+  EXPECT_EQ(loud(wrong), "ff 04");
+  EXPECT_EQ(loud(highway(ReadHighwayStatus)), "09 02 04 00 00 0f");
 }
 
 TEST(Westnet, ABlockOfMoreThan64BytesIsTooLarge) {

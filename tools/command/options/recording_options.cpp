@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <ranges>
 #include <stdexcept>
 
 #include "interpreter/base/text.hpp"
@@ -20,7 +21,8 @@ void RecordingOptions::add_to(CLI::App& verb) {
   std::vector<std::string> names;
   for (const RecordedProtocol& each : recorded_protocols()) names.emplace_back(each.name);
   verb.add_option("FILE", file,
-                  "a recording: pcap, CSV, a text log; - is standard input; or a line: a serial device, tcp://HOST:PORT")
+                  fmt::format("a recording: {}; - is standard input; or a line: a serial device, tcp://HOST:PORT",
+                              fmt::join(recording_forms() | std::views::transform(&RecordingForm::name), ", ")))
       ->required();
   verb.add_option("--protocol", protocol, "what was spoken")
       ->check(CLI::IsMember(names))
@@ -32,8 +34,13 @@ void RecordingOptions::add_to(CLI::App& verb) {
                            ->capture_default_str()
                            ->type_name("WHICH"));
   add_duration(verb, "--gap", reading.gap,
-               "silence that ends a frame, in recordings with a character in each row, 5ms without it, and of a line, 20ms",
+               fmt::format("silence that ends a frame, in recordings with a character in each row, {} without it, and of a "
+                           "line, 20 ms",
+                           format_duration(kCharacterGap)),
                {1, kLongestDuration});
+  add_duration(verb, "--timeout", timeout,
+               fmt::format("of the master: the same frame after a longer silence is the request repeated, not its echo [{}]",
+                           format_duration(kMasterTimeout)));
   add_whole_number(verb, "--tcp-port", reading.tcp_port, {1, 65'535}, "of the Modbus TCP server, in a recording", "502");
   for_files_.push_back(verb.get_option("--tcp-port"));
   for_lines_.push_back(add_duration(verb, "--for", duration, "how long to listen to a line [until Ctrl-C]"));
@@ -63,6 +70,11 @@ std::optional<SlaveTarget> RecordingOptions::live() const {
                   stl::shortened(file)));
 }
 
+Stamps RecordingOptions::complete(Stamps stamps) const {
+  stamps.timeout = timeout;
+  return stamps;
+}
+
 SerialFormat RecordingOptions::format() const { return line.over(find_protocol(protocol)->format); }
 
 std::unique_ptr<LineListener> open_line(const RecordingOptions& options, const SlaveTarget& line) {
@@ -77,7 +89,7 @@ std::unique_ptr<LineListener> open_line(const RecordingOptions& options, const S
 }
 
 bool listen(LineListener& line, const RecordingOptions& options, const std::function<void(ReadFrame)>& tell) {
-  Conversation conversation(*find_recorded_protocol(options.protocol), line.stamps());
+  Conversation conversation(*find_recorded_protocol(options.protocol), options.complete(line.stamps()));
   try {
     line.listen(options.duration, conversation, tell);
     return true;
@@ -92,7 +104,7 @@ std::optional<ReadRecording> read_conversation(const RecordingOptions& options) 
     const auto line = open_line(options, *target);
     if (!line) return {};
     read.name = line->name();
-    read.stamps = line->stamps();
+    read.stamps = options.complete(line->stamps());
     const auto keep = [&](ReadFrame frame) {
       if (frame.other) read.frames[*frame.other].other = read.frames.size();
       read.frames.push_back(std::move(frame));
@@ -109,7 +121,8 @@ std::optional<ReadRecording> read_conversation(const RecordingOptions& options) 
   read.recording = std::move(*recording);
   const bool over_tcp =
       std::ranges::any_of(read.recording.frames, [](const RecordedFrame& frame) { return frame.stream != 0; });
-  read.stamps = {.character = over_tcp ? 0 : options.format().character_time(), .at_end = options.stamps == "end"};
+  read.stamps = options.complete(
+      {.character = over_tcp ? 0 : options.format().character_time(), .at_end = options.stamps == "end"});
   read.frames = conversation(read.recording, *find_recorded_protocol(options.protocol), read.stamps);
   return read;
 }

@@ -26,13 +26,17 @@ struct RecordingOptions {
   ReadingChoices reading{};
   serial::LineSettings line{};
   std::string stamps = "begin";
-  Time duration = kNever;  ///< of what is heard live
+  Time timeout = kMasterTimeout;  ///< of the master
+  Time duration = kNever;         ///< of what is heard live
 
   void add_to(CLI::App& verb);
 
   /// A line to listen to; nothing if a file is to be read. Throws std::invalid_argument for another kind of target, and for
   /// options that do not go with what it is.
   std::optional<SlaveTarget> live() const;
+
+  /// With the master's time-out.
+  Stamps complete(Stamps stamps) const;
 
   /// Of the line: as the protocol has it where no option says otherwise.
   SerialFormat format() const;
