@@ -46,7 +46,7 @@ std::string SimulatedSlave::note_on_port(bool wants_freeport) const {
 }
 
 serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
-  const SerialFormat format = master_.over(simulation_.port_format());
+  const SerialFormat format = this->format();
   if (serial::has_wrong_parity(request.frame) && format.parity == Parity::None)
     throw std::invalid_argument("a byte with wrong parity (p) needs a format with parity");
   simulation_.finish_exchange();  // what Ctrl-C has left under way
@@ -55,8 +55,7 @@ serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
   simulation_.master().start(request, simulation_.time());
   serial::Exchange exchange = simulation_.finish_exchange();
   if (simulation_.master().busy()) exchange.timed_out = exchange.response.empty();  // after Ctrl-C
-  if (const SerialFormat now = master_.over(simulation_.port_format()); now != format)
-    simulation_.master_uart().configure(now);
+  if (const SerialFormat now = this->format(); now != format) simulation_.master_uart().configure(now);
   return exchange;
 }
 
@@ -71,6 +70,6 @@ serial::Exchange SimulatedSlave::receive(const serial::Listening& listening) {
 
 void SimulatedSlave::wait(Time duration) { run_until(simulation_, simulation_.time() + duration); }
 
-Time SimulatedSlave::pause() const { return serial::default_quiet(master_.over(simulation_.port_format())); }
+Time SimulatedSlave::pause() const { return serial::default_quiet(format()); }
 
 }  // namespace s7200::tools
