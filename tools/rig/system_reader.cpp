@@ -276,7 +276,8 @@ class Reader {
                            "write for example {SMB30: 16#45}");
     for (std::size_t i = 0; i < constants->keys.size(); ++i) {
       const auto value = values_.number(&constants->items[i], INT32_MIN, UINT32_MAX);
-      if (value && !set_constant(source, constants->keys[i].text, *value))
+      const auto form = constants->items[i].text.starts_with("16#") ? stl::Integer::Form::Hex : stl::Integer::Form::Decimal;
+      if (value && !set_constant(source, constants->keys[i].text, {.value = *value, .form = form}))
         values_.wrong(constants->keys[i],
                       fmt::format("the program moves no constant to {}", stl::shortened(constants->keys[i].text)),
                       "MOVB, MOVW or MOVD with a constant and that address would");
@@ -284,7 +285,7 @@ class Reader {
   }
 
   /// Whatever constant the program moves there is `value` then. Whether it moves any.
-  static bool set_constant(stl::Source& source, std::string_view address, std::int64_t value) {
+  static bool set_constant(stl::Source& source, std::string_view address, const stl::Integer& value) {
     bool any = false;
     for (stl::Line& line : source.lines) {
       auto* const statement = std::get_if<stl::Statement>(&line);
@@ -293,7 +294,8 @@ class Reader {
       if (what != "MOVB" && what != "MOVW" && what != "MOVD") continue;
       auto* const constant = std::get_if<stl::Integer>(&statement->operands[0].value);
       if (!constant || stl::to_text(statement->operands[1]) != stl::upper_case(std::string(address))) continue;
-      *constant = {.value = value};
+      *constant = value;
+      statement->comment = "as the system file has it";  // the program's own is about its own constant
       any = true;
     }
     return any;

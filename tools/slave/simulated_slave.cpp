@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "interpreter/model/ports.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/views/port_mode.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -40,9 +40,7 @@ std::string SimulatedSlave::note_on_port(bool wants_freeport) const {
   if (simulation_.freeport().active == wants_freeport) return {};
   if (!wants_freeport)
     return fmt::format("the program has switched port {} to Freeport mode: it does not speak PPI there", simulation_.port());
-  const std::uint32_t control = kPorts[simulation_.port()].control;
-  return fmt::format("the program has not switched port {} to Freeport mode (SMB{} = 16#{:02X})", simulation_.port(),
-                     control - image::kSM, simulation_.cpu().state().image[control]);
+  return why_no_freeport(simulation_.cpu(), simulation_.port());
 }
 
 serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
