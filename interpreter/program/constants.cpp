@@ -7,7 +7,7 @@
 
 namespace s7200 {
 
-bool set_constant(stl::Source& source, std::string_view address, std::int64_t value) {
+bool set_constant(stl::Source& source, std::string_view address, const stl::Integer& value, bool comment_holds) {
   const std::string wanted = stl::upper_case(std::string(address));
   bool any = false;
   for (stl::Line& line : source.lines) {
@@ -17,7 +17,8 @@ bool set_constant(stl::Source& source, std::string_view address, std::int64_t va
     if (what != "MOVB" && what != "MOVW" && what != "MOVD") continue;
     auto* const constant = std::get_if<stl::Integer>(&statement->operands[0].value);
     if (!constant || stl::to_text(statement->operands[1]) != wanted) continue;
-    *constant = {.value = value};
+    *constant = value;
+    if (!comment_holds) statement->comment.clear();
     any = true;
   }
   return any;

@@ -335,19 +335,23 @@ const std::vector<Setting<ModbusPlc>>& ModbusPlc::settings() {
 const std::vector<Cells<ModbusPlc>>& ModbusPlc::cells() {
   static const std::vector<Cells<ModbusPlc>> kCells{
       {"CR", false, 1, UINT16_MAX, 1, "coils", [](const ModbusPlc& plc, std::uint32_t n) { return plc.coils_.read(n); },
-       [](ModbusPlc& plc, std::uint32_t n, std::uint32_t value) { plc.coils_.write(n, low_byte(value)); }},
+       [](ModbusPlc& plc, std::uint32_t n, std::uint32_t value) { plc.coils_.write(n, low_byte(value)); },
+       [](const ModbusPlc& plc) -> std::uint32_t { return plc.settings_.coils; }, "coils"},
       {"IN", false, 1, UINT16_MAX, 1, "inputs", [](const ModbusPlc& plc, std::uint32_t n) { return plc.inputs_.read(n); },
-       [](ModbusPlc& plc, std::uint32_t n, std::uint32_t value) { plc.inputs_.write(n, low_byte(value)); }},
+       [](ModbusPlc& plc, std::uint32_t n, std::uint32_t value) { plc.inputs_.write(n, low_byte(value)); },
+       [](const ModbusPlc& plc) -> std::uint32_t { return plc.settings_.inputs; }, "inputs"},
       {"HR", false, 1, UINT16_MAX, UINT16_MAX, "holding registers",
        [](const ModbusPlc& plc, std::uint32_t n) { return plc.words_.read(plc.settings_.holding_word + n - 1); },
        [](ModbusPlc& plc, std::uint32_t n, std::uint32_t value) {
          plc.words_.write(plc.settings_.holding_word + n - 1, static_cast<std::uint16_t>(value));
-       }},
+       },
+       [](const ModbusPlc& plc) -> std::uint32_t { return plc.settings_.holding_registers; }, "holding_registers"},
       {"IR", false, 1, UINT16_MAX, UINT16_MAX, "input registers",
        [](const ModbusPlc& plc, std::uint32_t n) { return plc.input_registers_.read(n); },
        [](ModbusPlc& plc, std::uint32_t n, std::uint32_t value) {
          plc.input_registers_.write(n, static_cast<std::uint16_t>(value));
-       }},
+       },
+       [](const ModbusPlc& plc) -> std::uint32_t { return plc.settings_.input_registers; }, "input_registers"},
       {"W", true, 0, UINT16_MAX, UINT16_MAX, "words of the memory",
        [](const ModbusPlc& plc, std::uint32_t a) { return plc.words_.read(a); },
        [](ModbusPlc& plc, std::uint32_t a, std::uint32_t value) { plc.words_.write(a, static_cast<std::uint16_t>(value)); }},

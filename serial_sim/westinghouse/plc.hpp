@@ -66,6 +66,7 @@ class PlcOf : public Plc {
       const auto [row, fault] = find(*cells);
       if (!fault.empty()) return why = fault, false;
       if (row != nullptr) {
+        if (!are_there(*row, *cells, why)) return false;
         std::uint32_t place = cells->first;
         for (const std::uint32_t value : cells->values) row->write(self(), place++, value);
         return true;
@@ -124,6 +125,17 @@ class PlcOf : public Plc {
       return {&row};
     }
     return {};
+  }
+
+  /// Whether a master reaches them.
+  bool are_there(const Cells<Self>& row, const CellsText& text, std::string& why) const {
+    if (!row.last) return true;
+    const std::uint32_t last = row.last(self());
+    const std::size_t end = text.first - 1 + text.values.size();
+    if (end <= last) return true;
+    why = fmt::format("{}{} is not there: {}={}; where there are more, that is set before them", row.name, end,
+                      row.last_from, last);
+    return false;
   }
 
   static std::optional<std::uint32_t> parse(std::string_view text, const Setting<Self>*& setting, std::string& why) {

@@ -64,6 +64,9 @@ struct Cells {
   std::string_view meaning;
   std::function<std::uint32_t(const Plc&, std::uint32_t)> read;
   std::function<void(Plc&, std::uint32_t, std::uint32_t)> write;
+  /// The last number that can be set, as the PLC is set by then, and the setting that says so. Left out: `most`.
+  std::function<std::uint32_t(const Plc&)> last{};
+  std::string_view last_from{};
 };
 
 /// `W[4000]=0BB8,00FF`, taken apart.

@@ -1098,6 +1098,31 @@ class OtherPlcTests(Case):
         return self.start(*arguments, "--protocol", protocol, *self.SETTINGS.get(protocol, []),
                           program="westinghouse:" + self.TALK[protocol][0])
 
+    def test_a_modbus_bridge_to_plcs_that_do_not_speak_it_is_served_with_a_note(self):
+        silent = self.program("LD SM0.0\nINCW VW0\nMEND\n")
+        for kind in ("modbus-tcp", "rtu-over-tcp"):
+            for running, why in ((lambda kind=kind: self.serve("hppc", f"--{kind}", 0), "no PLC on this line speaks it"),
+                                 (lambda kind=kind: self.start(f"--{kind}", 0, program=silent),
+                                  "the program has not switched port 0 to Freeport mode (SMB30 = 16#00)")):
+                served = running()
+                served.wait_for(f"note: {kind} carries nothing but Modbus, and {why}\n")
+                served.end()
+        system = self.folder / "system.yaml"
+        system.write_text(f"plcs: {{a: {{program: {silent}}}}}\nbridges: {{pc: {{modbus-tcp: 0}}}}\nlines: {{l: {{stations: [a, pc]}}}}\n",
+                          encoding="utf-8")
+        self.start(program=system).wait_for("carries nothing but Modbus, and on a the program has not switched port 0 to Freeport mode")
+        for start in (lambda: self.start("--modbus-tcp", 0), lambda: self.serve("modbus", "--rtu-over-tcp", 0),
+                      lambda: self.start("--tcp", 0, program=silent)):
+            running = start()
+            time.sleep(0.3)
+            running.end()
+            self.assertNotIn("carries nothing but Modbus", running.said())
+
+    def test_a_simulated_plc_that_was_served_is_counted_as_one(self):
+        done = subprocess.run([S7200, "run", "westinghouse:pc1200", "--tcp", "0", "--for", "50ms"], capture_output=True, text=True,
+                              timeout=LONG, check=False)
+        self.assertRegex(done.stdout, r"\Aended by time after [0-9.]+ ms: 1 PLC, 1 line\n")
+
     def talk(self, protocol, target, *options):
         """What was read. Asked until all is right: a busy computer may be late for a protocol with short time-outs."""
         until = time.monotonic() + LONG
@@ -1272,6 +1297,21 @@ class PpiTests(Case):
         self.start("--speed", SPEED, "--pty", self.folder / "plc", program=self.program(self.COUNTING))
         with SerialPort(self.folder / "plc") as port:
             self.exercise(PpiMaster(port.write, port.read))
+
+    def test_a_cpu_that_a_master_has_stopped_answers_and_is_not_said_to_be_silent(self):
+        running = self.start("--pty", self.folder / "plc", program=self.program(self.COUNTING))
+        with SerialPort(self.folder / "plc") as port:
+            master = PpiMaster(port.write, port.read)
+            master.mode(0x29)
+            master.read_v(0, 2)
+        result = running.end()
+        self.assertEqual((result["stop_reason"], result["mode"]), ("interrupted", "STOP"))
+        self.assertNotIn("answers", running.said())
+
+    def test_a_program_that_stops_ends_the_run_with_a_note(self):
+        running = self.start("--tcp", 0, program=self.program("LD SM0.0\nTON T32, +300\nLD T32\nSTOP\nMEND\n"))
+        self.assertEqual(running.end(by=None)["stop_reason"], "stop")
+        self.assertIn("the CPU went to STOP, which ends the run", running.said())
 
     def test_a_client_reads_and_writes_v_memory_over_tcp(self):
         running = self.start("--speed", SPEED, "--tcp", "127.0.0.1:0", program=self.program(self.COUNTING))

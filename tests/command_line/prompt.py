@@ -280,7 +280,8 @@ class Menu(unittest.TestCase):
     def test_every_key_of_the_test_program_sends_its_function(self):
         functions = {"1 0 8": 1, "2 0 8": 2, "3 10 2": 3, "4 0 2": 4, "5 2 on": 5, "6 10 1234": 6, "7": 7, "8": 8, "f 0 1 0 1": 15,
                      "p 10 1 2": 16, "r": 17}
-        terminal = self.menu()
+        terminal = Terminal(self.folder / "state", SLAVE, "menu", verb="master", size=(80, 24))
+        self.assertIn("Enter follows each key", terminal.until(">> "))
         for keys, function in functions.items():
             with self.subTest(keys=keys):
                 self.assertIn(f"station 1, function {function}", self.answer(terminal, keys))
@@ -293,6 +294,13 @@ class Menu(unittest.TestCase):
 
     def test_a_key_asks_for_what_it_was_not_given(self):
         terminal = self.menu()
+        for key, question in (("1", "first coil [0]: "), ("3", "first register [0]: "), ("6", "register [0]: ")):
+            terminal.type(key + "\n")
+            terminal.until(question)
+            terminal.type("abc\n")
+            self.assertIn("'abc'", terminal.until(">> "), "refused before the next question")
+        self.assertIn("station 1, function 8", self.answer(terminal, "8 16#1234"))
+        self.assertIn("the keys are above", self.answer(terminal, "m"))
         terminal.type("3\n")
         terminal.until("first register [0]: ")
         terminal.type("10\n")
@@ -301,7 +309,8 @@ class Menu(unittest.TestCase):
         self.assertIn("holding register 10", terminal.until(">> "))
         self.assertIn("an answer is needed", self.answer(terminal, "6 1\n"))
         self.assertIn("holding registers 10…11", self.answer(terminal, "read 40011:2"), "actions do as well")
-        for wrong, said in (("x", "'x' is not a key; M shows the menu"), ("3 frob 1", "frob"), ("7 5", "asks for nothing"),
+        for wrong, said in (("x", "'x' is not a key; M shows the menu"), ("3 frob 1", "frob"), ("7 5", "read exception status asks for nothing"), ("t 5", "asks for nothing"), ("8 x", "'x'"), ("5 3 maybe", "maybe"),
+                            ("l x", "'x'"),
                             ("3 00003 1", "00003 is a coil, and this key is for holding"), ("3 40000 1", "there is no holding register 40000"),
                             ("frob", "'frob' is not an action"), ("s 300", "not a slave from 0 to 255")):
             self.assertIn(said, self.answer(terminal, wrong))

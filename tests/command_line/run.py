@@ -157,6 +157,55 @@ class Verbs(Case):
         self.assertEqual((result["target"], result["mode"]), ("westinghouse:pc1200", None))
         self.assertIn("illegal function", self.ends(FAILED, "master", "westinghouse:pc503", "read", "30001").stdout)
 
+    def test_a_simulated_plc_of_another_make_is_tested_and_new_for_each_scenario(self):
+        yaml = self.program("timeout: 300ms\nscenarios:\n"
+                            "  - {name: writes, steps: [{read: 40001, expect: [16#1234], latency: 1ms..100ms}, {write: 40001, values: [7]},"
+                            " {read: 40001, expect: [7]}]}\n"
+                            "  - {name: new, steps: [{at: 2s, read: 40001, expect: [16#1234]}]}\n"
+                            "  - {name: inside, set: {VW0: 1}, steps: [{read: 40001}]}\n", "peer.yaml")
+        peer = ["--target", "westinghouse:pc1200", "--plc", "HR1=1234"]
+        for jobs in ("1", "3"):
+            result = self.json(FINE, "test", yaml, *peer, "--jobs", jobs, "--json")
+            self.assertEqual([(one["name"], one["outcome"]) for one in result["scenarios"]],
+                             [("writes", "passed"), ("new", "passed"), ("inside", "skipped")])
+        self.ends(FAILED, "test", yaml, *peer[:2])
+        self.ends(FINE, "test", yaml, *peer, "--plc", "baud=19200")
+        self.ends(FAILED, "test", yaml, *peer, "--baud", 19200)
+        late = self.program("steps: [{read: 40001, latency: 100ms..200ms}]\n", "late.yaml")
+        self.assertIn("latency is not what was expected", self.ends(FAILED, "test", late, *peer).stdout, "times are exact in simulation")
+        transcript = self.folder / "recorded.yaml"
+        self.ends(FINE, "test", yaml, *peer, "--record", transcript)
+        self.ends(FINE, "test", transcript, *peer, "--tolerance", "0s", "--record", self.folder / "again.yaml")
+        random = ["test", "--random", 30, *peer, "--json"]
+        self.assertEqual(self.json(FINE, *random)["scenarios"][0]["exchanges"], self.json(FINE, *random)["scenarios"][0]["exchanges"])
+        self.ends(FINE, "test", yaml, *peer, "--against", "westinghouse:pc1250")
+        self.assertIn("differ", self.ends(FAILED, "test", yaml, *peer, "--against", SLAVE).stdout)
+        conformance = self.json(FAILED, "test", "--conformance", SOURCE / "tests/conformance/modbus_slave.yaml", *peer, "--json")
+        self.assertGreater(sum(one["outcome"] == "passed" for one in conformance["scenarios"]), 20)
+
+    def test_targets_that_a_verb_cannot_have_are_refused_by_name(self):
+        yaml = self.program("steps: [{read: 40001}]\n", "one.yaml")
+        system = self.program(Systems.SYSTEM, "system.yaml")
+        for arguments, why in ((["test", yaml, "--target", "westinghouse:pc9"], "'pc9' is not a PLC of this family"),
+                               (["test", yaml, "--target", "westinghouse:pc1200", "--plc", "colour=red"], "--plc: 'colour=red' is not a setting"),
+                               (["test", yaml, "--target", SLAVE, "--plc", "slave=02"], "--plc needs westinghouse:MODEL as --target or --against"),
+                               (["test", yaml, "--target", SLAVE, "--at", "bus"], "--at names a place in a system file"),
+                               (["test", yaml, "--target", "westinghouse:pc1200", "--times-band", "5"], "the target must be a program"),
+                               (["calibrate", "westinghouse:pc1200"], "'westinghouse:pc1200' is not an S7-200"),
+                               (["calibrate", system], "is a system file: name the PROGRAM")):
+            with self.subTest(arguments):
+                self.assertIn(why, self.ends(UNUSABLE, *arguments).stderr)
+        targets = {verb: re.search(r"(?m)^Targets:\n(?:  .*\n)+", s7200(verb, "--help").stdout).group(0) for verb in ("test", "master", "calibrate")}
+        self.assertEqual(targets["test"], targets["master"])
+        self.assertNotRegex(targets["calibrate"], "SYSTEM|westinghouse|modbus-tcp")
+
+    def test_a_register_that_is_not_there_is_not_set(self):
+        for setting, why in (("HR9999=1", "HR9999 is not there: holding_registers=2048"), ("HR2048=1,2", "HR2049 is not there"),
+                             ("CR1025=1", "CR1025 is not there: coils=1024"), ("IR257=1", "input_registers=256"), ("IN1025=1", "inputs=1024")):
+            self.assertIn(why, self.ends(UNUSABLE, "master", "westinghouse:pc1200", "slave-id", "--plc", setting).stderr)
+        self.ends(FINE, "master", "westinghouse:pc1200", "--plc", "HR2047=1,2", "read", "holding 2047")
+        self.ends(FINE, "master", "westinghouse:pc1200", "--plc", "holding_registers=9999", "--plc", "HR9999=1", "read", "holding 9998")
+
     def test_the_line_of_a_simulated_plc_is_captured_and_decoded_in_its_protocol(self):
         for protocol, model, words, said in (
                 ("modbus", "pc1200", ["write", "40001=7", "read", "40001", "general-read", "0:0:2"],
@@ -1279,13 +1328,50 @@ lines:
     def test_results_in_words_and_as_json(self):
         system = self.program(self.SYSTEM, "system.yaml")
         shown = self.ends(FINE, "run", system, "--for", "1990ms").stdout
-        self.assertRegex(shown, r"\Aended by time after 1.99 s: 2 PLCs, 1 peer, 1 line\n")
+        self.assertRegex(shown, r"\Aended by time after 1.99 s: 2 PLCs, 1 master, 1 line\n")
         self.assertRegex(shown, r"(?m)^slave2: \d+ scans, \d+ instructions, CPU 214 in RUN\n  VW0 +16#0102")
         self.assertRegex(shown, r"(?m)^master: 16 requests, 16 answered, after ")
         results = self.json(FINE, "run", system, "--for", "1990ms", "--json")
         self.assertEqual([plc["name"] for plc in results["plcs"]], ["slave1", "slave2"])
         self.assertEqual(results["plcs"][0]["dump"]["VW0"]["hex"], "0102")
         self.assertEqual((results["masters"][0]["requests"], results["masters"][0]["wrong"]), (16, 0))
+
+    def test_a_system_is_tested_from_the_place_that_is_named(self):
+        system = self.program(f"plcs:\n  a: {{program: {SLAVE}, station: 4, set: {{VW20: 16#0102}}}}\n  b: {{program: {SLAVE}, station: 5}}\n"
+                              "lines:\n  north: {stations: [a]}\n  south: {stations: [b]}\n", "system.yaml")
+        yaml = self.program("station: 4\ntimeout: 300ms\nscenarios:\n  - {name: first, steps: [{read: 40011, expect: [16#0102]},"
+                            " {write: 40011, values: [7]}]}\n  - {name: new, steps: [{read: 40011, expect: [16#0102], latency: 1ms..100ms}]}\n"
+                            "  - {name: inside, steps: [{set: {VW0: 1}}]}\n", "system_test.yaml")
+        result = self.json(FINE, "test", yaml, "--target", system, "--at", "north", "--jobs", "2", "--json")
+        self.assertEqual([one["outcome"] for one in result["scenarios"]], ["passed", "passed", "skipped"])
+        self.ends(FAILED, "test", yaml, "--target", system, "--at", "b")
+        self.assertIn("differ", self.ends(FAILED, "test", yaml, "--target", system, "--against", SLAVE, "--at", "north").stdout)
+        self.ends(FINE, "test", "--random", 20, "--station", 5, "--target", system, "--at", "south")
+        stopped = self.program("LD SM0.0\nSTOP\nMEND\n", "stopped.stl")
+        bridged = system.read_text(encoding="utf-8").replace("[b]", "[b, pc]") + "bridges: {pc: {tcp: 0}}\n"
+        for arguments, why in (([system], "there are several lines, north, south"), ([system, "--at", "west"], "'west'"),
+                               ([self.program("plcs: {a: {program: none.stl}}\nlines: {l: {stations: [a]}}\n", "bad.yaml")], "cannot read"),
+                               ([self.folder / "none.yaml"], "cannot read"), ([self.program(bridged, "bridged.yaml"), "--at", "a"], "follows the clock"),
+                               ([self.program(f"plcs: {{a: {{program: {stopped}}}}}\nlines: {{l: {{stations: [a]}}}}\n", "stop.yaml")],
+                                "line l, beside a: the CPU went to STOP")):
+            with self.subTest(arguments):
+                self.assertIn(why, self.ends(UNUSABLE, "test", yaml, "--target", *arguments).stderr)
+
+    def test_a_plc_that_is_off_at_the_end_is_said_to_be(self):
+        system = self.program(f"plcs: {{a: {{program: {SLAVE}}}}}\nlines: {{l: {{stations: [a]}}}}\nevents: [{{at: 1ms, power_off: a}}]\n", "off.yaml")
+        self.assertRegex(self.ends(FINE, "run", system, "--for", "10ms").stdout, r"CPU 214 without power\n")
+
+    def test_a_constant_of_the_system_file_is_shown_as_it_was_written(self):
+        system = self.program(f"plcs: {{a: {{program: {SLAVE}, constants: {{SMB30: 16#45}}, trace: a.trace, trace_instructions: true}}}}\n"
+                              "lines: {l: {stations: [a]}}\n", "constants.yaml")
+        self.ends(FINE, "run", system, "--for", "5ms")
+        trace = (self.folder / "a.trace").read_text(encoding="utf-8")
+        self.assertRegex(trace, "MOVB +16#45, SMB30 .*as the system file has it")
+        self.assertNotRegex(trace, "MOVB .*SMB30 .*9600 baud")
+
+    def test_a_duration_without_a_unit_is_told_that_it_needs_one(self):
+        system = self.program(self.SYSTEM.replace("stations: [master, slave]", "stations: [master, slave], turn_round: 1"), "unit.yaml")
+        self.assertIn("'1' is not a duration with its unit, of a day at most", self.ends(UNUSABLE, "run", system).stderr)
 
     def test_what_is_recorded_of_each_plc_and_line(self):
         text = self.SYSTEM.replace("copies: 2, ", "trace: slave.trace, ").replace("4..5", "4").replace(

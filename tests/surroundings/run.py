@@ -349,13 +349,15 @@ class Signals(Case):
         yaml = self.file("wait.yaml", f"program: {self.echo}\nsteps: [{{repeat: 4000, steps: [{{wait: 24h}}]}}]\n")
         answer = self.file("answer.yaml", f"program: {self.idle}\nafter: 1ms\n"
                                             "steps: [{repeat: 4000, steps: [{send: ab, timeout: 24h}]}]\n")
+        system = self.file("system.yaml", f"plcs: {{a: {{program: {self.idle}}}}}\nlines: {{l: {{stations: [a]}}}}\n")
         for arguments, code in ((["send", self.idle, "01", "--timeout", "9999h"], FAILED),
                                 (["send", self.idle, "01", "--after", "9999h"], FAILED),
                                 (["send", self.echo, "01", "02", "--pause", "9999h"], FAILED),
-                                (["run", self.idle, "--for", "9999h"], FINE), (["run", self.idle, "--scans", str(2**62)], FINE),
-                                (["run", self.idle, "--for", "9999h", "--trace-instructions", "--trace", "/dev/null"], FINE),
-                                (["run", self.idle, "--for", "9999h", "--realtime"], FINE),
-                                (["run", self.idle, "--for", "9999h", "--speed", "0.001"], FINE),
+                                (["run", self.idle, "--for", "9999h"], FAILED), (["run", self.idle, "--scans", str(2**62)], FAILED),
+                                (["run", self.idle, "--for", "9999h", "--trace-instructions", "--trace", "/dev/null"], FAILED),
+                                (["run", self.idle, "--for", "9999h", "--realtime"], FAILED),
+                                (["run", self.idle, "--for", "9999h", "--speed", "0.001"], FAILED), (["run", system, "--for", "9999h"], FAILED),
+                                (["run", self.idle, "--tcp", "0", "--for", "9999h"], FAILED), (["run", self.idle, "--tcp", "0"], FINE),
                                 (["master", SLAVE, "read", "40001", "--every", "9999h", "--count", "3"], FAILED),
                                 (["master", SLAVE, "read", "40001", "wait", "9999h"], FAILED),
                                 (["master", self.idle, "slave-id", "--timeout", "9999h"], FAILED),
@@ -477,7 +479,7 @@ class Signals(Case):
         with contextlib.suppress(ProcessLookupError):
             for number in (signal.SIGTERM, signal.SIGHUP) * 5:
                 process.send_signal(number)
-        self.assertEqual(process.wait(LONG), FINE)
+        self.assertEqual(process.wait(LONG), FAILED)
         self.assertTrue(memory.exists())
 
     def test_nohup_is_respected(self):

@@ -51,6 +51,9 @@ class LiveLine {
   /// Whether the program's first scan has ended: before that it has hardly set its port.
   virtual bool program_is_up() const = 0;
 
+  /// Why nobody on the line answers Modbus, as the programs stand now; empty if somebody may.
+  virtual std::string why_no_modbus() const = 0;
+
   /// End of the last character that anyone sent or heard.
   virtual Time last_activity() const = 0;
 

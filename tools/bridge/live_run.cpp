@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tools/host/interruption.hpp"
+#include "tools/views/port_mode.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -52,7 +53,8 @@ std::vector<LiveEnd> end_of(serial::Simulation& simulation, const LiveRunOptions
            .line = &simulation.line(),
            .plc = &simulation.plc(),
            .plc_port = simulation.port(),
-           .settings = options.line}};
+           .settings = options.line,
+           .why_no_modbus = [&simulation] { return why_no_freeport(simulation.cpu(), simulation.port()); }}};
 }
 
 }  // namespace
@@ -125,6 +127,7 @@ class LiveRun::Engine {
       return end_.settings.over(end_.plc ? end_.plc->port_format(end_.plc_port) : end_.without_program);
     }
     bool program_is_up() const override { return !end_.plc || end_.plc->cpu().state().scans > 0; }
+    std::string why_no_modbus() const override { return end_.why_no_modbus ? end_.why_no_modbus() : ""; }
     Time last_activity() const override { return end_.line->last_activity(); }
     const LiveMessages& messages() const override { return engine_.options_.messages; }
 

@@ -44,6 +44,8 @@ struct LiveEnd {
   std::uint8_t plc_port = 0;
   SerialFormat without_program{};   ///< how the line is set if there is none
   serial::LineSettings settings{};  ///< the other end of the line
+  /// Why nobody on that line answers Modbus, at the moment; empty if somebody may. Left out: somebody may.
+  std::function<std::string()> why_no_modbus{};
 };
 
 /// A simulation that is powered up, and the host it follows. Between two runs it stands still, and whoever is on the bridge

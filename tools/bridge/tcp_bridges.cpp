@@ -74,7 +74,11 @@ class TcpBridge : public Bridge, protected TcpServer::Protocol {
   /// No slave is asked until the first scan has ended and the line has been quiet since: only then a program has set up its
   /// port.
   modbus::LineTurns::Line line_state() {
-    if (!up_since_ && line_->program_is_up()) up_since_ = line_->now();
+    if (!up_since_ && line_->program_is_up()) {
+      up_since_ = line_->now();
+      if (const std::string why = line_->why_no_modbus(); !why.empty())
+        line_->messages().note(fmt::format("{} carries nothing but Modbus, and {}", kind_, why));
+    }
     return {.now = line_->now(),
             .format = line_->format(),
             .sending = line_->host_port().sending(),

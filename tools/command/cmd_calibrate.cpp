@@ -107,7 +107,8 @@ void add_calibrate(CLI::App& app, int& exit_code) {
   options->program.CpuOptions::add_to(*verb);
   verb->add_flag("--json", options->json, "print what was found as JSON");
   verb->footer(
-      fmt::format("{}\n{}Example: s7200 calibrate stl_programs/measure_times.stl --each 1s", kHowTo, slave_targets_help()));
+      fmt::format("{}\n{}Example: s7200 calibrate stl_programs/measure_times.stl --each 1s", kHowTo,
+                  slave_targets_help({SlaveTarget::Kind::System, SlaveTarget::Kind::ModbusTcp, SlaveTarget::Kind::Peer})));
   verb->callback([options, &exit_code] { exit_code = run_calibrate(*options); });
 }
 

@@ -10,7 +10,6 @@
 #include "tools/command/options/master_options.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
-#include "tools/rig/system_reader.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -21,9 +20,9 @@ int run_master(const CLI::App& verb, MasterOptions& options) {
   const bool over_tcp = target.kind == SlaveTarget::Kind::ModbusTcp;
   const std::vector<MasterAction> actions = options.actions(over_tcp);
   catch_interruption();
-  if (target.kind == SlaveTarget::Kind::Program)
-    return options.band.wanted() && !is_system_file(target.path) ? run_on_program_band(options, actions)
-                                                                 : run_on_program(verb, options, actions);
+  const bool is_program = target.kind == SlaveTarget::Kind::Program;
+  if (is_program && options.band.wanted()) return run_on_program_band(options, actions);
+  if (is_program || target.kind == SlaveTarget::Kind::System) return run_on_program(verb, options, actions);
   if (target.kind == SlaveTarget::Kind::Peer) return run_on_peer(options, target.path, actions);
   std::unique_ptr<Slave> slave;
   const auto format = [&](const serial::MasterSettings& master) { return master.over(options.protocol->format); };

@@ -24,17 +24,19 @@ struct Ending {
 };
 
 Ending run_to_end(serial::Simulation& simulation, const RunOptions& options) {
+  Bridge* const bridge = options.bridge.bridge();
+  const Time end = options.end(bridge != nullptr);
   if (!options.bridge.realtime()) {
-    const RunLimits limits{options.end(), options.scans, options.rig.strict()};
+    const RunLimits limits{end, options.scans, options.rig.strict()};
     return {run(simulation, limits, Progress([&] { return simulation.time(); }, limits)), {}};
   }
-  Bridge* const bridge = options.bridge.bridge();
   LiveRun live(simulation, {options.bridge.speed(), options.bridge.line(), print_live_messages()}, bridge);
   std::string why;
   if (!live.start(why)) return print_error(why), Ending{};
-  const std::string_view reason = run_live(live, simulation, {options.end(), options.scans, options.rig.strict()});
+  const std::string_view reason = run_live(live, simulation, {end, options.scans, options.rig.strict()});
   if (!live.failure().empty()) print_error(live.failure());
-  if (bridge && simulation.cpu().state().mode == Mode::Stop) print_note("the CPU went to STOP and no longer answers");
+  if (bridge && (reason == "stop" || reason == "fatal"))
+    print_note("the CPU went to STOP, which ends the run: it no longer answers");
   return {reason, live.pace()};
 }
 
@@ -101,7 +103,9 @@ int run_run(const CLI::App& verb, RunOptions& options) {
     print_error("--strict: the run ended at the first run-time error");
     return kCheckFailed;
   }
-  return ending.reason == "bridge" ? kUnusable : exit_code_of(simulation.cpu());
+  if (ending.reason == "bridge") return kUnusable;
+  if (ending.reason == "interrupted" && options.has_end(options.bridge.bridge() != nullptr)) return kCheckFailed;
+  return exit_code_of(simulation.cpu());
 }
 
 }  // namespace
@@ -111,8 +115,11 @@ void add_run(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("run", "run a program, as fast as the computer can, or in real time for masters of this computer");
   options->add_to(*verb);
-  verb->footer(std::string(BridgeOptions::kAboutPty) + fault_help() + kAboutSystems + kAboutOtherPlcs +
-               "Example: s7200 run stl_programs/modbus_slave.stl --for 2s --set VW100=5 --dump VW100:4");
+  verb->footer(
+      "Exit code 1 if it was interrupted before its end, be it --for, --scans or a second; a run with a bridge and neither "
+      "of\nthe two serves until Ctrl-C or SIGTERM, and that is 0.\n" +
+      std::string(BridgeOptions::kAboutPty) + fault_help() + kAboutSystems + kAboutOtherPlcs +
+      "Example: s7200 run stl_programs/modbus_slave.stl --for 2s --set VW100=5 --dump VW100:4");
   verb->callback([options, verb, &exit_code] { exit_code = run_run(*verb, *options); });
 }
 

@@ -20,13 +20,17 @@ DebuggeeRun::DebuggeeRun(Rig& rig, const DebuggeeOptions& options, SystemBridges
     return;
   }
   std::vector<LiveEnd> ends = ends_of(rig, those_of(bridges_));
-  if (bridge)
+  if (bridge) {
+    std::size_t line = 0;
+    while (&rig.line(line) != &simulation.line()) ++line;
     ends.push_back({.bridge = bridge,
                     .port = &simulation.host_port(),
                     .line = &simulation.line(),
                     .plc = &simulation.plc(),
                     .plc_port = simulation.port(),
-                    .settings = live.line});
+                    .settings = live.line,
+                    .why_no_modbus = [&rig, line] { return why_no_modbus(rig, line); }});
+  }
   machine_ = machine_of(rig.system());
   live_ = std::make_unique<LiveRun>(*machine_, ends, live);
 }

@@ -24,10 +24,11 @@ namespace s7200::tools {
 namespace {
 
 using Words = std::vector<std::string>;
+using Answers = std::array<std::string, 3>;
 
-/// A question, and the answer that an empty line stands for; nothing: there must be one.
+/// A question, and the answer that an empty line stands for; nothing: there must be one, such as `example`.
 struct Question {
-  std::string_view text, usual{};
+  std::string_view text, usual{}, example = usual;
 };
 
 /// A Modbus function: its action, with the answers in it.
@@ -35,6 +36,7 @@ struct Function {
   std::string_view key, name, action;
   std::array<Question, 3> questions{};
   std::string_view option{};  ///< of the protocol
+  bool takes_more = false;    ///< what is typed besides ends the action; not asked for
 };
 
 constexpr Question kHowMany{"how many", "1"};
@@ -44,15 +46,15 @@ constexpr Function kFunctions[] = {
     {"2", "read inputs", "read inputs {0}:{1}", {{{"first input", "0"}, kHowMany}}},
     {"3", "read holding registers", "read holding {0}:{1}", {{{"first register", "0"}, kHowMany}}},
     {"4", "read input registers", "read input-registers {0}:{1}", {{{"first register", "0"}, kHowMany}}},
-    {"5", "force a coil", "write coils {0}={1}", {{{"coil", "0"}, {"on or off"}}}},
-    {"6", "preset a register", "write holding {0}={1}", {{{"register", "0"}, {"value"}}}},
+    {"5", "force a coil", "write coils {0}={1}", {{{"coil", "0"}, {"on or off", "", "on"}}}},
+    {"6", "preset a register", "write holding {0}={1}", {{{"register", "0"}, {"value", "", "0"}}}},
     {"7", "read exception status", "exception-status"},
-    {"8", "loopback", "loopback"},
-    {"F", "force coils", "write coils {0}={1}", {{{"first coil", "0"}, {"on or off, each"}}}, "--always-15"},
-    {"P", "preset registers", "write holding {0}={1}", {{{"first register", "0"}, {"values"}}}, "--always-16"},
+    {"8", "loopback", "loopback", {}, "", true},
+    {"F", "force coils", "write coils {0}={1}", {{{"first coil", "0"}, {"on or off, each", "", "on"}}}, "--always-15"},
+    {"P", "preset registers", "write holding {0}={1}", {{{"first register", "0"}, {"values", "", "0"}}}, "--always-16"},
     {"R", "report slave ID", "slave-id"},
     {"Z", "general read", "general-read {0}:{1}:{2}", {{{"segment", "0"}, {"offset", "0"}, {"how many bytes", "1"}}}},
-    {"A", "general write", "general-write {0}:{1}={2}", {{{"segment", "0"}, {"offset", "0"}, {"bytes"}}}},
+    {"A", "general write", "general-write {0}:{1}={2}", {{{"segment", "0"}, {"offset", "0"}, {"bytes", "", "0"}}}},
 };
 
 /// What the protocol makes an action of: in words, so that it goes to the slave that is set when it is done again.
@@ -62,7 +64,8 @@ struct MenuRequest {
 };
 
 constexpr std::string_view kHelp =
-    "A key begins what is asked for; answers may follow it at once: 3 0 10. An empty answer is the one in brackets.\n"
+    "A key and Enter begin what is asked for; answers may follow the key at once: 3 0 10. An empty answer is the one in\n"
+    "brackets. Data may follow 8 and L; without them each loopback sends another word.\n"
     "Numbers are decimal, or 16#04D2; addresses count from 0, or are written as 40011. Several values have blanks or\n"
     "commas between them. Actions of s7200 master do as well: read 40011:2, write 00003=on, function 22 ….\n"
     "L and T go on until Ctrl-C, and show failures and statistics.\n";
@@ -127,10 +130,12 @@ class Menu {
   struct Key {
     std::string_view key, name;
     void (Menu::*press)(Words& answers);
+    bool takes_answers = false;
   };
   static const std::array<Key, 8> kOthers;
 
   void show_keys() const;
+  bool keys_are_in_view() const { return screen_.on() && screen_.view_rows() >= kRowsOfView; }
   std::vector<std::string> key_lines(int columns) const;
   std::vector<std::string> view() const;
   void draw();
@@ -139,12 +144,13 @@ class Menu {
   std::string ask(const Question& question, Words& answers, bool last);
   void execute(Words words);
   bool execute_key(const std::string& key, Words& answers);
+  Words words_for(const Function& function, const Answers& given) const;
   void do_function(const Function& function, Words& answers);
   void do_request(MenuRequest request);
   void repeat_loopbacks(Words& answers);
   void repeat(Words& answers);
   void count_anew(Words&) { statistics_ = {}; }
-  void show_menu(Words&) { show_keys(); }
+  void show_menu(Words&) { keys_are_in_view() ? fmt::print("the keys are above\n") : show_keys(); }
   void help(Words&) { fmt::print("{}", kHelp); }
   void quit(Words&) { quit_ = true; }
   std::vector<MasterAction> actions_of(const MenuRequest& request) const;
@@ -169,10 +175,10 @@ class Menu {
 };
 
 constexpr std::array<Menu::Key, 8> Menu::kOthers{{
-    {"L", "loopbacks without end", &Menu::repeat_loopbacks},
+    {"L", "loopbacks without end", &Menu::repeat_loopbacks, true},
     {"T", "test: the last one without end", &Menu::repeat},
-    {"S", "slave", &Menu::change_slave},
-    {"C", "configure the port", &Menu::configure_port},
+    {"S", "slave", &Menu::change_slave, true},
+    {"C", "configure the port", &Menu::configure_port, true},
     {"N", "new statistics", &Menu::count_anew},
     {"M", "menu", &Menu::show_menu},
     {"H", "help", &Menu::help},
@@ -185,6 +191,7 @@ std::vector<std::string> Menu::key_lines(int columns) const {
   std::vector<std::string> keys;
   for (const Function& function : kFunctions) keys.push_back(fmt::format("{}  {}", function.key, function.name));
   for (const Key& other : kOthers) keys.push_back(fmt::format("{}  {}", other.key, other.name));
+  keys.emplace_back("Enter follows each key");
   if (columns < 2 * kKeyWidth) return keys;
   const std::size_t rows = (keys.size() + 1) / 2;
   for (std::size_t i = 0; i + rows < keys.size(); ++i) keys[i] = fmt::format("{:<{}}{}", keys[i], kKeyWidth, keys[i + rows]);
@@ -249,13 +256,24 @@ std::string Menu::ask(const Question& question, Words& answers, bool last) {
   return answer;
 }
 
-void Menu::do_function(const Function& function, Words& answers) {
-  std::array<std::string, 3> given;
-  const std::size_t count = questions_of(function);
-  for (std::size_t i = 0; i < count; ++i) given[i] = ask(function.questions[i], answers, i + 1 == count);
-  if (!answers.empty()) throw Wrong(fmt::format("{} asks for nothing", function.name));
+Words Menu::words_for(const Function& function, const Answers& given) const {
   Words words = words_of(fmt::format(fmt::runtime(function.action), given[0], given[1], given[2]));
   if (words.size() == 3 && names_its_area(given[0], words[1])) words.erase(words.begin() + 1);
+  return words;
+}
+
+/// A wrong answer is refused before the next question, which has its example as answer until then.
+void Menu::do_function(const Function& function, Words& answers) {
+  Answers given;
+  const std::size_t count = questions_of(function);
+  for (std::size_t i = 0; i < count; ++i) given[i] = function.questions[i].example;
+  for (std::size_t i = 0; i < count; ++i) {
+    given[i] = ask(function.questions[i], answers, i + 1 == count);
+    actions_of({words_for(function, given), function.option});
+  }
+  Words words = words_for(function, given);
+  if (!answers.empty() && !function.takes_more) throw Wrong(fmt::format("{} asks for nothing", function.name));
+  if (!answers.empty()) words.push_back(joined_by_commas(std::exchange(answers, {})));
   do_request({std::move(words), function.option});
 }
 
@@ -272,7 +290,10 @@ void Menu::do_request(MenuRequest request) {
 }
 
 void Menu::repeat_loopbacks(Words& answers) {
-  last_ = {.words = {"loopback"}};
+  MenuRequest loopbacks{.words = {"loopback"}};
+  if (!answers.empty()) loopbacks.words.push_back(joined_by_commas(std::exchange(answers, {})));
+  actions_of(loopbacks);  // which says what is wrong with the data
+  last_ = std::move(loopbacks);
   repeat(answers);
 }
 
@@ -351,6 +372,7 @@ bool Menu::execute_key(const std::string& key, Words& answers) {
   if (function != std::end(kFunctions)) return do_function(*function, answers), true;
   const auto other = std::ranges::find(kOthers, key, &Key::key);
   if (other == kOthers.end()) return false;
+  if (!answers.empty() && !other->takes_answers) throw Wrong(fmt::format("{} asks for nothing", other->name));
   (this->*other->press)(answers);
   return true;
 }
@@ -386,7 +408,7 @@ int Menu::run() {
   std::string why;
   if (!screen_.switch_on(why)) return print_error(why), kUnusable;
   editor_.when_changed([this] { look_again(); });
-  if (screen_.view_rows() < kRowsOfView) fmt::print("M shows the menu, H helps, Q quits.\n");
+  if (!keys_are_in_view()) fmt::print("M shows the menu, H helps, Q quits; Enter follows each key.\n");
   while (!quit_) {
     draw();
     const auto line = read();

@@ -1,9 +1,12 @@
 #include "tools/command/measuring_target.hpp"
 
+#include <fmt/format.h>
+
 #include <span>
 #include <stdexcept>
 #include <vector>
 
+#include "interpreter/base/text.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/slave/simulated_slave.hpp"
 #include "tools/slave/slave_target.hpp"
@@ -18,8 +21,20 @@ constexpr std::size_t kAnswerLength = 11;
 
 std::unique_ptr<MeasuringTarget> MeasuringTarget::open(const std::string& name, ProgramOptions options, int& exit_code) {
   const SlaveTarget target = parse_slave_target(name);
-  if (target.kind == SlaveTarget::Kind::ModbusTcp)
-    throw std::invalid_argument("measure_times.stl does not speak Modbus; name a device, a pty or tcp://HOST:PORT");
+  switch (target.kind) {
+    case SlaveTarget::Kind::ModbusTcp:
+      throw std::invalid_argument("measure_times.stl does not speak Modbus; name a device, a pty or tcp://HOST:PORT");
+    case SlaveTarget::Kind::Peer:
+      throw std::invalid_argument(
+          fmt::format("'{}' is not an S7-200: measure_times.stl cannot run there", stl::shortened(name)));
+    case SlaveTarget::Kind::System:
+      throw std::invalid_argument(
+          fmt::format("'{}' is a system file: name the PROGRAM of the CPU that is to be measured", stl::shortened(name)));
+    case SlaveTarget::Kind::Program:
+    case SlaveTarget::Kind::Device:
+    case SlaveTarget::Kind::Tcp:
+      break;
+  }
   auto result = std::make_unique<MeasuringTarget>();
   if (target.kind != SlaveTarget::Kind::Program) {
     result->slave_ = connect(target, {.baud = 9600, .data_bits = 8, .parity = Parity::Even, .stop_bits = 1},

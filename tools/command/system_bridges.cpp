@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "serial_sim/westinghouse/modbus_plc.hpp"
 #include "tools/command/options/bridge_options.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/views/port_mode.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -26,6 +28,28 @@ std::vector<Bridge*> those_of(const SystemBridges& bridges) {
   return those;
 }
 
+std::string why_no_modbus(const Rig& rig, std::size_t line) {
+  const SystemPlan& plan = rig.plan();
+  std::string why = "no PLC on this line speaks it";
+  std::size_t bridges = 0;
+  for (const StationPlan& station : plan.lines[line].stations) {
+    switch (station.kind) {
+      case StationPlan::Kind::Plc: {
+        const std::string of_station = why_no_freeport(rig.plc(station.number).cpu(), station.port);
+        if (of_station.empty()) return {};
+        why = fmt::format("on {} {}", plan.plcs[station.number].name, of_station);
+        break;
+      }
+      case StationPlan::Kind::Peer:
+        if (dynamic_cast<const westinghouse::ModbusPlc*>(plan.peers[station.number].automaton.get())) return {};
+        break;
+      case StationPlan::Kind::Bridge:
+        if (++bridges > 1) return {};  // there may be slaves behind the other one
+    }
+  }
+  return why;
+}
+
 std::vector<LiveEnd> ends_of(Rig& rig, Bridges bridges) {
   std::vector<LiveEnd> ends;
   for (std::size_t line = 0; line < rig.plan().lines.size(); ++line) {
@@ -39,7 +63,8 @@ std::vector<LiveEnd> ends_of(Rig& rig, Bridges bridges) {
                         .plc = first ? &rig.plc(first->number) : nullptr,
                         .plc_port = first ? first->port : std::uint8_t{0},
                         .without_program = format_without_s7200(rig.plan(), plan),
-                        .settings = plan.settings});
+                        .settings = plan.settings,
+                        .why_no_modbus = [&rig, line] { return why_no_modbus(rig, line); }});
   }
   return ends;
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "tools/bridge/live_run.hpp"
@@ -20,6 +21,9 @@ std::optional<SystemBridges> make_bridges(const SystemPlan& plan);
 /// The same, not owned.
 using Bridges = std::span<Bridge* const>;
 std::vector<Bridge*> those_of(const SystemBridges& bridges);
+
+/// Why nobody on that line answers Modbus, as the programs stand now; empty if somebody may.
+std::string why_no_modbus(const Rig& rig, std::size_t line);
 
 /// Where they stand. Nothing is owned.
 std::vector<LiveEnd> ends_of(Rig& rig, Bridges bridges);

@@ -32,6 +32,17 @@ std::string counted(std::size_t count, std::string_view thing) {
   return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
+/// `2 PLCs, 1 master, 2 lines`; a PLC of another make is one too.
+std::string who_there_was(const SystemPlan& plan) {
+  std::size_t plcs = plan.plcs.size(), masters = 0;
+  for (const PeerPlan& peer : plan.peers) {
+    plcs += peer.automaton != nullptr;
+    masters += !peer.polls.requests.empty();
+  }
+  return fmt::format("{}{}, {}", counted(plcs, "PLC"), masters ? ", " + counted(masters, "master") : "",
+                     counted(plan.lines.size(), "line"));
+}
+
 /// How a run ended; no reason after an error.
 struct Ending {
   std::string_view reason;
@@ -39,7 +50,7 @@ struct Ending {
 };
 
 Ending run_to_end(Rig& rig, Bridges bridges, const RunOptions& options) {
-  const Time end = options.duration == kNever && bridges.empty() ? kSecond : options.duration;
+  const Time end = options.end(!bridges.empty());
   if (bridges.empty() && !options.bridge.realtime()) {
     const RunLimits limits{.end = end};
     return {run(rig, end, Progress([&] { return rig.system().time(); }, limits)), {}};
@@ -55,12 +66,12 @@ Ending run_to_end(Rig& rig, Bridges bridges, const RunOptions& options) {
 
 void print_text(Rig& rig, const Ending& ending, Bridges bridges) {
   const SystemPlan& plan = rig.plan();
-  fmt::print("{} after {}: {}, {}, {}\n", ending_text(ending.reason), format_duration(rig.system().time(), 6),
-             counted(plan.plcs.size(), "PLC"), counted(plan.peers.size(), "peer"), counted(plan.lines.size(), "line"));
+  fmt::print("{} after {}: {}\n", ending_text(ending.reason), format_duration(rig.system().time(), 6), who_there_was(plan));
   for (std::size_t i = 0; i < plan.plcs.size(); ++i) {
     const State& state = rig.plc(i).cpu().state();
-    fmt::print("{}: {} scans, {} instructions, CPU {} in {}\n", stl::printable(plan.plcs[i].name), state.scans,
-               state.instructions, plan.plcs[i].program->model->name, mode_of(rig.plc(i)));
+    fmt::print("{}: {} scans, {} instructions, CPU {} {}\n", stl::printable(plan.plcs[i].name), state.scans,
+               state.instructions, plan.plcs[i].program->model->name,
+               rig.plc(i).powered() ? fmt::format("in {}", mode_of(rig.plc(i))) : "without power");
     fmt::print("{}", indented(errors_text(rig.plc(i).cpu())));
     for (const MemoryRange& range : plan.plcs[i].settings.dumps)
       fmt::print("{}", indented(dump_text(rig.plc(i).cpu(), range)));
@@ -109,6 +120,7 @@ int run_plan(SystemPlan plan, const RigSurroundings& surroundings, Bridges bridg
     print_text(*rig, ending, bridges);
   print_notes(fault_notes(*rig));
   if (!problems.empty() || ending.reason == "bridge") return kUnusable;
+  if (ending.reason == "interrupted" && options.has_end(!bridges.empty())) return kCheckFailed;
   return exit_code_of(*rig);
 }
 

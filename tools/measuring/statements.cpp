@@ -118,8 +118,8 @@ class Tip41 {
  private:
   std::shared_ptr<const Program> program(const Rate& rate) const {
     stl::ParseResult parsed = text_.parsed;
-    set_constant(parsed.source, "SMB30", rate.port_control);
-    set_constant(parsed.source, "SMB34", rate.quiet_ms);
+    set_constant(parsed.source, "SMB30", {.value = rate.port_control}, false);
+    set_constant(parsed.source, "SMB34", {.value = rate.quiet_ms}, false);
     return check(std::move(parsed), model_, times_).program;
   }
 

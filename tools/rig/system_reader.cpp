@@ -240,7 +240,7 @@ class Reader {
     if (!project) return nullptr;
     stl::Source& source = project->parsed.source;
     if (!repair_slips(map, source)) return nullptr;
-    if (station && !set_constant(source, kStationByte, *station))
+    if (station && !set_constant(source, kStationByte, {.value = *station}, true))
       values_.wrong(*map.find("station"), fmt::format("the program moves no constant into {}", kStationByte),
                     "'constants' sets another place: constants: {VB10: 5}");
     set_constants(map, source);
@@ -291,7 +291,8 @@ class Reader {
                            "write for example {SMB30: 16#45}");
     for (std::size_t i = 0; i < constants->keys.size(); ++i) {
       const auto value = values_.number(&constants->items[i], INT32_MIN, UINT32_MAX);
-      if (value && !set_constant(source, constants->keys[i].text, *value))
+      const auto form = constants->items[i].text.starts_with("16#") ? stl::Integer::Form::Hex : stl::Integer::Form::Decimal;
+      if (value && !set_constant(source, constants->keys[i].text, {.value = *value, .form = form}, false))
         values_.wrong(constants->keys[i],
                       fmt::format("the program moves no constant to {}", stl::shortened(constants->keys[i].text)),
                       "MOVB, MOVW or MOVD with a constant and that address would");

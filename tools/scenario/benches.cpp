@@ -7,7 +7,10 @@
 #include "interpreter/program/load_times.hpp"
 #include "interpreter/program/slips.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/rig/system_reader.hpp"
+#include "tools/slave/peer_slave.hpp"
 #include "tools/slave/slave_target.hpp"
+#include "tools/slave/system_slave.hpp"
 
 namespace s7200::tools {
 
@@ -183,6 +186,47 @@ class ProgramBenches {
   Programs& programs_;
 };
 
+using SlaveMaker = decltype(Bench::make_slave);
+
+/// Of a PLC of another make, with what it is told by --plc. Each scenario has one of its own.
+SlaveMaker peer_slaves(const std::string& model, const std::string& name, const std::vector<std::string>& settings) {
+  const westinghouse::PlcRow& modbus = *westinghouse::find_plc("modbus");  // which is what scenarios speak
+  make_other_plc(modbus, model, settings);                                 // or it throws
+  return [=, &modbus](const Scenario& scenario) {
+    auto slave = std::make_unique<PeerSlave>(make_other_plc(modbus, model, settings), scenario.line,
+                                             std::vector<serial::Fault>{}, name);
+    if (scenario.after != kNever) slave->wait(std::max<Time>(0, scenario.after - slave->now()));
+    return slave;
+  };
+}
+
+/// Of a system file. Null, with messages, if it cannot be had.
+SlaveMaker system_slaves(const std::string& path, const std::string& at, Messages& messages) {
+  const auto refuse = [&](const std::string& why) { return add_error(messages, why), nullptr; };
+  std::string why;
+  const auto text = read_text(path, why);
+  if (!text) return refuse(fmt::format("cannot read {}: {}", path, why));
+  SystemFile file = read_system(*text, path);
+  if (!file.ok()) {
+    const auto add = [&](const SystemFile::Text& one) {
+      messages.push_back({.kind = Message::Kind::Diagnostics, .diagnostics = one.diagnostics, .source = one.source});
+    };
+    for (const SystemFile::Text& program : file.programs) add(program);
+    add(file.file);
+    return refuse(fmt::format("{} has errors; nothing was run", path));
+  }
+  if (!file.plan.bridges.empty())
+    return refuse(fmt::format("bridge '{}' of {} follows the clock, which 's7200 test' does not: leave it out",
+                              file.plan.bridges.front().name, path));
+  const auto spot = find_spot(file.plan, at, why);
+  if (!spot) return refuse(fmt::format("{}: {} (--at NAME)", path, why));
+  if (why = why_no_room(file.plan, *spot); !why.empty()) return refuse(fmt::format("{}: {}", path, why));
+  forget_files(file.plan);
+  return [plan = std::make_shared<const SystemPlan>(std::move(file.plan)), spot = *spot, path](const Scenario& scenario) {
+    return std::make_unique<SystemSlave>(*plan, spot, scenario.line, scenario.after, path);
+  };
+}
+
 }  // namespace
 
 std::optional<Benches> make_benches(const std::vector<Scenario>& scenarios, const std::string& target,
@@ -201,17 +245,31 @@ std::optional<Benches> make_benches(const std::vector<Scenario>& scenarios, cons
     return {};
   }
   if (target.empty() && all_without_program(scenarios, messages)) return {};
-  SerialFormat format;
-  if (parsed.kind != SlaveTarget::Kind::Program) {
-    format = settings.line.over(SerialFormat{});
-    catch_interruption();  // a wait for the other side can be ended
-    benches.slave = connect(parsed, format);
-    benches.name = benches.slave->name();
+  Bench of_target{.format = settings.line.over(SerialFormat{}), .exchanges_wanted = settings.exchanges_wanted};
+  switch (parsed.kind) {
+    case SlaveTarget::Kind::Program:
+      break;
+    case SlaveTarget::Kind::System:
+      of_target.make_slave = system_slaves(parsed.path, settings.at, messages);
+      if (!of_target.make_slave) return {};
+      break;
+    case SlaveTarget::Kind::Peer:
+      of_target.make_slave = peer_slaves(parsed.path, target, settings.plc);
+      break;
+    case SlaveTarget::Kind::Device:
+    case SlaveTarget::Kind::Tcp:
+    case SlaveTarget::Kind::ModbusTcp:
+      catch_interruption();  // a wait for the other side can be ended
+      benches.slave = connect(parsed, of_target.format);
+      benches.name = benches.slave->name();
+      of_target.slave = benches.slave.get();
   }
+  benches.of_programs = parsed.kind == SlaveTarget::Kind::Program;
   ProgramBenches of_programs(parsed.path, settings, programs);
   for (const Scenario& scenario : scenarios) {
-    Bench bench{.slave = benches.slave.get(), .format = format, .exchanges_wanted = settings.exchanges_wanted};
-    if (!bench.slave && is_to_run(scenario) && !of_programs.add_to(bench, scenario, benches.name, messages)) return {};
+    Bench bench = of_target;
+    if (benches.of_programs && is_to_run(scenario) && !of_programs.add_to(bench, scenario, benches.name, messages))
+      return {};
     benches.of.push_back(std::move(bench));
   }
   return benches;

@@ -57,13 +57,14 @@ class Programs {
 /// A bench for each scenario.
 struct Benches {
   std::vector<Bench> of{};
-  std::unique_ptr<Slave> slave{};  ///< that all of them share, if the target is not a program
+  std::unique_ptr<Slave> slave{};  ///< that all of them share, if the target is outside simulation
+  bool of_programs = true;         ///< the target is one, or there is none
   std::string name{};              ///< of what is tested; of programs that scenarios name, the first one's
 };
 
 /// `target` is what all scenarios are run on; if it is empty, each is run on the program it names, and one whose program
 /// cannot be had gets a bench that says why. Nothing, with messages, if the target cannot be had, or if no scenario names a
-/// program. Throws as parse_slave_target() and connect() do.
+/// program. Throws as parse_slave_target(), connect() and make_other_plc() do.
 std::optional<Benches> make_benches(const std::vector<Scenario>& scenarios, const std::string& target,
                                     const SuiteSettings& settings, Programs& programs, Messages& messages);
 

@@ -81,7 +81,7 @@ class Plant {
   const serial::Simulation& simulation() const { return rig_ ? rig_->simulation(here_) : *simulation_; }
   Cpu& cpu() { return simulation().cpu(); }
   Slave& slave() { return *slaves_[here_]; }
-  SerialFormat format() const { return master_of(spots_[here_]).over(simulation().port_format()); }
+  SerialFormat format() const { return slaves_[here_]->format(); }
 
   /// Since the last request began, or since power-up.
   const InterruptCounter& interrupts() const { return watches_[plc_number()]->interrupts; }

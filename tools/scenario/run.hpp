@@ -25,10 +25,13 @@ class Run {
   /// The program in simulation; null on any other slave, where only steps that need no more than the line get to act.
   Plant* plant() { return plant_.get(); }
 
-  Slave& slave() { return plant_ ? plant_->slave() : *bench_.slave; }
+  Slave& slave() { return plant_ ? plant_->slave() : own_ ? *own_ : *bench_.slave; }
+
+  /// Then its times are exact.
+  bool in_simulation() const { return plant_ || own_; }
 
   /// Of the line, as it is now.
-  SerialFormat format() const { return plant_ ? plant_->format() : bench_.format; }
+  SerialFormat format() const { return plant_ ? plant_->format() : own_ ? own_->format() : bench_.format; }
 
   /// When the scenario began on the slave's clock: `at` counts from there.
   Time begin() const { return begin_; }
@@ -59,7 +62,7 @@ class Run {
   /// The way to the slave broke: the scenario ends.
   void lose_slave(const std::string& why);
 
-  /// On a slave that is not a program, something about times could not be judged.
+  /// On a slave outside simulation, something about times could not be judged.
   void leave_times_unjudged() { times_unjudged_ = true; }
 
   /// Of a step with many exchanges: the one that comes now.
@@ -86,10 +89,11 @@ class Run {
   const Scenario& scenario_;
   const Bench& bench_;
   std::unique_ptr<Plant> plant_;
+  std::unique_ptr<SlaveInSimulation> own_;  ///< that the bench made
   std::size_t step_ = 0, turn_ = 0;
   Time begin_ = 0;
   bool lost_ = false;                     ///< the slave
-  bool times_unjudged_ = false;           ///< on a slave that is not a program
+  bool times_unjudged_ = false;           ///< on a slave outside simulation
   std::set<std::size_t> modes_expected_;  ///< of which PLCs
   ScenarioResult result_;
 };

@@ -13,7 +13,8 @@ namespace s7200::tools {
 using Outcome = ScenarioResult::Outcome;
 
 Run::Run(const Scenario& scenario, const Bench& bench) : scenario_(scenario), bench_(bench) {
-  if (bench.slave) return;
+  if (bench.make_slave) own_ = bench.make_slave(scenario);
+  if (bench.slave || own_) return;
   plant_ = scenario.plan ? std::make_unique<Plant>(scenario) : std::make_unique<Plant>(scenario, bench.program);
 }
 
@@ -23,7 +24,7 @@ ScenarioResult Run::result() {
       return {.outcome = Outcome::Skipped, .reason = "needs a program in simulation: " + what};
     slave().forget_unasked();
   }
-  begin_ = plant_ ? 0 : slave().now();
+  begin_ = in_simulation() ? 0 : slave().now();
   if (plant_ && !plant_->get_ready()) {
     add({.what = "ready",
          .expected = fmt::format("the first scan ended and the line quiet within {}", format_duration(kReadyWithin)),

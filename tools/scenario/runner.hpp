@@ -18,7 +18,10 @@ struct Bench {
   std::shared_ptr<const ProgramBand> band{};  ///< the program with other times too; null: with its own only
   Slave* slave = nullptr;                     ///< instead of a program; not owned
   SerialFormat format{};                      ///< of the slave's line
-  bool exchanges_wanted = true;               ///< all of them are in the result
+  /// Instead of both, makes a slave in simulation of which only the line is seen, powered up for this scenario; may be left
+  /// out.
+  std::function<std::unique_ptr<SlaveInSimulation>(const Scenario&)> make_slave{};
+  bool exchanges_wanted = true;  ///< all of them are in the result
   /// Is told of each exchange when it is over, in the thread that runs the scenario, and the result has none; may be left
   /// out.
   std::function<void(const Seen&)> watch{};
@@ -27,8 +30,8 @@ struct Bench {
 
 /// Runs a scenario to its end, findings or not; a slave that is lost is a finding and ends it. SlaveUnreachable passes
 /// through. On a slave that is not a program, scenarios that act inside are skipped as a whole, steps that look inside by
-/// themselves. Of times only upper limits of the latency are judged: the computer in between cannot be trusted with more. A
-/// rule of which that leaves something unjudged is skipped too, unless it is broken already.
+/// themselves. Outside simulation, only upper limits of the latency are judged of times: the computer in between cannot be
+/// trusted with more. A rule of which that leaves something unjudged is skipped too, unless it is broken already.
 ScenarioResult run_scenario(const Scenario& scenario, const Bench& bench);
 
 }  // namespace s7200::tools

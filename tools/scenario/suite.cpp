@@ -103,7 +103,7 @@ void judge_robustness(const Scenario& scenario, ScenarioResult& result) {
 
 }  // namespace
 
-/// A slave that is not a program is one for all.
+/// A slave outside simulation is one for all.
 unsigned Suite::jobs_on(const Benches& benches) const { return benches.slave ? 1 : std::max(1U, settings_.jobs); }
 
 std::optional<SuiteResult> Suite::run(const Watcher<Report>& watcher, Messages& messages) {
@@ -112,7 +112,7 @@ std::optional<SuiteResult> Suite::run(const Watcher<Report>& watcher, Messages& 
   catch_interruption();  // from here on there is something to complete
   SuiteResult result{.tested = benches->name, .live = benches->slave != nullptr};
   if (!settings_.target.empty())
-    for (Scenario& scenario : scenarios_) scenario.program = result.live ? "" : settings_.target;
+    for (Scenario& scenario : scenarios_) scenario.program = benches->of_programs ? settings_.target : "";
   if (watcher.exchange)
     for (std::size_t i = 0; i < scenarios_.size(); ++i)
       benches->of[i].watch = [&, i](const Seen& seen) { watcher.exchange(result, scenarios_[i], seen); };

@@ -20,7 +20,7 @@ struct SuiteResult {
   std::vector<Report> reports{};  ///< of those that were run, in their order; they belong to the suite
   std::size_t not_run = 0;        ///< for an interruption, --fail-fast, or a slave that went
   std::string tested{};           ///< what they were run on
-  bool live = false;              ///< that is not a program: times are of this computer's clock
+  bool live = false;              ///< that is outside simulation: times are of this computer's clock
   std::string unreachable{};      ///< why the way to the slave broke
 
   bool passed() const;

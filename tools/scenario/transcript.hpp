@@ -14,7 +14,7 @@ struct Transcript {
   std::string path{};           ///< of the file to be: paths in it are relative to its folder
   std::string recorded_from{};  ///< what answered, for the heading
   Time tolerance = 0;           ///< 0 for programs: their times are exact
-  bool live = false;            ///< from a slave that is not a program
+  bool live = false;            ///< from a slave outside simulation
   std::string by = "s7200 test --record";
 };
 

@@ -20,8 +20,6 @@ class ValueReader : public YamlValues {
  public:
   using YamlValues::YamlValues;
 
-  static constexpr std::string_view kDuration = "a duration of a day at most";
-
   Parameters parameters{};
   std::string loop{};  ///< `function = 3, count = 126`: which turn of its loops is read; stands at the end of a complaint
 

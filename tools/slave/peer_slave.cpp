@@ -8,6 +8,16 @@
 
 namespace s7200::tools {
 
+std::unique_ptr<westinghouse::Plc> make_other_plc(const westinghouse::PlcRow& row, std::string_view model,
+                                                  const std::vector<std::string>& settings) {
+  std::string why;
+  std::unique_ptr<westinghouse::Plc> plc = westinghouse::make_plc(row, model, why);
+  if (!plc) throw std::invalid_argument(why);
+  for (const std::string& setting : settings)
+    if (!plc->set(setting, why)) throw std::invalid_argument("--plc: " + why);
+  return plc;
+}
+
 PeerSlave::PeerSlave(std::unique_ptr<serial::Automaton> station, const serial::LineSettings& line,
                      const std::vector<serial::Fault>& faults, std::string name)
     : line_(system_.add_line()),
@@ -28,7 +38,7 @@ serial::Exchange PeerSlave::finish() {
 }
 
 serial::Exchange PeerSlave::exchange(const serial::Request& request) {
-  if (serial::has_wrong_parity(request.frame) && master_.uart().state().format.parity == Parity::None)
+  if (serial::has_wrong_parity(request.frame) && format().parity == Parity::None)
     throw std::invalid_argument("a byte with wrong parity (p) needs a format with parity");
   system_.finish_exchange(master_);  // what Ctrl-C has left under way
   remark_ = ignored_text(serial::bytes_of(master_.requester().heard()));
@@ -43,6 +53,6 @@ serial::Exchange PeerSlave::receive(const serial::Listening& listening) {
   return finish();
 }
 
-Time PeerSlave::pause() const { return serial::default_quiet(master_.uart().state().format); }
+Time PeerSlave::pause() const { return serial::default_quiet(format()); }
 
 }  // namespace s7200::tools

@@ -3,15 +3,22 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "serial_sim/system/system.hpp"
+#include "serial_sim/westinghouse/plcs.hpp"
 #include "tools/rig/capture_files.hpp"
 #include "tools/slave/slave.hpp"
 
 namespace s7200::tools {
 
-class PeerSlave final : public Slave {
+/// A PLC of this model, set as `settings`, the values of --plc, say. Throws std::invalid_argument if there is none that
+/// speaks the protocol of the row, or it has no such setting.
+std::unique_ptr<westinghouse::Plc> make_other_plc(const westinghouse::PlcRow& row, std::string_view model,
+                                                  const std::vector<std::string>& settings);
+
+class PeerSlave final : public SlaveInSimulation {
  public:
   /// `line`: the master's, as far as it is not that of the station. `name`: as it was asked for.
   PeerSlave(std::unique_ptr<serial::Automaton> station, const serial::LineSettings& line,
@@ -25,6 +32,7 @@ class PeerSlave final : public Slave {
   Time pause() const override;
   std::string remark() const override { return remark_; }
   std::string name() const override { return name_; }
+  SerialFormat format() const override { return master_.uart().state().format; }
 
   const serial::Faults& faults() { return line_.faults(); }
 

@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "interpreter/model/ports.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/views/port_mode.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -40,13 +40,11 @@ std::string SimulatedSlave::note_on_port(bool wants_freeport) const {
   if (simulation_.freeport().active == wants_freeport) return {};
   if (!wants_freeport)
     return fmt::format("the program has switched port {} to Freeport mode: it does not speak PPI there", simulation_.port());
-  const std::uint32_t control = kPorts[simulation_.port()].control;
-  return fmt::format("the program has not switched port {} to Freeport mode (SMB{} = 16#{:02X})", simulation_.port(),
-                     control - image::kSM, simulation_.cpu().state().image[control]);
+  return why_no_freeport(simulation_.cpu(), simulation_.port());
 }
 
 serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
-  const SerialFormat format = master_.over(simulation_.port_format());
+  const SerialFormat format = this->format();
   if (serial::has_wrong_parity(request.frame) && format.parity == Parity::None)
     throw std::invalid_argument("a byte with wrong parity (p) needs a format with parity");
   simulation_.finish_exchange();  // what Ctrl-C has left under way
@@ -55,7 +53,7 @@ serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
   simulation_.master().start(request, simulation_.time());
   serial::Exchange exchange = simulation_.finish_exchange();
   if (simulation_.master().busy()) exchange.timed_out = exchange.response.empty();  // after Ctrl-C
-  if (const SerialFormat now = master_.over(simulation_.port_format()); now != format) simulation_.configure_master(now);
+  if (const SerialFormat now = this->format(); now != format) simulation_.configure_master(now);
   return exchange;
 }
 
@@ -70,6 +68,6 @@ serial::Exchange SimulatedSlave::receive(const serial::Listening& listening) {
 
 void SimulatedSlave::wait(Time duration) { run_until(simulation_, simulation_.time() + duration); }
 
-Time SimulatedSlave::pause() const { return serial::default_quiet(master_.over(simulation_.port_format())); }
+Time SimulatedSlave::pause() const { return serial::default_quiet(format()); }
 
 }  // namespace s7200::tools

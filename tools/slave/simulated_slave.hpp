@@ -13,7 +13,7 @@ inline constexpr Time kReadyWithin = 60 * kSecond;
 
 /// Time passes only while it is used. The master's format follows the port of the program, as far as the options leave it
 /// open, but not within an exchange.
-class SimulatedSlave final : public Slave {
+class SimulatedSlave final : public SlaveInSimulation {
  public:
   /// The simulation is not owned and has been powered up. `name` is its program's.
   SimulatedSlave(serial::Simulation& simulation, const serial::MasterSettings& master, std::string name);
@@ -37,6 +37,7 @@ class SimulatedSlave final : public Slave {
   Time now() const override { return simulation_.time(); }
   std::string name() const override { return name_; }
   std::string remark() const override { return remark_; }
+  SerialFormat format() const override { return master_.over(simulation_.port_format()); }
 
   /// What a master leaves between an answer and its next request, in the format of now.
   Time pause() const override;

@@ -60,4 +60,11 @@ class Slave {
   virtual std::string name() const = 0;
 };
 
+/// A slave in simulation: its times are exact, and 0 is its power-up.
+class SlaveInSimulation : public Slave {
+ public:
+  /// Of its line, as the master talks there now.
+  virtual SerialFormat format() const = 0;
+};
+
 }  // namespace s7200::tools

@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
+#include <algorithm>
 #include <filesystem>
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
+#include "tools/rig/system_reader.hpp"
 #include "tools/slave/host_slave.hpp"
 
 namespace s7200::tools {
@@ -60,7 +61,9 @@ SlaveTarget parse_slave_target(const std::string& text) {
   } else {
     std::error_code error;
     const bool device = text.starts_with("/dev/tty") || std::filesystem::is_character_file(text, error);
-    target.kind = device ? SlaveTarget::Kind::Device : SlaveTarget::Kind::Program;
+    target.kind = device                 ? SlaveTarget::Kind::Device
+                  : is_system_file(text) ? SlaveTarget::Kind::System
+                                         : SlaveTarget::Kind::Program;
     target.path = text;
   }
   return target;
@@ -68,21 +71,30 @@ SlaveTarget parse_slave_target(const std::string& text) {
 
 bool is_other_plc(std::string_view text) { return text.starts_with(kPeer); }
 
-std::string slave_targets_help() {
-  return "Targets:\n"
-         "  PROGRAM                               an STL file or document, in simulation; - is standard input\n"
-         "  SYSTEM.yaml                           PLCs and lines, in simulation; --at says where the master joins\n"
-         "  /dev/ttyUSB0, or a pty by its link    a serial line, for Modbus 9600 8E1 unless --baud and the others say "
-         "otherwise\n"
-         "  tcp://HOST:PORT                       the characters of a serial line over TCP, as serial servers offer it\n"
-         "  modbus-tcp://HOST[:PORT]              Modbus TCP, port 502 unless one is given\n"
-         "  westinghouse:MODEL                    a simulated PLC of the Westinghouse family, alone on a line; --plc sets "
-         "it\n";
+std::string slave_targets_help(std::initializer_list<SlaveTarget::Kind> without) {
+  using enum SlaveTarget::Kind;
+  constexpr std::pair<SlaveTarget::Kind, std::string_view> kRows[] = {
+      {Program, "  PROGRAM                               an STL file or document, in simulation; - is standard input\n"},
+      {System, "  SYSTEM.yaml                           PLCs and lines, in simulation; --at says where the master joins\n"},
+      {Device,
+       "  /dev/ttyUSB0, or a pty by its link    a serial line, for Modbus 9600 8E1 unless --baud and the others say "
+       "otherwise\n"},
+      {Tcp,
+       "  tcp://HOST:PORT                       the characters of a serial line over TCP, as serial servers offer it\n"},
+      {ModbusTcp, "  modbus-tcp://HOST[:PORT]              Modbus TCP, port 502 unless one is given\n"},
+      {Peer,
+       "  westinghouse:MODEL                    a simulated PLC of the Westinghouse family, alone on a line; --plc sets "
+       "it\n"}};
+  std::string text = "Targets:\n";
+  for (const auto& [kind, row] : kRows)
+    if (std::ranges::find(without, kind) == without.end()) text += row;
+  return text;
 }
 
 std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format, IsComplete is_complete) {
   switch (target.kind) {
     case SlaveTarget::Kind::Program:
+    case SlaveTarget::Kind::System:
     case SlaveTarget::Kind::Peer:
       break;
     case SlaveTarget::Kind::Device:
@@ -92,8 +104,8 @@ std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& fo
     case SlaveTarget::Kind::ModbusTcp:
       return std::make_unique<ModbusTcpSlave>(target.host, target.port);
   }
-  assert(false);
-  return nullptr;
+  throw std::invalid_argument(
+      fmt::format("'{}' is in simulation; name a serial device, tcp:// or modbus-tcp://", stl::shortened(target.path)));
 }
 
 }  // namespace s7200::tools

@@ -1,6 +1,7 @@
 // Where a slave is, as people write it.
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 #include <string>
 
@@ -13,6 +14,7 @@ namespace s7200::tools {
 struct SlaveTarget {
   enum class Kind : std::uint8_t {
     Program,    ///< a PROGRAM to be run in simulation: whatever is none of the others
+    System,     ///< a system file, SYSTEM.yaml, to be run in simulation
     Device,     ///< a character device, or a link to one: a pty; whatever begins with /dev/tty
     Tcp,        ///< tcp://HOST:PORT, the characters of a serial line over TCP
     ModbusTcp,  ///< modbus-tcp://HOST[:PORT], port 502 if none is given
@@ -20,7 +22,7 @@ struct SlaveTarget {
   };
 
   Kind kind = Kind::Program;
-  std::string path;        ///< of a program or device; a model
+  std::string path;        ///< of a program, system file or device; a model
   std::string host, port;  ///< an IPv6 address without its brackets
 };
 
@@ -30,11 +32,11 @@ SlaveTarget parse_slave_target(const std::string& text);
 /// Whether it is westinghouse:MODEL.
 bool is_other_plc(std::string_view text);
 
-/// All of them, one a line, for --help.
-std::string slave_targets_help();
+/// All of them but `without`, one a line, for --help.
+std::string slave_targets_help(std::initializer_list<SlaveTarget::Kind> without = {});
 
 /// Connects to a target outside simulation; `format` is for devices, `is_complete` for characters. Throws
-/// SlaveUnreachable.
+/// SlaveUnreachable, and std::invalid_argument for a target in simulation.
 std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format,
                                IsComplete is_complete = modbus::crc_ok);
 

@@ -76,6 +76,8 @@ class YamlValues {
 
   std::optional<std::int64_t> number(const YamlNode* node, std::int64_t from, std::int64_t to);
 
+  static constexpr std::string_view kDuration = "a duration with its unit, of a day at most";
+
   /// A day at most.
   std::optional<Time> duration(const YamlNode* node);
 

@@ -406,7 +406,7 @@ TEST(ScenarioReader, EveryMistakeIsToldAtItsPlace) {
       {"steps:\n  - {read: coils 0, expect: [2]}\n", 2, 29, "coils and inputs are 0 or 1"},
       {"steps:\n  - {read: coils 0, latency: 20ms..10ms}\n", 2, 30, "'20ms..10ms' is not a window of time"},
       {"steps:\n  - {read: coils 0, latency: 9 characters..8 characters}\n", 2, 30, "is not a window of time"},
-      {"steps:\n  - wait: 25h\n", 2, 11, "'25h' is not a duration of a day at most"},
+      {"steps:\n  - wait: 25h\n", 2, 11, "'25h' is not a duration with its unit, of a day at most"},
       {"a: &x 1\nb: *x\n", 1, 4, "anchors and aliases"},
       {"a: !!int 1\n", 1, 4, "tags (!)"},
       {"steps: []\n---\nsteps: []\n", 3, 1, "a second document"},
@@ -509,11 +509,11 @@ TEST(ScenarioReader, TellsAllMistakesAtOnceAndThoseOfLoopsOnce) {
   const ScenarioFile file =
       read("frob: 1\nsteps:\n  - wait: 5\n  - repeat: 50\n    steps:\n      - memory: {VB9999: 1}\n  - mode: x\n");
   ASSERT_EQ(file.diagnostics.size(), 4U);
-  EXPECT_EQ(
-      stl::render(file.diagnostics[1], *file.source, false),
-      "folder/file.yaml:3:11: error: '5' is not a duration of a day at most\n  - wait: 5\n          ^\nhint: write for "
-      "example 20ms, 3.5 "
-      "characters, 2 scans, until 1.5s\n");
+  EXPECT_EQ(stl::render(file.diagnostics[1], *file.source, false),
+            "folder/file.yaml:3:11: error: '5' is not a duration with its unit, of a day at most\n  - wait: 5\n          "
+            "^\nhint: write for "
+            "example 20ms, 3.5 "
+            "characters, 2 scans, until 1.5s\n");
 }
 
 TEST(ScenarioReader, NothingMakesItGrowWithoutBounds) {

@@ -39,6 +39,23 @@ TEST(SlaveTarget, EverythingElseIsAProgram) {
   EXPECT_EQ(parse_slave_target("missing").path, "missing");
 }
 
+TEST(SlaveTarget, ASystemFileAndAPlcOfAnotherMakeAreNeitherProgramsNorConnectedTo) {
+  const SlaveTarget system = parse_slave_target("plant.yaml"), peer = parse_slave_target("westinghouse:pc1200");
+  EXPECT_EQ(system.kind, Kind::System);
+  EXPECT_EQ(peer.kind, Kind::Peer);
+  EXPECT_EQ(peer.path, "pc1200");
+  for (const SlaveTarget& target : {system, peer, parse_slave_target("slave.stl")})
+    EXPECT_THROW(connect(target, {}), std::invalid_argument);
+}
+
+TEST(SlaveTarget, HelpLeavesOutWhatAVerbDoesNotTake) {
+  const std::string some = slave_targets_help({Kind::System, Kind::Peer});
+  EXPECT_EQ(some.find("SYSTEM"), std::string::npos);
+  EXPECT_EQ(some.find("westinghouse"), std::string::npos);
+  EXPECT_NE(some.find("modbus-tcp://"), std::string::npos);
+  EXPECT_NE(slave_targets_help().find("SYSTEM"), std::string::npos);
+}
+
 TEST(SlaveTarget, WhatIsNoAddressIsRefused) {
   for (const char* text : {"tcp://", "tcp://host", "tcp://host:", "tcp://:502", "tcp://[::1", "tcp://[::1]", "tcp://::1:502",
                            "modbus-tcp://", "modbus-tcp://host:", "modbus-tcp://[::1]502", "udp://host:502"})

@@ -130,7 +130,7 @@ void MasterOptions::refuse_what_does_not_fit(Kind kind) const {
         "--times-band does all actions once with each table: give no --every, --continuous, --count or --verbose");
   // In simulation nothing but the reader slows down what would be written for ever.
   const bool floods = open_ended() && (polls() || json || verbose) && !isatty(STDOUT_FILENO);
-  if ((kind == Kind::Program || kind == Kind::Peer) && floods)
+  if ((kind == Kind::Program || kind == Kind::System || kind == Kind::Peer) && floods)
     throw std::invalid_argument(
         fmt::format("{} without --count never ends, and a simulation writes as fast as it can: say how often with --count N",
                     polls() ? "--every" : "--continuous"));
@@ -158,7 +158,7 @@ void MasterOptions::refuse_what_a_peer_does_not_take(Kind kind) const {
     throw std::invalid_argument(
         fmt::format("PLCs of westinghouse:MODEL do not speak {}; they speak {}", protocol->name, names));
   }
-  if (kind == Kind::Program) return;
+  if (kind == Kind::Program || kind == Kind::System) return;
   std::vector<CLI::Option*> refused = for_programs_;
   if (peer) std::erase_if(refused, [](const CLI::Option* option) { return is_about_the_line(option->get_name()); });
   refuse_options(refused, "a PROGRAM to run in simulation");

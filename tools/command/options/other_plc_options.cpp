@@ -4,11 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "tools/command/options/choices.hpp"
+#include "tools/slave/peer_slave.hpp"
 
 namespace s7200::tools {
 
@@ -46,12 +46,7 @@ CLI::Option* OtherPlcOptions::add_to(CLI::App& app) {
 }
 
 std::unique_ptr<westinghouse::Plc> OtherPlcOptions::make(const Protocol& protocol, std::string_view model) const {
-  std::string why;
-  std::unique_ptr<westinghouse::Plc> plc = westinghouse::make_plc(*protocol.plcs, model, why);
-  if (!plc) throw std::invalid_argument(why);
-  for (const std::string& setting : settings_)
-    if (!plc->set(setting, why)) throw std::invalid_argument("--plc: " + why);
-  return plc;
+  return make_other_plc(*protocol.plcs, model, settings_);
 }
 
 }  // namespace s7200::tools

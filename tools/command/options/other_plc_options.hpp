@@ -31,6 +31,9 @@ class OtherPlcOptions {
   /// has no such setting. The protocol is one of protocols_of_other_plcs().
   std::unique_ptr<westinghouse::Plc> make(const Protocol& protocol, std::string_view model) const;
 
+  /// The values of --plc.
+  const std::vector<std::string>& settings() const { return settings_; }
+
  private:
   std::vector<std::string> settings_;
 };

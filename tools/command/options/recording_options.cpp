@@ -54,6 +54,7 @@ std::optional<SlaveTarget> RecordingOptions::live() const {
   };
   switch (target.kind) {
     case SlaveTarget::Kind::Program:
+    case SlaveTarget::Kind::System:
       refuse(for_lines_, "a line to listen to");
       return {};
     case SlaveTarget::Kind::Device:

@@ -16,6 +16,7 @@
 #include "tools/host/interruption.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/rig/system_reader.hpp"
+#include "tools/slave/system_slave.hpp"
 #include "tools/views/faults.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
@@ -209,8 +210,7 @@ RigSurroundings RigOptions::surroundings(const std::string& path, const std::str
 
 std::string RigOptions::target() const {
   if (!plan_) return program_->source.name;
-  const std::string port = spot_.port == 0 ? "" : fmt::format(", port {}", spot_.port);
-  return fmt::format("{}: line {}, beside {}{}", path_, plan_->lines[spot_.line].name, plan_->plcs[spot_.plc].name, port);
+  return place_text(path_, *plan_, spot_);
 }
 
 void RigOptions::refuse_what_is_of_one_run(std::string_view because) const {

@@ -19,10 +19,9 @@ struct RunOptions {
   OtherPlcOptions other;
   std::vector<CLI::Option*> for_other_plcs;  ///< that nothing else has a use for
 
-  Time end() const {
-    if (duration != kNever || scans != 0 || bridge.bridge()) return duration;
-    return kSecond;
-  }
+  /// Whether the run ends by itself. One that `serves` masters outside does not unless it was told when.
+  bool has_end(bool serves) const { return duration != kNever || scans != 0 || !serves; }
+  Time end(bool serves) const { return duration == kNever && scans == 0 && !serves ? kSecond : duration; }
   void add_to(CLI::App& app);
 };
 

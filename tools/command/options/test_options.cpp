@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "tools/command/options/line_options.hpp"
@@ -10,6 +12,7 @@
 #include "tools/command/options/program_options.hpp"
 #include "tools/scenario/junit.hpp"
 #include "tools/scenario/transcript.hpp"
+#include "tools/slave/slave_target.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -31,6 +34,11 @@ void TestOptions::add_to(CLI::App& app) {
   app.add_option("--against", against,
                  "send the same to another program and show where the answers or their times differ first")
       ->type_name("TARGET");
+  app.add_option("--at", suite.at,
+                 "where the master joins a target that is a system: a line, or a PLC on it, gateway.1 for its port 1 [the "
+                 "only line]")
+      ->type_name("NAME");
+  other.add_to(app);
   app.add_flag("--ignore-timing", ignore_timing, "with --against: only answers count");
   add_duration(
       app, "--tolerance", tolerance,
@@ -63,6 +71,15 @@ void TestOptions::check() const {
   refuse_if(conformance && (!suite.files.empty() || !suite.with.empty() || random),
             "--conformance runs its own suite: give no files, --with or --random beside it");
   refuse_if(random && suite.target.empty(), "--random needs --target, which says what the requests are sent to");
+  const auto any_is = [&](SlaveTarget::Kind kind) {
+    return std::ranges::any_of(std::array{&suite.target, &against}, [&](const std::string* target) {
+      return !target->empty() && parse_slave_target(*target).kind == kind;
+    });
+  };
+  refuse_if(!suite.at.empty() && !any_is(SlaveTarget::Kind::System),
+            "--at names a place in a system file: give one to --target or --against");
+  refuse_if(!other.settings().empty() && !any_is(SlaveTarget::Kind::Peer),
+            "--plc needs westinghouse:MODEL as --target or --against");
   refuse_if(ignore_timing && !compared, "--ignore-timing goes with --against");
   refuse_if(tolerance != kNever && !compared && record.empty(),
             "--tolerance goes with --against or --record; a scenario has 'tolerance:'");

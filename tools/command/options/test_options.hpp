@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tools/command/options/band_options.hpp"
+#include "tools/command/options/other_plc_options.hpp"
 #include "tools/host/written_files.hpp"
 #include "tools/scenario/suite_settings.hpp"
 
@@ -16,6 +17,7 @@ namespace s7200::tools {
 
 struct TestOptions {
   SuiteSettings suite;
+  OtherPlcOptions other;
   std::string against, record, junit;
   BandOptions band;
   unsigned jobs = 0;        ///< 0: not given

@@ -28,7 +28,7 @@ bool ExchangeStep::wait_for_begin(Run& run) const {
   else if (run.before.end)
     begin = *run.before.end + pause.value_or(run.scenario().pause).in(run.format());
   const Time now = run.slave().now();
-  if (at && begin < now && run.plant()) {
+  if (at && begin < now && run.in_simulation()) {
     run.add({.what = "begin",
              .expected = fmt::format("a request at {}", format_duration(begin, 6)),
              .found = fmt::format("it is {} already", format_duration(now, 6)),
@@ -49,13 +49,13 @@ void ExchangeStep::act(Run& run) const {
   try {
     exchange = run.slave().exchange(asked);
   } catch (const std::invalid_argument& error) {
-    if (!run.plant()) return run.skip_step();  // a way that such a frame cannot go
+    if (!run.in_simulation()) return run.skip_step();  // a way that such a frame cannot go
     return run.add({.what = "request", .expected = "a request that can be sent", .found = error.what(), .of_run = true});
   } catch (const SlaveLost& error) {
     return run.lose_slave(error.what());
   }
   if (run.plant()) run.plant()->end_exchange();
-  if (!run.plant() && asked.gap != 0) run.leave_times_unjudged();
+  if (!run.in_simulation() && asked.gap != 0) run.leave_times_unjudged();
   run.before = {.end = exchange.response.empty() ? run.slave().now() : exchange.response_end,
                 .remark = run.slave().remark()};
   run.keep(exchange);

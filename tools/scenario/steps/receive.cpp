@@ -36,8 +36,8 @@ void ReceiveStep::act(Run& run) const {
   run.keep(exchange);
   const SerialFormat line = run.format();
   judge(run, exchange, line, listening.timeout);
-  if (at && !run.plant()) run.leave_times_unjudged();
-  if (!at || !run.plant() || exchange.response.empty() || at->has(exchange.response_start, line)) return;
+  if (at && !run.in_simulation()) run.leave_times_unjudged();
+  if (!at || !run.in_simulation() || exchange.response.empty() || at->has(exchange.response_start, line)) return;
   run.add_exchange({.what = "begin",
                     .expected = in_words(*at, line),
                     .found = format_duration(exchange.response_start, 6),

@@ -33,7 +33,7 @@ void Reception::read_reception(const StepSource& source) {
 
 void Reception::judge(Run& run, const serial::Exchange& exchange, const SerialFormat& line, Time waited) const {
   const Bytes request = serial::bytes_of(exchange.request), response = exchange.response_bytes();
-  if (!expected.empty() || latency || (answer_gap && run.plant())) run.count_check();
+  if (!expected.empty() || latency || (answer_gap && run.in_simulation())) run.count_check();
   const bool found_disturbed = exchange.parity_error() || exchange.framing_error();
   const bool as_expected = std::any_of(expected.begin(), expected.end(),
                                        [&](const Expected& e) { return fulfilled(e, has_crc, request, response); });
@@ -52,7 +52,7 @@ void Reception::judge(Run& run, const serial::Exchange& exchange, const SerialFo
 }
 
 void Reception::judge_times(Run& run, const serial::Exchange& exchange, const SerialFormat& line) const {
-  const bool exact_times = run.plant() != nullptr;
+  const bool exact_times = run.in_simulation();
   const bool asked = !exchange.request.empty();
   const auto took = latency_of(exchange);
   const auto fits = [&](Time time) { return exact_times ? latency->has(time, line) : time <= latency->to.in(line); };

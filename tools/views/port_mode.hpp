@@ -1,0 +1,14 @@
+// What mode a port of the CPU is in, in words.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "interpreter/cpu/cpu.hpp"
+
+namespace s7200::tools {
+
+/// `the program has not switched port 0 to Freeport mode (SMB30 = 16#00)`; empty if it has.
+std::string why_no_freeport(const Cpu& cpu, std::uint8_t port);
+
+}  // namespace s7200::tools
