@@ -111,18 +111,14 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "A new branch: back takes it back.", &Debugger::restart},
       {"break", "b", "break [PLACE | WHAT] [always] [if CONDITION] [hits N] [log 'TEXT']",
        "stop at a place or when something happens; alone: list",
-       "PLACE: LINE, SBR n, INT n, LBL n or NETWORK n. A line without an instruction stands for the next one that has one; "
-       "boxes "
-       "and "
-       "coils stop only with power flow, or 'always'.\n"
-       "  WHAT: event N [occurs | served], received or sent (a frame), xmt, rcv (its end), error [CODE], overflow (of a "
-       "queue), "
-       "lost (a character), mode, unanswered (a request; of a master on a bridge: nothing is sent within --timeout, or "
-       "before it sends again).\n"
-       "  CONDITION in STL terms: break 40 if VW3300 > 8 and M31.7. hits N stops from the Nth time on, "
-       "counted since it was set. log prints a line "
-       "and "
-       "goes on: break INT 123 log '{SMB2} at {time}'; also {scan} {line} {event}.",
+       R"(PLACE: LINE, SBR n, INT n, LBL n or NETWORK n. A line without an instruction stands for the next one that has
+one; boxes and coils stop only with power flow, or 'always'.
+WHAT: event N [occurs | served], received or sent (a frame), xmt, rcv (its end), error [CODE], overflow (of a
+queue), lost (a character), mode, unanswered (a request; of a master on a bridge: nothing is sent within
+--timeout, or before it sends again).
+CONDITION in STL terms: break 40 if VW3300 > 8 and M31.7; a constant that an operand can never be is refused.
+hits N stops from the Nth time on, counted since it was set. log prints a line and goes on: break INT 123 log
+'{SMB2} at {time}'; also {scan} {line} {event}.)",
        &Debugger::set_break},
       {"watch", "w", "watch ADDRESS[:COUNT]… [read | write | change] [if …] [hits N] [log …]",
        "stop after the instruction that changes M31.7, VB100, VW100, AC0 …, or reads or writes it",
