@@ -4,6 +4,7 @@
 
 #include "tools/command/session_scenario.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/debugger/digest.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/views/machine_text.hpp"
 

@@ -7,6 +7,8 @@
 #include "interpreter/program/load.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/session_file.hpp"
+#include "tools/debugger/digest.hpp"
+#include "tools/debugger/past_words.hpp"
 #include "tools/debugger/words.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/views/machine_text.hpp"
