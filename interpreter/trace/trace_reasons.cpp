@@ -74,6 +74,7 @@ std::string comment_of(const stl::Statement& statement) {
 }  // namespace
 
 std::string ignored_because(const TraceRecord& record) {
+  if (record.kind == TraceKind::CharacterDropped) return "RCV waits for the start of a message";
   switch (record.code) {
     case 1:
       return "in PPI mode, and no PPI frame";
@@ -82,6 +83,11 @@ std::string ignored_because(const TraceRecord& record) {
     default:
       return fmt::format("event {} is not attached", kPorts[record.port].received);
   }
+}
+
+std::string named_in_sentence(std::uint32_t op, const Program& program) {
+  const stl::Statement& statement = program.statement(op);
+  return fmt::format("{} in line {}{}", short_text(statement), statement.position.line, comment_of(statement));
 }
 
 TraceReasons::TraceReasons(const Program& program) : program_(program) {
@@ -209,9 +215,7 @@ std::string TraceReasons::unread_text(const Frame& frame) const {
   if (frame.attached_by) text += fmt::format(" (attached in {})", line_of(*frame.attached_by));
   text += fmt::format(" took {} without reading SMB2", frame.characters == 1 ? "it" : "them");
   if (!frame.executed) return text;
-  const stl::Statement& statement = program_.statement(frame.executed->op);
-  return text +
-         fmt::format(", and executed {} in {}{}", short_text(statement), line_of(frame.executed->op), comment_of(statement));
+  return text + ", and executed " + named_in_sentence(frame.executed->op, program_);
 }
 
 TraceReasons::Unanswered TraceReasons::unanswered(const Frame& frame, const std::optional<Cause>& cause) const {

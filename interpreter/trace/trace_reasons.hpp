@@ -21,8 +21,11 @@
 
 namespace s7200 {
 
-/// Of a CharacterIgnored: why nobody wanted it.
+/// Of a CharacterIgnored or CharacterDropped: why nobody wanted it.
 std::string ignored_because(const TraceRecord& record);
+
+/// An instruction as a sentence names it: `ATCH 120, 10 in line 665  // not quiet yet`.
+std::string named_in_sentence(std::uint32_t op, const Program& program);
 
 class TraceReasons {
  public:

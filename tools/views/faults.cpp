@@ -18,6 +18,17 @@ bool is_about_when(std::string_view name) {
   return std::ranges::find(of_all, name, &serial::ParameterOfKind::name) != of_all.end();
 }
 
+std::string note_of(const serial::Fault& fault, std::uint64_t count) {
+  return fmt::format("fault {}: {}×", serial::to_text(fault), count);
+}
+
+/// When a cut in a character began is not kept: only one for ever is known to last.
+bool still_cuts(const serial::Faults::Injected& injected, Time now) {
+  const serial::Fault& fault = injected.fault;
+  if (fault.kind != serial::FaultKind::Cut || injected.count == 0) return false;
+  return fault.lasts == kNever || (fault.from && now - injected.at < *fault.from + fault.lasts);
+}
+
 }  // namespace
 
 std::string described(const serial::Fault& fault) {
@@ -37,9 +48,24 @@ std::string described(const serial::Fault& fault) {
 std::vector<std::string> fault_notes(const serial::Faults& faults) {
   std::vector<std::string> notes;
   for (const serial::Faults::Injected& injected : faults.state().injected) {
-    std::string& note = notes.emplace_back(fmt::format("fault {}: {}×", serial::to_text(injected.fault), injected.count));
+    std::string& note = notes.emplace_back(note_of(injected.fault, injected.count));
     if (injected.impossible != 0)
       note += fmt::format(", and {}× the format of the character had no such bit", injected.impossible);
+  }
+  return notes;
+}
+
+std::vector<std::string> fault_notes(const serial::Faults& faults, const serial::Faults::State& since, Time now) {
+  std::vector<std::string> notes;
+  for (const serial::Faults::Injected& injected : faults.state().injected) {
+    const auto then = std::ranges::find_if(since.injected, [&](const serial::Faults::Injected& one) {
+      return one.at == injected.at && one.fault == injected.fault;
+    });
+    const std::uint64_t before = then == since.injected.end() ? 0 : then->count;
+    if (injected.count != before)
+      notes.push_back(note_of(injected.fault, injected.count - before));
+    else if (still_cuts(injected, now))
+      notes.push_back("fault " + serial::to_text(injected.fault));
   }
   return notes;
 }

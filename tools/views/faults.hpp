@@ -15,6 +15,10 @@ std::string described(const serial::Fault& fault);
 /// What has happened so far, a line for each fault.
 std::vector<std::string> fault_notes(const serial::Faults& faults);
 
+/// The same of what has happened since then: `fault missing:of=answer: 2×`. A line that was cut then, and still is, counts
+/// too.
+std::vector<std::string> fault_notes(const serial::Faults& faults, const serial::Faults::State& since, Time now);
+
 /// [{"fault": "flip:bit=3", "count": 2, "impossible": 0}]
 nlohmann::ordered_json faults_json(const serial::Faults& faults);
 

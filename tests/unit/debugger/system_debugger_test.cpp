@@ -156,5 +156,15 @@ TEST(SystemDebugger, OneProgramHasNoStations) {
   EXPECT_TRUE(has(session.error_of("station"), "there is one PLC only"));
 }
 
+TEST(SystemDebugger, PowerNamesTheRequestsOfAllMastersThatWereUnderWay) {
+  const std::string slave = "{program: ../modbus_slave.stl, station: 1}";
+  SystemSession session("plcs:\n  near: " + slave + "\n  far: " + slave + "\n  idle: " + slave +
+                            "\nlines:\n  a: {stations: [near]}\n  b: {stations: [far]}\n  c: {stations: [idle]}\n",
+                        0);
+  session("continue 2s; send 01 03; station far; send 02 04; station idle");
+  EXPECT_TRUE(has(session("power"),
+                  "under way when power went off, and nobody waits for an answer any more: near: 01 03, far: 02 04\n"));
+}
+
 }  // namespace
 }  // namespace s7200::tools
