@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
 #include "interpreter/program/networks.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/instruction_lines.hpp"
+#include "interpreter/trace/statement_text.hpp"
 
 namespace s7200 {
 namespace {
@@ -60,17 +60,6 @@ bool reads_character(const Program& program, std::uint32_t head) {
   return false;
 }
 
-/// `LDW= AC0, 0`: in a sentence, not in a column.
-std::string short_text(const stl::Statement& statement) {
-  std::string text = stl::to_text(statement);
-  text.erase(std::unique(text.begin(), text.end(), [](char a, char b) { return a == ' ' && b == ' '; }), text.end());
-  return text;
-}
-
-std::string comment_of(const stl::Statement& statement) {
-  return statement.comment.empty() ? "" : "  //" + stl::printable(statement.comment);
-}
-
 }  // namespace
 
 std::string ignored_because(const TraceRecord& record) {
@@ -83,11 +72,6 @@ std::string ignored_because(const TraceRecord& record) {
     default:
       return fmt::format("event {} is not attached", kPorts[record.port].received);
   }
-}
-
-std::string named_in_sentence(std::uint32_t op, const Program& program) {
-  const stl::Statement& statement = program.statement(op);
-  return fmt::format("{} in line {}{}", short_text(statement), statement.position.line, comment_of(statement));
 }
 
 TraceReasons::TraceReasons(const Program& program) : program_(program) {

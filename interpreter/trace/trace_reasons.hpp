@@ -24,9 +24,6 @@ namespace s7200 {
 /// Of a CharacterIgnored or CharacterDropped: why nobody wanted it.
 std::string ignored_because(const TraceRecord& record);
 
-/// An instruction as a sentence names it: `ATCH 120, 10 in line 665  // not quiet yet`.
-std::string named_in_sentence(std::uint32_t op, const Program& program);
-
 class TraceReasons {
  public:
   /// An instruction that takes longer is named wherever an interrupt has waited for it.

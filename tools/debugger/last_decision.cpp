@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "interpreter/model/ports.hpp"
+#include "interpreter/trace/statement_text.hpp"
 #include "interpreter/trace/trace_reasons.hpp"
 #include "tools/debugger/expression.hpp"
 #include "tools/debugger/last_attachment.hpp"
