@@ -143,7 +143,7 @@ void EventText::append_to(fmt::memory_buffer& text, const TraceRecord& r) {
     case TraceKind::CharacterDropped:
       add("dropped  ");
       append_character(text, r);
-      return add(": RCV waits for the start of a message");
+      return add(": ", ignored_because(r));
     case TraceKind::Receive:
       return add("RCV: at most ", r.count, " characters");
     case TraceKind::ReceiveEnd:

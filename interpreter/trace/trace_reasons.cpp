@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
 #include "interpreter/program/networks.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/instruction_lines.hpp"
+#include "interpreter/trace/statement_text.hpp"
 
 namespace s7200 {
 namespace {
@@ -60,20 +60,10 @@ bool reads_character(const Program& program, std::uint32_t head) {
   return false;
 }
 
-/// `LDW= AC0, 0`: in a sentence, not in a column.
-std::string short_text(const stl::Statement& statement) {
-  std::string text = stl::to_text(statement);
-  text.erase(std::unique(text.begin(), text.end(), [](char a, char b) { return a == ' ' && b == ' '; }), text.end());
-  return text;
-}
-
-std::string comment_of(const stl::Statement& statement) {
-  return statement.comment.empty() ? "" : "  //" + stl::printable(statement.comment);
-}
-
 }  // namespace
 
 std::string ignored_because(const TraceRecord& record) {
+  if (record.kind == TraceKind::CharacterDropped) return "RCV waits for the start of a message";
   switch (record.code) {
     case 1:
       return "in PPI mode, and no PPI frame";
@@ -209,9 +199,7 @@ std::string TraceReasons::unread_text(const Frame& frame) const {
   if (frame.attached_by) text += fmt::format(" (attached in {})", line_of(*frame.attached_by));
   text += fmt::format(" took {} without reading SMB2", frame.characters == 1 ? "it" : "them");
   if (!frame.executed) return text;
-  const stl::Statement& statement = program_.statement(frame.executed->op);
-  return text +
-         fmt::format(", and executed {} in {}{}", short_text(statement), line_of(frame.executed->op), comment_of(statement));
+  return text + ", and executed " + named_in_sentence(frame.executed->op, program_);
 }
 
 TraceReasons::Unanswered TraceReasons::unanswered(const Frame& frame, const std::optional<Cause>& cause) const {

@@ -21,7 +21,7 @@
 
 namespace s7200 {
 
-/// Of a CharacterIgnored: why nobody wanted it.
+/// Of a CharacterIgnored or CharacterDropped: why nobody wanted it.
 std::string ignored_because(const TraceRecord& record);
 
 class TraceReasons {

@@ -20,6 +20,7 @@ SLAVE = str(SOURCE / "stl_programs/modbus_slave.stl")
 PROMPT = "(s7200) "
 UP, DOWN, LEFT, RIGHT = "\x1b[A", "\x1b[B", "\x1b[D", "\x1b[C"
 PATIENCE = 20  # seconds
+ENDLESS = "watch VW4000; continue 1000h"  # a watch looks at every scan
 
 
 class Terminal:
@@ -149,16 +150,35 @@ class Prompt(unittest.TestCase):
         terminal.until("VW1")
         terminal.signal(signal.SIGINT)
         terminal.until(PROMPT)
-        terminal.type("continue 1000h\n")
+        terminal.type(ENDLESS + "\n")
         terminal.until("\n")
         time.sleep(0.5)
         terminal.signal(signal.SIGINT)
         terminal.until("interrupted by Ctrl-C", PROMPT)
         self.quit(terminal)
 
+    def test_after_ctrl_c_the_rest_of_the_line_is_not_done(self):
+        terminal = self.session()
+        terminal.type(ENDLESS + "; set VW20=7; print VW20\n")
+        terminal.until("\n")
+        time.sleep(0.5)
+        terminal.signal(signal.SIGINT)
+        terminal.until("interrupted by Ctrl-C", "not done any more: 2 commands", PROMPT)
+        self.assertIn("VW20     16#0000", terminal.command("print VW20"))
+        self.quit(terminal)
+
+    def test_ctrl_c_leads_from_given_commands_to_the_prompt(self):
+        terminal = self.session(SLAVE, "-i", "-x", ENDLESS, "-x", "set VW20=7", "-x", "print VW20")
+        terminal.until("watch 1")
+        time.sleep(0.5)
+        terminal.signal(signal.SIGINT)
+        terminal.until("interrupted by Ctrl-C", "not done any more: 2 commands", PROMPT)
+        self.assertIn("VW20     16#0000", terminal.command("print VW20"))
+        self.quit(terminal)
+
     def test_a_long_command_shows_how_far_it_has_come_until_ctrl_c(self):
         terminal = self.session()
-        terminal.type("continue 1000h\n")
+        terminal.type(ENDLESS + "\n")
         terminal.until(" ms; Ctrl-C ends it", " ms; Ctrl-C ends it")
         terminal.signal(signal.SIGINT)
         terminal.until("interrupted by Ctrl-C", PROMPT)
@@ -200,7 +220,7 @@ class Prompt(unittest.TestCase):
     def test_the_layout_lives_while_the_program_runs_until_ctrl_c(self):
         terminal = self.session()
         terminal.command("display VW3300; layout on")
-        terminal.type("continue 1000h\n")
+        terminal.type(ENDLESS + "\n")
         shown = terminal.until("\x1b[1;1H", "scan ", "\x1b[1;1H", "scan ", "\x1b[1;1H", "scan ")
         self.assertNotIn(PROMPT, shown, "while it runs")
         moments = re.findall(r"([0-9.]+) ms  scan (\d+)", shown)
@@ -215,7 +235,7 @@ class Prompt(unittest.TestCase):
     def test_the_layout_after_ctrl_c_shows_what_was_executed(self):
         terminal = self.session()
         terminal.command("layout on")
-        terminal.type("continue 1000h\n")
+        terminal.type(ENDLESS + "\n")
         terminal.until("\x1b[1;1H", "scan ", "\x1b[1;1H", "scan ")
         terminal.signal(signal.SIGINT)
         terminal.until("interrupted by Ctrl-C")
@@ -226,7 +246,7 @@ class Prompt(unittest.TestCase):
 
     def test_a_run_says_which_signal_has_interrupted_it(self):
         terminal = self.session()
-        terminal.type("continue 1000h\n")
+        terminal.type(ENDLESS + "\n")
         time.sleep(0.2)
         terminal.signal(signal.SIGTERM)
         self.assertEqual(terminal.end(), 1)

@@ -1944,6 +1944,36 @@ class Files(Case):
         self.assertIn("fault: flip:character=3,bit=5", recorded.read_text(encoding="utf-8"))
         self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
 
+    def test_a_session_with_power_cycles_is_recorded_as_a_scenario(self):
+        for power, kept in (("power 1h", 9), ("power lost", 0)):
+            recorded = self.folder / f"{power.replace(' ', '_')}.yaml"
+            self.ends(FINE, "debug", SLAVE, "-x", f"set MB14=9 VW20=16#1234; continue 100ms; {power}; expect MB14 = {kept}; continue 100ms; "
+                      f"set VW20=16#4321; {power}; set VW20=5; continue 100ms; send 01 03 00 0a 00 01 crc; continue; display MB14 VW20; "
+                      f"record {recorded}")
+            text = recorded.read_text()
+            self.assertEqual(text.count("power_cycle: memory " + ("kept" if kept else "lost")), 2, text)
+            self.assertIn(f"MB14: {kept}", text)
+            self.ends(FINE, "test", recorded)
+        system = SOURCE / "stl_programs/systems/two_masters.yaml"
+        done = self.ends(UNUSABLE, "debug", system, "-x", f"continue 20ms; power; continue 20ms; record {self.folder}/system.yaml")
+        self.assertIn("power was switched off and on, for which scenarios of a system have no step", done.stderr)
+        saved = self.folder / "saved.json"
+        self.ends(FINE, "debug", SLAVE, "-x", f"continue 20ms; power; continue 20ms; save {saved}")
+        done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"load {saved}; record {self.folder}/loaded.yaml")
+        self.assertIn("loaded after power had been switched off", done.stderr)
+
+    def test_ctrl_c_ends_the_commands_of_a_debugger_and_says_how_many_are_not_done(self):
+        commands = self.program("set VW20=1\nwatch VW4000; continue 1000h; set VW20=2\n\nset VW20=3  # and more\n", "commands")
+        process = subprocess.Popen([S7200, "debug", SLAVE, "--commands", commands, "-x", "set VW20=4; set VW20=5"],
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        out, error = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, FAILED, out + error)
+        self.assertIn("interrupted by Ctrl-C", out)
+        self.assertEqual(re.findall(r"not done any more: (\d) commands", out), ["2", "2"])
+        self.assertNotIn("set VW20=2", out)
+
     def test_a_script_of_the_debugger_with_expectations_is_a_test(self):
         good = self.program("continue 100ms\nsend 01 03 00 0a 00 01 crc\ncontinue\nexpect VW3300 = 7\n", "good")
         self.ends(FINE, "debug", SLAVE, "--commands", good)

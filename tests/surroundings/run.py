@@ -364,7 +364,7 @@ class Signals(Case):
                                 (["master", SLAVE, "read", "40001", "--after", "9999h"], FAILED),
                                 (["test", yaml], FAILED), (["test", yaml, "--jobs", "2"], FAILED), (["test", answer], FAILED),
                                 (["test", yaml, "--against", self.echo], FAILED),
-                                (["debug", self.idle, "-x", "continue 9999h"], FAILED)):
+                                (["debug", self.idle, "-x", "watch VW0; continue 9999h"], FAILED)):  # a watch looks at every scan
             for number in SIGNALS:
                 with self.subTest(arguments=arguments, number=number):
                     process = self.start(*arguments)
@@ -559,7 +559,7 @@ class Signals(Case):
                 heard += os.read(process.stdout.fileno(), 1000)
             if count < 3:
                 process.send_signal(signal.SIGINT)
-        os.write(near, b"continue 9999h\n")
+        os.write(near, b"watch VW0; continue 9999h\n")
         time.sleep(0.1)
         process.send_signal(signal.SIGINT)
         heard = b""

@@ -81,14 +81,11 @@ void add_dap(CLI::App& app, int& exit_code) {
       ->type_name("[ADDRESS:]PORT");
   options->debuggee->add_plant_to(*verb);
   verb->footer(
-      "An editor starts it and launches a program: the attributes of a launch are the options of 's7200 debug' without "
-      "their\n"
-      "dashes. With a PROGRAM here, editors attach to that one, which stays as it stands when they leave. Without a "
-      "bridge,\n"
-      "--realtime or --speed programs run as fast as the computer can; with one as fast as the clock, and masters outside "
-      "wait\n"
-      "while it stands still. tools/dap/README.md has all requests, tools/vscode-s7200 is the extension for VS Code.\n"
-      "Example: s7200 dap");
+      R"(An editor starts it and launches a program: the attributes of a launch are the options of 's7200 debug' without their
+dashes. With a PROGRAM here, editors attach to that one, which stays as it stands when they leave. Without a bridge,
+--realtime or --speed programs run as fast as the computer can; with one as fast as the clock, and masters outside wait
+while it stands still. tools/dap/README.md has all requests, tools/vscode-s7200 is the extension for VS Code.
+Example: s7200 dap)");
   verb->callback([options, &exit_code, verb] { exit_code = run_dap(*verb, *options); });
 }
 

@@ -21,9 +21,9 @@ namespace s7200::tools {
 namespace {
 
 /// False after a message for a wrong command.
-bool run_script(Debugger& debugger, std::istream& in, std::string_view name) {
+bool run_script(Debugger& debugger, std::istream& in, std::string_view name, bool is_whole = true) {
   if (constexpr int kByteOrderMark = 0xEF; in.peek() == kByteOrderMark) in.ignore(3);
-  const auto error = debugger.run_script(in);
+  const auto error = debugger.run_script(in, is_whole);
   if (error) print_error(fmt::format("{}:{}: {}", name, error->line, error->message));
   return !error;
 }
@@ -45,7 +45,7 @@ bool run_commands(Debugger& debugger, const std::string& script, const DebugOpti
   debugger.show_place();
   if (options.given() && !run_given(debugger, script, options)) return false;
   if (options.given() && !options.interactive) return true;
-  if (!terminal) return run_script(debugger, std::cin, "standard input");
+  if (!terminal) return run_script(debugger, std::cin, "standard input", false);
   talk(debugger);
   return true;
 }
@@ -101,16 +101,15 @@ void add_debug(CLI::App& app, int& exit_code) {
   options->add_to(*verb);
   verb->footer(
       fault_help() +
-      "Without --commands and -x the commands come from standard input; 'help' lists them. A wrong command ends a script\n"
-      "with exit code 2. A program from standard input, -, needs --commands or -x.\n"
-      "With a bridge, --realtime or --speed it follows the clock, and masters outside wait while it stands still; their\n"
-      "time-outs are their own affair. Traces and captures get everything once: what is played again is not written again. "
-      "A\n"
-      "new branch goes on in traces after what ran before, and ends captures.\n"
-      "A system file (.yaml) instead of a PROGRAM: all its PLCs run, and go back, in one time; 'station NAME' goes over "
-      "from\n"
-      "one to another.\n"
-      "Example: s7200 debug stl_programs/modbus_slave.stl -x \"continue 2s; send 01 03 00 00 00 02 crc; continue; regs\"");
+      R"(Without --commands and -x the commands come from standard input; 'help' lists them. A wrong command ends a script
+with exit code 2; Ctrl-C ends it too, with exit code 1, or at the prompt with -i. A program from standard input, -, needs
+--commands or -x.
+With a bridge, --realtime or --speed it follows the clock, and masters outside wait while it stands still; their
+time-outs are their own affair. Traces and captures get everything once: what is played again is not written again. A
+new branch goes on in traces after what ran before, and ends captures.
+A system file (.yaml) instead of a PROGRAM: all its PLCs run, and go back, in one time; 'station NAME' goes over from
+one to another.
+Example: s7200 debug stl_programs/modbus_slave.stl -x "continue 2s; send 01 03 00 00 00 02 crc; continue; regs")");
   verb->callback([options, &exit_code, verb] { exit_code = run_debug(*verb, *options); });
 }
 

@@ -4,6 +4,7 @@
 
 #include "tools/command/session_scenario.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/debugger/digest.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/views/machine_text.hpp"
 
@@ -32,21 +33,40 @@ struct StepOf {
   }
 };
 
+using Places = std::vector<RigOptions::Station>;
+
+/// As scenarios name a station; nothing of the only PLC.
+std::string place_in(const Places& places, std::size_t station) {
+  return places.empty() ? std::string() : places[station].place;
+}
+
+/// What was done up to `now`; first what was done before power went off and came back.
+void add_steps(const Recording& recording, const Places& places, std::vector<SessionSteps::Step>& steps, std::string& why) {
+  if (recording.power) {
+    const auto& [before, ram_lost, off] = *recording.power;
+    add_steps(before, places, steps, why);
+    steps.push_back({.at = before.now.time, .power = SessionSteps::PowerCycle{ram_lost, off}});
+    if (!places.empty() && why.empty()) why = "power was switched off and on, for which scenarios of a system have no step";
+  } else if (!recording.memory.empty() && why.empty()) {
+    why = "it was loaded after power had been switched off, and what was before that is not in the file";
+  }
+  if (!recording.complete && why.empty()) why = "what came over a bridge before power was switched off is forgotten";
+  for (std::size_t i = 0; i < recording.now.actions && why.empty(); ++i) {
+    auto step = std::visit(StepOf{recording.moments[i].time, why}, recording.actions[i]);
+    if (why.empty()) step.on = place_in(places, recording.stations[i]);
+    if (step.send || !step.set.empty() || !step.fault.empty()) steps.push_back(std::move(step));
+  }
+}
+
 /// `places` of the stations, as scenarios name them; none of a PROGRAM.
-std::optional<SessionSteps> steps_of(const SessionRecord& record, const std::vector<RigOptions::Station>& places,
-                                     std::string& why) {
-  SessionSteps steps{.end = record.session.now.time, .last = record.last};
-  const auto place_of = [&](std::size_t station) { return places.empty() ? std::string() : places[station].place; };
+std::optional<SessionSteps> steps_of(const SessionRecord& record, const Places& places, std::string& why) {
+  SessionSteps steps{.steps = {}, .end = record.session.now.time, .ends = {}, .last = record.last};
+  const auto place_of = [&](std::size_t station) { return place_in(places, station); };
   for (std::size_t i = 0; i < record.stations.size(); ++i) {
     const SessionRecord::Station& station = record.stations[i];
     steps.ends.push_back({place_of(i), station.memory, station.stopped, station.fatal_code});
   }
-  for (std::size_t i = 0; i < record.session.actions.size() && why.empty(); ++i) {
-    auto step = std::visit(StepOf{record.session.moments[i].time, why}, record.session.actions[i]);
-    if (why.empty()) step.on = place_of(record.session.stations[i]);
-    if (step.send || !step.set.empty() || !step.fault.empty()) steps.steps.push_back(std::move(step));
-  }
-  if (!record.session.memory.empty()) why = "power was switched off, from where times count anew: record it before";
+  add_steps(record.session, places, steps.steps, why);
   return why.empty() ? std::optional(steps) : std::nullopt;
 }
 

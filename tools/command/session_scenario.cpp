@@ -29,6 +29,10 @@ std::string send_text(const serial::Request& request, Time at, const std::string
 
 std::string step_text(const SessionSteps::Step& step) {
   if (step.send) return send_text(*step.send, step.at, step.on);
+  if (step.power)
+    return fmt::format("  - wait: until {}\n  - power_cycle: memory {}\n", exact(step.at),
+                       step.power->memory_lost ? "lost" : "kept") +
+           (step.power->off == 0 ? "" : fmt::format("    power_off: {}\n", exact(step.power->off)));
   return fmt::format("  - wait: until {}\n  - {}\n", exact(step.at),
                      step.fault.empty() ? "set: " + assignments_text(step.set) : "fault: " + step.fault) +
          on_text(step.on, "    ");

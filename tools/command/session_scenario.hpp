@@ -13,12 +13,19 @@
 namespace s7200::tools {
 
 struct SessionSteps {
-  /// Memory is set, a frame is sent, or the line has a fault, or none any more.
+  struct PowerCycle {
+    bool memory_lost = false;
+    Time off = 0;
+  };
+
+  /// Memory is set, a frame is sent, the line has a fault, or none any more; or power goes off and on, from where times
+  /// count anew.
   struct Step {
     Time at = 0;
     std::vector<Assignment> set{};
     std::optional<serial::Request> send{};
     std::string fault{};
+    std::optional<PowerCycle> power{};
     std::string on{};  ///< a PLC of a system
   };
 

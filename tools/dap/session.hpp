@@ -214,6 +214,7 @@ class Session {
     Json body;
   };
   Written find_writer(const std::string& expression);
+  Json named(const InstructionRecord& record) const;
   Written find_decision();
 
   // Sending.

@@ -9,14 +9,15 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/dap/session.hpp"
-#include "tools/debugger/attachment.hpp"
 #include "tools/debugger/force_words.hpp"
 #include "tools/debugger/frame_words.hpp"
 #include "tools/debugger/last_decision.hpp"
 #include "tools/debugger/last_executions.hpp"
-#include "tools/debugger/last_write.hpp"
+#include "tools/debugger/last_instructions.hpp"
+#include "tools/debugger/line_words.hpp"
 #include "tools/debugger/timeline_of_past.hpp"
 #include "tools/debugger/words.hpp"
+#include "tools/debugger/writer.hpp"
 #include "tools/views/execution_text.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/timeline.hpp"
@@ -59,32 +60,20 @@ serial::Frame Session::frame_of(const std::string& text) const {
 
 Json Session::send_frame(const Json& arguments) {
   const serial::Frame frame = frame_of(arguments.at("frame").get<std::string>());
-  serial::Simulation& line = simulation();
-  if (!line.has_master())
-    throw Refused("this line has as many stations already as it takes: there is no place for one more master");
-  const SerialFormat format = master().over(line.port_format());
-  if (serial::has_wrong_parity(frame) && format.parity == Parity::None)
-    throw Refused("a byte with wrong parity (p) needs a format with parity");
-  if (line.master().busy()) throw Refused("the last frame is still under way or waiting for its answer");
-  act(SendFrame{format, master().request(frame)});
-  std::string text = fmt::format("on the line from now on: {} ({})", serial::to_hex(frame), format_text(format));
-  if (!line.freeport().active)
-    text += fmt::format("\nport {} is not in Freeport mode: the program will not hear it", line.port());
-  print(text);
+  std::string why;
+  const auto send = send_of(frame, simulation(), master(), why);
+  if (!send) throw Refused(why);
+  act(*send);
+  print(sent_text(*send, simulation()));
   return {{"frame", serial::to_hex(frame)}};
 }
 
 Json Session::inject_fault(const Json& arguments) {
-  const auto text = arguments.at("fault").get<std::string>();
-  InjectFault inject;
-  if (lower_case(text) != "none") {
-    const serial::ParsedFault parsed = serial::parse_fault(text);
-    if (!parsed.ok()) throw Refused(fmt::format("fault, column {}: {}", parsed.error->column, parsed.error->message));
-    inject.fault = parsed.fault;
-  }
-  act(inject);
-  return {{"text",
-           inject.fault ? "on the line from now on: " + serial::to_text(*inject.fault) : "the line has no fault any more"}};
+  std::string why;
+  const auto inject = inject_of(arguments.at("fault").get<std::string>(), why);
+  if (!inject) throw Refused(why);
+  act(*inject);
+  return {{"text", injected_text(*inject)}};
 }
 
 // --- force ---
@@ -138,40 +127,26 @@ Json Session::timeline(const Json& arguments) {
 
 /// Of an address, or of `event 8`.
 Session::Written Session::find_writer(const std::string& expression) {
-  const Program& program = cpu().program();
   History& history = debuggee_->history();
-  const auto body_of = [&](const InstructionRecord& by, const std::string& text) {
-    Json body{{"text", text}, {"instruction", execution_text(by, program)}, {"routine", listing().routine_of(by.op)}};
-    body.update(client_place(by.op));
-    return body;
-  };
-  if (const auto words = split_words(expression); !words.empty() && lower_case(words[0]) == "event") {
-    const auto event = event_of(words);
-    if (!event) throw Refused(expects_event("who", words));
-    const AttachmentSearch search = find_last_attachment(history, looks_at(), *event, settings_.stop_request);
-    if (search.interrupted) refuse_interrupted();
-    if (!search.attachment)
-      throw Refused(fmt::format("no instruction has attached or detached {} since power-up", event_text(*event)));
-    const LastAttachment& found = *search.attachment;
-    return {found.moment,
-            body_of(found.by, fmt::format("{}  {}\n  by {} {}", moment_text(found.what.at), describe(found.what, program),
-                                          listing().routine_of(found.by.op), execution_text(found.by, program)))};
-  }
-  const MemoryRange range = range_for(expression);
-  const WriteSearch search = find_last_write(history, looks_at(), range, settings_.stop_request);
+  const auto words = split_words(expression);
+  const bool of_event = !words.empty() && lower_case(words[0]) == "event";
+  const auto event = event_of(words);
+  if (of_event && !event) throw Refused(expects_event("who", words));
+  const WriterSearch search =
+      event ? tools::find_writer(history, looks_at(), listing(), *event, settings_.stop_request)
+            : tools::find_writer(history, looks_at(), listing(), range_for(expression), expression, settings_.stop_request);
   if (search.interrupted) refuse_interrupted();
-  if (!search.write) throw Refused(fmt::format("nothing has written {} since power-up", expression));
-  const LastWrite& write = *search.write;
-  std::string text = fmt::format("{} was {}, became {}, at {}\n", expression, value_text(program, range, write.before),
-                                 value_text(program, range, write.after), moment_text(write.at));
-  if (write.by)
-    return {write.moment,
-            body_of(*write.by, text + fmt::format("  by {} {}{}", listing().routine_of(write.by->op),
-                                                  execution_text(*write.by, program),
-                                                  write.in_interrupt ? ", serving " + event_text(write.event) : ""))};
-  const Action* const action = write.action ? history.action(*write.action) : nullptr;
-  text += action ? fmt::format("  by '{}', from outside", describe(*action)) : "  by the system, between two instructions";
-  return {write.moment, {{"text", text}}};
+  if (!search.writer) throw Refused(search.none);
+  Json body{{"text", search.writer->text}};
+  if (const auto& by = search.writer->by) body.update(named(*by));
+  return {search.writer->moment, body};
+}
+
+/// An instruction that was executed, and where it is.
+Json Session::named(const InstructionRecord& record) const {
+  Json body{{"instruction", execution_text(record, cpu().program())}, {"routine", listing().routine_of(record.op)}};
+  body.update(client_place(record.op));
+  return body;
 }
 
 Json Session::last_write(const Json& arguments) { return find_writer(arguments.at("expression").get<std::string>()).body; }
@@ -200,10 +175,8 @@ Session::Written Session::find_decision() {
   const LastDecision& found = *search.origin();
   const std::string decision =
       search.decision ? fmt::format("{}  {}", moment_text(search.decision->by.at), search.decision->text) : "";
-  Json body{{"text", decision.empty() ? unanswered.substr(1) : decision + unanswered},
-            {"instruction", execution_text(found.by, cpu().program())},
-            {"routine", listing().routine_of(found.by.op)}};
-  body.update(client_place(found.by.op));
+  Json body{{"text", decision.empty() ? unanswered.substr(1) : decision + unanswered}};
+  body.update(named(found.by));
   return {found.moment, body};
 }
 

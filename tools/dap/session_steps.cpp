@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/errors.hpp"
 #include "interpreter/trace/text_trace.hpp"
@@ -12,13 +11,12 @@
 #include "tools/dap/session.hpp"
 #include "tools/debugger/bad_pointers.hpp"
 #include "tools/debugger/goals.hpp"
+#include "tools/debugger/past_words.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/report.hpp"
 
 namespace s7200::tools::dap {
 namespace {
-
-constexpr std::string_view kOldest = "this is the oldest moment: the session begins at power-up";
 
 std::uint64_t count_in(const Json& arguments) {
   const auto count = arguments.value("count", std::int64_t{1});
@@ -216,24 +214,11 @@ Json Session::go_to(const Json& arguments) {
 }
 
 Json Session::go_to_moment(const Json& arguments) {
-  std::string text = arguments.at("time").get<std::string>();
-  History& history = debuggee_->history();
-  const bool before_now = text.starts_with('-');
-  if (before_now) text.erase(0, 1);
-  auto time = parse_duration(text);
-  if (text == "start") time = 0;
-  if (text == "end") time = history.newest().time;
-  if (!time) throw Refused("time: a moment, for example 15.193ms, -5ms, start, end");
-  const Time now = simulation().time();
-  if (before_now) time = now - std::min(*time, now);
-  if (*time > history.newest().time)
-    throw Refused(fmt::format("nothing has run after {}", moment_text(history.newest().time)));
+  std::string why;
+  const auto time = parse_moment(arguments.at("time").get<std::string>(), debuggee_->history(), why);
+  if (!time) throw Refused(why);
   after_response([this, to = *time] {
-    History& past = debuggee_->history();
-    if (to == 0)
-      past.go_to(past.usage().oldest);
-    else
-      past.go_to(to);
+    go_to_parsed(debuggee_->history(), to);
     stopped_at("goto", fmt::format("at {}", moment_text(simulation().time())));
   });
   return {};
@@ -296,8 +281,9 @@ Json Session::body_of(const Stop& stop, const std::string& reason) {
   }
   if (stop.reason == StopReason::CpuStopped) return body_of_cpu_stop();
   if (stop.reason == StopReason::Oldest) {
-    print(std::string(kOldest));
-    return {{"reason", "entry"}, {"description", kOldest}};
+    const std::string text = at_oldest_text(debuggee_->history());
+    print(text);
+    return {{"reason", "entry"}, {"description", text}};
   }
   return {{"reason", reason}, {"description", reason == "pause" ? "paused" : reason}};
 }

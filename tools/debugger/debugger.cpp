@@ -9,6 +9,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
+#include "tools/debugger/past_words.hpp"
 #include "tools/host/host_time.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/views/machine_text.hpp"
@@ -40,6 +41,15 @@ std::vector<std::string> split(std::string_view text, std::string_view separator
     if (end > begin) parts.emplace_back(text.substr(begin, end - begin));
   }
   return parts;
+}
+
+constexpr std::string_view kBlanks = " \t\r";
+
+/// Those of a line, which `;` separates; none of a comment.
+std::vector<std::string> commands_in(std::string_view line) {
+  std::vector<std::string> commands = split(without_comment(line), ";");
+  std::erase_if(commands, [](const std::string& one) { return one.find_first_not_of(kBlanks) == std::string::npos; });
+  return commands;
 }
 
 History::Settings settings_of(const DebuggerOptions& options, std::function<void()> progress) {
@@ -75,18 +85,32 @@ Debugger::Debugger(const std::vector<serial::Simulation*>& stations, std::ostrea
 }
 
 Debugger::Error Debugger::execute(std::string_view line) {
-  const std::vector<std::string> texts = split(without_comment(line), ";");
+  undone_ = 0;
+  Error error = execute_line(line);
+  report_undone();
+  return error;
+}
+
+/// Up to the first wrong command, to `quit` or to a stop request: what comes after that one is not done.
+Debugger::Error Debugger::execute_line(std::string_view line) {
+  const std::vector<std::string> commands = commands_in(line);
   repeatable_.clear();
-  for (const std::string& text : texts) {
-    if (quit_asked_) return {};
-    if (Error error = execute_one(text)) return error;
+  for (std::size_t i = 0; i < commands.size() && !quit_asked_; ++i) {
+    if (Error error = execute_one(commands[i])) return error;
+    if (!stop_requested()) continue;
+    undone_ += commands.size() - i - 1;
+    return {};
   }
   return {};
 }
 
+/// After a stop request.
+void Debugger::report_undone() {
+  if (undone_ != 0) out_ << fmt::format("not done any more: {}\n", counted(undone_, "command"));
+}
+
 Debugger::Error Debugger::execute_one(std::string_view text) {
-  Arguments arguments = split(text, " \t\r");
-  if (arguments.empty()) return {};
+  Arguments arguments = split(text, kBlanks);
   if (echoing_) out_ << kPrompt << stl::printable(joined(arguments)) << '\n';
   std::string why;
   const Command* command = find_command(arguments.front(), why);
@@ -111,16 +135,21 @@ void Debugger::hide_progress() {
   if (std::exchange(progress_shown_, false)) options_.progress("");
 }
 
-std::optional<ScriptError> Debugger::run_script(std::istream& in) {
+std::optional<ScriptError> Debugger::run_script(std::istream& in, bool is_whole) {
   std::size_t number = 0;
   echoing_ = true;
+  undone_ = 0;
   std::optional<ScriptError> wrong;
-  for (std::string line; !wrong && !quit_asked_ && !stop_requested() && std::getline(in, line);) {
+  std::string line;
+  while (!wrong && !quit_asked_ && !stop_requested() && std::getline(in, line)) {
     ++number;
-    if (Error error = execute(line)) wrong = ScriptError{number, *error};
+    if (Error error = execute_line(line)) wrong = ScriptError{number, *error};
   }
   echoing_ = false;
-  return wrong;
+  if (wrong || quit_asked_ || !stop_requested()) return wrong;
+  while (is_whole && std::getline(in, line)) undone_ += commands_in(line).size();
+  report_undone();
+  return {};
 }
 
 bool Debugger::stop_requested() const { return options_.stop_request && *options_.stop_request; }
@@ -237,9 +266,7 @@ void Debugger::report_reason(const Stop& stop, const Run& run) {
       report_cpu_stop();
       return;
     case StopReason::Oldest:
-      out_ << fmt::format("this is the oldest moment: {}\n", history_.usage().forgotten == 0
-                                                                 ? "the session begins at power-up"
-                                                                 : oldest_text(history_.usage()));
+      out_ << at_oldest_text(history_) << '\n';
       return;
   }
 }

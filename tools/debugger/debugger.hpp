@@ -1,6 +1,6 @@
 // The command language of `s7200 debug`: line in, text out.
 //
-// Every moment since power-up can be reached again (history.hpp), and a command that ran something can be taken back.
+// Every moment of the past can be reached again (history.hpp), and a command that ran something can be taken back.
 // Commands that only look change nothing, and neither does stepping: the program does what it does in one go.
 //
 // Of the stations of a system it looks at one, with which steps and addresses are concerned; all of them run.
@@ -22,14 +22,13 @@
 #include "serial_sim/peers/requester.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/debugger/access.hpp"
-#include "tools/debugger/attachment.hpp"
 #include "tools/debugger/history.hpp"
 #include "tools/debugger/last_decision.hpp"
 #include "tools/debugger/last_executions.hpp"
-#include "tools/debugger/last_write.hpp"
 #include "tools/debugger/session_file.hpp"
 #include "tools/debugger/stepper.hpp"
 #include "tools/debugger/words.hpp"
+#include "tools/debugger/writer.hpp"
 #include "tools/host/host_time.hpp"
 #include "tools/host/written_files.hpp"
 #include "tools/views/listing.hpp"
@@ -83,12 +82,14 @@ class Debugger {
   /// Where it stands, and what is displayed.
   void show_place();
 
-  /// One line: commands separated by `;`, a comment after `#`. Ends with the first wrong one.
+  /// One line: commands separated by `;`, a comment after `#`. Ends with the first wrong one. After a stop request the rest
+  /// is not done, which is said.
   Error execute(std::string_view line);
 
   /// Executes line by line, each command echoed after the prompt, to the first wrong one, to `quit`, to a stop request or
-  /// the end.
-  std::optional<ScriptError> run_script(std::istream& in);
+  /// the end. After a stop request it says how many commands were left: up to the end of the script if it is there as a
+  /// whole, of a pipe up to the end of the line.
+  std::optional<ScriptError> run_script(std::istream& in, bool is_whole = true);
 
   /// What the word that ends `line` may become: commands, addresses and symbols, places, files. It is `word` long.
   struct Offers {
@@ -124,7 +125,9 @@ class Debugger {
   };
   static const std::vector<Command>& commands();
   static const Command* find_command(std::string_view word, std::string& why);
+  Error execute_line(std::string_view line);
   Error execute_one(std::string_view text);
+  void report_undone();
   void show_progress();
   void hide_progress();
 
@@ -208,11 +211,12 @@ class Debugger {
   void look_at(std::size_t station);
   void note_new_branch();
   void note_the_past();
-  std::optional<LastWrite> find_write(const MemoryRange& range, std::string_view name);
-  std::optional<LastAttachment> find_attachment(std::uint8_t event);
+  std::optional<Writer> report_writer(const MemoryRange& range, std::string_view name);
+  std::optional<Writer> report_attachment(std::uint8_t event);
+  std::optional<Writer> reported(const WriterSearch& search, const std::vector<Bits>& places);
+  Error report_writer_of(const Arguments& arguments, std::string_view command, std::optional<Writer>& writer);
   std::optional<LastDecision> find_decision();
   void go_to(const Moment& moment);
-  void report_write(const LastWrite& write, const MemoryRange& range, std::string_view name);
   struct Named {
     MemoryRange range;
     std::string name;
@@ -243,7 +247,6 @@ class Debugger {
   std::vector<SessionOption> session_conditions() const;
   std::optional<Destination> destination(const Arguments& arguments, std::string_view command, FileKind kind,
                                          std::string& why) const;
-  std::string oldest_text(const History::Usage& usage) const;
   std::string memory_text(std::size_t station, const MemoryRange& range) const;  ///< with what of it is forced
   std::vector<std::string> status_lines(std::uint32_t first, std::uint32_t end, const LastExecutions& last);
   std::pair<std::uint32_t, std::uint32_t> ops_in_view() const;
@@ -303,6 +306,7 @@ class Debugger {
   std::uint64_t errors_of_all() const;
   SessionFile session_file() const;
   bool has_come_to(const SessionFile& file) const;
+  std::string requests_under_way();
   SessionRecord::Station record_of(std::size_t station) const;
   void write_trace(Time until);
 
@@ -320,8 +324,9 @@ class Debugger {
   int next_number_ = 1;  ///< of a breakpoint or watch
   bool tracing_ = false;
   bool quit_asked_ = false;
-  bool echoing_ = false;  ///< commands are printed after the prompt
-  std::string command_;   ///< being executed, as written
+  std::size_t undone_ = 0;  ///< commands, after a stop request
+  bool echoing_ = false;    ///< commands are printed after the prompt
+  std::string command_;     ///< being executed, as written
   std::string repeatable_;
   Time progress_at_ = kNever;  ///< of the host: when progress is shown next
   bool progress_shown_ = false;

@@ -1,4 +1,4 @@
-// The commands of the debugger: the table, and what each does.
+// The table of the commands, and the bodies of those that run forwards, look at the PLC, or do something to it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,13 +7,12 @@
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
-#include "serial_sim/modbus/crc.hpp"
 #include "tools/debugger/bad_pointers.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/frame_words.hpp"
 #include "tools/debugger/goals.hpp"
+#include "tools/debugger/line_words.hpp"
 #include "tools/debugger/stop_words.hpp"
-#include "tools/views/faults.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
@@ -24,6 +23,19 @@ namespace {
 
 constexpr std::size_t kListed = 15, kListedBefore = 6;
 
+constexpr std::string_view kAboutCommands =
+    R"(A name may be cut short while it stays clear. ';' separates commands, '#' begins a comment.
+On a terminal an empty line repeats step, over, out, scan, continue and until; the tab key completes commands, addresses,
+places and files.
+Examples:
+  continue 2s; send 01 03 00 0a 00 01 crc; continue      what a slave answers
+  break unanswered; continue; rwho event 8; history 9    why it did not answer
+  watch VW100 if VW100 > 8; continue; who VW100          who writes an address
+  force I0.3=1; scan 2; status NETWORK 2                 what the program does with an input
+  display VW100; layout on                               keep an eye on memory
+  save here.json; record here.yaml                       keep this session; make a test of it
+)";
+
 constexpr std::string_view kBackwards =
     "It stops at breakpoints and watches on the way. Counts of hits go back with the time.";
 
@@ -32,8 +44,8 @@ constexpr std::string_view kBackwards =
 const std::vector<Debugger::Command>& Debugger::commands() {
   static const std::vector<Command> kTable{
       {"step", "s", "step [n]", "execute one instruction, or n, going into CALL and interrupt routines",
-       "Each executed instruction is shown with its operands (inputs before it, results after it), S0 after it, and its "
-       "time.",
+       R"(Each executed instruction is shown with its operands (inputs before it, results after it), S0 after it, and its
+time.)",
        &Debugger::step, true},
       {"over", "o", "over", "execute one instruction; a CALL with all that it calls, interrupts in between too",
        "Breakpoints and watches inside still stop.", &Debugger::over, true},
@@ -48,9 +60,8 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        &Debugger::continue_run, true},
       {"until", "t", "until LINE | SBR n | INT n | LBL n | NETWORK n", "run to a place", "", &Debugger::until, true},
       {"back", "k", "back [n]", "back to the state before the last command that ran something, or the last n",
-       "The last 64 are kept. Breakpoints, watches and their counts stay as they are. Going forward again plays what has "
-       "run, "
-       "with what was done to the PLC; 'set', 'input', 'send' in the past begin a new branch.",
+       R"(The last 64 are kept. Breakpoints, watches and their counts stay as they are. Going forward again plays what has
+run, with what was done to the PLC; 'set', 'input', 'send' in the past begin a new branch.)",
        &Debugger::back},
       {"rstep", "rs", "rstep [n]", "back by one instruction, or n, into subroutines and interrupt routines", kBackwards,
        &Debugger::back_step, true},
@@ -69,25 +80,26 @@ const std::vector<Debugger::Command>& Debugger::commands() {
       {"runtil", "rt", "runtil LINE | SBR n | INT n | LBL n | NETWORK n", "back to the last time that it was at a place",
        kBackwards, &Debugger::back_until, true},
       {"at", "", "at TIME | -TIME | start | end", "to a moment: at 15.193ms, or so long before now: at -5ms",
-       "It stands in front of the first instruction at or after it. start is power-up, end the newest moment.",
+       "It stands in front of the first instruction at or after it. start is the oldest moment, which is power-up as long "
+       "as nothing is forgotten, end the newest one.",
        &Debugger::at},
       {"who", "", "who ADDRESS | event N",
        "the instruction that wrote an address last, or attached an event, without going there",
-       "With its operands, the interrupt and the time; also if the value stayed the same. Entries of tables, strings and "
-       "messages only if they changed it. who *VD3570 takes the address that the pointer holds now. 'rwho' goes there.",
+       R"(With its operands, the interrupt and the time; also if the value stayed the same. Entries of tables, strings and
+messages only if they changed it. who *VD3570 takes the address that the pointer holds now. 'rwho' goes there.)",
        &Debugger::who},
       {"rwho", "rw", "rwho ADDRESS | event N", "back to in front of the instruction that 'who' names",
        "rwho event 8 goes to where the program last changed which routine gets the characters: where it dropped a frame.",
        &Debugger::back_to_write, true},
       {"why", "", "why", "what decided that it has come here: contacts, a jump or a conditional return, without going there",
-       "The contacts of this rung, or what the main program or the interrupt routine came by last, with operand values. "
-       "While "
-       "a master waits for an answer, and where it gives up: also what has left the request without one.",
+       R"(The contacts of this rung, or what the main program or the interrupt routine came by last, with operand values.
+While a master waits for an answer, and where it gives up: also what has left the request without one, be it the
+program, an event that is not attached, a port in PPI mode, or the line that lost it or its answer.)",
        &Debugger::why},
       {"rwhy", "ry", "rwhy", "back to in front of the instruction that 'why' names",
-       "Of a jump or conditional return: in front of it, after the contacts that decide on it, which 'history' shows. Of "
-       "contacts: after the last of them, where S0 is what they have decided; if it stands there already, in front of the "
-       "first.",
+       R"(Of a jump or conditional return: in front of it, after the contacts that decide on it, which 'history' shows. Of
+contacts: after the last of them, where S0 is what they have decided; if it stands there already, in front of
+the first.)",
        &Debugger::back_to_decision, true},
       {"history", "", "history [n]", "the last 10 instructions before now, or n, with their operands and comments", "",
        &Debugger::history},
@@ -95,46 +107,39 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "What was done to the PLC later is not done again. back takes it back.", &Debugger::branch},
       {"past", "", "past", "how far back it can go, and what that takes", "", &Debugger::past},
       {"power", "", "power [TIME] [lost]", "switch power off and on again: the CPU begins with what it has kept",
-       "TIME is how long it was off; the clock goes on: power 8h. lost: too long for the RAM, only the EEPROM is left. A "
-       "new "
-       "branch, from time 0: back takes it back.",
+       R"(TIME is how long it was off; the clock goes on: power 8h. lost: too long for the RAM, only the EEPROM is left. A
+new branch, from time 0: back takes it back.)",
        &Debugger::power},
       {"save", "", "save FILE [!]",
        "write where this session stands, and its past; 'load' returns there, in another session too",
-       "The file has all that was done to the PLC, and when; 'load' runs that again, which comes to the same state to the "
-       "bit. It fits the same program, CPU, execution times and version of s7200, started with the same options. An "
-       "existing "
-       "file is replaced if save has written it; ! replaces any.",
+       R"(The file has all that was done to the PLC, and when; 'load' runs that again, which comes to the same state to
+the bit. It fits the same program, CPU, execution times and version of s7200, started with the same options. An
+existing file is replaced if save has written it; ! replaces any.)",
        &Debugger::save},
       {"load", "", "load FILE", "go to where 'save' was given", "back returns to here.", &Debugger::load},
       {"restart", "", "restart", "power up again; breakpoints, watches and displays are kept",
        "A new branch: back takes it back.", &Debugger::restart},
       {"break", "b", "break [PLACE | WHAT] [always] [if CONDITION] [hits N] [log 'TEXT']",
        "stop at a place or when something happens; alone: list",
-       "PLACE: LINE, SBR n, INT n, LBL n or NETWORK n. A line without an instruction stands for the next one that has one; "
-       "boxes "
-       "and "
-       "coils stop only with power flow, or 'always'.\n"
-       "  WHAT: event N [occurs | served], received or sent (a frame), xmt, rcv (its end), error [CODE], overflow (of a "
-       "queue), "
-       "lost (a character), mode, unanswered (a request; of a master on a bridge: nothing is sent within --timeout, or "
-       "before it sends again).\n"
-       "  CONDITION in STL terms: break 40 if VW3300 > 8 and M31.7. hits N stops from the Nth time on, "
-       "counted since it was set. log prints a line "
-       "and "
-       "goes on: break INT 123 log '{SMB2} at {time}'; also {scan} {line} {event}.",
+       R"(PLACE: LINE, SBR n, INT n, LBL n or NETWORK n. A line without an instruction stands for the next one that has
+one; boxes and coils stop only with power flow, or 'always'.
+WHAT: event N [occurs | served], received or sent (a frame), xmt, rcv (its end), error [CODE], overflow (of a
+queue), lost (a character), mode, unanswered (a request; of a master on a bridge: nothing is sent within
+--timeout, or before it sends again).
+CONDITION in STL terms: break 40 if VW3300 > 8 and M31.7; a constant that an operand can never be is refused.
+hits N stops from the Nth time on, counted since it was set. log prints a line and goes on: break INT 123 log
+'{SMB2} at {time}'; also {scan} {line} {event}.)",
        &Debugger::set_break},
       {"watch", "w", "watch ADDRESS[:COUNT]… [read | write | change] [if …] [hits N] [log …]",
        "stop after the instruction that changes M31.7, VB100, VW100, AC0 …, or reads or writes it",
-       "Interrupt routines too. The system changes memory as well: inputs, SM bits, SMB2 before INT of event 8. 'write' "
-       "stops "
-       "also if the value stays the same. Entries of tables, strings and messages count only if they change. watch *VD3570 "
-       "takes the address that the pointer holds now, and stays there.",
+       R"(Interrupt routines too. The system changes memory as well: inputs, SM bits, SMB2 before INT of event 8. 'write'
+stops also if the value stays the same. Entries of tables, strings and messages count only if they change. watch
+*VD3570 takes the address that the pointer holds now, and stays there.)",
        &Debugger::watch},
       {"delete", "d", "delete N… | all", "remove breakpoints and watches", "", &Debugger::delete_stop},
       {"station", "", "station [NAME]", "the stations of a system: where each stands; or go over to another one",
-       "Steps, addresses, places and 'send' are about one station at a time; all of them run, and breakpoints and watches "
-       "stay with the station that they were set at. What stops at another station goes over to it.",
+       R"(Steps, addresses, places and 'send' are about one station at a time; all of them run, and breakpoints and
+watches stay with the station that they were set at. What stops at another station goes over to it.)",
        &Debugger::station},
       {"list", "l", "list [LINE | SBR n | INT n | LBL n | NETWORK n]", "the program around the current place or elsewhere",
        "> is the current line, * a breakpoint.", &Debugger::list},
@@ -143,32 +148,29 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "Of the last 2 s at least. S0 is the top of the logic stack after it.", &Debugger::status},
       {"regs", "r", "regs", "time, place, calls, accumulators, flags, interrupts", "", &Debugger::registers},
       {"record", "", "record FILE.yaml [!]", "write this session, up to now, as a scenario that 's7200 test' replays",
-       "Frames, memory and inputs that were set, each at its time, and the answers that came. Displayed memory is expected "
-       "to "
-       "have its values at the end. What no scenario can do is refused: force, a bridge, something set while a frame or its "
-       "answer was under way.",
+       R"(Frames, memory and inputs that were set, faults of the line and power cycles, each at its time, and the answers
+that came. Displayed memory is expected to have its values at the end. What no scenario can do is refused: force,
+a bridge, power of a system, something set while a frame or its answer was under way.)",
        &Debugger::record},
       {"stack", "sta", "stack", "the nine levels of the logic stack", "", &Debugger::stack},
       {"print", "p", "print [/x | /d | /b | /c] ADDRESS… | EXPRESSION",
        "memory: VB100:16, VW100, VD20:real, M31.7, AC0, T37, HC0, *VD3570:8, *AC1:word; or VW2 * 2 + 1",
-       "/x hex, /d decimal, /b binary, /c characters. What a pointer points to is a byte unless :word, :dword or :real is "
-       "asked for; of one that points nowhere it says who wrote it. SMB30 is shown in words, timers with bit, preset and "
-       "base. "
-       "A double word that the program uses as a real is shown as one too.",
+       R"(/x hex, /d decimal, /b binary, /c characters. What a pointer points to is a byte unless :word, :dword or :real
+is asked for; of one that points nowhere it says who wrote it. SMB30 is shown in words, timers with bit, preset
+and base. A double word that the program uses as a real is shown as one too.)",
        &Debugger::print},
       {"expect", "", "expect EXPRESSION", "a wrong command unless it holds: a script with such lines is a test",
        "expect VW20 = 5 and M0.1. A script ends at the first that does not hold, with exit code 2.", &Debugger::expect},
       {"display", "", "display [ADDRESS[:COUNT]… | off]", "print memory after each stop",
-       "Further ones are added. Alone: print them now. display *VD3570 takes the address that the pointer holds now, and "
-       "stays there.",
+       R"(Further ones are added. Alone: print them now. display *VD3570 takes the address that the pointer holds now, and
+stays there.)",
        &Debugger::display},
       {"port", "", "port", "SMB30 in words, receiver, transmitter, and the master on the line", "", &Debugger::port},
       {"errors", "e", "errors", "run-time and fatal errors up to now", "", &Debugger::errors},
       {"trace", "", "trace on | off", "print interrupts, characters and errors while running", "", &Debugger::trace},
       {"layout", "", "layout on | off", "keep program, status and memory in view, in the upper part of a terminal",
-       "It needs 80×24 or more. Above: where it stands, the instructions around it with their last execution, and the "
-       "memory "
-       "that 'display' names, or the registers. Below: the prompt.",
+       R"(It needs 80×24 or more. Above: where it stands, the instructions around it with their last execution, and the
+memory that 'display' names, or the registers. Below: the prompt.)",
        &Debugger::layout},
       {"set", "", "set ADDRESS=VALUE…", "write memory: set VW100=5 M0.3=1 VB4=16#FF; I addresses are the input points", "",
        &Debugger::set},
@@ -176,26 +178,21 @@ const std::vector<Debugger::Command>& Debugger::commands() {
        "The program finds the new level when the inputs are next read, or at once with an immediate instruction.",
        &Debugger::input},
       {"force", "", "force [ADDRESS=VALUE…]", "hold points of I and Q, V and M memory, AI and AQ at a value; alone: list",
-       "As a programming device forces: force I0.3=1 Q0.0=0 VW100=5. Inputs have the value when they are read, outputs when "
-       "they are written (end of scan, immediate, STOP), memory after each program: in between the program may change it. "
-       "Up to "
-       "16 values of memory: bytes, words, double words; AI and AQ words. Shown in red. Edges and counters see the "
-       "terminal. "
-       "The CPU keeps it without power; going back undoes it.",
+       R"(As a programming device forces: force I0.3=1 Q0.0=0 VW100=5. Inputs have the value when they are read, outputs
+when they are written (end of scan, immediate, STOP), memory after each program: in between the program may
+change it. Up to 16 values of memory: bytes, words, double words; AI and AQ words. Shown in red. Edges and
+counters see the terminal. The CPU keeps it without power; going back undoes it.)",
        &Debugger::force},
       {"unforce", "", "unforce ADDRESS… | all", "release what is forced",
        "Inputs follow their terminals again, outputs their image; memory keeps what it has.", &Debugger::unforce},
       {"send", "", "send HEX… | 'TEXT' [crc] | read ADDRESS[:COUNT] | write ADDRESS=VALUE… [station n]",
        "put a frame on the line from now on; crc appends the Modbus CRC",
-       "p after a byte sends it with wrong parity. TEXT is ASCII, with \\r \\n \\t \\\\ \\' and \\xHH. 'continue' runs "
-       "while it "
-       "arrives and stops when the answer is complete.",
+       R"(p after a byte sends it with wrong parity. TEXT is ASCII, with \r \n \t \\ \' and \xHH. 'continue' runs while it
+arrives and stops when the answer is complete.)",
        &Debugger::send},
       {"fault", "", "fault KIND[:PARAMETER=VALUE,…] | none", "a fault of the line from now on, or none any more",
-       "As --fault of 's7200 run': fault flip:character=3,bit=5, fault noise:ber=0.001, fault cut:from=2ms. It "
-       "counts "
-       "exchanges "
-       "and times from now; 's7200 run --help' has all kinds. Going back undoes it.",
+       R"(As --fault of 's7200 run': fault flip:character=3,bit=5, fault noise:ber=0.001, fault cut:from=2ms. It counts
+exchanges and times from now; 's7200 run --help' has all kinds. Going back undoes it.)",
        &Debugger::fault},
       {"help", "h", "help [COMMAND]", "this list, or more about a command", "", &Debugger::help},
       {"quit", "q", "quit", "end", "", &Debugger::quit},
@@ -403,23 +400,18 @@ Debugger::Error Debugger::help(const Arguments& arguments) {
   if (arguments.empty()) {
     for (const Command& command : commands())
       out_ << fmt::format("{:<3} {:<33} {}\n", command.short_form, command.syntax, command.meaning);
-    out_ << "A name may be cut short while it stays clear. ';' separates commands, '#' begins a comment.\n"
-            "On a terminal an empty line repeats step, over, out, scan, continue and until; the tab key completes commands, "
-            "addresses, places and files.\n"
-            "Examples:\n"
-            "  continue 2s; send 01 03 00 0a 00 01 crc; continue      what a slave answers\n"
-            "  break unanswered; continue; rwho event 8; history 9    why it did not answer\n"
-            "  watch VW100 if VW100 > 8; continue; who VW100          who writes an address\n"
-            "  force I0.3=1; scan 2; status NETWORK 2                 what the program does with an input\n"
-            "  display VW100; layout on                               keep an eye on memory\n"
-            "  save here.json; record here.yaml                       keep this session; make a test of it\n";
+    out_ << kAboutCommands;
     return {};
   }
   std::string why;
   const Command* command = find_command(arguments[0], why);
   if (!command) return why;
   out_ << fmt::format("{}\n  {}\n", command->syntax, command->meaning);
-  if (!command->more.empty()) out_ << fmt::format("  {}\n", command->more);
+  for (std::string_view rest = command->more; !rest.empty();) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    out_ << fmt::format("  {}\n", rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
   if (!command->short_form.empty()) out_ << fmt::format("  short: {}\n", command->short_form);
   return {};
 }
@@ -471,36 +463,22 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
                    "a frame in hex, text in quotation marks, or a request, for example: send 01 03 00 00 00 02 crc, send "
                    "'HELLO\\r', or send read 40011:2");
   std::string why;
-  if (!simulation().has_master())
-    return "send: this line has as many stations already as it takes: there is no place for one more master";
   const auto frame = parse_frame(joined(arguments), kStation, why);
   if (!frame) return fmt::format("send {}: {}", joined(arguments), why);
-  const SerialFormat format = master().over(simulation().port_format());
-  if (serial::has_wrong_parity(*frame) && format.parity == Parity::None)
-    return "send: a byte with wrong parity (p) needs a format with parity";
-  if (simulation().master().busy())
-    return "send: the last frame is still under way or waiting for its answer; 'continue' runs to its end";
-  act(SendFrame{format, master().request(*frame)});
-  const std::string text = request_text(serial::bytes_of(*frame));
-  out_ << fmt::format("on the line from now on: {}{} ({})\n", serial::to_hex(*frame), text.empty() ? "" : "  " + text,
-                      format_text(format));
-  if (!simulation().freeport().active)
-    out_ << fmt::format("port {} is not in Freeport mode: the program will not hear it\n", simulation().port());
+  const auto send = send_of(*frame, simulation(), master(), why);
+  if (!send) return "send: " + why;
+  act(*send);
+  out_ << sent_text(*send, simulation());
   return {};
 }
 
 Debugger::Error Debugger::fault(const Arguments& arguments) {
   if (arguments.empty()) return expects("fault", "a fault of the line, for example: fault flip:character=3,bit=5, or none");
-  const std::string text = joined(arguments);
-  if (lower_case(text) == "none") {
-    act(InjectFault{});
-    out_ << "the line has no fault any more\n";
-    return {};
-  }
-  const serial::ParsedFault parsed = serial::parse_fault(text);
-  if (!parsed.ok()) return fmt::format("fault, column {}: {}", parsed.error->column, parsed.error->message);
-  act(InjectFault{parsed.fault});
-  out_ << fmt::format("on the line from now on: {}\n  {}\n", serial::to_text(parsed.fault), described(parsed.fault));
+  std::string why;
+  const auto inject = inject_of(joined(arguments), why);
+  if (!inject) return why;
+  act(*inject);
+  out_ << injected_text(*inject);
   return {};
 }
 

@@ -1,14 +1,15 @@
-// Back in time: the commands that go to another moment, and those that look there.
+// Back in time: the commands that go to another moment, that ask what was before, and that begin a new branch.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <ostream>
 
-#include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/goals.hpp"
+#include "tools/debugger/last_instructions.hpp"
+#include "tools/debugger/past_words.hpp"
 #include "tools/debugger/words.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/views/execution_text.hpp"
@@ -20,7 +21,7 @@ Debugger::Error Debugger::back(const Arguments& arguments) {
   const auto count = parse_count(arguments);
   if (!count) return expects("back", "how many commands, for example: back 2");
   if (kept_.empty()) {
-    out_ << "there is no earlier state: nothing has run since power-up, or all states kept have been used\n";
+    out_ << "there is no earlier state: no command has run anything, or all states kept have been used\n";
     return {};
   }
   if (*count > kept_.size())
@@ -97,24 +98,12 @@ Debugger::Error Debugger::back_until(const Arguments& arguments) {
 }
 
 Debugger::Error Debugger::at(const Arguments& arguments) {
-  constexpr std::string_view kTimes = "a moment, for example: at 15.193ms, at -5ms, at start, at end";
-  std::string text = joined(arguments);
-  const bool before_now = text.starts_with('-');
-  if (before_now) text.erase(0, 1);
-  auto time = parse_duration(text);
-  if (lower_case(text) == "start") time = 0;
-  if (lower_case(text) == "end") time = history_.newest().time;
-  if (!time) return expects("at", kTimes);
-  const Time now = history_.now().time;
-  if (before_now) time = now - std::min(*time, now);
-  if (const History::Usage usage = history_.usage(); *time < usage.oldest.time && lower_case(text) != "start")
-    return fmt::format("the oldest moment is {}, {}", moment_text(usage.oldest.time), oldest_text(usage));
-  if (*time > history_.newest().time)
-    return fmt::format("nothing has run after {}; 'continue TIME' goes on", moment_text(history_.newest().time));
+  if (arguments.empty()) return expects("at", "a moment, for example: at 15.193ms, at -5ms, at start, at end");
+  std::string why;
+  const auto time = parse_moment(joined(arguments), history_, why);
+  if (!time) return why;
   remember();
-  if (lower_case(text) == "start" || *time == 0) {
-    history_.go_to(history_.usage().oldest);
-  } else if (!at_length([&] { return history_.go_to(*time); })) {
+  if (!at_length([&] { return go_to_parsed(history_, *time); })) {
     kept_.pop_back();
     out_ << interruption_text() << '\n';
     return {};
@@ -131,42 +120,41 @@ std::optional<Debugger::Named> Debugger::one_range(const Arguments& arguments, s
   return {};
 }
 
-std::optional<LastWrite> Debugger::find_write(const MemoryRange& range, std::string_view name) {
-  const WriteSearch search = at_length([&] { return find_last_write(history_, focus(), range, options_.stop_request); });
-  if (search.interrupted) out_ << interruption_text() << '\n';
-  if (!search.write && !search.interrupted)
-    out_ << fmt::format("nothing has written {} since power-up; it is {}\n", name, value_of(simulation().cpu(), range));
-  return search.write;
+/// Says who it was. `places`: what it was about; what of it is forced is said if the system wrote it.
+std::optional<Writer> Debugger::reported(const WriterSearch& search, const std::vector<Bits>& places) {
+  if (search.interrupted) {
+    out_ << interruption_text() << '\n';
+  } else if (!search.writer) {
+    out_ << search.none << '\n';
+  } else {
+    out_ << search.writer->text << (search.writer->by_system ? forced_text(simulation().cpu(), places) : "") << '\n';
+  }
+  return search.writer;
 }
 
-void Debugger::report_write(const LastWrite& write, const MemoryRange& range, std::string_view name) {
-  const Program& program = simulation().cpu().program();
-  out_ << fmt::format("{} was {}, became {}, at {}\n", name, value_text(program, range, write.before),
-                      value_text(program, range, write.after), moment_text(write.at));
-  if (write.by)
-    out_ << fmt::format("  by {} {}{}{}\n", listing().routine_of(write.by->op), describe(*write.by, program),
-                        write.in_interrupt ? fmt::format(", serving {}", event_text(write.event)) : "",
-                        remark_on(write.by->op, program));
-  else if (const Action* action = write.action ? history_.action(*write.action) : nullptr)
-    out_ << fmt::format("  by '{}', from outside\n", describe(*action));
-  else
-    out_ << "  by the system, between two instructions" << forced_text(simulation().cpu(), {bits_of(range)}) << '\n';
+std::optional<Writer> Debugger::report_writer(const MemoryRange& range, std::string_view name) {
+  const auto find = [&] { return find_writer(history_, focus(), listing(), range, name, options_.stop_request); };
+  return reported(at_length(find), {bits_of(range)});
 }
 
-std::optional<LastAttachment> Debugger::find_attachment(std::uint8_t event) {
-  const AttachmentSearch search =
-      at_length([&] { return find_last_attachment(history_, focus(), event, options_.stop_request); });
-  if (search.interrupted) out_ << interruption_text() << '\n';
-  if (!search.attachment) {
-    if (!search.interrupted)
-      out_ << fmt::format("no instruction has attached or detached {} since power-up\n", event_text(event));
+std::optional<Writer> Debugger::report_attachment(std::uint8_t event) {
+  const auto find = [&] { return find_writer(history_, focus(), listing(), event, options_.stop_request); };
+  return reported(at_length(find), {});
+}
+
+/// `VW100`, or `event 8`.
+Debugger::Error Debugger::report_writer_of(const Arguments& arguments, std::string_view command,
+                                           std::optional<Writer>& writer) {
+  if (const auto event = event_of(arguments)) {
+    writer = report_attachment(*event);
     return {};
   }
-  out_ << fmt::format("{}  {}\n  by {} {}\n", moment_text(search.attachment->what.at),
-                      describe(search.attachment->what, simulation().cpu().program()),
-                      listing().routine_of(search.attachment->by.op),
-                      execution_text(search.attachment->by, simulation().cpu().program()));
-  return search.attachment;
+  if (!arguments.empty() && lower_case(arguments[0]) == "event") return expects_event(command, arguments);
+  std::string why;
+  const auto place = one_range(arguments, command, why);
+  if (!place) return why;
+  writer = report_writer(place->range, place->name);
+  return {};
 }
 
 Debugger::Error Debugger::history(const Arguments& arguments) {
@@ -219,31 +207,14 @@ void Debugger::go_to(const Moment& moment) {
 }
 
 Debugger::Error Debugger::who(const Arguments& arguments) {
-  if (const auto event = event_of(arguments)) {
-    find_attachment(*event);
-    return {};
-  }
-  if (!arguments.empty() && lower_case(arguments[0]) == "event") return expects_event("who", arguments);
-  std::string why;
-  const auto place = one_range(arguments, "who", why);
-  if (!place) return why;
-  if (const auto write = find_write(place->range, place->name)) report_write(*write, place->range, place->name);
-  return {};
+  std::optional<Writer> writer;
+  return report_writer_of(arguments, "who", writer);
 }
 
 Debugger::Error Debugger::back_to_write(const Arguments& arguments) {
-  if (const auto event = event_of(arguments)) {
-    if (const auto attachment = find_attachment(*event)) go_to(attachment->moment);
-    return {};
-  }
-  if (!arguments.empty() && lower_case(arguments[0]) == "event") return expects_event("rwho", arguments);
-  std::string why;
-  const auto place = one_range(arguments, "rwho", why);
-  if (!place) return why;
-  const auto write = find_write(place->range, place->name);
-  if (!write) return {};
-  report_write(*write, place->range, place->name);
-  go_to(write->moment);
+  std::optional<Writer> writer;
+  if (Error error = report_writer_of(arguments, "rwho", writer)) return error;
+  if (writer) go_to(writer->moment);
   return {};
 }
 
@@ -257,13 +228,6 @@ Debugger::Error Debugger::branch(const Arguments& arguments) {
   return {};
 }
 
-/// Why nothing before the oldest moment can be reached.
-std::string Debugger::oldest_text(const History::Usage& usage) const {
-  if (usage.forgotten == 0) return "where this session powered the CPU up";
-  return fmt::format("before which what came over the bridge is forgotten: {}, more than {} MB",
-                     counted(usage.forgotten, "action"), options_.history.log_bound >> 20);
-}
-
 Debugger::Error Debugger::past(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("past");
   const History::Usage usage = history_.usage();
@@ -271,7 +235,7 @@ Debugger::Error Debugger::past(const Arguments& arguments) {
   out_ << fmt::format(
       "from {}, {}, to {}; now {}\n"
       "{}, one every {} or more; {:.1f} of {:.0f} MB; {} from outside\n",
-      moment_text(usage.oldest.time), oldest_text(usage), moment_text(history_.newest().time),
+      moment_text(usage.oldest.time), oldest_text(history_), moment_text(history_.newest().time),
       moment_text(history_.now().time), counted(usage.checkpoints, "checkpoint"), format_duration(usage.interval),
       static_cast<double>(usage.bytes) / kMegabyte, static_cast<double>(options_.history.bound) / kMegabyte,
       counted(history_.actions().size(), "action"));

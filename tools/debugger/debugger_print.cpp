@@ -92,7 +92,7 @@ std::string number_text(const Value& value, char form) {
 void Debugger::print_bad_pointer(const std::string& name, const MemoryRange& pointer) {
   const std::string address = name_of(pointer, pointer.name_of(0));
   out_ << bad_pointer_text(simulation().cpu(), pointer, name, address) << '\n';
-  if (const auto write = find_write(pointer, address)) report_write(*write, pointer, address);
+  report_writer(pointer, address);
 }
 
 /// The pointers of an instruction that it could not follow.

@@ -1,11 +1,14 @@
 // The commands that keep a session: save, load and record; and power, which begins it anew with what the CPU has kept.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ostream>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/load.hpp"
 #include "tools/debugger/debugger.hpp"
+#include "tools/debugger/digest.hpp"
+#include "tools/debugger/past_words.hpp"
 #include "tools/debugger/session_file.hpp"
 #include "tools/debugger/words.hpp"
 #include "tools/host/interruption.hpp"
@@ -88,7 +91,7 @@ Debugger::Error Debugger::save(const Arguments& arguments) {
   const auto to = destination(arguments, "save", {"a saved session", session_beginning()}, why);
   if (!to) return why;
   const SessionFile file = session_file();
-  if (!file.recording.complete) return "cannot save: " + oldest_text(history_.usage());
+  if (!file.recording.complete) return "cannot save: " + oldest_text(history_);
   if (!write_result(*to, to_text(file), why)) return why;
   out_ << fmt::format("saved: {} with {} from outside\n", moment_text(history_.now().time),
                       counted(file.recording.actions.size(), "action"));
@@ -151,10 +154,7 @@ Debugger::Error Debugger::record(const Arguments& arguments) {
   const auto to = destination(arguments, "record", {"a transcript", std::string(options_.scenario_beginning)}, why);
   if (!to) return why;
   SessionRecord record{.session = history_.recording(), .stations = {}};
-  if (!record.session.complete) return "cannot record: " + oldest_text(history_.usage());
-  record.session.actions.resize(record.session.now.actions);
-  record.session.moments.resize(record.session.now.actions);
-  record.session.stations.resize(record.session.now.actions);
+  if (!record.session.complete) return "cannot record: " + oldest_text(history_);
   for (std::size_t number = 0; number < stations_.size(); ++number) record.stations.push_back(record_of(number));
   if (simulation().has_master() && !simulation().master().busy() && !simulation().master().exchange().request.empty())
     record.last = simulation().master().exchange();
@@ -164,24 +164,33 @@ Debugger::Error Debugger::record(const Arguments& arguments) {
   return {};
 }
 
+/// `slave1: 01 03 00 00 00 02 c4 0b, pump: 04 …`: of all masters, each named by the first PLC on its line.
+std::string Debugger::requests_under_way() {
+  std::vector<const serial::Requester*> masters;
+  std::string text;
+  for (std::size_t number = 0; number < stations_.size(); ++number) {
+    serial::Simulation& here = *stations_[number].simulation;
+    if (!here.has_master() || !here.master().asks()) continue;
+    if (std::ranges::find(masters, &here.master()) != masters.end()) continue;
+    masters.push_back(&here.master());
+    text += (text.empty() ? "" : ", ") + said_of(number) + serial::to_hex(here.master().exchange().request);
+  }
+  return text;
+}
+
 Debugger::Error Debugger::power(const Arguments& arguments) {
   Arguments words = arguments;
   const bool lost = !words.empty() && lower_case(words.back()) == "lost";
   if (lost) words.pop_back();
   const auto off = words.empty() ? std::optional<Time>(0) : parse_duration(joined(words));
   if (!off) return expects("power", "how long it was off, and lost if that was too long for the RAM: power 8h, power lost");
-  std::vector<RetentiveMemory> memory;
-  const bool asks = simulation().has_master() && simulation().master().asks();
-  for (const Station& station : stations_) {
-    memory.push_back(station.simulation->cpu().retentive_memory());
-    memory.back().ram_lost = lost;
-    memory.back().power_off = *off;
-  }
+  const std::string requests = requests_under_way();
   remember();
-  history_.power_up(memory);
+  history_.power_cycle(lost, *off);
   out_ << fmt::format("power was off{}: {}\n", *off == 0 ? "" : " for " + format_duration(*off),
                       lost ? "the EEPROM is left, RAM and clock are lost" : "retentive memory, EEPROM and clock are kept");
-  if (asks) out_ << "the request under way went down with the CPU: nobody waits for its answer any more\n";
+  if (!requests.empty())
+    out_ << fmt::format("under way when power went off, and nobody waits for an answer any more: {}\n", requests);
   note_new_branch();
   note_going_elsewhere();
   show_place();

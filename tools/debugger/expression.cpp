@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -103,6 +104,37 @@ using NodePtr = std::shared_ptr<const Node>;
 constexpr std::array<std::array<std::string_view, 6>, 5> kLevels{
     {{"or"}, {"and"}, {"<=", ">=", "<>", "=", "<", ">"}, {"+", "-"}, {"*", "/"}}};
 
+constexpr std::size_t kComparisons = 2;  // level of
+
+/// What memory can be, as a number with its sign or as its bits.
+struct Kind {
+  Width width{};
+  bool real = false;
+  double least = 0, most = 0;
+  std::string_view range;
+};
+constexpr double kLargestReal = std::numeric_limits<float>::max();
+constexpr Kind kKinds[]{
+    {Width::Bit, false, 0, 1, "a bit is 0 or 1"},
+    {Width::Byte, false, 0, 0xFF, "a byte is a whole number from 0 to 255"},
+    {Width::Word, false, -0x8000, 0xFFFF, "a word is a whole number from -32768 to 32767, as its bits up to 16#FFFF"},
+    {Width::Double, false, -2147483648.0, 4294967295.0,
+     "a double word is a whole number from -2147483648 to 2147483647, as its bits up to 16#FFFFFFFF"},
+    {Width::Double, true, -kLargestReal, kLargestReal, "a real is from -3.402823e+38 to 3.402823e+38"}};
+
+const Kind& kind_of(const Place& place) {
+  const bool real = place.pointer ? place.real : place.range.real;
+  const Width width = place.pointer ? place.width : place.range.width;
+  return *std::ranges::find_if(kKinds, [&](const Kind& kind) { return kind.width == width && kind.real == real; });
+}
+
+/// Of a constant, with its sign; nothing of anything else.
+std::optional<double> constant_of(const Node& node) {
+  if (node.kind == Node::Kind::Constant) return node.constant.number;
+  if (node.kind != Node::Kind::Negate || node.left->kind != Node::Kind::Constant) return {};
+  return -node.left->constant.number;
+}
+
 class Reader {
  public:
   static constexpr std::size_t kMostNested = 100;  ///< parentheses, `not` and signs in each other
@@ -120,15 +152,35 @@ class Reader {
  private:
   NodePtr binary(std::size_t level) {
     if (level == kLevels.size()) return unary();
+    skip_blanks();
+    std::size_t left_at = at_;
     NodePtr left = binary(level + 1);
     while (left) {
       const std::string_view op = take_operator(level);
       if (op.empty()) break;
+      skip_blanks();
+      const std::size_t right_at = at_;
       NodePtr right = binary(level + 1);
       if (!right) return nullptr;
+      if (level == kComparisons && !(can_be(*left, *right, op, right_at) && can_be(*right, *left, op, left_at)))
+        return nullptr;
       left = std::make_shared<Node>(Node{.kind = Node::Kind::Binary, .op = op, .left = left, .right = right});
     }
     return left;
+  }
+
+  /// Whether memory can ever be what it is compared with, a constant that is at `place`.
+  bool can_be(const Node& memory, const Node& constant, std::string_view op, std::size_t place) {
+    const auto number = constant_of(constant);
+    if (memory.kind != Node::Kind::Memory || !number) return true;
+    const Kind& kind = kind_of(memory.place);
+    const bool equality = op == "=" || op == "<>";
+    const bool whole = kind.real || *number == std::trunc(*number) || !equality;
+    if (whole && *number >= kind.least && *number <= kind.most) return true;
+    at_ = place;
+    fail(fmt::format("{} can never be {}: {}", stl::printable(memory.name),
+                     number_text({*number, std::trunc(*number) != *number}), kind.range));
+    return false;
   }
 
   NodePtr unary() {
@@ -247,8 +299,9 @@ std::string nowhere_text(const Node& node, const Cpu& cpu) {
                      pointer_value(node.place, cpu));
 }
 
-/// 16#FFFF beside a word is -1: the same bits.
+/// 16#FFFF beside a word is -1: the same bits. 0.1 beside a real is the real that is nearest to it.
 double beside(const Value& constant, const Value& memory) {
+  if (constant.bits == 0 && memory.bits != 0 && memory.real) return static_cast<float>(constant.number);
   const double range = std::ldexp(1, memory.bits);
   const bool wraps = constant.bits == 0 && !constant.real && (memory.bits == 16 || memory.bits == 32) && !memory.real &&
                      constant.number >= range / 2 && constant.number < range;

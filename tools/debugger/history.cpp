@@ -113,14 +113,28 @@ serial::Halt History::run_live() {
     const Time next = last < kNever - branch_->interval ? last + branch_->interval : kNever;
     const Time idle = executes() ? kNever : observer_->idles_until(time());
     if (idle <= time()) break;
-    halt = drive(executes() ? next : std::min({next, idle, time() + kSlice}));
-    settled_ = halt == serial::Halt::Paused;
-    branch_->end = now();
+    checkpoint_due_ = passes_over() ? next : kNever;
+    const Time end = passes_over() ? observer_->passes_over_until() : next;
+    halt = run_live_until(executes() ? end : std::min({next, idle, time() + kSlice}));
     if (halt == serial::Halt::Time && time() >= next) keep_checkpoint();
   }
+  checkpoint_due_ = kNever;
   live_ = false;
   return halt;
 }
+
+/// Halt::Time too where a checkpoint is due.
+serial::Halt History::run_live_until(Time end) {
+  stopped_for_checkpoint_ = false;
+  const serial::Halt halt = drive(end);
+  settled_ = halt == serial::Halt::Paused;
+  branch_->end = now();
+  return stopped_for_checkpoint_ ? serial::Halt::Time : halt;
+}
+
+/// Whether scans that are all alike may be passed over. Then a run goes as far as it may at once: looking for them pays only
+/// if many may come. It stops for a checkpoint in front of an instruction, as there are none where it passes over.
+bool History::passes_over() const { return alone_ && !settings_.drive && wants_instructions(0) && !wants_scans(0); }
 
 serial::Halt History::drive(Time end) {
   if (!settings_.drive) return run_until(end);
@@ -217,6 +231,8 @@ void History::record(std::size_t station, const TraceRecord& record) {
 bool History::before(std::size_t station, std::uint32_t op) {
   told_of_ = station;
   if (++looked_ % kTellEvery == 0) tell_progress();
+  stopped_for_checkpoint_ = this->station(station).cpu().time() >= checkpoint_due_;
+  if (stopped_for_checkpoint_) return false;
   if (goal_ && executed() == *goal_) return false;
   bool goes_on = true;
   if (TraceSink* const records = records_of(station); records && records->wants_instructions())
@@ -274,17 +290,18 @@ bool History::go_to(Time time) {
   return true;
 }
 
-/// Plays all that has run before `time`, and what was done until then. False after a stop request.
+/// Plays all that has run before `time`, and what was done until then. False after a stop request, which is heard ever more
+/// rarely: between two checkpoints there is either little to execute, or much to pass over at once.
 bool History::play_to(Time time) {
   while (has_next_action() && next_action().time <= time) {
     if (stop_requested()) return false;
     reach(next_action());
     do_next_action();
   }
-  while (this->time() < time && !stopped()) {
+  for (Time slice = kSlice; this->time() < time && !stopped(); slice = std::min(slice, kNever / 4) * 2) {
     if (stop_requested()) return false;
     tell_progress();
-    run_until(std::min(time, this->time() + kSlice));
+    run_until(this->time() < time - slice ? this->time() + slice : time);
     settled_ = false;
   }
   return true;
@@ -365,11 +382,19 @@ void History::fork() {
 
 void History::restart() { begin_with(origin_->state); }
 
-void History::power_up(const std::vector<RetentiveMemory>& memory) {
+void History::power_cycle(bool ram_lost, Time off) {
+  std::vector<RetentiveMemory> memory;
+  for (const serial::Simulation* station : stations_) {
+    memory.push_back(station->cpu().retentive_memory());
+    memory.back().ram_lost = ram_lost;
+    memory.back().power_off = off;
+  }
+  auto cycle = std::make_shared<const PowerCycle>(recording(), ram_lost, off);
   system().restore(origin_->state);
   power_up_stations(memory);
   begin_branch(system().snapshot());
-  branch_->memory = memory;
+  branch_->memory = std::move(memory);
+  branch_->power = std::move(cycle);
 }
 
 void History::power_up_stations(const std::vector<RetentiveMemory>& memory) {
@@ -398,8 +423,8 @@ void History::attach_hosts_of(const Recording& recording) {
 }
 
 Recording History::recording() const {
-  return {branch_->memory, branch_->actions,       branch_->stations, branch_->moments, branch_->end,
-          now(),           branch_->forgotten == 0};
+  return {branch_->memory, branch_->actions,        branch_->stations, branch_->moments, branch_->end,
+          now(),           branch_->forgotten == 0, branch_->power};
 }
 
 bool History::replay(Recording recording) {
@@ -438,7 +463,6 @@ void History::begin_branch(serial::Simulation::Snapshot state) {
 }
 
 const Moment& History::newest() const { return branch_->end; }
-Time History::interval() const { return branch_->interval; }
 const std::vector<Action>& History::actions() const { return branch_->actions; }
 const Action* History::action(std::size_t number) const {
   return number < branch_->forgotten ? nullptr : &branch_->actions.at(number - branch_->forgotten);
@@ -500,7 +524,12 @@ void History::thin() {
 }
 
 History::Usage History::usage() const {
-  return {branch_->checkpoints.size(), *bytes_, branch_->interval, branch_->checkpoints.front()->moment, branch_->forgotten};
+  return {.checkpoints = branch_->checkpoints.size(),
+          .bytes = *bytes_,
+          .interval = branch_->interval,
+          .oldest = branch_->checkpoints.front()->moment,
+          .forgotten = branch_->forgotten,
+          .log_bound = settings_.log_bound};
 }
 
 }  // namespace s7200::tools

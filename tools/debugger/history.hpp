@@ -4,11 +4,11 @@
 // there is one order of all instructions, in which a moment has its place.
 //
 // A run is deterministic, so the past is computed anew: from the last checkpoint before the moment, with everything that was
-// done to the simulation from outside done again where it was done. Checkpoints are thinned when they take more memory than
-// they may; the beginning stays, unless what came in over a bridge takes more memory than it may: then the older half of it
-// is forgotten, and the past begins at a checkpoint after it. What has run once is a recording: going forward from a past
-// moment plays it up to its end, and only then is anything new. Something else done to the simulation in its past begins a
-// new branch.
+// done to the simulation from outside done again where it was done. Scans that are all alike and are passed over need no
+// checkpoint among them: they are passed over again. Checkpoints are thinned when they take more memory than they may; the
+// beginning stays, unless what came in over a bridge takes more memory than it may: then the older half of it is forgotten,
+// and the past begins at a checkpoint after it. What has run once is a recording: going forward from a past moment plays it
+// up to its end, and only then is anything new. Something else done to the simulation in its past begins a new branch.
 #pragma once
 
 #include <atomic>
@@ -38,6 +38,8 @@ struct Moment {
   auto operator<=>(const Moment&) const = default;
 };
 
+struct PowerCycle;
+
 /// All that it takes to run a history again, and where it stands.
 struct Recording {
   std::vector<RetentiveMemory> memory;  ///< by station: it begins with power coming back; none: as the simulation was given
@@ -45,7 +47,15 @@ struct Recording {
   std::vector<std::size_t> stations;  ///< at which the actions were done; of a HostCall the number of the host port
   std::vector<Moment> moments;        ///< of the actions
   Moment end, now;
-  bool complete = true;  ///< false: its beginning is forgotten, and it cannot be run again
+  bool complete = true;                       ///< false: its beginning is forgotten, and it cannot be run again
+  std::shared_ptr<const PowerCycle> power{};  ///< that it begins after; null if it does not, or if it was loaded
+};
+
+/// Power that went off and came back.
+struct PowerCycle {
+  Recording before;  ///< up to its `now`
+  bool ram_lost = false;
+  Time off = 0;  ///< for how long
 };
 
 /// Watches a run: live, or played again.
@@ -65,6 +75,9 @@ class Observer : public TraceSink {
   /// How far to run on from `now` while no CPU executes a program; `now` ends the run. It is asked again on the way.
   virtual Time idles_until(Time /*now*/) { return kNever; }
 
+  /// Without wants_scans(): up to when scans that are all alike may be passed over at once.
+  virtual Time passes_over_until() const { return kNever; }
+
  private:
   std::optional<std::size_t> only_;
 };
@@ -80,7 +93,7 @@ class History final {
     std::vector<serial::HostPort*> hosts{};  ///< through which something comes in; none: the one beside the only station
     std::size_t bound = 256 << 20;           ///< bytes for checkpoints
     std::size_t log_bound = 64 << 20;        ///< bytes for what came in over a bridge
-    Time interval = 500 * kMillisecond;      ///< of checkpoints, until they have to be thinned
+    Time interval = 500 * kMillisecond;      ///< of checkpoints while it executes, until they have to be thinned
     const std::atomic<bool>* stop_request = nullptr;  ///< ends what plays for long: go_to() a time, replay()
     std::function<void()> progress{};                 ///< told now and then while something runs or plays
   };
@@ -152,8 +165,8 @@ class History final {
   /// A new branch that begins as the whole history did, with a state of its own, or with power coming back.
   void restart();
   void begin_with(serial::Simulation::Snapshot state);
-  /// By station.
-  void power_up(const std::vector<RetentiveMemory>& memory);
+  /// After power was off for all stations; `ram_lost`: for too long.
+  void power_cycle(bool ram_lost, Time off);
 
   Recording recording() const;
 
@@ -183,10 +196,9 @@ class History final {
     Time interval = 0;
     Moment oldest;
     std::size_t forgotten = 0;  ///< actions before it: not null if it is not the beginning
+    std::size_t log_bound = 0;  ///< bytes that what came in over a bridge may take
   };
   Usage usage() const;
-  /// What is new runs no further at once.
-  Time interval() const;
 
  private:
   struct Checkpoint {
@@ -238,6 +250,8 @@ class History final {
   Time latest_clock() const;
 
   serial::Halt run_live();
+  serial::Halt run_live_until(Time end);
+  bool passes_over() const;
   serial::Halt run_until(Time end);
   bool advance(const Moment& target);
   bool reach(const Moment& moment);
@@ -281,6 +295,8 @@ class History final {
   bool live_ = false;
   std::size_t told_of_ = 0;
   std::optional<std::uint64_t> goal_;  ///< instructions
+  Time checkpoint_due_ = kNever;       ///< in front of the first instruction from then on
+  bool stopped_for_checkpoint_ = false;
   bool stopped_by_observer_ = false;
   std::uint32_t looked_ = 0;  ///< instructions, for tell_progress()
 };
@@ -295,7 +311,8 @@ struct History::Branch {
   std::size_t log_bytes = 0;          ///< of the actions
   Moment end;
   Time interval = 0;
-  std::vector<RetentiveMemory> memory{};  ///< by station: it begins with power coming back
+  std::vector<RetentiveMemory> memory{};      ///< by station: it begins with power coming back
+  std::shared_ptr<const PowerCycle> power{};  ///< after which it begins
 };
 
 }  // namespace s7200::tools

@@ -1,4 +1,4 @@
-// What decided that the program has come where it stands.
+// What decided that the program has come where it stands, and what has left a frame without an answer.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,8 @@ struct LastDecision {
 struct DecisionSearch {
   std::optional<LastDecision> decision;  ///< nothing: the scan, or the interrupt routine, has come by none so far
   /// Frames that have got no answer since the scan began, or since the master's request did if it waits for an answer or
-  /// has just given up; with a bridge the last one of the last two seconds. With the moment when that was decided; now for
+  /// has just given up; with a bridge the last one of the last two seconds. The program has left them, or no routine got
+  /// their characters; or the line has lost the request or what the PLC sent. With the moment when that was decided; now for
   /// one that no routine has read so far.
   std::vector<TraceLine> unanswered{};
   /// What decided about the last of them; nothing if there is none, or if that is not known.

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <utility>
 
+#include "tools/debugger/reader.hpp"
+
 namespace s7200::tools {
 namespace {
 
 /// The last execution of each instruction of [first, end).
-class Status final : public Observer {
+class Status final : public Reader {
  public:
   Status(std::size_t station, std::uint32_t first, std::uint32_t end, const std::atomic<bool>* stop_request)
-      : Observer(station), first_(first), end_(end), stop_request_(stop_request) {}
+      : Reader(station, stop_request), first_(first), end_(end) {}
 
-  bool wants_instructions() const override { return true; }
-  bool before(std::uint32_t) override { return !(stop_request_ && *stop_request_); }
   void instruction(const InstructionRecord& record) override {
     if (record.op >= first_ && record.op < end_) part_[record.op] = record;
   }
@@ -29,7 +29,6 @@ class Status final : public Observer {
 
  private:
   std::uint32_t first_, end_;
-  const std::atomic<bool>* stop_request_;
   std::map<std::uint32_t, InstructionRecord> part_;
 };
 

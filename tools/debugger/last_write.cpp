@@ -4,20 +4,20 @@
 #include <utility>
 
 #include "tools/debugger/access.hpp"
+#include "tools/debugger/reader.hpp"
 
 namespace s7200::tools {
 namespace {
 
-class WriteFinder final : public Observer {
+class WriteFinder final : public Reader {
  public:
   WriteFinder(const History& history, std::size_t station, const MemoryRange& range, const std::atomic<bool>* stop_request)
-      : Observer(station),
+      : Reader(station, stop_request),
         cpu_(history.station(station).cpu()),
         history_(history),
         station_(station),
         range_(range),
-        bits_(bits_of(range)),
-        stop_request_(stop_request) {
+        bits_(bits_of(range)) {
     for (std::uint32_t op = 0; op < cpu_.program().ops.size(); ++op)
       may_write_.push_back(may_access(cpu_, op, Access::Write, bits_));
   }
@@ -30,8 +30,6 @@ class WriteFinder final : public Observer {
     return last_.has_value();
   }
   const std::optional<LastWrite>& last() const { return last_; }
-
-  bool wants_instructions() const override { return true; }
 
   void before_action() override {
     in_front_ = history_.now();
@@ -48,7 +46,7 @@ class WriteFinder final : public Observer {
   }
 
   bool before(std::uint32_t op) override {
-    if (stop_request_ && *stop_request_) return false;
+    if (!Reader::before(op)) return false;
     in_front_ = history_.in_front();
     note_change_between();
     writes_ = may_write_[op] && accesses(cpu_, op, Access::Write, bits_);
@@ -104,7 +102,6 @@ class WriteFinder final : public Observer {
   std::size_t station_;
   MemoryRange range_;
   Bits bits_;
-  const std::atomic<bool>* stop_request_;
   std::vector<bool> may_write_;  ///< by op
   std::vector<std::uint8_t> value_;
   Moment in_front_;

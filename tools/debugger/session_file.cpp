@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/cpu/forcing.hpp"
-#include "interpreter/stl/printer.hpp"
 #include "serial_sim/line/frame.hpp"
+#include "tools/debugger/digest.hpp"
 #include "tools/rig/memory_file.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -19,28 +18,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kFormat = "s7200 session 2", kAnyFormat = "s7200 session ";
+constexpr std::string_view kFormat = "s7200 session 3", kAnyFormat = "s7200 session ";
 
-/// FNV-1a.
-class Digest {
- public:
-  void add(const void* data, std::size_t size) {
-    for (const auto* byte = static_cast<const std::uint8_t*>(data); size > 0; --size, ++byte)
-      sum_ = (sum_ ^ *byte) * 0x100000001B3;
-  }
-  void add(std::string_view text) { add(text.data(), text.size()); }
-  void add(std::uint64_t number) { add(&number, sizeof number); }
-  std::string text() const { return fmt::format("{:016x}", sum_); }
-
- private:
-  std::uint64_t sum_ = 0xCBF29CE484222325;
-};
-
-std::string sum_of(const Json& json) {
-  Digest digest;
-  digest.add(json.dump());
-  return digest.text();
-}
+std::string sum_of(const Json& json) { return digest_of(std::string_view(json.dump())); }
 
 // --- moments and formats ---
 
@@ -269,55 +249,6 @@ std::string why_other_plcs(const Json& json, Models models, std::span<const std:
 }  // namespace
 
 std::string session_beginning() { return fmt::format("{{\n  \"format\": \"{}", kAnyFormat); }
-
-std::string digest_of(const Program& program) {
-  Digest digest;
-  digest.add(program.model->name);
-  for (std::uint32_t number = 0; number < program.ops.size(); ++number) {
-    const Op& op = program.ops[number];
-    const stl::Statement& statement = program.statement(number);
-    digest.add(stl::to_text(statement));
-    for (const std::uint64_t detail : {std::uint64_t{statement.position.line}, static_cast<std::uint64_t>(op.cost),
-                                       static_cast<std::uint64_t>(op.unit_cost), std::uint64_t{op.target}})
-      digest.add(detail);
-  }
-  digest.add(program.constants.data(), program.constants.size());
-  for (const InitialData& data : program.data) {
-    digest.add(std::uint64_t{data.offset});
-    digest.add(data.bytes.data(), data.bytes.size());
-  }
-  for (const Time time : {program.no_power_flow, program.interrupt_entry, program.eeprom_save})
-    digest.add(static_cast<std::uint64_t>(time));
-  for (const Time time : program.scan_phase) digest.add(static_cast<std::uint64_t>(time));
-  if (program.ppi_rates != kUsualPpiRates)  // else as in sessions from before there were others
-    for (const std::uint32_t baud : program.ppi_rates) digest.add(std::uint64_t{baud});
-  return digest.text();
-}
-
-std::string digest_of(const State& state) {
-  Digest digest;
-  for (const std::uint64_t number :
-       {static_cast<std::uint64_t>(state.time), std::uint64_t{state.pc}, std::uint64_t{state.stack.bits()},
-        state.instructions, state.scans, state.error_count, std::uint64_t{state.waiting}, std::uint64_t{state.call_depth}})
-    digest.add(number);
-  digest.add(state.image.data(), state.image.size());
-  digest.add(state.eeprom.data(), state.eeprom.size());
-  digest.add(state.attached.data(), state.attached.size());
-  return digest.text();
-}
-
-std::string digest_of(const serial::FieldScript& script) {
-  Digest digest;
-  for (const serial::FieldChange& change : script.changes)
-    for (const std::uint64_t number : {static_cast<std::uint64_t>(change.at), std::uint64_t{change.place},
-                                       std::uint64_t{change.mask}, std::uint64_t{change.value}})
-      digest.add(number);
-  for (const serial::FieldPulses& pulses : script.pulses)
-    for (const std::uint64_t number : {static_cast<std::uint64_t>(pulses.at), std::uint64_t{pulses.place},
-                                       std::uint64_t{pulses.mask}, pulses.pulses, pulses.millihertz})
-      digest.add(number);
-  return digest.text();
-}
 
 std::vector<SessionOption> options_of(const serial::MasterSettings& master, const ClockTime& clock) {
   const auto number = [](const auto& given) { return given ? fmt::format("{}", *given) : std::string("as the port"); };

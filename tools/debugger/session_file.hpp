@@ -1,6 +1,7 @@
-// A position of a session as a file. A run is deterministic, so the file has no memory in it: it has the program's digest,
-// what the session began with, all that was done to the PLC from outside with its moments, and where the session stood. Who
-// loads it replays that, and compares the state it comes to.
+// A position of a session as a file. A run is deterministic, so the file has no state in it but, if the session began with
+// power coming back, the memory that was kept. It has digests of the program and of what the session began with, all that was
+// done to the PLC from outside with its moments, and where the session stood. Who loads it replays that, and compares the
+// digest of the state it comes to.
 #pragma once
 
 #include <optional>
@@ -9,22 +10,12 @@
 #include <string_view>
 #include <vector>
 
-#include "serial_sim/field/field_script.hpp"
 #include "tools/debugger/history.hpp"
 
 namespace s7200::tools {
 
 /// How the file begins: it is known by this.
 std::string session_beginning();
-
-/// Of the instructions with their operands, places and times: two programs with the same digest run alike.
-std::string digest_of(const Program& program);
-
-/// Of memory, clock and position: two runs with the same digest have come to the same state.
-std::string digest_of(const State& state);
-
-/// Of what drives the inputs: two that are the same have the same digest.
-std::string digest_of(const serial::FieldScript& script);
 
 /// What a session depends on besides program and memory, by the name of the option: `--gap`, `2 ms`.
 struct SessionOption {
@@ -47,7 +38,7 @@ struct SessionRecord {
     std::uint16_t fatal_code = 0;
   };
 
-  Recording session;                       ///< up to now
+  Recording session;                       ///< up to its `now`
   std::vector<Station> stations;           ///< all
   std::optional<serial::Exchange> last{};  ///< if it is over
 };

@@ -68,33 +68,46 @@ StopReason Stepper::reason_to_end_idle() const {
 
 Stop Stepper::run_back(const Goal& goal, std::uint64_t count, bool stop_at_answer) {
   const Moment start = history_.now();
+  begin_search(goal, count, stop_at_answer);
+  backwards_ = true;
+  const History::Search result = history_.search_back(
+      *this, start, [this] { begin_part(); }, [this] { return end_part(); });
+  backwards_ = false;
+  return arrive(result, start);
+}
+
+void Stepper::begin_search(const Goal& goal, std::uint64_t count, bool stop_at_answer) {
   count_hits();
   goal_ = goal;
   limit_ = kNever;
   stop_at_answer_ = stop_at_answer;
   cpu_stopped_.reset();
   progress_ = {.executed = 1, .left = true};
-  backwards_ = true;
-  first_places_.assign(history_.stations(), {});
-  std::optional<Found> there;
-  Places ends = first_places_;  // by station: its first place after the part that is played
-  const auto begin = [&] {
-    for (std::size_t number = 0; number < ends.size(); ++number)
-      if (const auto first = std::exchange(first_places_[number], {})) ends[number] = first;
-    found_.clear();
-    on_search(history_.now().time);
-    begin_watching();
-  };
-  const auto found = [&] {
-    there = found_between(ends);
-    for (auto last = found_.rbegin(); last != found_.rend() && !there; ++last)
-      if (last->stop || --count == 0) there = std::move(*last);
-    return there.has_value();
-  };
-  const History::Search search = history_.search_back(*this, start, begin, found);
-  backwards_ = false;
-  found_ = {};
-  if (search == History::Search::Interrupted) {
+  const Places nowhere(history_.stations());
+  search_ = {.count = count, .first = nowhere, .after = nowhere};
+}
+
+/// An earlier part of the past is going to be played: what it begins with is what comes after the next one.
+void Stepper::begin_part() {
+  for (std::size_t number = 0; number < search_.first.size(); ++number)
+    if (const auto first = std::exchange(search_.first[number], {})) search_.after[number] = first;
+  search_.found.clear();
+  on_search(history_.now().time);
+  begin_watching();
+}
+
+/// Takes the last place of the part; the goal only if it is met for the last time to be counted.
+bool Stepper::end_part() {
+  search_.there = found_after_part();
+  for (auto last = search_.found.rbegin(); last != search_.found.rend() && !search_.there; ++last)
+    if (last->stop || --search_.count == 0) search_.there = std::move(*last);
+  return search_.there.has_value();
+}
+
+/// To the place that was found.
+Stop Stepper::arrive(History::Search result, const Moment& start) {
+  const std::optional<Found> there = std::exchange(search_, {}).there;
+  if (result == History::Search::Interrupted) {
     history_.go_to(start);
     return {.reason = StopReason::Request, .station = focus_};
   }
@@ -104,29 +117,36 @@ Stop Stepper::run_back(const Goal& goal, std::uint64_t count, bool stop_at_answe
 }
 
 /// What has come up between the last instructions of the part that was played and the first ones after it.
-std::optional<Stepper::Found> Stepper::found_between(const Places& ends) {
+std::optional<Stepper::Found> Stepper::found_after_part() {
   std::optional<Moment> earliest;
-  for (std::size_t number = 0; number < ends.size(); ++number) {
-    if (!ends[number]) continue;
+  for (std::size_t number = 0; number < search_.after.size(); ++number) {
+    const auto& after = search_.after[number];
+    if (!after) continue;
     note_changes(number, nullptr);
-    note_silence(number, ends[number]->time);
-    note_host_timeout(number, ends[number]->time);
-    earliest = earliest ? std::min(*earliest, *ends[number]) : ends[number];
+    note_silence(number, after->time);
+    note_host_timeout(number, after->time);
+    earliest = earliest ? std::min(*earliest, *after) : after;
   }
   if (!earliest) return {};
   const bool answer = answer_complete() && stop_at_answer_;
   if (!answer && stop_.hits.empty()) return {};
-  std::optional<Moment> place;
+  stop_.reason = answer ? StopReason::Answer : StopReason::StopPoint;
+  const Moment place = place_of_first_hit(*earliest);
+  return Found{answer ? *earliest : place, stop_};
+}
+
+/// In front of the next instruction of the station that it is about; of one that executes none any more, and without a hit,
+/// `earliest`.
+Moment Stepper::place_of_first_hit(const Moment& earliest) {
+  std::optional<Moment> first;
   for (const Hit& hit : stop_.hits) {
     const std::size_t of = hit.stop.station;
-    const Moment at = station(of).plc().executes() && ends[of] ? *ends[of] : *earliest;
-    if (!place || at < *place) {
-      place = at;
-      stop_.station = of;
-    }
+    const Moment place = station(of).plc().executes() && search_.after[of] ? *search_.after[of] : earliest;
+    if (first && *first <= place) continue;
+    first = place;
+    stop_.station = of;
   }
-  stop_.reason = answer ? StopReason::Answer : StopReason::StopPoint;
-  return Found{answer ? *earliest : *place, stop_};
+  return first.value_or(earliest);
 }
 
 void Stepper::begin_watching() {
@@ -174,8 +194,8 @@ bool Stepper::wants_scans() const {
   const auto is_within_a_scan = [](const StopPoint& stop) { return stop.on == StopPoint::On::Place || stop.is_watch(); };
   const serial::Simulation& only = station(0);
   const bool waits = listening_[0].host_waits || only.last_activity() != listening_[0].silence_noted;
-  const bool ends_soon = limit_ != kNever && limit_ - only.time() <= history_.interval();
-  return goal_ || backwards_ || waits || ends_soon || std::ranges::any_of(stops, is_within_a_scan);
+  const bool ends = only.time() >= limit_;
+  return goal_ || backwards_ || waits || ends || std::ranges::any_of(stops, is_within_a_scan);
 }
 
 void Stepper::read_values() {
@@ -232,13 +252,13 @@ bool Stepper::before(std::uint32_t op) {
 
 bool Stepper::note_place(std::uint32_t op) {
   if (asked_to_stop()) return false;
-  auto& first = first_places_[history_.told_of()];
+  auto& first = search_.first[history_.told_of()];
   if (!first) first = history_.in_front();
   const auto reason = reason_to_stop(op, false);
   if (!reason) return true;
   stop_.reason = *reason;
   const bool goal = *reason == StopReason::Goal && stop_.hits.empty();
-  found_.push_back({history_.in_front(), goal ? std::nullopt : std::optional(stop_)});
+  search_.found.push_back({history_.in_front(), goal ? std::nullopt : std::optional(stop_)});
   stop_ = {.station = focus_};
   return true;
 }

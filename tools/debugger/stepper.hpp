@@ -73,6 +73,7 @@ class Stepper final : public Observer {
   bool wants_instructions() const override { return true; }
   /// Scans that are all alike are passed over while nothing in them can be a reason to stop.
   bool wants_scans() const override;
+  Time passes_over_until() const override { return limit_; }
   void acted() override;
   Time idles_until(Time now) override;
 
@@ -91,6 +92,15 @@ class Stepper final : public Observer {
     bool operator==(const Instruction&) const = default;
   };
   using Places = std::vector<std::optional<Moment>>;
+
+  /// Backwards: the past is played in parts, ever earlier ones.
+  struct Search {
+    std::uint64_t count = 1;       ///< how often the goal is still to be met
+    Places first{};                ///< by station: its first place in the part being played
+    Places after{};                ///< by station: its first place after that part
+    std::vector<Found> found{};    ///< in that part
+    std::optional<Found> there{};  ///< where to go
+  };
 
   /// What is heard on the line of a station.
   struct Listening {
@@ -113,7 +123,12 @@ class Stepper final : public Observer {
   bool note_place(std::uint32_t op);
   StopReason reason_to_end_idle() const;
   std::optional<StopReason> reason_to_stop(std::uint32_t op, bool stood_there);
-  std::optional<Found> found_between(const Places& ends);
+  void begin_search(const Goal& goal, std::uint64_t count, bool stop_at_answer);
+  void begin_part();
+  bool end_part();
+  Stop arrive(History::Search result, const Moment& start);
+  std::optional<Found> found_after_part();
+  Moment place_of_first_hit(const Moment& earliest);
   void hit_places(std::uint32_t op);
   void hit(StopPoint& stop, Hit with);
   Time time_of(const Hit& hit) const;
@@ -155,8 +170,7 @@ class Stepper final : public Observer {
   History::BranchPtr counted_on_;      ///< the branch on which hits were counted last
   std::optional<Moment> listened_to_;  ///< where the last run ended: one from there goes on listening
   Time executing_since_ = kNever;      ///< the start of the instruction being executed; kNever: none is
-  Places first_places_;                ///< backwards: of the part being played, by station
-  std::vector<Found> found_;           ///< backwards: in the part being played
+  Search search_;                      ///< backwards
   Progress progress_;
   Stop stop_;
 };

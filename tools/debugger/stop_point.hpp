@@ -25,9 +25,10 @@ struct StopPoint {
     ReceiveEnd,     ///< RCV ends
     RuntimeError,
     QueueOverflow,
-    LostCharacter,  ///< the program does not get it: its queue is full, or its event is not attached
+    LostCharacter,  ///< the program does not get it: its queue is full, its event is not attached, the port is in PPI mode
+                    ///< or sends
     ModeChange,
-    Unanswered,  ///< a request of the master
+    Unanswered,  ///< a request of the simulated master, or of one on a bridge
     Read,        ///< access to memory by an instruction
     Write,
     Change  ///< of memory, whoever did it
@@ -49,7 +50,7 @@ struct StopPoint {
   std::uint64_t hits = 0;                                       ///< up to the moment where it stands, since it was set
   using Moments = std::vector<std::pair<std::uint64_t, Time>>;  ///< instructions before each, and its time; in order
   std::map<std::weak_ptr<const void>, Moments, std::owner_less<>> hit_at{};  ///< on each branch of the past
-  std::uint64_t skipped = 0;          ///< times that it had no power flow, since the last stop
+  std::uint64_t skipped = 0;          ///< times that it had no power flow, in the last run forwards
   std::vector<std::uint8_t> value{};  ///< of the memory as last seen, like bytes_of()
 
   bool is_watch() const { return range.has_value(); }
@@ -61,7 +62,7 @@ struct Hit {
   std::vector<std::uint8_t> value{};      ///< new
   std::optional<InstructionRecord> by{};  ///< of an access; nothing: it changed between two instructions
   std::optional<TraceRecord> record{};    ///< what happened
-  std::vector<std::uint8_t> frame{};      ///< FrameReceived
+  std::vector<std::uint8_t> frame{};      ///< FrameReceived, and Unanswered on a bridge; empty if it is not known
 };
 
 /// `{VW20} at {time}` filled in: expressions, and time, scan, line, event. What cannot be read stays as it is.

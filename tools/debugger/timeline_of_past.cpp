@@ -2,18 +2,18 @@
 
 #include <algorithm>
 
+#include "tools/debugger/reader.hpp"
+
 namespace s7200::tools {
 namespace {
 
-class Teller final : public Observer {
+class Teller final : public Reader {
  public:
   Teller(std::size_t station, const std::shared_ptr<const Program>& program, const std::atomic<bool>* stop_request)
-      : Observer(station), timeline_(program, nullptr, Timeline::Looks::AtInstructions), stop_request_(stop_request) {
+      : Reader(station, stop_request), timeline_(program, nullptr, Timeline::Looks::AtInstructions) {
     timeline_.begin();
   }
 
-  bool wants_instructions() const override { return true; }
-  bool before(std::uint32_t) override { return !(stop_request_ && *stop_request_); }
   void record(const TraceRecord& record) override { timeline_.record(record); }
   void instruction(const InstructionRecord& record) override { timeline_.instruction(record); }
 
@@ -24,7 +24,6 @@ class Teller final : public Observer {
 
  private:
   Timeline timeline_;
-  const std::atomic<bool>* stop_request_;
 };
 
 }  // namespace

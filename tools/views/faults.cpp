@@ -45,6 +45,22 @@ bool is_about_when(std::string_view name) {
   return std::ranges::find(of_all, name, &serial::ParameterOfKind::name) != of_all.end();
 }
 
+std::string note_of(const Faults::Injected& injected, const StationName& station) {
+  const std::string name = name_of(injected, station);
+  return fmt::format("fault {}{}{}", serial::to_text(injected.fault), name.empty() ? "" : " of ", name);
+}
+
+std::string note_of(const Faults::Injected& injected, std::uint64_t count, const StationName& station) {
+  return fmt::format("{}: {}×", note_of(injected, station), count);
+}
+
+/// When a cut in a character began is not kept: only one for ever is known to last.
+bool still_cuts(const Faults::Injected& injected, Time now) {
+  const serial::Fault& fault = injected.fault;
+  if (fault.kind != serial::FaultKind::Cut || injected.count == 0) return false;
+  return fault.lasts == kNever || (fault.from && now - injected.at < *fault.from + fault.lasts);
+}
+
 }  // namespace
 
 std::string described(const serial::Fault& fault) {
@@ -64,11 +80,22 @@ std::string described(const serial::Fault& fault) {
 std::vector<std::string> fault_notes(const Faults& faults, const StationName& station) {
   std::vector<std::string> notes;
   for (const Faults::Injected& injected : faults.state().injected) {
-    const std::string name = name_of(injected, station);
-    std::string& note = notes.emplace_back(
-        fmt::format("fault {}{}{}: {}×", serial::to_text(injected.fault), name.empty() ? "" : " of ", name, injected.count));
+    std::string& note = notes.emplace_back(note_of(injected, injected.count, station));
     if (injected.impossible != 0)
       note += fmt::format(", and {}× the format of the character had no such bit", injected.impossible);
+  }
+  return notes;
+}
+
+std::vector<std::string> fault_notes(const Faults& faults, const Faults::State& since, Time now,
+                                     const StationName& station) {
+  std::vector<std::string> notes;
+  for (const Faults::Injected& injected : faults.state().injected) {
+    const std::uint64_t count = injected.count - counts_then(injected, since).happened;
+    if (count != 0)
+      notes.push_back(note_of(injected, count, station));
+    else if (still_cuts(injected, now))
+      notes.push_back(note_of(injected, station));
   }
   return notes;
 }

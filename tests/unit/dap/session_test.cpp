@@ -446,6 +446,24 @@ TEST(DapSession, StepsGoByInterruptsTooInBothDirections) {
   EXPECT_EQ(editor.line(), 20);
 }
 
+TEST(DapSession, AFrameThatNobodyWantedLeadsToWhatDetachedItsEvent) {
+  Editor editor(
+      "LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nENI\nLD I0.0\nEU\nDTCH 8\nMEND\n"
+      "INT 1\nLD SM0.0\nMOVB SMB2, VB1\nMOVB 1, VB0\nXMT VB0, 0\nRETI\n");
+  editor.begin();
+  editor("evaluate", {{"expression", "set I0.0=1"}, {"context", "repl"}});
+  for (int scan = 0; scan < 3; ++scan) editor("stepScan", {{"threadId", 1}});
+  editor("setExceptionBreakpoints", {{"filters", {"unanswered"}}});
+  editor("sendFrame", {{"frame", "41 42"}});
+  editor("continue", {{"threadId", 1}});
+  const Json decision = editor("lastDecision");
+  EXPECT_TRUE(has(decision["text"], "no answer to 2 characters since "));
+  EXPECT_TRUE(has(decision["text"], "event 8 is not attached; detached at "));
+  EXPECT_EQ(decision["line"], 7);
+  editor("reverseToLastDecision", {{"threadId", 1}});
+  EXPECT_EQ(editor.line(), 7);
+}
+
 TEST(DapSession, WhatDecidedIsNamedAndReached) {
   Editor editor("LD SM0.0\nAN I0.0\nJMP 1\nLD SM0.0\nINCW VW0\nLBL 1\nLD SM0.0\nINCW VW2\nMEND\n");
   editor.begin();
@@ -488,7 +506,7 @@ TEST(DapSession, ReverseContinueGoesToTheLastStop) {
   EXPECT_EQ(editor.value("VW10"), "16#0005 (5)");
   editor("goToMoment", {{"time", "-1us"}});
   EXPECT_TRUE(has(editor.error_of("goToMoment", {{"time", "10s"}}), "nothing has run after"));
-  EXPECT_TRUE(has(editor.error_of("goToMoment", {{"time", "soon"}}), "a moment, for example"));
+  EXPECT_TRUE(has(editor.error_of("goToMoment", {{"time", "soon"}}), "'soon' is not a moment; write for example 15.193ms"));
 }
 
 TEST(DapSession, LongReversalsReportTheirProgress) {

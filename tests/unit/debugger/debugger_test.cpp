@@ -1134,5 +1134,30 @@ TEST(Debugger, StepsThroughTheTipDocument) {
   EXPECT_TRUE(has(session("delete all; continue"), "2 registers: 16#0000 16#0000"));
 }
 
+TEST(Debugger, AfterAStopRequestTheRestOfALineIsNotDoneAndCounted) {
+  std::atomic<bool> stop = true;
+  Session session(program_of(kNested), &stop);
+  const std::string text = session("scan 5; step; set VW100=7 # not this; nor this");
+  EXPECT_TRUE(has(text, "interrupted by Ctrl-C"));
+  EXPECT_TRUE(has(text, "not done any more: 2 commands\n"));
+  EXPECT_EQ(session.vw(100), 0);
+  EXPECT_FALSE(has(session("scan 5"), "not done")) << "nothing was left";
+  stop = false;
+  EXPECT_FALSE(has(session("scan 1; set VW100=7"), "not done"));
+  EXPECT_EQ(session.vw(100), 7);
+}
+
+TEST(Debugger, AfterAStopRequestTheRestOfAScriptIsNotDoneAndCounted) {
+  std::atomic<bool> stop = true;
+  Session session(program_of(kNested), &stop);
+  std::istringstream script("scan 5; step ; ;\n\n# a comment\nset VW100=7\n");
+  EXPECT_FALSE(session.debugger->run_script(script));
+  EXPECT_TRUE(has(session.out.str(), "not done any more: 3 commands\n"));
+  session.out.str("");
+  std::istringstream pipe("scan 5\nstep\n");
+  EXPECT_FALSE(session.debugger->run_script(pipe, false));
+  EXPECT_FALSE(has(session.out.str(), "not done")) << "what is still to come over a pipe is not known";
+}
+
 }  // namespace
 }  // namespace s7200::tools

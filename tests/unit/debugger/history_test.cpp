@@ -1,5 +1,6 @@
 #include "tools/debugger/history.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +15,9 @@
 #include "tests/support/slave_bench.hpp"
 #include "tools/debugger/goals.hpp"
 #include "tools/debugger/last_write.hpp"
+#include "tools/debugger/past_words.hpp"
 #include "tools/debugger/stepper.hpp"
+#include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -376,6 +379,14 @@ TEST(History, WhatCameOverTheHostPortIsForgottenFromItsBeginningWhenItTakesTooMu
   EXPECT_GT(usage.oldest.time, 0);
   EXPECT_LT(session.history->actions().size(), 25U);
   EXPECT_FALSE(session.history->recording().complete);
+  EXPECT_EQ(since_oldest_text(*session.history),
+            fmt::format("since {}, where the past begins", moment_text(usage.oldest.time)));
+  EXPECT_TRUE(
+      at_oldest_text(*session.history).starts_with("this is the oldest moment: before which what came over the bridge"));
+  std::string why;
+  EXPECT_EQ(parse_moment("start", *session.history, why), usage.oldest.time);
+  EXPECT_FALSE(parse_moment("1us", *session.history, why));
+  EXPECT_TRUE(why.starts_with("the oldest moment is ")) << why;
   session.history->go_to(usage.oldest);
   EXPECT_EQ(session.history->now(), usage.oldest);
   session.history->go_to(newest);
@@ -439,6 +450,70 @@ TEST(History, TheLastWriteMayBeAnActionOrTheSystem) {
   const auto by_system = find_last_write(*session.history, 0, *parse_range("SM0.6", cpu214(), why), nullptr);
   ASSERT_TRUE(by_system.write.has_value());
   EXPECT_FALSE(by_system.write->by.has_value() || by_system.write->action.has_value());
+}
+
+/// Each look in front of an instruction that is executed; of the first one at or after a time the state.
+class PlainUntil final : public Observer {
+ public:
+  explicit PlainUntil(std::shared_ptr<const Program> program) : simulation(std::move(program)) { simulation.power_up(); }
+
+  void run_to(Time time) {
+    stop_at_ = time;
+    simulation.cpu().set_sink(this);
+    simulation.run_until(kNever);
+    simulation.cpu().set_sink(nullptr);
+  }
+  bool before(std::uint32_t) override { return simulation.time() < stop_at_; }
+  bool wants_instructions() const override { return true; }
+
+  serial::Simulation simulation;
+
+ private:
+  Time stop_at_ = 0;
+};
+
+TEST(History, ScansThatAreAllAlikeTakeNoCheckpointsAndAreReachedAgainBitByBit) {
+  constexpr Time kLimit = 100 * kSecond;
+  const auto program = test::compile("LD SM0.0\nMOVW 1, VW2\nMEND\n");
+  Recorded session(program);
+  session.simulation.cpu().use_steady_scans(SteadyScansUse::On);
+  Stepper stepper(*session.history, nullptr);
+  EXPECT_EQ(stepper.run(goal::none(), kLimit, false).reason, StopReason::Limit);
+  EXPECT_GT(session.simulation.cpu().passed_over(), 90 * kSecond);
+  EXPECT_LT(session.history->usage().checkpoints, 20U);
+  EXPECT_GE(session.history->now().time, kLimit);
+  const Moment idle = session.history->now();
+  const Snapshot after = session.simulation.snapshot();
+
+  session.history->act(assignment("VW4=7"));
+  stepper.stops.push_back({.on = StopPoint::On::Change, .range = assignment("VW6=1").assignments[0].place});
+  EXPECT_EQ(stepper.run(goal::none(), kLimit + 5 * kSecond, false).reason, StopReason::Limit);
+  EXPECT_GT(session.history->usage().checkpoints, 10U) << "where every scan is executed";
+
+  PlainUntil plain(program);
+  for (const Time to : {100 * kMillisecond, 37 * kSecond, 99'999 * kMillisecond}) {
+    plain.run_to(to);
+    ASSERT_TRUE(session.history->go_to(to));
+    ASSERT_TRUE(session.simulation.snapshot() == plain.simulation.snapshot()) << to;
+  }
+  session.history->go_to(idle);
+  EXPECT_TRUE(session.simulation.snapshot() == after);
+  const Stop back = stepper.run_back(goal::back_instruction(), 1, false);
+  EXPECT_EQ(back.reason, StopReason::Goal);
+  EXPECT_LT(session.history->now(), idle);
+}
+
+TEST(History, ALimitAmongScansThatAreAllAlikeEndsInFrontOfTheFirstInstructionAfterIt) {
+  const auto program = test::compile("LD SM0.0\nMOVW 1, VW2\nMEND\n");
+  Recorded session(program);
+  session.simulation.cpu().use_steady_scans(SteadyScansUse::On);
+  Stepper stepper(*session.history, nullptr);
+  PlainUntil plain(program);
+  for (const Time limit : {50 * kSecond, 50 * kSecond + 100 * kMicrosecond, 50'300 * kMillisecond, 90 * kSecond}) {
+    EXPECT_EQ(stepper.run(goal::none(), limit, false).reason, StopReason::Limit);
+    plain.run_to(limit);
+    ASSERT_TRUE(session.simulation.snapshot() == plain.simulation.snapshot()) << limit;
+  }
 }
 
 }  // namespace

@@ -197,5 +197,35 @@ TEST(Seeing, ThePlaceNamesTheNetworkAndItsTitle) {
   EXPECT_TRUE(has(bare("until 2"), "main  S0=1\n")) << "without NETWORK lines";
 }
 
+TEST(Seeing, AConstantThatAnOperandCanNeverBeIsRefusedWithItsRange) {
+  Session session(kNested);
+  for (const auto& [condition, why] : {
+           std::pair{"VW20 = 70000", "column 8: VW20 can never be 70000: a word is a whole number from -32768 to 32767"},
+           std::pair{"VW20 > -32769", "VW20 can never be -32769: a word"},
+           std::pair{"70000 <> VW20", "column 1: VW20 can never be 70000"},
+           std::pair{"M0.1 and VB3 = -1", "column 16: VB3 can never be -1: a byte is a whole number from 0 to 255"},
+           std::pair{"VB3 < 256", "VB3 can never be 256"},
+           std::pair{"M0.1 = 2", "M0.1 can never be 2: a bit is 0 or 1"},
+           std::pair{"VD0 = 4294967296", "VD0 can never be 4294967296: a double word is a whole number from -2147483648"},
+           std::pair{"AC0 = -2147483649", "AC0 can never be -2147483649: a double word"},
+           std::pair{"VW20 = 1.5", "VW20 can never be 1.5: a word is a whole number"},
+           std::pair{"*VD0:word = 65536", "*VD0:word can never be 65536"},
+           std::pair{"not (T37 = 70000)", "T37 can never be 70000"},
+       }) {
+    EXPECT_TRUE(has(session.error_of(std::string("break 4 if ") + condition), why)) << condition;
+    EXPECT_TRUE(has(session.error_of(std::string("expect ") + condition), why)) << condition;
+  }
+}
+
+TEST(Seeing, AConstantIsComparedAsTheInstructionsTakeIt) {
+  Session session(kNested);
+  session("set VW100=16#FFFF VD104=16#80000000 VB110=255 VD112:real=0.1 VW116=-32768");
+  for (const char* const holds :
+       {"VW100 = 16#FFFF", "VW100 = 65535", "VW100 = -1", "VW116 = 16#8000", "VW116 = -32768", "VD104 = 16#80000000",
+        "VD104 = -2147483648", "VB110 = 255", "VD112:real = 0.1", "0.1 = VD112:real", "VD112:real < 70000",
+        "VD112:real <= 0.1", "VW100 < 1.5", "VW100 + 70001 = 70000"})
+    EXPECT_EQ(session.error_of(std::string("expect ") + holds), "no error") << holds;
+}
+
 }  // namespace
 }  // namespace s7200::tools

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <sstream>
+#include <utility>
 
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/program/load.hpp"
@@ -60,13 +61,11 @@ inline std::shared_ptr<const Program> program_of(std::string_view text) {
   return check_text(text, "test.stl", cpu214(), default_times(cpu214())).program;
 }
 
-struct Session {
-  explicit Session(std::shared_ptr<const Program> program, const std::atomic<bool>* stop_request = nullptr)
-      : simulation(program) {
-    simulation.power_up();
-    debugger = std::make_unique<Debugger>(simulation, out, DebuggerOptions{.stop_request = stop_request});
-  }
-  explicit Session(std::string_view text) : Session(program_of(text)) {}
+/// A debugger of a plant: commands in, text out. The plant is a base, as it has to be there before the debugger and after
+/// it.
+template <class Plant>
+struct Prompt : Plant {
+  using Plant::Plant;
 
   /// What good commands print.
   std::string operator()(std::string_view commands) {
@@ -77,13 +76,26 @@ struct Session {
   }
   std::string error_of(std::string_view commands) { return debugger->execute(commands).value_or("no error"); }
 
+  std::ostringstream out;
+  std::unique_ptr<Debugger> debugger;
+};
+
+struct OnePlc {
+  explicit OnePlc(std::shared_ptr<const Program> program) : simulation(std::move(program)) { simulation.power_up(); }
+
   const State& state() const { return simulation.cpu().state(); }
   std::uint32_t line() const { return simulation.cpu().program().statement(state().pc).position.line; }
   std::uint16_t vw(std::uint32_t number) const { return load16(&state().image[image::kV + number]); }
 
   serial::Simulation simulation;
-  std::ostringstream out;
-  std::unique_ptr<Debugger> debugger;
+};
+
+struct Session : Prompt<OnePlc> {
+  explicit Session(std::shared_ptr<const Program> program, const std::atomic<bool>* stop_request = nullptr)
+      : Prompt(std::move(program)) {
+    debugger = std::make_unique<Debugger>(simulation, out, DebuggerOptions{.stop_request = stop_request});
+  }
+  explicit Session(std::string_view text) : Session(program_of(text)) {}
 };
 
 inline testing::AssertionResult has(const std::string& text, std::string_view part) {

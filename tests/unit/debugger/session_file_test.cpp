@@ -112,11 +112,6 @@ TEST_F(SavedSession, OfOtherOptionsIsRefusedWithTheirNamesAndBothValues) {
                   "it was saved with other options: --baud 1200 (here as the port), --gap 2 ms (here none), "
                   "--fault flip:bit=0 (here none)"));
   EXPECT_FALSE(saving.execute("load " + file("a.json")));
-
-  const serial::FieldScript rises{.changes = {{.at = 1, .place = 2, .value = 1}}, .pulses = {}};
-  serial::FieldScript falls = rises;
-  falls.changes[0].value = 0;
-  EXPECT_NE(digest_of(rises), digest_of(falls));
 }
 
 TEST_F(SavedSession, OfAnotherTimeOfDayIsRefused) {
@@ -178,8 +173,9 @@ TEST(PowerCommand, KeepsWhatTheCpuKeepsAndBackTakesItBack) {
 
 TEST(PowerCommand, SaysThatARequestUnderWayWentDownToo) {
   Session session(kEcho);
-  EXPECT_FALSE(has(session("continue 20ms; power"), "request"));
-  EXPECT_TRUE(has(session("continue 20ms; send 41 42; step; power"), "the request under way went down with the CPU"));
+  EXPECT_FALSE(has(session("continue 20ms; power"), "under way"));
+  EXPECT_TRUE(has(session("continue 20ms; send 41 42; step; power"),
+                  "under way when power went off, and nobody waits for an answer any more: 41 42\n"));
 }
 
 TEST(PowerCommand, WrongWordsTellWhatIsExpected) {

@@ -12,26 +12,13 @@
 namespace s7200::tools {
 namespace {
 
-struct SystemSession {
-  explicit SystemSession(std::string_view text = kPolled, std::size_t first = kMaster) : bench(text) {
+struct SystemSession : Prompt<SystemBench> {
+  explicit SystemSession(std::string_view text = kPolled, std::size_t first = kMaster) : Prompt(text) {
     DebuggerOptions options{};
-    for (const PlcPlan& plc : bench.rig->plan().plcs) options.stations.push_back({.name = plc.name});
+    for (const PlcPlan& plc : rig->plan().plcs) options.stations.push_back({.name = plc.name});
     options.station = first;
-    debugger = std::make_unique<Debugger>(bench.stations, out, options);
+    debugger = std::make_unique<Debugger>(stations, out, options);
   }
-
-  /// What good commands print.
-  std::string operator()(std::string_view commands) {
-    out.str("");
-    const auto error = debugger->execute(commands);
-    EXPECT_FALSE(error.has_value()) << commands << ": " << *error;
-    return out.str();
-  }
-  std::string error_of(std::string_view commands) { return debugger->execute(commands).value_or("no error"); }
-
-  SystemBench bench;
-  std::ostringstream out;
-  std::unique_ptr<Debugger> debugger;
 };
 
 /// Two PLCs; `first` counts its scans, `second` goes to STOP when M0.0 is set.
@@ -72,15 +59,15 @@ TEST(SystemDebugger, AStopAtAnotherStationGoesOverToItAndAStepBackIsOfTheStation
   const std::string stopped = session("continue 1s");
   EXPECT_TRUE(has(stopped, "now at slave1\nslave1: breakpoint 1, event 8 served, hit for the first time\n"));
   EXPECT_TRUE(has(stopped, "slave1  "));
-  const Time at_slave = session.bench.system().time();
-  const std::uint64_t of_master = session.bench.stations[kMaster]->plc().executed();
+  const Time at_slave = session.system().time();
+  const std::uint64_t of_master = session.stations[kMaster]->plc().executed();
   const std::string back = session("station master; rstep");
   EXPECT_TRUE(has(back, "master  "));
   EXPECT_TRUE(has(back, "in the past"));
-  EXPECT_EQ(session.bench.stations[kMaster]->plc().executed() + 1, of_master);
-  EXPECT_LT(session.bench.system().time(), at_slave);
+  EXPECT_EQ(session.stations[kMaster]->plc().executed() + 1, of_master);
+  EXPECT_LT(session.system().time(), at_slave);
   EXPECT_TRUE(has(session("continue"), "now at slave1\nslave1: breakpoint 1")) << "it is played, and the same";
-  EXPECT_EQ(session.bench.system().time(), at_slave);
+  EXPECT_EQ(session.system().time(), at_slave);
 }
 
 TEST(SystemDebugger, StopsStayWithTheStationThatTheyWereSetAt) {
@@ -192,11 +179,11 @@ TEST(SystemDebugger, ACpuThatGoesToStopEndsTheRunAndTheOthersGoOn) {
   const std::string stopped = session("continue 1s");
   EXPECT_TRUE(has(stopped, "now at second\nsecond: the CPU went to STOP; the last instruction was in main line 2: STOP"));
   EXPECT_TRUE(has(session("step"), "second is in STOP and executes nothing; 'continue' runs the others"));
-  const std::uint64_t of_first = session.bench.stations[0]->plc().executed();
+  const std::uint64_t of_first = session.stations[0]->plc().executed();
   EXPECT_TRUE(has(session("continue 10ms"), "10 ms of simulated time passed"));
-  EXPECT_GT(session.bench.stations[0]->plc().executed(), of_first);
+  EXPECT_GT(session.stations[0]->plc().executed(), of_first);
   session("rscan");
-  EXPECT_EQ(session.bench.stations[1]->cpu().state().mode, Mode::Run) << "the start of its last scan";
+  EXPECT_EQ(session.stations[1]->cpu().state().mode, Mode::Run) << "the start of its last scan";
 }
 
 TEST(SystemDebugger, DisplayedMemoryIsShownWithItsStation) {
@@ -210,11 +197,11 @@ TEST(SystemDebugger, DisplayedMemoryIsShownWithItsStation) {
 TEST(SystemDebugger, RestartAndPowerAreOfAllStations) {
   SystemSession session(two_programs());
   session("continue 20ms; restart");
-  for (const serial::Simulation* station : session.bench.stations) EXPECT_EQ(station->plc().executed(), 0U);
+  for (const serial::Simulation* station : session.stations) EXPECT_EQ(station->plc().executed(), 0U);
   session("back");
-  EXPECT_GE(session.bench.system().time(), 20 * kMillisecond);
+  EXPECT_GE(session.system().time(), 20 * kMillisecond);
   session("power 8h");
-  for (const serial::Simulation* station : session.bench.stations) EXPECT_EQ(station->cpu().time(), 0);
+  for (const serial::Simulation* station : session.stations) EXPECT_EQ(station->cpu().time(), 0);
 }
 
 TEST(SystemDebugger, ASavedSessionOfASystemIsLoadedInAnother) {
@@ -224,11 +211,11 @@ TEST(SystemDebugger, ASavedSessionOfASystemIsLoadedInAnother) {
     SystemSession session;
     session("continue 100ms; station slave2; set VW20=16#1234; station slave1; set VW20=1; continue 200ms; rscan 3; save " +
             file + " !");
-    saved = session.bench.system().snapshot();
+    saved = session.system().snapshot();
   }
   SystemSession session;
   session("load " + file);
-  EXPECT_TRUE(session.bench.system().snapshot() == saved);
+  EXPECT_TRUE(session.system().snapshot() == saved);
   EXPECT_TRUE(has(session("who VW20"), "nothing has written VW20")) << "of the master";
   EXPECT_TRUE(has(session("station slave2; who VW20"), "by 'set VW20', from outside"));
   SystemSession other(two_programs());
@@ -240,6 +227,16 @@ TEST(SystemDebugger, ASavedSessionOfASystemIsLoadedInAnother) {
 TEST(SystemDebugger, OneProgramHasNoStations) {
   Session session(kNested);
   EXPECT_TRUE(has(session.error_of("station"), "there is one PLC only"));
+}
+
+TEST(SystemDebugger, PowerNamesTheRequestsOfAllMastersThatWereUnderWay) {
+  const std::string slave = "{program: ../modbus_slave.stl, station: 1}";
+  SystemSession session("plcs:\n  near: " + slave + "\n  far: " + slave + "\n  idle: " + slave +
+                            "\nlines:\n  a: {stations: [near]}\n  b: {stations: [far]}\n  c: {stations: [idle]}\n",
+                        0);
+  session("continue 2s; send 01 03; station far; send 02 04; station idle");
+  EXPECT_TRUE(has(session("power"),
+                  "under way when power went off, and nobody waits for an answer any more: near: 01 03, far: 02 04\n"));
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
-// What the program did last: which instruction attached or detached an event, and the last instructions in order.
+// Which instruction attached or detached an event last.
 #pragma once
 
 #include <atomic>
 #include <optional>
-#include <vector>
 
 #include "tools/debugger/history.hpp"
 
@@ -23,10 +22,5 @@ struct AttachmentSearch {
 /// The last ATCH or DTCH of an event of a station before now; the simulation stands where it stood.
 AttachmentSearch find_last_attachment(History& history, std::size_t station, std::uint8_t event,
                                       const std::atomic<bool>* stop_request);
-
-/// The last instructions of a station before now, oldest first, at most `count`; nothing after a stop request. The
-/// simulation stands where it stood.
-std::optional<std::vector<InstructionRecord>> last_instructions(History& history, std::size_t station, std::size_t count,
-                                                                const std::atomic<bool>* stop_request);
 
 }  // namespace s7200::tools

@@ -1,0 +1,27 @@
+#include "interpreter/trace/statement_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/stl/printer.hpp"
+
+namespace s7200 {
+
+std::string short_text(const stl::Statement& statement) {
+  std::string text = stl::to_text(statement);
+  text.erase(std::unique(text.begin(), text.end(), [](char a, char b) { return a == ' ' && b == ' '; }), text.end());
+  return text;
+}
+
+std::string comment_of(const stl::Statement& statement) {
+  return statement.comment.empty() ? "" : "  //" + stl::printable(statement.comment);
+}
+
+std::string named_in_sentence(std::uint32_t op, const Program& program) {
+  const stl::Statement& statement = program.statement(op);
+  return fmt::format("{} in line {}{}", short_text(statement), statement.position.line, comment_of(statement));
+}
+
+}  // namespace s7200

@@ -1,0 +1,20 @@
+// A statement of the program as a sentence names it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "interpreter/program/program.hpp"
+
+namespace s7200 {
+
+/// `LDW= AC0, 0`: in a sentence, not in a column.
+std::string short_text(const stl::Statement& statement);
+
+/// `  // not quiet yet`; nothing without a comment.
+std::string comment_of(const stl::Statement& statement);
+
+/// `ATCH 120, 10 in line 665  // not quiet yet`
+std::string named_in_sentence(std::uint32_t op, const Program& program);
+
+}  // namespace s7200

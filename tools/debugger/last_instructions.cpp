@@ -1,0 +1,42 @@
+#include "tools/debugger/last_instructions.hpp"
+
+#include "tools/debugger/reader.hpp"
+
+namespace s7200::tools {
+namespace {
+
+class Collector final : public Reader {
+ public:
+  using Reader::Reader;
+
+  /// An earlier part is going to be played.
+  void begin() {
+    all.insert(all.begin(), part_.begin(), part_.end());
+    part_.clear();
+  }
+  void instruction(const InstructionRecord& record) override { part_.push_back(record); }
+  std::size_t size() const { return all.size() + part_.size(); }
+
+  std::vector<InstructionRecord> all;
+
+ private:
+  std::vector<InstructionRecord> part_;  ///< of what is being played
+};
+
+}  // namespace
+
+std::optional<std::vector<InstructionRecord>> last_instructions(History& history, std::size_t station, std::size_t count,
+                                                                const std::atomic<bool>* stop_request) {
+  const Moment start = history.now();
+  Collector collector(station, stop_request);
+  const auto search = history.search_back(
+      collector, start, [&] { collector.begin(); }, [&] { return collector.size() >= count; });
+  history.go_to(start);
+  if (search == History::Search::Interrupted) return {};
+  collector.begin();
+  if (collector.all.size() > count)
+    collector.all.erase(collector.all.begin(), collector.all.end() - static_cast<std::ptrdiff_t>(count));
+  return collector.all;
+}
+
+}  // namespace s7200::tools

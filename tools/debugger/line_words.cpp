@@ -1,0 +1,45 @@
+#include "tools/debugger/line_words.hpp"
+
+#include <fmt/format.h>
+
+#include "tools/debugger/words.hpp"
+#include "tools/views/faults.hpp"
+#include "tools/views/text_frame.hpp"
+
+namespace s7200::tools {
+
+std::optional<SendFrame> send_of(const serial::Frame& frame, serial::Simulation& simulation,
+                                 const serial::MasterSettings& master, std::string& why) {
+  if (!simulation.has_master())
+    return why = "this line has as many stations already as it takes: there is no place for one more master", std::nullopt;
+  const SerialFormat format = master.over(simulation.port_format());
+  if (serial::has_wrong_parity(frame) && format.parity == Parity::None)
+    return why = "a byte with wrong parity (p) needs a format with parity", std::nullopt;
+  if (simulation.master().busy())
+    return why = "the last frame is still under way or waiting for its answer; 'continue' runs to its end", std::nullopt;
+  return SendFrame{format, master.request(frame)};
+}
+
+std::string sent_text(const SendFrame& send, const serial::Simulation& simulation) {
+  const std::string request = request_text(serial::bytes_of(send.request.frame));
+  std::string text = fmt::format("on the line from now on: {}{} ({})\n", serial::to_hex(send.request.frame),
+                                 request.empty() ? "" : "  " + request, format_text(send.format));
+  if (!simulation.freeport().active)
+    text += fmt::format("port {} is not in Freeport mode: the program will not hear it\n", simulation.port());
+  return text;
+}
+
+std::optional<InjectFault> inject_of(const std::string& text, std::string& why) {
+  if (lower_case(text) == "none") return InjectFault{};
+  const serial::ParsedFault parsed = serial::parse_fault(text);
+  if (parsed.ok()) return InjectFault{parsed.fault};
+  why = fmt::format("fault, column {}: {}", parsed.error->column, parsed.error->message);
+  return {};
+}
+
+std::string injected_text(const InjectFault& inject) {
+  if (!inject.fault) return "the line has no fault any more\n";
+  return fmt::format("on the line from now on: {}\n  {}\n", serial::to_text(*inject.fault), described(*inject.fault));
+}
+
+}  // namespace s7200::tools

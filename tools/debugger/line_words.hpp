@@ -1,0 +1,25 @@
+// What is put on the line and done to it, as people write it, and what is said of it then.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "serial_sim/peers/requester.hpp"
+#include "tools/debugger/action.hpp"
+
+namespace s7200::tools {
+
+/// A frame as the master on the line of a station sends it, now. Returns nothing and sets `why` if that cannot be.
+std::optional<SendFrame> send_of(const serial::Frame& frame, serial::Simulation& simulation,
+                                 const serial::MasterSettings& master, std::string& why);
+
+/// `on the line from now on: 41 42  'AB' (9600 baud, …)`; a line more if the program will not hear it.
+std::string sent_text(const SendFrame& send, const serial::Simulation& simulation);
+
+/// `flip:character=3,bit=5`, or `none`. Returns nothing and sets `why` if it is not a fault.
+std::optional<InjectFault> inject_of(const std::string& text, std::string& why);
+
+/// `on the line from now on: flip:character=3,bit=5`, and a line that describes it.
+std::string injected_text(const InjectFault& inject);
+
+}  // namespace s7200::tools

@@ -1,0 +1,64 @@
+#include "tools/debugger/writer.hpp"
+
+#include <fmt/format.h>
+
+#include "interpreter/trace/text_trace.hpp"
+#include "tools/debugger/last_attachment.hpp"
+#include "tools/debugger/last_write.hpp"
+#include "tools/debugger/past_words.hpp"
+#include "tools/views/execution_text.hpp"
+#include "tools/views/machine_text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// `  by INT 123 line 40 …, serving event 8 (…)  // comment`
+std::string by_text(const LastWrite& write, const History& history, const Program& program, const Listing& listing) {
+  if (write.by)
+    return fmt::format("  by {} {}{}{}", listing.routine_of(write.by->op), describe(*write.by, program),
+                       write.in_interrupt ? fmt::format(", serving {}", event_text(write.event)) : "",
+                       remark_on(write.by->op, program));
+  const Action* const action = write.action ? history.action(*write.action) : nullptr;
+  return action ? fmt::format("  by '{}', from outside", describe(*action)) : "  by the system, between two instructions";
+}
+
+}  // namespace
+
+WriterSearch find_writer(History& history, std::size_t station, const Listing& listing, const MemoryRange& range,
+                         std::string_view name, const std::atomic<bool>* stop_request) {
+  const Program& program = history.station(station).cpu().program();
+  const WriteSearch search = find_last_write(history, station, range, stop_request);
+  if (search.interrupted) return {.writer = {}, .interrupted = true};
+  if (!search.write) {
+    const auto now = range.bytes_in(history.station(station).cpu().state().image);
+    return {.writer = {},
+            .none = fmt::format("nothing has written {} {}; it is {}", name, since_oldest_text(history),
+                                value_text(program, range, now))};
+  }
+  const LastWrite& write = *search.write;
+  return {.writer =
+              Writer{.moment = write.moment,
+                     .by = write.by,
+                     .by_system = !write.by && !write.action,
+                     .text = fmt::format("{} was {}, became {}, at {}\n{}", name, value_text(program, range, write.before),
+                                         value_text(program, range, write.after), moment_text(write.at),
+                                         by_text(write, history, program, listing))}};
+}
+
+WriterSearch find_writer(History& history, std::size_t station, const Listing& listing, std::uint8_t event,
+                         const std::atomic<bool>* stop_request) {
+  const Program& program = history.station(station).cpu().program();
+  const AttachmentSearch search = find_last_attachment(history, station, event, stop_request);
+  if (search.interrupted) return {.writer = {}, .interrupted = true};
+  if (!search.attachment)
+    return {
+        .writer = {},
+        .none = fmt::format("no instruction has attached or detached {} {}", event_text(event), since_oldest_text(history))};
+  const auto& [moment, what, by] = *search.attachment;
+  return {.writer = Writer{.moment = moment,
+                           .by = by,
+                           .text = fmt::format("{}  {}\n  by {} {}", moment_text(what.at), describe(what, program),
+                                               listing.routine_of(by.op), execution_text(by, program))}};
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,34 @@
+// Who did it last, in words: who wrote an address, or attached an event.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/debugger/history.hpp"
+#include "tools/views/listing.hpp"
+
+namespace s7200::tools {
+
+struct Writer {
+  Moment moment;                        ///< to go back to: in front of it
+  std::optional<InstructionRecord> by;  ///< nothing: the system, or someone outside
+  bool by_system = false;
+  std::string text;  ///< what it did and when, and who it was in a line of its own
+};
+
+struct WriterSearch {
+  std::optional<Writer> writer;
+  std::string none{};  ///< what is to be said if there is none
+  bool interrupted = false;
+};
+
+/// Of memory of a station, which is called `name`; or of an event. The simulation stands where it stood.
+WriterSearch find_writer(History& history, std::size_t station, const Listing& listing, const MemoryRange& range,
+                         std::string_view name, const std::atomic<bool>* stop_request);
+WriterSearch find_writer(History& history, std::size_t station, const Listing& listing, std::uint8_t event,
+                         const std::atomic<bool>* stop_request);
+
+}  // namespace s7200::tools
