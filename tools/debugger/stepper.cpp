@@ -466,8 +466,8 @@ bool Stepper::is_of_a_master(std::size_t number, const TraceRecord& received) co
 void Stepper::note_host_request(std::size_t number, std::vector<std::uint8_t> frame, Time end) {
   const serial::Simulation& here = station(number);
   Listening& line = line_of(number);
-  const Time half_a_character = here.port_format().silence() / 7;
-  const auto host = host_that_sent(number, end - half_a_character);
+  const Time character = here.port_format().character_time();  // what one who is set otherwise hears ends later
+  const auto host = host_that_sent(number, end - character);
   if (!host || end <= line.host_frame_end || (here.has_master() && here.master().busy())) return;
   line.host_frame_end = end;
   if (has_sent_broadcast(*host)) return;
