@@ -18,7 +18,7 @@
 //   [Network.AJobThatCannotBeginSaysWhy, Network.ATableOnTheListIsNotListedAgain]
 // - A port that leaves the master mode ends its jobs with error 5. [Network.LeavingTheMasterModeEndsTheJobs]
 // - Jobs go on in STOP. [Network.JobsGoOnInStop]
-// - A master that hears another one goes on as if it were alone: when the line is silent it asks, and frames may collide.
+// - A master that hears another one goes on as if it were alone: it asks 33 bits after what it heard last. They may collide.
 //   [Network.AMasterThatHearsAnotherOneGoesOnAndTheTraceSaysSo]
 // Not modelled: the token of several masters, the search for stations that are new.
 #pragma once
