@@ -33,17 +33,4 @@ struct SystemFile {
 
 SystemFile read_system(const std::string& text, const std::string& path);
 
-/// A word that says what is done in an event, and the keys that may stand beside it: `cut`, and `after`.
-struct EventWord {
-  std::string_view word;
-  EventPlan::What what{};
-  std::vector<std::string_view> beside{};
-};
-std::span<const EventWord> event_words();
-const EventWord& word_of(EventPlan::What what);
-
-/// One event of a system as it stands under `events`, but without its instant: `{power_off: slave}`. Nothing after a
-/// complaint.
-std::optional<EventPlan> read_event(const YamlNode& node, const SystemPlan& plan, YamlValues& values);
-
 }  // namespace s7200::tools

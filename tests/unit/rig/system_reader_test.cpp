@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "tests/support/source_path.hpp"
+#include "tools/rig/event_reader.hpp"
 #include "tools/rig/system_keys.hpp"
 
 namespace s7200::tools {

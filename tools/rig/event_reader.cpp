@@ -1,0 +1,179 @@
+#include "tools/rig/event_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/rig/system_reading.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Where = SystemKey::Where;
+
+class EventReader {
+ public:
+  EventReader(const SystemPlan& plan, YamlValues& values) : plan_(plan), values_(values) {}
+
+  std::optional<EventPlan> read_timed(const YamlNode& node) {
+    if (!node.is_map()) {
+      values_.wrong(node, "an event is a map, not " + to_text(node), std::string(kEventExample));
+      return {};
+    }
+    check_keys(node, {Where::Event}, values_);
+    auto event = read_what(node);
+    if (!event) return {};
+    if (!node.find("at")) {
+      values_.wrong(node, "an event without 'at'", std::string(kEventExample));
+      return {};
+    }
+    event->at = values_.duration(node.find("at")).value_or(0);
+    return event;
+  }
+
+  /// What is done in an event; nothing after a complaint.
+  std::optional<EventPlan> read_what(const YamlNode& node) {
+    const EventWord* done = nullptr;
+    for (const EventWord& each : event_words()) {
+      if (!node.find(each.word)) continue;
+      if (done) {
+        values_.wrong(node, fmt::format("both '{}' and '{}'", done->word, each.word), "one is done at a time");
+        return {};
+      }
+      done = &each;
+    }
+    if (!done) {
+      values_.wrong(node, "nothing is done in this event", std::string(kEventExample));
+      return {};
+    }
+    EventPlan event{.what = done->what};
+    const bool good = only_its_own_beside(node, *done) && read_object(node, *node.find(done->word), event);
+    return good ? std::optional(event) : std::nullopt;
+  }
+
+ private:
+  static constexpr std::string_view kEventExample = "write for example {at: 1s, power_off: slave}";
+
+  /// What belongs beside another word has no place here. False after a complaint.
+  bool only_its_own_beside(const YamlNode& node, const EventWord& word) {
+    for (const YamlNode& key : node.keys) {
+      const auto belongs_to = [&](const EventWord& w) { return std::ranges::find(w.beside, key.text) != w.beside.end(); };
+      if (belongs_to(word) || std::ranges::none_of(event_words(), belongs_to)) continue;
+      const EventWord& other = *std::ranges::find_if(event_words(), belongs_to);
+      values_.wrong(key, fmt::format("'{}' has no place beside '{}'", key.text, word.word),
+                    fmt::format("it belongs beside '{}'", other.word));
+      return false;
+    }
+    return true;
+  }
+
+  /// What it is done to. False after a complaint.
+  bool read_object(const YamlNode& node, const YamlNode& what, EventPlan& event) {
+    using What = EventPlan::What;
+    if (event.what == What::Fault) return read_fault_event(node, what, event);
+    if (event.what == What::Set) return read_set_event(node, what, event);
+    if (event.what == What::PowerOff || event.what == What::PowerOn) return read_powered(what, event);
+    const auto line = line_named(what);
+    if (!line) return false;
+    event.line = *line;
+    return event.what != What::Cut || read_cut(node, event);
+  }
+
+  bool read_powered(const YamlNode& what, EventPlan& event) {
+    const auto name = values_.text(what);
+    if (!name) return false;
+    const auto peer = std::ranges::find(plan_.peers, *name, &PeerPlan::name);
+    if (peer != plan_.peers.end()) {
+      event.station = {StationPlan::Kind::Peer, static_cast<std::size_t>(peer - plan_.peers.begin())};
+      return true;
+    }
+    if (std::ranges::find(plan_.bridges, *name, &BridgePlan::name) != plan_.bridges.end()) {
+      values_.wrong(what, fmt::format("'{}' is a bridge, which has no power to switch", *name), "cut the cable before it");
+      return false;
+    }
+    const auto plc = plc_named(what);
+    if (plc) event.station = {StationPlan::Kind::Plc, *plc};
+    return plc.has_value();
+  }
+
+  bool read_fault_event(const YamlNode& node, const YamlNode& what, EventPlan& event) {
+    const YamlNode* const line = node.find("line");
+    if (!line) values_.wrong(node, "a fault without its 'line'");
+    const auto number = line ? line_named(*line) : std::nullopt;
+    const auto fault = number ? read_fault(what, node.find("station"), plan_.lines[*number], plan_, values_) : std::nullopt;
+    if (!fault) return false;
+    event.line = *number;
+    event.fault = *fault;
+    return true;
+  }
+
+  bool read_set_event(const YamlNode& node, const YamlNode& what, EventPlan& event) {
+    const YamlNode* const name = node.find("plc");
+    if (!name) values_.wrong(node, "'set' without the 'plc' whose memory it is");
+    const auto number = name ? plc_named(*name) : std::nullopt;
+    if (!number) return false;
+    event.plc = *number;
+    event.set = read_assignments(what, *plan_.plcs[*number].program, values_);
+    return true;
+  }
+
+  bool read_cut(const YamlNode& node, EventPlan& event) {
+    const YamlNode* const after = node.find("after");
+    const auto name = after ? values_.text(*after) : std::nullopt;
+    if (!after) values_.wrong(node, "a cut without 'after', the last station on the first part");
+    if (!name) return false;
+    const std::vector<StationPlan>& stations = plan_.lines[event.line].stations;
+    for (std::size_t i = 0; i < stations.size(); ++i)
+      if (name_of(plan_, stations[i]) == *name) event.near = i + 1;
+    if (event.near == 0 || event.near == stations.size()) {
+      values_.wrong(
+          *after,
+          fmt::format("'{}' is not on line '{}', or its last station", stl::shortened(*name), plan_.lines[event.line].name),
+          "the cable is cut after one of the others");
+      return false;
+    }
+    return true;
+  }
+
+  template <class Plans>
+  std::optional<std::size_t> named(const YamlNode& node, const Plans& plans, std::string_view what) {
+    const auto name = values_.text(node);
+    if (!name) return {};
+    std::string known;
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+      if (plans[i].name == *name) return i;
+      known.append(known.empty() ? "" : ", ").append(plans[i].name);
+    }
+    values_.wrong(node, fmt::format("there is no {} '{}'", what, stl::shortened(*name)), "known: " + known);
+    return {};
+  }
+
+  std::optional<std::size_t> plc_named(const YamlNode& node) { return named(node, plan_.plcs, "PLC"); }
+  std::optional<std::size_t> line_named(const YamlNode& node) { return named(node, plan_.lines, "line"); }
+
+  const SystemPlan& plan_;
+  YamlValues& values_;
+};
+
+}  // namespace
+
+std::span<const EventWord> event_words() {
+  using What = EventPlan::What;
+  static const std::vector<EventWord> kWords{{"power_off", What::PowerOff},      {"power_on", What::PowerOn},
+                                             {"cut", What::Cut, {"after"}},      {"mend", What::Mend},
+                                             {"set", What::Set, {"plc"}},        {"fault", What::Fault, {"line", "station"}},
+                                             {"clear_faults", What::ClearFaults}};
+  return kWords;
+}
+
+const EventWord& word_of(EventPlan::What what) { return *std::ranges::find(event_words(), what, &EventWord::what); }
+
+std::optional<EventPlan> read_event(const YamlNode& node, const SystemPlan& plan, YamlValues& values) {
+  return EventReader(plan, values).read_what(node);
+}
+
+std::optional<EventPlan> read_timed_event(const YamlNode& node, const SystemPlan& plan, YamlValues& values) {
+  return EventReader(plan, values).read_timed(node);
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,241 @@
+#include "tools/rig/plc_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/model/named_times.hpp"
+#include "interpreter/program/constants.hpp"
+#include "interpreter/program/load.hpp"
+#include "interpreter/program/load_times.hpp"
+#include "interpreter/program/slips.hpp"
+#include "serial_sim/line/line.hpp"
+#include "serial_sim/modbus/functions.hpp"
+#include "tools/rig/clock_text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Where = SystemKey::Where;
+
+constexpr std::int64_t kMostCopies = serial::Line::kDrivers;
+
+/// Where our Modbus slaves and Application Tip 41 keep their station address.
+constexpr std::string_view kStationByte = "VB4095";
+
+class PlcReader {
+ public:
+  explicit PlcReader(SystemReading& reading) : reading_(reading) {}
+
+  void read(const Named& plc) {
+    const YamlNode& map = plc.item;
+    check_keys(map, {Where::Plc}, values_);
+    const CpuModel* const model = read_cpu(map);
+    const std::int64_t copies = values_.number(map.find("copies"), 1, kMostCopies).value_or(1);
+    const bool numbered = map.find("copies") != nullptr;
+    const auto station = values_.number(map.find("station"), 1, modbus::kLastStation - (copies - 1));
+    const std::size_t before = values_.complaints.count();
+    std::vector<std::size_t>& those = names_.groups[plc.key.text];
+    if (numbered) names_.take_name(plc.key, plc.key.text, values_);
+    for (std::int64_t copy = 0; copy < copies; ++copy) {
+      const std::string name = numbered ? fmt::format("{}{}", plc.key.text, copy + 1) : plc.key.text;
+      if (!names_.take_station(plc.key, name, values_)) return;
+      those.push_back(plan().plcs.size());
+      names_.plc_keys.push_back(&plc.key);
+      PlcPlan& each = plan().plcs.emplace_back();
+      each.name = name;
+      if (!model) continue;
+      each.program = read_program(plc, *model, station ? std::optional(*station + copy) : std::nullopt);
+      if (each.program) read_settings(map, each, copies > 1);
+      if (values_.complaints.count() > before) return;  // the others would say the same
+    }
+  }
+
+ private:
+  const CpuModel* read_cpu(const YamlNode& map) {
+    const std::string name = values_.optional_text(map, "cpu").value_or("214");
+    const CpuModel* const model = find_cpu(name);
+    std::string known;
+    for (const CpuModel* each : all_cpus()) known.append(known.empty() ? "" : ", ").append(each->name);
+    if (!model)
+      values_.wrong(*map.find("cpu"), fmt::format("there is no model of CPU '{}'", stl::shortened(name)),
+                    "modelled: " + known);
+    return model;
+  }
+
+  /// The files of a project as one text, read once. Nothing after a complaint.
+  std::optional<SourceText> read_project(const Named& plc) {
+    const YamlNode* const program = plc.item.find("program");
+    if (!program) {
+      values_.wrong(plc.key, fmt::format("PLC '{}' has no program", plc.key.text), "write for example program: slave.stl");
+      return {};
+    }
+    std::vector<const YamlNode*> nodes{program};
+    for (const YamlNode* part : items_of(plc.item, "with", "symbols.txt", values_)) nodes.push_back(part);
+    std::vector<SourceText> files;
+    for (const YamlNode* node : nodes) {
+      const auto written = values_.text(*node);
+      if (!written) return {};
+      std::string why;
+      const SourceText* const text = text_of(beside(reading_.path, *written), why);
+      if (!text) {
+        values_.wrong(*node, fmt::format("cannot read {}: {}", beside(reading_.path, *written), why));
+        return {};
+      }
+      files.push_back(*text);
+    }
+    return join_files(std::move(files));
+  }
+
+  const SourceText* text_of(const std::string& path, std::string& why) {
+    if (const auto known = texts_.find(path); known != texts_.end()) return &known->second;
+    if (is_standard_input(path)) why = "a system names its files";
+    const auto bytes = is_standard_input(path) ? std::nullopt : read_file(path, why);
+    auto text = bytes ? read_source(*bytes, path, why) : std::nullopt;
+    return text ? &texts_.emplace(path, std::move(*text)).first->second : nullptr;
+  }
+
+  std::shared_ptr<const Program> read_program(const Named& plc, const CpuModel& model, std::optional<std::int64_t> station) {
+    const YamlNode& map = plc.item;
+    auto project = read_project(plc);
+    if (!project) return nullptr;
+    stl::Source& source = project->parsed.source;
+    if (!repair_slips(map, source)) return nullptr;
+    if (station && !set_constant(source, kStationByte, {.value = *station}, true))
+      values_.wrong(*map.find("station"), fmt::format("the program moves no constant into {}", kStationByte),
+                    "'constants' sets another place: constants: {VB10: 5}");
+    set_constants(map, source);
+    const auto times = read_times(map, model);
+    if (!times) return nullptr;
+    CheckResult result = check(std::move(project->parsed), model, *times);
+    if (result.program) return with_ppi_rates_of(map, std::move(result.program));
+    std::erase_if(result.diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
+    values_.wrong(*map.find("program"), fmt::format("{} has errors", result.source.name));
+    reading_.file.programs.push_back(
+        {std::make_shared<stl::SourceLines>(std::move(result.source)), std::move(result.diagnostics)});
+    return nullptr;
+  }
+
+  bool repair_slips(const YamlNode& map, stl::Source& source) {
+    const auto written = values_.optional_text(map, "repair");
+    if (!written) return true;
+    std::string why;
+    std::vector<std::string> unknown;
+    const Repairs repairs = parse_repairs(*written, why);
+    if (why.empty()) repair(source, repairs, unknown);
+    if (!unknown.empty()) why = fmt::format("the listing has no slip {}", unknown.front());
+    if (!why.empty()) values_.wrong(*map.find("repair"), why, "`s7200 check` names the slips of a listing that is known");
+    return why.empty();
+  }
+
+  std::optional<TimeTable> read_times(const YamlNode& map, const CpuModel& model) {
+    const auto written = values_.optional_text(map, "times");
+    std::vector<std::string> errors;
+    auto times = load_times(model,
+                            !written               ? ""
+                            : find_times(*written) ? *written
+                                                   : beside(reading_.path, *written),
+                            errors);
+    if (!times) values_.wrong(*map.find("times"), errors.empty() ? "no such table" : errors.front());
+    return times;
+  }
+
+  std::shared_ptr<const Program> with_ppi_rates_of(const YamlNode& map, std::shared_ptr<const Program> program) {
+    const auto written = values_.optional_text(map, "ppi_baud");
+    if (!written) return program;
+    std::string why;
+    const auto rates = parse_ppi_rates(*written, *program->model, why);
+    if (!rates) values_.wrong(*map.find("ppi_baud"), why);
+    return rates ? with_ppi_rates(*program, *rates) : nullptr;
+  }
+
+  void set_constants(const YamlNode& map, stl::Source& source) {
+    const YamlNode* const constants = map.find("constants");
+    if (!constants) return;
+    if (!constants->is_map())
+      return values_.wrong(*constants, "'constants' is a map, not " + to_text(*constants),
+                           "write for example {SMB30: 16#45}");
+    for (std::size_t i = 0; i < constants->keys.size(); ++i) {
+      const auto value = values_.number(&constants->items[i], INT32_MIN, UINT32_MAX);
+      const auto form = constants->items[i].text.starts_with("16#") ? stl::Integer::Form::Hex : stl::Integer::Form::Decimal;
+      if (value && !set_constant(source, constants->keys[i].text, {.value = *value, .form = form}, false))
+        values_.wrong(constants->keys[i],
+                      fmt::format("the program moves no constant to {}", stl::shortened(constants->keys[i].text)),
+                      "MOVB, MOVW or MOVD with a constant and that address would");
+    }
+  }
+
+  void read_settings(const YamlNode& map, PlcPlan& plc, bool one_of_several) {
+    PlcSettings& settings = plc.settings;
+    if (const YamlNode* set = map.find("set")) settings.set = read_assignments(*set, *plc.program, values_);
+    settings.input = path(map, "input");
+    read_inputs(map, plc);
+    if (const YamlNode* clock = map.find("clock"))
+      settings.clock = values_.value(clock, "a time from 1990 to 2089", "2026-11-21 10:00:00",
+                                     [](const std::string& t) { return parse_clock(t); });
+    settings.memory.path = written_file(map, "memory", one_of_several);
+    settings.trace = written_file(map, "trace", one_of_several);
+    settings.output = written_file(map, "output", one_of_several);
+    const bool instructions = values_.truth(map.find("trace_instructions"));
+    if (instructions) settings.trace_detail = TraceDetail::Instructions;
+    if (instructions && settings.trace.empty())
+      values_.wrong(*map.find("trace_instructions"), "there is no 'trace' to write them to");
+    for (const YamlNode* item : items_of(map, "dump", "VB0:16, VW100", values_)) {
+      const auto text = values_.text(*item);
+      std::string why;
+      const auto range = text ? parse_range(*text, *plc.program, why) : std::nullopt;
+      if (text && !range) values_.wrong(*item, why);
+      if (!range) continue;
+      settings.dumps.push_back(*range);
+      settings.dump_names.push_back(*text);
+    }
+  }
+
+  void read_inputs(const YamlNode& map, PlcPlan& plc) {
+    std::vector<std::string> problems;
+    auto field = read_field(plc.settings.input, *plc.program->model, problems);
+    if (field)
+      plc.field = std::move(*field);
+    else
+      values_.wrong(*map.find("input"), problems.front(),
+                    problems.size() > 1 ? fmt::format("and {} more", problems.size() - 1) : "");
+  }
+
+  /// A file that is written has one writer.
+  std::string written_file(const YamlNode& map, std::string_view key, bool one_of_several) {
+    const YamlNode* const node = map.find(key);
+    const std::string path = this->path(map, key);
+    if (path.empty()) return path;
+    if (one_of_several) {
+      values_.wrong(*node, fmt::format("several copies cannot write one file: {}", path),
+                    "name the PLC apart from its copies");
+      return "";
+    }
+    names_.take_file(*node, path, values_);
+    return path;
+  }
+
+  std::string path(const YamlNode& map, std::string_view key) {
+    const auto written = values_.optional_text(map, key);
+    return written ? beside(reading_.path, *written) : "";
+  }
+
+  SystemPlan& plan() { return reading_.file.plan; }
+
+  SystemReading& reading_;
+  SystemNames& names_ = reading_.names;
+  YamlValues& values_ = reading_.values;
+  std::map<std::string, SourceText> texts_{};  // by path
+};
+
+}  // namespace
+
+void read_plcs(const YamlNode& root, SystemReading& reading) {
+  PlcReader reader(reading);
+  for (const Named& each : entries(root, "plcs", reading.values)) reader.read(each);
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,11 @@
+// The PLCs of a system file.
+#pragma once
+
+#include "tools/rig/system_reading.hpp"
+
+namespace s7200::tools {
+
+/// Adds those below `plcs` to the plan.
+void read_plcs(const YamlNode& root, SystemReading& reading);
+
+}  // namespace s7200::tools
