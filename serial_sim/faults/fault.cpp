@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <ranges>
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
@@ -97,15 +98,13 @@ constexpr std::array kBits{Word<int>{"start", Fault::kStartBit}, Word<int>{"pari
 
 template <auto& words, auto Fault::*member>
 std::string read_word(std::string_view text, Fault& fault) {
-  std::string known;
-  for (const auto& word : words) {
+  for (const auto& word : words)
     if (word.text == text) {
       fault.*member = word.value;
       return {};
     }
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", word.text);
-  }
-  return fmt::format("is none of {}", known);
+  const auto text_of = [](const auto& word) { return word.text; };
+  return fmt::format("is none of {}", fmt::join(words | std::views::transform(text_of), ", "));
 }
 
 template <auto& words, auto Fault::*member>
@@ -302,8 +301,8 @@ class Reader {
  private:
   template <class Rows>
   static std::string unknown(std::string_view what, std::string_view name, const Rows& rows) {
-    std::string known;
-    for (const auto& row : rows) known += fmt::format("{}{}", known.empty() ? "" : ", ", row.name);
+    const auto name_of = [](const auto& row) { return row.name; };
+    const std::string known = fmt::format("{}", fmt::join(rows | std::views::transform(name_of), ", "));
     return name.empty() ? fmt::format("a {} is missing here; there are {}", what, known)
                         : fmt::format("there is no {} '{}'; there are {}", what, stl::shortened(name), known);
   }

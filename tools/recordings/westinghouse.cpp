@@ -131,10 +131,10 @@ class BlockReader final : public FrameReader {
 
 class LoaderReader final : public FrameReader {
  public:
-  ReadFrame read(const RecordedFrame& frame, const RecordedFrame*) override {
+  ReadFrame read(const RecordedFrame& frame, const RecordedFrame* open) override {
     const Data bytes(frame.bytes);
     ReadFrame read;
-    const auto step = step_of(frame);
+    const auto step = step_of(frame, open);
     if (!step) {
       read.text = fmt::format("does not fit the hand-shake: {} was due", due_text());
       step_ = Step::Begin;
@@ -196,10 +196,27 @@ class LoaderReader final : public FrameReader {
            (frame.direction == Direction::Unknown || frame.direction == side_of(step));
   }
 
+  /// A PLC is ready at once: after that it is the computer, which begins anew.
+  static bool is_late(const RecordedFrame& frame, const RecordedFrame* open) {
+    return open != nullptr && open->at && frame.at && *frame.at - *open->at > kMasterTimeout;
+  }
+
+  static bool is_known_opcode(const RecordedFrame& frame) {
+    using westinghouse::LoaderOpcode;
+    constexpr std::array kKnown{LoaderOpcode::Write, LoaderOpcode::Read, LoaderOpcode::Pointers, LoaderOpcode::Block,
+                                LoaderOpcode::Directory};
+    return frame.bytes.size() == 1 && std::ranges::find(kKnown, static_cast<LoaderOpcode>(frame.bytes[0])) != kKnown.end() &&
+           fits(Step::Opcode, frame);
+  }
+
   /// The step that is due, or a landmark; nothing if the frame is neither.
-  std::optional<Step> step_of(const RecordedFrame& frame) const {
+  std::optional<Step> step_of(const RecordedFrame& frame, const RecordedFrame* open) const {
+    if (fits(Step::Begin, frame) && is_late(frame, open)) return Step::Begin;
     const bool ends_without_data = step_ == Step::DataSent && !opcode_ && fits(Step::End, frame);
     if (ends_without_data) return Step::End;
+    // The 02 and 10 06 before it were the begin of a session, not the PLC's readiness.
+    const bool begun = (step_ == Step::HeaderHeard || step_ == Step::End) && is_known_opcode(frame);
+    if (begun) return Step::Opcode;
     if (fits(step_, frame)) return step_;
     const auto landmark = std::ranges::find_if(kLandmarks, [&](Step step) { return fits(step, frame); });
     return landmark == kLandmarks.end() ? std::nullopt : std::optional(*landmark);
@@ -210,7 +227,7 @@ class LoaderReader final : public FrameReader {
     if (from_plc(step) && begins_with(bytes, kRefusal)) return kRefusal.size();
     switch (step) {
       case Step::Opcode:
-        return begins_with(bytes, fixed(Step::HeaderHeard)) || begins_with(bytes, fixed(Step::End)) ? 0 : 1;
+        return std::ranges::any_of(kLandmarks, [&](Step landmark) { return begins_with(bytes, fixed(landmark)); }) ? 0 : 1;
       case Step::Arguments:
         return begins_with(bytes, kAcknowledge) ? up_to(bytes, kAcknowledge.size(), kEndOfArguments) : 0;
       case Step::DataSent:

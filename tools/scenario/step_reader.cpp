@@ -1,6 +1,7 @@
 #include "tools/scenario/step_reader.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 #include "tools/scenario/steps/reception.hpp"
 #include "tools/scenario/steps/steps.hpp"
@@ -70,10 +71,9 @@ const YamlNode* StepReader::find_action(const YamlNode& node) {
     action = &key;
   }
   if (action) return action;
-  std::string known;
-  for (const ScenarioKey& k : keys)
-    if (makes_a_step(k)) known.append(known.empty() ? "" : ", ").append(k.key);
-  values_.wrong(node.keys.empty() ? node : node.keys[0], "a step that does nothing", "it has one of: " + known);
+  auto known = keys | std::views::filter(makes_a_step) | std::views::transform(&ScenarioKey::key);
+  values_.wrong(node.keys.empty() ? node : node.keys[0], "a step that does nothing",
+                fmt::format("it has one of: {}", fmt::join(known, ", ")));
   return nullptr;
 }
 

@@ -1,6 +1,7 @@
 #include "tools/scenario/value_reader.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 namespace s7200::tools {
 
@@ -16,11 +17,11 @@ void ValueReader::check_keys(const YamlNode& map, std::initializer_list<Scenario
     if (key.text == action) continue;
     const auto fits = [&](const ScenarioKey& k) { return k.key == key.text && k.belongs(places, action); };
     if (std::any_of(keys.begin(), keys.end(), fits)) continue;
-    std::string known;
-    for (const ScenarioKey& k : keys)
-      if (k.belongs(places, action)) known.append(known.empty() ? "" : ", ").append(k.key);
+    const auto belongs = [&](const ScenarioKey& k) { return k.belongs(places, action); };
+    auto known = keys | std::views::filter(belongs) | std::views::transform(&ScenarioKey::key);
     const std::string here = action.empty() ? "here" : fmt::format("beside '{}'", action);
-    wrong(key, fmt::format("'{}' has no place {}", stl::shortened(key.text), here), "known: " + known);
+    wrong(key, fmt::format("'{}' has no place {}", stl::shortened(key.text), here),
+          fmt::format("known: {}", fmt::join(known, ", ")));
   }
 }
 
@@ -37,9 +38,8 @@ std::optional<std::string> ValueReader::text(const YamlNode& node) {
 }
 
 std::string ValueReader::parameter_names() const {
-  std::string names;
-  for (const auto& [name, value] : parameters.values) names.append(names.empty() ? "" : ", ").append(name);
-  return names.empty() ? "there are none; 'parameters:' at the top of the file, or --with FILE, has them" : names;
+  if (parameters.values.empty()) return "there are none; 'parameters:' at the top of the file, or --with FILE, has them";
+  return fmt::format("{}", fmt::join(parameters.values | std::views::keys, ", "));
 }
 
 std::optional<Time> ValueReader::time(const YamlNode* node) {

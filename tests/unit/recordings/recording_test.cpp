@@ -435,20 +435,20 @@ TEST(Conversation, AVariableOfPpiHasTheWidthOfItsTypeAndItsAnswerItsValues) {
     return s7::pdu(s7::kRequest, 1, parameters, {});
   };
   const auto found = [](const Bytes& data) { return ppi_answer({s7::kRead, 1}, data); };
-  EXPECT_EQ(
-      ppi_texts({{wanted({{s7::kWord, 3, Area::V, 800}}), found({0xFF, 4, 0, 48, 0, 1, 0, 2, 0xFF, 0xFF})},
-                 {wanted({{s7::kByte, 1, Area::V, 800}}), found({0xFF, 4, 0, 8, 0x41})},
-                 {wanted({{s7::kDouble, 1, Area::V, 800}}), found({0xFF, 4, 0, 32, 0, 1, 0, 2})},
-                 {wanted({{s7::kReal, 1, Area::V, 800}}), found({0xFF, 4, 0, 32, 0x3F, 0xC0, 0, 0})},
-                 {wanted({{s7::kBit, 1, Area::M, 255}}), found({0xFF, 3, 0, 1, 1})},
-                 {wanted({{0x1F, 1, Area::T, 37}}), found({0xFF, 9, 0, 2, 0x12, 0x34})},
-                 {wanted({{s7::kByte, 1, Area::Q, 0}, {s7::kWord, 1, Area::V, 80'000}}), found({0xFF, 4, 0, 8, 7, 0, 5, 0, 0, 0})},
-                 {wanted({{0x1D, 1, Area::V, 800}}), ppi_answer({s7::kRead, 1}, {}, 0x8104)}}),
-      (std::vector<std::string>{"read VW100:3", "VW100:3 = 16#0001 16#0002 16#FFFF", "read VB100", "VB100 = 16#41", "read VD100",
-                                "VD100 = 16#00010002", "read VD100:real", "VD100:real = 1.5", "read M31.7", "M31.7 = 1",
-                                "read T37", "T37 = 16#1234", "read QB0, VW10000",
-                                "QB0 = 16#07, VW10000: outside the memory of this CPU", "read V byte 100:1 of type 16#1D",
-                                "error 8104: function not available"}));
+  EXPECT_EQ(ppi_texts({{wanted({{s7::kWord, 3, Area::V, 800}}), found({0xFF, 4, 0, 48, 0, 1, 0, 2, 0xFF, 0xFF})},
+                       {wanted({{s7::kByte, 1, Area::V, 800}}), found({0xFF, 4, 0, 8, 0x41})},
+                       {wanted({{s7::kDouble, 1, Area::V, 800}}), found({0xFF, 4, 0, 32, 0, 1, 0, 2})},
+                       {wanted({{s7::kReal, 1, Area::V, 800}}), found({0xFF, 4, 0, 32, 0x3F, 0xC0, 0, 0})},
+                       {wanted({{s7::kBit, 1, Area::M, 255}}), found({0xFF, 3, 0, 1, 1})},
+                       {wanted({{0x1F, 1, Area::T, 37}}), found({0xFF, 9, 0, 2, 0x12, 0x34})},
+                       {wanted({{s7::kByte, 1, Area::Q, 0}, {s7::kWord, 1, Area::V, 80'000}}),
+                        found({0xFF, 4, 0, 8, 7, 0, 5, 0, 0, 0})},
+                       {wanted({{0x1D, 1, Area::V, 800}}), ppi_answer({s7::kRead, 1}, {}, 0x8104)}}),
+            (std::vector<std::string>{"read VW100:3", "VW100:3 = 16#0001 16#0002 16#FFFF", "read VB100", "VB100 = 16#41",
+                                      "read VD100", "VD100 = 16#00010002", "read VD100:real", "VD100:real = 1.5",
+                                      "read M31.7", "M31.7 = 1", "read T37", "T37 = 16#1234", "read QB0, VW10000",
+                                      "QB0 = 16#07, VW10000: outside the memory of this CPU",
+                                      "read V byte 100:1 of type 16#1D", "error 8104: function not available"}));
 }
 
 TEST(Conversation, WritesModesAndTheClockOfPpiAreInWords) {
@@ -460,18 +460,19 @@ TEST(Conversation, WritesModesAndTheClockOfPpiAreInWords) {
     if (kind == 0x80) parameters.insert(parameters.end(), {0, 0, 0, 0});
     return s7::pdu(s7::kUserData, 1, parameters, data);
   };
-  EXPECT_EQ(ppi_texts({{s7::pdu(s7::kRequest, 1, write, {0, 4, 0, 32, 0, 5, 0, 6}), ppi_answer({s7::kWrite, 1}, {0xFF})},
-                       {s7::pdu(s7::kRequest, 1, write, {0, 4, 0, 32, 0, 5, 0, 6}), ppi_answer({s7::kWrite, 1}, {0x03})},
-                       {s7::pdu(s7::kRequest, 1, {s7::kRun}, {}), ppi_answer({s7::kRun}, {})},
-                       {s7::pdu(s7::kRequest, 1, {s7::kStop}, {}), ppi_answer({s7::kStop}, {})},
-                       {s7::pdu(s7::kRequest, 1, {s7::kSetup, 0, 0, 1, 0, 1, 3, 0xC0}, {}),
-                        ppi_answer({s7::kSetup, 0, 0, 1, 0, 1, 0, 240}, {})},
-                       {clock(0x40, s7::kReadClock, {0x0A, 0, 0, 0}), clock(0x80, s7::kReadClock, time)},
-                       {clock(0x40, s7::kSetClock, time), clock(0x80, s7::kSetClock, {0x0A, 0, 0, 0})}}),
-            (std::vector<std::string>{"write VW100:2 = 16#0005 16#0006", "VW100:2 written", "write VW100:2 = 16#0005 16#0006",
-                                      "VW100:2: not allowed", "go to RUN", "goes to RUN", "go to STOP", "goes to STOP",
-                                      "set up: 960 bytes at once", "set up: 240 bytes at once", "read the clock",
-                                      "clock: 2026-11-22 15:45:30", "set the clock to 2026-11-22 15:45:30", "clock set"}));
+  EXPECT_EQ(
+      ppi_texts({{s7::pdu(s7::kRequest, 1, write, {0, 4, 0, 32, 0, 5, 0, 6}), ppi_answer({s7::kWrite, 1}, {0xFF})},
+                 {s7::pdu(s7::kRequest, 1, write, {0, 4, 0, 32, 0, 5, 0, 6}), ppi_answer({s7::kWrite, 1}, {0x03})},
+                 {s7::pdu(s7::kRequest, 1, {s7::kRun}, {}), ppi_answer({s7::kRun}, {})},
+                 {s7::pdu(s7::kRequest, 1, {s7::kStop}, {}), ppi_answer({s7::kStop}, {})},
+                 {s7::pdu(s7::kRequest, 1, {s7::kSetup, 0, 0, 1, 0, 1, 3, 0xC0}, {}),
+                  ppi_answer({s7::kSetup, 0, 0, 1, 0, 1, 0, 240}, {})},
+                 {clock(0x40, s7::kReadClock, {0x0A, 0, 0, 0}), clock(0x80, s7::kReadClock, time)},
+                 {clock(0x40, s7::kSetClock, time), clock(0x80, s7::kSetClock, {0x0A, 0, 0, 0})}}),
+      (std::vector<std::string>{"write VW100:2 = 16#0005 16#0006", "VW100:2 written", "write VW100:2 = 16#0005 16#0006",
+                                "VW100:2: not allowed", "go to RUN", "goes to RUN", "go to STOP", "goes to STOP",
+                                "set up: 960 bytes at once", "set up: 240 bytes at once", "read the clock",
+                                "clock: 2026-11-22 15:45:30", "set the clock to 2026-11-22 15:45:30", "clock set"}));
 }
 
 TEST(Conversation, TheSameFrameAfterTheMastersTimeoutIsTheRequestRepeated) {
@@ -493,12 +494,11 @@ TEST(Conversation, TheSameFrameAfterTheMastersTimeoutIsTheRequestRepeated) {
 }
 
 TEST(Conversation, AnAnswerAfterARepeatedRequestIsTheAnswerToThat) {
-  for (const auto& [protocol, request, answer] :
-       {std::tuple{"modbus", "01 06 00 00 00 01 48 0A", "01 06 00 00 00 01 48 0A"},
-        std::tuple{"modbus", "01 08 00 00 12 34 ED 7C", "01 08 00 00 12 34 ED 7C"},
-        std::tuple{"pc1000-lan", "0A 05 00 00 00 0F", "0A 05 01 00 00 10"}}) {
-    const auto frames =
-        read(recording_of(fmt::format("0.000 {0}\n0.250 {0}\n0.260 {1}\n0.300 {0}\n0.310 {1}\n", request, answer)), protocol);
+  for (const auto& [protocol, request, answer] : {std::tuple{"modbus", "01 06 00 00 00 01 48 0A", "01 06 00 00 00 01 48 0A"},
+                                                  std::tuple{"modbus", "01 08 00 00 12 34 ED 7C", "01 08 00 00 12 34 ED 7C"},
+                                                  std::tuple{"pc1000-lan", "0A 05 00 00 00 0F", "0A 05 01 00 00 10"}}) {
+    const auto frames = read(
+        recording_of(fmt::format("0.000 {0}\n0.250 {0}\n0.260 {1}\n0.300 {0}\n0.310 {1}\n", request, answer)), protocol);
     ASSERT_EQ(frames.size(), 5U);
     EXPECT_EQ(frames[0].other, std::nullopt) << request;
     EXPECT_EQ(frames[1].repeats, 0U);
@@ -514,8 +514,9 @@ TEST(Conversation, ARepeatedReadIsInNoDoubt) {
 }
 
 TEST(Conversation, AScenarioLeavesOutRequestsThatMayHaveBeenAnsweredByTheirEcho) {
-  const auto frames = read(recording_of("0.000 09 06 00 0A 00 05 68 83\n0.250 09 06 00 0A 00 05 68 83\n"
-                                        "0.500 01 03 00 00 00 01 84 0A\n0.525 01 03 02 12 34 B5 33\n"));
+  const auto frames =
+      read(recording_of("0.000 09 06 00 0A 00 05 68 83\n0.250 09 06 00 0A 00 05 68 83\n"
+                        "0.500 01 03 00 00 00 01 84 0A\n0.525 01 03 02 12 34 B5 33\n"));
   const Playback left = playback(frames, {}, {});
   EXPECT_EQ(left.notes, (std::vector<std::string>{"line 1: left out: the same after it (line 2) may be its late echo",
                                                   "line 2: left out: it may be the late echo of line 1"}));
@@ -546,9 +547,9 @@ TEST(Conversation, RequestsOfAConnectionWhoseAnswersAreMissingAreNotExpectedToBe
   const Bytes answer = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 2, 0x12, 0x34}});
   const auto asked = static_cast<std::uint32_t>(request.size()), answered = static_cast<std::uint32_t>(answer.size());
   const Playback left = playback(
-      read(recording_of(ethernet_pcap({segment(true, 100, request), segment(false, 500, answer),
-                                       segment(true, 100 + asked, request), segment(false, 500 + 2 * answered, answer),
-                                       segment(true, 100 + 2 * asked, request)}))),
+      read(recording_of(
+          ethernet_pcap({segment(true, 100, request), segment(false, 500, answer), segment(true, 100 + asked, request),
+                         segment(false, 500 + 2 * answered, answer), segment(true, 100 + 2 * asked, request)}))),
       {}, {});
   EXPECT_EQ(left.notes, std::vector<std::string>{"packet 3: left out: the recording is cut off after it"});
   EXPECT_EQ(left.scenario.find("silence"), std::string::npos);
@@ -666,15 +667,21 @@ TEST(Conversation, ALoaderSessionIsFoundAgainAfterWhatDoesNotFit) {
   }
   lines.pop_back();
   for (std::size_t place = 0; place < lines.size(); ++place) {
-    std::string without, damaged, broken_off;
+    std::string without, damaged, broken_off, timed;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       without += i == place ? "" : lines[i] + "\n";
       damaged += (i == place ? "55 AA" : lines[i]) + "\n";
       broken_off += i < place ? lines[i] + "\n" : "";
+      timed += i < place ? fmt::format("0.{:02}0 {}\n", i, lines[i]) : "";
     }
+    for (std::size_t i = 0; i < lines.size(); ++i) timed += fmt::format("1.{:02}0 {}\n", i, lines[i]);
     EXPECT_EQ(of_next(without), right) << "without step " << place + 1;
     EXPECT_EQ(of_next(damaged), right) << "with step " << place + 1 << " damaged";
-    EXPECT_EQ(of_next(broken_off), right) << "broken off before step " << place + 1;
+    const auto all = texts(read(recording_of(timed), "pc500-loader"));
+    EXPECT_EQ(std::vector(all.end() - 15, all.end()), right) << "broken off before step " << place + 1;
+    const auto timeless = of_next(broken_off);
+    EXPECT_TRUE(std::equal(timeless.begin() + 2, timeless.end(), right.begin() + 2, right.end()))
+        << "from the opcode on, broken off before step " << place + 1;
   }
 }
 

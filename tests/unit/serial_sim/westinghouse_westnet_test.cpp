@@ -150,6 +150,7 @@ TEST(Westnet, W7WhatIsNotUnderstoodIsNotAnswered) {
   EXPECT_EQ(plc(highway(ReadHighwayStatus)), "09 02 00 00 00 0b");
   Addressed loud("malformed=04");
   EXPECT_EQ(loud(wrong), "ff 04");
+  loud.bench.wait(200 * kMillisecond);
   EXPECT_EQ(loud(highway(ReadHighwayStatus)), "09 02 04 00 00 0f");
 }
 

@@ -71,9 +71,9 @@ std::optional<SlaveTarget> RecordingOptions::live() const {
                   stl::shortened(file)));
 }
 
-Stamps RecordingOptions::complete(Stamps stamps) const {
-  stamps.timeout = timeout;
-  return stamps;
+Stamps RecordingOptions::complete(Stamps known) const {
+  known.timeout = timeout;
+  return known;
 }
 
 SerialFormat RecordingOptions::format() const { return line.over(find_protocol(protocol)->format); }
@@ -122,8 +122,8 @@ std::optional<ReadRecording> read_conversation(const RecordingOptions& options) 
   read.recording = std::move(*recording);
   const bool over_tcp =
       std::ranges::any_of(read.recording.frames, [](const RecordedFrame& frame) { return frame.stream != 0; });
-  read.stamps = options.complete(
-      {.character = over_tcp ? 0 : options.format().character_time(), .at_end = options.stamps == "end"});
+  read.stamps =
+      options.complete({.character = over_tcp ? 0 : options.format().character_time(), .at_end = options.stamps == "end"});
   read.frames = conversation(read.recording, *find_recorded_protocol(options.protocol), read.stamps);
   return read;
 }

@@ -36,7 +36,7 @@ struct RecordingOptions {
   std::optional<SlaveTarget> live() const;
 
   /// With the master's time-out.
-  Stamps complete(Stamps stamps) const;
+  Stamps complete(Stamps known) const;
 
   /// Of the line: as the protocol has it where no option says otherwise.
   SerialFormat format() const;

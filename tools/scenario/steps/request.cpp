@@ -2,6 +2,7 @@
 #include "serial_sim/modbus/request.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 #include "serial_sim/modbus/address.hpp"
 #include "tools/scenario/answer_reader.hpp"
@@ -32,9 +33,8 @@ std::optional<modbus::DataAddress> area_and_number(const std::string& written, s
   for (const modbus::AreaRow& row : modbus::areas())
     if (row.word == lower_case(written.substr(0, blank)) && first && *first >= 0 && *first <= 0xFFFF)
       return modbus::DataAddress{row.area, static_cast<std::uint16_t>(*first)};
-  std::string words;
-  for (const modbus::AreaRow& row : modbus::areas()) words.append(words.empty() ? "" : ", ").append(row.word);
-  why = fmt::format("'{}' is not a place: one of {}, and a number from 0 to 65535", stl::shortened(written), words);
+  why = fmt::format("'{}' is not a place: one of {}, and a number from 0 to 65535", stl::shortened(written),
+                    fmt::join(modbus::areas() | std::views::transform(&modbus::AreaRow::word), ", "));
   return {};
 }
 
