@@ -203,8 +203,8 @@ class Verbs(Case):
         for setting, why in (("HR9999=1", "HR9999 is not there: holding_registers=2048"), ("HR2048=1,2", "HR2049 is not there"),
                              ("CR1025=1", "CR1025 is not there: coils=1024"), ("IR257=1", "input_registers=256"), ("IN1025=1", "inputs=1024")):
             self.assertIn(why, self.ends(UNUSABLE, "master", "westinghouse:pc1200", "slave-id", "--plc", setting).stderr)
-        self.ends(FINE, "master", "westinghouse:pc1200", "--plc", "HR2047=1,2", "read", "holding 2047")
-        self.ends(FINE, "master", "westinghouse:pc1200", "--plc", "holding_registers=9999", "--plc", "HR9999=1", "read", "holding 9998")
+        self.ends(FINE, "master", "westinghouse:pc1200", "--plc", "HR2047=1,2", "read", "holding", "2046:2")
+        self.ends(FINE, "master", "westinghouse:pc1200", "--plc", "holding_registers=9999", "--plc", "HR9999=1", "read", "holding", 9998)
 
     def test_the_line_of_a_simulated_plc_is_captured_and_decoded_in_its_protocol(self):
         for protocol, model, words, said in (

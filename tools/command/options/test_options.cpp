@@ -34,9 +34,9 @@ void TestOptions::add_to(CLI::App& app) {
   app.add_option("--against", against,
                  "send the same to another program and show where the answers or their times differ first")
       ->type_name("TARGET");
-  app.add_option("--at", suite.at,
-                 "where the master joins a target that is a system: a line, or a PLC on it, gateway.1 for its port 1 [the "
-                 "only line]")
+  app.add_option(
+         "--at", suite.at,
+         "where the master joins a target that is a system: a line or a PLC on it, gateway.1 for port 1 [the only line]")
       ->type_name("NAME");
   other.add_to(app);
   app.add_flag("--ignore-timing", ignore_timing, "with --against: only answers count");
