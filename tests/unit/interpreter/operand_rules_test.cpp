@@ -59,8 +59,11 @@ TEST(OperandRules, APresetOfCtudMayBeNegativeBecauseItsValueMay) {
 // --- how much of memory ---
 
 TEST(OperandRules, TextsMayEndAtTheLastByteOfVMemory) {
-  const std::pair<const char*, std::uint32_t> kLengths[] = {
-      {"ITA VW0, {}, 0", 8}, {"DTA VD0, {}, 0", 12}, {"ITS VW0, {}, 0", 9}, {"DTS VD0, {}, 0", 13}};
+  const std::pair<const char*, std::uint32_t> kLengths[] = {{"ITA VW0, {}, 0", 8},
+                                                            {"DTA VD0, {}, 0", 12},
+                                                            {"RTA VD0, {}, 16#30", 3},
+                                                            {"ITS VW0, {}, 0", 9},
+                                                            {"DTS VD0, {}, 0", 13}};
   for (const auto& [statement, length] : kLengths) {
     const auto at = [&, text = statement](std::uint32_t byte) {
       return verdict(fmt::format(fmt::runtime(text), fmt::format("VB{}", byte)), cpu224());
