@@ -150,7 +150,7 @@ TEST(History, RandomWalksForwardsAndBackwardsStandWhereAPlainRunStands) {
     for (; actions < deeds().size() && deeds()[actions].first == at; ++actions)
       perform(deeds()[actions].second, forwards.simulation);
     if (deed_due) forwards.run_to(at);
-    plain.push_back({{at, actions, true, false, forwards.simulation.time()}, forwards.simulation.snapshot()});
+    plain.push_back({{at, actions, true, forwards.simulation.time(), false}, forwards.simulation.snapshot()});
   }
   for (int i = 0; i < walks; ++i) {
     const auto& [moment, state] = plain[chance() % plain.size()];
