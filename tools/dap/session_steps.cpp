@@ -93,14 +93,17 @@ bool Session::send_what_is_due() {
 void Session::run() {
   while (running_) {
     if (pause_asked_) return report({.reason = StopReason::Request, .station = looks_at()}, "pause");
-    const bool stands = stations() == 1 && !simulation().system().has_schedule() && cpu().state().mode == Mode::Stop &&
-                        !debuggee_->history().in_the_past();
+    const History& history = debuggee_->history();
+    const bool stands = stations() == 1 && !simulation().system().has_schedule() && cpu().state().mode == Mode::Stop;
     const bool waits = simulation().has_master() && simulation().master().asks();
-    if (stands && !waits) return report({.reason = StopReason::CpuStopped, .station = looks_at()}, "");
+    if (stands && !waits && !history.in_the_past())
+      return report({.reason = StopReason::CpuStopped, .station = looks_at()}, "");
     send_what_is_due();
     const bool more = frames_sent_ < frames_.size();
     const Time now = simulation().time();
-    const Stop stop = stepper_->run(running_->goal, more && now < send_after_ ? send_after_ : kNever, more || stands);
+    Time limit = more && now < send_after_ ? send_after_ : kNever;
+    if (stands && !waits) limit = history.newest().time;
+    const Stop stop = stepper_->run(running_->goal, limit, more || stands);
     if (!debuggee_->failure().empty()) return report(stop, "pause");
     if (stop.reason == StopReason::Request) {
       if (!pause_asked_) return;

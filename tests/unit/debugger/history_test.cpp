@@ -29,6 +29,7 @@ struct StopAt final : Observer {
   explicit StopAt(const Cpu& watched, std::uint64_t number) : cpu(watched), instructions(number) {}
   bool before(std::uint32_t) override { return cpu.state().instructions < instructions; }
   bool wants_instructions() const override { return true; }
+  Time idles_until(Time now) override { return now; }  // in STOP nothing more is executed
   const Cpu& cpu;
   std::uint64_t instructions;
 };
