@@ -239,16 +239,7 @@ class Request {
         !std::equal(kProgram.begin(), kProgram.end(), parameters_.end() - static_cast<std::ptrdiff_t>(kProgram.size())))
       return refused(Refusal::Unknown);
     trace(0);
-    const Mode wanted = parameters_[0] == kRun ? Mode::Run : Mode::Stop;
-    if (wanted != core_.s.mode) {
-      if (wanted == Mode::Stop) {
-        scan::enter_stop(core_);
-        core_.s.stopped_by_master = true;
-      } else {
-        scan::enter_run(core_);
-        scan::begin(core_);
-      }
-    }
+    scan::change_mode(core_, parameters_[0] == kRun ? Mode::Run : Mode::Stop);
     return {.parameters = {parameters_[0]}};
   }
 

@@ -144,6 +144,17 @@ void enter_stop(Core& core) {
   core.attend();
 }
 
+void change_mode(Core& core, Mode wanted) {
+  if (wanted == core.s.mode) return;
+  if (wanted == Mode::Stop) {
+    enter_stop(core);
+    core.s.stopped_by_master = true;
+  } else {
+    enter_run(core);
+    begin(core);
+  }
+}
+
 void begin(Core& core) {
   State& s = core.s;
   begin_phase(core, Phase::ReadInputs, 0);

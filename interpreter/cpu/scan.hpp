@@ -15,6 +15,9 @@
 
 namespace s7200::scan {
 
+/// As a programming device asks for it; nothing if the CPU is in that mode already.
+void change_mode(Core& core, Mode wanted);
+
 void enter_run(Core& core);
 /// At once, from anywhere: disables interrupts, ends pulses, and switches the output points off.
 void enter_stop(Core& core);

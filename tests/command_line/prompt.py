@@ -194,7 +194,10 @@ class Prompt(unittest.TestCase):
         terminal = self.session(size=(40, 10))
         self.assertIn("layout needs a terminal of 80×24, and this one has 40×10", terminal.command("layout on"))
         terminal.type("print VW100 VW102 VW104 VW106 VW108 VW110 VW112")
+        terminal.until("VW112")
         terminal.resize(60, 12)
+        shown = terminal.until(PROMPT, "VW112")
+        self.assertIn("\r\x1b[J" + PROMPT, shown, "the line is written anew, not once more beside itself")
         terminal.type("\n")
         terminal.until("VW112    16#0000")
         terminal.until(PROMPT)
@@ -209,13 +212,23 @@ class Prompt(unittest.TestCase):
         self.assertIn("line 76 ", shown)
         self.assertIn("scan 3", terminal.command("scan 2"))
         terminal.resize(40, 10)
-        terminal.until("layout needs a terminal of 80×24, and this one has 40×10")
+        terminal.until("layout needs a terminal of 80×24, and this one has 40×10; it comes back when there is room")
         terminal.resize(100, 40)
-        for command, region in (("layout on", "\x1b[16;40r"), ("layout off", "\x1b[1;40r"), ("layout on", "\x1b[16;40r")):
+        terminal.until("\x1b[16;40r", "VW100    16#0000", PROMPT)
+        for command, region in (("layout off", "\x1b[1;40r"), ("layout on", "\x1b[16;40r")):
             terminal.type(command + "\n")
             terminal.until(region, PROMPT)
         self.quit(terminal)
         self.assertIn("\x1b[1;40r", terminal.text)
+
+    def test_the_layout_shows_memory_once_and_says_how_much_has_no_room(self):
+        terminal = self.session()
+        terminal.command("display VB0:160")
+        terminal.command("layout on")
+        shown = terminal.command("scan 2")
+        self.assertEqual(len(re.findall(r"^VB0 ", re.sub(r"\x1b\[[0-9;]*[A-Za-z]", "\n", shown), re.M)), 1, shown)
+        self.assertRegex(shown, r"… \d+ more lines; 'display' prints all")
+        self.quit(terminal)
 
     def test_the_layout_lives_while_the_program_runs_until_ctrl_c(self):
         terminal = self.session()

@@ -30,9 +30,12 @@ constexpr int kMostAtOnce = 16;  // things that came in, before the simulation g
 
 class SimulationMachine final : public LiveMachine {
  public:
-  explicit SimulationMachine(serial::Simulation& simulation) : simulation_(simulation) {}
+  SimulationMachine(serial::Simulation& simulation, bool in_stop_too) : simulation_(simulation), in_stop_too_(in_stop_too) {}
   Time time() const override { return simulation_.time(); }
-  serial::Halt run_until(Time end) override { return simulation_.run_until(end); }
+  serial::Halt run_until(Time end) override {
+    const bool stopped = simulation_.cpu().state().mode == Mode::Stop;
+    return stopped && in_stop_too_ ? simulation_.system().run_until(end) : simulation_.run_until(end);
+  }
   Time silent_until() const override { return simulation_.cpu().alike_until(); }
 
   /// A look at every pair of scans costs too much while masters ask, and is worth it while nobody does.
@@ -44,6 +47,7 @@ class SimulationMachine final : public LiveMachine {
  private:
   std::optional<SteadyScansUse> steady_{};
   serial::Simulation& simulation_;
+  bool in_stop_too_;
 };
 
 std::vector<LiveEnd> end_of(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge) {
@@ -199,7 +203,7 @@ class LiveRun::Engine {
 };
 
 LiveRun::LiveRun(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge)
-    : machine_(std::make_unique<SimulationMachine>(simulation)),
+    : machine_(std::make_unique<SimulationMachine>(simulation, options.in_stop_too)),
       engine_(std::make_unique<Engine>(*machine_, end_of(simulation, options, bridge), options)) {}
 
 LiveRun::LiveRun(LiveMachine& machine, const std::vector<LiveEnd>& ends, const LiveRunOptions& options)

@@ -19,6 +19,7 @@ struct LiveRunOptions {
   serial::LineSettings line{};  ///< the other end of the line
   LiveMessages messages{};
   const std::atomic<bool>* stop = nullptr;  ///< ends a run as an interruption does; not owned
+  bool in_stop_too = false;                 ///< a run that begins in STOP lets time pass
 };
 
 /// What runs in real time: a simulation, or a system.

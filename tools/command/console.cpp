@@ -29,22 +29,39 @@ std::optional<std::string> read_line(LineEditor& editor, std::string& last) {
   }
 }
 
-Debugger::Error switch_layout(Screen& screen, bool on) {
-  std::string why;
-  if (!on) screen.switch_off();
-  if (on && !screen.on() && !screen.switch_on(why)) return why;
-  return {};
-}
+/// The layout: while it is wanted, it is shown whenever the terminal has room for it.
+class View {
+ public:
+  explicit View(Debugger& debugger) : debugger_(debugger) {}
 
-/// The terminal has another size, or the process has been stopped and goes on.
-void fit(Screen& screen, Debugger& debugger) {
-  std::string why;
-  if (!screen.on()) return;
-  if (screen.fit(why))
-    screen.draw(debugger.view(screen.view_rows()));
-  else
-    std::cout << why << '\n' << std::flush;
-}
+  Debugger::Error turn(bool on) {
+    std::string why;
+    if (!on) screen_.switch_off();
+    if (on && !screen_.on() && !screen_.switch_on(why)) return why;
+    wanted_ = on;
+    return {};
+  }
+  bool shown() const { return screen_.on(); }
+  void draw() {
+    if (shown()) screen_.draw(debugger_.view(screen_.view_rows()));
+  }
+
+  /// The terminal has another size, or the process has been stopped and goes on.
+  void fit() {
+    std::string why;
+    const bool was_shown = shown();
+    if (!wanted_) return;
+    if (was_shown ? screen_.fit(why) : screen_.switch_on(why))
+      draw();
+    else if (was_shown)
+      std::cout << why << "; it comes back when there is room\n" << std::flush;
+  }
+
+ private:
+  Debugger& debugger_;
+  Screen screen_{{.name = "layout", .fewest_columns = 80, .fewest_rows = 24, .view = [](int, int) { return kLayoutRows; }}};
+  bool wanted_ = false;
+};
 
 }  // namespace
 
@@ -53,25 +70,24 @@ void talk(Debugger& debugger) {
     auto [word, candidates] = debugger.completions(before);
     return Completions{word, std::move(candidates)};
   });
-  Screen screen({.name = "layout", .fewest_columns = 80, .fewest_rows = 24, .view = [](int, int) { return kLayoutRows; }});
+  View view(debugger);
   auto drawn = std::chrono::steady_clock::now();
   const auto refresh = [&] {
     const auto now = std::chrono::steady_clock::now();
     if (now - drawn < kRefreshEvery) return;
     drawn = now;
     if (editor.take_change())
-      fit(screen, debugger);
+      view.fit();
     else
-      screen.draw(debugger.view(screen.view_rows()));
+      view.draw();
   };
-  debugger.set_layout({.turn = [&screen](bool on) { return switch_layout(screen, on); },
-                       .shown = [&screen] { return screen.on(); },
-                       .refresh = refresh});
-  editor.when_changed([&screen, &debugger] { fit(screen, debugger); });
+  debugger.set_layout(
+      {.turn = [&view](bool on) { return view.turn(on); }, .shown = [&view] { return view.shown(); }, .refresh = refresh});
+  editor.when_changed([&view] { view.fit(); });
   std::string last;
   while (!debugger.quit_asked()) {
     forget_ctrl_c();  // it has ended the run, and is not meant for the view after it
-    if (screen.on()) screen.draw(debugger.view(screen.view_rows()));
+    view.draw();
     const auto line = read_line(editor, last);
     if (!line) break;
     if (const auto error = debugger.execute(*line)) std::cout << stl::printable(*error) << '\n';

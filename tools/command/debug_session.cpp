@@ -23,6 +23,7 @@ struct StepOf {
   SessionSteps::Step operator()(const InjectFault& inject) const {
     return {.at = at, .fault = inject.fault ? serial::to_text(*inject.fault) : "none"};
   }
+  SessionSteps::Step operator()(const SetMode&) const { return refuse("the mode was changed"); }
   SessionSteps::Step operator()(const SetStack&) const { return refuse("the logic stack was set"); }
   SessionSteps::Step operator()(const Force&) const { return refuse("values were forced"); }
   SessionSteps::Step operator()(const Unforce&) const { return {}; }

@@ -13,8 +13,11 @@ DebuggeeRun::DebuggeeRun(Rig& rig, const DebuggeeOptions& options, SystemBridges
   has_bridges_ = bridge != nullptr || !bridges_.empty();
   realtime_ = has_bridges_ || options.bridge.realtime();
   serial::Simulation& simulation = rig.simulation();
-  const LiveRunOptions live{
-      .speed = options.bridge.speed(), .line = options.rig.on_line(options.master), .messages = messages, .stop = stop};
+  const LiveRunOptions live{.speed = options.bridge.speed(),
+                            .line = options.rig.on_line(options.master),
+                            .messages = messages,
+                            .stop = stop,
+                            .in_stop_too = true};
   if (!options.rig.plan()) {
     live_ = std::make_unique<LiveRun>(simulation, live, bridge);
     return;

@@ -16,6 +16,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "tools/command/line_history.hpp"
+#include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
@@ -155,6 +156,8 @@ struct LineEditor::Implementation {
   void look_again() {
     el_set(edit, EL_PREP_TERM, 1);
     el_resize(edit);
+    fmt::print("{}", can_redraw(stdout) ? "\r\x1b[J" : "\r");  // the line is written anew, from its beginning
+    std::fflush(stdout);
     if (when_changed) when_changed();
     el_set(edit, EL_REFRESH);
   }

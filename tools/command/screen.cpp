@@ -100,6 +100,7 @@ bool Screen::switch_on(std::string& why) {
     why = "this terminal cannot keep a part of the screen in place; TERM says which one it is";
     return false;
   }
+  if (!measure(why)) return false;
   on_ = true;
   if (!fit(why)) return false;
   for (const int number : kKilling) set_handler(number, restore_and_go);
@@ -116,14 +117,20 @@ void Screen::switch_off() {
   put(std::string(restoring));
 }
 
-bool Screen::fit(std::string& why) {
+/// The terminal as it is now; false if it is too small.
+bool Screen::measure(std::string& why) {
   winsize size{};
   if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) size = {};
   columns_ = size.ws_col;
   rows_ = size.ws_row;
-  if (columns_ < plan_.fewest_columns || rows_ < plan_.fewest_rows) {
-    why = fmt::format("{} needs a terminal of {}×{}, and this one has {}×{}", plan_.name, plan_.fewest_columns,
-                      plan_.fewest_rows, columns_, rows_);
+  if (columns_ >= plan_.fewest_columns && rows_ >= plan_.fewest_rows) return true;
+  why = fmt::format("{} needs a terminal of {}×{}, and this one has {}×{}", plan_.name, plan_.fewest_columns,
+                    plan_.fewest_rows, columns_, rows_);
+  return false;
+}
+
+bool Screen::fit(std::string& why) {
+  if (!measure(why)) {
     switch_off();
     return false;
   }

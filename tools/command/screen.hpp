@@ -41,6 +41,8 @@ class Screen {
   bool fit(std::string& why);
 
  private:
+  bool measure(std::string& why);
+
   Plan plan_;
   bool on_ = false;
   int columns_ = 0, rows_ = 0, view_rows_ = 1;

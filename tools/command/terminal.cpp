@@ -30,7 +30,7 @@ void print_message(std::string_view kind, std::string_view message) {
 bool colour_wanted(std::FILE* stream) {
   if (kept && stream == stderr) return false;
   const char* no_color = std::getenv("NO_COLOR");
-  return is_terminal(stream) && !(no_color && *no_color);
+  return can_redraw(stream) && !(no_color && *no_color);
 }
 
 bool can_redraw(std::FILE* stream) {

@@ -8,7 +8,7 @@
 
 namespace s7200::tools {
 
-/// Colour on a terminal, unless NO_COLOR is set to anything but nothing.
+/// Colour on a terminal that knows control sequences, unless NO_COLOR is set to anything but nothing.
 bool colour_wanted(std::FILE* stream);
 
 /// Whether what is on the screen can be written over: a terminal that knows control sequences.

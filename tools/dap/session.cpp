@@ -178,15 +178,17 @@ Json Session::dispatch(const Request& request, const Json& arguments) {
 /// The station that a request names, which does not stand in its references then; nothing if it names none.
 std::optional<std::size_t> Session::take_station(Json& arguments) const {
   std::optional<std::int64_t> station;
-  const auto take_number = [&](const char* key, std::int64_t of_a_station) {
+  const auto take_number = [&](const char* key, std::int64_t of_a_station, std::string_view what) {
     if (!arguments.contains(key)) return;
     const auto number = arguments[key].get<std::int64_t>();
     station = number / of_a_station;
+    if (number < 0 || *station >= static_cast<std::int64_t>(stations()))
+      throw Refused(fmt::format("there is no {} {}", what, number));
     arguments[key] = number % of_a_station;
   };
   if (arguments.contains("threadId")) station = arguments["threadId"].get<std::int64_t>() - 1;
-  take_number("frameId", kFramesOfAStation);
-  take_number("variablesReference", kContainersOfAStation);
+  take_number("frameId", kFramesOfAStation, "frame");
+  take_number("variablesReference", kContainersOfAStation, "variablesReference");
   for (const char* const key : {"memoryReference", "name"}) {
     if (!arguments.contains(key) || (key == std::string_view("name") && !arguments.value("asAddress", false))) continue;
     const auto text = arguments[key].get<std::string>();
@@ -326,6 +328,9 @@ void Session::begin(std::shared_ptr<Debuggee> debuggee) {
     print_of(stop.station, filled_in(stop.log, at), "console", standing_at(at.state()));
   };
   stepper_->on_answer = [this](const serial::Exchange& exchange) { print(exchange_text(exchange, master().timeout)); };
+  stepper_->on_unasked = [this](const Transmission& sent) {
+    print(unasked_text(sent.bytes) + fmt::format("from {} to {}", moment_text(sent.from), moment_text(sent.to)));
+  };
   stepper_->on_record = [this](std::size_t station, const TraceRecord& record) {
     if (record.kind == TraceKind::RuntimeError && !first_error_) first_error_ = {station, record};
   };

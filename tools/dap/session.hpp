@@ -198,6 +198,7 @@ class Session {
   // What the protocol has no requests for (session_extras.cpp).
   Json send_frame(const Json& arguments);
   Json inject_fault(const Json& arguments);
+  void change_mode(const std::string& word);
   Json force(const Json& arguments);
   Json unforce(const Json& arguments);
   Json timeline(const Json& arguments);

@@ -97,7 +97,7 @@ Json Session::place(StopKind kind, const std::string& group, const Json& wanted,
       for (StopPoint& stop : make(one, answer)) {
         stop.number = number;
         if (stop.range) stop.value = stop.range->bytes_in(debuggee_->history().station(stop.station).cpu().state().image);
-        if (!no_debug_) stepper_->stops.push_back(std::move(stop));
+        if (!no_debug_) stepper_->add(std::move(stop));
       }
     } catch (const Refused& refused) {
       answer["verified"] = false;
@@ -250,15 +250,11 @@ std::vector<StopPoint> Session::data_stops(const Json& wanted) {
   std::string why;
   const auto range = parse_range(name, cpu().program(), why);
   if (!range) throw Refused(why);
+  if (access != "read" && access != "write" && access != "readWrite")
+    throw Refused(fmt::format("accessType: '{}' is not read, write or readWrite", stl::shortened(access)));
   const On written = lower_case(id).ends_with(" write") ? On::Write : On::Change;
-  std::vector<On> on;
-  if (access == "read" || access == "readWrite") on.push_back(On::Read);
-  if (access == "write" || access == "readWrite") on.push_back(written);
-  if (on.empty()) throw Refused(fmt::format("accessType: '{}' is not read, write or readWrite", stl::shortened(access)));
-  std::vector<StopPoint> stops;
-  for (const On one : on)
-    stops.push_back(with_conditions({.station = of->station, .on = one, .range = *range, .name = name}, wanted));
-  return stops;
+  const On on = access == "read" ? On::Read : access == "write" ? written : On::ReadWrite;
+  return {with_conditions({.station = of->station, .on = on, .range = *range, .name = name}, wanted)};
 }
 
 Json Session::set_data_breakpoints(const Json& arguments) {

@@ -28,6 +28,7 @@ namespace {
 constexpr std::string_view kHelp =
     "An expression in STL terms shows its value: VW100, VB0:16, *VD3570:word, VW2 * 2 + 1, M31.7 and VW3300 > 8.\n"
     "set ADDRESS=VALUE      writes memory; I addresses are the input points\n"
+    "mode run | stop        what a programming device asks the CPU for\n"
     "send HEX… | 'TEXT' [crc]  puts a frame on the line from now on\n"
     "send read 40011:2 | write 00003=on [station n]  a Modbus request\n"
     "fault KIND[:PARAMETER=VALUE,…] | none  a fault of the line from now on\n"
@@ -74,6 +75,15 @@ Json Session::inject_fault(const Json& arguments) {
   if (!inject) throw Refused(why);
   act(*inject);
   return {{"text", injected_text(*inject)}};
+}
+
+// --- mode ---
+
+void Session::change_mode(const std::string& word) {
+  std::string why;
+  const auto set = mode_of(word, simulation(), why);
+  if (!set) throw Refused(why);
+  act(*set);
 }
 
 // --- force ---
@@ -251,6 +261,10 @@ Json Session::console_command(const std::string& line) {
   }
   if (word == "force" || word == "unforce") {
     return says((word == "force" ? force({{"values", rest}}) : unforce({{"places", rest}}))["text"]);
+  }
+  if (word == "mode") {
+    change_mode(rest);
+    return says("");
   }
   if (word == "timeline") return says(timeline(Json::object())["text"]);
   if (word == "history") {

@@ -29,9 +29,10 @@ Json Session::read_memory(const Json& arguments) {
   const std::vector<std::uint8_t> all = bytes_of(place, cpu().state());
   const std::int64_t area_end = place.begin + static_cast<std::int64_t>(all.size());
   const std::int64_t count = amount_in(arguments, "count", 0);
+  if (count < 0) throw Refused(fmt::format("count: {} is less than 0", count));
   const std::int64_t first = place.at + amount_in(arguments, "offset", 0);
   const std::int64_t begin = std::clamp<std::int64_t>(first, place.begin, area_end);
-  const std::int64_t end = std::clamp<std::int64_t>(first + std::max<std::int64_t>(count, 0), begin, area_end);
+  const std::int64_t end = std::clamp<std::int64_t>(first + count, begin, area_end);
   Json body{{"address", at_station(address_text(begin), looks_at())}};
   if (first + count > end) body["unreadableBytes"] = std::max<std::int64_t>(0, first + count - end);
   if (begin == end) return body;

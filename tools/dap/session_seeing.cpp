@@ -37,7 +37,7 @@ std::string hex_of(const std::string& value) { return value.substr(0, value.find
 
 bool wants_hex(const Json& arguments) { return arguments.contains("format") && arguments["format"].value("hex", false); }
 
-constexpr std::string_view kCommands[] = {"set", "send", "fault",   "force",    "unforce",
+constexpr std::string_view kCommands[] = {"set", "mode", "send",    "fault",    "force", "unforce",
                                           "who", "why",  "history", "timeline", "help"};
 constexpr std::string_view kForms[] = {"VB", "VW", "VD", "MB", "MW", "MD", "IB", "IW", "QB", "QW", "SMB", "SMW", "AC", "LB"};
 
@@ -85,6 +85,8 @@ Json Session::stack_trace(const Json& arguments) {
 
 Json Session::scopes(const Json& arguments) {
   const auto frame = arguments.at("frameId").get<std::uint32_t>();
+  if (frame > std::max<std::size_t>(open_routines(cpu().state()).size(), 1))
+    throw Refused(fmt::format("there is no frame {}", frame));
   Json scopes = Json::array();
   for (const Scope& scope : scopes_of(simulation(), frame == 0 ? 0 : frame - 1)) {
     Json json{{"name", scope.name}, {"variablesReference", container_at(looks_at(), scope.variables)}, {"expensive", false}};
@@ -148,9 +150,8 @@ Json Session::evaluated(const std::string& expression, bool hex) {
   if (!parsed) throw Refused(one_word ? why : why_no_expression);
   const auto value = parsed->value(cpu(), why);
   if (!value) throw Refused("cannot be computed: " + why);
-  const std::string text = hex && !value->real
-                               ? fmt::format("16#{:X}", static_cast<std::uint32_t>(std::llround(value->number)))
-                               : number_text(*value);
+  const auto bits = double_word_of(*value);
+  const std::string text = hex && bits ? fmt::format("16#{:X}", *bits) : number_text(*value);
   return {{"result", text}, {"type", value->real ? "REAL" : "DINT"}, {"variablesReference", 0}};
 }
 

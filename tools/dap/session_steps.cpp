@@ -93,13 +93,17 @@ bool Session::send_what_is_due() {
 void Session::run() {
   while (running_) {
     if (pause_asked_) return report({.reason = StopReason::Request, .station = looks_at()}, "pause");
-    if (stations() == 1 && !simulation().system().has_schedule() && cpu().state().mode == Mode::Stop &&
-        !debuggee_->history().in_the_past())
+    const History& history = debuggee_->history();
+    const bool stands = stations() == 1 && !simulation().system().has_schedule() && cpu().state().mode == Mode::Stop;
+    const bool waits = simulation().has_master() && simulation().master().asks();
+    if (stands && !waits && !history.in_the_past())
       return report({.reason = StopReason::CpuStopped, .station = looks_at()}, "");
     send_what_is_due();
     const bool more = frames_sent_ < frames_.size();
     const Time now = simulation().time();
-    const Stop stop = stepper_->run(running_->goal, more && now < send_after_ ? send_after_ : kNever, more);
+    Time limit = more && now < send_after_ ? send_after_ : kNever;
+    if (stands && !waits) limit = history.newest().time;
+    const Stop stop = stepper_->run(running_->goal, limit, more || stands);
     if (!debuggee_->failure().empty()) return report(stop, "pause");
     if (stop.reason == StopReason::Request) {
       if (!pause_asked_) return;
@@ -235,6 +239,10 @@ void Session::report(const Stop& stop, const std::string& reason) {
     if (skipped.skipped != 0)
       print(fmt::format("breakpoint {} was passed {} without power flow; with the condition 'always' it stops there too",
                         skipped.number, skipped.skipped == 1 ? "once" : fmt::format("{} times", skipped.skipped)));
+  for (const StopPoint& one : stepper_->stops)
+    if (one.unknown != 0)
+      print(fmt::format("the condition of breakpoint {} could not be computed {}: {}", one.number,
+                        one.unknown == 1 ? "once" : fmt::format("{} times", one.unknown), one.why_unknown));
   report_stopped(body_of(stop, reason));
 }
 
@@ -310,8 +318,10 @@ std::string Session::text_of(const Hit& hit) const {
     const std::string was = value_text(program, *hit.stop.range, hit.stop.value);
     const std::string is = value_text(program, *hit.stop.range, hit.value);
     text += was == is ? fmt::format(" is {} as before", is) : fmt::format(" was {}, is {}", was, is);
-    text += hit.by ? fmt::format(", by {} {}", listing.routine_of(hit.by->op), describe(*hit.by, program))
-                   : ", by the system, between two instructions";
+    const Action* const action = hit.action ? debuggee_->history().action(*hit.action) : nullptr;
+    text += hit.by   ? fmt::format(", by {} {}", listing.routine_of(hit.by->op), describe(*hit.by, program))
+            : action ? fmt::format(", by '{}', from outside", describe(*action))
+                     : ", by the system, between two instructions";
   }
   return text;
 }

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/base/text.hpp"
+#include "interpreter/cpu/scan.hpp"
+#include "tools/debugger/words.hpp"
 #include "tools/views/memory.hpp"
 
 namespace s7200::tools {
@@ -34,6 +37,11 @@ struct Doer {
       simulation.clear_faults();
   }
   void operator()(const SetStack& set) const { simulation.cpu().set_stack(set.stack); }
+  void operator()(const SetMode& set) const {
+    Core& core = simulation.cpu().core();
+    core.touched = true;
+    scan::change_mode(core, set.mode);
+  }
   void operator()(const serial::HostCall& call) const { host->repeat(call, simulation.time()); }
 };
 
@@ -59,10 +67,25 @@ struct Teller {
     return "fault " + (inject.fault ? serial::to_text(*inject.fault) : "none");
   }
   std::string operator()(const SetStack&) const { return "set the logic stack"; }
+  std::string operator()(const SetMode& set) const { return set.mode == Mode::Run ? "mode run" : "mode stop"; }
   std::string operator()(const serial::HostCall&) const { return "the other end of the bridge"; }
 };
 
 }  // namespace
+
+std::optional<SetMode> mode_of(std::string_view word, const serial::Simulation& simulation, std::string& why) {
+  const std::string name = lower_case(word);
+  const State& state = simulation.cpu().state();
+  if (name != "run" && name != "stop") return why = expects("mode", "run or stop"), std::nullopt;
+  const Mode mode = name == "run" ? Mode::Run : Mode::Stop;
+  if (!simulation.plc().powered()) why = "mode: the PLC is without power";
+  if (simulation.plc().powered() && mode == state.mode)
+    why = fmt::format("mode: the CPU is in {} already", stl::upper_case(name));
+  else if (state.fatal_code != 0)
+    why = fmt::format("mode: after fatal error {:04X} the CPU stays in STOP until it is powered up again: 'restart'",
+                      state.fatal_code);
+  return why.empty() ? std::optional(SetMode{mode}) : std::nullopt;
+}
 
 void perform(const Action& action, serial::Simulation& simulation, serial::HostPort* host) {
   std::visit(Doer{simulation, host}, action);

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -46,7 +47,15 @@ struct SetStack {
   LogicStack stack{};
 };
 
-using Action = std::variant<SetMemory, SendFrame, Jump, serial::HostCall, Force, Unforce, SetStack, InjectFault>;
+/// A programming device asks for RUN or STOP.
+struct SetMode {
+  Mode mode{};
+};
+
+/// `run`, `stop`; nothing, and `why`, for other words and where the CPU cannot go there.
+std::optional<SetMode> mode_of(std::string_view word, const serial::Simulation& simulation, std::string& why);
+
+using Action = std::variant<SetMemory, SendFrame, Jump, serial::HostCall, Force, Unforce, SetStack, InjectFault, SetMode>;
 
 /// `host`: the port that a HostCall is made to.
 void perform(const Action& action, serial::Simulation& simulation, serial::HostPort* host = nullptr);

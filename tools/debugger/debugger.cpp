@@ -82,6 +82,7 @@ Debugger::Debugger(const std::vector<serial::Simulation*>& stations, std::ostrea
   };
   stepper_.on_message = [this](const StopPoint& stop) { print_message(stop); };
   stepper_.on_answer = [this](const serial::Exchange& exchange) { print_answer(exchange); };
+  stepper_.on_unasked = [this](const Transmission& sent) { print_unasked(sent); };
 }
 
 Debugger::Error Debugger::execute(std::string_view line) {
@@ -123,7 +124,7 @@ Debugger::Error Debugger::execute_one(std::string_view text) {
 
 /// Once a second.
 void Debugger::show_progress() {
-  if (host_time() < progress_at_ || (layout_.shown && layout_.shown())) return;
+  if (host_time() < progress_at_ || is_in_view()) return;
   progress_at_ = host_time() + std::min(options_.patience, kSecond);
   progress_shown_ = true;
   out_.flush();
@@ -157,24 +158,20 @@ bool Debugger::stop_requested() const { return options_.stop_request && *options
 void Debugger::show_place() {
   if (is_system()) out_ << name_of(focus()) << "  ";
   out_ << (simulation().plc().powered() ? place_text(simulation().cpu(), listing()) : place_line(focus()) + "\n");
+  if (is_in_view()) return;  // what is displayed too
   for (const auto& [station, range] : displayed_) out_ << said_of(station) << memory_text(station, range);
 }
 
 void Debugger::go(const Run& run) {
   const bool executes = simulation().plc().executes();
-  if (!executes && !is_system()) {
-    out_ << "the CPU is in STOP and executes nothing; 'rstep' and 'back' return to before that, 'restart' powers it up "
-            "again\n";
-    return;
-  }
   if (!executes && !run.of_all) {
-    out_ << fmt::format("{} {} and executes nothing; 'continue' runs the others, 'station NAME' goes over to one of them\n",
-                        name_of(focus()), simulation().plc().powered() ? "is in STOP" : "is without power");
+    report_standstill();
     return;
   }
   remember();
   show_ = run.show;
   first_error_.reset();
+  unasked_ = 0;
   const std::uint64_t errors_before = errors_of_all();
   const Time now = history_.now().time, end = now < kNever - run.limit ? now + run.limit : kNever;
   begin_live_status();
@@ -183,6 +180,19 @@ void Debugger::go(const Run& run) {
   write_trace(kNever);
   look_at(stop.station);
   report(stop, run, errors_of_all() - errors_before);
+}
+
+/// There is nothing to step through, and what can be done.
+void Debugger::report_standstill() {
+  const State& state = simulation().cpu().state();
+  if (is_system()) {
+    out_ << fmt::format("{} {} and executes nothing; 'continue' runs the others, 'station NAME' goes over to one of them\n",
+                        name_of(focus()), simulation().plc().powered() ? "is in STOP" : "is without power");
+    return;
+  }
+  out_ << fmt::format(
+      "the CPU is in STOP and executes nothing; 'continue' lets time pass, {}, 'rstep' and 'back' return to before that\n",
+      state.fatal_code == 0 ? "'mode run' starts it" : "'restart' powers it up again");
 }
 
 /// What ran before says nothing of what comes.
@@ -231,6 +241,7 @@ void Debugger::act(Action action) {
 /// A record of what went on cannot go back: a capture ends, a trace says so by its times.
 void Debugger::note_new_branch() {
   for (const Station& station : stations_) station.simulation->plc().unwatch_lines();
+  stepper_.count_hits();
   if (options_.files.empty()) return;
   out_ << fmt::format("{}: traces go on with what is new, after what ran before; captures of the line end\n",
                       options_.files);
@@ -267,6 +278,7 @@ void Debugger::report_reason(const Stop& stop, const Run& run) {
       return;
     case StopReason::Oldest:
       out_ << at_oldest_text(history_) << '\n';
+      report_uncounted();
       return;
   }
 }
@@ -295,6 +307,20 @@ std::string Debugger::routine_text(std::uint32_t op) const {
 void Debugger::print_answer(const serial::Exchange& exchange) {
   hide_progress();
   out_ << exchange_text(exchange, master().timeout);
+  if (exchange.timed_out && simulation().plc().powered() && !simulation().plc().executes())
+    out_ << "         the CPU is in STOP, where no program answers\n";
+}
+
+/// The first few of a run.
+void Debugger::print_unasked(const Transmission& sent) {
+  constexpr std::size_t kShown = 3;
+  if (++unasked_ > kShown) return;
+  hide_progress();
+  const serial::Exchange& last = simulation().master().exchange();
+  out_ << unasked_text(sent.bytes)
+       << fmt::format("         from {} to {}{}\n", moment_text(sent.from), moment_text(sent.to),
+                      last.timed_out ? ", after the master had given up" : "");
+  if (unasked_ == kShown) out_ << "         no more of this run are shown; 'break sent' stops at each\n";
 }
 
 void Debugger::print_trace(std::size_t station, const TraceRecord& record) {

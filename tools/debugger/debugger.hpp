@@ -10,7 +10,6 @@
 #include <deque>
 #include <functional>
 #include <iosfwd>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -162,6 +161,7 @@ class Debugger {
   Error input(const Arguments& arguments);
   Error force(const Arguments& arguments);
   Error unforce(const Arguments& arguments);
+  Error mode(const Arguments& arguments);
   Error send(const Arguments& arguments);
   Error fault(const Arguments& arguments);
   Error port(const Arguments& arguments);
@@ -230,6 +230,9 @@ class Debugger {
   void report_access(const Hit& hit);
   void print_message(const StopPoint& stop);
   void report_cpu_stop();
+  void report_standstill();
+  void report_uncounted();
+  void print_unasked(const Transmission& sent);
   void print_answer(const serial::Exchange& exchange);
   void print_trace(std::size_t station, const TraceRecord& record);
   void print_trace_lines(std::size_t station, const std::vector<TraceLine>& lines);
@@ -249,8 +252,9 @@ class Debugger {
                                          std::string& why) const;
   std::string memory_text(std::size_t station, const MemoryRange& range) const;  ///< with what of it is forced
   std::vector<std::string> status_lines(std::uint32_t first, std::uint32_t end, const LastExecutions& last);
+  bool is_in_view() const { return layout_.shown && layout_.shown(); }
   std::pair<std::uint32_t, std::uint32_t> ops_in_view() const;
-  LastExecutions last_executions_of(std::uint32_t first, std::uint32_t end, Time within);
+  LastExecutions last_executions_of(std::uint32_t first, std::uint32_t end);
   void begin_live_status();
   void note_live_status(const InstructionRecord& record);
   std::string forced_text(const Cpu& cpu, const std::vector<Bits>& places) const;  ///< `  forced: VW10=5`, or nothing
@@ -321,7 +325,8 @@ class Debugger {
   std::vector<Displayed> displayed_;
   std::optional<StationError> first_error_;  ///< of the run under way
   Show show_ = Show::None;
-  int next_number_ = 1;  ///< of a breakpoint or watch
+  std::size_t unasked_ = 0;  ///< transmissions of the run under way
+  int next_number_ = 1;      ///< of a breakpoint or watch
   bool tracing_ = false;
   bool quit_asked_ = false;
   std::size_t undone_ = 0;  ///< commands, after a stop request
@@ -335,7 +340,7 @@ class Debugger {
   /// What is in view while a run goes on.
   struct LiveStatus {
     std::uint32_t first = 0, end = 0;
-    std::map<std::uint32_t, InstructionRecord> last{};
+    LastExecutions last{};
     std::uint64_t executed = 0;
   };
   std::optional<LiveStatus> live_status_;

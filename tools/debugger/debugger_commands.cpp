@@ -37,7 +37,7 @@ Examples:
 )";
 
 constexpr std::string_view kBackwards =
-    "It stops at breakpoints and watches on the way. Counts of hits go back with the time.";
+    "It stops at breakpoints and watches on the way, also before they were set unless they wait for a number of hits.";
 
 }  // namespace
 
@@ -60,8 +60,8 @@ time.)",
        &Debugger::continue_run, true},
       {"until", "t", "until LINE | SBR n | INT n | LBL n | NETWORK n", "run to a place", "", &Debugger::until, true},
       {"back", "k", "back [n]", "back to the state before the last command that ran something, or the last n",
-       R"(The last 64 are kept. Breakpoints, watches and their counts stay as they are. Going forward again plays what has
-run, with what was done to the PLC; 'set', 'input', 'send' in the past begin a new branch.)",
+       R"(The last 64 are kept. Breakpoints and watches stay. Going forward again plays what has run, with what was done to
+the PLC; 'set', 'input', 'send' in the past begin a new branch.)",
        &Debugger::back},
       {"rstep", "rs", "rstep [n]", "back by one instruction, or n, into subroutines and interrupt routines", kBackwards,
        &Debugger::back_step, true},
@@ -127,10 +127,10 @@ WHAT: event N [occurs | served], received or sent (a frame), xmt, rcv (its end),
 queue), lost (a character), mode, unanswered (a request; of a master on a bridge: nothing is sent within
 --timeout, or before it sends again).
 CONDITION in STL terms: break 40 if VW3300 > 8 and M31.7; a constant that an operand can never be is refused.
-hits N stops from the Nth time on, counted since it was set. log prints a line and goes on: break INT 123 log
-'{SMB2} at {time}'; also {scan} {line} {event}.)",
+hits N stops from the Nth time on since it was set: moments before that do not count when 'back' or 'at' lead there.
+log prints a line and goes on: break INT 123 log '{SMB2} at {time}'; also {scan} {line} {event}.)",
        &Debugger::set_break},
-      {"watch", "w", "watch ADDRESS[:COUNT]… [read | write | change] [if …] [hits N] [log …]",
+      {"watch", "w", "watch ADDRESS[:COUNT]… [read | write | read write | change] [if …] [hits N] [log …]",
        "stop after the instruction that changes M31.7, VB100, VW100, AC0 …, or reads or writes it",
        R"(Interrupt routines too. The system changes memory as well: inputs, SM bits, SMB2 before INT of event 8. 'write'
 stops also if the value stays the same. Entries of tables, strings and messages count only if they change. watch
@@ -157,7 +157,8 @@ a bridge, power of a system, something set while a frame or its answer was under
        "memory: VB100:16, VW100, VD20:real, M31.7, AC0, T37, HC0, *VD3570:8, *AC1:word; or VW2 * 2 + 1",
        R"(/x hex, /d decimal, /b binary, /c characters. What a pointer points to is a byte unless :word, :dword or :real
 is asked for; of one that points nowhere it says who wrote it. SMB30 is shown in words, timers with bit, preset
-and base. A double word that the program uses as a real is shown as one too.)",
+and base. A double word that the program uses as a real is shown as one too. In expressions words and double words
+have a sign, and beside them a constant above 32767 or 2147483647 stands for its bits: VW20 = 16#FFFF is VW20 = -1.)",
        &Debugger::print},
       {"expect", "", "expect EXPRESSION", "a wrong command unless it holds: a script with such lines is a test",
        "expect VW20 = 5 and M0.1. A script ends at the first that does not hold, with exit code 2.", &Debugger::expect},
@@ -185,6 +186,8 @@ counters see the terminal. The CPU keeps it without power; going back undoes it.
        &Debugger::force},
       {"unforce", "", "unforce ADDRESS… | all", "release what is forced",
        "Inputs follow their terminals again, outputs their image; memory keeps what it has.", &Debugger::unforce},
+      {"mode", "", "mode run | stop", "switch the CPU to RUN or STOP, as a programming device does",
+       "After a fatal error only 'restart' or 'power' bring it back.", &Debugger::mode},
       {"send", "", "send HEX… | 'TEXT' [crc] | read ADDRESS[:COUNT] | write ADDRESS=VALUE… [station n]",
        "put a frame on the line from now on; crc appends the Modbus CRC",
        R"(p after a byte sends it with wrong parity. TEXT is ASCII, with \r \n \t \\ \' and \xHH. 'continue' runs while it
@@ -454,6 +457,16 @@ Debugger::Error Debugger::set(const Arguments& arguments) {
 Debugger::Error Debugger::input(const Arguments& arguments) {
   if (arguments.empty()) return expects("input", "an input and its level, for example: input I0.3=1");
   return assign_all(arguments, true);
+}
+
+Debugger::Error Debugger::mode(const Arguments& arguments) {
+  std::string why;
+  const auto set = mode_of(joined(arguments), simulation(), why);
+  if (!set) return why;
+  act(*set);
+  note_going_elsewhere();
+  show_place();
+  return {};
 }
 
 Debugger::Error Debugger::send(const Arguments& arguments) {

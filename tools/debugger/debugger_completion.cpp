@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/cpu/forcing.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tools/debugger/debugger.hpp"
+#include "tools/debugger/force_words.hpp"
 #include "tools/debugger/stop_words.hpp"
 
 namespace s7200::tools {
@@ -66,15 +69,60 @@ Words words_of(std::string_view line) {
   return words;
 }
 
-enum class Takes : std::uint8_t { Nothing, Addresses, Places, Files, Commands, Switch, Stations };
+/// Those that can be forced.
+Words forceable(Words addresses, const Program& program) {
+  std::erase_if(addresses, [&](const std::string& address) {
+    std::string why;
+    const auto range = parse_range(address, program, why);
+    return !range || !forcing::possible(*range);
+  });
+  return addresses;
+}
+
+/// Saved sessions, and folders.
+Words sessions_of(std::string_view word) {
+  Words files = files_of(word);
+  std::erase_if(files, [](const std::string& name) {
+    std::string beginning(session_beginning().size(), '\0');
+    if (name.ends_with('/')) return false;
+    std::ifstream(name, std::ios::binary).read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+    return beginning != session_beginning();
+  });
+  return files;
+}
+
+Words fault_words() {
+  Words words{"none"};
+  for (const serial::FaultKindInfo& kind : serial::fault_kinds()) words.emplace_back(kind.name);
+  return words;
+}
+
+enum class Takes : std::uint8_t {
+  Nothing,
+  Addresses,
+  Break,
+  Watch,
+  Forced,
+  Places,
+  Files,
+  Sessions,
+  Faults,
+  Commands,
+  Switch,
+  Mode,
+  Stations
+};
 
 constexpr std::pair<std::string_view, Takes> kTakes[]{
-    {"help", Takes::Commands},    {"save", Takes::Files},        {"load", Takes::Files},        {"record", Takes::Files},
-    {"trace", Takes::Switch},     {"layout", Takes::Switch},     {"break", Takes::Places},      {"until", Takes::Places},
-    {"runtil", Takes::Places},    {"list", Takes::Places},       {"status", Takes::Places},     {"print", Takes::Addresses},
-    {"expect", Takes::Addresses}, {"display", Takes::Addresses}, {"watch", Takes::Addresses},   {"set", Takes::Addresses},
-    {"input", Takes::Addresses},  {"force", Takes::Addresses},   {"unforce", Takes::Addresses}, {"who", Takes::Addresses},
-    {"rwho", Takes::Addresses},   {"station", Takes::Stations}};
+    {"help", Takes::Commands},    {"save", Takes::Files},        {"load", Takes::Sessions},  {"record", Takes::Files},
+    {"trace", Takes::Switch},     {"layout", Takes::Switch},     {"break", Takes::Break},    {"until", Takes::Places},
+    {"runtil", Takes::Places},    {"list", Takes::Places},       {"status", Takes::Places},  {"print", Takes::Addresses},
+    {"expect", Takes::Addresses}, {"display", Takes::Addresses}, {"watch", Takes::Watch},    {"set", Takes::Addresses},
+    {"input", Takes::Addresses},  {"force", Takes::Forced},      {"unforce", Takes::Forced}, {"who", Takes::Addresses},
+    {"rwho", Takes::Addresses},   {"station", Takes::Stations},  {"mode", Takes::Mode},      {"fault", Takes::Faults}};
+
+/// Whether the next word belongs to a condition.
+bool is_in_condition(const std::string& before) { return before == "IF" || before == "AND" || before == "OR"; }
 
 }  // namespace
 
@@ -91,7 +139,10 @@ Debugger::Offers Debugger::completions(std::string_view line) const {
   Takes takes = words.size() == 1 ? Takes::Commands : Takes::Nothing;
   for (const auto& [name, what] : kTakes)
     if (command && command->name == name) takes = what;
-  const std::string before = words.size() > 1 ? stl::upper_case(words[words.size() - 2]) : "";
+  const Words given = words.size() > 1 ? Words(words.begin() + 1, words.end() - 1) : Words();
+  const std::string before = given.empty() ? "" : stl::upper_case(given.back());
+  const bool stops = takes == Takes::Break || takes == Takes::Watch;
+  if (stops && is_in_condition(before)) takes = Takes::Addresses;
   switch (takes) {
     case Takes::Nothing:
       break;
@@ -101,25 +152,40 @@ Debugger::Offers Debugger::completions(std::string_view line) const {
     case Takes::Switch:
       all = {"on", "off"};
       break;
+    case Takes::Mode:
+      all = {"run", "stop"};
+      break;
     case Takes::Stations:
       for (const DebuggedStation& station : options_.stations) all.push_back(station.name);
       break;
     case Takes::Files:
       all = files_of(last);
       break;
+    case Takes::Sessions:
+      all = sessions_of(last);
+      break;
+    case Takes::Faults:
+      all = fault_words();
+      break;
     case Takes::Addresses:
       all = addresses_of(program);
       if (command->name == "who" || command->name == "rwho") all.emplace_back("event");
       break;
-    case Takes::Places:
-      if (all = numbers_of(before, program); !all.empty()) break;
-      if (before == "IF" || before == "AND" || before == "OR") {
-        all = addresses_of(program);
-      } else {
-        all = place_words();
-        if (command->name == "break")
-          for (const std::string_view word : happening_words()) all.emplace_back(word);
+    case Takes::Forced:
+      all = forceable(addresses_of(program), program);
+      if (command->name == "unforce") {
+        all = {"all"};
+        for (const Forced& forced : forced_in(simulation().cpu())) all.push_back(forced.place.name_of(0));
       }
+      break;
+    case Takes::Break:
+      all = words_after_break(given, program);
+      break;
+    case Takes::Watch:
+      all = given.empty() ? addresses_of(program) : words_after_watch(given);
+      break;
+    case Takes::Places:
+      all = given.empty() ? place_words() : given.size() == 1 ? numbers_of(before, program) : Words();
   }
   std::erase_if(all, [&](const std::string& word) { return !begins(word, last); });
   return {last.size(), all};

@@ -1,6 +1,7 @@
 // The command print: memory, what pointers point to, and expressions.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ostream>
 
 #include "interpreter/base/bytes.hpp"
@@ -23,12 +24,13 @@ std::string binary_text(std::uint32_t value, unsigned bits) {
   return text;
 }
 
+std::string printable_character(std::uint8_t byte) {
+  return byte >= 0x20 && byte < 0x7F ? std::string(1, static_cast<char>(byte)) : fmt::format("\\x{:02x}", byte);
+}
+
 std::string character_text(std::uint32_t value, unsigned bytes) {
   std::string text = "'";
-  for (unsigned i = bytes; i-- > 0;) {
-    const auto byte = static_cast<std::uint8_t>(value >> 8 * i);
-    text += byte >= 0x20 && byte < 0x7F ? std::string(1, static_cast<char>(byte)) : fmt::format("\\x{:02x}", byte);
-  }
+  for (unsigned i = bytes; i-- > 0;) text += printable_character(static_cast<std::uint8_t>(value >> 8 * i));
   return text + "'";
 }
 
@@ -51,8 +53,22 @@ std::uint32_t object_of(const State& state, const MemoryRange& range, std::uint3
   return range.width == Width::Word ? load16(from) : load32(from);
 }
 
+/// Bytes as one text, in rows.
+std::string characters_text(const Cpu& cpu, const MemoryRange& range) {
+  constexpr std::uint32_t kInRow = 64;
+  std::string text;
+  for (std::uint32_t first = 0; first < range.count; first += kInRow) {
+    text += fmt::format("{:<8} '", range.name_of(first));
+    for (std::uint32_t i = first; i < std::min(range.count, first + kInRow); ++i)
+      text += printable_character(cpu.state().image[range.at + i]);
+    text += "'\n";
+  }
+  return text;
+}
+
 std::string range_text(const Cpu& cpu, const MemoryRange& range, char form) {
   if (form == 0) return dump_text(cpu, range);
+  if (form == 'c' && range.width == Width::Byte) return characters_text(cpu, range);
   std::string text;
   for (std::uint32_t i = 0; i < range.count; ++i)
     text += fmt::format("{:<8} {}\n", range.name_of(i), number_text(object_of(cpu.state(), range, i), range.width, form));
@@ -82,9 +98,10 @@ std::string element_text(const State& state, const MemoryRange& range) {
 
 std::string number_text(const Value& value, char form) {
   if (value.real) return number_text(value);
-  const auto integer = static_cast<std::int64_t>(value.number);
-  const std::string text = number_text(static_cast<std::uint32_t>(integer), Width::Double, form == 0 ? 'x' : form);
-  return form == 0 ? fmt::format("{} ({})", integer, text) : text;
+  const auto bits = double_word_of(value);
+  if (!bits) return number_text(value) + " (more than a double word)";
+  const std::string text = number_text(*bits, Width::Double, form == 0 ? 'x' : form);
+  return form == 0 ? fmt::format("{} ({})", number_text(value), text) : text;
 }
 
 }  // namespace
@@ -143,7 +160,8 @@ Debugger::Error Debugger::print(const Arguments& arguments) {
   }
   std::string why_no_expression;
   const auto expression = Expression::parse(joined(words), program, why_no_expression);
-  if (!expression) return words.size() == 1 ? why : why_no_expression;
+  const bool has_operator = joined(words).find_first_of(" (+-/<>=") != std::string::npos;
+  if (!expression) return has_operator ? why_no_expression : why;
   const auto value = expression->value(simulation().cpu(), why);
   out_ << fmt::format("{} {}\n", stl::printable(expression->text()),
                       value ? "= " + number_text(*value, form) : "cannot be computed: " + why);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/last_executions.hpp"
@@ -14,13 +15,13 @@ namespace s7200::tools {
 namespace {
 
 constexpr std::uint32_t kShown = 15, kBefore = 6;
+
 constexpr std::uint32_t kOpsInView = 7, kOpsBefore = 3;
-constexpr Time kInView = 100 * kMillisecond;
 
 }  // namespace
 
-LastExecutions Debugger::last_executions_of(std::uint32_t first, std::uint32_t end, Time within) {
-  return last_executions(history_, focus(), first, end, within, options_.stop_request);
+LastExecutions Debugger::last_executions_of(std::uint32_t first, std::uint32_t end) {
+  return last_executions(history_, focus(), first, end, kLookedAt, options_.stop_request);
 }
 
 /// A line for each instruction of [first, end), as it was executed last.
@@ -48,8 +49,10 @@ Debugger::Error Debugger::status(const Arguments& arguments) {
   const auto ops = static_cast<std::uint32_t>(simulation().cpu().program().ops.size());
   const std::uint32_t at = place.value_or(0);
   const std::uint32_t first = arguments.empty() ? at - std::min(at, kBefore) : at;
-  const std::uint32_t end = std::min(ops, first + kShown);
-  for (const std::string& line : status_lines(first, end, last_executions_of(first, end, kLookedAt))) out_ << line << '\n';
+  const bool network = !arguments.empty() && stl::upper_case(arguments[0]).starts_with("NETWORK");
+  std::uint32_t end = first;
+  while (end < std::min(ops, first + kShown) && (end == first || !network || !listing().begins_network(end))) ++end;
+  for (const std::string& line : status_lines(first, end, last_executions_of(first, end))) out_ << line << '\n';
   return {};
 }
 
@@ -62,14 +65,14 @@ std::pair<std::uint32_t, std::uint32_t> Debugger::ops_in_view() const {
 /// A run begins: what is in view then stays there.
 void Debugger::begin_live_status() {
   live_status_.reset();
-  if (!layout_.shown || !layout_.shown()) return;
+  if (!is_in_view()) return;
   const auto [first, end] = ops_in_view();
-  live_status_ = LiveStatus{.first = first, .end = end, .last = last_executions_of(first, end, kInView).of};
+  live_status_ = LiveStatus{.first = first, .end = end, .last = last_executions_of(first, end)};
 }
 
 void Debugger::note_live_status(const InstructionRecord& record) {
   constexpr std::uint64_t kLookEvery = 4096;  // instructions
-  if (record.op >= live_status_->first && record.op < live_status_->end) live_status_->last[record.op] = record;
+  if (record.op >= live_status_->first && record.op < live_status_->end) live_status_->last.of[record.op] = record;
   if (++live_status_->executed % kLookEvery == 0 && layout_.refresh) layout_.refresh();
 }
 
@@ -77,18 +80,17 @@ std::vector<std::string> Debugger::view(std::size_t rows) {
   const Cpu& cpu = simulation().cpu();
   std::vector<std::string> lines{said_of(focus()) + place_line(focus())};
   const auto [op, end_op] = live_status_ ? std::pair(live_status_->first, live_status_->end) : ops_in_view();
-  const LastExecutions last =
-      live_status_ ? LastExecutions{.of = live_status_->last} : last_executions_of(op, end_op, kInView);
+  const LastExecutions last = live_status_ ? live_status_->last : last_executions_of(op, end_op);
   for (std::string& line : status_lines(op, end_op, last)) lines.push_back(std::move(line));
   lines.resize(kOpsInView + 1);
   std::string memory;
   for (const auto& [station, range] : displayed_) memory += said_of(station) + memory_text(station, range);
   if (displayed_.empty()) memory = registers_text(cpu, listing()) + "'display VW100' shows memory here\n";
-  for (std::size_t begin = 0; begin < memory.size() && lines.size() < rows;) {
-    const std::size_t end = std::min(memory.find('\n', begin), memory.size());
-    lines.push_back(memory.substr(begin, end - begin));
-    begin = end + 1;
-  }
+  for (std::string& line : stl::split_lines(memory)) lines.push_back(std::move(line));
+  if (lines.size() <= rows) return lines;
+  const std::size_t hidden = lines.size() - rows + 1;
+  lines.resize(rows - 1);
+  lines.push_back(fmt::format("… {} more lines; '{}' prints all", hidden, displayed_.empty() ? "regs" : "display"));
   return lines;
 }
 
@@ -112,8 +114,10 @@ Debugger::Error Debugger::expect(const Arguments& arguments) {
   if (arguments.empty()) return expects("expect", "what must hold, for example: expect VW20 = 5 and M0.1");
   const auto expression = Expression::parse(joined(arguments), simulation().cpu().program(), why);
   if (!expression) return why;
-  if (expression->holds(simulation().cpu())) return {};
-  const std::string found = expression->places_text(simulation().cpu());
+  const auto value = expression->value(simulation().cpu(), why);
+  if (value && value->truth()) return {};
+  std::string found = expression->places_text(simulation().cpu());
+  if (!value && found.find(why) == std::string::npos) found += fmt::format("{}{}", found.empty() ? "" : "; ", why);
   return fmt::format("expected {}, which does not hold here{}{}", expression->text(), found.empty() ? "" : ": ", found);
 }
 

@@ -21,9 +21,9 @@ namespace {
 using On = StopPoint::On;
 using Words = std::vector<std::string>;
 
-constexpr std::string_view kOptions[] = {"always", "if", "hits", "log"};
-
-bool is_option(const std::string& word) { return std::ranges::find(kOptions, lower_case(word)) != std::end(kOptions); }
+bool is_option(const std::string& word) {
+  return std::ranges::find(kStopOptions, lower_case(word)) != std::end(kStopOptions);
+}
 
 /// The words up to the next option.
 Words take_words(Words& words) {
@@ -46,13 +46,17 @@ bool read_options(Words words, const Program& program, StopPoint& stop, std::str
     const Words given = option == "log" ? std::exchange(words, {}) : take_words(words);
     if (option == "always" && given.empty()) {
       stop.needs_power = false;
-    } else if (option == "if" && !given.empty()) {
+    } else if (option == "if") {
+      if (given.empty()) return why = expects(option, "a condition, for example: if VW100 > 8"), false;
       const auto condition = Expression::parse(joined(given), program, why);
       if (!condition) return false;
       stop.condition = *condition;
-    } else if (const auto hits = parse_decimal<std::uint64_t>(joined(given)); option == "hits" && hits && *hits != 0) {
+    } else if (option == "hits") {
+      const auto hits = parse_decimal<std::uint64_t>(joined(given));
+      if (!hits || *hits == 0) return why = expects(option, "a number above 0, for example: hits 4"), false;
       stop.from_hit = *hits;
-    } else if (option == "log" && !given.empty()) {
+    } else if (option == "log") {
+      if (given.empty()) return why = expects(option, "a text, for example: log '{VW100} at {time}'"), false;
       stop.log = without_quotes(joined(given));
       if (!check_message(stop.log, program, why)) return false;
     } else {
@@ -63,7 +67,22 @@ bool read_options(Words words, const Program& program, StopPoint& stop, std::str
   return true;
 }
 
+/// Takes `read`, `write`, `read write` or `change` off the end of the words; null if there is none.
+const AccessWord* take_access(Words& words) {
+  for (const AccessWord& access : kAccesses) {
+    const Words its_words = split_words(access.word);
+    if (words.size() < its_words.size()) continue;
+    const auto end = words.end() - static_cast<std::ptrdiff_t>(its_words.size());
+    const auto same = [](const std::string& word, const std::string& one) { return lower_case(word) == one; };
+    if (!std::equal(end, words.end(), its_words.begin(), same)) continue;
+    words.erase(end, words.end());
+    return &access;
+  }
+  return nullptr;
+}
+
 std::string times_text(std::uint64_t n) { return n == 1 ? "for the first time" : fmt::format("{} times", n); }
+std::string times_once(std::uint64_t n) { return n == 1 ? "once" : fmt::format("{} times", n); }
 
 std::string options_text(const StopPoint& stop) {
   std::string text;
@@ -105,7 +124,7 @@ Debugger::Error Debugger::set_break(const Arguments& arguments) {
   stop->station = focus();
   out_ << fmt::format("breakpoint {} {}{}\n", stop->number,
                       stop->on == On::Place ? "in " + op_text(stop->op) : "at " + stop->name, options_text(*stop));
-  all.push_back(std::move(*stop));
+  stepper_.add(std::move(*stop));
   return {};
 }
 
@@ -113,12 +132,9 @@ Debugger::Error Debugger::watch(const Arguments& arguments) {
   Words words = arguments;
   Words addresses = take_words(words);
   if (addresses.empty()) return expects("watch", "an address, for example: watch VW100");
-  StopPoint pattern{.on = On::Change};
-  const std::string access = lower_case(addresses.back());
-  if (access == "read" || access == "write" || access == "change") {
-    pattern.on = access == "read" ? On::Read : access == "write" ? On::Write : On::Change;
-    addresses.pop_back();
-  }
+  const AccessWord* const access = take_access(addresses);
+  if (addresses.empty()) return expects("watch", "an address in front of that, for example: watch VW100 read");
+  StopPoint pattern{.on = access ? access->on : On::Change};
   std::vector<Named> ranges;
   if (Error error = ranges_of(addresses, "watch", ranges)) return error;
   std::string why;
@@ -128,10 +144,10 @@ Debugger::Error Debugger::watch(const Arguments& arguments) {
     added.number = next_number_++;
     added.station = focus();
     added.range = range;
-    added.name = name + (added.on == On::Change ? "" : " " + access);
+    added.name = name + (added.on == On::Change ? "" : fmt::format(" {}", access->word));
     out_ << fmt::format("watch {}: {} is {}{}\n", added.number, added.name, value_of(simulation().cpu(), range),
                         options_text(added));
-    stepper_.stops.push_back(std::move(added));
+    stepper_.add(std::move(added));
   }
   return {};
 }
@@ -182,7 +198,19 @@ void Debugger::report_hits(const Stop& stop) {
   for (const StopPoint& s : stepper_.stops)
     if (s.skipped != 0)
       out_ << fmt::format("breakpoint {} was passed {} without power flow; 'break {} always' stops there then too\n",
-                          s.number, s.skipped == 1 ? "once" : fmt::format("{} times", s.skipped), s.name);
+                          s.number, times_once(s.skipped), s.name);
+  for (const StopPoint& s : stepper_.stops)
+    if (s.unknown != 0)
+      out_ << fmt::format("the condition of {} {} could not be computed {}: {}\n", s.is_watch() ? "watch" : "breakpoint",
+                          s.number, times_once(s.unknown), s.why_unknown);
+}
+
+/// At the oldest moment: what waits for a number of hits has none before it was set.
+void Debugger::report_uncounted() {
+  for (const StopPoint& s : stepper_.stops)
+    if (s.from_hit > 1)
+      out_ << fmt::format("{} {} counts its hits from {} on, where it was set\n", s.is_watch() ? "watch" : "breakpoint",
+                          s.number, moment_text(stepper_.counts_since(s)));
 }
 
 void Debugger::report_breakpoint(const Hit& hit) {
@@ -204,8 +232,11 @@ void Debugger::report_access(const Hit& hit) {
                      : fmt::format("watch {}: {} was {}, is {}\n", hit.stop.number, hit.stop.name, was, is));
   if (hit.by)
     out_ << fmt::format("  by {} {}\n", station.listing.routine_of(hit.by->op), execution_text(*hit.by, program));
+  else if (const Action* const action = hit.action ? history_.action(*hit.action) : nullptr)
+    out_ << fmt::format("  by '{}', from outside\n", describe(*action));
   else
-    out_ << "  by the system, between two instructions\n";
+    out_ << "  by the system, between two instructions" << forced_text(station.simulation->cpu(), {bits_of(*hit.stop.range)})
+         << '\n';
 }
 
 void Debugger::print_message(const StopPoint& stop) {

@@ -162,6 +162,8 @@ class Reader {
       const std::size_t right_at = at_;
       NodePtr right = binary(level + 1);
       if (!right) return nullptr;
+      if (op == "/" && right->kind == Node::Kind::Constant && right->constant.number == 0)
+        return at_ = right_at, fail("a division by 0");
       if (level == kComparisons && !(can_be(*left, *right, op, right_at) && can_be(*right, *left, op, left_at)))
         return nullptr;
       left = std::make_shared<Node>(Node{.kind = Node::Kind::Binary, .op = op, .left = left, .right = right});
@@ -375,6 +377,12 @@ std::string Expression::places_text(const Cpu& cpu) const {
     text += value ? fmt::format("{} is {}", stl::printable(place->name), number_text(*value)) : nowhere_text(*place, cpu);
   }
   return text;
+}
+
+std::optional<std::uint32_t> double_word_of(const Value& value) {
+  constexpr double kLeast = -2147483648.0, kMost = 4294967295.0;
+  if (value.real || value.number < kLeast || value.number > kMost) return {};
+  return static_cast<std::uint32_t>(static_cast<std::int64_t>(value.number));
 }
 
 std::string number_text(const Value& value) {

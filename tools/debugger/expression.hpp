@@ -44,6 +44,9 @@ struct Value {
   bool truth() const { return number != 0; }
 };
 
+/// The bits of an integer that fits a double word, with a sign or without; nothing of anything else.
+std::optional<std::uint32_t> double_word_of(const Value& value);
+
 /// `7`, `1.5`
 std::string number_text(const Value& value);
 
@@ -56,11 +59,6 @@ class Expression {
 
   /// Nothing where a pointer points nowhere, or by division by 0; `why` says which.
   std::optional<Value> value(const Cpu& cpu, std::string& why) const;
-  bool holds(const Cpu& cpu) const {
-    std::string why;
-    const auto result = value(cpu, why);
-    return result && result->truth();
-  }
 
   /// `VW20 is 7, M0.1 is 0`: all its places, as they are written in it; empty if it has none.
   std::string places_text(const Cpu& cpu) const;

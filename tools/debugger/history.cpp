@@ -40,6 +40,7 @@ constexpr std::uint32_t kTellEvery = 1 << 10;  // instructions
 struct StopAtOnce final : Observer {
   bool before(std::uint32_t) override { return false; }
   bool wants_instructions() const override { return true; }
+  Time idles_until(Time now) override { return now; }  // it goes to STOP instead
 };
 
 }  // namespace
@@ -90,22 +91,24 @@ Time History::latest_clock() const {
   return latest;
 }
 
-Moment History::now() const { return {executed(), actions_, settled_, stopped(), time()}; }
+Moment History::now() const { return {executed(), actions_, settled_, time(), stopped()}; }
 
-Moment History::in_front() const { return {executed(), actions_, true, false, station(told_of_).cpu().time()}; }
+Moment History::in_front() const { return {executed(), actions_, true, station(told_of_).cpu().time(), false}; }
 
 // --- running ---
 
 serial::Halt History::run(Observer& observer) {
   observer_ = &observer;
   serial::Halt halt = serial::Halt::Paused;
-  if (!in_the_past() || advance(branch_->end)) halt = run_live();
+  if (!in_the_past() || advance(branch_->end))
+    halt = run_live();
+  else if (!stopped_by_observer_)
+    halt = serial::Halt::Time;
   observer_ = nullptr;
   return halt;
 }
 
 serial::Halt History::run_live() {
-  if (stopped()) return serial::Halt::Stopped;
   live_ = true;
   serial::Halt halt = serial::Halt::Time;
   while (halt == serial::Halt::Time) {
@@ -142,16 +145,16 @@ serial::Halt History::drive(Time end) {
   return settings_.drive(end);
 }
 
-/// A live run ends early when the last CPU that executed a program does so no more, and all clocks are at the same instant:
-/// the observer is asked then.
+/// A run that is observed ends early when the last CPU that executed a program does so no more, and all clocks are at the
+/// same instant: the observer is asked then. The only one, in STOP, goes from event to event: each may end the run.
 serial::Halt History::run_until(Time end) {
   system().run_in_step(observer_ != nullptr || goal_.has_value());
-  if (alone_) return station(0).run_until(end);
   const bool executed = executes();
   serial::Halt halt = serial::Halt::Time;
   while (halt == serial::Halt::Time && time() < end) {
     halt = system().step(end);
-    if (live_ && executed && !executes()) end = std::min(end, latest_clock());
+    if (observer_ && executed && !executes()) end = std::min(end, latest_clock());
+    if (observer_ && !executed && alone_) break;
   }
   return halt;
 }
@@ -191,18 +194,38 @@ void History::do_next_action() {
 /// Plays until a moment that has as many actions before it as have been done.
 bool History::reach(const Moment& moment) {
   stopped_by_observer_ = false;
-  if (now() == moment || stopped()) return true;
+  if (now() == moment) return true;
   settled_ = false;
-  if (moment.stopped || !moment.settled) {
-    run_until(moment.time + (moment.stopped ? 1 : 0));
+  bool arrived = false;
+  if (!moment.settled) {
+    arrived = pass(moment.time) && come_to_stop(moment);
   } else {
     if (!observer_) run_until(moment.time);
     goal_ = moment.instructions;
-    run_until(moment.time + 1);
+    arrived = pass(moment.time + 1);
     goal_.reset();
-    settled_ = true;
   }
-  settled_ |= stopped_by_observer_;
+  settled_ = stopped_by_observer_ || (arrived && moment.settled);
+  return arrived;
+}
+
+/// Plays until `end`, or the goal; false if the observer has ended it, who is asked again and again while no CPU executes.
+bool History::pass(Time end) {
+  serial::Halt halt = serial::Halt::Time;
+  while (halt == serial::Halt::Time && time() < end) {
+    const bool idles = observer_ && !executes();
+    const Time until = idles ? std::min({end, observer_->idles_until(time()), time() + kSlice}) : end;
+    if (until <= time()) return false;
+    halt = run_until(until);
+  }
+  return !stopped_by_observer_;
+}
+
+/// At the time of `moment` a CPU that has used up its time is in RUN still, and goes to STOP in no time.
+bool History::come_to_stop(const Moment& moment) {
+  serial::Halt halt = serial::Halt::Time;
+  while (halt == serial::Halt::Time && moment.stopped && !stopped() && time() <= moment.time)
+    halt = system().step(moment.time + 1);
   return !stopped_by_observer_;
 }
 
@@ -298,7 +321,7 @@ bool History::play_to(Time time) {
     reach(next_action());
     do_next_action();
   }
-  for (Time slice = kSlice; this->time() < time && !stopped(); slice = std::min(slice, kNever / 4) * 2) {
+  for (Time slice = kSlice; this->time() < time; slice = std::min(slice, kNever / 4) * 2) {
     if (stop_requested()) return false;
     tell_progress();
     run_until(this->time() < time - slice ? this->time() + slice : time);
@@ -351,7 +374,9 @@ void History::act(Action action, std::size_t station) {
   branch_->actions.push_back(std::move(action));
   branch_->stations.push_back(station);
   branch_->moments.push_back(now());
+  live_ = true;
   do_next_action();
+  live_ = false;
   branch_->end = now();
 }
 
@@ -439,7 +464,7 @@ bool History::replay(Recording recording) {
   branch_->end = recording.end;
   for (Time time = branch_->interval; time < recording.end.time; time += branch_->interval) {
     if (!play_to(time)) return false;
-    if (!stopped()) keep_checkpoint();
+    keep_checkpoint();
   }
   go_to(recording.end);
   if (now() != recording.end) return false;

@@ -31,8 +31,8 @@ struct Moment {
   std::uint64_t instructions = 0;  ///< executed before, by all stations
   std::size_t actions = 0;         ///< done before
   bool settled = false;            ///< interrupts that were due have been taken: it is exactly in front of an instruction
-  bool stopped = false;            ///< the only CPU is in STOP, which ends the run
   Time time = 0;                   ///< the earliest clock of all stations
+  bool stopped = false;            ///< the only CPU is in STOP, to which it may go in no time
 
   /// The order in which a run comes by; two of one run are never unordered.
   auto operator<=>(const Moment&) const = default;
@@ -72,7 +72,8 @@ class Observer : public TraceSink {
   /// Something was done to the simulation, which is the same as it was in front of an instruction otherwise.
   virtual void acted() {}
 
-  /// How far to run on from `now` while no CPU executes a program; `now` ends the run. It is asked again on the way.
+  /// How far to run on from `now` while no CPU executes a program, or to play what has run; `now` ends it. It is asked
+  /// again on the way.
   virtual Time idles_until(Time /*now*/) { return kNever; }
 
   /// Without wants_scans(): up to when scans that are all alike may be passed over at once.
@@ -123,8 +124,8 @@ class History final {
   const Moment& newest() const;
   bool in_the_past() const { return now() < newest(); }
 
-  /// Runs from now on until the observer stops it or the only CPU goes to STOP: first what has run already, then what is
-  /// new. Halt::Time if it was to end while no CPU executed a program.
+  /// Runs from now on until the observer stops it: first what has run already, then what is new. Halt::Time if it was to
+  /// end while no CPU executed a program.
   serial::Halt run(Observer& observer);
 
   /// Plays what has run from now on until `end`, or until the observer stops it; returns whether it came to the end. The
@@ -255,6 +256,8 @@ class History final {
   serial::Halt run_until(Time end);
   bool advance(const Moment& target);
   bool reach(const Moment& moment);
+  bool pass(Time end);
+  bool come_to_stop(const Moment& moment);
   serial::Halt drive(Time end);
   const Moment& next_action() const;
   bool has_next_action() const;
@@ -280,7 +283,7 @@ class History final {
   Settings settings_;
   std::vector<std::unique_ptr<Tap>> taps_;          // by station
   std::vector<std::unique_ptr<Journal>> journals_;  // by host port
-  bool alone_;                                      // one CPU, whose STOP is the end: nothing brings it back
+  bool alone_;                                      // one CPU that always has power
   std::shared_ptr<std::size_t> bytes_;              ///< of all checkpoints
   CheckpointPtr origin_;
   BranchPtr branch_;

@@ -45,7 +45,8 @@ class Witness final : public Reader {
     if (history_.told_of() != station_) return;
     if (record.kind == TraceKind::Transmit) left_.clear();
     for (const auto& frame : reasons.unanswered(record)) left_.push_back({record.at, record.at, frame});
-    reasons.note(record);
+    if (record.kind == TraceKind::ModeChange) stopped_ = record.code == 0;
+    if (!stopped_) reasons.note(record);  // in STOP what has led there stays known
   }
   void instruction(const InstructionRecord& record) override {
     if (history_.told_of() == station_) reasons.note(record);
@@ -70,6 +71,7 @@ class Witness final : public Reader {
  private:
   const History& history_;
   std::size_t station_;
+  bool stopped_ = false;
   std::vector<Left> left_;
 };
 
@@ -85,6 +87,15 @@ class Finder final : public Observer {
   const Cpu& cpu_;
   std::uint32_t op_;
   bool in_interrupt_;
+};
+
+/// Sees when a CPU goes to STOP.
+struct StopFinder final : Reader {
+  using Reader::Reader;
+  void record(const TraceRecord& record) override {
+    if (record.kind == TraceKind::ModeChange && record.code == 0) at = record.at;
+  }
+  std::optional<Time> at{};
 };
 
 /// The request of the simulated master that waits for its answer, or has just been given up or answered.
@@ -117,6 +128,7 @@ class DecisionFinder {
         bridged_(here().has_host_port() && here().host_port().state().attached),
         request_(last_request(here())),
         since_(beginning()),
+        stopped_(when_stopped()),
         witness_(history, station, stop_request) {}
 
   DecisionSearch find() {
@@ -126,7 +138,7 @@ class DecisionFinder {
       find_frames_left();
       find_characters_untaken();
       find_what_the_line_lost();
-      if (const auto cause = witness_.reasons.cause()) search_.decision = decision_of(*cause);
+      find_what_led_here();
     }
     history_.go_to(start_);
     return std::move(search_);
@@ -148,8 +160,18 @@ class DecisionFinder {
     return from;
   }
 
+  std::optional<Time> when_stopped() {
+    if (here().cpu().state().mode == Mode::Run) return {};
+    StopFinder finder(station_, stop_request_);
+    history_.search_back(
+        finder, start_, [] {}, [&] { return finder.at.has_value(); });
+    history_.go_to(start_);
+    return finder.at;
+  }
+
   bool hear_the_witness() {
-    const Time from = request_ ? std::min(since_, request_->exchange.request_start) : since_;
+    Time from = request_ ? std::min(since_, request_->exchange.request_start) : since_;
+    if (stopped_) from = std::min(from, *stopped_);
     return history_.go_to(from - std::min(from, kEarlier)) && history_.play(witness_, start_);
   }
 
@@ -236,6 +258,13 @@ class DecisionFinder {
       search_.unanswered.push_back(*lost);
   }
 
+  void find_what_led_here() {
+    if (stopped_ && here_at_start().cpu().state().stopped_by_master)
+      search_.unanswered.push_back({*stopped_, "a programming device has switched the CPU to STOP"});
+    else if (const auto cause = witness_.reasons.cause())
+      search_.decision = decision_of(*cause);
+  }
+
   LastDecision decision_of(const TraceReasons::Cause& cause) {
     LastDecision decision{in_front_of(cause.by, cause.by.op + (cause.contacts ? 1 : 0), cause.in_interrupt), cause.text,
                           cause.by};
@@ -256,6 +285,7 @@ class DecisionFinder {
   bool in_main_, bridged_;
   std::optional<LastRequest> request_;
   Time since_;
+  std::optional<Time> stopped_;  // when it went to STOP, if it is there
   Witness witness_;
   DecisionSearch search_;
 };

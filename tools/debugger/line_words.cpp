@@ -2,11 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tools/debugger/words.hpp"
+#include "tools/views/broadcast.hpp"
 #include "tools/views/faults.hpp"
 #include "tools/views/text_frame.hpp"
 
 namespace s7200::tools {
+namespace {
+
+/// That a master leaves the stations after a broadcast (MODBUS over Serial Line V1.02, 2.4.1: 100 to 200 ms).
+constexpr Time kTurnaround = 200 * kMillisecond;
+
+}  // namespace
 
 std::optional<SendFrame> send_of(const serial::Frame& frame, serial::Simulation& simulation,
                                  const serial::MasterSettings& master, std::string& why) {
@@ -17,7 +26,9 @@ std::optional<SendFrame> send_of(const serial::Frame& frame, serial::Simulation&
     return why = "a byte with wrong parity (p) needs a format with parity", std::nullopt;
   if (simulation.master().busy())
     return why = "the last frame is still under way or waiting for its answer; 'continue' runs to its end", std::nullopt;
-  return SendFrame{format, master.request(frame)};
+  SendFrame send{format, master.request(frame)};
+  if (is_broadcast(serial::bytes_of(frame))) send.request.timeout = std::min(send.request.timeout, kTurnaround);
+  return send;
 }
 
 std::string sent_text(const SendFrame& send, const serial::Simulation& simulation) {

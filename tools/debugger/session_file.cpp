@@ -29,8 +29,11 @@ Json json_of(const Moment& moment) {
 }
 
 Moment moment_from(const Json& json) {
-  return {json.at(0).get<std::uint64_t>(), json.at(1).get<std::size_t>(), json.at(2).get<bool>(), json.at(3).get<bool>(),
-          json.at(4).get<Time>()};
+  return {.instructions = json.at(0).get<std::uint64_t>(),
+          .actions = json.at(1).get<std::size_t>(),
+          .settled = json.at(2).get<bool>(),
+          .time = json.at(4).get<Time>(),
+          .stopped = json.at(3).get<bool>()};
 }
 
 Json json_of(const SerialFormat& format) {
@@ -77,6 +80,7 @@ struct Writer {
     if (send.request.silence) json["silence"] = *send.request.silence;
     return json;
   }
+  Json operator()(const SetMode& set) const { return {{"mode", set.mode == Mode::Run ? "run" : "stop"}}; }
   Json operator()(const serial::HostCall& call) const {
     Json characters = Json::array();
     for (const serial::HostCharacter& c : call.characters)
@@ -140,12 +144,18 @@ InjectFault fault_from(const std::string& text) {
   return {parsed.fault};
 }
 
+SetMode mode_from(const std::string& text) {
+  if (text != "run" && text != "stop") throw std::runtime_error("an unknown mode");
+  return {text == "run" ? Mode::Run : Mode::Stop};
+}
+
 Action action_from(const Json& json, const CpuModel& model) {
   if (json.contains("set")) return SetMemory{assignments_from(json.at("set"), model)};
   if (json.contains("send")) return send_from(json);
   if (json.contains("host")) return call_from(json);
   if (json.contains("goto")) return Jump{json.at("goto").get<std::uint32_t>()};
   if (json.contains("fault")) return fault_from(json.at("fault").get<std::string>());
+  if (json.contains("mode")) return mode_from(json.at("mode").get<std::string>());
   if (json.contains("stack"))
     return SetStack{LogicStack::from_bits(json.at("stack").get<std::uint64_t>() & LogicStack::kAll)};
   if (json.contains("force")) {

@@ -1,7 +1,7 @@
 // A position of a session as a file. A run is deterministic, so the file has no state in it but, if the session began with
-// power coming back, the memory that was kept. It has digests of the program and of what the session began with, all that was
-// done to the PLC from outside with its moments, and where the session stood. Who loads it replays that, and compares the
-// digest of the state it comes to.
+// power coming back, the memory that was kept. It has digests of the program and of what the session began with, all that
+// was done to the PLC from outside with its moments, and where the session stood. Who loads it replays that, and compares
+// the digest of the state it comes to.
 #pragma once
 
 #include <optional>

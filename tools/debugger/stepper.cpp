@@ -1,21 +1,17 @@
 #include "tools/debugger/stepper.hpp"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "interpreter/program/networks.hpp"
-#include "serial_sim/modbus/crc.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "tools/debugger/access.hpp"
+#include "tools/views/broadcast.hpp"
 
 namespace s7200::tools {
 namespace {
 
-/// Of Modbus RTU: no station answers it, and its master does not wait.
-bool is_broadcast(std::span<const std::uint8_t> frame) {
-  return !frame.empty() && frame.front() == modbus::kBroadcast && modbus::crc_ok(frame);
-}
+using On = StopPoint::On;
 
 }  // namespace
 
@@ -24,6 +20,7 @@ Stepper::Stepper(History& history, const std::atomic<bool>* stop_request)
       on_instruction([](std::size_t, const InstructionRecord&, bool) {}),
       on_answer([](const serial::Exchange&) {}),
       on_message([](const StopPoint&) {}),
+      on_unasked([](const Transmission&) {}),
       on_search([](Time) {}),
       history_(history),
       stop_request_(stop_request),
@@ -54,8 +51,10 @@ Stop Stepper::run(const Goal& goal, Time limit, bool stop_at_answer) {
 }
 
 Time Stepper::idles_until(Time now) {
+  if (asked_to_stop()) return now;
+  if (backwards_) return kNever;
   answered_ |= answer_complete() && stop_at_answer_;
-  const bool ends = answered_ || !stop_.hits.empty() || cpu_stopped_ || asked_to_stop();
+  const bool ends = answered_ || !stop_.hits.empty() || cpu_stopped_;
   return ends ? now : std::max(now, limit_);
 }
 
@@ -160,7 +159,7 @@ void Stepper::begin_watching() {
   for (Listening& listening : listening_) listening.awaits_answer = false;
   note_masters();
   if (!backwards_)
-    for (StopPoint& stop : stops) stop.skipped = 0;
+    for (StopPoint& stop : stops) stop.skipped = stop.unknown = 0;
   read_values();
 }
 
@@ -182,6 +181,8 @@ void Stepper::listen_from_now_on(std::size_t number) {
   const Time last = here.last_activity();
   listening.silence_noted = here.line_quiet_for(silence) ? last : 0;
   listening.came_in = last > here.plc().state().uart.at(here.port()).send_end + half_a_character;
+  listening.heard = listening.came_in ? std::optional(last) : std::nullopt;
+  listening.sending = {};
   listening.host_waits.reset();
   listening.host_frame_end = 0;
   const bool waits = listening.came_in && listening.silence_noted != 0 && !here.freeport().transmitting;
@@ -191,7 +192,7 @@ void Stepper::listen_from_now_on(std::size_t number) {
 /// What comes from outside ends a row of such scans by itself. A time that has come is looked for here.
 bool Stepper::wants_scans() const {
   if (history_.stations() > 1) return true;  // a CPU in step never runs a whole one at once
-  const auto is_within_a_scan = [](const StopPoint& stop) { return stop.on == StopPoint::On::Place || stop.is_watch(); };
+  const auto is_within_a_scan = [](const StopPoint& stop) { return stop.on == On::Place || stop.is_watch(); };
   const serial::Simulation& only = station(0);
   const bool waits = listening_[0].host_waits || only.last_activity() != listening_[0].silence_noted;
   const bool ends = only.time() >= limit_;
@@ -205,15 +206,27 @@ void Stepper::read_values() {
 
 void Stepper::acted() {
   note_masters();
-  read_values();
+  note_changes_from_outside();
+}
+
+/// They are no hits that count: only what the CPU does is.
+void Stepper::note_changes_from_outside() {
+  for (StopPoint& stop : stops) {
+    if (!stop.range) continue;
+    std::vector<std::uint8_t> value = stop.range->bytes_in(station(stop.station).cpu().state().image);
+    const bool meant = value != stop.value && stop.on != On::Read && stop.from_hit == 1 && holds(stop);
+    if (meant && !stop.log.empty() && !backwards_) on_message(stop);
+    if (meant && stop.log.empty())
+      stop_.hits.push_back({.stop = stop, .value = value, .action = history_.now().actions - 1});
+    stop.value = std::move(value);
+  }
 }
 
 void Stepper::record(const TraceRecord& record) {
   const std::size_t station = history_.told_of();
   note_record(record);
   if (backwards_) return;
-  const bool others_go_on = history_.stations() > 1 || history_.station(station).system().has_schedule();
-  if (others_go_on && record.kind == TraceKind::ModeChange && record.code == 0) cpu_stopped_ = station;
+  if (record.kind == TraceKind::ModeChange && record.code == 0) cpu_stopped_ = station;
   on_record(station, record);
 }
 
@@ -292,20 +305,32 @@ void Stepper::instruction(const InstructionRecord& record) {
   on_instruction(number, record, executing_start_);
 }
 
+void Stepper::add(StopPoint stop) {
+  stops.push_back(std::move(stop));
+  count_hits();
+}
+
 void Stepper::count_hits() {
   const History::Place here = history_.here();
-  const std::pair now{here.moment.instructions, here.moment.time};
+  const StopPoint::Instant now{here.moment.instructions, here.moment.time};
   const bool same_beginning =
       counted_on_ && counted_on_->checkpoints.front() == here.branch->checkpoints.front();  // it has forked
   for (StopPoint& stop : stops) {
-    const auto before = stop.hit_at.find(counted_on_);
-    const auto [counted, is_new] = stop.hit_at.try_emplace(here.branch);
-    StopPoint::Moments& moments = counted->second;
-    if (is_new && same_beginning && before != stop.hit_at.end())
-      moments.assign(before->second.begin(), std::ranges::upper_bound(before->second, now));
-    stop.hits = static_cast<std::uint64_t>(std::ranges::upper_bound(moments, now) - moments.begin());
+    const auto before = stop.counted.find(counted_on_);
+    const auto [counted, is_new] = stop.counted.try_emplace(here.branch, StopPoint::Counted{.since = now});
+    auto& [since, at] = counted->second;
+    if (is_new && same_beginning && before != stop.counted.end()) {
+      since = std::min(since, before->second.since);
+      at.assign(before->second.at.begin(), std::ranges::upper_bound(before->second.at, now));
+    }
+    stop.hits = static_cast<std::uint64_t>(std::ranges::upper_bound(at, now) - at.begin());
   }
   counted_on_ = here.branch;
+}
+
+Time Stepper::counts_since(const StopPoint& stop) const {
+  const auto counted = stop.counted.find(history_.here().branch);
+  return counted == stop.counted.end() ? history_.now().time : counted->second.since.second;
 }
 
 /// When a hit was, in the order of instructions: not after the next one of any station begins.
@@ -314,24 +339,35 @@ Time Stepper::time_of(const Hit& hit) const {
   return hit.record ? std::min(hit.record->at, executing_since_) : history_.in_front().time;
 }
 
-/// The number of the hit that is now. What is played again was counted the first time; backwards nothing is new.
-std::uint64_t Stepper::count(StopPoint& stop, Time at) {
+/// The number of the hit that is now; 0 of one from before the stop was set. What is played again was counted the first
+/// time; backwards nothing is new.
+std::uint64_t Stepper::count(StopPoint& stop, Time when) {
   const std::uint64_t instructions = history_.in_front().instructions;
-  StopPoint::Moments& moments = stop.hit_at[counted_on_];
+  auto& [since, at] = stop.counted[counted_on_];
   if (backwards_) {
-    const std::pair latest{instructions, kNever};
-    return static_cast<std::uint64_t>(std::ranges::upper_bound(moments, latest) - moments.begin());
+    const StopPoint::Instant latest{instructions, kNever};
+    return static_cast<std::uint64_t>(std::ranges::upper_bound(at, latest) - at.begin());
   }
-  const std::pair now{instructions, at};
-  const auto next = moments.begin() + static_cast<std::ptrdiff_t>(stop.hits);
-  if (next == moments.end() || *next != now) moments.insert(next, now);
+  const StopPoint::Instant now{instructions, when};
+  if (now <= since) return 0;
+  const auto next = at.begin() + static_cast<std::ptrdiff_t>(stop.hits);
+  if (next == at.end() || *next != now) at.insert(next, now);
   return ++stop.hits;
 }
 
-/// Counts, and stops unless there is a reason not to. Backwards it also stops at hits from before the stop was set, unless
-/// it waits for a number.
+/// A condition that cannot be computed does not hold.
+bool Stepper::holds(StopPoint& stop) {
+  if (!stop.condition) return true;
+  std::string why;
+  const auto value = stop.condition->value(station(stop.station).cpu(), why);
+  if (!value && !backwards_ && stop.unknown++ == 0) stop.why_unknown = why;
+  return value && value->truth();
+}
+
+/// Counts, and stops unless there is a reason not to. It also stops at hits from before the stop was set, unless it waits
+/// for a number.
 void Stepper::hit(StopPoint& stop, Hit with) {
-  if (stop.condition && !stop.condition->holds(station(stop.station).cpu())) return;
+  if (!holds(stop)) return;
   const std::uint64_t number = count(stop, time_of(with));
   if (stop.from_hit > 1 && number < stop.from_hit) return;
   if (!stop.log.empty()) {
@@ -346,7 +382,7 @@ void Stepper::hit(StopPoint& stop, Hit with) {
 void Stepper::hit_places(std::uint32_t op) {
   const Cpu& cpu = station(history_.told_of()).cpu();
   for (StopPoint& stop : stops) {
-    if (stop.station != history_.told_of() || stop.on != StopPoint::On::Place || stop.op != op) continue;
+    if (stop.station != history_.told_of() || stop.on != On::Place || stop.op != op) continue;
     const bool idle = stop.needs_power && is_box_or_coil(cpu.program().ops[op]) && !cpu.state().stack.top();
     if (!idle) hit(stop, {});
     if (idle && !backwards_) ++stop.skipped;
@@ -357,15 +393,17 @@ void Stepper::note_accesses(std::uint32_t op) {
   accessed_.clear();
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const auto on = stops[i].on;
-    if (stops[i].station != history_.told_of()) continue;
-    if (on != StopPoint::On::Read && on != StopPoint::On::Write) continue;
-    const Access access = on == StopPoint::On::Read ? Access::Read : Access::Write;
-    if (accesses(station(stops[i].station).cpu(), op, access, bits_of(*stops[i].range))) accessed_.push_back(i);
+    if (stops[i].station != history_.told_of() || !stops[i].range) continue;
+    const auto is_accessed = [&](Access access) {
+      return accesses(station(stops[i].station).cpu(), op, access, bits_of(*stops[i].range));
+    };
+    const bool read = (on == On::Read || on == On::ReadWrite) && is_accessed(Access::Read);
+    const bool written = (on == On::Write || on == On::ReadWrite) && is_accessed(Access::Write);
+    if (read || written) accessed_.push_back(i);
   }
 }
 
 bool Stepper::is_meant(const StopPoint& stop, const TraceRecord& record) {
-  using On = StopPoint::On;
   const bool event = !stop.event || *stop.event == record.event;
   switch (record.kind) {
     case TraceKind::EventOccurred:
@@ -402,9 +440,35 @@ void Stepper::note_record(const TraceRecord& record) {
   const bool sends = sent || (on_line && record.kind == TraceKind::Transmit);
   if (received || sends) note_end_of_wait(number, sends ? nullptr : &record);
   if (received) listening.coming_in.push_back(record.byte);
+  if (received) listening.heard = record.at;
   if (received || sent) listening.came_in = received;
+  const std::vector<std::uint8_t> frame = note_sent(number, record);
   for (StopPoint& stop : stops)
-    if (stop.station == number && is_meant(stop, record)) hit(stop, {.record = record});
+    if (stop.station == number && is_meant(stop, record)) hit(stop, {.record = record, .frame = frame});
+}
+
+/// All of a transmission that ends; nothing if it was not seen to begin.
+std::vector<std::uint8_t> Stepper::note_sent(std::size_t number, const TraceRecord& record) {
+  Listening& listening = listening_[number];
+  std::optional<Transmission>& sending = listening.sending.at(record.port);
+  if (record.kind == TraceKind::Transmit) sending = {.from = record.at};
+  if (record.kind == TraceKind::CharacterSent && sending) sending->bytes.push_back(record.byte);
+  if (record.kind != TraceKind::TransmitEnd) return {};
+  const auto sent = std::exchange(sending, std::nullopt);
+  const bool unasked = record.port == station(number).port() && is_unasked(number);
+  listening.heard.reset();
+  if (!sent) return {};
+  if (unasked && !backwards_) on_unasked({sent->from, record.at, sent->bytes});
+  return sent->bytes;
+}
+
+bool Stepper::is_unasked(std::size_t number) const {
+  const serial::Simulation& here = station(number);
+  if (history_.stations() > 1 || !here.has_master() || here.master().asks()) return false;
+  if (here.has_host_port() && here.host_port().state().attached) return false;
+  const std::optional<Time>& heard = listening_[number].heard;
+  const serial::Exchange& last = here.master().exchange();
+  return !heard || (last.timed_out && *heard <= last.request_end + here.port_format().silence());
 }
 
 /// A frame has ended when nothing came for 3.5 characters.
@@ -418,7 +482,7 @@ void Stepper::note_silence(std::size_t number, Time now) {
   if (!listening.came_in) return;
   const std::vector<std::uint8_t> frame = backwards_ ? std::vector<std::uint8_t>{} : heard;
   for (StopPoint& stop : stops)
-    if (stop.station == number && stop.on == StopPoint::On::FrameReceived) hit(stop, {.frame = frame});
+    if (stop.station == number && stop.on == On::FrameReceived) hit(stop, {.frame = frame});
   note_host_request(number, frame, last);
 }
 
@@ -435,8 +499,7 @@ void Stepper::note_end_of_wait(std::size_t number, const TraceRecord* heard) {
 /// nothing if it is not known.
 void Stepper::note_unanswered(std::size_t number, const std::vector<std::uint8_t>& frame) {
   for (StopPoint& stop : stops)
-    if (stop.on == StopPoint::On::Unanswered && first_beside(stop.station) == first_beside(number))
-      hit(stop, {.frame = frame});
+    if (stop.on == On::Unanswered && first_beside(stop.station) == first_beside(number)) hit(stop, {.frame = frame});
 }
 
 /// Of those on the line of a station.
@@ -520,9 +583,10 @@ void Stepper::note_changes(std::size_t number, const InstructionRecord* by) {
     std::vector<std::uint8_t> value = stop.range->bytes_in(station(stop.station).cpu().state().image);
     const bool changed = value != stop.value;
     const bool touched = by && by->powered && std::ranges::find(accessed_, i) != accessed_.end();
-    const bool meant = stop.on == StopPoint::On::Read    ? touched
-                       : stop.on == StopPoint::On::Write ? touched || (by && changed)
-                                                         : changed;
+    const bool meant = stop.on == On::Read        ? touched
+                       : stop.on == On::Write     ? touched || (by && changed)
+                       : stop.on == On::ReadWrite ? touched || changed
+                                                  : changed;
     if (meant) hit(stop, {.value = value, .by = by ? std::optional(*by) : std::nullopt});
     stop.value = std::move(value);
   }

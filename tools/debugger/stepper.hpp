@@ -8,11 +8,13 @@
 // front of an instruction of that one; if it executes none any more, in front of the next one of any other.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "interpreter/model/ports.hpp"
 #include "tools/debugger/history.hpp"
 #include "tools/debugger/stop_point.hpp"
 
@@ -24,6 +26,12 @@ struct Stop {
   StopReason reason{};
   std::size_t station = 0;  ///< that stopped it; the one looked at if none did
   std::vector<Hit> hits{};  ///< whatever the reason
+};
+
+/// What a PLC has sent.
+struct Transmission {
+  Time from = 0, to = 0;
+  std::vector<std::uint8_t> bytes{};
 };
 
 class Stepper final : public Observer {
@@ -50,8 +58,14 @@ class Stepper final : public Observer {
   /// To the oldest moment if there is nothing of the kind; nowhere after a stop request.
   Stop run_back(const Goal& goal, std::uint64_t count, bool stop_at_answer);
 
+  /// One more, whose hits count from where it stands.
+  void add(StopPoint stop);
+
   /// Counts the hits of all stops up to where it stands: someone may have gone there.
   void count_hits();
+
+  /// From when on hits count on the branch where it stands.
+  Time counts_since(const StopPoint& stop) const;
 
   std::vector<StopPoint> stops;
 
@@ -64,6 +78,8 @@ class Stepper final : public Observer {
   std::function<void(std::size_t station, const InstructionRecord&, bool started_at)> on_instruction;
   std::function<void(const serial::Exchange&)> on_answer;
   std::function<void(const StopPoint&)> on_message;  ///< instead of stopping
+  /// What the only PLC sends though nothing has come to it, or after the master has given its request up; not with a bridge.
+  std::function<void(const Transmission&)> on_unasked;
 
   std::function<void(Time from)> on_search;  ///< told while running backwards: an ever earlier part is being played
 
@@ -112,6 +128,8 @@ class Stepper final : public Observer {
     Time host_frame_end = 0;                 ///< of its last frame that was noted
     std::vector<std::uint8_t> host_frame{};  ///< that one; nothing if it is not known
     bool awaits_answer = false;              ///< its master is busy, and no station before it has the same one
+    std::optional<Time> heard{};             ///< the last character since it has sent anything
+    std::array<std::optional<Transmission>, kPorts.size()> sending{};  ///< by port; of those that were seen to begin
   };
 
   serial::Simulation& station(std::size_t number) { return history_.station(number); }
@@ -129,17 +147,21 @@ class Stepper final : public Observer {
   Stop arrive(History::Search result, const Moment& start);
   std::optional<Found> found_after_part();
   Moment place_of_first_hit(const Moment& earliest);
+  bool holds(StopPoint& stop);
   void hit_places(std::uint32_t op);
   void hit(StopPoint& stop, Hit with);
   Time time_of(const Hit& hit) const;
   std::uint64_t count(StopPoint& stop, Time at);
   void note_accesses(std::uint32_t op);
   void note_record(const TraceRecord& record);
+  std::vector<std::uint8_t> note_sent(std::size_t station, const TraceRecord& record);
+  bool is_unasked(std::size_t station) const;
   void listen_from_now_on(std::size_t station);
   void note_silence(std::size_t station, Time now);
   static bool is_meant(const StopPoint& stop, const TraceRecord& record);
   bool answer_complete();
   void note_changes(std::size_t station, const InstructionRecord* by);
+  void note_changes_from_outside();
   void note_unanswered(std::size_t station, const std::vector<std::uint8_t>& frame);
   std::size_t first_beside(std::size_t station) const;
   Listening& line_of(std::size_t station) { return listening_[first_beside(station)]; }

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "interpreter/base/text.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
@@ -62,7 +63,10 @@ bool check_message(const std::string& text, const Program& program, std::string&
           if (part == word) return;
         good = good && Expression::parse(part, program, why).has_value();
       });
-  return good;
+  const std::size_t open = text.rfind('{');
+  if (good && open != std::string::npos && text.find('}', open) == std::string::npos)
+    why = fmt::format("'{}', column {}: the closing }} is missing", stl::shortened(text), open + 1);
+  return good && why.empty();
 }
 
 }  // namespace s7200::tools

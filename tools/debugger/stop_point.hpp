@@ -31,7 +31,8 @@ struct StopPoint {
     Unanswered,  ///< a request of the simulated master, or of one on a bridge
     Read,        ///< access to memory by an instruction
     Write,
-    Change  ///< of memory, whoever did it
+    ReadWrite,  ///< either of them, or a change
+    Change      ///< of memory, whoever did it
   };
 
   int number = 0;
@@ -40,17 +41,27 @@ struct StopPoint {
   std::uint32_t op = 0;                 ///< Place
   std::optional<std::uint8_t> event{};  ///< EventOccurs, EventServed; any without
   std::optional<std::uint16_t> code{};  ///< RuntimeError; any without
-  std::optional<MemoryRange> range{};   ///< Read, Write, Change
+  std::optional<MemoryRange> range{};   ///< Read, Write, ReadWrite, Change
   std::string name{};                   ///< as the user wrote it: `VW30`, `event 8 served`
   bool needs_power = false;             ///< Place: not in front of a box or coil without power flow
   std::optional<Expression> condition{};
   std::uint64_t from_hit = 1;  ///< the first that stops
   std::string log{};           ///< a line to print instead of stopping
 
-  std::uint64_t hits = 0;                                       ///< up to the moment where it stands, since it was set
-  using Moments = std::vector<std::pair<std::uint64_t, Time>>;  ///< instructions before each, and its time; in order
-  std::map<std::weak_ptr<const void>, Moments, std::owner_less<>> hit_at{};  ///< on each branch of the past
-  std::uint64_t skipped = 0;          ///< times that it had no power flow, in the last run forwards
+  /// Instructions before it, and its time.
+  using Instant = std::pair<std::uint64_t, Time>;
+  /// The hits on a branch of the past: all after the moment where it was set, or where the branch began if that is later.
+  struct Counted {
+    Instant since{};
+    std::vector<Instant> at{};  ///< in order
+  };
+  std::map<std::weak_ptr<const void>, Counted, std::owner_less<>> counted{};  ///< by branch
+  std::uint64_t hits = 0;                                                     ///< of them, up to where it stands
+
+  // In the last run forwards.
+  std::uint64_t skipped = 0;          ///< times that it had no power flow
+  std::uint64_t unknown = 0;          ///< times that its condition could not be computed
+  std::string why_unknown{};          ///< the first time
   std::vector<std::uint8_t> value{};  ///< of the memory as last seen, like bytes_of()
 
   bool is_watch() const { return range.has_value(); }
@@ -61,14 +72,15 @@ struct Hit {
   StopPoint stop{};                       ///< with the old value
   std::vector<std::uint8_t> value{};      ///< new
   std::optional<InstructionRecord> by{};  ///< of an access; nothing: it changed between two instructions
+  std::optional<std::size_t> action{};    ///< that changed it, its number in History::actions()
   std::optional<TraceRecord> record{};    ///< what happened
-  std::vector<std::uint8_t> frame{};      ///< FrameReceived, and Unanswered on a bridge; empty if it is not known
+  std::vector<std::uint8_t> frame{};      ///< FrameReceived, FrameSent, and Unanswered on a bridge; empty if it is not known
 };
 
 /// `{VW20} at {time}` filled in: expressions, and time, scan, line, event. What cannot be read stays as it is.
 std::string filled_in(const std::string& text, const Cpu& cpu);
 
-/// Whether all in braces can be read; sets `why` if not.
+/// Whether all in braces can be read, and each is closed; sets `why` if not.
 bool check_message(const std::string& text, const Program& program, std::string& why);
 
 }  // namespace s7200::tools

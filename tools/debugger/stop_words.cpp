@@ -84,6 +84,17 @@ std::optional<StopPoint> happening_stop(const Happening& happening, const std::v
   return {};
 }
 
+/// Those that are not among the words; none where an option has not got what it needs.
+std::vector<std::string> options_after(const std::vector<std::string>& words) {
+  std::vector<std::string> options;
+  const std::string last = lower_case(words.back());
+  if (last == "if" || last == "hits" || last == "log") return options;
+  for (const std::string_view option : kStopOptions)
+    if (std::ranges::none_of(words, [&](const std::string& word) { return lower_case(word) == option; }))
+      options.emplace_back(option);
+  return options;
+}
+
 }  // namespace
 
 std::optional<NamedPlace> find_place(const std::vector<std::string>& words, const Program& program, const Listing& listing,
@@ -143,6 +154,40 @@ std::vector<std::string_view> happening_words() {
   std::vector<std::string_view> words{"event"};
   for (const Happening& happening : kHappenings) words.push_back(happening.word);
   return words;
+}
+
+std::vector<std::string> words_after_break(const std::vector<std::string>& words, const Program& program) {
+  std::vector<std::string> all;
+  if (words.empty()) {
+    all = place_words();
+    for (const std::string_view word : happening_words()) all.emplace_back(word);
+    return all;
+  }
+  const std::string first = lower_case(words.front());
+  if (first == "event" && words.size() == 1) {
+    for (const InterruptEvent& event : all_events()) all.push_back(fmt::format("{}", event.number));
+    return all;
+  }
+  if (all = words.size() == 1 ? numbers_of(stl::upper_case(first), program) : all; !all.empty()) return all;
+  if (first == "event" && words.size() == 2) all = {"occurs", "served"};
+  const std::vector<std::string_view> happenings = happening_words();
+  const bool is_place = std::ranges::find(happenings, first) == happenings.end();
+  for (const std::string& option : options_after(words))
+    if (is_place || option != "always") all.push_back(option);
+  return all;
+}
+
+std::vector<std::string> words_after_watch(const std::vector<std::string>& words) {
+  std::vector<std::string> all;
+  const auto has = [&](std::string_view word) {
+    return std::ranges::any_of(words, [&](const std::string& one) { return lower_case(one) == word; });
+  };
+  const bool waits_for = has("read") || has("write") || has("change");
+  for (const AccessWord& access : kAccesses)
+    if (!waits_for && access.word.find(' ') == std::string_view::npos) all.emplace_back(access.word);
+  for (const std::string& option : options_after(words))
+    if (option != "always") all.push_back(option);
+  return all;
 }
 
 }  // namespace s7200::tools

@@ -12,6 +12,19 @@
 
 namespace s7200::tools {
 
+/// What may follow what a stop is set on.
+inline constexpr std::string_view kStopOptions[] = {"always", "if", "hits", "log"};
+
+/// What a watch may wait for.
+struct AccessWord {
+  std::string_view word;
+  StopPoint::On on{};
+};
+inline constexpr AccessWord kAccesses[] = {{"read write", StopPoint::On::ReadWrite},
+                                           {"read", StopPoint::On::Read},
+                                           {"write", StopPoint::On::Write},
+                                           {"change", StopPoint::On::Change}};
+
 struct NamedPlace {
   std::uint32_t op = 0;
   std::string note{};  ///< what is to be said: the line that was named has no instruction
@@ -33,5 +46,9 @@ std::vector<std::string> numbers_of(std::string_view word, const Program& progra
 
 /// The words for happenings, for completion: `received`, `xmt` …
 std::vector<std::string_view> happening_words();
+
+/// What may come after the words of `break` or `watch`, for completion.
+std::vector<std::string> words_after_break(const std::vector<std::string>& words, const Program& program);
+std::vector<std::string> words_after_watch(const std::vector<std::string>& words);
 
 }  // namespace s7200::tools

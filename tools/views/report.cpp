@@ -7,6 +7,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "serial_sim/modbus/crc.hpp"
+#include "tools/views/broadcast.hpp"
 #include "tools/views/text_frame.hpp"
 
 namespace s7200::tools {
@@ -97,6 +98,7 @@ std::string exchange_text(const serial::Exchange& exchange, Time timeout) {
   std::string request = fmt::format("request  {}\n{}", serial::to_hex(exchange.request), below(request_text(bytes)));
   if (!exchange.echo.empty()) request += fmt::format("echo     {}\n", serial::to_hex(serial::bytes_of(exchange.echo)));
   const std::string early = below(exchange.early ? std::string(kEarly) : "");
+  if (exchange.timed_out && is_broadcast(bytes)) return request + "answer   none expected: it is a broadcast\n" + early;
   if (exchange.timed_out) return fmt::format("{}answer   none within {}\n{}", request, format_duration(timeout), early);
   return fmt::format("{}answer   {}   after {}\n{}{}", request, serial::to_hex(exchange.response_bytes()),
                      format_duration(*exchange.latency()), below(remarks_on(exchange)), early);

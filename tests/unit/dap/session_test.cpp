@@ -58,7 +58,13 @@ TEST(DapSession, WrongArgumentsAreAnErrorAndTheSessionGoesOn) {
   EXPECT_EQ(editor.breakpoint({{"line", -3}})["message"], "there is no line -3: lines are counted from 1");
   EXPECT_TRUE(
       has(editor.error_of("lastWrite", {{"expression", "event 99"}}), "there is no event 99; who expects one address"));
-  EXPECT_EQ(editor.error_of("evaluate", {{"expression", "1 / 0"}}), "cannot be computed: a division by 0");
+  EXPECT_EQ(editor.error_of("evaluate", {{"expression", "1 / 0"}}), "'1 / 0', column 5: a division by 0");
+  EXPECT_EQ(editor.error_of("evaluate", {{"expression", "1 / VW40"}}), "cannot be computed: a division by 0");
+  EXPECT_FALSE(editor.breakpoint({{"line", 4}, {"condition", "1/0 = 1"}})["verified"]);
+  EXPECT_TRUE(has(editor.breakpoint({{"line", 4}, {"logMessage", "a {VW2"}})["message"], "the closing } is missing"));
+  EXPECT_EQ(editor.error_of("scopes", {{"frameId", 99999}}), "there is no frame 99999");
+  EXPECT_EQ(editor.error_of("scopes", {{"frameId", 77}}), "there is no frame 77");
+  EXPECT_EQ(editor.error_of("readMemory", {{"memoryReference", "VB0"}, {"count", -1}}), "count: -1 is less than 0");
   editor.session.handle(Json::array());
   editor.session.handle({{"type", "response"}});
   EXPECT_EQ(editor.value("1 + 1"), "2");
@@ -306,6 +312,7 @@ TEST(DapSession, DataBreakpointsStopAfterAChangeAReadOrAnyWrite) {
       has(stop_at({{"dataId", "VW30"}, {"accessType", "write"}}), "VW30 was 16#0000 (0), is 16#0001 (1), by INT 0 line 22"));
   EXPECT_TRUE(has(stop_at({{"dataId", "VW10"}, {"accessType", "read"}}), "VW10"));
   EXPECT_TRUE(has(stop_at({{"dataId", "VW10"}, {"accessType", "readWrite"}, {"condition", "VW10 > 5"}}), "VW10"));
+  EXPECT_EQ(editor.last("stopped")["hitBreakpointIds"].size(), 1u) << "read and written by one instruction: one stop";
   EXPECT_EQ(editor("dataBreakpointInfo", {{"name", "VB20"}, {"bytes", 4}})["dataId"], "VB20:4");
   EXPECT_EQ(editor("dataBreakpointInfo", {{"name", "VW10 write"}})["dataId"], "VW10 write");
   EXPECT_EQ(editor("dataBreakpointInfo", {{"name", "*VD100"}})["dataId"], "VB20");
@@ -665,6 +672,23 @@ TEST(DapSession, VariablesAndExpressionsAreSet) {
       has(editor.error_of("setExpression", {{"expression", "VB0"}, {"value", "256"}}), "is not a value that fits VB0"));
   editor("setExpression", {{"expression", "I0.0"}, {"value", "1"}});
   EXPECT_TRUE(has(editor.printed(), "when the next scan reads its inputs"));
+}
+
+TEST(DapSession, ARequestInStopIsGivenUpAndAModeRequestStartsTheProgram) {
+  Editor editor(kNested);
+  editor.begin();
+  const auto console = [&](const char* line) { return editor("evaluate", {{"expression", line}, {"context", "repl"}}); };
+  editor("stepScan", {{"threadId", 1}, {"count", 5}});
+  console("mode stop");
+  EXPECT_EQ(editor.frame()["name"], "STOP");
+  console("send 01 03 00 00 00 02 crc");
+  editor("continue", {{"threadId", 1}});
+  EXPECT_TRUE(has(editor.printed(), "answer   none within 1 s"));
+  EXPECT_EQ(editor.last("stopped")["description"], "the CPU is in STOP");
+  console("mode run");
+  editor("stepScan", {{"threadId", 1}});
+  EXPECT_NE(editor.frame()["name"], "STOP");
+  EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", "mode run"}, {"context", "repl"}}), "is in RUN already"));
 }
 
 TEST(DapSession, SettingInThePastBeginsABranch) {

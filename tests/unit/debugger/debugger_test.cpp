@@ -893,7 +893,7 @@ TEST(Debugger, StopOfTheCpuIsReportedWithTheInstruction) {
   Session session("LD SM0.0\nSTOP // enough\nMEND\n");
   EXPECT_TRUE(has(session("continue"), "the CPU went to STOP; the last instruction was in main line 2: STOP"));
   const auto before = session.simulation.snapshot();
-  EXPECT_TRUE(has(session("step; scan; continue"), "the CPU is in STOP"));
+  EXPECT_TRUE(has(session("step; scan"), "the CPU is in STOP"));
   EXPECT_EQ(session.simulation.snapshot(), before);
   session("back");
   EXPECT_EQ(session.state().mode, Mode::Run);
@@ -1003,12 +1003,12 @@ TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
       {"break INT x", "break expects a line number, SBR n, INT n, LBL n or NETWORK n"},
       {"break SBR 9", "the program has no SBR 9"},
       {"break if VW0 = 1", "break expects a place or what happens first"},
-      {"break 4 if", "after what it stops at come: always"},
+      {"break 4 if", "if expects a condition"},
       {"break 4 if VW0 >", "'VW0 >', column 6: an address or a number is missing"},
       {"break 4 if VW0 = 1 2", "column 9: an operator is missing"},
       {"break 4 if (VW0", "the closing ) is missing"},
       {"break 4 if VX", "is not an address"},
-      {"break 4 hits 0", "after what it stops at come: always"},
+      {"break 4 hits 0", "hits expects a number above 0"},
       {"break 4 log '{VX}'", "is not an address"},
       {"break event 99", "break event expects the number of an event"},
       {"break error xyz", "break error expects nothing or a code in hex"},

@@ -29,6 +29,7 @@ struct StopAt final : Observer {
   explicit StopAt(const Cpu& watched, std::uint64_t number) : cpu(watched), instructions(number) {}
   bool before(std::uint32_t) override { return cpu.state().instructions < instructions; }
   bool wants_instructions() const override { return true; }
+  Time idles_until(Time now) override { return now; }  // in STOP nothing more is executed
   const Cpu& cpu;
   std::uint64_t instructions;
 };
@@ -150,7 +151,7 @@ TEST(History, RandomWalksForwardsAndBackwardsStandWhereAPlainRunStands) {
     for (; actions < deeds().size() && deeds()[actions].first == at; ++actions)
       perform(deeds()[actions].second, forwards.simulation);
     if (deed_due) forwards.run_to(at);
-    plain.push_back({{at, actions, true, false, forwards.simulation.time()}, forwards.simulation.snapshot()});
+    plain.push_back({{at, actions, true, forwards.simulation.time(), false}, forwards.simulation.snapshot()});
   }
   for (int i = 0; i < walks; ++i) {
     const auto& [moment, state] = plain[chance() % plain.size()];

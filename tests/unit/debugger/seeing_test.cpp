@@ -121,7 +121,14 @@ TEST(Seeing, ExpectIsAWrongCommandUnlessItHolds) {
   EXPECT_EQ(session.error_of("expect VW10 = 4 and (M0.1 or VW10 > 8) or *VD500 = 1"),
             "expected VW10 = 4 and (M0.1 or VW10 > 8) or *VD500 = 1, which does not hold here: VW10 is 3, M0.1 is 0, *VD500 "
             "points nowhere: VD500 is 16#FF000000");
-  EXPECT_TRUE(has(session("print 1/0"), "1/0 cannot be computed: a division by 0\n"));
+  EXPECT_TRUE(has(session("print 1/VW600"), "1/VW600 cannot be computed: a division by 0\n"));
+  EXPECT_EQ(session.error_of("print 1/0"), "'1/0', column 3: a division by 0");
+  EXPECT_TRUE(has(session("print 16#FFFFFFFF + 1"), "16#FFFFFFFF + 1 = 4294967296 (more than a double word)\n"));
+  EXPECT_TRUE(has(session("print 16#FFFFFFFF"), "= 4294967295 (16#FFFFFFFF)\n"));
+  session("set VW600=16#4849 VW602=16#FFFF");
+  EXPECT_EQ(session("print /c VB600:4"), "VB600    'HI\\xff\\xff'\n");
+  EXPECT_TRUE(has(session("print VW602 > 32767"), "= 0 ")) << "a word has a sign";
+  EXPECT_TRUE(has(session("print VW602 = 16#FFFF"), "= 1 ")) << "a constant stands for its bits";
   EXPECT_TRUE(has(session("print *VD500 + 1"), "cannot be computed: *VD500 points nowhere: VD500 is 16#FF000000\n"));
   std::istringstream script("scan 2\nexpect VW10 = 5\nexpect VW10 = 6\nstep\n");
   const auto error = session.debugger->run_script(script);

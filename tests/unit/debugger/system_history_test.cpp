@@ -130,7 +130,7 @@ std::vector<std::pair<Moment, Snapshot>> plain_states(std::mt19937& chance) {
     const bool deed_due = forwards.actions < deeds().size() && deeds()[forwards.actions].at == at;
     if (!deed_due && chance() % 300 != 0) continue;
     forwards.live_to(at);
-    states.push_back({{at, forwards.actions, true, false, bench.system().time()}, bench.system().snapshot()});
+    states.push_back({{at, forwards.actions, true, bench.system().time(), false}, bench.system().snapshot()});
   }
   return states;
 }

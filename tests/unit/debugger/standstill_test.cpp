@@ -1,0 +1,123 @@
+// A CPU in STOP: time passes, requests come to their end, and the past is the past.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "tests/unit/debugger/session.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// An endless loop from I0.0 on, which the watchdog ends.
+constexpr std::string_view kLoop =
+    "LD      SM0.1\n"   // 1
+    "MOVW    0, VW0\n"  // 2
+    "LBL     1\n"       // 3
+    "LD      SM0.0\n"   // 4
+    "INCW    VW2\n"     // 5
+    "LD      I0.0\n"    // 6
+    "JMP     1\n"       // 7
+    "MEND\n";           // 8
+
+TEST(Standstill, WhyNamesTheJumpThatLedToTheWatchdog) {
+  Session session(kLoop);
+  EXPECT_TRUE(has(session("continue 20ms; input I0.0=1; continue"), "fatal error 0003"));
+  EXPECT_TRUE(has(session("why"), "main: JMP 1 in line 7 (LD I0.0: I0.0=1)"));
+  EXPECT_TRUE(has(session("continue 500ms; why"), "JMP 1 in line 7")) << "while STOP lasts";
+}
+
+TEST(Standstill, ARequestInStopIsGivenUpAtItsTimeOut) {
+  Session session("LD SM0.0\nSTOP\nMEND\n");
+  session("continue; send 01 03 00 00 00 02 crc");
+  const Time asked = session.simulation.time();
+  const std::string text = session("continue");
+  EXPECT_TRUE(has(text, "answer   none within 1 s\n         the CPU is in STOP, where no program answers\n"));
+  EXPECT_GE(session.simulation.time(), asked + kSecond);
+  EXPECT_LT(session.simulation.time(), asked + 2 * kSecond);
+  EXPECT_FALSE(session.simulation.master().busy());
+  EXPECT_TRUE(has(session("break unanswered; send 01; continue"), "breakpoint 1, unanswered"));
+}
+
+TEST(Standstill, ContinueLetsAsMuchTimePassAsItSaysAndStepsExecuteNothing) {
+  Session session("LD SM0.0\nSTOP\nMEND\n");
+  session("continue");
+  const Time stopped = session.simulation.time();
+  EXPECT_TRUE(has(session("continue 250ms"), "250 ms of simulated time passed"));
+  EXPECT_EQ(session.simulation.time(), stopped + 250 * kMillisecond);
+  EXPECT_TRUE(has(session("step"), "executes nothing; 'continue' lets time pass, 'mode run' starts it"));
+  EXPECT_EQ(session.simulation.time(), stopped + 250 * kMillisecond);
+}
+
+TEST(Standstill, TheTimeInStopCanBeGoneBackToAndPlayedAgain) {
+  Session session("LD SM0.0\nSTOP\nMEND\n");
+  session("continue");
+  const Time stopped = session.simulation.time();
+  session("send 01 03 00 00 00 02 crc; continue");
+  const auto there = session.simulation.snapshot();
+  session("at 500ms");
+  EXPECT_EQ(session.simulation.time(), 500 * kMillisecond);
+  EXPECT_TRUE(session.simulation.master().busy());
+  session("continue 100ms");
+  EXPECT_EQ(session.simulation.time(), 600 * kMillisecond) << "not to the end of what has run";
+  session("continue");
+  EXPECT_EQ(session.simulation.snapshot(), there);
+  session("at start; continue");
+  EXPECT_EQ(session.simulation.time(), stopped) << "where it went to STOP it stops again";
+  EXPECT_EQ(session.state().mode, Mode::Stop);
+}
+
+TEST(Standstill, TheWatchdogStopsItAgainAtTheSameInstant) {
+  Session session(kLoop);
+  session("continue 20ms; input I0.0=1; continue");
+  const auto stopped = session.simulation.snapshot();
+  session("continue 1s; at 100ms; continue");
+  EXPECT_EQ(session.simulation.snapshot(), stopped);
+}
+
+TEST(Standstill, ModeStopsAndStartsTheProgramAsAProgrammingDeviceDoes) {
+  Session session(kNested);
+  session("continue 20ms");
+  const std::uint16_t scans = session.vw(10);
+  EXPECT_TRUE(has(session("mode stop"), "STOP"));
+  session("continue 100ms");
+  EXPECT_EQ(session.vw(10), scans);
+  EXPECT_EQ(session.error_of("mode stop"), "mode: the CPU is in STOP already");
+  session("mode run; continue 20ms");
+  EXPECT_EQ(session.state().mode, Mode::Run);
+  EXPECT_GT(session.vw(10), scans);
+  EXPECT_EQ(session.error_of("mode"), "mode expects run or stop");
+  EXPECT_EQ(session.error_of("mode frob"), "mode expects run or stop");
+}
+
+TEST(Standstill, ModeIsPlayedAgainAndSaved) {
+  const std::string path = (std::filesystem::path(testing::TempDir()) / "mode_session.json").string();
+  std::remove(path.c_str());
+  Session session(kNested);
+  session("continue 20ms; mode stop; continue 100ms; mode run; continue 20ms");
+  const auto there = session.simulation.snapshot();
+  session("save " + path + "; at start; continue");
+  EXPECT_EQ(session.state().mode, Mode::Stop) << "where it was stopped";
+  session("at end");
+  EXPECT_EQ(session.simulation.snapshot(), there);
+  Session other(kNested);
+  other("load " + path);
+  EXPECT_EQ(other.simulation.snapshot(), there);
+}
+
+TEST(Standstill, AfterAFatalErrorOnlyPowerBringsTheProgramBack) {
+  Session session(kLoop);
+  session("input I0.0=1; continue");
+  EXPECT_TRUE(has(session.error_of("mode run"), "after fatal error 0003 the CPU stays in STOP"));
+  EXPECT_TRUE(has(session("step"), "'restart' powers it up again"));
+}
+
+TEST(Standstill, AProgrammingDeviceOnTheLineIsAnsweredInStop) {
+  Session session("LD SM0.0\nSTOP\nMEND\n");
+  session("continue");
+  // SD1: station 2 is asked by station 0 for its state
+  EXPECT_TRUE(has(session("send 10 02 00 49 4b 16; continue"), "answer   10 00 02 00 02 16"));
+}
+
+}  // namespace
+}  // namespace s7200::tools

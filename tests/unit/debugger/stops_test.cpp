@@ -1,0 +1,144 @@
+// What breakpoints and watches count, what they say, and what they refuse.
+#include <gtest/gtest.h>
+
+#include "tests/unit/debugger/session.hpp"
+
+namespace s7200::tools {
+namespace {
+
+TEST(Stops, HitsCountFromTheMomentWhereTheStopWasSetWhateverIsPlayedAgain) {
+  Session session(kNested);
+  session("continue 22ms; break INT 0 hits 3");
+  EXPECT_EQ(session.vw(30), 4U);
+  EXPECT_TRUE(has(session("continue"), "hit 3 times"));
+  EXPECT_EQ(session.vw(30), 6U);
+  const Time third = session.simulation.time();
+  EXPECT_TRUE(has(session("rc"), "this is the oldest moment"));
+  EXPECT_TRUE(has(session.out.str(), "breakpoint 1 counts its hits from 22.")) << "with a word why there are none";
+  EXPECT_TRUE(has(session("break"), "0 hits"));
+  EXPECT_TRUE(has(session("continue"), "hit 3 times"));
+  EXPECT_EQ(session.simulation.time(), third) << "what came before it was set does not count";
+  EXPECT_TRUE(has(session("break"), "3 hits"));
+  EXPECT_TRUE(has(session("back; break"), "0 hits")) << "going back takes counts back";
+}
+
+TEST(Stops, AStopWithoutANumberStopsAtWhatWasBeforeItToo) {
+  Session session(kNested);
+  session("continue 22ms; break INT 0; rc");
+  EXPECT_EQ(session.vw(30), 3U);
+  EXPECT_TRUE(has(session("break"), "0 hits"));
+  session("rc; continue");
+  EXPECT_EQ(session.vw(30), 3U);
+  EXPECT_TRUE(has(session("break"), "0 hits"));
+}
+
+TEST(Stops, HitsCountOnANewBranchFromItsBeginning) {
+  Session session(kNested);
+  session("continue 22ms; break INT 0 hits 2; restart");
+  EXPECT_TRUE(has(session("continue"), "hit 2 times"));
+  EXPECT_EQ(session.vw(30), 1U);
+  session("back 2; at 12ms; set VW100=1; continue");
+  EXPECT_EQ(session.vw(30), 3U) << "the second after 12 ms";
+}
+
+TEST(Stops, AWatchStopsAtWhatWasSetFromOutside) {
+  Session session(kNested);
+  session("watch VW100; continue 5ms; set VW100=7; continue 5ms");
+  const std::string text = session("rc");
+  EXPECT_TRUE(has(text, "watch 1: VW100 was 16#0000 (0), is 16#0007 (7)\n  by 'set VW100', from outside\n"));
+  EXPECT_EQ(session.vw(100), 7U);
+  const Time set = session.simulation.time();
+  EXPECT_TRUE(has(session("at start; continue"), "by 'set VW100', from outside"));
+  EXPECT_EQ(session.simulation.time(), set) << "forwards at the same place";
+  EXPECT_TRUE(has(session("break"), "0 hits")) << "only what the CPU does counts";
+  EXPECT_TRUE(has(session("rc"), "this is the oldest moment"));
+}
+
+TEST(Stops, AWatchStopsAtAForcedValue) {
+  Session session(kNested);
+  session("watch VW100; continue 5ms; force VW100=9; continue 5ms");
+  EXPECT_TRUE(has(session("rc"), "is 16#0009 (9)\n  by 'force VW100', from outside\n"));
+}
+
+TEST(Stops, AConditionThatCannotBeComputedIsSaidOnceAStop) {
+  Session session(kNested);
+  const std::string text = session("break 4 if 10/VW20 = 5; continue 10ms");
+  EXPECT_TRUE(has(text, "nothing to stop for")) << "VW20 is 7 after the first scan";
+  Session never("LD SM0.0\nINCW VW10\nMEND\n");
+  const std::string said = never("break 2 if 1/VW20 = 1; continue 5ms");
+  EXPECT_TRUE(has(said, "the condition of breakpoint 1 could not be computed "));
+  EXPECT_TRUE(has(said, " times: a division by 0\n"));
+  EXPECT_EQ(said.find("could not", said.find("could not") + 1), std::string::npos) << "once";
+}
+
+TEST(Stops, WhatCanNeverBeComputedIsRefused) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session.error_of("break 4 if 1/0 = 1"), "a division by 0"));
+  EXPECT_TRUE(has(session.error_of("expect 1/0"), "a division by 0"));
+  EXPECT_EQ(session.error_of("expect 1/VW100 = 1"),
+            "expected 1/VW100 = 1, which does not hold here: VW100 is 0; a division by 0");
+}
+
+TEST(Stops, ABraceThatIsNotClosedIsRefused) {
+  Session session(kNested);
+  EXPECT_EQ(session.error_of("break 4 log 'a {VW2'"), "'a {VW2', column 3: the closing } is missing");
+  EXPECT_TRUE(has(session("break 4 log 'a {VW10} b'; continue 2ms"), "a 0 b\n"));
+}
+
+TEST(Stops, EachOptionSaysWhatItExpects) {
+  Session session(kNested);
+  EXPECT_EQ(session.error_of("watch VW100 hits 0"), "hits expects a number above 0, for example: hits 4");
+  EXPECT_EQ(session.error_of("watch VW100 if"), "if expects a condition, for example: if VW100 > 8");
+  EXPECT_EQ(session.error_of("break 4 log"), "log expects a text, for example: log '{VW100} at {time}'");
+}
+
+TEST(Stops, AWatchForReadsAndWritesIsOneWithOneCount) {
+  Session session("LD SM0.0\nMOVW 5, VW0\nMOVW VW0, VW2\nMEND\n");
+  EXPECT_TRUE(has(session("watch VW0 read write; continue"), "watch 1: VW0 read write was 16#0000 (0), is 16#0005 (5)"));
+  EXPECT_TRUE(has(session("continue"), "by main line 3"));
+  EXPECT_TRUE(has(session("continue"), "VW0 read write is 16#0005 (5) as before\n  by main line 2"));
+  EXPECT_TRUE(has(session("break"), "3 hits"));
+}
+
+TEST(Stops, WhatTheProgramSendsUnaskedIsShown) {
+  Session session(
+      "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 2, VB0\nMOVB 16#48, VB1\nMOVB 16#49, VB2\nMOVB 50, SMB34\nATCH 0, 10\nENI\nMEND\n"
+      "INT 0\nLD SM0.0\nXMT VB0, 0\nRETI\n");
+  const std::string text = session("continue 60ms");
+  EXPECT_TRUE(has(text, "unasked  48 49\n         'HI'\n         from 50."));
+  EXPECT_TRUE(has(session("continue 1s"), "no more of this run are shown; 'break sent' stops at each"));
+  EXPECT_TRUE(has(session("break sent; continue"), "\n  48 49\n"));
+}
+
+TEST(Stops, AnAnswerIsNotUnaskedUnlessTheMasterHasGivenUp) {
+  Session session(kEcho);
+  const std::string text = session("scan 3; send 5a; continue; continue 100ms");
+  EXPECT_EQ(text.find("unasked"), std::string::npos) << text;
+  EXPECT_TRUE(has(session("break sent; send 41; continue"), "\n  41\n"));
+}
+
+TEST(Stops, CompletionOffersWhatMayComeNext) {
+  using Words = std::vector<std::string>;
+  Session session(kNested);
+  const auto offered = [&](std::string_view line) { return session.debugger->completions(line).candidates; };
+  EXPECT_EQ(offered("break event 8 "), (Words{"occurs", "served", "if", "hits", "log"}));
+  EXPECT_EQ(offered("break event 8 occurs "), (Words{"if", "hits", "log"}));
+  EXPECT_EQ(offered("break unanswered "), (Words{"if", "hits", "log"}));
+  EXPECT_EQ(offered("break INT 0 "), (Words{"always", "if", "hits", "log"}));
+  EXPECT_EQ(offered("break 4 hits 3 "), (Words{"always", "if", "log"}));
+  EXPECT_EQ(offered("break 4 hits "), Words{});
+  EXPECT_EQ(offered("break 4 if VW1"), Words{"VW10"});
+  EXPECT_EQ(offered("break une"), Words{});
+  EXPECT_EQ(offered("break una"), Words{"unanswered"});
+  EXPECT_EQ(offered("watch VW10 "), (Words{"read", "write", "change", "if", "hits", "log"}));
+  EXPECT_EQ(offered("watch VW10 read if VW2"), Words{"VW20"});
+  EXPECT_EQ(offered("force S"), Words{}) << "special memory cannot be forced";
+  EXPECT_EQ(offered("force VW1"), Words{"VW10"});
+  session("force VW10=5");
+  EXPECT_EQ(offered("unforce "), (Words{"all", "VW10"}));
+  EXPECT_EQ(offered("fault fli"), Words{"flip"});
+  EXPECT_EQ(offered("mode "), (Words{"run", "stop"}));
+}
+
+}  // namespace
+}  // namespace s7200::tools
