@@ -7,6 +7,7 @@
 #include "interpreter/program/load_times.hpp"
 #include "interpreter/program/slips.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/rig/other_plc.hpp"
 #include "tools/rig/system_reader.hpp"
 #include "tools/slave/peer_slave.hpp"
 #include "tools/slave/slave_target.hpp"
@@ -190,10 +191,9 @@ using SlaveMaker = decltype(Bench::make_slave);
 
 /// Of a PLC of another make, with what it is told by --plc. Each scenario has one of its own.
 SlaveMaker peer_slaves(const std::string& model, const std::string& name, const std::vector<std::string>& settings) {
-  const westinghouse::PlcRow& modbus = *westinghouse::find_plc("modbus");  // which is what scenarios speak
-  make_other_plc(modbus, model, settings);                                 // or it throws
-  return [=, &modbus](const Scenario& scenario) {
-    auto slave = std::make_unique<PeerSlave>(make_other_plc(modbus, model, settings), scenario.line,
+  make_other_modbus_plc(model, settings);  // or it throws
+  return [=](const Scenario& scenario) {
+    auto slave = std::make_unique<PeerSlave>(make_other_modbus_plc(model, settings), scenario.line,
                                              std::vector<serial::Fault>{}, name);
     if (scenario.after != kNever) slave->wait(std::max<Time>(0, scenario.after - slave->now()));
     return slave;

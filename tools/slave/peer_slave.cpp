@@ -8,16 +8,6 @@
 
 namespace s7200::tools {
 
-std::unique_ptr<westinghouse::Plc> make_other_plc(const westinghouse::PlcRow& row, std::string_view model,
-                                                  const std::vector<std::string>& settings) {
-  std::string why;
-  std::unique_ptr<westinghouse::Plc> plc = westinghouse::make_plc(row, model, why);
-  if (!plc) throw std::invalid_argument(why);
-  for (const std::string& setting : settings)
-    if (!plc->set(setting, why)) throw std::invalid_argument("--plc: " + why);
-  return plc;
-}
-
 PeerSlave::PeerSlave(std::unique_ptr<serial::Automaton> station, const serial::LineSettings& line,
                      const std::vector<serial::Fault>& faults, std::string name)
     : line_(system_.add_line()),

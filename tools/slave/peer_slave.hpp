@@ -3,20 +3,13 @@
 
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "serial_sim/system/system.hpp"
-#include "serial_sim/westinghouse/plcs.hpp"
 #include "tools/rig/capture_files.hpp"
 #include "tools/slave/slave.hpp"
 
 namespace s7200::tools {
-
-/// A PLC of this model, set as `settings`, the values of --plc, say. Throws std::invalid_argument if there is none that
-/// speaks the protocol of the row, or it has no such setting.
-std::unique_ptr<westinghouse::Plc> make_other_plc(const westinghouse::PlcRow& row, std::string_view model,
-                                                  const std::vector<std::string>& settings);
 
 class PeerSlave final : public SlaveInSimulation {
  public:

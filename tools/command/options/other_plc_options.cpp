@@ -8,7 +8,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "tools/command/options/choices.hpp"
-#include "tools/slave/peer_slave.hpp"
+#include "tools/rig/other_plc.hpp"
 
 namespace s7200::tools {
 
