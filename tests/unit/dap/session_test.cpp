@@ -489,14 +489,15 @@ TEST(DapSession, AFaultOfTheLineBeginsNow) {
   Editor editor("LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nENI\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n");
   editor.begin();
   editor("stepScan", {{"threadId", 1}, {"count", 3}});
-  EXPECT_EQ(editor("fault", {{"fault", "flip:bit=0"}})["text"], "on the line from now on: flip");
+  EXPECT_EQ(editor("fault", {{"fault", "flip:bit=0"}})["text"],
+            "on the line from now on: flip\n  one bit inverted: character=1, bit=0, of=request\n");
   editor("sendFrame", {{"frame", "41"}});
   editor("setDataBreakpoints", {{"breakpoints", Json::array({{{"dataId", "VB1"}}})}});
   editor("continue", {{"threadId", 1}});
   EXPECT_EQ(editor.value("VB1"), "16#40 (64)");
   EXPECT_TRUE(has(editor.error_of("fault", {{"fault", "frob"}}), "fault, column 1"));
   EXPECT_EQ(editor("evaluate", {{"expression", "fault none"}, {"context", "repl"}})["result"],
-            "the line has no fault any more");
+            "the line has no fault any more\n");
 }
 
 TEST(DapSession, ReverseContinueGoesToTheLastStop) {

@@ -71,8 +71,7 @@ void CpuOptions::add_to(CLI::App& app) {
                  "execution times: the name of a table, or a CSV file; both as `s7200 times` has them")
       ->type_name("FILE");
   app.add_option("--ppi-baud", ppi_baud,
-                 fmt::format("rate of ports in PPI mode, as the system block sets it: 9600, 19200 or, on CPU 22x, 187500; "
-                             "9600,187500 is port 0 and port 1 [{}]",
+                 fmt::format("rate of PPI: 9600, 19200 or, on CPU 22x, 187500; 9600,187500: port 0 and port 1 [{}]",
                              s7200::to_text(kUsualPpiRates)))
       ->type_name("BAUD[,BAUD]");
   add_repair_option(app, repairs);
@@ -82,7 +81,7 @@ void CpuOptions::add_to(CLI::App& app) {
 const CpuModel* CpuOptions::model() const {
   const CpuModel* found = find_cpu(cpu);
   if (!found) print_error(unknown_cpu(cpu));
-  return found;
+  return found && ppi_rates(*found) ? found : nullptr;
 }
 
 std::optional<TimeTable> CpuOptions::times(const CpuModel& model) const {
@@ -135,8 +134,7 @@ std::shared_ptr<const Program> ProgramOptions::load(SourceText text, int& exit_c
   const CpuModel* cpu_model = model();
   if (!cpu_model) return nullptr;
   const auto table = times(*cpu_model);
-  const auto rates = ppi_rates(*cpu_model);
-  if (!table || !rates) return nullptr;
+  if (!table) return nullptr;
   if (!repair(text, repairs)) return nullptr;
   print_note_if_any(left_out_note(text));
   CheckResult result = check(text.parsed, *cpu_model, *table);
@@ -145,7 +143,7 @@ std::shared_ptr<const Program> ProgramOptions::load(SourceText text, int& exit_c
   if (!result.program) print_error(fmt::format("{} has errors; nothing was run", result.source.name));
   exit_code = result.program ? kFine : kCheckFailed;
   auto program = std::move(result.program);
-  if (program && !ppi_baud.empty()) program = with_ppi_rates(*program, *rates);
+  if (program && !ppi_baud.empty()) program = with_ppi_rates(*program, *ppi_rates(*cpu_model));
   return every_scan && program ? with_every_scan(*program) : program;
 }
 

@@ -37,7 +37,7 @@ struct CpuOptions {
 
   void add_to(CLI::App& app);
 
-  /// The model and its times; nothing after a message. Ends in kUnusable.
+  /// The model and its times; nothing after a message. Ends in kUnusable. A model has the rates of PPI that were asked for.
   const CpuModel* model() const;
   std::optional<TimeTable> times(const CpuModel& model) const;
   std::optional<PpiRates> ppi_rates(const CpuModel& model) const;
