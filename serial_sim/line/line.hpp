@@ -192,9 +192,8 @@ class Line {
 
   struct Contention {
     std::uint64_t seed = 0;
-    std::vector<Time> on_until{};  // by driver; empty: space wins
-    std::array<Periods, 2>
-        marks{};  // chance says mark where a driver holds space: on the near and the far part of the cable
+    std::vector<Time> on_until{};    // by driver; empty: space wins
+    std::array<Periods, 2> marks{};  // where chance says mark and a driver space: on the near and the far part of the cable
     bool operator==(const Contention&) const = default;
   };
 

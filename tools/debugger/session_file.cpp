@@ -57,7 +57,7 @@ Json json_of(const std::vector<Assignment>& assignments) {
   return all;
 }
 
-struct Writer {
+struct ToJson {
   Json operator()(const SetMemory& set) const { return {{"set", json_of(set.assignments)}}; }
   Json operator()(const Force& force) const { return {{"force", json_of(force.assignments)}}; }
   Json operator()(const Unforce& unforce) const {
@@ -307,7 +307,7 @@ std::string to_text(const SessionFile& file) {
   }
   json["actions"] = Json::array();
   for (std::size_t i = 0; i < recording.actions.size(); ++i) {
-    Json action = std::visit(Writer{}, recording.actions[i]);
+    Json action = std::visit(ToJson{}, recording.actions[i]);
     if (!one) action["station"] = recording.stations[i];
     action["at"] = json_of(recording.moments[i]);
     json["actions"].push_back(std::move(action));
