@@ -16,16 +16,6 @@ bool Core::in_area(std::uint32_t at, std::uint32_t count) const {
   return false;
 }
 
-bool Core::bits_in_area(const Operand& first, std::uint32_t count) const {
-  for (const AreaInfo& area : all_areas()) {
-    const std::uint32_t bits = model().size_of(area.area) * (area.element ? 1 : 8);
-    if (area.bits == kNoBits) continue;
-    if (first.at < area.bits || first.at >= area.bits + (bits + 7) / 8) continue;
-    return (first.at - area.bits) * 8 + first.bit + count <= bits;
-  }
-  return false;
-}
-
 void Core::run_error(RunError code) {
   if (loop.pause_at_error) {
     loop.paused = true;

@@ -102,9 +102,6 @@ class Core {
   /// Whether `count` bytes from `at` are in one area of this CPU.
   bool in_area(std::uint32_t at, std::uint32_t count) const;
 
-  /// The same for `count` bits from a bit.
-  bool bits_in_area(const Operand& first, std::uint32_t count) const;
-
   // --- flow of the program ---
 
   void spend(const Op& op, std::int64_t units) { s.time += op.unit_cost * units; }

@@ -42,9 +42,9 @@ void Cpu::run(Time limit, Time work) {
       if (worked != kNever) worked += passed;
       if (passed != 0) continue;
     }
-    if (!s.in_interrupt && s.phase != Phase::Program)
-      scan::advance(core_);
-    else if (core_.sink() && core_.sink()->wants_instructions())
+    if (!s.in_interrupt && s.phase != Phase::Program) scan::advance(core_);
+    if (!s.in_interrupt && s.phase != Phase::Program) continue;
+    if (core_.sink() && core_.sink()->wants_instructions())
       execute_observed();
     else
       execute_plain();

@@ -220,6 +220,7 @@ void follow_control(Core& core, std::uint8_t number) {
 void communicate(Core& core) {
   for (std::uint8_t number = 0; number < core.port_count(); ++number) {
     const NetworkPort& port = core.s.network[number];
+    if (port.count == 0) continue;
     if (port.phase == Phase::Over) hand_over(core, number);
     const bool line_is_free = core.s.ppi[number].sending == 0 && core.s.port[number].on_wire == OnWire::Nothing;
     if (port.phase == Phase::Idle && port.count != 0 && line_is_free) take_up_next(core, number);

@@ -82,6 +82,7 @@ void execute_off_delay(Core& core, std::uint32_t number, bool input, std::int16_
 }
 
 void clear_current_values(Core& core, const Operand& first, std::uint32_t count) {
+  if (first.at < image::kTBits || first.at >= image::kInputs) return;
   for (const AreaInfo& area : {info(Area::T), info(Area::C)}) {
     if (first.at < area.bits || first.at >= area.bits + 32) continue;
     const std::uint32_t number = (first.at - area.bits) * 8 + first.bit;

@@ -96,7 +96,7 @@ template <bool value, bool immediate>
 void set_bits(Core& core, const Op& op) {
   const std::uint32_t count = core.get<std::uint8_t>(op[1]);
   if (count == 0) return core.run_error(RunError::Count);
-  if (!core.bits_in_area(op[0], count)) return core.run_error(RunError::OperandRange);
+  if (count > op.target) return core.run_error(RunError::OperandRange);
   core.spend(op, count);
   put_bits(core, op[0], count, value);
   if constexpr (immediate)

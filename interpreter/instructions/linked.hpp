@@ -34,17 +34,10 @@ inline void leave(Core& core, const Op* op, Time left, std::uint64_t stack, std:
 
 /// A body that may do anything: it finds and leaves the state as the plain loop has it. Null: the body that the op names.
 template <Body body>
-void on_core(Core& core, const Op* op, Time left, std::uint64_t stack, std::uint64_t executed) {
-  const bool powered = !(op->power_mask & ~stack);
-  const Time time = powered ? op->cost : core.program().no_power_flow;
-  if (left <= time) return leave(core, op, left, stack, executed);
+[[gnu::noinline]] void execute_on_core(Core& core, const Op* op, Time left, std::uint64_t stack, std::uint64_t executed) {
+  if (left <= op->cost) return leave(core, op, left, stack, executed);
   const Op* const ops = core.program().ops.data();
-  if (!powered) {
-    core.s.eno &= !op->sets_eno;
-    const Op* const next = ops + op->skip_to;
-    S7200_TAIL_CALL next->link(core, next, left - time, stack, executed + 1);
-  }
-  core.s.time = core.loop.until - left + time;
+  core.s.time = core.loop.until - left + op->cost;
   core.s.stack = LogicStack::from_bits(stack);
   core.loop.op = static_cast<std::uint32_t>(op - ops);
   core.s.pc = core.loop.op + 1;
@@ -56,6 +49,17 @@ void on_core(Core& core, const Op* op, Time left, std::uint64_t stack, std::uint
   left = core.loop.until - core.s.time;
   if (left <= 0) return leave(core, next, left, core.s.stack.bits(), executed + 1);
   S7200_TAIL_CALL next->link(core, next, left, core.s.stack.bits(), executed + 1);
+}
+
+/// The same where there may be no power flow: that is a function of its own because it needs no registers saved.
+template <Body body>
+void on_core(Core& core, const Op* op, Time left, std::uint64_t stack, std::uint64_t executed) {
+  if (!(op->power_mask & ~stack)) S7200_TAIL_CALL execute_on_core<body>(core, op, left, stack, executed);
+  const Program& program = core.program();
+  if (left <= program.no_power_flow) return leave(core, op, left, stack, executed);
+  core.s.eno &= !op->sets_eno;
+  const Op* const next = program.ops.data() + op->skip_to;
+  S7200_TAIL_CALL next->link(core, next, left - program.no_power_flow, stack, executed + 1);
 }
 
 /// A body that needs no power flow, and works on nothing but the logic stack and memory.

@@ -50,7 +50,7 @@ inline void shift_register(Core& core, const Op& op) {
   const std::int32_t n = core.get<std::int8_t>(op[2]);
   const auto length = static_cast<std::uint32_t>(n < 0 ? -n : n);
   if (length == 0 || length > 64) return core.run_error(RunError::Count);
-  if (!core.bits_in_area(op[1], length)) return core.run_error(RunError::OperandRange);
+  if (length > op.target) return core.run_error(RunError::OperandRange);
   core.spend(op, length);
   const bool data = core.bit(op[0]);
   const auto place = [&](std::uint32_t i) {

@@ -422,13 +422,22 @@ class Checker {
     for (std::size_t k = 0; k < op.operand.size(); ++k) {
       op.operand[k] = placed[k].operand;
       op.has_pointer |= placed[k].operand.pointer;
-      if (placed[k].area && k < instruction.rules().size() && instruction.operand[k].role != Role::In)
-        written |= set_of(*placed[k].area);
+      if (!placed[k].area || k >= instruction.rules().size()) continue;
+      const OperandRule& rule = instruction.operand[k];
+      if (rule.role != Role::In) written |= set_of(*placed[k].area);
+      if (rule.width == Width::Bit && rule.counted != 0) op.target = bits_left(*placed[k].area, placed[k].operand);
     }
     add_hidden_operand(op, placed_[structure.head[i]]);
     op.body = body_of(op, written);
     set_cost(op, placed, times);
     return op;
+  }
+
+  /// From a bit to the end of its area.
+  std::uint32_t bits_left(Area area, const Operand& first) const {
+    const AreaInfo& is = info(area);
+    const std::uint32_t bits = model_.size_of(area) * (is.element != 0 ? 1 : 8);
+    return bits - ((first.at - is.bits) * 8 + first.bit);
   }
 
   /// In local memory, or a pointer held there.

@@ -188,12 +188,13 @@ void Uart::listen_again(Time now) {
 
 void Uart::await_start_edge() {
   expect_nothing();
-  state_.clock_error = clock_error();
   state_.start_edge = line_.falling_edge(state_.listen_from, driver_);
   if (state_.start_edge == kNever) return abandon_character();
-  state_.certain = line_.has_start_bit_alone(state_.start_edge, start_check());
+  state_.clock_error = clock_error();
+  const Time check = start_check();
+  state_.certain = line_.has_start_bit_alone(state_.start_edge, check);
   if (state_.certain) return expect_stop_bit();
-  expect(kStartCheck, start_check());
+  expect(kStartCheck, check);
 }
 
 void Uart::expect_stop_bit() {

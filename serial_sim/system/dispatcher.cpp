@@ -18,16 +18,11 @@ EventQueue& Dispatcher::shared_queue() {
   return *shared_;
 }
 
-void Dispatcher::handle_next(Time at) {
-  EventQueue* due = nullptr;
-  for (const auto& queue : queues_) {
-    if (queue->next() != at) continue;
-    if (due != nullptr) return handle_those_due(at);
-    due = queue.get();
-  }
-  for (std::size_t rank = 0; due->next() == at && next_rank(*due) >= rank;) {
-    rank = next_rank(*due);
-    handle(due->pop());
+void Dispatcher::handle(const Due& due) {
+  if (due.in_several_queues) return handle_those_due(due.at);
+  for (std::size_t rank = 0; due.queue->next() == due.at && next_rank(*due.queue) >= rank;) {
+    rank = next_rank(*due.queue);
+    handle(due.queue->pop());
   }
 }
 

@@ -51,9 +51,25 @@ class Dispatcher {
     return next;
   }
 
-  /// Handles the events of the next instant, which is `at`, in their order. One that is scheduled for the same instant
+  /// The instant of the next events, and where they are.
+  struct Due {
+    Time at = kNever;
+    EventQueue* queue = nullptr;
+    bool in_several_queues = false;
+  };
+  Due due() const {
+    Due due;
+    for (const auto& queue : queues_) {
+      const Time next = queue->next();
+      if (next > due.at || next == kNever) continue;
+      due = {next, queue.get(), next == due.at};
+    }
+    return due;
+  }
+
+  /// Handles the events of the next instant, which is due(), in their order. One that is scheduled for the same instant
   /// meanwhile is left to the next call unless its rank is still to come in its queue.
-  void handle_next(Time at);
+  void handle(const Due& due);
 
   std::vector<EventQueue> state() const;
   void restore(const std::vector<EventQueue>& state);

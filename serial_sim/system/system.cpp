@@ -81,10 +81,15 @@ void System::power_on(Plc& plc) { plc.power_on(std::max(time(), plc.cpu().time()
 void System::schedule(Time at, std::function<void()> act) {
   assert(acts_.empty() || acts_.back().at <= at);
   acts_.push_back({at, std::move(act)});
+  look_at_next_act();
 }
 
-void System::act() {
-  while (next_act() <= time()) acts_[acted_++].act();
+void System::act(Time now) {
+  for (; next_act_ <= now; now = time()) {
+    const Act& next = acts_[acted_++];
+    look_at_next_act();
+    next.act();
+  }
 }
 
 bool System::any_powered() const {
@@ -112,7 +117,7 @@ Time System::horizon() const {
 
 Halt System::step(Time end) {
   if (stop_requested()) return Halt::Request;
-  end = std::min(end, next_act());
+  end = std::min(end, next_act_);
   if (plcs_.size() == 1 && plcs_.front()->powered()) return step_one_plc(plcs_.front()->cpu(), end);
   if (!any_powered()) return step_without_plc(end);
   if (in_step_) return step_in_step(end);
@@ -127,7 +132,7 @@ Halt System::step(Time end) {
     if (cpu.paused()) break;
   }
   handle_due_events(time());
-  act();
+  act(time());
   return halt;
 }
 
@@ -137,7 +142,7 @@ Halt System::step_one_plc(Cpu& cpu, Time end) {
   const bool runs = cpu.time() < until;
   if (runs) cpu.run(until, kLookEvery);
   handle_due_events(cpu.time());
-  act();
+  act(cpu.time());
   return runs && cpu.paused() ? Halt::Paused : Halt::Time;
 }
 
@@ -159,7 +164,7 @@ Halt System::step_in_step(Time end) {
     if (cpu.paused()) halt = Halt::Paused;
   }
   handle_due_events(time());
-  act();
+  act(time());
   return halt;
 }
 
@@ -180,7 +185,7 @@ Time System::next_action_besides(const Plc& plc) const {
 Halt System::step_without_plc(Time end) {
   clock_ = std::min({end, std::max(clock_, events_.next()), after(clock_, kLookEvery)});
   handle_due_events(time());
-  act();
+  act(time());
   return Halt::Time;
 }
 
@@ -198,9 +203,9 @@ const Exchange& System::finish_exchange(const RequesterStation& station) {
 }
 
 void System::handle_due_events(Time now) {
-  for (Time next = events_.next(); next <= now; next = events_.next()) {
-    settle(next);  // whatever is sent from now on begins no earlier
-    events_.handle_next(next);
+  for (Dispatcher::Due next = events_.due(); next.at <= now; next = events_.due()) {
+    settle(next.at);  // whatever is sent from now on begins no earlier
+    events_.handle(next);
   }
   settle(now);
 }
@@ -236,6 +241,7 @@ void System::restore(const Snapshot& snapshot) {
   restore_all(pollers_, snapshot.pollers);
   clock_ = snapshot.clock;
   acted_ = snapshot.acted;
+  look_at_next_act();
 }
 
 }  // namespace s7200::serial

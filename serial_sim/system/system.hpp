@@ -127,8 +127,8 @@ class System {
   void come_to(Time now);
   Time next_action_besides(const Plc& plc) const;
   Halt step_without_plc(Time end);
-  Time next_act() const { return acted_ < acts_.size() ? acts_[acted_].at : kNever; }
-  void act();
+  void act(Time now);
+  void look_at_next_act() { next_act_ = acted_ < acts_.size() ? acts_[acted_].at : kNever; }
   void handle_due_events(Time now);
   void settle(Time until);
   bool stop_requested() const { return stop_request_ && *stop_request_; }
@@ -146,9 +146,10 @@ class System {
   Parts<ResponderStation> responders_;
   Parts<PollerStation> pollers_;
   std::vector<Act> acts_;
-  std::size_t acted_ = 0;  // so many of them
-  Time clock_ = 0;         // while no CPU has power
-  bool in_step_ = false;   // how it runs, which is no state
+  std::size_t acted_ = 0;   // so many of them
+  Time next_act_ = kNever;  // when the next one is
+  Time clock_ = 0;          // while no CPU has power
+  bool in_step_ = false;    // how it runs, which is no state
   const std::atomic<bool>* stop_request_ = nullptr;
 };
 

@@ -488,7 +488,7 @@ TEST(Dispatcher, OneInstantGoesByRankAndThenInTheOrderOfAdding) {
       queue.schedule(5, owner, 0);
     }
   for (const auto& of_rank : added) expected.insert(expected.end(), of_rank.begin(), of_rank.end());
-  for (Time next = events.next(); next != kNever; next = events.next()) events.handle_next(next);
+  for (auto next = events.due(); next.at != kNever; next = events.due()) events.handle(next);
   EXPECT_EQ(handled, expected);
 }
 
