@@ -212,6 +212,7 @@ class Debugger {
   Error cancel_request();
   std::size_t station_of_request() const;
   Error switch_power(bool on);
+  Error without_power(std::string_view command) const;
   void look_at(std::size_t station);
   void note_new_branch();
   void note_the_past();

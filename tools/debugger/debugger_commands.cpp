@@ -432,6 +432,7 @@ Debugger::Error Debugger::quit(const Arguments& arguments) {
 // --- doing something to the PLC ---
 
 Debugger::Error Debugger::assign_all(const Arguments& arguments, bool inputs_only) {
+  if (Error error = without_power(inputs_only ? "input" : "set")) return error;
   std::vector<Assignment> assignments;
   for (const std::string& text : assignments_of(arguments)) {
     std::string why;

@@ -169,5 +169,15 @@ TEST(DapSystem, TheFilterOfUnansweredRequestsHearsPlcsThatAskOnceALine) {
   EXPECT_EQ(said, 1) << "not for each PLC on the line";
 }
 
+TEST(DapSystem, MemoryOfAPlcWithoutPowerIsNotChanged) {
+  SystemEditor editor;
+  editor("goToMoment", {{"time", "end"}});
+  editor.debuggee->history().act(SetPower{false}, kSlave2);
+  const Json refused = editor.ask(
+      "evaluate", {{"expression", "set VW20=1"}, {"context", "repl"}, {"frameId", editor.frame(kSlave2Thread)["id"]}});
+  EXPECT_FALSE(refused["success"]);
+  EXPECT_NE(refused["message"].get<std::string>().find("without power"), std::string::npos) << refused.dump();
+}
+
 }  // namespace
 }  // namespace s7200::tools::dap

@@ -225,6 +225,8 @@ TEST(SystemDebugger, PowerOffAndOnAreOfThePlcLookedAtAndInThePast) {
   EXPECT_TRUE(has(session.out.str(), "without power"));
   EXPECT_TRUE(session.stations[0]->plc().powered());
   EXPECT_TRUE(has(session.error_of("power off"), "slave2 is without power already"));
+  for (const std::string_view command : {"set VW20=1", "input I0.0=1", "force VW20=1", "unforce all"})
+    EXPECT_TRUE(has(session.error_of(command), "slave2 is without power; 'power on' brings it back")) << command;
   EXPECT_TRUE(has(session("trace on; continue 1500ms"), "slave2  ignored  01: the PLC has no power\n"));
   session("trace off; power on; continue 100ms; rscan");
   EXPECT_TRUE(session.stations[1]->plc().powered());
@@ -240,6 +242,23 @@ TEST(SystemDebugger, PowerOffAndOnAreOfThePlcLookedAtAndInThePast) {
   EXPECT_TRUE(other.system().snapshot() == there);
   Session one(kNested);
   EXPECT_TRUE(has(one.error_of("power off"), "power off is for a PLC of a system"));
+}
+
+TEST(SystemDebugger, TheOnlyPlcOfASystemLosesPowerToo) {
+  SystemSession session("plcs: {slave: {program: ../modbus_slave.stl, station: 1}}\nlines: {bus: {stations: [slave]}}\n", 0);
+  session("continue 100ms; set VW20=7; break unanswered; power off; send 01 03 00 0a 00 01 crc; continue");
+  EXPECT_TRUE(has(session.out.str(), "answer   none within 1 s")) << session.out.str();
+  EXPECT_TRUE(has(session("continue 2s; power on; continue 100ms"), "scan "));
+  const Time there = session.system().time();
+  const serial::System::Snapshot snapshot = session.system().snapshot();
+  EXPECT_GT(there, 3'200 * kMillisecond);
+  session("at 1s");
+  EXPECT_FALSE(session.stations[0]->plc().powered());
+  session("at 50ms");
+  EXPECT_TRUE(session.stations[0]->plc().powered());
+  session("at end");
+  EXPECT_TRUE(session.system().snapshot() == snapshot);
+  EXPECT_TRUE(has(session("send 01 03 00 0a 00 01 crc; continue"), "answer   01 03 02"));
 }
 
 TEST(SystemDebugger, TheTraceNamesTheStationInTheOrderOfTime) {
