@@ -141,12 +141,30 @@ std::string printable_lines(std::string_view text) {
   return shown;
 }
 
+std::vector<std::string> split_words(std::string_view text) {
+  std::vector<std::string> words;
+  while (!(text = trim(text)).empty()) {
+    const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
+    words.emplace_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+  return words;
+}
+
 std::string upper_case(std::string_view text) {
   std::string upper(text);
   for (char& c : upper) {
     if (is_lower(c)) c = static_cast<char>(c - 'a' + 'A');
   }
   return upper;
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (is_upper(c)) c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
 }
 
 }  // namespace s7200::stl

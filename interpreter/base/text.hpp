@@ -79,8 +79,12 @@ std::string printable(std::string_view text);
 /// The same for a text of several lines: keeps LF and CR LF.
 std::string printable_lines(std::string_view text);
 
-/// ASCII letters in upper case, everything else as it is.
+/// What blanks and tabs separate.
+std::vector<std::string> split_words(std::string_view text);
+
+/// ASCII letters in upper or lower case, everything else as it is.
 std::string upper_case(std::string_view text);
+std::string lower_case(std::string_view text);
 
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
 inline bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }

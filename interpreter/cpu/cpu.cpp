@@ -124,8 +124,8 @@ void Cpu::character_received(const ReceivedCharacter& character, std::uint8_t po
   core_.touched = true;
   freeport::character_received(core_, port, character);
 }
-void Cpu::character_missed(const ReceivedCharacter& character, std::uint8_t port) const {
-  freeport::character_missed(core_, port, character);
+void Cpu::character_missed(const ReceivedCharacter& character, std::uint8_t port, bool powered) const {
+  freeport::character_missed(core_, port, character, powered);
 }
 void Cpu::character_sent(Time at, std::uint8_t port) {
   core_.touched = true;

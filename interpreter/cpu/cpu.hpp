@@ -60,9 +60,9 @@ class Cpu {
   void character_received(const ReceivedCharacter& character, std::uint8_t port = 0);
   void character_sent(Time at, std::uint8_t port = 0);
 
-  /// For the trace: a character that the line brings while the receiver is off. Nothing comes of it, and without a sink
-  /// nobody need say so.
-  void character_missed(const ReceivedCharacter& character, std::uint8_t port = 0) const;
+  /// For the trace: a character that the line brings while the receiver is off, or the PLC has no power. Nothing comes of
+  /// it, and without a sink nobody need say so.
+  void character_missed(const ReceivedCharacter& character, std::uint8_t port, bool powered) const;
   bool traced() const { return core_.sink() != nullptr; }
 
   /// Sets an input byte; edges of I0.0–I0.3 are events 0–7, and the high-speed counters count.

@@ -62,6 +62,23 @@ void send_next_character(Core& core, std::uint8_t number, Time at) {
   --port.left;
 }
 
+/// Of a CharacterIgnored: why, as the trace has it.
+std::uint16_t reason_to_ignore(const Core& core, std::uint8_t number) {
+  if (core.s.port[number].transmitting || core.s.ppi[number].sending != 0) return 2;
+  return core.s.port[number].active ? 0 : 1;
+}
+
+void trace(const Core& core, std::uint8_t number, const ReceivedCharacter& character, TraceKind kind, std::uint16_t code) {
+  core.trace({.at = character.end,
+              .kind = kind,
+              .byte = character.byte,
+              .parity_error = character.parity_error,
+              .framing_error = character.framing_error,
+              .port = number,
+              .code = code,
+              .since = character.start});
+}
+
 using ControlBytes = std::array<std::uint8_t, kPorts.size()>;
 
 ControlBytes control_bytes(const Core& core) {
@@ -73,21 +90,12 @@ ControlBytes control_bytes(const Core& core) {
 }  // namespace
 
 void trace_character(const Core& core, std::uint8_t number, const ReceivedCharacter& character, TraceKind kind) {
-  const Freeport& port = core.s.port[number];
-  const bool sends = port.transmitting || core.s.ppi[number].sending != 0;
-  const int why = kind != TraceKind::CharacterIgnored ? 0 : sends ? 2 : !port.active ? 1 : 0;
-  core.trace({.at = character.end,
-              .kind = kind,
-              .byte = character.byte,
-              .parity_error = character.parity_error,
-              .framing_error = character.framing_error,
-              .port = number,
-              .code = static_cast<std::uint16_t>(why),
-              .since = character.start});
+  trace(core, number, character, kind, kind == TraceKind::CharacterIgnored ? reason_to_ignore(core, number) : 0);
 }
 
-void character_missed(const Core& core, std::uint8_t number, const ReceivedCharacter& character) {
-  trace_character(core, number, character, TraceKind::CharacterIgnored);
+void character_missed(const Core& core, std::uint8_t number, const ReceivedCharacter& character, bool powered) {
+  constexpr std::uint16_t kNoPower = 3;
+  trace(core, number, character, TraceKind::CharacterIgnored, powered ? reason_to_ignore(core, number) : kNoPower);
 }
 
 bool free(const Core& core, std::uint8_t number) {

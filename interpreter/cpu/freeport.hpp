@@ -33,8 +33,8 @@ bool free(const Core& core, std::uint8_t port);
 void character_received(Core& core, std::uint8_t port, const ReceivedCharacter& character);
 void character_sent(Core& core, std::uint8_t port, Time at);
 
-/// A character that the line brings while the receiver is off: nothing but the record of it.
-void character_missed(const Core& core, std::uint8_t port, const ReceivedCharacter& character);
+/// A character that the line brings while the receiver is off, or the PLC has no power: nothing but the record of it.
+void character_missed(const Core& core, std::uint8_t port, const ReceivedCharacter& character, bool powered);
 
 /// Records what has become of a received character.
 void trace_character(const Core& core, std::uint8_t port, const ReceivedCharacter& character, TraceKind kind);

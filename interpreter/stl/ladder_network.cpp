@@ -48,16 +48,6 @@ struct Span {
   std::size_t row = 0, from = 0, to = 0;  // columns from `from` until before `to`
 };
 
-std::vector<std::string> words_of(const std::string& text) {
-  std::vector<std::string> words;
-  for (std::size_t at = 0; (at = text.find_first_not_of(' ', at)) != std::string::npos;) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    words.push_back(text.substr(at, end - at));
-    at = end;
-  }
-  return words;
-}
-
 class NetworkReader {
  public:
   NetworkReader(std::span<const LadderRow> rows, std::size_t rail, LadderNetwork& network, Diagnostics& diagnostics)
@@ -176,7 +166,7 @@ class NetworkReader {
     const bool pin_left = (sides(row, left) & kLeft) != 0;
     const std::uint8_t right_side = sides(row, right);
     const bool whole = (right_side & kUp) && (right_side & kDown);
-    auto names = words_of(text_of(rows_[row], left + 1, whole ? right : row_end(row)));
+    auto names = split_words(text_of(rows_[row], left + 1, whole ? right : row_end(row)));
     const bool power = pin_left && (sides(row, left - 1) & kRight);
     take(row, left, right + 1, power ? kLeft : 0);
     if (!whole && !restore_right_side(box, names, pin_left, row, left, right)) return;

@@ -25,7 +25,8 @@ enum class TraceKind : std::uint8_t {
   CharacterSent,      ///< byte; at: end of its stop bit
   CharacterReceived,  ///< byte, parity_error, framing_error; since: its start edge
   CharacterIgnored,   ///< like received, but its receive event is not attached; code 1: the port is in PPI mode and this is
-                      ///< no PPI frame, 2: its receiver is off while it sends, and at is when that was so
+                      ///< no PPI frame, 2: its receiver is off while it sends, and at is when that was so, 3: the PLC has no
+                      ///< power
   CharacterDropped,   ///< like received, but RCV is still waiting for the start of its message
   Receive,            ///< RCV begins its search; count: the most characters
   ReceiveEnd,         ///< byte: status SMB86 or SMB186; count: characters stored

@@ -69,6 +69,8 @@ std::string ignored_because(const TraceRecord& record) {
       return "in PPI mode, and no PPI frame";
     case 2:
       return "the receiver is off while the port sends";
+    case 3:
+      return "the PLC has no power";
     default:
       return fmt::format("event {} is not attached", kPorts[record.port].received);
   }

@@ -230,7 +230,7 @@ void Uart::power_off(Time at) {
   line_.release(driver_, at);
   queue_.cancel(owner_, kSent);
   expect_nothing();
-  state_ = {};
+  state_ = {.format = state_.format};
   state_.send_end = state_.off_from = state_.listen_from = at;
 }
 

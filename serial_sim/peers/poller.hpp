@@ -50,6 +50,11 @@ class Poller {
   void go_on(Time now);
   void handle(const Event& event);
 
+  /// The one under way, or the last one, is its exchange.
+  const Requester& requester() const { return requester_; }
+
+  bool is_on(const Line& line) const { return &uart_.line() == &line; }
+
   const State& state() const { return state_; }
   void restore(const State& state) { state_ = state; }
 

@@ -51,7 +51,7 @@ void Requester::begin(const Request& request, Time at) {
   exchange.request = request.frame;
   exchange.request_start = at;
   exchange.request_end = exchange.response_start = exchange.response_end = 0;
-  exchange.timed_out = exchange.too_long = exchange.early = false;
+  exchange.timed_out = exchange.too_long = exchange.given_up = exchange.early = false;
 }
 
 void Requester::listen(const Listening& listening, Time at) {
@@ -105,9 +105,11 @@ void Requester::on(const Uart::Report& report) {
   const bool idle = !busy();
   const bool sending = state_.phase == Phase::Sending && report.received;
   if (sending && report.received->start >= state_.exchange.request_start) state_.exchange.echo.push_back(*report.received);
-  if (report.sent && state_.phase == Phase::Sending) sent(*report.sent);
+  const bool of_request = state_.sent > 0;  // and not the last character of one that was given up
+  if (report.sent && state_.phase == Phase::Sending && of_request) sent(*report.sent);
   if (report.received && (state_.phase == Phase::Waiting || state_.phase == Phase::Receiving)) received(*report.received);
-  if (report.received && idle && state_.heard.size() < kMostHeard) state_.heard.push_back(*report.received);
+  const bool own = report.received && report.received->start < uart_.state().send_end;
+  if (report.received && idle && !own && state_.heard.size() < kMostHeard) state_.heard.push_back(*report.received);
 }
 
 void Requester::send_next(Time at) {
@@ -162,6 +164,18 @@ void Requester::quiet(Time now) {
 void Requester::finish() {
   queue_.cancel(owner_, kQuiet);
   state_.phase = Phase::Idle;
+}
+
+void Requester::give_up(Time at) {
+  if (!busy()) return;
+  const bool has_begun = state_.phase == Phase::Sending && state_.sent > 0;
+  if (has_begun) {
+    drive_sync(false, at);
+    uart_.enable_receiver(true, std::max(at, uart_.state().send_end));
+  }
+  queue_.cancel(owner_, kBegin);
+  state_.exchange.given_up = true;
+  finish();
 }
 
 void Requester::power_off(Time at) {

@@ -54,6 +54,7 @@ struct Exchange {
   Time response_end = 0;    ///< end of the last character's stop bit
   bool timed_out = false;   ///< no answer began in time
   bool too_long = false;    ///< cut off after Requester::kLongestResponse characters
+  bool given_up = false;    ///< by Requester::give_up(), before its answer was complete
   bool early = false;       ///< another station held the line at space when the request ended: its start edge was not heard
 
   bool operator==(const Exchange&) const = default;
@@ -96,6 +97,10 @@ class Requester {
   /// Takes the first transmission of those heard, or the next one to come: characters with less silence between them than
   /// ends it. The last exchange is over; this one is, at once, if the transmission is.
   void listen(const Listening& listening, Time at);
+
+  /// Gives up what it is doing; the exchange is over. Of a request under way the character on the line, or the one that
+  /// waits out its gap, is the last: the next request begins no sooner than that one ends.
+  void give_up(Time at);
 
   /// Its station has lost power: what it was doing is over, and what it heard is forgotten.
   void power_off(Time at);

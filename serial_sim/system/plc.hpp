@@ -89,6 +89,9 @@ class Plc final : private EventHandler, private OutputListener {
   /// How the UART of a port is set: as of the last event that was handled, however far the CPU has run ahead of it.
   const SerialFormat& line_format(std::uint8_t port = 0) const { return ports_.at(port)->uart.state().format; }
 
+  /// The line that a port is on.
+  const SharedLine& line(std::uint8_t port = 0) const { return ports_.at(port)->line; }
+
   /// Which of the line's drivers a port is.
   int driver(std::uint8_t port = 0) const { return ports_.at(port)->uart.driver(); }
 
@@ -128,7 +131,7 @@ class Plc final : private EventHandler, private OutputListener {
     void send_break(int bit_times, Time at) override;
 
     bool looks() const override { return plc.cpu_.traced(); }
-    void missed(const ReceivedCharacter& character) override { plc.cpu_.character_missed(character, number); }
+    void missed(const ReceivedCharacter& character) override { plc.cpu_.character_missed(character, number, plc.powered_); }
 
     void act(const PortAction& action);
     void act_until(Time now);

@@ -1955,12 +1955,47 @@ class Files(Case):
             self.assertIn(f"MB14: 16#{kept:02X}", text)
             self.ends(FINE, "test", recorded)
         system = SOURCE / "stl_programs/systems/two_masters.yaml"
-        done = self.ends(UNUSABLE, "debug", system, "-x", f"continue 20ms; power; continue 20ms; record {self.folder}/system.yaml")
+        done = self.ends(UNUSABLE, "debug", system, "-x", f"continue 20ms; power all; continue 20ms; record {self.folder}/system.yaml")
         self.assertIn("power was switched off and on, for which scenarios of a system have no step", done.stderr)
         saved = self.folder / "saved.json"
         self.ends(FINE, "debug", SLAVE, "-x", f"continue 20ms; power; continue 20ms; save {saved}")
         done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"load {saved}; record {self.folder}/loaded.yaml")
         self.assertIn("loaded after power had been switched off", done.stderr)
+
+    def test_a_session_in_which_requests_were_given_up_is_recorded_as_a_scenario(self):
+        ask = "send 01 03 00 0a 00 01 crc; "
+        recorded = self.folder / "given_up.yaml"
+        self.ends(FINE, "debug", SLAVE, "-x", f"continue 100ms; {ask} send cancel; continue 20ms; {ask} continue 3ms; send cancel; continue 100ms; "
+                  f"{ask} continue 10ms; send cancel; continue 100ms; {ask} continue; display VW20; record {recorded}")
+        text = recorded.read_text(encoding="utf-8")
+        self.assertEqual(text.count("- send:"), 3, text)
+        self.assertIn("- send: 01 03 00\n", text)
+        self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
+        done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"continue 100ms; {ask} continue 17ms; send cancel; record {recorded} !")
+        self.assertIn("a request was given up within its answer at ", done.stderr)
+
+    def test_what_cannot_be_recorded_says_what_to_do(self):
+        ask, record = "send 01 03 00 0a 00 01 crc; ", f"record {self.folder / 'late.yaml'}"
+        done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"continue 100ms; {ask} continue 3ms; {record}")
+        self.assertIn("a request is under way: 01 03 00 0a 00 01 a4 08; 'continue' runs to its end, 'send cancel' gives it up; then record", done.stderr)
+        done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"continue 100ms; {ask} continue 3ms; set VW20=5; continue; {record}")
+        self.assertRegex(done.stderr, r"what was done at 10\d\.\d+ ms came while a request or its answer was under way, .*: do it before 'send', or after")
+        system = self.program(f"plcs: {{s: {{program: {SLAVE}, station: 1, copies: 6}}, m: {{program: {SOURCE}/stl_programs/modbus_master.stl, cpu: 224}}}}\n"
+                              "lines: {l: {stations: [s]}, k: {stations: [m]}}\n", "several.yaml")
+        asked = "continue 100ms; station s3; send 03 03 00 0a 00 01 crc; station s1; continue; "
+        done = self.ends(UNUSABLE, "debug", "--at", "s1", system, "-x", asked + record)
+        self.assertIn("it stands directly at an answer, up to which several PLCs of a scenario cannot be run so exactly: 'continue 1ms' first", done.stderr)
+        self.ends(FINE, "debug", "--at", "s1", system, "-x", asked + "continue 1ms; " + record)
+
+    def test_power_of_one_plc_of_a_system_is_recorded_as_a_scenario(self):
+        recorded = self.folder / "power.yaml"
+        system = self.program(f"plcs: {{s: {{program: {SLAVE}, station: 1, copies: 2}}}}\nlines: {{l: {{stations: [s]}}}}\n", "pair.yaml")
+        self.ends(FINE, "debug", system, "-x", "continue 100ms; station s2; power off; send 02 03 00 0a 00 01 crc; continue; power on; "
+                  f"continue 100ms; send 02 03 00 0a 00 01 crc; continue; continue 10ms; record {recorded}")
+        text = recorded.read_text(encoding="utf-8")
+        self.assertIn("power_off: s2", text)
+        self.assertIn("power_on: s2", text)
+        self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
 
     def test_ctrl_c_ends_the_commands_of_a_debugger_and_says_how_many_are_not_done(self):
         commands = self.program("set VW20=1\nwatch VW4000; continue 1000h; set VW20=2\n\nset VW20=3  # and more\n", "commands")

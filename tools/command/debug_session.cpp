@@ -18,7 +18,11 @@ struct StepOf {
 
   SessionSteps::Step operator()(const SetMemory& set) const { return {.at = at, .set = set.assignments}; }
   SessionSteps::Step operator()(const SendFrame& send) const { return {.at = at, .send = send.request}; }
-  SessionSteps::Step operator()(const serial::HostCall&) const { return refuse("characters came over a bridge"); }
+  SessionSteps::Step operator()(const CancelRequest&) const { return {}; }
+  SessionSteps::Step operator()(const SetPower&) const { return {}; }
+  SessionSteps::Step operator()(const serial::HostCall&) const {
+    return refuse("characters came over a bridge (a frame that 'send' puts on the line can be recorded)");
+  }
   SessionSteps::Step operator()(const Jump&) const { return refuse("the program was made to go on elsewhere"); }
   SessionSteps::Step operator()(const InjectFault& inject) const {
     return {.at = at, .fault = inject.fault ? serial::to_text(*inject.fault) : "none"};
@@ -33,6 +37,21 @@ struct StepOf {
     return {};
   }
 };
+
+/// What remains to be sent of a request that was given up; false, and `why`, if no step can give it up there.
+bool cut_short(std::vector<SessionSteps::Step>& steps, const CancelRequest& cancel, const std::string& on, Time at,
+               std::string& why) {
+  constexpr Time kAtOnce = 1;
+  const auto sent = std::find_if(steps.rbegin(), steps.rend(), [&](const auto& one) { return one.send && one.on == on; });
+  if (cancel.answering || sent == steps.rend()) {
+    why = fmt::format("a request was given up within its answer at {}, for which scenarios have no step", moment_text(at));
+    return false;
+  }
+  sent->send->frame.resize(cancel.sent);
+  sent->timeout = std::max(cancel.waited, kAtOnce);
+  if (cancel.sent == 0) steps.erase(std::next(sent).base());
+  return true;
+}
 
 using Places = std::vector<RigOptions::Station>;
 
@@ -53,9 +72,14 @@ void add_steps(const Recording& recording, const Places& places, std::vector<Ses
   }
   if (!recording.complete && why.empty()) why = "what came over a bridge before power was switched off is forgotten";
   for (std::size_t i = 0; i < recording.now.actions && why.empty(); ++i) {
-    auto step = std::visit(StepOf{recording.moments[i].time, why}, recording.actions[i]);
+    const Time at = recording.moments[i].time;
+    auto step = std::visit(StepOf{at, why}, recording.actions[i]);
     if (why.empty()) step.on = place_in(places, recording.stations[i]);
-    if (step.send || !step.set.empty() || !step.fault.empty()) steps.push_back(std::move(step));
+    if (const auto* const cancel = std::get_if<CancelRequest>(&recording.actions[i]))
+      if (!cut_short(steps, *cancel, step.on, at, why)) return;
+    if (const auto* const power = std::get_if<SetPower>(&recording.actions[i]))
+      step = {.at = at, .event = fmt::format("power_{}: {}", power->on ? "on" : "off", places[recording.stations[i]].name)};
+    if (step.does_something()) steps.push_back(std::move(step));
   }
 }
 

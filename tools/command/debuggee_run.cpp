@@ -43,6 +43,9 @@ History::Settings DebuggeeRun::history() {
   for (std::size_t plc = 0; plc < rig_.plan().plcs.size(); ++plc) settings.records.push_back(&rig_.sinks(plc));
   if (rig_.simulation().has_host_port()) settings.hosts.push_back(&rig_.simulation().host_port());
   for (std::size_t bridge = 0; bridge < bridges_.size(); ++bridge) settings.hosts.push_back(&rig_.host_port(bridge));
+  for (std::size_t peer = 0; peer < rig_.plan().peers.size(); ++peer)
+    if (const serial::Poller* const poller = rig_.poller(peer))
+      settings.pollers.push_back({rig_.plan().peers[peer].name, poller});
   if (realtime_) settings.drive = [this](Time end) { return live_->run_until(end); };
   return settings;
 }

@@ -77,16 +77,6 @@ constexpr int kRowsForKeys = 24;                  // of a terminal that has room
 
 bool has_room_for_keys(int columns, int rows) { return rows >= kRowsForKeys && columns >= 2 * kKeyWidth; }
 
-Words words_of(std::string_view text) {
-  Words words;
-  while (!(text = stl::trim(text)).empty()) {
-    const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
-    words.emplace_back(text.substr(0, end));
-    text.remove_prefix(end);
-  }
-  return words;
-}
-
 std::string joined_by_commas(const Words& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() || text.ends_with(',') ? "" : ",") + word;
@@ -246,7 +236,7 @@ std::string Menu::ask(const Question& question, Words& answers, bool last) {
     const std::string usual = question.usual.empty() ? "" : fmt::format(" [{}]", question.usual);
     const auto typed = editor_.ask(fmt::format("{}{}: ", question.text, usual));
     if (!typed) throw Wrong("given up");
-    answers = words_of(*typed);
+    answers = stl::split_words(*typed);
     if (answers.empty() && question.usual.empty()) throw Wrong(fmt::format("{}: an answer is needed", question.text));
     if (answers.empty()) answers = {std::string(question.usual)};
   }
@@ -257,7 +247,7 @@ std::string Menu::ask(const Question& question, Words& answers, bool last) {
 }
 
 Words Menu::words_for(const Function& function, const Answers& given) const {
-  Words words = words_of(fmt::format(fmt::runtime(function.action), given[0], given[1], given[2]));
+  Words words = stl::split_words(fmt::format(fmt::runtime(function.action), given[0], given[1], given[2]));
   if (words.size() == 3 && names_its_area(given[0], words[1])) words.erase(words.begin() + 1);
   return words;
 }
@@ -413,7 +403,7 @@ int Menu::run() {
     draw();
     const auto line = read();
     if (!line) break;
-    if (Words words = words_of(*line); !words.empty()) execute(std::move(words));
+    if (Words words = stl::split_words(*line); !words.empty()) execute(std::move(words));
   }
   screen_.switch_off();
   fmt::print("{}", statistics_.text());

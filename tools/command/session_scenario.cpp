@@ -10,6 +10,7 @@
 #include "tools/scenario/runner.hpp"
 #include "tools/scenario/transcript.hpp"
 #include "tools/scenario/transcript_writer.hpp"
+#include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -19,16 +20,19 @@ std::string on_text(const std::string& on, std::string_view indentation) {
   return on.empty() ? "" : fmt::format("{}on: {}\n", indentation, in_quotes(on));
 }
 
-std::string send_text(const serial::Request& request, Time at, const std::string& on) {
+std::string send_text(const SessionSteps::Step& step) {
+  const serial::Request& request = *step.send;
   std::string text =
-      fmt::format("  - send: {}\n    at: {}\n", serial::to_hex(request.frame), exact(at)) + on_text(on, "    ");
+      fmt::format("  - send: {}\n    at: {}\n", serial::to_hex(request.frame), exact(step.at)) + on_text(step.on, "    ");
+  if (step.timeout) text += fmt::format("    timeout: {}\n", exact(*step.timeout));
   if (request.gap != 0) text += fmt::format("    gap: {}\n", exact(request.gap));
   if (request.silence) text += fmt::format("    listen: {}\n", exact(*request.silence));
   return text;
 }
 
 std::string step_text(const SessionSteps::Step& step) {
-  if (step.send) return send_text(*step.send, step.at, step.on);
+  if (step.send) return send_text(step);
+  if (!step.event.empty()) return fmt::format("  - wait: until {}\n  - {}\n", exact(step.at), step.event);
   if (step.power)
     return fmt::format("  - wait: until {}\n  - power_cycle: memory {}\n", exact(step.at),
                        step.power->memory_lost ? "lost" : "kept") +
@@ -44,6 +48,24 @@ std::string steps_text(const SessionSteps& session) {
   const bool ends_with_exchange = !session.steps.empty() && session.steps.back().send;
   if (!ends_with_exchange || session.last) text += fmt::format("  - wait: until {}\n", exact(session.end));
   return text;
+}
+
+/// How many steps of a scenario one of the session becomes: memory is set, and the like, after a wait.
+std::size_t steps_in(const SessionSteps::Step& step) { return step.send ? 1 : 2; }
+
+/// Why the wait in front of that step of the scenario was over before it began: an exchange goes on up to its end first.
+std::string why_too_late(const SessionSteps& session, std::size_t number) {
+  std::size_t first = 0;
+  for (const SessionSteps::Step& step : session.steps) {
+    if (number < first + steps_in(step))
+      return fmt::format(
+          "what was done at {} came while a request or its answer was under way, and the steps of a scenario come one after "
+          "the other: do it before 'send', or after the answer",
+          moment_text(step.at));
+    first += steps_in(step);
+  }
+  return "it stands directly at an answer, up to which several PLCs of a scenario cannot be run so exactly: 'continue 1ms' "
+         "first";
 }
 
 /// What holds at the end, in the form of a transcript.
@@ -109,6 +131,10 @@ bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<c
   Report report{&scenario, run_scenario(scenario, {.program = program})};
   const auto bad = std::find_if(report.result.findings.begin(), report.result.findings.end(),
                                 [](const Finding& finding) { return finding.what != "mode at the end"; });
+  if (bad != report.result.findings.end() && bad->what == "wait" && bad->step) {
+    why = why_too_late(session, *bad->step);
+    return false;
+  }
   if (bad != report.result.findings.end()) {
     why = fmt::format("as a scenario it does not run the same way: {}, expected {}, found {}", bad->what, bad->expected,
                       bad->found);

@@ -25,8 +25,12 @@ struct SessionSteps {
     std::vector<Assignment> set{};
     std::optional<serial::Request> send{};
     std::string fault{};
+    std::optional<Time> timeout{};  ///< of what is sent, if not the scenario's
     std::optional<PowerCycle> power{};
-    std::string on{};  ///< a PLC of a system
+    std::string event{};  ///< of a system: `power_off: pump`
+    std::string on{};     ///< a PLC of a system
+
+    bool does_something() const { return send || power || !set.empty() || !fault.empty() || !event.empty(); }
   };
 
   /// How a PLC must be at the end.

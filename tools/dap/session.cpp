@@ -30,7 +30,8 @@ constexpr Filter kFilters[] = {
     {"error", "Run-time errors", "Stops after the instruction that causes a run-time error", true},
     {"overflow", "Queue overflow", "An interrupt is lost because its queue is full", false},
     {"lost", "Lost characters", "A character that the program does not get", false},
-    {"unanswered", "Unanswered requests", "The master has waited for an answer in vain", false},
+    {"unanswered", "Unanswered requests", "A master, a bridge or a PLC has asked on a line of a PLC, and got no answer",
+     false},
     {"watchdog", "Watchdog and other fatal errors", "Stops in front of the instruction that ends in STOP", false}};
 
 Json capabilities() {

@@ -130,6 +130,7 @@ class Session {
   std::vector<StopPoint> function_stops(const Json& wanted, Json& answer);
   std::vector<StopPoint> data_stops(const Json& wanted);
   std::vector<StopPoint> exception_stops(const Json& wanted) const;
+  bool is_first_on_its_lines(std::size_t station) const;
 
   // Running (session_steps.cpp).
   struct Run {

@@ -32,9 +32,9 @@ std::uint64_t first_hit(const std::string& text) {
 bool take_always(std::string& condition) {
   constexpr std::string_view kAlways = "always";
   const std::string_view text = stl::trim(condition);
-  if (lower_case(text.substr(0, text.find(' '))) != kAlways) return false;
+  if (stl::lower_case(text.substr(0, text.find(' '))) != kAlways) return false;
   std::string_view rest = stl::trim(text.substr(kAlways.size()));
-  if (lower_case(rest).starts_with("if ")) rest = stl::trim(rest.substr(3));
+  if (stl::lower_case(rest).starts_with("if ")) rest = stl::trim(rest.substr(3));
   condition = std::string(rest);
   return true;
 }
@@ -159,12 +159,13 @@ Json Session::set_breakpoints(const Json& arguments) {
 /// `SBR 51`, `INT 123`, `NETWORK 4`, `event 8 occurs`, `received` …, or what causes an event: `port 0: character received`.
 std::vector<StopPoint> Session::function_stops(const Json& wanted, Json& answer) {
   const auto name = wanted.at("name").get<std::string>();
-  std::vector<std::string> words = split_words(name);
+  std::vector<std::string> words = stl::split_words(name);
   if (words.empty()) throw Refused("the name is empty; write for example SBR 51, INT 123, event 8 or received");
   for (const InterruptEvent& event : all_events())
-    if (lower_case(event.cause) == lower_case(stl::trim(name))) words = {"event", std::to_string(event.number), "served"};
+    if (stl::lower_case(event.cause) == stl::lower_case(stl::trim(name)))
+      words = {"event", std::to_string(event.number), "served"};
   return at_all_stations(wanted, answer, [&](std::string& why) {
-    const bool is_main = lower_case(name) == "main";
+    const bool is_main = stl::lower_case(name) == "main";
     std::string note;
     auto stop = find_stop(is_main ? std::vector{std::to_string(listing().line_of(0))} : words, cpu().program(), listing(),
                           why, note);
@@ -232,7 +233,7 @@ Json Session::data_breakpoint_info(const Json& arguments) {
   } else if (where->pointer) {
     text = range->count > 1 ? fmt::format("{}:{}", range->name_of(0), range->count) : range->name_of(0);
   }
-  const bool every_write = lower_case(name).ends_with(" write");
+  const bool every_write = stl::lower_case(name).ends_with(" write");
   const std::string id = at_station(text, looks_at());
   return {{"dataId", every_write ? id + " write" : id},
           {"description", every_write ? text + ", each write" : text},
@@ -252,7 +253,7 @@ std::vector<StopPoint> Session::data_stops(const Json& wanted) {
   if (!range) throw Refused(why);
   if (access != "read" && access != "write" && access != "readWrite")
     throw Refused(fmt::format("accessType: '{}' is not read, write or readWrite", stl::shortened(access)));
-  const On written = lower_case(id).ends_with(" write") ? On::Write : On::Change;
+  const On written = stl::lower_case(id).ends_with(" write") ? On::Write : On::Change;
   const On on = access == "read" ? On::Read : access == "write" ? written : On::ReadWrite;
   return {with_conditions({.station = of->station, .on = on, .range = *range, .name = name}, wanted)};
 }
@@ -274,7 +275,7 @@ std::vector<StopPoint> Session::exception_stops(const Json& wanted) const {
   std::string codes = wanted.value("condition", "");
   std::ranges::replace(codes, ',', ' ');
   std::vector<StopPoint> stops;
-  for (const std::string& text : split_words(codes)) {
+  for (const std::string& text : stl::split_words(codes)) {
     const auto code = parse_integer("16#" + text);
     if (!code || *code <= 0 || *code > 0xFFFF)
       throw Refused(
@@ -285,6 +286,21 @@ std::vector<StopPoint> Session::exception_stops(const Json& wanted) const {
   return stops;
 }
 
+/// Of the PLCs on a line the first one hears its requests.
+bool Session::is_first_on_its_lines(std::size_t number) const {
+  const PlcRequests& requests = debuggee_->history().requests();
+  const auto ports = [&](std::size_t station) { return debuggee_->program(station)->model->ports; };
+  const auto is_heard = [&](std::size_t line) {
+    for (std::size_t before = 0; before < number; ++before)
+      for (std::uint8_t port = 0; port < ports(before); ++port)
+        if (requests.line_of(before, port) == line) return true;
+    return false;
+  };
+  for (std::uint8_t port = 0; port < ports(number); ++port)
+    if (!is_heard(requests.line_of(number, port))) return true;
+  return false;
+}
+
 Json Session::set_exception_breakpoints(const Json& arguments) {
   Json wanted = arguments.value("filterOptions", Json::array());
   for (const Json& filter : arguments.value("filters", Json::array())) wanted.push_back({{"filterId", filter}});
@@ -293,7 +309,7 @@ Json Session::set_exception_breakpoints(const Json& arguments) {
     for (std::size_t station = 0; station < stations(); ++station)
       for (StopPoint& stop : exception_stops(one)) {
         stop.station = station;
-        stops.push_back(std::move(stop));
+        if (stop.on != On::Unanswered || is_first_on_its_lines(station)) stops.push_back(std::move(stop));
       }
     return stops;
   });

@@ -60,8 +60,15 @@ serial::Frame Session::frame_of(const std::string& text) const {
 }
 
 Json Session::send_frame(const Json& arguments) {
-  const serial::Frame frame = frame_of(arguments.at("frame").get<std::string>());
   std::string why;
+  if (stl::lower_case(arguments.at("frame").get<std::string>()) == "cancel") {
+    const auto cancel = cancel_of(simulation(), why);
+    if (!cancel) throw Refused(why);
+    print(cancelled_text(*cancel, simulation()));
+    act(*cancel);
+    return {{"frame", serial::to_hex(simulation().master().exchange().request)}};
+  }
+  const serial::Frame frame = frame_of(arguments.at("frame").get<std::string>());
   const auto send = send_of(frame, simulation(), master(), why);
   if (!send) throw Refused(why);
   act(*send);
@@ -138,8 +145,8 @@ Json Session::timeline(const Json& arguments) {
 /// Of an address, or of `event 8`.
 Session::Written Session::find_writer(const std::string& expression) {
   History& history = debuggee_->history();
-  const auto words = split_words(expression);
-  const bool of_event = !words.empty() && lower_case(words[0]) == "event";
+  const auto words = stl::split_words(expression);
+  const bool of_event = !words.empty() && stl::lower_case(words[0]) == "event";
   const auto event = event_of(words);
   if (of_event && !event) throw Refused(expects_event("who", words));
   const WriterSearch search =

@@ -134,6 +134,9 @@ Json Session::set_expression(const Json& arguments) {
 
 /// In the past it begins a new branch, and says so.
 void Session::act(Action action) {
+  const bool of_line = std::holds_alternative<SendFrame>(action) || std::holds_alternative<CancelRequest>(action) ||
+                       std::holds_alternative<InjectFault>(action);
+  if (!of_line && !simulation().plc().powered()) throw Refused(said_of(looks_at()) + "the PLC is without power");
   History& history = debuggee_->history();
   const bool branches = history.in_the_past();
   const Time left = history.newest().time;

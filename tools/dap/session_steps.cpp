@@ -314,6 +314,10 @@ std::string Session::text_of(const Hit& hit) const {
   text += fmt::format("{} {}: {}", hit.stop.is_watch() ? "watch" : "breakpoint", hit.stop.number, hit.stop.name);
   if (hit.record) text += fmt::format(", {}  {}", moment_text(hit.record->at), describe(*hit.record, program));
   if (!hit.frame.empty()) text += ", " + serial::to_hex(hit.frame);
+  if (hit.asker && hit.asker->kind == Asker::Kind::Poller)
+    text += ", asked by " + debuggee_->history().pollers()[hit.asker->number].name;
+  else if (hit.asker)
+    text += stations() > 1 ? ", asked by " + debuggee_->name(hit.asker->number) : ", asked by the program";
   if (hit.stop.is_watch()) {
     const std::string was = value_text(program, *hit.stop.range, hit.stop.value);
     const std::string is = value_text(program, *hit.stop.range, hit.value);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "interpreter/base/text.hpp"
 #include "interpreter/cpu/scan.hpp"
 #include "tools/debugger/words.hpp"
@@ -19,8 +21,9 @@ struct Doer {
   }
   void operator()(const SendFrame& send) const {
     simulation.configure_master(send.format);
-    simulation.master().start(send.request, simulation.time());
+    simulation.master().start(send.request, std::max(simulation.time(), simulation.master_uart().state().send_end));
   }
+  void operator()(const CancelRequest&) const { simulation.master().give_up(simulation.time()); }
   void operator()(const Force& force) const {
     for (const Assignment& assignment : force.assignments) simulation.cpu().force(assignment.place, assignment.value);
   }
@@ -42,6 +45,10 @@ struct Doer {
     core.touched = true;
     scan::change_mode(core, set.mode);
   }
+  void operator()(const SetPower& power) const {
+    if (simulation.plc().powered() == power.on) return;
+    power.on ? simulation.system().power_on(simulation.plc()) : simulation.system().power_off(simulation.plc());
+  }
   void operator()(const serial::HostCall& call) const { host->repeat(call, simulation.time()); }
 };
 
@@ -62,6 +69,8 @@ struct Teller {
     return text;
   }
   std::string operator()(const SendFrame& send) const { return "send " + serial::to_hex(send.request.frame); }
+  std::string operator()(const CancelRequest&) const { return "send cancel"; }
+  std::string operator()(const SetPower& power) const { return power.on ? "power on" : "power off"; }
   std::string operator()(const Jump&) const { return "goto"; }
   std::string operator()(const InjectFault& inject) const {
     return "fault " + (inject.fault ? serial::to_text(*inject.fault) : "none");
@@ -74,7 +83,7 @@ struct Teller {
 }  // namespace
 
 std::optional<SetMode> mode_of(std::string_view word, const serial::Simulation& simulation, std::string& why) {
-  const std::string name = lower_case(word);
+  const std::string name = stl::lower_case(word);
   const State& state = simulation.cpu().state();
   if (name != "run" && name != "stop") return why = expects("mode", "run or stop"), std::nullopt;
   const Mode mode = name == "run" ? Mode::Run : Mode::Stop;

@@ -24,6 +24,13 @@ struct SendFrame {
   serial::Request request;
 };
 
+/// The master gives its request up. What it was doing is said for those who write it down.
+struct CancelRequest {
+  std::size_t sent = 0;    ///< characters that have begun
+  Time waited = 0;         ///< since the end of the request; 0 before
+  bool answering = false;  ///< characters of an answer have come
+};
+
 /// Points and memory that hold a value until they are released.
 struct Force {
   std::vector<Assignment> assignments;  ///< each is forcing::possible()
@@ -52,10 +59,16 @@ struct SetMode {
   Mode mode{};
 };
 
+/// One PLC loses power, or has it again, as it happens to a station of a system.
+struct SetPower {
+  bool on = false;
+};
+
 /// `run`, `stop`; nothing, and `why`, for other words and where the CPU cannot go there.
 std::optional<SetMode> mode_of(std::string_view word, const serial::Simulation& simulation, std::string& why);
 
-using Action = std::variant<SetMemory, SendFrame, Jump, serial::HostCall, Force, Unforce, SetStack, InjectFault, SetMode>;
+using Action = std::variant<SetMemory, SendFrame, CancelRequest, Jump, serial::HostCall, Force, Unforce, SetStack,
+                            InjectFault, SetMode, SetPower>;
 
 /// `host`: the port that a HostCall is made to.
 void perform(const Action& action, serial::Simulation& simulation, serial::HostPort* host = nullptr);

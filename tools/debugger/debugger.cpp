@@ -227,11 +227,11 @@ void Debugger::note_the_past() {
   out_ << fmt::format("  in the past; going forward plays what has run, up to {}\n", moment_text(history_.newest().time));
 }
 
-void Debugger::act(Action action) {
+void Debugger::act(Action action, std::size_t station) {
   const bool branches = history_.in_the_past();
   const Time left = history_.newest().time;
   if (branches) remember();
-  history_.act(std::move(action), focus());
+  history_.act(std::move(action), station);
   if (!branches) return;
   out_ << fmt::format("a new branch begins here; what ran up to {} is on the old one, to which 'back' returns\n",
                       moment_text(left));
@@ -319,7 +319,7 @@ void Debugger::print_unasked(const Transmission& sent) {
   const serial::Exchange& last = simulation().master().exchange();
   out_ << unasked_text(sent.bytes)
        << fmt::format("         from {} to {}{}\n", moment_text(sent.from), moment_text(sent.to),
-                      last.timed_out ? ", after the master had given up" : "");
+                      last.timed_out || last.given_up ? ", after the master had given up" : "");
   if (unasked_ == kShown) out_ << "         no more of this run are shown; 'break sent' stops at each\n";
 }
 

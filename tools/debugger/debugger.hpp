@@ -207,7 +207,12 @@ class Debugger {
   void go_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer = false);
   void remember();
   void note_going_elsewhere();
-  void act(Action action);
+  void act(Action action) { act(std::move(action), focus()); }
+  void act(Action action, std::size_t station);
+  Error cancel_request();
+  std::size_t station_of_request() const;
+  Error switch_power(bool on);
+  Error without_power(std::string_view command) const;
   void look_at(std::size_t station);
   void note_new_branch();
   void note_the_past();
@@ -227,6 +232,7 @@ class Debugger {
   void report_reason(const Stop& stop, const Run& run);
   void report_hits(const Stop& stop);
   void report_breakpoint(const Hit& hit);
+  std::string asked_by(const Hit& hit) const;
   void report_access(const Hit& hit);
   void print_message(const StopPoint& stop);
   void report_cpu_stop();

@@ -106,9 +106,11 @@ the first.)",
       {"fork", "", "fork", "forget what has run after this moment: going forward is new from here on",
        "What was done to the PLC later is not done again. back takes it back.", &Debugger::branch},
       {"past", "", "past", "how far back it can go, and what that takes", "", &Debugger::past},
-      {"power", "", "power [TIME] [lost]", "switch power off and on again: the CPU begins with what it has kept",
+      {"power", "", "power [all] [TIME] [lost] | off | on",
+       "switch power off and on again: the CPU begins with what it has kept",
        R"(TIME is how long it was off; the clock goes on: power 8h. lost: too long for the RAM, only the EEPROM is left. A
-new branch, from time 0: back takes it back.)",
+new branch, from time 0: back takes it back. Of a system say which: all is every PLC at once, power all 8h; off and on
+switch this PLC alone, and time goes on: power off; continue 2s; power on.)",
        &Debugger::power},
       {"save", "", "save FILE [!]",
        "write where this session stands, and its past; 'load' returns there, in another session too",
@@ -124,8 +126,9 @@ existing file is replaced if save has written it; ! replaces any.)",
        R"(PLACE: LINE, SBR n, INT n, LBL n or NETWORK n. A line without an instruction stands for the next one that has
 one; boxes and coils stop only with power flow, or 'always'.
 WHAT: event N [occurs | served], received or sent (a frame), xmt, rcv (its end), error [CODE], overflow (of a
-queue), lost (a character), mode, unanswered (a request; of a master on a bridge: nothing is sent within
---timeout, or before it sends again).
+queue), lost (a character), mode, unanswered (a request on a line of this PLC). It hears 'send' and the masters that
+poll, which know their time-outs; masters on bridges and PLCs that ask in Modbus RTU, with one XMT a request: then
+nobody has sent anything within --timeout, or before the next request. It hears no requests of PPI.
 CONDITION in STL terms: break 40 if VW3300 > 8 and M31.7; a constant that an operand can never be is refused.
 hits N stops from the Nth time on since it was set: moments before that do not count when 'back' or 'at' lead there.
 log prints a line and goes on: break INT 123 log '{SMB2} at {time}'; also {scan} {line} {event}.)",
@@ -188,10 +191,11 @@ counters see the terminal. The CPU keeps it without power; going back undoes it.
        "Inputs follow their terminals again, outputs their image; memory keeps what it has.", &Debugger::unforce},
       {"mode", "", "mode run | stop", "switch the CPU to RUN or STOP, as a programming device does",
        "After a fatal error only 'restart' or 'power' bring it back.", &Debugger::mode},
-      {"send", "", "send HEX… | 'TEXT' [crc] | read ADDRESS[:COUNT] | write ADDRESS=VALUE… [station n]",
-       "put a frame on the line from now on; crc appends the Modbus CRC",
+      {"send", "", "send HEX… | 'TEXT' [crc] | read ADDRESS[:COUNT] | write ADDRESS=VALUE… [station n] | cancel",
+       "put a frame on the line from now on, with crc its Modbus CRC; or give it up",
        R"(p after a byte sends it with wrong parity. TEXT is ASCII, with \r \n \t \\ \' and \xHH. 'continue' runs while it
-arrives and stops when the answer is complete.)",
+arrives and stops when the answer is complete. cancel: the master gives the request up, wherever it is. A character
+that has begun is still sent; then the master is ready for the next request.)",
        &Debugger::send},
       {"fault", "", "fault KIND[:PARAMETER=VALUE,…] | none", "a fault of the line from now on, or none any more",
        R"(As --fault of 's7200 run': fault flip:character=3,bit=5, fault noise:ber=0.001, fault cut:from=2ms. It counts
@@ -204,7 +208,7 @@ exchanges and times from now; 's7200 run --help' has all kinds. Going back undoe
 }
 
 const Debugger::Command* Debugger::find_command(std::string_view word, std::string& why) {
-  const std::string name = lower_case(word);
+  const std::string name = stl::lower_case(word);
   std::vector<const Command*> found;
   for (const Command& command : commands()) {
     if (name == command.name || name == command.short_form) return &command;
@@ -360,7 +364,7 @@ Debugger::Error Debugger::ranges_of(const Arguments& arguments, std::string_view
 }
 
 Debugger::Error Debugger::display(const Arguments& arguments) {
-  if (arguments.size() == 1 && lower_case(arguments[0]) == "off") {
+  if (arguments.size() == 1 && stl::lower_case(arguments[0]) == "off") {
     displayed_.clear();
     return {};
   }
@@ -386,14 +390,14 @@ Debugger::Error Debugger::errors(const Arguments& arguments) {
 }
 
 Debugger::Error Debugger::trace(const Arguments& arguments) {
-  const std::string word = arguments.size() == 1 ? lower_case(arguments[0]) : "";
+  const std::string word = arguments.size() == 1 ? stl::lower_case(arguments[0]) : "";
   if (word != "on" && word != "off") return expects("trace", "on or off");
   tracing_ = word == "on";
   return {};
 }
 
 Debugger::Error Debugger::layout(const Arguments& arguments) {
-  const std::string word = arguments.size() == 1 ? lower_case(arguments[0]) : "";
+  const std::string word = arguments.size() == 1 ? stl::lower_case(arguments[0]) : "";
   if (word != "on" && word != "off") return expects("layout", "on or off");
   if (!layout_.turn) return "layout needs a terminal";
   return layout_.turn(word == "on");
@@ -428,6 +432,7 @@ Debugger::Error Debugger::quit(const Arguments& arguments) {
 // --- doing something to the PLC ---
 
 Debugger::Error Debugger::assign_all(const Arguments& arguments, bool inputs_only) {
+  if (Error error = without_power(inputs_only ? "input" : "set")) return error;
   std::vector<Assignment> assignments;
   for (const std::string& text : assignments_of(arguments)) {
     std::string why;
@@ -469,9 +474,33 @@ Debugger::Error Debugger::mode(const Arguments& arguments) {
   return {};
 }
 
+/// The request is that of the station that it was sent at.
+Debugger::Error Debugger::cancel_request() {
+  std::string why;
+  const auto cancel = cancel_of(simulation(), why);
+  if (!cancel) return "send cancel: " + why;
+  const std::string text = cancelled_text(*cancel, simulation());
+  act(*cancel, station_of_request());
+  out_ << text;
+  return {};
+}
+
+/// The last at which a frame was sent on the line of the one that it looks at.
+std::size_t Debugger::station_of_request() const {
+  for (std::size_t number = history_.now().actions; number > 0;) {
+    const Action* const action = history_.action(--number);
+    if (!action) break;
+    if (!std::holds_alternative<SendFrame>(*action)) continue;
+    const std::size_t station = history_.station_of_action(number);
+    if (&stations_[station].simulation->line() == &simulation().line()) return station;
+  }
+  return focus();
+}
+
 Debugger::Error Debugger::send(const Arguments& arguments) {
+  if (arguments.size() == 1 && stl::lower_case(arguments[0]) == "cancel") return cancel_request();
   constexpr std::uint8_t kStation = 1;  // unless another one is named
-  if (arguments.empty() || (arguments.size() == 1 && lower_case(arguments[0]) == "crc"))
+  if (arguments.empty() || (arguments.size() == 1 && stl::lower_case(arguments[0]) == "crc"))
     return expects("send",
                    "a frame in hex, text in quotation marks, or a request, for example: send 01 03 00 00 00 02 crc, send "
                    "'HELLO\\r', or send read 40011:2");

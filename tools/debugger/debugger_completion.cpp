@@ -110,6 +110,8 @@ enum class Takes : std::uint8_t {
   Commands,
   Switch,
   Mode,
+  Power,
+  Frame,
   Stations
 };
 
@@ -119,7 +121,8 @@ constexpr std::pair<std::string_view, Takes> kTakes[]{
     {"runtil", Takes::Places},    {"list", Takes::Places},       {"status", Takes::Places},  {"print", Takes::Addresses},
     {"expect", Takes::Addresses}, {"display", Takes::Addresses}, {"watch", Takes::Watch},    {"set", Takes::Addresses},
     {"input", Takes::Addresses},  {"force", Takes::Forced},      {"unforce", Takes::Forced}, {"who", Takes::Addresses},
-    {"rwho", Takes::Addresses},   {"station", Takes::Stations},  {"mode", Takes::Mode},      {"fault", Takes::Faults}};
+    {"rwho", Takes::Addresses},   {"station", Takes::Stations},  {"mode", Takes::Mode},      {"fault", Takes::Faults},
+    {"power", Takes::Power},      {"send", Takes::Frame}};
 
 /// Whether the next word belongs to a condition.
 bool is_in_condition(const std::string& before) { return before == "IF" || before == "AND" || before == "OR"; }
@@ -154,6 +157,13 @@ Debugger::Offers Debugger::completions(std::string_view line) const {
       break;
     case Takes::Mode:
       all = {"run", "stop"};
+      break;
+    case Takes::Power:
+      if (!is_system() || !given.empty()) all = {"lost"};
+      if (is_system() && given.empty()) all = {"all", "off", "on"};
+      break;
+    case Takes::Frame:
+      if (given.empty()) all = {"read", "write", "cancel"};
       break;
     case Takes::Stations:
       for (const DebuggedStation& station : options_.stations) all.push_back(station.name);

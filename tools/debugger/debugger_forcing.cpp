@@ -43,6 +43,7 @@ Debugger::Error Debugger::force(const Arguments& arguments) {
     for (const Forced& forced : all) out_ << red(fmt::format("{:<8} {}", forced.place.name_of(0), forced.value)) << '\n';
     return {};
   }
+  if (Error error = without_power("force")) return error;
   std::string why;
   auto force = force_of(assignments_of(arguments), cpu, why);
   if (!force) return why;
@@ -52,6 +53,7 @@ Debugger::Error Debugger::force(const Arguments& arguments) {
 
 Debugger::Error Debugger::unforce(const Arguments& arguments) {
   if (arguments.empty()) return expects("unforce", "addresses that 'force' lists, or all");
+  if (Error error = without_power("unforce")) return error;
   std::string why;
   auto unforce = unforce_of(arguments, simulation().cpu(), why);
   if (!unforce) return why;

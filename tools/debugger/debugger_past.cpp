@@ -149,7 +149,7 @@ Debugger::Error Debugger::report_writer_of(const Arguments& arguments, std::stri
     writer = report_attachment(*event);
     return {};
   }
-  if (!arguments.empty() && lower_case(arguments[0]) == "event") return expects_event(command, arguments);
+  if (!arguments.empty() && stl::lower_case(arguments[0]) == "event") return expects_event(command, arguments);
   std::string why;
   const auto place = one_range(arguments, command, why);
   if (!place) return why;

@@ -144,7 +144,7 @@ Debugger::Error Debugger::print(const Arguments& arguments) {
   Arguments words = arguments;
   char form = 0;
   if (!words.empty() && words[0].size() == 2 && words[0][0] == '/') {
-    form = lower_case(words[0])[1];
+    form = stl::lower_case(words[0])[1];
     if (kForms.find(form) == std::string_view::npos) return expects("print", "/x, /d, /b or /c, then addresses");
     words.erase(words.begin());
   }

@@ -153,6 +153,12 @@ Debugger::Error Debugger::record(const Arguments& arguments) {
   std::string why;
   const auto to = destination(arguments, "record", {"a transcript", std::string(options_.scenario_beginning)}, why);
   if (!to) return why;
+  if (const std::string requests = requests_under_way(); !requests.empty())
+    return fmt::format(
+        "cannot record this session: a request is under way: {}; 'continue' runs to its end, 'send cancel' gives it up; "
+        "then "
+        "record",
+        requests);
   SessionRecord record{.session = history_.recording(), .stations = {}};
   if (!record.session.complete) return "cannot record: " + oldest_text(history_);
   for (std::size_t number = 0; number < stations_.size(); ++number) record.stations.push_back(record_of(number));
@@ -178,12 +184,38 @@ std::string Debugger::requests_under_way() {
   return text;
 }
 
+/// Of this station of a system, as its events do.
+Debugger::Error Debugger::switch_power(bool on) {
+  const std::string_view word = on ? "on" : "off";
+  if (!is_system())
+    return fmt::format("power {} is for a PLC of a system; 'power 8h' switches the only PLC off, and on again after 8 h",
+                       word);
+  if (simulation().plc().powered() == on)
+    return fmt::format("power {}: {} is {} power already", word, name_of(focus()), on ? "with" : "without");
+  act(SetPower{on});
+  out_ << fmt::format(
+      "{} {}\n", name_of(focus()),
+      on ? "has power again, and begins with what it has kept" : "has no power from now on; 'power on' brings it back");
+  note_going_elsewhere();
+  show_place();
+  return {};
+}
+
 Debugger::Error Debugger::power(const Arguments& arguments) {
   Arguments words = arguments;
-  const bool lost = !words.empty() && lower_case(words.back()) == "lost";
+  const std::string first = words.empty() ? "" : stl::lower_case(words.front());
+  if (words.size() == 1 && (first == "off" || first == "on")) return switch_power(first == "on");
+  if (is_system() && first != "all")
+    return "power of which PLCs? 'power off' and 'power on' switch this one, 'power all' switches every PLC off and on "
+           "again";
+  if (is_system()) words.erase(words.begin());
+  const bool lost = !words.empty() && stl::lower_case(words.back()) == "lost";
   if (lost) words.pop_back();
   const auto off = words.empty() ? std::optional<Time>(0) : parse_duration(joined(words));
-  if (!off) return expects("power", "how long it was off, and lost if that was too long for the RAM: power 8h, power lost");
+  if (!off)
+    return expects("power", is_system() ? "off, on, or all, how long it was off, and lost: power all 8h, power all lost"
+                                        : "how long it was off, and lost if that was too long for the RAM: power 8h, power "
+                                          "lost");
   const std::string requests = requests_under_way();
   remember();
   history_.power_cycle(lost, *off);

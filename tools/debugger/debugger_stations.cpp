@@ -21,6 +21,12 @@ std::string Debugger::place_line(std::size_t station) const {
   return place.substr(0, place.find('\n'));
 }
 
+/// What is wrong with a command that writes memory; nothing as long as the CPU has power.
+Debugger::Error Debugger::without_power(std::string_view command) const {
+  if (simulation().plc().powered()) return {};
+  return fmt::format("{}: {} is without power; 'power on' brings it back", command, name_of(focus()));
+}
+
 std::uint64_t Debugger::errors_of_all() const {
   std::uint64_t errors = 0;
   for (const Station& station : stations_) errors += station.simulation->cpu().state().error_count;

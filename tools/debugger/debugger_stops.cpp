@@ -22,7 +22,7 @@ using On = StopPoint::On;
 using Words = std::vector<std::string>;
 
 bool is_option(const std::string& word) {
-  return std::ranges::find(kStopOptions, lower_case(word)) != std::end(kStopOptions);
+  return std::ranges::find(kStopOptions, stl::lower_case(word)) != std::end(kStopOptions);
 }
 
 /// The words up to the next option.
@@ -41,7 +41,7 @@ std::string without_quotes(std::string text) {
 /// `always`, `if …`, `hits N`, `log …` after what a stop is set on.
 bool read_options(Words words, const Program& program, StopPoint& stop, std::string& why) {
   while (!words.empty()) {
-    const std::string option = lower_case(words.front());
+    const std::string option = stl::lower_case(words.front());
     words.erase(words.begin());
     const Words given = option == "log" ? std::exchange(words, {}) : take_words(words);
     if (option == "always" && given.empty()) {
@@ -70,10 +70,10 @@ bool read_options(Words words, const Program& program, StopPoint& stop, std::str
 /// Takes `read`, `write`, `read write` or `change` off the end of the words; null if there is none.
 const AccessWord* take_access(Words& words) {
   for (const AccessWord& access : kAccesses) {
-    const Words its_words = split_words(access.word);
+    const Words its_words = stl::split_words(access.word);
     if (words.size() < its_words.size()) continue;
     const auto end = words.end() - static_cast<std::ptrdiff_t>(its_words.size());
-    const auto same = [](const std::string& word, const std::string& one) { return lower_case(word) == one; };
+    const auto same = [](const std::string& word, const std::string& one) { return stl::lower_case(word) == one; };
     if (!std::equal(end, words.end(), its_words.begin(), same)) continue;
     words.erase(end, words.end());
     return &access;
@@ -172,7 +172,7 @@ void Debugger::list_stops() {
 
 Debugger::Error Debugger::delete_stop(const Arguments& arguments) {
   if (arguments.empty()) return expects("delete", "numbers that 'break' lists, or all");
-  if (arguments.size() == 1 && lower_case(arguments[0]) == "all") {
+  if (arguments.size() == 1 && stl::lower_case(arguments[0]) == "all") {
     stepper_.stops.clear();
     return {};
   }
@@ -219,7 +219,15 @@ void Debugger::report_breakpoint(const Hit& hit) {
   const std::string name = hit.stop.on == On::Place ? "" : ", " + hit.stop.name;
   out_ << fmt::format("{}breakpoint {}{}{}\n", said_of(hit.stop.station), hit.stop.number, name, hits);
   if (hit.record) out_ << fmt::format("  {}  {}\n", moment_text(hit.record->at), describe(*hit.record, program));
-  if (!hit.frame.empty()) out_ << fmt::format("  {}\n", serial::to_hex(hit.frame));
+  if (!hit.frame.empty()) out_ << fmt::format("  {}{}\n", serial::to_hex(hit.frame), asked_by(hit));
+}
+
+/// `  asked by pump`, if it is not said otherwise.
+std::string Debugger::asked_by(const Hit& hit) const {
+  if (!hit.asker) return {};
+  if (hit.asker->kind == Asker::Kind::Poller)
+    return "  asked by " + stl::printable(history_.pollers()[hit.asker->number].name);
+  return is_system() ? "  asked by " + name_of(hit.asker->number) : "  asked by the program";
 }
 
 void Debugger::report_access(const Hit& hit) {

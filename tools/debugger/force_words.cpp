@@ -55,7 +55,7 @@ std::optional<Force> force_of(const std::vector<std::string>& assignments, const
 std::optional<Unforce> unforce_of(const std::vector<std::string>& places, const Cpu& cpu, std::string& why) {
   const std::vector<Forced> all = forced_in(cpu);
   Unforce unforce;
-  if (places.size() == 1 && lower_case(places[0]) == "all") {
+  if (places.size() == 1 && stl::lower_case(places[0]) == "all") {
     for (const Forced& forced : all) unforce.places.push_back(forced.place);
     return unforce;
   }

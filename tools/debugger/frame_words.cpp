@@ -54,7 +54,7 @@ std::optional<Bytes> read_request(const std::string& what, std::string& why) {
 
 /// `on`, `1`, `-5`, `16#1234`
 std::optional<std::uint16_t> value_of(const std::string& text, bool bit) {
-  const std::string word = lower_case(text);
+  const std::string word = stl::lower_case(text);
   if (bit && (word == "on" || word == "off")) return static_cast<std::uint16_t>(word == "on");
   const auto number = parse_integer(word);
   const std::int64_t least = bit ? 0 : -0x8000, most = bit ? 1 : 0xFFFF;
@@ -84,7 +84,7 @@ std::optional<Bytes> write_request(const std::string& what, std::string& why) {
 /// Of words that are neither hex nor a request: something in them belongs to a request; nothing if there is none.
 std::string misplaced_word(const std::vector<std::string>& words) {
   const auto has = [&](std::string_view word) {
-    return std::ranges::any_of(words, [&](const std::string& one) { return lower_case(one) == word; });
+    return std::ranges::any_of(words, [&](const std::string& one) { return stl::lower_case(one) == word; });
   };
   if (has("read") || has("write")) return fmt::format("expected {}", kNamed);
   if (has("station"))
@@ -93,14 +93,14 @@ std::string misplaced_word(const std::vector<std::string>& words) {
 }
 
 std::optional<serial::Frame> named_frame(std::vector<std::string> words, std::uint8_t station, std::string& why) {
-  if (words.size() == 4 && lower_case(words[2]) == "station") {
+  if (words.size() == 4 && stl::lower_case(words[2]) == "station") {
     const auto number = parse_decimal<std::uint8_t>(words[3]);
     if (!number) return why = fmt::format("'{}' is not the number of a station", stl::shortened(words[3])), std::nullopt;
     station = *number;
     words.resize(2);
   }
   if (words.size() != 2) return why = fmt::format("expected {}", kNamed), std::nullopt;
-  const auto pdu = lower_case(words[0]) == "read" ? read_request(words[1], why) : write_request(words[1], why);
+  const auto pdu = stl::lower_case(words[0]) == "read" ? read_request(words[1], why) : write_request(words[1], why);
   if (!pdu) return {};
   return serial::to_frame(modbus::rtu_frame(station, *pdu));
 }
@@ -109,14 +109,14 @@ std::optional<serial::Frame> named_frame(std::vector<std::string> words, std::ui
 
 std::optional<serial::Frame> parse_frame(const std::string& text, std::uint8_t station, std::string& why) {
   std::string_view bytes = stl::trim(text);
-  const std::string lower = lower_case(bytes);
-  if (lower.starts_with("read ") || lower.starts_with("write ")) return named_frame(split_words(bytes), station, why);
+  const std::string lower = stl::lower_case(bytes);
+  if (lower.starts_with("read ") || lower.starts_with("write ")) return named_frame(stl::split_words(bytes), station, why);
   const bool crc = lower.ends_with(" crc");
   if (crc) bytes = stl::trim(bytes.substr(0, bytes.size() - 4));
   serial::ParsedFrame parsed = parse_hex_or_quoted(bytes);
   const bool quoted = bytes.starts_with('\'') || bytes.starts_with('"');
   if (!parsed.ok()) {
-    why = quoted ? "" : misplaced_word(split_words(bytes));
+    why = quoted ? "" : misplaced_word(stl::split_words(bytes));
     if (why.empty()) why = fmt::format("column {}: {}", parsed.errors[0].column, parsed.errors[0].message);
     return {};
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "serial_sim/modbus/functions.hpp"
+
 namespace s7200::tools {
 namespace {
 
@@ -51,6 +53,7 @@ History::History(serial::Simulation& simulation, Settings settings)
 History::History(std::vector<serial::Simulation*> stations, Settings settings)
     : stations_(std::move(stations)),
       settings_(std::move(settings)),
+      requests_(others()),
       alone_(stations_.size() == 1 && !system().has_schedule()),
       bytes_(std::make_shared<std::size_t>(0)) {
   if (stations_.size() == 1 && settings_.hosts.empty() && station(0).has_host_port())
@@ -61,6 +64,19 @@ History::History(std::vector<serial::Simulation*> stations, Settings settings)
     settings_.hosts[number]->set_journal(journals_.emplace_back(std::make_unique<Journal>(*this, number)).get());
   begin_branch(system().snapshot());
   origin_ = branch_->checkpoints.front();
+}
+
+PlcRequests::Others History::others() {
+  PlcRequests::Others others{.stations = stations_, .host_has_sent = {}};
+  for (const PollingMaster& master : settings_.pollers) others.pollers.push_back(master.poller);
+  others.host_has_sent = [this](const serial::Line& line, Time after, const auto& is) {
+    for (std::size_t number = 0; number < settings_.hosts.size(); ++number) {
+      const serial::HostPort& host = *settings_.hosts[number];
+      if (host.state().attached && host.is_on(line) && host.sent_until() > after && has_sent(number, is)) return true;
+    }
+    return false;
+  };
+  return others;
 }
 
 History::~History() {
@@ -249,6 +265,7 @@ void History::record(std::size_t station, const TraceRecord& record) {
   told_of_ = station;
   if (TraceSink* const records = records_of(station)) records->record(record);
   if (observer_ && observer_->watches(station)) observer_->record(record);
+  requests_.note(station, record);
 }
 
 bool History::before(std::size_t station, std::uint32_t op) {
@@ -284,6 +301,7 @@ void History::restore(const Checkpoint& checkpoint) {
   system().restore(checkpoint.state);
   for (std::size_t number = 0; number < stations_.size(); ++number)
     station(number).cpu().core().loop.op = checkpoint.ops[number];
+  requests_.restore(checkpoint.requests);
   actions_ = checkpoint.moment.actions;
   settled_ = checkpoint.moment.settled;
 }
@@ -393,6 +411,21 @@ void History::host_called(std::size_t host, const serial::HostCall& call) {
   ++actions_;
 }
 
+bool History::has_sent(std::size_t host, const std::function<bool(std::span<const std::uint8_t>)>& are) const {
+  std::vector<std::uint8_t> sent;
+  for (std::size_t number = actions_; number > 0 && sent.size() < modbus::kLongestRtuFrame;) {
+    const Action* const action = this->action(--number);
+    if (!action) return false;
+    const auto* const call = std::get_if<serial::HostCall>(action);
+    if (!call || call->what != serial::HostCall::What::Send || station_of_action(number) != host) continue;
+    std::vector<std::uint8_t> bytes;
+    for (const serial::HostCharacter& character : call->characters) bytes.push_back(character.byte);
+    sent.insert(sent.begin(), bytes.begin(), bytes.end());
+    if (are(sent)) return true;
+  }
+  return false;
+}
+
 void History::fork() {
   auto branch = std::make_shared<Branch>(*branch_);
   const Moment here = now();
@@ -480,6 +513,7 @@ void History::begin_with(serial::Simulation::Snapshot state) {
 void History::begin_branch(serial::Simulation::Snapshot state) {
   actions_ = 0;
   settled_ = false;
+  requests_.forget();
   branch_ = std::make_shared<Branch>();
   branch_->interval = settings_.interval;
   branch_->end = now();
@@ -504,7 +538,8 @@ History::CheckpointPtr History::checkpoint_of(serial::Simulation::Snapshot state
   *bytes_ += size;
   std::vector<std::uint32_t> ops;
   for (serial::Simulation* station : stations_) ops.push_back(station->cpu().core().loop.op);
-  return {new Checkpoint{now(), std::move(state), std::move(ops)}, [total = bytes_, size](const Checkpoint* checkpoint) {
+  return {new Checkpoint{now(), std::move(state), std::move(ops), requests_.state()},
+          [total = bytes_, size](const Checkpoint* checkpoint) {
             *total -= size;
             delete checkpoint;
           }};

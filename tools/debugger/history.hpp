@@ -18,10 +18,13 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "interpreter/trace/trace.hpp"
 #include "tools/debugger/action.hpp"
+#include "tools/debugger/plc_requests.hpp"
 
 namespace s7200::tools {
 
@@ -83,6 +86,12 @@ class Observer : public TraceSink {
   std::optional<std::size_t> only_;
 };
 
+/// A master that polls, as a station of the system.
+struct PollingMaster {
+  std::string name;
+  const serial::Poller* poller = nullptr;
+};
+
 class History final {
  public:
   /// Runs the simulation for real: Simulation::run_until(), or the same at the pace of a clock.
@@ -92,6 +101,7 @@ class History final {
     Drive drive{};                      ///< none: as fast as the computer can
     std::vector<TraceSink*> records{};  ///< by station, null for none: told what happens for the first time, nothing twice
     std::vector<serial::HostPort*> hosts{};  ///< through which something comes in; none: the one beside the only station
+    std::vector<PollingMaster> pollers{};    ///< must live as long as the history
     std::size_t bound = 256 << 20;           ///< bytes for checkpoints
     std::size_t log_bound = 64 << 20;        ///< bytes for what came in over a bridge
     Time interval = 500 * kMillisecond;      ///< of checkpoints while it executes, until they have to be thinned
@@ -113,6 +123,16 @@ class History final {
 
   /// Through which something may come in, by their numbers.
   const std::vector<serial::HostPort*>& hosts() const { return settings_.hosts; }
+
+  /// Masters that poll, by their numbers.
+  const std::vector<PollingMaster>& pollers() const { return settings_.pollers; }
+
+  /// What the programs ask: as of now, in an observer's record() as of before it.
+  const PlcRequests& requests() const { return requests_; }
+
+  /// Whether the last characters of a host port, from the beginning of what it gave to the line at once, are so: a frame
+  /// that it has sent. False if it is not known any more.
+  bool has_sent(std::size_t host, const std::function<bool(std::span<const std::uint8_t>)>& are) const;
 
   /// For observers: the station that they are being told of.
   std::size_t told_of() const { return told_of_; }
@@ -206,6 +226,7 @@ class History final {
     Moment moment;
     serial::Simulation::Snapshot state;
     std::vector<std::uint32_t> ops;  ///< being executed last, by station: an error that comes now names it
+    PlcRequests::State requests;
   };
   using CheckpointPtr = std::shared_ptr<const Checkpoint>;
 
@@ -243,6 +264,7 @@ class History final {
   void host_called(std::size_t host, const serial::HostCall& call);
   TraceSink* records_of(std::size_t station) const;
 
+  PlcRequests::Others others();
   serial::System& system() const { return stations_.front()->system(); }
   Time time() const { return system().time(); }
   std::uint64_t executed() const;
@@ -283,8 +305,9 @@ class History final {
   Settings settings_;
   std::vector<std::unique_ptr<Tap>> taps_;          // by station
   std::vector<std::unique_ptr<Journal>> journals_;  // by host port
-  bool alone_;                                      // one CPU that always has power
-  std::shared_ptr<std::size_t> bytes_;              ///< of all checkpoints
+  PlcRequests requests_;
+  bool alone_;                          // one CPU that always has power
+  std::shared_ptr<std::size_t> bytes_;  ///< of all checkpoints
   CheckpointPtr origin_;
   BranchPtr branch_;
   std::vector<std::weak_ptr<Branch>> branches_;

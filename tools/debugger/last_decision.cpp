@@ -109,7 +109,7 @@ std::optional<LastRequest> last_request(const serial::Simulation& simulation) {
   const serial::Requester& master = simulation.master();
   const serial::Exchange& exchange = master.exchange();
   if (master.asks()) return LastRequest{exchange, true};
-  if (exchange.request.empty()) return {};
+  if (exchange.request.empty() || exchange.given_up) return {};
   const Time given_up = exchange.request_end + master.state().request.timeout;
   const Time over = exchange.timed_out ? given_up : exchange.response_end;
   if (simulation.time() - over >= kJust) return {};

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
+#include "interpreter/base/text.hpp"
 #include "tools/debugger/words.hpp"
 #include "tools/views/broadcast.hpp"
 #include "tools/views/faults.hpp"
+#include "tools/views/machine_text.hpp"
 #include "tools/views/text_frame.hpp"
 
 namespace s7200::tools {
@@ -25,7 +27,11 @@ std::optional<SendFrame> send_of(const serial::Frame& frame, serial::Simulation&
   if (serial::has_wrong_parity(frame) && format.parity == Parity::None)
     return why = "a byte with wrong parity (p) needs a format with parity", std::nullopt;
   if (simulation.master().busy())
-    return why = "the last frame is still under way or waiting for its answer; 'continue' runs to its end", std::nullopt;
+    return why =
+               "the last frame is still under way or waiting for its answer; 'continue' runs to its end, 'send cancel' "
+               "gives "
+               "it up",
+           std::nullopt;
   SendFrame send{format, master.request(frame)};
   if (is_broadcast(serial::bytes_of(frame))) send.request.timeout = std::min(send.request.timeout, kTurnaround);
   return send;
@@ -40,8 +46,33 @@ std::string sent_text(const SendFrame& send, const serial::Simulation& simulatio
   return text;
 }
 
+std::optional<CancelRequest> cancel_of(const serial::Simulation& simulation, std::string& why) {
+  if (!simulation.has_master() || !simulation.master().asks())
+    return why = "no request of the simulated master is under way on this line", std::nullopt;
+  const serial::Requester::State& master = simulation.master().state();
+  const Time end = master.exchange.request_end;
+  return CancelRequest{.sent = master.sent,
+                       .waited = end == 0 ? 0 : simulation.time() - end,
+                       .answering = master.phase == serial::Requester::Phase::Receiving};
+}
+
+std::string cancelled_text(const CancelRequest& cancel, serial::Simulation& simulation) {
+  const serial::Exchange& exchange = simulation.master().exchange();
+  const std::string frame = serial::to_hex(exchange.request);
+  if (cancel.answering)
+    return fmt::format("given up within its answer, after {} of it: {}\n", counted(exchange.response.size(), "character"),
+                       frame);
+  if (exchange.request_end != 0)
+    return fmt::format("given up while it waited for the answer, {} after its end: {}\n", format_duration(cancel.waited),
+                       frame);
+  if (cancel.sent == 0) return fmt::format("given up before its first character: {}\n", frame);
+  const Time over = simulation.master_uart().state().send_end;
+  return fmt::format("given up on the line: character {} of {} is its last, and ends at {}: {}\n", cancel.sent,
+                     exchange.request.size(), moment_text(over), frame);
+}
+
 std::optional<InjectFault> inject_of(const std::string& text, std::string& why) {
-  if (lower_case(text) == "none") return InjectFault{};
+  if (stl::lower_case(text) == "none") return InjectFault{};
   const serial::ParsedFault parsed = serial::parse_fault(text);
   if (parsed.ok()) return InjectFault{parsed.fault};
   why = fmt::format("fault, column {}: {}", parsed.error->column, parsed.error->message);

@@ -16,6 +16,13 @@ std::optional<SendFrame> send_of(const serial::Frame& frame, serial::Simulation&
 /// `on the line from now on: 41 42  'AB' (9600 baud, …)`; a line more if the program will not hear it.
 std::string sent_text(const SendFrame& send, const serial::Simulation& simulation);
 
+/// Gives up the request of the master on the line of a station, now. Returns nothing and sets `why` if it has none.
+std::optional<CancelRequest> cancel_of(const serial::Simulation& simulation, std::string& why);
+
+/// `given up while it waited for the answer, 12 ms after its end: 41 42`, in front of that; a line more if the master is not
+/// ready for the next request at once.
+std::string cancelled_text(const CancelRequest& cancel, serial::Simulation& simulation);
+
 /// `flip:character=3,bit=5`, or `none`. Returns nothing and sets `why` if it is not a fault.
 std::optional<InjectFault> inject_of(const std::string& text, std::string& why);
 

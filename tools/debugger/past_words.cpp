@@ -30,7 +30,7 @@ std::string at_oldest_text(const History& history) {
 }
 
 std::optional<Time> parse_moment(std::string_view text, const History& history, std::string& why) {
-  const std::string word = lower_case(text);
+  const std::string word = stl::lower_case(text);
   const Time oldest = history.usage().oldest.time, newest = history.newest().time;
   if (word == "start") return oldest;
   if (word == "end") return newest;

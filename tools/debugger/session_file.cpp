@@ -80,6 +80,10 @@ struct ToJson {
     if (send.request.silence) json["silence"] = *send.request.silence;
     return json;
   }
+  Json operator()(const CancelRequest& cancel) const {
+    return {{"cancel", {{"sent", cancel.sent}, {"waited", cancel.waited}, {"answering", cancel.answering}}}};
+  }
+  Json operator()(const SetPower& power) const { return {{"power", power.on ? "on" : "off"}}; }
   Json operator()(const SetMode& set) const { return {{"mode", set.mode == Mode::Run ? "run" : "stop"}}; }
   Json operator()(const serial::HostCall& call) const {
     Json characters = Json::array();
@@ -149,9 +153,22 @@ SetMode mode_from(const std::string& text) {
   return {text == "run" ? Mode::Run : Mode::Stop};
 }
 
+CancelRequest cancel_from(const Json& json) {
+  return {.sent = json.at("sent").get<std::size_t>(),
+          .waited = json.at("waited").get<Time>(),
+          .answering = json.at("answering").get<bool>()};
+}
+
+SetPower power_from(const std::string& text) {
+  if (text != "on" && text != "off") throw std::runtime_error("an unknown state of power");
+  return {text == "on"};
+}
+
 Action action_from(const Json& json, const CpuModel& model) {
   if (json.contains("set")) return SetMemory{assignments_from(json.at("set"), model)};
   if (json.contains("send")) return send_from(json);
+  if (json.contains("cancel")) return cancel_from(json.at("cancel"));
+  if (json.contains("power")) return power_from(json.at("power").get<std::string>());
   if (json.contains("host")) return call_from(json);
   if (json.contains("goto")) return Jump{json.at("goto").get<std::uint32_t>()};
   if (json.contains("fault")) return fault_from(json.at("fault").get<std::string>());

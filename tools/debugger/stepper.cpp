@@ -1,10 +1,10 @@
 #include "tools/debugger/stepper.hpp"
 
 #include <algorithm>
+#include <ranges>
 #include <utility>
 
 #include "interpreter/program/networks.hpp"
-#include "serial_sim/modbus/functions.hpp"
 #include "tools/debugger/access.hpp"
 #include "tools/views/broadcast.hpp"
 
@@ -24,7 +24,9 @@ Stepper::Stepper(History& history, const std::atomic<bool>* stop_request)
       on_search([](Time) {}),
       history_(history),
       stop_request_(stop_request),
-      listening_(history.stations()) {}
+      listening_(history.stations()),
+      polling_(history.pollers().size()),
+      given_up_(history.requests().lines().size()) {}
 
 Stop Stepper::run(const Goal& goal, Time limit, bool stop_at_answer) {
   count_hits();
@@ -54,8 +56,24 @@ Time Stepper::idles_until(Time now) {
   if (asked_to_stop()) return now;
   if (backwards_) return kNever;
   answered_ |= answer_complete() && stop_at_answer_;
+  note_polls();
+  note_plc_timeouts(now);
   const bool ends = answered_ || !stop_.hits.empty() || cpu_stopped_;
-  return ends ? now : std::max(now, limit_);
+  const Time timeout = next_timeout();
+  return ends ? now : std::max(now, timeout > now ? std::min(limit_, timeout) : limit_);
+}
+
+/// Of a master that polls or of a program.
+Time Stepper::next_timeout() const {
+  Time next = kNever;
+  for (const auto& [name, poller] : history_.pollers()) {
+    const serial::Requester::State& state = poller->requester().state();
+    if (state.phase == serial::Requester::Phase::Waiting)
+      next = std::min(next, state.exchange.request_end + state.request.timeout);
+  }
+  for (std::size_t line = 0; line < given_up_.size(); ++line)
+    if (is_open(line)) next = std::min(next, history_.requests().last(line)->end + host_timeout);
+  return next;
 }
 
 StopReason Stepper::reason_to_end_idle() const {
@@ -122,8 +140,7 @@ std::optional<Stepper::Found> Stepper::found_after_part() {
     const auto& after = search_.after[number];
     if (!after) continue;
     note_changes(number, nullptr);
-    note_silence(number, after->time);
-    note_host_timeout(number, after->time);
+    note_line(number, after->time);
     earliest = earliest ? std::min(*earliest, *after) : after;
   }
   if (!earliest) return {};
@@ -156,6 +173,7 @@ void Stepper::begin_watching() {
   const bool goes_on =
       !backwards_ && listened_to_ && listened_to_->instructions == now.instructions && listened_to_->time == now.time;
   for (std::size_t number = 0; number < listening_.size() && !goes_on; ++number) listen_from_now_on(number);
+  if (!goes_on) ask_from_now_on(now.time);
   for (Listening& listening : listening_) listening.awaits_answer = false;
   note_masters();
   if (!backwards_)
@@ -182,11 +200,20 @@ void Stepper::listen_from_now_on(std::size_t number) {
   listening.silence_noted = here.line_quiet_for(silence) ? last : 0;
   listening.came_in = last > here.plc().state().uart.at(here.port()).send_end + half_a_character;
   listening.heard = listening.came_in ? std::optional(last) : std::nullopt;
-  listening.sending = {};
   listening.host_waits.reset();
   listening.host_frame_end = 0;
   const bool waits = listening.came_in && listening.silence_noted != 0 && !here.freeport().transmitting;
   if (waits && here.time() < last + host_timeout) note_host_request(number, {}, last);
+}
+
+/// What masters have asked already.
+void Stepper::ask_from_now_on(Time now) {
+  polling_.assign(polling_.size(), {});
+  note_polls();
+  for (std::size_t line = 0; line < given_up_.size(); ++line) {
+    const auto& last = history_.requests().last(line);
+    given_up_[line] = last && now - last->end >= host_timeout ? last->end : 0;
+  }
 }
 
 /// What comes from outside ends a row of such scans by itself. A time that has come is looked for here.
@@ -194,7 +221,9 @@ bool Stepper::wants_scans() const {
   if (history_.stations() > 1) return true;  // a CPU in step never runs a whole one at once
   const auto is_within_a_scan = [](const StopPoint& stop) { return stop.on == On::Place || stop.is_watch(); };
   const serial::Simulation& only = station(0);
-  const bool waits = listening_[0].host_waits || only.last_activity() != listening_[0].silence_noted;
+  const bool asks = std::ranges::any_of(std::views::iota(std::size_t{0}, given_up_.size()),
+                                        [this](std::size_t line) { return is_open(line); });
+  const bool waits = asks || listening_[0].host_waits || only.last_activity() != listening_[0].silence_noted;
   const bool ends = only.time() >= limit_;
   return goal_ || backwards_ || waits || ends || std::ranges::any_of(stops, is_within_a_scan);
 }
@@ -238,8 +267,7 @@ bool Stepper::is_turn_of(std::size_t number) const {
 bool Stepper::before(std::uint32_t op) {
   const std::size_t number = history_.told_of();
   note_changes(number, nullptr);
-  note_silence(number, station(number).cpu().time());
-  note_host_timeout(number, station(number).cpu().time());
+  note_line(number, station(number).cpu().time());
   if (backwards_) {
     const bool goes_on = note_place(op);
     note_accesses(op);
@@ -336,7 +364,8 @@ Time Stepper::counts_since(const StopPoint& stop) const {
 /// When a hit was, in the order of instructions: not after the next one of any station begins.
 Time Stepper::time_of(const Hit& hit) const {
   if (hit.by) return hit.by->at;
-  return hit.record ? std::min(hit.record->at, executing_since_) : history_.in_front().time;
+  const Time now = std::max(history_.in_front().time, history_.now().time);  // that of a CPU without power stands still
+  return hit.record ? std::min(hit.record->at, executing_since_) : now;
 }
 
 /// The number of the hit that is now; 0 of one from before the stop was set. What is played again was counted the first
@@ -432,6 +461,7 @@ bool Stepper::is_meant(const StopPoint& stop, const TraceRecord& record) {
 void Stepper::note_record(const TraceRecord& record) {
   const std::size_t number = history_.told_of();
   Listening& listening = listening_[number];
+  if (begins_anew(number, record)) note_unanswered_plc(history_.requests().line_of(number, record.port));
   const bool heard = record.kind == TraceKind::CharacterIgnored && record.code == 0;
   const bool on_line = record.port == station(number).port();
   const bool received =
@@ -447,16 +477,12 @@ void Stepper::note_record(const TraceRecord& record) {
     if (stop.station == number && is_meant(stop, record)) hit(stop, {.record = record, .frame = frame});
 }
 
-/// All of a transmission that ends; nothing if it was not seen to begin.
+/// All of a transmission that ends.
 std::vector<std::uint8_t> Stepper::note_sent(std::size_t number, const TraceRecord& record) {
-  Listening& listening = listening_[number];
-  std::optional<Transmission>& sending = listening.sending.at(record.port);
-  if (record.kind == TraceKind::Transmit) sending = {.from = record.at};
-  if (record.kind == TraceKind::CharacterSent && sending) sending->bytes.push_back(record.byte);
   if (record.kind != TraceKind::TransmitEnd) return {};
-  const auto sent = std::exchange(sending, std::nullopt);
+  const std::optional<Transmission>& sent = history_.requests().sending(number, record.port);
   const bool unasked = record.port == station(number).port() && is_unasked(number);
-  listening.heard.reset();
+  listening_[number].heard.reset();
   if (!sent) return {};
   if (unasked && !backwards_) on_unasked({sent->from, record.at, sent->bytes});
   return sent->bytes;
@@ -468,7 +494,7 @@ bool Stepper::is_unasked(std::size_t number) const {
   if (here.has_host_port() && here.host_port().state().attached) return false;
   const std::optional<Time>& heard = listening_[number].heard;
   const serial::Exchange& last = here.master().exchange();
-  return !heard || (last.timed_out && *heard <= last.request_end + here.port_format().silence());
+  return !heard || last.given_up || (last.timed_out && *heard <= last.request_end + here.port_format().silence());
 }
 
 /// A frame has ended when nothing came for 3.5 characters.
@@ -486,21 +512,104 @@ void Stepper::note_silence(std::size_t number, Time now) {
   note_host_request(number, frame, last);
 }
 
+void Stepper::note_line(std::size_t number, Time now) {
+  note_silence(number, now);
+  note_host_timeout(number, now);
+  note_polls();
+  note_plc_timeouts(now);
+}
+
 /// A station sends, or hears a character: that of an answer, unless it is damaged, or of the next request.
 void Stepper::note_end_of_wait(std::size_t number, const TraceRecord* heard) {
   Listening& line = line_of(number);
   const bool again = heard && is_of_a_master(number, *heard), noise = heard && (heard->parity_error || heard->framing_error);
   if (!line.host_waits || (noise && !again)) return;
   line.host_waits.reset();
-  if (again) note_unanswered(number, line.host_frame);
+  if (again) note_unanswered(station(number).line(), line.host_frame);
 }
 
-/// A request on the line of a station, by the master of all stations there or by one outside. `frame`: of one outside;
-/// nothing if it is not known.
-void Stepper::note_unanswered(std::size_t number, const std::vector<std::uint8_t>& frame) {
+/// `frame`: of a request that is not the simulated master's; nothing if it is not known.
+void Stepper::note_unanswered(const serial::SharedLine& line, const std::vector<std::uint8_t>& frame,
+                              std::optional<Asker> asker) {
   for (StopPoint& stop : stops)
-    if (stop.on == On::Unanswered && first_beside(stop.station) == first_beside(number)) hit(stop, {.frame = frame});
+    if (stop.on == On::Unanswered && is_on(stop.station, line)) hit(stop, {.frame = frame, .asker = asker});
 }
+
+bool Stepper::is_on(std::size_t number, const serial::SharedLine& line) const {
+  const serial::Plc& plc = station(number).plc();
+  for (std::uint8_t port = 0; port < plc.cpu().program().model->ports; ++port)
+    if (&plc.line(port) == &line) return true;
+  return false;
+}
+
+// --- masters that poll, and programs that ask ---
+
+/// Between two looks one request may be over and the next under way.
+void Stepper::note_polls() {
+  for (std::size_t number = 0; number < polling_.size(); ++number) {
+    const serial::Poller& poller = *history_.pollers()[number].poller;
+    const serial::Poller::State& now = poller.state();
+    const bool asks = poller.requester().asks();
+    Polling& polling = polling_[number];
+    const bool next = now.asked != polling.asked;
+    const bool in_vain = next ? now.answered == polling.answered : poller.requester().exchange().timed_out;
+    if (polling.asks && (next || !asks) && in_vain && !is_broadcast(polling.frame))
+      for (const serial::SharedLine* const line : history_.requests().lines())
+        if (poller.is_on(line->line())) note_unanswered(*line, polling.frame, Asker{Asker::Kind::Poller, number});
+    if (asks && (next || !polling.asks)) polling.frame = serial::bytes_of(poller.requester().exchange().request);
+    polling.asks = asks;
+    polling.asked = now.asked;
+    polling.answered = now.answered;
+  }
+}
+
+/// A program has asked on that line, and nobody has answered yet.
+bool Stepper::is_open(std::size_t line) const {
+  const std::optional<PlcRequests::Request>& last = history_.requests().last(line);
+  return last && last->waits() && last->end != given_up_[line];
+}
+
+void Stepper::note_unanswered_plc(std::size_t line) {
+  if (!is_open(line)) return;
+  const PlcRequests::Request& last = *history_.requests().last(line);
+  given_up_[line] = last.end;
+  note_unanswered(*history_.requests().lines()[line], last.frame, Asker{Asker::Kind::Plc, last.station});
+}
+
+void Stepper::note_plc_timeouts(Time now) {
+  for (std::size_t line = 0; line < given_up_.size(); ++line)
+    if (is_open(line) && now - history_.requests().last(line)->end >= host_timeout) note_unanswered_plc(line);
+}
+
+/// The program that has asked last sends again, or another master's request is heard.
+bool Stepper::begins_anew(std::size_t number, const TraceRecord& record) const {
+  const bool sends = record.kind == TraceKind::Transmit;
+  const bool hears = record.kind == TraceKind::CharacterReceived || record.kind == TraceKind::CharacterIgnored ||
+                     record.kind == TraceKind::CharacterDropped;
+  if (!sends && !hears) return false;
+  const PlcRequests& requests = history_.requests();
+  const std::size_t line = requests.line_of(number, record.port);
+  if (!is_open(line)) return false;
+  const PlcRequests::Request& last = *requests.last(line);
+  if (sends) return last.station == number;
+  return any_requester_asks(requests.lines()[line]->line(), last.end);
+}
+
+/// A simulated master of the line, since then or later.
+bool Stepper::any_requester_asks(const serial::Line& line, Time since) const {
+  const auto asks = [&](const serial::Requester& requester) {
+    return requester.asks() && requester.exchange().request_start >= since;
+  };
+  for (std::size_t number = 0; number < history_.stations(); ++number)
+    if (const serial::Simulation& here = station(number);
+        here.has_master() && &here.line().line() == &line && asks(here.master()))
+      return true;
+  return std::ranges::any_of(history_.pollers(), [&](const PollingMaster& master) {
+    return master.poller->is_on(line) && asks(master.poller->requester());
+  });
+}
+
+// --- masters on bridges ---
 
 /// Of those on the line of a station.
 std::size_t Stepper::first_beside(std::size_t number) const {
@@ -519,56 +628,53 @@ std::optional<std::size_t> Stepper::host_that_sent(std::size_t number, Time afte
   return static_cast<std::size_t>(host - history_.hosts().begin());
 }
 
-/// Of the simulated one or of one on a bridge. Any other character is of a station that answers.
+/// Of a simulated one or of one on a bridge. Any other character is of a station that answers.
 bool Stepper::is_of_a_master(std::size_t number, const TraceRecord& received) const {
-  const serial::Simulation& here = station(number);
-  return (here.has_master() && here.master().asks()) || host_that_sent(number, received.since);
+  return any_requester_asks(station(number).line().line(), 0) || host_that_sent(number, received.since);
 }
 
-/// What a bridge has sent is a request. All stations on its line hear it, one of them later than another.
+/// What a bridge has sent is a request, unless somebody on the line has just asked. All stations on its line hear it, one
+/// of them later than another.
 void Stepper::note_host_request(std::size_t number, std::vector<std::uint8_t> frame, Time end) {
-  const serial::Simulation& here = station(number);
   Listening& line = line_of(number);
-  const Time character = here.port_format().character_time();  // what one who is set otherwise hears ends later
+  const Time character = station(number).port_format().character_time();  // who is set otherwise hears an end later
   const auto host = host_that_sent(number, end - character);
-  if (!host || end <= line.host_frame_end || (here.has_master() && here.master().busy())) return;
+  if (!host || end <= line.host_frame_end || answers(number, end, character)) return;
   line.host_frame_end = end;
-  if (has_sent_broadcast(*host)) return;
+  if (history_.has_sent(*host, is_broadcast)) return;
   line.host_waits = end;
   line.host_frame = std::move(frame);
 }
 
-/// The last characters of a bridge, from the beginning of what it gave to the line at once, are a broadcast.
-bool Stepper::has_sent_broadcast(std::size_t host) const {
-  std::vector<std::uint8_t> sent;
-  for (std::size_t number = history_.now().actions; number > 0 && sent.size() < modbus::kLongestRtuFrame;) {
-    const Action* const action = history_.action(--number);
-    if (!action) return false;
-    const auto* const call = std::get_if<serial::HostCall>(action);
-    if (!call || call->what != serial::HostCall::What::Send || history_.station_of_action(number) != host) continue;
-    std::vector<std::uint8_t> bytes;
-    for (const serial::HostCharacter& character : call->characters) bytes.push_back(character.byte);
-    sent.insert(sent.begin(), bytes.begin(), bytes.end());
-    if (is_broadcast(sent)) return true;
+/// What has ended then on the line of a station is the answer to a simulated master, or to a program.
+bool Stepper::answers(std::size_t number, Time end, Time character) const {
+  const serial::Simulation& here = station(number);
+  if (here.has_master() && here.master().busy()) return true;
+  for (const auto& [name, poller] : history_.pollers()) {
+    const serial::Requester& requester = poller->requester();
+    if (poller->is_on(here.line().line()) && (requester.asks() || requester.exchange().response_end + character > end))
+      return true;
   }
-  return false;
+  const auto& last = history_.requests().last(history_.requests().line_of(number, here.port()));
+  return last && end > last->end && end < last->next_to + character;
 }
 
 void Stepper::note_host_timeout(std::size_t number, Time now) {
   Listening& line = line_of(number);
   if (!line.host_waits || now - *line.host_waits < host_timeout) return;
   line.host_waits.reset();
-  note_unanswered(number, line.host_frame);
+  note_unanswered(station(number).line(), line.host_frame);
 }
 
 bool Stepper::answer_complete() {
   bool complete = false;
   for (std::size_t number = 0; number < listening_.size(); ++number) {
     if (!listening_[number].awaits_answer || station(number).master().busy()) continue;
-    complete = true;
     listening_[number].awaits_answer = false;
     const serial::Exchange& exchange = station(number).master().exchange();
-    if (exchange.timed_out && !is_broadcast(serial::bytes_of(exchange.request))) note_unanswered(number, {});
+    if (exchange.given_up) continue;
+    complete = true;
+    if (exchange.timed_out && !is_broadcast(serial::bytes_of(exchange.request))) note_unanswered(station(number).line(), {});
     if (!backwards_) on_answer(station(number).master().exchange());
   }
   return complete;

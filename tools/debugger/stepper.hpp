@@ -8,7 +8,6 @@
 // front of an instruction of that one; if it executes none any more, in front of the next one of any other.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <functional>
 #include <optional>
@@ -26,12 +25,6 @@ struct Stop {
   StopReason reason{};
   std::size_t station = 0;  ///< that stopped it; the one looked at if none did
   std::vector<Hit> hits{};  ///< whatever the reason
-};
-
-/// What a PLC has sent.
-struct Transmission {
-  Time from = 0, to = 0;
-  std::vector<std::uint8_t> bytes{};
 };
 
 class Stepper final : public Observer {
@@ -69,8 +62,8 @@ class Stepper final : public Observer {
 
   std::vector<StopPoint> stops;
 
-  /// How long a master on a bridge waits for an answer: its own time-out is not known here. One that sends again before has
-  /// given up then.
+  /// How long a master on a bridge and a program wait for an answer: their own time-outs are not known here. One that sends
+  /// again before has given up then.
   Time host_timeout = kSecond;
 
   // Told while running forwards; all must be set.
@@ -129,7 +122,13 @@ class Stepper final : public Observer {
     std::vector<std::uint8_t> host_frame{};  ///< that one; nothing if it is not known
     bool awaits_answer = false;              ///< its master is busy, and no station before it has the same one
     std::optional<Time> heard{};             ///< the last character since it has sent anything
-    std::array<std::optional<Transmission>, kPorts.size()> sending{};  ///< by port; of those that were seen to begin
+  };
+
+  /// A master that polls.
+  struct Polling {
+    bool asks = false;
+    std::uint64_t asked = 0, answered = 0;  ///< requests, with this one
+    std::vector<std::uint8_t> frame{};
   };
 
   serial::Simulation& station(std::size_t number) { return history_.station(number); }
@@ -162,14 +161,25 @@ class Stepper final : public Observer {
   bool answer_complete();
   void note_changes(std::size_t station, const InstructionRecord* by);
   void note_changes_from_outside();
-  void note_unanswered(std::size_t station, const std::vector<std::uint8_t>& frame);
+  void note_line(std::size_t station, Time now);
+  void note_unanswered(const serial::SharedLine& line, const std::vector<std::uint8_t>& frame,
+                       std::optional<Asker> asker = std::nullopt);
+  bool is_on(std::size_t station, const serial::SharedLine& line) const;
+  void ask_from_now_on(Time now);
+  void note_polls();
+  bool is_open(std::size_t line) const;
+  void note_unanswered_plc(std::size_t line);
+  void note_plc_timeouts(Time now);
+  bool begins_anew(std::size_t station, const TraceRecord& record) const;
+  bool any_requester_asks(const serial::Line& line, Time since) const;
+  Time next_timeout() const;
   std::size_t first_beside(std::size_t station) const;
   Listening& line_of(std::size_t station) { return listening_[first_beside(station)]; }
   std::optional<std::size_t> host_that_sent(std::size_t station, Time after) const;
   void note_end_of_wait(std::size_t station, const TraceRecord* heard);
   bool is_of_a_master(std::size_t station, const TraceRecord& received) const;
   void note_host_request(std::size_t station, std::vector<std::uint8_t> frame, Time end);
-  bool has_sent_broadcast(std::size_t host) const;
+  bool answers(std::size_t station, Time end, Time character) const;
   void note_host_timeout(std::size_t station, Time now);
   bool asked_to_stop() const { return stop_request_ && *stop_request_; }
 
@@ -189,6 +199,8 @@ class Stepper final : public Observer {
   bool backwards_ = false;
   std::vector<std::size_t> accessed_;  ///< stops on memory that the instruction being executed reads or writes
   std::vector<Listening> listening_;   ///< by station
+  std::vector<Polling> polling_;       ///< by master
+  std::vector<Time> given_up_;         ///< by line, the end of the last request of a PLC that is known to be unanswered
   History::BranchPtr counted_on_;      ///< the branch on which hits were counted last
   std::optional<Moment> listened_to_;  ///< where the last run ended: one from there goes on listening
   Time executing_since_ = kNever;      ///< the start of the instruction being executed; kNever: none is

@@ -28,7 +28,7 @@ struct StopPoint {
     LostCharacter,  ///< the program does not get it: its queue is full, its event is not attached, the port is in PPI mode
                     ///< or sends
     ModeChange,
-    Unanswered,  ///< a request of the simulated master, or of one on a bridge
+    Unanswered,  ///< a request of any master on a line of the station
     Read,        ///< access to memory by an instruction
     Write,
     ReadWrite,  ///< either of them, or a change
@@ -67,6 +67,12 @@ struct StopPoint {
   bool is_watch() const { return range.has_value(); }
 };
 
+/// Who has asked on a line.
+struct Asker {
+  enum class Kind : std::uint8_t { Plc, Poller } kind{};
+  std::size_t number = 0;  ///< of the station, or of the master in History::pollers()
+};
+
 /// One that a run has come to.
 struct Hit {
   StopPoint stop{};                       ///< with the old value
@@ -74,7 +80,9 @@ struct Hit {
   std::optional<InstructionRecord> by{};  ///< of an access; nothing: it changed between two instructions
   std::optional<std::size_t> action{};    ///< that changed it, its number in History::actions()
   std::optional<TraceRecord> record{};    ///< what happened
-  std::vector<std::uint8_t> frame{};      ///< FrameReceived, FrameSent, and Unanswered on a bridge; empty if it is not known
+  std::vector<std::uint8_t> frame{};      ///< FrameReceived, FrameSent, and Unanswered if it is not of the simulated
+                                          ///< master; empty if it is not known
+  std::optional<Asker> asker{};           ///< Unanswered, of a PLC or a master that polls
 };
 
 /// `{VW20} at {time}` filled in: expressions, and time, scan, line, event. What cannot be read stays as it is.

@@ -63,7 +63,7 @@ std::optional<NamedPlace> place_of_network(const std::string& text, const Listin
 
 std::optional<StopPoint> event_stop(const std::vector<std::string>& words, std::string& why) {
   const auto number = words.size() >= 2 ? parse_decimal<std::uint8_t>(words[1]) : std::nullopt;
-  const std::string what = words.size() == 3 ? lower_case(words[2]) : words.size() == 2 ? "served" : "";
+  const std::string what = words.size() == 3 ? stl::lower_case(words[2]) : words.size() == 2 ? "served" : "";
   if (!number || !find_event(*number) || (what != "served" && what != "occurs")) {
     why = expects("break event", "the number of an event, and occurs or served, for example: break event 8 occurs");
     return {};
@@ -87,10 +87,10 @@ std::optional<StopPoint> happening_stop(const Happening& happening, const std::v
 /// Those that are not among the words; none where an option has not got what it needs.
 std::vector<std::string> options_after(const std::vector<std::string>& words) {
   std::vector<std::string> options;
-  const std::string last = lower_case(words.back());
+  const std::string last = stl::lower_case(words.back());
   if (last == "if" || last == "hits" || last == "log") return options;
   for (const std::string_view option : kStopOptions)
-    if (std::ranges::none_of(words, [&](const std::string& word) { return lower_case(word) == option; }))
+    if (std::ranges::none_of(words, [&](const std::string& word) { return stl::lower_case(word) == option; }))
       options.emplace_back(option);
   return options;
 }
@@ -117,9 +117,9 @@ std::optional<NamedPlace> find_place(const std::vector<std::string>& words, cons
 
 std::optional<StopPoint> find_stop(const std::vector<std::string>& words, const Program& program, const Listing& listing,
                                    std::string& why, std::string& note) {
-  const std::string first = lower_case(words.front());
+  const std::string first = stl::lower_case(words.front());
   const auto named = [&](std::optional<StopPoint> stop) {
-    if (stop) stop->name = lower_case(joined(words));
+    if (stop) stop->name = stl::lower_case(joined(words));
     return stop;
   };
   for (const Happening& happening : kHappenings)
@@ -163,7 +163,7 @@ std::vector<std::string> words_after_break(const std::vector<std::string>& words
     for (const std::string_view word : happening_words()) all.emplace_back(word);
     return all;
   }
-  const std::string first = lower_case(words.front());
+  const std::string first = stl::lower_case(words.front());
   if (first == "event" && words.size() == 1) {
     for (const InterruptEvent& event : all_events()) all.push_back(fmt::format("{}", event.number));
     return all;
@@ -180,7 +180,7 @@ std::vector<std::string> words_after_break(const std::vector<std::string>& words
 std::vector<std::string> words_after_watch(const std::vector<std::string>& words) {
   std::vector<std::string> all;
   const auto has = [&](std::string_view word) {
-    return std::ranges::any_of(words, [&](const std::string& one) { return lower_case(one) == word; });
+    return std::ranges::any_of(words, [&](const std::string& one) { return stl::lower_case(one) == word; });
   };
   const bool waits_for = has("read") || has("write") || has("change");
   for (const AccessWord& access : kAccesses)

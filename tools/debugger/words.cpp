@@ -8,23 +8,6 @@
 
 namespace s7200::tools {
 
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower)
-    if (stl::is_upper(c)) c = static_cast<char>(c - 'A' + 'a');
-  return lower;
-}
-
-std::vector<std::string> split_words(std::string_view text) {
-  std::vector<std::string> words;
-  while (!(text = stl::trim(text)).empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    words.emplace_back(text.substr(0, end));
-    text.remove_prefix(end);
-  }
-  return words;
-}
-
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
@@ -59,7 +42,7 @@ std::optional<std::uint32_t> parse_count(const std::vector<std::string>& argumen
 }
 
 std::optional<std::uint8_t> event_of(const std::vector<std::string>& words) {
-  if (words.size() != 2 || lower_case(words[0]) != "event") return {};
+  if (words.size() != 2 || stl::lower_case(words[0]) != "event") return {};
   const auto number = parse_decimal<std::uint8_t>(words[1]);
   return number && find_event(*number) ? number : std::nullopt;
 }
@@ -73,7 +56,7 @@ std::string expects_event(std::string_view command, const std::vector<std::strin
 }
 
 std::optional<bool> wants_end(const std::vector<std::string>& arguments) {
-  const std::string word = arguments.empty() ? "begins" : lower_case(joined(arguments));
+  const std::string word = arguments.empty() ? "begins" : stl::lower_case(joined(arguments));
   if (word != "begins" && word != "ends") return {};
   return word == "ends";
 }

@@ -9,11 +9,6 @@
 
 namespace s7200::tools {
 
-std::string lower_case(std::string_view text);
-
-/// What blanks separate.
-std::vector<std::string> split_words(std::string_view text);
-
 /// The words with a blank between them.
 std::string joined(const std::vector<std::string>& words);
 

@@ -1,5 +1,6 @@
 #include "tools/scenario/answer_reader.hpp"
 
+#include "interpreter/base/text.hpp"
 #include "tools/views/text_frame.hpp"
 
 namespace s7200::tools {
@@ -25,7 +26,7 @@ std::optional<Expected> read_expected(ValueReader& values, const YamlNode& node)
   if (node.is_list()) return Expected{.kind = Kind::Values, .values = read_numbers(values, node, 0xFFFF, true)};
   const auto written = values.text(node);
   if (!written) return {};
-  const std::string word = lower_case(*written);
+  const std::string word = stl::lower_case(*written);
   for (const auto& [name, kind] : {std::pair("silence", Kind::Silence),
                                    {"any", Kind::Any},
                                    {"echo", Kind::Echo},

@@ -153,10 +153,4 @@ std::string in_words(const Count& count) {
   return fmt::format("{} to {}", count.from, count.to);
 }
 
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return stl::is_upper(c) ? static_cast<char>(c + 32) : c; });
-  return text;
-}
-
 }  // namespace s7200::tools

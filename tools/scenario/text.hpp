@@ -67,7 +67,4 @@ std::optional<std::vector<BytePattern>> parse_pattern(std::string_view text, std
 std::string in_words(const Window& window, const SerialFormat& format);
 std::string in_words(const Count& count);
 
-/// ASCII letters in lower case, everything else as it is.
-std::string lower_case(std::string text);
-
 }  // namespace s7200::tools

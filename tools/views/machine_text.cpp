@@ -100,13 +100,18 @@ std::string attachments_text(const State& state) {
   return text.empty() ? "attached   no event\n" : text;
 }
 
-std::string control_text(const State& state, std::size_t port) {
+/// SMB30 or SMB130 in words.
+std::string control_words(const State& state, std::size_t port) {
   static constexpr std::string_view kModes[] = {"PPI slave", "Freeport", "PPI master", "reserved, as PPI slave"};
+  return fmt::format("{}{}", kModes[state.image[kPorts[port].control] & sm::kProtocol],
+                     state.port[port].active ? ", " + format_text(state.port[port].format) : "");
+}
+
+std::string control_text(const State& state, std::size_t port) {
   const std::uint32_t at = kPorts[port].control;
   const std::uint8_t control = state.image[at];
-  return fmt::format("{:<11}16#{:02X} = 2#{:08b}: {}{}", fmt::format("SMB{}", at - image::kSM), control, control,
-                     kModes[control & sm::kProtocol],
-                     state.port[port].active ? ", " + format_text(state.port[port].format) : "");
+  return fmt::format("{:<11}16#{:02X} = 2#{:08b}: {}", fmt::format("SMB{}", at - image::kSM), control, control,
+                     control_words(state, port));
 }
 
 std::string routine_text(const State& state, std::uint8_t event) {
@@ -179,7 +184,8 @@ std::string master_text(const serial::Requester::State& master) {
   const std::string request = serial::to_hex(master.request.frame);
   switch (master.phase) {
     case Phase::Idle:
-      return master.request.frame.empty() ? "has sent nothing" : "idle";
+      if (master.request.frame.empty()) return "has sent nothing";
+      return master.exchange.given_up ? fmt::format("idle; has given up {}", request) : "idle";
     case Phase::Sending:
       return fmt::format("sending {}: character {} of {}", request, master.sent, master.request.frame.size());
     case Phase::Waiting:
@@ -253,7 +259,9 @@ std::string special_text(const Cpu& cpu, const MemoryRange& range) {
   for (std::uint32_t at = range.at; at < range.at + range.bytes(); ++at) {
     const auto only = static_cast<std::uint8_t>(range.width == Width::Bit ? 1u << range.bit : 0xFFu);
     for (std::size_t port = 0; port < cpu.program().model->ports && range.width != Width::Bit; ++port)
-      if (at == kPorts[port].control) text += fmt::format("         {}\n", control_text(state, port));
+      if (at == kPorts[port].control)
+        text += fmt::format("         {}{}\n", range.bytes() > 1 ? fmt::format("SMB{}: ", at - image::kSM) : "",
+                            control_words(state, port));
     const auto shown = static_cast<std::uint8_t>(range.width == Width::Bit ? only : state.image[at]);
     const std::string bits = special_bits_text(at, shown);
     if (!bits.empty()) text += fmt::format("         {}\n", bits);

@@ -471,6 +471,18 @@ TEST(DapSession, AFrameThatNobodyWantedLeadsToWhatDetachedItsEvent) {
   EXPECT_EQ(editor.line(), 7);
 }
 
+TEST(DapSession, ARequestUnderWayIsGivenUp) {
+  Editor editor("LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nENI\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n");
+  editor.begin();
+  EXPECT_TRUE(has(editor.error_of("sendFrame", {{"frame", "cancel"}}), "no request of the simulated master is under way"));
+  for (int scan = 0; scan < 3; ++scan) editor("stepScan", {{"threadId", 1}});
+  editor("sendFrame", {{"frame", "41 42"}});
+  EXPECT_EQ(editor("sendFrame", {{"frame", "cancel"}})["frame"], "41 42");
+  editor("evaluate", {{"expression", "send 43"}, {"context", "repl"}});
+  editor("evaluate", {{"expression", "send cancel"}, {"context", "repl"}});
+  EXPECT_TRUE(has(editor.last("output")["output"], "given up before its first character: 43"));
+}
+
 TEST(DapSession, WhatDecidedIsNamedAndReached) {
   Editor editor("LD SM0.0\nAN I0.0\nJMP 1\nLD SM0.0\nINCW VW0\nLBL 1\nLD SM0.0\nINCW VW2\nMEND\n");
   editor.begin();

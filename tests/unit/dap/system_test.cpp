@@ -1,6 +1,8 @@
 // A system in an editor: a thread for each PLC.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/unit/debugger/system_bench.hpp"
 #include "tools/dap/session.hpp"
 
@@ -150,6 +152,31 @@ TEST(DapSystem, FramesVariablesAndMemoryAreThoseOfTheirThread) {
   const std::string instruction = editor.frame(kSlave2Thread)["instructionPointerReference"];
   const Json first = editor("disassemble", {{"memoryReference", instruction}, {"instructionCount", 1}})["instructions"][0];
   EXPECT_EQ(first["address"], instruction);
+}
+
+TEST(DapSystem, TheFilterOfUnansweredRequestsHearsPlcsThatAskOnceALine) {
+  SystemEditor editor;  // the master asks before the slaves hear
+  editor("setExceptionBreakpoints", {{"filters", {"unanswered"}}});
+  editor("continue", {{"threadId", kSlave1Thread}});
+  EXPECT_EQ(editor.stopped()["reason"], "exception");
+  const std::string text = editor.stopped()["text"];
+  EXPECT_NE(text.find("unanswered request, 01 03 00 00 00 02 c4 0b"), std::string::npos) << text;
+  EXPECT_NE(text.find(", asked by master"), std::string::npos) << text;
+  const auto said = std::ranges::count_if(editor.messages, [](const Json& message) {
+    return message.value("event", "") == "output" &&
+           message["body"]["output"].get<std::string>().find("asked by") != std::string::npos;
+  });
+  EXPECT_EQ(said, 1) << "not for each PLC on the line";
+}
+
+TEST(DapSystem, MemoryOfAPlcWithoutPowerIsNotChanged) {
+  SystemEditor editor;
+  editor("goToMoment", {{"time", "end"}});
+  editor.debuggee->history().act(SetPower{false}, kSlave2);
+  const Json refused = editor.ask(
+      "evaluate", {{"expression", "set VW20=1"}, {"context", "repl"}, {"frameId", editor.frame(kSlave2Thread)["id"]}});
+  EXPECT_FALSE(refused["success"]);
+  EXPECT_NE(refused["message"].get<std::string>().find("without power"), std::string::npos) << refused.dump();
 }
 
 }  // namespace

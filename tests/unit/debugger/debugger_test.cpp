@@ -470,6 +470,63 @@ TEST(Debugger, ARequestOfAMasterOnABridgeIsUnansweredAfterTheTimeOut) {
   EXPECT_EQ(session.simulation.time(), stopped);
 }
 
+/// Asks station 1 once a second, and station 0 before that.
+constexpr std::string_view kAsks =
+    "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 8, VB0\nMOVD 16#01030000, VD1\nMOVD 16#0001840A, VD5\nENI\n"
+    "LD SM0.5\nEU\nXMT VB0, 0\nMEND\n";
+
+TEST(Debugger, ARequestOfTheOnlyProgramIsUnansweredAfterTheTimeOutOrWhenItAsksAgain) {
+  Session session(kAsks);
+  EXPECT_TRUE(has(session("break sent; continue; delete 1; break unanswered; continue"),
+                  "breakpoint 2, unanswered, hit for the first time\n  01 03 00 00 00 01 84 0a  asked by the program\n"));
+  const Time first = session.simulation.time();
+  EXPECT_GE(first, 2 * kSecond) << "the XMT, less than 1 s after the end of the one before";
+  EXPECT_LT(first, 2'001 * kMillisecond);
+  EXPECT_TRUE(has(session("continue"), "hit 2 times"));
+  session("rcontinue");
+  EXPECT_EQ(session.simulation.time(), first);
+}
+
+TEST(Debugger, ABridgeThatAnswersAProgramIsNoMaster) {
+  Bytes answer{0x01, 0x03, 0x02, 0x00, 0x05};
+  modbus::add_crc(answer);
+  Bridged session(kAsks, {1'600 * kMillisecond, 2'600 * kMillisecond, 3'600 * kMillisecond}, answer);
+  session("continue 1550ms; break unanswered");
+  EXPECT_FALSE(has(session("continue 2900ms"), "breakpoint 1, unanswered, hit")) << "each has its answer";
+  EXPECT_TRUE(has(session("continue 1500ms"), "asked by the program")) << "nobody has answered the last";
+}
+
+TEST(Debugger, ACancelledRequestIsSaidWhereItWasAndTheMasterIsReadyForTheNext) {
+  Session session(kListening);
+  EXPECT_TRUE(has(session.error_of("send cancel"), "no request of the simulated master is under way"));
+  EXPECT_TRUE(
+      has(session("continue 100ms; send 01 02 03 04; send cancel"), "given up before its first character: 01 02 03 04\n"));
+  EXPECT_TRUE(has(session("continue 20ms; expect VW0 = 0; send 01 02 03 04; continue 1500us; send cancel"),
+                  "given up on the line: character 2 of 4 is its last, and ends at 1"));
+  EXPECT_TRUE(has(session("break unanswered; port"), "idle; has given up 01 02 03 04"));
+  EXPECT_TRUE(
+      has(session("send 05 06; continue 20ms; expect VW0 = 4; send cancel"), "given up while it waited for the answer, "));
+  EXPECT_FALSE(has(session("continue 3s"), "unanswered, hit"));
+  EXPECT_FALSE(has(session("rcontinue"), "unanswered, hit"));
+}
+
+TEST(Debugger, ACancelledRequestIsInThePastAndInASavedSession) {
+  Session session(kListening);
+  session("continue 100ms; send 01 02 03 04; continue 1500us; send cancel; continue 50ms; rscan");
+  const serial::Simulation::Snapshot there = session.simulation.snapshot();
+  session("at 50ms; at end; rscan 2");
+  session("at end");
+  const std::string file = testing::TempDir() + "cancelled.json";
+  session("rscan; save " + file + " !");
+  Session other(kListening);
+  other("load " + file + "; at end; rscan");
+  EXPECT_EQ(other.vw(0), 2) << "characters that have come";
+  session("at end; rscan");
+  EXPECT_TRUE(other.simulation.snapshot() == session.simulation.snapshot());
+  session("back 2; at 101ms");
+  EXPECT_TRUE(session.simulation.master().asks());
+}
+
 TEST(Debugger, ABroadcastIsNeverUnanswered) {
   Bytes broadcast{0x00, 0x06, 0x00, 0x0a, 0x00, 0x01};
   modbus::add_crc(broadcast);

@@ -17,6 +17,9 @@ struct SystemSession : Prompt<SystemBench> {
     DebuggerOptions options{};
     for (const PlcPlan& plc : rig->plan().plcs) options.stations.push_back({.name = plc.name});
     options.station = first;
+    for (std::size_t peer = 0; peer < rig->plan().peers.size(); ++peer)
+      if (const serial::Poller* const poller = rig->poller(peer))
+        options.history.pollers.push_back({rig->plan().peers[peer].name, poller});
     debugger = std::make_unique<Debugger>(stations, out, options);
   }
 };
@@ -154,6 +157,110 @@ TEST(SystemDebugger, ABroadcastOfAMasterOnABridgeIsNeverUnanswered) {
   EXPECT_FALSE(has(session("break unanswered; continue 5s"), "breakpoint 1, unanswered, hit"));
 }
 
+constexpr std::string_view kPollers =
+    "plcs: {slave: {program: ../modbus_slave.stl, copies: 2, station: 1}}\n"
+    "peers:\n"
+    "  scada: {polls: [{station: 1, read: 40001}, {station: 9, read: 40001}, {station: 2, read: 40001}], every: 1s, "
+    "timeout: 300ms}\n"
+    "lines: {bus: {stations: [scada, slave]}}\n";
+
+TEST(SystemDebugger, AMasterThatPollsIsUnansweredWhenItsOwnTimeOutIsOver) {
+  SystemSession session(kPollers, 0);
+  EXPECT_TRUE(has(session("break unanswered; continue"),
+                  "slave1: breakpoint 1, unanswered, hit for the first time\n  09 03 00 00 00 01 85 42  asked by scada\n"));
+  const Time stopped = session.system().time(), end = session.rig->poller(0)->requester().exchange().request_end;
+  EXPECT_GE(stopped, end + 300 * kMillisecond);
+  EXPECT_LT(stopped, end + 301 * kMillisecond);
+  session("continue; rcontinue");
+  EXPECT_EQ(session.system().time(), stopped) << "the same from either side";
+  EXPECT_TRUE(has(session.out.str(), "breakpoint 1, unanswered"));
+  EXPECT_TRUE(has(session("continue; station slave2; power off; continue"), "  02 03 00 00 00 01 84 39  asked by scada\n"));
+}
+
+TEST(SystemDebugger, AMasterThatPollsIsUnansweredThoughNoPlcExecutesAProgram) {
+  SystemSession session(kPollers, 0);
+  session("continue 2.5s; mode stop; station slave2; mode stop; station slave1; break unanswered");
+  EXPECT_TRUE(has(session("continue"), "  01 03 00 00 00 01 84 0a  asked by scada\n"));
+  const Time end = session.rig->poller(0)->requester().exchange().request_end;
+  EXPECT_LE(session.system().time(), end + 301 * kMillisecond);
+}
+
+TEST(SystemDebugger, ARequestOfAPlcIsUnansweredWhenNobodyAnswersOrItAsksAgain) {
+  SystemSession session;  // the master asks first at 19 ms, the slaves hear from 52 ms on, it asks again at 823 ms
+  const std::string stopped = session("station slave1; break unanswered; continue");
+  EXPECT_TRUE(has(stopped,
+                  "slave1: breakpoint 1, unanswered, hit for the first time\n  01 03 00 00 00 02 c4 0b  asked by "
+                  "master\n"));
+  const Time first = session.system().time();
+  EXPECT_GT(first, 823 * kMillisecond);
+  EXPECT_LT(first, 825 * kMillisecond);
+  session("continue 3s; station slave2; power off; station slave1");
+  EXPECT_TRUE(has(session("continue 3s"), "  02 03 ")) << "a request for another station";
+  const Time second = session.system().time();
+  session("continue; rcontinue");
+  EXPECT_EQ(session.system().time(), second);
+  EXPECT_TRUE(has(session("rcontinue"), "breakpoint 1, unanswered, hit for the first time\n  01 03 "));
+  EXPECT_EQ(session.system().time(), first) << "found in parts of the past that begin while it waits";
+  EXPECT_TRUE(has(session("rcontinue"), "this is the oldest moment"));
+}
+
+TEST(SystemDebugger, AnswersOfPlcsAndWhatTheyPassOnAreNoRequests) {
+  SystemSession session(
+      "plcs:\n  gateway: {program: ../systems/line_gateway.stl, cpu: 226}\n"
+      "  pump: {program: ../modbus_slave.stl, station: 5}\n"
+      "peers: {master: {polls: [{station: 5, read: 40001, count: 2}], every: 100ms}}\n"
+      "lines:\n  office: {stations: [master, gateway]}\n  field: {stations: [gateway.1, pump]}\n",
+      0);
+  EXPECT_FALSE(has(session("break unanswered; station pump; break unanswered; continue 4s"), "unanswered, hit"));
+  EXPECT_TRUE(has(session("power off; station gateway; continue 3s"), "unanswered")) << "of both lines, the gateway's too";
+  EXPECT_TRUE(has(session.out.str() + session("continue 3s"), "  asked by gateway\n"));
+}
+
+TEST(SystemDebugger, PowerOffAndOnAreOfThePlcLookedAtAndInThePast) {
+  SystemSession session(kPollers, 0);
+  EXPECT_TRUE(has(session.error_of("power"), "power of which PLCs?"));
+  EXPECT_TRUE(has(session.error_of("power on"), "slave1 is with power already"));
+  EXPECT_TRUE(has(session("continue 2s; station slave2; set VW20=7; power off"), "slave2 has no power from now on"));
+  EXPECT_TRUE(has(session("station"), "> slave2  2000."));
+  EXPECT_TRUE(has(session.out.str(), "without power"));
+  EXPECT_TRUE(session.stations[0]->plc().powered());
+  EXPECT_TRUE(has(session.error_of("power off"), "slave2 is without power already"));
+  for (const std::string_view command : {"set VW20=1", "input I0.0=1", "force VW20=1", "unforce all"})
+    EXPECT_TRUE(has(session.error_of(command), "slave2 is without power; 'power on' brings it back")) << command;
+  EXPECT_TRUE(has(session("trace on; continue 1500ms"), "slave2  ignored  01: the PLC has no power\n"));
+  session("trace off; power on; continue 100ms; rscan");
+  EXPECT_TRUE(session.stations[1]->plc().powered());
+  const serial::System::Snapshot there = session.system().snapshot();
+  const std::string file = testing::TempDir() + "power_session.json";
+  session("save " + file + " !");
+  session("at 3s");
+  EXPECT_FALSE(session.stations[1]->plc().powered());
+  session("at 1900ms");
+  EXPECT_TRUE(session.stations[1]->plc().powered());
+  SystemSession other(kPollers, 0);
+  other("load " + file);
+  EXPECT_TRUE(other.system().snapshot() == there);
+  Session one(kNested);
+  EXPECT_TRUE(has(one.error_of("power off"), "power off is for a PLC of a system"));
+}
+
+TEST(SystemDebugger, TheOnlyPlcOfASystemLosesPowerToo) {
+  SystemSession session("plcs: {slave: {program: ../modbus_slave.stl, station: 1}}\nlines: {bus: {stations: [slave]}}\n", 0);
+  session("continue 100ms; set VW20=7; break unanswered; power off; send 01 03 00 0a 00 01 crc; continue");
+  EXPECT_TRUE(has(session.out.str(), "answer   none within 1 s")) << session.out.str();
+  EXPECT_TRUE(has(session("continue 2s; power on; continue 100ms"), "scan "));
+  const Time there = session.system().time();
+  const serial::System::Snapshot snapshot = session.system().snapshot();
+  EXPECT_GT(there, 3'200 * kMillisecond);
+  session("at 1s");
+  EXPECT_FALSE(session.stations[0]->plc().powered());
+  session("at 50ms");
+  EXPECT_TRUE(session.stations[0]->plc().powered());
+  session("at end");
+  EXPECT_TRUE(session.system().snapshot() == snapshot);
+  EXPECT_TRUE(has(session("send 01 03 00 0a 00 01 crc; continue"), "answer   01 03 02"));
+}
+
 TEST(SystemDebugger, TheTraceNamesTheStationInTheOrderOfTime) {
   SystemSession session;
   session("continue 60ms; trace on");
@@ -200,7 +307,7 @@ TEST(SystemDebugger, RestartAndPowerAreOfAllStations) {
   for (const serial::Simulation* station : session.stations) EXPECT_EQ(station->plc().executed(), 0U);
   session("back");
   EXPECT_GE(session.system().time(), 20 * kMillisecond);
-  session("power 8h");
+  session("power all 8h");
   for (const serial::Simulation* station : session.stations) EXPECT_EQ(station->cpu().time(), 0);
 }
 
@@ -235,7 +342,7 @@ TEST(SystemDebugger, PowerNamesTheRequestsOfAllMastersThatWereUnderWay) {
                             "\nlines:\n  a: {stations: [near]}\n  b: {stations: [far]}\n  c: {stations: [idle]}\n",
                         0);
   session("continue 2s; send 01 03; station far; send 02 04; station idle");
-  EXPECT_TRUE(has(session("power"),
+  EXPECT_TRUE(has(session("power all"),
                   "under way when power went off, and nobody waits for an answer any more: near: 01 03, far: 02 04\n"));
 }
 

@@ -7,6 +7,16 @@ namespace {
 
 using namespace std::string_view_literals;
 
+TEST(Text, WordsAreWhatBlanksAndTabsSeparate) {
+  EXPECT_EQ(split_words(" LD\tSM0.1  x\r"), (std::vector<std::string>{"LD", "SM0.1", "x"}));
+  EXPECT_TRUE(split_words(" \t").empty());
+}
+
+TEST(Text, OnlyAsciiLettersChangeTheirCase) {
+  EXPECT_EQ(lower_case("VW100 ÄÖ@[`{Zz"), "vw100 ÄÖ@[`{zz");
+  EXPECT_EQ(upper_case("vw100 äö@[`{Zz"), "VW100 äö@[`{ZZ");
+}
+
 TEST(Printable, TextOfAnyLanguageStaysAsItIs) {
   for (const std::string_view text : {""sv, "LD I0.0 // Tür auf"sv, "阀门\t打开"sv, "3 × 259.4 us …"sv, "\U0001F600"sv})
     EXPECT_EQ(printable(text), text);

@@ -44,6 +44,7 @@ TEST(TextTrace, ReportsThePortCharacterByCharacter) {
   EXPECT_EQ(told({.kind = TraceKind::CharacterReceived, .byte = 1, .parity_error = true, .framing_error = true}),
             "received 01 parity error framing error");
   EXPECT_EQ(told({.kind = TraceKind::CharacterIgnored, .byte = 2}), "ignored  02: event 8 is not attached");
+  EXPECT_EQ(told({.kind = TraceKind::CharacterIgnored, .byte = 2, .code = 3}), "ignored  02: the PLC has no power");
 }
 
 TEST(TextTrace, ReportsWhatRcvDoes) {

@@ -114,6 +114,43 @@ TEST(Requester, SendsTheRequestWithoutGapsAndHearsTheAnswer) {
   EXPECT_FALSE(exchange.timed_out || exchange.too_long || exchange.parity_error() || exchange.framing_error());
 }
 
+TEST(Requester, GivenUpBeforeItsFirstCharacterNothingIsSent) {
+  Conversation talk;
+  talk.master.start(request_of(kRequest), kMillisecond);
+  talk.master.give_up(kMillisecond);
+  EXPECT_FALSE(talk.master.busy());
+  EXPECT_TRUE(talk.master.exchange().given_up);
+  EXPECT_EQ(talk.queue.next(), kNever);
+}
+
+TEST(Requester, GivenUpOnTheLineTheCharacterThatHasBegunIsTheLastAndTheNextRequestComesAfterIt) {
+  Conversation talk;
+  talk.answer = to_frame(kAnswer);
+  talk.master.start(request_of(kRequest), 0);
+  while (talk.heard.size() < 2) talk.step();
+  talk.master.give_up(talk.now);
+  EXPECT_FALSE(talk.master.busy());
+  const Time end = talk.master_uart.state().send_end;
+  EXPECT_EQ(end, 3 * k8E1.character_time()) << "its receiver is off until then";
+  EXPECT_FALSE(talk.master.exchange().timed_out);
+  talk.master.start(request_of({0x41}), end);  // while it lasts
+  while (talk.master.busy()) talk.step();
+  EXPECT_EQ(bytes_of(talk.heard), (Bytes{kRequest[0], kRequest[1], kRequest[2], 0x41}));
+  EXPECT_FALSE(talk.master.exchange().given_up);
+}
+
+TEST(Requester, GivenUpWhileItWaitsTheAnswerIsUnasked) {
+  Conversation talk;
+  talk.answer = to_frame(kAnswer);
+  talk.after = kRequest.size();
+  talk.master.start(request_of(kRequest), 0);
+  while (talk.master.state().phase != Requester::Phase::Waiting) talk.step();
+  talk.master.give_up(talk.now);
+  while (talk.master.heard().size() < kAnswer.size()) talk.step();
+  EXPECT_TRUE(talk.master.exchange().response.empty());
+  EXPECT_EQ(serial::bytes_of(talk.master.heard()), kAnswer);
+}
+
 TEST(Requester, LatencyIsFromTheLastStopBitToTheFirstStartEdge) {
   Conversation talk;
   talk.answer = to_frame(kAnswer);

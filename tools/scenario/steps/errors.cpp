@@ -1,6 +1,7 @@
 // errors: the run-time errors since power-up, these and no others.
 #include <map>
 
+#include "interpreter/base/text.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/error_code.hpp"
 #include "tools/scenario/steps/steps.hpp"
@@ -44,7 +45,7 @@ struct ErrorsStep final : Action {
 std::shared_ptr<const Action> read_errors(const StepSource& source) {
   auto step = std::make_shared<ErrorsStep>();
   const YamlNode& is = source.is;
-  if (is.is_scalar() && lower_case(is.text) == "none") return step;
+  if (is.is_scalar() && stl::lower_case(is.text) == "none") return step;
   if (!is.is_map())
     source.values.wrong(is, "run-time errors are a map or 'none', not " + to_text(is), "write for example {0092: 3}");
   for (std::size_t i = 0; i < is.keys.size() && i < is.items.size(); ++i)

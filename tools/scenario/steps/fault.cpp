@@ -1,6 +1,7 @@
 // fault: a fault of the line from now on, or none any more.
 #include "serial_sim/faults/fault.hpp"
 
+#include "interpreter/base/text.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/steps.hpp"
 #include "tools/scenario/transcript_writer.hpp"
@@ -31,7 +32,7 @@ struct FaultStep final : Action {
 std::shared_ptr<const Action> read_fault(const StepSource& source) {
   auto step = std::make_shared<FaultStep>();
   const auto written = source.values.text(source.is);
-  if (!written || lower_case(*written) == "none") return step;
+  if (!written || stl::lower_case(*written) == "none") return step;
   serial::ParsedFault parsed = serial::parse_fault(*written);
   if (parsed.ok()) {
     step->fault = std::move(parsed.fault);

@@ -1,4 +1,5 @@
 // interrupts: how often something happened since the last request began, or since power-up when there was none.
+#include "interpreter/base/text.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/steps.hpp"
 
@@ -66,7 +67,7 @@ std::shared_ptr<const Action> read_interrupts(const StepSource& source) {
     const auto name = values.text(map.keys[i]);
     if (!name) continue;
     const Count count = values.count(map.items[i]);
-    if (auto one = parse_what(lower_case(*name))) {
+    if (auto one = parse_what(stl::lower_case(*name))) {
       one->count = count;
       step->counts.push_back(*one);
     } else {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <ranges>
 
+#include "interpreter/base/text.hpp"
 #include "serial_sim/modbus/address.hpp"
 #include "tools/scenario/answer_reader.hpp"
 #include "tools/scenario/steps/exchange.hpp"
@@ -31,7 +32,7 @@ std::optional<modbus::DataAddress> area_and_number(const std::string& written, s
   const std::size_t blank = written.find(' ');
   const auto first = parse_number(written.substr(blank));
   for (const modbus::AreaRow& row : modbus::areas())
-    if (row.word == lower_case(written.substr(0, blank)) && first && *first >= 0 && *first <= 0xFFFF)
+    if (row.word == stl::lower_case(written.substr(0, blank)) && first && *first >= 0 && *first <= 0xFFFF)
       return modbus::DataAddress{row.area, static_cast<std::uint16_t>(*first)};
   why = fmt::format("'{}' is not a place: one of {}, and a number from 0 to 65535", stl::shortened(written),
                     fmt::join(modbus::areas() | std::views::transform(&modbus::AreaRow::word), ", "));
