@@ -1542,12 +1542,33 @@ lines:
         self.ends(FAILED, *ask, "--ppi-baud", "19200", "--baud", "9600")
         for arguments, why in ((["--ppi-baud", "187500"], "--ppi-baud: PPI at 187500 baud needs CPU 22x"),
                                (["--ppi-baud", "9600,19200"], "--ppi-baud: CPU 214 has no port 1 for the second rate"),
-                               (["--ppi-baud", "38400"], "--ppi-baud: '38400' is not a rate of PPI; there are 9600, 19200 and")):
+                               (["--ppi-baud", "38400"], "--ppi-baud: '38400' is not a rate of PPI; there are 9600, 19200 and"),
+                               (["--ppi-station", "3,4"], "--ppi-station: CPU 214 has no port 1 for the second station"),
+                               (["--ppi-station", "0"], "--ppi-station: '0' is not a PPI station from 1 to 126")):
             self.assertIn(why, self.ends(UNUSABLE, "run", SLAVE, *arguments, "--scans", "1").stderr)
         system = self.program(f"plcs: {{a: {{program: {SLAVE}, cpu: 226, ppi_baud: \"9600,187500\"}}}}\nlines: {{l: {{stations: [a.1]}}}}\n",
                               "system.yaml")
         self.assertIn("after 58.667 us", self.ends(FINE, "master", "--protocol", "ppi", system, "read", "VW20").stdout)
-        self.assertIn("--ppi-baud is about one PLC", self.ends(UNUSABLE, "run", system, "--ppi-baud", "19200").stderr)
+        for option in ("--ppi-baud", "--ppi-station"):
+            self.assertIn(f"{option} is about one PLC", self.ends(UNUSABLE, "run", system, option, "19").stderr)
+
+    def test_ports_in_ppi_mode_are_at_the_station_of_the_system_block(self):
+        program = self.program("LD SM0.0\nINCW VW0\nMEND\n")
+        ask = ["master", "--protocol", "ppi", program, "--ppi-station", "9"]
+        self.assertIn("station 9, VW20", self.ends(FINE, *ask, "--station", "9", "read", "VW20").stdout)
+        self.assertIn("no answer", self.ends(FAILED, *ask, "read", "VW20").stdout)
+        plcs = "plcs: {{a: {{program: {0}{1}}}, b: {{program: {0}}}}}\nlines: {{l: {{stations: [a, b]}}}}\n"
+        apart = self.program(plcs.format(program, ", ppi_station: 9"), "apart.yaml")
+        self.assertNotIn("warning", self.ends(FINE, "run", apart, "--for", "1s").stderr)
+        self.assertIn("station 9, VW20", self.ends(FINE, "master", "--protocol", "ppi", apart, "--station", "9", "read", "VW20").stdout)
+        same = self.program(plcs.format(program, ""), "same.yaml")
+        self.assertIn("warning: PPI station 2 on line 'l' is a, b: they answer at the same time, and the answers collide",
+                      self.ends(FINE, "run", same, "--for", "1s").stderr)
+        scenario = self.program(f"program: {program}\nppi_station: 9\nsteps:\n  - send: 10 09 00 49 52 16\n    expect: 10 00 09 00 09 16\n", "scenario.yaml")
+        transcript = self.folder / "transcript.yaml"
+        self.ends(FINE, "test", scenario, "--record", transcript)
+        self.assertIn('ppi_station: "9"', transcript.read_text(encoding="utf-8"))
+        self.ends(FINE, "test", transcript)
 
     def test_a_scenario_and_a_recorded_session_keep_the_rate_of_ppi(self):
         program = self.program("LD SM0.0\nINCW VW0\nMEND\n")

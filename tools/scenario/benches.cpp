@@ -103,17 +103,17 @@ Programs::Loaded Programs::load(const std::vector<std::string>& files, const std
 
 std::shared_ptr<const ProgramBand> Programs::band(const std::string& path, const std::vector<std::string>& with,
                                                   const std::string& cpu, const std::string& times_table,
-                                                  const std::string& repairs, const PpiRates& ppi_rates,
+                                                  const std::string& repairs, const SystemBlock& block,
                                                   const BandSettings& settings) {
   std::vector<std::string> files{path};
   files.insert(files.end(), with.begin(), with.end());
-  auto& known = bands_[{{files, cpu, times_table, repairs}, ppi_rates}];
+  auto& known = bands_[{{files, cpu, times_table, repairs}, block}];
   if (known) return known;
   Messages messages;
   std::vector<std::string> errors;
   auto parsed = read(files, repairs, messages);
   auto tables = load_band(*find_cpu(cpu), times_table, settings, errors);
-  return known = std::make_shared<ProgramBand>(std::move(*parsed), *find_cpu(cpu), std::move(*tables), ppi_rates);
+  return known = std::make_shared<ProgramBand>(std::move(*parsed), *find_cpu(cpu), std::move(*tables), block);
 }
 
 namespace {
@@ -152,12 +152,12 @@ class ProgramBenches {
     const auto with = target_.empty() ? scenario.with : std::vector<std::string>{};
     const Programs::Loaded& loaded = programs_.get(path, with, scenario.cpu, scenario.times, scenario.repair);
     bench.program = loaded.program;
-    if (loaded.program && scenario.ppi_rates != kUsualPpiRates)
-      bench.program = with_ppi_rates(*loaded.program, scenario.ppi_rates);
+    if (loaded.program && scenario.system_block != SystemBlock{})
+      bench.program = with_system_block(*loaded.program, scenario.system_block);
     if (loaded.program && settings_.every_scan) bench.program = with_every_scan(*bench.program);
     if (loaded.program && (scenario.robust || settings_.band.random > 0))
       bench.band =
-          programs_.band(path, with, scenario.cpu, scenario.times, scenario.repair, scenario.ppi_rates, band_settings());
+          programs_.band(path, with, scenario.cpu, scenario.times, scenario.repair, scenario.system_block, band_settings());
     if (!loaded.program && same_for_all_) {
       messages.insert(messages.end(), loaded.messages.begin(), loaded.messages.end());
       return false;

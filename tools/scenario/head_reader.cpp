@@ -9,6 +9,7 @@
 #include "interpreter/program/slips.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/rig/rig.hpp"
+#include "tools/rig/system_block_reader.hpp"
 #include "tools/rig/system_reader.hpp"
 #include "tools/scenario/memory_values.hpp"
 
@@ -60,12 +61,7 @@ class HeadReader {
     }
     if (const auto times = values_.optional_text(map, "times"))
       scenario.times = find_times(*times) ? *times : *optional_path(map, "times");
-    if (const auto rates = values_.optional_text(map, "ppi_baud")) {
-      std::string why;
-      const auto read = parse_ppi_rates(*rates, *find_cpu(scenario.cpu), why);
-      if (!read) values_.wrong(*map.find("ppi_baud"), why);
-      scenario.ppi_rates = read.value_or(kUsualPpiRates);
-    }
+    read_system_block(map, *find_cpu(scenario.cpu), scenario.system_block, values_);
     if (const YamlNode* line = map.find("line")) read_line(*line, scenario.line);
     if (const auto station = values_.number(map.find("station"), 0, 255))
       scenario.station = static_cast<std::uint8_t>(*station);
@@ -102,7 +98,7 @@ class HeadReader {
   void read_plan(const YamlNode& map, const std::string& path, Scenario& scenario) {
     const YamlNode& node = *map.find("system");
     for (const char* const key :
-         {"program", "with", "repair", "cpu", "times", "ppi_baud", "robust", "set", "input", "clock"})
+         {"program", "with", "repair", "cpu", "times", "ppi_baud", "ppi_station", "robust", "set", "input", "clock"})
       if (const YamlNode* one = map.find(key))
         values_.wrong(*one, fmt::format("'{}' is of one program: a system file says that of each PLC", key));
     std::string why;

@@ -34,6 +34,7 @@ const ScenarioKey kBeforeActions[] = {
     {Where::Scenario, "cpu", "", "TYPE", "`214` if left out"},
     {Where::Scenario, "times", "", "TABLE", "execution times: the name of a table, or the path of a CSV file as `s7200 times --csv` writes it"},
     {Where::Scenario, "ppi_baud", "", "NUMBER", "rate of ports in PPI mode, as the system block sets it: 9600, 19200 or, on CPU 22x, 187500; `\"9600,187500\"` is port 0 and port 1; 9600 if left out"},
+    {Where::Scenario, "ppi_station", "", "NUMBER", "PPI station of ports until the program's SPA sets another, as the system block sets it, 1 to 126; `\"3,4\"` is port 0 and port 1; 2 if left out"},
     {Where::Scenario, "robust", "", "SHARE", "`95%`: it must pass with so many of the tables of execution times, as `--times-band 200` runs them; not on a slave that is not a program"},
     {Where::Scenario, "line", "", "MAP", "how the master talks, if not as the program has set its port"},
     {Where::Scenario, "station", "", "NUMBER", "address of the slave; 1 if left out"},

@@ -54,7 +54,7 @@ struct Scenario {
   std::string on{};                          ///< what its steps are about unless they say so themselves
   std::string cpu = "214";
   std::string times{};  ///< a name or a file; empty: the CPU's own
-  PpiRates ppi_rates = kUsualPpiRates;
+  SystemBlock system_block{};
   std::vector<Assignment> set{};
   std::string input_file{};  ///< of `field`; empty if there is none
   serial::FieldScript field{};
