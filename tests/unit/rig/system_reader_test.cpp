@@ -179,7 +179,7 @@ TEST(SystemFile, PlcsOfOneLineThatMayAnswerAtTheSamePpiStationAreNamed) {
     return fmt::format("plcs: {{a: {{program: {}}}, b: {{program: {}}}}}\nlines: {{bus: {{stations: [a, b]}}}}\n", first,
                        second);
   };
-  const std::string_view freeport = "../modbus_slave.stl", ppi = "../scale.stl";
+  const std::string_view freeport = "../modbus_slave.stl", ppi = "../edge_counter.stl";
   using Warnings = std::vector<std::string>;
   const auto both = [](int station) {
     return Warnings{

@@ -383,7 +383,7 @@ TEST(SystemRig, NetrReadsAnotherCpuAtEachRateOfPpiThatBothHave) {
 TEST(SystemRig, NetrReadsACpuAtThePpiStationOfItsSystemBlock) {
   const auto rig = rig_of(fmt::format(
       "plcs:\n  master: {{program: {}, cpu: 224}}\n"
-      "  slave: {{program: ../scale.stl, copies: 2, ppi_station: 3, set: {{VD200: 16#01020304}}}}\n"
+      "  slave: {{program: ../edge_counter.stl, copies: 2, ppi_station: 3, set: {{VD200: 16#01020304}}}}\n"
       "lines: {{bus: {{stations: [master, slave]}}}}\n",
       netr_at(4, 300)));
   ASSERT_TRUE(rig);
@@ -403,8 +403,8 @@ TEST(SystemRig, TwoPlcsAtOnePpiStationAnswerAtTheSameTime) {
   for (const bool alike : {true, false}) {
     const auto rig = rig_of(fmt::format(
         "plcs:\n  master: {{program: {}, cpu: 224}}\n"
-        "  a: {{program: ../scale.stl, cpu: 224, ppi_station: 3, set: {{VD200: 16#01020304}}}}\n"
-        "  b: {{program: ../scale.stl, cpu: 224, ppi_station: 3, set: {{VD200: {}}}}}\n"
+        "  a: {{program: ../edge_counter.stl, cpu: 224, ppi_station: 3, set: {{VD200: 16#01020304}}}}\n"
+        "  b: {{program: ../edge_counter.stl, cpu: 224, ppi_station: 3, set: {{VD200: {}}}}}\n"
         "lines: {{bus: {{stations: [master, a, b], contention: 1}}}}\n",
         netr_at(4), alike ? "16#01020304" : "16#F1020304"));
     ASSERT_TRUE(rig);
