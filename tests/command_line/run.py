@@ -233,6 +233,14 @@ class Verbs(Case):
         self.assertIn("00 00 00 00 00 12 34 56 78", [frame["text"] for frame in decoded["frames"]])
         self.assertEqual({key: decoded["summary"][key] for key in ("requests", "answered", "need_no_answer", "wrong", "strays")},
                          {"requests": 8, "answered": 7, "need_no_answer": 1, "wrong": 0, "strays": 0})
+        self.ends(FINE, "master", "westinghouse:pc503", "--protocol", "pc500-loader", "--plc", "dle=plain", "--dle", "plain",
+                  "--plc", "M[9000]=10,03,10,10", "read", "16#9000:4", "--capture", loader)
+        plain = self.json(FINE, "decode", loader, "--protocol", "pc500-loader", "--dle", "plain", "--json")
+        self.assertIn("00 00 00 00 00 10 03 10 10", [frame["text"] for frame in plain["frames"]])
+        self.assertEqual(plain["summary"]["wrong"], 0)
+        doubled = self.json(FINE, "decode", loader, "--protocol", "pc500-loader", "--json")
+        self.assertGreater(doubled["summary"]["wrong"], 0)
+        self.assertIn("--dle plain: modbus never doubles a byte 10", self.ends(UNUSABLE, "decode", loader, "--dle", "plain").stderr)
         self.assertIn("neither in .vcd", self.ends(UNUSABLE, "master", "westinghouse:pc1200", "slave-id", "--capture", "x.txt").stderr)
 
     # Every action of each protocol, and what nobody answers.
@@ -1521,6 +1529,23 @@ lines:
         self.assertIn("'cpu' is of one program", self.ends(UNUSABLE, "test", both).stderr)
         gateway = self.program(f"system: {self.GATEWAY}\nsteps: [{{read: holding 0}}]\n", "gateway.yaml")
         self.assertIn("there are several lines, office, field", self.ends(UNUSABLE, "test", gateway).stderr)
+
+    def test_nothing_is_set_in_a_plc_without_power(self):
+        self.program(self.SYSTEM, "system.yaml")
+        scenario = self.program("system: system.yaml\nsteps:\n  - power_off: slave2\n  - {set: {VW0: 7}, on: slave2}\n", "scenario.yaml")
+        shown = self.ends(FAILED, "test", scenario).stdout
+        self.assertRegex(shown, r"set of slave2.*")
+        self.assertIn("it has none: nothing was set", shown)
+
+    def test_plcs_of_another_make_alone_are_a_target_of_scenarios(self):
+        others = SOURCE / "tests/programs/systems/other_plcs.yaml"
+        scenario = self.program("timeout: 60ms\nsteps:\n  - {read: holding 0, station: 5, expect: [16#9ABC]}\n", "scenario.yaml")
+        self.ends(FINE, "test", scenario, "--target", others, "--at", "yard")
+        self.assertIn("there are several lines, plant, yard: name one of them (--at NAME)",
+                      self.ends(UNUSABLE, "test", scenario, "--target", others).stderr)
+        transcript = self.folder / "transcript.yaml"
+        self.ends(FINE, "test", SOURCE / "tests/programs/systems/without_s7200.yaml", "--record", transcript)
+        self.ends(FINE, "test", transcript)
 
     def test_a_finding_says_which_station_and_shows_all_on_the_line(self):
         self.program(self.SYSTEM, "system.yaml")

@@ -157,10 +157,14 @@ class PeerReader {
     const std::string model = values_.optional_text(map, "model").value_or(std::string(row->models.front()));
     std::shared_ptr<westinghouse::Plc> plc = westinghouse::make_plc(*row, model, why);
     if (!plc) values_.wrong(*map.find("model"), why);
-    for (const YamlNode* setting : items_of(map, "settings", "unit=05", values_)) {
+    const auto settings = items_of(map, "settings", "unit=05", values_);
+    for (const YamlNode* setting : settings) {
       const auto text = values_.text(*setting);
       if (plc && text && !plc->set(*text, why)) values_.wrong(*setting, why);
     }
+    for (const YamlNode* setting : settings)
+      if (plc && values_.complaints.count() == before && !plc->still_reaches(setting->text, why))
+        values_.wrong(*setting, why);
     if (!plc || values_.complaints.count() > before) return plc;
     const YamlNode* const wire = map.find("sync");
     if (wire && !plc->needs_sync())

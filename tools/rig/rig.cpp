@@ -41,6 +41,7 @@ Rig::Rig(SystemPlan plan, const RigSurroundings& surroundings)
   for (const EventPlan& event : plan_.events) system_.schedule(event.at, [this, &event] { carry_out(event); });
   askers_.resize(lines_.size());
   for (const Spot& spot : surroundings.spots) join(spot);
+  for (const std::size_t line : surroundings.lines) askers_[line].requester = &system_.add_requester(*lines_[line]);
 }
 
 Rig::~Rig() = default;

@@ -9,6 +9,7 @@
 #include "tools/host/interruption.hpp"
 #include "tools/rig/other_plc.hpp"
 #include "tools/rig/system_reader.hpp"
+#include "tools/slave/peer_lines.hpp"
 #include "tools/slave/peer_slave.hpp"
 #include "tools/slave/slave_target.hpp"
 #include "tools/slave/system_slave.hpp"
@@ -200,6 +201,18 @@ SlaveMaker peer_slaves(const std::string& model, const std::string& name, const 
   };
 }
 
+/// Of a system without an S7-200, on the line `at`. Null, with messages, if there is no such line.
+SlaveMaker peer_lines(SystemPlan plan, const std::string& path, const std::string& at, Messages& messages) {
+  std::string why;
+  const auto line = find_line(plan, at, why);
+  if (line) why = why_no_other_plc(plan, *line);
+  if (!why.empty()) return add_error(messages, fmt::format("{}: {}{}", path, why, line ? "" : " (--at NAME)")), nullptr;
+  forget_files(plan);
+  return [plan = std::make_shared<const SystemPlan>(std::move(plan)), line = *line, path](const Scenario& scenario) {
+    return std::make_unique<PeerLines>(*plan, line, scenario.line, scenario.after, path);
+  };
+}
+
 /// Of a system file. Null, with messages, if it cannot be had.
 SlaveMaker system_slaves(const std::string& path, const std::string& at, Messages& messages) {
   const auto refuse = [&](const std::string& why) { return add_error(messages, why), nullptr; };
@@ -218,9 +231,10 @@ SlaveMaker system_slaves(const std::string& path, const std::string& at, Message
   if (!file.plan.bridges.empty())
     return refuse(fmt::format("bridge '{}' of {} follows the clock, which 's7200 test' does not: leave it out",
                               file.plan.bridges.front().name, path));
+  if (file.plan.plcs.empty()) return peer_lines(std::move(file.plan), path, at, messages);
   const auto spot = find_spot(file.plan, at, why);
   if (!spot) return refuse(fmt::format("{}: {} (--at NAME)", path, why));
-  if (why = why_no_room(file.plan, *spot); !why.empty()) return refuse(fmt::format("{}: {}", path, why));
+  if (why = why_no_room(file.plan, spot->line); !why.empty()) return refuse(fmt::format("{}: {}", path, why));
   forget_files(file.plan);
   return [plan = std::make_shared<const SystemPlan>(std::move(file.plan)), spot = *spot, path](const Scenario& scenario) {
     return std::make_unique<SystemSlave>(*plan, spot, scenario.line, scenario.after, path);

@@ -113,9 +113,8 @@ class HeadReader {
     if (!file.plan.bridges.empty())
       return values_.wrong(node, fmt::format("bridge '{}' of {} follows the clock", file.plan.bridges.front().name, path),
                            "a scenario runs as fast as it can: leave bridges out");
-    const auto has_plc = [&](const LinePlan& line) { return find_spot(file.plan, line.name, why).has_value(); };
-    if (std::ranges::none_of(file.plan.lines, has_plc))
-      return values_.wrong(node, fmt::format("{} has no PLC on a line", path), "a scenario talks to PLCs");
+    if (file.plan.plcs.empty() && !first_askable_line(file.plan))
+      return values_.wrong(node, fmt::format("{} has no line with a PLC and room for a master", path), "a scenario talks to PLCs");
     forget_files(file.plan);
     scenario.system = path;
     scenario.plan = std::make_shared<const SystemPlan>(std::move(file.plan));
@@ -125,7 +124,7 @@ class HeadReader {
     std::string why;
     if (!scenario.plan)
       values_.wrong(node, "'on' names a PLC or a line of a system", "name the file of one with 'system:'");
-    else if (!find_spot(*scenario.plan, on, why))
+    else if (scenario.is_of_peers() ? !find_line(*scenario.plan, on, why) : !find_spot(*scenario.plan, on, why))
       values_.wrong(node, why);
     scenario.on = on;
   }

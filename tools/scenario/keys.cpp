@@ -62,6 +62,7 @@ const ScenarioKey kModifiers[] = {
     {Where::Modifier, "steps", "repeat for", "LIST", "what is repeated"},
     {Where::Modifier, "crc", "send receive", "true, false", "append the CRC to the frame, and look for it at the end of what comes; `false` if left out"},
     {Where::Modifier, "station", "request read write", "NUMBER", "instead of the scenario's"},
+    {Where::Modifier, "station", "fault", "NAME", "of a system: whose fault it is, as in a system file"},
     {Where::Modifier, "count", "read", "NUMBER", "how many; 1 if left out"},
     {Where::Modifier, "value", "write", "NUMBER", "the one to write"},
     {Where::Modifier, "values", "write", "LIST", "those to write"},

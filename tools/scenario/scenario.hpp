@@ -27,7 +27,8 @@ struct Step {
   std::string note{};          ///< shown when it fails
   std::string loop{};          ///< `function = 3, count = 126`: which turn of its loops
   std::string on{};            ///< in a system: the PLC or line it is about, as it was written; empty if it was not
-  std::optional<Spot> spot{};  ///< that; nothing if it is about none
+  std::optional<Spot> spot{};  ///< that; nothing if it is about none, or about a line of a system without an S7-200
+  std::optional<std::size_t> line{};  ///< the line it is about in such a system
   std::shared_ptr<const Action> action{};
 };
 
@@ -78,6 +79,9 @@ struct Scenario {
     for (const Step& step : steps) count += step.action->steps();
     return count;
   }
+
+  /// Whether it is about a system without an S7-200.
+  bool is_of_peers() const { return plan && plan->plcs.empty(); }
 
   /// Where its addresses are looked up.
   AddressSpace addresses() const { return {*find_cpu(cpu), symbols}; }

@@ -87,6 +87,8 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {"peers: {m: {polls: [{read: 40001}]}}\nlines: {}\n", 1, 1, "no line"},
       {"peers: {m: {westinghouse: telex}}\n", 1, 27, "there is no protocol 'telex'"},
       {"peers: {m: {westinghouse: lan, settings: [colour=red]}}\n", 1, 43, "'colour=red' is not a setting"},
+      {"peers: {m: {westinghouse: modbus, settings: [HR20=1, holding_registers=10]}}\n", 1, 46,
+       "HR20 is not there: holding_registers=10"},
       {"peers: {m: {westinghouse: lan}}\n", 1, 27, "nothing drives the sync signal"},
       {slave + "peers: {m: {westinghouse: lan, sync: a.I0.0}}\n", 2, 38, "'I0.0' is not an output point"},
       {slave + "peers: {m: {westinghouse: lan, sync: a.QB0}}\n", 2, 38, "'QB0' is not an output point"},
