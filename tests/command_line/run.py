@@ -1474,6 +1474,37 @@ lines:
         self.assertIn("cannot both have standard output",
                       self.ends(UNUSABLE, "run", self.GATEWAY, "--trace", "-", "--json").stderr)
 
+    def test_a_trace_of_a_system_says_what_happens_in_the_field(self):
+        events = ("events:\n  - {at: 1s, cut: bus, after: slave1}\n  - {at: 1100ms, mend: bus}\n"
+                  "  - {at: 1200ms, fault: \"parity:character=2\", line: bus, station: slave1}\n  - {at: 1250ms, clear_faults: bus}\n"
+                  "  - {at: 1300ms, power_off: slave2}\n  - {at: 1350ms, set: {VW0: 5, SMB30: 9}, plc: slave2}\n"
+                  "  - {at: 1800ms, power_on: slave2}\n  - {at: 1850ms, set: {VW0: 5}, plc: slave2}\n"
+                  "  - {at: 1900ms, power_off: master}\n")
+        trace = self.folder / "all.txt"
+        self.ends(FINE, "run", self.program(self.SYSTEM + events, "system.yaml"), "--for", "2s", "--trace", trace, "--trace-events")
+        lines = trace.read_text(encoding="utf-8").splitlines()[1:]
+        self.assertEqual([re.sub(" +", " ", line) for line in lines
+                          if re.search("power|cable|fault|programming device", line)],
+                         ["bus 1000.000000 cable cut after slave1", "bus 1100.000000 cable whole again",
+                          "bus 1200.000000 fault parity:character=2 of slave1", "bus 1250.000000 no fault any more",
+                          "slave2 1300.000000 power off", "slave2 1350.000000 a programming device sets VW0, SMB30: nothing, for there is no power",
+                          "slave2 1800.000000 power on", "slave2 1850.000000 a programming device sets VW0", "master 1900.000000 power off"])
+        off = [line for line in lines if line.startswith("slave2") and 1300 < float(line.split()[1]) < 1800]
+        self.assertEqual(len(off), 1, "a PLC without power hears nothing")
+        times = [float(line.split()[1]) for line in lines]
+        self.assertEqual(times, sorted(times))
+
+    def test_a_master_that_joins_a_lan_drives_the_sync_signal_there(self):
+        idle = self.program("LD SM0.1\nMOVB 16#09, SMB30\nMEND\n", "idle.stl")
+        lan = ("plcs: {{beside: {{program: {}}}}}\npeers: {{old: {{westinghouse: lan, settings: [unit=05, \"W[0]=1234\"]{}}}}}\n"
+               "lines: {{lan: {{stations: [beside, old]}}}}\n")
+        ask = ["master", "--protocol", "pc1000-lan"]
+        system = self.program(lan.format(idle, ", sync: master"), "lan.yaml")
+        self.assertIn("16#1234", self.ends(FINE, *ask, system, "unit", "5", "read", "0").stdout)
+        self.assertIn("no answer", self.ends(FAILED, *ask, system, "--no-sync", "unit", "5").stdout)
+        silent = self.program(lan.format(idle, ""), "silent.yaml")
+        self.assertIn("sync: master", self.ends(UNUSABLE, *ask, silent, "unit", "5").stderr)
+
     def test_the_debugger_steps_and_goes_back_with_all_stations(self):
         system = self.program(self.SYSTEM, "system.yaml")
         shown = self.ends(FINE, "debug", system, "--at", "slave2", "-x",

@@ -15,6 +15,9 @@ namespace {
 
 using Where = SystemKey::Where;
 
+/// What drives a sync signal instead of an output: whoever joins the line to ask.
+constexpr std::string_view kMasterOfLine = "master";
+
 class PeerReader {
  public:
   explicit PeerReader(SystemReading& reading) : reading_(reading) {}
@@ -169,11 +172,11 @@ class PeerReader {
     const YamlNode* const wire = map.find("sync");
     if (wire && !plc->needs_sync())
       values_.wrong(*wire, "this PLC has no sync signal, or ignores it", "the PC1000 LAN with sync=required has one");
-    else if (wire)
+    else if (wire && wire->text != kMasterOfLine)
       sync = read_output(*wire);
-    else if (plc->needs_sync())
+    else if (!wire && plc->needs_sync())
       values_.wrong(protocol, "nothing drives the sync signal that this PLC needs to hear anything",
-                    "write sync: gateway.Q0.0, or settings: [sync=ignored]");
+                    "write sync: gateway.Q0.0, sync: master, or settings: [sync=ignored]");
     return plc;
   }
 

@@ -40,6 +40,11 @@ TEST(SystemFile, NamesPlcsPeersAndLinesAndWhoIsOnThem) {
   ASSERT_TRUE(plan.peers[1].sync);
   EXPECT_EQ(plan.peers[1].sync->plc, 0U);
   EXPECT_EQ(plan.peers[1].sync->point, (serial::OutputPoint{1, 2}));
+  EXPECT_FALSE(read("plcs: {a: {program: ../modbus_slave.stl}}\npeers: {m: {westinghouse: lan, sync: master}}\n"
+                    "lines: {l: {stations: [a, m]}}\n")
+                   .plan.peers[0]
+                   .sync)
+      << "the master that joins the line drives it";
   EXPECT_EQ(plan.plcs[0].program->system_block.ppi_rates, (PpiRates{9600, 187500}));
   EXPECT_EQ(plan.plcs[0].program->system_block.ppi_stations, (PpiStations{7, 8}));
   EXPECT_EQ(plan.plcs[1].program->system_block, (SystemBlock{.ppi_rates = {9600, 9600}, .ppi_stations = {20, 20}}));
