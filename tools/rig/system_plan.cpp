@@ -22,6 +22,9 @@ std::string no_plc_on(const LinePlan& line) { return fmt::format("no PLC is on l
 std::optional<Spot> beside_first_plc(const SystemPlan& plan, std::size_t line, std::string& why) {
   if (const StationPlan* const first = first_plc(plan.lines[line])) return Spot{line, first->number, first->port};
   why = no_plc_on(plan.lines[line]);
+  if (first_other_plc(plan, plan.lines[line]))
+    why = fmt::format("no S7-200 is on line '{}'; PLCs of another make alone are asked by scenarios of 's7200 test'",
+                      plan.lines[line].name);
   return {};
 }
 

@@ -67,6 +67,10 @@ void read_file(const YamlNode& root, SystemReading& reading) {
   SystemPlan& plan = reading.file.plan;
   if (!root.is_map())
     return values.wrong(root, "a system file is a map, not " + to_text(root), "begin with 'plcs:' and 'lines:'");
+  for (const char* const key : {"scenarios", "steps"})
+    if (const YamlNode* const of_scenario = root.find(key); of_scenario && !root.find("lines"))
+      return values.wrong(*of_scenario, fmt::format("'{}' is of a scenario, and this is to be a system file", key),
+                          "'s7200 test' runs it; a scenario names its system with 'system:'");
   check_keys(root, {SystemKey::Where::File}, values);
   read_plcs(root, reading);
   read_peers(root, reading);

@@ -67,6 +67,7 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {"", 0, 0, "nothing in it"},
       {"a: *x\n", 1, 4, "anchors and aliases (& and *) have no place in a system file"},
       {"plc: {}\n", 1, 1, "'plc' has no place here"},
+      {"system: plant.yaml\nsteps: []\n", 2, 8, "'steps' is of a scenario"},
       {slave, 1, 1, "no line: no one would hear another"},
       {"plcs: [a]\n", 1, 7, "'plcs' is a map of names, not a list"},
       {"plcs: {a: {}}\n", 1, 8, "PLC 'a' has no program"},
