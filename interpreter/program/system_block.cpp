@@ -47,8 +47,8 @@ std::optional<std::array<Each, kPorts.size()>> parse_ports(std::string_view text
   if (!first) return {};
   if (comma == std::string_view::npos) return std::array{*first, *first};
   if (model.ports < kPorts.size()) {
-    why = fmt::format("CPU {} has no port 1 for the second {}; a second port needs {}", model.name, what,
-                      to_text(kTwoPorts));
+    why =
+        fmt::format("CPU {} has no port 1 for the second {}; a second port needs {}", model.name, what, to_text(kTwoPorts));
     return {};
   }
   const auto second = parse(stl::trim(text.substr(comma + 1)), model, why);

@@ -77,8 +77,7 @@ void add_decode(CLI::App& app, int& exit_code) {
                   fmt::join(recording_forms() | std::views::transform(&RecordingForm::meaning), "\n  ")) +
       "Nothing is sent to a line. Times are those of arrival: a USB adapter delivers up to 16 ms late. Behind a --pty of\n"
       "`s7200 run` only what the simulated line says is heard, not what others ask it.\n" +
-      std::string(kEndOfListening) +
-      "Example: s7200 decode tests/recordings/plant.log");
+      std::string(kEndOfListening) + "Example: s7200 decode tests/recordings/plant.log");
   verb->callback([options, &exit_code] {
     try {
       exit_code = run_decode(*options);

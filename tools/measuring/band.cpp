@@ -23,11 +23,7 @@ std::optional<std::vector<TimeTable>> load_band(const CpuModel& model, const std
 
 ProgramBand::ProgramBand(stl::ParseResult parsed, const CpuModel& model, std::vector<TimeTable> tables,
                          const SystemBlock& block)
-    : parsed_(std::move(parsed)),
-      model_(model),
-      tables_(std::move(tables)),
-      block_(block),
-      programs_(tables_.size()) {}
+    : parsed_(std::move(parsed)), model_(model), tables_(std::move(tables)), block_(block), programs_(tables_.size()) {}
 
 std::shared_ptr<const Program> ProgramBand::program(std::size_t table) const {
   {

@@ -256,8 +256,8 @@ class LoaderReader final : public FrameReader {
   /// Where a 10 stands for itself only the number of bytes says where data end; if that is not known, where the frame does.
   std::size_t up_to_plain_end(Data bytes) const {
     const std::size_t end = count_ ? *count_ + kEndOfData.size() : bytes.size();
-    const bool is_end = end >= kEndOfData.size() && end <= bytes.size() &&
-                        begins_with(bytes.subspan(end - kEndOfData.size()), kEndOfData);
+    const bool is_end =
+        end >= kEndOfData.size() && end <= bytes.size() && begins_with(bytes.subspan(end - kEndOfData.size()), kEndOfData);
     return is_end ? end : 0;
   }
 
@@ -394,7 +394,7 @@ class LoaderReader final : public FrameReader {
 
   westinghouse::Dle dle_;
   Step step_ = Step::Begin;
-  std::optional<std::size_t> count_;  // of the bytes that the PLC sends in this session, as far as it is known
+  std::optional<std::size_t> count_;    // of the bytes that the PLC sends in this session, as far as it is known
   std::optional<std::uint8_t> opcode_;  // of this session; nothing if it was not heard
 };
 
@@ -488,9 +488,7 @@ class HppcReader final : public FrameReader {
 
 std::unique_ptr<FrameReader> pc1000_lan_reader() { return std::make_unique<BlockReader>(); }
 std::unique_ptr<FrameReader> westnet_reader() { return std::make_unique<BlockReader>(); }
-std::unique_ptr<FrameReader> pc500_loader_reader() {
-  return std::make_unique<LoaderReader>(westinghouse::Dle::Doubled);
-}
+std::unique_ptr<FrameReader> pc500_loader_reader() { return std::make_unique<LoaderReader>(westinghouse::Dle::Doubled); }
 std::unique_ptr<FrameReader> pc500_loader_plain_dle_reader() {
   return std::make_unique<LoaderReader>(westinghouse::Dle::Plain);
 }

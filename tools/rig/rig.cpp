@@ -153,7 +153,8 @@ std::unique_ptr<Rig> Rig::assemble(SystemPlan plan, const RigSurroundings& surro
 }
 
 bool Rig::claim_files(std::string& why) {
-  if (!surroundings_.trace.empty()) trace_ = std::make_unique<SystemTrace>(plan_, system_, plcs_, surroundings_.trace_detail);
+  if (!surroundings_.trace.empty())
+    trace_ = std::make_unique<SystemTrace>(plan_, system_, plcs_, surroundings_.trace_detail);
   if (!surroundings_.path.empty()) files_.reads(surroundings_.path);
   for (const PlcPlan& plc : plan_.plcs) files_.reads(plc.settings.input);
   files_.links("--pty", surroundings_.link);

@@ -50,8 +50,7 @@ void warn_of_stations_that_are_the_same(SystemReading& reading) {
     for (const auto& [station, plcs] : by_station) {
       if (plcs.size() < 2) continue;
       std::string names;
-      for (const StationPlan* plc : plcs)
-        names.append(names.empty() ? "" : ", ").append(name_of(reading.file.plan, *plc));
+      for (const StationPlan* plc : plcs) names.append(names.empty() ? "" : ", ").append(name_of(reading.file.plan, *plc));
       reading.file.file.diagnostics.push_back(
           {.severity = stl::Severity::Warning,
            .position = reading.names.plc_keys[plcs[1]->number]->position,

@@ -38,8 +38,7 @@ std::string to_text(const EventPlan& event, const SystemPlan& plan) {
       return "cable whole again";
     case What::Set: {
       std::string places;
-      for (const Assignment& each : event.set)
-        places.append(places.empty() ? "" : ", ").append(each.place.name_of(0));
+      for (const Assignment& each : event.set) places.append(places.empty() ? "" : ", ").append(each.place.name_of(0));
       return fmt::format("a programming device sets {}", places);
     }
     case What::Fault:

@@ -114,7 +114,8 @@ class HeadReader {
       return values_.wrong(node, fmt::format("bridge '{}' of {} follows the clock", file.plan.bridges.front().name, path),
                            "a scenario runs as fast as it can: leave bridges out");
     if (file.plan.plcs.empty() && !first_askable_line(file.plan))
-      return values_.wrong(node, fmt::format("{} has no line with a PLC and room for a master", path), "a scenario talks to PLCs");
+      return values_.wrong(node, fmt::format("{} has no line with a PLC and room for a master", path),
+                           "a scenario talks to PLCs");
     forget_files(file.plan);
     scenario.system = path;
     scenario.plan = std::make_shared<const SystemPlan>(std::move(file.plan));

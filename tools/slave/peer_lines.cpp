@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-
-
 namespace s7200::tools {
 
 PeerLines::PeerLines(const SystemPlan& plan, std::size_t first, const serial::MasterSettings& master, Time after,

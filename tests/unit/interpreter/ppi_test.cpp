@@ -139,8 +139,9 @@ TEST(Ppi, SilenceIsOfTheRateOfThePort) {
 }
 
 TEST(Ppi, EachPortHasARateOfItsOwnAndComesBackToItFromFreeport) {
-  const auto program = with_system_block(*program_of("LD SM0.7\nMOVB 16#89, SMB30\nLDN SM0.7\nMOVB 0, SMB30\nMEND\n", cpu226()),
-                                      {.ppi_rates = {19200, 187500}});
+  const auto program =
+      with_system_block(*program_of("LD SM0.7\nMOVB 16#89, SMB30\nLDN SM0.7\nMOVB 0, SMB30\nMEND\n", cpu226()),
+                        {.ppi_rates = {19200, 187500}});
   Plc plc(program);
   EXPECT_EQ(plc.port.format.baud, 19200U);
   EXPECT_EQ(plc.port1.format.baud, 187500U);
@@ -216,7 +217,8 @@ TEST(Ppi, ItsStationIsThatOfTheSystemBlockUntilTheProgramSetsAnother) {
   Master master(plc);
   EXPECT_EQ(master.ask(kReadVb100, 2), Bytes{});
   EXPECT_EQ(code_of(master.ask(kReadVb100, 9)), 0xFF);
-  Plc other(with_system_block(*program_of("LD SM0.1\nMOVB 7, VB0\nSPA VB0, 0\nMEND\n", cpu226()), {.ppi_stations = {9, 10}}));
+  Plc other(
+      with_system_block(*program_of("LD SM0.1\nMOVB 7, VB0\nSPA VB0, 0\nMEND\n", cpu226()), {.ppi_stations = {9, 10}}));
   other.run_until(5 * ms);
   EXPECT_EQ(other.cpu.state().station[0], 7);
   EXPECT_EQ(other.cpu.state().station[1], 10);

@@ -18,7 +18,8 @@ SystemFile read(const std::string& text) { return read_system(text, test::source
 TEST(SystemFile, NamesPlcsPeersAndLinesAndWhoIsOnThem) {
   const SystemFile file = read(
       "plcs:\n"
-      "  gateway: {program: ../modbus_slave.stl, cpu: 226, ppi_baud: \"9600,187500\", ppi_station: \"7,8\", station: 9, set: {VW0: 5}, dump: "
+      "  gateway: {program: ../modbus_slave.stl, cpu: 226, ppi_baud: \"9600,187500\", ppi_station: \"7,8\", station: 9, "
+      "set: {VW0: 5}, dump: "
       "[VW0]}\n"
       "  slave: {program: ../modbus_slave.stl, copies: 2, station: 3, ppi_station: 20}\n"
       "peers:\n"
@@ -105,8 +106,10 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {"plcs: {a: {program: ../modbus_slave.stl, ppi_baud: 38400}}\n", 1, 52, "'38400' is not a rate of PPI"},
       {"plcs: {a: {program: ../modbus_slave.stl, ppi_baud: 187500}}\n", 1, 52, "PPI at 187500 baud needs CPU 22x"},
       {"plcs: {a: {program: ../modbus_slave.stl, ppi_station: 127}}\n", 1, 55, "'127' is not a PPI station from 1 to 126"},
-      {"plcs: {a: {program: ../modbus_slave.stl, ppi_station: \"3,4\"}}\n", 1, 55, "CPU 214 has no port 1 for the second station"},
-      {"plcs: {a: {program: ../modbus_slave.stl, copies: 3, ppi_station: 125}}\n", 1, 66, "the last copy would be PPI station 127"},
+      {"plcs: {a: {program: ../modbus_slave.stl, ppi_station: \"3,4\"}}\n", 1, 55,
+       "CPU 214 has no port 1 for the second station"},
+      {"plcs: {a: {program: ../modbus_slave.stl, copies: 3, ppi_station: 125}}\n", 1, 66,
+       "the last copy would be PPI station 127"},
       {"peers: {m: {polls: [{read: 40001}]}}\nlines: {l: {stations: [m], capture: [x.pcap]}}\n", 2, 37,
        "no PLC is on line 'l'"},
       {"peers: {m: {polls: [{read: 40001}]}}\n" + slave + "lines: {l: {stations: [a]}}\n", 1, 9, "'m' is on no line"},
@@ -199,9 +202,10 @@ TEST(SystemFile, PlcsOfOneLineThatMayAnswerAtTheSamePpiStationAreNamed) {
   EXPECT_EQ(warnings_of(line(at(ppi, 3), at(ppi, 3))), both(3));
   EXPECT_EQ(warnings_of(line(at(freeport, 3), at(freeport, 3))), both(3)) << "someone has set them so";
   EXPECT_EQ(warnings_of(line(freeport, freeport)), Warnings{}) << "in Freeport mode from the first scan on";
-  EXPECT_EQ(warnings_of(fmt::format(
-                "plcs: {{a: {{program: {0}, cpu: 226}}}}\nlines: {{one: {{stations: [a]}}, two: {{stations: [a.1]}}}}\n", ppi)),
-            Warnings{})
+  EXPECT_EQ(
+      warnings_of(fmt::format(
+          "plcs: {{a: {{program: {0}, cpu: 226}}}}\nlines: {{one: {{stations: [a]}}, two: {{stations: [a.1]}}}}\n", ppi)),
+      Warnings{})
       << "two lines";
 }
 

@@ -381,16 +381,16 @@ TEST(SystemRig, NetrReadsAnotherCpuAtEachRateOfPpiThatBothHave) {
 
 /// A CPU 214 has no SPA: its station is that of its system block, before and after it was without power.
 TEST(SystemRig, NetrReadsACpuAtThePpiStationOfItsSystemBlock) {
-  const auto rig = rig_of(fmt::format(
-      "plcs:\n  master: {{program: {}, cpu: 224}}\n"
-      "  slave: {{program: ../edge_counter.stl, copies: 2, ppi_station: 3, set: {{VD200: 16#01020304}}}}\n"
-      "lines: {{bus: {{stations: [master, slave]}}}}\n",
-      netr_at(4, 300)));
+  const auto rig = rig_of(
+      fmt::format("plcs:\n  master: {{program: {}, cpu: 224}}\n"
+                  "  slave: {{program: ../edge_counter.stl, copies: 2, ppi_station: 3, set: {{VD200: 16#01020304}}}}\n"
+                  "lines: {{bus: {{stations: [master, slave]}}}}\n",
+                  netr_at(4, 300)));
   ASSERT_TRUE(rig);
   EXPECT_EQ(rig->plc(2).cpu().state().station[0], 4) << "the next copy";
   for (const bool on : {false, true})
-    rig->carry_out({.what = on ? EventPlan::What::PowerOn : EventPlan::What::PowerOff,
-                    .station = {StationPlan::Kind::Plc, 1}});
+    rig->carry_out(
+        {.what = on ? EventPlan::What::PowerOn : EventPlan::What::PowerOff, .station = {StationPlan::Kind::Plc, 1}});
   rig->carry_out({.what = EventPlan::What::PowerOff, .station = {StationPlan::Kind::Plc, 2}});
   rig->system().run_until(2 * kSecond);
   EXPECT_EQ(job_status(*rig, 0), 0x80U);
@@ -401,12 +401,12 @@ TEST(SystemRig, NetrReadsACpuAtThePpiStationOfItsSystemBlock) {
 /// other.
 TEST(SystemRig, TwoPlcsAtOnePpiStationAnswerAtTheSameTime) {
   for (const bool alike : {true, false}) {
-    const auto rig = rig_of(fmt::format(
-        "plcs:\n  master: {{program: {}, cpu: 224}}\n"
-        "  a: {{program: ../edge_counter.stl, cpu: 224, ppi_station: 3, set: {{VD200: 16#01020304}}}}\n"
-        "  b: {{program: ../edge_counter.stl, cpu: 224, ppi_station: 3, set: {{VD200: {}}}}}\n"
-        "lines: {{bus: {{stations: [master, a, b], contention: 1}}}}\n",
-        netr_at(4), alike ? "16#01020304" : "16#F1020304"));
+    const auto rig =
+        rig_of(fmt::format("plcs:\n  master: {{program: {}, cpu: 224}}\n"
+                           "  a: {{program: ../edge_counter.stl, cpu: 224, ppi_station: 3, set: {{VD200: 16#01020304}}}}\n"
+                           "  b: {{program: ../edge_counter.stl, cpu: 224, ppi_station: 3, set: {{VD200: {}}}}}\n"
+                           "lines: {{bus: {{stations: [master, a, b], contention: 1}}}}\n",
+                           netr_at(4), alike ? "16#01020304" : "16#F1020304"));
     ASSERT_TRUE(rig);
     rig->system().run_until(2 * kSecond);
     EXPECT_EQ(job_status(*rig, 0) & 0xA0U, alike ? 0x80U : 0xA0U) << "done, with an error if the answers differ";

@@ -631,7 +631,8 @@ TEST(ScenarioReader, AFaultOfAStationNamesOneOnItsLine) {
     return file.diagnostics.empty() ? "" : file.diagnostics[0].message;
   };
   EXPECT_EQ(complaint(kGateway + "steps:\n  - {fault: flip, on: field, station: pump}\n"), "");
-  EXPECT_EQ(complaint(kGateway + "steps:\n  - {fault: flip, on: office, station: pump}\n"), "'pump' is not on line 'office'");
+  EXPECT_EQ(complaint(kGateway + "steps:\n  - {fault: flip, on: office, station: pump}\n"),
+            "'pump' is not on line 'office'");
   EXPECT_EQ(complaint(kGateway + "steps:\n  - {fault: none, on: field, station: pump}\n"),
             "'station' says whose fault it is in a system");
   EXPECT_EQ(complaint("program: x.stl\nsteps:\n  - {fault: flip, station: pump}\n"),

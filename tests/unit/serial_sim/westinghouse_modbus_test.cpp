@@ -313,7 +313,8 @@ TEST(WestinghouseSetting, WhatIsNotASettingIsNamedWithThoseThereAre) {
 TEST(WestinghouseSetting, CellsThatASmallerMemoryNoLongerHasAreNotReached) {
   std::string why;
   const auto plc = make_plc(*find_plc("modbus"), "pc1200", why);
-  for (const char* const text : {"HR100=1,2", "CR9=1", "holding_registers=100", "coils=9"}) ASSERT_TRUE(plc->set(text, why)) << why;
+  for (const char* const text : {"HR100=1,2", "CR9=1", "holding_registers=100", "coils=9"})
+    ASSERT_TRUE(plc->set(text, why)) << why;
   EXPECT_FALSE(plc->still_reaches("HR100=1,2", why));
   EXPECT_EQ(why, "HR101 is not there: holding_registers=100; set more of them first");
   EXPECT_TRUE(plc->still_reaches("HR99=1,2", why));

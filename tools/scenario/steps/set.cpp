@@ -16,7 +16,8 @@ struct SetStep final : Action {
   /// A programming device does not reach a PLC without power.
   void act(Run& run) const override {
     if (!run.plant()->has_power())
-      return run.add({.what = "set", .expected = "a PLC with power", .found = "it has none: nothing was set", .of_run = true});
+      return run.add(
+          {.what = "set", .expected = "a PLC with power", .found = "it has none: nothing was set", .of_run = true});
     for (const Assignment& assignment : assignments) assign(run.plant()->cpu(), assignment);
   }
 
