@@ -83,8 +83,11 @@ SerialFormat format_without_s7200(const SystemPlan& plan, const LinePlan& line) 
 }
 
 std::optional<Spot> find_spot(const SystemPlan& plan, std::string_view name, std::string& why) {
-  if (const auto line = find_line(plan, name, why)) return beside_first_plc(plan, *line, why);
-  return name.empty() ? std::nullopt : at_plc(plan, name, why);
+  std::string why_no_line;
+  if (const auto line = find_line(plan, name, why_no_line)) return beside_first_plc(plan, *line, why);
+  if (!name.empty()) return at_plc(plan, name, why);
+  why = why_no_line;
+  return {};
 }
 
 std::optional<std::size_t> find_line(const SystemPlan& plan, std::string_view name, std::string& why) {
