@@ -8,9 +8,6 @@
 
 namespace s7200::power {
 
-/// Of a port that the user has not configured (facts 10.9).
-constexpr std::uint8_t kDefaultStation = 2;
-
 void up(Core& core, bool run, const RetentiveMemory* memory, Time at) {
   core.s = State{};
   core.s.time = core.s.previous_scan_begin = at;
@@ -19,7 +16,7 @@ void up(Core& core, bool run, const RetentiveMemory* memory, Time at) {
   for (const Op& op : core.program().ops)
     if (op.instruction->hidden == Hidden::RisingMemory) core.put_bit(op[2].at, op[2].bit, true);
   core.s.image[sm::kIdentification] = core.model().identification;
-  core.s.station.fill(kDefaultStation);
+  core.s.station = core.program().system_block.ppi_stations;
   units::power_up(core, memory);
   core.put_mask(sm::kScanStatus, sm::kModeSwitchRun, run);
   if (run) scan::enter_run(core);

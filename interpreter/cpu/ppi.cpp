@@ -120,7 +120,7 @@ void carry_out(Core& core, std::uint8_t number) {
 
 SerialFormat format_of(const Program& program, std::uint8_t port) {
   SerialFormat format = kFormat;
-  format.baud = program.ppi_rates[port];
+  format.baud = program.system_block.ppi_rates[port];
   return format;
 }
 

@@ -1,5 +1,6 @@
-// PPI, the protocol of a port that is not in Freeport mode: the CPU is a slave at its station, 2 unless the program says
-// otherwise, in RUN and in STOP (facts 2.1, 10.9). 8E1, at the rate of the system block (program/ppi_rates.hpp).
+// PPI, the protocol of a port that is not in Freeport mode: the CPU is a slave in RUN and in STOP (facts
+// 2.1, 10.9). 8E1, at the rate and the station of the system block (program/system_block.hpp) until SPA sets another
+// station.
 //
 //   master                                  slave
 //   SD2 with a request, function 6C         E5: accepted
@@ -34,7 +35,7 @@
 namespace s7200::ppi {
 
 /// How a port is set while it speaks PPI, at the usual rate.
-inline constexpr SerialFormat kFormat{.baud = kUsualPpiRates[0], .data_bits = 8, .parity = Parity::Even, .stop_bits = 1};
+inline constexpr SerialFormat kFormat{.baud = SystemBlock{}.ppi_rates[0], .data_bits = 8, .parity = Parity::Even, .stop_bits = 1};
 
 /// The same at the rate of this port.
 SerialFormat format_of(const Program& program, std::uint8_t port);

@@ -577,6 +577,13 @@ void find_missing_freeport(const Program& program, std::size_t number, stl::Diag
 
 }  // namespace
 
+bool stays_a_ppi_slave(const Program& program, std::uint8_t port) {
+  return std::ranges::none_of(program.ops, [&](const Op& op) {
+    const bool sets_station = op.instruction->mnemonic == "SPA" && op[1].at == port;
+    return sets_station || sets_up_port(program, op, kPorts[port]);
+  });
+}
+
 void find_missing_freeport(const Program& program, stl::Diagnostics& diagnostics) {
   for (std::size_t port = 0; port < program.model->ports; ++port) find_missing_freeport(program, port, diagnostics);
 }

@@ -20,6 +20,10 @@ class Plc : public serial::Automaton {
   /// A setting, or cells of memory: `key=modify`, `HR1=1234,0001`. Returns false and sets `why` for anything else.
   virtual bool set(std::string_view text, std::string& why) = 0;
 
+  /// Whether a master reaches the cells that such a text sets, as the PLC is set by now. Sets `why` if it does not. Those of
+  /// a setting are none.
+  virtual bool still_reaches(std::string_view text, std::string& why) const = 0;
+
   /// Whether it holds what such a text says. Sets `why` if it does not.
   virtual bool holds(std::string_view text, std::string& why) const = 0;
 
@@ -78,6 +82,12 @@ class PlcOf : public Plc {
     return value.has_value();
   }
 
+  bool still_reaches(std::string_view text, std::string& why) const final {
+    const auto cells = parse_cells(text);
+    const Found found = cells ? find(*cells) : Found{};
+    return found.row == nullptr || are_there(*found.row, *cells, why);
+  }
+
   bool holds(std::string_view text, std::string& why) const final {
     if (const auto cells = parse_cells(text)) {
       const auto [row, fault] = find(*cells);
@@ -133,7 +143,7 @@ class PlcOf : public Plc {
     const std::uint32_t last = row.last(self());
     const std::size_t end = text.first - 1 + text.values.size();
     if (end <= last) return true;
-    why = fmt::format("{}{} is not there: {}={}; where there are more, that is set before them", row.name, end,
+    why = fmt::format("{}{} is not there: {}={}; set more of them first", row.name, end,
                       row.last_from, last);
     return false;
   }

@@ -1244,6 +1244,17 @@ class OtherPlcTests(Case):
         self.assertEqual(process.wait(LONG), FINE)
         self.assertIn("expect: 01 03 02 12 34 b5 33", scenario.read_text(encoding="utf-8"))
 
+    def test_listening_for_a_time_that_is_interrupted_is_a_failure(self):
+        for verb in ("decode", "import-capture"):
+            with self.subTest(verb):
+                near, process = self.listen(verb, "--for", "1h")
+                os.write(near, self.REQUEST + self.REPLY)
+                time.sleep(SILENCE)
+                process.send_signal(signal.SIGINT)
+                out, error = process.communicate(timeout=LONG)
+                self.assertIn("01 03 02 12 34 b5 33", out, "what was heard is completed")
+                self.assertEqual((process.returncode, error), (FAILED, "note: interrupted\n"))
+
     def test_listening_for_no_one_ends(self):
         near, process = self.listen("decode")
         process.stdout.readline()

@@ -233,6 +233,14 @@ class Verbs(Case):
         self.assertIn("00 00 00 00 00 12 34 56 78", [frame["text"] for frame in decoded["frames"]])
         self.assertEqual({key: decoded["summary"][key] for key in ("requests", "answered", "need_no_answer", "wrong", "strays")},
                          {"requests": 8, "answered": 7, "need_no_answer": 1, "wrong": 0, "strays": 0})
+        self.ends(FINE, "master", "westinghouse:pc503", "--protocol", "pc500-loader", "--plc", "dle=plain", "--dle", "plain",
+                  "--plc", "M[9000]=10,03,10,10", "read", "16#9000:4", "--capture", loader)
+        plain = self.json(FINE, "decode", loader, "--protocol", "pc500-loader", "--dle", "plain", "--json")
+        self.assertIn("00 00 00 00 00 10 03 10 10", [frame["text"] for frame in plain["frames"]])
+        self.assertEqual(plain["summary"]["wrong"], 0)
+        doubled = self.json(FINE, "decode", loader, "--protocol", "pc500-loader", "--json")
+        self.assertGreater(doubled["summary"]["wrong"], 0)
+        self.assertIn("--dle plain: modbus never doubles a byte 10", self.ends(UNUSABLE, "decode", loader, "--dle", "plain").stderr)
         self.assertIn("neither in .vcd", self.ends(UNUSABLE, "master", "westinghouse:pc1200", "slave-id", "--capture", "x.txt").stderr)
 
     # Every action of each protocol, and what nobody answers.
@@ -1466,6 +1474,37 @@ lines:
         self.assertIn("cannot both have standard output",
                       self.ends(UNUSABLE, "run", self.GATEWAY, "--trace", "-", "--json").stderr)
 
+    def test_a_trace_of_a_system_says_what_happens_in_the_field(self):
+        events = ("events:\n  - {at: 1s, cut: bus, after: slave1}\n  - {at: 1100ms, mend: bus}\n"
+                  "  - {at: 1200ms, fault: \"parity:character=2\", line: bus, station: slave1}\n  - {at: 1250ms, clear_faults: bus}\n"
+                  "  - {at: 1300ms, power_off: slave2}\n  - {at: 1350ms, set: {VW0: 5, SMB30: 9}, plc: slave2}\n"
+                  "  - {at: 1800ms, power_on: slave2}\n  - {at: 1850ms, set: {VW0: 5}, plc: slave2}\n"
+                  "  - {at: 1900ms, power_off: master}\n")
+        trace = self.folder / "all.txt"
+        self.ends(FINE, "run", self.program(self.SYSTEM + events, "system.yaml"), "--for", "2s", "--trace", trace, "--trace-events")
+        lines = trace.read_text(encoding="utf-8").splitlines()[1:]
+        self.assertEqual([re.sub(" +", " ", line) for line in lines
+                          if re.search("power|cable|fault|programming device", line)],
+                         ["bus 1000.000000 cable cut after slave1", "bus 1100.000000 cable whole again",
+                          "bus 1200.000000 fault parity:character=2 of slave1", "bus 1250.000000 no fault any more",
+                          "slave2 1300.000000 power off", "slave2 1350.000000 a programming device sets VW0, SMB30: nothing, for there is no power",
+                          "slave2 1800.000000 power on", "slave2 1850.000000 a programming device sets VW0", "master 1900.000000 power off"])
+        off = [line for line in lines if line.startswith("slave2") and 1300 < float(line.split()[1]) < 1800]
+        self.assertEqual(len(off), 1, "a PLC without power hears nothing")
+        times = [float(line.split()[1]) for line in lines]
+        self.assertEqual(times, sorted(times))
+
+    def test_a_master_that_joins_a_lan_drives_the_sync_signal_there(self):
+        idle = self.program("LD SM0.1\nMOVB 16#09, SMB30\nMEND\n", "idle.stl")
+        lan = ("plcs: {{beside: {{program: {}}}}}\npeers: {{old: {{westinghouse: lan, settings: [unit=05, \"W[0]=1234\"]{}}}}}\n"
+               "lines: {{lan: {{stations: [beside, old]}}}}\n")
+        ask = ["master", "--protocol", "pc1000-lan"]
+        system = self.program(lan.format(idle, ", sync: master"), "lan.yaml")
+        self.assertIn("16#1234", self.ends(FINE, *ask, system, "unit", "5", "read", "0").stdout)
+        self.assertIn("no answer", self.ends(FAILED, *ask, system, "--no-sync", "unit", "5").stdout)
+        silent = self.program(lan.format(idle, ""), "silent.yaml")
+        self.assertIn("sync: master", self.ends(UNUSABLE, *ask, silent, "unit", "5").stderr)
+
     def test_the_debugger_steps_and_goes_back_with_all_stations(self):
         system = self.program(self.SYSTEM, "system.yaml")
         shown = self.ends(FINE, "debug", system, "--at", "slave2", "-x",
@@ -1522,6 +1561,26 @@ lines:
         gateway = self.program(f"system: {self.GATEWAY}\nsteps: [{{read: holding 0}}]\n", "gateway.yaml")
         self.assertIn("there are several lines, office, field", self.ends(UNUSABLE, "test", gateway).stderr)
 
+    def test_nothing_is_set_in_a_plc_without_power(self):
+        self.program(self.SYSTEM, "system.yaml")
+        scenario = self.program("system: system.yaml\nsteps:\n  - power_off: slave2\n  - {set: {VW0: 7}, on: slave2}\n", "scenario.yaml")
+        shown = self.ends(FAILED, "test", scenario).stdout
+        self.assertRegex(shown, r"set of slave2.*")
+        self.assertIn("it has none: nothing was set", shown)
+
+    def test_plcs_of_another_make_alone_are_a_target_of_scenarios(self):
+        others = SOURCE / "tests/programs/systems/other_plcs.yaml"
+        scenario = self.program("timeout: 60ms\nsteps:\n  - {read: holding 0, station: 5, expect: [16#9ABC]}\n", "scenario.yaml")
+        self.ends(FINE, "test", scenario, "--target", others, "--at", "yard")
+        self.assertIn("there are several lines, plant, yard: name one of them (--at NAME)",
+                      self.ends(UNUSABLE, "test", scenario, "--target", others).stderr)
+        for verb in (["master", others, "--at", "yard", "read", "40001"], ["send", others, "--at", "yard", "01"]):
+            self.assertIn("no S7-200 is on line 'yard'; PLCs of another make alone are asked by scenarios of 's7200 test'",
+                          self.ends(UNUSABLE, *verb).stderr)
+        transcript = self.folder / "transcript.yaml"
+        self.ends(FINE, "test", SOURCE / "tests/programs/systems/without_s7200.yaml", "--record", transcript)
+        self.ends(FINE, "test", transcript)
+
     def test_a_finding_says_which_station_and_shows_all_on_the_line(self):
         self.program(self.SYSTEM, "system.yaml")
         scenario = self.program("system: system.yaml\nsteps:\n  - {memory: {VW0: 7}, on: slave2}\n"
@@ -1542,12 +1601,33 @@ lines:
         self.ends(FAILED, *ask, "--ppi-baud", "19200", "--baud", "9600")
         for arguments, why in ((["--ppi-baud", "187500"], "--ppi-baud: PPI at 187500 baud needs CPU 22x"),
                                (["--ppi-baud", "9600,19200"], "--ppi-baud: CPU 214 has no port 1 for the second rate"),
-                               (["--ppi-baud", "38400"], "--ppi-baud: '38400' is not a rate of PPI; there are 9600, 19200 and")):
+                               (["--ppi-baud", "38400"], "--ppi-baud: '38400' is not a rate of PPI; there are 9600, 19200 and"),
+                               (["--ppi-station", "3,4"], "--ppi-station: CPU 214 has no port 1 for the second station"),
+                               (["--ppi-station", "0"], "--ppi-station: '0' is not a PPI station from 1 to 126")):
             self.assertIn(why, self.ends(UNUSABLE, "run", SLAVE, *arguments, "--scans", "1").stderr)
         system = self.program(f"plcs: {{a: {{program: {SLAVE}, cpu: 226, ppi_baud: \"9600,187500\"}}}}\nlines: {{l: {{stations: [a.1]}}}}\n",
                               "system.yaml")
         self.assertIn("after 58.667 us", self.ends(FINE, "master", "--protocol", "ppi", system, "read", "VW20").stdout)
-        self.assertIn("--ppi-baud is about one PLC", self.ends(UNUSABLE, "run", system, "--ppi-baud", "19200").stderr)
+        for option in ("--ppi-baud", "--ppi-station"):
+            self.assertIn(f"{option} is about one PLC", self.ends(UNUSABLE, "run", system, option, "19").stderr)
+
+    def test_ports_in_ppi_mode_are_at_the_station_of_the_system_block(self):
+        program = self.program("LD SM0.0\nINCW VW0\nMEND\n")
+        ask = ["master", "--protocol", "ppi", program, "--ppi-station", "9"]
+        self.assertIn("station 9, VW20", self.ends(FINE, *ask, "--station", "9", "read", "VW20").stdout)
+        self.assertIn("no answer", self.ends(FAILED, *ask, "read", "VW20").stdout)
+        plcs = "plcs: {{a: {{program: {0}{1}}}, b: {{program: {0}}}}}\nlines: {{l: {{stations: [a, b]}}}}\n"
+        apart = self.program(plcs.format(program, ", ppi_station: 9"), "apart.yaml")
+        self.assertNotIn("warning", self.ends(FINE, "run", apart, "--for", "1s").stderr)
+        self.assertIn("station 9, VW20", self.ends(FINE, "master", "--protocol", "ppi", apart, "--station", "9", "read", "VW20").stdout)
+        same = self.program(plcs.format(program, ""), "same.yaml")
+        self.assertIn("warning: PPI station 2 on line 'l' is a, b: they answer at the same time, and the answers collide",
+                      self.ends(FINE, "run", same, "--for", "1s").stderr)
+        scenario = self.program(f"program: {program}\nppi_station: 9\nsteps:\n  - send: 10 09 00 49 52 16\n    expect: 10 00 09 00 09 16\n", "scenario.yaml")
+        transcript = self.folder / "transcript.yaml"
+        self.ends(FINE, "test", scenario, "--record", transcript)
+        self.assertIn('ppi_station: "9"', transcript.read_text(encoding="utf-8"))
+        self.ends(FINE, "test", transcript)
 
     def test_a_scenario_and_a_recorded_session_keep_the_rate_of_ppi(self):
         program = self.program("LD SM0.0\nINCW VW0\nMEND\n")

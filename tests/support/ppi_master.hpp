@@ -14,7 +14,7 @@ inline constexpr Time kBit = 104'167, kCharacter = 1'145'833;  // 9600 baud, 8E1
 
 /// A PLC whose port is at another rate.
 inline std::shared_ptr<const Program> at_rate(std::string_view stl, std::uint32_t baud, const CpuModel& model) {
-  return with_ppi_rates(*program_of(stl, model), {baud, baud});
+  return with_system_block(*program_of(stl, model), {.ppi_rates = {baud, baud}});
 }
 
 inline std::uint8_t sum(const Bytes& bytes) {

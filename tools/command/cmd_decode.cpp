@@ -44,7 +44,10 @@ int run_live(const DecodeOptions& options, const SlaveTarget& target) {
     std::fflush(stdout);
   });
   fmt::print("{}", options.json ? results.end({{"summary", summary.json()}}) : summary.text());
-  return heard ? kFine : kUnusable;
+  if (!heard) return kUnusable;
+  if (!options.recording.was_cut_short()) return kFine;
+  print_interruption();
+  return kCheckFailed;
 }
 
 int run_decode(const DecodeOptions& options) {
@@ -72,10 +75,9 @@ void add_decode(CLI::App& app, int& exit_code) {
   verb->footer(
       fmt::format("Recordings are\n  {}\n",
                   fmt::join(recording_forms() | std::views::transform(&RecordingForm::meaning), "\n  ")) +
-      "A line is listened to until Ctrl-C, and nothing is sent there. Times are those of arrival: a USB adapter delivers up "
-      "to\n"
-      "16 ms late. Behind a --pty of `s7200 run` only what the simulated line says is heard, not what others ask it.\n"
-      "Example: s7200 decode tests/recordings/plant.log");
+      "Nothing is sent to a line. Times are those of arrival: a USB adapter delivers up to 16 ms late. Behind a --pty of\n"
+      "`s7200 run` only what the simulated line says is heard, not what others ask it.\n" +
+      std::string(kEndOfListening) + "Example: s7200 decode tests/recordings/plant.log");
   verb->callback([options, &exit_code] {
     try {
       exit_code = run_decode(*options);

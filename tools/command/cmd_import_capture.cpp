@@ -59,7 +59,9 @@ int run_import_capture(const ImportCaptureOptions& options) {
   } else if (!options.to_file()) {
     print_file(text);
   }
-  return exit_code;
+  if (exit_code != kFine || !options.recording.was_cut_short()) return exit_code;
+  print_interruption();
+  return kCheckFailed;
 }
 
 }  // namespace
@@ -79,7 +81,8 @@ void add_import_capture(CLI::App& app, int& exit_code) {
   verb->add_option("-o,--output", options->output, "file to write; standard output if not given")->type_name("FILE");
   verb->add_flag("--force", options->force, "overwrite an existing file");
   verb->add_flag("--json", options->json, "print what was written as JSON, with the scenario if no file is written");
-  verb->footer("Example: s7200 import-capture tests/recordings/plant.log --program stl_programs/modbus_slave.stl");
+  verb->footer(std::string(kEndOfListening) +
+               "Example: s7200 import-capture tests/recordings/plant.log --program stl_programs/modbus_slave.stl");
   verb->callback([options, &exit_code] {
     try {
       exit_code = run_import_capture(*options);

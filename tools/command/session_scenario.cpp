@@ -123,7 +123,7 @@ bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<c
   scenario.program = is_system ? "" : options.program.path;
   scenario.with = options.program.parts;
   scenario.times = options.program.times_table;
-  if (!is_system) scenario.ppi_rates = program->ppi_rates;
+  if (!is_system) scenario.system_block = program->system_block;
   scenario.line = options.master;
   if (!is_system) scenario.repair = repairs_text(options.program.repairs);
   scenario.set = rig.set;

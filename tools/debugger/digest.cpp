@@ -193,7 +193,8 @@ std::string digest_of(const Program& program) {
   }
   for (const Time time : {program.no_power_flow, program.interrupt_entry, program.eeprom_save}) digest.add(time);
   for (const Time time : program.scan_phase) digest.add(time);
-  for (const std::uint32_t baud : program.ppi_rates) digest.add(baud);
+  for (const std::uint32_t baud : program.system_block.ppi_rates) digest.add(baud);
+  for (const std::uint8_t station : program.system_block.ppi_stations) digest.add(station);
   return digest.text();
 }
 

@@ -22,19 +22,15 @@ std::optional<std::vector<TimeTable>> load_band(const CpuModel& model, const std
 }
 
 ProgramBand::ProgramBand(stl::ParseResult parsed, const CpuModel& model, std::vector<TimeTable> tables,
-                         const PpiRates& ppi_rates)
-    : parsed_(std::move(parsed)),
-      model_(model),
-      tables_(std::move(tables)),
-      ppi_rates_(ppi_rates),
-      programs_(tables_.size()) {}
+                         const SystemBlock& block)
+    : parsed_(std::move(parsed)), model_(model), tables_(std::move(tables)), block_(block), programs_(tables_.size()) {}
 
 std::shared_ptr<const Program> ProgramBand::program(std::size_t table) const {
   {
     const std::lock_guard lock(mutex_);
     if (programs_[table]) return programs_[table];
   }
-  auto program = with_ppi_rates(*check(parsed_, model_, tables_[table]).program, ppi_rates_);
+  auto program = with_system_block(*check(parsed_, model_, tables_[table]).program, block_);
   const std::lock_guard lock(mutex_);
   return programs_[table] = std::move(program);
 }

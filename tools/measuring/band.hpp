@@ -25,7 +25,7 @@ std::optional<std::vector<TimeTable>> load_band(const CpuModel& model, const std
 /// thread.
 class ProgramBand {
  public:
-  ProgramBand(stl::ParseResult parsed, const CpuModel& model, std::vector<TimeTable> tables, const PpiRates& ppi_rates);
+  ProgramBand(stl::ParseResult parsed, const CpuModel& model, std::vector<TimeTable> tables, const SystemBlock& block);
 
   std::size_t size() const { return tables_.size(); }
   std::shared_ptr<const Program> program(std::size_t table) const;
@@ -34,7 +34,7 @@ class ProgramBand {
   stl::ParseResult parsed_;
   const CpuModel& model_;
   std::vector<TimeTable> tables_;
-  PpiRates ppi_rates_;
+  SystemBlock block_;
   mutable std::mutex mutex_;
   mutable std::vector<std::shared_ptr<const Program>> programs_;
 };

@@ -131,6 +131,8 @@ class BlockReader final : public FrameReader {
 
 class LoaderReader final : public FrameReader {
  public:
+  explicit LoaderReader(westinghouse::Dle dle) : dle_(dle) {}
+
   ReadFrame read(const RecordedFrame& frame, const RecordedFrame* open) override {
     const Data bytes(frame.bytes);
     ReadFrame read;
@@ -191,7 +193,7 @@ class LoaderReader final : public FrameReader {
   static bool from_plc(Step step) { return static_cast<unsigned>(step) % 2 == 1; }
   static Direction side_of(Step step) { return from_plc(step) ? Direction::Answer : Direction::Request; }
 
-  static bool fits(Step step, const RecordedFrame& frame) {
+  bool fits(Step step, const RecordedFrame& frame) const {
     return first_of(step, frame.bytes) == frame.bytes.size() &&
            (frame.direction == Direction::Unknown || frame.direction == side_of(step));
   }
@@ -201,7 +203,7 @@ class LoaderReader final : public FrameReader {
     return open != nullptr && open->at && frame.at && *frame.at - *open->at > kMasterTimeout;
   }
 
-  static bool is_known_opcode(const RecordedFrame& frame) {
+  bool is_known_opcode(const RecordedFrame& frame) const {
     using westinghouse::LoaderOpcode;
     constexpr std::array kKnown{LoaderOpcode::Write, LoaderOpcode::Read, LoaderOpcode::Pointers, LoaderOpcode::Block,
                                 LoaderOpcode::Directory};
@@ -223,7 +225,7 @@ class LoaderReader final : public FrameReader {
   }
 
   /// How many of the bytes are this step; 0 if they are not, or not all there.
-  static std::size_t first_of(Step step, Data bytes) {
+  std::size_t first_of(Step step, Data bytes) const {
     if (from_plc(step) && begins_with(bytes, kRefusal)) return kRefusal.size();
     switch (step) {
       case Step::Opcode:
@@ -231,7 +233,7 @@ class LoaderReader final : public FrameReader {
       case Step::Arguments:
         return begins_with(bytes, kAcknowledge) ? up_to(bytes, kAcknowledge.size(), kEndOfArguments) : 0;
       case Step::DataSent:
-        return up_to(bytes, 0, kEndOfData);
+        return dle_ == westinghouse::Dle::Doubled ? up_to(bytes, 0, kEndOfData) : up_to_plain_end(bytes);
       default: {
         const Bytes due = fixed(step);
         return begins_with(bytes, due) ? due.size() : 0;
@@ -249,6 +251,14 @@ class LoaderReader final : public FrameReader {
     for (std::size_t at = from; at + 1 < bytes.size(); at += bytes[at] == kDle && bytes[at + 1] == kDle ? 2U : 1U)
       if (begins_with(bytes.subspan(at), end)) return at + end.size();
     return 0;
+  }
+
+  /// Where a 10 stands for itself only the number of bytes says where data end; if that is not known, where the frame does.
+  std::size_t up_to_plain_end(Data bytes) const {
+    const std::size_t end = count_ ? *count_ + kEndOfData.size() : bytes.size();
+    const bool is_end =
+        end >= kEndOfData.size() && end <= bytes.size() && begins_with(bytes.subspan(end - kEndOfData.size()), kEndOfData);
+    return is_end ? end : 0;
   }
 
   /// What a step always is.
@@ -292,17 +302,21 @@ class LoaderReader final : public FrameReader {
     switch (step) {
       case Step::Begin:
         opcode_.reset();
+        count_.reset();
         return "begin of a session";
       case Step::Opcode:
         opcode_ = bytes[0];
         return operation_text();
-      case Step::Arguments:
-        return arguments_text(unstuffed(without_end(bytes.subspan(kAcknowledge.size()), kEndOfArguments)));
+      case Step::Arguments: {
+        const Bytes arguments = unstuffed(without_end(bytes.subspan(kAcknowledge.size()), kEndOfArguments));
+        count_ = count_asked_for(arguments);
+        return arguments_text(arguments);
+      }
       case Step::ArgumentsHeard:
         if (opcode() && !westinghouse::has_data(*opcode())) step_ = Step::EndWanted;
         return "arguments accepted";
       case Step::DataSent:
-        return to_hex(unstuffed(without_end(bytes, kEndOfData)));
+        return to_hex(data_of(without_end(bytes, kEndOfData)));
       case Step::Ready:
       case Step::EndReady:
         return "ready";
@@ -319,6 +333,10 @@ class LoaderReader final : public FrameReader {
 
   static Data without_end(Data bytes, Data end) { return bytes.first(bytes.size() - end.size()); }
 
+  Bytes data_of(Data sent) const {
+    return dle_ == westinghouse::Dle::Doubled ? unstuffed(sent) : Bytes(sent.begin(), sent.end());
+  }
+
   static Bytes unstuffed(Data bytes) {
     Bytes plain;
     for (std::size_t at = 0; at < bytes.size(); ++at) {
@@ -326,6 +344,18 @@ class LoaderReader final : public FrameReader {
       if (bytes[at] == westinghouse::kDle && at + 1 < bytes.size() && bytes[at + 1] == westinghouse::kDle) ++at;
     }
     return plain;
+  }
+
+  /// Bytes that the PLC sends then; nothing if that is not known.
+  std::optional<std::size_t> count_asked_for(Data arguments) const {
+    using westinghouse::LoaderOpcode;
+    const auto opcode = this->opcode();
+    if (opcode == LoaderOpcode::Pointers) return westinghouse::loader_pointers().data;
+    if (opcode == LoaderOpcode::Block) return westinghouse::loader_block(0).data;
+    if (opcode == LoaderOpcode::Directory) return westinghouse::loader_directory().data;
+    if (opcode != LoaderOpcode::Read || arguments.size() != 4) return {};
+    const std::size_t first = load16(&arguments[0]), last = load16(&arguments[2]);
+    return last >= first ? std::optional(westinghouse::kReadHead + last - first + 1) : std::nullopt;
   }
 
   std::string operation_text() const {
@@ -362,7 +392,9 @@ class LoaderReader final : public FrameReader {
     return opcode_ ? std::optional(static_cast<westinghouse::LoaderOpcode>(*opcode_)) : std::nullopt;
   }
 
+  westinghouse::Dle dle_;
   Step step_ = Step::Begin;
+  std::optional<std::size_t> count_;    // of the bytes that the PLC sends in this session, as far as it is known
   std::optional<std::uint8_t> opcode_;  // of this session; nothing if it was not heard
 };
 
@@ -456,7 +488,10 @@ class HppcReader final : public FrameReader {
 
 std::unique_ptr<FrameReader> pc1000_lan_reader() { return std::make_unique<BlockReader>(); }
 std::unique_ptr<FrameReader> westnet_reader() { return std::make_unique<BlockReader>(); }
-std::unique_ptr<FrameReader> pc500_loader_reader() { return std::make_unique<LoaderReader>(); }
+std::unique_ptr<FrameReader> pc500_loader_reader() { return std::make_unique<LoaderReader>(westinghouse::Dle::Doubled); }
+std::unique_ptr<FrameReader> pc500_loader_plain_dle_reader() {
+  return std::make_unique<LoaderReader>(westinghouse::Dle::Plain);
+}
 std::unique_ptr<FrameReader> hppc_reader() { return std::make_unique<HppcReader>(); }
 
 }  // namespace s7200::tools

@@ -14,6 +14,9 @@ std::unique_ptr<FrameReader> westnet_reader();
 /// Step after step of the hand-shake. Its sides take turns, so that a step says whose it is.
 std::unique_ptr<FrameReader> pc500_loader_reader();
 
+/// The same of a PLC that does not double a byte 10 in its data.
+std::unique_ptr<FrameReader> pc500_loader_plain_dle_reader();
+
 /// With either table of the frame check.
 std::unique_ptr<FrameReader> hppc_reader();
 

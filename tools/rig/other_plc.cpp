@@ -11,6 +11,8 @@ std::unique_ptr<westinghouse::Plc> make_other_plc(const westinghouse::PlcRow& ro
   if (!plc) throw std::invalid_argument(why);
   for (const std::string& setting : settings)
     if (!plc->set(setting, why)) throw std::invalid_argument("--plc: " + why);
+  for (const std::string& setting : settings)
+    if (!plc->still_reaches(setting, why)) throw std::invalid_argument("--plc: " + why);
   return plc;
 }
 

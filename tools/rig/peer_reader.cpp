@@ -15,6 +15,9 @@ namespace {
 
 using Where = SystemKey::Where;
 
+/// What drives a sync signal instead of an output: whoever joins the line to ask.
+constexpr std::string_view kMasterOfLine = "master";
+
 class PeerReader {
  public:
   explicit PeerReader(SystemReading& reading) : reading_(reading) {}
@@ -157,19 +160,23 @@ class PeerReader {
     const std::string model = values_.optional_text(map, "model").value_or(std::string(row->models.front()));
     std::shared_ptr<westinghouse::Plc> plc = westinghouse::make_plc(*row, model, why);
     if (!plc) values_.wrong(*map.find("model"), why);
-    for (const YamlNode* setting : items_of(map, "settings", "unit=05", values_)) {
+    const auto settings = items_of(map, "settings", "unit=05", values_);
+    for (const YamlNode* setting : settings) {
       const auto text = values_.text(*setting);
       if (plc && text && !plc->set(*text, why)) values_.wrong(*setting, why);
     }
+    for (const YamlNode* setting : settings)
+      if (plc && values_.complaints.count() == before && !plc->still_reaches(setting->text, why))
+        values_.wrong(*setting, why);
     if (!plc || values_.complaints.count() > before) return plc;
     const YamlNode* const wire = map.find("sync");
     if (wire && !plc->needs_sync())
       values_.wrong(*wire, "this PLC has no sync signal, or ignores it", "the PC1000 LAN with sync=required has one");
-    else if (wire)
+    else if (wire && wire->text != kMasterOfLine)
       sync = read_output(*wire);
-    else if (plc->needs_sync())
+    else if (!wire && plc->needs_sync())
       values_.wrong(protocol, "nothing drives the sync signal that this PLC needs to hear anything",
-                    "write sync: gateway.Q0.0, or settings: [sync=ignored]");
+                    "write sync: gateway.Q0.0, sync: master, or settings: [sync=ignored]");
     return plc;
   }
 

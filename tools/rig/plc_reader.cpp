@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "interpreter/base/numbers.hpp"
+#include "interpreter/base/ppi_frame.hpp"
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/program/constants.hpp"
 #include "interpreter/program/load.hpp"
@@ -15,6 +16,7 @@
 #include "serial_sim/line/line.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "tools/rig/clock_text.hpp"
+#include "tools/rig/system_block_reader.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -37,6 +39,7 @@ class PlcReader {
     const std::int64_t copies = values_.number(map.find("copies"), 1, kMostCopies).value_or(1);
     const bool numbered = map.find("copies") != nullptr;
     const auto station = values_.number(map.find("station"), 1, modbus::kLastStation - (copies - 1));
+    SystemBlock block = model ? read_block(map, *model, copies) : SystemBlock{};
     const std::size_t before = values_.complaints.count();
     std::vector<std::size_t>& those = names_.groups[plc.key.text];
     if (numbered) names_.take_name(plc.key, plc.key.text, values_);
@@ -49,7 +52,10 @@ class PlcReader {
       each.name = name;
       if (!model) continue;
       each.program = read_program(plc, *model, station ? std::optional(*station + copy) : std::nullopt);
+      if (each.program) each.program = with_system_block(*each.program, block);
       if (each.program) read_settings(map, each, copies > 1);
+      if (map.find("ppi_station"))
+        for (std::uint8_t& ppi_station : block.ppi_stations) ++ppi_station;
       if (values_.complaints.count() > before) return;  // the others would say the same
     }
   }
@@ -111,7 +117,7 @@ class PlcReader {
     const auto times = read_times(map, model);
     if (!times) return nullptr;
     CheckResult result = check(std::move(project->parsed), model, *times);
-    if (result.program) return with_ppi_rates_of(map, std::move(result.program));
+    if (result.program) return result.program;
     std::erase_if(result.diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
     values_.wrong(*map.find("program"), fmt::format("{} has errors", result.source.name));
     reading_.file.programs.push_back(
@@ -143,13 +149,15 @@ class PlcReader {
     return times;
   }
 
-  std::shared_ptr<const Program> with_ppi_rates_of(const YamlNode& map, std::shared_ptr<const Program> program) {
-    const auto written = values_.optional_text(map, "ppi_baud");
-    if (!written) return program;
-    std::string why;
-    const auto rates = parse_ppi_rates(*written, *program->model, why);
-    if (!rates) values_.wrong(*map.find("ppi_baud"), why);
-    return rates ? with_ppi_rates(*program, *rates) : nullptr;
+  /// Of the first copy.
+  SystemBlock read_block(const YamlNode& map, const CpuModel& model, std::int64_t copies) {
+    SystemBlock block;
+    read_system_block(map, model, block, values_);
+    const std::int64_t last = *std::ranges::max_element(block.ppi_stations) + copies - 1;
+    if (map.find("ppi_station") && last > ppi::kLastStation)
+      values_.wrong(*map.find("ppi_station"),
+                    fmt::format("the last copy would be PPI station {}; there are 1 to {}", last, ppi::kLastStation));
+    return block;
   }
 
   void set_constants(const YamlNode& map, stl::Source& source) {

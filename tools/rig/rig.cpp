@@ -22,6 +22,19 @@ bool is_right(const serial::Exchange& exchange) {
          modbus::check_answer(request, exchange.response_bytes()).verdict == serial::Verdict::Right;
 }
 
+/// A master that has joined the line raises the sync signal of the PLCs there that no output drives.
+void drive_sync(serial::RequesterStation& master, const SystemPlan& plan, const LinePlan& line,
+                const std::vector<serial::ResponderStation*>& responders) {
+  std::vector<serial::ResponderStation*> driven;
+  for (const StationPlan& station : line.stations)
+    if (station.kind == StationPlan::Kind::Peer && responders[station.number] && !plan.peers[station.number].sync)
+      driven.push_back(responders[station.number]);
+  if (driven.empty()) return;
+  master.requester().when_sync([driven](bool high, Time at) {
+    for (serial::ResponderStation* const each : driven) each->responder().sync(high, at);
+  });
+}
+
 }  // namespace
 
 Rig::Rig(SystemPlan plan, const RigSurroundings& surroundings)
@@ -41,6 +54,7 @@ Rig::Rig(SystemPlan plan, const RigSurroundings& surroundings)
   for (const EventPlan& event : plan_.events) system_.schedule(event.at, [this, &event] { carry_out(event); });
   askers_.resize(lines_.size());
   for (const Spot& spot : surroundings.spots) join(spot);
+  for (const std::size_t line : surroundings.lines) askers_[line].requester = &system_.add_requester(*lines_[line]);
 }
 
 Rig::~Rig() = default;
@@ -52,6 +66,7 @@ void Rig::join(const Spot& spot) {
   const std::size_t room = serial::Line::kDrivers - plan_.lines[spot.line].stations.size();
   if (!asker.requester && room > 0)
     asker = {&system_.add_requester(line), room > 1 ? &system_.add_host_port(line) : nullptr, spot};
+  if (asker.requester) drive_sync(*asker.requester, plan_, plan_.lines[spot.line], responders_);
   simulations_.push_back(
       std::make_unique<serial::Simulation>(system_, line, *plcs_[spot.plc], spot.port, asker.requester, asker.host));
 }
@@ -138,7 +153,8 @@ std::unique_ptr<Rig> Rig::assemble(SystemPlan plan, const RigSurroundings& surro
 }
 
 bool Rig::claim_files(std::string& why) {
-  if (!surroundings_.trace.empty()) trace_ = std::make_unique<SystemTrace>(plan_, system_, surroundings_.trace_detail);
+  if (!surroundings_.trace.empty())
+    trace_ = std::make_unique<SystemTrace>(plan_, system_, plcs_, surroundings_.trace_detail);
   if (!surroundings_.path.empty()) files_.reads(surroundings_.path);
   for (const PlcPlan& plc : plan_.plcs) files_.reads(plc.settings.input);
   files_.links("--pty", surroundings_.link);
@@ -188,6 +204,7 @@ std::vector<std::string> Rig::finish() {
 void Rig::carry_out(const EventPlan& event) {
   using What = EventPlan::What;
   const Time now = system_.time();
+  if (trace_) trace_->tell(event, now);
   switch (event.what) {
     case What::PowerOff:
       return switch_power(event.station, false);

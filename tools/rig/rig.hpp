@@ -38,6 +38,7 @@ struct RigSurroundings {
   /// Where somebody who asks looks at the system from: simulation(). On each line he stands beside the PLC of the first of
   /// its spots.
   std::vector<Spot> spots{};
+  std::vector<std::size_t> lines{};  ///< without an S7-200: a master joins each of them, on the first part of a cut cable
 };
 
 class Rig final {
@@ -64,6 +65,9 @@ class Rig final {
   serial::Simulation& simulation(std::size_t spot = 0) { return *simulations_[spot]; }
   const serial::Simulation& simulation() const { return *simulations_.front(); }
   const Cpu& cpu() const { return simulation().cpu(); }
+
+  /// Who has joined that line to ask; null if no one has.
+  serial::RequesterStation* requester(std::size_t line) { return askers_[line].requester; }
 
   serial::Plc& plc(std::size_t number) { return *plcs_[number]; }
   const serial::Plc& plc(std::size_t number) const { return *plcs_[number]; }

@@ -25,6 +25,7 @@ constexpr std::array kKeys{
     SystemKey{Where::Plc, "cpu", "TYPE", "`214` if left out"},
     SystemKey{Where::Plc, "times", "TABLE", "execution times: the name of a table, or the path of a CSV file as `s7200 times --csv` writes it"},
     SystemKey{Where::Plc, "ppi_baud", "NUMBER", "rate of its ports in PPI mode, as the system block sets it: 9600, 19200 or, on CPU 22x, 187500; `\"9600,187500\"` is port 0 and port 1; 9600 if left out"},
+    SystemKey{Where::Plc, "ppi_station", "NUMBER", "PPI station of its ports until the program's SPA sets another, as the system block sets it, 1 to 126; `\"3,4\"` is port 0 and port 1; 2 if left out; with `copies` it goes up by one with each"},
     SystemKey{Where::Plc, "copies", "NUMBER", "so many PLCs like this, 1 to 32, with a number after the name: `slave1`, `slave2`, …; `station` goes up by one with each"},
     SystemKey{Where::Plc, "station", "NUMBER", "address on the line, 1 to 247: the constant that the program moves into VB4095, as our slaves and Application Tip 41 do"},
     SystemKey{Where::Plc, "constants", "MAP", "constants that the program moves to an address with MOVB, MOVW or MOVD, instead of its own: `{SMB30: 16#45}`"},
@@ -63,7 +64,7 @@ constexpr std::array kKeys{
     SystemKey{Where::OtherPlc, "westinghouse", "PROTOCOL", "modbus, lan, hppc, loader or westnet"},
     SystemKey{Where::OtherPlc, "model", "NAME", "pc1200, pc503, …; the first that speaks the protocol if left out"},
     SystemKey{Where::OtherPlc, "settings", "LIST", "as `s7200 master --plc` takes them: `[unit=05, HR1=1234]`"},
-    SystemKey{Where::OtherPlc, "sync", "NAME.OUTPUT", "of the PC1000 LAN: the output of a PLC that drives its sync signal, `gateway.Q0.0`; without it the PLC needs the setting `sync=ignored`"},
+    SystemKey{Where::OtherPlc, "sync", "NAME.OUTPUT, master", "of the PC1000 LAN: the output of a PLC that drives its sync signal, `gateway.Q0.0`, or the master that joins its line, `s7200 master --protocol pc1000-lan`; without it the PLC needs the setting `sync=ignored`"},
 
     SystemKey{Where::Bridge, "pty", "LINK", "a serial port that programs of this computer open as LINK; from the folder of this file"},
     SystemKey{Where::Bridge, "tcp", "[ADDRESS:]PORT", "raw bytes over TCP; without ADDRESS for this computer only"},

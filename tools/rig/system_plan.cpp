@@ -17,9 +17,14 @@ std::string names_of(const Plans& plans) {
   return names;
 }
 
+std::string no_plc_on(const LinePlan& line) { return fmt::format("no PLC is on line '{}'", line.name); }
+
 std::optional<Spot> beside_first_plc(const SystemPlan& plan, std::size_t line, std::string& why) {
   if (const StationPlan* const first = first_plc(plan.lines[line])) return Spot{line, first->number, first->port};
-  why = fmt::format("no PLC is on line '{}'", plan.lines[line].name);
+  why = no_plc_on(plan.lines[line]);
+  if (first_other_plc(plan, plan.lines[line]))
+    why = fmt::format("no S7-200 is on line '{}'; PLCs of another make alone are asked by scenarios of 's7200 test'",
+                      plan.lines[line].name);
   return {};
 }
 
@@ -78,13 +83,23 @@ SerialFormat format_without_s7200(const SystemPlan& plan, const LinePlan& line) 
 }
 
 std::optional<Spot> find_spot(const SystemPlan& plan, std::string_view name, std::string& why) {
+  std::string why_no_line;
+  if (const auto line = find_line(plan, name, why_no_line)) return beside_first_plc(plan, *line, why);
+  if (!name.empty()) return at_plc(plan, name, why);
+  why = why_no_line;
+  return {};
+}
+
+std::optional<std::size_t> find_line(const SystemPlan& plan, std::string_view name, std::string& why) {
   if (name.empty() && plan.lines.size() > 1) {
-    why = fmt::format("there are several lines, {}: name one of them, or a PLC", names_of(plan.lines));
+    why = fmt::format("there are several lines, {}: name one of them{}", names_of(plan.lines),
+                      plan.plcs.empty() ? "" : ", or a PLC");
     return {};
   }
   const auto line = name.empty() ? plan.lines.begin() : std::ranges::find(plan.lines, name, &LinePlan::name);
-  if (line == plan.lines.end()) return at_plc(plan, name, why);
-  return beside_first_plc(plan, static_cast<std::size_t>(line - plan.lines.begin()), why);
+  if (line != plan.lines.end()) return static_cast<std::size_t>(line - plan.lines.begin());
+  why = fmt::format("there is no line '{}': the lines are {}", stl::shortened(std::string(name)), names_of(plan.lines));
+  return {};
 }
 
 std::vector<Spot> spots_of_plcs(const SystemPlan& plan) {
@@ -98,11 +113,21 @@ std::vector<Spot> spots_of_plcs(const SystemPlan& plan) {
   return spots;
 }
 
-std::string why_no_room(const SystemPlan& plan, const Spot& spot) {
-  const LinePlan& line = plan.lines[spot.line];
-  if (line.stations.size() < serial::Line::kDrivers) return {};
+std::string why_no_room(const SystemPlan& plan, std::size_t line) {
+  const std::vector<StationPlan>& stations = plan.lines[line].stations;
+  if (stations.size() < serial::Line::kDrivers) return {};
   return fmt::format("line '{}' has {} stations already, as many as a line takes: there is no place for one more master",
-                     line.name, line.stations.size());
+                     plan.lines[line].name, stations.size());
+}
+
+std::string why_no_other_plc(const SystemPlan& plan, std::size_t line) {
+  return first_other_plc(plan, plan.lines[line]) ? why_no_room(plan, line) : no_plc_on(plan.lines[line]);
+}
+
+std::optional<std::size_t> first_askable_line(const SystemPlan& plan) {
+  for (std::size_t line = 0; line < plan.lines.size(); ++line)
+    if (why_no_other_plc(plan, line).empty()) return line;
+  return {};
 }
 
 }  // namespace s7200::tools

@@ -122,10 +122,19 @@ SerialFormat format_without_s7200(const SystemPlan& plan, const LinePlan& line);
 /// empty one is the only line. Returns nothing and sets `why` if there is none.
 std::optional<Spot> find_spot(const SystemPlan& plan, std::string_view name, std::string& why);
 
+/// The line of that name; an empty one is the only line. Returns nothing and sets `why` if there is none.
+std::optional<std::size_t> find_line(const SystemPlan& plan, std::string_view name, std::string& why);
+
 /// Where each PLC is first on a line, by number. Each is on one.
 std::vector<Spot> spots_of_plcs(const SystemPlan& plan);
 
 /// Why no master can join there: the line has as many stations as it takes. Empty if one can.
-std::string why_no_room(const SystemPlan& plan, const Spot& spot);
+std::string why_no_room(const SystemPlan& plan, std::size_t line);
+
+/// Why no master can ask a PLC of another make there: none is there, or no room. Empty if one can.
+std::string why_no_other_plc(const SystemPlan& plan, std::size_t line);
+
+/// The first line where one can.
+std::optional<std::size_t> first_askable_line(const SystemPlan& plan);
 
 }  // namespace s7200::tools

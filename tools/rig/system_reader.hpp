@@ -18,7 +18,8 @@ namespace s7200::tools {
 /// Whether a path is that of a system file, and not of a program: .yaml, .yml.
 bool is_system_file(std::string_view path);
 
-/// What was read. With any errors, nothing is to be done with the plan.
+/// What was read, and what is wrong with it. With any errors, nothing is to be done with the plan; it can be run with
+/// warnings.
 struct SystemFile {
   struct Text {
     std::shared_ptr<const stl::SourceLines> source;
@@ -28,7 +29,7 @@ struct SystemFile {
   Text file;
   std::vector<Text> programs;  ///< those with errors
 
-  bool ok() const { return file.diagnostics.empty(); }
+  bool ok() const { return !stl::has_errors(file.diagnostics); }
 };
 
 SystemFile read_system(const std::string& text, const std::string& path);

@@ -1,8 +1,12 @@
-// `--trace` of a system: what all its CPUs do, in one file, with the name of the station beside each line.
+// `--trace` of a system: what all its CPUs do, and what happens to them in the field, in one file, with the name of the
+// station or line beside each line.
 #pragma once
 
-#include <list>
+#include <memory>
+#include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "interpreter/trace/text_trace.hpp"
@@ -16,8 +20,10 @@ namespace s7200::tools {
 /// written. CPUs run ahead of each other: lines wait until no other one can come before them.
 class SystemTrace final {
  public:
-  /// Neither is owned.
-  SystemTrace(const SystemPlan& plan, const serial::System& system, TraceDetail detail);
+  /// None is owned.
+  SystemTrace(const SystemPlan& plan, const serial::System& system, const std::vector<serial::Plc*>& plcs,
+              TraceDetail detail);
+  ~SystemTrace();
 
   bool claim(WrittenFiles& files, const std::string& path, std::string& why);
   bool open(std::string& why);
@@ -25,24 +31,30 @@ class SystemTrace final {
   bool close(std::string& why);
 
   /// What watches a CPU. The file is open.
-  TraceSink& station(std::size_t plc) { return *traces_[plc]; }
+  TraceSink& station(std::size_t plc);
+
+  /// What happens to the system at `at`. Who runs the same time again tells it again; it is written once.
+  void tell(const EventPlan& event, Time at);
 
  private:
   struct Line {
     Time at;
     std::string text;
   };
+  class Station;
 
-  void add(std::size_t plc, Time at, std::string_view text);
+  void add(std::string_view name, Time at, std::string_view text);
   void write_until(Time end);
 
   const SystemPlan& plan_;
   const serial::System& system_;
+  const std::vector<serial::Plc*>& plcs_;
   TraceDetail detail_;
   std::size_t width_ = 0;  // of the column of names
   RecordFile file_;
   std::ostream* out_ = nullptr;
-  std::vector<std::unique_ptr<TextTrace>> traces_;  // by PLC
+  std::vector<std::unique_ptr<Station>> stations_;  // by PLC
+  std::set<std::pair<Time, std::string>> told_;     // events
   std::vector<Line> waiting_;
 };
 

@@ -14,6 +14,7 @@ enum class Needs : std::uint8_t {
   Line,      ///< a line to it, wherever it is
   ToLook,    ///< a program in simulation, to see memory, interrupts, mode or errors; skipped on any other slave
   ToChange,  ///< a program in simulation, to change what is not the line's; on any other slave the scenario is skipped
+  Around,    ///< a program or a system in simulation, to change what is around it: faults, power, cables; the same
 };
 
 /// Each kind is a file in steps/.

@@ -9,6 +9,7 @@
 #include "tools/host/interruption.hpp"
 #include "tools/rig/other_plc.hpp"
 #include "tools/rig/system_reader.hpp"
+#include "tools/slave/peer_lines.hpp"
 #include "tools/slave/peer_slave.hpp"
 #include "tools/slave/slave_target.hpp"
 #include "tools/slave/system_slave.hpp"
@@ -103,17 +104,17 @@ Programs::Loaded Programs::load(const std::vector<std::string>& files, const std
 
 std::shared_ptr<const ProgramBand> Programs::band(const std::string& path, const std::vector<std::string>& with,
                                                   const std::string& cpu, const std::string& times_table,
-                                                  const std::string& repairs, const PpiRates& ppi_rates,
+                                                  const std::string& repairs, const SystemBlock& block,
                                                   const BandSettings& settings) {
   std::vector<std::string> files{path};
   files.insert(files.end(), with.begin(), with.end());
-  auto& known = bands_[{{files, cpu, times_table, repairs}, ppi_rates}];
+  auto& known = bands_[{{files, cpu, times_table, repairs}, block}];
   if (known) return known;
   Messages messages;
   std::vector<std::string> errors;
   auto parsed = read(files, repairs, messages);
   auto tables = load_band(*find_cpu(cpu), times_table, settings, errors);
-  return known = std::make_shared<ProgramBand>(std::move(*parsed), *find_cpu(cpu), std::move(*tables), ppi_rates);
+  return known = std::make_shared<ProgramBand>(std::move(*parsed), *find_cpu(cpu), std::move(*tables), block);
 }
 
 namespace {
@@ -152,12 +153,12 @@ class ProgramBenches {
     const auto with = target_.empty() ? scenario.with : std::vector<std::string>{};
     const Programs::Loaded& loaded = programs_.get(path, with, scenario.cpu, scenario.times, scenario.repair);
     bench.program = loaded.program;
-    if (loaded.program && scenario.ppi_rates != kUsualPpiRates)
-      bench.program = with_ppi_rates(*loaded.program, scenario.ppi_rates);
+    if (loaded.program && scenario.system_block != SystemBlock{})
+      bench.program = with_system_block(*loaded.program, scenario.system_block);
     if (loaded.program && settings_.every_scan) bench.program = with_every_scan(*bench.program);
     if (loaded.program && (scenario.robust || settings_.band.random > 0))
       bench.band =
-          programs_.band(path, with, scenario.cpu, scenario.times, scenario.repair, scenario.ppi_rates, band_settings());
+          programs_.band(path, with, scenario.cpu, scenario.times, scenario.repair, scenario.system_block, band_settings());
     if (!loaded.program && same_for_all_) {
       messages.insert(messages.end(), loaded.messages.begin(), loaded.messages.end());
       return false;
@@ -200,6 +201,18 @@ SlaveMaker peer_slaves(const std::string& model, const std::string& name, const 
   };
 }
 
+/// Of a system without an S7-200, on the line `at`. Null, with messages, if there is no such line.
+SlaveMaker peer_lines(SystemPlan plan, const std::string& path, const std::string& at, Messages& messages) {
+  std::string why;
+  const auto line = find_line(plan, at, why);
+  if (line) why = why_no_other_plc(plan, *line);
+  if (!why.empty()) return add_error(messages, fmt::format("{}: {}{}", path, why, line ? "" : " (--at NAME)")), nullptr;
+  forget_files(plan);
+  return [plan = std::make_shared<const SystemPlan>(std::move(plan)), line = *line, path](const Scenario& scenario) {
+    return std::make_unique<PeerLines>(*plan, line, scenario.line, scenario.after, path);
+  };
+}
+
 /// Of a system file. Null, with messages, if it cannot be had.
 SlaveMaker system_slaves(const std::string& path, const std::string& at, Messages& messages) {
   const auto refuse = [&](const std::string& why) { return add_error(messages, why), nullptr; };
@@ -218,9 +231,10 @@ SlaveMaker system_slaves(const std::string& path, const std::string& at, Message
   if (!file.plan.bridges.empty())
     return refuse(fmt::format("bridge '{}' of {} follows the clock, which 's7200 test' does not: leave it out",
                               file.plan.bridges.front().name, path));
+  if (file.plan.plcs.empty()) return peer_lines(std::move(file.plan), path, at, messages);
   const auto spot = find_spot(file.plan, at, why);
   if (!spot) return refuse(fmt::format("{}: {} (--at NAME)", path, why));
-  if (why = why_no_room(file.plan, *spot); !why.empty()) return refuse(fmt::format("{}: {}", path, why));
+  if (why = why_no_room(file.plan, spot->line); !why.empty()) return refuse(fmt::format("{}: {}", path, why));
   forget_files(file.plan);
   return [plan = std::make_shared<const SystemPlan>(std::move(file.plan)), spot = *spot, path](const Scenario& scenario) {
     return std::make_unique<SystemSlave>(*plan, spot, scenario.line, scenario.after, path);

@@ -33,7 +33,7 @@ class Programs {
   /// The same program, which has no errors, with a band of times.
   std::shared_ptr<const ProgramBand> band(const std::string& path, const std::vector<std::string>& with,
                                           const std::string& cpu, const std::string& times_table, const std::string& repairs,
-                                          const PpiRates& ppi_rates, const BandSettings& settings);
+                                          const SystemBlock& block, const BandSettings& settings);
 
  private:
   struct Text {
@@ -51,7 +51,7 @@ class Programs {
 
   std::map<std::string, Text> texts_;
   std::map<Key, Loaded> known_;
-  std::map<std::pair<Key, PpiRates>, std::shared_ptr<const ProgramBand>> bands_;
+  std::map<std::pair<Key, SystemBlock>, std::shared_ptr<const ProgramBand>> bands_;
 };
 
 /// A bench for each scenario.

@@ -91,8 +91,10 @@ class Collector {
 
   /// System files may stand beside the scenarios that name them.
   static bool is_system(std::string_view text) {
-    constexpr std::string_view kPlcs = "plcs:";
-    return text.starts_with(kPlcs) || text.find(fmt::format("\n{}", kPlcs)) != std::string_view::npos;
+    const auto has = [text](std::string_view key) {
+      return text.starts_with(key) || text.find(fmt::format("\n{}", key)) != std::string_view::npos;
+    };
+    return has("plcs:") || has("lines:");
   }
 
   void take(const std::string& text, const std::string& path) {

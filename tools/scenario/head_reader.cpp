@@ -9,6 +9,7 @@
 #include "interpreter/program/slips.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/rig/rig.hpp"
+#include "tools/rig/system_block_reader.hpp"
 #include "tools/rig/system_reader.hpp"
 #include "tools/scenario/memory_values.hpp"
 
@@ -60,12 +61,7 @@ class HeadReader {
     }
     if (const auto times = values_.optional_text(map, "times"))
       scenario.times = find_times(*times) ? *times : *optional_path(map, "times");
-    if (const auto rates = values_.optional_text(map, "ppi_baud")) {
-      std::string why;
-      const auto read = parse_ppi_rates(*rates, *find_cpu(scenario.cpu), why);
-      if (!read) values_.wrong(*map.find("ppi_baud"), why);
-      scenario.ppi_rates = read.value_or(kUsualPpiRates);
-    }
+    read_system_block(map, *find_cpu(scenario.cpu), scenario.system_block, values_);
     if (const YamlNode* line = map.find("line")) read_line(*line, scenario.line);
     if (const auto station = values_.number(map.find("station"), 0, 255))
       scenario.station = static_cast<std::uint8_t>(*station);
@@ -102,7 +98,7 @@ class HeadReader {
   void read_plan(const YamlNode& map, const std::string& path, Scenario& scenario) {
     const YamlNode& node = *map.find("system");
     for (const char* const key :
-         {"program", "with", "repair", "cpu", "times", "ppi_baud", "robust", "set", "input", "clock"})
+         {"program", "with", "repair", "cpu", "times", "ppi_baud", "ppi_station", "robust", "set", "input", "clock"})
       if (const YamlNode* one = map.find(key))
         values_.wrong(*one, fmt::format("'{}' is of one program: a system file says that of each PLC", key));
     std::string why;
@@ -117,9 +113,9 @@ class HeadReader {
     if (!file.plan.bridges.empty())
       return values_.wrong(node, fmt::format("bridge '{}' of {} follows the clock", file.plan.bridges.front().name, path),
                            "a scenario runs as fast as it can: leave bridges out");
-    const auto has_plc = [&](const LinePlan& line) { return find_spot(file.plan, line.name, why).has_value(); };
-    if (std::ranges::none_of(file.plan.lines, has_plc))
-      return values_.wrong(node, fmt::format("{} has no PLC on a line", path), "a scenario talks to PLCs");
+    if (file.plan.plcs.empty() && !first_askable_line(file.plan))
+      return values_.wrong(node, fmt::format("{} has no line with a PLC and room for a master", path),
+                           "a scenario talks to PLCs");
     forget_files(file.plan);
     scenario.system = path;
     scenario.plan = std::make_shared<const SystemPlan>(std::move(file.plan));
@@ -129,7 +125,7 @@ class HeadReader {
     std::string why;
     if (!scenario.plan)
       values_.wrong(node, "'on' names a PLC or a line of a system", "name the file of one with 'system:'");
-    else if (!find_spot(*scenario.plan, on, why))
+    else if (scenario.is_of_peers() ? !find_line(*scenario.plan, on, why) : !find_spot(*scenario.plan, on, why))
       values_.wrong(node, why);
     scenario.on = on;
   }

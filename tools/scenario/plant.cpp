@@ -146,10 +146,7 @@ bool Plant::is_on(std::size_t line, std::size_t plc) const {
   });
 }
 
-bool Plant::is_in_stop(std::size_t plc) const {
-  const bool powered = !rig_ || rig_->plc(plc).powered();
-  return powered && cpu_of(plc).state().mode == Mode::Stop;
-}
+bool Plant::is_in_stop(std::size_t plc) const { return is_powered(plc) && cpu_of(plc).state().mode == Mode::Stop; }
 
 std::string Plant::why_stopped(std::size_t plc) const {
   const std::string why = errors_text(cpu_of(plc));

@@ -98,6 +98,9 @@ class Plant {
   std::string name_of(std::size_t plc) const { return rig_ ? rig_->plan().plcs[plc].name : ""; }
   bool is_in_stop(std::size_t plc) const;
 
+  /// Of the CPU that is looked at.
+  bool has_power() const { return is_powered(plc_number()); }
+
   /// Since the first power-up.
   Time time() const { return before_ + simulation().time(); }
 
@@ -106,6 +109,7 @@ class Plant {
   serial::MasterSettings master_of(const Spot& spot) const;
   const Cpu& cpu_of(std::size_t plc) const { return rig_ ? rig_->plc(plc).cpu() : simulation_->cpu(); }
   bool is_on(std::size_t line, std::size_t plc) const;
+  bool is_powered(std::size_t plc) const { return !rig_ || rig_->plc(plc).powered(); }
 
   const Scenario& scenario_;
   std::shared_ptr<const Program> program_;               // null: a system

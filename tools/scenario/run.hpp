@@ -8,6 +8,7 @@
 
 #include "tools/scenario/plant.hpp"
 #include "tools/scenario/runner.hpp"
+#include "tools/slave/peer_lines.hpp"
 
 namespace s7200::tools {
 
@@ -29,6 +30,9 @@ class Run {
 
   /// Then its times are exact.
   bool in_simulation() const { return plant_ || own_; }
+
+  /// Does it to the system, now.
+  void carry_out(const EventPlan& event) { plant_ ? plant_->carry_out(event) : lines_->carry_out(event); }
 
   /// Of the line, as it is now.
   SerialFormat format() const { return plant_ ? plant_->format() : own_ ? own_->format() : bench_.format; }
@@ -80,6 +84,7 @@ class Run {
   }
 
  private:
+  void join_lines();
   void do_step(const Step& step);
   std::string acted_inside() const;
   void look_at_mode();
@@ -89,7 +94,8 @@ class Run {
   const Scenario& scenario_;
   const Bench& bench_;
   std::unique_ptr<Plant> plant_;
-  std::unique_ptr<SlaveInSimulation> own_;  ///< that the bench made
+  std::unique_ptr<SlaveInSimulation> own_;  ///< that the bench made, or the lines of a system without an S7-200
+  PeerLines* lines_ = nullptr;              ///< those lines; null if the scenario is about something else
   std::size_t step_ = 0, turn_ = 0;
   Time begin_ = 0;
   bool lost_ = false;                     ///< the slave

@@ -15,7 +15,17 @@ using Outcome = ScenarioResult::Outcome;
 Run::Run(const Scenario& scenario, const Bench& bench) : scenario_(scenario), bench_(bench) {
   if (bench.make_slave) own_ = bench.make_slave(scenario);
   if (bench.slave || own_) return;
-  plant_ = scenario.plan ? std::make_unique<Plant>(scenario) : std::make_unique<Plant>(scenario, bench.program);
+  if (scenario.is_of_peers())
+    join_lines();
+  else
+    plant_ = scenario.plan ? std::make_unique<Plant>(scenario) : std::make_unique<Plant>(scenario, bench.program);
+}
+
+void Run::join_lines() {
+  auto lines = std::make_unique<PeerLines>(*scenario_.plan, *first_askable_line(*scenario_.plan), scenario_.line,
+                                           scenario_.after, scenario_.system);
+  lines_ = lines.get();
+  own_ = std::move(lines);
 }
 
 ScenarioResult Run::result() {
@@ -71,10 +81,11 @@ void Run::turn_outcome() {
 
 /// What of the scenario only a program in simulation can be done to; empty if there is nothing.
 std::string Run::acted_inside() const {
+  if (lines_) return "";
   if (scenario_.plan) return "it is about a system of PLCs";
   if (!scenario_.set.empty() || scenario_.clock || !scenario_.input_file.empty()) return "it sets memory, clock or inputs";
   const auto step = std::find_if(scenario_.steps.begin(), scenario_.steps.end(),
-                                 [](const Step& s) { return s.action->needs() == Needs::ToChange; });
+                                 [](const Step& s) { return s.action->needs() >= Needs::ToChange; });
   return step == scenario_.steps.end() ? "" : fmt::format("line {}, '{}'", step->position.line, step->key);
 }
 
@@ -83,6 +94,7 @@ bool Run::goes_on() const { return !interrupted() && !lost_; }
 void Run::do_step(const Step& step) {
   turn_ = 0;
   if (plant_ && step.spot) plant_->look_at(*step.spot);
+  if (lines_ && step.line) lines_->look_at(*step.line);
   if (!plant_ && step.action->needs() == Needs::ToLook)
     skip_step();
   else

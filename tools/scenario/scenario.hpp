@@ -27,7 +27,8 @@ struct Step {
   std::string note{};          ///< shown when it fails
   std::string loop{};          ///< `function = 3, count = 126`: which turn of its loops
   std::string on{};            ///< in a system: the PLC or line it is about, as it was written; empty if it was not
-  std::optional<Spot> spot{};  ///< that; nothing if it is about none
+  std::optional<Spot> spot{};  ///< that; nothing if it is about none, or about a line of a system without an S7-200
+  std::optional<std::size_t> line{};  ///< the line it is about in such a system
   std::shared_ptr<const Action> action{};
 };
 
@@ -54,7 +55,7 @@ struct Scenario {
   std::string on{};                          ///< what its steps are about unless they say so themselves
   std::string cpu = "214";
   std::string times{};  ///< a name or a file; empty: the CPU's own
-  PpiRates ppi_rates = kUsualPpiRates;
+  SystemBlock system_block{};
   std::vector<Assignment> set{};
   std::string input_file{};  ///< of `field`; empty if there is none
   serial::FieldScript field{};
@@ -78,6 +79,9 @@ struct Scenario {
     for (const Step& step : steps) count += step.action->steps();
     return count;
   }
+
+  /// Whether it is about a system without an S7-200.
+  bool is_of_peers() const { return plan && plan->plcs.empty(); }
 
   /// Where its addresses are looked up.
   AddressSpace addresses() const { return {*find_cpu(cpu), symbols}; }

@@ -96,25 +96,40 @@ void StepReader::read_step(const YamlNode& node, const Scenario& scenario, std::
   step.position.length = static_cast<std::uint32_t>(action->text.size());
   if (const auto note = values_.optional_text(node, "note")) step.note = *note;
   if (scenario.plan && kind->of != StepKind::Of::System)
-    read_spot(node, scenario, kind->of == StepKind::Of::Plc, step);
+    read_place(node, scenario, kind->of == StepKind::Of::Plc, step);
   else if (const YamlNode* on = node.find("on"))
     values_.wrong(*on, "'on' names a PLC or a line of a system", "name the file of one with 'system:', not 'program:'");
-  if (scenario.plan && kind->of == StepKind::Of::Plc && !step.spot) return;
-  const Program* const program = step.spot ? scenario.plan->plcs[step.spot->plc].program.get() : nullptr;
-  step.action = kind->read({values_, node, is, scenario, program});
-  if (const std::string why = step.spot && reception_of(step) ? why_no_room(*scenario.plan, *step.spot) : ""; !why.empty())
-    values_.wrong(node, why);
+  if (scenario.plan && kind->of == StepKind::Of::Plc && !step.spot && !step.line) return;
+  step.action = kind->read({values_, node, is, scenario, step});
+  check_place(node, scenario, step);
   steps.push_back(std::move(step));
 }
 
-/// Nothing after a complaint, or if it is not needed.
-void StepReader::read_spot(const YamlNode& node, const Scenario& scenario, bool needed, Step& step) {
+/// What it is about: nothing after a complaint, or if it is not needed.
+void StepReader::read_place(const YamlNode& node, const Scenario& scenario, bool needed, Step& step) {
   step.on = values_.optional_text(node, "on").value_or("");
   if (step.on.empty() && !needed) return;
+  const std::string& place = step.on.empty() ? scenario.on : step.on;
   std::string why;
-  step.spot = find_spot(*scenario.plan, step.on.empty() ? scenario.on : step.on, why);
+  if (scenario.is_of_peers())
+    step.line = find_line(*scenario.plan, place, why);
+  else
+    step.spot = find_spot(*scenario.plan, place, why);
   const YamlNode* const on = node.find("on");
-  if (!step.spot) values_.wrong(on ? *on : node, why, on ? "" : "put on: NAME beside it");
+  if (!step.spot && !step.line) values_.wrong(on ? *on : node, why, on ? "" : "put on: NAME beside it");
+}
+
+/// Complains about what cannot be done there.
+void StepReader::check_place(const YamlNode& node, const Scenario& scenario, const Step& step) {
+  if (!scenario.plan) return;
+  const Needs needs = step.action->needs();
+  if (scenario.is_of_peers() && (needs == Needs::ToLook || needs == Needs::ToChange))
+    return values_.wrong(node, fmt::format("'{}' is about an S7-200, and there is none in {}", step.key, scenario.system),
+                         "what other PLCs keep is asked for on the line: send, request, read, write");
+  if (!reception_of(step)) return;
+  const std::size_t line = step.spot ? step.spot->line : *step.line;
+  const std::string why = step.line ? why_no_other_plc(*scenario.plan, line) : why_no_room(*scenario.plan, line);
+  if (!why.empty()) values_.wrong(node, why);
 }
 
 // --- loops ---

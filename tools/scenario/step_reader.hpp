@@ -28,7 +28,8 @@ class StepReader {
   void read_steps(const YamlNode& list, const Scenario& scenario, std::vector<Step>& steps);
   void read_step(const YamlNode& node, const Scenario& scenario, std::vector<Step>& steps);
   const YamlNode* find_action(const YamlNode& node);
-  void read_spot(const YamlNode& node, const Scenario& scenario, bool needed, Step& step);
+  void read_place(const YamlNode& node, const Scenario& scenario, bool needed, Step& step);
+  void check_place(const YamlNode& node, const Scenario& scenario, const Step& step);
   bool too_much(const YamlNode& node);
   const YamlNode* loop_body(const YamlNode& node);
   template <class Body>

@@ -105,7 +105,10 @@ void TranscriptWriter::head(const Scenario& scenario) {
   if (!scenario.program.empty() && scenario.may_be_missing) line(4, "skip_without: " + near(scenario.program));
   if (scenario.cpu != "214") line(4, "cpu: " + scenario.cpu);
   if (!scenario.times.empty()) line(4, "times: " + (find_times(scenario.times) ? scenario.times : near(scenario.times)));
-  if (scenario.ppi_rates != kUsualPpiRates) line(4, fmt::format("ppi_baud: \"{}\"", s7200::to_text(scenario.ppi_rates)));
+  const SystemBlock &block = scenario.system_block, usual{};
+  if (block.ppi_rates != usual.ppi_rates) line(4, fmt::format("ppi_baud: \"{}\"", s7200::to_text(block.ppi_rates)));
+  if (block.ppi_stations != usual.ppi_stations)
+    line(4, fmt::format("ppi_station: \"{}\"", s7200::to_text(block.ppi_stations)));
   line_settings(scenario.line);
   if (transcript_.tolerance > 0) line(4, "tolerance: " + exact(transcript_.tolerance));
   if (transcript_.live) return;

@@ -7,6 +7,7 @@
 
 #include "serial_sim/system/system.hpp"
 #include "tools/rig/capture_files.hpp"
+#include "tools/slave/peer_master.hpp"
 #include "tools/slave/slave.hpp"
 
 namespace s7200::tools {
@@ -17,15 +18,15 @@ class PeerSlave final : public SlaveInSimulation {
   PeerSlave(std::unique_ptr<serial::Automaton> station, const serial::LineSettings& line,
             const std::vector<serial::Fault>& faults, std::string name);
 
-  /// After Ctrl-C what there was of it. Throws std::invalid_argument for a byte with wrong parity in a format without.
-  serial::Exchange exchange(const serial::Request& request) override;
-  serial::Exchange receive(const serial::Listening& listening) override;
+  /// As those of PeerMaster.
+  serial::Exchange exchange(const serial::Request& request) override { return master_.exchange(request); }
+  serial::Exchange receive(const serial::Listening& listening) override { return master_.receive(listening); }
   void wait(Time duration) override { system_.run_until(system_.time() + duration); }
   Time now() const override { return system_.time(); }
-  Time pause() const override;
-  std::string remark() const override { return remark_; }
+  Time pause() const override { return master_.pause(); }
+  std::string remark() const override { return master_.remark(); }
   std::string name() const override { return name_; }
-  SerialFormat format() const override { return master_.uart().state().format; }
+  SerialFormat format() const override { return master_.format(); }
 
   const serial::Faults& faults() { return line_.faults(); }
 
@@ -33,14 +34,12 @@ class PeerSlave final : public SlaveInSimulation {
   void capture(CaptureFiles& captures) { captures.watch(station_, system_.time()); }
 
  private:
-  serial::Exchange finish();
-
   serial::System system_;
   serial::SharedLine& line_;
   serial::ResponderStation& station_;
-  serial::RequesterStation& master_;
+  serial::RequesterStation& requester_;
+  PeerMaster master_;
   std::string name_;
-  std::string remark_;
 };
 
 }  // namespace s7200::tools

@@ -139,8 +139,9 @@ TEST(Ppi, SilenceIsOfTheRateOfThePort) {
 }
 
 TEST(Ppi, EachPortHasARateOfItsOwnAndComesBackToItFromFreeport) {
-  const auto program = with_ppi_rates(*program_of("LD SM0.7\nMOVB 16#89, SMB30\nLDN SM0.7\nMOVB 0, SMB30\nMEND\n", cpu226()),
-                                      {19200, 187500});
+  const auto program =
+      with_system_block(*program_of("LD SM0.7\nMOVB 16#89, SMB30\nLDN SM0.7\nMOVB 0, SMB30\nMEND\n", cpu226()),
+                        {.ppi_rates = {19200, 187500}});
   Plc plc(program);
   EXPECT_EQ(plc.port.format.baud, 19200U);
   EXPECT_EQ(plc.port1.format.baud, 187500U);
@@ -208,6 +209,37 @@ TEST(Ppi, ItsStationIsWhatTheProgramHasSet) {
   Master master(plc);
   EXPECT_EQ(master.ask(kReadVb100, 2), Bytes{});
   EXPECT_EQ(code_of(master.ask(kReadVb100, 7)), 0xFF);
+}
+
+TEST(Ppi, ItsStationIsThatOfTheSystemBlockUntilTheProgramSetsAnother) {
+  Plc plc(with_system_block(*program_of("LD SM0.0\nMEND\n", cpu214()), {.ppi_stations = {9, 9}}));
+  plc.run_until(5 * ms);
+  Master master(plc);
+  EXPECT_EQ(master.ask(kReadVb100, 2), Bytes{});
+  EXPECT_EQ(code_of(master.ask(kReadVb100, 9)), 0xFF);
+  Plc other(
+      with_system_block(*program_of("LD SM0.1\nMOVB 7, VB0\nSPA VB0, 0\nMEND\n", cpu226()), {.ppi_stations = {9, 10}}));
+  other.run_until(5 * ms);
+  EXPECT_EQ(other.cpu.state().station[0], 7);
+  EXPECT_EQ(other.cpu.state().station[1], 10);
+}
+
+TEST(PpiStations, AreFrom1To126) {
+  std::string why;
+  const auto stations = [&](std::string_view text, const CpuModel& model) {
+    why.clear();
+    return parse_ppi_stations(text, model, why).value_or(PpiStations{});
+  };
+  EXPECT_EQ(stations("1", cpu214()), (PpiStations{1, 1}));
+  EXPECT_EQ(stations("3, 126", cpu226()), (PpiStations{3, 126}));
+  for (const std::string_view wrong : {"0", "127", "256", "-1", "x", ""}) {
+    EXPECT_EQ(stations(wrong, cpu226()), PpiStations{}) << wrong;
+    EXPECT_EQ(why, fmt::format("'{}' is not a PPI station from 1 to 126", wrong));
+  }
+  EXPECT_EQ(stations("3,4", cpu214()), PpiStations{});
+  EXPECT_EQ(why, "CPU 214 has no port 1 for the second station; a second port needs CPU 216, 224XP, 226, 226r1 or 226XM");
+  EXPECT_EQ(to_text(PpiStations{3, 4}), "3,4");
+  EXPECT_EQ(to_text(PpiStations{3, 3}), "3");
 }
 
 TEST(Ppi, TheModeSwitchTurnsFreeportOnAndOffWhereTheProgramCopiesIt) {

@@ -18,9 +18,10 @@ SystemFile read(const std::string& text) { return read_system(text, test::source
 TEST(SystemFile, NamesPlcsPeersAndLinesAndWhoIsOnThem) {
   const SystemFile file = read(
       "plcs:\n"
-      "  gateway: {program: ../modbus_slave.stl, cpu: 226, ppi_baud: \"9600,187500\", station: 9, set: {VW0: 5}, dump: "
+      "  gateway: {program: ../modbus_slave.stl, cpu: 226, ppi_baud: \"9600,187500\", ppi_station: \"7,8\", station: 9, "
+      "set: {VW0: 5}, dump: "
       "[VW0]}\n"
-      "  slave: {program: ../modbus_slave.stl, copies: 2, station: 3}\n"
+      "  slave: {program: ../modbus_slave.stl, copies: 2, station: 3, ppi_station: 20}\n"
       "peers:\n"
       "  master: {polls: [{station: 3..4, read: 40001, count: 2}, {station: 9, write: 00005, value: 1}], every: 1s}\n"
       "  old: {westinghouse: lan, model: pc1250, settings: [unit=07], sync: gateway.Q1.2}\n"
@@ -40,8 +41,15 @@ TEST(SystemFile, NamesPlcsPeersAndLinesAndWhoIsOnThem) {
   ASSERT_TRUE(plan.peers[1].sync);
   EXPECT_EQ(plan.peers[1].sync->plc, 0U);
   EXPECT_EQ(plan.peers[1].sync->point, (serial::OutputPoint{1, 2}));
-  EXPECT_EQ(plan.plcs[0].program->ppi_rates, (PpiRates{9600, 187500}));
-  EXPECT_EQ(plan.plcs[1].program->ppi_rates, kUsualPpiRates);
+  EXPECT_FALSE(read("plcs: {a: {program: ../modbus_slave.stl}}\npeers: {m: {westinghouse: lan, sync: master}}\n"
+                    "lines: {l: {stations: [a, m]}}\n")
+                   .plan.peers[0]
+                   .sync)
+      << "the master that joins the line drives it";
+  EXPECT_EQ(plan.plcs[0].program->system_block.ppi_rates, (PpiRates{9600, 187500}));
+  EXPECT_EQ(plan.plcs[0].program->system_block.ppi_stations, (PpiStations{7, 8}));
+  EXPECT_EQ(plan.plcs[1].program->system_block, (SystemBlock{.ppi_rates = {9600, 9600}, .ppi_stations = {20, 20}}));
+  EXPECT_EQ(plan.plcs[2].program->system_block.ppi_stations, (PpiStations{21, 21})) << "the next copy";
   ASSERT_EQ(plan.lines.size(), 2U);
   EXPECT_EQ(plan.lines[0].stations.size(), 4U);
   EXPECT_EQ(plan.lines[1].stations[0].port, 1);
@@ -60,6 +68,7 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {"", 0, 0, "nothing in it"},
       {"a: *x\n", 1, 4, "anchors and aliases (& and *) have no place in a system file"},
       {"plc: {}\n", 1, 1, "'plc' has no place here"},
+      {"system: plant.yaml\nsteps: []\n", 2, 8, "'steps' is of a scenario"},
       {slave, 1, 1, "no line: no one would hear another"},
       {"plcs: [a]\n", 1, 7, "'plcs' is a map of names, not a list"},
       {"plcs: {a: {}}\n", 1, 8, "PLC 'a' has no program"},
@@ -85,6 +94,8 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {"peers: {m: {polls: [{read: 40001}]}}\nlines: {}\n", 1, 1, "no line"},
       {"peers: {m: {westinghouse: telex}}\n", 1, 27, "there is no protocol 'telex'"},
       {"peers: {m: {westinghouse: lan, settings: [colour=red]}}\n", 1, 43, "'colour=red' is not a setting"},
+      {"peers: {m: {westinghouse: modbus, settings: [HR20=1, holding_registers=10]}}\n", 1, 46,
+       "HR20 is not there: holding_registers=10"},
       {"peers: {m: {westinghouse: lan}}\n", 1, 27, "nothing drives the sync signal"},
       {slave + "peers: {m: {westinghouse: lan, sync: a.I0.0}}\n", 2, 38, "'I0.0' is not an output point"},
       {slave + "peers: {m: {westinghouse: lan, sync: a.QB0}}\n", 2, 38, "'QB0' is not an output point"},
@@ -94,6 +105,11 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {slave + "peers: {m: {westinghouse: hppc, sync: a.Q0.0}}\n", 2, 39, "this PLC has no sync signal, or ignores it"},
       {"plcs: {a: {program: ../modbus_slave.stl, ppi_baud: 38400}}\n", 1, 52, "'38400' is not a rate of PPI"},
       {"plcs: {a: {program: ../modbus_slave.stl, ppi_baud: 187500}}\n", 1, 52, "PPI at 187500 baud needs CPU 22x"},
+      {"plcs: {a: {program: ../modbus_slave.stl, ppi_station: 127}}\n", 1, 55, "'127' is not a PPI station from 1 to 126"},
+      {"plcs: {a: {program: ../modbus_slave.stl, ppi_station: \"3,4\"}}\n", 1, 55,
+       "CPU 214 has no port 1 for the second station"},
+      {"plcs: {a: {program: ../modbus_slave.stl, copies: 3, ppi_station: 125}}\n", 1, 66,
+       "the last copy would be PPI station 127"},
       {"peers: {m: {polls: [{read: 40001}]}}\nlines: {l: {stations: [m], capture: [x.pcap]}}\n", 2, 37,
        "no PLC is on line 'l'"},
       {"peers: {m: {polls: [{read: 40001}]}}\n" + slave + "lines: {l: {stations: [a]}}\n", 1, 9, "'m' is on no line"},
@@ -159,6 +175,38 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
     EXPECT_EQ(first.position.line, each.line) << each.text << first.message;
     EXPECT_EQ(first.position.column, each.column) << each.text << first.message;
   }
+}
+
+std::vector<std::string> warnings_of(const std::string& text) {
+  const SystemFile file = read(text);
+  EXPECT_TRUE(file.ok()) << text;
+  std::vector<std::string> warnings;
+  for (const stl::Diagnostic& each : file.file.diagnostics) warnings.push_back(each.message);
+  return warnings;
+}
+
+TEST(SystemFile, PlcsOfOneLineThatMayAnswerAtTheSamePpiStationAreNamed) {
+  const auto line = [](std::string_view first, std::string_view second) {
+    return fmt::format("plcs: {{a: {{program: {}}}, b: {{program: {}}}}}\nlines: {{bus: {{stations: [a, b]}}}}\n", first,
+                       second);
+  };
+  const std::string_view freeport = "../modbus_slave.stl", ppi = "../edge_counter.stl";
+  using Warnings = std::vector<std::string>;
+  const auto both = [](int station) {
+    return Warnings{
+        fmt::format("PPI station {} on line 'bus' is a, b: they answer at the same time, and the answers collide", station)};
+  };
+  const auto at = [](std::string_view program, int station) { return fmt::format("{}, ppi_station: {}", program, station); };
+  EXPECT_EQ(warnings_of(line(ppi, ppi)), both(2));
+  EXPECT_EQ(warnings_of(line(ppi, at(ppi, 3))), Warnings{});
+  EXPECT_EQ(warnings_of(line(at(ppi, 3), at(ppi, 3))), both(3));
+  EXPECT_EQ(warnings_of(line(at(freeport, 3), at(freeport, 3))), both(3)) << "someone has set them so";
+  EXPECT_EQ(warnings_of(line(freeport, freeport)), Warnings{}) << "in Freeport mode from the first scan on";
+  EXPECT_EQ(
+      warnings_of(fmt::format(
+          "plcs: {{a: {{program: {0}, cpu: 226}}}}\nlines: {{one: {{stations: [a]}}, two: {{stations: [a.1]}}}}\n", ppi)),
+      Warnings{})
+      << "two lines";
 }
 
 TEST(SystemFile, ASystemTakesAThousandStations) {

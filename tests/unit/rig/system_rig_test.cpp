@@ -18,7 +18,8 @@ std::string example(const std::string& name) { return test::source_path("stl_pro
 
 std::unique_ptr<Rig> rig_of(const std::string& text) {
   SystemFile file = read_system(text, example("test.yaml"));
-  for (const stl::Diagnostic& d : file.file.diagnostics) ADD_FAILURE() << d.position.line << ": " << d.message;
+  for (const stl::Diagnostic& d : file.file.diagnostics)
+    if (d.severity == stl::Severity::Error) ADD_FAILURE() << d.position.line << ": " << d.message;
   std::vector<std::string> problems;
   auto rig = file.ok() ? Rig::assemble(std::move(file.plan), {.path = example("test.yaml")}, problems) : nullptr;
   for (const std::string& problem : problems) ADD_FAILURE() << problem;
@@ -377,6 +378,40 @@ TEST(SystemRig, NetrReadsAnotherCpuAtEachRateOfPpiThatBothHave) {
   ASSERT_TRUE(apart);
   apart->system().run_until(2 * kSecond);
   EXPECT_EQ(job_status(*apart, 0) & 0xA0U, 0xA0U) << "done, with an error";
+}
+
+/// A CPU 214 has no SPA: its station is that of its system block, before and after it was without power.
+TEST(SystemRig, NetrReadsACpuAtThePpiStationOfItsSystemBlock) {
+  const auto rig = rig_of(
+      fmt::format("plcs:\n  master: {{program: {}, cpu: 224}}\n"
+                  "  slave: {{program: ../edge_counter.stl, copies: 2, ppi_station: 3, set: {{VD200: 16#01020304}}}}\n"
+                  "lines: {{bus: {{stations: [master, slave]}}}}\n",
+                  netr_at(4, 300)));
+  ASSERT_TRUE(rig);
+  EXPECT_EQ(rig->plc(2).cpu().state().station[0], 4) << "the next copy";
+  for (const bool on : {false, true})
+    rig->carry_out(
+        {.what = on ? EventPlan::What::PowerOn : EventPlan::What::PowerOff, .station = {StationPlan::Kind::Plc, 1}});
+  rig->carry_out({.what = EventPlan::What::PowerOff, .station = {StationPlan::Kind::Plc, 2}});
+  rig->system().run_until(2 * kSecond);
+  EXPECT_EQ(job_status(*rig, 0), 0x80U);
+  EXPECT_EQ(double_word(*rig, 0, 107), 0x01020304U);
+}
+
+/// As on a real network: both accept the request at once, which looks like one, and their answers are driven one over the
+/// other.
+TEST(SystemRig, TwoPlcsAtOnePpiStationAnswerAtTheSameTime) {
+  for (const bool alike : {true, false}) {
+    const auto rig =
+        rig_of(fmt::format("plcs:\n  master: {{program: {}, cpu: 224}}\n"
+                           "  a: {{program: ../edge_counter.stl, cpu: 224, ppi_station: 3, set: {{VD200: 16#01020304}}}}\n"
+                           "  b: {{program: ../edge_counter.stl, cpu: 224, ppi_station: 3, set: {{VD200: {}}}}}\n"
+                           "lines: {{bus: {{stations: [master, a, b], contention: 1}}}}\n",
+                           netr_at(4), alike ? "16#01020304" : "16#F1020304"));
+    ASSERT_TRUE(rig);
+    rig->system().run_until(2 * kSecond);
+    EXPECT_EQ(job_status(*rig, 0) & 0xA0U, alike ? 0x80U : 0xA0U) << "done, with an error if the answers differ";
+  }
 }
 
 /// Counts what is not modelled.

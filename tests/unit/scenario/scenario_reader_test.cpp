@@ -592,13 +592,60 @@ TEST(ScenarioReader, AddressesOfAStepAreThoseOfItsPlc) {
   ASSERT_EQ(file.diagnostics.size(), 1U) << "a CPU 214 does not";
 }
 
+std::string file_of(const std::string& name, const std::string& text) {
+  const std::string path = testing::TempDir() + name;
+  std::ofstream(path) << text;
+  return path;
+}
+
+const std::string kOthers =
+    "peers:\n  usual: {westinghouse: modbus, model: pc1200, settings: [slave=05, \"HR1=1234\"]}\n"
+    "  other: {westinghouse: modbus, model: pc1250, settings: [slave=06, baud=19200, \"HR1=5678\"]}\n"
+    "  panel: {polls: [{station: 7, read: 40001}]}\n"
+    "lines:\n  east: {stations: [usual]}\n  west: {stations: [other]}\n  empty: {stations: [panel]}\n";
+
+TEST(ScenarioReader, AStepOfASystemWithoutAnS7200IsAboutALine) {
+  const std::string path = file_of("others.yaml", kOthers);
+  const Scenario s = good("system: " + path +
+                          "\non: east\nsteps:\n  - {read: holding 0}\n  - {read: holding 0, on: west}\n"
+                          "  - {fault: flip, on: west, station: other}\n  - power_off: usual\n");
+  EXPECT_TRUE(s.is_of_peers());
+  EXPECT_EQ(s.steps[0].line, 0U);
+  EXPECT_EQ(s.steps[1].line, 1U);
+  EXPECT_EQ(s.steps[2].line, 1U);
+  EXPECT_FALSE(s.steps[0].spot || s.steps[3].line);
+  const auto complaint = [&](const std::string& step) {
+    const ScenarioFile file = read("system: " + path + "\nsteps:\n  - " + step + "\n");
+    return file.diagnostics.empty() ? "" : file.diagnostics[0].message;
+  };
+  EXPECT_EQ(complaint("{read: holding 0}"), "there are several lines, east, west, empty: name one of them");
+  EXPECT_EQ(complaint("{read: holding 0, on: north}"), "there is no line 'north': the lines are east, west, empty");
+  EXPECT_EQ(complaint("{read: holding 0, on: empty}"), "no PLC is on line 'empty'");
+  for (const char* const step : {"{set: {VW0: 1}, on: east}", "{memory: {VW0: 1}, on: east}", "{mode: run, on: east}"})
+    EXPECT_NE(complaint(step).find("is about an S7-200, and there is none in "), std::string::npos) << step;
+}
+
+TEST(ScenarioReader, AFaultOfAStationNamesOneOnItsLine) {
+  const auto complaint = [&](const std::string& text) {
+    const ScenarioFile file = read(text);
+    return file.diagnostics.empty() ? "" : file.diagnostics[0].message;
+  };
+  EXPECT_EQ(complaint(kGateway + "steps:\n  - {fault: flip, on: field, station: pump}\n"), "");
+  EXPECT_EQ(complaint(kGateway + "steps:\n  - {fault: flip, on: office, station: pump}\n"),
+            "'pump' is not on line 'office'");
+  EXPECT_EQ(complaint(kGateway + "steps:\n  - {fault: none, on: field, station: pump}\n"),
+            "'station' says whose fault it is in a system");
+  EXPECT_EQ(complaint("program: x.stl\nsteps:\n  - {fault: flip, station: pump}\n"),
+            "'station' says whose fault it is in a system");
+}
+
 TEST(ScenarioReader, ASystemWithoutAPlcIsRefused) {
   const std::string path = testing::TempDir() + "no_plc.yaml";
   std::ofstream(path) << "peers:\n  panel:\n    polls:\n      - {station: 7, read: 40001, count: 2}\n    every: 150ms\n"
                          "lines:\n  field:\n    stations: [panel]\n";
   const ScenarioFile file = read("system: " + path + "\nsteps:\n  - wait: 1ms\n");
   ASSERT_EQ(file.diagnostics.size(), 1U);
-  EXPECT_EQ(file.diagnostics[0].message, path + " has no PLC on a line");
+  EXPECT_EQ(file.diagnostics[0].message, path + " has no line with a PLC and room for a master");
 }
 
 TEST(ScenarioReader, WhatASystemFileWouldRecordIsLeftAside) {

@@ -310,6 +310,18 @@ TEST(WestinghouseSetting, WhatIsNotASettingIsNamedWithThoseThereAre) {
   }
 }
 
+TEST(WestinghouseSetting, CellsThatASmallerMemoryNoLongerHasAreNotReached) {
+  std::string why;
+  const auto plc = make_plc(*find_plc("modbus"), "pc1200", why);
+  for (const char* const text : {"HR100=1,2", "CR9=1", "holding_registers=100", "coils=9"})
+    ASSERT_TRUE(plc->set(text, why)) << why;
+  EXPECT_FALSE(plc->still_reaches("HR100=1,2", why));
+  EXPECT_EQ(why, "HR101 is not there: holding_registers=100; set more of them first");
+  EXPECT_TRUE(plc->still_reaches("HR99=1,2", why));
+  EXPECT_TRUE(plc->still_reaches("CR9=1", why));
+  EXPECT_TRUE(plc->still_reaches("coils=9", why)) << "a setting";
+}
+
 TEST(WestinghouseSetting, AModelThatDoesNotSpeakTheProtocolIsNamedWithThoseThatDo) {
   std::string why;
   EXPECT_EQ(make_plc(*find_plc("modbus"), "pc1100", why), nullptr);

@@ -34,12 +34,13 @@ std::unique_ptr<ProgramBand> BandOptions::load(const ProgramOptions& program, in
   exit_code = kUnusable;
   const CpuModel* model = program.model();
   auto text = model ? read_project(program.path, program.parts) : std::nullopt;
-  if (!text || !program.load(*text, exit_code)) return nullptr;
+  const auto checked = text ? program.load(*text, exit_code) : nullptr;
+  if (!checked) return nullptr;
   std::vector<std::string> errors, unknown;
   auto tables = load_band(*model, program.times_table, settings_, errors);
   if (!tables) return nullptr;  // load() has said why
   repair(text->parsed.source, program.repairs, unknown);
-  return std::make_unique<ProgramBand>(std::move(text->parsed), *model, std::move(*tables), *program.ppi_rates(*model));
+  return std::make_unique<ProgramBand>(std::move(text->parsed), *model, std::move(*tables), checked->system_block);
 }
 
 std::string band_title(const CpuOptions& cpu, const BandSettings& settings) {

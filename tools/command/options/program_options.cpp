@@ -72,8 +72,12 @@ void CpuOptions::add_to(CLI::App& app) {
       ->type_name("FILE");
   app.add_option("--ppi-baud", ppi_baud,
                  fmt::format("rate of PPI: 9600, 19200 or, on CPU 22x, 187500; 9600,187500: port 0 and port 1 [{}]",
-                             s7200::to_text(kUsualPpiRates)))
+                             s7200::to_text(SystemBlock{}.ppi_rates)))
       ->type_name("BAUD[,BAUD]");
+  app.add_option("--ppi-station", ppi_station,
+                 fmt::format("PPI station until SPA sets another, 1 to 126; 3,4: port 0 and port 1 [{}]",
+                             s7200::to_text(SystemBlock{}.ppi_stations)))
+      ->type_name("NUMBER[,NUMBER]");
   add_repair_option(app, repairs);
   add_no_skip_option(app, every_scan);
 }
@@ -81,7 +85,7 @@ void CpuOptions::add_to(CLI::App& app) {
 const CpuModel* CpuOptions::model() const {
   const CpuModel* found = find_cpu(cpu);
   if (!found) print_error(unknown_cpu(cpu));
-  return found && ppi_rates(*found) ? found : nullptr;
+  return found;
 }
 
 std::optional<TimeTable> CpuOptions::times(const CpuModel& model) const {
@@ -91,12 +95,14 @@ std::optional<TimeTable> CpuOptions::times(const CpuModel& model) const {
   return times;
 }
 
-std::optional<PpiRates> CpuOptions::ppi_rates(const CpuModel& model) const {
-  if (ppi_baud.empty()) return kUsualPpiRates;
+std::optional<SystemBlock> CpuOptions::system_block(const CpuModel& model) const {
+  const SystemBlock usual;
   std::string why;
-  const auto rates = parse_ppi_rates(ppi_baud, model, why);
-  if (!rates) print_error("--ppi-baud: " + why);
-  return rates;
+  const auto rates = ppi_baud.empty() ? usual.ppi_rates : parse_ppi_rates(ppi_baud, model, why);
+  if (!rates) return print_error("--ppi-baud: " + why), std::nullopt;
+  const auto stations = ppi_station.empty() ? usual.ppi_stations : parse_ppi_stations(ppi_station, model, why);
+  if (!stations) return print_error("--ppi-station: " + why), std::nullopt;
+  return SystemBlock{*rates, *stations};
 }
 
 void ProgramOptions::add_to(CLI::App& app) {
@@ -133,7 +139,8 @@ std::shared_ptr<const Program> ProgramOptions::load(SourceText text, int& exit_c
   exit_code = kUnusable;
   const CpuModel* cpu_model = model();
   if (!cpu_model) return nullptr;
-  const auto table = times(*cpu_model);
+  const auto block = system_block(*cpu_model);
+  const auto table = block ? times(*cpu_model) : std::nullopt;
   if (!table) return nullptr;
   if (!repair(text, repairs)) return nullptr;
   print_note_if_any(left_out_note(text));
@@ -143,7 +150,7 @@ std::shared_ptr<const Program> ProgramOptions::load(SourceText text, int& exit_c
   if (!result.program) print_error(fmt::format("{} has errors; nothing was run", result.source.name));
   exit_code = result.program ? kFine : kCheckFailed;
   auto program = std::move(result.program);
-  if (program && !ppi_baud.empty()) program = with_ppi_rates(*program, *ppi_rates(*cpu_model));
+  if (program && *block != SystemBlock{}) program = with_system_block(*program, *block);
   return every_scan && program ? with_every_scan(*program) : program;
 }
 

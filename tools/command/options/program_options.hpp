@@ -31,16 +31,17 @@ bool repair(SourceText& text, const Repairs& repairs);
 struct CpuOptions {
   std::string cpu = "214";
   std::string times_table;  ///< a name or a file; empty: the CPU's own
-  std::string ppi_baud;     ///< as parse_ppi_rates() takes them; empty: the usual ones
+  std::string ppi_baud;     ///< as parse_ppi_rates() takes it; empty: as a CPU is delivered
+  std::string ppi_station;  ///< as parse_ppi_stations() takes it; the same
   Repairs repairs;
   bool every_scan = false;  ///< scans that are all alike are run, too
 
   void add_to(CLI::App& app);
 
-  /// The model and its times; nothing after a message. Ends in kUnusable. A model has the rates of PPI that were asked for.
+  /// The model, its times and what its ports are set to; nothing after a message. Ends in kUnusable.
   const CpuModel* model() const;
   std::optional<TimeTable> times(const CpuModel& model) const;
-  std::optional<PpiRates> ppi_rates(const CpuModel& model) const;
+  std::optional<SystemBlock> system_block(const CpuModel& model) const;
 };
 
 struct ProgramOptions : CpuOptions {

@@ -28,6 +28,10 @@ void RecordingOptions::add_to(CLI::App& verb) {
       ->check(CLI::IsMember(names))
       ->capture_default_str()
       ->type_name("NAME");
+  verb.add_option("--dle", dle, "of pc500-loader: a byte 10 in what the PLC sends")
+      ->check(CLI::IsMember({"doubled", "plain"}))
+      ->capture_default_str()
+      ->type_name("FORM");
   add_line_options(verb, line, "as the protocol has it");
   for_files_.push_back(verb.add_option("--stamps", stamps, "which instant of a frame its time is, in a recording")
                            ->check(CLI::IsMember({"begin", "end"}))
@@ -71,6 +75,17 @@ std::optional<SlaveTarget> RecordingOptions::live() const {
                   stl::shortened(file)));
 }
 
+bool RecordingOptions::was_cut_short() const { return duration != kNever && interrupted(); }
+
+RecordedProtocol RecordingOptions::spoken() const {
+  RecordedProtocol spoken = *find_recorded_protocol(protocol);
+  if (dle == "doubled") return spoken;
+  if (!spoken.plain_dle_reader)
+    throw std::invalid_argument(fmt::format("--dle plain: {} never doubles a byte 10; pc500-loader does", protocol));
+  spoken.reader = spoken.plain_dle_reader;
+  return spoken;
+}
+
 Stamps RecordingOptions::complete(Stamps known) const {
   known.timeout = timeout;
   return known;
@@ -90,7 +105,8 @@ std::unique_ptr<LineListener> open_line(const RecordingOptions& options, const S
 }
 
 bool listen(LineListener& line, const RecordingOptions& options, const std::function<void(ReadFrame)>& tell) {
-  Conversation conversation(*find_recorded_protocol(options.protocol), options.complete(line.stamps()));
+  const RecordedProtocol spoken = options.spoken();
+  Conversation conversation(spoken, options.complete(line.stamps()));
   try {
     line.listen(options.duration, conversation, tell);
     return true;
@@ -124,7 +140,7 @@ std::optional<ReadRecording> read_conversation(const RecordingOptions& options) 
       std::ranges::any_of(read.recording.frames, [](const RecordedFrame& frame) { return frame.stream != 0; });
   read.stamps =
       options.complete({.character = over_tcp ? 0 : options.format().character_time(), .at_end = options.stamps == "end"});
-  read.frames = conversation(read.recording, *find_recorded_protocol(options.protocol), read.stamps);
+  read.frames = conversation(read.recording, options.spoken(), read.stamps);
   return read;
 }
 

@@ -25,6 +25,7 @@ struct RecordingOptions {
   std::string protocol = "modbus";
   ReadingChoices reading{};
   serial::LineSettings line{};
+  std::string dle = "doubled";
   std::string stamps = "begin";
   Time timeout = kMasterTimeout;  ///< of the master
   Time duration = kNever;         ///< of what is heard live
@@ -34,6 +35,12 @@ struct RecordingOptions {
   /// A line to listen to; nothing if a file is to be read. Throws std::invalid_argument for another kind of target, and for
   /// options that do not go with what it is.
   std::optional<SlaveTarget> live() const;
+
+  /// Throws std::invalid_argument if the protocol has no such choice.
+  RecordedProtocol spoken() const;
+
+  /// Whether what ends by itself, with --for, was interrupted before that.
+  bool was_cut_short() const;
 
   /// With the master's time-out.
   Stamps complete(Stamps known) const;
@@ -59,6 +66,11 @@ std::unique_ptr<LineListener> open_line(const RecordingOptions& options, const S
 /// Listens as the options say, and tells each frame. Ends by an interruption or after `duration`. False after a message: the
 /// line is gone.
 bool listen(LineListener& line, const RecordingOptions& options, const std::function<void(ReadFrame)>& tell);
+
+/// What the help says of how listening ends.
+inline constexpr std::string_view kEndOfListening =
+    "Exit code 1 if --for was interrupted before its end; without it a line is listened to until Ctrl-C or SIGTERM, and that "
+    "is 0.\n";
 
 /// Nothing after a message. Notes are printed.
 std::optional<ReadRecording> read_conversation(const RecordingOptions& options);

@@ -125,7 +125,7 @@ void RigOptions::add_first_station_to(CLI::App& app) {
 bool RigOptions::load(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
   if (!load_one(verb, program, exit_code)) return false;
   if (!plan_) return true;
-  std::string why = why_no_room(*plan_, spot_);
+  std::string why = why_no_room(*plan_, spot_.line);
   if (!why.empty()) why = fmt::format("{}: {}", program.path, why);
   if (!plan_->bridges.empty())
     why = fmt::format("bridge '{}' of {} follows the clock, which 's7200 {}' does not: leave it out, or use 's7200 run'",

@@ -12,9 +12,9 @@ struct EventOfSystemStep final : Action {
   std::string written{};              ///< `cut: bus`
   std::vector<std::string> beside{};  ///< `after: slave1`
 
-  Needs needs() const override { return Needs::ToChange; }
+  Needs needs() const override { return Needs::Around; }
 
-  void act(Run& run) const override { run.plant()->carry_out(event); }
+  void act(Run& run) const override { run.carry_out(event); }
 
   bool write(TranscriptWriter& writer) const override {
     writer.step(written);

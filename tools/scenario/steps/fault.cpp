@@ -2,6 +2,7 @@
 #include "serial_sim/faults/fault.hpp"
 
 #include "interpreter/base/text.hpp"
+#include "tools/rig/system_reading.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/steps.hpp"
 #include "tools/scenario/transcript_writer.hpp"
@@ -11,11 +12,15 @@ namespace {
 
 struct FaultStep final : Action {
   std::optional<serial::Fault> fault{};
+  std::optional<EventPlan> event{};  ///< the same in a system
+  std::string station{};             ///< as it was written
 
-  Needs needs() const override { return Needs::ToChange; }
+  Needs needs() const override { return Needs::Around; }
 
   void act(Run& run) const override {
-    if (fault)
+    if (event)
+      run.carry_out(*event);
+    else if (fault)
       run.plant()->simulation().inject(*fault);
     else
       run.plant()->simulation().clear_faults();
@@ -23,27 +28,52 @@ struct FaultStep final : Action {
 
   bool write(TranscriptWriter& writer) const override {
     writer.step("fault: " + (fault ? serial::to_text(*fault) : "none"));
+    if (!station.empty()) writer.beside("station: " + station);
     return true;
   }
 };
+
+std::optional<serial::Fault> parse_fault_of(const StepSource& source, const std::string& written) {
+  serial::ParsedFault parsed = serial::parse_fault(written);
+  if (parsed.ok()) return std::move(parsed.fault);
+  YamlNode place = source.is;
+  if (written == source.is.text) {
+    place.position.column += static_cast<std::uint32_t>(parsed.error->column - 1);
+    place.position.length = static_cast<std::uint32_t>(parsed.error->length);
+  }
+  source.values.wrong(place, parsed.error->message);
+  return {};
+}
+
+/// The event that does it; nothing after a complaint.
+std::optional<EventPlan> event_of(const StepSource& source, const std::optional<serial::Fault>& fault) {
+  const SystemPlan& plan = *source.scenario.plan;
+  EventPlan event{.what = fault ? EventPlan::What::Fault : EventPlan::What::ClearFaults,
+                  .line = source.step.spot ? source.step.spot->line : source.step.line.value()};
+  if (!fault) return event;
+  const auto of = read_fault(source.is, source.beside("station"), plan.lines[event.line], plan, source.values);
+  if (!of) return {};
+  event.fault = *of;
+  return event;
+}
 
 }  // namespace
 
 std::shared_ptr<const Action> read_fault(const StepSource& source) {
   auto step = std::make_shared<FaultStep>();
   const auto written = source.values.text(source.is);
-  if (!written || stl::lower_case(*written) == "none") return step;
-  serial::ParsedFault parsed = serial::parse_fault(*written);
-  if (parsed.ok()) {
-    step->fault = std::move(parsed.fault);
-    return step;
+  const bool none = !written || stl::lower_case(*written) == "none";
+  if (!none) step->fault = parse_fault_of(source, *written);
+  if (!none && !step->fault) return step;
+  if (const YamlNode* const station = source.beside("station")) {
+    if (none || !source.scenario.plan) {
+      source.values.wrong(*station, "'station' says whose fault it is in a system",
+                          none ? "fault: none ends all faults of the line" : "name the file of one with 'system:'");
+      return step;
+    }
+    step->station = source.values.text(*station).value_or("");
   }
-  YamlNode place = source.is;
-  if (*written == source.is.text) {
-    place.position.column += static_cast<std::uint32_t>(parsed.error->column - 1);
-    place.position.length = static_cast<std::uint32_t>(parsed.error->length);
-  }
-  source.values.wrong(place, parsed.error->message);
+  if (source.scenario.plan) step->event = event_of(source, step->fault);
   return step;
 }
 

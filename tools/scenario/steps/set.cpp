@@ -13,7 +13,11 @@ struct SetStep final : Action {
 
   Needs needs() const override { return Needs::ToChange; }
 
+  /// A programming device does not reach a PLC without power.
   void act(Run& run) const override {
+    if (!run.plant()->has_power())
+      return run.add(
+          {.what = "set", .expected = "a PLC with power", .found = "it has none: nothing was set", .of_run = true});
     for (const Assignment& assignment : assignments) assign(run.plant()->cpu(), assignment);
   }
 

@@ -18,7 +18,7 @@ constexpr StepKind kKinds[] = {
     {"mode", read_mode, "run, stop", "what mode the CPU must be in"},
     {"fatal", read_fatal, "CODE or none", "the fatal error there must have been: `0003`"},
     {"errors", read_errors, "MAP or none", "all run-time errors there must have been: `{0092: 3, 0006: 1..}`"},
-    {"fault", read_fault, "FAULT or none", "a fault of the line from now on, as of `--fault`; or none any more"},
+    {"fault", read_fault, "FAULT or none", "a fault of the line from now on, as of `--fault`, or of one `station` there; or none any more"},
     {"power_cycle", read_power_cycle, "memory kept, memory lost", "power off and on again, for a short or a long time; of a program"},
     {"power_off", read_event_of_system, "NAME", "one PLC or peer of a system loses power; if it is off already it stays off", StepKind::Of::System},
     {"power_on", read_event_of_system, "NAME", "its power comes back", StepKind::Of::System},

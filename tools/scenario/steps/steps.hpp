@@ -19,11 +19,14 @@ struct StepSource {
   const YamlNode& node;             ///< all of it
   const YamlNode& is;               ///< what stands at its key
   const Scenario& scenario;         ///< its head
-  const Program* of_plc = nullptr;  ///< in a system, that of the PLC it is about
+  const Step& step;                 ///< the same as far as it is known: what it is about
 
   /// What stands beside its key; null if it does not.
   const YamlNode* beside(std::string_view key) const { return node.find(key); }
-  AddressSpace addresses() const { return of_plc ? AddressSpace(*of_plc) : scenario.addresses(); }
+
+  /// In a system, the program of the PLC it is about; null if it is about none.
+  const Program* program() const { return step.spot ? scenario.plan->plcs[step.spot->plc].program.get() : nullptr; }
+  AddressSpace addresses() const { return program() ? AddressSpace(*program()) : scenario.addresses(); }
 };
 
 /// Complains about what is wrong; the action is not run then.

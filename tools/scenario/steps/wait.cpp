@@ -57,7 +57,7 @@ bool WaitStep::write(TranscriptWriter& writer) const {
 std::shared_ptr<const Action> read_wait(const StepSource& source) {
   const auto step =
       source.values.value(&source.is, ValueReader::kDuration, "20ms, 3.5 characters, 2 scans, until 1.5s", parse_wait);
-  if (step && step->scans > 0 && source.scenario.plan && !source.of_plc)
+  if (step && step->scans > 0 && source.scenario.plan && !source.program())
     source.values.wrong(source.is, "scans of which PLC?", "put on: NAME beside it");
   return std::make_shared<WaitStep>(step.value_or(WaitStep{}));
 }

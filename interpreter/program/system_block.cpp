@@ -1,0 +1,83 @@
+#include "interpreter/program/system_block.hpp"
+
+#include <fmt/format.h>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/ppi_frame.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/program/program.hpp"
+
+namespace s7200 {
+namespace {
+
+struct Rate {
+  std::uint32_t baud;
+  CpuSet cpus;
+};
+constexpr std::array kRates{Rate{9600, kEveryCpu}, Rate{19200, kEveryCpu}, Rate{187500, kCpu22x}};
+
+std::optional<std::uint32_t> parse_rate(std::string_view text, const CpuModel& model, std::string& why) {
+  const auto baud = parse_decimal<std::uint32_t>(text);
+  for (const Rate& rate : kRates) {
+    if (rate.baud != baud) continue;
+    if ((rate.cpus & model.self) != 0) return baud;
+    why = needs(fmt::format("PPI at {} baud needs", rate.baud), rate.cpus);
+    return {};
+  }
+  why = fmt::format("'{}' is not a rate of PPI; there are 9600, 19200 and, on {}, 187500", stl::shortened(text),
+                    to_text(kCpu22x));
+  return {};
+}
+
+std::optional<std::uint8_t> parse_station(std::string_view text, const CpuModel&, std::string& why) {
+  const auto station = parse_decimal<std::uint8_t>(text);
+  if (station && *station >= 1 && *station <= ppi::kLastStation) return station;
+  why = fmt::format("'{}' is not a PPI station from 1 to {}", stl::shortened(text), ppi::kLastStation);
+  return {};
+}
+
+/// One of each port, or two that are apart: port 0 and port 1.
+template <class Each>
+std::optional<std::array<Each, kPorts.size()>> parse_ports(std::string_view text, const CpuModel& model, std::string& why,
+                                                           std::string_view what,
+                                                           std::optional<Each> (*parse)(std::string_view, const CpuModel&,
+                                                                                        std::string&)) {
+  const std::size_t comma = text.find(',');
+  const auto first = parse(stl::trim(text.substr(0, comma)), model, why);
+  if (!first) return {};
+  if (comma == std::string_view::npos) return std::array{*first, *first};
+  if (model.ports < kPorts.size()) {
+    why =
+        fmt::format("CPU {} has no port 1 for the second {}; a second port needs {}", model.name, what, to_text(kTwoPorts));
+    return {};
+  }
+  const auto second = parse(stl::trim(text.substr(comma + 1)), model, why);
+  return second ? std::optional(std::array{*first, *second}) : std::nullopt;
+}
+
+template <class Each>
+std::string ports_text(const std::array<Each, kPorts.size()>& ports) {
+  return ports[0] == ports[1] ? fmt::format("{}", ports[0]) : fmt::format("{},{}", ports[0], ports[1]);
+}
+
+}  // namespace
+
+std::optional<PpiRates> parse_ppi_rates(std::string_view text, const CpuModel& model, std::string& why) {
+  return parse_ports(text, model, why, "rate", parse_rate);
+}
+
+std::optional<PpiStations> parse_ppi_stations(std::string_view text, const CpuModel& model, std::string& why) {
+  return parse_ports(text, model, why, "station", parse_station);
+}
+
+std::string to_text(const PpiRates& rates) { return ports_text(rates); }
+
+std::string to_text(const PpiStations& stations) { return ports_text(stations); }
+
+std::shared_ptr<const Program> with_system_block(const Program& program, const SystemBlock& block) {
+  const auto same = std::make_shared<Program>(program);
+  same->system_block = block;
+  return same;
+}
+
+}  // namespace s7200

@@ -1,0 +1,46 @@
+// The part of a project's system block that is modelled: ports in PPI mode. It is downloaded with the program.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "interpreter/model/cpu_model.hpp"
+#include "interpreter/model/ports.hpp"
+
+namespace s7200 {
+
+struct Program;
+
+/// In baud, by port.
+using PpiRates = std::array<std::uint32_t, kPorts.size()>;
+
+/// Addresses on the network, by port.
+using PpiStations = std::array<std::uint8_t, kPorts.size()>;
+
+/// As a CPU is delivered, if nothing else is said (facts 10.9).
+struct SystemBlock {
+  PpiRates ppi_rates{9600, 9600};
+  PpiStations ppi_stations{2, 2};
+  auto operator<=>(const SystemBlock&) const = default;
+};
+
+/// `19200` for each port of the CPU; `9600,187500` for port 0 and port 1. The rates are 9600, 19200 and, on CPU 22x, 187500
+/// (facts 10.9). Returns nothing and sets `why` for anything else.
+std::optional<PpiRates> parse_ppi_rates(std::string_view text, const CpuModel& model, std::string& why);
+
+/// The same of stations, 1 to 126: `3`; `3,4` for port 0 and port 1.
+std::optional<PpiStations> parse_ppi_stations(std::string_view text, const CpuModel& model, std::string& why);
+
+/// As they are parsed: one for both ports if they are the same.
+std::string to_text(const PpiRates& rates);
+std::string to_text(const PpiStations& stations);
+
+/// The same program with another system block.
+std::shared_ptr<const Program> with_system_block(const Program& program, const SystemBlock& block);
+
+}  // namespace s7200
