@@ -35,7 +35,8 @@
 namespace s7200::ppi {
 
 /// How a port is set while it speaks PPI, at the usual rate.
-inline constexpr SerialFormat kFormat{.baud = SystemBlock{}.ppi_rates[0], .data_bits = 8, .parity = Parity::Even, .stop_bits = 1};
+inline constexpr SerialFormat kFormat{
+    .baud = SystemBlock{}.ppi_rates[0], .data_bits = 8, .parity = Parity::Even, .stop_bits = 1};
 
 /// The same at the rate of this port.
 SerialFormat format_of(const Program& program, std::uint8_t port);

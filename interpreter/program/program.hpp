@@ -113,7 +113,7 @@ struct Program {
   std::vector<std::uint8_t> constants;          ///< content of the image from image::kConstants
   std::vector<Parameter> parameters{};          ///< of all CALLs
   std::vector<InitialData> data{};              ///< downloaded with the program
-  SystemBlock system_block{};                    ///< the same
+  SystemBlock system_block{};                   ///< the same
   std::array<std::uint32_t, 128> subroutine{};  ///< op of each SBR; kNoRoutine where there is none
   std::array<std::uint32_t, 128> interrupt{};   ///< op of each INT
 

@@ -1253,7 +1253,7 @@ class OtherPlcTests(Case):
                 process.send_signal(signal.SIGINT)
                 out, error = process.communicate(timeout=LONG)
                 self.assertIn("01 03 02 12 34 b5 33", out, "what was heard is completed")
-                self.assertEqual((process.returncode, error), (FAILED, "note: interrupted\n"))
+                self.assertEqual((process.returncode, error), (FAILED, "s7200: note: interrupted\n"))
 
     def test_listening_for_no_one_ends(self):
         near, process = self.listen("decode")

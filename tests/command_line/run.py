@@ -1575,7 +1575,7 @@ lines:
         self.assertIn("there are several lines, plant, yard: name one of them (--at NAME)",
                       self.ends(UNUSABLE, "test", scenario, "--target", others).stderr)
         for verb in (["master", others, "--at", "yard", "read", "40001"], ["send", others, "--at", "yard", "01"]):
-            self.assertIn("no S7-200 is on line 'yard'; PLCs of another make alone are asked by scenarios of 's7200 test'",
+            self.assertIn("no S7-200 is on line 'yard' for a master to stand beside; scenarios of 's7200 test' ask there",
                           self.ends(UNUSABLE, *verb).stderr)
         transcript = self.folder / "transcript.yaml"
         self.ends(FINE, "test", SOURCE / "tests/programs/systems/without_s7200.yaml", "--record", transcript)

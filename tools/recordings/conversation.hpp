@@ -47,7 +47,8 @@ class FrameReader {
 struct RecordedProtocol {
   std::string_view name;  ///< as for `master --protocol`
   std::unique_ptr<FrameReader> (*reader)();
-  /// If a byte 10 in data of the PLC is not doubled, as `master --dle plain` has it; null: the protocol leaves no such choice.
+  /// If a byte 10 in data of the PLC is not doubled, as `master --dle plain` has it; null: the protocol leaves no such
+  /// choice.
   std::unique_ptr<FrameReader> (*plain_dle_reader)() = nullptr;
 };
 std::span<const RecordedProtocol> recorded_protocols();

@@ -23,8 +23,8 @@ std::optional<Spot> beside_first_plc(const SystemPlan& plan, std::size_t line, s
   if (const StationPlan* const first = first_plc(plan.lines[line])) return Spot{line, first->number, first->port};
   why = no_plc_on(plan.lines[line]);
   if (first_other_plc(plan, plan.lines[line]))
-    why = fmt::format("no S7-200 is on line '{}'; PLCs of another make alone are asked by scenarios of 's7200 test'",
-                      plan.lines[line].name);
+    why = fmt::format("no S7-200 is on line '{}' for a master to stand beside{}", plan.lines[line].name,
+                      plan.plcs.empty() ? "; scenarios of 's7200 test' ask there" : "");
   return {};
 }
 

@@ -24,10 +24,10 @@ namespace s7200::tools {
 struct Step {
   std::string_view key{};  ///< of the action; empty if it was not written
   stl::Position position{};
-  std::string note{};          ///< shown when it fails
-  std::string loop{};          ///< `function = 3, count = 126`: which turn of its loops
-  std::string on{};            ///< in a system: the PLC or line it is about, as it was written; empty if it was not
-  std::optional<Spot> spot{};  ///< that; nothing if it is about none, or about a line of a system without an S7-200
+  std::string note{};                 ///< shown when it fails
+  std::string loop{};                 ///< `function = 3, count = 126`: which turn of its loops
+  std::string on{};                   ///< in a system: the PLC or line it is about, as it was written; empty if it was not
+  std::optional<Spot> spot{};         ///< that; nothing if it is about none, or about a line of a system without an S7-200
   std::optional<std::size_t> line{};  ///< the line it is about in such a system
   std::shared_ptr<const Action> action{};
 };

@@ -13,10 +13,10 @@ namespace s7200::tools {
 
 class PeerLines final : public SlaveInSimulation {
  public:
-  /// What the plan says is built and powered up, a master joins each line where why_no_other_plc() has nothing to say, `first`
-  /// among them, and it runs until `after`, or if that is kNever for as long as a master leaves its line quiet. The plan has
-  /// no bridges and no S7-200. `master` is how they all talk, as far as the line leaves it open. Throws SlaveUnreachable if a
-  /// file that the plan names cannot be had.
+  /// What the plan says is built and powered up, a master joins each line where why_no_other_plc() has nothing to say,
+  /// `first` among them, and it runs until `after`, or if that is kNever for as long as a master leaves its line quiet. The
+  /// plan has no bridges and no S7-200. `master` is how they all talk, as far as the line leaves it open. Throws
+  /// SlaveUnreachable if a file that the plan names cannot be had.
   PeerLines(const SystemPlan& plan, std::size_t first, const serial::MasterSettings& master, Time after,
             const std::string& path);
 

@@ -85,7 +85,7 @@ void CpuOptions::add_to(CLI::App& app) {
 const CpuModel* CpuOptions::model() const {
   const CpuModel* found = find_cpu(cpu);
   if (!found) print_error(unknown_cpu(cpu));
-  return found;
+  return found && system_block(*found) ? found : nullptr;
 }
 
 std::optional<TimeTable> CpuOptions::times(const CpuModel& model) const {
@@ -139,8 +139,7 @@ std::shared_ptr<const Program> ProgramOptions::load(SourceText text, int& exit_c
   exit_code = kUnusable;
   const CpuModel* cpu_model = model();
   if (!cpu_model) return nullptr;
-  const auto block = system_block(*cpu_model);
-  const auto table = block ? times(*cpu_model) : std::nullopt;
+  const auto table = times(*cpu_model);
   if (!table) return nullptr;
   if (!repair(text, repairs)) return nullptr;
   print_note_if_any(left_out_note(text));
@@ -150,7 +149,8 @@ std::shared_ptr<const Program> ProgramOptions::load(SourceText text, int& exit_c
   if (!result.program) print_error(fmt::format("{} has errors; nothing was run", result.source.name));
   exit_code = result.program ? kFine : kCheckFailed;
   auto program = std::move(result.program);
-  if (program && *block != SystemBlock{}) program = with_system_block(*program, *block);
+  const SystemBlock block = *system_block(*cpu_model);
+  if (program && block != SystemBlock{}) program = with_system_block(*program, block);
   return every_scan && program ? with_every_scan(*program) : program;
 }
 

@@ -38,7 +38,8 @@ struct CpuOptions {
 
   void add_to(CLI::App& app);
 
-  /// The model, its times and what its ports are set to; nothing after a message. Ends in kUnusable.
+  /// The model and its times; nothing after a message. Ends in kUnusable. A model can have the system block that was asked
+  /// for.
   const CpuModel* model() const;
   std::optional<TimeTable> times(const CpuModel& model) const;
   std::optional<SystemBlock> system_block(const CpuModel& model) const;

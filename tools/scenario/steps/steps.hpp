@@ -16,10 +16,10 @@ namespace s7200::tools {
 /// What a step is read from.
 struct StepSource {
   ValueReader& values;
-  const YamlNode& node;             ///< all of it
-  const YamlNode& is;               ///< what stands at its key
-  const Scenario& scenario;         ///< its head
-  const Step& step;                 ///< the same as far as it is known: what it is about
+  const YamlNode& node;      ///< all of it
+  const YamlNode& is;        ///< what stands at its key
+  const Scenario& scenario;  ///< its head
+  const Step& step;          ///< the same as far as it is known: what it is about
 
   /// What stands beside its key; null if it does not.
   const YamlNode* beside(std::string_view key) const { return node.find(key); }
