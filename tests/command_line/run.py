@@ -2051,7 +2051,7 @@ class Files(Case):
         self.assertEqual(text.count("- send:"), 3, text)
         self.assertIn("- send: 01 03 00\n", text)
         self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
-        done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"continue 100ms; {ask} continue 17ms; send cancel; record {recorded} !")
+        done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"continue 100ms; {ask} continue 25ms; send cancel; record {recorded} !")
         self.assertIn("a request was given up within its answer at ", done.stderr)
 
     def test_what_cannot_be_recorded_says_what_to_do(self):

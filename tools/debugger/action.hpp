@@ -28,7 +28,7 @@ struct SendFrame {
 struct CancelRequest {
   std::size_t sent = 0;    ///< characters that have begun
   Time waited = 0;         ///< since the end of the request; 0 before
-  bool answering = false;  ///< characters of an answer have come
+  bool answering = false;  ///< an answer has begun
 };
 
 /// Points and memory that hold a value until they are released.

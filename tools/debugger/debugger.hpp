@@ -213,6 +213,7 @@ class Debugger {
   std::size_t station_of_request() const;
   Error switch_power(bool on);
   Error without_power(std::string_view command) const;
+  void say_without_power();
   void look_at(std::size_t station);
   void note_new_branch();
   void note_the_past();

@@ -322,6 +322,7 @@ Debugger::Error Debugger::list(const Arguments& arguments) {
 
 Debugger::Error Debugger::registers(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("regs");
+  say_without_power();
   out_ << registers_text(simulation().cpu(), listing());
   return {};
 }
@@ -378,6 +379,7 @@ Debugger::Error Debugger::display(const Arguments& arguments) {
 
 Debugger::Error Debugger::port(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("port");
+  say_without_power();
   out_ << port_text(simulation());
   return {};
 }

@@ -27,6 +27,10 @@ Debugger::Error Debugger::without_power(std::string_view command) const {
   return fmt::format("{}: {} is without power; 'power on' brings it back", command, name_of(focus()));
 }
 
+void Debugger::say_without_power() {
+  if (!simulation().plc().powered()) out_ << fmt::format("{} is without power; it was:\n", name_of(focus()));
+}
+
 std::uint64_t Debugger::errors_of_all() const {
   std::uint64_t errors = 0;
   for (const Station& station : stations_) errors += station.simulation->cpu().state().error_count;

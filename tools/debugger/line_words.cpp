@@ -46,14 +46,15 @@ std::string sent_text(const SendFrame& send, const serial::Simulation& simulatio
   return text;
 }
 
-std::optional<CancelRequest> cancel_of(const serial::Simulation& simulation, std::string& why) {
+std::optional<CancelRequest> cancel_of(serial::Simulation& simulation, std::string& why) {
   if (!simulation.has_master() || !simulation.master().asks())
     return why = "no request of the simulated master is under way on this line", std::nullopt;
   const serial::Requester::State& master = simulation.master().state();
   const Time end = master.exchange.request_end;
+  const bool coming_in = end != 0 && simulation.master_uart().state().start_edge < simulation.time();
   return CancelRequest{.sent = master.sent,
                        .waited = end == 0 ? 0 : simulation.time() - end,
-                       .answering = master.phase == serial::Requester::Phase::Receiving};
+                       .answering = coming_in || master.phase == serial::Requester::Phase::Receiving};
 }
 
 std::string cancelled_text(const CancelRequest& cancel, serial::Simulation& simulation) {

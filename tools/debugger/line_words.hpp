@@ -17,7 +17,7 @@ std::optional<SendFrame> send_of(const serial::Frame& frame, serial::Simulation&
 std::string sent_text(const SendFrame& send, const serial::Simulation& simulation);
 
 /// Gives up the request of the master on the line of a station, now. Returns nothing and sets `why` if it has none.
-std::optional<CancelRequest> cancel_of(const serial::Simulation& simulation, std::string& why);
+std::optional<CancelRequest> cancel_of(serial::Simulation& simulation, std::string& why);
 
 /// `given up while it waited for the answer, 12 ms after its end: 41 42`, in front of that; a line more if the master is not
 /// ready for the next request at once.

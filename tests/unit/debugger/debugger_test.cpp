@@ -510,6 +510,12 @@ TEST(Debugger, ACancelledRequestIsSaidWhereItWasAndTheMasterIsReadyForTheNext) {
   EXPECT_FALSE(has(session("rcontinue"), "unanswered, hit"));
 }
 
+TEST(Debugger, ARequestThatIsCancelledInTheFirstCharacterOfItsAnswerIsWithinIt) {
+  Session session(kEcho);
+  EXPECT_TRUE(has(session("continue 100ms; send 41; break xmt; continue; delete all; continue 500us; send cancel"),
+                  "given up within its answer, after 0 characters of it: 41\n"));
+}
+
 TEST(Debugger, ACancelledRequestIsInThePastAndInASavedSession) {
   Session session(kListening);
   session("continue 100ms; send 01 02 03 04; continue 1500us; send cancel; continue 50ms; rscan");

@@ -227,6 +227,8 @@ TEST(SystemDebugger, PowerOffAndOnAreOfThePlcLookedAtAndInThePast) {
   EXPECT_TRUE(has(session.error_of("power off"), "slave2 is without power already"));
   for (const std::string_view command : {"set VW20=1", "input I0.0=1", "force VW20=1", "unforce all"})
     EXPECT_TRUE(has(session.error_of(command), "slave2 is without power; 'power on' brings it back")) << command;
+  EXPECT_TRUE(has(session("port"), "slave2 is without power; it was:\nSMB30 "));
+  EXPECT_TRUE(has(session("regs"), "slave2 is without power; it was:\n"));
   EXPECT_TRUE(has(session("trace on; continue 1500ms"), "slave2  ignored  01: the PLC has no power\n"));
   session("trace off; power on; continue 100ms; rscan");
   EXPECT_TRUE(session.stations[1]->plc().powered());
