@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kFormat = "s7200 session 3", kAnyFormat = "s7200 session ";
+constexpr std::string_view kFormat = "s7200 session 4", kAnyFormat = "s7200 session ";
 
 std::string sum_of(const Json& json) { return digest_of(std::string_view(json.dump())); }
 
