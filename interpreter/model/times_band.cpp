@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace s7200 {
 
@@ -21,13 +22,14 @@ TimeTable random_times(const TimeTable& table, std::uint32_t seed, std::uint32_t
   });
 }
 
-std::vector<TimeTable> times_band(const TimeTable& table, const std::vector<TimeTable>& others,
-                                  const BandSettings& settings) {
-  std::vector<TimeTable> tables{table};
-  tables.insert(tables.end(), others.begin(), others.end());
-  for (std::size_t i = 0; i < settings.random; ++i)
-    tables.push_back(random_times(table, settings.seed, static_cast<std::uint32_t>(i)));
-  return tables;
+TimesBand::TimesBand(TimeTable own, const std::vector<TimeTable>& others, const BandSettings& settings)
+    : named_{std::move(own)}, settings_(settings) {
+  named_.insert(named_.end(), others.begin(), others.end());
+}
+
+TimeTable TimesBand::operator[](std::size_t table) const {
+  if (table < named_.size()) return named_[table];
+  return random_times(named_.front(), settings_.seed, static_cast<std::uint32_t>(table - named_.size()));
 }
 
 }  // namespace s7200

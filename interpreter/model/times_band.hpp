@@ -20,8 +20,17 @@ struct BandSettings {
   std::uint32_t seed = 1;
 };
 
-/// The table itself, then `others`, then random ones within its uncertainty.
-std::vector<TimeTable> times_band(const TimeTable& table, const std::vector<TimeTable>& others,
-                                  const BandSettings& settings);
+/// The table itself, then `others`, then random ones within its uncertainty, which are made when they are asked for.
+class TimesBand {
+ public:
+  TimesBand(TimeTable own, const std::vector<TimeTable>& others, const BandSettings& settings);
+
+  std::size_t size() const { return named_.size() + settings_.random; }
+  TimeTable operator[](std::size_t table) const;
+
+ private:
+  std::vector<TimeTable> named_;
+  BandSettings settings_;
+};
 
 }  // namespace s7200

@@ -9,8 +9,8 @@
 
 namespace s7200::tools {
 
-std::optional<std::vector<TimeTable>> load_band(const CpuModel& model, const std::string& table,
-                                                const BandSettings& settings, std::vector<std::string>& errors) {
+std::optional<TimesBand> load_band(const CpuModel& model, const std::string& table, const BandSettings& settings,
+                                   std::vector<std::string>& errors) {
   const auto in_use = load_times(model, table, errors);
   if (!in_use) return {};
   std::vector<TimeTable> others;
@@ -18,21 +18,25 @@ std::optional<std::vector<TimeTable>> load_band(const CpuModel& model, const std
     for (const NamedTimes& named : named_times())
       if (!named.own && (named.cpus & model.self))
         if (auto other = load_times(model, std::string(named.name), errors)) others.push_back(std::move(*other));
-  return times_band(*in_use, others, settings);
+  return TimesBand(*in_use, others, settings);
 }
 
-ProgramBand::ProgramBand(stl::ParseResult parsed, const CpuModel& model, std::vector<TimeTable> tables,
-                         const SystemBlock& block)
-    : parsed_(std::move(parsed)), model_(model), tables_(std::move(tables)), block_(block), programs_(tables_.size()) {}
+ProgramBand::ProgramBand(stl::ParseResult parsed, const CpuModel& model, TimesBand tables, const SystemBlock& block)
+    : parsed_(std::move(parsed)),
+      model_(model),
+      tables_(std::move(tables)),
+      block_(block),
+      kept_(std::min(tables_.size(), kMostKept)) {}
 
 std::shared_ptr<const Program> ProgramBand::program(std::size_t table) const {
-  {
+  if (table < kept_.size()) {
     const std::lock_guard lock(mutex_);
-    if (programs_[table]) return programs_[table];
+    if (kept_[table]) return kept_[table];
   }
   auto program = with_system_block(*check(parsed_, model_, tables_[table]).program, block_);
+  if (table >= kept_.size()) return program;
   const std::lock_guard lock(mutex_);
-  return programs_[table] = std::move(program);
+  return kept_[table] = std::move(program);
 }
 
 void LatencyRange::add(Time latency) { add({latency, latency}); }

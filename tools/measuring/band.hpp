@@ -18,14 +18,15 @@ namespace s7200::tools {
 
 /// The tables of a CPU for `table`, a name or a file as load_times() takes it: that one and random ones; without it the
 /// CPU's own, the others of the same CPU that have a name, and random ones. Nothing, with errors, as load_times().
-std::optional<std::vector<TimeTable>> load_band(const CpuModel& model, const std::string& table,
-                                                const BandSettings& settings, std::vector<std::string>& errors);
+std::optional<TimesBand> load_band(const CpuModel& model, const std::string& table, const BandSettings& settings,
+                                   std::vector<std::string>& errors);
 
 /// A program that has no errors, with each of the tables. It is checked for a table when that is first asked for, from any
-/// thread.
+/// thread; with one of the first tables it is kept, with the others checked anew each time, so that a hundred thousand of
+/// them need no more memory than a few hundred.
 class ProgramBand {
  public:
-  ProgramBand(stl::ParseResult parsed, const CpuModel& model, std::vector<TimeTable> tables, const SystemBlock& block);
+  ProgramBand(stl::ParseResult parsed, const CpuModel& model, TimesBand tables, const SystemBlock& block);
 
   std::size_t size() const { return tables_.size(); }
   std::shared_ptr<const Program> program(std::size_t table) const;
@@ -33,10 +34,11 @@ class ProgramBand {
  private:
   stl::ParseResult parsed_;
   const CpuModel& model_;
-  std::vector<TimeTable> tables_;
+  TimesBand tables_;
   SystemBlock block_;
+  static constexpr std::size_t kMostKept = 300;
   mutable std::mutex mutex_;
-  mutable std::vector<std::shared_ptr<const Program>> programs_;
+  mutable std::vector<std::shared_ptr<const Program>> kept_;
 };
 
 /// From the shortest to the longest.

@@ -43,6 +43,19 @@ TEST(TimesBand, ATableThatIsAskedForIsTheOnlyOneBesidesRandomOnes) {
   EXPECT_EQ(errors.size(), 1U);
 }
 
+TEST(ProgramBand, KeepsTheProgramsOfTheFirstTablesAndMakesTheOthersAnewAlike) {
+  std::vector<std::string> errors;
+  auto tables = load_band(cpu214(), "", {.random = 1000, .seed = 1}, errors);
+  ASSERT_TRUE(tables);
+  const ProgramBand band(stl::parse("LD I0.0\nMOVB 1, VB0\nMEND\n", "band.stl"), cpu214(), *tables, {});
+  EXPECT_EQ(band.size(), 1002U);
+  EXPECT_EQ(band.program(1), band.program(1));
+  const auto one = band.program(1001), other = band.program(1001);
+  EXPECT_NE(one, other);
+  EXPECT_EQ(one->ops[1].cost, other->ops[1].cost);
+  EXPECT_EQ(to_csv((*tables)[1001]), to_csv(random_times(default_times(cpu214()), 1, 999)));
+}
+
 TEST(ExchangeBand, CountsVerdictsAndLosersAndKeepsTheShortestAndLongestLatency) {
   const auto exchange = [](Time latency) {
     return serial::Exchange{.request = {}, .request_end = 0, .response = {{}}, .response_start = latency};
