@@ -12,7 +12,12 @@ FrameSplitter::FrameSplitter(std::function<void(const WireFrame&)> on_frame) : o
 void FrameSplitter::edge(Wire wire, Time at, bool mark) { ears_[static_cast<std::size_t>(wire)].line.drive(0, at, mark); }
 
 void FrameSplitter::settled(Time until, const SerialFormat& port) {
-  for (Ear& ear : ears_) hear(ear, until, port);
+  for (Ear& ear : ears_)
+    if (port != ear.uart.state().format) ear.uart.configure(port, until);
+  hear(until, port);
+  // A character that began within the silence would be complete by then.
+  for (Ear& ear : ears_)
+    if (until > ear.open.end + port.silence() + port.character_time()) close(ear);
   tell();
 }
 
@@ -21,19 +26,26 @@ void FrameSplitter::finish() {
   tell();
 }
 
-void FrameSplitter::hear(Ear& ear, Time until, const SerialFormat& port) {
-  if (port != ear.uart.state().format) ear.uart.configure(port, until);
-  WireFrame& open = ear.open;
-  while (ear.queue.next() < until) {
-    const auto received = ear.uart.handle(ear.queue.pop()).received;
-    if (!received) continue;
-    const bool is_full = open.characters.size() == kLongestFrame;
-    if (is_full || received->start > open.end + port.silence()) close(ear);
-    open.characters.push_back(*received);
-    open.end = received->start + port.character_time();
+/// Both wires in one order of time.
+void FrameSplitter::hear(Time until, const SerialFormat& port) {
+  for (;;) {
+    const std::size_t wire = ears_[0].queue.next() <= ears_[1].queue.next() ? 0 : 1;
+    Ear& ear = ears_[wire];
+    if (ear.queue.next() >= until) return;
+    if (const auto received = ear.uart.handle(ear.queue.pop()).received) take(wire, *received, port);
   }
-  // A character that began within the silence would be complete by then.
-  if (until > open.end + port.silence() + port.character_time()) close(ear);
+}
+
+void FrameSplitter::take(std::size_t wire, const ReceivedCharacter& character, const SerialFormat& port) {
+  Ear& ear = ears_[wire];
+  WireFrame& open = ear.open;
+  const Time other_spoke = ears_[1 - wire].last_start;
+  const bool is_full = open.characters.size() == kLongestFrame;
+  const bool is_answered = other_spoke >= open.end && other_spoke < character.start;
+  if (is_full || is_answered || character.start > open.end + port.silence()) close(ear);
+  open.characters.push_back(character);
+  open.end = character.start + port.character_time();
+  ear.last_start = character.start;
 }
 
 void FrameSplitter::close(Ear& ear) {

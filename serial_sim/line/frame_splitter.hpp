@@ -12,7 +12,7 @@
 
 namespace s7200::serial {
 
-/// What ran over one wire between two silences.
+/// What ran over one wire, between two silences or until the other end of the line spoke.
 struct WireFrame {
   Wire wire{};
   std::vector<ReceivedCharacter> characters;  ///< as they were read, those with errors too
@@ -21,8 +21,9 @@ struct WireFrame {
   Time start() const { return characters.front().start; }
 };
 
-/// Listens to each wire with a UART that is set like the PLC's port and never switched off. A silence of more than 3.5
-/// characters ends a frame.
+/// Listens to each wire with a UART that is set like the PLC's port and never switched off. What ends a frame: a silence of
+/// more than 3.5 characters, or a character on the other wire that begins after it, however soon the next one follows.
+/// Stations that share the Rx wire are told apart by silence alone.
 class FrameSplitter final : public WireSink {
  public:
   /// Where no silence comes, a frame ends after so many characters.
@@ -44,9 +45,11 @@ class FrameSplitter final : public WireSink {
     EventQueue queue;
     Uart uart{line, queue, EventOwner{}, 0};
     WireFrame open;
+    Time last_start = -1;  ///< of the last character
   };
 
-  void hear(Ear& ear, Time until, const SerialFormat& port);
+  void hear(Time until, const SerialFormat& port);
+  void take(std::size_t wire, const ReceivedCharacter& character, const SerialFormat& port);
   void close(Ear& ear);
   void tell();
 

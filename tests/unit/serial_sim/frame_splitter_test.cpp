@@ -77,6 +77,22 @@ TEST(FrameSplitter, EachWireHasFramesOfItsOwn) {
   EXPECT_EQ(wires.frames[1].start(), end + 1000);
 }
 
+TEST(FrameSplitter, TheOtherEndEndsAFrameHoweverSoonTheNextOneFollows) {
+  Wires wires;
+  const Time request = Wires::send(wires.plc, 1000, {0x68, 0x16});
+  const Time accepted = Wires::send(wires.peer, request + 1000, {0xE5});
+  const Time poll = Wires::send(wires.plc, accepted, {0x10, 0x16});
+  Wires::send(wires.peer, poll, {0xE5});
+  EXPECT_EQ(wires.all(), (Texts{"tx 68 16", "rx e5", "tx 10 16", "rx e5"}));
+}
+
+TEST(FrameSplitter, ACharacterInTheMiddleOfAnotherDoesNotEndItsFrame) {
+  Wires wires;
+  Wires::send(wires.peer, 1000, {0x01, 0x02, 0x03});
+  Wires::send(wires.plc, 1000 + kCharacter / 2, {0x81});
+  EXPECT_EQ(wires.all(), (Texts{"rx 01 02 03", "tx 81"}));
+}
+
 TEST(FrameSplitter, FramesAreToldInTheOrderOfTheirBeginnings) {
   Wires wires;
   Wires::send(wires.peer, 1000, Bytes(30, 0x55));
