@@ -23,11 +23,11 @@ std::vector<std::string> settings_of() {
     std::string values = value_text(form, row.get(bench));
     for (std::size_t i = 0; i < form.words.size(); ++i)
       if (i != row.get(bench)) values.append("|").append(form.words[i]);
-    lines.push_back(fmt::format("  {:<38}{}{}\n", fmt::format("{}={}", form.name, values), form.meaning,
+    lines.push_back(fmt::format("  {:<37} {}{}\n", fmt::format("{}={}", form.name, values), form.meaning,
                                 form.choice.empty() ? "" : fmt::format(" [{}]", form.choice)));
   }
   for (const Cells<Kind>& row : Kind::cells())
-    lines.push_back(fmt::format("  {:<38}{}, in hex\n",
+    lines.push_back(fmt::format("  {:<37} {}, in hex\n",
                                 fmt::format("{}{}=VALUE,…", row.name, row.by_address ? "[ADDRESS]" : "NUMBER"),
                                 row.meaning));
   return lines;
