@@ -575,12 +575,19 @@ void find_missing_freeport(const Program& program, std::size_t number, stl::Diag
   }
 }
 
+/// Whether an instruction may put a port in another mode than PPI, of which a master answers too.
+bool may_leave_ppi(const Program& program, const Op& op, const PortInfo& port) {
+  if (!sets_up_port(program, op, port)) return false;
+  const bool is_constant = op.instruction->mnemonic == "MOVB" && op[1].at == port.control && op[0].at >= image::kConstants;
+  return !is_constant || (program.constants[op[0].at - image::kConstants] & sm::kProtocol) == sm::kFreeport;
+}
+
 }  // namespace
 
-bool stays_a_ppi_slave(const Program& program, std::uint8_t port) {
+bool keeps_ppi_station(const Program& program, std::uint8_t port) {
   return std::ranges::none_of(program.ops, [&](const Op& op) {
     const bool sets_station = op.instruction->mnemonic == "SPA" && op[1].at == port;
-    return sets_station || sets_up_port(program, op, kPorts[port]);
+    return sets_station || may_leave_ppi(program, op, kPorts[port]);
   });
 }
 

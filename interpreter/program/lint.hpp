@@ -24,9 +24,9 @@ void find_missing_eni(const Program& program, stl::Diagnostics& diagnostics);
 /// SMB30 is 0 when the CPU enters RUN: the port speaks PPI.
 void find_missing_freeport(const Program& program, stl::Diagnostics& diagnostics);
 
-/// Whether a port is a PPI slave at the station of the system block all the time: no instruction may write its control byte
-/// or, with SPA, its station.
-bool stays_a_ppi_slave(const Program& program, std::uint8_t port);
+/// Whether a port answers in PPI mode, at the station of the system block, all the time: no instruction may put it in
+/// another mode or, with SPA, at another station.
+bool keeps_ppi_station(const Program& program, std::uint8_t port);
 
 /// Bits set by S, = or SCRT. An instruction that reads S memory by bytes, words or pointers counts as loading all of it.
 void find_unused_steps(const Program& program, stl::Diagnostics& diagnostics);

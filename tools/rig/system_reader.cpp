@@ -35,7 +35,7 @@ void check_all_are_on_lines(SystemReading& reading) {
 /// as it is.
 bool may_answer_ppi(const Program& program, std::uint8_t port) {
   const auto station = [port](const SystemBlock& block) { return block.ppi_stations[port]; };
-  return station(program.system_block) != station({}) || stays_a_ppi_slave(program, port);
+  return station(program.system_block) != station({}) || keeps_ppi_station(program, port);
 }
 
 /// It is a mistake that a real network lets one make, so the system runs.

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "interpreter/program/lint.hpp"
 #include "interpreter/program/load.hpp"
 #include "tests/support/source_path.hpp"
 
@@ -164,6 +165,21 @@ TEST(UnusedStep, IsNotABitThatASegmentAContactAByteOrAPointerMayLoad) {
   EXPECT_EQ(warnings_of("LD SM0.1\nS S0.0, 1\nMOVB SB0, QB0\nMEND\n"), "");
   EXPECT_EQ(warnings_of("LD SM0.1\nS S0.0, 1\nMOVD &SB0, AC1\nMOVB *AC1, QB0\nMEND\n"), "");
   EXPECT_EQ(warnings_of("LD SM0.1\nR S0.0, 128\nMEND\n"), "") << "resetting all of them is usual";
+}
+
+TEST(PpiStations, AreKeptByProgramsThatLeavePortsInPpiMode) {
+  const auto keeps = [](std::string_view stl) {
+    const CheckResult result = check_text(stl, "test", *find_cpu("226"), default_times(*find_cpu("226")));
+    EXPECT_TRUE(result.program) << stl;
+    return result.program && keeps_ppi_station(*result.program, 0);
+  };
+  EXPECT_TRUE(keeps("LD SM0.0\n= Q0.0\nMEND\n"));
+  EXPECT_TRUE(keeps("LD SM0.1\nMOVB 2, SMB30\nMEND\n")) << "a master answers too";
+  EXPECT_TRUE(keeps("LD SM0.1\nMOVB 9, SMB130\nSPA 7, 1\nMEND\n")) << "the other port";
+  EXPECT_FALSE(keeps("LD SM0.1\nMOVB 9, SMB30\nMEND\n"));
+  EXPECT_FALSE(keeps("LD SM0.1\nMOVB VB0, SMB30\nMEND\n"));
+  EXPECT_FALSE(keeps("LD SM0.7\n= SM30.0\nMEND\n"));
+  EXPECT_FALSE(keeps("LD SM0.1\nSPA 7, 0\nMEND\n"));
 }
 
 }  // namespace
