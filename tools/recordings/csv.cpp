@@ -72,13 +72,12 @@ Columns columns_of(std::string_view line) {
 /// A number in the column's unit, or a time as in a text. Where commas divide the columns, one in a number may stand for
 /// thousands, and is not read.
 std::optional<LeadingTime> time_of(const std::string& field, const Columns& columns) {
-  constexpr double kMost = 4e9;  // seconds; the difference of two still fits a Time
   std::string figure(stl::trim(field));
   std::ranges::replace(figure, ',', '.');
   if (const auto number = parse_decimal<long double>(figure)) {
     const long double time = *number * static_cast<long double>(columns.unit);
     const bool readable = columns.separator != ',' || field.find(',') == std::string::npos;
-    if (!readable || !(std::abs(time) < kMost * kSecond)) return {};
+    if (!readable || !(std::abs(time) < static_cast<long double>(kFurthestTime))) return {};
     return LeadingTime{.time = std::llround(time)};
   }
   const auto time = leading_time(field);

@@ -51,6 +51,8 @@ TEST(RecordedFields, TimesAreReadInTheFormsOfTools) {
   EXPECT_EQ(time("12.5 ms 01"), 12'500 * kMicrosecond);
   EXPECT_EQ(time("+7ms 01"), 7 * ms);
   EXPECT_EQ(time("[-0.002] 01 03"), -2 * ms) << "before the trigger";
+  EXPECT_EQ(time("1700000000.100000 01 03"), 1'700'000'000 * kSecond + 100 * ms) << "since 1970";
+  EXPECT_EQ(time("4000000000.5 01 03"), std::nullopt) << "the difference of two would not fit";
   EXPECT_EQ(time("01 03 00"), std::nullopt) << "bytes";
   EXPECT_EQ(time("TX 01 03"), std::nullopt);
 }
@@ -88,6 +90,18 @@ TEST(Recordings, ATextLogHasAFrameInEachLine) {
   EXPECT_EQ(log.frames[1].direction, Direction::Answer);
   EXPECT_EQ(log.frames[1].at, 25 * ms);
   EXPECT_EQ(log.notes, std::vector<std::string>{"a line without bytes was left out"});
+}
+
+TEST(Recordings, TheMarkThatSomeEditorsPutBeforeATextIsNoPartOfIt) {
+  for (const char* const text :
+       {"2026-11-22 10:00:00.5 TX 01 03 00 00 00 01 84 0A\n2026-11-22 10:00:01 RX 01 03 02 12 34 B5 33\n",
+        "Time;Data\n0.5;01 03 00 00 00 01 84 0A\n1;01 03 02 12 34 B5 33\n"}) {
+    const LineRecording recording = recording_of(std::string("\xEF\xBB\xBF") + text);
+    ASSERT_EQ(recording.frames.size(), 2U) << text;
+    EXPECT_EQ(recording.frames[0].at, 0) << text;
+    EXPECT_EQ(recording.frames[1].at, 500 * ms) << text;
+    EXPECT_EQ(recording.frames[0].bytes, kRequest) << text;
+  }
 }
 
 TEST(Recordings, WhatMbpollPrintsHasNoTimesAndSaysItsDirectionsInBrackets) {
