@@ -154,6 +154,23 @@ TEST(Recordings, ATimeInACsvIsReadAsAWholeOrNotAtAll) {
   EXPECT_EQ(refusal_of("Time;Data\nnan;01 03\n"), "line 2: 'nan' is not a time");
 }
 
+TEST(Recordings, AColumnOfTimesInACsvIsInTheUnitThatItsNameSays) {
+  const auto second_time = [](const std::string& name) {
+    return times_of(recording_of(name + ";Data\n1000;01 03\n251000;01 03\n")).back();
+  };
+  for (const char* const name : {"Time [ns]", "Time (ns)", "time_ns", "Start ns"})
+    EXPECT_EQ(second_time(name), 250'000) << name;
+  for (const char* const name : {"Time [us]", "Time (\u00B5s)", "time [\u03BCs]"})
+    EXPECT_EQ(second_time(name), 250 * ms) << name;
+  EXPECT_EQ(second_time("start_ms"), 250 * kSecond);
+  for (const char* const name : {"Time", "Time [s]", "Timestamp (sec)"})
+    EXPECT_EQ(second_time(name), 250'000 * kSecond) << name;
+  EXPECT_EQ(refusal_of("Time [ticks];Data\n1000;01 03\n"),
+            "line 1: 'Time [ticks]' names no unit; write [s], [ms], [us] or [ns]");
+  EXPECT_EQ(times_of(recording_of("Time (local);Data\n12:00:00.5;01 03\n12:00:01;01 03\n")).back(), 500 * ms)
+      << "a time of day needs none";
+}
+
 TEST(Recordings, TimesBeforeTheTriggerAreCountedFromTheFirstRow) {
   EXPECT_EQ(times_of(recording_of("Time [s],Value\n-0.002,0103\n-0.5e-3,0103\n0.001,0103\n")),
             (std::vector<std::optional<Time>>{0, 1500 * kMicrosecond, 3 * ms}));
