@@ -163,7 +163,7 @@ TEST(Recordings, AColumnOfTimesInACsvIsInTheUnitThatItsNameSays) {
   for (const char* const name : {"Time [us]", "Time (\u00B5s)", "time [\u03BCs]"})
     EXPECT_EQ(second_time(name), 250 * ms) << name;
   EXPECT_EQ(second_time("start_ms"), 250 * kSecond);
-  for (const char* const name : {"Time", "Time [s]", "Timestamp (sec)"})
+  for (const char* const name : {"Time", "Time [s]", "Timestamp (sec)", "Time (seconds)"})
     EXPECT_EQ(second_time(name), 250'000 * kSecond) << name;
   EXPECT_EQ(refusal_of("Time [ticks];Data\n1000;01 03\n"),
             "line 1: 'Time [ticks]' names no unit; write [s], [ms], [us] or [ns]");
@@ -661,6 +661,22 @@ TEST(Conversation, ALoaderSessionIsReadStepByStep) {
                                       "> session closed"}));
   EXPECT_TRUE(frames.back().needs_no_answer);
   for (const ReadFrame& frame : frames) EXPECT_TRUE(frame.right) << frame.text;
+}
+
+TEST(Conversation, OfALoaderWithPlainDleTheFrameEndsDataThatAreMoreThanWasCounted) {
+  const std::string parameters = "00 00 00 00 00 EF 00 EF 80 EE 00 EC 00 ED 00 EA 00 28 04 CF FF";
+  const auto data = [&](const std::string& end) {
+    RecordedProtocol plain = *find_recorded_protocol("pc500-loader");
+    plain.reader = plain.plain_dle_reader;
+    const auto frames = conversation(recording_of("0.020 02\n0.030 10 06\n0.040 18\n0.050 02\n0.060 10 06\n0.070 16 10 03\n"
+                                                  "0.080 10 06 10 04\n0.090 10 06 02\n0.100 10 06\n0.110 " +
+                                                  parameters + end + "\n"),
+                                     plain, {});
+    return frames.back();
+  };
+  EXPECT_TRUE(data(" 10 03").right);
+  EXPECT_EQ(data(" 00 00 10 03").text, "< " + parameters + " 00 00");
+  EXPECT_FALSE(data(" 00 00 10").right);
 }
 
 TEST(Conversation, TheLastWordOfALoaderSessionAndTheFirstOfTheNextMayStandInOneFrame) {
