@@ -145,6 +145,7 @@ TEST(WestinghouseModbus, M8TheFunctionIsCheckedBeforeTheQuantityAndThatBeforeThe
   EXPECT_EQ(asked("", "10 00 00 00 01 04 00 01"), "90 03");
   EXPECT_EQ(asked("", "05 04 00 ff 00"), "85 02");
   EXPECT_EQ(asked("exception=06", "03 00 00 00 01"), "83 06");
+  EXPECT_EQ(asked("exception=06", "08 00 00 12 34"), "88 06");
   EXPECT_EQ(asked("exception=04", "03 ff ff 00 01"), "83 02");
   EXPECT_EQ(asked("exception=04", "63"), "e3 01");
 }
