@@ -317,7 +317,7 @@ TEST(WestinghouseSetting, CellsThatASmallerMemoryNoLongerHasAreNotReached) {
   for (const char* const text : {"HR100=1,2", "CR9=1", "holding_registers=100", "coils=9"})
     ASSERT_TRUE(plc->set(text, why)) << why;
   EXPECT_FALSE(plc->still_reaches("HR100=1,2", why));
-  EXPECT_EQ(why, "HR101 is not there: holding_registers=100; set more of them first");
+  EXPECT_EQ(why, "HR101 is not there: holding_registers=100; set holding_registers=101 or more before it");
   EXPECT_TRUE(plc->still_reaches("HR99=1,2", why));
   EXPECT_TRUE(plc->still_reaches("CR9=1", why));
   EXPECT_TRUE(plc->still_reaches("coils=9", why)) << "a setting";
