@@ -664,7 +664,7 @@ TEST(Conversation, ALoaderSessionIsReadStepByStep) {
 }
 
 TEST(Conversation, OfALoaderWithPlainDleTheFrameEndsDataThatAreMoreThanWasCounted) {
-  const std::string parameters = "00 00 00 00 00 EF 00 EF 80 EE 00 EC 00 ED 00 EA 00 28 04 CF FF";
+  const std::string parameters = "00 00 00 00 00 ef 00 ef 80 ee 00 ec 00 ed 00 ea 00 28 04 cf ff";
   const auto data = [&](const std::string& end) {
     RecordedProtocol plain = *find_recorded_protocol("pc500-loader");
     plain.reader = plain.plain_dle_reader;
@@ -675,7 +675,7 @@ TEST(Conversation, OfALoaderWithPlainDleTheFrameEndsDataThatAreMoreThanWasCounte
     return frames.back();
   };
   EXPECT_TRUE(data(" 10 03").right);
-  EXPECT_EQ(data(" 00 00 10 03").text, "< " + parameters + " 00 00");
+  EXPECT_EQ(data(" 00 00 10 03").text, parameters + " 00 00");
   EXPECT_FALSE(data(" 00 00 10").right);
 }
 
