@@ -1551,7 +1551,7 @@ lines:
         self.program(self.SYSTEM, "system.yaml")
         head = "system: system.yaml\nsteps:\n"
         for steps, why in (("  - {read: holding 0, on: slvae1}", "there is no line or PLC 'slvae1'"),
-                           ("  - power_off: slvae1", "there is no PLC 'slvae1'"),
+                           ("  - power_off: slvae1", "there is no PLC or peer 'slvae1'"),
                            ("  - cut: bus", "a cut without 'after'"),
                            ("  - wait: 2 scans", "scans of which PLC?"),
                            ("  - power_cycle: memory kept", "'power_cycle' is about a program")):
