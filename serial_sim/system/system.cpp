@@ -104,7 +104,7 @@ Time System::time() const {
 }
 
 bool System::paused() const {
-  return std::any_of(plcs_.begin(), plcs_.end(), [](const auto& plc) { return plc->cpu().paused(); });
+  return std::any_of(plcs_.begin(), plcs_.end(), [](const auto& plc) { return plc->powered() && plc->cpu().paused(); });
 }
 
 /// The next event, or the next thing that a CPU can do to the system.

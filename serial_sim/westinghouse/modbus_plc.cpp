@@ -198,6 +198,7 @@ Bytes ModbusPlc::status(Data pdu) const {
 
 /// Any four bytes come back: no loopback code is interpreted.
 Bytes ModbusPlc::loopback(Data pdu) const {
+  if (pdu.size() == 5 && settings_.exception != 0) return exception(pdu, settings_.exception);
   if (pdu.size() == 5) return begin_of(pdu, pdu.size());
   return settings_.loopback_length == ModbusSettings::WrongLength::Silent ? Bytes{} : exception(pdu, kIllegalQuantity);
 }

@@ -143,7 +143,7 @@ class PlcOf : public Plc {
     const std::uint32_t last = row.last(self());
     const std::size_t end = text.first - 1 + text.values.size();
     if (end <= last) return true;
-    why = fmt::format("{}{} is not there: {}={}; set more of them first", row.name, end, row.last_from, last);
+    why = fmt::format("{0}{1} is not there: {2}={3}; set {2}={1} or more before it", row.name, end, row.last_from, last);
     return false;
   }
 

@@ -23,7 +23,6 @@ std::optional<std::uint32_t> parse_number(std::string_view text, int base) {
 /// `00.11.00`
 std::optional<std::uint32_t> parse_drop(std::string_view text) {
   constexpr std::size_t kLength = 8;
-  if (text.empty()) return kNowhere;
   if (text.size() != kLength || text[2] != '.' || text[5] != '.') return {};
   const auto highway = parse_number(text.substr(0, 2), 16), drop = parse_number(text.substr(3, 2), 16),
              subdrop = parse_number(text.substr(6, 2), 16);
@@ -45,6 +44,8 @@ std::optional<std::uint32_t> parse_as(const SettingForm& form, std::string_view 
       return parse_number(text, 16);
     case Drop:
       return parse_drop(text);
+    case DropOrNone:
+      return text.empty() ? kNowhere : parse_drop(text);
   }
   return {};
 }
@@ -54,12 +55,12 @@ std::optional<std::uint32_t> parse_as(const SettingForm& form, std::string_view 
 std::optional<std::uint32_t> parse_value(const SettingForm& form, std::string_view text, std::string& why) {
   using enum SettingForm::Notation;
   const auto value = parse_as(form, text);
-  if (value && (form.notation == Word || form.notation == Drop || (*value >= form.least && *value <= form.most)))
-    return value;
+  const bool drop = form.notation == Drop || form.notation == DropOrNone;
+  if (value && (form.notation == Word || drop || (*value >= form.least && *value <= form.most))) return value;
   const std::string shown = stl::shortened(text);
   if (form.notation == Word)
     why = fmt::format("{}: '{}' is not one of {}", form.name, shown, fmt::join(form.words, ", "));
-  else if (form.notation == Drop)
+  else if (drop)
     why = fmt::format("{}: '{}' is not a drop; write highway, drop and subdrop in hex: 00.11.00", form.name, shown);
   else
     why = fmt::format("{}: '{}' is not a {} number from {} to {}", form.name, shown,
@@ -78,6 +79,7 @@ std::string value_text(const SettingForm& form, std::uint32_t value) {
     case Hex:
       return fmt::format("{:0{}X}", value, form.most > UINT16_MAX ? 5 : form.most > UINT8_MAX ? 4 : 2);
     case Drop:
+    case DropOrNone:
       return value == kNowhere ? "" : fmt::format("{:02X}.{:02X}.{:02X}", value >> 16, value >> 8 & 0xFF, value & 0xFF);
   }
   return {};

@@ -22,7 +22,8 @@ struct SettingForm {
     Word,  ///< one of `words`
     Decimal,
     Hex,
-    Drop,  ///< highway, drop and subdrop, in hex: `00.11.00`; empty for none
+    Drop,        ///< highway, drop and subdrop, in hex: `00.11.00`
+    DropOrNone,  ///< the same; empty for none
   };
 
   std::string_view name;

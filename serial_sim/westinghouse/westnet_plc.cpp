@@ -52,7 +52,10 @@ Bytes WestnetPlc::error(std::uint8_t code) {
   return {settings_.error_byte, code};
 }
 
-std::uint8_t WestnetPlc::fault_of_plc() const { return settings_.remote == settings_.plc_at ? kNoError : kInvalidDrop; }
+std::uint8_t WestnetPlc::fault_of_plc() const {
+  const bool there = settings_.remote != kNowhere && settings_.remote == settings_.plc_at;
+  return there ? kNoError : kInvalidDrop;
+}
 
 std::uint8_t WestnetPlc::fault_of_session() const {
   const bool others = settings_.session != kNowhere && settings_.session != settings_.local;
@@ -131,9 +134,9 @@ const std::vector<Setting<WestnetPlc>>& WestnetPlc::settings() {
       rows.push_back(setting_of<WestnetPlc>(std::move(form), own, member));
     };
     add({"local", "", "drop of the computer", Drop}, &S::local);
-    add({"plc_at", "", "drop of the PLC", Drop}, &S::plc_at);
-    add({"remote", "", "drop that is addressed", Drop}, &S::remote);
-    add({"session", "", "drop that is in session with the PLC", Drop}, &S::session);
+    add({"plc_at", "", "drop of the PLC", DropOrNone}, &S::plc_at);
+    add({"remote", "", "drop that is addressed", DropOrNone}, &S::remote);
+    add({"session", "", "drop that is in session with the PLC", DropOrNone}, &S::session);
     add_pc1000_settings(
         rows, [](auto& plc) -> auto& { return plc.pc_; });
     add_line_settings(

@@ -1479,6 +1479,7 @@ lines:
                   "  - {at: 1200ms, fault: \"parity:character=2\", line: bus, station: slave1}\n  - {at: 1250ms, clear_faults: bus}\n"
                   "  - {at: 1300ms, power_off: slave2}\n  - {at: 1350ms, set: {VW0: 5, SMB30: 9}, plc: slave2}\n"
                   "  - {at: 1800ms, power_on: slave2}\n  - {at: 1850ms, set: {VW0: 5}, plc: slave2}\n"
+                  "  - {at: 1850ms, set: {VW0: 6}, plc: slave2}\n  - {at: 1850ms, set: {VW0: 5, I0.3: 1}, plc: slave2}\n"
                   "  - {at: 1900ms, power_off: master}\n")
         trace = self.folder / "all.txt"
         self.ends(FINE, "run", self.program(self.SYSTEM + events, "system.yaml"), "--for", "2s", "--trace", trace, "--trace-events")
@@ -1487,8 +1488,10 @@ lines:
                           if re.search("power|cable|fault|programming device", line)],
                          ["bus 1000.000000 cable cut after slave1", "bus 1100.000000 cable whole again",
                           "bus 1200.000000 fault parity:character=2 of slave1", "bus 1250.000000 no fault any more",
-                          "slave2 1300.000000 power off", "slave2 1350.000000 a programming device sets VW0, SMB30: nothing, for there is no power",
-                          "slave2 1800.000000 power on", "slave2 1850.000000 a programming device sets VW0", "master 1900.000000 power off"])
+                          "slave2 1300.000000 power off", "slave2 1350.000000 a programming device sets VW0 to 16#0005, SMB30 to 16#09: nothing, for there is no power",
+                          "slave2 1800.000000 power on", "slave2 1850.000000 a programming device sets VW0 to 16#0005",
+                          "slave2 1850.000000 a programming device sets VW0 to 16#0006",
+                          "slave2 1850.000000 a programming device sets VW0 to 16#0005, I0.3 to 16#1", "master 1900.000000 power off"])
         off = [line for line in lines if line.startswith("slave2") and 1300 < float(line.split()[1]) < 1800]
         self.assertEqual(len(off), 1, "a PLC without power hears nothing")
         times = [float(line.split()[1]) for line in lines]
@@ -1548,7 +1551,7 @@ lines:
         self.program(self.SYSTEM, "system.yaml")
         head = "system: system.yaml\nsteps:\n"
         for steps, why in (("  - {read: holding 0, on: slvae1}", "there is no line or PLC 'slvae1'"),
-                           ("  - power_off: slvae1", "there is no PLC 'slvae1'"),
+                           ("  - power_off: slvae1", "there is no PLC or peer 'slvae1'"),
                            ("  - cut: bus", "a cut without 'after'"),
                            ("  - wait: 2 scans", "scans of which PLC?"),
                            ("  - power_cycle: memory kept", "'power_cycle' is about a program")):

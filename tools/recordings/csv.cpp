@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 
 #include "interpreter/base/numbers.hpp"
@@ -41,12 +42,35 @@ struct Columns {
   std::optional<std::size_t> time{}, direction{}, data{};
   std::vector<std::size_t> errors{};
   Time unit = kSecond;
+  std::string unknown_unit{};  ///< the name of the times' column, if what it has in brackets is no unit
 };
+
+struct Unit {
+  std::string_view word;
+  Time time;
+};
+constexpr std::array kUnits{
+    Unit{"S", kSecond},       Unit{"SEC", kSecond},          Unit{"SECONDS", kSecond},      Unit{"MS", kMillisecond},
+    Unit{"US", kMicrosecond}, Unit{"\u00B5S", kMicrosecond}, Unit{"\u03BCS", kMicrosecond}, Unit{"NS", 1}};
 
 /// `text` in any case, `words` in capitals.
 bool contains(std::string_view text, std::initializer_list<std::string_view> words) {
   const std::string capitals = stl::upper_case(text);
   return std::ranges::any_of(words, [&](std::string_view word) { return capitals.find(word) != std::string::npos; });
+}
+
+/// The first word of a column's name that is one: `Time [ms]`, `time_us`.
+std::optional<Time> unit_of(std::string_view name) {
+  const std::string capitals = stl::upper_case(name);
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || (c & 0x80) != 0; };
+  for (auto begin = capitals.begin(); begin != capitals.end();) {
+    begin = std::find_if(begin, capitals.end(), is_letter);
+    const auto end = std::find_if_not(begin, capitals.end(), is_letter);
+    const auto unit = std::ranges::find(kUnits, std::string_view(begin, end), &Unit::word);
+    if (unit != kUnits.end()) return unit->time;
+    begin = end;
+  }
+  return {};
 }
 
 Columns columns_of(std::string_view line) {
@@ -58,8 +82,10 @@ Columns columns_of(std::string_view line) {
       columns.errors.push_back(i);
     } else if (!columns.time && contains(names[i], {"TIME", "START"})) {
       columns.time = i;
-      if (contains(names[i], {"[MS]", "(MS)", "_MS"})) columns.unit = kMillisecond;
-      if (contains(names[i], {"[US]", "(US)", "_US", "µS"})) columns.unit = kMicrosecond;
+      if (const auto unit = unit_of(names[i]))
+        columns.unit = *unit;
+      else if (names[i].find_first_of("[(") != std::string::npos)
+        columns.unknown_unit = names[i];
     } else if (!columns.direction && contains(names[i], {"DIR", "SIDE", "CHANNEL", "PORT", "NAME"})) {
       columns.direction = i;
     } else if (!columns.data && contains(names[i], {"DATA", "VALUE", "HEX", "BYTES", "FRAME", "PAYLOAD"})) {
@@ -72,13 +98,12 @@ Columns columns_of(std::string_view line) {
 /// A number in the column's unit, or a time as in a text. Where commas divide the columns, one in a number may stand for
 /// thousands, and is not read.
 std::optional<LeadingTime> time_of(const std::string& field, const Columns& columns) {
-  constexpr double kMost = 4e9;  // seconds; the difference of two still fits a Time
   std::string figure(stl::trim(field));
   std::ranges::replace(figure, ',', '.');
   if (const auto number = parse_decimal<long double>(figure)) {
     const long double time = *number * static_cast<long double>(columns.unit);
     const bool readable = columns.separator != ',' || field.find(',') == std::string::npos;
-    if (!readable || !(std::abs(time) < kMost * kSecond)) return {};
+    if (!readable || !(std::abs(time) < static_cast<long double>(kFurthestTime))) return {};
     return LeadingTime{.time = std::llround(time)};
   }
   const auto time = leading_time(field);
@@ -113,6 +138,10 @@ std::optional<LineRecording> read_csv(const std::string& bytes, const ReadingCho
     };
     const auto time = time_of(field(columns.time), columns);
     auto data = bytes_of_text(field(columns.data));
+    if (time && !time->of_day && !columns.unknown_unit.empty()) {
+      why = fmt::format("line 1: '{}' names no unit; write [s], [ms], [us] or [ns]", stl::shortened(columns.unknown_unit));
+      return {};
+    }
     if (!time || !data) {
       why = fmt::format("line {}: '{}' is not {}", i + 1, stl::shortened(!time ? field(columns.time) : field(columns.data)),
                         !time ? "a time" : "bytes in hex");

@@ -63,12 +63,14 @@ std::optional<LeadingTime> time_of_day(std::string_view text) {
 
 std::optional<LeadingTime> time_since(std::string_view text) {
   static const std::regex kPattern(
-      R"(^[\s\[\(+]*(-?)(\d{1,9})(?:[.,](\d{1,9}))?\s*(s|ms|us)?(?![0-9A-Za-z.])[\s\]\):,;|]*)");
+      R"(^[\s\[\(+]*(-?)(\d{1,10})(?:[.,](\d{1,9}))?\s*(s|ms|us)?(?![0-9A-Za-z.])[\s\]\):,;|]*)");
   Match match;
   if (!search(text, match, kPattern) || !(match[3].matched || match[4].matched)) return {};
   const Time unit = match.str(4) == "ms" ? kMillisecond : match.str(4) == "us" ? kMicrosecond : kSecond;
   const Time part = match[3].matched ? fraction(match.str(3)) / (kSecond / unit) : 0;
-  const Time time = std::stoll(match.str(2)) * unit + part;
+  const Time whole = std::stoll(match.str(2));
+  if (whole >= kFurthestTime / unit) return {};
+  const Time time = whole * unit + part;
   return LeadingTime{.time = match.length(1) == 0 ? time : -time, .length = static_cast<std::size_t>(match.length())};
 }
 

@@ -10,12 +10,16 @@
 
 namespace s7200::tools {
 
+/// 126 years: seconds since 1970 are within it, and the difference of two still fits a Time.
+inline constexpr Time kFurthestTime = 4'000'000'000 * kSecond;
+
 /// Days since 1970 of a date, with the day first and with the month first. They differ only in dates with slashes, of which
 /// tools write both; nothing for one that does not exist.
 using ReadDate = std::array<std::optional<std::int32_t>, 2>;
 
 /// A time at the beginning of a text, and what comes after it: `12:34:56.789`, `2026-11-22 12:34:56,789`, `[0.123456]`,
 /// `-12.3 ms`. A plain number is one only with a fraction or a unit.
+/// It is no further than kFurthestTime from 0.
 struct LeadingTime {
   Time time = 0;           ///< of day: since midnight
   std::size_t length = 0;  ///< of its text

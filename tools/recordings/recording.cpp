@@ -6,6 +6,7 @@
 #include <array>
 #include <ranges>
 
+#include "interpreter/base/text.hpp"
 #include "tools/recordings/forms.hpp"
 
 namespace s7200::tools {
@@ -24,7 +25,8 @@ std::span<const RecordingForm> recording_forms() { return kForms; }
 
 bool is_text(std::string_view bytes) { return bytes.find('\0') == std::string_view::npos; }
 
-std::optional<LineRecording> read_recording(const std::string& bytes, const ReadingChoices& choices, std::string& why) {
+std::optional<LineRecording> read_recording(const std::string& file, const ReadingChoices& choices, std::string& why) {
+  const std::string bytes(stl::without_byte_order_mark(file));
   const auto form = std::ranges::find_if(kForms, [&](const RecordingForm& each) { return each.looks_like(bytes); });
   if (form == kForms.end()) {
     why = fmt::format("it has none of the forms {}", fmt::join(kForms | std::views::transform(&RecordingForm::name), ", "));

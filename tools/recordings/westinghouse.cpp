@@ -253,12 +253,16 @@ class LoaderReader final : public FrameReader {
     return 0;
   }
 
-  /// Where a 10 stands for itself only the number of bytes says where data end; if that is not known, where the frame does.
+  /// Where a 10 stands for itself only the number of bytes says where data end; if that is not known, or the PLC sends
+  /// more than is known of it ([S2] leaves open what comes last), where the frame does.
   std::size_t up_to_plain_end(Data bytes) const {
-    const std::size_t end = count_ ? *count_ + kEndOfData.size() : bytes.size();
-    const bool is_end =
-        end >= kEndOfData.size() && end <= bytes.size() && begins_with(bytes.subspan(end - kEndOfData.size()), kEndOfData);
-    return is_end ? end : 0;
+    const auto is_end = [&](std::size_t end) {
+      return end >= kEndOfData.size() && end <= bytes.size() &&
+             begins_with(bytes.subspan(end - kEndOfData.size()), kEndOfData);
+    };
+    const std::size_t counted = count_.value_or(0) + kEndOfData.size();
+    if (count_ && is_end(counted)) return counted;
+    return bytes.size() >= counted && is_end(bytes.size()) ? bytes.size() : 0;
   }
 
   /// What a step always is.

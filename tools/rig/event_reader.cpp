@@ -82,18 +82,23 @@ class EventReader {
   bool read_powered(const YamlNode& what, EventPlan& event) {
     const auto name = values_.text(what);
     if (!name) return false;
-    const auto peer = std::ranges::find(plan_.peers, *name, &PeerPlan::name);
-    if (peer != plan_.peers.end()) {
-      event.station = {StationPlan::Kind::Peer, static_cast<std::size_t>(peer - plan_.peers.begin())};
+    if (const auto plc = place_of(plan_.plcs, *name)) {
+      event.station = {StationPlan::Kind::Plc, *plc};
+      return true;
+    }
+    if (const auto peer = place_of(plan_.peers, *name)) {
+      event.station = {StationPlan::Kind::Peer, *peer};
       return true;
     }
     if (std::ranges::find(plan_.bridges, *name, &BridgePlan::name) != plan_.bridges.end()) {
       values_.wrong(what, fmt::format("'{}' is a bridge, which has no power to switch", *name), "cut the cable before it");
       return false;
     }
-    const auto plc = plc_named(what);
-    if (plc) event.station = {StationPlan::Kind::Plc, *plc};
-    return plc.has_value();
+    std::vector<std::string> known = names_of(plan_.plcs), peers = names_of(plan_.peers);
+    const std::string_view kinds = peers.empty() ? "PLC" : known.empty() ? "peer" : "PLC or peer";
+    known.insert(known.end(), peers.begin(), peers.end());
+    is_unknown(what, kinds, *name, known);
+    return false;
   }
 
   bool read_fault_event(const YamlNode& node, const YamlNode& what, EventPlan& event) {
@@ -119,33 +124,44 @@ class EventReader {
 
   bool read_cut(const YamlNode& node, EventPlan& event) {
     const YamlNode* const after = node.find("after");
-    const auto name = after ? values_.text(*after) : std::nullopt;
     if (!after) values_.wrong(node, "a cut without 'after', the last station on the first part");
-    if (!name) return false;
-    const std::vector<StationPlan>& stations = plan_.lines[event.line].stations;
-    for (std::size_t i = 0; i < stations.size(); ++i)
-      if (name_of(plan_, stations[i]) == *name) event.near = i + 1;
-    if (event.near == 0 || event.near == stations.size()) {
-      values_.wrong(
-          *after,
-          fmt::format("'{}' is not on line '{}', or its last station", stl::shortened(*name), plan_.lines[event.line].name),
-          "the cable is cut after one of the others");
-      return false;
-    }
-    return true;
+    const LinePlan& line = plan_.lines[event.line];
+    const auto place = after ? station_on(line, *after, plan_, values_) : std::nullopt;
+    if (!place) return false;
+    event.near = *place + 1;
+    if (event.near < line.stations.size()) return true;
+    values_.wrong(*after, fmt::format("'{}' is the last station of line '{}'", stl::shortened(after->text), line.name),
+                  "the cable is cut after one of the others");
+    return false;
   }
 
   template <class Plans>
-  std::optional<std::size_t> named(const YamlNode& node, const Plans& plans, std::string_view what) {
+  static std::optional<std::size_t> place_of(const Plans& plans, std::string_view name) {
+    const auto found = std::ranges::find(plans, name, [](const auto& each) -> std::string_view { return each.name; });
+    return found == plans.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - plans.begin()));
+  }
+
+  template <class Plans>
+  static std::vector<std::string> names_of(const Plans& plans) {
+    std::vector<std::string> names;
+    for (const auto& each : plans) names.push_back(each.name);
+    return names;
+  }
+
+  void is_unknown(const YamlNode& node, std::string_view kind, const std::string& name,
+                  const std::vector<std::string>& known) {
+    values_.wrong(node, fmt::format("there is no {} '{}'", kind, stl::shortened(name)),
+                  known.empty() ? fmt::format("there is no {} in this system", kind)
+                                : fmt::format("known: {}", fmt::join(known, ", ")));
+  }
+
+  template <class Plans>
+  std::optional<std::size_t> named(const YamlNode& node, const Plans& plans, std::string_view kind) {
     const auto name = values_.text(node);
     if (!name) return {};
-    std::string known;
-    for (std::size_t i = 0; i < plans.size(); ++i) {
-      if (plans[i].name == *name) return i;
-      known.append(known.empty() ? "" : ", ").append(plans[i].name);
-    }
-    values_.wrong(node, fmt::format("there is no {} '{}'", what, stl::shortened(*name)), "known: " + known);
-    return {};
+    const auto place = place_of(plans, *name);
+    if (!place) is_unknown(node, kind, *name, names_of(plans));
+    return place;
   }
 
   std::optional<std::size_t> plc_named(const YamlNode& node) { return named(node, plan_.plcs, "PLC"); }

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "interpreter/trace/line_parts.hpp"
+#include "tools/views/memory.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -38,7 +39,8 @@ std::string to_text(const EventPlan& event, const SystemPlan& plan) {
       return "cable whole again";
     case What::Set: {
       std::string places;
-      for (const Assignment& each : event.set) places.append(places.empty() ? "" : ", ").append(each.place.name_of(0));
+      for (const Assignment& each : event.set)
+        places += fmt::format("{}{} to {}", places.empty() ? "" : ", ", each.place.name_of(0), hex_text(each));
       return fmt::format("a programming device sets {}", places);
     }
     case What::Fault:
@@ -108,13 +110,12 @@ bool SystemTrace::close(std::string& why) {
 TraceSink& SystemTrace::station(std::size_t plc) { return *stations_[plc]; }
 
 void SystemTrace::tell(const EventPlan& event, Time at) {
+  if (!told_.emplace(at, &event).second) return;
   fmt::memory_buffer line;
   append_clock(line, at);
   const bool in_vain = event.what == EventPlan::What::Set && !plcs_[event.plc]->powered();
   append(line, "  ", to_text(event, plan_), in_vain ? ": nothing, for there is no power\n" : "\n");
-  const std::string& owner = owner_of(event, plan_);
-  if (told_.emplace(at, fmt::format("{} {}", owner, fmt::to_string(line))).second)
-    add(owner, at, {line.data(), line.size()});
+  add(owner_of(event, plan_), at, {line.data(), line.size()});
 }
 
 void SystemTrace::add(std::string_view name, Time at, std::string_view text) {

@@ -53,8 +53,8 @@ class SystemTrace final {
   std::size_t width_ = 0;  // of the column of names
   RecordFile file_;
   std::ostream* out_ = nullptr;
-  std::vector<std::unique_ptr<Station>> stations_;  // by PLC
-  std::set<std::pair<Time, std::string>> told_;     // events
+  std::vector<std::unique_ptr<Station>> stations_;    // by PLC
+  std::set<std::pair<Time, const EventPlan*>> told_;  // by their places in the plan: two of one instant may read the same
   std::vector<Line> waiting_;
 };
 

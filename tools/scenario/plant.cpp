@@ -113,9 +113,13 @@ bool Plant::wait_scans(std::uint64_t count) {
   const Time limit = simulation().time() + kReadyWithin;
   for (; count > 0 && simulation().run_until(limit) == serial::Halt::Paused; --count) {
   }
-  cpu().pause_at_scan_end(false);
-  simulation().run_until(simulation().time() + 1);  // running on, the CPU is no longer paused
+  leave_pause();
   return count == 0;
+}
+
+void Plant::leave_pause() {
+  cpu().pause_at_scan_end(false);
+  cpu().run(cpu().time());
 }
 
 bool Plant::wait_until(const std::function<bool()>& holds, Time timeout) {
@@ -127,8 +131,7 @@ bool Plant::wait_until(const std::function<bool()>& holds, Time timeout) {
     held = holds();
     if (halt == serial::Halt::Stopped) break;
   }
-  cpu().pause_at_scan_end(false);
-  cpu().run(simulation().time());  // it is no longer paused
+  leave_pause();
   return held;
 }
 

@@ -106,6 +106,8 @@ class Plant {
 
  private:
   void power_up(const RetentiveMemory* memory);
+  /// The CPU does not pause at the ends of its scans any more, and is not paused at the last: no time passes.
+  void leave_pause();
   serial::MasterSettings master_of(const Spot& spot) const;
   const Cpu& cpu_of(std::size_t plc) const { return rig_ ? rig_->plc(plc).cpu() : simulation_->cpu(); }
   bool is_on(std::size_t line, std::size_t plc) const;

@@ -7,6 +7,7 @@
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/program/load.hpp"
 #include "tools/scenario/transcript_writer.hpp"
+#include "tools/views/memory.hpp"
 
 namespace s7200::tools {
 
@@ -29,11 +30,8 @@ std::string in_quotes(std::string_view text) {
 
 std::string assignments_text(const std::vector<Assignment>& assignments) {
   std::string text;
-  for (const Assignment& assignment : assignments) {
-    const std::uint32_t digits = assignment.place.width == Width::Bit ? 1 : 2 * bytes_of(assignment.place.width);
-    const std::uint32_t value = digits == 8 ? assignment.value : assignment.value & ((1U << 4 * digits) - 1);
-    text += fmt::format("{}{}: 16#{:0{}X}", text.empty() ? "" : ", ", assignment.place.name_of(0), value, digits);
-  }
+  for (const Assignment& assignment : assignments)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", assignment.place.name_of(0), hex_text(assignment));
   return "{" + text + "}";
 }
 

@@ -128,6 +128,12 @@ void assign(Cpu& cpu, const Assignment& assignment) {
   for (std::uint32_t i = 0; i < bytes.size(); ++i) cpu.set_input(place.number + i, bytes[i], cpu.time());
 }
 
+std::string hex_text(const Assignment& assignment) {
+  const std::uint32_t digits = assignment.place.width == Width::Bit ? 1 : 2 * s7200::bytes_of(assignment.place.width);
+  const std::uint32_t value = digits == 8 ? assignment.value : assignment.value & ((1U << 4 * digits) - 1);
+  return fmt::format("16#{:0{}X}", value, digits);
+}
+
 std::string dump_text(const Cpu& cpu, const MemoryRange& range) {
   const State& state = cpu.state();
   if (range.width == Width::Bit) return fmt::format("{:<8} {}\n", range.name_of(0), range.bytes_in(state.image)[0]);

@@ -21,6 +21,9 @@ std::optional<std::vector<MemoryRange>> parse_ranges(const std::vector<std::stri
 /// I addresses set the input points, everything else is written as a programming device would.
 void assign(Cpu& cpu, const Assignment& assignment);
 
+/// Its value in hex, `16#0005`, in the digits of its place.
+std::string hex_text(const Assignment& assignment);
+
 /// Lines `VW100  16#0005      5`: hex and decimal for each object, bytes sixteen a line with their characters. A double word
 /// that the program uses as a real is shown as one too.
 std::string dump_text(const Cpu& cpu, const MemoryRange& range);

@@ -51,6 +51,8 @@ TEST(RecordedFields, TimesAreReadInTheFormsOfTools) {
   EXPECT_EQ(time("12.5 ms 01"), 12'500 * kMicrosecond);
   EXPECT_EQ(time("+7ms 01"), 7 * ms);
   EXPECT_EQ(time("[-0.002] 01 03"), -2 * ms) << "before the trigger";
+  EXPECT_EQ(time("1700000000.100000 01 03"), 1'700'000'000 * kSecond + 100 * ms) << "since 1970";
+  EXPECT_EQ(time("4000000000.5 01 03"), std::nullopt) << "the difference of two would not fit";
   EXPECT_EQ(time("01 03 00"), std::nullopt) << "bytes";
   EXPECT_EQ(time("TX 01 03"), std::nullopt);
 }
@@ -88,6 +90,18 @@ TEST(Recordings, ATextLogHasAFrameInEachLine) {
   EXPECT_EQ(log.frames[1].direction, Direction::Answer);
   EXPECT_EQ(log.frames[1].at, 25 * ms);
   EXPECT_EQ(log.notes, std::vector<std::string>{"a line without bytes was left out"});
+}
+
+TEST(Recordings, TheMarkThatSomeEditorsPutBeforeATextIsNoPartOfIt) {
+  for (const char* const text :
+       {"2026-11-22 10:00:00.5 TX 01 03 00 00 00 01 84 0A\n2026-11-22 10:00:01 RX 01 03 02 12 34 B5 33\n",
+        "Time;Data\n0.5;01 03 00 00 00 01 84 0A\n1;01 03 02 12 34 B5 33\n"}) {
+    const LineRecording recording = recording_of(std::string("\xEF\xBB\xBF") + text);
+    ASSERT_EQ(recording.frames.size(), 2U) << text;
+    EXPECT_EQ(recording.frames[0].at, 0) << text;
+    EXPECT_EQ(recording.frames[1].at, 500 * ms) << text;
+    EXPECT_EQ(recording.frames[0].bytes, kRequest) << text;
+  }
 }
 
 TEST(Recordings, WhatMbpollPrintsHasNoTimesAndSaysItsDirectionsInBrackets) {
@@ -138,6 +152,23 @@ TEST(Recordings, ATimeInACsvIsReadAsAWholeOrNotAtAll) {
   EXPECT_EQ(refusal_of("Time;Data\n1.5 x;01 03\n"), "line 2: '1.5 x' is not a time");
   EXPECT_EQ(refusal_of("Time;Data\n1.5 s later;01 03\n"), "line 2: '1.5 s later' is not a time");
   EXPECT_EQ(refusal_of("Time;Data\nnan;01 03\n"), "line 2: 'nan' is not a time");
+}
+
+TEST(Recordings, AColumnOfTimesInACsvIsInTheUnitThatItsNameSays) {
+  const auto second_time = [](const std::string& name) {
+    return times_of(recording_of(name + ";Data\n1000;01 03\n251000;01 03\n")).back();
+  };
+  for (const char* const name : {"Time [ns]", "Time (ns)", "time_ns", "Start ns"})
+    EXPECT_EQ(second_time(name), 250'000) << name;
+  for (const char* const name : {"Time [us]", "Time (\u00B5s)", "time [\u03BCs]"})
+    EXPECT_EQ(second_time(name), 250 * ms) << name;
+  EXPECT_EQ(second_time("start_ms"), 250 * kSecond);
+  for (const char* const name : {"Time", "Time [s]", "Timestamp (sec)", "Time (seconds)"})
+    EXPECT_EQ(second_time(name), 250'000 * kSecond) << name;
+  EXPECT_EQ(refusal_of("Time [ticks];Data\n1000;01 03\n"),
+            "line 1: 'Time [ticks]' names no unit; write [s], [ms], [us] or [ns]");
+  EXPECT_EQ(times_of(recording_of("Time (local);Data\n12:00:00.5;01 03\n12:00:01;01 03\n")).back(), 500 * ms)
+      << "a time of day needs none";
 }
 
 TEST(Recordings, TimesBeforeTheTriggerAreCountedFromTheFirstRow) {
@@ -630,6 +661,22 @@ TEST(Conversation, ALoaderSessionIsReadStepByStep) {
                                       "> session closed"}));
   EXPECT_TRUE(frames.back().needs_no_answer);
   for (const ReadFrame& frame : frames) EXPECT_TRUE(frame.right) << frame.text;
+}
+
+TEST(Conversation, OfALoaderWithPlainDleTheFrameEndsDataThatAreMoreThanWasCounted) {
+  const std::string parameters = "00 00 00 00 00 ef 00 ef 80 ee 00 ec 00 ed 00 ea 00 28 04 cf ff";
+  const auto data = [&](const std::string& end) {
+    RecordedProtocol plain = *find_recorded_protocol("pc500-loader");
+    plain.reader = plain.plain_dle_reader;
+    const auto frames = conversation(recording_of("0.020 02\n0.030 10 06\n0.040 18\n0.050 02\n0.060 10 06\n0.070 16 10 03\n"
+                                                  "0.080 10 06 10 04\n0.090 10 06 02\n0.100 10 06\n0.110 " +
+                                                  parameters + end + "\n"),
+                                     plain, {});
+    return frames.back();
+  };
+  EXPECT_TRUE(data(" 10 03").right);
+  EXPECT_EQ(data(" 00 00 10 03").text, parameters + " 00 00");
+  EXPECT_FALSE(data(" 00 00 10").right);
 }
 
 TEST(Conversation, TheLastWordOfALoaderSessionAndTheFirstOfTheNextMayStandInOneFrame) {

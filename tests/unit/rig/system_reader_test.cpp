@@ -63,6 +63,8 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
     std::uint32_t line, column;
     std::string_view message;
   };
+  const std::string with_master =
+      slave + "peers: {m: {polls: [{station: 1, read: 40001}]}}\nlines: {l: {stations: [m, a]}}\n";
   const Case cases[] = {
       {"- a\n", 1, 1, "a system file is a map, not a list"},
       {"", 0, 0, "nothing in it"},
@@ -128,7 +130,12 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {slave + "lines: {l: {stations: [a]}}\nevents: [{power_off: a}]\n", 3, 10, "an event without 'at'"},
       {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, power_off: b}]\n", 3, 30, "there is no PLC 'b'"},
       {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, mend: k}]\n", 3, 25, "there is no line 'k'"},
-      {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, cut: l, after: a}]\n", 3, 34, "or its last station"},
+      {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, cut: l, after: a}]\n", 3, 34,
+       "'a' is the last station of line 'l'"},
+      {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, cut: l, after: b}]\n", 3, 34, "'b' is not on line 'l'"},
+      {with_master + "events: [{at: 1s, power_off: x}]\n", 4, 30, "there is no PLC or peer 'x'"},
+      {"peers: {o: {westinghouse: modbus}}\nlines: {l: {stations: [o]}}\nevents: [{at: 1s, power_off: x}]\n", 3, 30,
+       "there is no peer 'x'"},
       {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, set: {VW0: 1}}]\n", 3, 10, "'set' without the 'plc'"},
       {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, mend: l, cut: l}]\n", 3, 10, "both 'cut' and 'mend'"},
       {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, power_off: a, after: a}]\n", 3, 33,
@@ -229,6 +236,24 @@ TEST(SystemFile, EachBridgeAtPort0GetsAPortOfItsOwn) {
       "bridges: {x: {tcp: \"127.0.0.1:0\"}, y: {tcp: \"127.0.0.1:0\"}, z: {modbus-tcp: 0}}\n"
       "lines: {l: {stations: [a, x, y, z]}}\n");
   EXPECT_TRUE(file.ok()) << file.file.diagnostics.front().message;
+}
+
+TEST(SystemFile, ACableIsCutAfterAStationAsItIsWrittenOnItsLine) {
+  const std::string plcs = "plcs: {a: {program: ../modbus_slave.stl, cpu: 226}, b: {program: ../modbus_slave.stl}}\n";
+  for (const char* const after : {"a", "a.1"}) {
+    const SystemFile file =
+        read(fmt::format("{}lines: {{l: {{stations: [a.1, b]}}}}\nevents: [{{at: 1s, cut: l, after: {}}}]\n", plcs, after));
+    ASSERT_TRUE(file.ok()) << after;
+    EXPECT_EQ(file.plan.events.at(0).near, 1U) << after;
+  }
+}
+
+TEST(SystemFile, WhereThereIsNoPlcTheAdviceSaysSo) {
+  const SystemFile file = read(
+      "peers: {o: {westinghouse: modbus}}\nlines: {l: {stations: [o]}}\n"
+      "events: [{at: 1s, set: {VB0: 1}, plc: x}]\n");
+  ASSERT_FALSE(file.ok());
+  EXPECT_EQ(file.file.diagnostics.front().hint, "there is no PLC in this system");
 }
 
 TEST(SystemFile, EveryEventHasItsWordAndTheTableOfKeysHasAllOfThem) {

@@ -77,6 +77,24 @@ class ScenarioSuite : public testing::Test {
     return text;
   }
 
+  /// A scenario of a line with the slaves a and b, stations 1 and 2.
+  std::string scenario_of_two(const std::string& name, const std::string& steps) {
+    file("two.yaml", fmt::format("plcs: {{a: {{program: {0}}}, b: {{program: {0}, station: 2}}}}\n"
+                                 "lines: {{bus: {{stations: [a, b]}}}}\n",
+                                 kSlave));
+    return file(name + ".yaml", fmt::format("name: {}\nsystem: two.yaml\ntimeout: 200ms\n{}", name, steps));
+  }
+
+  /// What the first finding has found; empty if all passed.
+  std::string found_in(const std::string& scenario) {
+    Suite suite = collected({.files = {scenario}});
+    Messages messages;
+    const auto result = suite.run({}, messages);
+    EXPECT_TRUE(result) << text_of(messages);
+    const auto& findings = result->reports.at(0).result.findings;
+    return findings.empty() ? "" : findings[0].found;
+  }
+
   std::filesystem::path folder_ =
       std::filesystem::path(testing::TempDir()) / fmt::format("s7200_suite_{}_{}", getpid(), next_folder_++);
   static inline int next_folder_ = 0;
@@ -104,6 +122,16 @@ TEST_F(ScenarioSuite, AllMistakesOfAllFilesAreToldAndNothingIsRun) {
   EXPECT_NE(told.find("'5' is not a duration"), std::string::npos) << told;
   EXPECT_NE(told.find("cannot read "), std::string::npos) << told;
   EXPECT_NE(told.find("'frob' has no place here"), std::string::npos) << told;
+}
+
+TEST_F(ScenarioSuite, APlcThatWasWaitedForHoldsNobodyUpWhenItsPowerGoesOff) {
+  for (const char* wait : {"{wait: 1 scan, on: a}", "{wait_until: {VW0: 0}, on: a}"})
+    EXPECT_EQ(found_in(scenario_of_two("paused", fmt::format("on: b\nsteps:\n  - {}\n  - {{power_off: a}}\n"
+                                                             "  - {{read: holding 0, station: 2, expect: [0]}}\n"
+                                                             "  - {{read: holding 0, station: 2, expect: [0]}}\n",
+                                                             wait))),
+              "")
+        << wait;
 }
 
 TEST_F(ScenarioSuite, AProgramThatIsMissingOrBrokenFailsItsScenarioAndTheOthersRun) {

@@ -382,6 +382,17 @@ TEST(System, AnyPausedCpuPausesTheSystemWhichGoesOnAsIfItHadNot) {
   EXPECT_TRUE(plain.plant.system.snapshot() == paused.plant.system.snapshot());
 }
 
+TEST(System, ACpuThatWasPausedWhenItsPowerWentOffDoesNotHoldTheOthers) {
+  Plant plant({slave(1), slave(2)});
+  plant.start();
+  plant.plcs[0]->cpu().pause_at_scan_end(true);
+  ASSERT_EQ(plant.system.run_until(plant.system.time() + kSecond), Halt::Paused);
+  ASSERT_TRUE(plant.system.paused());
+  plant.system.power_off(*plant.plcs[0]);
+  EXPECT_FALSE(plant.system.paused());
+  EXPECT_EQ(plant.ask(2, modbus::read_holding_registers(10, 1)), "02 03 02 00 00");
+}
+
 TEST(System, ARunWithoutEndComesBackWhenItIsAskedTo) {
   Plant plant({slave(1), slave(2)});
   const std::atomic<bool> request = true;

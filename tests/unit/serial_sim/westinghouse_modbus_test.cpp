@@ -145,6 +145,7 @@ TEST(WestinghouseModbus, M8TheFunctionIsCheckedBeforeTheQuantityAndThatBeforeThe
   EXPECT_EQ(asked("", "10 00 00 00 01 04 00 01"), "90 03");
   EXPECT_EQ(asked("", "05 04 00 ff 00"), "85 02");
   EXPECT_EQ(asked("exception=06", "03 00 00 00 01"), "83 06");
+  EXPECT_EQ(asked("exception=06", "08 00 00 12 34"), "88 06");
   EXPECT_EQ(asked("exception=04", "03 ff ff 00 01"), "83 02");
   EXPECT_EQ(asked("exception=04", "63"), "e3 01");
 }
@@ -316,7 +317,7 @@ TEST(WestinghouseSetting, CellsThatASmallerMemoryNoLongerHasAreNotReached) {
   for (const char* const text : {"HR100=1,2", "CR9=1", "holding_registers=100", "coils=9"})
     ASSERT_TRUE(plc->set(text, why)) << why;
   EXPECT_FALSE(plc->still_reaches("HR100=1,2", why));
-  EXPECT_EQ(why, "HR101 is not there: holding_registers=100; set more of them first");
+  EXPECT_EQ(why, "HR101 is not there: holding_registers=100; set holding_registers=101 or more before it");
   EXPECT_TRUE(plc->still_reaches("HR99=1,2", why));
   EXPECT_TRUE(plc->still_reaches("CR9=1", why));
   EXPECT_TRUE(plc->still_reaches("coils=9", why)) << "a setting";

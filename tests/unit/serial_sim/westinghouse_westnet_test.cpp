@@ -128,6 +128,21 @@ TEST(Westnet, W6ADropThatCannotBeIsRefusedAndAMissingPlcWhenItIsAsked) {
   EXPECT_EQ(asked(bench, highway(OpenSession)), "ff 02");
 }
 
+TEST(Westnet, APlcThatIsNowhereIsMissingWhetherOrNotADropIsAddressed) {
+  Bench nowhere("westnet", "plc_at=");
+  for (const Bytes& message : {highway(OpenSession), read_block(0, 2)}) EXPECT_EQ(asked(nowhere, message), "ff 02");
+  EXPECT_EQ(asked(nowhere, highway(SetAddress, 0, 0x11)), "09 00 00 11 00 1a");
+  EXPECT_EQ(asked(nowhere, read_block(0, 2)), "ff 02");
+}
+
+TEST(Westnet, TheComputerHasADrop) {
+  Bench bench("westnet");
+  std::string why;
+  EXPECT_FALSE(bench.plc().set("local=", why));
+  EXPECT_EQ(why, "local: '' is not a drop; write highway, drop and subdrop in hex: 00.11.00");
+  EXPECT_EQ(asked(bench, highway(ReadLocalAddress)), "09 06 00 01 00 10");
+}
+
 TEST(Westnet, W7WhatIsNotUnderstoodIsNotAnswered) {
   Addressed plc("W[0000]=0");
   const auto silent = [&](const Bytes& message) {
