@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
+#include <set>
 
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/program/load.hpp"
@@ -29,10 +31,13 @@ std::string in_quotes(std::string_view text) {
 
 std::string assignments_text(const std::vector<Assignment>& assignments) {
   std::string text;
-  for (const Assignment& assignment : assignments) {
+  std::set<std::string> written;
+  for (const Assignment& assignment : assignments | std::views::reverse) {
+    const std::string name = assignment.place.name_of(0);
+    if (!written.insert(name).second) continue;
     const std::uint32_t digits = assignment.place.width == Width::Bit ? 1 : 2 * bytes_of(assignment.place.width);
     const std::uint32_t value = digits == 8 ? assignment.value : assignment.value & ((1U << 4 * digits) - 1);
-    text += fmt::format("{}{}: 16#{:0{}X}", text.empty() ? "" : ", ", assignment.place.name_of(0), value, digits);
+    text = fmt::format("{}: 16#{:0{}X}{}{}", name, value, digits, text.empty() ? "" : ", ", text);
   }
   return "{" + text + "}";
 }
