@@ -2027,6 +2027,15 @@ class Files(Case):
         self.assertIn("fault: flip:character=3,bit=5", recorded.read_text(encoding="utf-8"))
         self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
 
+    def test_a_place_that_is_set_or_displayed_twice_stands_once_in_a_recorded_scenario(self):
+        recorded = self.folder / "twice.yaml"
+        self.ends(FINE, "debug", SLAVE, "-x", "continue 100ms; set VB2000=5 VW2000=1 VB2000=7; continue 100ms; display VB2000:2; "
+                  f"display VB2001; record {recorded}")
+        text = recorded.read_text(encoding="utf-8")
+        self.assertIn("set: {VW2000: 16#0001, VB2000: 16#07}", text)
+        self.assertIn("memory: {VB2000: 16#07, VB2001: 16#01}", text)
+        self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
+
     def test_a_session_with_power_cycles_is_recorded_as_a_scenario(self):
         for power, kept in (("power 1h", 9), ("power lost", 0)):
             recorded = self.folder / f"{power.replace(' ', '_')}.yaml"

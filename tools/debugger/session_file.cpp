@@ -51,9 +51,10 @@ SerialFormat format_from(const Json& json) {
 
 // --- actions ---
 
+/// In their order: a place may stand there again, or lie in another one.
 Json json_of(const std::vector<Assignment>& assignments) {
-  Json all = Json::object();
-  for (const Assignment& assignment : assignments) all[assignment.place.name_of(0)] = assignment.value;
+  Json all = Json::array();
+  for (const Assignment& assignment : assignments) all.push_back({assignment.place.name_of(0), assignment.value});
   return all;
 }
 
@@ -105,8 +106,8 @@ MemoryRange place_from(const std::string& text, const CpuModel& model) {
 
 std::vector<Assignment> assignments_from(const Json& json, const CpuModel& model) {
   std::vector<Assignment> all;
-  for (const auto& [address, value] : json.get_ref<const Json::object_t&>())
-    all.push_back({place_from(address, model), value.get<std::uint32_t>()});
+  for (const Json& assignment : json.get_ref<const Json::array_t&>())
+    all.push_back({place_from(assignment.at(0).get<std::string>(), model), assignment.at(1).get<std::uint32_t>()});
   return all;
 }
 

@@ -71,8 +71,7 @@ Time Stepper::next_timeout() const {
     if (state.phase == serial::Requester::Phase::Waiting)
       next = std::min(next, state.exchange.request_end + state.request.timeout);
   }
-  for (std::size_t line = 0; line < given_up_.size(); ++line)
-    if (is_open(line)) next = std::min(next, history_.requests().last(line)->end + host_timeout);
+  for (std::size_t line = 0; line < given_up_.size(); ++line) next = std::min(next, timeout_of_plc(line));
   return next;
 }
 
@@ -461,14 +460,13 @@ bool Stepper::is_meant(const StopPoint& stop, const TraceRecord& record) {
 void Stepper::note_record(const TraceRecord& record) {
   const std::size_t number = history_.told_of();
   Listening& listening = listening_[number];
-  if (begins_anew(number, record)) note_unanswered_plc(history_.requests().line_of(number, record.port));
+  if (history_.requests().gives_up(number, record)) note_unanswered_plc(history_.requests().line_of(number, record.port));
   const bool heard = record.kind == TraceKind::CharacterIgnored && record.code == 0;
   const bool on_line = record.port == station(number).port();
   const bool received =
       on_line && (record.kind == TraceKind::CharacterReceived || heard || record.kind == TraceKind::CharacterDropped);
   const bool sent = on_line && record.kind == TraceKind::CharacterSent;
-  const bool sends = sent || (on_line && record.kind == TraceKind::Transmit);
-  if (received || sends) note_end_of_wait(number, sends ? nullptr : &record);
+  if (received || (on_line && record.kind == TraceKind::TransmitEnd)) note_end_of_wait(number, record);
   if (received) listening.coming_in.push_back(record.byte);
   if (received) listening.heard = record.at;
   if (received || sent) listening.came_in = received;
@@ -519,11 +517,14 @@ void Stepper::note_line(std::size_t number, Time now) {
   note_plc_timeouts(now);
 }
 
-/// A station sends, or hears a character: that of an answer, unless it is damaged, or of the next request.
-void Stepper::note_end_of_wait(std::size_t number, const TraceRecord* heard) {
+/// A station has sent something, or hears a character: of an answer, unless it is damaged, or of the next request.
+void Stepper::note_end_of_wait(std::size_t number, const TraceRecord& record) {
   Listening& line = line_of(number);
-  const bool again = heard && is_of_a_master(number, *heard), noise = heard && (heard->parity_error || heard->framing_error);
-  if (!line.host_waits || (noise && !again)) return;
+  if (!line.host_waits) return;
+  const bool heard = record.kind != TraceKind::TransmitEnd;
+  const bool again = heard ? is_of_a_master(number, record) : history_.requests().ends_request(number, record);
+  const bool unclear = record.parity_error || record.framing_error || is_sending(number);
+  if (heard && unclear && !again) return;
   line.host_waits.reset();
   if (again) note_unanswered(station(number).line(), line.host_frame);
 }
@@ -569,6 +570,12 @@ bool Stepper::is_open(std::size_t line) const {
   return last && last->waits() && last->end != given_up_[line];
 }
 
+/// Of the request of a program; kNever if none waits, or if what may be its answer is being sent.
+Time Stepper::timeout_of_plc(std::size_t line) const {
+  const PlcRequests& requests = history_.requests();
+  return is_open(line) && !requests.is_sending(line) ? requests.last(line)->end + host_timeout : kNever;
+}
+
 void Stepper::note_unanswered_plc(std::size_t line) {
   if (!is_open(line)) return;
   const PlcRequests::Request& last = *history_.requests().last(line);
@@ -578,38 +585,16 @@ void Stepper::note_unanswered_plc(std::size_t line) {
 
 void Stepper::note_plc_timeouts(Time now) {
   for (std::size_t line = 0; line < given_up_.size(); ++line)
-    if (is_open(line) && now - history_.requests().last(line)->end >= host_timeout) note_unanswered_plc(line);
-}
-
-/// The program that has asked last sends again, or another master's request is heard.
-bool Stepper::begins_anew(std::size_t number, const TraceRecord& record) const {
-  const bool sends = record.kind == TraceKind::Transmit;
-  const bool hears = record.kind == TraceKind::CharacterReceived || record.kind == TraceKind::CharacterIgnored ||
-                     record.kind == TraceKind::CharacterDropped;
-  if (!sends && !hears) return false;
-  const PlcRequests& requests = history_.requests();
-  const std::size_t line = requests.line_of(number, record.port);
-  if (!is_open(line)) return false;
-  const PlcRequests::Request& last = *requests.last(line);
-  if (sends) return last.station == number;
-  return any_requester_asks(requests.lines()[line]->line(), last.end);
-}
-
-/// A simulated master of the line, since then or later.
-bool Stepper::any_requester_asks(const serial::Line& line, Time since) const {
-  const auto asks = [&](const serial::Requester& requester) {
-    return requester.asks() && requester.exchange().request_start >= since;
-  };
-  for (std::size_t number = 0; number < history_.stations(); ++number)
-    if (const serial::Simulation& here = station(number);
-        here.has_master() && &here.line().line() == &line && asks(here.master()))
-      return true;
-  return std::ranges::any_of(history_.pollers(), [&](const PollingMaster& master) {
-    return master.poller->is_on(line) && asks(master.poller->requester());
-  });
+    if (timeout_of_plc(line) <= now) note_unanswered_plc(line);
 }
 
 // --- masters on bridges ---
+
+/// A PLC on the line of a station.
+bool Stepper::is_sending(std::size_t number) const {
+  const PlcRequests& requests = history_.requests();
+  return requests.is_sending(requests.line_of(number, station(number).port()));
+}
 
 /// Of those on the line of a station.
 std::size_t Stepper::first_beside(std::size_t number) const {
@@ -630,7 +615,7 @@ std::optional<std::size_t> Stepper::host_that_sent(std::size_t number, Time afte
 
 /// Of a simulated one or of one on a bridge. Any other character is of a station that answers.
 bool Stepper::is_of_a_master(std::size_t number, const TraceRecord& received) const {
-  return any_requester_asks(station(number).line().line(), 0) || host_that_sent(number, received.since);
+  return history_.requests().master_asks(station(number).line().line(), 0) || host_that_sent(number, received.since);
 }
 
 /// What a bridge has sent is a request, unless somebody on the line has just asked. All stations on its line hear it, one
@@ -656,12 +641,12 @@ bool Stepper::answers(std::size_t number, Time end, Time character) const {
       return true;
   }
   const auto& last = history_.requests().last(history_.requests().line_of(number, here.port()));
-  return last && end > last->end && end < last->next_to + character;
+  return last && last->answer && end > last->end && end < last->answer->to + character;
 }
 
 void Stepper::note_host_timeout(std::size_t number, Time now) {
   Listening& line = line_of(number);
-  if (!line.host_waits || now - *line.host_waits < host_timeout) return;
+  if (!line.host_waits || now - *line.host_waits < host_timeout || is_sending(number)) return;
   line.host_waits.reset();
   note_unanswered(station(number).line(), line.host_frame);
 }

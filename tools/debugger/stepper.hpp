@@ -170,13 +170,13 @@ class Stepper final : public Observer {
   bool is_open(std::size_t line) const;
   void note_unanswered_plc(std::size_t line);
   void note_plc_timeouts(Time now);
-  bool begins_anew(std::size_t station, const TraceRecord& record) const;
-  bool any_requester_asks(const serial::Line& line, Time since) const;
+  Time timeout_of_plc(std::size_t line) const;
   Time next_timeout() const;
   std::size_t first_beside(std::size_t station) const;
   Listening& line_of(std::size_t station) { return listening_[first_beside(station)]; }
   std::optional<std::size_t> host_that_sent(std::size_t station, Time after) const;
-  void note_end_of_wait(std::size_t station, const TraceRecord* heard);
+  bool is_sending(std::size_t station) const;
+  void note_end_of_wait(std::size_t station, const TraceRecord& record);
   bool is_of_a_master(std::size_t station, const TraceRecord& received) const;
   void note_host_request(std::size_t station, std::vector<std::uint8_t> frame, Time end);
   bool answers(std::size_t station, Time end, Time character) const;

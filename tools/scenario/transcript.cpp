@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
+#include <set>
 
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/program/load.hpp"
@@ -30,8 +32,12 @@ std::string in_quotes(std::string_view text) {
 
 std::string assignments_text(const std::vector<Assignment>& assignments) {
   std::string text;
-  for (const Assignment& assignment : assignments)
-    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", assignment.place.name_of(0), hex_text(assignment));
+  std::set<std::string> written;
+  for (const Assignment& assignment : assignments | std::views::reverse) {
+    const std::string name = assignment.place.name_of(0);
+    if (!written.insert(name).second) continue;
+    text = fmt::format("{}: {}{}{}", name, hex_text(assignment), text.empty() ? "" : ", ", text);
+  }
   return "{" + text + "}";
 }
 

@@ -67,7 +67,7 @@ std::string exact(const Span& span);
 /// In double quotation marks, as YAML reads it back.
 std::string in_quotes(std::string_view text);
 
-/// `{VW20: 16#1234}`
+/// `{VW20: 16#1234}`: in their order, but each place once, with the last value that it is given, where it is given it.
 std::string assignments_text(const std::vector<Assignment>& assignments);
 
 }  // namespace s7200::tools

@@ -496,6 +496,26 @@ TEST(Debugger, ABridgeThatAnswersAProgramIsNoMaster) {
   EXPECT_TRUE(has(session("continue 1500ms"), "asked by the program")) << "nobody has answered the last";
 }
 
+TEST(Debugger, AProgramAndAMasterOnABridgeThatAskOneAfterTheOtherAreBothUnanswered) {
+  Bytes other{0x09, 0x03, 0x00, 0x0a, 0x00, 0x01};
+  modbus::add_crc(other);
+  Bridged session(kAsks, {1'600 * kMillisecond}, other);
+  session("continue 1550ms; break unanswered");
+  EXPECT_TRUE(has(session("continue"), "  01 03 00 00 00 01 84 0a  asked by the program\n"));
+  const Time first = session.simulation.time();
+  EXPECT_GT(first, 1'600 * kMillisecond);
+  EXPECT_LT(first, 1'610 * kMillisecond);
+  EXPECT_TRUE(has(session("continue"), "  09 03 00 0a 00 01 a5 40\n")) << session.out.str();
+  const Time second = session.simulation.time();
+  EXPECT_GT(second, 2 * kSecond) << "the program asks again";
+  EXPECT_LT(second, 2'020 * kMillisecond);
+  EXPECT_TRUE(has(session("continue"), "asked by the program"));
+  session("rcontinue");
+  EXPECT_EQ(session.simulation.time(), second);
+  session("rcontinue");
+  EXPECT_EQ(session.simulation.time(), first);
+}
+
 TEST(Debugger, ACancelledRequestIsSaidWhereItWasAndTheMasterIsReadyForTheNext) {
   Session session(kListening);
   EXPECT_TRUE(has(session.error_of("send cancel"), "no request of the simulated master is under way"));

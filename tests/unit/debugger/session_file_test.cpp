@@ -46,6 +46,15 @@ TEST_F(SavedSession, IsLoadedBitByBitIntoAnotherSession) {
   EXPECT_TRUE(has(other("at start; back 3; back"), "back to before 'scan 3'"));
 }
 
+TEST_F(SavedSession, HasWhatOneCommandDidToAPlaceTwiceInItsOrder) {
+  for (const std::string_view command : {"set VB20=5 VW20=1 VB20=7", "force VB20=5 VW20=1 VB20=7"}) {
+    Session session(kEcho), other(kEcho);
+    session(fmt::format("scan 3; {}; scan 3; expect VW20 = 16#0701; save {}", command, file("a.json")));
+    other(fmt::format("load {}; expect VW20 = 16#0701", file("a.json")));
+    EXPECT_EQ(other.simulation.snapshot(), session.simulation.snapshot()) << command;
+  }
+}
+
 TEST_F(SavedSession, KeepsAPowerCycleThatItBeganWith) {
   Session session(kNested);
   session("scan 5; set MB14=9; power 1s; scan 2; save " + file("a.json"));

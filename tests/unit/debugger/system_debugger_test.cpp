@@ -204,6 +204,38 @@ TEST(SystemDebugger, ARequestOfAPlcIsUnansweredWhenNobodyAnswersOrItAsksAgain) {
   EXPECT_TRUE(has(session("rcontinue"), "this is the oldest moment"));
 }
 
+/// Asks once, station 5 or 6 (with its CRC), `tenths` of a second after power-up.
+std::string asks_once(const std::string& name, std::string_view station, std::string_view crc, int tenths) {
+  const std::string path = testing::TempDir() + name + ".stl";
+  std::ofstream(path) << "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 8, VB100\nMOVD 16#" << station << "03000a, VD101\nMOVD 16#0001"
+                      << crc << ", VD105\nLD SM0.0\nTON T37, " << tenths << "\nLD T37\nEU\nXMT VB100, 0\nMEND\n";
+  return name + ": {program: " + path + ", cpu: 224}";
+}
+
+TEST(SystemDebugger, ARequestOfAPlcIsUnansweredWhenAnotherPlcAsksBeforeAnAnswer) {
+  SystemSession session("plcs:\n  " + asks_once("a", "05", "a58c", 1) + "\n  " + asks_once("b", "06", "a5bf", 3) +
+                            "\nlines: {bus: {stations: [a, b]}}\n",
+                        0);
+  EXPECT_TRUE(has(session("break unanswered; continue"), "  05 03 00 0a 00 01 a5 8c  asked by a\n"));
+  const Time first = session.system().time();
+  EXPECT_GT(first, 300 * kMillisecond);
+  EXPECT_LT(first, 320 * kMillisecond);
+  EXPECT_TRUE(has(session("continue"), "  06 03 00 0a 00 01 a5 bf  asked by b\n"));
+  EXPECT_FALSE(has(session("continue 3s"), "unanswered, hit"));
+  session("rcontinue; rcontinue");
+  EXPECT_EQ(session.system().time(), first);
+}
+
+TEST(SystemDebugger, ARequestOfAPlcIsOneThoughAMasterThatPollsWaitsForAnotherStation) {
+  SystemSession session("plcs:\n  " + asks_once("a", "05", "a58c", 15) +
+                            "\npeers: {scada: {polls: [{station: 9, read: 40001}], every: 4s, timeout: 3s}}\n"
+                            "lines: {bus: {stations: [scada, a]}}\n",
+                        0);
+  EXPECT_TRUE(has(session("break unanswered; continue"), "  05 03 00 0a 00 01 a5 8c  asked by a\n"));
+  EXPECT_LT(session.system().time(), 2'600 * kMillisecond);
+  EXPECT_TRUE(has(session("continue"), "  09 03 00 00 00 01 85 42  asked by scada\n"));
+}
+
 TEST(SystemDebugger, AnswersOfPlcsAndWhatTheyPassOnAreNoRequests) {
   SystemSession session(
       "plcs:\n  gateway: {program: ../systems/line_gateway.stl, cpu: 226}\n"
