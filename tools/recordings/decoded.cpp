@@ -130,8 +130,13 @@ Playback playback(const std::vector<ReadFrame>& frames, const Stamps& stamps, co
   std::string steps;
   bool asks = false;
   const ReadFrame* last = nullptr;
+  std::vector<const ReadFrame*> strays;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const ReadFrame& request = frames[i];
+    if (request.direction == Direction::Unknown) {
+      strays.push_back(&request);
+      steps += fmt::format("      # {}: left out: {}\n", request.frame.place, request.text);
+    }
     const bool wanted = request.direction == Direction::Request && (!choices.station || request.station == choices.station);
     if (!wanted) continue;
     const ReadFrame* answer = request.other ? &frames[*request.other] : nullptr;
@@ -159,6 +164,10 @@ Playback playback(const std::vector<ReadFrame>& frames, const Stamps& stamps, co
     steps +=
         fmt::format("        # {}: {}{}\n", request.frame.place, request.text, answer == nullptr ? "" : "; " + answer->text);
   }
+  if (!strays.empty())
+    playback.notes.push_back(fmt::format("{}: left out{}: {}", strays.front()->frame.place,
+                                         strays.size() == 1 ? "" : fmt::format(", and {} more frames", strays.size() - 1),
+                                         strays.front()->text));
   if (!asks) return playback;
   playback.scenario = fmt::format("scenarios:\n  - name: {}\n", in_quotes(choices.name));
   if (!choices.program.empty()) playback.scenario += fmt::format("    program: {}\n", in_quotes(choices.program));
