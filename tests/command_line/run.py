@@ -242,6 +242,9 @@ class Verbs(Case):
         self.assertGreater(doubled["summary"]["wrong"], 0)
         self.assertIn("--dle plain: modbus never doubles a byte 10", self.ends(UNUSABLE, "decode", loader, "--dle", "plain").stderr)
         self.assertIn("neither in .vcd", self.ends(UNUSABLE, "master", "westinghouse:pc1200", "slave-id", "--capture", "x.txt").stderr)
+        loud = self.folder / "LINE.PCAP"
+        self.ends(FINE, "master", "westinghouse:pc1200", "slave-id", "--capture", loud)
+        self.assertIn("report slave id", self.ends(FINE, "decode", loud).stdout)
 
     # Every action of each protocol, and what nobody answers.
     RECORDED = {
