@@ -242,6 +242,9 @@ class Verbs(Case):
         self.assertGreater(doubled["summary"]["wrong"], 0)
         self.assertIn("--dle plain: modbus never doubles a byte 10", self.ends(UNUSABLE, "decode", loader, "--dle", "plain").stderr)
         self.assertIn("neither in .vcd", self.ends(UNUSABLE, "master", "westinghouse:pc1200", "slave-id", "--capture", "x.txt").stderr)
+        loud = self.folder / "LINE.PCAP"
+        self.ends(FINE, "master", "westinghouse:pc1200", "slave-id", "--capture", loud)
+        self.assertIn("report slave id", self.ends(FINE, "decode", loud).stdout)
 
     # Every action of each protocol, and what nobody answers.
     RECORDED = {
@@ -1505,6 +1508,13 @@ lines:
         system = self.program(lan.format(idle, ", sync: master"), "lan.yaml")
         self.assertIn("16#1234", self.ends(FINE, *ask, system, "unit", "5", "read", "0").stdout)
         self.assertIn("no answer", self.ends(FAILED, *ask, system, "--no-sync", "unit", "5").stdout)
+        steps = ("steps:\n  - {send: 0A 05 00 00 00 0F, expect: any}\n"
+                 "  - {send: 05 00 00 01 00 06, expect: 05 00 00 01 00 06 34 12 46}\n")
+        self.program("peers: {old: {westinghouse: lan, settings: [unit=05, \"W[0]=1234\"], sync: master}}\n"
+                     "lines: {lan: {stations: [old]}}\n", "alone.yaml")
+        for named in ("lan.yaml", "alone.yaml"):
+            scenario = self.program(f"system: {named}\n{steps}", "scenario.yaml")
+            self.assertIn("1 passed", self.ends(FINE, "test", scenario).stdout, f"{named}: requests of a scenario drive it too")
         silent = self.program(lan.format(idle, ""), "silent.yaml")
         self.assertIn("sync: master", self.ends(UNUSABLE, *ask, silent, "unit", "5").stderr)
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <ostream>
 
+#include "interpreter/base/text.hpp"
 #include "serial_sim/record/pcap_capture.hpp"
 #include "serial_sim/record/vcd_capture.hpp"
 
@@ -19,7 +20,7 @@ std::unique_ptr<serial::WireSink> make(std::ostream& out) {
 }
 
 struct Kind {
-  std::string_view extension;
+  std::string_view extension;  ///< in capitals; written in any case
   std::string_view name;
   std::string beginning;
   std::unique_ptr<serial::WireSink> (*make)(std::ostream&);
@@ -27,15 +28,15 @@ struct Kind {
 
 const std::array<Kind, 2>& kinds() {
   static const std::array<Kind, 2> kKinds{
-      {{".vcd", "a capture of levels", std::string(serial::VcdCapture::kBeginning), make<serial::VcdCapture>},
-       {".pcap", "a capture of frames", serial::PcapWriter::beginning(), make<serial::PcapCapture>}}};
+      {{".VCD", "a capture of levels", std::string(serial::VcdCapture::kBeginning), make<serial::VcdCapture>},
+       {".PCAP", "a capture of frames", serial::PcapWriter::beginning(), make<serial::PcapCapture>}}};
   return kKinds;
 }
 
 const Kind* kind_of(const std::string& path) {
-  const auto found = std::find_if(kinds().begin(), kinds().end(), [&](const Kind& kind) {
-    return std::filesystem::path(path).extension() == kind.extension;
-  });
+  const std::string extension = stl::upper_case(std::filesystem::path(path).extension().string());
+  const auto found =
+      std::find_if(kinds().begin(), kinds().end(), [&](const Kind& kind) { return extension == kind.extension; });
   return found == kinds().end() ? nullptr : &*found;
 }
 

@@ -54,7 +54,10 @@ Rig::Rig(SystemPlan plan, const RigSurroundings& surroundings)
   for (const EventPlan& event : plan_.events) system_.schedule(event.at, [this, &event] { carry_out(event); });
   askers_.resize(lines_.size());
   for (const Spot& spot : surroundings.spots) join(spot);
-  for (const std::size_t line : surroundings.lines) askers_[line].requester = &system_.add_requester(*lines_[line]);
+  for (const std::size_t line : surroundings.lines) {
+    askers_[line].requester = &system_.add_requester(*lines_[line]);
+    drive_sync(*askers_[line].requester, plan_, plan_.lines[line], responders_);
+  }
 }
 
 Rig::~Rig() = default;

@@ -64,7 +64,7 @@ constexpr std::array kKeys{
     SystemKey{Where::OtherPlc, "westinghouse", "PROTOCOL", "modbus, lan, hppc, loader or westnet"},
     SystemKey{Where::OtherPlc, "model", "NAME", "pc1200, pc503, …; the first that speaks the protocol if left out"},
     SystemKey{Where::OtherPlc, "settings", "LIST", "as `s7200 master --plc` takes them: `[unit=05, HR1=1234]`"},
-    SystemKey{Where::OtherPlc, "sync", "NAME.OUTPUT, master", "of the PC1000 LAN: the output of a PLC that drives its sync signal, `gateway.Q0.0`, or the master that joins its line, `s7200 master --protocol pc1000-lan`; without it the PLC needs the setting `sync=ignored`"},
+    SystemKey{Where::OtherPlc, "sync", "NAME.OUTPUT, master", "of the PC1000 LAN: the output of a PLC that drives its sync signal, `gateway.Q0.0`, or the master that joins its line, `s7200 master --protocol pc1000-lan` or that of a scenario; without it the PLC needs the setting `sync=ignored`"},
 
     SystemKey{Where::Bridge, "pty", "LINK", "a serial port that programs of this computer open as LINK; from the folder of this file"},
     SystemKey{Where::Bridge, "tcp", "[ADDRESS:]PORT", "raw bytes over TCP; without ADDRESS for this computer only"},

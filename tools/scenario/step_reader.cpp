@@ -108,7 +108,8 @@ void StepReader::read_step(const YamlNode& node, const Scenario& scenario, std::
 /// What it is about: nothing after a complaint, or if it is not needed.
 void StepReader::read_place(const YamlNode& node, const Scenario& scenario, bool needed, Step& step) {
   step.on = values_.optional_text(node, "on").value_or("");
-  if (step.on.empty() && !needed) return;
+  const bool asked_for = needed || !step.on.empty();
+  if (!asked_for && scenario.on.empty()) return;
   const std::string& place = step.on.empty() ? scenario.on : step.on;
   std::string why;
   if (scenario.is_of_peers())
@@ -116,7 +117,7 @@ void StepReader::read_place(const YamlNode& node, const Scenario& scenario, bool
   else
     step.spot = find_spot(*scenario.plan, place, why);
   const YamlNode* const on = node.find("on");
-  if (!step.spot && !step.line) values_.wrong(on ? *on : node, why, on ? "" : "put on: NAME beside it");
+  if (asked_for && !step.spot && !step.line) values_.wrong(on ? *on : node, why, on ? "" : "put on: NAME beside it");
 }
 
 /// Complains about what cannot be done there.

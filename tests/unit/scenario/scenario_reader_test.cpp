@@ -625,6 +625,17 @@ TEST(ScenarioReader, AStepOfASystemWithoutAnS7200IsAboutALine) {
     EXPECT_NE(complaint(step).find("is about an S7-200, and there is none in "), std::string::npos) << step;
 }
 
+TEST(ScenarioReader, TheHeadSaysWhoseScansAreWaitedFor) {
+  const Scenario s = good(kGateway + "on: pump\nsteps:\n  - wait: 2 scans\n  - {wait: 2 scans, on: gateway}\n");
+  ASSERT_TRUE(s.plan && s.steps[0].spot && s.steps[1].spot);
+  EXPECT_EQ(s.plan->plcs[s.steps[0].spot->plc].name, "pump");
+  EXPECT_EQ(s.plan->plcs[s.steps[1].spot->plc].name, "gateway");
+  const ScenarioFile nobody = read(kGateway + "steps:\n  - wait: 2 scans\n");
+  ASSERT_EQ(nobody.diagnostics.size(), 1U);
+  EXPECT_EQ(nobody.diagnostics[0].message, "scans of which PLC?");
+  EXPECT_EQ(read(kGateway + "on: nobody\nsteps:\n  - wait: 5ms\n").diagnostics.size(), 1U) << "said once, of the head";
+}
+
 TEST(ScenarioReader, AFaultOfAStationNamesOneOnItsLine) {
   const auto complaint = [&](const std::string& text) {
     const ScenarioFile file = read(text);

@@ -134,6 +134,17 @@ TEST_F(ScenarioSuite, APlcThatWasWaitedForHoldsNobodyUpWhenItsPowerGoesOff) {
         << wait;
 }
 
+TEST_F(ScenarioSuite, ScansOfAPlcWithoutPowerAreNotWaitedFor) {
+  Suite suite = collected({.files = {scenario_of_two("dark", "on: a\nsteps:\n  - {power_off: a}\n  - wait: 2 scans\n")}});
+  Messages messages;
+  const auto result = suite.run({}, messages);
+  ASSERT_TRUE(result);
+  const ScenarioResult& dark = result->reports.at(0).result;
+  ASSERT_EQ(dark.findings.size(), 1U);
+  EXPECT_EQ(dark.findings[0].found, "the PLC has no power: nothing was waited for");
+  EXPECT_LT(dark.time, kSecond);
+}
+
 TEST_F(ScenarioSuite, AProgramThatIsMissingOrBrokenFailsItsScenarioAndTheOthersRun) {
   const std::string broken = file("broken.stl", "FROB\nFROB\nFROB\nFROB\nMEND\n");
   Suite suite =

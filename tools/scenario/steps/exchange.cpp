@@ -43,6 +43,7 @@ void ExchangeStep::act(Run& run) const {
   if (!wait_for_begin(run)) return;
   const SerialFormat line = run.format();
   serial::Request asked{.frame = request, .timeout = timeout.value_or(run.scenario().line.timeout), .gap = gap.in(line)};
+  asked.sync = run.in_simulation();  // where the line has the signal and the master drives it: `sync: master`
   if (listen) asked.silence = listen->in(line);
   if (run.plant()) run.plant()->begin_exchange();
   serial::Exchange exchange;

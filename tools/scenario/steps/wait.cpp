@@ -39,6 +39,11 @@ void WaitStep::wait_until(Run& run) const {
 void WaitStep::act(Run& run) const {
   if (until) return wait_until(run);
   if (scans == 0) return run.slave().wait(time.in(run.format()));
+  if (!run.plant()->has_power())
+    return run.add({.what = "scans",
+                    .expected = fmt::format("{} scans", scans),
+                    .found = "the PLC has no power: nothing was waited for",
+                    .of_run = true});
   if (run.plant()->wait_scans(scans)) return;
   const bool stopped = run.plant()->cpu().state().mode == Mode::Stop;
   run.add({.what = "scans",
