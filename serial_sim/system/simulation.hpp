@@ -73,7 +73,7 @@ class Simulation {
   const HostPort& host_port() const { return host_->port(); }
   Time time() const { return system_->time(); }
 
-  /// What the program has set its port to; the default format until it has switched it to Freeport mode.
+  /// What the program has set its port to; that of PPI until it has switched it to Freeport mode.
   SerialFormat port_format() const { return plc_->port_format(port_); }
 
   /// The PLC's port on the line: its number, and what it is doing.

@@ -101,6 +101,8 @@ void StepReader::read_step(const YamlNode& node, const Scenario& scenario, std::
     values_.wrong(*on, "'on' names a PLC or a line of a system", "name the file of one with 'system:', not 'program:'");
   if (scenario.plan && kind->of == StepKind::Of::Plc && !step.spot && !step.line) return;
   step.action = kind->read({values_, node, is, scenario, step});
+  const bool scans = kind->of == StepKind::Of::Either && step.action->needs() == Needs::ToChange;  // and not a time
+  if (scenario.plan && scans && step.on.empty() && !scenario.on.empty()) read_place(node, scenario, true, step);
   check_place(node, scenario, step);
   steps.push_back(std::move(step));
 }
@@ -108,8 +110,7 @@ void StepReader::read_step(const YamlNode& node, const Scenario& scenario, std::
 /// What it is about: nothing after a complaint, or if it is not needed.
 void StepReader::read_place(const YamlNode& node, const Scenario& scenario, bool needed, Step& step) {
   step.on = values_.optional_text(node, "on").value_or("");
-  const bool asked_for = needed || !step.on.empty();
-  if (!asked_for && scenario.on.empty()) return;
+  if (step.on.empty() && !needed) return;
   const std::string& place = step.on.empty() ? scenario.on : step.on;
   std::string why;
   if (scenario.is_of_peers())
@@ -117,7 +118,7 @@ void StepReader::read_place(const YamlNode& node, const Scenario& scenario, bool
   else
     step.spot = find_spot(*scenario.plan, place, why);
   const YamlNode* const on = node.find("on");
-  if (asked_for && !step.spot && !step.line) values_.wrong(on ? *on : node, why, on ? "" : "put on: NAME beside it");
+  if (!step.spot && !step.line) values_.wrong(on ? *on : node, why, on ? "" : "put on: NAME beside it");
 }
 
 /// Complains about what cannot be done there.

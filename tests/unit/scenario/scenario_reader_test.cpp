@@ -634,6 +634,7 @@ TEST(ScenarioReader, TheHeadSaysWhoseScansAreWaitedFor) {
   ASSERT_EQ(nobody.diagnostics.size(), 1U);
   EXPECT_EQ(nobody.diagnostics[0].message, "scans of which PLC?");
   EXPECT_EQ(read(kGateway + "on: nobody\nsteps:\n  - wait: 5ms\n").diagnostics.size(), 1U) << "said once, of the head";
+  EXPECT_EQ(read("program: x.stl\non: pump\nsteps:\n  - wait: 2 scans\n").diagnostics.size(), 1U) << "no system at all";
 }
 
 TEST(ScenarioReader, AFaultOfAStationNamesOneOnItsLine) {

@@ -62,7 +62,8 @@ bool WaitStep::write(TranscriptWriter& writer) const {
 std::shared_ptr<const Action> read_wait(const StepSource& source) {
   const auto step =
       source.values.value(&source.is, ValueReader::kDuration, "20ms, 3.5 characters, 2 scans, until 1.5s", parse_wait);
-  if (step && step->scans > 0 && source.scenario.plan && !source.program())
+  const bool is_said = source.program() || !source.scenario.on.empty();
+  if (step && step->scans > 0 && source.scenario.plan && !is_said)
     source.values.wrong(source.is, "scans of which PLC?", "put on: NAME beside it");
   return std::make_shared<WaitStep>(step.value_or(WaitStep{}));
 }
