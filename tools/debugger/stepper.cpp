@@ -533,11 +533,12 @@ void Stepper::note_end_of_wait(std::size_t number, const TraceRecord& record) {
 void Stepper::note_unanswered(const serial::SharedLine& line, const std::vector<std::uint8_t>& frame,
                               std::optional<Asker> asker) {
   for (StopPoint& stop : stops)
-    if (stop.on == On::Unanswered && is_on(stop.station, line)) hit(stop, {.frame = frame, .asker = asker});
+    if (stop.on == On::Unanswered && hears(stop, line)) hit(stop, {.frame = frame, .asker = asker});
 }
 
-bool Stepper::is_on(std::size_t number, const serial::SharedLine& line) const {
-  const serial::Plc& plc = station(number).plc();
+bool Stepper::hears(const StopPoint& stop, const serial::SharedLine& line) const {
+  if (stop.line) return history_.requests().lines()[*stop.line] == &line;
+  const serial::Plc& plc = station(stop.station).plc();
   for (std::uint8_t port = 0; port < plc.cpu().program().model->ports; ++port)
     if (&plc.line(port) == &line) return true;
   return false;
