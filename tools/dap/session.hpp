@@ -193,6 +193,7 @@ class Session {
   MemoryRange range_for(const std::string& expression) const;
   void write_image(const MemoryPlace& place, std::uint32_t first, const std::vector<std::uint8_t>& bytes);
   void write_levels(const MemoryPlace& place, std::uint32_t first, const std::vector<std::uint8_t>& bytes);
+  std::string without_power() const;
   void act(Action action);
   void note_new_branch();
   void report_memory_changes();

@@ -467,6 +467,7 @@ Debugger::Error Debugger::input(const Arguments& arguments) {
 }
 
 Debugger::Error Debugger::mode(const Arguments& arguments) {
+  if (Error error = without_power("mode")) return error;
   std::string why;
   const auto set = mode_of(joined(arguments), simulation(), why);
   if (!set) return why;
@@ -513,6 +514,7 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
   if (!send) return "send: " + why;
   act(*send);
   out_ << sent_text(*send, simulation());
+  if (!simulation().plc().powered()) out_ << without_power_text(name_of(focus())) << '\n';
   return {};
 }
 
