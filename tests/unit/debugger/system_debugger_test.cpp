@@ -85,6 +85,15 @@ TEST(SystemDebugger, StopsStayWithTheStationThatTheyWereSetAt) {
   EXPECT_TRUE(has(session("who VW20"), "by 'set VW20', from outside"));
 }
 
+TEST(SystemDebugger, AFrameThatComesToAPlcInStopStopsThoughAnotherExecutes) {
+  std::string text = two_programs();
+  text.replace(text.find("lines:\n"), std::string::npos, "lines: {one: {stations: [first]}, two: {stations: [second]}}\n");
+  SystemSession session(text, 1);
+  EXPECT_TRUE(has(session("continue 100ms; mode stop; break received; send 41 42 43; continue"),
+                  "second: breakpoint 1, received, hit for the first time\n  41 42 43\n"));
+  EXPECT_LT(session.system().time(), 120 * kMillisecond);
+}
+
 /// Two slaves, 1 and 2, and a master on a bridge, which asks stations at their times.
 struct BridgedSystem {
   struct Ask {
