@@ -130,7 +130,8 @@ class Session {
   std::vector<StopPoint> function_stops(const Json& wanted, Json& answer);
   std::vector<StopPoint> data_stops(const Json& wanted);
   std::vector<StopPoint> exception_stops(const Json& wanted) const;
-  bool is_first_on_its_lines(std::size_t station) const;
+  std::size_t first_on(std::size_t line) const;
+  std::vector<StopPoint> at_all_stations(StopPoint stop) const;
 
   // Running (session_steps.cpp).
   struct Run {
@@ -192,6 +193,7 @@ class Session {
   MemoryRange range_for(const std::string& expression) const;
   void write_image(const MemoryPlace& place, std::uint32_t first, const std::vector<std::uint8_t>& bytes);
   void write_levels(const MemoryPlace& place, std::uint32_t first, const std::vector<std::uint8_t>& bytes);
+  std::string without_power() const;
   void act(Action action);
   void note_new_branch();
   void report_memory_changes();

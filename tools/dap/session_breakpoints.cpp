@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "interpreter/base/numbers.hpp"
@@ -286,19 +287,25 @@ std::vector<StopPoint> Session::exception_stops(const Json& wanted) const {
   return stops;
 }
 
-/// Of the PLCs on a line the first one hears its requests.
-bool Session::is_first_on_its_lines(std::size_t number) const {
+std::size_t Session::first_on(std::size_t line) const {
   const PlcRequests& requests = debuggee_->history().requests();
-  const auto ports = [&](std::size_t station) { return debuggee_->program(station)->model->ports; };
-  const auto is_heard = [&](std::size_t line) {
-    for (std::size_t before = 0; before < number; ++before)
-      for (std::uint8_t port = 0; port < ports(before); ++port)
-        if (requests.line_of(before, port) == line) return true;
-    return false;
-  };
-  for (std::uint8_t port = 0; port < ports(number); ++port)
-    if (!is_heard(requests.line_of(number, port))) return true;
-  return false;
+  for (std::size_t station = 0; station < stations(); ++station)
+    for (std::uint8_t port = 0; port < debuggee_->program(station)->model->ports; ++port)
+      if (requests.line_of(station, port) == line) return station;
+  return 0;
+}
+
+/// At each PLC; on each line once, for the first PLC on it.
+std::vector<StopPoint> Session::at_all_stations(StopPoint stop) const {
+  const bool of_lines = stop.on == On::Unanswered;
+  const std::size_t count = of_lines ? debuggee_->history().requests().lines().size() : stations();
+  std::vector<StopPoint> stops;
+  for (std::size_t number = 0; number < count; ++number) {
+    stop.station = of_lines ? first_on(number) : number;
+    if (of_lines) stop.line = number;
+    stops.push_back(stop);
+  }
+  return stops;
 }
 
 Json Session::set_exception_breakpoints(const Json& arguments) {
@@ -306,11 +313,7 @@ Json Session::set_exception_breakpoints(const Json& arguments) {
   for (const Json& filter : arguments.value("filters", Json::array())) wanted.push_back({{"filterId", filter}});
   return place(StopKind::Exception, "", wanted, [&](const Json& one, Json&) {
     std::vector<StopPoint> stops;
-    for (std::size_t station = 0; station < stations(); ++station)
-      for (StopPoint& stop : exception_stops(one)) {
-        stop.station = station;
-        if (stop.on != On::Unanswered || is_first_on_its_lines(station)) stops.push_back(std::move(stop));
-      }
+    for (const StopPoint& stop : exception_stops(one)) std::ranges::copy(at_all_stations(stop), std::back_inserter(stops));
     return stops;
   });
 }

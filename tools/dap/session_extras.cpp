@@ -72,7 +72,7 @@ Json Session::send_frame(const Json& arguments) {
   const auto send = send_of(frame, simulation(), master(), why);
   if (!send) throw Refused(why);
   act(*send);
-  print(sent_text(*send, simulation()));
+  print(sent_text(*send, simulation()) + without_power());
   return {{"frame", serial::to_hex(frame)}};
 }
 
@@ -87,7 +87,8 @@ Json Session::inject_fault(const Json& arguments) {
 // --- mode ---
 
 void Session::change_mode(const std::string& word) {
-  std::string why;
+  std::string why = without_power();
+  if (!why.empty()) throw Refused(why);
   const auto set = mode_of(word, simulation(), why);
   if (!set) throw Refused(why);
   act(*set);

@@ -132,11 +132,16 @@ Json Session::set_expression(const Json& arguments) {
   return assign(arguments.at("expression").get<std::string>(), arguments.at("value").get<std::string>());
 }
 
+/// There is no command for its power: it comes back when the system file says so.
+std::string Session::without_power() const {
+  return simulation().plc().powered() ? std::string() : said_of(looks_at()) + "the PLC is without power";
+}
+
 /// In the past it begins a new branch, and says so.
 void Session::act(Action action) {
   const bool of_line = std::holds_alternative<SendFrame>(action) || std::holds_alternative<CancelRequest>(action) ||
                        std::holds_alternative<InjectFault>(action);
-  if (!of_line && !simulation().plc().powered()) throw Refused(said_of(looks_at()) + "the PLC is without power");
+  if (const std::string why = without_power(); !of_line && !why.empty()) throw Refused(why);
   History& history = debuggee_->history();
   const bool branches = history.in_the_past();
   const Time left = history.newest().time;

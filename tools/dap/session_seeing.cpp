@@ -180,9 +180,7 @@ Json Session::completions(const Json& arguments) {
   for (const stl::Symbol& symbol : cpu().program().source.symbols) offer(symbol.name);
   Json targets = Json::array();
   for (const std::string& label : found)
-    targets.push_back({{"label", label},
-                       {"start", begin + column_base_ - 1 + (column_base_ == 0 ? 1 : 0)},
-                       {"length", before.size() - begin}});
+    targets.push_back({{"label", label}, {"start", begin + column_base_}, {"length", before.size() - begin}});
   return {{"targets", targets}};
 }
 

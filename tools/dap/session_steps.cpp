@@ -278,7 +278,8 @@ Json Session::body_of(const Stop& stop, const std::string& reason) {
   if (const std::string failure = debuggee_->failure(); !failure.empty())
     return {{"reason", "pause"}, {"description", failure}, {"text", failure}};
   if (!stop.hits.empty()) {
-    Json body = body_of_hit(stop.hits.front());
+    const auto own = std::ranges::find(stop.hits, stop.station, [](const Hit& hit) { return hit.stop.station; });
+    Json body = body_of_hit(own == stop.hits.end() ? stop.hits.front() : *own);
     Json ids = Json::array();
     for (const Hit& hit : stop.hits) {
       print(text_of(hit));

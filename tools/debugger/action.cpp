@@ -87,8 +87,7 @@ std::optional<SetMode> mode_of(std::string_view word, const serial::Simulation& 
   const State& state = simulation.cpu().state();
   if (name != "run" && name != "stop") return why = expects("mode", "run or stop"), std::nullopt;
   const Mode mode = name == "run" ? Mode::Run : Mode::Stop;
-  if (!simulation.plc().powered()) why = "mode: the PLC is without power";
-  if (simulation.plc().powered() && mode == state.mode)
+  if (mode == state.mode)
     why = fmt::format("mode: the CPU is in {} already", stl::upper_case(name));
   else if (state.fatal_code != 0)
     why = fmt::format("mode: after fatal error {:04X} the CPU stays in STOP until it is powered up again: 'restart'",

@@ -64,7 +64,7 @@ struct SetPower {
   bool on = false;
 };
 
-/// `run`, `stop`; nothing, and `why`, for other words and where the CPU cannot go there.
+/// `run`, `stop`, of a CPU with power; nothing, and `why`, for other words and where it cannot go there.
 std::optional<SetMode> mode_of(std::string_view word, const serial::Simulation& simulation, std::string& why);
 
 using Action = std::variant<SetMemory, SendFrame, CancelRequest, Jump, serial::HostCall, Force, Unforce, SetStack,

@@ -153,7 +153,7 @@ watches stay with the station that they were set at. What stops at another stati
       {"record", "", "record FILE.yaml [!]", "write this session, up to now, as a scenario that 's7200 test' replays",
        R"(Frames, memory and inputs that were set, faults of the line and power cycles, each at its time, and the answers
 that came. Displayed memory is expected to have its values at the end. What no scenario can do is refused: force,
-a bridge, power of a system, something set while a frame or its answer was under way.)",
+a bridge, 'power all' of a system, something set while a frame or its answer was under way.)",
        &Debugger::record},
       {"stack", "sta", "stack", "the nine levels of the logic stack", "", &Debugger::stack},
       {"print", "p", "print [/x | /d | /b | /c] ADDRESS… | EXPRESSION",
@@ -467,6 +467,7 @@ Debugger::Error Debugger::input(const Arguments& arguments) {
 }
 
 Debugger::Error Debugger::mode(const Arguments& arguments) {
+  if (Error error = without_power("mode")) return error;
   std::string why;
   const auto set = mode_of(joined(arguments), simulation(), why);
   if (!set) return why;
@@ -513,6 +514,7 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
   if (!send) return "send: " + why;
   act(*send);
   out_ << sent_text(*send, simulation());
+  if (!simulation().plc().powered()) out_ << without_power_text(name_of(focus())) << '\n';
   return {};
 }
 

@@ -1,10 +1,12 @@
 // The stations of a system: which one the commands are about, and what is said of each.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ostream>
 
 #include "interpreter/base/text.hpp"
 #include "tools/debugger/debugger.hpp"
+#include "tools/debugger/words.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
@@ -21,10 +23,10 @@ std::string Debugger::place_line(std::size_t station) const {
   return place.substr(0, place.find('\n'));
 }
 
-/// What is wrong with a command that writes memory; nothing as long as the CPU has power.
+/// What is wrong with a command that needs the CPU; nothing as long as it has power.
 Debugger::Error Debugger::without_power(std::string_view command) const {
   if (simulation().plc().powered()) return {};
-  return fmt::format("{}: {} is without power; 'power on' brings it back", command, name_of(focus()));
+  return fmt::format("{}: {}", command, without_power_text(name_of(focus())));
 }
 
 void Debugger::say_without_power() {

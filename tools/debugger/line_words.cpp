@@ -41,7 +41,7 @@ std::string sent_text(const SendFrame& send, const serial::Simulation& simulatio
   const std::string request = request_text(serial::bytes_of(send.request.frame));
   std::string text = fmt::format("on the line from now on: {}{} ({})\n", serial::to_hex(send.request.frame),
                                  request.empty() ? "" : "  " + request, format_text(send.format));
-  if (!simulation.freeport().active)
+  if (simulation.plc().powered() && !simulation.freeport().active)
     text += fmt::format("port {} is not in Freeport mode: the program will not hear it\n", simulation.port());
   return text;
 }

@@ -56,16 +56,22 @@ Time Stepper::idles_until(Time now) {
   if (asked_to_stop()) return now;
   if (backwards_) return kNever;
   answered_ |= answer_complete() && stop_at_answer_;
-  note_polls();
-  note_plc_timeouts(now);
+  note_line(0, now);
   const bool ends = answered_ || !stop_.hits.empty() || cpu_stopped_;
   const Time timeout = next_timeout();
   return ends ? now : std::max(now, timeout > now ? std::min(limit_, timeout) : limit_);
 }
 
-/// Of a master that polls or of a program.
+/// When no CPU executes: of a master that polls, of a program, of one on a bridge; or of a frame that ends.
 Time Stepper::next_timeout() const {
   Time next = kNever;
+  for (std::size_t number = 0; number < listening_.size(); ++number) {
+    const serial::Simulation& here = station(number);
+    const Listening& listening = listening_[number];
+    if (here.last_activity() != listening.silence_noted)
+      next = std::min(next, here.last_activity() + here.port_format().silence());
+    if (listening.host_waits) next = std::min(next, *listening.host_waits + host_timeout);
+  }
   for (const auto& [name, poller] : history_.pollers()) {
     const serial::Requester::State& state = poller->requester().state();
     if (state.phase == serial::Requester::Phase::Waiting)
@@ -461,7 +467,8 @@ void Stepper::note_record(const TraceRecord& record) {
   const std::size_t number = history_.told_of();
   Listening& listening = listening_[number];
   if (history_.requests().gives_up(number, record)) note_unanswered_plc(history_.requests().line_of(number, record.port));
-  const bool heard = record.kind == TraceKind::CharacterIgnored && record.code == 0;
+  constexpr std::uint16_t kWhileSending = 2;  // the one reason to ignore it that hides what others send
+  const bool heard = record.kind == TraceKind::CharacterIgnored && record.code != kWhileSending;
   const bool on_line = record.port == station(number).port();
   const bool received =
       on_line && (record.kind == TraceKind::CharacterReceived || heard || record.kind == TraceKind::CharacterDropped);
@@ -506,13 +513,17 @@ void Stepper::note_silence(std::size_t number, Time now) {
   if (!listening.came_in) return;
   const std::vector<std::uint8_t> frame = backwards_ ? std::vector<std::uint8_t>{} : heard;
   for (StopPoint& stop : stops)
-    if (stop.station == number && stop.on == On::FrameReceived) hit(stop, {.frame = frame});
+    if (stop.station == number && stop.on == On::FrameReceived && here.plc().powered()) hit(stop, {.frame = frame});
   note_host_request(number, frame, last);
 }
 
+/// In front of an instruction of a station, and for those that execute none.
 void Stepper::note_line(std::size_t number, Time now) {
-  note_silence(number, now);
-  note_host_timeout(number, now);
+  for (std::size_t other = 0; other < listening_.size(); ++other) {
+    if (other != number && station(other).plc().executes()) continue;
+    note_silence(other, now);
+    note_host_timeout(other, now);
+  }
   note_polls();
   note_plc_timeouts(now);
 }
@@ -533,11 +544,12 @@ void Stepper::note_end_of_wait(std::size_t number, const TraceRecord& record) {
 void Stepper::note_unanswered(const serial::SharedLine& line, const std::vector<std::uint8_t>& frame,
                               std::optional<Asker> asker) {
   for (StopPoint& stop : stops)
-    if (stop.on == On::Unanswered && is_on(stop.station, line)) hit(stop, {.frame = frame, .asker = asker});
+    if (stop.on == On::Unanswered && hears(stop, line)) hit(stop, {.frame = frame, .asker = asker});
 }
 
-bool Stepper::is_on(std::size_t number, const serial::SharedLine& line) const {
-  const serial::Plc& plc = station(number).plc();
+bool Stepper::hears(const StopPoint& stop, const serial::SharedLine& line) const {
+  if (stop.line) return history_.requests().lines()[*stop.line] == &line;
+  const serial::Plc& plc = station(stop.station).plc();
   for (std::uint8_t port = 0; port < plc.cpu().program().model->ports; ++port)
     if (&plc.line(port) == &line) return true;
   return false;

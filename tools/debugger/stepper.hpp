@@ -164,7 +164,7 @@ class Stepper final : public Observer {
   void note_line(std::size_t station, Time now);
   void note_unanswered(const serial::SharedLine& line, const std::vector<std::uint8_t>& frame,
                        std::optional<Asker> asker = std::nullopt);
-  bool is_on(std::size_t station, const serial::SharedLine& line) const;
+  bool hears(const StopPoint& stop, const serial::SharedLine& line) const;
   void ask_from_now_on(Time now);
   void note_polls();
   bool is_open(std::size_t line) const;

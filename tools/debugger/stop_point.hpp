@@ -41,6 +41,7 @@ struct StopPoint {
   std::uint32_t op = 0;                 ///< Place
   std::optional<std::uint8_t> event{};  ///< EventOccurs, EventServed; any without
   std::optional<std::uint16_t> code{};  ///< RuntimeError; any without
+  std::optional<std::size_t> line{};    ///< Unanswered: of PlcRequests::lines(); all of the station without
   std::optional<MemoryRange> range{};   ///< Read, Write, ReadWrite, Change
   std::string name{};                   ///< as the user wrote it: `VW30`, `event 8 served`
   bool needs_power = false;             ///< Place: not in front of a box or coil without power flow

@@ -35,6 +35,10 @@ std::string expects(std::string_view command, std::string_view what) { return fm
 
 std::string no_argument(std::string_view command) { return fmt::format("{} takes no argument", command); }
 
+std::string without_power_text(std::string_view plc) {
+  return fmt::format("{} is without power; 'power on' brings it back", plc);
+}
+
 std::optional<std::uint32_t> parse_count(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return 1;
   const auto number = parse_decimal<std::uint32_t>(arguments[0]);

@@ -24,6 +24,9 @@ std::string expects(std::string_view command, std::string_view what);
 /// `regs takes no argument`
 std::string no_argument(std::string_view command);
 
+/// `pump is without power; 'power on' brings it back`
+std::string without_power_text(std::string_view plc);
+
 /// The optional `[n]` of a command: 1 when it is not there, nothing when it is not a number above 0 or more follows.
 std::optional<std::uint32_t> parse_count(const std::vector<std::string>& arguments);
 

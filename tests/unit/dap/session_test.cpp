@@ -663,7 +663,7 @@ TEST(DapSession, CompletionsKnowTheAddressesOfTheProgram) {
   const Json targets = editor("completions", {{"text", "VW10 + vw3"}, {"column", 11}})["targets"];
   ASSERT_EQ(targets.size(), 1u);
   EXPECT_EQ(targets[0]["label"], "VW30");
-  EXPECT_EQ(targets[0]["start"], 7);
+  EXPECT_EQ(targets[0]["start"], 8) << "a column, which counts from 1 here as in the request";
   EXPECT_EQ(targets[0]["length"], 3);
 }
 

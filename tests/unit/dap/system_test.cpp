@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "tests/unit/debugger/system_bench.hpp"
 #include "tools/dap/session.hpp"
@@ -11,14 +12,14 @@ namespace {
 
 class SystemDebuggee final : public Debuggee {
  public:
-  SystemDebuggee() : history_(bench.stations, {}) {}
+  explicit SystemDebuggee(std::string_view text) : bench(text), history_(bench.stations, {}) {}
 
   History& history() override { return history_; }
   std::shared_ptr<const Program> program(std::size_t station) const override {
     return bench.rig->plan().plcs[station].program;
   }
   std::string name(std::size_t station) const override { return bench.rig->plan().plcs[station].name; }
-  std::size_t first_station() const override { return kSlave1; }
+  std::size_t first_station() const override { return 1; }
   const serial::MasterSettings& master(std::size_t) const override { return master_; }
   std::string recorded_files() const override { return {}; }
   std::string failure() const override { return {}; }
@@ -33,8 +34,8 @@ class SystemDebuggee final : public Debuggee {
 };
 
 struct SystemEditor {
-  SystemEditor()
-      : debuggee(std::make_shared<SystemDebuggee>()),
+  explicit SystemEditor(std::string_view text = kPolled)
+      : debuggee(std::make_shared<SystemDebuggee>(text)),
         session({.launch = [this](const Json&) { return debuggee; }, .stop_request = &stop},
                 [this](const Json& message) { messages.push_back(message); }) {
     (*this)("initialize", {{"adapterID", "s7200"}});
@@ -167,6 +168,27 @@ TEST(DapSystem, TheFilterOfUnansweredRequestsHearsPlcsThatAskOnceALine) {
            message["body"]["output"].get<std::string>().find("asked by") != std::string::npos;
   });
   EXPECT_EQ(said, 1) << "not for each PLC on the line";
+}
+
+TEST(DapSystem, AnUnansweredRequestIsToldOnceThoughAnotherPlcHearsTwoLines) {
+  const std::string folder = testing::TempDir();
+  std::ofstream(folder + "asks.stl")
+      << "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 8, VB100\nMOVD 16#0503000a, VD101\nMOVD 16#0001a58c, VD105\n"
+         "LD SM0.0\nTON T37, 3\nLD T37\nEU\nXMT VB100, 0\nMEND\n";
+  std::ofstream(folder + "idle.stl") << "LD SM0.0\n= Q0.0\nMEND\n";
+  SystemEditor editor("plcs:\n  x: {program: " + folder + "asks.stl, cpu: 224}\n  gw: {program: " + folder +
+                      "idle.stl, cpu: 226}\nlines:\n  office: {stations: [x, gw]}\n  field: {stations: [gw.1]}\n");
+  editor("setExceptionBreakpoints", {{"filters", {"unanswered"}}});
+  editor("continue", {{"threadId", 2}});
+  EXPECT_EQ(editor.stopped()["threadId"], 1);
+  const std::string text = editor.stopped()["text"];
+  EXPECT_TRUE(text.starts_with("x: ")) << text;
+  EXPECT_NE(text.find("05 03 00 0a 00 01 a5 8c, asked by x"), std::string::npos) << text;
+  const auto said = std::ranges::count_if(editor.messages, [](const Json& message) {
+    return message.value("event", "") == "output" &&
+           message["body"]["output"].get<std::string>().find("asked by") != std::string::npos;
+  });
+  EXPECT_EQ(said, 1);
 }
 
 TEST(DapSystem, MemoryOfAPlcWithoutPowerIsNotChanged) {

@@ -470,6 +470,29 @@ TEST(Debugger, ARequestOfAMasterOnABridgeIsUnansweredAfterTheTimeOut) {
   EXPECT_EQ(session.simulation.time(), stopped);
 }
 
+TEST(Debugger, ARequestOfAMasterOnABridgeIsUnansweredThoughThePortSpeaksPpi) {
+  Bridged session("LD SM0.0\n= Q0.0\nMEND\n", {2 * kSecond});
+  EXPECT_TRUE(has(session("break unanswered; continue"), "breakpoint 1, unanswered, hit for the first time\n"))
+      << "with the characters that a port of another format makes of it";
+  EXPECT_GT(session.simulation.time(), 3 * kSecond);
+  EXPECT_LT(session.simulation.time(), 3'020 * kMillisecond);
+  EXPECT_FALSE(has(session("continue 3s"), "breakpoint")) << "once";
+}
+
+TEST(Debugger, ARequestOfAMasterOnABridgeIsUnansweredThoughTheCpuIsInStop) {
+  Bridged session(kListening, {2 * kSecond});
+  EXPECT_TRUE(has(session("continue 1s; mode stop; break unanswered; continue"), "breakpoint 1, unanswered, hit"));
+  EXPECT_GT(session.simulation.time(), 3 * kSecond);
+  EXPECT_LT(session.simulation.time(), 3'020 * kMillisecond);
+}
+
+TEST(Debugger, AFrameThatComesInStopHasBeenReceivedWhenItEnds) {
+  Session session(kListening);
+  EXPECT_TRUE(has(session("continue 100ms; mode stop; break received; send 01 03 00 0a 00 01 crc; continue"),
+                  "breakpoint 1, received, hit for the first time\n  01 03 00 0a 00 01 a4 08\n"));
+  EXPECT_LT(session.simulation.time(), 120 * kMillisecond);
+}
+
 /// Asks station 1 once a second, and station 0 before that.
 constexpr std::string_view kAsks =
     "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 8, VB0\nMOVD 16#01030000, VD1\nMOVD 16#0001840A, VD5\nENI\n"

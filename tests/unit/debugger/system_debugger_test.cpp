@@ -85,6 +85,15 @@ TEST(SystemDebugger, StopsStayWithTheStationThatTheyWereSetAt) {
   EXPECT_TRUE(has(session("who VW20"), "by 'set VW20', from outside"));
 }
 
+TEST(SystemDebugger, AFrameThatComesToAPlcInStopStopsThoughAnotherExecutes) {
+  std::string text = two_programs();
+  text.replace(text.find("lines:\n"), std::string::npos, "lines: {one: {stations: [first]}, two: {stations: [second]}}\n");
+  SystemSession session(text, 1);
+  EXPECT_TRUE(has(session("continue 100ms; mode stop; break received; send 41 42 43; continue"),
+                  "second: breakpoint 1, received, hit for the first time\n  41 42 43\n"));
+  EXPECT_LT(session.system().time(), 120 * kMillisecond);
+}
+
 /// Two slaves, 1 and 2, and a master on a bridge, which asks stations at their times.
 struct BridgedSystem {
   struct Ask {
@@ -257,7 +266,7 @@ TEST(SystemDebugger, PowerOffAndOnAreOfThePlcLookedAtAndInThePast) {
   EXPECT_TRUE(has(session.out.str(), "without power"));
   EXPECT_TRUE(session.stations[0]->plc().powered());
   EXPECT_TRUE(has(session.error_of("power off"), "slave2 is without power already"));
-  for (const std::string_view command : {"set VW20=1", "input I0.0=1", "force VW20=1", "unforce all"})
+  for (const std::string_view command : {"set VW20=1", "input I0.0=1", "force VW20=1", "unforce all", "mode run"})
     EXPECT_TRUE(has(session.error_of(command), "slave2 is without power; 'power on' brings it back")) << command;
   EXPECT_TRUE(has(session("port"), "slave2 is without power; it was:\nSMB30 "));
   EXPECT_TRUE(has(session("regs"), "slave2 is without power; it was:\n"));
@@ -282,6 +291,8 @@ TEST(SystemDebugger, TheOnlyPlcOfASystemLosesPowerToo) {
   SystemSession session("plcs: {slave: {program: ../modbus_slave.stl, station: 1}}\nlines: {bus: {stations: [slave]}}\n", 0);
   session("continue 100ms; set VW20=7; break unanswered; power off; send 01 03 00 0a 00 01 crc; continue");
   EXPECT_TRUE(has(session.out.str(), "answer   none within 1 s")) << session.out.str();
+  EXPECT_TRUE(has(session.out.str(), "slave is without power; 'power on' brings it back\n"));
+  EXPECT_FALSE(has(session.out.str(), "Freeport mode")) << "which is not why it does not hear it";
   EXPECT_TRUE(has(session("continue 2s; power on; continue 100ms"), "scan "));
   const Time there = session.system().time();
   const serial::System::Snapshot snapshot = session.system().snapshot();
