@@ -33,12 +33,13 @@ class Witness final : public Reader {
         history_(history),
         station_(station) {}
 
-  void before_action() override {
+  bool before_action() override {
     const std::size_t number = history_.now().actions;
     const Action* const action = history_.action(number);
-    if (!action || !std::holds_alternative<SendFrame>(*action)) return;
+    if (!action || !std::holds_alternative<SendFrame>(*action)) return true;
     const serial::Simulation& asked = history_.station(history_.station_of_action(number));
     if (&asked.line() == &history_.station(station_).line()) line.note_request();
+    return true;
   }
   void record(const TraceRecord& record) override {
     line.note(history_.told_of(), record);
