@@ -539,11 +539,11 @@ TEST(Debugger, AnAnswerWhereTheNextRequestIsSentIsSeenInBothDirections) {
   const auto answered = session.simulation.snapshot();
   session("send 42; continue");
   const std::string back = session("rcontinue");
-  EXPECT_TRUE(has(back, "request  41\nanswer   41"));
+  EXPECT_TRUE(has(back, "request  41\n         'A'\nanswer   41"));
   EXPECT_EQ(session.simulation.snapshot(), answered) << "before 42 was sent";
-  EXPECT_TRUE(has(session("at start; continue"), "request  41\nanswer   41"));
+  EXPECT_TRUE(has(session("at start; continue"), "request  41\n         'A'\nanswer   41"));
   EXPECT_EQ(session.simulation.snapshot(), answered);
-  EXPECT_TRUE(has(session("continue"), "request  42\nanswer   42"));
+  EXPECT_TRUE(has(session("continue"), "request  42\n         'B'\nanswer   42"));
 }
 
 TEST(Debugger, AnUnansweredRequestWhereTheNextOneIsSentIsSeenInBothDirections) {
