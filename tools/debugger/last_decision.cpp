@@ -221,6 +221,7 @@ class DecisionFinder {
   Keeper what_kept(const TraceRecord& ignored) {
     const bool detached = ignored.code == 0, in_ppi_mode = ignored.code == 1;
     if (ignored.kind != TraceKind::CharacterIgnored || !(detached || in_ppi_mode)) return {};
+    if (in_ppi_mode && stopped_ && ignored.at >= *stopped_) return {.text = "; the CPU is in STOP"};  // Freeport ends there
     if (!history_.go_to(ignored.since)) return search_.interrupted = true, Keeper{};
     return detached ? what_detached(kPorts[ignored.port].received) : what_left_freeport(ignored.port);
   }
