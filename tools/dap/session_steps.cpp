@@ -107,7 +107,7 @@ void Session::run() {
     if (!debuggee_->failure().empty()) return report(stop, "pause");
     if (stop.reason == StopReason::Request) {
       if (!pause_asked_) return;
-    } else if (stop.reason != StopReason::Limit && stop.reason != StopReason::Answer) {
+    } else if (!stop.hits.empty() || (stop.reason != StopReason::Limit && stop.reason != StopReason::Answer)) {
       return report(stop, running_->reason);
     }
   }

@@ -33,6 +33,21 @@ Words take_words(Words& words) {
   return taken;
 }
 
+/// A text in quotes, or all the words.
+Words take_text(Words& words) {
+  const char quote = words.empty() ? ' ' : words.front().front();
+  auto end = words.end();
+  if (quote == '\'' || quote == '"') {
+    end = std::find_if(words.begin(), words.end(), [&](const std::string& word) {
+      return word.back() == quote && (&word != &words.front() || word.size() > 1);
+    });
+    if (end != words.end()) ++end;
+  }
+  Words taken(words.begin(), end);
+  words.erase(words.begin(), end);
+  return taken;
+}
+
 std::string without_quotes(std::string text) {
   const bool quoted = text.size() >= 2 && text.front() == text.back() && (text.front() == '\'' || text.front() == '"');
   return quoted ? text.substr(1, text.size() - 2) : text;
@@ -40,10 +55,14 @@ std::string without_quotes(std::string text) {
 
 /// `always`, `if …`, `hits N`, `log …` after what a stop is set on.
 bool read_options(Words words, const Program& program, StopPoint& stop, std::string& why) {
+  Words options;
   while (!words.empty()) {
     const std::string option = stl::lower_case(words.front());
     words.erase(words.begin());
-    const Words given = option == "log" ? std::exchange(words, {}) : take_words(words);
+    if (std::ranges::find(options, option) != options.end())
+      return why = fmt::format("'{}' is there twice; give it once", option), false;
+    if (is_option(option)) options.push_back(option);
+    const Words given = option == "log" ? take_text(words) : take_words(words);
     if (option == "always" && given.empty()) {
       stop.needs_power = false;
     } else if (option == "if") {

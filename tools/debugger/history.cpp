@@ -184,8 +184,7 @@ bool History::play(Observer& observer, const Moment& end) {
 
 bool History::advance(const Moment& target) {
   while (actions_ < target.actions) {
-    if (!reach(next_action())) return false;
-    do_next_action();
+    if (!reach(next_action()) || !do_next_action()) return false;
   }
   return reach(target);
 }
@@ -194,8 +193,10 @@ bool History::has_next_action() const { return actions_ - branch_->forgotten < b
 
 const Moment& History::next_action() const { return branch_->moments[actions_ - branch_->forgotten]; }
 
-void History::do_next_action() {
-  if (observer_) observer_->before_action();
+/// False if the observer has stopped before it.
+bool History::do_next_action() {
+  stopped_by_observer_ = observer_ && !observer_->before_action();
+  if (stopped_by_observer_) return false;
   const std::size_t number = actions_++ - branch_->forgotten;
   const Action& action = branch_->actions[number];
   const std::size_t where = branch_->stations[number];
@@ -205,6 +206,7 @@ void History::do_next_action() {
     perform(action, station(where));
   settled_ = false;
   if (observer_) observer_->acted();
+  return true;
 }
 
 /// Plays until a moment that has as many actions before it as have been done.

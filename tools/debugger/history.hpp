@@ -69,8 +69,8 @@ class Observer : public TraceSink {
   explicit Observer(std::size_t station) : only_(station) {}
   bool watches(std::size_t station) const { return !only_ || *only_ == station; }
 
-  /// Something is about to be done to the simulation, now().
-  virtual void before_action() {}
+  /// Something is about to be done to the simulation, now(). False stops before it.
+  virtual bool before_action() { return true; }
 
   /// Something was done to the simulation, which is the same as it was in front of an instruction otherwise.
   virtual void acted() {}
@@ -284,7 +284,7 @@ class History final {
   const Moment& next_action() const;
   bool has_next_action() const;
   void forget();
-  void do_next_action();
+  bool do_next_action();
   bool play_to(Time time);
   void tell_progress() const {
     if (settings_.progress) settings_.progress();

@@ -33,12 +33,13 @@ class Witness final : public Reader {
         history_(history),
         station_(station) {}
 
-  void before_action() override {
+  bool before_action() override {
     const std::size_t number = history_.now().actions;
     const Action* const action = history_.action(number);
-    if (!action || !std::holds_alternative<SendFrame>(*action)) return;
+    if (!action || !std::holds_alternative<SendFrame>(*action)) return true;
     const serial::Simulation& asked = history_.station(history_.station_of_action(number));
     if (&asked.line() == &history_.station(station_).line()) line.note_request();
+    return true;
   }
   void record(const TraceRecord& record) override {
     line.note(history_.told_of(), record);
@@ -220,6 +221,7 @@ class DecisionFinder {
   Keeper what_kept(const TraceRecord& ignored) {
     const bool detached = ignored.code == 0, in_ppi_mode = ignored.code == 1;
     if (ignored.kind != TraceKind::CharacterIgnored || !(detached || in_ppi_mode)) return {};
+    if (in_ppi_mode && stopped_ && ignored.at >= *stopped_) return {.text = "; the CPU is in STOP"};  // Freeport ends there
     if (!history_.go_to(ignored.since)) return search_.interrupted = true, Keeper{};
     return detached ? what_detached(kPorts[ignored.port].received) : what_left_freeport(ignored.port);
   }

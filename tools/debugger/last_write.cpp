@@ -31,9 +31,10 @@ class WriteFinder final : public Reader {
   }
   const std::optional<LastWrite>& last() const { return last_; }
 
-  void before_action() override {
+  bool before_action() override {
     in_front_ = history_.now();
     note_change_between();
+    return true;
   }
 
   void acted() override {

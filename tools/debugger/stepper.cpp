@@ -48,44 +48,48 @@ Stop Stepper::run(const Goal& goal, Time limit, bool stop_at_answer) {
   listened_to_ = history_.now();
   if (halt == serial::Halt::Stopped) stop_.reason = StopReason::CpuStopped;
   if (halt == serial::Halt::Request) stop_.reason = StopReason::Request;
-  if (halt == serial::Halt::Time) stop_.reason = reason_to_end_idle();
+  if (halt == serial::Halt::Time) end_idle();
   return stop_;
 }
 
 Time Stepper::idles_until(Time now) {
   if (asked_to_stop()) return now;
-  if (backwards_) return kNever;
-  answered_ |= answer_complete() && stop_at_answer_;
   note_line(0, now);
-  const bool ends = answered_ || !stop_.hits.empty() || cpu_stopped_;
   const Time timeout = next_timeout();
+  if (backwards_) {
+    note_found_here();
+    return timeout > now ? timeout : kNever;
+  }
+  answered_ |= answer_complete() && stop_at_answer_;
+  const bool ends = answered_ || !stop_.hits.empty() || cpu_stopped_;
   return ends ? now : std::max(now, timeout > now ? std::min(limit_, timeout) : limit_);
 }
 
-/// When no CPU executes: of a master that polls, of a program, of one on a bridge; or of a frame that ends.
+/// When no CPU executes: of a simulated master, one that polls, one on a bridge, or a program; or of a frame that ends.
 Time Stepper::next_timeout() const {
   Time next = kNever;
+  const auto note = [&](const serial::Requester& requester) {
+    const serial::Requester::State& state = requester.state();
+    if (state.phase == serial::Requester::Phase::Waiting)
+      next = std::min(next, state.exchange.request_end + state.request.timeout);
+  };
   for (std::size_t number = 0; number < listening_.size(); ++number) {
     const serial::Simulation& here = station(number);
     const Listening& listening = listening_[number];
     if (here.last_activity() != listening.silence_noted)
       next = std::min(next, here.last_activity() + here.port_format().silence());
     if (listening.host_waits) next = std::min(next, *listening.host_waits + host_timeout);
+    if (here.has_master()) note(here.master());
   }
-  for (const auto& [name, poller] : history_.pollers()) {
-    const serial::Requester::State& state = poller->requester().state();
-    if (state.phase == serial::Requester::Phase::Waiting)
-      next = std::min(next, state.exchange.request_end + state.request.timeout);
-  }
+  for (const auto& [name, poller] : history_.pollers()) note(poller->requester());
   for (std::size_t line = 0; line < given_up_.size(); ++line) next = std::min(next, timeout_of_plc(line));
   return next;
 }
 
-StopReason Stepper::reason_to_end_idle() const {
-  if (cpu_stopped_) return StopReason::CpuStopped;
-  if (answered_) return StopReason::Answer;
-  if (!stop_.hits.empty()) return StopReason::StopPoint;
-  return asked_to_stop() ? StopReason::Request : StopReason::Limit;
+void Stepper::end_idle() {
+  stop_.reason = asked_to_stop() ? StopReason::Request : StopReason::Limit;
+  if (const auto reason = reason_to_stop_here()) stop_.reason = *reason;
+  if (answered_ && !cpu_stopped_) stop_.reason = StopReason::Answer;
 }
 
 Stop Stepper::run_back(const Goal& goal, std::uint64_t count, bool stop_at_answer) {
@@ -141,12 +145,16 @@ Stop Stepper::arrive(History::Search result, const Moment& start) {
 /// What has come up between the last instructions of the part that was played and the first ones after it.
 std::optional<Stepper::Found> Stepper::found_after_part() {
   std::optional<Moment> earliest;
+  for (const auto& after : search_.after) {
+    if (!after) continue;
+    earliest = earliest ? std::min(*earliest, *after) : after;
+    search_.until = std::max(search_.until, after->time);
+  }
   for (std::size_t number = 0; number < search_.after.size(); ++number) {
     const auto& after = search_.after[number];
     if (!after) continue;
     note_changes(number, nullptr);
     note_line(number, after->time);
-    earliest = earliest ? std::min(*earliest, *after) : after;
   }
   if (!earliest) return {};
   const bool answer = answer_complete() && stop_at_answer_;
@@ -171,6 +179,7 @@ Moment Stepper::place_of_first_hit(const Moment& earliest) {
 }
 
 void Stepper::begin_watching() {
+  search_.until = 0;
   stop_ = {.station = focus_};
   accessed_.clear();
   executing_since_ = kNever;
@@ -236,6 +245,52 @@ bool Stepper::wants_scans() const {
 void Stepper::read_values() {
   for (StopPoint& stop : stops)
     if (stop.range) stop.value = stop.range->bytes_in(station(stop.station).cpu().state().image);
+}
+
+/// What has come up until now is not what the action does. A bridge acts between any two events, where no run stops.
+bool Stepper::before_action() {
+  if (std::holds_alternative<serial::HostCall>(*history_.action(history_.now().actions))) return true;
+  if (const auto next = history_.next_station()) {
+    note_changes(*next, nullptr);
+    note_line(*next, station(*next).cpu().time());
+  } else {
+    note_line(0, history_.now().time);
+  }
+  if (backwards_) {
+    note_found_here();
+    return true;
+  }
+  const auto reason = reason_to_stop_here();
+  if (reason) stop_.reason = *reason;
+  return !reason;
+}
+
+/// Not in front of an instruction: it has stopped here when it ran, and nothing waits for its turn.
+std::optional<StopReason> Stepper::reason_to_stop_here() {
+  if (cpu_stopped_) {
+    stop_.station = *cpu_stopped_;
+    return StopReason::CpuStopped;
+  }
+  if (answer_complete() && stop_at_answer_) return StopReason::Answer;
+  if (stop_.hits.empty()) return {};
+  stop_.station = stop_.hits.front().stop.station;
+  return StopReason::StopPoint;
+}
+
+/// Backwards: the same.
+void Stepper::note_found_here() {
+  const Moment here = history_.now();
+  if (const auto next = history_.next_station()) {
+    if (!search_.first[*next]) search_.first[*next] = here;
+  } else {
+    for (auto& first : search_.first)
+      if (!first) first = here;
+  }
+  const auto reason = reason_to_stop_here();
+  if (!reason) return;
+  stop_.reason = *reason;
+  search_.found.push_back({here, stop_});
+  stop_ = {.station = focus_};
 }
 
 void Stepper::acted() {
@@ -369,7 +424,8 @@ Time Stepper::counts_since(const StopPoint& stop) const {
 /// When a hit was, in the order of instructions: not after the next one of any station begins.
 Time Stepper::time_of(const Hit& hit) const {
   if (hit.by) return hit.by->at;
-  const Time now = std::max(history_.in_front().time, history_.now().time);  // that of a CPU without power stands still
+  // that of a CPU without power stands still
+  const Time now = std::max({history_.in_front().time, history_.now().time, search_.until});
   return hit.record ? std::min(hit.record->at, executing_since_) : now;
 }
 
@@ -377,12 +433,9 @@ Time Stepper::time_of(const Hit& hit) const {
 /// time; backwards nothing is new.
 std::uint64_t Stepper::count(StopPoint& stop, Time when) {
   const std::uint64_t instructions = history_.in_front().instructions;
-  auto& [since, at] = stop.counted[counted_on_];
-  if (backwards_) {
-    const StopPoint::Instant latest{instructions, kNever};
-    return static_cast<std::uint64_t>(std::ranges::upper_bound(at, latest) - at.begin());
-  }
   const StopPoint::Instant now{instructions, when};
+  auto& [since, at] = stop.counted[counted_on_];
+  if (backwards_) return static_cast<std::uint64_t>(std::ranges::upper_bound(at, now) - at.begin());
   if (now <= since) return 0;
   const auto next = at.begin() + static_cast<std::ptrdiff_t>(stop.hits);
   if (next == at.end() || *next != now) at.insert(next, now);

@@ -83,6 +83,7 @@ class Stepper final : public Observer {
   /// Scans that are all alike are passed over while nothing in them can be a reason to stop.
   bool wants_scans() const override;
   Time passes_over_until() const override { return limit_; }
+  bool before_action() override;
   void acted() override;
   Time idles_until(Time now) override;
 
@@ -108,6 +109,7 @@ class Stepper final : public Observer {
     Places first{};                ///< by station: its first place in the part being played
     Places after{};                ///< by station: its first place after that part
     std::vector<Found> found{};    ///< in that part
+    Time until = 0;                ///< what comes up at the end of that part is known by then
     std::optional<Found> there{};  ///< where to go
   };
 
@@ -138,8 +140,10 @@ class Stepper final : public Observer {
   void note_masters();
   void read_values();
   bool note_place(std::uint32_t op);
-  StopReason reason_to_end_idle() const;
+  void end_idle();
   std::optional<StopReason> reason_to_stop(std::uint32_t op, bool stood_there);
+  std::optional<StopReason> reason_to_stop_here();
+  void note_found_here();
   void begin_search(const Goal& goal, std::uint64_t count, bool stop_at_answer);
   void begin_part();
   bool end_part();

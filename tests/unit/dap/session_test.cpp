@@ -878,6 +878,18 @@ TEST(DapSession, QueueOverflowAndLostCharactersStopByTheirFilters) {
   EXPECT_TRUE(has(lost("exceptionInfo", {{"threadId", 1}}).dump(), "ignored  41: event 8 is not attached"));
 }
 
+TEST(DapSession, AnUnansweredRequestOfTheLaunchStopsThoughTheNextOneWaits) {
+  Editor editor(
+      "LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nENI\nMEND\n"
+      "INT 1\nLDB= SMB2, 16#42\nMOVB SMB2, VB1\nMOVB 1, VB0\nXMT VB0, 0\nRETI\n");
+  editor("initialize");
+  editor("launch", {{"send", Json::array({"41", "42"})}, {"sendAfter", "100ms"}});
+  editor("setExceptionBreakpoints", {{"filters", Json::array({"unanswered"})}});
+  editor("configurationDone");
+  EXPECT_EQ(editor.stopped(), "exception");
+  EXPECT_TRUE(has(editor("exceptionInfo", {{"threadId", 1}}).dump(), "unanswered"));
+}
+
 TEST(DapSession, TheStatusHasWhatEachLineDidLast) {
   Editor editor(kNested);
   editor.begin();

@@ -576,6 +576,31 @@ TEST(Debugger, ACancelledRequestIsInThePastAndInASavedSession) {
   EXPECT_TRUE(session.simulation.master().asks());
 }
 
+TEST(Debugger, AnAnswerWhereTheNextRequestIsSentIsSeenInBothDirections) {
+  Session session(kEcho);
+  session("continue 50ms; send 41; continue");
+  const auto answered = session.simulation.snapshot();
+  session("send 42; continue");
+  const std::string back = session("rcontinue");
+  EXPECT_TRUE(has(back, "request  41\n         'A'\nanswer   41"));
+  EXPECT_EQ(session.simulation.snapshot(), answered) << "before 42 was sent";
+  EXPECT_TRUE(has(session("at start; continue"), "request  41\n         'A'\nanswer   41"));
+  EXPECT_EQ(session.simulation.snapshot(), answered);
+  EXPECT_TRUE(has(session("continue"), "request  42\n         'B'\nanswer   42"));
+}
+
+TEST(Debugger, AnUnansweredRequestWhereTheNextOneIsSentIsSeenInBothDirections) {
+  Session session("LD SM0.0\nMEND\n");
+  session("continue 50ms; break unanswered; send 01; continue");
+  const auto unanswered = session.simulation.snapshot();
+  EXPECT_TRUE(has(session("send 02; continue"), "unanswered, hit 2 times"));
+  EXPECT_TRUE(has(session("rcontinue"), "unanswered, hit for the first time\nrequest  01"));
+  EXPECT_EQ(session.simulation.snapshot(), unanswered) << "before 02 was sent";
+  EXPECT_TRUE(has(session("continue"), "unanswered, hit 2 times"));
+  EXPECT_TRUE(has(session("at start; continue"), "unanswered, hit for the first time"));
+  EXPECT_EQ(session.simulation.snapshot(), unanswered);
+}
+
 TEST(Debugger, ABroadcastIsNeverUnanswered) {
   Bytes broadcast{0x00, 0x06, 0x00, 0x0a, 0x00, 0x01};
   modbus::add_crc(broadcast);

@@ -119,5 +119,17 @@ TEST(Standstill, AProgrammingDeviceOnTheLineIsAnsweredInStop) {
   EXPECT_TRUE(has(session("send 10 02 00 49 4b 16; continue"), "answer   10 00 02 00 02 16"));
 }
 
+TEST(Standstill, EveryRequestThatWasUnansweredInStopIsGoneBackToByItself) {
+  Session session("LD SM0.0\nSTOP\nMEND\n");
+  session("continue; break unanswered; send 01; continue");
+  const Time first = session.simulation.time();
+  session("continue 100ms; send 02; continue");
+  EXPECT_TRUE(has(session("send 03; continue"), "hit 3 times"));
+  EXPECT_TRUE(has(session("rcontinue"), "unanswered, hit 2 times\nrequest  02"));
+  EXPECT_TRUE(has(session("rcontinue"), "unanswered, hit for the first time\nrequest  01"));
+  EXPECT_EQ(session.simulation.time(), first);
+  EXPECT_TRUE(has(session("rcontinue"), "oldest moment"));
+}
+
 }  // namespace
 }  // namespace s7200::tools

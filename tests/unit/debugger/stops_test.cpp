@@ -140,5 +140,16 @@ TEST(Stops, CompletionOffersWhatMayComeNext) {
   EXPECT_EQ(offered("mode "), (Words{"run", "stop"}));
 }
 
+TEST(Stops, OptionsComeInAnyOrderAfterATextInQuotesTooAndOnce) {
+  Session session(kNested);
+  const std::string logged = session("break 4 log 'scan of {VW10}' hits 3; continue 10ms; break");
+  EXPECT_FALSE(has(logged, "scan of 1\n"));
+  EXPECT_TRUE(has(logged, "scan of 2\n"));
+  EXPECT_TRUE(has(logged, "from hit 3, logs 'scan of {VW10}'"));
+  EXPECT_EQ(session.error_of("break 4 hits 2 hits 3"), "'hits' is there twice; give it once");
+  EXPECT_EQ(session.error_of("break 4 log 'x' log 'y'"), "'log' is there twice; give it once");
+  EXPECT_TRUE(has(session.error_of("break 4 log 'x' frob"), "always, if CONDITION, hits N, log 'TEXT'"));
+}
+
 }  // namespace
 }  // namespace s7200::tools

@@ -194,6 +194,24 @@ TEST(SystemDebugger, AMasterThatPollsIsUnansweredThoughNoPlcExecutesAProgram) {
   EXPECT_LE(session.system().time(), end + 301 * kMillisecond);
 }
 
+TEST(SystemDebugger, RequestsUnansweredWithoutPowerAreGoneBackToOneByOne) {
+  SystemSession session(
+      "plcs: {slave: {program: ../modbus_slave.stl, station: 1}}\n"
+      "peers: {scada: {polls: [{station: 1, read: 40001}], every: 1s, timeout: 300ms}}\n"
+      "lines: {bus: {stations: [scada, slave]}}\n",
+      0);
+  session("continue 2.5s; break unanswered; power off; continue");
+  const Time first = session.system().time();
+  session("continue");
+  const Time second = session.system().time();
+  EXPECT_TRUE(has(session("power on; continue 500ms; rcontinue"), "hit 2 times"));
+  EXPECT_EQ(session.system().time(), second);
+  EXPECT_FALSE(session.stations[0]->plc().powered()) << "before power came back";
+  EXPECT_TRUE(has(session("rcontinue"), "hit for the first time"));
+  EXPECT_EQ(session.system().time(), first);
+  EXPECT_TRUE(has(session("rcontinue"), "oldest moment"));
+}
+
 TEST(SystemDebugger, ARequestOfAPlcIsUnansweredWhenNobodyAnswersOrItAsksAgain) {
   SystemSession session;  // the master asks first at 19 ms, the slaves hear from 52 ms on, it asks again at 823 ms
   const std::string stopped = session("station slave1; break unanswered; continue");

@@ -131,5 +131,14 @@ TEST(Why, AnAnswerThatBeganBeforeTheRequestHadEndedIsNamedSo) {
   EXPECT_TRUE(has(session("why"), "the master was still sending, up to 52."));
 }
 
+TEST(Why, AStopWithinARequestIsWhatKeptItsCharactersFromTheProgram) {
+  Session session(kEcho);
+  session("continue 50ms; break unanswered; send 41 42 43 44 45 46 47 48; continue 3ms; mode stop; continue");
+  const std::string why = session("why");
+  EXPECT_TRUE(has(why, "the CPU is in STOP"));
+  EXPECT_TRUE(has(why, "a programming device has switched the CPU to STOP"));
+  EXPECT_FALSE(has(why, "SMB30")) << "which the program had set to Freeport";
+}
+
 }  // namespace
 }  // namespace s7200::tools
