@@ -326,7 +326,7 @@ void Session::begin(std::shared_ptr<Debuggee> debuggee) {
   debuggee_->when_saying([this](const std::string& text) { print(text, "important"); });
   stepper_->on_message = [this](const StopPoint& stop) {
     const Cpu& at = debuggee_->history().station(stop.station).cpu();
-    print_of(stop.station, filled_in(stop.log, at), "console", standing_at(at.state()));
+    print_of(stop.station, filled_in(stop.log, at, debuggee_->history().now().time), "console", standing_at(at.state()));
   };
   stepper_->on_answer = [this](const serial::Exchange& exchange) { print(exchange_text(exchange, master().timeout)); };
   stepper_->on_unasked = [this](const Transmission& sent) {

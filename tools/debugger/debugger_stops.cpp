@@ -268,8 +268,8 @@ void Debugger::report_access(const Hit& hit) {
 
 void Debugger::print_message(const StopPoint& stop) {
   hide_progress();
-  out_ << fmt::format("{}{}\n", said_of(stop.station),
-                      stl::printable(filled_in(stop.log, stations_[stop.station].simulation->cpu())));
+  const Cpu& cpu = stations_[stop.station].simulation->cpu();
+  out_ << fmt::format("{}{}\n", said_of(stop.station), stl::printable(filled_in(stop.log, cpu, history_.now().time)));
 }
 
 }  // namespace s7200::tools

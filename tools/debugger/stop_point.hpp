@@ -87,7 +87,8 @@ struct Hit {
 };
 
 /// `{VW20} at {time}` filled in: expressions, and time, scan, line, event. What cannot be read stays as it is.
-std::string filled_in(const std::string& text, const Cpu& cpu);
+/// `now`: that of the run; the clock of a CPU without power stands still.
+std::string filled_in(const std::string& text, const Cpu& cpu, Time now);
 
 /// Whether all in braces can be read, and each is closed; sets `why` if not.
 bool check_message(const std::string& text, const Program& program, std::string& why);

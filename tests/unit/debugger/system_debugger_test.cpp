@@ -1,4 +1,5 @@
 // A session with the stations of a system, at the prompt.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -8,6 +9,7 @@
 #include "serial_sim/modbus/crc.hpp"
 #include "tests/unit/debugger/session.hpp"
 #include "tests/unit/debugger/system_bench.hpp"
+#include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -204,6 +206,10 @@ TEST(SystemDebugger, RequestsUnansweredWithoutPowerAreGoneBackToOneByOne) {
   const Time first = session.system().time();
   session("continue");
   const Time second = session.system().time();
+  const std::string logged = session("break unanswered log 'none at {time}'; continue; delete 2");
+  EXPECT_TRUE(has(logged, fmt::format("none at {}", moment_text(session.system().time())))) << "though its clock stands";
+  session("rcontinue");
+  EXPECT_EQ(session.system().time(), second);
   EXPECT_TRUE(has(session("power on; continue 500ms; rcontinue"), "hit 2 times"));
   EXPECT_EQ(session.system().time(), second);
   EXPECT_FALSE(session.stations[0]->plc().powered()) << "before power came back";
