@@ -133,7 +133,9 @@ Playback playback(const std::vector<ReadFrame>& frames, const Stamps& stamps, co
   std::vector<const ReadFrame*> strays;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const ReadFrame& request = frames[i];
-    if (request.direction == Direction::Unknown) {
+    const std::string in_a_note = fmt::format("({})", request.frame.place);  // of the request before it
+    const bool is_named = !playback.notes.empty() && playback.notes.back().find(in_a_note) != std::string::npos;
+    if (request.direction == Direction::Unknown && !is_named) {
       strays.push_back(&request);
       steps += fmt::format("      # {}: left out: {}\n", request.frame.place, request.text);
     }
@@ -166,7 +168,7 @@ Playback playback(const std::vector<ReadFrame>& frames, const Stamps& stamps, co
   }
   if (!strays.empty())
     playback.notes.push_back(fmt::format("{}: left out{}: {}", strays.front()->frame.place,
-                                         strays.size() == 1 ? "" : fmt::format(", and {} more frames", strays.size() - 1),
+                                         strays.size() == 1 ? "" : fmt::format(", and {} more", strays.size() - 1),
                                          strays.front()->text));
   if (!asks) return playback;
   playback.scenario = fmt::format("scenarios:\n  - name: {}\n", in_quotes(choices.name));

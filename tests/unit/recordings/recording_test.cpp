@@ -832,5 +832,13 @@ TEST(Conversation, AScenarioLeavesOutWhatNoSlaveAnswersTheSame) {
   EXPECT_EQ(playback(read(recording), {}, {}).notes, std::vector<std::string>{"line 1: left out: the request is damaged"});
 }
 
+TEST(Conversation, AScenarioSaysWhichFramesItLeavesOutBecauseTheyAreNoRequests) {
+  const LineRecording recording =
+      recording_of("0.000 FF 00\n1.000 01 03 00 00 00 01 84 0A\n1.025 01 03 02 12 34 B5 33\n2.000 FF 01\n");
+  const Playback played = playback(read(recording), {}, {});
+  EXPECT_EQ(played.notes, std::vector<std::string>{"line 1: left out, and 1 more: wrong CRC, or not a whole frame"});
+  EXPECT_NE(played.scenario.find("# line 4: left out"), std::string::npos) << played.scenario;
+}
+
 }  // namespace
 }  // namespace s7200::tools
