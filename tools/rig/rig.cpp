@@ -67,9 +67,10 @@ void Rig::join(const Spot& spot) {
   serial::SharedLine& line = *lines_[spot.line];
   Asker& asker = askers_[spot.line];
   const std::size_t room = serial::Line::kDrivers - plan_.lines[spot.line].stations.size();
-  if (!asker.requester && room > 0)
+  if (!asker.requester && room > 0) {
     asker = {&system_.add_requester(line), room > 1 ? &system_.add_host_port(line) : nullptr, spot};
-  if (asker.requester) drive_sync(*asker.requester, plan_, plan_.lines[spot.line], responders_);
+    drive_sync(*asker.requester, plan_, plan_.lines[spot.line], responders_);
+  }
   simulations_.push_back(
       std::make_unique<serial::Simulation>(system_, line, *plcs_[spot.plc], spot.port, asker.requester, asker.host));
 }
