@@ -27,8 +27,9 @@ nlohmann::ordered_json microseconds(std::optional<Time> time) {
   return static_cast<double>(*time) / kMicrosecond;
 }
 
-/// What keeps a request and its answer out of a scenario; empty if nothing does.
-std::string why_left_out(const std::vector<ReadFrame>& frames, std::size_t number) {
+/// What keeps a request and its answer out of a scenario; empty if nothing does. `named`: the frame that is no request, if
+/// the reason names one.
+std::string why_left_out(const std::vector<ReadFrame>& frames, std::size_t number, const ReadFrame*& named) {
   const ReadFrame& request = frames[number];
   if (!request.frame.damaged.empty()) return "the request is damaged";
   if (request.other) {
@@ -43,6 +44,7 @@ std::string why_left_out(const std::vector<ReadFrame>& frames, std::size_t numbe
   if (next == frames.end()) return {};
   if (next->repeats) return fmt::format("the same after it ({}) may be its late echo", next->frame.place);
   if (next->direction != Direction::Unknown) return {};
+  named = &*next;
   return fmt::format("what follows it ({}) may be its answer: {}", next->frame.place, next->text);
 }
 
@@ -131,18 +133,17 @@ Playback playback(const std::vector<ReadFrame>& frames, const Stamps& stamps, co
   bool asks = false;
   const ReadFrame* last = nullptr;
   std::vector<const ReadFrame*> strays;
+  const ReadFrame* named = nullptr;  // in a note already
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const ReadFrame& request = frames[i];
-    const std::string in_a_note = fmt::format("({})", request.frame.place);  // of the request before it
-    const bool is_named = !playback.notes.empty() && playback.notes.back().find(in_a_note) != std::string::npos;
-    if (request.direction == Direction::Unknown && !is_named) {
+    if (request.direction == Direction::Unknown && &request != named) {
       strays.push_back(&request);
       steps += fmt::format("      # {}: left out: {}\n", request.frame.place, request.text);
     }
     const bool wanted = request.direction == Direction::Request && (!choices.station || request.station == choices.station);
     if (!wanted) continue;
     const ReadFrame* answer = request.other ? &frames[*request.other] : nullptr;
-    if (const std::string why = why_left_out(frames, i); !why.empty()) {
+    if (const std::string why = why_left_out(frames, i, named); !why.empty()) {
       playback.notes.push_back(fmt::format("{}: left out: {}", request.frame.place, why));
       steps += fmt::format("      # {}\n", playback.notes.back());
       last = nullptr;
