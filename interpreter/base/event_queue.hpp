@@ -26,15 +26,24 @@ struct Event {
 /// kinds of them, a handful each, and a search from one end to the other is the fastest.
 class EventQueue {
  public:
-  EventQueue() { events_.reserve(32); }  // more than a PLC and its peers ever have
+  EventQueue() {
+    events_.reserve(32);  // more than a PLC and its peers ever have
+    events_.push_back(kLast);
+  }
 
   void schedule(Time at, EventOwner owner, std::uint8_t what) {
-    const Event event{at, owner, what};
     std::size_t place = place_of(owner, what);
-    if (place == events_.size()) events_.push_back(event);
-    for (; place > 0 && before(events_[place - 1], event); --place) events_[place] = events_[place - 1];
+    if (place == events_.size()) return insert({at, owner, what});
+    const Event event{at, owner, what};
+    for (; before(events_[place - 1], event); --place) events_[place] = events_[place - 1];
     for (; place + 1 < events_.size() && before(event, events_[place + 1]); ++place) events_[place] = events_[place + 1];
     events_[place] = event;
+  }
+
+  /// The same for an event that is known not to be pending: nothing is searched for.
+  void add(Time at, EventOwner owner, std::uint8_t what) {
+    assert(place_of(owner, what) == events_.size());
+    insert({at, owner, what});
   }
 
   void cancel(EventOwner owner, std::uint8_t what) {
@@ -43,13 +52,13 @@ class EventQueue {
   }
 
   /// When the next event is due; kNever when none is pending.
-  Time next() const { return events_.empty() ? kNever : events_.back().at; }
+  Time next() const { return events_.back().at; }
 
   /// The next event; there is one.
   const Event& front() const { return events_.back(); }
 
   Event pop() {
-    assert(!events_.empty());
+    assert(events_.size() > 1);
     const Event event = events_.back();
     events_.pop_back();
     return event;
@@ -58,8 +67,18 @@ class EventQueue {
   bool operator==(const EventQueue&) const = default;
 
  private:
+  /// Never comes, and is there so that there is always a next one, and one later than any other.
+  static constexpr Event kLast{kNever, EventOwner{0xFFFF}, 0xFF};
+
+  void insert(const Event& event) {
+    events_.push_back(event);
+    Event* place = &events_.back();
+    for (; before(place[-1], event); --place) place[0] = place[-1];
+    *place = event;
+  }
+
   std::size_t place_of(EventOwner owner, std::uint8_t what) const {
-    std::size_t place = 0;
+    std::size_t place = 1;
     while (place < events_.size() && !(events_[place].owner == owner && events_[place].what == what)) ++place;
     return place;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -21,9 +22,12 @@ struct SerialFormat {
   std::uint32_t baud = 9600;   ///< bits a second
   std::uint8_t data_bits = 8;  ///< 7 or 8, sent LSB first
   Parity parity = Parity::Even;
-  std::uint8_t stop_bits = 1;  ///< 1 or 2; the S7-200 always sends one (S7-200 manual, SMB30)
+  std::uint16_t stop_bits = 1;  ///< 1 or 2; the S7-200 always sends one (S7-200 manual, SMB30)
 
-  bool operator==(const SerialFormat&) const = default;
+  /// All members in one go, because several are compared for each character: there are no gaps between them.
+  constexpr bool operator==(const SerialFormat& other) const {
+    return std::bit_cast<std::uint64_t>(*this) == std::bit_cast<std::uint64_t>(other);
+  }
 
   static constexpr int kMostBits = 12;  ///< 8E2
 

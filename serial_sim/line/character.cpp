@@ -2,7 +2,7 @@
 
 namespace s7200::serial {
 
-BitTimes::BitTimes(const BitClock& of) : clock(of) {
+BitTimes::BitTimes(const BitClock& of) : clock(of), bits(of.format.bits()), stop_bit(first_stop_bit(of.format)) {
   for (std::size_t count = 0; count < half_bits.size(); ++count) half_bits[count] = clock.half_bits(static_cast<int>(count));
 }
 

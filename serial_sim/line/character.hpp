@@ -43,6 +43,7 @@ struct BitTimes {
   Time middle_of_bit(int bit) const { return half_bits[static_cast<std::size_t>(2 * bit + 1)]; }
 
   BitClock clock;
+  int bits = 0, stop_bit = 0;  ///< of the clock's format: how many, and the number of the first stop bit
   std::array<Time, 2 * (SerialFormat::kMostBits + 1) + 1> half_bits{};  ///< so many
 };
 

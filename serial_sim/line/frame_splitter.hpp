@@ -1,7 +1,6 @@
-// Characters and frames out of the edges on both wires.
+// Characters and frames out of the edges of the line.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <vector>
 
@@ -12,49 +11,53 @@
 
 namespace s7200::serial {
 
-/// What ran over one wire, between two silences or until the other end of the line spoke.
+/// What ran over the line between two silences, or until another station spoke.
 struct WireFrame {
-  Wire wire{};
+  int driver = Line::kNobody;                 ///< of the station that began it
   std::vector<ReceivedCharacter> characters;  ///< as they were read, those with errors too
   Time end = 0;                               ///< of the last stop bit
 
   Time start() const { return characters.front().start; }
 };
 
-/// Listens to each wire with a UART that is set like the PLC's port and never switched off. What ends a frame: a silence of
-/// more than 3.5 characters, or a character on the other wire that begins after it, however soon the next one follows.
-/// Stations that share the Rx wire are told apart by silence alone.
+/// Listens to Wire::Line with a UART that is set like the PLC's port, never sends and is never switched off: it reads what
+/// is on the wire, of a collision what both senders make of it. What ends a frame: a silence of more than 3.5 characters, or
+/// a character after it that another station sends, however soon that follows. Stations that have sent at the same time are
+/// not told from each other until there is silence. All programs behind a bridge are one station.
 class FrameSplitter final : public WireSink {
  public:
   /// Where no silence comes, a frame ends after so many characters.
   static constexpr std::size_t kLongestFrame = 4096;
 
   /// `on_frame` is told in the order in which frames begin.
-  explicit FrameSplitter(std::function<void(const WireFrame&)> on_frame);
+  explicit FrameSplitter(std::function<void(const WireFrame&)> on_frame) : on_frame_(std::move(on_frame)) {}
 
-  void edge(Wire wire, Time at, bool mark) override;
+  void edge(Wire wire, Time at, bool mark, int driver) override;
   void settled(Time until, const SerialFormat& port) override;
 
-  /// What has come of the last frames is told too. An incomplete character does not count.
-  void finish() override;
+  /// What has come of the last frame is told too. An incomplete character does not count.
+  void finish() override { close(); }
 
  private:
-  /// A wire of its own, so that the UART is the one that hears the real one.
-  struct Ear {
-    Line line;
-    EventQueue queue;
-    Uart uart{line, queue, EventOwner{}, 0};
-    WireFrame open;
-    Time last_start = -1;  ///< of the last character
+  void take(const ReceivedCharacter& character, const SerialFormat& port);
+  void close();
+  int sender_of(const ReceivedCharacter& character);
+  bool another_drives(int sender, const ReceivedCharacter& character);
+
+  struct Speaker {
+    Time since;
+    int driver;
   };
 
-  void hear(Time until, const SerialFormat& port);
-  void take(std::size_t wire, const ReceivedCharacter& character, const SerialFormat& port);
-  void close(Ear& ear);
-  void tell();
-
-  std::array<Ear, kWires> ears_;
-  std::vector<WireFrame> closed_;  ///< and not told yet
+  // A line of its own, so that the UART is the one that hears the real one.
+  Line line_;
+  EventQueue queue_;
+  Uart uart_{line_, queue_, EventOwner{}, 0};
+  std::vector<Speaker> speakers_;  ///< who has driven the line to space, in order of time; one after the other differ
+  std::vector<Speaker> driving_;   ///< who has begun to drive to space, seen on the line or not, since the last character
+  WireFrame open_;
+  int sender_ = Line::kNobody;  ///< of the open frame's last character
+  bool mixed_ = false;          ///< several have sent characters of the open frame at the same time
   std::function<void(const WireFrame&)> on_frame_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 
 #include "interpreter/base/split_mix.hpp"
 
@@ -127,7 +128,7 @@ void Line::drive(int number, Time at, bool mark) {
 }
 
 void Line::drive(int number, unsigned levels, const BitTimes& times, Time at) {
-  const unsigned stop_bit = 1U << first_stop_bit(times.clock.format);
+  const unsigned stop_bit = 1U << times.stop_bit;
   if (may_imply() && (levels & stop_bit) != 0) {
     implied_.driver = number;
     implied_.levels = levels;
@@ -143,9 +144,8 @@ void Line::drive(int number, unsigned levels, const BitTimes& times, Time at) {
 
 void Line::add_edges(int number, unsigned levels, const BitTimes& times, Time at) const {
   Driver& own = driver(number);
-  const int stop_bit = first_stop_bit(times.clock.format);
-  for (int bit = 0; bit <= stop_bit; ++bit) own.add(at + times.begin_of_bit(bit), (levels >> bit & 1U) != 0);
-  own.add(at + times.begin_of_bit(times.clock.format.bits()), true);
+  for (int bit = 0; bit <= times.stop_bit; ++bit) own.add(at + times.begin_of_bit(bit), (levels >> bit & 1U) != 0);
+  own.add(at + times.begin_of_bit(times.bits), true);
   changed(number);
 }
 
@@ -259,6 +259,12 @@ std::uint32_t Line::far_at(Time at) const {
   return far;
 }
 
+std::optional<Line::Separation> Line::separation(Time at) const {
+  const auto after = std::ranges::upper_bound(separations_, at, {}, &Separation::at);
+  if (after == separations_.begin() || std::prev(after)->far == 0) return {};
+  return *std::prev(after);
+}
+
 /// Of the cable: 0 the near one, and the whole; 1 the far one.
 std::size_t Line::part_of(int driver, Time at) const { return driver == kWholeCable ? 0 : far_at(at) >> driver & 1U; }
 
@@ -290,9 +296,8 @@ bool Line::irregular_level(Time at, int listener) const {
 unsigned Line::levels(Time start, const BitTimes& times, int listener) const {
   if (implied_.any() && implied_.start == start && implied_.times == times) return implied_.levels;
   std::array<Time, SerialFormat::kMostBits> middles{};
-  const int stop_bit = first_stop_bit(times.clock.format);
-  for (int bit = 0; bit <= stop_bit; ++bit) middles[static_cast<std::size_t>(bit)] = start + times.middle_of_bit(bit);
-  return levels({middles.data(), static_cast<std::size_t>(stop_bit + 1)}, listener);
+  for (int bit = 0; bit <= times.stop_bit; ++bit) middles[static_cast<std::size_t>(bit)] = start + times.middle_of_bit(bit);
+  return levels({middles.data(), static_cast<std::size_t>(times.stop_bit + 1)}, listener);
 }
 
 /// In order of time, that at the first one in bit 0.
@@ -333,7 +338,15 @@ bool Line::level_of(int driver, Time at) const {
 }
 
 bool Line::level_without(int driver, Time at) const {
+  if (implied_.any() && implied_.driver == driver) return true;  // it is alone
   return disturbed_level(driven_level(at, audible(driver, at) & ~(1U << driver)) || chance_says_mark(at, driver), at);
+}
+
+int Line::space_holder_of(std::uint32_t drivers, Time at) const {
+  reveal();
+  for (std::uint32_t those = busy_ & drivers; those != 0; those &= those - 1)
+    if (const int driver = std::countr_zero(those); !level_of(driver, at)) return driver;
+  return kNobody;
 }
 
 Time Line::next_change(Time from) const {
@@ -389,7 +402,8 @@ Time Line::space_held_from_before(Time edge) const {
 }
 
 void Line::forget(Time now) {
-  if (may_imply()) return;  // there is nothing
+  const bool nothing = may_imply(), all_to_come = implied_.any() && now <= implied_.last_edge;
+  if (nothing || all_to_come) return;
   for (const LineListener* listener : wiring_.listeners) now = std::min(now, listener->needs_from());
   if (implied_.any() && now <= implied_.last_edge) return;
   implied_.driver = Implied::kNone;
@@ -414,9 +428,19 @@ bool Line::operator==(const Line& other) const {
          disturbances_ == other.disturbances_;
 }
 
-void Line::attach(LineListener& listener) { wiring_.listeners.push_back(&listener); }
+void Line::attach(LineListener& listener) {
+  wiring_.listeners.push_back(&listener);
+  note_whether_watched();
+}
 
-void Line::detach(LineListener& listener) { std::erase(wiring_.listeners, &listener); }
+void Line::detach(LineListener& listener) {
+  std::erase(wiring_.listeners, &listener);
+  note_whether_watched();
+}
+
+void Line::note_whether_watched() {
+  wiring_.watched = std::ranges::any_of(wiring_.listeners, &LineListener::waits_for_settled_levels);
+}
 
 void Line::tell(Time at) const {
   for (LineListener* listener : wiring_.listeners) listener->line_changed(at);

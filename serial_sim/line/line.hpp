@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,9 @@ class LineListener {
 
   /// Levels before this instant matter no more to this listener; kNever when only those to come do.
   virtual Time needs_from() const = 0;
+
+  /// Whether it waits to be told that levels can change no more, as a tap does.
+  virtual bool waits_for_settled_levels() const { return false; }
 
  protected:
   ~LineListener() = default;
@@ -76,6 +80,15 @@ class Line {
   /// between them. 0: it is whole again. Instants ascend. Every listener is told.
   void separate(Time at, std::uint32_t far);
 
+  /// Who does not hear the others from an instant on, as separate() has it.
+  struct Separation {
+    Time at = 0;
+    std::uint32_t far = 0;
+    bool operator==(const Separation&) const = default;
+  };
+  /// In force at an instant that is not forgotten; nothing while the cable is whole.
+  std::optional<Separation> separation(Time at) const;
+
   /// From now on the level of a bit for which drivers that are switched on disagree follows from chance: mark or space, for
   /// all receivers on their part of the cable alike. The same seed gives the same levels.
   void leave_contention_to_chance(std::uint64_t seed) {
@@ -91,6 +104,7 @@ class Line {
   void release(int driver, Time at);
 
   static constexpr int kWholeCable = -1;
+  static constexpr int kNobody = -1;
 
   /// The level at an instant; an edge counts from its own instant on. `listener`: the driver of the station that hears it;
   /// without one the cable counts as whole, here and below.
@@ -112,6 +126,11 @@ class Line {
   /// The level as it would be without driver `driver`: what it hears of the others and of disturbances.
   bool level_without(int driver, Time at) const;
 
+  /// Who holds the line at space on driver `driver`'s part of the cable: the one with the lowest number, or kNobody.
+  int space_holder(int driver, Time at) const { return space_holder_of(audible(driver, at), at); }
+  /// The same of the others, as that driver hears them.
+  int space_holder_besides(int driver, Time at) const { return space_holder_of(audible(driver, at) & ~(1U << driver), at); }
+
   /// First edge of any driver, begin or end of any disturbance at or after `from` among those known now; kNever when there
   /// is none.
   Time next_change(Time from) const;
@@ -126,6 +145,9 @@ class Line {
 
   void attach(LineListener& listener);
   void detach(LineListener& listener);
+
+  /// Whether any listener waits for settled levels.
+  bool watched() const { return wiring_.watched; }
 
   bool operator==(const Line& other) const;
 
@@ -183,13 +205,6 @@ class Line {
     void toggle(Time at);
   };
 
-  /// Who does not hear the others from an instant on.
-  struct Separation {
-    Time at = 0;
-    std::uint32_t far = 0;
-    bool operator==(const Separation&) const = default;
-  };
-
   struct Contention {
     std::uint64_t seed = 0;
     std::vector<Time> on_until{};    // by driver; empty: space wins
@@ -210,6 +225,7 @@ class Line {
 
   struct Wiring {
     std::vector<LineListener*> listeners;
+    bool watched = false;  // by any of them
     Interference* interference = nullptr;
     Wiring() = default;
     Wiring(const Wiring&) {}
@@ -242,6 +258,7 @@ class Line {
   std::uint32_t far_at(Time at) const;
   std::size_t part_of(int driver, Time at) const;
   std::uint32_t audible(int listener, Time at) const;
+  int space_holder_of(std::uint32_t drivers, Time at) const;
   bool chance_says_mark(Time at, int listener) const;
   bool irregular_level(Time at, int listener) const;
   unsigned levels(std::span<const Time> at, int listener) const;
@@ -257,6 +274,7 @@ class Line {
   Time irregular_falling_edge(Time from, int listener) const;
   Time space_held_from_before(Time edge) const;
   void tell(Time at) const;
+  void note_whether_watched();
 
   Periods& periods(Disturbance::Effect effect) { return disturbances_[static_cast<std::size_t>(effect)]; }
   const Periods& periods(Disturbance::Effect effect) const { return disturbances_[static_cast<std::size_t>(effect)]; }

@@ -12,9 +12,10 @@ std::uint8_t data_of(std::uint8_t byte, const SerialFormat& format) {
 }
 
 /// From the level in the middle of each bit, that of the start bit in bit 0.
-ReceivedCharacter character_of(unsigned levels, const SerialFormat& format, Time start, Time end) {
+ReceivedCharacter character_of(unsigned levels, const BitTimes& times, Time start, Time end) {
   const auto sample = [levels](int bit) { return (levels >> bit & 1U) != 0; };
-  const int stop_bit = first_stop_bit(format);
+  const SerialFormat& format = times.clock.format;
+  const int stop_bit = times.stop_bit;
   ReceivedCharacter character;
   character.byte = static_cast<std::uint8_t>(levels >> 1 & ((1U << format.data_bits) - 1));
   const bool bit_before_stop = sample(stop_bit - 1);
@@ -123,8 +124,8 @@ void Uart::put_character_with_mishaps(unsigned levels, Time at) {
 Time Uart::drive_character(unsigned levels, const BitClock& clock, Time at) {
   const BitTimes& times = times_of(clock, sending_times_);
   line_.drive(driver_, levels, times, at);
-  const bool stops = (levels >> first_stop_bit(clock.format) & 1U) != 0;
-  const Time end = at + times.begin_of_bit(clock.format.bits() + (stops ? 0 : 1));
+  const bool stops = (levels >> times.stop_bit & 1U) != 0;
+  const Time end = at + times.begin_of_bit(times.bits + (stops ? 0 : 1));
   line_.occupy(driver_, at, end);
   return end;
 }
@@ -138,7 +139,7 @@ const BitTimes& Uart::times_of(const BitClock& clock, BitTimes& known) {
 void Uart::sends_until(Time end) {
   state_.sending = true;
   state_.send_end = end;
-  queue_.schedule(end, owner_, kSent);
+  queue_.add(end, owner_, kSent);
 }
 
 Uart::Report Uart::handle(const Event& event) {
@@ -189,29 +190,30 @@ void Uart::listen_again(Time now) {
 void Uart::await_start_edge() {
   expect_nothing();
   state_.start_edge = line_.falling_edge(state_.listen_from, driver_);
-  if (state_.start_edge == kNever) return abandon_character();
+  if (state_.start_edge == kNever) return listen_no_more();
   state_.clock_error = clock_error();
-  const Time check = start_check();
+  const BitTimes& times = times_of({state_.format, state_.clock_error}, receiving_times_);
+  const Time check = state_.start_edge + times.middle_of_bit(0);
   state_.certain = line_.has_start_bit_alone(state_.start_edge, check);
-  if (state_.certain) return expect_stop_bit();
+  if (state_.certain) return expect_stop_bit(times);
   expect(kStartCheck, check);
 }
 
-void Uart::expect_stop_bit() {
-  state_.receiving_as = {state_.format, state_.clock_error};
-  expect(kStopSample, character_due());
+void Uart::expect_stop_bit(const BitTimes& times) {
+  state_.receiving_as = times.clock;
+  expect(kStopSample, state_.start_edge + times.middle_of_bit(times.stop_bit));
 }
 
 void Uart::check_start_bit(Time now) {
   if (line_.level(now, driver_)) return listen_again(now);
   state_.receiving = true;
-  expect_stop_bit();
+  expect_stop_bit(times_of({state_.format, state_.clock_error}, receiving_times_));
 }
 
 ReceivedCharacter Uart::take_character(Time now) {
   const BitTimes& times = times_of(state_.receiving_as, receiving_times_);
   const unsigned levels = line_.levels(state_.start_edge, times, driver_);
-  const ReceivedCharacter character = character_of(levels, state_.receiving_as.format, state_.start_edge, now);
+  const ReceivedCharacter character = character_of(levels, times, state_.start_edge, now);
   listen_again(now);
   return character;
 }
@@ -219,11 +221,10 @@ ReceivedCharacter Uart::take_character(Time now) {
 /// As the others sound, whether this one sends or not.
 ReceivedCharacter Uart::character_of_others(Time start, const BitClock& clock) const {
   const BitTimes& times = times_of(clock, receiving_times_);
-  const int stop_bit = first_stop_bit(clock.format);
   unsigned levels = 0;
-  for (int bit = 0; bit <= stop_bit; ++bit)
+  for (int bit = 0; bit <= times.stop_bit; ++bit)
     levels |= unsigned{line_.level_without(driver_, start + times.middle_of_bit(bit))} << bit;
-  return character_of(levels, clock.format, start, start + times.middle_of_bit(stop_bit));
+  return character_of(levels, times, start, start + times.middle_of_bit(times.stop_bit));
 }
 
 void Uart::power_off(Time at) {
@@ -250,14 +251,15 @@ BitClock Uart::clock_of_character() const {
 Time Uart::character_due() const {
   if (state_.start_edge == kNever) return kNever;
   const BitClock clock = clock_of_character();
-  return state_.start_edge + times_of(clock, receiving_times_).middle_of_bit(first_stop_bit(clock.format));
+  const BitTimes& times = times_of(clock, receiving_times_);
+  return state_.start_edge + times.middle_of_bit(times.stop_bit);
 }
 
 Time Uart::next_report() const { return std::min(state_.sending ? state_.send_end : kNever, character_due()); }
 
 void Uart::expect(What what, Time at) {
   if (at < state_.off_from) {
-    queue_.schedule(at, owner_, what);
+    queue_.add(at, owner_, what);
   } else {
     abandon_character();
   }
@@ -272,6 +274,11 @@ void Uart::expect_nothing() {
 
 void Uart::abandon_character() {
   expect_nothing();
+  listen_no_more();
+}
+
+/// From when the receiver is off on.
+void Uart::listen_no_more() {
   if (!state_.receiver_enabled()) state_.listen_from = state_.off_from;
 }
 

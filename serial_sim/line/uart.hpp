@@ -126,7 +126,7 @@ class Uart final : public SerialPort, private LineListener {
   void listen_again(Time now);
   void await_start_edge();
   void check_start_bit(Time now);
-  void expect_stop_bit();
+  void expect_stop_bit(const BitTimes& times);
   ReceivedCharacter take_character(Time now);
   ReceivedCharacter character_of_others(Time start, const BitClock& clock) const;
   void look_for_missed(Time at);
@@ -137,6 +137,7 @@ class Uart final : public SerialPort, private LineListener {
   BitClock clock_of_character() const;
   void expect_nothing();
   void abandon_character();
+  void listen_no_more();
 
   void put_character(unsigned levels, Time at);
   void put_character_with_mishaps(unsigned levels, Time at);

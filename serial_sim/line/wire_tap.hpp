@@ -10,21 +10,23 @@
 
 namespace s7200::serial {
 
-/// The two directions, named as at the port of a PLC, of whatever make.
+/// What there is to see at the port of a PLC, of whatever make: the two directions, and the line, which is one for both.
 enum class Wire : std::uint8_t {
-  Rx,  ///< what all others together make of the line: what the PLC hears, and what it would hear while it sends
-  Tx,  ///< what the PLC drives
+  Rx,    ///< what all others together, and disturbances, make of the line: without what the PLC drives
+  Tx,    ///< what the PLC drives
+  Line,  ///< the level at the port: what a receiver there reads that is always on, in a collision too
 };
 
-inline constexpr std::size_t kWires = 2;
+inline constexpr std::size_t kWires = 3;
 
-/// Who watches the wires. Both are at mark (true) at first.
+/// Who watches the wires. All are at mark (true) at first.
 class WireSink {
  public:
   virtual ~WireSink() = default;
 
-  /// `wire` is at `mark` from `at` on. Told in the order of time, Rx first, and only of changes.
-  virtual void edge(Wire wire, Time at, bool mark) = 0;
+  /// `wire` is at `mark` from `at` on. Told in the order of time and of Wire, and only of changes. `driver`: of the line,
+  /// that holds it at space, of several the one with the lowest number; Line::kNobody at mark, and if a disturbance does.
+  virtual void edge(Wire wire, Time at, bool mark, int driver) = 0;
 
   /// All edges before `until` have been told. The PLC's port is set to `port`.
   virtual void settled(Time until, const SerialFormat& port) = 0;
@@ -46,27 +48,30 @@ class WireTap final : public LineListener {
   /// Tells `sink` what happens from `from` on; null ends that. Not owned.
   void watch(WireSink* sink, Time from);
 
-  bool watched() const { return sink_ != nullptr; }
-
   /// No driver gets an edge before `until` any more.
   void settle(Time until, const SerialFormat& port) {
     if (sink_) tell(until, port);
   }
 
-  /// The line has been restored to what it was at `now`.
+  /// The line has been restored to what it was at `now`. The sink is told again what happens from there on; a level that is
+  /// not the one it was told last is an edge at `now`.
   void go_back(Time now) { told_until_ = now; }
 
  private:
   void line_changed(Time) override {}
   Time needs_from() const override { return told_until_; }
+  bool waits_for_settled_levels() const override { return true; }
 
   void tell(Time until, const SerialFormat& port);
+  int driver_of(Wire wire, Time at) const;
+
+  static constexpr std::array<bool, kWires> kMark{true, true, true};
 
   Line& line_;
   int plc_;
   WireSink* sink_ = nullptr;
-  Time told_until_ = 0;  ///< edges before this
-  std::array<bool, kWires> mark_{true, true};
+  Time told_until_ = 0;                    ///< edges before this
+  std::array<bool, kWires> mark_ = kMark;  ///< as the sink was told last
 };
 
 }  // namespace s7200::serial

@@ -8,7 +8,6 @@ namespace {
 
 constexpr std::uint32_t kNanoseconds = 0xA1B23C4D;
 constexpr std::uint32_t kVersion = 2 | 4U << 16;  // 2.4: two fields of 16 bits
-constexpr std::uint32_t kLinkTypeUser0 = 147;
 
 void add(std::string& bytes, std::uint32_t value) {
   for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 0xFF);
@@ -18,7 +17,7 @@ void add(std::string& bytes, std::uint32_t value) {
 
 std::string PcapWriter::beginning() {
   std::string header;
-  for (const std::uint32_t field : {kNanoseconds, kVersion, 0U, 0U, kLongestPacket, kLinkTypeUser0}) add(header, field);
+  for (const std::uint32_t field : {kNanoseconds, kVersion, 0U, 0U, kLongestPacket, kLinkType}) add(header, field);
   return header;
 }
 

@@ -9,11 +9,13 @@
 
 namespace s7200::serial {
 
-/// A pcap file with times in nanoseconds since power-up; link type 147 is the first of those left to users, there is none
-/// for Modbus RTU. Little endian everywhere. The stream is not owned.
+/// A pcap file with times in nanoseconds since power-up; its link type is the first of those left to users, there is
+/// none for Modbus RTU. Little endian everywhere. The stream is not owned.
 /// Source: draft-ietf-opsawg-pcap, sections 4 and 5; draft-ietf-opsawg-pcaplinktype, LINKTYPE_USER0.
 class PcapWriter {
  public:
+  static constexpr std::uint32_t kLinkType = 147;  ///< LINKTYPE_USER0
+
   /// Of a longer packet the beginning is kept, and its length. This is in the file's header and tells captures by s7200 from
   /// others.
   static constexpr std::uint32_t kLongestPacket = 7200;
@@ -30,13 +32,14 @@ class PcapWriter {
   std::ostream& out_;
 };
 
-/// One packet a frame, at the instant of its first start edge. What ends a frame: FrameSplitter. Packets have no direction;
-/// requests are told from answers by what is in them.
+/// One packet a frame, at the instant of its first start edge: what was on the line at the PLC's port, damaged as it was
+/// there, whoever sent it. What ends a frame: FrameSplitter. Packets have no direction; requests are told from answers by
+/// what is in them.
 class PcapCapture final : public WireSink {
  public:
   explicit PcapCapture(std::ostream& out);
 
-  void edge(Wire wire, Time at, bool mark) override { frames_.edge(wire, at, mark); }
+  void edge(Wire wire, Time at, bool mark, int driver) override { frames_.edge(wire, at, mark, driver); }
   void settled(Time until, const SerialFormat& port) override { frames_.settled(until, port); }
   void finish() override { frames_.finish(); }
 

@@ -8,16 +8,15 @@
 
 namespace s7200::serial {
 
-/// Wires `rx` and `tx` in nanoseconds. The stream is not owned.
+/// Wires `rx`, `tx` and `line` in nanoseconds, as Wire has them. The stream is not owned.
 class VcdCapture final : public WireSink {
  public:
-  /// What each capture begins with.
-  static constexpr std::string_view kBeginning =
-      "$comment s7200: rx is what the PLC hears, tx is what it drives; 1 is mark, the idle level $end\n";
+  /// What each capture begins with, one from before there was `line`, too.
+  static constexpr std::string_view kBeginning = "$comment s7200: rx is what ";
 
   explicit VcdCapture(std::ostream& out);
 
-  void edge(Wire wire, Time at, bool mark) override;
+  void edge(Wire wire, Time at, bool mark, int driver) override;
   void settled(Time until, const SerialFormat&) override { until_ = until; }
 
   /// Says how long the last levels lasted.

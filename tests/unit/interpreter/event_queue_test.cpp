@@ -39,6 +39,17 @@ TEST(EventQueue, SchedulingAgainMovesAnEventAndCancellingRemovesIt) {
   EXPECT_EQ(drained(queue), expected);
 }
 
+TEST(EventQueue, AnEventThatIsNotPendingMayBeAddedWithoutASearch) {
+  EventQueue added, scheduled;
+  constexpr Event kEvents[] = {{10, kNext, 0},  {10, kFirst, 3},    {5, kLast, 0},
+                               {10, kFirst, 1}, {kNever, kNext, 1}, {20, kLast, 1}};
+  for (const Event& event : kEvents) {
+    added.add(event.at, event.owner, event.what);
+    scheduled.schedule(event.at, event.owner, event.what);
+    EXPECT_TRUE(added == scheduled);
+  }
+}
+
 TEST(EventQueue, HoldsTheEventsOfManyOwners) {
   EventQueue queue;
   constexpr int kOwners = 500;

@@ -13,29 +13,33 @@ namespace {
 constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
 
 constexpr std::string_view kVcdHeader =
-    "$comment s7200: rx is what the PLC hears, tx is what it drives; 1 is mark, the idle level $end\n"
+    "$comment s7200: rx is what the others drive, with what disturbs the line; tx is what the PLC drives; line is the level "
+    "at its port, in a collision too; 1 is mark, the idle level $end\n"
     "$timescale 1 ns $end\n"
     "$scope module line $end\n"
     "$var wire 1 r rx $end\n"
     "$var wire 1 t tx $end\n"
+    "$var wire 1 l line $end\n"
     "$upscope $end\n"
     "$enddefinitions $end\n"
     "#0\n"
     "$dumpvars\n"
     "1r\n"
     "1t\n"
+    "1l\n"
     "$end\n";
 
 TEST(VcdCapture, EdgesOfOneInstantShareATime) {
   std::ostringstream out;
   VcdCapture capture(out);
-  capture.edge(Wire::Rx, 50, false);
-  capture.edge(Wire::Tx, 50, false);
+  capture.edge(Wire::Rx, 50, false, 1);
+  capture.edge(Wire::Tx, 50, false, 0);
+  capture.edge(Wire::Line, 50, false, 0);
   capture.settled(60, k8E1);
-  capture.edge(Wire::Rx, 104167, true);
+  capture.edge(Wire::Rx, 104167, true, Line::kNobody);
   capture.settled(200000, k8E1);
   capture.finish();
-  EXPECT_EQ(out.str(), std::string(kVcdHeader) + "#50\n0r\n0t\n#104167\n1r\n#200000\n");
+  EXPECT_EQ(out.str(), std::string(kVcdHeader) + "#50\n0r\n0t\n0l\n#104167\n1r\n#200000\n");
 }
 
 TEST(VcdCapture, AQuietLineIsACaptureToo) {
@@ -49,7 +53,7 @@ TEST(VcdCapture, AQuietLineIsACaptureToo) {
 TEST(VcdCapture, AnEdgeAtTheVeryFirstInstantNeedsNoTimeOfItsOwn) {
   std::ostringstream out;
   VcdCapture capture(out);
-  capture.edge(Wire::Rx, 0, false);
+  capture.edge(Wire::Rx, 0, false, 1);
   EXPECT_EQ(out.str(), std::string(kVcdHeader) + "0r\n");
 }
 

@@ -21,10 +21,10 @@ struct Sender {
   Sender(Line& line, int driver) : uart(line, queue, EventOwner{}, driver) { uart.enable_receiver(false, 0); }
 };
 
-/// The PLC and a peer that send what the test says, and the frames it became.
+/// The PLC and two peers that send what the test says, and the frames it became.
 struct Wires {
   Line line;
-  Sender plc{line, 0}, peer{line, 1};
+  Sender plc{line, 0}, peer{line, 1}, other{line, 2};
   WireTap tap{line, 0};
   std::vector<WireFrame> frames;
   FrameSplitter splitter{[this](const WireFrame& frame) { frames.push_back(frame); }};
@@ -45,7 +45,7 @@ struct Wires {
   Texts told() const {
     Texts texts;
     for (const WireFrame& frame : frames) {
-      std::string text = frame.wire == Wire::Rx ? "rx" : "tx";
+      std::string text = frame.driver == 0 ? "plc" : "peer";
       for (const ReceivedCharacter& character : frame.characters) text += fmt::format(" {:02x}", character.byte);
       texts.push_back(text);
     }
@@ -64,14 +64,14 @@ TEST(FrameSplitter, SilenceOfThreeAndAHalfCharactersEndsAFrame) {
   const Time end = Wires::send(wires.peer, 1000, {0x01, 0x02});
   const Time next = Wires::send(wires.peer, end + kSilence, {0x03});
   Wires::send(wires.peer, next + kSilence + 1, {0x04});
-  EXPECT_EQ(wires.all(), (Texts{"rx 01 02 03", "rx 04"}));
+  EXPECT_EQ(wires.all(), (Texts{"peer 01 02 03", "peer 04"}));
 }
 
-TEST(FrameSplitter, EachWireHasFramesOfItsOwn) {
+TEST(FrameSplitter, EachStationHasFramesOfItsOwn) {
   Wires wires;
   const Time end = Wires::send(wires.peer, 1000, {0x01, 0x02});
   Wires::send(wires.plc, end + 1000, {0x81});
-  EXPECT_EQ(wires.all(), (Texts{"rx 01 02", "tx 81"}));
+  EXPECT_EQ(wires.all(), (Texts{"peer 01 02", "plc 81"}));
   EXPECT_EQ(wires.frames[0].start(), 1000);
   EXPECT_EQ(wires.frames[0].end, end);
   EXPECT_EQ(wires.frames[1].start(), end + 1000);
@@ -83,24 +83,74 @@ TEST(FrameSplitter, TheOtherEndEndsAFrameHoweverSoonTheNextOneFollows) {
   const Time accepted = Wires::send(wires.peer, request + 1000, {0xE5});
   const Time poll = Wires::send(wires.plc, accepted, {0x10, 0x16});
   Wires::send(wires.peer, poll, {0xE5});
-  EXPECT_EQ(wires.all(), (Texts{"tx 68 16", "rx e5", "tx 10 16", "rx e5"}));
+  EXPECT_EQ(wires.all(), (Texts{"plc 68 16", "peer e5", "plc 10 16", "peer e5"}));
 }
 
-TEST(FrameSplitter, ACharacterInTheMiddleOfAnotherDoesNotEndItsFrame) {
+TEST(FrameSplitter, AnotherStationOnTheSameWireEndsAFrameHoweverSoonItFollows) {
+  Wires wires;
+  const Time request = Wires::send(wires.peer, 1000, {0x01, 0x03});
+  const Time answer = Wires::send(wires.other, request, {0x81, 0x02});
+  Wires::send(wires.peer, answer + 1000, {0x04});
+  EXPECT_EQ(wires.all(), (Texts{"peer 01 03", "peer 81 02", "peer 04"}));
+}
+
+TEST(FrameSplitter, ADisturbanceDoesNotEndTheFrameOfAStation) {
+  Wires wires;
+  const Time end = Wires::send(wires.peer, 1000, {0x01, 0x03});
+  wires.line.disturb({Disturbance::Effect::HoldsSpace, end + 1000, end + 1000 + kCharacter / 2});
+  Wires::send(wires.peer, end + 2 * kCharacter, {0x04});
+  const Texts told = wires.all();
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_TRUE(told[0].starts_with("peer 01 03")) << told[0];
+  EXPECT_TRUE(told[0].ends_with("04")) << told[0];
+}
+
+TEST(FrameSplitter, ACharacterOfAnotherStationThatBeginsWithinOneDoesNotEndItsFrame) {
   Wires wires;
   Wires::send(wires.peer, 1000, {0x01, 0x02, 0x03});
-  Wires::send(wires.plc, 1000 + kCharacter / 2, {0x81});
-  EXPECT_EQ(wires.all(), (Texts{"rx 01 02 03", "tx 81"}));
+  Wires::send(wires.other, 1000 + kCharacter / 2, {0x81});
+  EXPECT_EQ(wires.all().size(), 1U);
+}
+
+TEST(FrameSplitter, StationsThatSendAtTheSameTimeAreHeardAsTheLineHasIt) {
+  Wires wires;
+  Wires::send(wires.plc, 1000, {0xF0, 0x0F, 0x55});
+  Wires::send(wires.peer, 1000, {0x3C, 0xFF, 0x55});
+  EXPECT_EQ(wires.all(), (Texts{"plc 30 0f 55"}));
+  EXPECT_FALSE(wires.frames[0].characters[0].parity_error) << "the two parity bits are the same";
+}
+
+TEST(FrameSplitter, StationsThatHaveSentAtTheSameTimeAreOneFrameUntilThereIsSilence) {
+  Wires wires;
+  const Time end = Wires::send(wires.peer, 1000, {0x01, 0x02, 0x03});
+  const Time both = Wires::send(wires.plc, 1000 + kCharacter / 2, {0x81, 0x82, 0x83, 0x84});
+  ASSERT_GT(both, end);
+  const Time after = Wires::send(wires.other, both, {0x55});
+  Wires::send(wires.plc, after + kSilence + kCharacter, {0x42});
+  const Texts told = wires.all();
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_TRUE(told[0].starts_with("peer ")) << told[0];
+  EXPECT_EQ(told[1], "plc 42");
+}
+
+TEST(FrameSplitter, ADisturbanceDamagesWhatThePlcSendsToo) {
+  Wires wires;
+  Wires::send(wires.plc, 1000, {0x01, 0x02});
+  const Time bit = k8E1.bit_times(1);
+  wires.line.disturb(
+      {Disturbance::Effect::Inverts, 1000 + kCharacter + k8E1.bit_times(3), 1000 + kCharacter + k8E1.bit_times(3) + bit});
+  ASSERT_EQ(wires.all(), (Texts{"plc 01 06"}));
+  EXPECT_TRUE(wires.frames[0].characters[1].parity_error);
 }
 
 TEST(FrameSplitter, FramesAreToldInTheOrderOfTheirBeginnings) {
   Wires wires;
-  Wires::send(wires.peer, 1000, Bytes(30, 0x55));
-  Wires::send(wires.plc, 1000 + 5 * kCharacter, {0x81});
-  Texts rx_then_tx{"rx", "tx 81"};
-  for (int i = 0; i < 30; ++i) rx_then_tx[0] += " 55";
+  const Time end = Wires::send(wires.peer, 1000, Bytes(30, 0x55));
+  Wires::send(wires.plc, end, {0x81});
+  Texts one_then_the_other{"peer", "plc 81"};
+  for (int i = 0; i < 30; ++i) one_then_the_other[0] += " 55";
   for (Time now = 0; now < 60 * kCharacter; now += kCharacter / 3) wires.tap.settle(now, k8E1);
-  EXPECT_EQ(wires.told(), rx_then_tx);
+  EXPECT_EQ(wires.told(), one_then_the_other);
 }
 
 TEST(FrameSplitter, AFrameIsToldAsSoonAsItsSilenceIsOver) {
@@ -109,7 +159,7 @@ TEST(FrameSplitter, AFrameIsToldAsSoonAsItsSilenceIsOver) {
   wires.tap.settle(end + kSilence, k8E1);
   EXPECT_TRUE(wires.frames.empty());
   wires.tap.settle(end + kSilence + kCharacter + 1, k8E1);
-  EXPECT_EQ(wires.told(), (Texts{"rx 01"}));
+  EXPECT_EQ(wires.told(), (Texts{"peer 01"}));
 }
 
 TEST(FrameSplitter, AWrongRateIsReadAsThePortReadsIt) {
@@ -145,7 +195,7 @@ TEST(FrameSplitter, WhatCarriesAnErrorIsInTheFrameToo) {
   wires.peer.uart.send_with_wrong_parity(0x01, 1000);
   wires.peer.uart.handle(wires.peer.queue.pop());
   wires.peer.uart.send_break(20, 1000 + kCharacter);
-  ASSERT_EQ(wires.all(), (Texts{"rx 01 00"}));
+  ASSERT_EQ(wires.all(), (Texts{"peer 01 00"}));
   EXPECT_TRUE(wires.frames[0].characters[0].parity_error);
   EXPECT_TRUE(wires.frames[0].characters[1].framing_error);
 }
@@ -158,13 +208,13 @@ TEST(FrameSplitter, ThePortMayBeSetAnew) {
   wires.tap.settle(kSecond, slow);
   const Time slow_end = Wires::send(wires.plc, kSecond, {0x03, 0x04}, slow);
   wires.tap.settle(slow_end + kSecond, slow);
-  EXPECT_EQ(wires.told(), (Texts{"tx 01 02", "tx 03 04"}));
+  EXPECT_EQ(wires.told(), (Texts{"plc 01 02", "plc 03 04"}));
 }
 
 TEST(FrameSplitter, AnUnfinishedCharacterAtTheEndIsNone) {
   Wires wires;
   const Time end = Wires::send(wires.peer, 1000, {0x01, 0x02});
-  EXPECT_EQ(wires.all(end - kCharacter / 2), (Texts{"rx 01"}));
+  EXPECT_EQ(wires.all(end - kCharacter / 2), (Texts{"peer 01"}));
 }
 
 TEST(FrameSplitter, ALineThatIsNeverSilentIsCut) {

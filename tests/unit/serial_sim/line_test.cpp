@@ -76,6 +76,17 @@ TEST(Line, ADriverThatNeverDroveHoldsMark) {
   EXPECT_TRUE(longer == line && line == longer);
 }
 
+TEST(Line, WhatADriverHearsOfTheOthersIsNotItsOwnCharacter) {
+  Line line;
+  const BitTimes times{BitClock{}};
+  line.drive(3, character_levels(times.clock.format, 0x55, false), times, 1000);
+  for (Time at = 0; at < 2 * kMillisecond; at += 10 * kMicrosecond) EXPECT_TRUE(line.level_without(3, at)) << at;
+  EXPECT_FALSE(line.level_without(4, 1000));
+  line.drive(4, 500 * kMicrosecond, false);
+  EXPECT_TRUE(line.level_without(3, 499 * kMicrosecond));
+  EXPECT_FALSE(line.level_without(3, 500 * kMicrosecond));
+}
+
 TEST(Line, IsAtSpaceWhileAnyDriverIs) {
   Line line;
   line.drive(0, 100, false);
@@ -309,6 +320,20 @@ TEST(ContestedLine, DriversThatDisagreeGiveMarkOrSpaceByChance) {
   drive_in_turn(line, 1, 0);
   EXPECT_GT(spaces_lost(line, 2), 10);
   EXPECT_LT(spaces_lost(line, 2), 40);
+}
+
+TEST(Line, SinceWhenTheCableIsCutIsKnownUntilItIsWholeAgain) {
+  Line line;
+  EXPECT_FALSE(line.separation(0));
+  line.separate(100, 0b1010);
+  line.separate(300, 0);
+  EXPECT_FALSE(line.separation(99));
+  ASSERT_TRUE(line.separation(100));
+  EXPECT_EQ(line.separation(299)->at, 100);
+  EXPECT_EQ(line.separation(299)->far, 0b1010u);
+  EXPECT_FALSE(line.separation(300));
+  line.forget(200);
+  EXPECT_EQ(line.separation(200)->at, 100) << "in force, however long ago it began";
 }
 
 TEST(ContestedLine, DriversOnDifferentPartsOfACutCableDoNotDisagree) {

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "serial_sim/line/uart.hpp"
@@ -14,13 +16,22 @@ namespace {
 
 constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
 
+std::string text_of(Wire wire, Time at, bool mark) {
+  constexpr std::array<std::string_view, kWires> kNames{"rx", "tx", "line"};
+  return fmt::format("{} {}{}", at, kNames[static_cast<std::size_t>(wire)], mark ? '1' : '0');
+}
+
+/// Both directions; the line apart.
 struct Record final : WireSink {
-  std::vector<std::string> edges;
+  std::vector<std::string> edges, line;
   Time until = 0;
 
-  void edge(Wire wire, Time at, bool mark) override {
+  std::vector<int> drivers, line_drivers;  ///< of the edges to space
+
+  void edge(Wire wire, Time at, bool mark, int driver) override {
     EXPECT_GE(at, until) << "told before as settled";
-    edges.push_back(fmt::format("{} {}{}", at, wire == Wire::Rx ? "rx" : "tx", mark ? '1' : '0'));
+    if (!mark) (wire == Wire::Line ? line_drivers : drivers).push_back(driver);
+    (wire == Wire::Line ? line : edges).push_back(text_of(wire, at, mark));
   }
   void settled(Time now, const SerialFormat&) override {
     EXPECT_GE(now, until);
@@ -78,6 +89,52 @@ TEST(WireTap, EdgesAtOneInstantAreOneChangeOfEachWire) {
   EXPECT_EQ(probe.record.edges, (Edges{"100 rx0", "200 tx0"}));
 }
 
+TEST(WireTap, AnEdgeToSpaceSaysWhoDrivesTheLineThere) {
+  Probe probe;
+  probe.line.drive(3, 100, false);
+  probe.line.drive(3, 200, true);
+  probe.line.drive(0, 300, false);
+  probe.line.drive(0, 400, true);
+  probe.line.drive(1, 500, false);
+  probe.line.drive(3, 550, false);
+  probe.line.drive(1, 600, true);
+  probe.line.drive(3, 650, true);
+  probe.line.disturb({Disturbance::Effect::HoldsSpace, 700, 800});
+  probe.tap.settle(1000, k8E1);
+  EXPECT_EQ(probe.record.drivers, (std::vector<int>{3, 0, 1, Line::kNobody}));
+}
+
+TEST(WireTap, TheLineIsWhatAllMakeOfItAndSaysWhoHoldsItAtSpace) {
+  Probe probe;
+  probe.line.drive(0, 100, false);
+  probe.line.drive(1, 150, false);
+  probe.line.drive(0, 200, true);
+  probe.line.drive(1, 250, true);
+  probe.line.drive(0, 400, false);
+  probe.line.drive(1, 420, false);
+  probe.line.drive(1, 440, true);
+  probe.line.drive(0, 600, true);
+  probe.line.drive(1, 700, false);
+  probe.line.drive(1, 800, true);
+  probe.line.disturb({Disturbance::Effect::Inverts, 450, 500});
+  probe.line.disturb({Disturbance::Effect::HoldsSpace, 900, 950});
+  probe.tap.settle(1000, k8E1);
+  EXPECT_EQ(probe.record.line, (Edges{"100 line0", "250 line1", "400 line0", "450 line1", "500 line0", "600 line1",
+                                      "700 line0", "800 line1", "900 line0", "950 line1"}));
+  EXPECT_EQ(probe.record.line_drivers, (std::vector<int>{0, 0, 0, 1, Line::kNobody}));
+}
+
+TEST(WireTap, TheLineIsThatOfItsPartOfTheCable) {
+  Probe probe;
+  probe.line.separate(50, 0b100);
+  probe.line.drive(2, 100, false);
+  probe.line.drive(1, 150, false);
+  probe.line.drive(1, 200, true);
+  probe.line.drive(2, 250, true);
+  probe.tap.settle(1000, k8E1);
+  EXPECT_EQ(probe.record.line, (Edges{"150 line0", "200 line1"}));
+}
+
 TEST(WireTap, WhatBefallsTheLineIsOnRx) {
   Probe probe;
   probe.line.drive(0, 100, false);
@@ -112,6 +169,38 @@ TEST(WireTap, ALevelThatBeganBeforeItWatchedIsToldFromThere) {
   tap.watch(&record, 150);
   tap.settle(1000, k8E1);
   EXPECT_EQ(record.edges, (Edges{"150 rx0", "300 rx1"}));
+}
+
+TEST(WireTap, ASinkThatWatchesWhileTheLineGoesBackIsToldWhatDiffersFromWhatItWasToldLast) {
+  struct Levels final : WireSink {
+    std::vector<std::string> edges;
+    void edge(Wire wire, Time at, bool mark, int) override {
+      if (wire != Wire::Line) edges.push_back(text_of(wire, at, mark));
+    }
+    void settled(Time, const SerialFormat&) override {}
+    void finish() override {}
+  } levels;
+  Line line;
+  WireTap tap(line, 0);
+  tap.watch(&levels, 0);
+  line.drive(1, 100, false);
+  tap.settle(150, k8E1);
+  const Line at_space = line;
+  line.drive(1, 200, true);
+  tap.settle(250, k8E1);
+  line = at_space;
+  tap.go_back(150);
+  line.drive(1, 300, true);
+  tap.settle(400, k8E1);
+  EXPECT_EQ(levels.edges, (Edges{"100 rx0", "200 rx1", "150 rx0", "300 rx1"}));
+  line = at_space;
+  tap.go_back(150);
+  tap.settle(250, k8E1);
+  levels.edges.clear();
+  line = at_space;
+  tap.go_back(150);
+  tap.settle(250, k8E1);
+  EXPECT_TRUE(levels.edges.empty()) << "it knows that the line is at space";
 }
 
 TEST(WireTap, NothingTellsThatTheLineIsWatched) {
