@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <ranges>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 
@@ -103,8 +103,7 @@ std::string read_word(std::string_view text, Fault& fault) {
       fault.*member = word.value;
       return {};
     }
-  const auto text_of = [](const auto& word) { return word.text; };
-  return fmt::format("is none of {}", fmt::join(words | std::views::transform(text_of), ", "));
+  return fmt::format("is none of {}", stl::joined(words, [](const auto& word) { return word.text; }));
 }
 
 template <auto& words, auto Fault::*member>
@@ -301,15 +300,13 @@ class Reader {
  private:
   template <class Rows>
   static std::string unknown(std::string_view what, std::string_view name, const Rows& rows) {
-    const auto name_of = [](const auto& row) { return row.name; };
-    const std::string known = fmt::format("{}", fmt::join(rows | std::views::transform(name_of), ", "));
+    const std::string known = stl::joined(rows, [](const auto& row) { return row.name; });
     return name.empty() ? fmt::format("a {} is missing here; there are {}", what, known)
                         : fmt::format("there is no {} '{}'; there are {}", what, stl::shortened(name), known);
   }
 
   ParsedFault& fail(std::string_view where, std::string message) {
-    result_.error = {static_cast<std::size_t>(where.data() - text_.data()) + 1, std::max<std::size_t>(where.size(), 1),
-                     std::move(message)};
+    result_.error = {column_of(where), std::max<std::size_t>(where.size(), 1), std::move(message)};
     return result_;
   }
 
@@ -324,30 +321,28 @@ class Reader {
     const Parameter& parameter = parameter_named(name);
     if (equals == std::string_view::npos) {
       fail(name, fmt::format("{} needs a value ({}): write {}=VALUE", name, parameter.values, name));
-    } else if (std::any_of(given_.begin(), given_.end(), [&](std::string_view g) { return g == name; })) {
+    } else if (result_.find(name)) {
       fail(name, fmt::format("{} is given twice", name));
     } else {
-      given_.push_back(name);
+      result_.given.push_back({parameter.name, column_of(name), stl::trim(assignment).size()});
       const std::string_view value = trim(assignment.substr(equals + 1));
       if (const std::string wrong = parameter.read(value, result_.fault); !wrong.empty())
         fail(value, fmt::format("{}: '{}' {}", name, stl::shortened(value), wrong));
     }
   }
 
-  bool is_given(std::string_view name) const {
-    return std::any_of(given_.begin(), given_.end(), [&](std::string_view g) { return g == name; });
-  }
+  std::size_t column_of(std::string_view where) const { return static_cast<std::size_t>(where.data() - text_.data()) + 1; }
 
   void check_whole(std::string_view name) {
     for (const ParameterOfKind& p : kind_->parameters)
-      if (p.standard == kRequired && !is_given(p.name)) {
+      if (p.standard == kRequired && !result_.find(p.name)) {
         fail(name, fmt::format("{} needs {}=VALUE ({}), for example {}", name, p.name, parameter_named(p.name).values,
                                kind_->example));
         return;
       }
-    for (const std::string_view given : given_)
-      if (excluded_by_instant(result_.fault, given)) {
-        fail(given, contradiction(given));
+    for (const GivenParameter& given : result_.given)
+      if (excluded_by_instant(result_.fault, given.name)) {
+        fail(text_.substr(given.column - 1, given.name.size()), contradiction(given.name));
         return;
       }
   }
@@ -361,7 +356,6 @@ class Reader {
 
   std::string_view text_;
   const FaultKindInfo* kind_ = nullptr;
-  std::vector<std::string_view> given_;
   ParsedFault result_;
 };
 
@@ -396,6 +390,11 @@ bool at_an_instant(const Fault& fault) {
 }
 
 bool is_of_a_station(const Fault& fault) { return fault.kind != FaultKind::Noise && !at_an_instant(fault); }
+
+const GivenParameter* ParsedFault::find(std::string_view parameter) const {
+  const auto found = std::ranges::find(given, parameter, &GivenParameter::name);
+  return found == given.end() ? nullptr : &*found;
+}
 
 ParsedFault parse_fault(std::string_view text) { return Reader(text).read(); }
 

@@ -29,7 +29,7 @@ enum class FaultKind : std::uint8_t {
   Baud,
   Cut
 };
-inline constexpr std::size_t kFaultKinds = 13;
+inline constexpr std::size_t kFaultKinds = static_cast<std::size_t>(FaultKind::Cut) + 1;
 
 /// The half of an exchange whose characters are meant: what the PLC's peers send, or what the PLC sends.
 enum class Half : std::uint8_t { Request, Answer, Both };
@@ -92,9 +92,22 @@ struct FaultError {
   bool operator==(const FaultError&) const = default;
 };
 
+/// Where a parameter stands in the text, with its value.
+struct GivenParameter {
+  std::string_view name;   ///< as in fault_parameters()
+  std::size_t column = 1;  ///< from 1
+  std::size_t length = 1;
+
+  bool operator==(const GivenParameter&) const = default;
+};
+
 struct ParsedFault {
   Fault fault;  ///< of use only without an error
   std::optional<FaultError> error;
+  std::vector<GivenParameter> given{};  ///< the others have their standard
+
+  /// Null if it was left out.
+  const GivenParameter* find(std::string_view parameter) const;
 
   bool ok() const { return !error; }
 };

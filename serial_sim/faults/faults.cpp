@@ -50,6 +50,12 @@ std::uint64_t Faults::Chance::draw() { return draw_split_mix(state_); }
 
 bool Faults::Chance::hits(double probability) { return static_cast<double>(draw() >> 11) * 0x1p-53 < probability; }
 
+void Faults::add_plc(const Uart& plc) {
+  if (!first_plc_) first_plc_ = &plc;
+  plc_drivers_ |= 1U << plc.driver();
+  listen_in();
+}
+
 void Faults::inject(const Fault& fault, Time now, int driver) {
   assert(driver == kAnyDriver || is_of_a_station(fault));
   state_.injected.push_back({.fault = fault, .at = now, .driver = driver, .chance = Chance(fault.seed)});
@@ -66,6 +72,7 @@ void Faults::clear(Time now) {
   schedule();
   listen_in();
   line_.heal(now);
+  if (watcher_) watcher_->faults_cleared(now);
 }
 
 void Faults::restore(const State& state) {
@@ -73,16 +80,12 @@ void Faults::restore(const State& state) {
   listen_in();
 }
 
-/// A line without faults is not asked about any.
-void Faults::listen_in() { line_.set_interference(state_.injected.empty() ? nullptr : this); }
+/// A line without faults is not asked about any, unless one of its PLCs may be the master: that shows before there are any.
+void Faults::listen_in() { line_.set_interference(state_.injected.empty() && !has_several_plcs() ? nullptr : this); }
 
 void Faults::exchange_begins(int driver, Time at) {
   state_.announcer = driver;
   begin_exchange(at);
-}
-
-bool Faults::is_plc(int driver) const {
-  return std::any_of(plcs_.begin(), plcs_.end(), [driver](const Uart* plc) { return plc->driver() == driver; });
 }
 
 bool Faults::begins_unannounced(Half half, int driver, const SerialFormat& format, Time at) const {
@@ -102,58 +105,79 @@ void Faults::begin_exchange(Time at) {
   for (Injected& injected : state_.injected) {
     const Fault& fault = injected.fault;
     const std::uint64_t number = ++injected.exchanges;
+    injected.characters = 0;
     injected.applies = (fault.exchange == 0 || fault.exchange == number) && number % fault.every == 0 &&
                        (fault.probability >= 1 || injected.chance.hits(fault.probability));
     const bool lasts_all_along = fault.kind == FaultKind::Echo || fault.kind == FaultKind::Baud;
-    if (injected.applies && lasts_all_along) ++injected.count;
+    if (injected.applies && lasts_all_along) happens(injected, {.from = at, .to = at});
   }
 }
 
+void Faults::happens(Injected& injected, const FaultHappening& what) {
+  injected.count += what.times;
+  if (watcher_) watcher_->fault_happens(injected, what);
+}
+
+void Faults::disturb_wire(Injected& injected, std::uint32_t character, const Disturbance& disturbance) {
+  injected.last_begin = disturbance.from;
+  injected.last_end = disturbance.to;
+  happens(injected, {character, disturbance.from, disturbance.to});
+  line_.disturb(disturbance);
+}
+
 Mishap Faults::character_begins(int driver, const SerialFormat& format, Time at) {
-  const Half half = is_plc(driver) ? Half::Answer : Half::Request;
+  const bool is_unknown = !state_.begun && state_.master == -1;
+  if (is_unknown && has_several_plcs() && is_plc(driver)) state_.master = driver;
+  const Half half = answers(driver) ? Half::Answer : Half::Request;
   if (begins_unannounced(half, driver, format, at)) {
     state_.announcer = -1;
     begin_exchange(at);
   }
-  const std::uint32_t number = ++state_.characters[index(half)];
+  ++state_.characters[index(half)];
+  for (Injected& injected : state_.injected)
+    if (injected.driver == driver) ++injected.characters;
   const BitClock clock{format, clock_error(driver)};
 
   const auto disturbed_by = [&](const Injected& injected) {
     const bool is_its_own = injected.driver == driver || (injected.driver == kAnyDriver && concerns(injected.fault, half));
     return injected.applies && is_its_own;
   };
+  const auto number_for = [&](const Injected& injected) {
+    return injected.driver == driver ? injected.characters : state_.characters[index(half)];
+  };
   Mishap mishap;
   for (Injected& injected : state_.injected)
-    if (disturbed_by(injected)) disturb_sender(injected, number, clock, mishap);
+    if (disturbed_by(injected)) disturb_sender(injected, number_for(injected), clock, at, mishap);
 
   const Time character = clock.character_time();
   const Time start = at + mishap.delay + static_cast<Time>(mishap.before.size()) * character;
   for (Injected& injected : state_.injected)
-    if (disturbed_by(injected) && bound_to_character(injected.fault) && hits_character(injected.fault, number))
-      disturb_line(injected, clock, start);
+    if (disturbed_by(injected) && bound_to_character(injected.fault) && hits_character(injected.fault, number_for(injected)))
+      disturb_line(injected, number_for(injected), clock, start);
 
   state_.sent_until[index(half)] = start + static_cast<Time>(1 + mishap.after.size()) * character;
   return mishap;
 }
 
-void Faults::disturb_sender(Injected& injected, std::uint32_t number, const BitClock& clock, Mishap& mishap) {
+void Faults::disturb_sender(Injected& injected, std::uint32_t number, const BitClock& clock, Time at, Mishap& mishap) {
   const Fault& fault = injected.fault;
+  const Time character = clock.character_time();
   const auto append = [&](std::vector<std::uint8_t>& to) {
     const std::vector<std::uint8_t> bytes = uncalled_bytes(injected);
     to.insert(to.end(), bytes.begin(), bytes.end());
-    injected.count += bytes.size();
+    happens(injected, {number, at, at + static_cast<Time>(bytes.size() + 1) * character, bytes.size()});
   };
   switch (fault.kind) {
     case FaultKind::Gap:
       if (!hits_character(fault, number)) return;
       mishap.delay += fault.length.at(clock);
-      ++injected.count;
+      happens(injected, {number, at, at + fault.length.at(clock)});
       break;
     case FaultKind::Missing: {
       const std::uint32_t first = fault.character.value_or(1);
       if (first != Fault::kEachCharacter && (number < first || number - first >= fault.count)) return;
       mishap.lost = true;
-      ++injected.count;
+      happens(injected, {number, at, at + character});
       break;
     }
     case FaultKind::Extra:
@@ -177,21 +201,21 @@ std::vector<std::uint8_t> Faults::uncalled_bytes(Injected& injected) {
   return bytes;
 }
 
-void Faults::disturb_line(Injected& injected, const BitClock& clock, Time start) {
+void Faults::disturb_line(Injected& injected, std::uint32_t number, const BitClock& clock, Time start) {
   switch (injected.fault.kind) {
     case FaultKind::Flip:
-      return invert_bit(injected, injected.fault.bit, clock, start);
+      return invert_bit(injected, number, injected.fault.bit, clock, start);
     case FaultKind::Parity:
-      return invert_bit(injected, Fault::kParityBit, clock, start);
+      return invert_bit(injected, number, Fault::kParityBit, clock, start);
     case FaultKind::Framing:
-      return invert_bit(injected, Fault::kStopBit, clock, start);
+      return invert_bit(injected, number, Fault::kStopBit, clock, start);
     default:
-      return disturb(injected, clock, start + injected.fault.offset.at(clock));
+      return disturb(injected, number, clock, start + injected.fault.offset.at(clock));
   }
 }
 
 /// From edge to edge of that bit, so that the receiver finds this one and no other changed.
-void Faults::invert_bit(Injected& injected, int bit, const BitClock& clock, Time start) {
+void Faults::invert_bit(Injected& injected, std::uint32_t number, int bit, const BitClock& clock, Time start) {
   const bool has_parity = clock.format.parity != Parity::None;
   int place = 1 + bit;
   if (bit == Fault::kStopBit) place = first_stop_bit(clock.format);
@@ -201,41 +225,38 @@ void Faults::invert_bit(Injected& injected, int bit, const BitClock& clock, Time
     ++injected.impossible;
     return;
   }
-  line_.disturb({Disturbance::Effect::Inverts, start + clock.bit_times(place), start + clock.bit_times(place + 1)});
-  ++injected.count;
+  disturb_wire(injected, number,
+               {Disturbance::Effect::Inverts, start + clock.bit_times(place), start + clock.bit_times(place + 1)});
 }
 
-void Faults::disturb(Injected& injected, const BitClock& clock, Time at) {
+void Faults::disturb(Injected& injected, std::uint32_t number, const BitClock& clock, Time at) {
   const Fault& fault = injected.fault;
   switch (fault.kind) {
     case FaultKind::Break:
-      line_.disturb({Disturbance::Effect::HoldsSpace, at, later(at, fault.length.at(clock))});
-      break;
+      return disturb_wire(injected, number, {Disturbance::Effect::HoldsSpace, at, later(at, fault.length.at(clock))});
     case FaultKind::Glitch:
-      line_.disturb({Disturbance::Effect::Inverts, at, later(at, fault.length.at(clock))});
-      break;
+      return disturb_wire(injected, number, {Disturbance::Effect::Inverts, at, later(at, fault.length.at(clock))});
     case FaultKind::Cut:
-      line_.disturb({Disturbance::Effect::Cuts, at, later(at, fault.lasts)});
-      break;
+      return disturb_wire(injected, number, {Disturbance::Effect::Cuts, at, later(at, fault.lasts)});
     case FaultKind::Collision:
-      return collide(injected, clock, at);
+      return collide(injected, number, clock, at);
     default:
-      break;
+      return;
   }
-  ++injected.count;
 }
 
 /// The line is at space while either of the two stations is: where the other one marks, nothing changes.
-void Faults::collide(Injected& injected, const BitClock& clock, Time at) {
+void Faults::collide(Injected& injected, std::uint32_t number, const BitClock& clock, Time at) {
   const unsigned data_mask = clock.format.data_bits == 7 ? 0x7F : 0xFF;
   for (const std::uint8_t byte : uncalled_bytes(injected)) {
     const auto data = static_cast<std::uint8_t>(byte & data_mask);
     const unsigned levels = character_levels(clock.format, data, clock.format.parity_bit(data));
+    const Time end = at + clock.character_time();
+    happens(injected, {number++, at, end});
     for (int bit = 0; bit < first_stop_bit(clock.format); ++bit)
       if ((levels >> bit & 1U) == 0)
         line_.disturb({Disturbance::Effect::HoldsSpace, at + clock.bit_times(bit), at + clock.bit_times(bit + 1)});
-    at += clock.character_time();
-    ++injected.count;
+    at = end;
   }
 }
 
@@ -258,8 +279,7 @@ void Faults::make_noise(Injected& injected) {
   const auto sending = [&](Half half) { return concerns(injected.fault, half) && at < state_.sent_until[index(half)]; };
   const bool heard = injected.fault.of == Half::Both || sending(Half::Request) || sending(Half::Answer);
   if (injected.hit && works_now(injected) && heard) {
-    line_.disturb({Disturbance::Effect::Inverts, at, end});
-    ++injected.count;
+    disturb_wire(injected, 0, {Disturbance::Effect::Inverts, at, end});
   }
   plan_noise(injected, injected.hit ? end : at);
 }
@@ -280,7 +300,7 @@ void Faults::handle(const Event& event) {
     if (injected.fault.kind == FaultKind::Noise) {
       make_noise(injected);
     } else {
-      disturb(injected, {plc_format()}, injected.next);
+      disturb(injected, 0, {plc_format()}, injected.next);
       injected.next = kNever;
     }
   }
@@ -288,7 +308,7 @@ void Faults::handle(const Event& event) {
 }
 
 std::int32_t Faults::clock_error(int driver) const {
-  const Station station = is_plc(driver) ? Station::Plc : Station::Master;
+  const Station station = answers(driver) ? Station::Plc : Station::Master;
   std::int32_t error = 0;
   for (const Injected& injected : state_.injected) {
     const Fault& fault = injected.fault;
@@ -299,7 +319,7 @@ std::int32_t Faults::clock_error(int driver) const {
 }
 
 bool Faults::echoes(int driver) const {
-  const bool master = !is_plc(driver);
+  const bool master = !answers(driver);
   return std::any_of(state_.injected.begin(), state_.injected.end(), [&](const Injected& i) {
     const bool is_its_own = i.driver == driver || (i.driver == kAnyDriver && master);
     return i.fault.kind == FaultKind::Echo && is_its_own && works_now(i);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -11,12 +12,22 @@
 
 namespace s7200::serial {
 
+/// What a fault does, once: it disturbs the wire, or a sender, during [from, to).
+struct FaultHappening {
+  std::uint32_t character = 0;  ///< of the request or the answer, or of what its station has sent in this exchange, from 1;
+                                ///< 0: at an instant, or in all of the exchange that begins
+  Time from = 0, to = 0;
+  std::uint64_t times = 1;  ///< as Faults::Injected::count has it
+};
+
+class FaultWatcher;
+
 /// Makes each injected fault happen, by disturbing the line's level or what a sender does, and counts how often it did.
 ///
 /// An exchange is a request, which is what the PLC's peers send, and an answer, which is what the PLC sends. Several PLCs on
-/// the line count as one here. A Requester says when an exchange begins. For any other peer it begins with the first
-/// character after an answer, or after more than 3.5 characters of silence; a PLC that speaks unasked begins one in the
-/// same way.
+/// the line count as one here, but for their master, a peer of the others: set_master() says who it is, else it is who
+/// speaks before anyone has asked. A Requester says when an exchange begins. For any other peer it begins with the first
+/// character after an answer, or after over 3.5 characters of silence; a PLC that speaks unasked begins one so, too.
 ///
 /// To whoever handles the events: those of its own number go to handle().
 class Faults final : private Interference {
@@ -38,15 +49,17 @@ class Faults final : private Interference {
 
   struct Injected {
     Fault fault;
-    Time at = 0;                   ///< when it was injected
-    int driver = kAnyDriver;       ///< of the station that it is about
-    Chance chance;                 ///< what is left of it to chance
-    std::uint64_t exchanges = 0;   ///< begun since the injection
-    bool applies = false;          ///< in the present exchange
-    Time next = kNever;            ///< when it happens by itself, not with a character
-    bool hit = false;              ///< of noise: whether a bit is inverted then
-    std::uint64_t count = 0;       ///< how often it happened: bits, characters, glitches, exchanges with echo …
-    std::uint64_t impossible = 0;  ///< how often it could not, for want of such a bit in the format
+    Time at = 0;                        ///< when it was injected
+    int driver = kAnyDriver;            ///< of the station that it is about
+    Chance chance;                      ///< what is left of it to chance
+    std::uint64_t exchanges = 0;        ///< begun since the injection
+    bool applies = false;               ///< in the present exchange
+    std::uint32_t characters = 0;       ///< that its station has sent in the present exchange
+    Time next = kNever;                 ///< when it happens by itself, not with a character
+    bool hit = false;                   ///< of noise: whether a bit is inverted then
+    std::uint64_t count = 0;            ///< how often it happened: bits, characters, glitches, exchanges with echo …
+    Time last_begin = 0, last_end = 0;  ///< of what it has done to the wire
+    std::uint64_t impossible = 0;       ///< how often it could not, for want of such a bit in the format
     bool operator==(const Injected&) const = default;
   };
 
@@ -55,6 +68,7 @@ class Faults final : private Interference {
     std::vector<Injected> injected;             // in the order of injection
     int announcer = -1;                         ///< driver of the Requester that began the present exchange, or -1
     bool begun = false;                         ///< there was an exchange at all
+    int master = -1;                            ///< driver of the station that asks the others, or -1
     std::array<std::uint32_t, 2> characters{};  ///< of request and answer so far
     std::array<Time, 2> sent_until{};           ///< end of the last of them
     bool operator==(const State&) const = default;
@@ -63,11 +77,15 @@ class Faults final : private Interference {
   /// `owner`: its number in the queue. Nothing is owned.
   Faults(Line& line, EventQueue& queue, EventOwner owner) : line_(line), queue_(queue), owner_(owner) {}
 
-  /// The characters of this UART are answers. Noise and lengths in bits go by the rate of the first one. Not owned.
-  void add_plc(const Uart& plc) { plcs_.push_back(&plc); }
+  /// The characters of this UART are answers, unless it is the master among several. Noise and lengths in bits go by the
+  /// rate of the first one. Not owned.
+  void add_plc(const Uart& plc);
+
+  /// What this station sends are requests, and what all PLCs but it send are answers.
+  void set_master(int driver) { state_.master = driver; }
 
   /// Several may be at work at once. With a `driver` the fault is about what that station sends, its clock or its adapter,
-  /// whatever its own `of` and `station` say; characters and exchanges are counted as without it.
+  /// whatever its own `of` and `station` say: only that station's characters count, and exchanges as without it.
   void inject(const Fault& fault, Time now, int driver = kAnyDriver);
 
   /// No fault any more, and the line is whole again.
@@ -76,6 +94,9 @@ class Faults final : private Interference {
   void handle(const Event& event);
 
   const State& state() const { return state_; }
+
+  /// Who is told of each thing that a fault does, or null. Wiring, not state; not owned.
+  void set_watcher(FaultWatcher* watcher) { watcher_ = watcher; }
 
   /// Line and queue are restored by their owner.
   void restore(const State& state);
@@ -86,15 +107,19 @@ class Faults final : private Interference {
   std::int32_t clock_error(int driver) const override;
   bool echoes(int driver) const override;
 
-  bool is_plc(int driver) const;
-  SerialFormat plc_format() const { return plcs_.empty() ? SerialFormat{} : plcs_.front()->state().format; }
+  bool is_plc(int driver) const { return (plc_drivers_ >> driver & 1U) != 0; }
+  bool has_several_plcs() const { return std::popcount(plc_drivers_) > 1; }
+  bool answers(int driver) const { return is_plc(driver) && driver != state_.master; }
+  SerialFormat plc_format() const { return first_plc_ ? first_plc_->state().format : SerialFormat{}; }
   bool begins_unannounced(Half half, int driver, const SerialFormat& format, Time at) const;
   void begin_exchange(Time at);
-  void disturb_sender(Injected& injected, std::uint32_t number, const BitClock& clock, Mishap& mishap);
-  void disturb_line(Injected& injected, const BitClock& clock, Time start);
-  void disturb(Injected& injected, const BitClock& clock, Time at);
-  void invert_bit(Injected& injected, int bit, const BitClock& clock, Time start);
-  void collide(Injected& injected, const BitClock& clock, Time at);
+  void happens(Injected& injected, const FaultHappening& what);
+  void disturb_wire(Injected& injected, std::uint32_t character, const Disturbance& disturbance);
+  void disturb_sender(Injected& injected, std::uint32_t number, const BitClock& clock, Time at, Mishap& mishap);
+  void disturb_line(Injected& injected, std::uint32_t number, const BitClock& clock, Time start);
+  void disturb(Injected& injected, std::uint32_t number, const BitClock& clock, Time at);
+  void invert_bit(Injected& injected, std::uint32_t number, int bit, const BitClock& clock, Time start);
+  void collide(Injected& injected, std::uint32_t number, const BitClock& clock, Time at);
   std::vector<std::uint8_t> uncalled_bytes(Injected& injected);
   void plan_noise(Injected& injected, Time from);
   void make_noise(Injected& injected);
@@ -104,8 +129,22 @@ class Faults final : private Interference {
   Line& line_;
   EventQueue& queue_;
   EventOwner owner_;
-  std::vector<const Uart*> plcs_;
+  const Uart* first_plc_ = nullptr;
+  std::uint32_t plc_drivers_ = 0;  // a bit each
+  FaultWatcher* watcher_ = nullptr;
   State state_;
+};
+
+/// Sees what the faults of a line do, when it is decided and before anyone hears it.
+class FaultWatcher {
+ public:
+  virtual void fault_happens(const Faults::Injected& fault, const FaultHappening& what) = 0;
+
+  /// There is no fault any more from `at` on.
+  virtual void faults_cleared(Time at) = 0;
+
+ protected:
+  ~FaultWatcher() = default;
 };
 
 }  // namespace s7200::serial

@@ -133,6 +133,14 @@ TEST(Fault, WrongTextIsRefusedWithItsPlace) {
   }
 }
 
+TEST(Fault, WhatWasGivenIsToldWithItsPlaceEvenIfItIsTheStandard) {
+  const ParsedFault parsed = parse_fault("missing: of = request ,character=1");
+  ASSERT_TRUE(parsed.ok());
+  EXPECT_EQ(parsed.given, (std::vector<GivenParameter>{{"of", 10, 12}, {"character", 24, 11}}));
+  ASSERT_TRUE(parsed.find("of"));
+  EXPECT_FALSE(parsed.find("count"));
+}
+
 TEST(Fault, ReadmeHasTheTables) {
   EXPECT_NE(test::text_of(test::source_path("serial_sim/faults/README.md")).find(fault_tables()), std::string::npos)
       << "serial_sim/faults/README.md should contain\n"

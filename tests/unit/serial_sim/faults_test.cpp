@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "serial_sim/peers/host_port.hpp"
@@ -184,6 +186,46 @@ TEST(Faults, BitsTheFormatDoesNotHaveAreCountedAsImpossible) {
   EXPECT_EQ(seven_bits.count(2), 1U);
   EXPECT_EQ(seven_bits.heard.at(0).byte, 0x41);
   EXPECT_FALSE(seven_bits.heard.at(0).parity_error) << "the data bit and the parity bit are both wrong";
+}
+
+/// Writes down what it is told.
+struct Watcher final : FaultWatcher {
+  void fault_happens(const Faults::Injected& fault, const FaultHappening& what) override {
+    faults.push_back(to_text(fault.fault));
+    all.push_back(what);
+  }
+  void faults_cleared(Time at) override { cleared.push_back(at); }
+  std::vector<std::string> faults;
+  std::vector<FaultHappening> all;
+  std::vector<Time> cleared;
+};
+
+TEST(Faults, AWatcherIsToldWhichCharacterIsStruckAndFromWhenToWhen) {
+  Plant plant({"flip:character=3,bit=2", "missing:of=answer,character=2,count=2", "gap:length=1ms,exchange=2"});
+  Watcher watcher;
+  plant.faults.set_watcher(&watcher);
+  plant.exchange();
+  const std::string missing = "missing:character=2,count=2,of=answer";
+  EXPECT_EQ(watcher.faults, (std::vector<std::string>{"flip:character=3,bit=2", missing, missing}));
+  ASSERT_EQ(watcher.all.size(), 3u);
+  EXPECT_EQ(watcher.all[0].character, 3u);
+  EXPECT_EQ(watcher.all[0].from, 2 * kCharacter + k8E1.bit_times(3));
+  EXPECT_EQ(watcher.all[0].to, 2 * kCharacter + k8E1.bit_times(4));
+  EXPECT_EQ(watcher.all[1].character, 2u);
+  EXPECT_EQ(watcher.all[2].character, 3u);
+  EXPECT_EQ(watcher.all[2].to - watcher.all[1].from, 2 * kCharacter);
+  plant.faults.clear(plant.now);
+  EXPECT_EQ(watcher.cleared, std::vector<Time>{plant.now});
+}
+
+TEST(Faults, WhatAFaultDoesToTheWireForLongIsKnownAfterwards) {
+  Plant plant({"break:from=2ms,length=100ms", "cut:from=5ms"});
+  plant.run_until(10 * ms);
+  const std::vector<Faults::Injected>& injected = plant.faults.state().injected;
+  EXPECT_EQ(injected[0].last_begin, 2 * ms);
+  EXPECT_EQ(injected[0].last_end, 102 * ms);
+  EXPECT_EQ(injected[1].last_begin, 5 * ms);
+  EXPECT_EQ(injected[1].last_end, kNever);
 }
 
 TEST(Faults, BreakIsOneCharacterOfZerosWithAFramingError) {
@@ -450,6 +492,112 @@ TEST(Faults, PeerThatAnnouncesNothingBeginsAnExchangeBehindAnAnswerOrASilence) {
   plant.run_until(plant.now + kCharacter);
   plant.plc.enable_receiver(true, plant.now);
   EXPECT_EQ(send(0x10), 0x10) << "third request";
+}
+
+TEST(Faults, OfAStationCountOnlyWhatItSendsHoweverSoonItAnswersAnotherPlc) {
+  constexpr EventOwner kOther = kPeerUart;
+  Line line;
+  EventQueue queue;
+  Uart master(line, queue, kPlcUart, 0), slave(line, queue, kOther, 1);
+  Faults faults(line, queue, kFaults);
+  for (Uart* uart : {&master, &slave}) {
+    uart->configure(k8E1, 0);
+    faults.add_plc(*uart);
+  }
+  slave.enable_receiver(false, 0);
+  faults.inject(fault_of("flip:character=2"), 0, slave.driver());
+  std::vector<ReceivedCharacter> heard;
+  Time now = 0;
+  const auto send = [&](Uart& from, std::uint8_t byte) {
+    from.send(byte, now);
+    while (from.state().sending) {
+      const Event event = queue.pop();
+      now = event.at;
+      const auto report = (event.owner == kPlcUart ? master : slave).handle(event);
+      if (report.received) heard.push_back(*report.received);
+    }
+  };
+  for (const int exchange : {1, 2}) {
+    heard.clear();
+    master.enable_receiver(false, now);
+    for (const std::uint8_t byte : Bytes{0x10, 0x20, 0x30}) send(master, byte);
+    master.enable_receiver(true, now);
+    for (const std::uint8_t byte : Bytes{0x40, 0x50, 0x60}) send(slave, byte);
+    EXPECT_EQ(shown(heard), "40 51p 60") << exchange;
+    now += 4 * kCharacter;
+  }
+}
+
+/// Two PLCs alone on a line: a program asks, the other one answers.
+struct ProgramThatAsks {
+  static constexpr EventOwner kMasterPlc = kPlcUart, kSlavePlc = kPeerUart;
+  Line line;
+  EventQueue queue;
+  Faults faults{line, queue, kFaults};
+  Uart master{line, queue, kMasterPlc, 0}, slave{line, queue, kSlavePlc, 1};
+  Time now = 0;
+
+  ProgramThatAsks() {
+    for (Uart* uart : {&slave, &master}) {
+      uart->configure(k8E1, 0);
+      faults.add_plc(*uart);
+    }
+  }
+
+  /// Back with what the other one hears.
+  std::string send(Uart& from, const Bytes& frame) {
+    std::vector<ReceivedCharacter> heard;
+    from.enable_receiver(false, now);
+    for (const std::uint8_t byte : frame) {
+      from.send(byte, now);
+      while (from.state().sending) {
+        const Event event = queue.pop();
+        now = event.at;
+        const auto report = (event.owner == kMasterPlc ? master : slave).handle(event);
+        if (report.received) heard.push_back(*report.received);
+      }
+    }
+    from.enable_receiver(true, now);
+    now += 4 * kCharacter;
+    return shown(heard);
+  }
+  std::string ask() { return send(master, kRequest); }
+  std::string answer() { return send(slave, kAnswer); }
+};
+
+TEST(Faults, WhatAPlcAsksAnotherIsTheRequestAndWhatThatSaysTheAnswer) {
+  const std::string request = "01 03 00p ff 55 aa 80 7f", answer = "fe 00 5ap c3";
+  for (const auto& [of, in_request, in_answer] :
+       {std::tuple{"request", true, false}, std::tuple{"answer", false, true}, std::tuple{"both", true, true}}) {
+    ProgramThatAsks plant;
+    plant.faults.inject(fault_of(std::string("parity:character=3,of=") + of), 0);
+    for (const int exchange : {1, 2, 3}) {
+      EXPECT_EQ(plant.ask(), in_request ? request : kWholeRequest) << of << exchange;
+      EXPECT_EQ(plant.answer(), in_answer ? answer : kWholeAnswer) << of << exchange;
+    }
+  }
+}
+
+TEST(Faults, OfAPlcThatAsksBeginWithARequestWheneverTheyAreInjected) {
+  ProgramThatAsks plant;
+  plant.ask();
+  plant.faults.inject(fault_of("parity:character=3,every=2"), plant.now);
+  EXPECT_EQ(plant.answer(), kWholeAnswer);
+  EXPECT_EQ(plant.ask(), kWholeRequest) << "first exchange";
+  EXPECT_EQ(plant.ask(), "01 03 00p ff 55 aa 80 7f") << "second one, for nobody has answered";
+  EXPECT_EQ(plant.answer(), kWholeAnswer);
+  EXPECT_EQ(plant.ask(), kWholeRequest);
+}
+
+TEST(Faults, TheClockOfThePlcThatAsksIsTheMasters) {
+  for (const auto& [error, bits] : {std::pair{"-10%", 8 * 11 / 0.9}, std::pair{"10%", 8 * 11 / 1.1}}) {
+    ProgramThatAsks plant;
+    plant.ask();
+    plant.faults.inject(fault_of(std::string("baud:station=master,error=") + error), plant.now);
+    const Time begin = plant.now;
+    plant.ask();
+    EXPECT_NEAR(static_cast<double>(plant.now - 4 * kCharacter - begin), bits * 1e9 / 9600, 20) << error;
+  }
 }
 
 TEST(Faults, PortOfTheHostHearsItselfOnALineWithEcho) {
