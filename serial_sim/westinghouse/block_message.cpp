@@ -68,6 +68,10 @@ Bytes write_bit(std::uint16_t address, std::uint8_t bit, bool on) {
   return message(Opcode::BitWrite, low_byte(address), high_byte(address), static_cast<std::uint8_t>((on ? 0x10 : 0) | bit));
 }
 
+Bytes retest() { return write_bit(kRetestWord, kRetestBit, true); }
+
+bool is_retest(std::span<const std::uint8_t> message) { return std::ranges::equal(message, retest()); }
+
 Bytes erase() {
   Bytes bytes = message(Opcode::Erase, 1);
   bytes.insert(bytes.end(), kEraseKey.begin(), kEraseKey.end());
@@ -139,7 +143,7 @@ std::string highway_text(std::span<const std::uint8_t> request, std::span<const 
     case HighwayCommand::ReadRemoteAddress:
       return fmt::format("addressed is {}", drop);
     case HighwayCommand::ReadHighwayStatus:
-      return bytes[0] == 0 ? "no error" : fmt::format("error {:02X}: {}", bytes[0], highway_error_name(bytes[0]));
+      return bytes[0] == 0 ? "no error" : serial::error_text(bytes[0], highway_error_name(bytes[0]));
     case HighwayCommand::OpenSession:
       return "session open";
     case HighwayCommand::CloseSession:
@@ -152,7 +156,7 @@ std::string highway_text(std::span<const std::uint8_t> request, std::span<const 
   return serial::to_hex(bytes);
 }
 
-std::string_view highway_error_name(std::uint8_t code) {
+std::string_view highway_error_name(std::uint16_t code) {
   switch (code) {
     case 0x01:
       return "message buffer full";
@@ -161,6 +165,7 @@ std::string_view highway_error_name(std::uint8_t code) {
     case 0x04:
       return "message size invalid";
     case 0x12:
+    case 12:  // as busy_code=decimal has it [W3]
       return "PLC in session with another computer";
     default:
       return "unknown code";

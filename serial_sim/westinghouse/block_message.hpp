@@ -49,8 +49,12 @@ Bytes set_unit_address(std::uint8_t unit);
 Bytes read_block(std::uint16_t address, std::size_t bytes);
 Bytes write_block(std::uint16_t address, std::span<const std::uint8_t> data);
 Bytes write_bit(std::uint16_t address, std::uint8_t bit, bool on);
+Bytes retest();
 Bytes erase();
 Bytes highway(HighwayCommand command, std::uint8_t highway = 0, std::uint8_t drop = 0, std::uint8_t subdrop = 0);
+
+/// Of a message with Opcode::BitWrite: whether it is retest().
+bool is_retest(std::span<const std::uint8_t> message);
 
 /// The bytes that PLCs want to see before they erase.
 std::span<const std::uint8_t> erase_key();
@@ -69,6 +73,6 @@ std::string unit_text(std::span<const std::uint8_t> bytes);
 std::string highway_text(std::span<const std::uint8_t> request, std::span<const std::uint8_t> bytes);
 
 /// `invalid drop addressed`
-std::string_view highway_error_name(std::uint8_t code);
+std::string_view highway_error_name(std::uint16_t code);
 
 }  // namespace s7200::westinghouse

@@ -128,16 +128,18 @@ serial::Answer check_hppc_answer(std::span<const std::uint8_t> request, std::spa
   return answer;
 }
 
-std::optional<std::uint32_t> holding_register_base(std::span<const std::uint8_t> table) {
+std::optional<HoldingRegisters> holding_registers(std::span<const std::uint8_t> table) {
   for (const std::size_t offset : {0x2EU, 0x2CU}) {
     if (table.size() < offset + 4) continue;
     const std::uint32_t base = hppc_address(table.subspan(offset)) | static_cast<std::uint32_t>(table[offset + 3]) << 24;
-    if (base % 2 == 0 && base >= kParameterTable && base < kHppcMemory) return base;
+    if (base % 2 != 0 || base < kParameterTable || base >= kHppcMemory) continue;
+    const bool has_number = table.size() >= offset + 6;
+    return HoldingRegisters{base, has_number ? std::optional(load16_low_first(&table[offset + 4])) : std::nullopt};
   }
   return {};
 }
 
-std::string_view hppc_error_name(std::uint8_t code) {
+std::string_view hppc_error_name(std::uint16_t code) {
   switch (code) {
     case 0x01:
       return "link error";

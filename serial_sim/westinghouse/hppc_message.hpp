@@ -71,11 +71,17 @@ bool is_whole_hppc(std::span<const std::uint8_t> message);
 serial::Answer check_hppc_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response,
                                  FcsTable table);
 
-/// Where holding register 1 is, by the first 34 (hex) bytes of the parameter table or more: at offset 2E, or at 2C where the
+/// Where holding registers are.
+struct HoldingRegisters {
+  std::uint32_t base;                   ///< of register 1
+  std::optional<std::uint16_t> number;  ///< nothing where the table ends before that
+};
+
+/// By the first 34 (hex) bytes of the parameter table or more: at offset 2E, or at 2C where the
 /// table is as the document's example [H10]. Nothing if neither is an address of a register.
-std::optional<std::uint32_t> holding_register_base(std::span<const std::uint8_t> table);
+std::optional<HoldingRegisters> holding_registers(std::span<const std::uint8_t> table);
 
 /// `illegal opcode`
-std::string_view hppc_error_name(std::uint8_t code);
+std::string_view hppc_error_name(std::uint16_t code);
 
 }  // namespace s7200::westinghouse

@@ -23,18 +23,6 @@ constexpr std::array<std::uint8_t, 14> kBlock{0x70, 0x70, 0x41, 0x01, 0x80, 0x00
                                               0x00, 0x00, 0x07, 0x11, 0x01, 0x00, 0x00};
 constexpr std::array<std::uint8_t, 2> kBlockAddress{0x80, 0x24};
 
-bool is_known(std::uint8_t opcode) {
-  switch (static_cast<LoaderOpcode>(opcode)) {
-    case LoaderOpcode::Write:
-    case LoaderOpcode::Read:
-    case LoaderOpcode::Pointers:
-    case LoaderOpcode::Block:
-    case LoaderOpcode::Directory:
-      return true;
-  }
-  return false;
-}
-
 /// User memory, and the images of timers, counters, flags, inputs and outputs.
 bool is_area(std::uint32_t address) { return (address >= 0x8000 && address <= 0xCFFF) || address >= 0xEC00; }
 
@@ -55,8 +43,8 @@ std::uint16_t LoaderPlc::word(std::uint32_t address) const {
 }
 
 void LoaderPlc::go_idle() {
-  stage_ = Stage::Idle;
-  dle_ = false;
+  due_ = LoaderStep::Begin;
+  in_arguments_ = dle_ = false;
   arguments_.clear();
   data_.clear();
   wake_at(kNever);
@@ -70,22 +58,32 @@ void LoaderPlc::restart(Time) { go_idle(); }
 void LoaderPlc::say(Bytes bytes, Time request_end) {
   const Time at = request_end + settings_.latency_us * kMicrosecond;
   const Time end = at + static_cast<Time>(bytes.size()) * settings_.line.character_time();
-  if (stage_ != Stage::Idle) wake_at(end + settings_.timeout_ms * kMillisecond);
+  if (due_ != LoaderStep::Begin) wake_at(end + settings_.timeout_ms * kMillisecond);
   answer(std::move(bytes), at);
 }
 
 void LoaderPlc::refuse(Time end) {
   go_idle();
-  if (settings_.nak == LoaderSettings::Nak::Sent) say({kDle, kNak}, end);
+  if (settings_.nak == LoaderSettings::Nak::Sent) say({kRefusal.begin(), kRefusal.end()}, end);
+}
+
+/// Takes its turn.
+void LoaderPlc::go_on(Time end) {
+  const bool with_data = has_data(static_cast<LoaderOpcode>(opcode_));
+  const LoaderStep step = after(due_, with_data);
+  due_ = after(step, with_data);
+  if (step != LoaderStep::DataSent) return say(fixed(step), end);
+  Bytes bytes = settings_.dle == Dle::Doubled ? stuffed(data_) : data_;
+  bytes.insert(bytes.end(), kEndOfData.begin(), kEndOfData.end());
+  say(std::move(bytes), end);
 }
 
 void LoaderPlc::hear(const ReceivedCharacter& character) {
   const Time end = character.start + settings_.line.character_time();
   const bool damaged = character.parity_error || character.framing_error;
-  if (stage_ == Stage::Idle) {
+  if (due_ == LoaderStep::Begin) {
     if (damaged || character.byte != kStx) return;
-    stage_ = Stage::Opcode;
-    return say({kDle, kAck}, end);
+    return go_on(end);
   }
   wake_at(end + settings_.timeout_ms * kMillisecond);
   if (damaged) return refuse(end);
@@ -93,19 +91,11 @@ void LoaderPlc::hear(const ReceivedCharacter& character) {
 }
 
 void LoaderPlc::take(std::uint8_t byte, Time end) {
-  switch (stage_) {
-    case Stage::Idle:
-      return;
-    case Stage::Opcode:
-      if (!is_known(byte)) return refuse(end);
-      opcode_ = byte;
-      stage_ = Stage::AckOfStart;
-      return say({kStx}, end);
-    case Stage::Arguments:
-      return take_argument(byte, end);
-    default:
-      return take_acknowledgement(byte, end);
-  }
+  if (in_arguments_) return take_argument(byte, end);
+  if (due_ != LoaderStep::Opcode) return take_acknowledgement(byte, end);
+  if (!is_loader_opcode(byte)) return refuse(end);
+  opcode_ = byte;
+  go_on(end);
 }
 
 void LoaderPlc::take_acknowledgement(std::uint8_t byte, Time end) {
@@ -120,28 +110,9 @@ void LoaderPlc::take_acknowledgement(std::uint8_t byte, Time end) {
 }
 
 void LoaderPlc::acknowledged(Time end) {
-  switch (stage_) {
-    case Stage::AckOfStart:
-      stage_ = Stage::AckOfHeader;
-      return say({kHeader, kDle, kEtx}, end);
-    case Stage::AckOfHeader:
-      stage_ = Stage::Arguments;
-      return;
-    case Stage::AckBeforeData: {
-      stage_ = Stage::AckAfterData;
-      Bytes bytes = settings_.dle == Dle::Doubled ? stuffed(data_) : data_;
-      bytes.insert(bytes.end(), {kDle, kEtx});
-      return say(std::move(bytes), end);
-    }
-    case Stage::AckAfterData:
-      stage_ = Stage::AckBeforeEnd;
-      return say({kStx}, end);
-    case Stage::AckBeforeEnd:
-      stage_ = Stage::AckOfEnd;
-      return say({kEnd, kDle, kEtx}, end);
-    default:
-      return go_idle();
-  }
+  if (due_ == LoaderStep::Close) return go_idle();
+  in_arguments_ = due_ == LoaderStep::Arguments;
+  if (!in_arguments_) go_on(end);
 }
 
 void LoaderPlc::take_argument(std::uint8_t byte, Time end) {
@@ -157,8 +128,8 @@ void LoaderPlc::take_argument(std::uint8_t byte, Time end) {
 
 void LoaderPlc::carry_out(Time end) {
   if (!run()) return refuse(end);
-  stage_ = has_data(static_cast<LoaderOpcode>(opcode_)) ? Stage::AckBeforeData : Stage::AckBeforeEnd;
-  say({kDle, kAck, kStx}, end);
+  in_arguments_ = false;
+  go_on(end);
 }
 
 bool LoaderPlc::run() {

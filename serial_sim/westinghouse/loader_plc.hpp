@@ -43,24 +43,12 @@ class LoaderPlc final : public PlcOf<LoaderPlc> {
   bool operator==(const LoaderPlc&) const = default;
 
  private:
-  /// What the session waits for.
-  enum class Stage : std::uint8_t {
-    Idle,
-    Opcode,
-    AckOfStart,
-    AckOfHeader,
-    Arguments,
-    AckBeforeData,
-    AckAfterData,
-    AckBeforeEnd,
-    AckOfEnd
-  };
-
   void take(std::uint8_t byte, Time end);
   void take_acknowledgement(std::uint8_t byte, Time end);
   void take_argument(std::uint8_t byte, Time end);
   void acknowledged(Time end);
   void carry_out(Time end);
+  void go_on(Time end);
   void refuse(Time end);
   void say(Bytes bytes, Time request_end);
   void go_idle();
@@ -76,7 +64,8 @@ class LoaderPlc final : public PlcOf<LoaderPlc> {
 
   LoaderSettings settings_;
   ByteMemory memory_;
-  Stage stage_ = Stage::Idle;
+  LoaderStep due_ = LoaderStep::Begin;  // of the computer
+  bool in_arguments_ = false;           // what precedes them is there
   std::uint8_t opcode_ = 0;
   bool dle_ = false;  // was the byte before
   Bytes arguments_;

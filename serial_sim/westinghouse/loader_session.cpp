@@ -13,32 +13,50 @@ namespace {
 
 using Data = std::span<const std::uint8_t>;
 
-constexpr int kArguments = 3, kDataStep = 4;
-constexpr std::array<std::uint8_t, 2> kAcknowledge{kDle, kAck}, kRefusal{kDle, kNak}, kEndOfData{kDle, kEtx};
-
 bool begins_with(Data text, Data beginning) {
   return text.size() >= beginning.size() && std::ranges::equal(text.first(beginning.size()), beginning);
 }
 
-/// The answers that are the same in every session, by step. The data of an answer stands between the fourth and the fifth.
-Bytes fixed_answer(int step) {
+}  // namespace
+
+LoaderStep after(LoaderStep step, bool with_data) {
+  if (step == LoaderStep::ArgumentsHeard && !with_data) return LoaderStep::EndWanted;
+  return static_cast<LoaderStep>(static_cast<unsigned>(step) + 1);
+}
+
+Bytes fixed(LoaderStep step) {
   switch (step) {
-    case 0:
-      return {kDle, kAck};
-    case 1:
+    case LoaderStep::Begin:
+    case LoaderStep::Ready:
+    case LoaderStep::EndReady:
       return {kStx};
-    case 2:
+    case LoaderStep::HeaderHeard:
       return {kHeader, kDle, kEtx};
-    case kArguments:
+    case LoaderStep::ArgumentsHeard:
       return {kDle, kAck, kStx};
-    default:
+    case LoaderStep::End:
+      return {kEnd, kDle, kEtx};
+    case LoaderStep::Opcode:
+    case LoaderStep::DataSent:
       return {};
+    default:
+      return {kDle, kAck};
   }
 }
 
-}  // namespace
-
 bool has_data(LoaderOpcode opcode) { return opcode != LoaderOpcode::Write; }
+
+bool is_loader_opcode(std::uint8_t byte) {
+  switch (static_cast<LoaderOpcode>(byte)) {
+    case LoaderOpcode::Write:
+    case LoaderOpcode::Read:
+    case LoaderOpcode::Pointers:
+    case LoaderOpcode::Block:
+    case LoaderOpcode::Directory:
+      return true;
+  }
+  return false;
+}
 
 LoaderOperation loader_read(std::uint16_t first, std::size_t count) {
   const std::size_t last = first + count - 1;
@@ -73,21 +91,23 @@ Bytes stuffed(Data bytes) {
 }
 
 Bytes LoaderSteps::first() {
-  step_ = 0;
-  return {kStx};
+  step_ = LoaderStep::Begin;
+  return fixed(step_);
 }
 
 std::optional<Bytes> LoaderSteps::next(Data response) {
+  if (!answered()) return {};
   Bytes data;
-  const auto length = answer_to(step_, response, data);
-  if (!length || *length != response.size() || step_ + 1 == steps()) return {};
-  ++step_;
-  if (step_ == 1) return Bytes{static_cast<std::uint8_t>(operation_.opcode)};
-  Bytes request{kDle, kAck};
-  if (step_ == kArguments) {
+  const LoaderStep answer = after(step_);
+  const auto length = length_of(answer, response, data);
+  if (!length || *length != response.size()) return {};
+  step_ = after(answer);
+  if (step_ == LoaderStep::Opcode) return Bytes{static_cast<std::uint8_t>(operation_.opcode)};
+  Bytes request = fixed(step_);
+  if (step_ == LoaderStep::Arguments) {
     const Bytes arguments = stuffed(operation_.arguments);
     request.insert(request.end(), arguments.begin(), arguments.end());
-    request.insert(request.end(), {kDle, kEot});
+    request.insert(request.end(), kEndOfArguments.begin(), kEndOfArguments.end());
   }
   return request;
 }
@@ -106,14 +126,10 @@ std::optional<std::size_t> LoaderSteps::take_data(Data response, Bytes& data) co
   return {};
 }
 
-std::optional<std::size_t> LoaderSteps::answer_to(int step, Data response, Bytes& data) const {
-  const bool with_data = has_data(operation_.opcode);
-  if (with_data && step == kDataStep) return take_data(response, data);
-  Bytes expected = fixed_answer(step);
-  if (with_data && step == kDataStep + 1) expected = {kStx};
-  if (step == steps() - 2) expected = {kEnd, kDle, kEtx};
-  if (!begins_with(response, expected)) return {};
-  return expected.size();
+std::optional<std::size_t> LoaderSteps::length_of(LoaderStep step, Data response, Bytes& data) const {
+  if (step == LoaderStep::DataSent) return take_data(response, data);
+  const Bytes expected = fixed(step);
+  return begins_with(response, expected) ? std::optional(expected.size()) : std::nullopt;
 }
 
 serial::Answer LoaderSteps::judge(Data response) const {
@@ -121,22 +137,24 @@ serial::Answer LoaderSteps::judge(Data response) const {
   if (response.empty()) return answer;
   answer.verdict = serial::Verdict::Wrong;
   Data rest = response;
-  for (int step = 0; step + 1 < steps(); ++step) {
+  LoaderStep asked = LoaderStep::Begin;
+  for (int number = 1; number <= answers(); ++number) {
     Bytes data;
-    const auto length = answer_to(step, rest, data);
+    const LoaderStep step = after(asked);
+    const auto length = length_of(step, rest, data);
     if (!length && begins_with(rest, kRefusal)) {
       answer.verdict = serial::Verdict::Exception;
       answer.exception = kNak;
       return answer;
     }
     if (!length) {
-      answer.fault = rest.empty()
-                         ? fmt::format("no answer at step {} of {}", step + 1, steps() - 1)
-                         : fmt::format("step {} of {} does not fit: {}", step + 1, steps() - 1, serial::to_hex(rest));
+      answer.fault = rest.empty() ? fmt::format("no answer at step {} of {}", number, answers())
+                                  : fmt::format("step {} of {} does not fit: {}", number, answers(), serial::to_hex(rest));
       return answer;
     }
-    if (has_data(operation_.opcode) && step == kDataStep) answer.bytes = std::move(data);
+    if (step == LoaderStep::DataSent) answer.bytes = std::move(data);
     rest = rest.subspan(*length);
+    asked = after(step);
   }
   if (answer.bytes.size() != operation_.data) {
     answer.fault = fmt::format("{} bytes of data, expected {}", answer.bytes.size(), operation_.data);
@@ -150,12 +168,10 @@ serial::Answer LoaderSteps::judge(Data response) const {
 }
 
 bool is_whole_step(Data response) {
-  if (response.empty()) return false;
-  constexpr std::array<std::uint8_t, 3> kBeforeData{kDle, kAck, kStx};
-  if (std::ranges::equal(response, kAcknowledge) || std::ranges::equal(response, kRefusal) ||
-      std::ranges::equal(response, kBeforeData) || (response.size() == 1 && response[0] == kStx))
-    return true;
-  return response.size() > 2 && std::ranges::equal(response.last(2), kEndOfData);
+  if (std::ranges::equal(response, kRefusal)) return true;
+  for (const LoaderStep step : {LoaderStep::BeginHeard, LoaderStep::Ready, LoaderStep::ArgumentsHeard})
+    if (std::ranges::equal(response, fixed(step))) return true;
+  return response.size() > kEndOfData.size() && std::ranges::equal(response.last(kEndOfData.size()), kEndOfData);
 }
 
 }  // namespace s7200::westinghouse

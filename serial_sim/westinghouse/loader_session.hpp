@@ -7,10 +7,12 @@
 //                            DLE ACK               DLE ACK      DLE ACK              DLE ACK
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "interpreter/base/bytes.hpp"
 #include "serial_sim/peers/answer.hpp"
@@ -28,6 +30,36 @@ inline constexpr std::uint8_t kDataBlocks = 0x01;  ///< type of block
 inline constexpr std::size_t kMostLoaderBytes = 512;
 inline constexpr std::size_t kReadHead = 5;  ///< 00 bytes before the data of a read
 
+inline constexpr std::string_view kRefusalName = "refused (NAK)";
+inline constexpr std::array kRefusal{kDle, kNak}, kEndOfArguments{kDle, kEot}, kEndOfData{kDle, kEtx};
+
+/// In their order. The computer begins, and the two take turns.
+enum class LoaderStep : std::uint8_t {
+  Begin,
+  BeginHeard,
+  Opcode,
+  Ready,
+  Header,
+  HeaderHeard,
+  Arguments,
+  ArgumentsHeard,
+  DataWanted,
+  DataSent,
+  DataHeard,
+  EndReady,
+  EndWanted,
+  End,
+  Close
+};
+
+inline bool is_of_plc(LoaderStep step) { return static_cast<unsigned>(step) % 2 == 1; }
+
+/// The step after this one, which is not the last; a session without data goes on at its end after the arguments.
+LoaderStep after(LoaderStep step, bool with_data);
+
+/// What a step always is, and how arguments begin; nothing of an opcode and of data.
+Bytes fixed(LoaderStep step);
+
 /// What a session asks for.
 struct LoaderOperation {
   LoaderOpcode opcode = LoaderOpcode::Read;
@@ -36,6 +68,7 @@ struct LoaderOperation {
 };
 
 bool has_data(LoaderOpcode opcode);
+bool is_loader_opcode(std::uint8_t byte);
 
 LoaderOperation loader_read(std::uint16_t first, std::size_t count);
 LoaderOperation loader_write(std::uint16_t first, std::span<const std::uint8_t> data);
@@ -58,7 +91,7 @@ class LoaderSteps {
   std::optional<Bytes> next(std::span<const std::uint8_t> response);
 
   /// The last step is not answered.
-  bool answered() const { return step_ != steps() - 1; }
+  bool answered() const { return step_ != LoaderStep::Close; }
 
   /// All that a PLC answered in a session. `bytes` of the result: the data. An exception 15 is a refusal.
   serial::Answer judge(std::span<const std::uint8_t> response) const;
@@ -66,14 +99,15 @@ class LoaderSteps {
   const LoaderOperation& operation() const { return operation_; }
 
  private:
-  /// How much of `response` is the answer to a step; nothing if it does not fit. Data goes to `data`.
-  std::optional<std::size_t> answer_to(int step, std::span<const std::uint8_t> response, Bytes& data) const;
+  /// How much of `response` is this step of the PLC; nothing if it does not fit. Data goes to `data`.
+  std::optional<std::size_t> length_of(LoaderStep step, std::span<const std::uint8_t> response, Bytes& data) const;
   std::optional<std::size_t> take_data(std::span<const std::uint8_t> response, Bytes& data) const;
-  int steps() const { return has_data(operation_.opcode) ? 8 : 6; }
+  LoaderStep after(LoaderStep step) const { return westinghouse::after(step, has_data(operation_.opcode)); }
+  int answers() const { return has_data(operation_.opcode) ? 7 : 5; }
 
   LoaderOperation operation_;
   Dle dle_;
-  int step_ = 0;
+  LoaderStep step_ = LoaderStep::Begin;  // that was sent last
 };
 
 /// Whether a PLC says no more until it is told something.

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <ranges>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
 #include "serial_sim/peers/automaton.hpp"
 #include "serial_sim/westinghouse/setting.hpp"
@@ -159,9 +159,14 @@ class PlcOf : public Plc {
     const auto cell_of = [](const Cells<Self>& row) {
       return fmt::format("{}{}", row.name, row.by_address ? "[ADDRESS]" : "NUMBER");
     };
+    const auto cells = parse_cells(fmt::format("{}=0", name));
+    if (cells && find(*cells).row != nullptr) {
+      why = fmt::format("'{0}': cells take hexadecimal values with commas between; write for example {1}=12 or {1}=12,34",
+                        stl::shortened(text), name);
+      return {};
+    }
     why = fmt::format("'{}' is not a setting of this PLC; there are {}, {}", stl::shortened(text),
-                      fmt::join(Self::settings() | std::views::transform(name_of), ", "),
-                      fmt::join(Self::cells() | std::views::transform(cell_of), ", "));
+                      stl::joined(Self::settings(), name_of), stl::joined(Self::cells(), cell_of));
     return {};
   }
 };

@@ -49,8 +49,9 @@ PlcRow row(std::string_view name, std::string_view only_model = "") {
 
 const std::vector<PlcRow>& rows() {
   static const std::vector<PlcRow> kRows{
-      row<ModbusPlc>("modbus"),          row<LanPlc>("lan"),         row<HppcPlc>("hppc", "hppc"),
-      row<LoaderPlc>("loader", "pc503"), row<WestnetPlc>("westnet"),
+      row<ModbusPlc>("modbus"),     row<LanPlc>("pc1000-lan"),
+      row<WestnetPlc>("westnet"),   row<LoaderPlc>("pc500-loader", "pc503"),
+      row<HppcPlc>("hppc", "hppc"),
   };
   return kRows;
 }
@@ -66,8 +67,8 @@ const PlcRow* find_plc(std::string_view protocol) {
 
 std::unique_ptr<Plc> make_plc(const PlcRow& row, std::string_view model, std::string& why) {
   if (std::ranges::find(row.models, model) == row.models.end()) {
-    why = fmt::format("'{}' is not a PLC of this family that speaks this protocol; there are {}", stl::shortened(model),
-                      fmt::join(row.models, ", "));
+    why = fmt::format("'{}' is not a PLC that speaks {} here; there {} {}", stl::shortened(model), row.name,
+                      row.models.size() == 1 ? "is" : "are", fmt::join(row.models, ", "));
     return nullptr;
   }
   std::unique_ptr<Plc> plc = row.make();

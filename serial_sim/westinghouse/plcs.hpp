@@ -13,7 +13,7 @@ namespace s7200::westinghouse {
 
 /// A protocol, and the models that speak it.
 struct PlcRow {
-  std::string_view name;  ///< of the protocol, as the reference has it: `lan`
+  std::string_view name;  ///< of the protocol, as `s7200 master --protocol` has it: `pc1000-lan`
   std::vector<std::string_view> models;
   std::unique_ptr<Plc> (*make)();          ///< in its bench state
   std::vector<std::string> (*settings)();  ///< with defaults and meaning, for the help

@@ -7,7 +7,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace s7200;
   using namespace s7200::westinghouse;
-  test::WestinghouseWorld({.name = "lan",
+  test::WestinghouseWorld({.name = "pc1000-lan",
                            .request = set_unit_address(5),
                            .right_answer =
                                [](auto answer) {

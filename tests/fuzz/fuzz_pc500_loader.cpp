@@ -8,7 +8,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace s7200;
   using namespace s7200::westinghouse;
   test::WestinghouseWorld(
-      {.name = "loader",
+      {.name = "pc500-loader",
        .request = {kStx},
        .right_answer =
            [](auto answer) {

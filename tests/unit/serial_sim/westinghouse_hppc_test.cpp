@@ -207,15 +207,18 @@ TEST(Hppc, H10TheParameterTableIsThatOfSection66OrOfTheExample) {
   const auto base = [&](const std::string& settings) {
     const std::string hex = asked(settings, message);
     const Bytes bytes = serial::bytes_of(serial::parse_hex_frame(hex).frame);
-    return std::pair{holding_register_base(std::span(bytes).subspan(4)), bytes};
+    return std::pair{holding_registers(std::span(bytes).subspan(4)), bytes};
   };
   const auto [base66, bytes66] = base("");
-  EXPECT_EQ(base66, 0xABFFEU);
+  ASSERT_TRUE(base66);
+  EXPECT_EQ(base66->base, 0xABFFEU);
+  EXPECT_EQ(base66->number, 0x0800);
   EXPECT_EQ(bytes66[4 + 0x2E], 0xFE);
   const auto [base_of_example, example] = base("table=example");
-  EXPECT_EQ(base_of_example, 0xABFFEU);
+  ASSERT_TRUE(base_of_example);
+  EXPECT_EQ(base_of_example->base, 0xABFFEU);
   EXPECT_EQ(example[4 + 0x2C], 0xFE);
-  EXPECT_EQ(holding_register_base(Bytes(0x34)), std::nullopt);
+  EXPECT_FALSE(holding_registers(Bytes(0x34)));
 }
 
 TEST(Hppc, FaultsOfTheLineAreMet) {

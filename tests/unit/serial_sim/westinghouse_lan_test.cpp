@@ -13,36 +13,36 @@ const std::string kReference = "../shared/reference/westinghouse_vectors.txt";
 TEST(Pc1000Lan, EveryExchangeOfTheReferenceHolds) {
   const std::string text = text_of(kReference);
   if (text.empty()) GTEST_SKIP() << "there is no " << kReference;
-  EXPECT_EQ(play_file(text, "lan"), 13);
+  EXPECT_EQ(play_file(text, "pc1000-lan"), 13);
 }
 
-TEST(Pc1000Lan, OurOwnExchangesHold) { EXPECT_GT(play_file(text_of("tests/exchanges/westinghouse.txt"), "lan"), 0); }
+TEST(Pc1000Lan, OurOwnExchangesHold) { EXPECT_GT(play_file(text_of("tests/exchanges/westinghouse.txt"), "pc1000-lan"), 0); }
 
 std::string asked(Bench& bench, const Bytes& message) { return bench.ask(serial::to_hex(message), true); }
 
 /// A PLC that is on-line.
 struct OnLine {
   Bench bench;
-  explicit OnLine(const std::string& settings = {}) : bench("lan", settings) { asked(bench, set_unit_address(5)); }
+  explicit OnLine(const std::string& settings = {}) : bench("pc1000-lan", settings) { asked(bench, set_unit_address(5)); }
   std::string operator()(const Bytes& message) { return asked(bench, message); }
 };
 
 TEST(Pc1000Lan, L1TheLineIs9600Baud8N1) {
-  EXPECT_EQ(Bench("lan").plc().format(), (SerialFormat{9600, 8, Parity::None, 1}));
-  EXPECT_EQ(Bench("lan", "baud=19200 parity=odd").plc().format(), (SerialFormat{19200, 8, Parity::Odd, 1}));
+  EXPECT_EQ(Bench("pc1000-lan").plc().format(), (SerialFormat{9600, 8, Parity::None, 1}));
+  EXPECT_EQ(Bench("pc1000-lan", "baud=19200 parity=odd").plc().format(), (SerialFormat{19200, 8, Parity::Odd, 1}));
 }
 
 TEST(Pc1000Lan, L2CharactersCountOnlyWhileSyncIsHighAtTheirStart) {
-  Bench bench("lan");
+  Bench bench("pc1000-lan");
   const std::string unit = serial::to_hex(set_unit_address(5));
   EXPECT_EQ(bench.ask(unit, false), "");
   EXPECT_NE(bench.ask(unit, true), "");
-  Bench ignored("lan", "sync=ignored");
+  Bench ignored("pc1000-lan", "sync=ignored");
   EXPECT_NE(ignored.ask(unit, false), "");
 }
 
 TEST(Pc1000Lan, L2ASyncEdgeThrowsAwayWhatIsNotComplete) {
-  Bench bench("lan");
+  Bench bench("pc1000-lan");
   const Bytes unit = set_unit_address(5);
   const auto part = [&](std::size_t from, std::size_t to) {
     return serial::to_hex(
@@ -66,7 +66,7 @@ TEST(Pc1000Lan, AfterPowerHasBeenOffMemoryIsKeptAndNoUnitIsAddressed) {
 }
 
 TEST(Pc1000Lan, WithoutPowerItIsSilentAndHalfAMessageFromBeforeIsForgotten) {
-  Bench bench("lan", "sync=ignored");
+  Bench bench("pc1000-lan", "sync=ignored");
   const Bytes unit = set_unit_address(5);
   EXPECT_EQ(bench.ask(serial::to_hex(Bytes(unit.begin(), unit.begin() + 3)), false, 5 * kMillisecond), "");
   bench.station().power_off(bench.system().time());
@@ -76,7 +76,7 @@ TEST(Pc1000Lan, WithoutPowerItIsSilentAndHalfAMessageFromBeforeIsForgotten) {
 }
 
 TEST(Pc1000Lan, L3AGapOf100MillisecondsThrowsAMessageAwayAndTheAnswerComesOneCharacterAfterIt) {
-  Bench bench("lan", "sync=ignored");
+  Bench bench("pc1000-lan", "sync=ignored");
   const auto with_gap = [&](Time gap) {
     bench.master().requester().start(
         {.frame = serial::to_frame(set_unit_address(5)), .timeout = 200 * kMillisecond, .gap = gap}, bench.system().time());
@@ -208,7 +208,7 @@ TEST(Pc1000Lan, L9EraseClearsAllMemoryInStopOnlyAndNotTheFaultRegister) {
 }
 
 TEST(Pc1000Lan, OnlyTheAddressedUnitIsOnLine) {
-  Bench bench("lan", "unit=10");
+  Bench bench("pc1000-lan", "unit=10");
   EXPECT_EQ(asked(bench, read_block(0, 2)), "");
   EXPECT_EQ(asked(bench, set_unit_address(5)), "");
   EXPECT_NE(asked(bench, set_unit_address(16)), "");
@@ -238,7 +238,7 @@ TEST(Pc1000Lan, ASnapshotGoesOnAsItWouldHave) {
 }
 
 TEST(Pc1000Lan, EachTextIsJudgedByItselfWhateverWasSaidOfTheOneBefore) {
-  Bench bench("lan");
+  Bench bench("pc1000-lan");
   std::string why;
   EXPECT_FALSE(bench.plc().set("parity=nonsense", why));
   EXPECT_FALSE(bench.plc().set("ZZ1=5", why));

@@ -15,10 +15,10 @@ const std::string kReference = "../shared/reference/westinghouse_vectors.txt";
 TEST(Loader, EveryExchangeOfTheReferenceHolds) {
   const std::string text = text_of(kReference);
   if (text.empty()) GTEST_SKIP() << "there is no " << kReference;
-  EXPECT_EQ(play_file(text, "loader"), 13);
+  EXPECT_EQ(play_file(text, "pc500-loader"), 13);
 }
 
-TEST(Loader, OurOwnExchangesHold) { EXPECT_GT(play_file(text_of("tests/exchanges/westinghouse.txt"), "loader"), 0); }
+TEST(Loader, OurOwnExchangesHold) { EXPECT_GT(play_file(text_of("tests/exchanges/westinghouse.txt"), "pc500-loader"), 0); }
 
 /// A whole session of a computer with the PLC.
 serial::Answer session(Bench& bench, const LoaderOperation& operation, Dle dle = Dle::Doubled) {
@@ -35,7 +35,7 @@ serial::Answer session(Bench& bench, const LoaderOperation& operation, Dle dle =
 }
 
 serial::Answer session(const std::string& settings, const LoaderOperation& operation, Dle dle = Dle::Doubled) {
-  Bench bench("loader", settings);
+  Bench bench("pc500-loader", settings);
   return session(bench, operation, dle);
 }
 
@@ -45,10 +45,12 @@ Bytes head_and(const Bytes& data) {
   return bytes;
 }
 
-TEST(Loader, TheLineIs9600Baud8E1) { EXPECT_EQ(Bench("loader").plc().format(), (SerialFormat{9600, 8, Parity::Even, 1})); }
+TEST(Loader, TheLineIs9600Baud8E1) {
+  EXPECT_EQ(Bench("pc500-loader").plc().format(), (SerialFormat{9600, 8, Parity::Even, 1}));
+}
 
 TEST(Loader, AReadOrAWriteIsOneSession) {
-  Bench bench("loader");
+  Bench bench("pc500-loader");
   EXPECT_EQ(session(bench, loader_read(0xEF80, 4)).bytes, head_and({0x12, 0x34, 0x56, 0x78}));
   EXPECT_EQ(session(bench, loader_write(0xEF80, Bytes{0x7F, 0x10})).verdict, Verdict::Right);
   EXPECT_EQ(session(bench, loader_read(0xEF80, 2)).bytes, head_and({0x7F, 0x10}));
@@ -57,7 +59,7 @@ TEST(Loader, AReadOrAWriteIsOneSession) {
 }
 
 TEST(Loader, WhatAPlcRefusesIsAnsweredWithANak) {
-  Bench bench("loader");
+  Bench bench("pc500-loader");
   const auto refused = [&](const LoaderOperation& operation) {
     const serial::Answer answer = session(bench, operation);
     return answer.verdict == Verdict::Exception && answer.exception == kNak;
@@ -98,27 +100,27 @@ TEST(Loader, S3AByte10IsDoubledInBothDirectionsUnlessThePlcIsPlain) {
   EXPECT_EQ(session("M[9000]=10,03,10", loader_read(0x9000, 3)).bytes, head_and({0x10, 0x03, 0x10}));
   EXPECT_EQ(session("M[9000]=10,03,10 dle=plain", loader_read(0x9000, 3), Dle::Plain).bytes, head_and({0x10, 0x03, 0x10}));
   EXPECT_EQ(session("M[9000]=10,03,10 dle=plain", loader_read(0x9000, 3)).verdict, Verdict::Wrong);
-  Bench bench("loader");
+  Bench bench("pc500-loader");
   EXPECT_EQ(session(bench, loader_write(0x9010, Bytes{0x10, 0x10})).verdict, Verdict::Right);
   EXPECT_EQ(bench.fault_of("M[9010]=10,10"), "");
 }
 
 TEST(Loader, S4ASessionEndsSilentlyAfter500MillisecondsWithoutAByte) {
-  Bench bench("loader");
+  Bench bench("pc500-loader");
   EXPECT_EQ(bench.ask("02"), "10 06");
   bench.wait(400 * kMillisecond);
   EXPECT_EQ(bench.ask("04"), "02");
   bench.wait(600 * kMillisecond);
   EXPECT_EQ(bench.ask("10 06"), "");
   EXPECT_EQ(bench.ask("02"), "10 06");
-  Bench patient("loader", "timeout_ms=1000");
+  Bench patient("pc500-loader", "timeout_ms=1000");
   EXPECT_EQ(patient.ask("02"), "10 06");
   patient.wait(800 * kMillisecond);
   EXPECT_EQ(patient.ask("04"), "02");
 }
 
 TEST(Loader, AfterPowerHasBeenOffTheSessionIsOver) {
-  Bench bench("loader");
+  Bench bench("pc500-loader");
   EXPECT_EQ(bench.ask("02"), "10 06");
   bench.lose_power();
   EXPECT_EQ(bench.ask("04"), "");
@@ -127,7 +129,7 @@ TEST(Loader, AfterPowerHasBeenOffTheSessionIsOver) {
 
 TEST(Loader, S4WhatDoesNotFitTheHandshakeIsAnsweredWithANak) {
   const std::string nak = "10 15";
-  Bench bench("loader");
+  Bench bench("pc500-loader");
   const auto after = [&](const std::vector<std::string>& steps) {
     std::string last;
     for (const std::string& step : steps) last = bench.ask(step);
@@ -143,7 +145,7 @@ TEST(Loader, S4WhatDoesNotFitTheHandshakeIsAnsweredWithANak) {
   EXPECT_EQ(after({"02p"}), "");
   EXPECT_EQ(after({"10 06"}), "");
   EXPECT_EQ(after({"02"}), "10 06");
-  Bench silent("loader", "nak=silent");
+  Bench silent("pc500-loader", "nak=silent");
   silent.ask("02");
   EXPECT_EQ(silent.ask("00"), "");
   EXPECT_EQ(silent.ask("02"), "10 06");
@@ -157,19 +159,19 @@ TEST(Loader, S5EveryAddressCanBeReadAndWritten) {
 }
 
 TEST(Loader, TheTimeOutBeginsAfterALongAnswer) {
-  Bench bench("loader");  // 512 bytes take longer than the time-out
+  Bench bench("pc500-loader");  // 512 bytes take longer than the time-out
   EXPECT_EQ(session(bench, loader_read(0x8000, 512)).verdict, Verdict::Right);
 }
 
 TEST(Loader, FaultsOfTheLineAreMet) {
-  Bench bench("loader");
+  Bench bench("pc500-loader");
   bench.line().faults().inject(serial::parse_fault("parity:character=1,exchange=2").fault, bench.system().time());
   EXPECT_EQ(session(bench, loader_read(0xEF80, 1)).verdict, Verdict::Exception);
   EXPECT_EQ(session(bench, loader_read(0xEF80, 1)).verdict, Verdict::Right);
 }
 
 TEST(Loader, ASnapshotGoesOnAsItWouldHave) {
-  Bench bench("loader");
+  Bench bench("pc500-loader");
   serial::System& system = bench.system();
   EXPECT_EQ(bench.ask("02"), "10 06");
   bench.master().requester().start({.frame = serial::to_frame(Bytes{0x04})}, system.time());

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -252,10 +253,13 @@ TEST(WestinghouseModbus, FaultsOfTheLineAreMet) {
 TEST(WestinghouseModbus, WhoWatchesItsPortHearsBothDirectionsAndAgainAfterASnapshot) {
   Bench bench("modbus", "HR1=1234");
   std::vector<std::string> heard;
-  serial::FrameSplitter frames([&heard](const serial::WireFrame& frame) {
+  const auto end_of = [&bench](const serial::WireFrame& frame) {
+    return frame.driver == bench.station().uart().driver() ? "tx" : "rx";
+  };
+  serial::FrameSplitter frames([&](const serial::WireFrame& frame) {
     Bytes bytes;
     for (const ReceivedCharacter& character : frame.characters) bytes.push_back(character.byte);
-    heard.push_back((frame.wire == serial::Wire::Rx ? "rx " : "tx ") + serial::to_hex(bytes));
+    heard.push_back(fmt::format("{} {}", end_of(frame), serial::to_hex(bytes)));
   });
   bench.station().set_wire_sink(&frames, bench.system().time());
   const auto before = bench.system().snapshot();
@@ -265,8 +269,7 @@ TEST(WestinghouseModbus, WhoWatchesItsPortHearsBothDirectionsAndAgainAfterASnaps
   EXPECT_EQ(heard, exchange);
   bench.system().restore(before);
   heard.clear();
-  serial::FrameSplitter again(
-      [&heard](const serial::WireFrame& frame) { heard.push_back(frame.wire == serial::Wire::Rx ? "rx" : "tx"); });
+  serial::FrameSplitter again([&](const serial::WireFrame& frame) { heard.emplace_back(end_of(frame)); });
   bench.station().set_wire_sink(&again, bench.system().time());
   bench.ask("01 03 00 00 00 01 84 0A");
   bench.wait(20 * kMillisecond);
@@ -297,6 +300,10 @@ TEST(WestinghouseSetting, WhatIsNotASettingIsNamedWithThoseThereAre) {
   EXPECT_FALSE(bench.plc().set("frob=1", why));
   EXPECT_TRUE(why.starts_with("'frob=1' is not a setting of this PLC; there are slave, plc,")) << why;
   EXPECT_TRUE(why.ends_with("W[ADDRESS]")) << why;
+  for (const char* const text : {"HR1=", "HR1", "HR1=zz", "HR1=12,", "W[12]="}) {
+    EXPECT_FALSE(bench.plc().set(text, why)) << text;
+    EXPECT_TRUE(why.starts_with(fmt::format("'{}': cells take hexadecimal values with commas between", text))) << why;
+  }
   for (const auto& [text, said] :
        std::map<std::string, std::string>{{"slave=00", "slave: '00' is not a hexadecimal number from 01 to FF"},
                                           {"slave=1g", "slave: '1g' is not a hexadecimal number from 01 to FF"},
@@ -326,9 +333,7 @@ TEST(WestinghouseSetting, CellsThatASmallerMemoryNoLongerHasAreNotReached) {
 TEST(WestinghouseSetting, AModelThatDoesNotSpeakTheProtocolIsNamedWithThoseThatDo) {
   std::string why;
   EXPECT_EQ(make_plc(*find_plc("modbus"), "pc1100", why), nullptr);
-  EXPECT_EQ(
-      why,
-      "'pc1100' is not a PLC of this family that speaks this protocol; there are pc503, pc1200, pc1250, pc2000, ncmz, hppc");
+  EXPECT_EQ(why, "'pc1100' is not a PLC that speaks modbus here; there are pc503, pc1200, pc1250, pc2000, ncmz, hppc");
   EXPECT_NE(make_plc(*find_plc("modbus"), "ncmz", why), nullptr);
 }
 
