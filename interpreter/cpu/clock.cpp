@@ -52,6 +52,13 @@ Bcd bcd_now(const Core& core) {
   return {to_bcd(t.year), to_bcd(t.month), to_bcd(t.day), to_bcd(t.hour), to_bcd(t.minute), to_bcd(t.second), 0, t.weekday};
 }
 
+bool is_time(const Bcd& b) {
+  if (!std::all_of(b.begin(), b.end(), is_bcd)) return false;
+  const int month = from_bcd(b[1]), day = from_bcd(b[2]);
+  return month >= 1 && month <= 12 && day >= 1 && day <= 31 && from_bcd(b[3]) < 24 && from_bcd(b[4]) < 60 &&
+         from_bcd(b[5]) < 60 && from_bcd(b[7]) <= 7;
+}
+
 bool set_bcd(Core& core, const Bcd& b) {
   if (!std::all_of(b.begin(), b.end(), is_bcd)) return false;
   set(core,

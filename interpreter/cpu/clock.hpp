@@ -18,6 +18,8 @@ namespace s7200::clock {
 /// The eight bytes of TODR and TODW.
 using Bcd = std::array<std::uint8_t, 8>;
 Bcd bcd_now(const Core& core);
+/// Whether each of them is a figure of a time. The day is 31 at most, whatever the month.
+bool is_time(const Bcd& bytes);
 /// False for a byte that is not BCD; the clock is left alone then.
 bool set_bcd(Core& core, const Bcd& to);
 

@@ -27,23 +27,25 @@ void Cpu::run(Time limit, Time work) {
   const State& s = core_.s;
   core_.loop.paused = false;
   const Mode mode = s.mode;
-  Time worked = work < kNever - s.time ? s.time + work : kNever;
-  while (s.time < std::min(limit, worked) && !core_.loop.paused && s.mode == mode) {
+  Time end = work < kNever - s.time ? std::min(limit, s.time + work) : limit;
+  while (s.time < end && !core_.loop.paused && s.mode == mode) {
     const Time event = core_.next_event();
     if (event <= s.time) return;
     if (s.watchdog <= s.time) {
       core_.fatal_error(FatalError::Watchdog);
       continue;
     }
-    core_.loop.until = std::min({limit, worked, event, s.watchdog});
+    core_.loop.until = std::min({end, event, s.watchdog});
     if (interrupts::due(core_)) interrupts::take(core_);
-    if (!s.in_interrupt && s.phase == Phase::Communication) {
-      const Time passed = steady_scans_.pass_over(core_, limit);
-      if (worked != kNever) worked += passed;
-      if (passed != 0) continue;
+    if (!s.in_interrupt && s.phase != Phase::Program) {
+      const Time passed = s.phase == Phase::Communication ? steady_scans_.pass_over(core_, limit) : 0;
+      if (passed == 0) {
+        scan::advance(core_);
+      } else {
+        end = passed < limit - end ? end + passed : limit;
+      }
+      if (s.phase != Phase::Program) continue;
     }
-    if (!s.in_interrupt && s.phase != Phase::Program) scan::advance(core_);
-    if (!s.in_interrupt && s.phase != Phase::Program) continue;
     if (core_.sink() && core_.sink()->wants_instructions())
       execute_observed();
     else

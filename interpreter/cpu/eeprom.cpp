@@ -28,12 +28,9 @@ void power_up(Core& core, const RetentiveMemory* memory) {
   std::copy_n(core.s.eeprom.begin(), core.model().eeprom_bytes, core.s.image.begin() + image::kV);
 }
 
-/// A requested save adds a phase to the scan.
-void end_scan(Core& core) {
+void begin_save(Core& core) {
   State& s = core.s;
-  const std::uint8_t request = s.image[sm::kEepromRequest];
-  if (!(request & sm::kSave)) return;
-  const std::uint32_t bytes = bytes_to_save(request);
+  const std::uint32_t bytes = bytes_to_save(s.image[sm::kEepromRequest]);
   const std::uint32_t offset = load16(&s.image[sm::kEepromAddress]);
   if (offset + bytes > core.model().eeprom_bytes) {
     end_save(core);

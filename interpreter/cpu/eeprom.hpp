@@ -25,6 +25,10 @@ void end_save(Core& core);
 
 // For the table of units.
 void power_up(Core& core, const RetentiveMemory* memory);
-void end_scan(Core& core);
+void begin_save(Core& core);
+/// A requested save adds a phase to the scan.
+inline void end_scan(Core& core) {
+  if (core.s.image[sm::kEepromRequest] & sm::kSave) begin_save(core);
+}
 
 }  // namespace s7200::eeprom

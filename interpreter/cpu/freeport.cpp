@@ -62,20 +62,19 @@ void send_next_character(Core& core, std::uint8_t number, Time at) {
   --port.left;
 }
 
-/// Of a CharacterIgnored: why, as the trace has it.
-std::uint16_t reason_to_ignore(const Core& core, std::uint8_t number) {
-  if (core.s.port[number].transmitting || core.s.ppi[number].sending != 0) return 2;
-  return core.s.port[number].active ? 0 : 1;
+Ignored reason_to_ignore(const Core& core, std::uint8_t number) {
+  if (core.s.port[number].transmitting || core.s.ppi[number].sending != 0) return Ignored::WhileSending;
+  return core.s.port[number].active ? Ignored::NotAttached : Ignored::NoPpiFrame;
 }
 
-void trace(const Core& core, std::uint8_t number, const ReceivedCharacter& character, TraceKind kind, std::uint16_t code) {
+void trace(const Core& core, std::uint8_t number, const ReceivedCharacter& character, TraceKind kind, Ignored why = {}) {
   core.trace({.at = character.end,
               .kind = kind,
               .byte = character.byte,
               .parity_error = character.parity_error,
               .framing_error = character.framing_error,
               .port = number,
-              .code = code,
+              .code = static_cast<std::uint16_t>(why),
               .since = character.start});
 }
 
@@ -90,12 +89,13 @@ ControlBytes control_bytes(const Core& core) {
 }  // namespace
 
 void trace_character(const Core& core, std::uint8_t number, const ReceivedCharacter& character, TraceKind kind) {
-  trace(core, number, character, kind, kind == TraceKind::CharacterIgnored ? reason_to_ignore(core, number) : 0);
+  if (kind == TraceKind::CharacterIgnored) return trace(core, number, character, kind, reason_to_ignore(core, number));
+  trace(core, number, character, kind);
 }
 
 void character_missed(const Core& core, std::uint8_t number, const ReceivedCharacter& character, bool powered) {
-  constexpr std::uint16_t kNoPower = 3;
-  trace(core, number, character, TraceKind::CharacterIgnored, powered ? reason_to_ignore(core, number) : kNoPower);
+  const Ignored why = powered ? reason_to_ignore(core, number) : Ignored::NoPower;
+  trace(core, number, character, TraceKind::CharacterIgnored, why);
 }
 
 bool free(const Core& core, std::uint8_t number) {
@@ -124,7 +124,7 @@ void character_sent(Core& core, std::uint8_t number, Time at) {
   const OnWire sent = std::exchange(port.on_wire, OnWire::Nothing);
   if (!port.transmitting) return port.active ? void() : ppi::character_sent(core, number, at);
   const bool before_the_first = sent != OnWire::Xmt;
-  if (!port.sending_break && !before_the_first)
+  if (core.sink() && !port.sending_break && !before_the_first)
     core.trace({.at = at, .kind = TraceKind::CharacterSent, .byte = port.on_line, .port = number});
   if (port.left != 0 || before_the_first) return send_next_character(core, number, at);
   port.transmitting = false;

@@ -15,6 +15,8 @@ using Span = std::span<const std::uint8_t>;
 constexpr Time kTimeOutTime = 150 * kMillisecond;  // and three tries: what clients give a CPU (facts 10.9)
 constexpr int kTries = 3;
 
+constexpr Time kLongestWork = kSecond;  // a choice: network.hpp
+
 // Places in a table.
 constexpr std::uint32_t kStation = 1, kPointer = 2, kLength = 6, kData = 7;
 
@@ -196,6 +198,8 @@ void heard(Core& core, std::uint8_t number, Span frame, Time at) {
   if (port.phase != Phase::Asked && port.phase != Phase::Polled) return;
   if (const auto body = ppi::body_of(frame)) return take_reply(core, number, *body);
   if (frame.size() != 1 || frame[0] != ppi::kAccepted) return;
+  if (port.phase == Phase::Asked) port.accepted = at;
+  if (at - port.accepted > kLongestWork) return end(core, number, failed(NetworkError::TimeOut));
   port.frame_count = port.phase == Phase::Polled && !port.frame_count;
   port.tries = 1;
   poll(core, number, at);
@@ -217,8 +221,9 @@ void follow_control(Core& core, std::uint8_t number) {
   }
 }
 
+/// A port that the CPU does not have never has a job.
 void communicate(Core& core) {
-  for (std::uint8_t number = 0; number < core.port_count(); ++number) {
+  for (std::uint8_t number = 0; number < kPorts.size(); ++number) {
     const NetworkPort& port = core.s.network[number];
     if (port.count == 0) continue;
     if (port.phase == Phase::Over) hand_over(core, number);

@@ -12,8 +12,11 @@
 // - A station that does not answer within 150 ms is asked again when the line is silent, three times in all, and so is one
 //   whose answer is damaged; the jobs behind it wait. [Network.AStationThatDoesNotAnswerIsAskedThreeTimes,
 //   Network.ADamagedAnswerIsAReceiveError]
-// - A station that accepts a request and has no answer yet is polled again at once.
-// [Network.ASlowStationIsPolledUntilItAnswers]
+// - A station that accepts a request and has no answer yet is polled again at once, for kLongestWork, a second, which is
+//   twice the longest scan that a watchdog allows; then the job ends with error 1.
+//   [Network.ASlowStationIsPolledUntilItAnswers, Network.AStationThatNeverHasItsAnswerIsGivenUp]
+// - Error 3, offline, does not occur: when it does, no document says. A station that is not there is error 1.
+//   [Network.AStationThatDoesNotAnswerIsAskedThreeTimes]
 // - A job that cannot begin is done with its error at once. A table that is on the list already stays as it is.
 //   [Network.AJobThatCannotBeginSaysWhy, Network.ATableOnTheListIsNotListedAgain]
 // - A port that leaves the master mode ends its jobs with error 5. [Network.LeavingTheMasterModeEndsTheJobs]

@@ -75,9 +75,7 @@ void enter_stop(Core& core) {
   for (std::uint32_t byte = 0; byte < core.model().size_of(Area::Q); ++byte) put_outputs(core, byte, 0);
 }
 
-/// The output points follow their image.
-void end_scan(Core& core) {
-  if (std::memcmp(&core.s.image[image::kOutputs], &core.s.image[image::kQ], image::kPointBytes) == 0) return;
+void write_outputs(Core& core) {
   for (std::uint32_t byte = 0; byte < core.model().size_of(Area::Q); ++byte)
     put_outputs(core, byte, core.s.image[image::kQ + byte]);
 }

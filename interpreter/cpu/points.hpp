@@ -22,6 +22,10 @@ void put_output(Core& core, std::uint32_t byte, std::uint8_t bit, bool value, Ti
 
 // For the table of units.
 void enter_stop(Core& core);
-void end_scan(Core& core);
+void write_outputs(Core& core);
+/// The output points follow their image.
+inline void end_scan(Core& core) {
+  if (std::memcmp(&core.s.image[image::kOutputs], &core.s.image[image::kQ], image::kPointBytes) != 0) write_outputs(core);
+}
 
 }  // namespace s7200::points

@@ -14,34 +14,38 @@ using Job = PpiPort::Job;
 
 constexpr std::size_t kShortestWithBody = 6;
 
-void reply(Core& core, std::uint8_t number, std::uint8_t to, Reply function, std::span<const std::uint8_t> data, Time at) {
-  send(core, number, to_frame({to, core.s.station[number], function, data}), at);
+void reply(Core& core, std::uint8_t number, std::uint8_t to, Reply function, std::span<const std::uint8_t> data,
+           Time reply_at) {
+  send(core, number, to_frame({to, core.s.station[number], function, data}), reply_at);
 }
 
-void accept(Core& core, std::uint8_t number, Time at) { send(core, number, std::array{kAccepted}, at); }
+void accept(Core& core, std::uint8_t number, Time reply_at) { send(core, number, std::array{kAccepted}, reply_at); }
 
-void take_request(Core& core, std::uint8_t number, const Body& body, Time at) {
+/// A request or a poll: the port works for one master at a time.
+bool works_for_another(const PpiPort& port, const Body& body) {
+  return (port.job == Job::Waiting || port.job == Job::Ready) && port.master != body.source;
+}
+
+void take_request(Core& core, std::uint8_t number, const Body& body, Time reply_at) {
   PpiPort& port = core.s.ppi[number];
-  const bool occupied = (port.job == Job::Waiting || port.job == Job::Ready) && port.master != body.source;
-  if (occupied) return reply(core, number, body.source, kNoResource, {}, at);
   port.job = Job::Waiting;
   port.master = body.source;
   port.length = static_cast<std::uint8_t>(body.data.size());
   std::copy(body.data.begin(), body.data.end(), port.message.begin());
-  accept(core, number, at);
+  accept(core, number, reply_at);
 }
 
-void take_poll(Core& core, std::uint8_t number, const Body& body, Time at) {
+void take_poll(Core& core, std::uint8_t number, const Body& body, Time reply_at) {
   PpiPort& port = core.s.ppi[number];
   const bool frame_count = (body.function & kFrameCount) != 0;
   const bool again = port.job == Job::Delivered && port.frame_count == frame_count;
   if (port.master != body.source || !(port.job == Job::Ready || again)) {
     if (port.job == Job::Delivered && port.master == body.source) port.job = Job::None;
-    return accept(core, number, at);
+    return accept(core, number, reply_at);
   }
   port.job = Job::Delivered;
   port.frame_count = frame_count;
-  reply(core, number, port.master, kData, {port.message.data(), port.length}, at);
+  reply(core, number, port.master, kData, {port.message.data(), port.length}, reply_at);
 }
 
 void trace_unmodelled(const Core& core, std::uint8_t number, PpiUnmodelled what, std::uint8_t source,
@@ -61,7 +65,8 @@ void pass_by(const Core& core, std::uint8_t number, const Body& body, Time at) {
   if (asks && network::is_master(core, number)) trace(PpiUnmodelled::AnotherMaster);
 }
 
-void take_frame(Core& core, std::uint8_t number, std::span<const std::uint8_t> frame, Time at) {
+/// Its last character has come at `at`.
+void take_frame(Core& core, std::uint8_t number, std::span<const std::uint8_t> frame, Time at, Time reply_at) {
   const std::uint8_t own = core.s.station[number];
   if (const auto token = token_of(frame)) {
     if (token->destination == own)
@@ -70,7 +75,7 @@ void take_frame(Core& core, std::uint8_t number, std::span<const std::uint8_t> f
   }
   const auto body = body_of(frame);
   if (!body) {
-    if (frame.size() < kShortestWithBody) return network::heard(core, number, frame, at);
+    if (frame.size() < kShortestWithBody) return network::heard(core, number, frame, reply_at);
     network::heard_damaged(core, number);
     core.trace({.at = at, .kind = TraceKind::PpiIgnored, .port = number, .count = frame.size()});
     return;
@@ -81,15 +86,16 @@ void take_frame(Core& core, std::uint8_t number, std::span<const std::uint8_t> f
     return;
   }
   if (body->destination != own) return pass_by(core, number, *body, at);
-  if ((body->function & kIsRequest) == 0) return network::heard(core, number, frame, at);
+  if ((body->function & kIsRequest) == 0) return network::heard(core, number, frame, reply_at);
   switch (body->function & kService) {
     case kStatus:
-      return reply(core, number, body->source, kSlave, {}, at);
+      return reply(core, number, body->source, kSlave, {}, reply_at);
     case kAnswerLow:
     case kAnswerHigh:
-      return body->data.empty() ? take_poll(core, number, *body, at) : take_request(core, number, *body, at);
+      if (works_for_another(core.s.ppi[number], *body)) return reply(core, number, body->source, kNoResource, {}, reply_at);
+      return body->data.empty() ? take_poll(core, number, *body, reply_at) : take_request(core, number, *body, reply_at);
     default:
-      return reply(core, number, body->source, kNoService, {}, at);
+      return reply(core, number, body->source, kNoService, {}, reply_at);
   }
 }
 
@@ -103,8 +109,8 @@ void take_character(Core& core, std::uint8_t number, const ReceivedCharacter& ch
   if (port.lost || length != port.received) return;
   port.received = 0;
   const SerialFormat format = format_of(core.program(), number);
-  const Time end = character.end + format.half_bits(1);
-  take_frame(core, number, Bytes(frame.begin(), frame.end()), end + format.bit_times(kBitsToReply));
+  const Time reply_at = character.end + format.half_bits(1) + format.bit_times(kBitsToReply);
+  take_frame(core, number, Bytes(frame.begin(), frame.end()), character.end, reply_at);
 }
 
 void carry_out(Core& core, std::uint8_t number) {
@@ -148,6 +154,7 @@ void character_received(Core& core, std::uint8_t number, const ReceivedCharacter
     port.lost = false;
   }
   port.heard = character.end;
+  const bool lost_before = port.lost;
   if (!port.lost) take_character(core, number, character);
   if (port.lost) network::heard_damaged(core, number);
   if (port.lost)
@@ -157,7 +164,8 @@ void character_received(Core& core, std::uint8_t number, const ReceivedCharacter
                 .parity_error = character.parity_error,
                 .framing_error = character.framing_error,
                 .port = number,
-                .code = 1,
+                .code = static_cast<std::uint16_t>(Ignored::NoPpiFrame),
+                .count = lost_before ? 1U : 0U,
                 .since = character.start});
 }
 
@@ -169,12 +177,14 @@ void character_sent(Core& core, std::uint8_t number, Time at) {
   }
   port.sending = 0;
   port.received = 0;
+  port.lost = false;  // what is heard now is a reply, however soon it comes
   port.heard = at;
   core.port(number).enable_receiver(true, at);
 }
 
+/// A port that the CPU does not have never has a job.
 void communicate(Core& core) {
-  for (std::uint8_t number = 0; number < core.port_count(); ++number)
+  for (std::uint8_t number = 0; number < kPorts.size(); ++number)
     if (core.s.ppi[number].job == Job::Waiting) carry_out(core, number);
 }
 

@@ -16,8 +16,9 @@
 //   [Ppi.AfterABadCharacterNothingIsUnderstoodUntilThereIsSilence]
 // - A frame with a wrong check sum, length or end, or for another station, is ignored.
 //   [Ppi.WhatIsNoFrameOrForAnotherStationIsIgnored]
-// - A port works at one request at a time: until its answer has been fetched, other masters are told that there is no
-//   resource (SD1, function 02). [Ppi.AnotherMasterIsToldThatThereIsNoResource]
+// - A port works at one request at a time: until its answer has been fetched, other masters that ask or poll are told that
+//   there is no resource (SD1, function 02). A poll by a master that has asked nothing is accepted with E5
+//   otherwise. [Ppi.AnotherMasterIsToldThatThereIsNoResource]
 // - A poll that repeats the frame count bit of the one before gets the same answer again.
 // [Ppi.ARepeatedPollGetsTheAnswerAgain]
 // - The status of the station (function 49) is asked and answered with SD1, function 00, by a port in master mode too: it

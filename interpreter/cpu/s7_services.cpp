@@ -1,6 +1,7 @@
 #include "interpreter/cpu/s7_services.hpp"
 
 #include <algorithm>
+#include <string>
 
 #include "interpreter/cpu/clock.hpp"
 #include "interpreter/cpu/freeport.hpp"
@@ -16,35 +17,27 @@ using Span = std::span<const std::uint8_t>;
 /// A variable of a request.
 struct Variable {
   std::uint8_t type, area;
-  std::uint16_t count;
+  std::uint16_t count, block;
   std::uint32_t address;
 };
 
-Variable variable_at(Span bytes) { return {bytes[3], bytes[8], load16(&bytes[4]), load32(&bytes[8]) & 0xFF'FFFF}; }
+Variable variable_at(Span bytes) {
+  return {bytes[3], bytes[8], load16(&bytes[4]), load16(&bytes[6]), load32(&bytes[8]) & 0xFF'FFFF};
+}
 
 /// Where a variable is, or why it is nowhere.
 struct Place {
   ReturnCode code = kDone;
   Area area{};
-  std::uint32_t at = 0, bytes = 0;
+  std::uint32_t at = 0, bytes = 0;  ///< in the image, or in the identification
   std::optional<std::uint8_t> bit{};
+  bool identification = false;
 };
 
+/// 0 of a type that is not known.
 std::uint32_t bytes_of_type(std::uint8_t type) {
-  switch (type) {
-    case kByte:
-    case kCharacter:
-      return 1;
-    case kWord:
-    case kInteger:
-      return 2;
-    case kDouble:
-    case kLong:
-    case kReal:
-      return 4;
-    default:
-      return 0;
-  }
+  const auto width = width_of(type);
+  return width ? bytes_of(*width) : 0;
 }
 
 /// T, C and HC go by number; their type has the code of their area.
@@ -66,12 +59,40 @@ Place find_bytes(const Core& core, const Variable& variable, const AreaInfo& are
   return {.area = area.area, .at = area.base + first, .bytes = bytes, .bit = is_bit ? std::optional(bit) : std::nullopt};
 }
 
+Place find_in_identification(const Variable& variable) {
+  const std::uint32_t first = variable.address / 8, bytes = variable.count * bytes_of_type(variable.type);
+  if (variable.type == kBit || bytes_of_type(variable.type) == 0 || variable.address % 8 != 0) return {.code = kWrongType};
+  if (bytes == 0 || first + bytes > kIdentificationBytes) return {.code = kOutside};
+  return {.at = first, .bytes = bytes, .identification = true};
+}
+
+const WireArea* find_area(std::uint8_t code) {
+  const auto found = std::ranges::find(kWireAreas, code, &WireArea::code);
+  return found == kWireAreas.end() ? nullptr : &*found;
+}
+
 Place find(const Core& core, const Variable& variable) {
-  const auto found =
-      std::find_if(kWireAreas.begin(), kWireAreas.end(), [&](const WireArea& wire) { return wire.code == variable.area; });
-  if (found == kWireAreas.end()) return {.code = kNoArea};
+  if (variable.area == kSystemInformation) return find_in_identification(variable);
+  const WireArea* found = find_area(variable.area);
+  if (found == nullptr || (found->area == Area::V && variable.block != kBlockOfV)) return {.code = kNoArea};
   const AreaInfo& area = info(found->area);
   return area.element != 0 ? find_element(core, variable, area) : find_bytes(core, variable, area);
+}
+
+/// How many bytes are asked for, wherever they are.
+std::uint32_t bytes_wanted(const Variable& variable) {
+  const WireArea* wire = find_area(variable.area);
+  const std::uint32_t element = wire == nullptr ? 0 : info(wire->area).element;
+  if (element != 0) return variable.count * element;
+  return variable.type == kBit ? (variable.count + 7U) / 8 : variable.count * bytes_of_type(variable.type);
+}
+
+/// What a CPU is called, and its release.
+Bytes identification_of(const CpuModel& model) {
+  std::string text = "CPU " + std::string(model.sold_as.empty() ? model.name : model.sold_as);
+  text.resize(kIdentificationName, ' ');
+  text += model.release;
+  return {text.begin(), text.end()};
 }
 
 void append(Bytes& to, Span bytes) { to.insert(to.end(), bytes.begin(), bytes.end()); }
@@ -85,10 +106,11 @@ struct Reply {
 /// A master's request, with what it needs to be carried out.
 class Request {
  public:
-  Request(Core& core, std::uint8_t port, std::uint8_t source, Span parameters, Span data)
-      : core_(core), port_(port), source_(source), parameters_(parameters), data_(data) {}
+  Request(Core& core, std::uint8_t port, std::uint8_t source, Kind kind, Span parameters, Span data)
+      : core_(core), port_(port), source_(source), kind_(kind), parameters_(parameters), data_(data) {}
 
   Reply carry_out() {
+    if (kind_ == kUserData) return user_data();
     if (parameters_.empty()) return refused(Refusal::Malformed);
     switch (parameters_[0]) {
       case kSetup:
@@ -105,28 +127,32 @@ class Request {
     }
   }
 
+ private:
+  static constexpr std::size_t kUserDataHead = 8;  ///< 00 01 12 length kind group service number
+
+  std::uint8_t group() const { return parameters_[5] & 0x0F; }
+  std::uint8_t service() const { return parameters_[6]; }
+
   Reply user_data() {
-    constexpr std::size_t kHead = 8;  // 00 01 12 length kind group service number
-    if (parameters_.size() < kHead) return refused(Refusal::Malformed);
-    const std::uint8_t group = parameters_[5] & 0x0F, service = parameters_[6];
-    if (group == kClockGroup && service == kReadClock) return read_clock();
-    if (group == kClockGroup && service == kSetClock) return set_clock();
+    if (parameters_.size() < kUserDataHead) return refused(Refusal::Malformed);
+    if (group() == kClockGroup && service() == kReadClock) return read_clock();
+    if (group() == kClockGroup && service() == kSetClock) return set_clock();
     return user_data_reply(refused(Refusal::Unknown));
   }
 
- private:
   Reply refused(Refusal why) {
     trace(static_cast<std::uint16_t>(why));
     return {.refusal = why};
   }
 
   void trace(std::uint16_t code) const {
-    core_.trace({.at = core_.s.time,
-                 .kind = TraceKind::PpiService,
-                 .event = source_,
-                 .byte = parameters_.empty() ? std::uint8_t{0} : parameters_[0],
-                 .port = port_,
-                 .code = code});
+    TraceRecord record{
+        .at = core_.s.time, .kind = TraceKind::PpiService, .event = source_, .port = port_, .code = code, .op = kind_};
+    if (kind_ == kUserData && parameters_.size() >= kUserDataHead)
+      record.routine = group(), record.byte = service(), record.count = 1;
+    else if (kind_ == kRequest && !parameters_.empty())
+      record.byte = parameters_[0], record.count = 1;
+    core_.trace(record);
   }
 
   void trace(const Variable& variable, const Place& place) const {
@@ -134,12 +160,14 @@ class Request {
     core_.trace({.at = core_.s.time,
                  .kind = TraceKind::PpiAccess,
                  .event = source_,
-                 .routine = found ? place.bit.value_or(0) : variable.area,
+                 .routine = found && !place.identification ? place.bit.value_or(0) : variable.area,
                  .byte = parameters_[0],
                  .port = port_,
                  .code = place.code,
                  .op = found ? place.at : variable.address,
-                 .count = place.bit ? 0 : place.bytes});
+                 .count = !found      ? bytes_wanted(variable)
+                          : place.bit ? 0
+                                      : place.bytes});
   }
 
   Reply set_up() {
@@ -186,6 +214,10 @@ class Request {
       data.push_back(kInBits);
       append16(data, 1);
       data.push_back(core_.s.image[place.at] >> *place.bit & 1);
+    } else if (place.identification) {
+      data.push_back(kInBitsOfBytes);
+      append16(data, place.bytes * 8);
+      append(data, Span(identification_of(core_.model())).subspan(place.at, place.bytes));
     } else {
       const bool element = info(place.area).element != 0;
       data.push_back(element ? kInBytes : kInBitsOfBytes);
@@ -194,23 +226,32 @@ class Request {
     }
   }
 
-  /// The values stand in the data, in the order of the variables: 00 type length(2) value; each begins at an even place.
+  /// All of them are there, or nothing is written.
   Reply write() {
     const std::vector<Variable> wanted = variables();
-    if (wanted.empty()) return refused(Refusal::Malformed);
+    const std::vector<Span> values = values_of(wanted.size());
+    if (values.empty()) return refused(Refusal::Malformed);
     Reply reply{.parameters = {kWrite, parameters_[1]}};
-    std::size_t at = 0;
-    for (const Variable& variable : wanted) {
-      const auto value = value_at(at);
-      if (!value) return refused(Refusal::Malformed);
-      Place place = find(core_, variable);
-      if (place.code == kDone) place.code = put(place, *value);
-      trace(variable, place);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      Place place = find(core_, wanted[i]);
+      if (place.code == kDone) place.code = put(place, values[i]);
+      trace(wanted[i], place);
       reply.data.push_back(place.code);
-      at += 4 + value->size() + value->size() % 2;
     }
     if (core_.s.mode == Mode::Run) freeport::follow_control(core_);
     return reply;
+  }
+
+  /// The values stand in the data, in the order of the variables: 00 type length(2) value; each begins at an even place.
+  /// None if there are fewer than `count`.
+  std::vector<Span> values_of(std::size_t count) const {
+    std::vector<Span> values;
+    for (std::size_t at = 0; values.size() < count; at += 4 + values.back().size() + values.back().size() % 2) {
+      const auto value = value_at(at);
+      if (!value) return {};
+      values.push_back(*value);
+    }
+    return values;
   }
 
   std::optional<Span> value_at(std::size_t at) const {
@@ -222,7 +263,7 @@ class Request {
   }
 
   ReturnCode put(const Place& place, Span value) {
-    const bool read_only = place.area == Area::AI || place.area == Area::HC ||
+    const bool read_only = place.identification || place.area == Area::AI || place.area == Area::HC ||
                            (place.area == Area::SM && place.at < sm::byte(kReadOnlySpecialMemory));
     if (read_only) return kNotAllowed;
     if (value.size() != place.bytes) return kWrongType;
@@ -260,7 +301,7 @@ class Request {
     std::copy(data_.begin() + kFirst, data_.end(), to.begin());
     to[6] = 0;
     to[7] &= 0x0F;
-    if (!clock::set_bcd(core_, to)) return user_data_reply(refused(Refusal::Malformed));
+    if (!clock::is_time(to) || !clock::set_bcd(core_, to)) return user_data_reply(refused(Refusal::Malformed));
     core_.touched = true;
     trace(0);
     return user_data_reply({.data = {kNotStored, 0, 0, 0}});
@@ -271,9 +312,7 @@ class Request {
   /// 00 01 12 08 12 group service number 00 00 error(2)
   Reply user_data_reply(Reply reply) {
     const auto error = static_cast<std::uint16_t>(reply.refusal);
-    reply.parameters = {
-        0, 1, 0x12, 8, 0x12, static_cast<std::uint8_t>((parameters_[5] & 0x0F) | 0x80), parameters_[6], parameters_[7],
-        0, 0};
+    reply.parameters = {0, 1, 0x12, 8, 0x12, static_cast<std::uint8_t>(group() | 0x80), service(), parameters_[7], 0, 0};
     append16(reply.parameters, error);
     if (reply.data.empty()) reply.data = {kNotStored, 0, 0, 0};
     return reply;
@@ -281,6 +320,7 @@ class Request {
 
   Core& core_;
   std::uint8_t port_, source_;
+  Kind kind_;
   Span parameters_, data_;
 };
 
@@ -301,9 +341,12 @@ Bytes carry_out(Core& core, std::uint8_t port, std::uint8_t source, Span request
     return {};
   const std::size_t parameters = load16(&request[6]), data = load16(&request[8]);
   if (request.size() != kRequestHead + parameters + data) return {};
-  Request wanted(core, port, source, request.subspan(kRequestHead, parameters), request.subspan(kRequestHead + parameters));
-  if (request[1] == kUserData) return pdu(kUserData, request, wanted.user_data());
-  Bytes answer = pdu(kAnswer, request, wanted.carry_out());
+  const auto kind = static_cast<Kind>(request[1]);
+  const Reply reply = Request(core, port, source, kind, request.subspan(kRequestHead, parameters),
+                              request.subspan(kRequestHead + parameters))
+                          .carry_out();
+  if (kind == kUserData) return pdu(kUserData, request, reply);
+  Bytes answer = pdu(kAnswer, request, reply);
   if (answer.size() > kLongestPdu) answer = pdu(kAnswer, request, {.refusal = Refusal::TooLong});
   return answer;
 }

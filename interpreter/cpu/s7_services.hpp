@@ -1,9 +1,9 @@
 // What a CPU does for its programming devices, panels and other masters: the S7 services that PPI carries (facts 10.9; the
 // codes are in model/s7_pdu.hpp).
 //
-// Setup of the communication, read and write of variables, RUN and STOP, and the clock (as user data, 32 07). A request with
-// several variables gets a return code for each: FF done, 03 not allowed, 05 outside the area, 06 a type that does not go
-// with it, 0A no such area.
+// Setup of the communication, read and write of variables, the CPU's identification, RUN and STOP, and the clock (as user
+// data, 32 07). A request with several variables gets a return code for each: FF done, 03 not allowed, 05 outside the area,
+// 06 a type that does not go with it, 0A no such area.
 //
 // Not documented, modelled so:
 // - A timer or counter is read and written as its current value, two bytes.
@@ -12,7 +12,10 @@
 // - An answer that would be longer than 240 bytes is refused as a whole, with error 85 00.
 //   [S7Services.AnAnswerThatIsTooLongIsRefused]
 // - RUN and STOP are allowed in any position of the mode switch, and leave SM0.7 alone. [S7Services.StopAndRunChangeTheMode]
-// - The clock is read and set with the services that other S7 CPUs have for it. [S7Services.TheClockIsReadAndSet]
+// - The clock is read and set with the services that other S7 CPUs have for it. A time that does not exist is refused like
+//   one that is not BCD, with error 87 04. [S7Services.TheClockIsReadAndSet, S7Services.ATimeThatDoesNotExistIsRefused]
+// - V memory is data block 1 (facts 10.9), and no other block exists: return code 0A. Other areas have no block, so that
+//   number is not looked at. [S7Services.VMemoryIsDataBlockOneAndThereIsNoOther]
 // Not modelled: upload and download of the program, password, force, status lists, the modules' data. They are refused with
 // error 81 04.
 #pragma once

@@ -87,29 +87,68 @@ void begin_program(Core& core) {
 
 void begin_communication(Core& core) { begin_phase(core, Phase::Communication, 1); }
 
-void finish_phase(Core& core) {
-  const bool run = core.s.mode == Mode::Run;
+void communicate(Core& core) {
+  const Mode before = core.s.mode;
+  network::communicate(core);
+  ppi::communicate(core);
+  if (core.s.mode != before) return;
+  forcing::apply(core);
+  begin_phase(core, Phase::SelfTest, 2);
+}
+
+void read_inputs(Core& core) {
+  points::read_inputs(core);
+  core.s.mode == Mode::Run ? begin_program(core) : begin_communication(core);
+}
+
+/// Whether the scan is over: to save a value adds a phase to it.
+bool finish_outputs(Core& core) {
+  if (core.s.phase == Phase::SaveToEeprom) {
+    eeprom::end_save(core);
+    return true;
+  }
+  if (core.s.mode == Mode::Run) units::end_scan(core);
+  return core.s.phase == Phase::WriteOutputs;
+}
+
+/// Spends the time of the phase; whether it is over before the loop has to look for other work.
+bool spend_phase(Core& core) {
+  State& s = core.s;
+  const Time until = core.loop.until, end = s.time + s.phase_left;
+  if (s.time >= until) return false;
+  if (end > until) {
+    s.phase_left = end - until;
+    s.time = until;
+    return false;
+  }
+  s.time = end;
+  s.phase_left = 0;
+  return true;
+}
+
+/// From the phase that it is in to the next program, or to where the order is another one. Most scans go through all.
+void advance_in_order(Core& core) {
   switch (core.s.phase) {
-    case Phase::ReadInputs:
-      points::read_inputs(core);
-      return run ? begin_program(core) : begin_communication(core);
-    case Phase::Program:
-      return begin_communication(core);
     case Phase::Communication:
-      network::communicate(core);
-      ppi::communicate(core);
-      if ((core.s.mode == Mode::Run) != run) return;
-      forcing::apply(core);
-      return begin_phase(core, Phase::SelfTest, 2);
+      if (!spend_phase(core)) return;
+      communicate(core);
+      if (core.s.phase != Phase::SelfTest) return;
+      [[fallthrough]];
     case Phase::SelfTest:
-      return begin_phase(core, Phase::WriteOutputs, 3);
+      if (!spend_phase(core)) return;
+      begin_phase(core, Phase::WriteOutputs, 3);
+      [[fallthrough]];
     case Phase::WriteOutputs:
-      if (run) units::end_scan(core);
-      if (core.s.phase == Phase::WriteOutputs) end(core);
-      return;
     case Phase::SaveToEeprom:
-      eeprom::end_save(core);
-      return end(core);
+      if (!spend_phase(core) || !finish_outputs(core)) return;
+      end(core);
+      if (core.loop.paused) return;
+      [[fallthrough]];
+    case Phase::ReadInputs:
+      if (spend_phase(core)) read_inputs(core);
+      return;
+    case Phase::Program:
+      return;
   }
 }
 
@@ -164,18 +203,8 @@ void begin(Core& core) {
 }
 
 void advance(Core& core) {
-  State& s = core.s;
-  while (s.phase != Phase::Program && !core.loop.paused && s.time < core.loop.until) {
-    const Time end = s.time + s.phase_left;
-    if (end > core.loop.until) {
-      s.phase_left = end - core.loop.until;
-      s.time = core.loop.until;
-      return;
-    }
-    s.time = end;
-    s.phase_left = 0;
-    finish_phase(core);
-  }
+  do advance_in_order(core);
+  while (core.s.phase != Phase::Program && core.s.time < core.loop.until && !core.loop.paused);
 }
 
 void pass(State& s, Time by) {

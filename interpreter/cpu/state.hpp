@@ -180,6 +180,7 @@ struct NetworkPort {
   bool frame_count = false;  ///< of the last poll
   std::uint8_t status = 0;   ///< with which the job ends
   std::uint16_t number = 0;  ///< of the last request
+  Time accepted = 0;         ///< when that was, by the station
   std::array<std::uint8_t, kMostBytes> data{};
   bool operator==(const NetworkPort&) const = default;
 };

@@ -17,10 +17,13 @@ constexpr Time kFurthest = 24 * 3600 * kSecond;
 /// Instructions after which it is asked again whether a look is worth it.
 constexpr std::uint64_t kAskAgain = 1'000;
 
-/// Instructions until the horizon, at the rate so far.
+/// What the parts of a scan other than the program cost the host, in instructions of the program.
+constexpr std::uint64_t kBesides = 40;
+
+/// Instructions until the horizon, at the rate so far, with what the scans cost besides.
 double to_come(const State& s, Time horizon) {
-  const double rate = static_cast<double>(s.instructions) / static_cast<double>(std::max<Time>(s.time, 1));
-  return rate * static_cast<double>(horizon - s.time);
+  const auto done = static_cast<double>(s.instructions + kBesides * s.scans);
+  return done / static_cast<double>(std::max<Time>(s.time, 1)) * static_cast<double>(horizon - s.time);
 }
 
 /// Until when scans that are alike stay alike, whatever comes from outside.
@@ -71,9 +74,11 @@ Time SteadyScans::go_on(Core& core, Time limit) {
   if (expected_) check(core);
   const Time change = next_change(core);
   const Time horizon = std::min({limit, core.next_event(), change, core.s.time + kFurthest});
-  if (known_ == Known::Pair && change != change_) known_ = Known::Nothing;
+  // It has come: scans before it are not like those after it. A timer that is reset in each scan has counted in one.
+  if (known_ != Known::Nothing && change != change_) known_ = Known::Nothing;
   switch (known_) {
     case Known::Nothing:
+      change_ = change;
       begin_look(core, horizon);
       return 0;
     case Known::Before:
@@ -81,7 +86,6 @@ Time SteadyScans::go_on(Core& core, Time limit) {
       known_ = Known::Middle;
       return 0;
     case Known::Middle:
-      change_ = change;
       end_look(core);
       return known_ == Known::Pair ? pass(core, horizon) : 0;
     case Known::Pair:

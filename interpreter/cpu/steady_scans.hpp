@@ -14,8 +14,8 @@
 // The same function moves the state on by one pair for the comparison, and by many to pass them over.
 //
 // When does it pay? A look costs about as much as a thousand instructions. What it may bring, the instructions until the
-// horizon, has to be worth a stake, which doubles with each look that was in vain and is halved with each that was not. In
-// real time a look is always worth it: it may spare waking up (alike_until).
+// horizon and the parts of the scans besides them, has to be worth a stake, which doubles with each look that was in vain
+// and is halved with each that was not. In real time a look is always worth it: it may spare waking up (alike_until).
 #pragma once
 
 #include <algorithm>
@@ -32,6 +32,13 @@ enum class SteadyScansUse : std::uint8_t {
   Eager,  ///< wherever it is possible: for real time, and for tests
   Check   ///< passes over nothing: predicts the state, runs every scan, and compares. A difference is a std::logic_error
 };
+
+/// If nothing else is asked for: the dev build checks what the release build does.
+#ifdef S7200_CHECK_STEADY_SCANS
+inline constexpr SteadyScansUse kUsualUse = SteadyScansUse::Check;
+#else
+inline constexpr SteadyScansUse kUsualUse = SteadyScansUse::On;
+#endif
 
 class SteadyScans {
  public:
@@ -60,18 +67,14 @@ class SteadyScans {
   void check(const Core& core);
   void move_on(const Program& program, State& s, std::uint64_t pairs) const;
 
-#ifdef S7200_CHECK_STEADY_SCANS
-  SteadyScansUse use_ = SteadyScansUse::Check;
-#else
-  SteadyScansUse use_ = SteadyScansUse::On;
-#endif
+  SteadyScansUse use_ = kUsualUse;
   Known known_ = Known::Nothing;
   std::unique_ptr<State> before_{};  // the pair
   Time middle_ = 0;                  // when the program of the pair's first scan began
   Time length_ = 0;                  // of a pair
   Time second_ = 0;                  // from the begin of the program in the first scan to that in the second
   std::uint64_t instructions_ = 0;   // in a pair
-  Time change_ = 0;                  // until when nothing changes by itself
+  Time change_ = 0;                  // until when nothing changes by itself, since the begin of the look
   std::uint64_t look_at_ = 0;        // number of instructions executed before the next look
   std::uint64_t stake_ = kFirstStake;
   Time passed_ = 0;

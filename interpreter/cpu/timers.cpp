@@ -99,10 +99,8 @@ void enter_stop(Core& core) {
   core.s.next_tick_1ms = kNever;
 }
 
-/// 10 ms timers stay the same during a scan; 100 ms timers add the ticks of the previous scan when they are executed.
-void begin_scan(Core& core) {
+void count_scan(Core& core) {
   State& s = core.s;
-  if (!core.program().uses_timers) return;
   const Time from = s.previous_scan_begin, to = s.time;
   s.previous_scan_begin = to;
   s.ticks_100ms = static_cast<std::int16_t>(ticks(100 * kMillisecond, from, to));

@@ -27,7 +27,11 @@ void pass(const Program& program, State& s, Time by, Time last_scan);
 // For the table of units.
 void power_up(Core& core, const RetentiveMemory* memory);
 void enter_stop(Core& core);
-void begin_scan(Core& core);
+void count_scan(Core& core);
+/// 10 ms timers stay the same during a scan; 100 ms timers add the ticks of the previous scan when they are executed.
+inline void begin_scan(Core& core) {
+  if (core.program().uses_timers) count_scan(core);
+}
 void handle(Core& core, std::uint8_t what, Time at);
 
 }  // namespace s7200::timers

@@ -26,15 +26,18 @@ struct OwnEvents {
   void (*handle)(Core&, std::uint8_t what, Time at) = nullptr;
 };
 
+template <class... Arguments>
+void nothing(Arguments...) {}
+
 /// units.hpp says what the columns mean. A row leaves out the columns where its unit does nothing.
 struct Unit {
-  void (*power_up)(Core&, const RetentiveMemory*) = nullptr;
-  void (*enter_run)(Core&) = nullptr;
-  void (*enter_stop)(Core&) = nullptr;
-  void (*begin_scan)(Core&) = nullptr;
-  void (*end_scan)(Core&) = nullptr;
-  void (*inputs_changed)(Core&, std::uint32_t byte, std::uint8_t changed, Time at) = nullptr;
-  void (*begin_service)(Core&, const QueuedInterrupt&) = nullptr;
+  void (*power_up)(Core&, const RetentiveMemory*) = nothing;
+  void (*enter_run)(Core&) = nothing;
+  void (*enter_stop)(Core&) = nothing;
+  void (*begin_scan)(Core&) = nothing;
+  void (*end_scan)(Core&) = nothing;
+  void (*inputs_changed)(Core&, std::uint32_t byte, std::uint8_t changed, Time at) = nothing;
+  void (*begin_service)(Core&, const QueuedInterrupt&) = nothing;
   OwnEvents events{};
 };
 
@@ -72,7 +75,7 @@ constexpr Unit kUnits[] = {
 template <auto column, std::size_t row = 0, class... Arguments>
 void each(Arguments&... arguments) {
   if constexpr (row < std::size(kUnits)) {
-    if constexpr (kUnits[row].*column != nullptr) (kUnits[row].*column)(arguments...);
+    (kUnits[row].*column)(arguments...);
     each<column, row + 1>(arguments...);
   }
 }

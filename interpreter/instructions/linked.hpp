@@ -47,17 +47,32 @@ template <Body body>
     body(core, *op);
   const Op* const next = ops + core.s.pc;
   left = core.loop.until - core.s.time;
-  if (left <= 0) return leave(core, next, left, core.s.stack.bits(), executed + 1);
+  if (left <= 0) {
+    core.s.instructions += executed + 1;
+    return;
+  }
   S7200_TAIL_CALL next->link(core, next, left, core.s.stack.bits(), executed + 1);
 }
 
-/// The same where there may be no power flow: that is a function of its own because it needs no registers saved.
+/// A body that needs no power flow, and after which the loop has to look for other work: there is no next op.
+template <Body body>
+void last_on_core(Core& core, const Op* op, Time left, std::uint64_t stack, std::uint64_t executed) {
+  if (left <= op->cost) return leave(core, op, left, stack, executed);
+  core.s.time = core.loop.until - left + op->cost;
+  core.s.stack = LogicStack::from_bits(stack);
+  core.s.pc = static_cast<std::uint32_t>(op - core.program().ops.data()) + 1;
+  body(core, *op);
+  core.s.instructions += executed + 1;
+}
+
+/// The same as execute_on_core where there may be no power flow: that is a function of its own because it needs no registers
+/// saved.
 template <Body body>
 void on_core(Core& core, const Op* op, Time left, std::uint64_t stack, std::uint64_t executed) {
   if (!(op->power_mask & ~stack)) S7200_TAIL_CALL execute_on_core<body>(core, op, left, stack, executed);
   const Program& program = core.program();
   if (left <= program.no_power_flow) return leave(core, op, left, stack, executed);
-  core.s.eno &= !op->sets_eno;
+  if constexpr (body == nullptr) core.s.eno &= !op->sets_eno;  // what sets ENO has a step around its body
   const Op* const next = program.ops.data() + op->skip_to;
   S7200_TAIL_CALL next->link(core, next, left - program.no_power_flow, stack, executed + 1);
 }
@@ -90,6 +105,8 @@ namespace s7200::bodies {
 /// A row's body with the link for what it works on. A body without any of them is called by link_of_any().
 template <Body body>
 inline constexpr Bodies kOnCore{body, nullptr, linked::on_core<body>};
+template <Body body>
+inline constexpr Bodies kLastOnCore{body, nullptr, linked::last_on_core<body>};
 template <Body body>
 inline constexpr Bodies kOnStack{body, nullptr, linked::on_stack<body>};
 template <Body body>

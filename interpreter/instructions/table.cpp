@@ -173,17 +173,17 @@ constexpr Instruction kCompareContacts[] = {
 };
 
 constexpr Instruction kMove[] = {
-    {.mnemonic = "MOVB", .operand = {kInByte, kOutByte},             .rung = kBox,                   .body = kOnMemory<move<std::uint8_t>>,      .meaning = "copy byte IN to OUT"},
-    {.mnemonic = "MOVW", .operand = {kInWord, kOutWordOrAnalog},     .rung = kBox,                   .body = kOnMemory<move<std::uint16_t>>,     .meaning = "copy word IN to OUT"},
-    {.mnemonic = "MOVD", .operand = {kInDwordOrAddress, kOutDword},  .rung = kBox,                   .body = kOnMemory<move<std::uint32_t>>,     .meaning = "copy double word IN to OUT"},
-    {.mnemonic = "MOVR", .operand = {kInReal, kOutReal},             .rung = kBox, .cpus = kFrom214, .body = kOnMemory<move<std::uint32_t>>,     .meaning = "copy real IN to OUT"},
-    {.mnemonic = "BMB",  .operand = {kInBytes, kOutBytes, kCount},   .rung = kBox,                   .body = kOnCore<move_block<std::uint8_t>>,  .meaning = "copy N bytes from IN on to OUT on"},
-    {.mnemonic = "BMW",  .operand = {kInWords, kOutWords, kCount},   .rung = kBox,                   .body = kOnCore<move_block<std::uint16_t>>, .meaning = "copy N words from IN on to OUT on"},
-    {.mnemonic = "BMD",  .operand = {kInDwords, kOutDwords, kCount}, .rung = kBox, .cpus = kFrom215, .body = kOnCore<move_block<std::uint32_t>>, .meaning = "copy N double words from IN on to OUT on"},
-    {.mnemonic = "FILL", .operand = {kInWord, kOutWords, kCount},    .rung = kBox,                   .body = kOnCore<fill>,                      .meaning = "write word IN to N words from OUT on"},
-    {.mnemonic = "SWAP", .operand = {kSwapped},                      .rung = kBox,                   .body = kOnMemory<swap_bytes>,              .meaning = "exchange the two bytes of a word"},
-    {.mnemonic = "BIR",  .operand = {kInputByte, kOutByte},          .rung = kBox, .cpus = kCpu22x,  .body = read_points,                        .meaning = "copy eight input points to OUT"},
-    {.mnemonic = "BIW",  .operand = {kInByte, kOutputByte},          .rung = kBox, .cpus = kCpu22x,  .body = write_points,                       .meaning = "copy IN to eight output points and their image"},
+    {.mnemonic = "MOVB", .operand = {kInByte, kOutByte},             .rung = kBox,                   .effect = Effect::CopiesByte, .body = kOnMemory<move<std::uint8_t>>,      .meaning = "copy byte IN to OUT"},
+    {.mnemonic = "MOVW", .operand = {kInWord, kOutWordOrAnalog},     .rung = kBox,                                                 .body = kOnMemory<move<std::uint16_t>>,     .meaning = "copy word IN to OUT"},
+    {.mnemonic = "MOVD", .operand = {kInDwordOrAddress, kOutDword},  .rung = kBox,                                                 .body = kOnMemory<move<std::uint32_t>>,     .meaning = "copy double word IN to OUT"},
+    {.mnemonic = "MOVR", .operand = {kInReal, kOutReal},             .rung = kBox, .cpus = kFrom214,                               .body = kOnMemory<move<std::uint32_t>>,     .meaning = "copy real IN to OUT"},
+    {.mnemonic = "BMB",  .operand = {kInBytes, kOutBytes, kCount},   .rung = kBox,                                                 .body = kOnCore<move_block<std::uint8_t>>,  .meaning = "copy N bytes from IN on to OUT on"},
+    {.mnemonic = "BMW",  .operand = {kInWords, kOutWords, kCount},   .rung = kBox,                                                 .body = kOnCore<move_block<std::uint16_t>>, .meaning = "copy N words from IN on to OUT on"},
+    {.mnemonic = "BMD",  .operand = {kInDwords, kOutDwords, kCount}, .rung = kBox, .cpus = kFrom215,                               .body = kOnCore<move_block<std::uint32_t>>, .meaning = "copy N double words from IN on to OUT on"},
+    {.mnemonic = "FILL", .operand = {kInWord, kOutWords, kCount},    .rung = kBox,                                                 .body = kOnCore<fill>,                      .meaning = "write word IN to N words from OUT on"},
+    {.mnemonic = "SWAP", .operand = {kSwapped},                      .rung = kBox,                                                 .body = kOnMemory<swap_bytes>,              .meaning = "exchange the two bytes of a word"},
+    {.mnemonic = "BIR",  .operand = {kInputByte, kOutByte},          .rung = kBox, .cpus = kCpu22x,                                .body = read_points,                        .meaning = "copy eight input points to OUT"},
+    {.mnemonic = "BIW",  .operand = {kInByte, kOutputByte},          .rung = kBox, .cpus = kCpu22x,                                .body = write_points,                       .meaning = "copy IN to eight output points and their image"},
 };
 
 constexpr Instruction kIntegerArithmetic[] = {
@@ -246,7 +246,7 @@ constexpr Instruction kProgramControl[] = {
     {.mnemonic = "RET",                                             .rung = kMark,                             .allowed = kSubroutine,                             .structure = Structure::SubroutineEnd,                                    .body = kOnCore<return_from_subroutine>, .meaning = "end of a subroutine"},
     {.mnemonic = "CRET",                                            .rung = kPowered,                          .allowed = kSubroutine,                                                                     .effect = Effect::ConditionalEnd, .body = kOnCore<return_from_subroutine>, .meaning = "return from a subroutine"},
     {.mnemonic = "END",                                             .rung = kPowered,                          .allowed = kMain,         .outside_segments = true,                                         .effect = Effect::ConditionalEnd, .body = kOnCore<end_main_program>,       .meaning = "end the main program of this scan"},
-    {.mnemonic = "MEND",                                            .rung = kMark,                             .allowed = kMain,                                   .structure = Structure::MainEnd,                                          .body = kOnCore<end_main_program>,       .meaning = "end of the main program"},
+    {.mnemonic = "MEND",                                            .rung = kMark,                             .allowed = kMain,                                   .structure = Structure::MainEnd,                                          .body = kLastOnCore<end_main_program>,   .meaning = "end of the main program"},
     {.mnemonic = "STOP",                                            .rung = kPowered,                                                                                                                      .effect = Effect::ConditionalEnd, .body = stop,                            .meaning = "go to STOP"},
     {.mnemonic = "WDR",                                             .rung = kPowered,                                                                                                                                                        .body = reset_watchdog,                  .meaning = "restart the scan watchdog"},
     {.mnemonic = "DLED", .operand = {kInByte},                      .rung = kBox,     .cpus = kCpu22xRelease2,                                                                                                                               .body = switch_diagnostic_led,           .meaning = "diagnostic LED off if IN is 0, otherwise yellow"},
@@ -263,12 +263,12 @@ constexpr Instruction kInterrupts[] = {
 };
 
 constexpr Instruction kCommunication[] = {
-    {.mnemonic = "XMT",  .operand = {kMessage, kPort},    .rung = kBox,                   .effect = Effect::Transmits, .body = transmit,           .meaning = "Freeport: send the characters of TBL, their number in its first byte"},
-    {.mnemonic = "RCV",  .operand = {kReceived, kPort},   .rung = kBox, .cpus = kFrom215, .effect = Effect::Receives,  .body = receive,            .meaning = "Freeport: receive a message into TBL, the number of its characters in the first byte"},
-    {.mnemonic = "NETR", .operand = {kNetwork, kPort},    .rung = kBox, .cpus = kFrom214,                              .body = use_network<false>, .meaning = "PPI master: read 1 to 16 bytes of another station into TBL"},
-    {.mnemonic = "NETW", .operand = {kNetwork, kPort},    .rung = kBox, .cpus = kFrom214,                              .body = use_network<true>,  .meaning = "PPI master: write 1 to 16 bytes of TBL to another station"},
-    {.mnemonic = "GPA",  .operand = {kAddressOut, kPort}, .rung = kBox, .cpus = kCpu22x,                               .body = get_port_address,   .meaning = "station address of a port to ADDR"},
-    {.mnemonic = "SPA",  .operand = {kAddressIn, kPort},  .rung = kBox, .cpus = kCpu22x,                               .body = set_port_address,   .meaning = "ADDR becomes the station address of a port"},
+    {.mnemonic = "XMT",  .operand = {kMessage, kPort},    .rung = kBox,                   .effect = Effect::Transmits,   .body = transmit,           .meaning = "Freeport: send the characters of TBL, their number in its first byte"},
+    {.mnemonic = "RCV",  .operand = {kReceived, kPort},   .rung = kBox, .cpus = kFrom215, .effect = Effect::Receives,    .body = receive,            .meaning = "Freeport: receive a message into TBL, the number of its characters in the first byte"},
+    {.mnemonic = "NETR", .operand = {kNetwork, kPort},    .rung = kBox, .cpus = kFrom214,                                .body = use_network<false>, .meaning = "PPI master: read 1 to 16 bytes of another station into TBL"},
+    {.mnemonic = "NETW", .operand = {kNetwork, kPort},    .rung = kBox, .cpus = kFrom214,                                .body = use_network<true>,  .meaning = "PPI master: write 1 to 16 bytes of TBL to another station"},
+    {.mnemonic = "GPA",  .operand = {kAddressOut, kPort}, .rung = kBox, .cpus = kCpu22x,                                 .body = get_port_address,   .meaning = "station address of a port to ADDR"},
+    {.mnemonic = "SPA",  .operand = {kAddressIn, kPort},  .rung = kBox, .cpus = kCpu22x,  .effect = Effect::SetsStation, .body = set_port_address,   .meaning = "ADDR becomes the station address of a port"},
 };
 
 constexpr Instruction kTimersAndCounters[] = {

@@ -58,6 +58,7 @@ CpuModel release2(std::string_view name, CpuSet self, Size size, std::uint32_t p
       .watchdog = 500 * kMillisecond,
       .integer_overflow = IntegerOverflow::Keep,
       .times_csv = {embedded::kCpu22xTimes},
+      .release = "0200",
   };
 }
 
@@ -70,6 +71,8 @@ CpuModel release1(std::string_view name, CpuSet self, Size size, std::uint32_t p
   model.baud[7] = 300;
   model.watchdog = 300 * kMillisecond;
   model.times_csv = {embedded::kCpu22xRelease1Times};
+  model.sold_as = name.substr(0, name.find("r1"));
+  model.release = "0100";
   return model;
 }
 

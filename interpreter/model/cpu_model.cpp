@@ -82,7 +82,7 @@ std::string needs(std::string_view what, CpuSet cpus) {
   std::string text(what);
   text.append(" ").append(to_text(cpus));
   const CpuModel* usual = cpus & kCpu224 ? &cpu224() : smallest_cpu([&](const CpuModel& m) { return (m.self & cpus) != 0; });
-  if (usual && (cpus & kCpu21x) == 0) text.append("; choose one: --cpu ").append(usual->name);
+  if (usual && (cpus & kCpu21x) == 0) text.append("; choose one, such as CPU ").append(usual->name);
   return text;
 }
 

@@ -34,7 +34,7 @@ inline constexpr CpuSet kTwoPorts = kCpu216 | kCpu226r1 | kCpu226xm | kCpu224xp 
 /// "CPU 214, 215, 216 or 22x"; "CPU 22x of release 2"
 std::string to_text(CpuSet cpus);
 
-/// What to do if something is only on some CPUs: "LDW<> needs CPU 22x; choose one: --cpu 224". `what` with its verb.
+/// What to do if something is only on some CPUs: "LDW<> needs CPU 22x; choose one, such as CPU 224". `what` with its verb.
 std::string needs(std::string_view what, CpuSet cpus);
 
 /// The three interrupt queues, in order of priority (S7-200 manual C230-02, 10-120).
@@ -106,6 +106,8 @@ struct CpuModel {
   IntegerOverflow integer_overflow;           ///< of +I, -I, +D, -D and DIV
   std::array<std::string_view, 2> times_csv;  ///< execution times, in the format of model/times.hpp; the second may be empty
   ReceiveChoices receive{};
+  std::string_view sold_as{};         ///< if it is another than the name, which tells releases of one CPU apart
+  std::string_view release = "0100";  ///< the four digits that PPI tells
 
   std::uint32_t size_of(Area area) const { return size[static_cast<std::size_t>(area)]; }
 };

@@ -121,6 +121,8 @@ enum class Effect : std::uint8_t {
   EnablesInterrupts,
   Transmits,
   Receives,
+  SetsStation,        ///< SPA
+  CopiesByte,         ///< MOVB
   ReadsEno,           ///< AENO
   ReadsTimeOfDay,     ///< TODR
   ReadsMilliseconds,  ///< BITIM, CITIM

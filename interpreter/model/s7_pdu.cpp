@@ -3,21 +3,49 @@
 #include <algorithm>
 
 namespace s7200::s7 {
+namespace {
+
+void append(Bytes& to, std::uint8_t type, std::size_t count, std::size_t block, std::uint8_t area, std::uint32_t first) {
+  to.insert(to.end(), kVariableHead.begin(), kVariableHead.end());
+  to.push_back(type);
+  append16(to, count);
+  append16(to, block);
+  to.push_back(area);
+  to.push_back(static_cast<std::uint8_t>(first >> 16));
+  append16(to, first & 0xFFFF);
+}
+
+}  // namespace
 
 std::uint8_t code_of(Area area) {
   const auto found = std::ranges::find(kWireAreas, area, &WireArea::area);
   return found == kWireAreas.end() ? std::uint8_t{0} : found->code;
 }
 
-void append(Bytes& to, const Variable& variable) {
-  to.insert(to.end(), kVariableHead.begin(), kVariableHead.end());
-  to.push_back(variable.type);
-  append16(to, variable.count);
-  append16(to, variable.area == Area::V ? 1 : 0);
-  to.push_back(code_of(variable.area));
-  to.push_back(static_cast<std::uint8_t>(variable.first >> 16));
-  append16(to, variable.first & 0xFFFF);
+std::optional<Width> width_of(std::uint8_t type) {
+  switch (type) {
+    case kBit:
+      return Width::Bit;
+    case kByte:
+    case kCharacter:
+      return Width::Byte;
+    case kWord:
+    case kInteger:
+      return Width::Word;
+    case kDouble:
+    case kLong:
+    case kReal:
+      return Width::Double;
+    default:
+      return {};
+  }
 }
+
+void append(Bytes& to, const Variable& variable) {
+  append(to, variable.type, variable.count, variable.area == Area::V ? 1 : 0, code_of(variable.area), variable.first);
+}
+
+void append_identification(Bytes& to) { append(to, kByte, kIdentificationBytes, 0, kSystemInformation, 0); }
 
 Bytes pdu(Kind kind, std::uint16_t number, const Bytes& parameters, const Bytes& data) {
   Bytes bytes{kProtocol, kind, 0, 0};

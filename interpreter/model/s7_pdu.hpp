@@ -5,12 +5,20 @@
 //   variable in the parameters of a read or write: 12 0A 10 type count(2) block(2) area address(3); V memory is block 1
 //   value in the data of an answer to a read: return code, data type, length(2), bytes; each begins at an even place
 //
-// Not documented, modelled so: high-speed counters have area and type 20. [S7Services.HighSpeedCountersAreReadAsDoubleWords]
+// Not documented, modelled so:
+// - High-speed counters have area and type 20. [S7Services.HighSpeedCountersAreReadAsDoubleWords]
+// - S is area 04, as the client library HslCommunication has it for the S7-200; python-snap7, and facts 10.9
+//   after it, have 03 for it, which libnodave and Wireshark call the system information of this family.
+//   [S7Services.EachAreaIsReadAtItsPlace]
+// - Area 03 has the CPU's identification and nothing else: 16 characters of its name and four digits of its release, as the
+//   server of HslCommunication has it ("CPU 226 CN", "0201"). The digits of the CPUs here are a choice: 0200 for release 2,
+//   0100 for all before it. It cannot be written. [S7Services.TheIdentificationIsNameAndRelease]
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "interpreter/base/bytes.hpp"
@@ -36,6 +44,9 @@ inline constexpr std::array<std::uint8_t, 3> kVariableHead{0x12, kVariableBytes 
 /// What a variable's count counts. T, C and HC have the code of their area as their type.
 enum Type : std::uint8_t { kBit = 1, kByte = 2, kCharacter = 3, kWord = 4, kInteger = 5, kDouble = 6, kLong = 7, kReal = 8 };
 
+/// Nothing for a type that the S7-200 does not have, and for T, C and HC.
+std::optional<Width> width_of(std::uint8_t type);
+
 /// What the length of its data counts.
 enum DataType : std::uint8_t { kInBits = 3, kInBitsOfBytes = 4, kInBytes = 9 };
 
@@ -43,10 +54,18 @@ struct WireArea {
   std::uint8_t code;
   Area area;
 };
-inline constexpr std::array kWireAreas{WireArea{0x03, Area::S},  WireArea{0x05, Area::SM}, WireArea{0x06, Area::AI},
+inline constexpr std::array kWireAreas{WireArea{0x04, Area::S},  WireArea{0x05, Area::SM}, WireArea{0x06, Area::AI},
                                        WireArea{0x07, Area::AQ}, WireArea{0x1E, Area::C},  WireArea{0x1F, Area::T},
                                        WireArea{0x20, Area::HC}, WireArea{0x81, Area::I},  WireArea{0x82, Area::Q},
                                        WireArea{0x83, Area::M},  WireArea{0x84, Area::V}};
+
+/// V memory as a data block.
+inline constexpr std::uint16_t kBlockOfV = 1;
+
+/// The area that is no memory: the CPU's identification, from byte 0 on.
+inline constexpr std::uint8_t kSystemInformation = 0x03;
+inline constexpr std::size_t kIdentificationName = 16, kIdentificationRelease = 4,
+                             kIdentificationBytes = kIdentificationName + kIdentificationRelease;
 
 /// The service that RUN and STOP name at the end of their parameters, after its length.
 inline constexpr std::string_view kProgram = "P_PROGRAM";
@@ -71,6 +90,9 @@ struct Variable {
   std::uint32_t first;  ///< bit of the area, 24 bits; of T, C and HC their number
 };
 void append(Bytes& to, const Variable& variable);
+
+/// The identification as a variable, to read.
+void append_identification(Bytes& to);
 
 /// Anything but an answer, which has its error too.
 Bytes pdu(Kind kind, std::uint16_t number, const Bytes& parameters, const Bytes& data);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <utility>
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
@@ -40,6 +41,19 @@ std::uint32_t place_of(const MemoryRange& range) {
   const std::uint32_t element = std::max(1u, area.element);
   if (range.area == Area::AC) return area.base + 4 * range.number + 4u - bytes_of(range.width);
   return area.base + element * range.number;
+}
+
+/// The least and the largest value that is written for memory: a number with its sign, or its bits.
+std::pair<std::int64_t, std::int64_t> values_of(Width width) {
+  if (width == Width::Bit) return {0, 1};
+  const int bits = 8 * static_cast<int>(bytes_of(width));
+  return {-(std::int64_t{1} << (bits - 1)), (std::int64_t{1} << bits) - 1};
+}
+
+bool is_integer(std::string_view text) {
+  std::string why;
+  const auto operand = stl::parse_operand(text, why);
+  return operand && std::holds_alternative<stl::Integer>(operand->value);
 }
 
 /// What follows the first colon, in upper case: `4`, `REAL`, `4:REAL`.
@@ -94,8 +108,23 @@ std::optional<MemoryRange> parse_range(std::string_view text, const AddressSpace
                       info(*area).name, size, info(*area).element ? "elements" : "bytes");
     return {};
   }
+  if ((range.area == Area::AI || range.area == Area::AQ) && range.number % 2 != 0) {
+    why = fmt::format("{} is an odd address; analog values are at even ones: {}",
+                      address_text(range.area, range.width, range.number, 0),
+                      address_text(range.area, range.width, range.number - 1, 0));
+    return {};
+  }
   range.at = place_of(range);
   return range;
+}
+
+std::optional<std::uint32_t> parse_pointer(std::string_view text, const AddressSpace& space, std::string& why) {
+  const auto target = parse_range(text.substr(1), space, why);
+  if (!target) return {};
+  const auto pointer =
+      target->count == 1 && !target->real ? pointer_to(target->area, target->width, target->number) : std::nullopt;
+  if (!pointer) why = fmt::format("'{}': {}", stl::shortened(text), kPointerTargets);
+  return pointer;
 }
 
 std::optional<Assignment> parse_value(const MemoryRange& place, std::string_view text) {
@@ -110,20 +139,35 @@ std::optional<Assignment> parse_value(const MemoryRange& place, std::string_view
   const auto* integer = std::get_if<stl::Integer>(&value->value);
   if (!integer) return {};
   if (place.real) return Assignment{place, std::bit_cast<std::uint32_t>(static_cast<float>(integer->value))};
-  const int bits = place.width == Width::Bit ? 1 : 8 * static_cast<int>(bytes_of(place.width));
-  const std::int64_t lowest = bits == 1 ? 0 : -(std::int64_t{1} << (bits - 1));
-  if (integer->value < lowest || integer->value >= (std::int64_t{1} << bits)) return {};
+  const auto [least, most] = values_of(place.width);
+  if (integer->value < least || integer->value > most) return {};
   return Assignment{place, static_cast<std::uint32_t>(integer->value)};
+}
+
+std::string values_text(const MemoryRange& place) {
+  if (place.real) return "a REAL is up to 3.4e38, of either sign";
+  const auto [least, most] = values_of(place.width);
+  const std::string text = fmt::format("a {} is {} to {}", name_of(place.width), least, most);
+  if (place.area != Area::T || place.width != Width::Word) return text;
+  return fmt::format("{}, and {} counts {}", text, place.name_of(0), format_duration(timer_base(place.number).base));
 }
 
 std::optional<Assignment> parse_assignment(std::string_view text, const AddressSpace& space, std::string& why) {
   const std::size_t equals = text.find('=', text.starts_with('"') ? text.find('"', 1) : 0);
   const auto place = parse_range(text.substr(0, equals), space, why);
   if (!place) return {};
-  const auto assignment = equals == std::string_view::npos ? std::nullopt : parse_value(*place, text.substr(equals + 1));
-  if (!assignment)
+  const std::string_view value = equals == std::string_view::npos ? "" : text.substr(equals + 1);
+  if (value.starts_with('&') && place->count == 1 && place->width == Width::Double && !place->real) {
+    const auto pointer = parse_pointer(value, space, why);
+    return pointer ? std::optional(Assignment{*place, *pointer}) : std::nullopt;
+  }
+  const auto assignment = equals == std::string_view::npos ? std::nullopt : parse_value(*place, value);
+  if (!assignment && is_integer(value) && place->count == 1 && !place->real) {
+    why = fmt::format("'{}': write a value that fits it: {}", stl::shortened(text), values_text(*place));
+  } else if (!assignment) {
     why = fmt::format("'{}': write one address, =, and a value that fits it, for example VW100=5 or M31.7=1",
                       stl::shortened(text));
+  }
   return assignment;
 }
 

@@ -43,15 +43,21 @@ struct AddressSpace {
 /// count. Returns nothing and sets `why` if the text is not an address of this CPU.
 std::optional<MemoryRange> parse_range(std::string_view text, const AddressSpace& space, std::string& why);
 
+/// `&VB100`: what a pointer to that address holds. Returns nothing and sets `why` if the text is none.
+std::optional<std::uint32_t> parse_pointer(std::string_view text, const AddressSpace& space, std::string& why);
+
 struct Assignment {
   MemoryRange place;  ///< real if the value was written as one
   std::uint32_t value = 0;
 };
 
-/// `VW100=5`, `VB0=16#FF`, `I0.3=1`, `VD4=1.5`, `VD4:real=2`.
+/// `VW100=5`, `VB0=16#FF`, `I0.3=1`, `VD4=1.5`, `VD4:real=2`, `VD4=&VB100`.
 std::optional<Assignment> parse_assignment(std::string_view text, const AddressSpace& space, std::string& why);
 
 /// The value alone, for a place that is known.
 std::optional<Assignment> parse_value(const MemoryRange& place, std::string_view value);
+
+/// What may be written there: `a byte is -128 to 255`, `a word is -32768 to 65535, and T37 counts 100 ms`.
+std::string values_text(const MemoryRange& place);
 
 }  // namespace s7200

@@ -1,7 +1,9 @@
 #include "interpreter/program/chains.hpp"
 
 #include <algorithm>
-#include <ranges>
+#include <limits>
+
+#include "interpreter/model/times_file.hpp"
 
 namespace s7200 {
 namespace {
@@ -30,6 +32,9 @@ Chain with(const ChainPart& part, const Chain& next) {
   return {};
 }
 
+// A contact or coil has a figure of its own and one for the area of its operand.
+static_assert((kMostContacts + kMostCoils) * 2 * kLongestFigure <= std::numeric_limits<std::int32_t>::max());
+
 Link link_of(const Op& op, const Chain& chain) {
   if (chain.contacts + chain.coils > 0) return link_of_chain(chain.contacts, chain.joins, chain.coils);
   if (op.body != op.instruction->body.usual) return link_of_step(op.body);
@@ -56,8 +61,7 @@ void link(Program& program) {
     --op;
     chain = with(part_of(*op), chain);
     op->link = link_of(*op, chain);
-    for (const Op& each : std::ranges::subrange(op, op + static_cast<std::ptrdiff_t>(chain.contacts + chain.coils)))
-      op->chain_cost += each.cost;
+    for (const Op& each : std::span(op, chain.contacts + chain.coils)) op->chain_cost += each.cost;
   }
 }
 

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/model/times_file.hpp"
 #include "interpreter/program/chains.hpp"
 #include "interpreter/program/data_block.hpp"
 #include "interpreter/program/german.hpp"
@@ -527,6 +529,9 @@ class Checker {
     const Cost cost = cost_of(*op.instruction, {placed[0].area, placed[1].area, placed[2].area}, times);
     const auto pointers = std::count_if(op.operand.begin(), op.operand.end(), [](const Operand& o) { return o.pointer; });
     const Time of_pointers = pointers == 0 ? 0 : pointers * times[SystemTime::IndirectOperand];
+    // Its own figure, and for each operand at most one for its area and one as a pointer.
+    constexpr Time kParts = 1 + 2 * std::tuple_size_v<decltype(op.operand)>;
+    static_assert(kParts * kLongestFigure <= std::numeric_limits<std::int32_t>::max());
     op.cost = static_cast<std::int32_t>(cost.base + of_pointers);
     op.unit_cost = static_cast<std::int32_t>(cost.per_unit);
   }

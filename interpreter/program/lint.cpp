@@ -578,7 +578,8 @@ void find_missing_freeport(const Program& program, std::size_t number, stl::Diag
 /// Whether an instruction may put a port in another mode than PPI, of which a master answers too.
 bool may_leave_ppi(const Program& program, const Op& op, const PortInfo& port) {
   if (!sets_up_port(program, op, port)) return false;
-  const bool is_constant = op.instruction->mnemonic == "MOVB" && op[1].at == port.control && op[0].at >= image::kConstants;
+  const bool moves_into_it = op.instruction->effect == Effect::CopiesByte && op[1].at == port.control;
+  const bool is_constant = moves_into_it && op[0].at >= image::kConstants;
   return !is_constant || (program.constants[op[0].at - image::kConstants] & sm::kProtocol) == sm::kFreeport;
 }
 
@@ -586,8 +587,27 @@ bool may_leave_ppi(const Program& program, const Op& op, const PortInfo& port) {
 
 bool keeps_ppi_station(const Program& program, std::uint8_t port) {
   return std::ranges::none_of(program.ops, [&](const Op& op) {
-    const bool sets_station = op.instruction->mnemonic == "SPA" && op[1].at == port;
+    const bool sets_station = op.instruction->effect == Effect::SetsStation && op[1].at == port;
     return sets_station || may_leave_ppi(program, op, kPorts[port]);
+  });
+}
+
+std::optional<std::uint8_t> ppi_station_set(const Program& program, std::uint8_t port) {
+  std::optional<std::uint8_t> station;
+  for (const Op& op : program.ops) {
+    if (may_leave_ppi(program, op, kPorts[port])) return {};
+    if (op.instruction->effect != Effect::SetsStation || op[1].at != port) continue;
+    if (op[0].at < image::kConstants) return {};
+    const std::uint8_t constant = program.constants[op[0].at - image::kConstants];
+    if (station && *station != constant) return {};
+    station = constant;
+  }
+  return station;
+}
+
+bool is_ppi_master(const Program& program, std::uint8_t port) {
+  return std::ranges::any_of(program.ops, [&](const Op& op) {
+    return (op.instruction->mnemonic == "NETR" || op.instruction->mnemonic == "NETW") && op[1].at == port;
   });
 }
 

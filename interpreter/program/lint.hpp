@@ -4,6 +4,9 @@
 // program does one without the other; not if JMP, CRET, END, FOR or a conditional CALL may leave one out.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "interpreter/base/diagnostic.hpp"
 #include "interpreter/program/program.hpp"
 
@@ -27,6 +30,13 @@ void find_missing_freeport(const Program& program, stl::Diagnostics& diagnostics
 /// Whether a port answers in PPI mode, at the station of the system block, all the time: no instruction may put it in
 /// another mode or, with SPA, at another station.
 bool keeps_ppi_station(const Program& program, std::uint8_t port);
+
+/// The station that the program's SPA give a port that answers in PPI mode all the time; nothing if there is none, or not
+/// one.
+std::optional<std::uint8_t> ppi_station_set(const Program& program, std::uint8_t port);
+
+/// Whether it has a NETR or NETW for a port: the port is, or becomes, a PPI master.
+bool is_ppi_master(const Program& program, std::uint8_t port);
 
 /// Bits set by S, = or SCRT. An instruction that reads S memory by bytes, words or pointers counts as loading all of it.
 void find_unused_steps(const Program& program, stl::Diagnostics& diagnostics);

@@ -36,6 +36,8 @@ std::vector<std::optional<std::uint32_t>> heads_of(const Program& program) {
 
 bool is_box_or_coil(const Op& op) { return op.instruction->rung.needs_power_flow || op.instruction->rung.writes_output; }
 
+bool depends_on_power_flow(const Op& op) { return is_box_or_coil(op) && op.instruction->rung.stack.needs > 0; }
+
 bool begins_rung(const Program& program, std::uint32_t op) {
   return op > 0 && is_box_or_coil(program.ops[op - 1]) && program.ops[op].instruction->mnemonic.starts_with("LD");
 }

@@ -12,6 +12,9 @@ namespace s7200 {
 /// Whether an instruction is a box or a coil, which does nothing or writes 0 without power flow.
 bool is_box_or_coil(const Op& op);
 
+/// Whether an instruction is one of those but not one that is executed with and without power flow alike, as LBL and MEND.
+bool depends_on_power_flow(const Op& op);
+
 /// Whether it begins a rung within a network: an LD after a box or a coil.
 bool begins_rung(const Program& program, std::uint32_t op);
 

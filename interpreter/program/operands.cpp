@@ -24,20 +24,6 @@ struct Overloaded : Visitors... {
 template <class... Visitors>
 Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
-std::string_view name_of(Width width) {
-  switch (width) {
-    case Width::Bit:
-      return "bit";
-    case Width::Byte:
-      return "byte";
-    case Width::Word:
-      return "word";
-    case Width::Double:
-      return "double word";
-  }
-  return {};
-}
-
 std::string_view letter_of(Width width) {
   switch (width) {
     case Width::Bit:
@@ -348,13 +334,13 @@ class Placing {
     if (!rule_.address_of) return wrong_kind();
     const auto area = known_area(operand.target, Width::Byte);
     if (!area) return {};
-    const auto code = info(*area).pointer_code;
-    if (!code || operand.target.size == stl::Size::Bit)
-      return error(fmt::format("a pointer cannot point to {}", stl::to_text({operand.target, {}})),
-                   "a pointer can point to bytes of I, Q, M, V or S, or to the current value of a T or C");
     const auto width = width_of(operand.target, *area);
+    const auto pointer = pointer_to(*area, width.value_or(Width::Double), operand.target.number);
+    if (!pointer)
+      return error(fmt::format("a pointer cannot point to {}", stl::to_text({operand.target, {}})),
+                   std::string(kPointerTargets));
     if (!in_range(operand.target, *area, *width)) return {};
-    return pooled(std::uint32_t{*code} << 24 | std::max(1u, info(*area).element) * operand.target.number);
+    return pooled(*pointer);
   }
 
   Result indirect(const stl::Indirect& operand) {
@@ -435,6 +421,26 @@ std::uint32_t ConstantPool::place(const std::string& characters) {
 
 bool names_width(const stl::Address& address, Area area) {
   return address.size != stl::Size::None || is_numbered(area) || area == Area::AI || area == Area::AQ;
+}
+
+std::string_view name_of(Width width) {
+  switch (width) {
+    case Width::Bit:
+      return "bit";
+    case Width::Byte:
+      return "byte";
+    case Width::Word:
+      return "word";
+    case Width::Double:
+      return "double word";
+  }
+  return {};
+}
+
+std::optional<std::uint32_t> pointer_to(Area area, Width width, std::uint32_t number) {
+  const auto code = info(area).pointer_code;
+  if (!code || width == Width::Bit) return {};
+  return std::uint32_t{*code} << 24 | std::max(1u, info(area).element) * number;
 }
 
 std::optional<Width> width_of(const stl::Address& address, Area area) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,14 @@ bool names_width(const stl::Address& address, Area area);
 
 /// The width that an address names; nothing for an accumulator without a letter, which takes any width.
 std::optional<Width> width_of(const stl::Address& address, Area area);
+
+/// `bit`, `byte`, `word` or `double word`.
+std::string_view name_of(Width width);
+
+/// What a pointer to an address holds; nothing of an area or a bit that none can point to.
+std::optional<std::uint32_t> pointer_to(Area area, Width width, std::uint32_t number);
+inline constexpr std::string_view kPointerTargets =
+    "a pointer can point to bytes of I, Q, M, V or S, or to the current value of a T or C";
 
 /// `VB100`, `T33`, `M31.7`: the text of an address.
 std::string address_text(Area area, Width width, std::uint32_t number, std::uint8_t bit);

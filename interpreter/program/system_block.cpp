@@ -24,8 +24,7 @@ std::optional<std::uint32_t> parse_rate(std::string_view text, const CpuModel& m
     why = needs(fmt::format("PPI at {} baud needs", rate.baud), rate.cpus);
     return {};
   }
-  why = fmt::format("'{}' is not a rate of PPI; there are 9600, 19200 and, on {}, 187500", stl::shortened(text),
-                    to_text(kCpu22x));
+  why = fmt::format("'{}' is not a rate of PPI; write {}", stl::shortened(text), ppi_rates_text());
   return {};
 }
 
@@ -61,6 +60,16 @@ std::string ports_text(const std::array<Each, kPorts.size()>& ports) {
 }
 
 }  // namespace
+
+std::string ppi_rates_text() {
+  std::string text;
+  for (const Rate& rate : kRates) {
+    if (!text.empty()) text += &rate == &kRates.back() ? " or" : ",";
+    if (rate.cpus != kEveryCpu) text += fmt::format(", on {},", to_text(rate.cpus));
+    text += fmt::format("{}{}", text.empty() ? "" : " ", rate.baud);
+  }
+  return text;
+}
 
 std::optional<PpiRates> parse_ppi_rates(std::string_view text, const CpuModel& model, std::string& why) {
   return parse_ports(text, model, why, "rate", parse_rate);

@@ -29,8 +29,10 @@ struct SystemBlock {
   auto operator<=>(const SystemBlock&) const = default;
 };
 
-/// `19200` for each port of the CPU; `9600,187500` for port 0 and port 1. The rates are 9600, 19200 and, on CPU 22x, 187500
-/// (facts 10.9). Returns nothing and sets `why` for anything else.
+/// The rates that there are (facts 10.9): `9600, 19200 or, on CPU 22x, 187500`.
+std::string ppi_rates_text();
+
+/// `19200` for each port of the CPU; `9600,187500` for port 0 and port 1. Returns nothing and sets `why` for anything else.
 std::optional<PpiRates> parse_ppi_rates(std::string_view text, const CpuModel& model, std::string& why);
 
 /// The same of stations, 1 to 126: `3`; `3,4` for port 0 and port 1.

@@ -64,6 +64,43 @@ TEST(Address, AValueIsAnIntegerThatFitsOrARealForADoubleWord) {
     EXPECT_FALSE(assignment(text)) << text;
 }
 
+TEST(Address, AValueThatDoesNotFitIsRefusedWithWhatThePlaceHolds) {
+  struct Case {
+    std::string_view text, why;
+  };
+  constexpr Case kCases[]{{"VB20=256", "'VB20=256': write a value that fits it: a byte is -128 to 255"},
+                          {"VW20=-32769", "'VW20=-32769': write a value that fits it: a word is -32768 to 65535"},
+                          {"M0.1=2", "'M0.1=2': write a value that fits it: a bit is 0 to 1"}};
+  for (const auto& [text, expected] : kCases) {
+    std::string why;
+    EXPECT_FALSE(parse_assignment(text, cpu214(), why)) << text;
+    EXPECT_EQ(why, expected);
+  }
+}
+
+TEST(Address, AnalogValuesAreAtEvenAddresses) {
+  std::string why;
+  EXPECT_TRUE(parse_range("AIW2", cpu214(), why));
+  EXPECT_FALSE(parse_range("AIW3", cpu214(), why));
+  EXPECT_EQ(why, "AIW3 is an odd address; analog values are at even ones: AIW2");
+  EXPECT_FALSE(parse_assignment("AQW1=4", cpu214(), why));
+  EXPECT_EQ(why, "AQW1 is an odd address; analog values are at even ones: AQW0");
+}
+
+TEST(Address, AnAddressWithAnAmpersandIsAPointerToIt) {
+  std::string why;
+  EXPECT_EQ(parse_pointer("&VB100", cpu214(), why), 0x0800'0064U);
+  EXPECT_EQ(parse_pointer("&mw2", cpu214(), why), 0x0200'0002U);
+  EXPECT_EQ(parse_pointer("&C3", cpu214(), why), 0x0600'0006U) << "two bytes each";
+  EXPECT_EQ(parse_assignment("VD4=&VB100", cpu214(), why)->value, 0x0800'0064U);
+  for (const char* text : {"&V1.0", "&SMB2", "&AC1", "&VB0:2", "&VD0:real"}) {
+    EXPECT_FALSE(parse_pointer(text, cpu214(), why)) << text;
+    EXPECT_NE(why.find("a pointer can point to bytes of I, Q, M, V or S"), std::string::npos) << text << ": " << why;
+  }
+  for (const char* text : {"VW4=&VB100", "VB4=&VB100", "VD4:real=&VB100", "VD4=&VB99999", "VD4=&", "VD4=VB100"})
+    EXPECT_FALSE(parse_assignment(text, cpu214(), why)) << text;
+}
+
 TEST(Address, ASymbolOfTheProgramStandsForItsAddress) {
   stl::ParseResult parsed = stl::parse("MEND\n", "x");
   parsed.source.symbols = {{"Speed", stl::Address{"V", stl::Size::Word, 20, 0}, {}, {}},

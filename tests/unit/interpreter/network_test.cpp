@@ -41,14 +41,16 @@ class Stations {
   std::vector<Bytes> heard;
   Times times;  ///< when each began
   Time delay = 11 * kBit;
+  std::size_t damaged = 0;  ///< the last character of this reply, counted from 1, has wrong parity
 
  private:
   void reply(const Bytes& bytes) {
     Time start = plc_.cpu.time() + delay;
-    for (const std::uint8_t byte : bytes) {
-      plc_.received_at({.byte = byte, .start = start, .end = start + 10 * kBit + kBit / 2});
-      start += kCharacter;
-    }
+    for (std::size_t i = 0; i < bytes.size(); ++i, start += kCharacter)
+      plc_.received_at({.byte = bytes[i],
+                        .parity_error = heard.size() == damaged && i + 1 == bytes.size(),
+                        .start = start,
+                        .end = start + 10 * kBit + kBit / 2});
   }
 
   Plc& plc_;
@@ -168,6 +170,26 @@ TEST(Network, ADamagedAnswerIsAReceiveError) {
   EXPECT_EQ(others.heard.size(), 4U) << "one request, three polls";
   EXPECT_EQ(status(plc), 0xA2);
   EXPECT_EQ(plc.value("VD107"), 0);
+}
+
+TEST(Network, AReplyAfterADamagedOneIsHeardThoughItFollowsTheRequestAtOnce) {
+  for (const std::size_t reply : {1U, 2U}) {
+    Plc plc(master(kReads));
+    Stations others(plc, with(answer({1, 2, 3, 4})));
+    others.damaged = reply;
+    others.run_until(1000 * ms);
+    EXPECT_EQ(others.heard.size(), 3U) << "the request or the poll is repeated";
+    EXPECT_EQ(status(plc), 0x80);
+  }
+}
+
+TEST(Network, AStationThatNeverHasItsAnswerIsGivenUp) {
+  Plc plc(master(kReads));
+  Stations others(plc, [](const Bytes&) { return Bytes{0xE5}; });
+  others.run_until(900 * ms);
+  EXPECT_EQ(status(plc), 0x40);
+  others.run_until(1200 * ms);
+  EXPECT_EQ(status(plc), 0xA1);
 }
 
 TEST(Network, WhatTheStationRepliesSaysWhyItFailed) {

@@ -147,7 +147,7 @@ TEST(Parameters, NeedACpuWithLocalMemory) {
   const std::string text = program("LD SM0.0\nCALL Work, 5\n", "VAR_INPUT\n x : INT;\nEND_VAR\n", "");
   EXPECT_EQ(said(text, cpu214()), Lines{"x:5:12: error: CPU 214 has no parameters of subroutines (MAIN, network 1)"});
   EXPECT_EQ(check_text(text, "x", cpu214(), default_times(cpu214())).diagnostics.at(0).hint,
-            "they need CPU 22x; choose one: --cpu 224");
+            "they need CPU 22x; choose one, such as CPU 224");
 }
 
 TEST(Parameters, ADoubleWordGivenToARealIsShownAsOne) {

@@ -71,8 +71,9 @@ TEST(Ppi, AnotherMasterIsToldThatThereIsNoResource) {
   Master first(plc, 0), second(plc, 1);
   EXPECT_EQ(first.say(sd2(2, 0, 0x6C, kReadVb100)), Bytes{0xE5});
   EXPECT_EQ(second.say(sd2(2, 1, 0x6C, kReadVb100)), sd1(1, 2, 0x02));
-  EXPECT_EQ(second.say(sd1(2, 1, 0x5C)), Bytes{0xE5}) << "there is no answer for it";
+  EXPECT_EQ(second.say(sd1(2, 1, 0x5C)), sd1(1, 2, 0x02)) << "a poll is told the same";
   EXPECT_GT(first.say(sd1(2, 0, 0x5C)).size(), 9U);
+  EXPECT_EQ(second.say(sd1(2, 1, 0x5C)), Bytes{0xE5}) << "it has asked nothing";
   EXPECT_EQ(second.say(sd2(2, 1, 0x6C, kReadVb100)), Bytes{0xE5});
 }
 
@@ -98,6 +99,22 @@ TEST(Ppi, WhatIsNoFrameOrForAnotherStationIsIgnored) {
   EXPECT_EQ(master.say(sd2(2, 0, 0x08, kReadVb100)), Bytes{}) << "a reply of another slave";
   EXPECT_EQ(master.say(good), Bytes{0xE5});
   EXPECT_EQ(plc.records.of(TraceKind::PpiIgnored).size(), 2U);
+}
+
+TEST(Ppi, TheTraceHasOneLineForADamagedFrame) {
+  Plc plc(kQuiet);
+  std::ostringstream text;
+  TextTrace trace(text, program_of(kQuiet), TraceDetail::Events);
+  Master master(plc);
+  master.say(joined({{0x68, 0x1B, 0x1C, 0x68}, Bytes(20, 0x55)}));
+  master.say(sd1(2, 0, 0x49));
+  master.say({0x02, 0x03, 0x00});
+  for (const TraceRecord& record : plc.records.of(TraceKind::CharacterIgnored)) trace.record(record);
+  const std::string lines = text.str();
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1 + 2) << lines;
+  EXPECT_NE(lines.find("ignored  68, and what follows until there is silence: in PPI mode, and no PPI frame\n"),
+            std::string::npos)
+      << lines;
 }
 
 TEST(Ppi, AfterABadCharacterNothingIsUnderstoodUntilThereIsSilence) {
@@ -162,9 +179,9 @@ TEST(PpiRates, AreThoseOfTheCpu) {
   EXPECT_EQ(rates("187500", cpu221()), (PpiRates{187500, 187500}));
   EXPECT_EQ(rates("9600, 187500", cpu226()), (PpiRates{9600, 187500}));
   EXPECT_EQ(rates("187500", cpu214()), PpiRates{});
-  EXPECT_EQ(why, "PPI at 187500 baud needs CPU 22x; choose one: --cpu 224");
+  EXPECT_EQ(why, "PPI at 187500 baud needs CPU 22x; choose one, such as CPU 224");
   EXPECT_EQ(rates("38400", cpu224()), PpiRates{});
-  EXPECT_EQ(why, "'38400' is not a rate of PPI; there are 9600, 19200 and, on CPU 22x, 187500");
+  EXPECT_EQ(why, "'38400' is not a rate of PPI; write 9600, 19200 or, on CPU 22x, 187500");
   EXPECT_EQ(rates("9600,19200", cpu214()), PpiRates{});
   EXPECT_EQ(why, "CPU 214 has no port 1 for the second rate; a second port needs CPU 216, 224XP, 226, 226r1 or 226XM");
   EXPECT_EQ(rates("9600,", cpu226()), PpiRates{});
@@ -190,6 +207,21 @@ TEST(Ppi, WhatIsNotModelledIsIgnoredAndNamedInTheTrace) {
             "PPI frame from 16#81 to 16#02 ignored: addresses above 127 are not modelled");
   EXPECT_EQ(named(sd2(0x83, 1, 0x6C, kReadVb100)), "0 records") << "for another station";
   EXPECT_EQ(named(sd2(3, 1, 0x6C, kReadVb100)), "0 records") << "a slave hears a master and another slave";
+}
+
+TEST(Ppi, WhatIsIgnoredIsInTheTraceWhenItsLastCharacterHasCome) {
+  Plc plc(kQuiet);
+  Master master(plc, 1);
+  const auto last_come = [&] { return master.end_of_frame() - kCharacter + 10 * (kSecond / 9600) + kSecond / 9600 / 2; };
+  Bytes damaged = sd2(2, 1, 0x6C, kReadVb100);
+  damaged.back() = 0x17;
+  master.say(damaged);
+  EXPECT_EQ(plc.records.times(TraceKind::PpiIgnored), std::vector<Time>{last_come()});
+  for (const Bytes& frame : {Bytes{0xDC, 2, 1}, sd2(127, 1, 0x6C, kReadVb100), sd2(0x82, 1, 0x6C, kReadVb100)}) {
+    plc.records.all.clear();
+    master.say(frame);
+    EXPECT_EQ(plc.records.times(TraceKind::PpiNotModelled), std::vector<Time>{last_come()});
+  }
 }
 
 TEST(Ppi, AServiceThatASlaveHasNotIsRefused) {
@@ -333,7 +365,7 @@ TEST(S7Services, EachAreaIsReadAtItsPlace) {
   EXPECT_EQ(value_of(master.ask(reading({variable(2, 1, 0x82, 0)}))), Bytes{0x82});
   EXPECT_EQ(value_of(master.ask(reading({variable(2, 1, 0x81, 0)}))), Bytes{0x04});
   EXPECT_EQ(value_of(master.ask(reading({variable(2, 1, 0x05, 34 * 8)}))), Bytes{0x55});
-  EXPECT_EQ(value_of(master.ask(reading({variable(2, 1, 0x03, 2 * 8)}))), Bytes{0x33});
+  EXPECT_EQ(value_of(master.ask(reading({variable(2, 1, 0x04, 2 * 8)}))), Bytes{0x33});
   EXPECT_EQ(value_of(master.ask(reading({variable(4, 1, 0x07, 2 * 8)}))), (Bytes{0x07, 0x07}));
   EXPECT_EQ(value_of(master.ask(reading({variable(4, 1, 0x06, 4 * 8)}))), (Bytes{0x06, 0x06}));
   EXPECT_EQ(value_of(master.ask(reading({variable(1, 1, 0x81, 2)}))), Bytes{1}) << "I0.2";
@@ -363,6 +395,27 @@ TEST(S7Services, HighSpeedCountersAreReadAsDoubleWords) {
   EXPECT_EQ(value_of(master.ask(reading({variable(0x20, 1, 0x20, 0)}))), (Bytes{0, 0, 0, 5}));
 }
 
+TEST(S7Services, TheIdentificationIsNameAndRelease) {
+  const auto text = [](const CpuModel& model) {
+    Plc plc(kQuiet, model);
+    const Bytes value = value_of(Master(plc).ask(reading({variable(2, 20, 0x03, 0)})));
+    return std::string(value.begin(), value.end());
+  };
+  EXPECT_EQ(text(cpu226()), "CPU 226         0200");
+  EXPECT_EQ(text(cpu224xp()), "CPU 224XP       0200");
+  EXPECT_EQ(text(cpu226r1()), "CPU 226         0100");
+  EXPECT_EQ(text(cpu226xm()), "CPU 226XM       0100");
+  EXPECT_EQ(text(cpu214()), "CPU 214         0100");
+
+  Plc plc(kQuiet, cpu226());
+  Master master(plc);
+  EXPECT_EQ(value_of(master.ask(reading({variable(2, 2, 0x03, 16 * 8)}))), (Bytes{'0', '2'})) << "part of it";
+  EXPECT_EQ(code_of(master.ask(reading({variable(2, 21, 0x03, 0)}))), 0x05) << "there are 20 bytes";
+  EXPECT_EQ(code_of(master.ask(reading({variable(1, 1, 0x03, 0)}))), 0x06) << "it has no bits";
+  EXPECT_EQ(code_of(master.ask(writing(variable(2, 1, 0x03, 0), 0x04, 8, {'X'}))), 0x03) << "it cannot be written";
+  EXPECT_EQ(text(cpu226()), "CPU 226         0200");
+}
+
 TEST(S7Services, BitsBytesAndWordsAreWritten) {
   Plc plc(kQuiet);
   Master master(plc);
@@ -375,6 +428,19 @@ TEST(S7Services, BitsBytesAndWordsAreWritten) {
   EXPECT_EQ(plc.value("MB31"), 0x80);
   EXPECT_EQ(code_of(master.ask(writing(variable(4, 1, kV, 510 * 8, 1), 0x04, 16, {0xFF, 0xFE}))), 0xFF);
   EXPECT_EQ(plc.value("VW510"), -2);
+}
+
+TEST(S7Services, AWriteWithFewerValuesThanVariablesWritesNone) {
+  Plc plc(kQuiet);
+  Master master(plc);
+  const Bytes variables = joined({{0x05, 2}, variable(2, 1, kV, 500 * 8, 1), variable(2, 1, kV, 502 * 8, 1)});
+  EXPECT_EQ(error_of(master.ask(request(variables, {0, 4, 0, 8, 0x11}))), 0x8704);
+  EXPECT_EQ(plc.value("VB500"), 0);
+  EXPECT_TRUE(plc.records.of(TraceKind::PpiAccess).empty());
+  const Bytes done = master.ask(request(variables, {0, 4, 0, 8, 0x11, 0, 0, 4, 0, 8, 0x22}));
+  EXPECT_EQ((Bytes{done.end() - 2, done.end()}), (Bytes{0xFF, 0xFF}));
+  EXPECT_EQ(plc.value("VB500"), 0x11);
+  EXPECT_EQ(plc.value("VB502"), 0x22);
 }
 
 TEST(S7Services, WhatIsReadOnlyIsNotWritten) {
@@ -434,26 +500,82 @@ TEST(S7Services, StopAndRunChangeTheMode) {
   EXPECT_EQ(error_of(master.ask(request({0x28, 0, 0, 0, 0, 0, 0, 0xFD, 0, 0, 5, '_', 'G', 'A', 'R', 'B'}))), 0x8104);
 }
 
+Bytes user_data(std::uint8_t group, std::uint8_t service, const Bytes& data) {
+  return joined({{0x32, 7, 0, 0, 0, 1, 0, 8},
+                 word(static_cast<unsigned>(data.size())),
+                 {0, 1, 0x12, 4, 0x11, static_cast<std::uint8_t>(0x40 | group), service, 0},
+                 data});
+}
+
 TEST(S7Services, TheClockIsReadAndSet) {
   Plc plc(kQuiet);
   Master master(plc);
-  const auto user_data = [](std::uint8_t service, const Bytes& data) {
-    return joined({{0x32, 7, 0, 0, 0, 1, 0, 8},
-                   word(static_cast<unsigned>(data.size())),
-                   {0, 1, 0x12, 4, 0x11, 0x47, service, 0},
-                   data});
-  };
-  const Bytes set = master.ask(user_data(2, {0xFF, 9, 0, 10, 0, 0x20, 0x26, 0x11, 0x22, 0x15, 0x45, 0x30, 0x00, 0x01}));
+  const Bytes set = master.ask(user_data(7, 2, {0xFF, 9, 0, 10, 0, 0x20, 0x26, 0x11, 0x22, 0x15, 0x45, 0x30, 0x00, 0x01}));
   ASSERT_GE(set.size(), 22U);
   EXPECT_EQ((Bytes{set.begin(), set.begin() + 22}),
             (Bytes{0x32, 7, 0, 0, 0, 1, 0, 12, 0, 4, 0, 1, 0x12, 8, 0x12, 0x87, 2, 0, 0, 0, 0, 0}));
   EXPECT_EQ(plc.cpu.clock().year, 26);
   EXPECT_EQ(plc.cpu.clock().minute, 45);
-  const Bytes now = master.ask(user_data(1, {0x0A, 0, 0, 0}));
+  const Bytes now = master.ask(user_data(7, 1, {0x0A, 0, 0, 0}));
   ASSERT_EQ(now.size(), 10U + 12U + 14U);
   EXPECT_EQ((Bytes{now.begin() + 22, now.begin() + 33}), (Bytes{0xFF, 9, 0, 10, 0, 0x20, 0x26, 0x11, 0x22, 0x15, 0x45}));
-  const Bytes bad = master.ask(user_data(2, {0xFF, 9, 0, 10, 0, 0x20, 0x2A, 0x11, 0x22, 0x15, 0x45, 0x30, 0x00, 0x01}));
+  const Bytes bad = master.ask(user_data(7, 2, {0xFF, 9, 0, 10, 0, 0x20, 0x2A, 0x11, 0x22, 0x15, 0x45, 0x30, 0x00, 0x01}));
   EXPECT_EQ(load16(&bad[20]), 0x8704) << "not BCD";
+}
+
+TEST(S7Services, ATimeThatDoesNotExistIsRefused) {
+  Plc plc(kQuiet);
+  Master master(plc);
+  const auto error = [&](const Bytes& time) {
+    const Bytes answer = master.ask(user_data(7, 2, joined({{0xFF, 9, 0, 10, 0, 0x20}, time})));
+    return load16(&answer[20]);
+  };
+  EXPECT_EQ(error({0x26, 0x11, 0x22, 0x15, 0x45, 0x30, 0x00, 0x01}), 0);
+  for (const Bytes& wrong : {Bytes{0x26, 0x13, 0x22, 0x15, 0x45, 0x30, 0, 1},
+                             {0x26, 0x00, 0x22, 0x15, 0x45, 0x30, 0, 1},
+                             {0x26, 0x11, 0x99, 0x15, 0x45, 0x30, 0, 1},
+                             {0x26, 0x11, 0x00, 0x15, 0x45, 0x30, 0, 1},
+                             {0x26, 0x11, 0x22, 0x24, 0x00, 0x00, 0, 1},
+                             {0x26, 0x11, 0x22, 0x15, 0x61, 0x30, 0, 1},
+                             {0x26, 0x11, 0x22, 0x15, 0x45, 0x61, 0, 1},
+                             {0x26, 0x11, 0x22, 0x15, 0x45, 0x30, 0, 8}})
+    EXPECT_EQ(error(wrong), 0x8704);
+  EXPECT_EQ(plc.cpu.clock().month, 11);
+}
+
+TEST(S7Services, VMemoryIsDataBlockOneAndThereIsNoOther) {
+  Plc plc(kQuiet);
+  plc.set("VB200", 0x84);
+  Master master(plc);
+  EXPECT_EQ(code_of(master.ask(reading({variable(2, 1, 0x84, 200 * 8, 1)}))), 0xFF);
+  for (const unsigned block : {0U, 2U, 5U, 99U}) {
+    EXPECT_EQ(code_of(master.ask(reading({variable(2, 1, 0x84, 200 * 8, block)}))), 0x0A) << block;
+    EXPECT_EQ(code_of(master.ask(writing(variable(2, 1, 0x84, 200 * 8, block), 0x04, 8, {0x11}))), 0x0A) << block;
+  }
+  EXPECT_EQ(plc.value("VB200"), 0x84);
+  EXPECT_EQ(code_of(master.ask(reading({variable(2, 1, 0x83, 0, 5)}))), 0xFF) << "M has none";
+}
+
+TEST(S7Services, TheTraceTellsTheServicesOfUserDataApart) {
+  Plc plc(kQuiet);
+  Master master(plc, 1);
+  const auto traced = [&](const Bytes& pdu) {
+    plc.records.all.clear();
+    master.ask(pdu);
+    const auto records = plc.records.of(TraceKind::PpiService);
+    return records.size() == 1 ? describe(records[0], plc.cpu.program()) : std::to_string(records.size()) + " records";
+  };
+  EXPECT_EQ(traced(user_data(7, 1, {0x0A, 0, 0, 0})), "PPI station 1 reads the clock");
+  EXPECT_EQ(traced(user_data(7, 2, {0xFF, 9, 0, 10, 0, 0x20, 0x26, 0x11, 0x22, 0x15, 0x45, 0x30, 0x00, 0x01})),
+            "PPI station 1 sets the clock");
+  EXPECT_EQ(traced(user_data(7, 2, {0xFF, 9, 0, 0})), "PPI station 1 sets the clock: refused, error 16#8704");
+  EXPECT_EQ(traced(user_data(4, 1, {0xFF, 9, 0, 4, 0x01, 0x11, 0, 1})),
+            "PPI station 1 asks for user data, group 4, service 1: refused, error 16#8104")
+      << "a status list";
+  EXPECT_EQ(traced({0x32, 7, 0, 0, 0, 1, 0, 3, 0, 0, 0, 1, 0x12}),
+            "PPI station 1 sends user data that name no service: refused, error 16#8704");
+  EXPECT_EQ(traced(request({})), "PPI station 1 asks for no function: refused, error 16#8704");
+  EXPECT_EQ(traced(request({0x00})), "PPI station 1 asks for function 00: refused, error 16#8104");
 }
 
 TEST(S7Services, OtherFunctionsAreRefusedByNumber) {
@@ -480,11 +602,21 @@ TEST(S7Services, TheTraceSaysWhatAMasterReadsAndWrites) {
   Master master(plc, 1);
   master.ask(reading({variable(2, 4, kV, 100 * 8, 1), variable(1, 1, 0x83, 31 * 8 + 7), variable(0x1F, 1, 0x1F, 37)}));
   master.ask(reading({variable(2, 4, 0x99, 100 * 8, 1)}));
+  master.ask(reading({variable(2, 0, kV, 0, 1), variable(4, 2, kV, 9000 * 8, 1), variable(1, 1, kV, 9000 * 8 + 7, 1),
+                      variable(0x1F, 1, 0x1F, 300)}));
+  master.ask(reading({variable(2, 20, 0x03, 0)}));
+  master.ask(writing(variable(2, 1, 0x03, 0), 0x04, 8, {'X'}));
   std::string text;
   for (const TraceRecord& record : plc.records.of(TraceKind::PpiAccess)) text += describe(record, plc.cpu.program()) + '\n';
   EXPECT_EQ(text,
             "PPI station 1 reads VB100, 4 bytes\nPPI station 1 reads M31.7\nPPI station 1 reads T37\n"
-            "PPI station 1 reads area 16#99, address 100.0: refused, code 0A\n");
+            "PPI station 1 reads area 16#99, address 100.0: refused, error 16#0A\n"
+            "PPI station 1 reads VB0, 0 bytes: refused, error 16#05\n"
+            "PPI station 1 reads VB9000, 4 bytes: refused, error 16#05\n"
+            "PPI station 1 reads V9000.7, 1 byte: refused, error 16#05\n"
+            "PPI station 1 reads T300, 2 bytes: refused, error 16#05\n"
+            "PPI station 1 reads the CPU's identification\n"
+            "PPI station 1 writes the CPU's identification: refused, error 16#03\n");
 }
 
 }  // namespace

@@ -264,6 +264,17 @@ TEST(SteadyScans, CharactersAreReceivedInTheScanTheyEndIn) {
   EXPECT_GT(both.passed(), 40 * kSecond);
 }
 
+/// What it has counted in the second scan of a pair is gone in the next one.
+TEST(SteadyScans, ATimerThatIsResetInEachScanHasCountedInOneScanOnly) {
+  Both both("LD SM0.0\nR T37, 1\nLDN I0.2\nTON T37, 95\nMEND\n");
+  for (int tick = 1; tick <= 60; ++tick) {  // a look begins anew some time before each
+    const Time at = tick * 100 * kMillisecond;
+    both.each([&](Plc& plc) { plc.input_at(at - tick * 50 * us, "I0.0", tick % 2 != 0); });
+    both.run_until(at + 20 * kMillisecond);
+  }
+  EXPECT_GT(both.passed(), kSecond);
+}
+
 /// Networks about everything that goes on by itself.
 std::string about_time(std::mt19937& draw) {
   const auto below = [&](unsigned n) { return static_cast<unsigned>(draw() % n); };
@@ -343,8 +354,10 @@ TEST(SteadyScans, ChangeNothingInRandomProgramsWithInputsAndCharactersAtRandomIn
 
 TEST(SteadyScans, AreLookedForWhereItPays) {
   PlcThat plc(SteadyScansUse::On, kContactsOnly);
-  plc.run_until(kSecond);
-  EXPECT_EQ(plc.cpu.passed_over(), 0) << "5000 instructions are not worth a look";
+  plc.run_until(100 * kMillisecond);
+  EXPECT_EQ(plc.cpu.passed_over(), 0) << "a hundred scans are not worth a look";
+  plc.run_until(10 * kSecond);
+  EXPECT_GT(plc.cpu.passed_over(), 9 * kSecond) << "ten thousand are, however short they are";
   plc.run_until(600 * kSecond);
   EXPECT_GT(plc.cpu.passed_over(), 595 * kSecond);
 }
