@@ -1,9 +1,9 @@
 // Where the tables are from: model/README.md.
 // Not documented, modelled so:
 // - cpu214_from_22x: a CPU 214 is to a CPU 22x of release 1 as one factor. It is fitted so that the first scan of
-// Application
-//   Tip 41 takes the 690 ms that its text states; all else in the tip is a check. What was only estimated for the CPU 22x,
-//   the overhead of a scan and the EEPROM stay as in cpu214. [NamedTimes.TheTableFromTheCpu22xIsItsFiguresTimesOneFactor]
+//   Application Tip 41 takes the 690 ms that its text states; all else in the tip is a check. What was only estimated for
+//   the CPU 22x, the overhead of a scan and the EEPROM stay as in cpu214.
+//   [NamedTimes.TheTableFromTheCpu22xIsItsFiguresTimesOneFactor]
 #include "interpreter/model/named_times.hpp"
 
 #include <fmt/format.h>
@@ -36,12 +36,18 @@ bool is_of_22x(const TimeRow& row) {
   return row.marker != "estimate" && row.mnemonics.front() != name_of(SystemTime::EepromSave);
 }
 
-TimeTable cpu214_from_22x() {
+TimeTable cpu214_times() { return table_of(embedded::kCpu214Times); }
+TimeTable cpu215_times() { return table_of(embedded::kCpu214Times, embedded::kCpu215Times); }
+TimeTable cpu22x_release1_times() { return table_of(embedded::kCpu22xRelease1Times); }
+TimeTable cpu22x_times() { return table_of(embedded::kCpu22xTimes); }
+
+TimeTable cpu214_from_22x_times() {
   const auto slower = [](Time time) { return static_cast<Time>(std::llround(static_cast<double>(time) * kSlower)); };
   const auto scale = [&](TimeRow& row) {
     row.base = slower(row.base);
     row.per_unit = slower(row.per_unit);
-    row.source = fmt::format("{:g} × CPU 22x of release 1, {}", kSlower, row.source);
+    row.source =
+        fmt::format("{:g} × CPU 22x of release 1, first scan of Application Tip 41 = 690 ms; {}", kSlower, row.source);
     row.marker = "remembered";
   };
   TimeTable table = table_of(embedded::kCpu22xRelease1Times).filtered(is_of_22x).with(scale);
@@ -49,20 +55,25 @@ TimeTable cpu214_from_22x() {
   return table;
 }
 
+template <auto read>
+const TimeTable& read_once() {
+  static const TimeTable kTable = read();
+  return kTable;
+}
+
 }  // namespace
 
 const std::vector<NamedTimes>& named_times() {
   static const std::vector<NamedTimes> kTables{
       {"cpu214", "estimates, one of them calibrated against the first scan of Application Tip 41", kCpu212 | kCpu214, true,
-       table_of(embedded::kCpu214Times)},
+       read_once<cpu214_times>},
       {"cpu215", "those of cpu214, and estimates of what the CPU 214 lacks", kCpu215 | kCpu216, true,
-       table_of(embedded::kCpu214Times, embedded::kCpu215Times)},
+       read_once<cpu215_times>},
       {"cpu214_from_22x", "the remembered figures of cpu22x_release1 times 1.906, over those of the CPU", kCpu21x, false,
-       cpu214_from_22x()},
+       read_once<cpu214_from_22x_times>},
       {"cpu22x_release1", "an edition of 2002: some pages, mostly from memory", kCpu22xRelease1, true,
-       table_of(embedded::kCpu22xRelease1Times)},
-      {"cpu22x", "an edition of 2004: some pages, mostly from memory", kCpu22xRelease2, true,
-       table_of(embedded::kCpu22xTimes)}};
+       read_once<cpu22x_release1_times>},
+      {"cpu22x", "an edition of 2004: some pages, mostly from memory", kCpu22xRelease2, true, read_once<cpu22x_times>}};
   return kTables;
 }
 

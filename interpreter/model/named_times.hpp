@@ -11,11 +11,11 @@
 namespace s7200 {
 
 struct NamedTimes {
-  std::string_view name;   ///< cpu214_from_22x
-  std::string_view about;  ///< where its figures come from, in one line
-  CpuSet cpus;             ///< whose times these are
-  bool own;                ///< they are what these CPUs run with if nothing else is asked for
-  TimeTable table;
+  std::string_view name;        ///< cpu214_from_22x
+  std::string_view about;       ///< where its figures come from, in one line
+  CpuSet cpus;                  ///< whose times these are
+  bool own;                     ///< they are what these CPUs run with if nothing else is asked for
+  const TimeTable& (*table)();  ///< read when it is first asked for
 };
 
 const std::vector<NamedTimes>& named_times();

@@ -19,10 +19,10 @@ namespace s7200 {
 ///
 /// `mnemonic`: one or more, separated by blanks, all with the same time; or a name of a SystemTime, which is in brackets.
 /// A trailing `(and A O)` adds the A and O forms of each LD form. `form`: the areas of the first operand for which the line
-/// holds, or any words that say what the figure means. `marker`: manual, measured (on a real CPU), calibrated, remembered
-/// (from the manual, but not read there again), or estimate. `source` may be left out. `uncertainty_percent`: with 25, the
-/// true figures lie between those of the line / 1.25 and those of the line × 1.25; left out, the marker says how sure they
-/// are.
+/// holds, or words that say what the figure means. `marker`: manual, measured (on a real CPU), calibrated, remembered (from
+/// the manual, but not read there again), or estimate. `uncertainty_percent`: with 25, the true figures lie between those of
+/// the line / 1.25 and × 1.25; left out, as `source` may be, the marker says how sure they are. Lines that begin with # are
+/// comments; `# CPU 224` says whose times these are.
 struct TimeRow {
   std::vector<std::string> mnemonics;
   std::string form;
@@ -47,7 +47,7 @@ class TimeTable {
  public:
   /// Adds lines before those already there: a corrected file replaces the figures it has and leaves the others.
   /// Returns errors, each `name:line: what`: unreadable figures, times that are not above 0 (labels and routine heads may be
-  /// 0), unknown markers, missing columns. A text with errors changes nothing.
+  /// 0), unknown markers, missing columns, quotes that are not closed. A text with errors changes nothing.
   std::vector<std::string> add(std::string_view csv, const std::string& name);
 
   /// The same with the lines of another table.

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "interpreter/model/cpu_model.hpp"
@@ -11,7 +13,8 @@
 namespace s7200 {
 
 /// A table with each figure anywhere within its uncertainty, all ratios equally likely: with 25 percent from 1 / 1.25 to
-/// 1.25 times the figure. The same numbers give the same table.
+/// 1.25 times the figure. Besides, the CPU is faster or slower as a whole by as much as is known to be possible, as far as
+/// each figure's uncertainty allows it. The same numbers give the same table.
 TimeTable random_times(const TimeTable& table, std::uint32_t seed, std::uint32_t number);
 
 /// How many random tables there are in a band, and which.
@@ -20,16 +23,24 @@ struct BandSettings {
   std::uint32_t seed = 1;
 };
 
-/// The table itself, then `others`, then random ones within its uncertainty, which are made when they are asked for.
+/// Tables with their names, then random ones around each of these in turn, which are made when they are asked for.
 class TimesBand {
  public:
-  TimesBand(TimeTable own, const std::vector<TimeTable>& others, const BandSettings& settings);
+  struct Named {
+    std::string name;
+    TimeTable table;
+  };
+
+  TimesBand(std::vector<Named> named, const BandSettings& settings) : named_(std::move(named)), settings_(settings) {}
 
   std::size_t size() const { return named_.size() + settings_.random; }
   TimeTable operator[](std::size_t table) const;
 
+  /// `cpu214`, `random table 12 of seed 1`; they are counted from 1 on.
+  std::string name(std::size_t table) const;
+
  private:
-  std::vector<TimeTable> named_;
+  std::vector<Named> named_;
   BandSettings settings_;
 };
 

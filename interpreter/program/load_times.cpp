@@ -2,18 +2,114 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "interpreter/base/nearest.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/model/instruction.hpp"
 #include "interpreter/model/named_times.hpp"
+#include "interpreter/model/times_file.hpp"
 #include "interpreter/program/load.hpp"
 
 namespace s7200 {
+namespace {
+
+/// What a line can give the time of.
+const std::vector<std::string_view>& timed_names() {
+  static const auto kNames = [] {
+    std::vector<std::string_view> names;
+    for (const SystemTime what : {SystemTime::NoPowerFlow, SystemTime::IndirectOperand, SystemTime::OperandArea,
+                                  SystemTime::InterruptEntry, SystemTime::ScanOverhead, SystemTime::EepromSave})
+      names.push_back(name_of(what));
+    for (const Instruction& instruction : all_instructions()) names.push_back(instruction.mnemonic);
+    return names;
+  }();
+  return kNames;
+}
+
+/// The lines for a name in the tables of the CPU.
+std::vector<const TimeRow*> known_lines(const CpuModel& model, const std::string& name) {
+  std::vector<const TimeRow*> lines;
+  for (const NamedTimes& times : named_times())
+    if (times.cpus & model.self)
+      for (const TimeRow& row : times.table().rows())
+        if (std::ranges::find(row.mnemonics, name) != row.mnemonics.end()) lines.push_back(&row);
+  return lines;
+}
+
+std::string unknown_name(const std::string& name) {
+  const std::string upper = stl::upper_case(name);
+  const bool upper_is_known = std::ranges::find(timed_names(), upper) != timed_names().end();
+  const std::string_view meant = upper_is_known ? std::string_view(upper) : nearest(upper, timed_names());
+  const std::string hint = meant.empty() ? std::string("`s7200 times` lists them") : fmt::format("write {}", meant);
+  return fmt::format("'{}' is not an instruction; {}", stl::shortened(name), hint);
+}
+
+/// Whether it has a memory operand in front that is in none of these areas on any CPU.
+bool is_never_in(const std::string& name, Areas areas) {
+  const Instruction* const instruction = find_instruction(name);
+  if (instruction == nullptr || areas == 0) return false;
+  const OperandRule& first = instruction->operand[0];
+  return first.kind == OperandKind::Memory && first.areas != 0 && (areas & first.areas) == 0;
+}
+
+/// What is wrong with the figures of `name` in a line; empty if nothing is.
+std::string slip_in(const TimeRow& row, const std::string& name, const CpuModel& model) {
+  if (std::ranges::find(timed_names(), name) == timed_names().end()) return unknown_name(name);
+  const auto known = known_lines(model, name);
+  if (known.empty()) return {};  // an instruction of other CPUs
+  if (row.areas == 0 && !row.form.empty() && std::ranges::none_of(known, [&](auto* k) { return k->form == row.form; }))
+    return fmt::format("'{}' is not a form of {}; write the areas of its first operand (I Q M SM V …), or nothing",
+                       stl::shortened(row.form), name);
+  if (is_never_in(name, row.areas))
+    return fmt::format("the first operand of {} is never in {}; delete the line", name, names_of(row.areas));
+  const auto has_unit = [](const TimeRow* k) { return k->per_unit > 0; };
+  if (row.per_unit > 0 && std::ranges::none_of(known, has_unit))
+    return fmt::format("{} has no time per unit; leave column 4 empty", name);
+  if (row.per_unit > 0 && !row.unit.empty() &&
+      std::ranges::none_of(known, [&](auto* k) { return has_unit(k) && k->unit == row.unit; }))
+    return fmt::format("{} takes longer for each {}, not for each '{}'; write that into column 5", name,
+                       (*std::ranges::find_if(known, has_unit))->unit, stl::shortened(row.unit));
+  if (row.per_unit == 0 && std::ranges::all_of(known, has_unit))
+    return fmt::format("{} takes longer for each {}; write by how much into column 4", name, known.front()->unit);
+  return {};
+}
+
+/// Whether the CPUs run with the same times of their own.
+bool same_times(const CpuModel& one, const CpuModel& other) {
+  return std::ranges::any_of(named_times(), [&](const NamedTimes& times) {
+    return times.own && (times.cpus & one.self) && (times.cpus & other.self);
+  });
+}
+
+std::string other_cpu(const std::string& cpu, const CpuModel& model) {
+  const CpuModel* of = find_cpu(cpu);
+  if (!of) return fmt::format("there is no CPU '{}'", stl::shortened(cpu));
+  if (same_times(*of, model)) return {};
+  return fmt::format("these are times of CPU {}, not of CPU {}; give --cpu {}, or delete this line to use them all the same",
+                     cpu, model.name, cpu);
+}
+
+std::vector<std::string> slips_in(const TimesFile& file, const std::string& name, const CpuModel& model) {
+  std::vector<std::string> slips;
+  const auto add = [&](std::size_t line, const std::string& slip) {
+    if (!slip.empty()) slips.push_back(fmt::format("{}:{}: {}", name, line, slip));
+  };
+  if (!file.cpu.empty()) add(file.cpu_line, other_cpu(file.cpu, model));
+  for (const TimesFile::Line& line : file.lines)
+    for (const std::string& mnemonic : line.row.mnemonics) add(line.number, slip_in(line.row, mnemonic, model));
+  return slips;
+}
+
+}  // namespace
 
 std::optional<TimeTable> load_times(const CpuModel& model, const std::string& table, std::vector<std::string>& errors) {
   TimeTable times = default_times(model);
   if (table.empty()) return times;
   if (const NamedTimes* named = find_times(table)) {
     if (named->cpus & model.self) {
-      times.add(named->table);
-      return times;
+      times.add(named->table());
+      return in_use(times);
     }
     errors.push_back(fmt::format("{} has times of {}; tables for CPU {}: {}", table, to_text(named->cpus), model.name,
                                  names_of_times(model)));
@@ -26,9 +122,14 @@ std::optional<TimeTable> load_times(const CpuModel& model, const std::string& ta
                                  names_of_times(model)));
     return {};
   }
-  const auto wrong = times.add(*csv, table);
+  std::vector<std::string> wrong;
+  const TimesFile file = read_times(*csv, table, wrong);
+  if (wrong.empty()) wrong = slips_in(file, table, model);
+  if (wrong.empty()) wrong = hidden_lines(file, table);
   errors.insert(errors.end(), wrong.begin(), wrong.end());
-  return wrong.empty() ? std::optional(times) : std::nullopt;
+  if (!wrong.empty()) return {};
+  times.add(*csv, table);
+  return in_use(times);
 }
 
 }  // namespace s7200

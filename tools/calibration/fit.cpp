@@ -7,6 +7,7 @@
 #include <set>
 
 #include "interpreter/model/instruction.hpp"
+#include "interpreter/model/times_file.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -45,7 +46,7 @@ LoopTime time_of(const Equation& equation, const std::vector<LoopTime>& times) {
 
 Fit fit(const Loops& loops, const std::vector<LoopTime>& times) {
   std::vector<Equation> equations;
-  for (std::size_t i = 0; i < loops.loops.size(); ++i) {
+  for (std::size_t i = 0; i < times.size(); ++i) {
     equations.push_back({loops.loops[i], std::vector<double>(times.size(), 0)});
     equations.back().of[i] = 1;
   }
@@ -92,32 +93,87 @@ double percent(const Fitted& fitted) {
   return least <= 0 ? 1000 : std::min(1000.0, 100 * (fitted.ns / least - 1));
 }
 
-std::string names_of(Areas areas) {
-  std::string names;
-  for (const AreaInfo& area : all_areas())
-    if (contains(areas, area.area)) names.append(names.empty() ? "" : " ").append(area.name);
-  return names;
+/// Labels alone may take no time, and areas may add none.
+bool can_be_written(const Fitted& fitted) {
+  if (fitted.form.mnemonic == name_of(SystemTime::OperandArea)) return fitted.found && fitted.ns > fitted.within;
+  return fitted.found && (fitted.ns >= 0.5 || fitted.form.mnemonic == "LBL");
 }
 
-std::string us(double ns) { return fmt::format("{:.3f}", std::max(0.0, ns) / 1000); }
+Time in_ns(double ns) { return std::clamp<Time>(std::llround(ns), 0, kLongestFigure); }
 
-}  // namespace
-
-std::string fitted_csv(const Fit& fit, const std::string& source) {
-  std::string csv = "mnemonic,form,base_us,per_unit_us,unit,marker,source,uncertainty_percent\n";
+/// The lines of what was found. Base and unit are of use only together.
+std::vector<TimeRow> measured_rows(const Fit& fit, const std::string& source) {
+  std::vector<TimeRow> rows;
   for (const Fitted& base : fit.forms) {
-    if (base.form.per_unit || !base.found || base.ns < 0.5) continue;
+    if (base.form.per_unit || !can_be_written(base)) continue;
     const Form of_unit{base.form.mnemonic, base.form.row, true};
     const auto unit = std::ranges::find(fit.forms, of_unit, &Fitted::form);
-    const TimeRow& row = *base.form.row;
+    TimeRow row = *base.form.row;
     const bool unit_found = unit != fit.forms.end() && unit->found;
     if (row.per_unit > 0 && !unit_found) continue;
     const double uncertainty = unit_found ? std::max(percent(base), percent(*unit)) : percent(base);
-    csv += fmt::format("{},{},{},{},{},measured,\"{}\",{:.2f}\n", base.form.mnemonic, names_of(row.areas), us(base.ns),
-                       unit_found ? us(unit->ns) : "", row.unit, source, std::ceil(uncertainty * 100) / 100);
+    row.mnemonics = {base.form.mnemonic};
+    row.form = names_of(row.areas);
+    row.base = in_ns(base.ns);
+    row.per_unit = unit_found ? in_ns(unit->ns) : 0;
+    row.marker = "measured";
+    row.source = source;
+    row.uncertainty = row.base == 0 ? 0 : std::ceil(uncertainty * 100) / 100;
+    rows.push_back(std::move(row));
   }
-  return csv;
+  return rows;
 }
+
+/// By what the figures that were not measured are multiplied. The EEPROM is a part of its own.
+void estimate(TimeRow& row, double ratio) {
+  if (row.mnemonics.front() == name_of(SystemTime::EepromSave)) {
+    row.source = "not measured; " + row.source;
+    return;
+  }
+  const auto scaled = [&](Time time) { return time == 0 ? 0 : std::max<Time>(1, in_ns(static_cast<double>(time) * ratio)); };
+  row.base = scaled(row.base);
+  row.per_unit = scaled(row.per_unit);
+  row.source = fmt::format("not measured: {:.2f} × {}, {}", ratio, row.marker, row.source);
+  row.marker = "calibrated";
+  const double most = (1 + row.uncertainty / 100) * std::max(ratio, 1 / ratio);
+  row.uncertainty = std::min(1000.0, std::ceil(100 * (most - 1)));
+}
+
+}  // namespace
+
+double ratio_to_known(const Fit& fit) {
+  std::vector<double> ratios;
+  for (const Fitted& each : fit.forms)
+    if (each.found && !each.form.per_unit && each.ns >= 0.5 && each.form.row->base > 0)
+      ratios.push_back(each.ns / static_cast<double>(each.form.row->base));
+  if (ratios.empty()) return 1;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::ranges::nth_element(ratios, middle);
+  return *middle;
+}
+
+TimeTable calibrated(const Fit& fit, const TimeTable& known, const TimeTable& own, const std::string& source) {
+  const double ratio = ratio_to_known(fit);
+  // What an area adds and the CPU's own table does not know is in the table if it was measured.
+  const auto is_known = [&](const TimeRow& row) {
+    return row.mnemonics.front() != name_of(SystemTime::OperandArea) ||
+           own.find(row.mnemonics.front(), area_named(row.form));
+  };
+  TimeTable table = known.filtered(is_known).with([&](TimeRow& row) { estimate(row, ratio); });
+  table.add(table_of(measured_rows(fit, source)));
+  return in_use(table);
+}
+
+namespace {
+
+/// What operands in an area add to any instruction.
+bool is_measured(const Fit& fit, Area area) {
+  return std::ranges::any_of(fit.forms, [&](const Fitted& each) {
+    return each.found && each.form.mnemonic == name_of(SystemTime::OperandArea) && contains(each.form.row->areas, area);
+  });
+}
+
+}  // namespace
 
 std::vector<std::string> not_measured(const Fit& fit, const CpuModel& model) {
   std::set<std::string_view> found;
@@ -126,6 +182,8 @@ std::vector<std::string> not_measured(const Fit& fit, const CpuModel& model) {
   std::vector<std::string> missing;
   for (const SystemTime what : {SystemTime::InterruptEntry, SystemTime::ScanOverhead, SystemTime::EepromSave})
     missing.emplace_back(name_of(what));
+  for (const Area area : {Area::AI, Area::AQ})  // they need a module
+    if (model.size_of(area) > 0 && !is_measured(fit, area)) missing.push_back(fmt::format("({} operands)", info(area).name));
   for (const Instruction& instruction : all_instructions())
     if (instruction.modelled() && (instruction.cpus & model.self) && !found.contains(instruction.mnemonic))
       missing.emplace_back(instruction.mnemonic);

@@ -22,11 +22,15 @@ struct Fit {
 };
 
 /// Each loop is an equation. They are solved by elimination, so that a form is found exactly if the loops tell it apart; the
-/// errors of the loops add up in the worst way.
+/// errors of the loops add up in the worst way. `times`: of the first loops.
 Fit fit(const Loops& loops, const std::vector<LoopTime>& times);
 
-/// The table with what was found, as lines of their own; `source` says where and when it was measured.
-std::string fitted_csv(const Fit& fit, const std::string& source);
+/// How much slower the CPU is than the table that is corrected says: the middle one of all figures that were measured.
+double ratio_to_known(const Fit& fit);
+
+/// The table of the CPU: what was found, where and when as `source` says, and for all else the figures of `known` times that
+/// ratio, as unsure as they are and as the ratio makes them. `known` is told_apart(), `own` what the CPU runs with.
+TimeTable calibrated(const Fit& fit, const TimeTable& known, const TimeTable& own, const std::string& source);
 
 /// The instructions of the CPU that it does not have.
 std::vector<std::string> not_measured(const Fit& fit, const CpuModel& model);

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 
+#include "interpreter/model/instruction.hpp"
+#include "interpreter/model/named_times.hpp"
+#include "interpreter/model/times_file.hpp"
 #include "interpreter/program/load.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/calibration/measure_program.hpp"
@@ -12,14 +16,65 @@
 namespace s7200::tools {
 namespace {
 
-// Times that tell from how long an instruction took what it consisted of. A scan with all loops stays below the watchdog's
-// 300 ms with them.
-constexpr Time kBase = 100'000, kPerUnit = 1'000, kPointer = 100;
+/// The tables of a CPU, its own first.
+std::vector<const TimeTable*> tables_of(const CpuModel& model, const TimeTable& own) {
+  std::vector<const TimeTable*> tables{&own};
+  for (const NamedTimes& named : named_times())
+    if (!named.own && (named.cpus & model.self)) tables.push_back(&named.table());
+  return tables;
+}
+
+/// First operands that have the same line in each of the tables.
+struct Kind {
+  std::vector<const TimeRow*> lines;
+  Areas areas = 0;
+};
+
+/// Those of an instruction. What an area adds to any instruction is no kind of its own.
+std::vector<Kind> kinds_of(const Instruction& instruction, const CpuModel& model,
+                           const std::vector<const TimeTable*>& tables) {
+  std::vector<Kind> kinds;
+  for (const AreaInfo& area : all_areas()) {
+    if (!contains(instruction.operand[0].areas, area.area) || model.size_of(area.area) == 0) continue;
+    std::vector<const TimeRow*> lines;
+    for (const TimeTable* table : tables) lines.push_back(table->find(instruction.mnemonic, area.area));
+    const TimeRow* own = lines.front();
+    if (!own || (own->areas == 0 && tables.front()->find(name_of(SystemTime::OperandArea), area.area))) continue;
+    const auto known = std::ranges::find(kinds, lines, &Kind::lines);
+    if (known == kinds.end())
+      kinds.push_back({lines, set_of(area.area)});
+    else
+      known->areas |= set_of(area.area);
+  }
+  return kinds;
+}
+
+/// Times with which an instruction's time, in ns, tells by its digits what it consisted of:
+///
+///   100'000  the instruction   1'000s  units, 99 at most   100s  pointers, 9 at most   10s  operands in an area that adds
+///   time
+///
+/// A scan with all loops stays below the watchdog's 300 ms with them.
+constexpr Time kBase = 100'000, kPerUnit = 1'000, kPointer = 100, kArea = 10;
+
+/// What an instruction that took so long consisted of, besides itself.
+struct Parts {
+  explicit Parts(Time took)
+      : units(static_cast<double>(took % kBase / kPerUnit)),
+        pointers(static_cast<double>(took % kPerUnit / kPointer)),
+        areas(static_cast<double>(took % kPointer / kArea)) {}
+
+  double units, pointers, areas;
+};
 
 TimeTable telling_times(const TimeTable& times) {
-  return times.with([](TimeRow& row) {
-    const bool of_pointer = row.mnemonics.front() == name_of(SystemTime::IndirectOperand);
-    row.base = row.base == 0 ? 0 : of_pointer ? kPointer : kBase;
+  const auto telling = [](const std::string& name) {
+    return name == name_of(SystemTime::IndirectOperand) ? kPointer
+           : name == name_of(SystemTime::OperandArea)   ? kArea
+                                                        : kBase;
+  };
+  return times.with([&](TimeRow& row) {
+    row.base = telling(row.mnemonics.front());
     row.per_unit = row.per_unit == 0 ? 0 : kPerUnit;
   });
 }
@@ -36,27 +91,32 @@ class FormCounter final : public TraceSink {
   bool wants_instructions() const override { return true; }
   void instruction(const InstructionRecord& record) override {
     const Op& op = program_.ops[record.op];
-    if (!record.powered) return count({std::string(name_of(SystemTime::NoPowerFlow)), row_of(SystemTime::NoPowerFlow)}, 1);
+    if (!record.powered) return count(SystemTime::NoPowerFlow, {}, 1);
     const std::string mnemonic(op.instruction->mnemonic);
-    const TimeRow* row = times_.find(mnemonic, first_area(record.op));
-    const Time took = record.end - record.at;
-    count({mnemonic, row}, took >= kBase ? 1 : 0);
-    if (took < kBase) return;  // a label
-    count({mnemonic, row, true}, static_cast<double>(took % kBase / kPerUnit));
-    count({std::string(name_of(SystemTime::IndirectOperand)), row_of(SystemTime::IndirectOperand)},
-          static_cast<double>(took % kPerUnit / kPointer));
+    const std::vector<Area> areas = areas_of(record.op);
+    const TimeRow* row = times_.find(mnemonic, areas.empty() ? std::nullopt : std::optional(areas.front()));
+    const Parts parts(record.end - record.at);
+    count({mnemonic, row}, 1);
+    count({mnemonic, row, true}, parts.units);
+    count(SystemTime::IndirectOperand, {}, parts.pointers);
+    for (const Area area : areas)  // a loop has operands of one such area at most
+      if (times_.find(name_of(SystemTime::OperandArea), area)) return count(SystemTime::OperandArea, area, parts.areas);
   }
 
   Counts take() { return std::exchange(counts_, {}); }
 
  private:
-  const TimeRow* row_of(SystemTime what) const { return times_.find(name_of(what), {}); }
+  /// Of the operands that are addresses.
+  std::vector<Area> areas_of(std::uint32_t op) const {
+    std::vector<Area> areas;
+    for (const stl::Operand& operand : program_.statement(op).operands)
+      if (const auto* address = std::get_if<stl::Address>(&operand.value))
+        if (const auto area = area_named(address->area)) areas.push_back(*area);
+    return areas;
+  }
 
-  std::optional<Area> first_area(std::uint32_t op) const {
-    const stl::Statement& statement = program_.statement(op);
-    if (statement.operands.empty()) return {};
-    const auto* address = std::get_if<stl::Address>(&statement.operands.front().value);
-    return address ? area_named(address->area) : std::nullopt;
+  void count(SystemTime what, std::optional<Area> area, double times) {
+    count({std::string(name_of(what)), times_.find(name_of(what), area)}, times);
   }
 
   void count(const Form& form, double times) {
@@ -72,9 +132,10 @@ class FormCounter final : public TraceSink {
   Counts counts_;
 };
 
-void poke_word(Cpu& cpu, std::uint32_t address, std::uint32_t value) {
-  const std::array<std::uint8_t, 2> bytes{static_cast<std::uint8_t>(value >> 8), static_cast<std::uint8_t>(value)};
-  cpu.poke(image::kV + address, bytes);
+/// As if it had come over the line.
+void command(Cpu& cpu, const Command& command) {
+  cpu.poke(image::kV + measuring::kCommandAt, command.bytes());
+  cpu.poke(image::kM + measuring::kCompleteByte, std::array{measuring::kCompleteBit});
 }
 
 /// The instructions of the repetitions alone: those between the beginning of the outer loop and its end.
@@ -101,23 +162,42 @@ std::shared_ptr<const Program> measuring_program(const CpuModel& model, const Ti
   return check_text(kMeasureTimes, "measure_times.stl", model, times).program;
 }
 
+TimeTable told_apart(const CpuModel& model) {
+  TimeTable own = default_times(model);
+  const std::vector<const TimeTable*> tables = tables_of(model, own);
+  std::vector<TimeRow> rows;
+  for (const Instruction& instruction : all_instructions()) {
+    if (!instruction.modelled() || !(instruction.cpus & model.self) || instruction.rules().empty()) continue;
+    const std::vector<Kind> kinds = kinds_of(instruction, model, tables);
+    if (kinds.size() < 2) continue;
+    for (const Kind& kind : kinds) {
+      rows.push_back(*kind.lines.front());
+      rows.back().mnemonics = {std::string(instruction.mnemonic)};
+      rows.back().form = names_of(kind.areas);
+    }
+  }
+  const auto adds_more = [&](const TimeRow& row) {
+    return row.mnemonics.front() == name_of(SystemTime::OperandArea) &&
+           !own.find(row.mnemonics.front(), area_named(row.form));
+  };
+  for (const TimeTable* table : tables) std::ranges::copy_if(table->rows(), std::back_inserter(rows), adds_more);
+  own.add(table_of(rows));
+  return in_use(own);
+}
+
 Loops find_loops(const CpuModel& model, const TimeTable& times) {
   Loops found;
   const auto program = measuring_program(model, telling_times(times));
   if (!program) return found;
   FormCounter counter(*program, times, found.forms);
   Window window(*program, counter);
-  const auto run = [&](std::size_t loop, std::uint32_t repetitions) {
+  const auto run = [&](std::size_t loop, std::uint16_t repetitions) {
     serial::Simulation simulation(program);
     Cpu& cpu = simulation.cpu();
     simulation.power_up();
     cpu.pause_at_scan_end(true);
     simulation.run_until(10 * kSecond);
-    poke_word(cpu, Command::kLoop, static_cast<std::uint32_t>(0x6D00 | loop));
-    poke_word(cpu, Command::kOuter, 1);
-    poke_word(cpu, Command::kInner, repetitions);
-    const std::array<std::uint8_t, 1> request{1};  // M31.0
-    cpu.poke(image::kM + 31, request);
+    command(cpu, {.loop = static_cast<std::uint8_t>(loop), .outer = 1, .inner = repetitions});
     cpu.set_sink(&window);
     simulation.run_until(simulation.time() + 100 * kSecond);
     cpu.set_sink(nullptr);

@@ -17,6 +17,10 @@ struct Form {
   bool operator==(const Form&) const = default;
 };
 
+/// The times that a CPU runs with of its own, with what its other tables know besides: a line for each set of first operands
+/// that no table tells apart, and a figure for each area that with any of them adds time.
+TimeTable told_apart(const CpuModel& model);
+
 /// A loop: how often a repetition takes each of the forms.
 using Repetition = std::vector<double>;
 

@@ -4,25 +4,27 @@
 #include <functional>
 #include <vector>
 
+#include "interpreter/base/bytes.hpp"
 #include "interpreter/program/program.hpp"
+#include "tools/calibration/measure_protocol.hpp"
 #include "tools/slave/slave.hpp"
 
 namespace s7200::tools {
 
-/// What the program is asked, and where it keeps that in V memory.
+/// What the program is asked.
 struct Command {
-  static constexpr std::uint32_t kLoop = 20, kOuter = 22, kInner = 24;
-  static constexpr std::uint8_t kNoLoop = 255;
-
-  std::uint8_t loop = kNoLoop;
+  std::uint8_t loop = measuring::kNoLoop;
   std::uint16_t outer = 1, inner = 0;
+
+  /// As it is sent, and as it stands in V memory.
+  Bytes bytes() const;
 };
 
 /// Its answer.
 struct Measured {
   std::uint16_t milliseconds = 0;
   std::uint8_t identification = 0;  ///< SMB6
-  std::uint8_t version = 0, loops = 0;
+  std::uint8_t loops = 0;
 };
 
 /// How many loops the program has.
@@ -35,11 +37,17 @@ struct LoopTime {
 
 struct Measurement {
   std::uint8_t identification = 0;
-  std::vector<LoopTime> loops;  ///< by their numbers
+  std::vector<LoopTime> loops;  ///< by their numbers, as far as it came
 };
 
-/// Asks for all loops, each for about so long. `progress` hears how many are done. Throws SlaveUnreachable, and
-/// std::runtime_error if what answers is not the program, or another version of it, or does not answer.
-Measurement measure_loops(Slave& slave, std::size_t loops, Time each, const std::function<void(std::size_t)>& progress);
+/// Who follows it.
+struct MeasurementListener {
+  std::function<void(std::uint8_t identification)> answered;  ///< before the first loop; it may throw
+  std::function<void(std::size_t loops)> measured;            ///< so many so far
+};
+
+/// Asks for all loops, each for about so long; once the command is interrupted for no more of them. Throws SlaveUnreachable,
+/// and std::runtime_error if what answers is not the program, or another version of it, or does not answer.
+Measurement measure_loops(Slave& slave, std::size_t loops, Time each, const MeasurementListener& listener);
 
 }  // namespace s7200::tools

@@ -11,14 +11,21 @@ namespace s7200::tools {
 
 std::optional<TimesBand> load_band(const CpuModel& model, const std::string& table, const BandSettings& settings,
                                    std::vector<std::string>& errors) {
-  const auto in_use = load_times(model, table, errors);
-  if (!in_use) return {};
-  std::vector<TimeTable> others;
-  if (table.empty())
+  std::vector<TimesBand::Named> tables;
+  const auto add = [&](const std::string& name, const std::string& title) {
+    auto times = load_times(model, name, errors);
+    if (times) tables.push_back({title, std::move(*times)});
+    return times.has_value();
+  };
+  if (!table.empty()) {
+    if (!add(table, table)) return {};
+    return TimesBand(std::move(tables), settings);
+  }
+  for (const bool own : {true, false})
     for (const NamedTimes& named : named_times())
-      if (!named.own && (named.cpus & model.self))
-        if (auto other = load_times(model, std::string(named.name), errors)) others.push_back(std::move(*other));
-  return TimesBand(*in_use, others, settings);
+      if (named.own == own && (named.cpus & model.self))
+        if (const std::string name(named.name); !add(name, name)) return {};
+  return TimesBand(std::move(tables), settings);
 }
 
 ProgramBand::ProgramBand(stl::ParseResult parsed, const CpuModel& model, TimesBand tables, const SystemBlock& block)
@@ -59,15 +66,19 @@ nlohmann::ordered_json to_json(const LatencyRange& range) {
 }
 
 void ExchangeBand::add(const BandOutcome& outcome) {
-  ++tables_;
+  const std::size_t table = tables_++;
   losing_ += outcome.lost > 0;
   const auto known = std::ranges::find(counts_, outcome.verdict, &Count::verdict);
   if (known == counts_.end())
-    counts_.push_back({outcome.verdict, 1});
+    counts_.push_back({outcome.verdict, 1, table});
   else
     ++known->tables;
   if (!outcome.exchange) return;
-  if (const auto latency = outcome.exchange->latency()) latency_.add(*latency);
+  const auto latency = outcome.exchange->latency();
+  if (!latency) return;
+  if (*latency < latency_.least) shortest_ = table;
+  if (*latency > latency_.most) longest_ = table;
+  latency_.add(*latency);
 }
 
 std::size_t ExchangeBand::count(const std::string& verdict) const {

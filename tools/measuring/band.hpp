@@ -29,6 +29,7 @@ class ProgramBand {
   ProgramBand(stl::ParseResult parsed, const CpuModel& model, TimesBand tables, const SystemBlock& block);
 
   std::size_t size() const { return tables_.size(); }
+  std::string table_name(std::size_t table) const { return tables_.name(table); }
   std::shared_ptr<const Program> program(std::size_t table) const;
 
  private:
@@ -59,7 +60,7 @@ nlohmann::ordered_json to_json(const LatencyRange& range);
 struct BandOutcome {
   std::optional<serial::Exchange> exchange{};  ///< nothing: it was not come to
   std::string verdict{};                       ///< in a word or two: `answered`, `no answer`
-  std::size_t lost = 0;                        ///< characters whose event the CPU's queue had no room for
+  std::size_t lost = 0;                        ///< events that the CPU's queues had no room for, of characters or others
 };
 
 /// The same with all tables.
@@ -70,20 +71,28 @@ class ExchangeBand {
   std::size_t tables() const { return tables_; }
   const LatencyRange& latency() const { return latency_; }
 
+  /// The tables of its ends, if there is one; they are counted as they were added.
+  std::size_t shortest() const { return shortest_; }
+  std::size_t longest() const { return longest_; }
+
+  struct Count {
+    std::string verdict;
+    std::size_t tables;
+    std::size_t first;  ///< of these tables
+  };
+
+  /// In the order in which they were found.
+  const std::vector<Count>& counts() const { return counts_; }
+
   /// With how many tables.
   std::size_t count(const std::string& verdict) const;
 
-  /// `after 15.8 … 19.6 ms   answered: 202 of 202 tables; characters lost: 3 of 202`
+  /// `after 15.8 … 19.6 ms   answered: 202 of 202 tables; characters or events lost: 3 of 202`
   std::string text() const;
   nlohmann::ordered_json json() const;
 
  private:
-  struct Count {
-    std::string verdict;
-    std::size_t tables;
-  };
-
-  std::size_t tables_ = 0, losing_ = 0;
+  std::size_t tables_ = 0, losing_ = 0, shortest_ = 0, longest_ = 0;
   LatencyRange latency_;
   std::vector<Count> counts_;
 };

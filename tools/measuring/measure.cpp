@@ -1,5 +1,7 @@
 #include "tools/measuring/measure.hpp"
 
+#include <time.h>
+
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
@@ -15,11 +17,20 @@
 namespace s7200::tools {
 namespace {
 
-using HostClock = std::chrono::steady_clock;
+/// Processor time of this process: what else the machine does does not count.
+struct HostClock {
+  using duration = std::chrono::nanoseconds;
+
+  static duration now() {
+    timespec used{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+    return std::chrono::seconds(used.tv_sec) + std::chrono::nanoseconds(used.tv_nsec);
+  }
+};
 
 constexpr EventOwner kUart{0}, kCpu{1};
 
-/// Work done and the host time it took.
+/// Work done and the processor time it took.
 struct Lap {
   double work = 0;
   HostClock::duration time{};
@@ -142,28 +153,34 @@ class Serving {
 
 /// The same on the whole line, with its master.
 void exchange(serial::Simulation& simulation) {
+  constexpr std::size_t kAnswer = 25;
   simulation.master().start({.frame = ten_registers()}, simulation.time());
-  if (simulation.finish_exchange().timed_out)
+  const Bytes answer = simulation.finish_exchange().response_bytes();
+  if (answer.size() != kAnswer || !modbus::crc_ok(answer))
     throw std::runtime_error("the program did not answer a request for 10 registers");
   simulation.run_until(simulation.time() + serial::default_quiet(simulation.freeport().format));
 }
 
 /// Several first scans at once, so that reading the clock does not count; nor does the power-up in front of each, which
 /// clears all memory: it is timed by itself and taken off.
-Lap first_scans(serial::Simulation& simulation) {
+Lap first_scans(serial::Simulation& simulation, const serial::Simulation::Snapshot& fresh) {
   constexpr int kScans = 32;
+  const auto power_up = [&] {
+    simulation.restore(fresh);  // nothing is on the line any more
+    simulation.power_up();
+  };
   simulation.cpu().pause_at_scan_end(true);
   const Lap with = timed([&] {
     double work = 0;
     for (int i = 0; i < kScans; ++i) {
-      simulation.power_up();
+      power_up();
       simulation.run_until(10 * kSecond);
       work += static_cast<double>(simulation.cpu().state().instructions);
     }
     return work;
   });
   const Lap without = timed([&] {
-    for (int i = 0; i < kScans; ++i) simulation.power_up();
+    for (int i = 0; i < kScans; ++i) power_up();
     return 0.0;
   });
   simulation.cpu().pause_at_scan_end(false);
@@ -202,17 +219,20 @@ double mixed_scans(serial::Simulation& simulation) {
 
 std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time each) {
   serial::Simulation simulation(program);
+  const serial::Simulation::Snapshot fresh = simulation.snapshot();
   std::vector<Figure> figures;
-  figures.push_back({"first scan", "instructions", best_rate(each, [&] { return first_scans(simulation); })});
+  figures.push_back({"first scan", "instructions", best_rate(each, [&] { return first_scans(simulation, fresh); })});
 
+  simulation.restore(fresh);
   simulation.power_up();
   const auto quiet = [&] { return serial::default_quiet(simulation.freeport().format); };
   simulation.run_until_ready(quiet, 60 * kSecond);
   simulation.configure_master(simulation.freeport().format);
+  exchange(simulation);  // which a program that is no such slave does not get past
   simulation.cpu().use_steady_scans(SteadyScansUse::Off);
   figures.push_back(
       {"idle scans", "instructions", best_rate(each, [&] { return timed([&] { return idle_scans(simulation); }); })});
-  simulation.cpu().use_steady_scans(SteadyScansUse::On);
+  simulation.cpu().use_steady_scans(kUsualUse);
   figures.push_back(
       {"nobody talking", "seconds", best_rate(each, [&] { return timed([&] { return idle_minutes(simulation); }); })});
 

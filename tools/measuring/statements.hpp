@@ -19,6 +19,7 @@ struct Statement {
   std::string source{};  ///< who says so
   std::string found{};   ///< the same with the table; of one that was not checked, what it takes
   Verdict verdict = Verdict::NotChecked;
+  bool fitted = false;  ///< figures of the table are from there, so that it says nothing about the others
 };
 
 /// Those about this CPU. `tip41`: Application Tip 41, a program for the CPU 214 that is not part of this project; null if it

@@ -34,17 +34,58 @@ TEST(Fit, LoopsThatDisagreeByMoreThanTheirErrorsAreAContradiction) {
 }
 
 TEST(Fit, ALineIsWrittenWithAllItsFiguresAndTheWorseOfTheirUncertainties) {
+  const TimeTable own = default_times(cpu214());
   const Loops loops{{form("SLW"), form("SLW", true)}, {{1, 1}, {1, 15}}};
-  const Fit found = fit(loops, {{80'000, 140}, {136'000, 140}});
-  EXPECT_EQ(fitted_csv(found, "a CPU"),
-            "mnemonic,form,base_us,per_unit_us,unit,marker,source,uncertainty_percent\n"
-            "SLW,,76.000,4.000,bit,measured,\"a CPU\",0.51\n");
-  EXPECT_EQ(fitted_csv(fit({loops.forms, {{1, 1}}}, {{80'000, 140}}), "a CPU").find("SLW"), std::string::npos)
+  const TimeTable table = calibrated(fit(loops, {{80'000, 140}, {136'000, 140}}), own, own, "a CPU");
+  const TimeRow& row = *table.find("SLW", Area::V);
+  EXPECT_EQ(row.base, 76'000);
+  EXPECT_EQ(row.per_unit, 4'000);
+  EXPECT_EQ(row.marker, "measured");
+  EXPECT_EQ(row.source, "a CPU");
+  EXPECT_EQ(row.uncertainty, 0.51);
+  EXPECT_NE(calibrated(fit({loops.forms, {{1, 1}}}, {{80'000, 140}}), own, own, "a CPU").find("SLW", {})->marker, "measured")
       << "base and unit are not told apart";
 }
 
+TEST(Calibrated, WhatWasNotMeasuredIsAsMuchSlowerAsTheMiddleOfWhatWas) {
+  const TimeTable own = default_times(cpu214());
+  const Loops loops{{form("NEXT"), form("MOVB"), form("MOVW")}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const Fit found = fit(loops, {{225'000, 10}, {36'000, 10}, {22'000, 10}});  // 1.5, 1.2 and 0.5 times the estimates
+  EXPECT_DOUBLE_EQ(ratio_to_known(found), 1.2);
+  const TimeTable table = calibrated(found, own, own, "a CPU");
+  const TimeRow& call = *table.find("CALL", {});
+  EXPECT_EQ(call.base, 27'600);
+  EXPECT_EQ(call.marker, "calibrated");
+  EXPECT_EQ(call.source, "not measured: 1.20 × estimate, no page of the manual found");
+  EXPECT_EQ(call.uncertainty, 50) << "25 percent, and as many as the ratio has";
+  EXPECT_EQ(table[SystemTime::EepromSave], own[SystemTime::EepromSave]) << "a part of its own";
+}
+
+TEST(ToldApart, FirstOperandsThatAnyTableOfTheCpuKnowsToDifferHaveLinesOfTheirOwn) {
+  const TimeTable times = told_apart(cpu214());
+  const auto same = [&](const char* mnemonic, Area one, Area other) {
+    return times.find(mnemonic, one) == times.find(mnemonic, other);
+  };
+  EXPECT_TRUE(same("R", Area::V, Area::Q));
+  EXPECT_FALSE(same("R", Area::V, Area::T));
+  EXPECT_FALSE(same("R", Area::T, Area::C));
+  EXPECT_FALSE(same("LD", Area::I, Area::Q));
+  EXPECT_TRUE(same("LD", Area::V, Area::S));
+  EXPECT_TRUE(same("MOVB", Area::V, Area::AC)) << "an accumulator adds the same to any instruction";
+  EXPECT_TRUE(times.find(name_of(SystemTime::OperandArea), Area::AC));
+  for (const CpuModel* model : all_cpus()) {
+    const TimeTable own = default_times(*model), split = told_apart(*model);
+    for (const TimeRow& row : own.rows())
+      for (const std::string& mnemonic : row.mnemonics)
+        for (const AreaInfo& area : all_areas()) {
+          const TimeRow *before = own.find(mnemonic, area.area), *now = split.find(mnemonic, area.area);
+          EXPECT_TRUE((!before && !now) || (before && now && before->base == now->base)) << mnemonic << ' ' << area.name;
+        }
+  }
+}
+
 TEST(FindLoops, EachLoopOfTheProgramConsistsOfWhatIsWrittenInIt) {
-  const TimeTable times = default_times(cpu214());
+  const TimeTable times = told_apart(cpu214());
   const Loops loops = find_loops(cpu214(), times);
   ASSERT_GT(loops.loops.size(), 100U);
   const auto count = [&](std::size_t loop, const std::string& mnemonic, bool per_unit = false) {
@@ -56,11 +97,14 @@ TEST(FindLoops, EachLoopOfTheProgramConsistsOfWhatIsWrittenInIt) {
   EXPECT_EQ(count(0, "NEXT"), 1);
   EXPECT_EQ(count(0, "LD"), 0);
   EXPECT_EQ(count(1, "WDR"), 4);
+  EXPECT_EQ(count(152, "JMP"), 1);
+  EXPECT_EQ(count(152, "LBL"), 8) << "also where the table says that it takes no time";
   EXPECT_EQ(count(2, "LD"), 9);
   EXPECT_EQ(count(2, "="), 9);
   bool any_shift_of_15 = false;
   for (std::size_t loop = 0; loop < loops.loops.size(); ++loop) any_shift_of_15 |= count(loop, "SLW", true) == 15;
   EXPECT_TRUE(any_shift_of_15);
+  EXPECT_EQ(count(loops.loops.size() - 1, "(operand area adds)"), 8) << "two accumulators in each of four";
 }
 
 }  // namespace

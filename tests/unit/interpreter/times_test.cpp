@@ -2,10 +2,14 @@
 #include "interpreter/model/times.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 
 #include "interpreter/model/named_times.hpp"
+#include "interpreter/model/times_file.hpp"
 #include "interpreter/program/load.hpp"
 #include "interpreter/program/load_times.hpp"
 
@@ -64,14 +68,49 @@ TEST(Times, WhatIsWrittenReadsBackAsItself) {
 
 TEST(Times, WhatCannotBeReadIsNamedWithItsLine) {
   EXPECT_EQ(errors_in("MOVB,,60,,,estimate\nMOVW,,-1,,,estimate\n\nMOVD,,60,x,,estimate\n"),
-            (Errors{"times.csv:3: '-1' is not a time in microseconds (0 to 1000000)",
-                    "times.csv:5: 'x' is not a time in microseconds (0 to 1000000)"}));
+            (Errors{"times.csv:3: '-1' is not a time in microseconds (0.001 to 100000)",
+                    "times.csv:5: 'x' is not a time in microseconds (0.001 to 100000)"}));
   EXPECT_EQ(errors_in("MOVB,,60,,,guess\n"),
             Errors{"times.csv:2: 'guess' is not a marker; there are manual, measured, calibrated, remembered, estimate"});
   EXPECT_EQ(errors_in("MOVB,,0,,,manual\n"), Errors{"times.csv:2: MOVB: an execution time must be above 0"});
   EXPECT_EQ(errors_in("LBL SBR INT,,0,,,manual\n"), Errors{});
   EXPECT_EQ(errors_in(" ,,5,,,manual\n"), Errors{"times.csv:2: the mnemonic is missing"});
   EXPECT_EQ(errors_in("MOVB,60\n").at(0).substr(0, 43), "times.csv:2: 2 columns, but 6 are needed (m");
+}
+
+TEST(Times, AFigureIsAtMostWhatTheWatchdogLeavesToOneInstructionAndAtLeastANanosecond) {
+  EXPECT_EQ(errors_in("MOVB,,100000,,,manual\n"), Errors{});
+  EXPECT_EQ(errors_in("MOVB,,0.001,,,manual\n"), Errors{});
+  EXPECT_EQ(errors_in("MOVB,,100000.1,,,manual\n"),
+            Errors{"times.csv:2: '100000.1' is not a time in microseconds (0.001 to 100000)"});
+  EXPECT_EQ(errors_in("MOVB,,0.0001,,,manual\n"),
+            Errors{"times.csv:2: '0.0001' is not a time in microseconds (0.001 to 100000)"});
+}
+
+TEST(Times, ALineWithAQuoteLeftOpenOrTooManyColumnsAndATableWithoutLinesAreSlips) {
+  EXPECT_EQ(errors_in("MOVB,,60,,,manual,\"page 9\n"), Errors{"times.csv:2: a double quote is not closed"});
+  EXPECT_EQ(errors_in("MOVB,,60,,,manual,page 9, left,5\n").at(0).substr(0, 40), "times.csv:2: 9 columns, but there are 8 ");
+  EXPECT_EQ(errors_in(""), Errors{"times.csv:1: the table has no line with a time"});
+}
+
+TEST(Times, CommentsAreLeftOutAndOneSaysWhoseTimesTheyAre) {
+  std::vector<std::string> errors;
+  const TimesFile file = read_times("# CPU 224,,,,,,,\n" + kHeader + "# mine\nMOVB,,60,,,manual\n", "times.csv", errors);
+  EXPECT_EQ(errors, Errors{});
+  EXPECT_EQ(file.cpu, "224");
+  ASSERT_EQ(file.lines.size(), 1U);
+  EXPECT_EQ(file.lines[0].number, 4U);
+  EXPECT_EQ(read_times(kHeader + "MOVB,,60,,,manual\n", "times.csv", errors).cpu, "");
+}
+
+TEST(Times, OnlyLinesThatGiveATimeAreInUse) {
+  TimeTable times = table("LD LDN,I Q,0.8,,,estimate\nMOVB MOVW,,30,,,estimate\nLD,M,1,,,estimate\n");
+  EXPECT_EQ(to_csv(in_use(times)), to_csv(times));
+  times.add(table("MOVB,,37,,,manual\nLD,I,0.7,,,manual\nLDN,,2,,,manual\n"));
+  EXPECT_EQ(to_csv(in_use(times)), to_csv(table("MOVB,,37,,,manual\nLD,I,0.7,,,manual\nLDN,,2,,,manual\n"
+                                                "LD,I Q,0.8,,,estimate\nMOVW,,30,,,estimate\nLD,M,1,,,estimate\n")));
+  for (const CpuModel* model : all_cpus())
+    EXPECT_EQ(to_csv(in_use(default_times(*model))), to_csv(default_times(*model))) << model->name;
 }
 
 TEST(Times, TheMarkerSaysHowSureAFigureIsIfItsLineDoesNot) {
@@ -90,12 +129,12 @@ TEST(NamedTimes, ACpuRunsWithTheTableThatIsItsOwn) {
     const auto own = std::ranges::find_if(named_times(),
                                           [&](const NamedTimes& times) { return times.own && (times.cpus & model->self); });
     ASSERT_NE(own, named_times().end()) << model->name;
-    EXPECT_EQ(to_csv(own->table), to_csv(default_times(*model))) << model->name;
+    EXPECT_EQ(to_csv(own->table()), to_csv(default_times(*model))) << model->name;
   }
 }
 
 TEST(NamedTimes, TheTableFromTheCpu22xIsItsFiguresTimesOneFactor) {
-  const TimeTable &scaled = find_times("cpu214_from_22x")->table, &of_22x = find_times("cpu22x_release1")->table;
+  const TimeTable &scaled = find_times("cpu214_from_22x")->table(), &of_22x = find_times("cpu22x_release1")->table();
   for (const TimeRow& row : of_22x.rows()) {
     for (const std::string& mnemonic : row.mnemonics) {
       const bool of_system = mnemonic == "(EEPROM save)" || mnemonic == "(interrupt entry)";
@@ -112,7 +151,7 @@ TEST(NamedTimes, TheTableFromTheCpu22xIsItsFiguresTimesOneFactor) {
 }
 
 TEST(NamedTimes, EachFigureOfTheCpu214IsAsUnsureAsTheRememberedOneIsFarFromIt) {
-  const TimeTable &own = find_times("cpu214")->table, &other = find_times("cpu214_from_22x")->table;
+  const TimeTable &own = find_times("cpu214")->table(), &other = find_times("cpu214_from_22x")->table();
   for (const TimeRow& row : own.rows())
     for (const std::string& mnemonic : row.mnemonics) {
       const TimeRow* remembered = other.find(mnemonic, {});
@@ -135,6 +174,72 @@ TEST(NamedTimes, ATableIsForItsOwnCpus) {
   ASSERT_TRUE(times);
   EXPECT_EQ(times->find("MOVB", {})->marker, "remembered");
   EXPECT_EQ((*times)[SystemTime::ScanOverhead], default_times(cpu214())[SystemTime::ScanOverhead]) << "not remembered";
+}
+
+/// A file, as long as it lives.
+class WrittenFile {
+ public:
+  explicit WrittenFile(const std::string& text) { std::ofstream(path_) << text; }
+  ~WrittenFile() { std::filesystem::remove(path_); }
+  WrittenFile(const WrittenFile&) = delete;
+  WrittenFile& operator=(const WrittenFile&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_ = (std::filesystem::temp_directory_path() / ("s7200_times_" + std::to_string(getpid()))).string();
+};
+
+/// What load_times() says of a file with these lines below the header, without its name.
+Errors slips_in(const std::string& lines, const CpuModel& model, const std::string& before = "") {
+  const WrittenFile file(before + kHeader + lines);
+  Errors errors;
+  const bool loaded = load_times(model, file.path(), errors).has_value();
+  EXPECT_EQ(loaded, errors.empty());
+  for (std::string& error : errors) error.erase(0, file.path().size());
+  return errors;
+}
+
+TEST(LoadTimes, ANameFormOrUnitThatTheCpusTablesDoNotHaveIsASlip) {
+  EXPECT_EQ(slips_in("movb,,60,,,manual\n", cpu214()), Errors{":2: 'movb' is not an instruction; write MOVB"});
+  EXPECT_EQ(slips_in("MOVV,,60,,,manual\n", cpu214()), Errors{":2: 'MOVV' is not an instruction; write MOVB"});
+  EXPECT_EQ(slips_in("(scan),,60,,,manual\n", cpu214()),
+            Errors{":2: '(scan)' is not an instruction; `s7200 times` lists them"});
+  EXPECT_EQ(slips_in("LD,Z,60,,,manual\n", cpu214()),
+            Errors{":2: 'Z' is not a form of LD; write the areas of its first operand (I Q M SM V …), or nothing"});
+  EXPECT_EQ(slips_in("MOVB,,60,3,byte,manual\n", cpu214()), Errors{":2: MOVB has no time per unit; leave column 4 empty"});
+  EXPECT_EQ(slips_in("MOVB,,60,,,manual\nSLW,,60,,,manual\n", cpu214()),
+            Errors{":3: SLW takes longer for each bit; write by how much into column 4"});
+  EXPECT_EQ(slips_in("INCB,,60,,,manual\nR,T,19,16,bit,manual\nJMP,taken,1,,,manual\n", cpu214()), Errors{});
+}
+
+TEST(LoadTimes, ALineThatAnEarlierOneHidesIsASlip) {
+  EXPECT_EQ(slips_in("MOVB,,60,,,manual\nMOVW MOVB,,70,,,manual\n", cpu214()),
+            Errors{":3: an earlier line has the time of MOVB already; delete one of them"});
+  EXPECT_EQ(slips_in("LD,I Q,1,,,manual\nLD,Q,2,,,manual\n", cpu214()),
+            Errors{":3: an earlier line has the time of LD already, for Q; delete one of them"});
+  EXPECT_EQ(slips_in("LD,Q,1,,,manual\nLD,I Q,2,,,manual\nLD,,3,,,manual\n", cpu214()), Errors{});
+}
+
+TEST(LoadTimes, AFileWithTheTimesOfAnotherCpuIsRefused) {
+  const std::string line = "MOVB,,60,,,manual\n";
+  EXPECT_EQ(slips_in(line, cpu214(), "# CPU 224\n"),
+            Errors{":1: these are times of CPU 224, not of CPU 214; give --cpu 224, or delete this line to use them all the "
+                   "same"});
+  EXPECT_EQ(slips_in(line, cpu214(), "# CPU 300\n"), Errors{":1: there is no CPU '300'"});
+  EXPECT_EQ(slips_in(line, cpu214(), "# CPU 214\n"), Errors{});
+  EXPECT_EQ(slips_in(line, cpu214(), "# CPU 212\n"), Errors{}) << "the same table";
+  EXPECT_EQ(slips_in(line, cpu226()), Errors{});
+}
+
+TEST(LoadTimes, EachTableWithANameReadsBackFromAFile) {
+  for (const CpuModel* model : all_cpus())
+    for (const NamedTimes& named : named_times())
+      if (named.cpus & model->self) {
+        Errors errors;
+        const WrittenFile file(to_csv(*load_times(*model, std::string(named.name), errors)));
+        EXPECT_TRUE(load_times(*model, file.path(), errors)) << named.name;
+        EXPECT_EQ(errors, Errors{});
+      }
 }
 
 TEST(Times, ATextThatIsNotATableIsRefused) {

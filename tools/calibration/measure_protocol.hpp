@@ -1,0 +1,23 @@
+// What measure_times.stl is asked and answers, and where it keeps that: as the head of the program says, byte by byte.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace s7200::tools::measuring {
+
+/// Of the meaning of commands and answers; the program's answers name it.
+inline constexpr std::uint8_t kVersion = 1;
+
+inline constexpr std::uint8_t kCommandMark = 0x6D, kAnswerMark = 0x4D;
+
+/// Places in an answer, behind its mark and what it repeats of the command.
+inline constexpr std::size_t kMilliseconds = 6, kIdentification = 8, kVersionPlace = 9, kLoops = 10, kAnswerLength = 11;
+
+inline constexpr std::uint8_t kNoLoop = 255;
+
+/// V memory: where a command comes to stand. M31.0: it is complete. VW10 counts the repetitions of a loop.
+inline constexpr std::uint32_t kCommandAt = 20, kCompleteByte = 31, kCounterAt = 10;
+inline constexpr std::uint8_t kCompleteBit = 1;
+
+}  // namespace s7200::tools::measuring
