@@ -1,5 +1,7 @@
 #include "interpreter/trace/event_lines.hpp"
 
+#include <algorithm>
+
 #include "interpreter/model/area.hpp"
 #include "interpreter/model/errors.hpp"
 #include "interpreter/model/ports.hpp"
@@ -18,8 +20,15 @@ std::string place_text(std::uint32_t op, const Program& program) {
   return fmt::format("line {}: {}", statement.position.line, stl::to_text(statement));
 }
 
+/// `0f`, as bytes of frames are written.
+void append_byte(fmt::memory_buffer& text, std::uint8_t byte) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  text.push_back(kDigits[byte >> 4]);
+  text.push_back(kDigits[byte & 15]);
+}
+
 void append_character(fmt::memory_buffer& text, const TraceRecord& r) {
-  fmt::format_to(fmt::appender(text), "{:02x}", r.byte);
+  append_byte(text, r.byte);
   if (r.parity_error) append(text, " parity error");
   if (r.framing_error) append(text, " framing error");
 }
@@ -41,7 +50,16 @@ std::string variable_text(const TraceRecord& r) {
          (count == 1 ? "" : fmt::format(", {} {}", count, area->element ? "in all" : "bytes"));
 }
 
-/// What a master has asked the CPU for.
+/// Of a variable that the CPU does not have: `VB9000, 4 bytes`, `V9000.7, 1 byte`, `T300, 2 bytes`
+std::string wanted_text(const TraceRecord& r) {
+  const auto wire = std::ranges::find(s7::kWireAreas, r.routine, &s7::WireArea::code);
+  const auto bit = static_cast<std::uint8_t>(r.op % 8);
+  if (wire == s7::kWireAreas.end()) return fmt::format("area 16#{:02X}, address {}.{}", r.routine, r.op / 8, bit);
+  const std::uint32_t number = info(wire->area).element != 0 ? r.op : r.op / 8;
+  const std::string address = address_text(wire->area, bit == 0 ? Width::Byte : Width::Bit, number, bit);
+  return fmt::format("{}, {} byte{}", address, r.count, r.count == 1 ? "" : "s");
+}
+
 std::string unmodelled_ppi_text(const TraceRecord& r) {
   switch (static_cast<PpiUnmodelled>(r.code)) {
     case PpiUnmodelled::Token:
@@ -60,20 +78,41 @@ std::string unmodelled_ppi_text(const TraceRecord& r) {
   return {};
 }
 
+std::string refusal_text(std::uint16_t code) { return fmt::format(": refused, error 16#{:02X}", code); }
+
+std::string function_text(const TraceRecord& r) {
+  if (r.count == 0) return "asks for no function";
+  switch (r.byte) {
+    case s7::kRun:
+      return "asks for RUN";
+    case s7::kStop:
+      return "asks for STOP";
+    case s7::kSetup:
+      return "sets up the communication";
+    default:
+      return fmt::format("asks for function {:02X}", r.byte);
+  }
+}
+
+std::string user_data_text(const TraceRecord& r) {
+  if (r.count == 0) return "sends user data that name no service";
+  if (r.routine == s7::kClockGroup && r.byte == s7::kReadClock) return "reads the clock";
+  if (r.routine == s7::kClockGroup && r.byte == s7::kSetClock) return "sets the clock";
+  return fmt::format("asks for user data, group {}, service {}", r.routine, r.byte);
+}
+
+/// What a master has asked the CPU for.
 std::string ppi_text(const TraceRecord& r) {
   const std::string who = fmt::format("PPI station {}", r.event);
   if (r.kind == TraceKind::PpiAccess) {
     const std::string_view does = r.byte == s7::kRead ? "reads" : "writes";
-    if (r.code == s7::kDone) return fmt::format("{} {} {}", who, does, variable_text(r));
-    return fmt::format("{} {} area 16#{:02X}, address {}.{}: refused, code {:02X}", who, does, r.routine, r.op / 8, r.op % 8,
-                       r.code);
+    const bool found = r.code == s7::kDone;
+    const bool identifies = r.routine == s7::kSystemInformation && (!found || r.count != 0);
+    const std::string what = identifies ? "the CPU's identification" : found ? variable_text(r) : wanted_text(r);
+    return fmt::format("{} {} {}{}", who, does, what, found ? "" : refusal_text(r.code));
   }
-  const std::string what = r.byte == s7::kRun     ? "asks for RUN"
-                           : r.byte == s7::kStop  ? "asks for STOP"
-                           : r.byte == s7::kSetup ? "sets up the communication"
-                           : r.byte == 0          ? "reads or sets the clock"
-                                                  : fmt::format("asks for function {:02X}", r.byte);
-  return fmt::format("{} {}{}", who, what, r.code == 0 ? "" : fmt::format(": refused, error {:04X}", r.code));
+  return fmt::format("{} {}{}", who, r.op == s7::kUserData ? user_data_text(r) : function_text(r),
+                     r.code == 0 ? "" : refusal_text(r.code));
 }
 
 /// What has become of a job of the CPU as a master.
@@ -132,13 +171,15 @@ void EventText::append_to(fmt::memory_buffer& text, const TraceRecord& r) {
     case TraceKind::TransmitEnd:
       return add("transmit complete");
     case TraceKind::CharacterSent:
-      return add(fmt::format("sent     {:02x}", r.byte));
+      add("sent     ");
+      return append_byte(text, r.byte);
     case TraceKind::CharacterReceived:
       add("received ");
       return append_character(text, r);
     case TraceKind::CharacterIgnored:
       add("ignored  ");
       append_character(text, r);
+      if (Ignored{r.code} == Ignored::NoPpiFrame) add(", and what follows until there is silence");
       return add(": ", ignored_because(r));
     case TraceKind::CharacterDropped:
       add("dropped  ");
@@ -149,7 +190,7 @@ void EventText::append_to(fmt::memory_buffer& text, const TraceRecord& r) {
     case TraceKind::ReceiveEnd:
       return add("RCV ends: ", r.count, " characters, ", status_text(r.byte));
     case TraceKind::PortControl:
-      add("SMB", kPorts[r.port].control - image::kSM, " = 16#");
+      add("SMB", kPorts[r.port].control - image::kSM, " = ");
       return append_hex(text, r.byte, 2);
     case TraceKind::Enable:
       return add(r.code == 1 ? "ENI: interrupts are enabled" : "DISI: interrupts are disabled");
@@ -176,8 +217,7 @@ void EventText::append_to(fmt::memory_buffer& text, const TraceRecord& r) {
 }
 
 void EventLines::append_line(fmt::memory_buffer& text, const TraceRecord& record) {
-  append_clock(text, record.at);
-  append(text, "  ");
+  begin_line(text, record.at);
   text_.append_to(text, record);
   append(text, reasons_.of(record), "\n");
   reasons_.note(record);

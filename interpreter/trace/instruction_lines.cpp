@@ -13,9 +13,8 @@ bool is_constant(const stl::Operand& operand) {
 }
 
 void append_value(fmt::memory_buffer& text, std::uint32_t value, Width width) {
-  if (width == Width::Bit) return append(text, value ? "1" : "0");
-  append(text, "16#");
-  append_hex(text, value, 2 * static_cast<int>(bytes_of(width)));
+  if (width == Width::Bit) return text.push_back(value ? '1' : '0');
+  append_hex(text, value, 2 * bytes_of(width));
 }
 
 }  // namespace
@@ -27,14 +26,14 @@ void InstructionLines::append_line(fmt::memory_buffer& text, const InstructionRe
     op.took = took;
     op.duration = fmt::format("  {}\n", format_duration(took));
   }
-  append_clock(text, record.at);
-  append(text, "  ");
+  begin_line(text, record.at);
   append_what(text, op, record);
   append(text, op.duration);
 }
 
 void InstructionLines::append_what(fmt::memory_buffer& text, const OpText& op, const InstructionRecord& record) {
-  append(text, op.head, record.top ? "1" : "0");
+  append(text, op.head);
+  text.push_back(record.top ? '1' : '0');
   if (!record.powered) return append(text, " no power flow");
   append_values(text, op, record);
 }

@@ -1,22 +1,40 @@
 #include "interpreter/trace/line_parts.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace s7200 {
 
-void append_hex(fmt::memory_buffer& text, std::uint32_t number, int digits) {
-  while (digits-- > 0) text.push_back("0123456789ABCDEF"[number >> 4 * digits & 15]);
+void append_hex(fmt::memory_buffer& text, std::uint32_t number, std::size_t digits) {
+  std::array<char, 11> hex{'1', '6', '#'};
+  const auto begin = hex.begin(), first = begin + 3, end = first + digits;
+  for (auto place = end; place != first; number >>= 4) *--place = "0123456789ABCDEF"[number & 15];
+  text.append(begin, end);
 }
 
-void append_clock(fmt::memory_buffer& text, Time at) {
-  constexpr std::size_t kDecimals = 6, kWhole = 7;
-  const fmt::format_int whole(at / kMillisecond);
-  std::array<char, kDecimals + 1> decimals{'.'};
-  auto rest = static_cast<std::uint32_t>(at % kMillisecond);
-  for (std::size_t place = kDecimals; place > 0; --place, rest /= 10) decimals[place] = static_cast<char>('0' + rest % 10);
-  for (std::size_t width = whole.size(); width < kWhole; ++width) text.push_back(' ');
-  append(text, std::string_view(whole.data(), whole.size()), std::string_view(decimals.data(), decimals.size()));
+namespace {
+
+/// Right to left, and appended in one go.
+void append_clock(fmt::memory_buffer& text, Time at, std::size_t spaces) {
+  constexpr int kDecimals = 6, kWhole = 7;
+  std::array<char, 32> digits{};
+  digits.fill(' ');
+  const auto end = digits.end(), point = end - static_cast<std::ptrdiff_t>(spaces) - kDecimals - 1;
+  auto decimals = static_cast<std::uint32_t>(at % kMillisecond);
+  for (auto place = point + kDecimals; place != point; --place, decimals /= 10)
+    *place = static_cast<char>('0' + decimals % 10);
+  *point = '.';
+  auto place = point;
+  for (auto whole = static_cast<std::uint64_t>(at / kMillisecond); whole != 0 || place == point; whole /= 10)
+    *--place = static_cast<char>('0' + whole % 10);
+  text.append(std::min(place, point - kWhole), end);
 }
+
+}  // namespace
+
+void append_clock(fmt::memory_buffer& text, Time at) { append_clock(text, at, 0); }
+
+void begin_line(fmt::memory_buffer& text, Time at) { append_clock(text, at, 2); }
 
 std::string clock_text(Time at) {
   fmt::memory_buffer text;

@@ -19,8 +19,14 @@ TextTrace::TextTrace(TakeLine take, std::shared_ptr<const Program> program, Trac
       lines_(*program_),
       instruction_lines_(*program_) {}
 
+bool TextTrace::wants(const TraceRecord& record) const {
+  if (record.kind == TraceKind::ScanBegin) return detail_ == TraceDetail::Instructions;
+  return record.kind != TraceKind::CharacterIgnored || record.count == 0;  // the line of the first speaks for what follows
+}
+
 void TextTrace::record(const TraceRecord& record) {
-  const bool wanted = record.kind != TraceKind::ScanBegin || detail_ == TraceDetail::Instructions;
+  if (passes_without_power(record)) return;
+  const bool wanted = wants(record);
   if (detail_ == TraceDetail::Events) {
     line_.clear();
     if (wanted) event_lines_.append_line(line_, record);
@@ -39,11 +45,13 @@ void TextTrace::instruction(const InstructionRecord& record) {
   write(lines_.of(record));
 }
 
+void TextTrace::note(Time at, std::string_view what) { write({{at, std::string(what)}}); }
+
 void TextTrace::write(const std::vector<TraceLine>& lines) {
   for (const TraceLine& line : lines) {
     line_.clear();
-    append_clock(line_, line.at);
-    append(line_, "  ", line.text, "\n");
+    begin_line(line_, line.at);
+    append(line_, line.text, "\n");
     put_line(line.at);
   }
 }

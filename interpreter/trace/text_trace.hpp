@@ -21,8 +21,8 @@ enum class TraceDetail : std::uint8_t {
   Instructions  ///< and every instruction
 };
 
-/// Writes each record as it comes, with its reasons, and the way of the main program when it changes. Does not own the
-/// stream.
+/// Writes each record as it comes, with its reasons, and the way of the main program when it changes; but not what passes a
+/// PLC by while it has no power. Does not own the stream.
 class TextTrace final : public TraceSink {
  public:
   static constexpr std::string_view kFirstLine = "# time in ms   what";
@@ -35,10 +35,14 @@ class TextTrace final : public TraceSink {
 
   void record(const TraceRecord& record) override;
   void instruction(const InstructionRecord& record) override;
+  /// What is done to the PLC from outside.
+  void note(Time at, std::string_view what);
+
   bool wants_instructions() const override { return detail_ != TraceDetail::Events; }
   bool wants_scans() const override { return detail_ == TraceDetail::Instructions; }
 
  private:
+  bool wants(const TraceRecord& record) const;
   void write(const std::vector<TraceLine>& lines);
   void put_line(Time at);
 

@@ -24,9 +24,7 @@ enum class TraceKind : std::uint8_t {
   TransmitEnd,        ///<
   CharacterSent,      ///< byte; at: end of its stop bit
   CharacterReceived,  ///< byte, parity_error, framing_error; since: its start edge
-  CharacterIgnored,   ///< like received, but its receive event is not attached; code 1: the port is in PPI mode and this is
-                      ///< no PPI frame, 2: its receiver is off while it sends, and at is when that was so, 3: the PLC has no
-                      ///< power
+  CharacterIgnored,   ///< like received; code: Ignored
   CharacterDropped,   ///< like received, but RCV is still waiting for the start of its message
   Receive,            ///< RCV begins its search; count: the most characters
   ReceiveEnd,         ///< byte: status SMB86 or SMB186; count: characters stored
@@ -37,11 +35,20 @@ enum class TraceKind : std::uint8_t {
   FatalError,         ///< code; op: where
   Enable,             ///< code: 1 ENI, 0 DISI
   NetworkJob,         ///< byte: the status in the table of NETR, or of NETW if routine is 1; op: its place in the image
-  PpiService,         ///< byte: S7 function, event: the master's station; code: error of the answer, 0 if it was carried out
+  PpiService,         ///< event: the master's station; code: error of the answer, 0 if it was carried out; op: s7::Kind;
+                      ///< byte: S7 function, or of user data the service, of the group `routine`; count: 0 if it names none
   PpiAccess,          ///< a variable that a master reads or writes, like PpiService. Code FF: op is its place in the image,
-              ///< count its bytes, 0 for the bit `routine`. Otherwise op is the address and routine the area asked for
+              ///< count its bytes, 0 for the bit `routine`. Otherwise, and of the identification: the address and area
   PpiIgnored,      ///< a frame with a wrong check sum or end; count: its characters
   PpiNotModelled,  ///< a right frame from station `event` to `byte` of which nothing comes here; code: PpiUnmodelled
+};
+
+/// Why a character is.
+enum class Ignored : std::uint16_t {
+  NotAttached,   ///< its receive event
+  NoPpiFrame,    ///< in PPI mode; count: 1 after another
+  WhileSending,  ///< the receiver is off, and at is when that was so; the byte is what others drive, not what the line has
+  NoPower,       ///< at the PLC
 };
 
 /// What is not documented of several masters on a line, and of longer addresses.

@@ -60,20 +60,64 @@ bool reads_character(const Program& program, std::uint32_t head) {
   return false;
 }
 
+constexpr std::uint8_t kPort0 = 1, kPort1 = 2, kBothPorts = 3;
+
+/// To which ports some of the instructions [first, end) send, a bit each.
+std::uint8_t transmits(const Program& program, std::uint32_t first, std::uint32_t end) {
+  std::uint8_t ports = 0;
+  for (std::uint32_t op = first; op < end; ++op)
+    if (program.ops[op].instruction->effect == Effect::Transmits)
+      ports = static_cast<std::uint8_t>(ports | (program.ops[op][1].at == 1 ? kPort1 : kPort0));
+  return ports;
+}
+
+bool ends_routine(const Op& op) {
+  const Structure structure = op.instruction->structure;
+  return structure == Structure::MainEnd || structure == Structure::SubroutineEnd || structure == Structure::InterruptEnd;
+}
+
+std::uint32_t end_of_routine(const Program& program, std::uint32_t op) {
+  while (op < program.ops.size() && !ends_routine(program.ops[op])) ++op;
+  return op;
+}
+
+/// By the number of the subroutine; one that calls others may send whatever they do.
+std::uint8_t transmits_when_called(const Program& program, std::uint32_t head) {
+  const std::uint32_t end = end_of_routine(program, head);
+  for (std::uint32_t op = head; op < end; ++op)
+    if (program.ops[op].instruction->structure == Structure::Call) return kBothPorts;
+  return transmits(program, head, end);
+}
+
+/// Which XMTs are not executed, by their ports, when that is without power flow; or with it, if it is a jump or an end.
+std::uint8_t passed_transmits(const Program& program, std::uint32_t number) {
+  const Op& op = program.ops[number];
+  if (op.instruction->effect == Effect::Transmits) return transmits(program, number, number + 1);
+  if (op.instruction->structure == Structure::Jump) return transmits(program, number, std::max(number, op.target));
+  if (op.instruction->structure == Structure::Call) return transmits_when_called(program, op.target);
+  if (op.instruction->effect == Effect::ConditionalEnd) return transmits(program, number, end_of_routine(program, number));
+  return 0;
+}
+
 }  // namespace
+
+bool passes_without_power(const TraceRecord& record) {
+  return record.kind == TraceKind::CharacterIgnored && Ignored{record.code} == Ignored::NoPower;
+}
 
 std::string ignored_because(const TraceRecord& record) {
   if (record.kind == TraceKind::CharacterDropped) return "RCV waits for the start of a message";
-  switch (record.code) {
-    case 1:
-      return "in PPI mode, and no PPI frame";
-    case 2:
-      return "the receiver is off while the port sends";
-    case 3:
-      return "the PLC has no power";
-    default:
+  switch (Ignored{record.code}) {
+    case Ignored::NotAttached:
       return fmt::format("event {} is not attached", kPorts[record.port].received);
+    case Ignored::NoPpiFrame:
+      return "in PPI mode, and no PPI frame";
+    case Ignored::WhileSending:
+      return "the receiver is off while the port sends";
+    case Ignored::NoPower:
+      return "the PLC has no power";
   }
+  return {};
 }
 
 TraceReasons::TraceReasons(const Program& program) : program_(program) {
@@ -88,6 +132,7 @@ TraceReasons::TraceReasons(const Program& program) : program_(program) {
     if (instruction.structure == Structure::SubroutineEnd) role = Role::Return;
     if (instruction.effect == Effect::ConditionalEnd) role = Role::ConditionalEnd;
     role_.push_back(role);
+    passes_transmit_.push_back(passed_transmits(program, op));
   }
   for (std::size_t number = 0; number < program.interrupt.size(); ++number)
     if (program.interrupt[number] != kNoRoutine)
@@ -130,6 +175,13 @@ std::string TraceReasons::executed_meanwhile(const TraceRecord& begin) const {
                      stl::to_text(program_.statement(begin.op)));
 }
 
+/// In front of the first routine that ran: a long instruction that was not over.
+std::string TraceReasons::executed_before(const TraceRecord& first, Time since) const {
+  if (first.at < since + kLongInstruction || first.op == kNoRoutine) return {};
+  return fmt::format("{} for {} in {}", format_duration(first.at - since), short_text(program_.statement(first.op)),
+                     line_of(first.op));
+}
+
 std::string TraceReasons::held_up_by(const TraceRecord& begin) const {
   if (begin.at <= begin.since) return {};
   std::string why;
@@ -140,6 +192,7 @@ std::string TraceReasons::held_up_by(const TraceRecord& begin) const {
   for (const Service& service : services_) others += service.end > begin.since ? 1 : 0;
   if (others > 0) {
     const Service& last = services_.back();
+    if (why.empty()) why = executed_before((services_.end() - static_cast<std::ptrdiff_t>(others))->begin, begin.since);
     const std::string name = fmt::format("INT {} of event {}", last.routine, last.event);
     why += why.empty() ? "" : ", then ";
     why += others == 1 ? name + " until then" : fmt::format("{} others first, the last {}", others, name);
@@ -163,9 +216,10 @@ std::string TraceReasons::contacts_text(const std::vector<InstructionRecord>& co
 
 std::string TraceReasons::text_of(const Decision& decision) const {
   const stl::Statement& statement = program_.statement(decision.by.op);
-  return fmt::format(
-      "{} in {}{}{}{}", short_text(statement), line_of(decision.by.op), decision.by.powered ? "" : ", not taken",
-      decision.contacts.empty() ? "" : fmt::format(" ({})", contacts_text(decision.contacts)), comment_of(statement));
+  const std::string_view skipped = role_[decision.by.op] == Role::Other ? ", without power flow" : ", not taken";
+  return fmt::format("{} in {}{}{}{}", short_text(statement), line_of(decision.by.op), decision.by.powered ? "" : skipped,
+                     decision.contacts.empty() ? "" : fmt::format(" ({})", contacts_text(decision.contacts)),
+                     comment_of(statement));
 }
 
 /// Not `LD SM0.0`, which decides nothing.
@@ -182,9 +236,32 @@ std::optional<TraceReasons::Cause> TraceReasons::cause() const {
   const Way& way = (in_interrupt_ ? interrupt_ : main_).way;
   if (has_own_contacts(way))
     return Cause{fmt::format("the contacts from {} on ({})", line_of(way.contacts.front().op), contacts_text(way.contacts)),
-                 way.contacts.back(), way.contacts.front(), true, in_interrupt_};
+                 way.contacts.back(),
+                 way.contacts.front(),
+                 true,
+                 in_interrupt_,
+                 way.contacts};
   if (!way.decision) return {};
-  return Cause{text_of(*way.decision), way.decision->by, way.decision->by, false, in_interrupt_};
+  return cause_of(*way.decision);
+}
+
+TraceReasons::Cause TraceReasons::cause_of(const Decision& decision) const {
+  return {text_of(decision), decision.by, decision.by, false, decision.in_interrupt, decision.contacts};
+}
+
+/// Which XMT was meant for it is not known: all are named, and the first one stands for them.
+std::optional<TraceReasons::Cause> TraceReasons::cause_of(const Frame& frame) const {
+  if (frame.kept_by.empty()) return frame.led_by;
+  Cause cause = cause_of(frame.kept_by.front());
+  for (auto one = frame.kept_by.begin() + 1; one != frame.kept_by.end(); ++one) cause.text += "; " + text_of(*one);
+  return cause;
+}
+
+/// The routine that gets the characters gets them from now on too, and nothing has decided on that: it is no step of the
+/// program, which does so whatever has come in.
+bool TraceReasons::is_attached_already(const TraceRecord& record) const {
+  const Reception& reception = reception_[port_of(record)];
+  return record.kind == TraceKind::Attach && reception.attached == record.routine && !cause();
 }
 
 /// Whether the program does not go on with a frame after `record`, and has sent nothing.
@@ -213,7 +290,7 @@ TraceReasons::Unanswered TraceReasons::unanswered(const Frame& frame, const std:
 
 std::vector<TraceReasons::Unanswered> TraceReasons::unanswered(const TraceRecord& record) const {
   std::vector<Unanswered> all;
-  if (!is_about_reception(record)) return all;
+  if (!is_about_reception(record) || is_attached_already(record)) return all;
   const auto add = [&](const Frame& frame, const std::optional<Cause>& own) {
     if (is_left(frame, record)) all.push_back(unanswered(frame, own ? own : frame.cause));
   };
@@ -225,8 +302,38 @@ std::vector<TraceReasons::Unanswered> TraceReasons::unanswered(const TraceRecord
 
 std::vector<TraceReasons::Unanswered> TraceReasons::unread() const {
   std::vector<Unanswered> all;
-  for (const auto& [frame, earlier, attached_by] : reception_)
-    if (frame.characters > 0 && frame.unread == frame.characters) all.push_back(unanswered(frame, {}));
+  for (const Reception& reception : reception_)
+    if (const Frame& frame = reception.frame; frame.characters > 0 && frame.unread == frame.characters)
+      all.push_back(unanswered(frame, {}));
+  return all;
+}
+
+/// `INT 0 took them, and nothing was sent since: XMT VB0, 0 in line 20, without power flow (LD M0.0: M0.0=0)`
+std::optional<TraceReasons::Unanswered> TraceReasons::taken(const Reception& reception, Time since) const {
+  const Frame& frame = reception.frame;
+  Part all{};
+  for (const Part& part : frame.parts) {
+    if (part.since < since) continue;
+    if (all.characters == 0) all.since = part.since;
+    all.characters += part.characters;
+    all.served += part.served;
+    all.lost += part.lost;
+    all.routine = part.routine;
+  }
+  if (all.characters == all.lost) return {};
+  all.characters -= all.lost;
+  const std::optional<Cause> cause = cause_of(frame);
+  const std::string text =
+      fmt::format("{} took {}{}, and nothing was sent since{}", all.served > 0 ? fmt::format("INT {}", all.routine) : "RCV",
+                  all.characters == 1 ? "it" : "them", reception.message_open ? ", its message has not ended" : "",
+                  cause ? ": " + cause->text : " (no XMT was executed)");
+  return Unanswered{all.characters, all.since, text, cause};
+}
+
+std::vector<TraceReasons::Unanswered> TraceReasons::taken(Time since) const {
+  std::vector<Unanswered> all;
+  for (const Reception& reception : reception_)
+    if (const auto one = taken(reception, since)) all.push_back(*one);
   return all;
 }
 
@@ -242,6 +349,9 @@ void TraceReasons::note_character(const TraceRecord& record) {
     if (reception.earlier.size() > kEarlier) reception.earlier.erase(reception.earlier.begin());
     frame = {.since = record.since, .attached_by = reception.attached_by};
   }
+  if (frame.parts.empty() || pause) frame.parts.push_back({.since = record.since});
+  if (frame.parts.size() > kEarlier) frame.parts.erase(frame.parts.begin());
+  ++frame.parts.back().characters;
   ++frame.characters;
   frame.last = record.at;
   frame.attached_anew = false;
@@ -251,10 +361,16 @@ void TraceReasons::note_character(const TraceRecord& record) {
 void TraceReasons::note_event(const TraceRecord& record) {
   for (std::size_t port = 0; port < kPorts.size(); ++port) {
     if (record.event != kPorts[port].received) continue;
+    reception_[port].attached = record.routine;
     Frame& frame = reception_[port].frame;
     if (frame.characters == 1) frame.routine = record.routine;
     const bool served = record.kind == TraceKind::EventOccurred;
     if (served && !reads_character_.test(record.routine)) ++frame.unread;
+    frame.kept_by.clear();
+    if (frame.parts.empty()) continue;
+    Part& part = frame.parts.back();
+    ++(served ? part.served : part.lost);
+    if (served) part.routine = record.routine;
   }
 }
 
@@ -265,12 +381,28 @@ void TraceReasons::note_restart(const TraceRecord& record) {
       reception_[port].frame.executed = {.at = record.at - program_.ops[record.op].cost, .end = record.at, .op = record.op};
 }
 
+/// The routine of a character hands the next ones over to another one that reads them: the frame goes on there.
+bool TraceReasons::goes_on(const Frame& frame, const TraceRecord& record) const {
+  return record.kind == TraceKind::Attach && serves_character() && record.routine != frame.routine &&
+         reads_character_.test(record.routine);
+}
+
+/// What the routine of a character came by last has decided what became of it.
+void TraceReasons::note_end_of_service() {
+  for (std::size_t port = 0; port < kPorts.size(); ++port)
+    if (kPorts[port].received == serving_) reception_[port].frame.led_by = cause();
+}
+
 void TraceReasons::note_reception(const TraceRecord& record) {
   Reception& reception = reception_[port_of(record)];
+  if (is_attached_already(record)) return;
+  if (record.kind == TraceKind::Receive) reception.message_open = true;
+  if (record.kind != TraceKind::Receive) reception.attached.reset();
+  if (record.kind == TraceKind::Attach) reception.attached = record.routine;
   Frame& frame = reception.frame;
   std::erase_if(reception.earlier, [&](const Frame& one) { return is_left(one, record); });
   if (is_left(frame, record)) frame = {};
-  frame.attached_anew = true;
+  if (!goes_on(frame, record)) frame.attached_anew = true;
   frame.passed_on |= record.kind != TraceKind::Detach && !serves_character();
   frame.cause = frame.characters > 0 ? cause() : std::nullopt;
   reception.attached_by.reset();
@@ -278,14 +410,14 @@ void TraceReasons::note_reception(const TraceRecord& record) {
 }
 
 void TraceReasons::decide(Flow& flow, const InstructionRecord& by) const {
-  flow.way.decision = Decision{by, flow.way.contacts};
+  flow.way.decision = Decision{by, flow.way.contacts, in_interrupt_};
   if (by.powered) flow.way.contacts.clear();
 }
 
 /// What decided on the call has led to all that follows in the subroutine; a call that is always executed decides nothing.
 void TraceReasons::call(Flow& flow, const InstructionRecord& by) const {
   Way inside{.contacts = {}, .decision = flow.way.decision};
-  if (has_own_contacts(flow.way)) inside.decision = Decision{by, flow.way.contacts};
+  if (has_own_contacts(flow.way)) inside.decision = Decision{by, flow.way.contacts, in_interrupt_};
   flow.way.called = by.at;
   flow.callers.push_back(std::exchange(flow.way, std::move(inside)));
 }
@@ -301,10 +433,24 @@ void TraceReasons::return_to_caller(Flow& flow) {
   flow.way.contacts.clear();
 }
 
+/// The program could have sent something after the last character, and has not.
+void TraceReasons::note_transmit_passed(const Flow& flow, const InstructionRecord& by) {
+  const bool leaves = role_[by.op] == Role::Jump || role_[by.op] == Role::ConditionalEnd;
+  if (by.powered != leaves) return;
+  for (std::size_t port = 0; port < kPorts.size(); ++port) {
+    Frame& frame = reception_[port].frame;
+    if (frame.characters == 0 || (passes_transmit_[by.op] >> port & 1) == 0) continue;
+    const auto is_it = [&](const Decision& one) { return one.by.op == by.op; };
+    if (std::ranges::none_of(frame.kept_by, is_it))
+      frame.kept_by.push_back({.by = by, .contacts = flow.way.contacts, .in_interrupt = in_interrupt_});
+  }
+}
+
 void TraceReasons::note(const InstructionRecord& record) {
   last_ = record;
   const bool failed = std::exchange(failed_, false);
   Flow& flow = in_interrupt_ ? interrupt_ : main_;
+  if (passes_transmit_[record.op] != 0) note_transmit_passed(flow, record);
   switch (role_[record.op]) {
     case Role::Mark:
       flow.way.contacts.clear();
@@ -357,11 +503,13 @@ void TraceReasons::note(const TraceRecord& record) {
       in_interrupt_ = true;
       interrupt_ends_ = false;
       serving_ = record.event;
+      begun_ = record;
       interrupt_ = {};
       return;
     case TraceKind::ServiceEnd:
       interrupt_ends_ = true;
-      services_.push_back({record.at, record.event, record.routine});
+      note_end_of_service();
+      services_.push_back({begun_, record.at, record.event, record.routine});
       if (services_.size() > kServices) services_.pop_front();
       return;
     case TraceKind::CharacterReceived:
@@ -378,6 +526,9 @@ void TraceReasons::note(const TraceRecord& record) {
     case TraceKind::Receive:
       if (is_about_reception(record)) return note_reception(record);
       if (record.kind == TraceKind::Attach && serves_character()) note_restart(record);
+      return;
+    case TraceKind::ReceiveEnd:
+      reception_[record.port].message_open = false;
       return;
     case TraceKind::RuntimeError:
       failed_ = true;

@@ -24,6 +24,9 @@ namespace s7200 {
 /// Of a CharacterIgnored or CharacterDropped: why nobody wanted it.
 std::string ignored_because(const TraceRecord& record);
 
+/// A character that a PLC without power did not hear.
+bool passes_without_power(const TraceRecord& record);
+
 class TraceReasons {
  public:
   /// An instruction that takes longer is named wherever an interrupt has waited for it.
@@ -46,6 +49,7 @@ class TraceReasons {
     InstructionRecord first;  ///< the same, or the first of the contacts
     bool contacts = false;    ///< that are in front of it in its own rung
     bool in_interrupt = false;
+    std::vector<InstructionRecord> looked_at{};  ///< the contacts in front of the jump, or those of the rung
   };
 
   /// Characters that the program leaves without an answer: it attaches the routine again that got the first of them, or
@@ -64,6 +68,12 @@ class TraceReasons {
   /// Those that no routine has read so far.
   std::vector<Unanswered> unread() const;
 
+  /// Those since then that routines, or RCV, have taken and nothing has been sent for so far. What decided that is all that
+  /// has kept the program from an XMT when it came by first after the last character: one without power flow, a jump over
+  /// it, an end of a routine before it, a subroutine with it that was not called; without that, what the routine of the last
+  /// character came by last.
+  std::vector<Unanswered> taken(Time since) const;
+
   /// Of the place where the program is: the contacts of the rung so far, or the last jump or conditional end before it;
   /// nothing if the main program, or the interrupt routine, has met none so far.
   std::optional<Cause> cause() const;
@@ -77,6 +87,7 @@ class TraceReasons {
 
  private:
   struct Service {
+    TraceRecord begin{};
     Time end = 0;
     std::uint8_t event = 0, routine = 0;
   };
@@ -86,6 +97,7 @@ class TraceReasons {
   struct Decision {
     InstructionRecord by{};
     std::vector<InstructionRecord> contacts{};
+    bool in_interrupt = false;
   };
   /// A routine that is open.
   struct Way {
@@ -98,6 +110,13 @@ class TraceReasons {
     Way way{};                   ///< of the innermost subroutine
     std::vector<Way> callers{};  ///< of those that wait for it
   };
+  /// Characters without a pause.
+  struct Part {
+    std::size_t characters = 0;
+    std::size_t served = 0, lost = 0;  ///< of them: a routine got them, there was no room in the queue
+    Time since = 0;
+    std::uint8_t routine = 0;  ///< that got the last one
+  };
   /// What came in at a port since the program has sent something, or has begun anew.
   struct Frame {
     std::size_t characters = 0;
@@ -109,11 +128,16 @@ class TraceReasons {
     bool attached_anew = false;                   ///< another routine, or the same, since its last character
     bool passed_on = false;                       ///< and not by a routine that got one
     std::optional<Cause> cause{};                 ///< that one of them was attached
+    std::vector<Part> parts{};                    ///< the last ones, between pauses
+    std::optional<Cause> led_by{};                ///< what the routine of the last one came by last
+    std::vector<Decision> kept_by{};  ///< what has kept the program from each XMT first, since its last character
   };
   struct Reception {
+    bool message_open = false;  ///< RCV is at work
     Frame frame{};
     std::vector<Frame> earlier{};  ///< that another one followed before it was decided about them
     std::optional<std::uint32_t> attached_by{};
+    std::optional<std::uint8_t> attached{};  ///< the routine that gets its characters; nothing: none, or it is not known
   };
   static constexpr std::size_t kEarlier = 8;
 
@@ -123,21 +147,29 @@ class TraceReasons {
   const std::string& place_of(std::uint32_t op);
   std::string cause_of(const TraceRecord& begin) const;
   std::string executed_meanwhile(const TraceRecord& begin) const;
+  std::string executed_before(const TraceRecord& first, Time since) const;
   std::string line_of(std::uint32_t op) const;
   std::string text_of(const Decision& decision) const;
   std::string contacts_text(const std::vector<InstructionRecord>& contacts) const;
   Unanswered unanswered(const Frame& frame, const std::optional<Cause>& cause) const;
+  std::optional<Unanswered> taken(const Reception& reception, Time since) const;
   bool is_own(const InstructionRecord& contact) const;
   bool has_own_contacts(const Way& way) const;
   void decide(Flow& flow, const InstructionRecord& by) const;
   void call(Flow& flow, const InstructionRecord& by) const;
   static void return_to_caller(Flow& flow);
+  Cause cause_of(const Decision& decision) const;
+  std::optional<Cause> cause_of(const Frame& frame) const;
+  void note_transmit_passed(const Flow& flow, const InstructionRecord& by);
   bool serves_character() const { return in_interrupt_ && is_receive_event(serving_); }
+  bool goes_on(const Frame& frame, const TraceRecord& record) const;
   bool is_left(const Frame& frame, const TraceRecord& record) const;
+  bool is_attached_already(const TraceRecord& record) const;
   std::string unread_text(const Frame& frame) const;
   void note_character(const TraceRecord& record);
   void note_event(const TraceRecord& record);
   void note_restart(const TraceRecord& record);
+  void note_end_of_service();
   void note_reception(const TraceRecord& record);
 
   const Program& program_;
@@ -151,9 +183,11 @@ class TraceReasons {
   bool in_interrupt_ = false, interrupt_ends_ = false;
   bool failed_ = false;       ///< the instruction being executed has caused a run-time error
   std::uint8_t serving_ = 0;  ///< event, in an interrupt
+  TraceRecord begun_{};       ///< the last ServiceBegin
   Flow main_, interrupt_;
   std::array<Reception, kPorts.size()> reception_{};
-  std::bitset<128> reads_character_{};  ///< interrupt routines, by number
+  std::bitset<128> reads_character_{};           ///< interrupt routines, by number
+  std::vector<std::uint8_t> passes_transmit_{};  ///< by op, ports, a bit each: it may keep the program from an XMT to them
 };
 
 }  // namespace s7200

@@ -44,7 +44,35 @@ TEST(TextTrace, ReportsThePortCharacterByCharacter) {
   EXPECT_EQ(told({.kind = TraceKind::CharacterReceived, .byte = 1, .parity_error = true, .framing_error = true}),
             "received 01 parity error framing error");
   EXPECT_EQ(told({.kind = TraceKind::CharacterIgnored, .byte = 2}), "ignored  02: event 8 is not attached");
-  EXPECT_EQ(told({.kind = TraceKind::CharacterIgnored, .byte = 2, .code = 3}), "ignored  02: the PLC has no power");
+  EXPECT_EQ(told({.kind = TraceKind::CharacterIgnored, .byte = 2, .code = static_cast<std::uint16_t>(Ignored::NoPower)}),
+            "ignored  02: the PLC has no power");
+}
+
+TEST(TextTrace, WhatPassesAPlcWithoutPowerIsNotWrittenAndWhatIsDoneToItIs) {
+  for (const TraceDetail detail : {TraceDetail::Events, TraceDetail::Way}) {
+    std::ostringstream out;
+    TextTrace trace(out, program_of(kProgram), detail);
+    trace.note(5 * ms, "power off");
+    trace.record({.at = 6 * ms,
+                  .kind = TraceKind::CharacterIgnored,
+                  .byte = 2,
+                  .code = static_cast<std::uint16_t>(Ignored::NoPower)});
+    trace.record({.at = 7 * ms, .kind = TraceKind::CharacterIgnored, .byte = 2});
+    EXPECT_EQ(out.str(),
+              "# time in ms   what\n      5.000000  power off\n      7.000000  ignored  02: event 8 is not attached\n");
+  }
+}
+
+TEST(TextTrace, AnInstantIsExactToTheNanosecondAndInItsColumnForAnHour) {
+  constexpr std::pair<Time, std::string_view> kInstants[] = {{0, "      0.000000"},
+                                                             {1, "      0.000001"},
+                                                             {999'999, "      0.999999"},
+                                                             {kMillisecond, "      1.000000"},
+                                                             {15'193'020, "     15.193020"},
+                                                             {3600 * kSecond, "3600000.000000"},
+                                                             {12'345'678'901'234, "12345678.901234"},
+                                                             {kNever, "9223372036854.775807"}};
+  for (const auto& [at, text] : kInstants) EXPECT_EQ(clock_text(at), text);
 }
 
 TEST(TextTrace, ReportsWhatRcvDoes) {

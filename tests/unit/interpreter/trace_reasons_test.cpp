@@ -139,7 +139,23 @@ TEST(TraceReasons, ACharacterThatNobodyWantedSaysWhy) {
   plc.run_until(2 * ms);
   const auto ignored = plc.records.of(TraceKind::CharacterIgnored);
   ASSERT_EQ(ignored.size(), 1U);
-  EXPECT_EQ(describe(ignored[0], plc.cpu.program()), "ignored  41: in PPI mode, and no PPI frame");
+  EXPECT_EQ(describe(ignored[0], plc.cpu.program()),
+            "ignored  41, and what follows until there is silence: in PPI mode, and no PPI frame");
+}
+
+TEST(TraceReasons, ARoutineThatIsAttachedAlreadyIsNoSignThatTheProgramLeavesAFrame) {
+  EXPECT_FALSE(has(trace_of_frame("LD SM0.1\nMOVB 9, SMB30\nENI\nLD SM0.0\nATCH 0, 8 // in every scan\nMEND\n"
+                                  "INT 0\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n",
+                                  {0x41}),
+                   "no answer"));
+}
+
+TEST(TraceReasons, ALongInstructionInFrontOfTheRoutineThatRanFirstIsNamedToo) {
+  const std::string program =
+      "LD SM0.1\nATCH 0, 0\nATCH 0, 2\nENI\nLD SM0.0\nSQRT VD8, VD12\nSQRT VD8, VD12\nMEND\n" + std::string(kRoutine);
+  const std::string text = traced(program, {2 * ms}, {2 * ms});
+  EXPECT_TRUE(has(text, "SQRT"));
+  EXPECT_TRUE(has(text, ", then INT 0 of event 0 until then\n")) << "the instruction that was not over comes first";
 }
 
 }  // namespace
