@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "interpreter/base/bytes.hpp"
+#include "serial_sim/modbus/address.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "serial_sim/modbus/request.hpp"
 
@@ -113,7 +114,7 @@ std::string check_file(Data asked, Data answer, Answer& result) {
     if (rest.size() < 2 || rest[0] == 0 || rest[0] >= rest.size())
       return "a reference is missing or cut off: " + to_hex(answer);
     const Data record = rest.subspan(2, rest[0] - 1U);
-    if (rest[1] != reference.type) return fmt::format("reference of kind {}, not {}", rest[1], reference.type);
+    if (rest[1] != reference.type) return fmt::format("reference of kind 16#{:02X}, not 16#{:02X}", rest[1], reference.type);
     rest = rest.subspan(1U + rest[0]);
     if (reference.type != kFileReference) {
       result.bytes.insert(result.bytes.end(), record.begin(), record.end());
@@ -197,7 +198,8 @@ std::string file_text(Data asked, const Answer& answer) {
   std::string text;
   std::span<const std::uint16_t> values = answer.values;
   for (const Reference& reference : references_of(asked.subspan(1), false)) {
-    if (reference.type != kFileReference) return fmt::format("reference {}: {}", reference.type, to_hex(answer.bytes));
+    if (reference.type != kFileReference)
+      return fmt::format("references of kind 16#{:02X}: {}", reference.type, to_hex(answer.bytes));
     text += fmt::format("{}file {} from {} on, {}", text.empty() ? "" : "; ", reference.file, reference.record,
                         registers_text(values.first(reference.count)));
     values = values.subspan(reference.count);
@@ -205,8 +207,18 @@ std::string file_text(Data asked, const Answer& answer) {
   return text;
 }
 
-std::string written_text(Function function, Data asked) {
-  const unsigned first = load16(&asked[0]);
+/// What a function reads or writes at an address.
+std::string place_text(Function function, unsigned address, Numbering numbering) {
+  const auto row = std::ranges::find_if(areas(), [&](const AreaRow& area) {
+    return area.read == function || area.write_one == function || area.write_many == function;
+  });
+  const bool named = numbering == Numbering::Notation && row != std::end(areas());
+  const std::string name = named ? notation({row->area, static_cast<std::uint16_t>(address)}) : std::string();
+  return name.empty() ? std::to_string(address) : name;
+}
+
+std::string written_text(Function function, Data asked, Numbering numbering) {
+  const std::string first = place_text(function, load16(&asked[0]), numbering);
   const std::uint16_t second = load16(&asked[2]);
   switch (function) {
     case Function::WriteCoil:
@@ -220,21 +232,24 @@ std::string written_text(Function function, Data asked) {
   }
 }
 
-std::string right_text(const FunctionRow& row, Data asked, const Answer& answer) {
+std::string right_text(const FunctionRow& row, Data asked, const Answer& answer, Numbering numbering) {
   switch (row.shape) {
     case Shape::ReadBits: {
       const unsigned first = load16(&asked[0]);
       const std::size_t count = answer.values.size();
       if (count == 0) return fmt::format("no {}s", row.object);
-      if (count == 1) return fmt::format("{} {}: {}", row.object, first, bits_text(answer.values));
-      return fmt::format("{}s {}…{}: {}", row.object, first, first + count - 1, bits_text(answer.values));
+      const auto place = [&](std::size_t bit) {
+        return place_text(row.function, first + static_cast<unsigned>(bit), numbering);
+      };
+      if (count == 1) return fmt::format("{} {}: {}", row.object, place(0), bits_text(answer.values));
+      return fmt::format("{}s {}…{}: {}", row.object, place(0), place(count - 1), bits_text(answer.values));
     }
     case Shape::ReadRegisters:
       return registers_text(answer.values);
     case Shape::WriteOne:
     case Shape::WriteBits:
     case Shape::WriteRegisters:
-      return written_text(row.function, asked);
+      return written_text(row.function, asked, numbering);
     case Shape::Status: {
       std::vector<std::uint16_t> bits;
       for (int bit = 0; bit < 8; ++bit) bits.push_back(static_cast<std::uint16_t>(answer.bytes[0] >> bit & 1));
@@ -285,7 +300,7 @@ Answer check_answer(std::span<const std::uint8_t> request, std::span<const std::
   return answer;
 }
 
-std::string describe(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response) {
+std::string describe(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response, Numbering numbering) {
   const Answer answer = check_answer(request, response);
   switch (answer.verdict) {
     case Verdict::Silent:
@@ -299,7 +314,7 @@ std::string describe(std::span<const std::uint8_t> request, std::span<const std:
   }
   const FunctionRow* row = row_of(request);
   if (row == nullptr) return fmt::format("function {}: {}", request[1], to_hex(answer.bytes));
-  return right_text(*row, data_of(request), answer);
+  return right_text(*row, data_of(request), answer, numbering);
 }
 
 }  // namespace s7200::modbus

@@ -20,8 +20,12 @@ using serial::Answer;
 /// Both are RTU frames. An answer of more than 4 characters is never taken for right if its CRC is not.
 Answer check_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response);
 
+/// How data are named: `register 1` or `register 40002`.
+enum class Numbering : std::uint8_t { OnTheWire, Notation };
+
 /// What the answer says, in one line for people: `3 registers: 16#1234 16#0000 16#FFFF`, `coils 0…7: 1010 1010`,
 /// `exception 2: illegal data address`, or what is wrong with it.
-std::string describe(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response);
+std::string describe(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response,
+                     Numbering numbering = Numbering::OnTheWire);
 
 }  // namespace s7200::modbus

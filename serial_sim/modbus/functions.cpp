@@ -123,7 +123,7 @@ const DiagnosticRow* find_diagnostics_subfunction(std::uint16_t subfunction) {
   return row == kDiagnostics.end() ? nullptr : &*row;
 }
 
-std::string_view exception_name(std::uint8_t code) {
+std::string_view exception_name(std::uint16_t code) {
   const auto known = std::find_if(kExceptionNames.begin(), kExceptionNames.end(),
                                   [code](const ExceptionName& e) { return e.code == code; });
   return known == kExceptionNames.end() ? "unknown code" : known->name;

@@ -64,7 +64,7 @@ std::span<const DiagnosticRow> diagnostics_subfunctions();
 const DiagnosticRow* find_diagnostics_subfunction(std::uint16_t subfunction);
 
 /// `illegal data address`; `unknown code` for one that the specification (section 7) does not know.
-std::string_view exception_name(std::uint8_t code);
+std::string_view exception_name(std::uint16_t code);
 
 inline constexpr std::uint8_t kExceptionFlag = 0x80;  ///< in the function code of an exception
 inline constexpr std::uint8_t kBroadcast = 0;         ///< the station that is all of them; none answers

@@ -25,6 +25,9 @@ struct TcpMessage {
 
 Bytes to_bytes(const TcpMessage& message);
 
+/// Transaction and unit: a request and its answer have the same.
+std::uint32_t exchange_of(const TcpMessage& message);
+
 /// The answer to `request` with an exception.
 TcpMessage exception_to(const TcpMessage& request, GatewayException code);
 

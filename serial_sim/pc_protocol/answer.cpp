@@ -40,7 +40,7 @@ std::string take_data(std::span<const std::uint8_t> response, Bytes& bytes) {
 
 }  // namespace
 
-std::string_view refusal_name(std::uint8_t status) {
+std::string_view refusal_name(std::uint16_t status) {
   switch (static_cast<Status>(status)) {
     case Status::WrongCheckCode:
       return "check code wrong";

@@ -23,7 +23,7 @@ inline constexpr std::uint8_t kEndCharacter = 0x26;
 enum class Status : std::uint8_t { ReadDone = 1, WriteDone = 2, WrongCheckCode = 3, NotLegal = 4 };
 
 /// `check code wrong`, `command not legal`
-std::string_view refusal_name(std::uint8_t status);
+std::string_view refusal_name(std::uint16_t status);
 
 /// `bytes` of the result are the eight of a read; `values` stay empty, as the command does not say how many are wanted. The
 /// check code is looked at in answers to reads only.

@@ -1,8 +1,11 @@
 // What came back for a request, judged: the same for every protocol.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "interpreter/base/bytes.hpp"
@@ -18,8 +21,8 @@ enum class Verdict : std::uint8_t {
 
 struct Answer {
   Verdict verdict = Verdict::Silent;
-  std::string fault;           ///< what is wrong: `wrong CRC`, `answer of station 2, not 1`
-  std::uint8_t exception = 0;  ///< its code
+  std::string fault;            ///< what is wrong: `wrong CRC`, `answer of station 2, not 1`
+  std::uint16_t exception = 0;  ///< its code
 
   /// What was read, one for each bit, byte or register that was asked for.
   std::vector<std::uint16_t> values;
@@ -27,5 +30,10 @@ struct Answer {
   /// Data that is not values: what the protocol says of it.
   Bytes bytes;
 };
+
+/// Of a refusal in any protocol but Modbus, which has exceptions: `error 16#12: no session`.
+inline std::string error_text(std::uint16_t code, std::string_view name) {
+  return fmt::format("error 16#{:02X}: {}", code, name);
+}
 
 }  // namespace s7200::serial

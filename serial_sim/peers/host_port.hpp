@@ -91,6 +91,7 @@ class HostPort {
   Time sent_until() const { return uart_.state().send_end; }
 
   bool is_on(const Line& line) const { return &uart_.line() == &line; }
+  int driver() const { return uart_.driver(); }
 
   void on(const Uart::Report& report);
 

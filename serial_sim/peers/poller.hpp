@@ -54,6 +54,8 @@ class Poller {
   const Requester& requester() const { return requester_; }
 
   bool is_on(const Line& line) const { return &uart_.line() == &line; }
+  int driver() const { return uart_.driver(); }
+  const SerialFormat& format() const { return uart_.state().format; }
 
   const State& state() const { return state_; }
   void restore(const State& state) { state_ = state; }

@@ -102,14 +102,23 @@ void Requester::handle(const Event& event) {
 }
 
 void Requester::on(const Uart::Report& report) {
-  const bool idle = !busy();
-  const bool sending = state_.phase == Phase::Sending && report.received;
-  if (sending && report.received->start >= state_.exchange.request_start) state_.exchange.echo.push_back(*report.received);
   const bool of_request = state_.sent > 0;  // and not the last character of one that was given up
+  if (report.received) take(*report.received);
   if (report.sent && state_.phase == Phase::Sending && of_request) sent(*report.sent);
-  if (report.received && (state_.phase == Phase::Waiting || state_.phase == Phase::Receiving)) received(*report.received);
-  const bool own = report.received && report.received->start < uart_.state().send_end;
-  if (report.received && idle && !own && state_.heard.size() < kMostHeard) state_.heard.push_back(*report.received);
+}
+
+void Requester::take(const ReceivedCharacter& character) {
+  switch (state_.phase) {
+    case Phase::Idle:
+      if (character.start >= uart_.state().send_end && state_.heard.size() < kMostHeard) state_.heard.push_back(character);
+      return;
+    case Phase::Sending:
+      if (character.start >= state_.exchange.request_start) state_.exchange.echo.push_back(character);
+      return;
+    case Phase::Waiting:
+    case Phase::Receiving:
+      return received(character);
+  }
 }
 
 void Requester::send_next(Time at) {

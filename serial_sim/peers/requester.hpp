@@ -131,6 +131,7 @@ class Requester {
   void send_next(Time at);
   void sent(Time at);
   void take_first_transmission();
+  void take(const ReceivedCharacter& character);
   void received(const ReceivedCharacter& character);
   void quiet(Time now);
   void finish();

@@ -17,7 +17,7 @@ namespace s7200::serial {
 /// whose own events were decided earlier, so that an input of that instant cannot change them; which interrupt is served
 /// first does not depend on it (interrupts::occurred). Within a rank it is the order in which the owners were added.
 enum class Rank : std::uint8_t { Port, Line, Uart, Cpu, Field, Peer };
-inline constexpr std::size_t kRanks = 6;
+inline constexpr std::size_t kRanks = static_cast<std::size_t>(Rank::Peer) + 1;
 
 class EventHandler {
  public:
@@ -44,13 +44,6 @@ class Dispatcher {
 
   static Rank rank_of(EventOwner owner) { return static_cast<Rank>(static_cast<std::size_t>(owner) / kMostOfARank); }
 
-  /// When the next event of any queue is due; kNever when none is pending.
-  Time next() const {
-    Time next = kNever;
-    for (const auto& queue : queues_) next = std::min(next, queue->next());
-    return next;
-  }
-
   /// The instant of the next events, and where they are.
   struct Due {
     Time at = kNever;
@@ -61,11 +54,13 @@ class Dispatcher {
     Due due;
     for (const auto& queue : queues_) {
       const Time next = queue->next();
-      if (next > due.at || next == kNever) continue;
+      if (next > due.at) continue;
       due = {next, queue.get(), next == due.at};
     }
     return due;
   }
+  /// When that is; kNever when no event is pending.
+  Time next() const { return due().at; }
 
   /// Handles the events of the next instant, which is due(), in their order. One that is scheduled for the same instant
   /// meanwhile is left to the next call unless its rank is still to come in its queue.

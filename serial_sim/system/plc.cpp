@@ -117,8 +117,12 @@ void Plc::power_on(Time at) {
   memory.power_off = at - cpu_.time();
   powered_ = true;
   executed_before_ = executed();
+  const s7200::State before = cpu_.state();
   cpu_.power_up(true, &memory, at);
-  field_.power_up(at);
+  // The field's levels do not depend on the PLC's power.
+  for (std::uint32_t byte = 0; byte < before.terminals.size(); ++byte) cpu_.set_input(byte, before.terminals[byte], at);
+  if (before.analog_terminals != s7200::State{}.analog_terminals) cpu_.poke(image::kAI, before.analog_terminals);
+  field_.handle({.at = at});
 }
 
 SerialFormat Plc::port_format(std::uint8_t port) const {
@@ -162,16 +166,13 @@ Time Plc::may_run_until(Time horizon) const {
   return until;
 }
 
-void Plc::set_wire_sink(WireSink* sink, std::uint8_t port) {
-  ports_.at(port)->tap.watch(sink, cpu_.time());
-  watched_ = std::ranges::any_of(ports_, [](const auto& each) { return each->tap.watched(); });
-}
+void Plc::set_wire_sink(WireSink* sink, std::uint8_t port) { ports_.at(port)->tap.watch(sink, cpu_.time()); }
 
 void Plc::unwatch_lines() {
   for (std::uint8_t port = 0; port < ports_.size(); ++port) set_wire_sink(nullptr, port);
 }
 
-void Plc::settle_taps(Time until) {
+void Plc::settle(Time until) {
   for (const auto& port : ports_) port->tap.settle(until, port->uart.state().format);
 }
 

@@ -90,6 +90,7 @@ class Plc final : private EventHandler, private OutputListener {
   const SerialFormat& line_format(std::uint8_t port = 0) const { return ports_.at(port)->uart.state().format; }
 
   /// The line that a port is on.
+  SharedLine& line(std::uint8_t port = 0) { return ports_.at(port)->line; }
   const SharedLine& line(std::uint8_t port = 0) const { return ports_.at(port)->line; }
 
   /// Which of the line's drivers a port is.
@@ -110,9 +111,7 @@ class Plc final : private EventHandler, private OutputListener {
   Time may_run_until(Time horizon) const;
 
   /// No driver of the lines gets an edge before `until` any more: whoever watches them is told.
-  void settle(Time until) {
-    if (watched_) settle_taps(until);
-  }
+  void settle(Time until);
 
   State state() const;
 
@@ -162,7 +161,6 @@ class Plc final : private EventHandler, private OutputListener {
   void outputs_changed(std::uint32_t byte, std::uint8_t points, std::uint8_t changed, Time at) override;
   void carry_output_edges(Time until);
   void hear(std::uint8_t port, const Event& event);
-  void settle_taps(Time until);
 
   EventQueue& queue_;  // of the CPU, its field and what it does to its ports
   EventOwner owner_, field_owner_, outputs_owner_{};
@@ -178,7 +176,6 @@ class Plc final : private EventHandler, private OutputListener {
   Field field_;
   bool powered_ = true;
   std::uint64_t executed_before_ = 0;
-  bool watched_ = false;  // there is a sink at a port, which is wiring, not state
 };
 
 }  // namespace s7200::serial

@@ -66,6 +66,7 @@ class Simulation {
   Requester& master() { return master_->requester(); }
   const Requester& master() const { return master_->requester(); }
   Uart& master_uart() { return master_->uart(); }
+  const Uart& master_uart() const { return master_->uart(); }
   /// From its next character on, in either direction.
   void configure_master(const SerialFormat& format) { master_uart().configure(format, time()); }
   bool has_host_port() const { return host_ != nullptr; }

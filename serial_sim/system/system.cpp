@@ -72,35 +72,30 @@ void System::power_up() {
 }
 
 void System::power_off(Plc& plc) {
-  clock_ = time();
-  plc.power_off(std::max(clock_, plc.cpu().time()));
+  clock_ = now();
+  plc.power_off(clock_);
 }
 
-void System::power_on(Plc& plc) { plc.power_on(std::max(time(), plc.cpu().time())); }
+void System::power_on(Plc& plc) { plc.power_on(std::max(now(), plc.cpu().time())); }
 
-void System::schedule(Time at, std::function<void()> act) {
-  assert(acts_.empty() || acts_.back().at <= at);
-  acts_.push_back({at, std::move(act)});
-  look_at_next_act();
+void System::schedule(Time at, std::function<void()> deed) {
+  assert(schedule_.empty() || schedule_.back().at <= at);
+  schedule_.push_back({at, std::move(deed)});
+  look_at_next_scheduled();
 }
 
-void System::act(Time now) {
-  for (; next_act_ <= now; now = time()) {
-    const Act& next = acts_[acted_++];
-    look_at_next_act();
-    next.act();
-  }
+void System::do_scheduled() {
+  const std::size_t number = done_++;
+  look_at_next_scheduled();
+  doing_at_ = schedule_[number].at;
+  if (watcher_) watcher_(number, false);
+  schedule_[number].deed();
+  if (watcher_) watcher_(number, true);
+  doing_at_ = kNever;
 }
 
 bool System::any_powered() const {
   return std::any_of(plcs_.begin(), plcs_.end(), [](const auto& plc) { return plc->powered(); });
-}
-
-Time System::time() const {
-  Time earliest = kNever;
-  for (const auto& plc : plcs_)
-    if (plc->powered()) earliest = std::min(earliest, plc->cpu().time());
-  return earliest == kNever ? clock_ : earliest;
 }
 
 bool System::paused() const {
@@ -117,61 +112,67 @@ Time System::horizon() const {
 
 Halt System::step(Time end) {
   if (stop_requested()) return Halt::Request;
-  end = std::min(end, next_act_);
-  if (plcs_.size() == 1 && plcs_.front()->powered()) return step_one_plc(plcs_.front()->cpu(), end);
-  if (!any_powered()) return step_without_plc(end);
-  if (in_step_) return step_in_step(end);
+  const Time until = std::min(end, next_scheduled_);
+  const bool alone = plcs_.size() == 1 && plcs_.front()->powered();
+  const Cpu* const stopped = alone ? run_one(until) : run_cpus(until);
+  handle_due_events(alone ? plcs_.front()->cpu().time() : time());
+  return stopped && stopped->paused() ? Halt::Paused : Halt::Time;
+}
+
+/// Back with the one that may have been paused, or null.
+const Cpu* System::run_cpus(Time end) {
+  if (any_powered()) return in_step_ ? run_next(end) : run_each(end);
+  clock_ = std::min({end, std::max(clock_, events_.next()), after(clock_, kLookEvery)});
+  return nullptr;
+}
+
+/// From event to event.
+const Cpu* System::run_one(Time end) {
+  Cpu& cpu = plcs_.front()->cpu();
+  const Time until = std::min({end, events_.next(), after(cpu.time(), kFurthestAtOnce)});
+  if (cpu.time() >= until) return nullptr;
+  cpu.run(until, kLookEvery);
+  return &cpu;
+}
+
+const Cpu* System::run_each(Time end) {
   const Time horizon = this->horizon();
-  Halt halt = Halt::Time;
   for (const auto& plc : plcs_) {
     Cpu& cpu = plc->cpu();
     const Time until = std::min({end, plc->may_run_until(horizon), after(cpu.time(), kFurthestAtOnce)});
     if (!plc->powered() || cpu.time() >= until) continue;
     cpu.run(until, kLookEvery);
-    if (cpu.paused()) halt = Halt::Paused;
-    if (cpu.paused()) break;
+    if (cpu.paused()) return &cpu;
   }
-  handle_due_events(time());
-  act(time());
-  return halt;
-}
-
-/// One runs from event to event.
-Halt System::step_one_plc(Cpu& cpu, Time end) {
-  const Time until = std::min({end, events_.next(), after(cpu.time(), kFurthestAtOnce)});
-  const bool runs = cpu.time() < until;
-  if (runs) cpu.run(until, kLookEvery);
-  handle_due_events(cpu.time());
-  act(cpu.time());
-  return runs && cpu.paused() ? Halt::Paused : Halt::Time;
+  return nullptr;
 }
 
 /// Either all come to the instant when one of them may act next, or that one acts: until another one may, or to the next
 /// event. At the same instant the one with the lower number is first.
-Halt System::step_in_step(Time end) {
+const Cpu* System::run_next(Time end) {
   Plc* first = nullptr;
   for (const auto& plc : plcs_)
     if (plc->powered() && (!first || plc->cpu().next_action() < first->cpu().next_action())) first = plc.get();
   Cpu& cpu = first->cpu();
   const Time most = std::min({end, events_.next(), after(time(), kFurthestAtOnce)});
   const Time acts = std::min(most, cpu.next_action());
-  Halt halt = Halt::Time;
-  if (time() < acts) {
-    come_to(acts);
-  } else if (cpu.time() < most) {
-    cpu.run(std::min(most, std::max(next_action_besides(*first), cpu.time() + 1)), kLookEvery);
-    if (cpu.paused()) come_to(cpu.time());
-    if (cpu.paused()) halt = Halt::Paused;
-  }
-  handle_due_events(time());
-  act(time());
-  return halt;
+  if (time() < acts) return come_to(acts);
+  if (cpu.time() >= most) return nullptr;
+  cpu.run(std::min(most, std::max(next_action_besides(*first), cpu.time() + 1)), kLookEvery);
+  if (cpu.paused()) come_to(cpu.time());
+  return &cpu;
 }
 
-/// Those that are behind, which do not act until then.
-void System::come_to(Time now) {
-  for (const auto& plc : plcs_)
-    if (plc->powered() && plc->cpu().time() < now) plc->cpu().run(now, kLookEvery);
+/// Those that are behind, which do not act until then; a scan may end there. Back with one that was paused, or null.
+const Cpu* System::come_to(Time now) {
+  const Cpu* paused = nullptr;
+  for (const auto& plc : plcs_) {
+    Cpu& cpu = plc->cpu();
+    if (!plc->powered() || cpu.time() >= now) continue;
+    cpu.run(now, kLookEvery);
+    if (!paused && cpu.paused()) paused = &cpu;
+  }
+  return paused;
 }
 
 /// When one of the others may act next.
@@ -182,35 +183,36 @@ Time System::next_action_besides(const Plc& plc) const {
   return next;
 }
 
-Halt System::step_without_plc(Time end) {
-  clock_ = std::min({end, std::max(clock_, events_.next()), after(clock_, kLookEvery)});
-  handle_due_events(time());
-  act(time());
-  return Halt::Time;
-}
-
 Halt System::run_until(Time end) {
   Halt halt = Halt::Time;
   while (halt == Halt::Time && time() < end) halt = step(end);
   return halt;
 }
 
+/// No CPU runs ahead of an event, as one that is alone never does: what is done after the exchange can be done at its end.
 const Exchange& System::finish_exchange(const RequesterStation& station) {
   const Requester& requester = station.requester();
   Halt halt = paused() ? Halt::Paused : Halt::Time;
-  while (requester.busy() && halt == Halt::Time) halt = step(kNever);
+  while (requester.busy() && halt == Halt::Time) halt = step(plcs_.size() == 1 ? kNever : events_.next());
   return requester.exchange();
 }
 
+/// And does what is scheduled, in one order of time: after the events of its instant.
 void System::handle_due_events(Time now) {
-  for (Dispatcher::Due next = events_.due(); next.at <= now; next = events_.due()) {
-    settle(next.at);  // whatever is sent from now on begins no earlier
-    events_.handle(next);
+  for (Dispatcher::Due next = events_.due(); std::min(next.at, next_scheduled_) <= now; next = events_.due()) {
+    settle(std::min(next.at, next_scheduled_));  // whatever is sent from now on begins no earlier
+    if (next.at <= next_scheduled_) {
+      events_.handle(next);
+    } else {
+      do_scheduled();
+      now = time();
+    }
   }
   settle(now);
 }
 
 void System::settle(Time until) {
+  if (std::ranges::none_of(lines_, [](const auto& line) { return line->line().watched(); })) return;
   for (const auto& plc : plcs_) plc->settle(until);
   for (const auto& responder : responders_) responder->settle(until);
 }
@@ -224,7 +226,7 @@ System::Snapshot System::snapshot() const {
           states_of(responders_),
           states_of(pollers_),
           clock_,
-          acted_};
+          done_};
 }
 
 void System::restore(const Snapshot& snapshot) {
@@ -240,8 +242,8 @@ void System::restore(const Snapshot& snapshot) {
   restore_all(responders_, snapshot.responders, now);
   restore_all(pollers_, snapshot.pollers);
   clock_ = snapshot.clock;
-  acted_ = snapshot.acted;
-  look_at_next_act();
+  done_ = snapshot.done;
+  look_at_next_scheduled();
 }
 
 }  // namespace s7200::serial

@@ -19,10 +19,12 @@
 // PLCs at the same instant. What is computed is the same, only slower.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "serial_sim/system/dispatcher.hpp"
@@ -70,22 +72,36 @@ class System {
   /// Powers up all PLCs, as new. Plc::power_up() does so for one, before anything runs.
   void power_up();
 
-  /// Power of one PLC goes off, and comes back, now. Peers have their own: ResponderStation, PollerStation.
+  /// Power of one PLC goes off, and comes back, now(). Its CPU completes an instruction that it has begun, but does nothing
+  /// to the outside any more. Peers have their own: ResponderStation, PollerStation.
   void power_off(Plc& plc);
   void power_on(Plc& plc);
 
-  /// What is done to the system from outside when all clocks have come to `at`: power, cables, faults, inputs. It is told in
-  /// the order of the instants, before anything runs.
-  void schedule(Time at, std::function<void()> act);
+  /// What is done to the system from outside at `at`, which is now() then: power, cables, faults, inputs. A CPU that is in
+  /// the middle of an instruction completes it, and sees what is done after it. It is told in the order of the instants,
+  /// before anything runs.
+  void schedule(Time at, std::function<void()> deed);
+
+  /// `watcher` is told before and after each of these is done, by its number; an empty function ends that. Wiring, not
+  /// state.
+  void watch_schedule(std::function<void(std::size_t number, bool done)> watcher) { watcher_ = std::move(watcher); }
 
   /// Whether anything is scheduled, or was.
-  bool has_schedule() const { return !acts_.empty(); }
+  bool has_schedule() const { return !schedule_.empty(); }
 
   /// How many PLCs there are.
   std::size_t plcs() const { return plcs_.size(); }
 
   /// The earliest clock of those that have power: nothing happens before it any more.
-  Time time() const;
+  Time time() const {
+    Time earliest = kNever;
+    for (const auto& plc : plcs_)
+      if (plc->powered()) earliest = std::min(earliest, plc->cpu().time());
+    return earliest == kNever ? clock_ : earliest;
+  }
+
+  /// When what is done from outside happens: the instant of what is scheduled while that is done, else time().
+  Time now() const { return doing_at_ == kNever ? time() : doing_at_; }
 
   /// Whether a CPU was paused when it last ran.
   bool paused() const;
@@ -108,7 +124,7 @@ class System {
     std::vector<ResponderStation::State> responders{};
     std::vector<PollerStation::State> pollers{};
     Time clock = 0;  ///< while no CPU has power
-    std::size_t acted = 0;
+    std::size_t done = 0;
     bool operator==(const Snapshot&) const = default;
   };
   Snapshot snapshot() const;
@@ -122,20 +138,21 @@ class System {
 
   Time horizon() const;
   bool any_powered() const;
-  Halt step_one_plc(Cpu& cpu, Time end);
-  Halt step_in_step(Time end);
-  void come_to(Time now);
+  const Cpu* run_cpus(Time end);
+  const Cpu* run_one(Time end);
+  const Cpu* run_each(Time end);
+  const Cpu* run_next(Time end);
+  const Cpu* come_to(Time now);
   Time next_action_besides(const Plc& plc) const;
-  Halt step_without_plc(Time end);
-  void act(Time now);
-  void look_at_next_act() { next_act_ = acted_ < acts_.size() ? acts_[acted_].at : kNever; }
+  void do_scheduled();
+  void look_at_next_scheduled() { next_scheduled_ = done_ < schedule_.size() ? schedule_[done_].at : kNever; }
   void handle_due_events(Time now);
   void settle(Time until);
   bool stop_requested() const { return stop_request_ && *stop_request_; }
 
-  struct Act {
+  struct Scheduled {
     Time at;
-    std::function<void()> act;
+    std::function<void()> deed;
   };
 
   Dispatcher events_;
@@ -145,11 +162,13 @@ class System {
   Parts<HostStation> host_ports_;
   Parts<ResponderStation> responders_;
   Parts<PollerStation> pollers_;
-  std::vector<Act> acts_;
-  std::size_t acted_ = 0;   // so many of them
-  Time next_act_ = kNever;  // when the next one is
-  Time clock_ = 0;          // while no CPU has power
-  bool in_step_ = false;    // how it runs, which is no state
+  std::vector<Scheduled> schedule_;
+  std::size_t done_ = 0;          // so many of them
+  Time next_scheduled_ = kNever;  // when the next one is
+  Time doing_at_ = kNever;        // of the one that is done
+  std::function<void(std::size_t number, bool done)> watcher_{};
+  Time clock_ = 0;        // while no CPU has power
+  bool in_step_ = false;  // how it runs, which is no state
   const std::atomic<bool>* stop_request_ = nullptr;
 };
 

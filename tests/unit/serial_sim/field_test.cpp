@@ -76,7 +76,7 @@ TEST(FieldScript, EveryWrongRowIsNamedWithItsLineAndWhatToDo) {
       {"1s,VB0,1", "'VB0' is not an input"},
       {"1s,SMB30,1", "'SMB30' is not an input"},
       {"1s,SMW28,1", "'SMW28' is not an input"},
-      {"1s,AIW1,1", "'AIW1' is not an input"},
+      {"1s,AIW1,1", "AIW1 is an odd address; analog values are at even ones: AIW0"},
       {"1s,I8.0,1", "does not exist on CPU 214"},
       {"1s,IB0:2,1", "without a count"},
       {"1s,lamp,1", "'lamp' is not an address"},

@@ -232,7 +232,7 @@ TEST(ModbusAnswer, Files) {
   EXPECT_EQ(said(read, "01 14 0c 05 06 0d fe 00 20 05 06 33 cd 00 40"),
             "file 4 from 1 on, 2 registers: 16#0DFE 16#0020; file 3 from 9 on, 2 registers: 16#33CD 16#0040");
   EXPECT_EQ(said("01 15 09 06 00 04 00 07 00 01 06 af", "01 15 09 06 00 04 00 07 00 01 06 af"), "1 reference written");
-  EXPECT_EQ(said("01 14 07 33 00 01 00 02 00 03", "01 14 05 04 33 0a 0b 0c"), "reference 51: 0a 0b 0c");
+  EXPECT_EQ(said("01 14 07 33 00 01 00 02 00 03", "01 14 05 04 33 0a 0b 0c"), "references of kind 16#33: 0a 0b 0c");
 }
 
 TEST(ModbusAnswer, ValuesAreDecoded) {
@@ -262,7 +262,7 @@ TEST(ModbusAnswer, WhatIsWrongWithDiagnosisAndFiles) {
   EXPECT_EQ(said("01 08 00 0b 00 00", "01 08 00 0b 00"), "wrong length: 3 data bytes, expected 4");
   EXPECT_EQ(said("01 08 00 04 00 00", "01 08 00 04 00 00"), "this subfunction is never answered");
   EXPECT_EQ(said("01 11", "01 11 03 15 ff"), "wrong byte count: 3, expected 2");
-  EXPECT_EQ(said("01 14 07 06 00 04 00 01 00 01", "01 14 04 03 05 0d fe"), "reference of kind 5, not 6");
+  EXPECT_EQ(said("01 14 07 06 00 04 00 01 00 01", "01 14 04 03 05 0d fe"), "reference of kind 16#05, not 16#06");
   EXPECT_EQ(said("01 14 07 06 00 04 00 01 00 01", "01 14 03 02 06 0d"), "1 bytes of file 4, expected 2");
   EXPECT_EQ(said("01 14 07 06 00 04 00 01 00 01", "01 14 05 03 06 0d fe"), "wrong byte count: 5, expected 4");
   EXPECT_EQ(said("01 14 07 06 00 04 00 01 00 01", "01 14 02 03 06"), "a reference is missing or cut off: 02 03 06");

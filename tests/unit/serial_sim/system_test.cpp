@@ -382,6 +382,21 @@ TEST(System, AnyPausedCpuPausesTheSystemWhichGoesOnAsIfItHadNot) {
   EXPECT_TRUE(plain.plant.system.snapshot() == paused.plant.system.snapshot());
 }
 
+TEST(System, InStepEachEndOfAScanPausesHoweverManyCpusReachItAtOnce) {
+  for (const std::size_t watched : {0U, 1U}) {
+    Plant plant({slave(1), slave(2)});
+    plant.start();
+    plant.system.run_in_step(true);
+    Cpu& cpu = plant.plcs[watched]->cpu();
+    cpu.pause_at_scan_end(true);
+    for (int pause = 0; pause < 20; ++pause) {
+      const auto before = cpu.state().scans;
+      ASSERT_EQ(plant.system.run_until(plant.system.time() + kSecond), Halt::Paused);
+      ASSERT_EQ(cpu.state().scans, before + 1) << watched << " " << pause;
+    }
+  }
+}
+
 TEST(System, ACpuThatWasPausedWhenItsPowerWentOffDoesNotHoldTheOthers) {
   Plant plant({slave(1), slave(2)});
   plant.start();
@@ -447,7 +462,7 @@ TEST(System, AFaultOfAnswersMeetsThoseOfEveryPlc) {
 
 /// Keeps the edges that a PLC drives.
 struct Driven final : WireSink {
-  void edge(Wire wire, Time at, bool) override {
+  void edge(Wire wire, Time at, bool, int) override {
     if (wire == Wire::Tx) edges.push_back(at);
   }
   void settled(Time, const SerialFormat&) override {}
@@ -638,6 +653,43 @@ TEST(System, ASnapshotKnowsWhatOfTheScheduleIsDone) {
   plant.system.restore(after);
   plant.system.run_until(40 * kMillisecond);
   EXPECT_EQ(off, 2);
+}
+
+/// Its CPU is in the middle of an instruction nearly always.
+TEST(System, PowerGoesOffAtItsInstantWithinACharacterAndWithinAnInstruction) {
+  for (const std::size_t plcs : {1U, 2U})
+    for (Time within = 1; within < 30 * kMicrosecond; within += 1301) {
+      std::vector<std::shared_ptr<const Program>> programs{slave(1)};
+      if (plcs == 2) programs.push_back(slower_slave(2));
+      Plant plant(programs);
+      Driven sink;
+      plant.start();
+      plant.plcs[0]->set_wire_sink(&sink);
+      plant.master->requester().start({.frame = request(1, modbus::read_holding_registers(0, 1))}, plant.system.time());
+      while (sink.edges.empty()) plant.run_for(10 * kMicrosecond);
+      const Time start_bits_end = sink.edges.front() + 104'166, at = plant.system.time() + within;
+      ASSERT_LT(at, start_bits_end);
+      Time told = 0;
+      plant.system.schedule(at, [&] {
+        told = plant.system.now();
+        plant.system.power_off(*plant.plcs[0]);
+      });
+      plant.run_for(5 * kMillisecond);
+      EXPECT_EQ(told, at);
+      ASSERT_EQ(sink.edges.size(), 2U);
+      EXPECT_EQ(sink.edges.back(), at) << "it drives the line no more";
+    }
+}
+
+TEST(System, APlcWhosePowerComesBackWithinTheInstructionThatItHadBegunBeginsAfterIt) {
+  Plant plant({slave(1), slave(2)});
+  plant.start();
+  const Time at = plant.system.time() + 1234567;
+  plant.system.schedule(at, [&] { plant.system.power_off(*plant.plcs[0]); });
+  plant.system.schedule(at + 1, [&] { plant.system.power_on(*plant.plcs[0]); });
+  plant.run_for(kSecond);
+  EXPECT_TRUE(plant.plcs[0]->powered());
+  EXPECT_EQ(plant.ask(1, modbus::read_holding_registers(0, 1)), "01 03 02 00 00");
 }
 
 TEST(System, SomethingScheduledComesWithinAnExchange) {
