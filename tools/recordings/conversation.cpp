@@ -44,16 +44,6 @@ RecordedFrame take_first(RecordedFrame& frame, std::size_t count, const Stamps& 
   return first;
 }
 
-Time begin_of(const RecordedFrame& frame, const Stamps& stamps) {
-  const auto characters = static_cast<Time>(frame.times.empty() ? frame.bytes.size() : 1);
-  return *frame.at - (stamps.at_end ? characters * stamps.character : 0);
-}
-
-Time end_of(const RecordedFrame& frame, const Stamps& stamps) {
-  if (!frame.times.empty()) return frame.times.back() + (stamps.at_end ? 0 : stamps.character);
-  return *frame.at + (stamps.at_end ? 0 : static_cast<Time>(frame.bytes.size()) * stamps.character);
-}
-
 }  // namespace
 
 std::span<const RecordedProtocol> recorded_protocols() { return kProtocols; }
@@ -69,38 +59,44 @@ Conversation::Stream& Conversation::stream_of(const RecordedFrame& frame) {
   return stream;
 }
 
+const Conversation::OpenRequest* Conversation::Stream::request_of(const RecordedFrame& frame) const {
+  const auto found = open.find(frame.exchange);
+  return found == open.end() ? nullptr : &found->second;
+}
+
 ReadFrame Conversation::what_it_says(Stream& stream, const RecordedFrame& frame) const {
-  ReadFrame read = stream.reader->read(frame, stream.open ? &*stream.open : nullptr);
-  const bool echoes = read.direction == Direction::Answer && frame.direction == Direction::Unknown && stream.open &&
-                      frame.bytes == stream.open->bytes;
-  const auto waited = echoes ? silence(*stream.open, frame, stamps_) : std::nullopt;
-  if (!waited || *waited <= stamps_.timeout) return read;
-  read = stream.reader->read(frame, nullptr);
-  read.repeats = stream.number;
+  const OpenRequest* open = stream.request_of(frame);
+  const bool same = open != nullptr && frame.direction == Direction::Unknown && frame.bytes == open->frame.bytes;
+  const auto waited = same && stream.reader->may_be_echoed(frame) ? silence(open->frame, frame, stamps_) : std::nullopt;
+  const bool repeats = waited && *waited > stamps_.timeout;
+  ReadFrame read = stream.reader->read(frame, open == nullptr || repeats ? nullptr : &open->frame);
+  if (!repeats) return read;
+  read.repeats = open->number;
   read.text += fmt::format("; repeated after {}, or its late echo", format_duration(*waited));
   return read;
 }
 
 ReadFrame Conversation::read(Stream& stream, RecordedFrame frame) {
-  ReadFrame read = what_it_says(stream, frame);
+  const bool inside = stamps_.exact && last_ && overlap(*last_, frame, stamps_);
+  ReadFrame read = inside ? ReadFrame{.text = "begins inside the frame before"} : what_it_says(stream, frame);
   if (!frame.damaged.empty()) {
     read.right = false;
     const bool all = frame.damaged.size() == frame.bytes.size();
     read.text = fmt::format("{} damaged{}{}", all ? "it is" : fmt::format("character {} is", frame.damaged.front() + 1),
                             read.text.empty() ? "" : "; ", read.text);
   }
-  if (last_) read.silence = silence(*last_, frame, stamps_);
-  if (read.direction == Direction::Answer && stream.open) {
-    read.other = stream.number;
-    read.latency = silence(*stream.open, frame, stamps_);
-    stream.open.reset();
+  if (last_) read.silence = known_silence(*last_, frame, stamps_);
+  const OpenRequest* open = stream.request_of(frame);
+  if (read.direction == Direction::Answer && open != nullptr) {
+    read.other = open->number;
+    read.latency = known_silence(open->frame, frame, stamps_);
+    stream.open.erase(frame.exchange);
   } else if (read.direction == Direction::Request) {
-    stream.open.reset();
-    if (!read.needs_no_answer) stream.open = frame;
-    stream.number = count_;
+    stream.open.erase(frame.exchange);
+    if (!read.needs_no_answer) stream.open.emplace(frame.exchange, OpenRequest{frame, count_});
   }
   ++count_;
-  last_ = frame;
+  if (!inside || end_of(frame, stamps_) > end_of(*last_, stamps_)) last_ = frame;
   read.frame = std::move(frame);
   return read;
 }
@@ -109,18 +105,35 @@ std::vector<ReadFrame> Conversation::take_complete(RecordedFrame& frame) {
   Stream& stream = stream_of(frame);
   std::vector<ReadFrame> all;
   while (!frame.bytes.empty()) {
-    const std::size_t length = stream.reader->first_message(frame.bytes, stream.open ? &*stream.open : nullptr);
+    const OpenRequest* open = stream.request_of(frame);
+    const std::size_t length = stream.reader->first_message(frame.bytes, open != nullptr ? &open->frame : nullptr);
     if (length == 0) break;
     all.push_back(read(stream, take_first(frame, length, stamps_)));
   }
   return all;
 }
 
+bool Conversation::is_several(Stream& stream, RecordedFrame frame) const {
+  const OpenRequest* const waiting = stream.request_of(frame);
+  const bool said_so = stamps_.exact || !frame.damaged.empty();
+  std::optional<RecordedFrame> open = waiting != nullptr ? std::optional(waiting->frame) : std::nullopt;
+  if (said_so || stream.reader->read(frame, open ? &*open : nullptr).right) return false;
+  while (!frame.bytes.empty()) {
+    const std::size_t length = stream.reader->first_message(frame.bytes, open ? &*open : nullptr);
+    if (length == 0) return false;
+    const RecordedFrame message = take_first(frame, length, stamps_);
+    const ReadFrame read = stream.reader->read(message, open ? &*open : nullptr);
+    if (!read.right) return false;
+    open = read.direction == Direction::Request && !read.needs_no_answer ? std::optional(message) : std::nullopt;
+  }
+  return true;
+}
+
 std::vector<ReadFrame> Conversation::add(RecordedFrame frame) {
   std::vector<ReadFrame> all;
   Stream& stream = stream_of(frame);
   const bool has_characters = frame.direction == Direction::Unknown && !frame.times.empty();
-  if (has_characters || stream.reader->messages_share_frames()) all = take_complete(frame);
+  if (has_characters || stream.reader->messages_share_frames() || is_several(stream, frame)) all = take_complete(frame);
   if (!frame.bytes.empty()) all.push_back(read(stream, std::move(frame)));
   return all;
 }
@@ -136,9 +149,18 @@ std::vector<ReadFrame> conversation(const LineRecording& recording, const Record
   return all;
 }
 
-std::optional<Time> silence(const RecordedFrame& before, const RecordedFrame& after, const Stamps& stamps) {
-  if (!before.at || !after.at) return {};
-  return std::max<Time>(0, begin_of(after, stamps) - end_of(before, stamps));
+const RecordedProtocol* likelier_protocol(const LineRecording& recording, const RecordedProtocol& chosen,
+                                          const Stamps& stamps) {
+  const auto percent_right = [&](const RecordedProtocol& protocol) {
+    const auto frames = conversation(recording, protocol, stamps);
+    const auto right = static_cast<std::size_t>(std::ranges::count_if(frames, &ReadFrame::right));
+    return frames.empty() ? 0 : 100 * right / frames.size();
+  };
+  constexpr std::size_t kHardlyAny = 10, kMost = 80;
+  if (percent_right(chosen) > kHardlyAny) return nullptr;
+  const auto found = std::ranges::find_if(
+      kProtocols, [&](const RecordedProtocol& each) { return each.name != chosen.name && percent_right(each) >= kMost; });
+  return found == kProtocols.end() ? nullptr : &*found;
 }
 
 }  // namespace s7200::tools

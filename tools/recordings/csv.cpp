@@ -17,7 +17,7 @@ namespace {
 std::string_view first_line(std::string_view text) { return text.substr(0, text.find_first_of("\r\n")); }
 
 char separator_of(std::string_view line) {
-  for (const char c : {'\t', ';', ','})
+  for (const char c : {'\t', ';', '|', ','})
     if (line.find(c) != std::string_view::npos) return c;
   return 0;
 }

@@ -35,20 +35,4 @@ std::string decoded_text(const std::vector<ReadFrame>& frames, bool colour);
 /// The keys `frames` and `summary`.
 void add_decoded(nlohmann::ordered_json& results, const std::vector<ReadFrame>& frames);
 
-struct PlaybackChoices {
-  std::string name{};                     ///< of the scenario
-  std::string program{};                  ///< that is to be tested; empty: the scenario is for `test --against`
-  Time tolerance = 0;                     ///< of latencies
-  std::optional<std::uint8_t> station{};  ///< only what it was asked; nothing: all
-};
-
-struct Playback {
-  std::string scenario{};            ///< empty if there is no request to send
-  std::vector<std::string> notes{};  ///< which requests were left out, and why
-};
-
-/// A scenario that sends the requests with their gaps and expects the answers. Left out are requests that are damaged, and
-/// those whose answer is wrong: no slave can give it.
-Playback playback(const std::vector<ReadFrame>& frames, const Stamps& stamps, const PlaybackChoices& choices);
-
 }  // namespace s7200::tools

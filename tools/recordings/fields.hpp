@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "tools/recordings/recording.hpp"
@@ -17,8 +19,8 @@ inline constexpr Time kFurthestTime = 4'000'000'000 * kSecond;
 /// tools write both; nothing for one that does not exist.
 using ReadDate = std::array<std::optional<std::int32_t>, 2>;
 
-/// A time at the beginning of a text, and what comes after it: `12:34:56.789`, `2026-11-22 12:34:56,789`, `[0.123456]`,
-/// `-12.3 ms`. A plain number is one only with a fraction or a unit.
+/// A time at the beginning of a text, and what comes after it: `12:34:56.789`, `2026-11-22 12:34:56,789`,
+/// `3/1/2026 1:02:03.5 PM`, `[0.123456]`, `-12.3 ms`. A plain number is one only with a fraction or a unit.
 /// It is no further than kFurthestTime from 0.
 struct LeadingTime {
   Time time = 0;           ///< of day: since midnight
@@ -31,15 +33,21 @@ std::optional<LeadingTime> leading_time(std::string_view text);
 /// What a word says: TX, sent, request, > … ask; RX, received, response, < … answer.
 Direction direction_of(std::string_view text);
 
-/// `01 03 00`, `0x01,0x03`, `[01][03]`, `010300`; nothing if there is anything else.
+/// `01 03 00`, `0x01,0x3`, `[01][03]`, `010300`; nothing if there is anything else.
 std::optional<Bytes> bytes_of_text(std::string_view text);
 
-/// The bytes at the end of a line, and where they begin.
-struct TrailingBytes {
-  Bytes bytes;
-  std::size_t begin = 0;
+/// The bytes of a line: one run of words in hex behind what names them, with nothing behind it but a comment.
+struct BytesInLine {
+  Bytes bytes{};
+  std::size_t begin = 0, end = 0;  ///< of the run
+  std::string not_understood{};    ///< what makes it doubtful which bytes there were; then there are none
 };
-std::optional<TrailingBytes> trailing_bytes(std::string_view line);
+/// Nothing if there is no byte in it.
+std::optional<BytesInLine> bytes_in_line(std::string_view line);
+
+/// Whether a text shows the bytes as characters, as tools do beside the hex: those that cannot be printed as a sign.
+/// Blanks at its end may be missing.
+bool is_column_of_characters(std::string_view text, std::span<const std::uint8_t> bytes);
 
 /// Rows with one character each become frames: those that follow within the gap, in the same direction.
 void join_characters(LineRecording& recording, const ReadingChoices& choices);

@@ -16,6 +16,18 @@ std::optional<LineRecording> read_pcap(const std::string& bytes, const ReadingCh
 bool looks_like_csv(std::string_view bytes);
 std::optional<LineRecording> read_csv(const std::string& bytes, const ReadingChoices& choices, std::string& why);
 
+/// By a line that says it is mbpoll, or one that is a frame in brackets.
+bool looks_like_libmodbus(std::string_view bytes);
+std::optional<LineRecording> read_libmodbus(const std::string& bytes, const ReadingChoices& choices, std::string& why);
+
+/// By a line of its own about bytes that are on their way; those with bytes once more are none of the line.
+bool looks_like_pymodbus(std::string_view bytes);
+std::optional<LineRecording> read_pymodbus(const std::string& bytes, const ReadingChoices& choices, std::string& why);
+
 std::optional<LineRecording> read_text_log(const std::string& bytes, const ReadingChoices& choices, std::string& why);
+
+/// Frames of a log that are messages of Modbus TCP, with their heads, become frames as on a serial line; then a note says
+/// so, and what is no such message is left out.
+void read_modbus_tcp(LineRecording& recording);
 
 }  // namespace s7200::tools

@@ -30,7 +30,7 @@ ReadFrame read_freeport_pc(const RecordedFrame& frame, const RecordedFrame* open
   read.direction = Direction::Answer;
   read.right = answer.verdict == serial::Verdict::Right || answer.verdict == serial::Verdict::Exception;
   if (answer.verdict == serial::Verdict::Exception)
-    read.text = std::string(pc_protocol::refusal_name(answer.exception));
+    read.text = serial::error_text(answer.exception, pc_protocol::refusal_name(answer.exception));
   else
     read.text = !read.right ? answer.fault : answer.bytes.empty() ? "done" : serial::to_hex(answer.bytes);
   return read;

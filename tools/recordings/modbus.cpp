@@ -51,19 +51,20 @@ ReadFrame read_modbus(const RecordedFrame& frame, const RecordedFrame* open) {
     if (fits || frame.direction == Direction::Answer) {
       read.direction = Direction::Answer;
       read.right = fits;
-      read.text = modbus::describe(open->bytes, bytes);
+      read.text = modbus::describe(open->bytes, bytes, modbus::Numbering::Notation);
       return read;
     }
   }
   const bool crc = bytes.size() >= kShortestRtu && modbus::crc_ok(bytes);
   const bool whole = crc && has_length_of_request(bytes);
   if (frame.direction == Direction::Answer || (frame.direction == Direction::Unknown && !whole)) {
+    read.right = crc;
     read.text = !crc ? "wrong CRC, or not a whole frame" : "an answer without its request";
     return read;
   }
   read.direction = Direction::Request;
   read.station = bytes[0];
-  read.needs_no_answer = bytes[0] == modbus::kBroadcast;
+  read.needs_no_answer = crc && bytes[0] == modbus::kBroadcast;
   read.right = crc;
   read.text = crc ? modbus_request_text(bytes) : "wrong CRC, or not a whole frame";
   return read;

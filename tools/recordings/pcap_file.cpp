@@ -1,4 +1,4 @@
-// Captures of serial lines (link type 147) and of Modbus TCP, read by libpcap.
+// Captures of serial lines and of Modbus TCP, read by libpcap.
 #include <fmt/format.h>
 #include <pcap/pcap.h>
 
@@ -10,6 +10,7 @@
 
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/request.hpp"
+#include "serial_sim/record/pcap_capture.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 
 using Data = std::span<const std::uint8_t>;
 
-constexpr int kSerial = 147;  // LINKTYPE_USER0, which s7200 writes
+constexpr int kSerial = serial::PcapWriter::kLinkType;
 
 struct Segment {
   bool whole = true;   ///< otherwise a fragment, or cut off, and the rest does not count
@@ -154,7 +155,8 @@ class Reader {
                                    .direction = asks ? Direction::Request : Direction::Answer,
                                    .bytes = modbus::rtu_frame(message->unit, message->pdu),
                                    .place = place,
-                                   .stream = stream.connection});
+                                   .stream = stream.connection,
+                                   .exchange = modbus::exchange_of(*message)});
     if (!stream.reader.error().empty()) lose(segment, place, stream.reader.error());
   }
 
@@ -212,7 +214,7 @@ std::optional<LineRecording> read_pcap(const std::string& bytes, const ReadingCh
   const int link_type = pcap_datalink(capture.get());
   if (link_type != kSerial && link_type != DLT_EN10MB && link_type != DLT_LINUX_SLL && link_type != DLT_LINUX_SLL2 &&
       link_type != DLT_RAW && link_type != DLT_IPV4 && link_type != DLT_IPV6) {
-    why = fmt::format("link type {} is not one of 147 (serial), Ethernet, Linux cooked or raw IP", link_type);
+    why = fmt::format("link type {} is not one of {} (serial), Ethernet, Linux cooked or raw IP", link_type, kSerial);
     return {};
   }
   Reader reader(choices, link_type);

@@ -10,6 +10,7 @@
 #include "interpreter/model/s7_pdu.hpp"
 #include "interpreter/program/address.hpp"
 #include "serial_sim/line/frame.hpp"
+#include "serial_sim/peers/answer.hpp"
 #include "tools/recordings/readers.hpp"
 #include "tools/views/ppi_text.hpp"
 
@@ -26,28 +27,14 @@ std::optional<Width> width_of(std::uint8_t type, const AreaInfo& area) {
     if (type != s7::code_of(area.area)) return {};
     return area.element == bytes_of(Width::Double) ? Width::Double : Width::Word;
   }
-  switch (type) {
-    case s7::kBit:
-      return Width::Bit;
-    case s7::kByte:
-    case s7::kCharacter:
-      return Width::Byte;
-    case s7::kWord:
-    case s7::kInteger:
-      return Width::Word;
-    case s7::kDouble:
-    case s7::kLong:
-    case s7::kReal:
-      return Width::Double;
-    default:
-      return {};
-  }
+  return s7::width_of(type);
 }
 
 /// What a request reads or writes.
 struct Variable {
   std::optional<MemoryRange> range{};  ///< nothing for an area or a type that is not known
   std::string name{};                  ///< `VW100:3`, `V100.7`, `T37`, as for `master --protocol ppi`
+  bool identification = false;         ///< of the CPU, all of it
 };
 
 std::string name_of(const MemoryRange& range) {
@@ -58,6 +45,8 @@ Variable variable_of(Data bytes) {
   const std::uint8_t type = bytes[3];
   const std::uint16_t count = load16(&bytes[4]);
   const std::uint32_t address = load32(&bytes[8]) & 0xFF'FFFF;
+  if (bytes[8] == s7::kSystemInformation && type == s7::kByte && count == s7::kIdentificationBytes && address == 0)
+    return {.name = "identification", .identification = true};
   const auto wire = std::ranges::find(s7::kWireAreas, bytes[8], &s7::WireArea::code);
   if (wire == s7::kWireAreas.end()) return {.name = fmt::format("area 16#{:02X} byte {}:{}", bytes[8], address / 8, count)};
   const AreaInfo& area = info(wire->area);
@@ -111,6 +100,7 @@ std::string element_text(const MemoryRange& range, const std::uint8_t* at) {
 
 /// `VW100:2 = 16#04D2 16#FFFB`
 std::string value_text(const Variable& variable, Data bytes) {
+  if (variable.identification) return fmt::format("{} = {}", variable.name, s7_identification_text(bytes));
   if (!variable.range) return fmt::format("{} = {}", variable.name, serial::to_hex(bytes));
   std::string text = variable.name + " =";
   const std::size_t step = bytes_of(variable.range->width);
@@ -146,9 +136,7 @@ std::optional<Pdu> pdu_of(Data bytes, std::string& why) {
   return pdu;
 }
 
-std::string error_text(std::uint16_t error) {
-  return fmt::format("error {:04X}: {}", error, s7_error_name(static_cast<std::uint8_t>(error >> 8)));
-}
+std::string error_text(std::uint16_t error) { return serial::error_text(error, s7_error_name(error)); }
 
 /// 00 01 12 length kind group service number, and in an answer 00 00 error(2).
 std::string user_data_text(const Pdu& pdu) {
@@ -206,7 +194,7 @@ std::string read_answer_text(const Pdu& pdu, const std::vector<Variable>& variab
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Variable variable = i < variables.size() ? variables[i] : Variable{.name = "read"};
     texts.push_back(values[i].code == s7::kDone ? value_text(variable, values[i].bytes)
-                                                : fmt::format("{}: {}", variable.name, s7_error_name(values[i].code)));
+                                                : fmt::format("{}: {}", variable.name, error_text(values[i].code)));
   }
   return fmt::format("{}", fmt::join(texts, ", "));
 }
@@ -216,7 +204,7 @@ std::string write_answer_text(const Pdu& pdu, const std::vector<Variable>& varia
   for (std::size_t i = 0; i < pdu.data.size(); ++i) {
     const std::string name = i < variables.size() ? variables[i].name + (pdu.data[i] == s7::kDone ? "" : ":") : "";
     texts.push_back(fmt::format("{}{}{}", name, name.empty() ? "" : " ",
-                                pdu.data[i] == s7::kDone ? "written" : s7_error_name(pdu.data[i])));
+                                pdu.data[i] == s7::kDone ? "written" : error_text(pdu.data[i])));
   }
   return fmt::format("{}", fmt::join(texts, ", "));
 }
@@ -302,6 +290,8 @@ class PpiReader final : public FrameReader {
                             wrong.empty() ? text : wrong);
     return read;
   }
+
+  bool may_be_echoed(const RecordedFrame&) const override { return false; }
 
   std::size_t first_message(Data bytes, const RecordedFrame*) const override {
     const auto length = ppi::frame_length(bytes);

@@ -18,6 +18,9 @@ template <ReadFrame (*Read)(const RecordedFrame& frame, const RecordedFrame* ope
 class PlainReader final : public FrameReader {
  public:
   ReadFrame read(const RecordedFrame& frame, const RecordedFrame* open) override { return Read(frame, open); }
+  bool may_be_echoed(const RecordedFrame& frame) const override {
+    return Read(frame, &frame).direction == Direction::Answer;
+  }
   std::size_t first_message(std::span<const std::uint8_t> bytes, const RecordedFrame* open) const override {
     return First(bytes, open);
   }

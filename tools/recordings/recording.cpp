@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <ranges>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/forms.hpp"
 
@@ -14,10 +14,33 @@ namespace {
 
 /// The first that a file looks like is the one that it is read as.
 constexpr std::array kForms{
-    RecordingForm{"pcap", "pcap of a serial line (link type 147) or of Modbus TCP", looks_like_pcap, read_pcap},
-    RecordingForm{"CSV", "CSV with a frame or a character in each row", looks_like_csv, read_csv},
-    RecordingForm{"text", "text logs with a frame or a character in each line", is_text, read_text_log},
+    RecordingForm{"pcap",
+                  "pcap of a serial line, as --capture writes it, or of Modbus TCP; it does not say which characters had "
+                  "parity errors",
+                  false, looks_like_pcap, read_pcap},
+    RecordingForm{"CSV", "CSV with a frame or a character in each row", true, looks_like_csv, read_csv},
+    RecordingForm{"mbpoll", "what mbpoll -v and other programs with libmodbus print", true, looks_like_libmodbus,
+                  read_libmodbus},
+    RecordingForm{"pymodbus", "what pymodbus logs at the level DEBUG", true, looks_like_pymodbus, read_pymodbus},
+    RecordingForm{"text", "text logs with a frame or a character in each line", true, is_text, read_text_log},
 };
+
+void note_times_that_run_backwards(LineRecording& recording) {
+  std::optional<Time> last;
+  for (const RecordedFrame& frame : recording.frames) {
+    if (frame.at && last && *frame.at < *last) {
+      recording.notes.push_back(
+          fmt::format("{}: its time is before that of the frame above it; no silence is known there", frame.place));
+      return;
+    }
+    if (frame.at) last = frame.at;
+  }
+}
+
+/// By the sections of its head.
+bool is_vcd(std::string_view bytes) {
+  return bytes.starts_with('$') && bytes.find("$enddefinitions") != std::string_view::npos;
+}
 
 }  // namespace
 
@@ -29,12 +52,20 @@ std::optional<LineRecording> read_recording(const std::string& file, const Readi
   const std::string bytes(stl::without_byte_order_mark(file));
   const auto form = std::ranges::find_if(kForms, [&](const RecordingForm& each) { return each.looks_like(bytes); });
   if (form == kForms.end()) {
-    why = fmt::format("it has none of the forms {}", fmt::join(kForms | std::views::transform(&RecordingForm::name), ", "));
+    why = fmt::format("it has none of the forms {}", stl::joined(kForms, &RecordingForm::name));
+    return {};
+  }
+  if (is_vcd(bytes)) {
+    why = "a VCD has levels, not frames; record the line with --capture FILE.pcap, or let sigrok decode it and write CSV";
     return {};
   }
   auto recording = form->read(bytes, choices, why);
   if (!recording) return {};
   recording->form = form->name;
+  recording->is_log = form->is_log;
+  if (form->is_log) read_modbus_tcp(*recording);
+  recording->over_tcp = std::ranges::any_of(recording->frames, [](const RecordedFrame& frame) { return frame.stream != 0; });
+  note_times_that_run_backwards(*recording);
   if (recording->frames.empty()) {
     why = "no frame in it";
     for (const std::string& note : recording->notes) why += "; " + note;

@@ -18,10 +18,11 @@ enum class Direction : std::uint8_t { Unknown, Request, Answer };
 struct RecordedFrame {
   std::optional<Time> at{};  ///< when it began, since the first frame; nothing if the recording does not say
   Direction direction = Direction::Unknown;
-  Bytes bytes{};              ///< as on a serial line: a message of Modbus TCP has its unit for the station, and a CRC
-  std::string place{};        ///< `packet 3`, `line 12`
-  std::uint32_t stream = 0;   ///< of Modbus TCP: which connection; a request and its answer are of the same
-  std::vector<Time> times{};  ///< of each character, if the recording says; the first is `at`
+  Bytes bytes{};               ///< as on a serial line: a message of Modbus TCP has its unit for the station, and a CRC
+  std::string place{};         ///< `packet 3`, `line 12`
+  std::uint32_t stream = 0;    ///< of Modbus TCP: which connection; a request and its answer are of the same
+  std::uint32_t exchange = 0;  ///< of Modbus TCP: transaction and unit; a request and its answer have the same
+  std::vector<Time> times{};   ///< of each character, if the recording says; the first is `at`
   /// Which of the bytes had a parity or framing error, from 0; all if the recording says it of the frame as a whole.
   std::vector<std::size_t> damaged{};
   bool more_was_lost = false;  ///< what came after it on its line or connection is missing
@@ -30,6 +31,8 @@ struct RecordedFrame {
 struct LineRecording {
   std::vector<RecordedFrame> frames{};
   std::string form{};                ///< name of its RecordingForm
+  bool is_log = false;               ///< programs have noted its times when they were told; a capture has those of the line
+  bool over_tcp = false;             ///< its frames were messages of Modbus TCP
   std::vector<std::string> notes{};  ///< what was left out, and why
 };
 
@@ -45,6 +48,7 @@ struct ReadingChoices {
 struct RecordingForm {
   std::string_view name;     ///< `pcap`
   std::string_view meaning;  ///< for the help
+  bool is_log;
   bool (*looks_like)(std::string_view bytes);
   std::optional<LineRecording> (*read)(const std::string& bytes, const ReadingChoices& choices, std::string& why);
 };

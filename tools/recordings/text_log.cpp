@@ -1,5 +1,7 @@
-// Logs of serial sniffers and of mbpoll: a frame in each line.
+// Logs of serial sniffers: a frame in each line, or in rows below a line with its time.
 #include <fmt/format.h>
+
+#include <regex>
 
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
@@ -8,47 +10,261 @@
 namespace s7200::tools {
 namespace {
 
-/// libmodbus prints what it sends as [01][03], and what it receives as <01><03>.
+/// Some write frames as [01][03] where they are sent, and as <01><03> where they are received.
 Direction direction_of_brackets(std::string_view bytes) {
   if (bytes.starts_with('[')) return Direction::Request;
   if (bytes.starts_with('<')) return Direction::Answer;
   return Direction::Unknown;
 }
 
+/// An arrow between two names says who talks to whom, not which of them is the master.
+Direction direction_of_heading(std::string_view text) {
+  static const std::regex kArrow(R"(\w\s*(-+>|<-+)\s*\w)");
+  return std::regex_search(text.begin(), text.end(), kArrow) ? Direction::Unknown : direction_of(text);
+}
+
+/// `Tx:000001-` of Modbus Poll: its number is no byte.
+std::size_t length_of_counter(std::string_view line) {
+  static const std::regex kCounter(R"(^\s*[TR]x:\d+-)");
+  std::match_results<std::string_view::const_iterator> match;
+  return std::regex_search(line.begin(), line.end(), match, kCounter) ? static_cast<std::size_t>(match.length()) : 0;
+}
+
+/// `> 2026/11/22 10:00:00.5  length=8` of socat: the direction stands before the time.
+std::size_t length_of_arrow(std::string_view line) {
+  const bool is_arrow = line.starts_with("> ") || line.starts_with("< ");
+  return is_arrow && leading_time(line.substr(2)) ? 2 : 0;
+}
+
+bool has_clock(std::string_view text) {
+  static const std::regex kClock(R"(\d:\d\d\b)");
+  return std::regex_search(text.begin(), text.end(), kClock);
+}
+
+constexpr std::size_t kFullRow = 16, kLongestWithCharacters = 1000;
+
+/// `|....4...|` of hexdump -C.
+std::string_view without_bars(std::string_view text) {
+  const bool barred = text.size() > 2 && text.front() == '|' && text.back() == '|';
+  return barred ? text.substr(1, text.size() - 2) : text;
+}
+
+/// What is not ASCII as one sign, whatever it takes in UTF-8.
+std::string in_single_bytes(std::string_view text) {
+  std::string single;
+  for (const char c : text)
+    if ((c & 0xC0) != 0x80 || single.empty()) single += (c & 0x80) != 0 ? '.' : c;
+  return single;
+}
+
+/// Without the characters that some tools put beside the hex: after two blanks or more, after one in a full row. The first
+/// of them may be blanks.
+std::string_view without_characters(std::string_view line) {
+  if (line.size() > kLongestWithCharacters) return line;
+  for (std::size_t gap = line.find(' '); gap != std::string_view::npos; gap = line.find(' ', gap + 1)) {
+    const std::size_t last = line.find_first_not_of(' ', gap);
+    const auto bytes = bytes_in_line(line.substr(0, gap));
+    if (!bytes || bytes->end != gap || last == std::string_view::npos) continue;
+    for (std::size_t column = gap + (bytes->bytes.size() < kFullRow ? 2 : 1); column <= last; ++column)
+      if (is_column_of_characters(in_single_bytes(without_bars(line.substr(column))), bytes->bytes))
+        return line.substr(0, gap);
+  }
+  return line;
+}
+
+struct RecordedCharacter {
+  Direction direction;
+  std::uint8_t byte;
+};
+
+/// `> 	0x01 (^A)`: a character in each line, with its name.
+std::optional<RecordedCharacter> character_of_interceptty(std::string_view line) {
+  static const std::regex kCharacter(R"(^([<>])\s+0x([0-9A-Fa-f]{2})(\s+\(.*\))?\s*$)");
+  std::match_results<std::string_view::const_iterator> match;
+  if (!std::regex_search(line.begin(), line.end(), match, kCharacter)) return {};
+  return RecordedCharacter{match.str(1) == ">" ? Direction::Request : Direction::Answer,
+                           static_cast<std::uint8_t>(std::stoul(match.str(2), nullptr, 16))};
+}
+
+class LogReader {
+ public:
+  void take(std::string_view line) {
+    ++number_;
+    if (const std::string_view rest = stl::trim(line); rest.empty() || rest.front() == '#') return;
+    if (ends_dump(line)) return;
+    if (const auto character = character_of_interceptty(line)) return take(*character);
+    const std::size_t arrow = length_of_arrow(line);
+    const Direction said = direction_of(line.substr(0, arrow));
+    const auto time = leading_time(line.substr(arrow));
+    if (time) line.remove_prefix(arrow + time->length);
+    const std::optional<Time> at = time ? std::optional(days_.since_first_midnight(*time)) : std::nullopt;
+    const std::string_view whole = line;
+    if (!at && offset_is_wrong(line))
+      return leave_out({.not_understood = std::string(line.substr(0, line.find(' ')))}, true);
+    if (!at) line.remove_prefix(length_of_offset(line));
+    const std::size_t counter = length_of_counter(line);
+    in_characters_ = false;
+    const std::string_view rest = without_characters(stl::trim_end(line.substr(counter)));
+    const auto direction = [&](Direction read) { return time && said != Direction::Unknown ? said : read; };
+    const auto found = bytes_in_line(rest);
+    in_dump_ = !at && rest.size() < whole.size() && is_dump(whole);
+    if (!found)
+      take_heading(at, direction(direction_of_heading(line)));
+    else if (!found->not_understood.empty())
+      leave_out(*found, !at);
+    else
+      take(*found, rest, direction(direction_of(line.substr(0, counter + found->begin))), at);
+  }
+
+  LineRecording finish(const ReadingChoices& choices) {
+    drop_heading();
+    if (in_doubt_ > kMostNamed)
+      recording_.notes.push_back(fmt::format("{} more lines were left out for such a reason", in_doubt_ - kMostNamed));
+    note(left_out_, "left out", "no bytes in it");
+    note(not_understood_, "read without its time", "the form of that is not understood");
+    count_from_first(recording_);
+    if (characters_) join_characters(recording_, choices);
+    return std::move(recording_);
+  }
+
+ private:
+  /// A line with a time and no bytes: those of the rows below it.
+  struct Heading {
+    Time at = 0;
+    Direction direction = Direction::Unknown;
+    std::size_t number = 0;
+  };
+
+  /// Lines of which the same is to be said.
+  struct Lines {
+    std::size_t first = 0, count = 0;
+
+    void add(std::size_t number) {
+      if (count++ == 0) first = number;
+    }
+  };
+
+  /// `line 3: left out, and 2 more: no bytes in it`
+  void note(const Lines& lines, std::string_view what, std::string_view why) {
+    if (lines.count == 0) return;
+    const std::string more = lines.count == 1 ? "" : fmt::format(", and {} more", lines.count - 1);
+    recording_.notes.push_back(fmt::format("line {}: {}{}: {}", lines.first, what, more, why));
+  }
+
+  /// `0010  ` before a row: how many bytes of the frame stand above it.
+  std::size_t length_of_offset(std::string_view line) const {
+    static const std::regex kOffset(R"(^\s{0,9}([0-9A-Fa-f]{8}|[0-9A-Fa-f]{4})(:\s|\s\s))");
+    std::match_results<std::string_view::const_iterator> match;
+    if (!std::regex_search(line.begin(), line.end(), match, kOffset)) return 0;
+    if (!heading_ && !goes_on_ && !is_dump(line)) return 0;
+    return std::stoul(match.str(1), nullptr, 16) == bytes_above() ? static_cast<std::size_t>(match.length()) : 0;
+  }
+
+  std::size_t bytes_above() const { return goes_on_ ? recording_.frames.back().bytes.size() : 0; }
+
+  /// `00000010  01 03 …` of hexdump: eight digits, two blanks, and pairs of digits.
+  static bool is_dump(std::string_view line) {
+    static const std::regex kDump(R"(^[0-9A-Fa-f]{8}\s\s+[0-9A-Fa-f]{2}(\s|$))");
+    return std::regex_search(line.begin(), line.end(), kDump);
+  }
+
+  /// `00000008` below the last row: how many bytes there were.
+  bool ends_dump(std::string_view line) const {
+    const std::string_view digits = stl::trim(line);
+    return in_dump_ && digits.size() == 8 && digits.find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos &&
+           std::stoul(std::string(digits), nullptr, 16) == recording_.frames.back().bytes.size();
+  }
+
+  /// A character without a time: a frame lasts until the other end speaks.
+  void take(const RecordedCharacter& character) {
+    drop_heading();
+    std::vector<RecordedFrame>& frames = recording_.frames;
+    if (!in_characters_ || frames.back().direction != character.direction)
+      frames.push_back({.direction = character.direction, .place = fmt::format("line {}", number_)});
+    frames.back().bytes.push_back(character.byte);
+    in_characters_ = true;
+    characters_ = false;
+  }
+
+  /// Rows of a dump are missing above it: nobody knows of which frame it is.
+  bool offset_is_wrong(std::string_view line) const {
+    return is_dump(line) && std::stoul(std::string(line.substr(0, 8)), nullptr, 16) != bytes_above();
+  }
+
+  void take(const BytesInLine& found, std::string_view line, Direction direction, std::optional<Time> at) {
+    const bool is_row = !at && line.substr(0, found.begin).find_first_not_of(" \t") == std::string_view::npos;
+    lost_row_ = lost_row_ && is_row;
+    if (lost_row_) return;
+    if (is_row && goes_on_) {
+      Bytes& bytes = recording_.frames.back().bytes;
+      bytes.insert(bytes.end(), found.bytes.begin(), found.bytes.end());
+      goes_on_ = found.bytes.size() >= kFullRow;
+      return;
+    }
+    if (is_row && heading_) {
+      at = heading_->at;
+      direction = heading_->direction;
+      heading_.reset();
+      goes_on_ = found.bytes.size() >= kFullRow;
+    } else {
+      drop_heading();
+      if (!at && has_clock(line.substr(0, found.begin))) not_understood_.add(number_);
+      goes_on_ = in_dump_ && found.bytes.size() >= kFullRow;
+    }
+    const std::size_t bracket = line.find_first_of("[<", found.begin == 0 ? 0 : found.begin - 1);
+    if (direction == Direction::Unknown && bracket != std::string_view::npos && bracket <= found.begin)
+      direction = direction_of_brackets(line.substr(bracket));
+    characters_ = characters_ && found.bytes.size() == 1 && at.has_value();
+    recording_.frames.push_back(
+        {.at = at, .direction = direction, .bytes = found.bytes, .place = fmt::format("line {}", number_)});
+  }
+
+  /// A part of a frame would be one that nobody sent.
+  void leave_out(const BytesInLine& found, bool may_be_row) {
+    if (may_be_row && goes_on_) recording_.frames.pop_back();
+    lost_row_ = may_be_row && (goes_on_ || heading_ || lost_row_);
+    heading_.reset();
+    goes_on_ = false;
+    if (++in_doubt_ <= kMostNamed)
+      recording_.notes.push_back(fmt::format("line {}: left out: '{}' beside its bytes is not understood", number_,
+                                             stl::shortened(found.not_understood)));
+  }
+
+  void take_heading(std::optional<Time> at, Direction direction) {
+    drop_heading();
+    lost_row_ = false;
+    if (at)
+      heading_ = {*at, direction, number_};
+    else
+      left_out_.add(number_);
+  }
+
+  void drop_heading() {
+    if (heading_) left_out_.add(heading_->number);
+    heading_.reset();
+    goes_on_ = false;
+  }
+
+  static constexpr std::size_t kMostNamed = 10;
+
+  LineRecording recording_;
+  DayCounter days_;
+  std::size_t number_ = 0, in_doubt_ = 0;
+  Lines left_out_, not_understood_;
+  bool characters_ = true;
+  std::optional<Heading> heading_;
+  bool in_dump_ = false;        // the line before was a row of one
+  bool in_characters_ = false;  // it was one character, as interceptty has it
+  bool lost_row_ = false;       // a row of the frame was left out, and so are those below it
+  bool goes_on_ = false;        // the row before was full, and has a heading
+};
+
 }  // namespace
 
 std::optional<LineRecording> read_text_log(const std::string& bytes, const ReadingChoices& choices, std::string&) {
-  LineRecording recording;
-  DayCounter days;
-  std::size_t number = 0, left_out = 0;
-  bool characters = true;
-  for (const std::string& text : stl::split_lines(bytes)) {
-    std::string_view line = text;
-    ++number;
-    if (const std::string_view rest = stl::trim(line); rest.empty() || rest.front() == '#') continue;
-    const auto time = leading_time(line);
-    if (time) line.remove_prefix(time->length);
-    const auto found = trailing_bytes(line);
-    if (!found) {
-      ++left_out;
-      continue;
-    }
-    Direction direction = direction_of(line.substr(0, found->begin));
-    const std::size_t bracket = line.find_first_of("[<", found->begin == 0 ? 0 : found->begin - 1);
-    if (direction == Direction::Unknown && bracket != std::string_view::npos && bracket <= found->begin)
-      direction = direction_of_brackets(line.substr(bracket));
-    characters = characters && found->bytes.size() == 1 && time.has_value();
-    recording.frames.push_back({.at = time ? std::optional(days.since_first_midnight(*time)) : std::nullopt,
-                                .direction = direction,
-                                .bytes = found->bytes,
-                                .place = fmt::format("line {}", number)});
-  }
-  if (left_out > 0)
-    recording.notes.push_back(left_out == 1 ? "a line without bytes was left out"
-                                            : fmt::format("{} lines without bytes were left out", left_out));
-  count_from_first(recording);
-  if (characters) join_characters(recording, choices);
-  return recording;
+  LogReader reader;
+  for (const std::string& line : stl::split_lines(bytes)) reader.take(line);
+  return reader.finish(choices);
 }
 
 }  // namespace s7200::tools

@@ -56,6 +56,10 @@ class BlockReader final : public FrameReader {
     return read;
   }
 
+  bool may_be_echoed(const RecordedFrame& frame) const override {
+    return fits(westinghouse::check_block_answer(frame.bytes, frame.bytes));
+  }
+
   std::size_t first_message(Data bytes, const RecordedFrame* open) const override {
     if (open == nullptr || (bytes[0] != open->bytes[0] && bytes[0] != westinghouse::kHighwayError))
       return request_length(bytes);
@@ -80,6 +84,7 @@ class BlockReader final : public FrameReader {
     const std::string count = plural(bytes[kCount] + 1U, "byte");
     switch (static_cast<Opcode>(bytes[0])) {
       case Opcode::BitWrite:
+        if (westinghouse::is_retest(bytes)) return "retest";
         return fmt::format("{} bit {} of word 16#{:04X}", bytes[kCount] >> 4 != 0 ? "set" : "reset", bytes[kCount] & 0xF,
                            address);
       case Opcode::ReadBlock:
@@ -112,7 +117,7 @@ class BlockReader final : public FrameReader {
   static std::string answer_text(Data request, const serial::Answer& answer) {
     using westinghouse::Opcode;
     if (answer.verdict == Verdict::Exception)
-      return fmt::format("error {:02X}: {}", answer.exception, westinghouse::highway_error_name(answer.exception));
+      return serial::error_text(answer.exception, westinghouse::highway_error_name(answer.exception));
     if (answer.verdict != Verdict::Right) return answer.fault;
     switch (static_cast<Opcode>(request[0])) {
       case Opcode::SetUnitAddress:
@@ -151,6 +156,8 @@ class LoaderReader final : public FrameReader {
     return read;
   }
 
+  bool may_be_echoed(const RecordedFrame&) const override { return false; }
+
   std::size_t first_message(Data bytes, const RecordedFrame*) const override {
     std::size_t length = first_of(step_, bytes);
     if (step_ == Step::DataSent) return length;  // anything may be data
@@ -163,35 +170,12 @@ class LoaderReader final : public FrameReader {
   bool messages_share_frames() const override { return true; }
 
  private:
-  /// In their order; the computer begins.
-  enum class Step : std::uint8_t {
-    Begin,
-    BeginHeard,
-    Opcode,
-    Ready,
-    Header,
-    HeaderHeard,
-    Arguments,
-    ArgumentsHeard,
-    DataWanted,
-    DataSent,
-    DataHeard,
-    EndReady,
-    EndWanted,
-    End,
-    Close
-  };
-
-  static constexpr std::array kAcknowledge{westinghouse::kDle, westinghouse::kAck};
-  static constexpr std::array kRefusal{westinghouse::kDle, westinghouse::kNak};
-  static constexpr std::array kEndOfArguments{westinghouse::kDle, westinghouse::kEot};
-  static constexpr std::array kEndOfData{westinghouse::kDle, westinghouse::kEtx};
+  using Step = westinghouse::LoaderStep;
 
   /// Known wherever the hand-shake is, so that it is found again after what does not fit.
   static constexpr std::array kLandmarks{Step::Begin, Step::HeaderHeard, Step::End};
 
-  static bool from_plc(Step step) { return static_cast<unsigned>(step) % 2 == 1; }
-  static Direction side_of(Step step) { return from_plc(step) ? Direction::Answer : Direction::Request; }
+  static Direction side_of(Step step) { return is_of_plc(step) ? Direction::Answer : Direction::Request; }
 
   bool fits(Step step, const RecordedFrame& frame) const {
     return first_of(step, frame.bytes) == frame.bytes.size() &&
@@ -204,11 +188,7 @@ class LoaderReader final : public FrameReader {
   }
 
   bool is_known_opcode(const RecordedFrame& frame) const {
-    using westinghouse::LoaderOpcode;
-    constexpr std::array kKnown{LoaderOpcode::Write, LoaderOpcode::Read, LoaderOpcode::Pointers, LoaderOpcode::Block,
-                                LoaderOpcode::Directory};
-    return frame.bytes.size() == 1 && std::ranges::find(kKnown, static_cast<LoaderOpcode>(frame.bytes[0])) != kKnown.end() &&
-           fits(Step::Opcode, frame);
+    return frame.bytes.size() == 1 && westinghouse::is_loader_opcode(frame.bytes[0]) && fits(Step::Opcode, frame);
   }
 
   /// The step that is due, or a landmark; nothing if the frame is neither.
@@ -226,14 +206,14 @@ class LoaderReader final : public FrameReader {
 
   /// How many of the bytes are this step; 0 if they are not, or not all there.
   std::size_t first_of(Step step, Data bytes) const {
-    if (from_plc(step) && begins_with(bytes, kRefusal)) return kRefusal.size();
+    if (is_of_plc(step) && begins_with(bytes, westinghouse::kRefusal)) return westinghouse::kRefusal.size();
     switch (step) {
       case Step::Opcode:
         return std::ranges::any_of(kLandmarks, [&](Step landmark) { return begins_with(bytes, fixed(landmark)); }) ? 0 : 1;
       case Step::Arguments:
-        return begins_with(bytes, kAcknowledge) ? up_to(bytes, kAcknowledge.size(), kEndOfArguments) : 0;
+        return begins_with(bytes, fixed(step)) ? up_to(bytes, fixed(step).size(), westinghouse::kEndOfArguments) : 0;
       case Step::DataSent:
-        return dle_ == westinghouse::Dle::Doubled ? up_to(bytes, 0, kEndOfData) : up_to_plain_end(bytes);
+        return dle_ == westinghouse::Dle::Doubled ? up_to(bytes, 0, westinghouse::kEndOfData) : up_to_plain_end(bytes);
       default: {
         const Bytes due = fixed(step);
         return begins_with(bytes, due) ? due.size() : 0;
@@ -256,6 +236,7 @@ class LoaderReader final : public FrameReader {
   /// Where a 10 stands for itself only the number of bytes says where data end; if that is not known, or the PLC sends
   /// more than is known of it ([S2] leaves open what comes last), where the frame does.
   std::size_t up_to_plain_end(Data bytes) const {
+    using westinghouse::kEndOfData;
     const auto is_end = [&](std::size_t end) {
       return end >= kEndOfData.size() && end <= bytes.size() &&
              begins_with(bytes.subspan(end - kEndOfData.size()), kEndOfData);
@@ -263,25 +244,6 @@ class LoaderReader final : public FrameReader {
     const std::size_t counted = count_.value_or(0) + kEndOfData.size();
     if (count_ && is_end(counted)) return counted;
     return bytes.size() >= counted && is_end(bytes.size()) ? bytes.size() : 0;
-  }
-
-  /// What a step always is.
-  static Bytes fixed(Step step) {
-    using namespace westinghouse;
-    switch (step) {
-      case Step::Begin:
-      case Step::Ready:
-      case Step::EndReady:
-        return {kStx};
-      case Step::HeaderHeard:
-        return {kHeader, kDle, kEtx};
-      case Step::ArgumentsHeard:
-        return {kDle, kAck, kStx};
-      case Step::End:
-        return {westinghouse::kEnd, kDle, kEtx};
-      default:
-        return {kDle, kAck};
-    }
   }
 
   std::string due_text() const {
@@ -300,9 +262,10 @@ class LoaderReader final : public FrameReader {
   /// What the step says; the next one is due.
   std::string go_on(Data bytes) {
     const Step step = step_;
-    const bool refused = from_plc(step) && begins_with(bytes, kRefusal);
-    step_ = refused || step == Step::Close ? Step::Begin : static_cast<Step>(static_cast<unsigned>(step) + 1);
-    if (refused) return "refused";
+    const bool refused = is_of_plc(step) && begins_with(bytes, westinghouse::kRefusal);
+    const bool with_data = !opcode() || westinghouse::has_data(*opcode());
+    step_ = refused || step == Step::Close ? Step::Begin : after(step, with_data);
+    if (refused) return serial::error_text(westinghouse::kNak, westinghouse::kRefusalName);
     switch (step) {
       case Step::Begin:
         opcode_.reset();
@@ -312,15 +275,14 @@ class LoaderReader final : public FrameReader {
         opcode_ = bytes[0];
         return operation_text();
       case Step::Arguments: {
-        const Bytes arguments = unstuffed(without_end(bytes.subspan(kAcknowledge.size()), kEndOfArguments));
+        const Bytes arguments = unstuffed(without_end(bytes.subspan(fixed(step).size()), westinghouse::kEndOfArguments));
         count_ = count_asked_for(arguments);
         return arguments_text(arguments);
       }
       case Step::ArgumentsHeard:
-        if (opcode() && !westinghouse::has_data(*opcode())) step_ = Step::EndWanted;
         return "arguments accepted";
       case Step::DataSent:
-        return to_hex(data_of(without_end(bytes, kEndOfData)));
+        return to_hex(data_of(without_end(bytes, westinghouse::kEndOfData)));
       case Step::Ready:
       case Step::EndReady:
         return "ready";
@@ -428,6 +390,8 @@ class HppcReader final : public FrameReader {
     return read;
   }
 
+  bool may_be_echoed(const RecordedFrame&) const override { return false; }
+
   std::size_t first_message(Data bytes, const RecordedFrame*) const override {
     using westinghouse::kLongestHppc;
     using westinghouse::kShortestHppc;
@@ -482,7 +446,7 @@ class HppcReader final : public FrameReader {
     if (!table) return "wrong frame check";
     const serial::Answer answer = westinghouse::check_hppc_answer(request, bytes, *table);
     if (answer.verdict == Verdict::Exception)
-      return fmt::format("error {:02X}: {}", answer.exception, westinghouse::hppc_error_name(answer.exception));
+      return serial::error_text(answer.exception, westinghouse::hppc_error_name(answer.exception));
     if (answer.verdict != Verdict::Right) return answer.fault;
     return answer.bytes.empty() ? "done" : to_hex(answer.bytes);
   }

@@ -16,6 +16,7 @@
 #include "serial_sim/record/pcap_capture.hpp"
 #include "tools/recordings/decoded.hpp"
 #include "tools/recordings/fields.hpp"
+#include "tools/recordings/playback.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -47,6 +48,9 @@ TEST(RecordedFields, TimesAreReadInTheFormsOfTools) {
   EXPECT_EQ(time("12:34:56.789 TX"), ((12 * 60 + 34) * 60 + 56) * kSecond + 789 * ms);
   EXPECT_EQ(time("[2026-11-22 00:00:01,5] 01 03"), kSecond + 500 * ms);
   EXPECT_EQ(time("22.11.2026 00:00:01 >"), kSecond);
+  EXPECT_EQ(time("3/1/2024 12:00:00.025 [RX] - 01"), 12 * 3600 * kSecond + 25 * ms);
+  EXPECT_EQ(time("3/1/2024 1:00:00 PM 01"), 13 * 3600 * kSecond);
+  EXPECT_EQ(time("12:00:01 AM 01"), kSecond);
   EXPECT_EQ(time("[0.123456] 01 03"), 123'456 * kMicrosecond);
   EXPECT_EQ(time("12.5 ms 01"), 12'500 * kMicrosecond);
   EXPECT_EQ(time("+7ms 01"), 7 * ms);
@@ -67,12 +71,12 @@ TEST(RecordedFields, DirectionsAreReadInTheWordsOfTools) {
 
 TEST(RecordedFields, BytesAreReadInTheFormsOfTools) {
   const Bytes bytes{0x01, 0x03, 0xAB};
-  for (const char* text :
-       {"01 03 ab", "0x01, 0x03, 0xAB", "[01][03][AB]", "<01><03><AB>", "0103ab", "01-03-AB", "\"01 03 AB\""})
+  for (const char* text : {"01 03 ab", "0x01, 0x03, 0xAB", "[01][03][AB]", "<01><03><AB>", "0103ab", "01-03-AB",
+                           "\"01 03 AB\"", "0x1 0x3 0xab"})
     EXPECT_EQ(bytes_of_text(text), bytes) << text;
   for (const char* text : {"", "hello", "1", "123", "0.25", "01 xx 03x"})
     EXPECT_EQ(bytes_of_text(text), std::nullopt) << text;
-  const auto found = trailing_bytes("COM3 TX (8): 01 03 AB");
+  const auto found = bytes_in_line("COM3 TX (8): 01 03 AB");
   ASSERT_TRUE(found);
   EXPECT_EQ(found->bytes, bytes);
 }
@@ -89,7 +93,7 @@ TEST(Recordings, ATextLogHasAFrameInEachLine) {
   EXPECT_EQ(log.frames[1].bytes, kAnswer);
   EXPECT_EQ(log.frames[1].direction, Direction::Answer);
   EXPECT_EQ(log.frames[1].at, 25 * ms);
-  EXPECT_EQ(log.notes, std::vector<std::string>{"a line without bytes was left out"});
+  EXPECT_EQ(log.notes, std::vector<std::string>{"line 1: left out: no bytes in it"});
 }
 
 TEST(Recordings, TheMarkThatSomeEditorsPutBeforeATextIsNoPartOfIt) {
@@ -111,6 +115,248 @@ TEST(Recordings, WhatMbpollPrintsHasNoTimesAndSaysItsDirectionsInBrackets) {
   EXPECT_EQ(log.frames[0].direction, Direction::Request);
   EXPECT_EQ(log.frames[1].direction, Direction::Answer);
   EXPECT_EQ(log.frames[1].at, std::nullopt);
+}
+
+TEST(Recordings, OnlyWhatMbpollPrintsInBracketsIsAFrame) {
+  const LineRecording log = recording_of(
+      "Set rtu baudrate=9600\nmbpoll 1.0-0 - FieldTalk(tm) Modbus(R) Master Simulator\n"
+      "[01][03][00][00][00][01][84][0A]\nWaiting for a confirmation...\n<01><03><02><12><34><B5><33>\n"
+      "[1]: \t4369\n[10]: \t11\n5 frames transmitted, 5 received, 0 errors, 0.0% frame loss\n");
+  EXPECT_EQ(log.form, "mbpoll");
+  EXPECT_EQ(log.notes, std::vector<std::string>{});
+  ASSERT_EQ(log.frames.size(), 2U);
+  EXPECT_EQ(log.frames[0].bytes, kRequest);
+  EXPECT_EQ(log.frames[0].place, "line 3");
+  EXPECT_EQ(log.frames[1].bytes, kAnswer);
+  EXPECT_EQ(refusal_of("mbpoll 1.0-0\n-- Polling slave 1...\n[1]: \t4369\n"),
+            "no frame in it; mbpoll prints frames only with its option -v");
+}
+
+TEST(Recordings, TheCounterOfModbusPollIsNoData) {
+  const LineRecording log = recording_of("Tx:000001-01 03 00 00 00 01 84 0A\nRx:000002-01 03 02 12 34 B5 33\n");
+  ASSERT_EQ(log.frames.size(), 2U);
+  EXPECT_EQ(log.frames[0].bytes, kRequest);
+  EXPECT_EQ(log.frames[0].direction, Direction::Request);
+  EXPECT_EQ(log.frames[1].bytes, kAnswer);
+  EXPECT_EQ(log.frames[1].direction, Direction::Answer);
+}
+
+TEST(Recordings, RowsBelowALineWithItsTimeAreItsFrameAndCharactersBesideTheHexAreNoData) {
+  const LineRecording hhd = recording_of(
+      "[12:00:00.123] IRP_MJ_WRITE - Request sends 8 bytes\n  01 03 00 00 00 01 84 0A   ........\n"
+      "[12:00:00.150] IRP_MJ_READ - 7 bytes\n  01 03 02 12 34 B5 33   ....4.3\n");
+  ASSERT_EQ(hhd.frames.size(), 2U);
+  EXPECT_EQ(hhd.notes, std::vector<std::string>{});
+  EXPECT_EQ(hhd.frames[0].bytes, kRequest);
+  EXPECT_EQ(hhd.frames[0].direction, Direction::Request);
+  EXPECT_EQ(hhd.frames[1].bytes, kAnswer);
+  EXPECT_EQ(hhd.frames[1].direction, Direction::Answer);
+  EXPECT_EQ(hhd.frames[1].at, 27 * ms);
+
+  const LineRecording rows = recording_of(
+      "2024-03-01 12:00:00.000100: ttyS0 -> ttyS1\n"
+      "30 31 32 33 34 35 36 37 38 39 41 42 43 44 45 46 0123456789ABCDEF\n"
+      "20 41 20                                         A\n"
+      "2024-03-01 12:00:00.025100: ttyS1 -> ttyS0\n30 31 32 33                                      0123\n");
+  ASSERT_EQ(rows.frames.size(), 2U);
+  EXPECT_EQ(rows.frames[0].bytes.size(), 16U + 3U) << "a full row goes on in the next";
+  EXPECT_EQ(rows.frames[0].direction, Direction::Unknown) << "an arrow between two names does not say who is the master";
+  EXPECT_EQ(rows.frames[1].bytes, (Bytes{0x30, 0x31, 0x32, 0x33}));
+  EXPECT_EQ(rows.frames[1].at, 25 * ms);
+  EXPECT_EQ(recording_of("01 02  03 04\n").frames[0].bytes.size(), 4U) << "two blanks alone are no such column";
+}
+
+TEST(Recordings, WhatStandsBesideTheBytesOfALineIsNoneOfThem) {
+  for (const char* const line :
+       {"0.000 TX 01 03 00 00 00 01 84 0A ; read pump 12", "0.000 TX 01 03 00 00 00 01 84 0A // 12",
+        "0.000 TX 01 03 00 00 00 01 84 0A # 12", "0.000 TX 01 03 00 00 00 01 84 0A; pump 12",
+        "0.000 TX 01 03 00 00 00 01 84 0A crc ok", "0.000 TX 01 03 00 00 00 01 84 0A feed pump",
+        "0.000 TX 01 03 00 00 00 01 84 0A (8 bytes)", "0.000 TX 01 03 00 00 00 01 84 0A ; at 10:00:00",
+        "0.000 TX 01 03 00 00 00 01 84 0A  |........|", "0.000 TX [8 bytes] 01 03 00 00 00 01 84 0A",
+        "0.000 TX len=08 01 03 00 00 00 01 84 0A", "0.000 SEND: 0x1 0x3 0x0 0x0 0x0 0x1 0x84 0xa",
+        "Nov 22 10:00:00 TX 01 03 00 00 00 01 84 0A", "0.000 TX 01; 03; 00; 00; 00; 01; 84; 0A",
+        "2026-11-22T10:00:00.000Z,TX,010300000001840A", "0,000;TX;01 03 00 00 00 01 84 0A"}) {
+    const LineRecording log = recording_of(line);
+    ASSERT_EQ(log.frames.size(), 1U) << line;
+    EXPECT_EQ(log.frames[0].bytes, kRequest) << line;
+    EXPECT_EQ(log.frames[0].direction, Direction::Request) << line;
+  }
+}
+
+TEST(Recordings, OfALineWhoseBytesAreInDoubtNoPartIsRead) {
+  using Case = std::pair<const char*, const char*>;
+  for (const auto& [line, what] :
+       {Case{"0.030 RX 01 03 04 12 34 FF FB ?? F6", "??"}, Case{"0.030 RX 01 03 04 12 3G FF FB", "3G"},
+        Case{"0.030 RX 01 03 02 12 34 B5 33 ZZ", "ZZ"}, Case{"0.030 RX 1 03 02 12 34 B5 33", "1"},
+        Case{"0.030 RX 01 03 02 12 34 lost B5 33", "lost"}, Case{"0.030 RX 01 03 02 12 34 B5 33 3", "3"},
+        Case{"0.030 RX 01 03 02 12 34 B5 33 be careful", "be"}, Case{"0.030 RX :010300C80002 45", ":010300C80002"},
+        Case{"0.030 RX 01 03 02 0x123 34 B5 33", "0x123"}})
+    EXPECT_EQ(refusal_of(line),
+              fmt::format("no frame in it; line 1: left out: '{}' beside its bytes is not understood", what));
+}
+
+TEST(Recordings, ALineMayBeVeryLong) {
+  std::string pairs;
+  for (int i = 0; i < 100'000; ++i) pairs += "01";
+  EXPECT_EQ(recording_of("0.000 TX 01 " + pairs + " ; x\n").frames.size(), 1U);
+  EXPECT_EQ(refusal_of("0.000 TX 01 " + pairs + "; x\n"),
+            "no frame in it; line 1: left out: 'x' beside its bytes is not understood");
+}
+
+TEST(Recordings, TheOffsetBeforeARowIsNoDataAndAFrameWithADoubtfulRowIsLeftOut) {
+  const std::string full = "00 01 02 03 04 05 06 07 08 09 0A 0B 0C 0D 0E 0F\n", next = "10:00:01.000 RX\n0000  01 03\n";
+  const LineRecording log = recording_of("10:00:00.000 TX\n0000   " + full + "0010   10 11\n" + next);
+  ASSERT_EQ(log.frames.size(), 2U);
+  EXPECT_EQ(log.frames[0].bytes.size(), 18U);
+  EXPECT_EQ(log.frames[0].bytes.front(), 0U);
+  for (const std::string& rows : {full + "10 ?? 12\n", full + "10 ?? 12\n13\n", "10 ?? 12\n" + full}) {
+    const LineRecording lost = recording_of("10:00:00.000 TX\n" + rows + next);
+    ASSERT_EQ(lost.frames.size(), 1U) << rows;
+    EXPECT_EQ(lost.frames[0].bytes, (Bytes{0x01, 0x03})) << rows;
+  }
+}
+
+TEST(Recordings, TheLineOfSocatAboveTheBytesHasTheirTimeAndDirection) {
+  const LineRecording log = recording_of(
+      "> 2026/11/22 10:00:01.000123  length=8 from=8 to=15\n 01 03 00 00 00 01 84 0a\n--\n"
+      "< 2026/11/22 10:00:01.030123  length=7 from=8 to=14\n 01 03 02 12 34 b5 33\n--\n");
+  ASSERT_EQ(log.frames.size(), 2U);
+  EXPECT_EQ(log.frames[0].bytes, kRequest);
+  EXPECT_EQ(log.frames[0].direction, Direction::Request);
+  EXPECT_EQ(log.frames[1].bytes, kAnswer);
+  EXPECT_EQ(log.frames[1].direction, Direction::Answer);
+  EXPECT_EQ(log.frames[1].at, 30 * ms);
+}
+
+TEST(Recordings, DigitsOfADateOrAClockAtTheEndOfALineAreNoBytes) {
+  const LineRecording log = recording_of(
+      "Docklight Log File (HEX) - started 22.11.2026 10:00:00\nlog of 2026-11-22\n"
+      "22.11.2026 10:00:00.123 [TX] - 01 03 00 00 00 01 84 0A\n22.11.2026 10:00:00.150 [RX] - 01 03 02 12 34 B5 33\n"
+      "Docklight Log File - closed (22.11.2026 10:00:05)\n");
+  ASSERT_EQ(log.frames.size(), 2U);
+  EXPECT_EQ(log.frames[0].bytes, kRequest);
+  EXPECT_EQ(log.frames[0].direction, Direction::Request);
+  EXPECT_EQ(log.frames[1].at, 27 * ms);
+  EXPECT_EQ(log.notes, std::vector<std::string>{"line 1: left out, and 2 more: no bytes in it"});
+}
+
+TEST(Recordings, TheOffsetsOfADumpAreNoData) {
+  const LineRecording log =
+      recording_of("00000000  01 03 00 00 00 01 84 0a                           |........|\n00000008\n");
+  ASSERT_EQ(log.frames.size(), 1U);
+  EXPECT_EQ(log.frames[0].bytes, kRequest);
+  const LineRecording rows = recording_of(
+      "00000000  00 01 02 03 04 05 06 07  08 09 0a 0b 0c 0d 0e 0f  |................|\n00000010  10 11  |..|\n00000012\n");
+  ASSERT_EQ(rows.frames.size(), 1U);
+  EXPECT_EQ(rows.frames[0].bytes.size(), 18U);
+  EXPECT_EQ(rows.frames[0].bytes.back(), 0x11);
+  EXPECT_EQ(refusal_of("00000040  01 03 00 00 00 01 84 0a\n"),
+            "no frame in it; line 1: left out: '00000040' beside its bytes is not understood")
+      << "what stands above it is missing";
+}
+
+TEST(Recordings, LogsOfIntercepttyAndEltimaAndSerialMonitorAreRead) {
+  const LineRecording characters = recording_of(
+      "> \t0x01 (^A)\n> \t0x03 (^C)\n> \t0x00 (^@)\n> \t0x00 (^@)\n> \t0x00 (^@)\n> \t0x01 (^A)\n> \t0x84\n> \t0x0a (^J)\n"
+      "< \t0x01 (^A)\n< \t0x03 (^C)\n< \t0x02 (^B)\n< \t0x12 (^R)\n< \t0x34 (4)\n< \t0xb5\n< \t0x33 (3)\n");
+  const LineRecording table = recording_of(
+      "#|Time|Function|Direction|Status|Data|Data (chars)|Data length|Req. length|Port|Comments|\n"
+      "1|23/11/2026 10:00:00|IRP_MJ_WRITE|DOWN|STATUS_SUCCESS|01 03 00 00 00 01 84 0a|........|8|8|COM1||\n"
+      "2|23/11/2026 10:00:00|IRP_MJ_READ|UP|STATUS_SUCCESS|01 03 02 12 34 b5 33|....4.3|7|7|COM1||\n");
+  const LineRecording dump = recording_of(
+      "[23/11/2026 10:00:00] Written data (COM1)\n"
+      "    01 03 00 00 00 01 84 0a                           ......\u201E.\n"
+      "[23/11/2026 10:00:00] Read data (COM1)\n"
+      "    01 03 02 12 34 b5 33                              ....4\u00B53\n");
+  for (const LineRecording* log : {&characters, &table, &dump}) {
+    EXPECT_EQ(log->notes, std::vector<std::string>{});
+    ASSERT_EQ(log->frames.size(), 2U);
+    EXPECT_EQ(log->frames[0].bytes, kRequest);
+    EXPECT_EQ(log->frames[1].bytes, kAnswer);
+  }
+  EXPECT_EQ(characters.frames[1].direction, Direction::Answer);
+  EXPECT_EQ(dump.frames[0].direction, Direction::Request);
+  EXPECT_EQ(dump.frames[1].direction, Direction::Answer);
+}
+
+TEST(Recordings, ALogOfPymodbusHasEachFrameOnce) {
+  const LineRecording log = recording_of(
+      "2026-11-22 10:00:00,000 DEBUG logging:103 Resetting frame - Current Frame in buffer - \n"
+      "2026-11-22 10:00:00,001 DEBUG logging:103 send: 0x1 0x3 0x0 0x0 0x0 0x1 0x84 0xa\n"
+      "2026-11-22 10:00:00,020 DEBUG logging:103 recv: 0x1 0x3 0x2 old_data:  addr=None\n"
+      "2026-11-22 10:00:00,020 DEBUG logging:103 Processing: 0x1 0x3 0x2\n"
+      "2026-11-22 10:00:00,026 DEBUG logging:103 recv: 0x12 0x34 0xb5 0x33 old_data: 0x1 0x3 0x2 addr=None\n"
+      "2026-11-22 10:00:00,026 DEBUG logging:103 Processing: 0x1 0x3 0x2 0x12 0x34 0xb5 0x33\n"
+      "2026-11-22 10:00:00,026 DEBUG logging:103 Getting Frame - 0x3 0x2 0x12 0x34\n");
+  EXPECT_EQ(log.form, "pymodbus");
+  EXPECT_EQ(log.notes, std::vector<std::string>{});
+  ASSERT_EQ(log.frames.size(), 2U);
+  EXPECT_EQ(log.frames[0].bytes, kRequest);
+  EXPECT_EQ(log.frames[0].direction, Direction::Request);
+  EXPECT_EQ(log.frames[1].bytes, kAnswer) << "two pieces";
+  EXPECT_EQ(log.frames[1].direction, Direction::Answer);
+  EXPECT_EQ(log.frames[1].at, 19 * ms);
+}
+
+TEST(Recordings, ALogOfPymodbusMayBeAServersAndSayExtraData) {
+  const LineRecording log = recording_of(
+      "DEBUG:pymodbus.logging:recv: 0x1 0x3 0x0 0x0 0x0 0x1 0x84 0xa extra data: \n"
+      "DEBUG:pymodbus.logging:Processing: 0x1 0x3 0x0 0x0 0x0 0x1 0x84 0xa\n"
+      "DEBUG:pymodbus.logging:send: 0x1 0x3 0x2 0x12 0x34 0xb5 0x33\n");
+  ASSERT_EQ(log.frames.size(), 2U);
+  EXPECT_EQ(log.frames[0].bytes, kRequest);
+  EXPECT_EQ(log.frames[0].direction, Direction::Unknown) << "what has come first is a request, or a log cut off";
+  EXPECT_EQ(log.frames[1].bytes, kAnswer);
+  EXPECT_EQ(conversation(log, *find_recorded_protocol("modbus"))[1].direction, Direction::Answer);
+}
+
+constexpr const char* kReadAsTcp = "the frames are messages of Modbus TCP: each is shown as on a serial line, with its CRC";
+
+TEST(Recordings, ModbusTcpInALogIsReadByItsHead) {
+  for (const char* text :
+       {"Tx:000000-00 07 00 00 00 06 01 03 00 00 00 01\nRx:000001-00 07 00 00 00 05 01 03 02 12 34\n",
+        "[00][07][00][00][00][06][01][03][00][00][00][01]\nWaiting for a confirmation...\n"
+        "<00><07><00><00><00><05><01><03><02><12><34>\n",
+        "Time;Dir;Data\n0.5;TX;00 07 00 00 00 06 01 03 00 00 00 01\n1;RX;00 07 00 00 00 05 01 03 02 12 34\n"}) {
+    const LineRecording log = recording_of(text);
+    EXPECT_EQ(log.notes, std::vector<std::string>{kReadAsTcp}) << text;
+    ASSERT_EQ(log.frames.size(), 2U) << text;
+    EXPECT_EQ(log.frames[0].bytes, kRequest) << text;
+    EXPECT_EQ(log.frames[0].direction, Direction::Request) << text;
+    EXPECT_EQ(log.frames[1].bytes, kAnswer) << text;
+    EXPECT_EQ(log.frames[1].exchange, log.frames[0].exchange) << text;
+    EXPECT_NE(log.frames[1].stream, 0U) << text;
+  }
+}
+
+TEST(Recordings, OfALogOfModbusTcpWhatIsNoWholeMessageIsLeftOut) {
+  const LineRecording log = recording_of(
+      "TX 00 07 00 00 00 06 01 03 00 00 00 01\nRX 00 07 00 00 00 05 01 03 02 12\n"
+      "TX 00 08 00 00 00 06 01 03 00 00 00 01 00 09 00 00 00 06 01 03 00 00 00 01\n");
+  EXPECT_EQ(log.notes, (std::vector<std::string>{kReadAsTcp, "line 2: left out: it is not a whole message of Modbus TCP"}));
+  ASSERT_EQ(log.frames.size(), 3U) << "two messages in one segment";
+  EXPECT_EQ(log.frames[2].bytes, kRequest);
+}
+
+TEST(Recordings, ARequestOnASerialLineThatLooksLikeTheHeadOfModbusTcpIsNone) {
+  const LineRecording log = recording_of("TX 01 03 00 00 00 02 C4 0B\n");
+  EXPECT_EQ(log.notes, std::vector<std::string>{});
+  EXPECT_EQ(log.frames[0].bytes.size(), 8U);
+  EXPECT_EQ(log.frames[0].stream, 0U);
+}
+
+TEST(Recordings, TimesThatAreNotUnderstoodOrRunBackwardsAreNoted) {
+  EXPECT_EQ(recording_of("Mon 12:00:00 TX 01 03 00 00 00 01 84 0A\n").notes,
+            std::vector<std::string>{"line 1: read without its time: the form of that is not understood"});
+  EXPECT_EQ(recording_of("10:15:01:103 TX 01 03 00 00 00 01 84 0A\n10:15:01:128 RX 01 03 02 12 34 B5 33\n"
+                         "TX 10:15:02:000 01 03 00 00 00 01 84 0A\nRX 10:15:02:025 01 03 02 12 34 B5 33\n")
+                .notes,
+            std::vector<std::string>{"line 3: read without its time, and 1 more: the form of that is not understood"});
+  const LineRecording log = recording_of(
+      "10:00:00.000 > 01 03 00 00 00 01 84 0A\n10:00:00.025 < 01 03 02 12 34 B5 33\n"
+      "10:00:00.020 > 01 03 00 00 00 01 84 0A\n");
+  EXPECT_EQ(log.notes,
+            std::vector<std::string>{"line 3: its time is before that of the frame above it; no silence is known there"});
 }
 
 TEST(Recordings, CharactersWithTimesOfTheirOwnBecomeFramesBySilence) {
@@ -231,7 +477,8 @@ TEST(Recordings, OurOwnCaptureIsRead) {
 }
 
 /// An Ethernet frame with a TCP segment, as far as readers look at it.
-Bytes segment(bool to_server, std::uint32_t sequence, const Bytes& data, std::uint8_t flags = 0x18) {
+Bytes segment(bool to_server, std::uint32_t sequence, const Bytes& data, std::uint8_t flags = 0x18,
+              std::uint16_t client_port = 50'000) {
   Bytes bytes(12, 0);
   bytes.insert(bytes.end(), {0x08, 0x00});
   const auto total = static_cast<std::uint16_t>(40 + data.size());
@@ -240,8 +487,8 @@ Bytes segment(bool to_server, std::uint32_t sequence, const Bytes& data, std::ui
   for (const Bytes& address : {to_server ? client : server, to_server ? server : client})
     ip.insert(ip.end(), address.begin(), address.end());
   Bytes tcp(20, 0);
-  store16(&tcp[0], to_server ? 50'000 : 502);
-  store16(&tcp[2], to_server ? 502 : 50'000);
+  store16(&tcp[0], to_server ? client_port : 502);
+  store16(&tcp[2], to_server ? 502 : client_port);
   store32(&tcp[4], sequence);
   tcp[12] = 0x50;
   tcp[13] = flags;
@@ -317,8 +564,8 @@ TEST(Recordings, AConnectionWithSegmentsMissingIsLeftOutFromThereOn) {
 
 TEST(Recordings, WhatIsNoRecordingIsRefused) {
   EXPECT_EQ(refusal_of(""), "no frame in it");
-  EXPECT_EQ(refusal_of("a letter\n"), "no frame in it; a line without bytes was left out");
-  EXPECT_EQ(refusal_of(std::string("a\0b", 3)), "it has none of the forms pcap, CSV, text");
+  EXPECT_EQ(refusal_of("a letter\n"), "no frame in it; line 1: left out: no bytes in it");
+  EXPECT_EQ(refusal_of(std::string("a\0b", 3)), "it has none of the forms pcap, CSV, mbpoll, pymodbus, text");
   EXPECT_NE(refusal_of("\xD4\xC3\xB2\xA1 cut off"), "");
   std::string other = ethernet_pcap({});
   other[20] = 105;
@@ -478,8 +725,8 @@ TEST(Conversation, AVariableOfPpiHasTheWidthOfItsTypeAndItsAnswerItsValues) {
             (std::vector<std::string>{"read VW100:3", "VW100:3 = 16#0001 16#0002 16#FFFF", "read VB100", "VB100 = 16#41",
                                       "read VD100", "VD100 = 16#00010002", "read VD100:real", "VD100:real = 1.5",
                                       "read M31.7", "M31.7 = 1", "read T37", "T37 = 16#1234", "read QB0, VW10000",
-                                      "QB0 = 16#07, VW10000: outside the memory of this CPU",
-                                      "read V byte 100:1 of type 16#1D", "error 8104: function not available"}));
+                                      "QB0 = 16#07, VW10000: error 16#05: outside the memory of this CPU",
+                                      "read V byte 100:1 of type 16#1D", "error 16#8104: function not available"}));
 }
 
 TEST(Conversation, WritesModesAndTheClockOfPpiAreInWords) {
@@ -501,8 +748,8 @@ TEST(Conversation, WritesModesAndTheClockOfPpiAreInWords) {
                  {clock(0x40, s7::kReadClock, {0x0A, 0, 0, 0}), clock(0x80, s7::kReadClock, time)},
                  {clock(0x40, s7::kSetClock, time), clock(0x80, s7::kSetClock, {0x0A, 0, 0, 0})}}),
       (std::vector<std::string>{"write VW100:2 = 16#0005 16#0006", "VW100:2 written", "write VW100:2 = 16#0005 16#0006",
-                                "VW100:2: not allowed", "go to RUN", "goes to RUN", "go to STOP", "goes to STOP",
-                                "set up: 960 bytes at once", "set up: 240 bytes at once", "read the clock",
+                                "VW100:2: error 16#03: not allowed", "go to RUN", "goes to RUN", "go to STOP",
+                                "goes to STOP", "set up: 960 bytes at once", "set up: 240 bytes at once", "read the clock",
                                 "clock: 2026-11-22 15:45:30", "set the clock to 2026-11-22 15:45:30", "clock set"}));
 }
 
@@ -512,7 +759,7 @@ TEST(Conversation, TheSameFrameAfterTheMastersTimeoutIsTheRequestRepeated) {
     return recording_of(fmt::format("0.000 {0} {1}\n{2} {3} {1}\n", *direction != 0 ? "TX" : "", write, time, direction));
   };
   EXPECT_EQ(texts(read(after("0.080"))),
-            (std::vector<std::string>{"> station 1, write register 40001 = 16#0001", "< register 0 written: 16#0001"}));
+            (std::vector<std::string>{"> station 1, write register 40001 = 16#0001", "< register 40001 written: 16#0001"}));
   const auto frames = read(after("0.250"));
   EXPECT_EQ(texts(frames), (std::vector<std::string>{"> station 1, write register 40001 = 16#0001",
                                                      "> station 1, write register 40001 = 16#0001; repeated after 250 ms, "
@@ -586,6 +833,213 @@ TEST(Conversation, RequestsOfAConnectionWhoseAnswersAreMissingAreNotExpectedToBe
   EXPECT_EQ(left.scenario.find("silence"), std::string::npos);
 }
 
+/// A request, an answer and their order on Modbus TCP.
+struct TcpTalk {
+  std::vector<Bytes> packets;
+  std::uint32_t asked = 100, answered = 500;
+  std::uint16_t client_port = 50'000;
+
+  void ask(std::uint16_t transaction, std::uint8_t address) {
+    add(true, {.transaction = transaction, .unit = 1, .pdu = {3, 0, address, 0, 1}}, asked);
+  }
+  void answer(std::uint16_t transaction, std::uint8_t value) {
+    add(false, {.transaction = transaction, .unit = 1, .pdu = {3, 2, 0, value}}, answered);
+  }
+  void add(bool to_server, const modbus::TcpMessage& message, std::uint32_t& sequence) {
+    const Bytes bytes = modbus::to_bytes(message);
+    packets.push_back(segment(to_server, sequence, bytes, 0x18, client_port));
+    sequence += static_cast<std::uint32_t>(bytes.size());
+  }
+};
+
+TEST(Conversation, AnswersOfModbusTcpGoToTheRequestsOfTheirTransactions) {
+  TcpTalk talk;
+  talk.ask(1, 10);
+  talk.ask(2, 20);
+  talk.answer(2, 22);
+  talk.ask(3, 30);
+  talk.answer(1, 11);
+  talk.answer(3, 33);
+  const auto frames = read(recording_of(ethernet_pcap(talk.packets)));
+  ASSERT_EQ(frames.size(), 6U);
+  EXPECT_EQ(frames[0].other, 4U);
+  EXPECT_EQ(frames[1].other, 2U);
+  EXPECT_EQ(frames[3].other, 5U);
+  EXPECT_EQ(frames[4].text, "1 register: 16#000B");
+  EXPECT_EQ(frames[4].latency, 40 * ms);
+  const Playback played = playback(frames, {}, {});
+  EXPECT_EQ(played.scenario.find("silence"), std::string::npos) << played.scenario;
+  EXPECT_EQ(played.scenario.find("latency"), std::string::npos) << "they waited for each other";
+  EXPECT_EQ(played.notes,
+            std::vector<std::string>{"3 requests waited for their answers at the same time, which a serial line does not "
+                                     "allow: the scenario asks one after the other, without their latencies"});
+}
+
+TEST(Conversation, ARequestOfModbusTcpIsOnlyExpectedToBeSilentlyIgnoredIfItsAnswerCannotBeMissing) {
+  const auto left_out = [](const TcpTalk& talk) {
+    return playback(read(recording_of(ethernet_pcap(talk.packets))), {}, {});
+  };
+  TcpTalk end;
+  end.ask(1, 10);
+  end.ask(2, 20);
+  end.answer(2, 22);
+  EXPECT_EQ(left_out(end).notes.front(), "packet 1: left out: the recording ends before the master's time-out");
+  EXPECT_EQ(left_out(end).scenario.find("silence"), std::string::npos);
+  TcpTalk other_transaction;
+  other_transaction.ask(1, 10);
+  other_transaction.answer(9, 11);
+  EXPECT_EQ(left_out(other_transaction).notes.front(),
+            "packet 1: left out: what follows it (packet 2) may be its answer: an answer without its request");
+  TcpTalk two;
+  two.ask(1, 10);
+  two.client_port = 50'001;
+  two.ask(1, 20);
+  two.client_port = 50'000;
+  two.answer(9, 11);
+  two.client_port = 50'001;
+  two.answer(8, 22);
+  EXPECT_EQ(left_out(two).notes,
+            (std::vector<std::string>{
+                "packet 1: left out: what follows it (packet 3) may be its answer: an answer without its request",
+                "packet 2: left out: what follows it (packet 4) may be its answer: an answer without its request"}))
+      << "each stray is named once";
+  TcpTalk long_enough;
+  long_enough.ask(1, 10);
+  for (std::uint16_t i = 0; i < 10; ++i) {
+    long_enough.ask(static_cast<std::uint16_t>(100 + i), 20);
+    long_enough.answer(static_cast<std::uint16_t>(100 + i), 22);
+  }
+  EXPECT_NE(left_out(long_enough).scenario.find("expect: silence\n        timeout: 10 ms"), std::string::npos)
+      << "up to the next request";
+}
+
+TEST(Conversation, ARequestOfModbusTcpWithoutAnAnswerKeepsItsGap) {
+  const auto played = [](const char* second) {
+    return playback(read(recording_of(fmt::format("0.000 TX 00 07 00 00 00 06 01 03 00 00 00 01\n"
+                                                  "{} TX 00 08 00 00 00 06 01 03 00 00 00 01\n"
+                                                  "0.320 RX 00 08 00 00 00 05 01 03 02 12 34\n",
+                                                  second))),
+                    {}, {})
+        .scenario;
+  };
+  EXPECT_NE(played("0.300").find("expect: silence\n        timeout: 300 ms\n"), std::string::npos) << played("0.300");
+  EXPECT_NE(played("0.300").find("pause: 0 ns\n        expect: 01 03 02 12 34"), std::string::npos) << played("0.300");
+  EXPECT_NE(played("0.050").find("timeout: 50 ms\n"), std::string::npos) << played("0.050");
+  const Playback timeless = playback(read(recording_of("TX 00 07 00 00 00 06 01 03 00 00 00 01\n"
+                                                       "TX 00 08 00 00 00 06 01 03 00 00 00 01\n"
+                                                       "RX 00 08 00 00 00 05 01 03 02 12 34\n")),
+                                     {}, {});
+  EXPECT_EQ(timeless.notes.front(), "line 1: left out: the recording has no times, so its answer may be missing");
+}
+
+TEST(Conversation, AWrongRequestToAllIsNotSaidToNeedNoAnswer) {
+  EXPECT_FALSE(read(recording_of("TX 00 06 00 00 00 01 49 DC\n"))[0].needs_no_answer);
+}
+
+TEST(Conversation, AFrameThatBeginsInsideTheOneBeforeIsLeftOut) {
+  const Bytes other{0x02, 0x03, 0x00, 0x00, 0x00, 0x01, 0x84, 0x39};
+  const LineRecording recording{.frames = {{.at = 0, .bytes = kRequest, .place = "packet 1"},
+                                           {.at = 3 * ms, .bytes = other, .place = "packet 2"},
+                                           {.at = 25 * ms, .bytes = kAnswer, .place = "packet 3"},
+                                           {.at = 40 * ms, .bytes = other, .place = "packet 4"},
+                                           {.at = 43 * ms, .bytes = kRequest, .place = "packet 5"},
+                                           {.at = 300 * ms, .bytes = kRequest, .place = "packet 6"},
+                                           {.at = 325 * ms, .bytes = kAnswer, .place = "packet 7"}}};
+  const Stamps stamps{.character = ms, .exact = true};
+  const auto frames = read(recording, "modbus", stamps);
+  EXPECT_FALSE(frames[1].right);
+  EXPECT_EQ(frames[1].text, "begins inside the frame before");
+  EXPECT_EQ(frames[0].other, 2U) << "the answer is the first one's";
+  const Playback played = playback(frames, stamps, {});
+  EXPECT_EQ(played.notes,
+            (std::vector<std::string>{
+                "packet 4: left out: what follows it (packet 5) may be its answer: begins inside the frame before",
+                "packet 2: left out: begins inside the frame before"}));
+  EXPECT_EQ(played.scenario.find("pause: 0 ns"), std::string::npos) << played.scenario;
+  EXPECT_EQ(read(recording, "modbus", {.character = ms})[1].direction, Direction::Request) << "a log's times are not exact";
+}
+
+TEST(Conversation, OfFramesThatALogHasInsideOthersNoTimesAreWritten) {
+  const auto played = [](const char* log) {
+    const Stamps stamps{.character = ms};
+    return playback(read(recording_of(log), "modbus", stamps), stamps, {});
+  };
+  const Playback answered = played(
+      "0.000 TX 01 03 00 00 00 01 84 0A\n0.003 RX 01 03 02 12 34 B5 33\n"
+      "0.005 TX 01 03 00 00 00 01 84 0A\n0.030 RX 01 03 02 12 34 B5 33\n");
+  EXPECT_EQ(answered.scenario.find("pause"), std::string::npos) << answered.scenario;
+  EXPECT_EQ(answered.scenario.find("latency: 0 ns"), std::string::npos) << answered.scenario;
+  EXPECT_NE(answered.scenario.find("latency: 17 ms"), std::string::npos) << answered.scenario;
+  EXPECT_EQ(answered.notes,
+            std::vector<std::string>{"line 2, and 1 more: begins before the frame above it can be over, as logs note what "
+                                     "they were told late: no pause, latency or time-out is written there"});
+  const Playback silent = played("0.000 TX 01 03 00 00 00 01 84 0A\n0.003 TX 02 03 00 00 00 01 84 39\n");
+  EXPECT_EQ(silent.scenario.find("timeout"), std::string::npos) << silent.scenario;
+  EXPECT_EQ(silent.scenario.find("silence"), std::string::npos) << silent.scenario;
+}
+
+TEST(Conversation, AReaderReadsEachFrameOnce) {
+  const auto frames =
+      read(recording_of("0.000 0A 05 00 00 00 0F\n0.250 0A 05 00 00 00 0F\n0.300 05 00 40 00 00 45\n"), "pc1000-lan");
+  EXPECT_EQ(frames[1].direction, Direction::Request);
+  EXPECT_EQ(frames[2].station, 5U);
+}
+
+TEST(Conversation, OfARequestThatARecordingEndsWithNothingIsExpected) {
+  const Playback played = playback(read(recording_of("0.000 TX 01 03 00 00 00 01 84 0A\n0.025 RX 01 03 02 12 34 B5 33\n"
+                                                     "0.100 TX 02 03 00 00 00 01 84 39\n")),
+                                   {}, {});
+  EXPECT_EQ(played.notes, std::vector<std::string>{"line 3: nothing is expected of its answer: the recording ends there"});
+  EXPECT_EQ(played.scenario.find("silence"), std::string::npos) << played.scenario;
+  const Playback broadcast = playback(read(recording_of("0.000 TX 00 06 00 00 00 01 49 DB\n")), {}, {});
+  EXPECT_NE(broadcast.scenario.find("expect: silence"), std::string::npos) << "no one answers that";
+  EXPECT_EQ(broadcast.notes, std::vector<std::string>{});
+}
+
+TEST(Conversation, AScenarioOfPpiNamesTheStationThatAProgramHasToBe) {
+  const auto frames = read(recording_of("10 07 00 49 50 16\n10 00 07 00 07 16\n"), "ppi");
+  EXPECT_EQ(ppi_station_asked(frames, {}), 7U);
+  EXPECT_EQ(ppi_station_asked(frames, 3), 3U);
+  EXPECT_NE(playback(frames, {}, {.program = "a.stl", .ppi_station = 7}).scenario.find("    ppi_station: 7\n"),
+            std::string::npos);
+  EXPECT_EQ(ppi_station_asked(read(recording_of("10 07 00 49 50 16\n10 08 00 49 51 16\n"), "ppi"), {}), std::nullopt);
+}
+
+TEST(Conversation, ARecordingWithoutARequestToAStationNamesThoseThatThereAre) {
+  const auto frames = read(recording_of("TX 01 03 00 00 00 01 84 0A\nTX 02 03 00 00 00 01 84 39\n"));
+  EXPECT_EQ(why_nothing_is_asked(frames, {.station = 77}),
+            "no request to station 77 in it; the stations that are asked: 1, 2");
+  EXPECT_EQ(why_nothing_is_asked({}, {.station = 77}), "no request in it; s7200 decode shows what is");
+}
+
+TEST(Recordings, AVcdIsRefusedByItsName) {
+  EXPECT_EQ(refusal_of("$timescale 1 ns $end\n$enddefinitions $end\n#0\n1r\n"),
+            "a VCD has levels, not frames; record the line with --capture FILE.pcap, or let sigrok decode it and write CSV");
+}
+
+TEST(Conversation, AFrameIsCountedOnce) {
+  const auto frames = read(recording_of("TX 01 03 00 00 00 01 84 0B\nRX 01 03 02 12 34 B5 33\nRX 01 03 02 12 34 B5 34\n"));
+  DecodedSummary summary;
+  for (const ReadFrame& frame : frames) summary.add(frame);
+  EXPECT_EQ(summary.json()["wrong"].get<int>() + summary.json()["strays"].get<int>() + summary.json()["answered"].get<int>(),
+            3)
+      << summary.text();
+}
+
+TEST(Conversation, ARecordingThatLooksLikeAnotherProtocolIsSeen) {
+  const LineRecording ppi = recording_of("10 02 00 49 4B 16\n10 00 02 00 02 16\n10 02 00 5C 5E 16\nE5\n");
+  const LineRecording modbus = recording_of("TX 01 03 00 00 00 01 84 0A\nRX 01 03 02 12 34 B5 33\n");
+  const auto likelier = [](const LineRecording& recording, std::string_view chosen) {
+    const RecordedProtocol* other = likelier_protocol(recording, *find_recorded_protocol(chosen), {});
+    return other == nullptr ? "" : std::string(other->name);
+  };
+  EXPECT_EQ(likelier(ppi, "modbus"), "ppi");
+  EXPECT_EQ(likelier(ppi, "ppi"), "");
+  EXPECT_EQ(likelier(modbus, "ppi"), "modbus");
+  EXPECT_EQ(likelier(modbus, "modbus"), "");
+  EXPECT_EQ(likelier(recording_of("11 22 33 44 55\n66 77 88\n"), "modbus"), "") << "nothing that is known";
+}
+
 TEST(Conversation, MessagesThatFollowEachOtherCloselyAreToldApartByWhatTheySay) {
   const LineRecording recording = recording_of(character_rows(
       {"01 03 00 00 00 01 84 0A", "01 03 02 12 34 B5 33", "01 06 00 00 00 01 48 0A", "01 06 00 00 00 01 48 0A"}, ms,
@@ -594,15 +1048,37 @@ TEST(Conversation, MessagesThatFollowEachOtherCloselyAreToldApartByWhatTheySay) 
   const auto frames = read(recording, "modbus", {.character = ms});
   EXPECT_EQ(texts(frames),
             (std::vector<std::string>{"> station 1, read holding registers 40001, 1 of them", "< 1 register: 16#1234",
-                                      "> station 1, write register 40001 = 16#0001", "< register 0 written: 16#0001"}));
+                                      "> station 1, write register 40001 = 16#0001", "< register 40001 written: 16#0001"}));
   EXPECT_EQ(frames[1].latency, 2 * ms);
   EXPECT_EQ(frames[2].silence, 2 * ms);
 }
 
-TEST(Conversation, AFrameThatARecordingHasAsOneIsNotDivided) {
-  const auto frames = read(recording_of("0.000 01 03 00 00 00 01 84 0A 01 03 02 12 34 B5 33\n"));
-  ASSERT_EQ(frames.size(), 1U);
-  EXPECT_FALSE(frames[0].right);
+TEST(Conversation, ALineOfALogThatIsSeveralRightMessagesIsDivided) {
+  const LineRecording log = recording_of("0.000 01 03 00 00 00 01 84 0A 01 03 02 12 34 B5 33\n");
+  const auto frames = read(log, "modbus", {.character = ms});
+  EXPECT_EQ(texts(frames),
+            (std::vector<std::string>{"> station 1, read holding registers 40001, 1 of them", "< 1 register: 16#1234"}));
+  EXPECT_EQ(frames[1].frame.place, "line 1");
+  EXPECT_EQ(frames[1].latency, 0) << "the log does not say more";
+  EXPECT_EQ(read(log, "modbus", {.exact = true}).size(), 1U) << "on the line of a capture there was no silence between them";
+}
+
+TEST(Conversation, ALineOfALogWithOneWrongMessageInItIsNotDivided) {
+  for (const char* const line : {"0.000 01 03 00 00 00 01 84 0A 01 03 02 12 34 B5 34\n", "0.000 01 03 00 00 00 01 84 0B\n",
+                                 "0.000 01 03 00 00 00 01 84 0A 01\n"}) {
+    const auto frames = read(recording_of(line));
+    ASSERT_EQ(frames.size(), 1U) << line;
+    EXPECT_FALSE(frames[0].right) << line;
+  }
+}
+
+TEST(Conversation, WhereTheTimesOfALogOverlapNoSilenceIsKnown) {
+  const auto frames =
+      read(recording_of("0.000 TX 01 03 00 00 00 01 84 0A\n0.003 RX 01 03 02 12 34 B5 33\n"), "modbus", {.character = ms});
+  EXPECT_EQ(frames[1].direction, Direction::Answer);
+  EXPECT_EQ(frames[1].latency, std::nullopt);
+  EXPECT_EQ(frames[1].silence, std::nullopt);
+  EXPECT_EQ(decoded_text(frames, false).find("0 ns"), std::string::npos) << decoded_text(frames, false);
 }
 
 TEST(Conversation, AnAnswerThatNoRequestWasHeardOfIsNotTakenForOne) {
@@ -621,8 +1097,7 @@ TEST(Conversation, ThePc1000LanIsReadMessageByMessageWithTheUnitThatWasAddressed
   EXPECT_EQ(texts(frames),
             (std::vector<std::string>{"> address unit 16#05", "< keyswitch in stop, fault mode, fault register 16#0204",
                                       "> read 4 bytes from word 16#4000 on", "< 34 12 78 56",
-                                      "> write 2 bytes from word 16#00FF on: cd ab", "< done", "> set bit 1 of word 16#8205",
-                                      "< done"}));
+                                      "> write 2 bytes from word 16#00FF on: cd ab", "< done", "> retest", "< done"}));
   for (const ReadFrame& frame : frames) EXPECT_TRUE(frame.right) << frame.text;
   EXPECT_EQ(frames[2].station, 5);
   EXPECT_EQ(frames[3].latency, ms) << "one character";
@@ -645,7 +1120,7 @@ TEST(Conversation, WestnetIsReadWithItsCommandsAndErrors) {
   EXPECT_EQ(texts(frames),
             (std::vector<std::string>{"> address 00.05.01", "< PLC 00.05.01 addressed", "> read session status",
                                       "< session of 00.01.00", "> read 2 bytes from word 16#0000 on",
-                                      "< error 12: PLC in session with another computer"}));
+                                      "< error 16#12: PLC in session with another computer"}));
 }
 
 TEST(Conversation, ALoaderSessionIsReadStepByStep) {
@@ -735,9 +1210,10 @@ TEST(Conversation, ALoaderSessionIsFoundAgainAfterWhatDoesNotFit) {
 TEST(Conversation, ALoaderSessionThatIsRefusedOrBrokenOffBeginsAnew) {
   const auto frames = read(recording_of("0.0 02\n0.1 10 06\n0.2 05\n0.3 10 15\n0.4 02\n0.5 02\n0.6 10 06\n0.7 03\n0.8 55\n"),
                            "pc500-loader");
-  EXPECT_EQ(texts(frames), (std::vector<std::string>{"> begin of a session", "< acknowledged", "> opcode 05", "< refused",
-                                                     "> begin of a session", "> begin of a session", "< acknowledged",
-                                                     "> write memory", "? does not fit the hand-shake: 02 was due"}));
+  EXPECT_EQ(texts(frames),
+            (std::vector<std::string>{"> begin of a session", "< acknowledged", "> opcode 05",
+                                      "< error 16#15: refused (NAK)", "> begin of a session", "> begin of a session",
+                                      "< acknowledged", "> write memory", "? does not fit the hand-shake: 02 was due"}));
 }
 
 TEST(Conversation, HppcIsReadWithEitherFrameCheck) {
@@ -747,7 +1223,7 @@ TEST(Conversation, HppcIsReadWithEitherFrameCheck) {
                         "0.040 0C 00 20 40 00 0C 02 00 08 02 6F 6B\n0.050 0C 00 20 40 00 0C 02 00 08 02 6F 6C\n"),
            "hppc");
   EXPECT_EQ(texts(frames), (std::vector<std::string>{"> read 2 bytes from 16#90001 on", "< 02 22 33",
-                                                     "> read 2 bytes from 16#80002 on", "< error 11: invalid operand",
+                                                     "> read 2 bytes from 16#80002 on", "< error 16#11: invalid operand",
                                                      "> read 2 bytes from 16#80002 on", "> wrong frame check"}));
   EXPECT_TRUE(frames[4].right) << "the polynomial's";
   EXPECT_FALSE(frames[5].right);
@@ -804,9 +1280,70 @@ TEST(Conversation, AScenarioAsksTheSameWithTheSameGaps) {
             "scenarios:\n  - name: \"a \\\"plant\\\"\"\n    program: \"slave.stl\"\n    tolerance: 5 ms\n    steps:\n"
             "      - send: 01 03 00 00 00 01 84 0a\n        expect: 01 03 02 12 34 b5 33\n        latency: 17 ms\n"
             "        # line 1: station 1, read holding registers 40001, 1 of them; 1 register: 16#1234\n"
-            "      - send: 02 03 00 00 00 01 84 39\n        pause: 68 ms\n        expect: silence\n        timeout: 1 s\n"
+            "      - send: 02 03 00 00 00 01 84 39\n        pause: 68 ms\n"
             "        # line 3: station 2, read holding registers 40001, 1 of them\n");
   EXPECT_EQ(playback(frames, stamps, {.station = 9}).scenario, "");
+}
+
+TEST(Conversation, AScenarioKeepsTheGapsAfterRequestsWithoutAnAnswer) {
+  const auto asked = [](const std::string& log) {
+    const std::string scenario = playback(read(recording_of(log)), {}, {}).scenario;
+    std::string times;
+    std::istringstream lines(scenario);
+    for (std::string line; std::getline(lines, line);)
+      for (const char* key : {"pause: ", "timeout: "})
+        if (const auto at = line.find(key); at != std::string::npos) times += line.substr(at) + '\n';
+    return times;
+  };
+  const auto answered = [](double at) {
+    return fmt::format("TX 01 03 00 00 00 01 84 0A\n{} RX 01 03 02 12 34 B5 33\n", at);
+  };
+  EXPECT_EQ(asked("0.0 TX 02 03 00 00 00 01 84 39\n5.0 " + answered(5.1)), "timeout: 1 s\npause: 4 s\n");
+  EXPECT_EQ(asked("0.0 TX 02 03 00 00 00 01 84 39\n0.3 " + answered(0.4)), "timeout: 300 ms\npause: 0 ns\n");
+  EXPECT_EQ(asked("0.0 TX 00 06 00 00 00 01 49 DB\n3.0 " + answered(3.1)), "timeout: 1 s\npause: 2 s\n") << "a broadcast";
+  EXPECT_EQ(
+      asked("0.0 " + answered(0.1) + "2.0 TX 01 03 00 00 00 01 84 0A\n2.1 RX 01 03 02 12 34 B5 34\n5.1 " + answered(5.2)),
+      "pause: 5 s\n")
+      << "one between them is left out";
+}
+
+TEST(Conversation, AScenarioWaitsNoLongerThanScenariosCanAndLongEnoughForLateAnswers) {
+  const auto frames =
+      read(recording_of("0.000 TX 01 03 00 00 00 01 84 0A\n2.500 RX 01 03 02 12 34 B5 33\n"
+                        "100000.0 TX 01 03 00 00 00 01 84 0A\n100000.1 RX 01 03 02 12 34 B5 33\n"
+                        "100001.0 TX 01 03 00 00 00 01 84 0A\n200000.0 RX 01 03 02 12 34 B5 33\n"));
+  const Playback played = playback(frames, {}, {.name = "plant", .program = "slave.stl", .cpu = "224"});
+  EXPECT_NE(played.scenario.find("    program: \"slave.stl\"\n    cpu: 224\n"), std::string::npos) << played.scenario;
+  EXPECT_NE(played.scenario.find("latency: 2.5 s\n        timeout: 3.5 s\n"), std::string::npos) << played.scenario;
+  EXPECT_NE(played.scenario.find("pause: 24 h\n"), std::string::npos) << played.scenario;
+  EXPECT_EQ(played.notes, (std::vector<std::string>{"line 3: the pause before it, 99997.5 s, is shortened to a day",
+                                                    "line 5: left out: its answer (line 6) comes more than a day later"}));
+}
+
+TEST(Conversation, ARecordingOfAFasterLineThanSaidIsSeen) {
+  constexpr Time kAt9600 = 1'145'833, kAt187500 = 58'667;
+  const auto is_faster = [](const LineRecording& recording, Time character, bool at_end = false) {
+    return is_faster_than_said(recording, {.character = character, .at_end = at_end});
+  };
+  const LineRecording ppi =
+      recording_of("0.000 02 01 03 04 05 06 07 08 09 0a\n0.001 e5\n0.0013 10 03 04 5c 63 16\n0.0020 68 01 02 03 04 05\n");
+  EXPECT_TRUE(is_faster(ppi, kAt9600));
+  EXPECT_TRUE(is_faster(ppi, kAt9600, true));
+  EXPECT_FALSE(is_faster(ppi, kAt187500));
+  EXPECT_FALSE(is_faster(ppi, 0)) << "nothing is known of its rate";
+  const LineRecording modbus = recording_of("0.000 TX 01 03 00 00 00 01 84 0A\n0.025 RX 01 03 02 12 34 B5 33\n");
+  EXPECT_FALSE(is_faster(modbus, kAt9600));
+  EXPECT_FALSE(is_faster(recording_of("0.1 TX 01 03 00 00 00 01 84 0A\n0.1 RX 01 03 02 12 34 B5 33\n"
+                                      "0.2 TX 01 03 00 00 00 01 84 0A\n0.2 RX 01 03 02 12 34 B5 33\n"),
+                         kAt9600))
+      << "equal stamps say nothing";
+  const Bytes frame{0x10, 0x03, 0x04, 0x5C, 0x63, 0x16};
+  LineRecording characters{.frames = {{.at = 0, .bytes = frame}}};
+  for (Time i = 0; i < 6; ++i) characters.frames[0].times.push_back(i * kAt187500);
+  EXPECT_TRUE(is_faster(characters, kAt9600));
+  EXPECT_FALSE(is_faster(characters, kAt187500));
+  characters.frames[0].times.assign(6, 0);
+  EXPECT_FALSE(is_faster(characters, kAt9600)) << "an adapter delivers several at once";
 }
 
 TEST(Conversation, AWrongAnswerIsNoneAndNotExpectedByAScenario) {
@@ -818,8 +1355,9 @@ TEST(Conversation, AWrongAnswerIsNoneAndNotExpectedByAScenario) {
   EXPECT_EQ(summary.text(), "requests: 2, answered: 0; wrong frames: 1, frames of no request: 0\n");
   const Playback left = playback(frames, {}, {.name = "plant"});
   EXPECT_EQ(left.scenario.find("b5 34"), std::string::npos);
-  EXPECT_NE(left.scenario.find("send: 02 03 00 00 00 01 84 39\n        expect: silence"), std::string::npos);
-  EXPECT_EQ(left.notes, std::vector<std::string>{"line 1: left out: its answer (line 2): wrong CRC"});
+  EXPECT_NE(left.scenario.find("send: 02 03 00 00 00 01 84 39\n"), std::string::npos);
+  EXPECT_EQ(left.notes, (std::vector<std::string>{"line 1: left out: its answer (line 2): wrong CRC",
+                                                  "line 3: nothing is expected of its answer: the recording ends there"}));
 }
 
 TEST(Conversation, AScenarioLeavesOutWhatNoSlaveAnswersTheSame) {

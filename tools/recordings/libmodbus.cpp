@@ -1,0 +1,50 @@
+// What mbpoll and other programs with libmodbus print when they are to show frames.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "interpreter/base/text.hpp"
+#include "tools/recordings/fields.hpp"
+#include "tools/recordings/forms.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// What is sent as [01][03], what is received as <01><03>; nothing else is a frame: `[1]:  4369` is a register.
+std::optional<RecordedFrame> frame_in(std::string_view line) {
+  constexpr std::size_t kByte = 4;
+  const std::string_view text = stl::trim(line);
+  if (text.empty() || text.size() % kByte != 0) return {};
+  const bool sent = text[0] == '[';
+  const auto digit = [&](std::size_t at) { return std::isxdigit(static_cast<unsigned char>(text[at])) != 0; };
+  for (std::size_t at = 0; at < text.size(); at += kByte)
+    if (text[at] != (sent ? '[' : '<') || text[at + 3] != (sent ? ']' : '>') || !digit(at + 1) || !digit(at + 2)) return {};
+  return RecordedFrame{.direction = sent ? Direction::Request : Direction::Answer, .bytes = *bytes_of_text(text)};
+}
+
+bool is_of_mbpoll(std::string_view line) { return line.starts_with("mbpoll ") || line.starts_with("-- Polling slave "); }
+
+}  // namespace
+
+bool looks_like_libmodbus(std::string_view bytes) {
+  if (!is_text(bytes)) return false;
+  return std::ranges::any_of(stl::split_lines(bytes),
+                             [](std::string_view line) { return is_of_mbpoll(line) || frame_in(line).has_value(); });
+}
+
+std::optional<LineRecording> read_libmodbus(const std::string& bytes, const ReadingChoices&, std::string&) {
+  LineRecording recording;
+  std::size_t number = 0;
+  for (const std::string& line : stl::split_lines(bytes)) {
+    ++number;
+    auto frame = frame_in(line);
+    if (!frame) continue;
+    frame->place = fmt::format("line {}", number);
+    recording.frames.push_back(std::move(*frame));
+  }
+  if (recording.frames.empty()) recording.notes.emplace_back("mbpoll prints frames only with its option -v");
+  return recording;
+}
+
+}  // namespace s7200::tools
