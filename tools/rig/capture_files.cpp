@@ -20,7 +20,8 @@ std::unique_ptr<serial::WireSink> make(std::ostream& out) {
 }
 
 struct Kind {
-  std::string_view extension;  ///< in capitals; written in any case
+  std::string_view extension;  ///< written in any case
+  std::string_view content;
   std::string_view name;
   std::string beginning;
   std::unique_ptr<serial::WireSink> (*make)(std::ostream&);
@@ -28,16 +29,23 @@ struct Kind {
 
 const std::array<Kind, 2>& kinds() {
   static const std::array<Kind, 2> kKinds{
-      {{".VCD", "a capture of levels", std::string(serial::VcdCapture::kBeginning), make<serial::VcdCapture>},
-       {".PCAP", "a capture of frames", serial::PcapWriter::beginning(), make<serial::PcapCapture>}}};
+      {{".vcd", "levels", "a capture of levels", std::string(serial::VcdCapture::kBeginning), make<serial::VcdCapture>},
+       {".pcap", "frames", "a capture of frames", serial::PcapWriter::beginning(), make<serial::PcapCapture>}}};
   return kKinds;
 }
 
 const Kind* kind_of(const std::string& path) {
-  const std::string extension = stl::upper_case(std::filesystem::path(path).extension().string());
+  const std::string extension = stl::lower_case(std::filesystem::path(path).extension().string());
   const auto found =
       std::find_if(kinds().begin(), kinds().end(), [&](const Kind& kind) { return extension == kind.extension; });
   return found == kinds().end() ? nullptr : &*found;
+}
+
+std::string why_no_kind(const std::string& path) {
+  std::string known;
+  for (const Kind& kind : kinds())
+    known += fmt::format("{}{} ({})", known.empty() ? "" : " nor in ", kind.extension, kind.content);
+  return fmt::format("--capture {}: the name ends neither in {}", path, known);
 }
 
 }  // namespace
@@ -45,8 +53,7 @@ const Kind* kind_of(const std::string& path) {
 bool CaptureFiles::claim(WrittenFiles& files, const std::vector<std::string>& paths, std::string& why) {
   for (const std::string& path : paths) {
     const Kind* const kind = kind_of(path);
-    if (!kind) why = fmt::format("--capture {}: the name ends neither in .vcd (levels) nor in .pcap (frames)", path);
-    if (!kind) return false;
+    if (!kind) return why = why_no_kind(path), false;
     Capture& capture = captures_.emplace_back();
     capture.make = kind->make;
     if (!capture.file.claim(files, "--capture", path, {kind->name, kind->beginning}, why)) return false;
@@ -84,15 +91,15 @@ void CaptureFiles::close(std::vector<std::string>& problems) {
   captures_.clear();
 }
 
-void CaptureFiles::edge(serial::Wire wire, Time at, bool mark) {
+void CaptureFiles::edge(serial::Wire wire, Time at, bool mark, int driver) {
   if (at < told_until_) return;
-  for (Capture& capture : captures_) capture.sink->edge(wire, at, mark);
+  for (Capture& capture : captures_) capture.sink->edge(wire, at, mark, driver);
 }
 
 void CaptureFiles::settled(Time until, const SerialFormat& port) {
   if (until <= told_until_) return;
   told_until_ = until;
-  for (Capture& capture : captures_) capture.sink->settled(until, port);
+  for (Capture& capture : captures_) capture.sink->settled(until, line_.over(port));
 }
 
 void CaptureFiles::finish() {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "serial_sim/line/line_settings.hpp"
 #include "serial_sim/system/plc.hpp"
 #include "serial_sim/system/stations.hpp"
 #include "tools/host/record_file.hpp"
@@ -20,6 +21,9 @@ class CaptureFiles final : private serial::WireSink {
   bool claim(WrittenFiles& files, const std::vector<std::string>& paths, std::string& why);
   bool open(std::string& why);
   bool put(std::string& why);
+
+  /// What the line's file says of it counts, not how the port that is watched is set.
+  void read_as(const serial::LineSettings& line) { line_ = line; }
 
   /// Captures the line at a port from now on, until close() or the end of the PLC. This object outlives the PLC.
   void watch(serial::Plc& plc, std::uint8_t port);
@@ -37,10 +41,11 @@ class CaptureFiles final : private serial::WireSink {
     std::unique_ptr<serial::WireSink> sink;
   };
 
-  void edge(serial::Wire wire, Time at, bool mark) override;
+  void edge(serial::Wire wire, Time at, bool mark, int driver) override;
   void settled(Time until, const SerialFormat& port) override;
   void finish() override;
 
+  serial::LineSettings line_;
   std::list<Capture> captures_;  // sinks hold on to the files' streams
   Time told_until_ = 0;
 };

@@ -51,6 +51,7 @@ class LineReader {
         names_.take_file(*item, plan.captures.back(), values_);
       }
     for (const YamlNode* item : items_of(map, "stations", "master, slave", values_)) read_station(*item, plan);
+    if (const YamlNode* const master = map.find("master")) plan.master = station_on(plan, *master, this->plan(), values_);
     read_faults(map, plan);
     check(line, plan);
     read_turn_round(map, plan);

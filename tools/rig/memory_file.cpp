@@ -167,7 +167,7 @@ bool MemoryFile::claim(WrittenFiles& files, const MemorySettings& settings, std:
 
 bool MemoryFile::read(const CpuModel& model, std::string& why) {
   if (settings_.path.empty()) return true;
-  if (destination_->replaced) {
+  if (destination_->replaces_content()) {
     std::string reason;
     const auto json = read_text(settings_.path, reason);
     if (json) memory_ = memory_from_json(*json, model, reason);

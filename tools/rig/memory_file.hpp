@@ -29,7 +29,7 @@ class MemoryFile {
   /// The file will be written at the end.
   bool claim(WrittenFiles& files, const MemorySettings& settings, std::string& why);
 
-  /// Reads the file, if one was named and exists.
+  /// Reads the file, if one was named, and exists, and is not empty.
   bool read(const CpuModel& model, std::string& why);
 
   /// What the CPU powers up with; null without a file.

@@ -15,7 +15,8 @@ namespace s7200::tools {
 std::unique_ptr<westinghouse::Plc> make_other_plc(const westinghouse::PlcRow& row, std::string_view model,
                                                   const std::vector<std::string>& settings);
 
-/// The same of one that speaks Modbus, as the slaves of scenarios do.
-std::unique_ptr<serial::Automaton> make_other_modbus_plc(std::string_view model, const std::vector<std::string>& settings);
+/// The same by the name of a protocol that there is.
+std::unique_ptr<serial::Automaton> make_other_plc(std::string_view protocol, std::string_view model,
+                                                  const std::vector<std::string>& settings);
 
 }  // namespace s7200::tools

@@ -120,7 +120,7 @@ class PeerReader {
       values_.wrong(poll, "'write' without the 'value' to write");
       return {};
     }
-    const auto value = values_.number(poll.find("value"), 0, 0xFFFF);
+    const auto value = values_.number(poll.find("value"), INT16_MIN, UINT16_MAX);
     if (!value) return {};
     if (address.area == modbus::Area::Coils) return modbus::write_coil(address.address, *value != 0);
     if (address.area == modbus::Area::HoldingRegisters)

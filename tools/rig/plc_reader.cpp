@@ -8,6 +8,7 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/ppi_frame.hpp"
+#include "interpreter/base/text.hpp"
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/program/constants.hpp"
 #include "interpreter/program/load.hpp"
@@ -48,8 +49,10 @@ class PlcReader {
       if (!names_.take_station(plc.key, name, values_)) return;
       those.push_back(plan().plcs.size());
       names_.plc_keys.push_back(&plc.key);
+      names_.modbus_stations.emplace_back();
       PlcPlan& each = plan().plcs.emplace_back();
       each.name = name;
+      if (station) each.address = static_cast<std::uint8_t>(*station + copy);
       if (!model) continue;
       each.program = read_program(plc, *model, station ? std::optional(*station + copy) : std::nullopt);
       if (each.program) each.program = with_system_block(*each.program, block);
@@ -113,7 +116,10 @@ class PlcReader {
     if (station && !set_constant(source, kStationByte, {.value = *station}, true))
       values_.wrong(*map.find("station"), fmt::format("the program moves no constant into {}", kStationByte),
                     "'constants' sets another place: constants: {VB10: 5}");
+    if (station) check_station_is_set_once(map);
     set_constants(map, source);
+    if (const auto known = constant_at(source, kStationByte); known && *known >= 1 && *known <= modbus::kLastStation)
+      names_.modbus_stations.back() = static_cast<std::uint8_t>(*known);
     const auto times = read_times(map, model);
     if (!times) return nullptr;
     CheckResult result = check(std::move(project->parsed), model, *times);
@@ -158,6 +164,14 @@ class PlcReader {
       values_.wrong(*map.find("ppi_station"),
                     fmt::format("the last copy would be PPI station {}; there are 1 to {}", last, ppi::kLastStation));
     return block;
+  }
+
+  void check_station_is_set_once(const YamlNode& map) {
+    const YamlNode* const constants = map.find("constants");
+    if (!constants || !constants->is_map()) return;
+    for (const YamlNode& key : constants->keys)
+      if (stl::upper_case(key.text) == kStationByte)
+        values_.wrong(key, fmt::format("'station' and this both set {}", kStationByte), "leave one of them out");
   }
 
   void set_constants(const YamlNode& map, stl::Source& source) {

@@ -36,8 +36,10 @@ PlcRig::PlcRig(std::shared_ptr<const Program> program, const PlcSettings& settin
 bool PlcRig::claim(WrittenFiles& files, std::string& why) {
   files.reads(program_->source.name);
   for (const stl::FurtherFile& file : program_->source.further_files) files.reads(file.name);
-  const auto trace = [program = program_, detail = settings_.trace_detail](std::ostream& out) {
-    return std::make_unique<TextTrace>(out, program, detail);
+  const auto trace = [this](std::ostream& out) {
+    auto made = std::make_unique<TextTrace>(out, program_, settings_.trace_detail);
+    trace_ = made.get();
+    return made;
   };
   const auto output = [](std::ostream& out) { return std::make_unique<OutputRecord>(out); };
   return memory_.claim(files, settings_.memory, why) &&

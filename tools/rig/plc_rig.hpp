@@ -46,6 +46,11 @@ class PlcRig {
   /// Time 0: the program begins with its memory, clock and assignments, and the records watch it.
   void power_up(serial::Plc& plc);
 
+  /// Writes into the trace what is done to the PLC from outside.
+  void note(Time at, std::string_view what) {
+    if (trace_) trace_->note(at, what);
+  }
+
   /// What watches the CPU; others may be added.
   FanOut& sinks() { return traces_.sinks(); }
 
@@ -57,6 +62,7 @@ class PlcRig {
   PlcSettings settings_;
   MemoryFile memory_;
   TraceFiles traces_;
+  TextTrace* trace_ = nullptr;  // null: none is written
 };
 
 }  // namespace s7200::tools

@@ -115,6 +115,7 @@ void Rig::wire_sync() {
 
 /// At its first PLC: an S7-200, or one of another make if there is none.
 void Rig::watch(std::size_t line, CaptureFiles& captures) {
+  captures.read_as(plan_.lines[line].settings);
   if (const StationPlan* const first = first_plc(plan_.lines[line]))
     captures.watch(*plcs_[first->number], first->port);
   else if (const StationPlan* const other = first_other_plc(plan_, plan_.lines[line]))
@@ -157,8 +158,7 @@ std::unique_ptr<Rig> Rig::assemble(SystemPlan plan, const RigSurroundings& surro
 }
 
 bool Rig::claim_files(std::string& why) {
-  if (!surroundings_.trace.empty())
-    trace_ = std::make_unique<SystemTrace>(plan_, system_, plcs_, surroundings_.trace_detail);
+  if (!surroundings_.trace.empty()) trace_ = std::make_unique<SystemTrace>(plan_, system_, surroundings_.trace_detail);
   if (!surroundings_.path.empty()) files_.reads(surroundings_.path);
   for (const PlcPlan& plc : plan_.plcs) files_.reads(plc.settings.input);
   files_.links("--pty", surroundings_.link);
@@ -185,6 +185,8 @@ void Rig::power_up() {
   auto captures = captures_.begin();
   for (std::size_t line = 0; line < lines_.size(); ++line, ++captures) {
     watch(line, *captures);
+    if (const auto master = plan_.lines[line].master)
+      lines_[line]->faults().set_master(driver_of(plan_.lines[line].stations[*master]));
     for (const FaultPlan& fault : plan_.lines[line].faults) inject(line, fault, 0);
     if (const auto seed = plan_.lines[line].contention) lines_[line]->line().leave_contention_to_chance(*seed);
   }
@@ -207,8 +209,8 @@ std::vector<std::string> Rig::finish() {
 
 void Rig::carry_out(const EventPlan& event) {
   using What = EventPlan::What;
-  const Time now = system_.time();
-  if (trace_) trace_->tell(event, now);
+  const Time now = system_.now();
+  if (told_.emplace(now, &event).second) tell(event, now);  // who runs the same time again does it again
   switch (event.what) {
     case What::PowerOff:
       return switch_power(event.station, false);
@@ -233,6 +235,24 @@ void Rig::carry_out(const EventPlan& event) {
   }
 }
 
+void Rig::tell(const EventPlan& event, Time at) {
+  const bool is_set = event.what == EventPlan::What::Set;
+  const std::string what = event_text(event, plan_, is_set && !plcs_[event.plc]->powered());
+  if (trace_) trace_->tell(event, at, what);
+  const auto tell_plc = [&](std::size_t plc, const std::string& said) {
+    std::next(plc_rigs_.begin(), static_cast<std::ptrdiff_t>(plc))->note(at, said);
+    for (const Onlooker& onlooker : onlookers_) onlooker(plc, at, said);
+  };
+  const EventSubject subject = subject_of(event);
+  if (subject.station) {
+    if (subject.station->kind == StationPlan::Kind::Plc) tell_plc(subject.station->number, what);
+    return;
+  }
+  const LinePlan& line = plan_.lines[subject.line];
+  for (const StationPlan& station : line.stations)
+    if (station.kind == StationPlan::Kind::Plc) tell_plc(station.number, fmt::format("line {}: {}", line.name, what));
+}
+
 void Rig::inject(std::size_t line, const FaultPlan& fault, Time now) {
   const int driver = fault.station ? driver_of(plan_.lines[line].stations[*fault.station]) : serial::Faults::kAnyDriver;
   lines_[line]->faults().inject(fault.fault, now, driver);
@@ -244,9 +264,22 @@ std::string Rig::station_at(std::size_t line, int driver) const {
   return {};
 }
 
+std::optional<SerialFormat> Rig::format_of(const StationPlan& station) const {
+  if (station.kind == StationPlan::Kind::Bridge) return {};
+  if (station.kind == StationPlan::Kind::Plc) {
+    const serial::Plc& plc = *plcs_[station.number];
+    return plc.powered() ? std::optional(plc.line_format(station.port)) : std::nullopt;
+  }
+  const serial::ResponderStation* const responder = responders_[station.number];
+  const serial::PollerStation* const poller = pollers_[station.number];
+  const bool is_set = responder ? responder->powered() : poller->powered() && poller->poller().state().asked > 0;
+  if (!is_set) return {};
+  return responder ? responder->uart().state().format : poller->uart().state().format;
+}
+
 /// What has power keeps it, and what has none.
 void Rig::switch_power(const StationPlan& station, bool on) {
-  const Time now = system_.time();
+  const Time now = system_.now();
   if (station.kind == StationPlan::Kind::Plc) {
     serial::Plc& plc = *plcs_[station.number];
     if (plc.powered() == on) return;

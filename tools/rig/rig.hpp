@@ -3,10 +3,14 @@
 // system from a file.
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <list>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "serial_sim/system/simulation.hpp"
@@ -79,8 +83,15 @@ class Rig final {
   const serial::Poller* poller(std::size_t peer) const { return pollers_[peer] ? &pollers_[peer]->poller() : nullptr; }
   serial::HostPort& host_port(std::size_t bridge) { return hosts_[bridge]->port(); }
 
+  /// How a station's port is set; nothing of one without power, of a master that has not asked yet, and of a bridge.
+  std::optional<SerialFormat> format_of(const StationPlan& station) const;
+
   /// Does it now.
   void carry_out(const EventPlan& event);
+
+  /// Who is told, in words, what is done to a PLC and its lines.
+  using Onlooker = std::function<void(std::size_t plc, Time at, const std::string& what)>;
+  void tell_of_events(Onlooker onlooker) { onlookers_.push_back(std::move(onlooker)); }
 
   /// What is read and written already.
   const WrittenFiles& files() const { return files_; }
@@ -95,6 +106,7 @@ class Rig final {
   Rig(SystemPlan plan, const RigSurroundings& surroundings);
   void add_plc(std::size_t number);
   void wire_sync();
+  void tell(const EventPlan& event, Time at);
   void switch_power(const StationPlan& station, bool on);
   void add_other(const LinePlan& plan, serial::SharedLine& line, const StationPlan& station);
   void join(const Spot& spot);
@@ -124,6 +136,8 @@ class Rig final {
   };
   std::vector<Asker> askers_;                                     // by line
   std::vector<std::unique_ptr<serial::Simulation>> simulations_;  // by spot
+  std::vector<Onlooker> onlookers_;
+  std::set<std::pair<Time, const EventPlan*>> told_;  // by their places in the plan: two of one instant may read the same
 };
 
 /// Lets nothing be recorded, and no memory be read or kept.

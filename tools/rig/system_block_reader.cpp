@@ -1,5 +1,9 @@
 #include "tools/rig/system_block_reader.hpp"
 
+#include <fmt/format.h>
+
+#include "interpreter/base/ppi_frame.hpp"
+
 namespace s7200::tools {
 namespace {
 
@@ -16,6 +20,21 @@ void read_ports(const YamlNode& map, std::string_view key, const CpuModel& model
 }
 
 }  // namespace
+
+std::string_view ppi_baud_meaning() {
+  static const std::string kMeaning = fmt::format(
+      "rate of ports in PPI mode, as the system block sets it: {}; `\"9600,187500\"` is port 0 and port 1; {} if left out",
+      ppi_rates_text(), s7200::to_text(SystemBlock{}.ppi_rates));
+  return kMeaning;
+}
+
+std::string_view ppi_station_meaning() {
+  static const std::string kMeaning = fmt::format(
+      "PPI station of ports until the program's SPA sets another, as the system block sets it, 1 to {}; `\"3,4\"` is port 0 "
+      "and port 1; {} if left out",
+      ppi::kLastStation, s7200::to_text(SystemBlock{}.ppi_stations));
+  return kMeaning;
+}
 
 void read_system_block(const YamlNode& map, const CpuModel& model, SystemBlock& block, YamlValues& values) {
   read_ports(map, "ppi_baud", model, block.ppi_rates, values, parse_ppi_rates);

@@ -6,6 +6,10 @@
 
 namespace s7200::tools {
 
+/// What its keys mean, for the tables of keys.
+std::string_view ppi_baud_meaning();
+std::string_view ppi_station_meaning();
+
 /// `ppi_baud` and `ppi_station`: what is there goes into `block`. Complains about what the CPU does not have.
 void read_system_block(const YamlNode& map, const CpuModel& model, SystemBlock& block, YamlValues& values);
 

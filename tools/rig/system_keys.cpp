@@ -5,13 +5,15 @@
 #include <array>
 #include <utility>
 
+#include "tools/rig/system_block_reader.hpp"
+
 namespace s7200::tools {
 namespace {
 
 using Where = SystemKey::Where;
 
 // clang-format off
-constexpr std::array kKeys{
+const std::array kKeys{
     SystemKey{Where::File, "plcs", "MAP", "names of PLCs, and what each is; PLCs, peers and bridges are 1000 at most"},
     SystemKey{Where::File, "peers", "MAP", "names of the other stations, and what each is: a master that polls, or a PLC of another make"},
     SystemKey{Where::File, "bridges", "MAP", "names of bridges to this computer, and what each is; with one the system runs as fast as the clock"},
@@ -24,9 +26,9 @@ constexpr std::array kKeys{
     SystemKey{Where::Plc, "repair", "TEXT", "slips of a published listing to repair, as `s7200 check` names them: `R1,R2` or `all`"},
     SystemKey{Where::Plc, "cpu", "TYPE", "`214` if left out"},
     SystemKey{Where::Plc, "times", "TABLE", "execution times: the name of a table, or the path of a CSV file as `s7200 times --csv` writes it"},
-    SystemKey{Where::Plc, "ppi_baud", "NUMBER", "rate of its ports in PPI mode, as the system block sets it: 9600, 19200 or, on CPU 22x, 187500; `\"9600,187500\"` is port 0 and port 1; 9600 if left out"},
-    SystemKey{Where::Plc, "ppi_station", "NUMBER", "PPI station of its ports until the program's SPA sets another, as the system block sets it, 1 to 126; `\"3,4\"` is port 0 and port 1; 2 if left out; with `copies` it goes up by one with each"},
-    SystemKey{Where::Plc, "copies", "NUMBER", "so many PLCs like this, 1 to 32, with a number after the name: `slave1`, `slave2`, …; `station` goes up by one with each"},
+    SystemKey{Where::Plc, "ppi_baud", "NUMBER", ppi_baud_meaning()},
+    SystemKey{Where::Plc, "ppi_station", "NUMBER", ppi_station_meaning()},
+    SystemKey{Where::Plc, "copies", "NUMBER", "so many PLCs like this, 1 to 32, with a number after the name: `slave1`, `slave2`, …; `station` and `ppi_station` go up by one with each"},
     SystemKey{Where::Plc, "station", "NUMBER", "address on the line, 1 to 247: the constant that the program moves into VB4095, as our slaves and Application Tip 41 do"},
     SystemKey{Where::Plc, "constants", "MAP", "constants that the program moves to an address with MOVB, MOVW or MOVD, instead of its own: `{SMB30: 16#45}`"},
     SystemKey{Where::Plc, "set", "MAP", "memory and inputs before the first scan: `{VW20: 16#1234, I0.3: 1}`"},
@@ -44,9 +46,10 @@ constexpr std::array kKeys{
     SystemKey{Where::Line, "data_bits", "7, 8", ""},
     SystemKey{Where::Line, "stop_bits", "1, 2", ""},
     SystemKey{Where::Line, "turn_round", "TIME", "how long a master on it leaves it quiet between an answer and its next request; 7 characters and 10 ms if left out"},
-    SystemKey{Where::Line, "faults", "LIST", "from the start on, each in the form of `s7200 run --fault`, or a map if it is of one station"},
-    SystemKey{Where::Line, "contention", "SEED", "two drivers that disagree give no defined level: mark or space by chance, the same with the same seed; space if left out"},
-    SystemKey{Where::Line, "capture", "LIST", "files that it is written to: FILE.vcd (levels of rx and tx) or FILE.pcap (frames); rx and tx are those of its first PLC, an S7-200 if there is one"},
+    SystemKey{Where::Line, "faults", "LIST", "from the start on, each in the form of `s7200 run --fault`, or a map if it is of one station; `master` says whose characters are requests"},
+    SystemKey{Where::Line, "master", "NAME", "which station asks the others, for `faults` of requests or answers, as in `of=answer`; if left out, the first PLC to send, where several are on the line and no one has asked them"},
+    SystemKey{Where::Line, "contention", "SEED", "two drivers that disagree give no defined level: mark or space by chance, the same with the same seed; if left out space wins, as if each driver only pulled the line down, so that a collision is the same for everybody and needs no seed"},
+    SystemKey{Where::Line, "capture", "LIST", "files that it is written to: FILE.vcd (levels of rx, tx and line) or FILE.pcap (frames); rx and tx are those of its first PLC, an S7-200 if there is one"},
 
     SystemKey{Where::Fault, "fault", "TEXT", "in the form of `s7200 run --fault`: `parity:character=each`"},
     SystemKey{Where::Fault, "station", "NAME", "whose it is: what this station sends is disturbed, be it request or answer, or its clock is off, or it hears its echo; noise, and what happens at an instant, is of the line"},
@@ -56,14 +59,14 @@ constexpr std::array kKeys{
     SystemKey{Where::Master, "timeout", "TIME", "how long to wait for an answer to start; `1s` if left out"},
 
     SystemKey{Where::Poll, "station", "NUMBER, FIRST..LAST", "who is asked, 1 to 247; several are asked one after the other; 1 if left out"},
-    SystemKey{Where::Poll, "read", "ADDRESS", "as manuals write it: 1 or 00001 (coil), 10001 (input), 30001 (input register), 40001 (holding register)"},
+    SystemKey{Where::Poll, "read", "ADDRESS", "as manuals write it, with 5 or 6 digits: 00001 (coil), 10001 (input), 30001 (input register), 40001 (holding register)"},
     SystemKey{Where::Poll, "write", "ADDRESS", "instead of `read`: a coil or a holding register"},
     SystemKey{Where::Poll, "count", "NUMBER", "how many to read, up to 2000 coils or inputs or 125 registers; 1 if left out"},
     SystemKey{Where::Poll, "value", "NUMBER", "the one to write"},
 
-    SystemKey{Where::OtherPlc, "westinghouse", "PROTOCOL", "modbus, lan, hppc, loader or westnet"},
+    SystemKey{Where::OtherPlc, "westinghouse", "PROTOCOL", "as `s7200 master --protocol` names it: modbus, pc1000-lan, westnet, pc500-loader or hppc"},
     SystemKey{Where::OtherPlc, "model", "NAME", "pc1200, pc503, …; the first that speaks the protocol if left out"},
-    SystemKey{Where::OtherPlc, "settings", "LIST", "as `s7200 master --plc` takes them: `[unit=05, HR1=1234]`"},
+    SystemKey{Where::OtherPlc, "settings", "LIST", "as `s7200 master --plc` takes them: `[slave=05, HR1=1234]` of modbus, `[unit=05, sync=ignored]` of pc1000-lan"},
     SystemKey{Where::OtherPlc, "sync", "NAME.OUTPUT, master", "of the PC1000 LAN: the output of a PLC that drives its sync signal, `gateway.Q0.0`, or the master that joins its line, `s7200 master --protocol pc1000-lan` or that of a scenario; without it the PLC needs the setting `sync=ignored`"},
 
     SystemKey{Where::Bridge, "pty", "LINK", "a serial port that programs of this computer open as LINK; from the folder of this file"},

@@ -23,8 +23,7 @@ std::optional<Spot> beside_first_plc(const SystemPlan& plan, std::size_t line, s
   if (const StationPlan* const first = first_plc(plan.lines[line])) return Spot{line, first->number, first->port};
   why = no_plc_on(plan.lines[line]);
   if (first_other_plc(plan, plan.lines[line]))
-    why = fmt::format("no S7-200 is on line '{}' for a master to stand beside{}", plan.lines[line].name,
-                      plan.plcs.empty() ? "; scenarios of 's7200 test' ask there" : "");
+    why = fmt::format("no S7-200 is on line '{}' for a master to stand beside", plan.lines[line].name);
   return {};
 }
 
@@ -51,6 +50,23 @@ std::vector<FaultPlan> of_anyone(const std::vector<serial::Fault>& faults) {
   std::vector<FaultPlan> plans;
   for (const serial::Fault& fault : faults) plans.push_back({.fault = fault});
   return plans;
+}
+
+EventSubject subject_of(const EventPlan& event) {
+  using What = EventPlan::What;
+  switch (event.what) {
+    case What::PowerOff:
+    case What::PowerOn:
+      return {.station = event.station};
+    case What::Set:
+      return {.station = StationPlan{.kind = StationPlan::Kind::Plc, .number = event.plc}};
+    case What::Cut:
+    case What::Mend:
+    case What::Fault:
+    case What::ClearFaults:
+      return {.line = event.line};
+  }
+  return {};
 }
 
 const std::string& name_of(const SystemPlan& plan, const StationPlan& station) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,6 +27,7 @@ struct PlcPlan {
   std::shared_ptr<const Program> program;
   PlcSettings settings{};
   serial::FieldScript field{};
+  std::optional<std::uint8_t> address{};  ///< of its Modbus slave, if the file gives it one
 };
 
 /// A master that polls, or a simulated PLC of another make.
@@ -79,10 +81,18 @@ struct EventPlan {
   FaultPlan fault{};              ///< Fault
 };
 
+/// What an event is done to: a station, or a whole line.
+struct EventSubject {
+  std::optional<StationPlan> station{};  ///< a PLC or a peer
+  std::size_t line = 0;                  ///< without a station
+};
+EventSubject subject_of(const EventPlan& event);
+
 struct LinePlan {
   std::string name;
   serial::LineSettings settings{};  ///< of masters on it, as far as not as its first PLC sets its port
   std::vector<FaultPlan> faults{};
+  std::optional<std::size_t> master{};        ///< of its stations: who asks, for faults of requests and answers
   std::optional<std::uint64_t> contention{};  ///< the seed, if drivers that disagree give no defined level
   std::vector<std::string> captures{};
   std::vector<StationPlan> stations{};  ///< in their order along the cable

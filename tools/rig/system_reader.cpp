@@ -3,63 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <map>
 #include <utility>
 
-#include "interpreter/program/lint.hpp"
 #include "interpreter/program/load.hpp"
 #include "tools/rig/event_reader.hpp"
 #include "tools/rig/line_reader.hpp"
 #include "tools/rig/peer_reader.hpp"
 #include "tools/rig/plc_reader.hpp"
+#include "tools/rig/system_check.hpp"
 #include "tools/rig/system_reading.hpp"
 
 namespace s7200::tools {
 namespace {
-
-/// Of a PLC one port is enough.
-void check_all_are_on_lines(SystemReading& reading) {
-  const SystemPlan& plan = reading.file.plan;
-  const SystemNames& names = reading.names;
-  const auto check = [&](const YamlNode& key, const std::string& name, bool on_a_line) {
-    if (!on_a_line) reading.values.wrong(key, fmt::format("'{}' is on no line", name), "name it in the 'stations' of one");
-  };
-  for (std::size_t plc = 0; plc < plan.plcs.size(); ++plc)
-    check(*names.plc_keys[plc], plan.plcs[plc].name,
-          on_a_line({StationPlan::Kind::Plc, plc, 0}, plan) || on_a_line({StationPlan::Kind::Plc, plc, 1}, plan));
-  for (const auto& [name, station] : names.others) check(*station.key, name, on_a_line(station.plan, plan));
-}
-
-/// Whether a port may be asked at the PPI station of its system block: someone has set that, or the program leaves the port
-/// as it is.
-bool may_answer_ppi(const Program& program, std::uint8_t port) {
-  const auto station = [port](const SystemBlock& block) { return block.ppi_stations[port]; };
-  return station(program.system_block) != station({}) || keeps_ppi_station(program, port);
-}
-
-/// It is a mistake that a real network lets one make, so the system runs.
-void warn_of_stations_that_are_the_same(SystemReading& reading) {
-  for (const LinePlan& line : reading.file.plan.lines) {
-    std::map<std::uint8_t, std::vector<const StationPlan*>> by_station;
-    for (const StationPlan& each : line.stations) {
-      if (each.kind != StationPlan::Kind::Plc) continue;
-      const Program& program = *reading.file.plan.plcs[each.number].program;
-      if (may_answer_ppi(program, each.port)) by_station[program.system_block.ppi_stations[each.port]].push_back(&each);
-    }
-    for (const auto& [station, plcs] : by_station) {
-      if (plcs.size() < 2) continue;
-      std::string names;
-      for (const StationPlan* plc : plcs) names.append(names.empty() ? "" : ", ").append(name_of(reading.file.plan, *plc));
-      reading.file.file.diagnostics.push_back(
-          {.severity = stl::Severity::Warning,
-           .position = reading.names.plc_keys[plcs[1]->number]->position,
-           .message = fmt::format("PPI station {} on line '{}' is {}: they answer at the same time, and the answers collide",
-                                  station, line.name, names),
-           .hint = "give each a 'ppi_station' of its own"});
-    }
-  }
-}
 
 void read_file(const YamlNode& root, SystemReading& reading) {
   YamlValues& values = reading.values;
@@ -77,20 +32,19 @@ void read_file(const YamlNode& root, SystemReading& reading) {
   read_lines(root, reading);
   if (plan.lines.empty() && values.complaints.count() == 0)
     values.wrong(root, "no line: no one would hear another", "write for example lines: {bus: {stations: [master, slave]}}");
+  std::vector<TimedEvent> events;
   if (values.complaints.count() == 0)
     for (const YamlNode* node : items_of(root, "events", "{at: 1s, power_off: slave}", values))
-      if (auto event = read_timed_event(*node, plan, values)) plan.events.push_back(std::move(*event));
-  std::ranges::stable_sort(plan.events, {}, &EventPlan::at);
-  if (values.complaints.count() == 0) check_all_are_on_lines(reading);
-  if (values.complaints.count() == 0) warn_of_stations_that_are_the_same(reading);
+      if (auto event = read_timed_event(*node, plan, values)) events.push_back({std::move(*event), node});
+  std::ranges::stable_sort(events, {}, [](const TimedEvent& each) { return each.plan.at; });
+  for (const TimedEvent& each : events) plan.events.push_back(each.plan);
+  if (values.complaints.count() == 0) check_system(reading);
+  if (values.complaints.count() == 0) warn_of_system(reading, events);
 }
 
 }  // namespace
 
-bool is_system_file(std::string_view path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  return extension == ".yaml" || extension == ".yml";
-}
+bool is_system_file(std::string_view path) { return is_yaml_file(path); }
 
 SystemFile read_system(const std::string& text, const std::string& path) {
   SystemFile file;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "serial_sim/system/dispatcher.hpp"
+#include "tools/rig/fault_owner.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -17,16 +18,12 @@ constexpr std::size_t kMostStations = 1000;
 static_assert(3 * kMostStations + 2 * kMostYamlKeys <= serial::Dispatcher::kMostOfARank);
 
 /// False after a complaint.
-bool may_be_of(const StationPlan& station, const serial::Fault& fault, const YamlNode& what, const YamlNode& name,
-               YamlValues& values) {
-  if (!serial::is_of_a_station(fault))
-    values.wrong(name, "noise, and a fault at an instant, are of the line and not of a station");
-  else if (fault.of != serial::Half::Request || fault.station != serial::Station::Master)
-    values.wrong(what, "the fault says whose it is, and so does 'station' beside it", "leave 'of=' or 'station=' out");
-  else if (fault.kind == serial::FaultKind::Echo && station.kind == StationPlan::Kind::Plc)
-    values.wrong(name, "the port of an S7-200 does not hear what it sends", "an echo is of a peer or a bridge");
-  else
-    return true;
+bool may_be_of(const StationPlan& station, const serial::ParsedFault& parsed, const YamlNode& what, std::string_view text,
+               const YamlNode& name, YamlValues& values) {
+  const auto cannot = why_not_of_station(parsed, station.kind == StationPlan::Kind::Plc);
+  if (!cannot) return true;
+  const YamlNode at = cannot->given ? part_of(what, text, cannot->given->column - 1, cannot->given->length) : name;
+  values.wrong(at, cannot->wrong, cannot->hint);
   return false;
 }
 
@@ -122,10 +119,12 @@ std::optional<FaultPlan> read_fault(const YamlNode& what, const YamlNode* statio
   const auto text = values.text(what);
   if (!text) return {};
   const serial::ParsedFault parsed = serial::parse_fault(*text);
-  if (parsed.error) values.wrong(what, parsed.error->message, "`s7200 run --help` has the kinds of faults");
+  if (parsed.error)
+    values.wrong(part_of(what, *text, parsed.error->column - 1, parsed.error->length), parsed.error->message,
+                 "`s7200 run --help` has the kinds of faults");
   const auto place = station ? station_on(line, *station, plan, values) : std::nullopt;
   if (parsed.error || (station && !place)) return {};
-  if (place && !may_be_of(line.stations[*place], parsed.fault, what, *station, values)) return {};
+  if (place && !may_be_of(line.stations[*place], parsed, what, *text, *station, values)) return {};
   return FaultPlan{parsed.fault, place};
 }
 
@@ -139,7 +138,8 @@ std::optional<std::size_t> station_on(const LinePlan& line, const YamlNode& node
     if (each == *name || fmt::format("{}.{}", each, line.stations[i].port) == *name) return i;
     known.append(known.empty() ? "" : ", ").append(each);
   }
-  values.wrong(node, fmt::format("'{}' is not on line '{}'", stl::shortened(*name), line.name), "known: " + known);
+  values.wrong(node, fmt::format("'{}' is not on line '{}'", stl::shortened(*name), line.name),
+               known.empty() ? "" : "known: " + known);
   return {};
 }
 

@@ -30,10 +30,11 @@ class SystemNames {
     StationPlan plan;
   };
 
-  std::map<std::string, std::vector<std::size_t>> groups{};  ///< PLCs by the name in the file
-  std::vector<const YamlNode*> plc_keys{};                   ///< by number
-  std::map<std::string, Other> others{};                     ///< peers and bridges
-  std::map<std::string, std::uint32_t> served{};             ///< where bridges are, and the line that says so
+  std::map<std::string, std::vector<std::size_t>> groups{};    ///< PLCs by the name in the file
+  std::vector<const YamlNode*> plc_keys{};                     ///< by number
+  std::vector<std::optional<std::uint8_t>> modbus_stations{};  ///< the same; of programs that are told their station
+  std::map<std::string, Other> others{};                       ///< peers and bridges
+  std::map<std::string, std::uint32_t> served{};               ///< where bridges are, and the line that says so
 
   /// A station's name is its own. False after a complaint.
   bool take_name(const YamlNode& key, const std::string& name, YamlValues& values);

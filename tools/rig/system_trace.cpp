@@ -18,14 +18,14 @@ constexpr Time kTold = kSecond;
 
 constexpr std::size_t kMostWaiting = 100'000;
 
-/// Whose event it is: a station's or a line's.
-const std::string& owner_of(const EventPlan& event, const SystemPlan& plan) {
-  using What = EventPlan::What;
-  if (event.what == What::PowerOff || event.what == What::PowerOn) return name_of(plan, event.station);
-  return event.what == What::Set ? plan.plcs[event.plc].name : plan.lines[event.line].name;
+const std::string& name_of_subject(const EventPlan& event, const SystemPlan& plan) {
+  const EventSubject subject = subject_of(event);
+  return subject.station ? name_of(plan, *subject.station) : plan.lines[subject.line].name;
 }
 
-std::string to_text(const EventPlan& event, const SystemPlan& plan) {
+}  // namespace
+
+std::string event_text(const EventPlan& event, const SystemPlan& plan, bool in_vain) {
   using What = EventPlan::What;
   const auto station = [&](std::size_t place) { return name_of(plan, plan.lines[event.line].stations[place]); };
   switch (event.what) {
@@ -41,7 +41,7 @@ std::string to_text(const EventPlan& event, const SystemPlan& plan) {
       std::string places;
       for (const Assignment& each : event.set)
         places += fmt::format("{}{} to {}", places.empty() ? "" : ", ", each.place.name_of(0), hex_text(each));
-      return fmt::format("a programming device sets {}", places);
+      return fmt::format("a programming device sets {}{}", places, in_vain ? ": nothing, for there is no power" : "");
     }
     case What::Fault:
       return fmt::format("fault {}{}", serial::to_text(event.fault.fault),
@@ -52,30 +52,8 @@ std::string to_text(const EventPlan& event, const SystemPlan& plan) {
   return {};
 }
 
-}  // namespace
-
-/// What a CPU does while it has power: characters that pass it by before and after that are no business of its program.
-class SystemTrace::Station final : public TraceSink {
- public:
-  Station(TextTrace::TakeLine take, std::shared_ptr<const Program> program, TraceDetail detail, const serial::Plc& plc)
-      : text_(std::move(take), std::move(program), detail), plc_(plc) {}
-
-  void record(const TraceRecord& record) override {
-    if (plc_.powered()) text_.record(record);
-  }
-  bool before(std::uint32_t op) override { return text_.before(op); }
-  void instruction(const InstructionRecord& record) override { text_.instruction(record); }
-  bool wants_instructions() const override { return text_.wants_instructions(); }
-  bool wants_scans() const override { return text_.wants_scans(); }
-
- private:
-  TextTrace text_;
-  const serial::Plc& plc_;
-};
-
-SystemTrace::SystemTrace(const SystemPlan& plan, const serial::System& system, const std::vector<serial::Plc*>& plcs,
-                         TraceDetail detail)
-    : plan_(plan), system_(system), plcs_(plcs), detail_(detail) {
+SystemTrace::SystemTrace(const SystemPlan& plan, const serial::System& system, TraceDetail detail)
+    : plan_(plan), system_(system), detail_(detail) {
   const auto make_room = [&](const auto& those) {
     for (const auto& each : those) width_ = std::max(width_, each.name.size());
   };
@@ -97,7 +75,7 @@ bool SystemTrace::open(std::string& why) {
   *out_ << kFirstLine;
   for (std::size_t plc = 0; plc < plan_.plcs.size(); ++plc) {
     const auto take = [this, plc](Time at, std::string_view line) { add(plan_.plcs[plc].name, at, line); };
-    stations_.push_back(std::make_unique<Station>(take, plan_.plcs[plc].program, detail_, *plcs_[plc]));
+    stations_.push_back(std::make_unique<TextTrace>(take, plan_.plcs[plc].program, detail_));
   }
   return true;
 }
@@ -109,13 +87,11 @@ bool SystemTrace::close(std::string& why) {
 
 TraceSink& SystemTrace::station(std::size_t plc) { return *stations_[plc]; }
 
-void SystemTrace::tell(const EventPlan& event, Time at) {
-  if (!told_.emplace(at, &event).second) return;
+void SystemTrace::tell(const EventPlan& event, Time at, std::string_view what) {
   fmt::memory_buffer line;
-  append_clock(line, at);
-  const bool in_vain = event.what == EventPlan::What::Set && !plcs_[event.plc]->powered();
-  append(line, "  ", to_text(event, plan_), in_vain ? ": nothing, for there is no power\n" : "\n");
-  add(owner_of(event, plan_), at, {line.data(), line.size()});
+  begin_line(line, at);
+  append(line, what, "\n");
+  add(name_of_subject(event, plan_), at, {line.data(), line.size()});
 }
 
 void SystemTrace::add(std::string_view name, Time at, std::string_view text) {
@@ -128,6 +104,13 @@ void SystemTrace::write_until(Time end) {
   const auto rest = std::ranges::lower_bound(waiting_, end, {}, &Line::at);
   for (auto line = waiting_.begin(); line != rest; ++line) *out_ << line->text;
   waiting_.erase(waiting_.begin(), rest);
+}
+
+std::vector<std::string> event_texts(const SystemPlan& plan) {
+  std::vector<std::string> texts;
+  for (const EventPlan& event : plan.events)
+    texts.push_back(fmt::format("{}: {}", name_of_subject(event, plan), event_text(event, plan, false)));
+  return texts;
 }
 
 }  // namespace s7200::tools

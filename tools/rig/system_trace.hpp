@@ -3,10 +3,8 @@
 #pragma once
 
 #include <memory>
-#include <set>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "interpreter/trace/text_trace.hpp"
@@ -16,13 +14,15 @@
 
 namespace s7200::tools {
 
+/// What is done, in words: `power off`. `in_vain`: to a PLC without power.
+std::string event_text(const EventPlan& event, const SystemPlan& plan, bool in_vain);
+
 /// claim(), open(), put() when the first line is written, close(). Each returns false and sets `why` if the file cannot be
 /// written. CPUs run ahead of each other: lines wait until no other one can come before them.
 class SystemTrace final {
  public:
   /// None is owned.
-  SystemTrace(const SystemPlan& plan, const serial::System& system, const std::vector<serial::Plc*>& plcs,
-              TraceDetail detail);
+  SystemTrace(const SystemPlan& plan, const serial::System& system, TraceDetail detail);
   ~SystemTrace();
 
   bool claim(WrittenFiles& files, const std::string& path, std::string& why);
@@ -33,29 +33,28 @@ class SystemTrace final {
   /// What watches a CPU. The file is open.
   TraceSink& station(std::size_t plc);
 
-  /// What happens to the system at `at`. Who runs the same time again tells it again; it is written once.
-  void tell(const EventPlan& event, Time at);
+  /// What happens to the system at `at`, in words.
+  void tell(const EventPlan& event, Time at, std::string_view what);
 
  private:
   struct Line {
     Time at;
     std::string text;
   };
-  class Station;
-
   void add(std::string_view name, Time at, std::string_view text);
   void write_until(Time end);
 
   const SystemPlan& plan_;
   const serial::System& system_;
-  const std::vector<serial::Plc*>& plcs_;
   TraceDetail detail_;
   std::size_t width_ = 0;  // of the column of names
   RecordFile file_;
   std::ostream* out_ = nullptr;
-  std::vector<std::unique_ptr<Station>> stations_;    // by PLC
-  std::set<std::pair<Time, const EventPlan*>> told_;  // by their places in the plan: two of one instant may read the same
+  std::vector<std::unique_ptr<TextTrace>> stations_;  // by PLC
   std::vector<Line> waiting_;
 };
+
+/// The events of a system in words, in their order: `slave2: power off`.
+std::vector<std::string> event_texts(const SystemPlan& plan);
 
 }  // namespace s7200::tools

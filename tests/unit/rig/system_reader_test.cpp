@@ -24,7 +24,7 @@ TEST(SystemFile, NamesPlcsPeersAndLinesAndWhoIsOnThem) {
       "  slave: {program: ../modbus_slave.stl, copies: 2, station: 3, ppi_station: 20}\n"
       "peers:\n"
       "  master: {polls: [{station: 3..4, read: 40001, count: 2}, {station: 9, write: 00005, value: 1}], every: 1s}\n"
-      "  old: {westinghouse: lan, model: pc1250, settings: [unit=07], sync: gateway.Q1.2}\n"
+      "  old: {westinghouse: pc1000-lan, model: pc1250, settings: [unit=07], sync: gateway.Q1.2}\n"
       "lines:\n"
       "  field: {stations: [master, slave, gateway], turn_round: 7ms, faults: [\"noise:ber=0.001\"]}\n"
       "  office: {stations: [gateway.1, old], baud: 19200, parity: none}\n");
@@ -41,7 +41,7 @@ TEST(SystemFile, NamesPlcsPeersAndLinesAndWhoIsOnThem) {
   ASSERT_TRUE(plan.peers[1].sync);
   EXPECT_EQ(plan.peers[1].sync->plc, 0U);
   EXPECT_EQ(plan.peers[1].sync->point, (serial::OutputPoint{1, 2}));
-  EXPECT_FALSE(read("plcs: {a: {program: ../modbus_slave.stl}}\npeers: {m: {westinghouse: lan, sync: master}}\n"
+  EXPECT_FALSE(read("plcs: {a: {program: ../modbus_slave.stl}}\npeers: {m: {westinghouse: pc1000-lan, sync: master}}\n"
                     "lines: {l: {stations: [a, m]}}\n")
                    .plan.peers[0]
                    .sync)
@@ -80,6 +80,8 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {"plcs: {a: {program: ../modbus_slave.stl, station: 248}}\n", 1, 51, "'248' is not a number from 1 to 247"},
       {"plcs: {a: {program: ../modbus_slave.stl, copies: 3, station: 246}}\n", 1, 62, "'246' is not a number from 1 to 245"},
       {"plcs: {a: {program: ../character_echo.stl, station: 2}}\n", 1, 53, "the program moves no constant into VB4095"},
+      {"plcs: {a: {program: ../modbus_slave.stl, station: 1, constants: {VB4095: 7}}}\n", 1, 66,
+       "'station' and this both set VB4095"},
       {"plcs: {a: {program: ../modbus_slave.stl, constants: {VB7: 1}}}\n", 1, 54, "the program moves no constant to VB7"},
       {"plcs: {a: {program: ../modbus_slave.stl, set: {VX: 1}}}\n", 1, 48, "'VX'"},
       {"plcs: {a: {program: ../modbus_slave.stl, copies: 2, trace: t}}\n", 1, 60, "several copies cannot write one file"},
@@ -95,15 +97,15 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {"peers: {m: {polls: [{write: 10001, value: 1}]}}\n", 1, 29, "inputs cannot be written"},
       {"peers: {m: {polls: [{read: 40001}]}}\nlines: {}\n", 1, 1, "no line"},
       {"peers: {m: {westinghouse: telex}}\n", 1, 27, "there is no protocol 'telex'"},
-      {"peers: {m: {westinghouse: lan, settings: [colour=red]}}\n", 1, 43, "'colour=red' is not a setting"},
+      {"peers: {m: {westinghouse: pc1000-lan, settings: [colour=red]}}\n", 1, 50, "'colour=red' is not a setting"},
       {"peers: {m: {westinghouse: modbus, settings: [HR20=1, holding_registers=10]}}\n", 1, 46,
        "HR20 is not there: holding_registers=10"},
-      {"peers: {m: {westinghouse: lan}}\n", 1, 27, "nothing drives the sync signal"},
-      {slave + "peers: {m: {westinghouse: lan, sync: a.I0.0}}\n", 2, 38, "'I0.0' is not an output point"},
-      {slave + "peers: {m: {westinghouse: lan, sync: a.QB0}}\n", 2, 38, "'QB0' is not an output point"},
-      {slave + "peers: {m: {westinghouse: lan, sync: a.Q9.0}}\n", 2, 38, "Q9.0"},
-      {slave + "peers: {m: {westinghouse: lan, sync: b.Q0.0}}\n", 2, 38, "'b.Q0.0' is not an output of a PLC"},
-      {slave + "peers: {m: {westinghouse: lan, sync: Q0}}\n", 2, 38, "'Q0' is not an output of a PLC"},
+      {"peers: {m: {westinghouse: pc1000-lan}}\n", 1, 27, "nothing drives the sync signal"},
+      {slave + "peers: {m: {westinghouse: pc1000-lan, sync: a.I0.0}}\n", 2, 45, "'I0.0' is not an output point"},
+      {slave + "peers: {m: {westinghouse: pc1000-lan, sync: a.QB0}}\n", 2, 45, "'QB0' is not an output point"},
+      {slave + "peers: {m: {westinghouse: pc1000-lan, sync: a.Q9.0}}\n", 2, 45, "Q9.0"},
+      {slave + "peers: {m: {westinghouse: pc1000-lan, sync: b.Q0.0}}\n", 2, 45, "'b.Q0.0' is not an output of a PLC"},
+      {slave + "peers: {m: {westinghouse: pc1000-lan, sync: Q0}}\n", 2, 45, "'Q0' is not an output of a PLC"},
       {slave + "peers: {m: {westinghouse: hppc, sync: a.Q0.0}}\n", 2, 39, "this PLC has no sync signal, or ignores it"},
       {"plcs: {a: {program: ../modbus_slave.stl, ppi_baud: 38400}}\n", 1, 52, "'38400' is not a rate of PPI"},
       {"plcs: {a: {program: ../modbus_slave.stl, ppi_baud: 187500}}\n", 1, 52, "PPI at 187500 baud needs CPU 22x"},
@@ -160,8 +162,13 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {slave + "lines: {l: {stations: [a], faults: [{fault: echo, station: a}]}}\n", 2, 60,
        "the port of an S7-200 does not hear what it sends"},
       {slave + "lines: {l: {stations: [a], faults: [{fault: cut, station: a}]}}\n", 2, 59, "are of the line"},
-      {slave + "lines: {l: {stations: [a], faults: [{fault: \"flip:of=answer\", station: a}]}}\n", 2, 45,
-       "says whose it is"},
+      {slave + "lines: {l: {stations: [a], faults: [{fault: \"flip:of=answer\", station: a}]}}\n", 2, 51,
+       "'of=' says whose it is"},
+      {slave + "lines: {l: {stations: [a], faults: [{fault: \"missing:character=2,of=request\", station: a}]}}\n", 2, 66,
+       "'of=' says whose it is"},
+      {slave + "lines: {l: {stations: [a], faults: [{fault: 'baud:station=master,error=3%', station: a}]}}\n", 2, 51,
+       "'station=' says whose it is"},
+      {slave + "lines: {l: {stations: [a], faults: [\"flip:character=2,bit=9\"]}}\n", 2, 59, "bit: '9' is not a bit"},
       {slave + "lines: {l: {stations: [a]}}\nevents: [{at: 1s, line: l, fault: flip, station: b}]\n", 3, 50,
        "'b' is not on line 'l'"},
       {"bridges: {b: {}}\n", 1, 11, "'b' is not one kind of bridge"},
@@ -197,7 +204,8 @@ TEST(SystemFile, PlcsOfOneLineThatMayAnswerAtTheSamePpiStationAreNamed) {
     return fmt::format("plcs: {{a: {{program: {}}}, b: {{program: {}}}}}\nlines: {{bus: {{stations: [a, b]}}}}\n", first,
                        second);
   };
-  const std::string_view freeport = "../modbus_slave.stl", ppi = "../edge_counter.stl";
+  const std::string_view freeport = "../modbus_slave.stl", other = "../modbus_slave.stl, station: 7",
+                         ppi = "../edge_counter.stl";
   using Warnings = std::vector<std::string>;
   const auto both = [](int station) {
     return Warnings{
@@ -207,13 +215,57 @@ TEST(SystemFile, PlcsOfOneLineThatMayAnswerAtTheSamePpiStationAreNamed) {
   EXPECT_EQ(warnings_of(line(ppi, ppi)), both(2));
   EXPECT_EQ(warnings_of(line(ppi, at(ppi, 3))), Warnings{});
   EXPECT_EQ(warnings_of(line(at(ppi, 3), at(ppi, 3))), both(3));
-  EXPECT_EQ(warnings_of(line(at(freeport, 3), at(freeport, 3))), both(3)) << "someone has set them so";
-  EXPECT_EQ(warnings_of(line(freeport, freeport)), Warnings{}) << "in Freeport mode from the first scan on";
+  EXPECT_EQ(warnings_of(line(at(freeport, 3), at(other, 3))), both(3)) << "someone has set them so";
+  EXPECT_EQ(warnings_of(line(freeport, other)), Warnings{}) << "in Freeport mode from the first scan on";
   EXPECT_EQ(
       warnings_of(fmt::format(
           "plcs: {{a: {{program: {0}, cpu: 226}}}}\nlines: {{one: {{stations: [a]}}, two: {{stations: [a.1]}}}}\n", ppi)),
       Warnings{})
       << "two lines";
+}
+
+TEST(SystemFile, PlcsOfOneLineThatAnswerAtTheSameModbusStationAreNamed) {
+  const auto warnings = [](std::string_view first, std::string_view second, std::string_view lines) {
+    return warnings_of(
+        fmt::format("plcs:\n  a: {{program: ../modbus_slave.stl{}}}\n  b: {{program: ../modbus_slave.stl{}}}\n"
+                    "lines: {{{}}}\n",
+                    first, second, lines));
+  };
+  constexpr const char *kOneLine = "bus: {stations: [a, b]}", *kTwo = "one: {stations: [a]}, two: {stations: [b]}";
+  const auto both = [](int station) {
+    return std::vector{fmt::format(
+        "Modbus station {} on line 'bus' is a, b: they answer at the same time, and the answers collide", station)};
+  };
+  EXPECT_EQ(warnings("", "", kOneLine), both(1)) << "as the program has it";
+  EXPECT_EQ(warnings(", station: 5", ", station: 5", kOneLine), both(5));
+  EXPECT_EQ(warnings(", station: 5", "", kOneLine), std::vector<std::string>{});
+  EXPECT_EQ(warnings("", "", kTwo), std::vector<std::string>{});
+}
+
+TEST(SystemFile, PowerThatStaysAsItIsIsNamed) {
+  const std::string system = "plcs: {a: {program: ../modbus_slave.stl}}\nlines: {l: {stations: [a]}}\nevents:\n";
+  EXPECT_EQ(warnings_of(system + "  - {at: 2s, power_on: a}\n  - {at: 1s, power_off: a}\n"), std::vector<std::string>{});
+  EXPECT_EQ(warnings_of(system + "  - {at: 1s, power_on: a}\n"),
+            std::vector<std::string>{"'a' has power already: this does nothing"});
+  EXPECT_EQ(warnings_of(system + "  - {at: 1s, power_off: a}\n  - {at: 2s, power_off: a}\n"),
+            std::vector<std::string>{"'a' has no power already: this does nothing"});
+}
+
+TEST(SystemFile, OfALineWithoutAStationThatCouldBeReadNoneIsNamed) {
+  const SystemFile wrong =
+      read("plcs: {a: {program: missing.stl}}\nlines: {l: {stations: [a], faults: [{fault: flip, station: q}]}}\n");
+  ASSERT_FALSE(wrong.ok());
+  EXPECT_EQ(wrong.file.diagnostics.back().message, "'q' is not on line 'l'");
+  EXPECT_EQ(wrong.file.diagnostics.back().hint, "");
+}
+
+TEST(SystemFile, TheMasterOfALineIsOneOfItsStations) {
+  const std::string system =
+      "plcs: {a: {program: ../modbus_slave.stl}, b: {program: ../edge_counter.stl}}\nlines: {l: {stations: [a, b], master: ";
+  EXPECT_EQ(read(system + "b}}\n").plan.lines.at(0).master, 1U);
+  const SystemFile wrong = read(system + "c}}\n");
+  ASSERT_FALSE(wrong.ok());
+  EXPECT_EQ(wrong.file.diagnostics.front().message, "'c' is not on line 'l'");
 }
 
 TEST(SystemFile, ASystemTakesAThousandStations) {

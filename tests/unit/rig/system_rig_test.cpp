@@ -7,6 +7,7 @@
 
 #include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_path.hpp"
 #include "tools/rig/rig.hpp"
 #include "tools/rig/system_reader.hpp"
@@ -191,6 +192,20 @@ TEST(SystemRig, AFaultOfOneStationDisturbsWhatThisOneSends) {
   EXPECT_EQ(polls_until(*of_master, kSecondRounds).answered, 0U) << "no slave gets a right request";
 }
 
+TEST(SystemRig, AFaultOfRequestsStrikesWhatAProgramAsksAgainAndAgain) {
+  const auto rig = rig_of(
+      "plcs:\n  master: {program: ../modbus_master.stl, cpu: 224, set: {I0.2: 1, VB3840: 3}}\n"
+      "  slave: {program: ../modbus_slave.stl, copies: 2, station: 1}\n"
+      "lines: {bus: {stations: [master, slave], faults: [\"parity:character=3\", \"parity:character=3,of=answer\"]}}\n");
+  ASSERT_TRUE(rig);
+  rig->system().run_until(5 * kSecond);
+  const auto& injected = rig->faults(0).state().injected;
+  EXPECT_GE(injected[0].count, 5U) << "requests";
+  EXPECT_EQ(injected[0].count, injected[0].exchanges);
+  EXPECT_EQ(double_word(*rig, 0, 3842), 0U) << "no slave gets a right request";
+  EXPECT_EQ(injected[1].count, 0U) << "nor answers one";
+}
+
 TEST(SystemRig, AFaultOfOneStationComesAsAnEventAndGoes) {
   const auto rig = rig_of(kThreeSlaves +
                           "events: [{at: 2240ms, line: bus, fault: \"parity:character=each\", station: slave3}, "
@@ -199,6 +214,27 @@ TEST(SystemRig, AFaultOfOneStationComesAsAnEventAndGoes) {
   EXPECT_EQ(polls_until(*rig, kSecondRounds).wrong, 0U);
   EXPECT_EQ(polls_until(*rig, kThirdRounds).wrong, 4U);
   EXPECT_EQ(polls_until(*rig, kFourthRounds).wrong, 0U);
+}
+
+TEST(SystemRig, WhatIsDoneToAPlcAndItsLinesIsToldOfIt) {
+  const auto rig = rig_of(
+      "plcs: {a: {program: ../modbus_slave.stl}, b: {program: ../modbus_slave.stl, station: 2}}\n"
+      "peers: {m: {polls: [{read: 40001}]}}\n"
+      "lines: {bus: {stations: [m, a]}, other: {stations: [b]}}\n"
+      "events:\n  - {at: 1ms, power_off: a}\n  - {at: 2ms, cut: bus, after: m}\n  - {at: 3ms, plc: a, set: {VB0: 1}}\n"
+      "  - {at: 4ms, power_on: a}\n  - {at: 5ms, plc: b, set: {VB0: 1}}\n  - {at: 6ms, power_off: m}\n"
+      "  - {at: 7ms, mend: bus}\n  - {at: 8ms, line: other, fault: flip}\n  - {at: 9ms, clear_faults: other}\n");
+  ASSERT_TRUE(rig);
+  std::vector<std::string> told;
+  rig->tell_of_events([&](std::size_t plc, Time at, const std::string& what) {
+    told.push_back(fmt::format("{} {} {}", rig->plan().plcs[plc].name, at / kMillisecond, what));
+  });
+  rig->system().run_until(10 * kMillisecond);
+  EXPECT_EQ(told, (std::vector<std::string>{"a 1 power off", "a 2 line bus: cable cut after m",
+                                            "a 3 a programming device sets VB0 to 16#01: nothing, for there is no power",
+                                            "a 4 power on", "b 5 a programming device sets VB0 to 16#01",
+                                            "a 7 line bus: cable whole again", "b 8 line other: fault flip",
+                                            "b 9 line other: no fault any more"}));
 }
 
 TEST(SystemRig, ASimulatedPlcOfAnotherMakeAnswersOnTheLine) {
@@ -295,7 +331,7 @@ std::string lan(std::string_view sync) {
   return "plcs: {gateway: {program: ../gateway_pc1200_lan.stl, cpu: 226, station: 1}}\n"
          "peers:\n"
          "  panel: {polls: [{station: 1, read: 40001, count: 2}], every: 200ms, timeout: 2s}\n"
-         "  pc1200: {westinghouse: lan, settings: [\"W[0]=1234,5678\"], sync: " +
+         "  pc1200: {westinghouse: pc1000-lan, settings: [\"W[0]=1234,5678\"], sync: " +
          std::string(sync) +
          "}\n"
          "lines: {office: {stations: [panel, gateway]}, field: {stations: [gateway.1, pc1200]}}\n";
@@ -342,7 +378,7 @@ TEST(SystemRig, WithoutPowerOfThePlcThatDrivesItTheSyncSignalIsLow) {
 
 /// At its station: fetches 4 bytes from VB200 of station 3 with the table at VB100, once, in a scan.
 std::string netr_at(int station, int scan = 3) {
-  const std::string name = testing::TempDir() + fmt::format("netr{}_{}.stl", station, scan);
+  const std::string name = test::scratch_folder() + fmt::format("netr{}_{}.stl", station, scan);
   std::ofstream(name) << fmt::format(
       "LD SM0.1\nMOVB {}, VB0\nSPA VB0, 0\nMOVB 2, SMB30\nMOVB 3, VB101\nMOVD &VB200, VD102\nMOVB 4, VB106\nLD SM0.0\nINCW "
       "VW1000\nLDW= VW1000, {}\nNETR VB100, 0\nMEND\n",
@@ -352,7 +388,7 @@ std::string netr_at(int station, int scan = 3) {
 
 /// Station 3.
 std::string ppi_slave() {
-  const std::string name = testing::TempDir() + "ppi_slave.stl";
+  const std::string name = test::scratch_folder() + "ppi_slave.stl";
   std::ofstream(name) << "LD SM0.1\nMOVB 3, VB0\nSPA VB0, 0\nMOVD 16#01020304, VD200\nMEND\n";
   return name;
 }
@@ -399,7 +435,7 @@ TEST(SystemRig, NetrReadsACpuAtThePpiStationOfItsSystemBlock) {
 }
 
 /// As on a real network: both accept the request at once, which looks like one, and their answers are driven one over the
-/// other.
+/// other. They differ in so many bits that chance makes no answer of them.
 TEST(SystemRig, TwoPlcsAtOnePpiStationAnswerAtTheSameTime) {
   for (const bool alike : {true, false}) {
     const auto rig =
@@ -407,7 +443,7 @@ TEST(SystemRig, TwoPlcsAtOnePpiStationAnswerAtTheSameTime) {
                            "  a: {{program: ../edge_counter.stl, cpu: 224, ppi_station: 3, set: {{VD200: 16#01020304}}}}\n"
                            "  b: {{program: ../edge_counter.stl, cpu: 224, ppi_station: 3, set: {{VD200: {}}}}}\n"
                            "lines: {{bus: {{stations: [master, a, b], contention: 1}}}}\n",
-                           netr_at(4), alike ? "16#01020304" : "16#F1020304"));
+                           netr_at(4), alike ? "16#01020304" : "16#FEFDFCFB"));
     ASSERT_TRUE(rig);
     rig->system().run_until(2 * kSecond);
     EXPECT_EQ(job_status(*rig, 0) & 0xA0U, alike ? 0x80U : 0xA0U) << "done, with an error if the answers differ";
@@ -445,6 +481,39 @@ TEST(SystemRig, JobsOfTwoMastersOfPpiThatCollideEnd) {
   ASSERT_TRUE(rig);
   rig->system().run_until(5 * kSecond);
   for (std::size_t plc = 0; plc < 2; ++plc) EXPECT_EQ(job_status(*rig, plc) & 0xE0U, 0xA0U) << "done, with an error";
+}
+
+/// Master and slave are PLCs, and the slave answers within 3.5 characters.
+TEST(SystemRig, AFaultOfAStationThatAnswersAProgramCountsItsOwnCharacters) {
+  const auto ends_with = [](std::string_view fault) {
+    const auto rig =
+        rig_of(fmt::format("{}    faults: [{{fault: \"{}\", station: slave}}]\n",
+                           fmt::format("plcs:\n  master: {{program: {}, cpu: 224}}\n  slave: {{program: {}, cpu: 224}}\n"
+                                       "lines:\n  bus:\n    stations: [master, slave]\n",
+                                       netr_at(4), ppi_slave()),
+                           fault));
+    if (!rig) return 0U;
+    rig->system().run_until(2 * kSecond);
+    return job_status(*rig, 0) & 0xE0U;
+  };
+  EXPECT_EQ(ends_with("flip:character=1"), 0xA0U) << "its E5, and not a character of the request: done, with an error";
+  EXPECT_EQ(ends_with("flip:character=40"), 0x80U) << "it sends no such character in an exchange";
+}
+
+/// No answer has 33 characters; the request for four bytes has.
+TEST(SystemRig, AFaultOfAnswersIsOfAllButTheMasterThatTheLineNames) {
+  const auto disturbed = [](std::string_view master) {
+    const auto rig =
+        rig_of(fmt::format("plcs:\n  master: {{program: {}, cpu: 224}}\n  slave: {{program: {}, cpu: 224}}\n"
+                           "lines:\n  bus:\n    stations: [master, slave]\n    master: {}\n"
+                           "    faults: [\"parity:character=33,of=answer\"]\n",
+                           netr_at(4), ppi_slave(), master));
+    if (!rig) return std::uint64_t{0};
+    rig->system().run_until(2 * kSecond);
+    return rig->faults(0).state().injected.front().count;
+  };
+  EXPECT_EQ(disturbed("master"), 0U);
+  EXPECT_GT(disturbed("slave"), 0U) << "what the other sends are answers then";
 }
 
 TEST(SystemRig, ALineOfPpiIsAtTheRateOfItsFirstPlc) {

@@ -1,0 +1,27 @@
+#include "tools/rig/fault_owner.hpp"
+
+#include <fmt/format.h>
+
+namespace s7200::tools {
+namespace {
+
+/// What says whose a fault is, as the station beside it does; null if nothing does.
+const serial::GivenParameter* whose(const serial::ParsedFault& fault) {
+  const serial::GivenParameter* const of = fault.find("of");
+  return of ? of : fault.find("station");
+}
+
+}  // namespace
+
+std::optional<NotOfStation> why_not_of_station(const serial::ParsedFault& fault, bool is_plc) {
+  if (!serial::is_of_a_station(fault.fault))
+    return NotOfStation{"noise, and a fault at an instant, are of the line and not of a station", "leave the station out"};
+  if (const serial::GivenParameter* const given = whose(fault))
+    return NotOfStation{fmt::format("'{}=' says whose it is, and so does 'station' beside it", given->name),
+                        fmt::format("leave '{}=' out", given->name), given};
+  if (fault.fault.kind == serial::FaultKind::Echo && is_plc)
+    return NotOfStation{"the port of an S7-200 does not hear what it sends", "an echo is of a peer or a bridge"};
+  return {};
+}
+
+}  // namespace s7200::tools

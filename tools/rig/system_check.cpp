@@ -1,0 +1,123 @@
+#include "tools/rig/system_check.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <utility>
+
+#include "interpreter/program/lint.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// At which PPI station a port may be asked: that of its program's SPA, or of its system block, if someone has set that or
+/// the program leaves the port as it is.
+std::optional<std::uint8_t> ppi_station_of(const Program& program, std::uint8_t port) {
+  if (const auto set = ppi_station_set(program, port)) return set;
+  const std::uint8_t station = program.system_block.ppi_stations[port];
+  if (station != SystemBlock{}.ppi_stations[port] || keeps_ppi_station(program, port)) return station;
+  return {};
+}
+
+std::string names_of(const SystemReading& reading, const std::vector<std::size_t>& plcs) {
+  std::string names;
+  for (const std::size_t plc : plcs) names.append(names.empty() ? "" : ", ").append(reading.file.plan.plcs[plc].name);
+  return names;
+}
+
+void warn_of_station(SystemReading& reading, std::string_view kind, std::string_view key, int station, const LinePlan& line,
+                     const std::vector<std::size_t>& plcs) {
+  if (plcs.size() < 2) return;
+  reading.file.file.diagnostics.push_back(
+      {.severity = stl::Severity::Warning,
+       .position = reading.names.plc_keys[plcs[1]]->position,
+       .message = fmt::format("{} station {} on line '{}' is {}: they answer at the same time, and the answers collide",
+                              kind, station, line.name, names_of(reading, plcs)),
+       .hint = fmt::format("give each a '{}' of its own", key)});
+}
+
+void warn_of_ppi_stations_that_are_the_same(SystemReading& reading) {
+  for (const LinePlan& line : reading.file.plan.lines) {
+    std::map<std::uint8_t, std::vector<std::size_t>> by_station;
+    for (const StationPlan& each : line.stations) {
+      if (each.kind != StationPlan::Kind::Plc) continue;
+      const Program& program = *reading.file.plan.plcs[each.number].program;
+      if (const auto station = ppi_station_of(program, each.port)) by_station[*station].push_back(each.number);
+    }
+    for (const auto& [station, plcs] : by_station) warn_of_station(reading, "PPI", "ppi_station", station, line, plcs);
+  }
+}
+
+/// They do not pass a token on, so each goes on as if it were alone.
+void warn_of_several_ppi_masters(SystemReading& reading) {
+  for (const LinePlan& line : reading.file.plan.lines) {
+    std::vector<std::size_t> masters;
+    for (const StationPlan& each : line.stations)
+      if (each.kind == StationPlan::Kind::Plc && is_ppi_master(*reading.file.plan.plcs[each.number].program, each.port))
+        masters.push_back(each.number);
+    if (masters.size() < 2) continue;
+    reading.file.file.diagnostics.push_back(
+        {.severity = stl::Severity::Warning,
+         .position = reading.names.plc_keys[masters[1]]->position,
+         .message =
+             fmt::format("line '{}' has several PPI masters, with NETR or NETW: {}; how they pass the token on is not "
+                         "modelled, so they collide",
+                         line.name, names_of(reading, masters)),
+         .hint = "let one of them ask, and the others answer"});
+  }
+}
+
+/// Programs whose Modbus station is known: the constant that our slaves and Application Tip 41 move into VB4095.
+void warn_of_modbus_stations_that_are_the_same(SystemReading& reading) {
+  for (const LinePlan& line : reading.file.plan.lines) {
+    std::map<std::uint8_t, std::vector<std::size_t>> by_station;
+    for (const StationPlan& each : line.stations) {
+      if (each.kind != StationPlan::Kind::Plc) continue;
+      if (const auto station = reading.names.modbus_stations[each.number]) by_station[*station].push_back(each.number);
+    }
+    for (const auto& [station, plcs] : by_station) warn_of_station(reading, "Modbus", "station", station, line, plcs);
+  }
+}
+
+/// Power that is switched on twice, or off, does nothing the second time.
+void warn_of_power_that_stays_as_it_is(SystemReading& reading, const std::vector<TimedEvent>& events) {
+  std::map<std::pair<StationPlan::Kind, std::size_t>, bool> powered;
+  for (const auto& [event, node] : events) {
+    using What = EventPlan::What;
+    if (event.what != What::PowerOff && event.what != What::PowerOn) continue;
+    const bool on = event.what == What::PowerOn;
+    bool& now = powered.try_emplace({event.station.kind, event.station.number}, true).first->second;
+    if (now == on)
+      reading.file.file.diagnostics.push_back(
+          {.severity = stl::Severity::Warning,
+           .position = node->position,
+           .message = fmt::format("'{}' has {} already: this does nothing", name_of(reading.file.plan, event.station),
+                                  on ? "power" : "no power"),
+           .hint = on ? "power_off it before that" : "power_on it before that"});
+    now = on;
+  }
+}
+
+}  // namespace
+
+/// Of a PLC one port is enough.
+void check_system(SystemReading& reading) {
+  const SystemPlan& plan = reading.file.plan;
+  const SystemNames& names = reading.names;
+  const auto check = [&](const YamlNode& key, const std::string& name, bool on_a_line) {
+    if (!on_a_line) reading.values.wrong(key, fmt::format("'{}' is on no line", name), "name it in the 'stations' of one");
+  };
+  for (std::size_t plc = 0; plc < plan.plcs.size(); ++plc)
+    check(*names.plc_keys[plc], plan.plcs[plc].name,
+          on_a_line({StationPlan::Kind::Plc, plc, 0}, plan) || on_a_line({StationPlan::Kind::Plc, plc, 1}, plan));
+  for (const auto& [name, station] : names.others) check(*station.key, name, on_a_line(station.plan, plan));
+}
+
+void warn_of_system(SystemReading& reading, const std::vector<TimedEvent>& events) {
+  warn_of_ppi_stations_that_are_the_same(reading);
+  warn_of_several_ppi_masters(reading);
+  warn_of_modbus_stations_that_are_the_same(reading);
+  warn_of_power_that_stays_as_it_is(reading, events);
+}
+
+}  // namespace s7200::tools
