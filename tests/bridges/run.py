@@ -1215,8 +1215,24 @@ class OtherPlcTests(Case):
         self.assertIn("not a whole frame", process.stdout.readline())
         process.send_signal(signal.SIGINT)
         out, error = process.communicate(timeout=LONG)
-        self.assertRegex(out, "^requests: 1, answered: 1 after .* to .*; wrong frames: 1, frames of no request: 1\n$")
+        self.assertRegex(out, "^requests: 1, answered: 1 after .* to .*; wrong frames: 1, frames of no request: 0\n$")
         self.assertEqual((process.returncode, error), (FINE, ""))
+
+    def test_a_master_waits_no_longer_for_its_answer_because_others_talk(self):
+        near, far = os.openpty()
+        attributes = termios.tcgetattr(far)
+        attributes[0] = attributes[1] = attributes[3] = 0
+        termios.tcsetattr(far, termios.TCSANOW, attributes)
+        process = subprocess.Popen([S7200, "master", os.ttyname(far), "--station", "9", "--timeout", "300ms", "read", "40011"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(lambda: (process.kill(), process.communicate(), os.close(near), os.close(far)))
+        os.read(near, 1)  # the request is on its way
+        until = time.monotonic() + LONG
+        while process.poll() is None:
+            self.assertLess(time.monotonic(), until, "it waits for a silence that does not come")
+            os.write(near, b"\x01\x03")
+            time.sleep(0.02)
+        self.assertEqual(process.returncode, FAILED, process.communicate())
 
     def test_a_line_is_decoded_for_a_time_as_json(self):
         near, process = self.listen("decode", "--json", "--for", "1s", "--protocol", "pc1000-lan")
@@ -1248,7 +1264,9 @@ class OtherPlcTests(Case):
         for verb in ("decode", "import-capture"):
             with self.subTest(verb):
                 near, process = self.listen(verb, "--for", "1h")
-                os.write(near, self.REQUEST + self.REPLY)
+                os.write(near, self.REQUEST)
+                time.sleep(0.05)  # no answer comes before its request is over
+                os.write(near, self.REPLY)
                 time.sleep(SILENCE)
                 process.send_signal(signal.SIGINT)
                 out, error = process.communicate(timeout=LONG)
@@ -1319,10 +1337,32 @@ class PpiTests(Case):
         self.assertEqual((result["stop_reason"], result["mode"]), ("interrupted", "STOP"))
         self.assertNotIn("answers", running.said())
 
-    def test_a_program_that_stops_ends_the_run_with_a_note(self):
-        running = self.start("--tcp", 0, program=self.program("LD SM0.0\nTON T32, +300\nLD T32\nSTOP\nMEND\n"))
+    STOPS = "LD SM0.0\nTON T32, +300\nLD T32\nSTOP\nMEND\n"
+
+    def test_a_program_that_stops_ends_the_run_of_a_modbus_gateway_with_a_note(self):
+        running = self.start("--modbus-tcp", 0, program=self.program(self.STOPS))
         self.assertEqual(running.end(by=None)["stop_reason"], "stop")
         self.assertIn("the CPU went to STOP, which ends the run", running.said())
+
+    def test_a_program_that_stops_speaks_ppi_on_and_can_be_started_again(self):
+        running = self.start("--tcp", "127.0.0.1:0", program=self.program(
+            "LD SM0.1\nMOVW 0, VW10\nLD SM0.0\nINCW VW10\nLDW= VW10, 2000\nSTOP\nMEND\n"))
+        status, accepted = bytes.fromhex("100200494b16"), b"\xe5"
+        deadline = time.monotonic() + LONG
+        while "the CPU went to STOP: its ports speak PPI" not in running.said():
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.05)
+        with socket.create_connection((running.host, running.port), timeout=LONG) as connection:
+            connection.sendall(status)
+            self.assertEqual(b"".join(connection.recv(1) for _ in range(6)), bytes.fromhex("100002000216"))
+            body = bytes.fromhex("02006c 3201 0000 0001 0014 0000 28 00 00 00 00 00 00 fd 00 00 09") + b"P_PROGRAM"
+            connection.sendall(bytes([0x68, len(body), len(body), 0x68]) + body + bytes([sum(body) & 0xFF, 0x16]))
+            self.assertEqual(connection.recv(1), accepted)
+        deadline = time.monotonic() + LONG
+        while running.said().count("the CPU went to STOP") < 2:
+            self.assertLess(time.monotonic(), deadline, "it has run, and stopped itself once more")
+            time.sleep(0.05)
+        self.assertGreater(running.end()["scans"], 2)
 
     def test_a_client_reads_and_writes_v_memory_over_tcp(self):
         running = self.start("--speed", SPEED, "--tcp", "127.0.0.1:0", program=self.program(self.COUNTING))
@@ -1377,7 +1417,9 @@ class RunTests(Case):
         self.assertGreaterEqual(result["time_ns"], 300_000_000)
         self.assertEqual(self.start("--pty", link, "--scans", "50").end(by=None)["scans"], 50)
         stop = self.program("LD SM0.0\nTON T37, +2\nLD T37\nSTOP\nMEND\n")
-        self.assertEqual(self.start("--pty", link, program=stop).end(by=None)["stop_reason"], "stop")
+        self.assertEqual(self.start("--modbus-tcp", 0, program=stop).end(by=None)["stop_reason"], "stop")
+        result = self.start("--pty", link, "--for", "500ms", program=stop).end(by=None)
+        self.assertEqual((result["stop_reason"], result["mode"]), ("time", "STOP"), "a PPI master may start it again")
         fatal = self.program("LD SM0.0\nLBL 1\nJMP 1\nMEND\n")
         self.assertEqual(self.start("--pty", link, program=fatal).end(FATAL, by=None)["stop_reason"], "fatal")
         self.assertFalse(os.path.lexists(link))

@@ -64,7 +64,8 @@ class Case(unittest.TestCase):
         self.idle, self.echo = self.file("idle.stl", IDLE), self.file("echo.stl", ECHO)
         self.blinking = self.file("blinking.stl", BLINKING)
         self.good = self.file("good.yaml", SCENARIO.format(program=self.echo, name="good"))
-        self.log = SOURCE / "tests/recordings/plant.log"
+        self.log = self.folder / "plant.log"  # without the request at its end, which a note would name
+        self.log.write_text("".join((SOURCE / "tests/recordings/plant.log").open(encoding="utf-8").readlines()[:-1]), encoding="utf-8")
         self.page = self.file("page.txt", "A page of prose, which tells at some length what the lamp over the door of the plant does.\n\nNETWORK 1\n"
                                           "LD SM0.0 // always\nMOVB 1, VB0\nMEND\n")
 
@@ -597,7 +598,7 @@ class Files(Case):
 
     def test_only_what_the_option_wrote_is_replaced(self):
         for verb, command, option, name in self.options():
-            foreign = {"text": b"mine\n", "empty": b"", "xml": b'<?xml version="1.0" encoding="UTF-8"?>\n<project/>\n', "json": b"{}\n"}
+            foreign = {"text": b"mine\n", "xml": b'<?xml version="1.0" encoding="UTF-8"?>\n<project/>\n', "json": b"{}\n"}
             path = self.folder / name
             self.ends(FINE, *command, option, path)
             force = ["--force"] if option in ("--record", "-o") else []
@@ -611,9 +612,24 @@ class Files(Case):
                 with self.subTest(verb=verb, option=option, kind=kind):
                     path.write_bytes(content)
                     self.assertRegex(self.refused(*command, option, path), "it is left alone|--force overwrites it")
+            with self.subTest(verb=verb, option=option, kind="empty"):  # holds nothing of anybody's
+                path.write_bytes(b"")
+                self.ends(FINE, *command, option, path)
             path.write_bytes(written[:5])
             self.assertRegex(self.refused(*command, option, path), "it is left alone|--force overwrites it")
             path.unlink()
+
+    def test_what_another_command_is_still_writing_is_left_alone(self):
+        link, path = self.folder / "plc", self.folder / "line.pcap"
+        first = self.start("run", SLAVE, "--pty", link, "--capture", path)
+        self.eventually(lambda: os.path.lexists(link), "it does not serve")
+        number = path.stat().st_ino
+        again = ["run", SLAVE, "--for", "10ms", "--capture", path]
+        self.assertIn(b"another command is still writing it", self.ends(UNUSABLE, *again).stderr)
+        first.send_signal(signal.SIGTERM)
+        first.communicate(timeout=LONG)
+        self.assertEqual(path.stat().st_ino, number)
+        self.ends(FINE, *again)
 
     def test_links_are_not_followed(self):
         (self.folder / "sub").mkdir()

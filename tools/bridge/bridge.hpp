@@ -76,6 +76,9 @@ class Bridge {
   /// Ends serving. `context` and what else start() was given may go then; the summary stays.
   virtual void stop() = 0;
 
+  /// Whether it carries any characters, PPI too, and not only frames of Modbus.
+  virtual bool carries_ppi() const { return true; }
+
   /// How characters from the line are heard.
   virtual SerialFormat receive_format() const = 0;
 

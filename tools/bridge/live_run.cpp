@@ -24,7 +24,7 @@ using Clock = Pace::Clock;
 constexpr auto kIdleSlice = 1ms;
 constexpr auto kBusySlice = 200us;
 constexpr auto kBusyFor = 200ms;
-constexpr auto kQuietSlice = 20ms;
+constexpr auto kQuietSlice = 50ms;
 
 constexpr int kMostAtOnce = 16;  // things that came in, before the simulation goes on
 
@@ -82,17 +82,17 @@ class LiveRun::Engine {
     planned_ = Clock::now();
     for (;;) {
       catch_up();
-      for (const auto& line : lines_) line->bridge().turn();
+      for (const auto& line : lines_) line->turn();
       if (stop_asked()) halt_ = serial::Halt::Request;
       for (const auto& line : lines_)
-        if (!halt_ && failure_.empty()) failure_ = line->bridge().failure();
-      if (!failure_.empty()) halt_ = serial::Halt::Request;
+        if (!halt_ && line->has_failed()) fail(*line);
       if (halt_) return *halt_;
       sleep();
     }
   }
 
   const std::string& failure() const { return failure_; }
+  std::string take_failure() { return std::exchange(untold_, {}); }
   Pace::Report pace() const { return pace_.report(); }
 
  private:
@@ -107,10 +107,22 @@ class LiveRun::Engine {
     }
 
     Bridge& bridge() const { return *end_.bridge; }
-    void listen() { end_.port->receive_as(end_.bridge->receive_format(), now()); }
+    bool has_failed() const { return !gone_ && !end_.bridge->failure().empty(); }
+    /// From now on nobody stands at this end.
+    void give_up() {
+      gone_ = true;
+      end_.bridge->stop();
+    }
+    Time due() const { return gone_ ? kNever : end_.bridge->due(); }
+    void turn() {
+      if (!gone_) end_.bridge->turn();
+    }
+    void listen() {
+      if (!gone_) end_.port->receive_as(end_.bridge->receive_format(), now());
+    }
     void deliver() {
       const auto characters = end_.port->take_received();
-      if (characters.empty()) return;
+      if (gone_ || characters.empty()) return;
       engine_.busy();
       end_.bridge->received(characters);
     }
@@ -138,7 +150,15 @@ class LiveRun::Engine {
    private:
     Engine& engine_;
     const LiveEnd end_;
+    bool gone_ = false;
   };
+
+  void fail(Line& line) {
+    untold_ = line.bridge().failure();
+    if (failure_.empty()) failure_ = untold_;
+    line.give_up();
+    halt_ = serial::Halt::Request;
+  }
 
   Time now() const { return machine_.time(); }
   void busy() { busy_until_ = Clock::now() + kBusyFor; }
@@ -175,7 +195,7 @@ class LiveRun::Engine {
   /// Until the next instant that matters, or something comes in.
   void sleep() {
     Time due = end_;
-    for (const auto& line : lines_) due = std::min({due, line->bridge().due(), line->host_port().character_due()});
+    for (const auto& line : lines_) due = std::min({due, line->due(), line->host_port().character_due()});
     if (machine_.silent_until() > now() && !in_use()) due = std::min(due, machine_.silent_until());
     planned_ = std::min(Clock::now() + slice(), pace_.when(due));
     timer_.expires_at(planned_);
@@ -198,7 +218,7 @@ class LiveRun::Engine {
   Time end_ = kNever;
   std::function<bool()> goes_on_;
   std::optional<serial::Halt> halt_;  // of the run under way
-  std::string failure_;
+  std::string failure_, untold_;
   std::vector<std::unique_ptr<Line>> lines_;  // their bridges stop before the context goes
 };
 
@@ -219,6 +239,8 @@ serial::Halt LiveRun::run_until(Time end, std::function<bool()> goes_on) {
 
 const std::string& LiveRun::failure() const { return engine_->failure(); }
 
+std::string LiveRun::take_failure() { return engine_->take_failure(); }
+
 Pace::Report LiveRun::pace() const { return engine_->pace(); }
 
 std::string_view run_live(LiveRun& live, serial::Simulation& simulation, const LiveLimits& limits) {
@@ -227,7 +249,12 @@ std::string_view run_live(LiveRun& live, serial::Simulation& simulation, const L
   simulation.cpu().pause_at_error(limits.strict);
   const auto failed = [&] { return limits.strict && state.error_count != 0; };
   const auto done = [&] { return limits.scans != 0 && state.scans >= limits.scans; };
-  const serial::Halt halt = live.run_until(limits.end, [&] { return !failed() && !done(); });
+  const auto go_on = [&] { return live.run_until(limits.end, [&] { return !failed() && !done(); }); };
+  serial::Halt halt = go_on();
+  while (halt == serial::Halt::Stopped && limits.stopped && state.fatal_code == 0) {
+    limits.stopped();
+    halt = go_on();
+  }
   if (!live.failure().empty()) return "bridge";
   if (halt == serial::Halt::Stopped) return state.fatal_code ? "fatal" : "stop";
   if (failed()) return "run-time error";

@@ -65,12 +65,15 @@ class LiveRun {
   bool start(std::string& why);
 
   /// From now on in real time, until the simulation has come to `end`, the CPU stops, or pauses and `goes_on` says no, a
-  /// stop is asked for (Halt::Request), or the bridge fails (Halt::Request, and failure()).
+  /// stop is asked for (Halt::Request), or a bridge fails (Halt::Request, and failure()). The next run goes on without that.
   serial::Halt run_until(
       Time end, std::function<bool()> goes_on = [] { return false; });
 
-  /// Why the bridge cannot go on; empty as long as it can.
+  /// Why the first bridge that failed cannot go on; empty as long as all can.
   const std::string& failure() const;
+
+  /// Why the last run has ended, if a bridge has failed in it; said once.
+  std::string take_failure();
 
   Pace::Report pace() const;
 
@@ -84,6 +87,9 @@ struct LiveLimits {
   Time end = kNever;        ///< simulated
   std::uint64_t scans = 0;  ///< 0: any number
   bool strict = false;      ///< the first run-time error ends it
+  /// Is told when the CPU goes to STOP and no fatal error is the reason, and the run goes on, for a master may start the CPU
+  /// again; the options say in_stop_too. Null: STOP ends the run.
+  std::function<void()> stopped{};
 };
 
 /// Runs until a limit is reached, the CPU stops, an interruption comes or the bridge fails. Returns why it ended: `time`,

@@ -128,6 +128,7 @@ class RawBridge final : public TcpBridge {
 
 class RtuBridge final : public TcpBridge {
  public:
+  bool carries_ppi() const override { return false; }
   RtuBridge(const ListenAddress& address, Time timeout) : TcpBridge("rtu-over-tcp", address), turns_(timeout) {}
 
   void received(std::span<const ReceivedCharacter> characters) override {
@@ -258,6 +259,7 @@ class RtuBridge final : public TcpBridge {
 
 class GatewayBridge final : public TcpBridge {
  public:
+  bool carries_ppi() const override { return false; }
   GatewayBridge(const ListenAddress& address, Time timeout) : TcpBridge("modbus-tcp", address), gateway_(timeout) {}
 
   void received(std::span<const ReceivedCharacter> characters) override {

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -55,9 +56,19 @@ std::string why_not(const std::string& path, const struct stat& found, const Fil
 /// Whether what is there now, maybe hours after it was claimed, may be replaced.
 bool may_replace(const Destination& destination, const struct stat& found) {
   if (!S_ISREG(found.st_mode)) return false;
-  if (identity(found) == destination.replaced) return true;
+  const auto& replaced = destination.replaced;
+  if (replaced && identity(found) == replaced->file && (!replaced->empty || found.st_size == 0)) return true;
   const std::string& beginning = destination.kind.beginning;
   return !beginning.empty() && begins_with(destination.path, beginning);
+}
+
+/// Whoever writes a file holds a lock on it as long as it is open. File systems without locks know nobody.
+bool is_being_written(const std::string& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool locked = flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  close(file);
+  return locked;
 }
 
 /// Unlike rename(2) it replaces nothing. File systems that cannot do it in one step may know hard links; FAT does not.
@@ -124,13 +135,15 @@ std::optional<Destination> WrittenFiles::claim(std::string_view option, const st
     destination.stream = true;
     return destination;
   }
-  if (found && replace == Replace::Own && !begins_with(path, destination.kind.beginning))
-    return refuse(fmt::format("{} exists and is {}not {}; it is left alone", path, found->st_size == 0 ? "empty, " : "",
-                              destination.kind.name));
-  if (found && replace == Replace::Never) return refuse(fmt::format("{} exists; --force overwrites it", path));
+  const bool holds_something = found && found->st_size != 0;
+  if (holds_something && replace == Replace::Own && !begins_with(path, destination.kind.beginning))
+    return refuse(fmt::format("{} exists and is not {}; it is left alone", path, destination.kind.name));
+  if (holds_something && replace == Replace::Never) return refuse(fmt::format("{} exists; --force overwrites it", path));
+  if (found && is_being_written(path))
+    return refuse(fmt::format("{} {}: another command is still writing it; name another", option, path));
   if (access(folder_of(path).c_str(), W_OK | X_OK) != 0)
     return refuse(fmt::format("cannot write {}: {}", path, std::strerror(errno)));
-  if (found) destination.replaced = identity(*found);
+  if (found) destination.replaced = {identity(*found), found->st_size == 0};
   return destination;
 }
 
@@ -147,6 +160,7 @@ int NewFile::create(const Destination& destination) {
   fd_ = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (fd_ < 0) return errno;
   beside_ = beside;
+  flock(fd_, LOCK_EX | LOCK_NB);  // see is_being_written
   const auto old = look_at(destination.path);
   return old && S_ISREG(old->st_mode) && fchmod(fd_, old->st_mode & 07777) != 0 ? errno : 0;
 }

@@ -1,7 +1,7 @@
 // The files that the command writes. One rule for all of them:
 //
-// - What exists is replaced only if the same option wrote it, which its first bytes show, or if --force says so. All else is
-//   left alone, an empty file too.
+// - What exists is replaced only if it is empty, as mktemp makes it, if the same option wrote it, which its first bytes
+//   show, or if --force says so. All else is left alone, and so is what another command is still writing.
 // - Links are not followed, and not replaced either: whoever wants to write what a link leads to names that.
 // - No two outputs share a file, and none is a file that the command reads, under whatever names: files are told apart by
 //   device and inode, and those that are not there yet by the folder and the name.
@@ -46,12 +46,19 @@ struct FileIdentity {
   bool operator==(const FileIdentity&) const = default;
 };
 
+struct ReplacedFile {
+  FileIdentity file{};
+  bool empty = false;  ///< it may be replaced as long as it still is
+};
+
 /// A place where a file may be written.
 struct Destination {
   std::string path;
   FileKind kind;
-  std::optional<FileIdentity> replaced{};  ///< what is there already and may be replaced
+  std::optional<ReplacedFile> replaced{};  ///< what is there already and may be replaced
   bool stream = false;                     ///< a pipe or a character device
+
+  bool replaces_content() const { return replaced && !replaced->empty; }
 };
 
 /// All files of one command.

@@ -44,5 +44,37 @@ TEST(LiveRun, LooksRoundWhenTheProgramMayDoSomethingByItself) {
 
 TEST(LiveRun, OfAProgramThatLooksAtTheClockWaitsUntilItChanges) { EXPECT_LT(turns_of("LD SM0.5\n= Q0.0\nMEND\n"), 75); }
 
+/// Fails at once, and must not be asked any more from then on.
+class Failing final : public Bridge {
+ public:
+  bool start(LiveLine&, boost::asio::io_context&, std::string&) override { return true; }
+  void stop() override { ++stopped; }
+  SerialFormat receive_format() const override { return asked(), SerialFormat{}; }
+  void received(std::span<const ReceivedCharacter>) override { asked(); }
+  void turn() override { asked(); }
+  std::string failure() const override { return "it was hung up"; }
+  std::string summary() const override { return {}; }
+  nlohmann::ordered_json json() const override { return {}; }
+
+  int stopped = 0;
+
+ private:
+  void asked() const { EXPECT_EQ(stopped, 0); }
+};
+
+TEST(LiveRun, ABridgeThatFailsEndsTheRunAndTheNextOneGoesOnWithoutIt) {
+  serial::Simulation simulation(check_text(kWaiting, "test", cpu214(), default_times(cpu214())).program);
+  simulation.power_up();
+  Failing bridge;
+  LiveRun live(simulation, {}, &bridge);
+  std::string why;
+  ASSERT_TRUE(live.start(why)) << why;
+  EXPECT_EQ(live.run_until(kSecond / 2), serial::Halt::Request);
+  EXPECT_EQ(live.take_failure(), "it was hung up");
+  EXPECT_EQ(live.take_failure(), "") << "said once";
+  EXPECT_EQ(live.failure(), "it was hung up");
+  EXPECT_EQ(live.run_until(kSecond / 2), serial::Halt::Time);
+}
+
 }  // namespace
 }  // namespace s7200::tools

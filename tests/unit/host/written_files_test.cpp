@@ -61,15 +61,28 @@ TEST_F(WrittenFilesTest, OnlyWhatIsNotThereOrHasTheMarkMayBeWritten) {
   put("own", "# a note\nmore\n");
   put("other", "# a list\n");
   put("cut", "# a no");
-  put("empty", "");
   EXPECT_EQ(refusal(file("new")), "");
   EXPECT_EQ(refusal(file("own")), "");
-  for (const char* foreign : {"other", "cut", "empty"})
+  for (const char* foreign : {"other", "cut"})
     EXPECT_TRUE(says(refusal(file(foreign)), "not a note; it is left alone")) << foreign;
   EXPECT_TRUE(says(refusal(file("own"), kNote, Replace::Never), "--force"));
   EXPECT_EQ(refusal(file("other"), kNote, Replace::Judged), "");
   EXPECT_TRUE(says(refusal(folder_), "it is a folder"));
   EXPECT_TRUE(says(refusal(file("nowhere/new")), "No such file or directory"));
+}
+
+TEST_F(WrittenFilesTest, AnEmptyFileHoldsNothingAndIsReplacedUnlessItHasBeenFilledMeanwhile) {
+  for (const Replace replace : {Replace::Own, Replace::Never, Replace::Judged}) {
+    put("empty", "");
+    const Destination there = claimed(file("empty"), kNote, replace);
+    EXPECT_TRUE(write_result(there, "# a note\n", why_)) << why_;
+    EXPECT_EQ(content("empty"), "# a note\n");
+  }
+  put("empty", "");
+  const Destination there = claimed(file("empty"));
+  put("empty", "mine\n");
+  EXPECT_FALSE(write_result(there, "# a note\n", why_));
+  EXPECT_EQ(content("empty"), "mine\n");
 }
 
 TEST_F(WrittenFilesTest, LinksAreNotFollowedWhereverTheyLead) {
