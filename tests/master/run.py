@@ -76,7 +76,7 @@ class EveryFunction(Case):
                "write-file", "4:7=1,2", "read-file", "4:7:2", "general-write", "1:16#203=10,20,30", "general-read",
                "1:16#203:3", "function", "65", "0102"]
     VALUES = [None, None, None, None, [0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 1, 1], [1, 0, 0, 1], [1000, 1001], [1234, 65531], [0],
-              None, [0x1234], [7, 8], [42], None, None, [1, 2], None, None, None]
+              None, [0x3412], [7, 8], [42], None, None, [1, 2], None, None, None]
 
     def check(self, peer):
         result = self.json(FINE, peer.path, *self.ACTIONS, *PATIENT)
@@ -338,13 +338,13 @@ class FreeportPc(Case):
                          "end character 16#1A, expected 16#26; --end-character 16#1A would take it")
         self.only(FINE, peer.path, "--protocol", "freeport-pc", "read", "VB0", "--end-character", "26", *PATIENT)
 
-    def test_what_the_station_refuses_is_an_exception(self):
+    def test_what_the_station_refuses_is_an_error(self):
         peer = self.peer(PtyPeer, lambda command: PcModel().answer(4), is_pc_command)
         refused = self.only(FAILED, peer.path, "--protocol", "freeport-pc", "read", "IB9000", "--station", "7", *PATIENT)
         self.assertEqual((refused["verdict"], refused["exception"]), ("exception", {"code": 4, "name": "command not legal"}))
         self.assertEqual(peer.requests[0][2:4], b"07")
         out = self.master(FAILED, peer.path, "--protocol", "freeport-pc", "raw", "67 47", *PATIENT).stdout
-        self.assertRegex(out, r"^raw 67 47   after .*\n  exception 4: command not legal\n$")
+        self.assertRegex(out, r"^raw 67 47   after .*\n  error 16#04: command not legal\n$")
 
     def test_a_device_is_set_to_no_parity(self):
         peer, seen = self.peer(PtyPeer, PcModel(), is_pc_command), []

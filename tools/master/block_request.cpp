@@ -36,7 +36,7 @@ serial::Answer BlockRequest::judge(Data request, Data response) const {
   return answer;
 }
 
-std::string_view BlockRequest::exception_name(std::uint8_t code) const { return westinghouse::highway_error_name(code); }
+std::string_view BlockRequest::error_name(std::uint16_t code) const { return westinghouse::highway_error_name(code); }
 
 std::string BlockRequest::in_short(const serial::Answer& answer, Data request, Data) const {
   std::string text;
@@ -126,9 +126,7 @@ void BlockParser::write_bits(const Words& operands, bool on) {
   }
 }
 
-void BlockParser::retest(const Words&) {
-  add(westinghouse::write_bit(westinghouse::kRetestWord, westinghouse::kRetestBit, true), {.done = "retest accepted"});
-}
+void BlockParser::retest(const Words&) { add(westinghouse::retest(), {.done = "retest accepted"}); }
 
 void BlockParser::raw(const Words& operands) {
   for (const std::string& operand : operands) {

@@ -26,7 +26,7 @@ class BlockRequest final : public ProtocolRequest {
   serial::Frame frame() override { return frame_; }
   bool with_sync() const override { return about_.sync; }
   serial::Answer judge(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response) const override;
-  std::string_view exception_name(std::uint8_t code) const override;
+  std::string_view error_name(std::uint16_t code) const override;
   std::string subject() const override { return about_.subject; }
   std::string in_short(const serial::Answer& answer, std::span<const std::uint8_t> request,
                        std::span<const std::uint8_t> response) const override;
@@ -44,6 +44,7 @@ class BlockRequest final : public ProtocolRequest {
 class BlockParser : public WordParser {
  public:
   BlockParser(const ProtocolUse& use, bool sync) : WordParser(use.station, UINT8_MAX), sync_(sync) {}
+  virtual ~BlockParser() = default;
 
   void read(const Words& operands);
   void write(const Words& operands);
@@ -53,7 +54,7 @@ class BlockParser : public WordParser {
   void raw(const Words& operands);
 
  protected:
-  void add(const Bytes& message, BlockRequest::About about);
+  virtual void add(const Bytes& message, BlockRequest::About about);
 
  private:
   void write_bits(const Words& operands, bool on);
@@ -63,7 +64,7 @@ class BlockParser : public WordParser {
 
 /// The rows of those verbs, for a parser derived from it.
 template <class Parser>
-constexpr std::array<Verb<Parser>, 8> block_verbs() {
+constexpr std::array<Verb<Parser>, 7> block_verbs() {
   return {Verb<Parser>{"read", "ADDRESS[:COUNT]…", "words of the PLC's memory, up to 128 at once: read 16#1234:2", 1, kMany,
                        &Parser::read},
           Verb<Parser>{"write", "ADDRESS=VALUE,…", "words: 1234, -5, 16#04D2, 2#1010", 1, kMany, &Parser::write},
@@ -71,7 +72,6 @@ constexpr std::array<Verb<Parser>, 8> block_verbs() {
           Verb<Parser>{"reset", "ADDRESS.BIT…", "the same", 1, kMany, &Parser::reset},
           Verb<Parser>{"retest", "", "in stop the PLC clears its fault register and tests itself", 0, 0, &Parser::retest},
           Verb<Parser>{"raw", "HEX…", "messages as they are", 1, kMany, &Parser::raw},
-          Verb<Parser>{"station", "NUMBER", "for actions after it that name none", 1, 1, &Parser::station},
           Verb<Parser>{"wait", "TIME", "before the next action", 1, 1, &Parser::wait}};
 }
 

@@ -34,7 +34,7 @@ class PcRequest final : public ProtocolRequest {
     return answer;
   }
 
-  std::string_view exception_name(std::uint8_t code) const override { return pc_protocol::refusal_name(code); }
+  std::string_view error_name(std::uint16_t code) const override { return pc_protocol::refusal_name(code); }
 
   std::string subject() const override;
   std::string in_short(const serial::Answer& answer, Data request, Data response) const override;
@@ -201,6 +201,7 @@ const Protocol& freeport_pc_protocol() {
                    fault_of_end_character}},
       .actions_help = "Actions of --protocol freeport-pc, to station 2 unless another is given:\n" +
                       verbs_help(std::span<const PcVerb>(kVerbs)),
+      .action_words = verb_words(std::span<const PcVerb>(kVerbs)),
       .actions = actions,
       .is_complete = is_complete};
   return protocol;

@@ -41,6 +41,7 @@ class HppcRequest final : public ProtocolRequest {
     std::size_t count = 0;
     std::optional<Registers> registers{};                   ///< then the first step reads the parameter table
     std::array<std::vector<std::uint32_t>, 3> monitored{};  ///< bytes, words, double words
+    std::vector<std::size_t> asked{};                       ///< which of the three, in the order of the action
   };
 
   HppcRequest(About about, FcsTable table) : about_(std::move(about)), table_(table) {}
@@ -55,7 +56,7 @@ class HppcRequest final : public ProtocolRequest {
 
   std::optional<serial::Frame> next(Data response) override;
   serial::Answer judge(Data request, Data response) const override;
-  std::string_view exception_name(std::uint8_t code) const override { return westinghouse::hppc_error_name(code); }
+  std::string_view error_name(std::uint16_t code) const override { return westinghouse::hppc_error_name(code); }
   std::string subject() const override { return about_.subject; }
   std::string in_short(const serial::Answer& answer, Data request, Data response) const override;
   std::vector<std::string> in_lines(const serial::Answer& answer, Data request, Data response) const override;
@@ -63,6 +64,7 @@ class HppcRequest final : public ProtocolRequest {
   nlohmann::ordered_json decoded_json(const serial::Answer& answer) const override { return answer.values; }
 
  private:
+  std::string why_not_there(Data table) const;
   /// What the operands of the last answer say; empty if they are right.
   std::string take(serial::Answer& answer) const;
   std::vector<std::string> monitored_lines(const serial::Answer& answer) const;
@@ -80,15 +82,25 @@ Data first_message(Data stream) {
   return stream.first(std::min(std::max<std::size_t>(length, 1), stream.size()));
 }
 
+/// Of the registers that are asked for; empty if they are there.
+std::string HppcRequest::why_not_there(Data table) const {
+  const auto found = westinghouse::holding_registers(table);
+  if (!found) return "the parameter table does not say where the holding registers are";
+  const std::uint32_t last = about_.registers->first + about_.registers->count - 1U;
+  if (!found->number || *found->number == 0 || last <= *found->number) return {};
+  return fmt::format("by the parameter table there are {} holding registers", *found->number);
+}
+
 std::optional<serial::Frame> HppcRequest::next(Data response) {
   if (!about_.registers || step_ != 1) return {};
   const serial::Answer answer = westinghouse::check_hppc_answer({}, response, table_);
   if (answer.verdict != serial::Verdict::Right || answer.bytes.size() < kAddress) return {};
-  const auto base = westinghouse::holding_register_base(Data(answer.bytes).subspan(kAddress));
-  if (!base) return {};
+  const Data table = Data(answer.bytes).subspan(kAddress);
+  const auto found = westinghouse::holding_registers(table);
+  if (!found || !why_not_there(table).empty()) return {};
   ++step_;
   const Registers& registers = *about_.registers;
-  const std::uint32_t lowest = registers.lowest(*base);
+  const std::uint32_t lowest = registers.lowest(found->base);
   if (registers.values.empty())
     return frame_of(HppcOpcode::Read, westinghouse::hppc_read(lowest, static_cast<std::uint8_t>(2 * registers.count)),
                     table_);
@@ -109,7 +121,7 @@ serial::Answer HppcRequest::judge(Data request, Data response) const {
     response = response.subspan(answered.size());
     if (request.empty()) {
       answer.verdict = serial::Verdict::Wrong;
-      answer.fault = "the parameter table does not say where the holding registers are";
+      answer.fault = why_not_there(Data(answer.bytes).subspan(std::min(kAddress, answer.bytes.size())));
       return answer;
     }
   }
@@ -166,8 +178,8 @@ std::string HppcRequest::take(serial::Answer& answer) const {
 
 std::string HppcRequest::parameters_text(Data operands) const {
   std::string text = fmt::format("parameter table at 16#{:05X}", westinghouse::hppc_address(operands));
-  if (const auto base = westinghouse::holding_register_base(operands.subspan(kAddress)))
-    text += fmt::format(", holding register 1 at 16#{:05X}", *base);
+  if (const auto found = westinghouse::holding_registers(operands.subspan(kAddress)))
+    text += fmt::format(", holding register 1 at 16#{:05X}", found->base);
   return operands.size() == kAddress ? text : fmt::format("{}: {}", text, serial::to_hex(operands.subspan(kAddress)));
 }
 
@@ -200,15 +212,16 @@ std::vector<std::string> HppcRequest::monitored_lines(const serial::Answer& answ
   for (std::size_t bit = 0; bit < kStatus.size(); ++bit)
     if ((answer.bytes[0] >> bit & 1) != 0) status.append(status.empty() ? "" : ", ").append(kStatus[bit]);
   std::vector<std::string> lines{fmt::format("  status 16#{:02X}{}{}", answer.bytes[0], status.empty() ? "" : ": ", status)};
-  std::size_t place = 1;
-  for (std::size_t size = 0; size < about_.monitored.size(); ++size)
-    for (const std::uint32_t address : about_.monitored[size]) {
-      const std::size_t bytes = std::size_t{1} << size;
-      std::uint32_t value = 0;
-      for (std::size_t i = bytes; i-- > 0;) value = value << 8 | answer.bytes[place + i];
-      lines.push_back(fmt::format("  16#{:05X}  16#{:0{}X} {:>6}", address, value, 2 * bytes, value));
-      place += bytes;
-    }
+  const auto& [single, words, doubles] = about_.monitored;
+  std::array<std::size_t, 3> place{1, 1 + single.size(), 1 + single.size() + 2 * words.size()}, next{};
+  for (const std::size_t size : about_.asked) {
+    const std::size_t bytes = std::size_t{1} << size;
+    std::uint32_t value = 0;
+    for (std::size_t i = bytes; i-- > 0;) value = value << 8 | answer.bytes[place[size] + i];
+    lines.push_back(
+        fmt::format("  16#{:05X}  16#{:0{}X} {:>6}", about_.monitored[size][next[size]++], value, 2 * bytes, value));
+    place[size] += bytes;
+  }
   return lines;
 }
 
@@ -407,6 +420,7 @@ void Parser::monitor(const Words& operands) {
     if (size == std::string_view::npos)
       refuse(fmt::format("'{}' is not a size with an address; write for example w:16#ABFFE", stl::shortened(operand)));
     about.monitored[size].push_back(address_of(parts->second));
+    about.asked.push_back(size);
   }
   const auto& [bytes, words, double_words] = about.monitored;
   const std::size_t sum = bytes.size() + 2 * words.size() + 4 * double_words.size();
@@ -439,20 +453,21 @@ const Protocol& hppc_protocol() {
   static const Protocol protocol{
       .name = "hppc",
       .meaning = "Westinghouse HPPC1500 and HPPC1700 at their loader port",
-      .station = 1,
+      .station = {},
       .format = {.parity = Parity::None},
       .over_modbus_tcp = false,
       .options = {{kFcs, "TABLE", "frame check: document, with the odd entry of its table, or polynomial", "document",
                    fault_of_fcs}},
       .actions_help =
           "Actions of --protocol hppc; in brackets its opcodes:\n" + verbs_help(std::span<const HppcVerb>(kVerbs)),
+      .action_words = verb_words(std::span<const HppcVerb>(kVerbs)),
       .actions = actions,
       .is_complete = westinghouse::is_whole_hppc,
       .patience = {.timeout = kSecond,  // [H9]
                    .retries = 2,
                    .pause = 500 * kMillisecond,
                    .first = resynchronisation,
-                   .repeats = [](std::uint8_t code) { return code == kLinkError; }},
+                   .repeats = [](std::uint16_t code) { return code == kLinkError; }},
       .plcs = westinghouse::find_plc("hppc")};
   return protocol;
 }

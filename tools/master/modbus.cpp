@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <ranges>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "serial_sim/modbus/address.hpp"
 #include "serial_sim/modbus/answer.hpp"
@@ -55,7 +55,10 @@ class ModbusRequest : public ProtocolRequest {
 
   serial::Answer judge(Data request, Data response) const override { return modbus::check_answer(request, response); }
 
-  std::string_view exception_name(std::uint8_t code) const override { return modbus::exception_name(code); }
+  std::string_view error_name(std::uint16_t code) const override { return modbus::exception_name(code); }
+  std::string error_text(std::uint16_t code) const override {
+    return fmt::format("exception {}: {}", code, error_name(code));
+  }
 
   std::string subject() const override;
   std::string in_short(const serial::Answer& answer, Data request, Data response) const override;
@@ -202,9 +205,12 @@ class Parser final : public WordParser {
   static std::vector<Reference> to_write(const Words& operands, std::uint8_t type);
 
   ValueFormat format_;
-  bool beyond_limits_, always_15_, always_16_, crc_;
-  const modbus::AreaRow* area_ = nullptr;                                              // that the action at hand names
-  std::shared_ptr<std::uint16_t> loopback_ = std::make_shared<std::uint16_t>(0x1234);  // the next word to be looped back
+  bool beyond_limits_;
+  std::string_view way_beyond_;
+  bool always_15_, always_16_, crc_;
+  const modbus::AreaRow* area_ = nullptr;  // that the action at hand names
+  std::shared_ptr<std::uint16_t> loopback_ =
+      std::make_shared<std::uint16_t>(0x3412);  // is looped back next; 34 12 as NLAM-B58, 4.5
 };
 
 using ModbusVerb = Verb<Parser>;
@@ -237,6 +243,7 @@ Parser::Parser(const ProtocolUse& use)
                  last_station(use)),
       format_(value_format(use)),
       beyond_limits_(use.has(kBeyondLimits)),
+      way_beyond_(use.options_are_open ? "; --beyond-limits sends it all the same" : ""),
       always_15_(use.has(kAlways15)),
       always_16_(use.has(kAlways16)),
       crc_(use.has(kCrc)) {}
@@ -267,7 +274,7 @@ bool Parser::check(const Bytes& pdu) const {
   if (!beyond_limits_ && why.empty() && station_ == modbus::kBroadcast && row != nullptr && !row->broadcast)
     why = fmt::format("station 0 is all stations, and none of them answers a broadcast: function {} ({}) needs one station",
                       pdu[0], row->name);
-  if (!why.empty()) refuse(fmt::format("{}: {}; --beyond-limits sends it all the same", text_, why));
+  if (!why.empty()) refuse(fmt::format("{}: {}{}", text_, why, way_beyond_));
   constexpr std::uint8_t kListenOnly = 4;
   const bool listen_only =
       row != nullptr && row->shape == modbus::Shape::Diagnostics && pdu.size() > 2 && pdu[1] == 0 && pdu[2] == kListenOnly;
@@ -291,7 +298,7 @@ modbus::DataAddress Parser::address(const std::string& text) const {
   const auto parsed = modbus::parse_address(text, why);
   if (!parsed)
     refuse(fmt::format("{}; or name the area ({}) and count from 0", why,
-                       fmt::join(modbus::areas() | std::views::transform(&modbus::AreaRow::word), ", ")));
+                       stl::joined(modbus::areas(), &modbus::AreaRow::word)));
   return *parsed;
 }
 
@@ -385,8 +392,7 @@ void Parser::function(const Words& operands) {
     std::ranges::copy(serial::bytes_of(data), std::back_inserter(pdu));
   }
   if (pdu[0] == 0 || pdu[0] >= modbus::kExceptionFlag) {
-    if (!beyond_limits_)
-      refuse(fmt::format("{}: functions are from 1 to 127; --beyond-limits sends it all the same", text_));
+    if (!beyond_limits_) refuse(fmt::format("{}: functions are from 1 to 127{}", text_, way_beyond_));
   }
   add(pdu);
 }
@@ -420,9 +426,7 @@ std::string actions_help() {
   return text;
 }
 
-std::string form_names() {
-  return fmt::format("{}", fmt::join(value_forms() | std::views::transform(&ValueFormName::name), ", "));
-}
+std::string form_names() { return stl::joined(value_forms(), &ValueFormName::name); }
 
 std::string fault_of_form(const std::string& name) {
   return std::ranges::any_of(value_forms(), [&](const ValueFormName& known) { return known.name == name; })
@@ -446,8 +450,10 @@ const Protocol& modbus_protocol() {
                                              {kCrc, "", "append the CRC to raw frames"},
                                              {kBeyondLimits, "", "send what the specification forbids, to test a slave"}},
                                  .actions_help = actions_help(),
+                                 .action_words = verb_words(std::span<const ModbusVerb>(kVerbs)),
                                  .actions = actions,
                                  .is_complete = modbus::crc_ok,
+                                 .refusal = "exception",
                                  .plcs = westinghouse::find_plc("modbus")};
   return protocol;
 }

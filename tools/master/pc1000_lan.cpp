@@ -16,7 +16,13 @@ class Parser final : public BlockParser {
   std::vector<MasterAction> parse(const Words& words);
 
   void unit(const Words& operands);
+  void station(const Words& operands);
   void erase(const Words&) { add(westinghouse::erase(), {.done = "memory erased"}); }
+
+ private:
+  void add(const Bytes& message, BlockRequest::About about) override;
+
+  std::optional<std::uint8_t> addressed_, named_;  // units, by `unit` and by `station`
 };
 
 using LanVerb = Verb<Parser>;
@@ -24,6 +30,7 @@ using LanVerb = Verb<Parser>;
 constexpr std::array kOwnVerbs{
     LanVerb{"unit", "[NUMBER]", "the PLC that all actions after it are for; shows its keyswitch and fault register", 0, 1,
             &Parser::unit},
+    LanVerb{"station", "NUMBER", "the unit that `unit` addresses if it names none", 1, 1, &Parser::station},
     LanVerb{"erase", "", "ladder, output and holding registers; only in stop, and not on a PC1100", 0, 0, &Parser::erase},
 };
 constexpr auto kVerbs = joined(kOwnVerbs, block_verbs<Parser>());
@@ -35,7 +42,22 @@ std::vector<MasterAction> Parser::parse(const Words& words) {
 void Parser::unit(const Words& operands) {
   if (!operands.empty()) station_ = static_cast<std::uint8_t>(parse_number(operands[0], 0, UINT8_MAX, "unit"));
   const std::string subject = operands.empty() ? fmt::format("unit {}", station_) : std::string();
+  addressed_ = station_;
+  named_.reset();
   add(westinghouse::set_unit_address(station_), {.subject = subject});
+}
+
+void Parser::station(const Words& operands) {
+  BlockParser::station(operands);
+  named_ = station_;
+}
+
+/// Messages have no address: the unit that was addressed last takes them.
+void Parser::add(const Bytes& message, BlockRequest::About about) {
+  if (named_ && named_ != addressed_)
+    refuse(fmt::format("{}: station {} is not addressed{}; put 'unit {}' before it", text_, *named_,
+                       addressed_ ? fmt::format(", unit {} is", *addressed_) : "", *named_));
+  BlockParser::add(message, std::move(about));
 }
 
 std::vector<MasterAction> actions(const Words& words, const ProtocolUse& use) { return Parser(use).parse(words); }
@@ -53,10 +75,11 @@ const Protocol& pc1000_lan_protocol() {
           {{kNoSync, "", "the line has no sync signal; without this option it is DTR of a serial device", {}, nullptr}},
       .actions_help = "Actions of --protocol pc1000-lan; a PLC listens once it was addressed by its unit:\n" +
                       verbs_help(std::span<const LanVerb>(kVerbs)),
+      .action_words = verb_words(std::span<const LanVerb>(kVerbs)),
       .actions = actions,
       .is_complete = westinghouse::is_whole_answer,
       .patience = {.timeout = 500 * kMillisecond, .retries = 2},  // [L10]
-      .plcs = westinghouse::find_plc("lan")};
+      .plcs = westinghouse::find_plc("pc1000-lan")};
   return protocol;
 }
 

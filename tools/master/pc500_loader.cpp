@@ -45,7 +45,7 @@ class LoaderRequest final : public ProtocolRequest {
   }
   bool answered() const override { return steps_.answered(); }
   serial::Answer judge(Data request, Data response) const override;
-  std::string_view exception_name(std::uint8_t) const override { return "refused (NAK)"; }
+  std::string_view error_name(std::uint16_t) const override { return westinghouse::kRefusalName; }
   std::string subject() const override { return about_.subject; }
   std::string in_short(const serial::Answer& answer, Data request, Data response) const override;
   std::vector<std::string> in_lines(const serial::Answer& answer, Data request, Data response) const override;
@@ -73,7 +73,7 @@ class RawStep final : public ProtocolRequest {
     answer.bytes.assign(response.begin(), response.end());
     return answer;
   }
-  std::string_view exception_name(std::uint8_t) const override { return {}; }
+  std::string_view error_name(std::uint16_t) const override { return {}; }
   std::string subject() const override { return {}; }
   std::string in_short(const serial::Answer& answer, Data, Data) const override { return serial::to_hex(answer.bytes); }
   std::vector<std::string> in_lines(const serial::Answer& answer, Data request, Data response) const override {
@@ -165,7 +165,8 @@ std::uint16_t address_of(const std::string& text) {
   const std::string upper = stl::upper_case(text);
   for (const Area& area : kAreas)
     if (upper.starts_with(area.name))
-      return static_cast<std::uint16_t>(area.first + parse_number(upper.substr(area.name.size()), 0, area.count - 1, text));
+      return static_cast<std::uint16_t>(area.first + parse_number(upper.substr(area.name.size()), 0, area.count - 1,
+                                                                  fmt::format("byte of {}", area.name)));
   return static_cast<std::uint16_t>(parse_number(text, 0, UINT16_MAX, "address"));
 }
 
@@ -262,20 +263,21 @@ std::vector<MasterAction> actions(const Words& words, const ProtocolUse& use) { 
 const Protocol& pc500_loader_protocol() {
   static const Protocol protocol{
       .name = "pc500-loader",
-      .meaning = "Westinghouse PC500 and PC2000 at their loader port",
-      .station = 1,
+      .meaning = "Westinghouse PC500 and PC2000 at their loader port; in simulation a PC503",
+      .station = {},
       .format = {},
       .over_modbus_tcp = false,
       .options = {{kDle, "FORM", "a byte 10 in what the PLC sends: doubled, plain", "doubled", fault_of_dle}},
       .actions_help = "Actions of --protocol pc500-loader; in brackets its operations:\n" +
                       verbs_help(std::span<const LoaderVerb>(kVerbs)),
+      .action_words = verb_words(std::span<const LoaderVerb>(kVerbs)),
       .actions = actions,
       .is_complete = westinghouse::is_whole_step,
       .patience = {.timeout = 500 * kMillisecond,  // [S4]
                    .retries = 2,
                    .pause = 500 * kMillisecond,
-                   .repeats = [](std::uint8_t) { return true; }},
-      .plcs = westinghouse::find_plc("loader")};
+                   .repeats = [](std::uint16_t) { return true; }},
+      .plcs = westinghouse::find_plc("pc500-loader")};
   return protocol;
 }
 

@@ -50,7 +50,11 @@ s7::Variable variable(const MemoryRange& range) {
 struct Wanted {
   Bytes pdu{};  ///< empty: the status of the station
   std::optional<MemoryRange> range{};
-  std::string what{};  ///< of a request without variable: `stop`
+  std::string what{};           ///< of a request without variable: `stop`
+  bool identification = false;  ///< is read
+
+  bool has_value() const { return range.has_value() || identification; }
+  std::size_t bytes() const { return range ? range->bytes() : s7::kIdentificationBytes; }
 };
 
 class PpiRequest final : public ProtocolRequest {
@@ -74,7 +78,7 @@ class PpiRequest final : public ProtocolRequest {
   }
 
   serial::Answer judge(Data request, Data response) const override;
-  std::string_view exception_name(std::uint8_t code) const override { return s7_error_name(code); }
+  std::string_view error_name(std::uint16_t code) const override { return s7_error_name(code); }
   std::string subject() const override;
   std::string in_short(const serial::Answer& answer, Data request, Data response) const override;
   std::vector<std::string> in_lines(const serial::Answer& answer, Data request, Data response) const override;
@@ -123,6 +127,8 @@ serial::Answer PpiRequest::judge(Data, Data response) const {
                                       : "accepted, but no reply to a poll");
   const auto body = ppi::frame_length(frame) == frame.size() ? ppi::body_of(frame) : std::nullopt;
   if (!body) return wrong("not a frame: its length, check sum or end is wrong");
+  if ((body->function & ppi::kIsRequest) != 0)
+    return wrong(fmt::format("a request of station {} to station {}: it is a master, too", body->source, body->destination));
   if (body->source != station_ || body->destination != own_)
     return wrong(fmt::format("a reply of station {} to station {}", body->source, body->destination));
   if (wanted_.pdu.empty()) {
@@ -149,8 +155,8 @@ void PpiRequest::take(Data pdu, serial::Answer& answer) const {
                                                        : load16(&parameters[10]);
   if (error != 0) {
     answer.verdict = serial::Verdict::Exception;
-    answer.exception = static_cast<std::uint8_t>(error >> 8);
-  } else if (wanted_.range) {
+    answer.exception = error;
+  } else if (wanted_.has_value()) {
     take_value(data, answer);
   } else {
     answer.bytes.assign(data.begin(), data.end());
@@ -159,17 +165,17 @@ void PpiRequest::take(Data pdu, serial::Answer& answer) const {
 
 void PpiRequest::take_value(Data data, serial::Answer& answer) const {
   constexpr std::size_t kValueHead = 4;
-  const MemoryRange& range = *wanted_.range;
   if (data.empty()) {
     answer = wrong("no return code");
   } else if (data[0] != s7::kDone) {
     answer.verdict = serial::Verdict::Exception;
     answer.exception = data[0];
-  } else if (reads() && data.size() != kValueHead + range.bytes()) {
-    answer = wrong(fmt::format("wrong length: {} bytes of data, expected {}", data.size(), kValueHead + range.bytes()));
+  } else if (reads() && data.size() != kValueHead + wanted_.bytes()) {
+    answer = wrong(fmt::format("wrong length: {} bytes of data, expected {}", data.size(), kValueHead + wanted_.bytes()));
   } else if (reads()) {
     answer.bytes.assign(data.begin() + kValueHead, data.end());
-    const bool words = range.width == Width::Word || range.width == Width::Double;
+    if (!wanted_.range) return;
+    const bool words = wanted_.range->width == Width::Word || wanted_.range->width == Width::Double;
     for (std::size_t i = 0; i < answer.bytes.size(); i += words ? 2 : 1)
       answer.values.push_back(words ? load16(&answer.bytes[i]) : answer.bytes[i]);
   }
@@ -206,6 +212,7 @@ std::string PpiRequest::in_short(const serial::Answer& answer, Data, Data respon
   if (wanted_.pdu.empty())
     return answer.bytes == Bytes{ppi::kSlave} ? "a slave, ready" : fmt::format("16#{:02X}", answer.bytes[0]);
   if (const std::string clock = s7_clock_text(answer.bytes); wanted_.what == "clock" && !clock.empty()) return clock;
+  if (wanted_.identification) return s7_identification_text(answer.bytes);
   if (!wanted_.range) return "done";
   if (!reads()) return range_text(*wanted_.range) + " written";
   std::string text;
@@ -247,12 +254,15 @@ nlohmann::ordered_json PpiRequest::decoded_json(const serial::Answer& answer) co
   return list;
 }
 
+std::uint8_t own_station(const ProtocolUse& use) {
+  const auto given = use.given.find(kOwnStation);
+  if (given == use.given.end()) return kProgrammingDevice;
+  return static_cast<std::uint8_t>(parse_number(given->second, 0, ppi::kLastStation, "the master's station"));
+}
+
 class Parser final : public WordParser {
  public:
-  explicit Parser(const ProtocolUse& use) : WordParser(use.station, ppi::kLastStation) {
-    if (const auto given = use.given.find(kOwnStation); given != use.given.end())
-      own_ = static_cast<std::uint8_t>(parse_number(given->second, 0, ppi::kLastStation, "the master's station"));
-  }
+  explicit Parser(const ProtocolUse& use) : WordParser(use.station, ppi::kLastStation), own_(own_station(use)) {}
 
   std::vector<MasterAction> parse(const Words& words);
 
@@ -263,6 +273,7 @@ class Parser final : public WordParser {
   void clock(const Words&);
   void set_clock(const Words& operands);
   void status(const Words&) { add({.what = "status"}); }
+  void identification(const Words&);
   void raw(const Words& operands);
 
  private:
@@ -271,7 +282,7 @@ class Parser final : public WordParser {
   void change_mode(s7::Function function, Bytes parameters);
   MemoryRange range_of(const std::string& text);
 
-  std::uint8_t own_ = kProgrammingDevice;
+  std::uint8_t own_;
 };
 
 using PpiVerb = Verb<Parser>;
@@ -284,6 +295,7 @@ constexpr std::array kVerbs{
     PpiVerb{"stop", "", "the CPU goes to STOP", 0, 0, &Parser::stop},
     PpiVerb{"clock", "", "its time of day", 0, 0, &Parser::clock},
     PpiVerb{"set-clock", "TIME", "2026-11-22T15:45:30", 1, 1, &Parser::set_clock},
+    PpiVerb{"identification", "", "which CPU it is, and its release", 0, 0, &Parser::identification},
     PpiVerb{"status", "", "whether there is a station", 0, 0, &Parser::status},
     PpiVerb{"raw", "HEX…", "frames as they are", 1, kMany, &Parser::raw},
     PpiVerb{"station", "NUMBER", "the actions after it go to this station", 1, 1, &Parser::station},
@@ -294,11 +306,20 @@ std::vector<MasterAction> Parser::parse(const Words& words) {
   return parse_with(*this, std::span<const PpiVerb>(kVerbs), words, "read VB100:4");
 }
 
-/// Of the largest CPU: which one it is, is not known.
+/// Which CPU it is, is not known: what only the largest has may be asked for.
 MemoryRange Parser::range_of(const std::string& text) {
+  static const CpuModel boundless = [] {
+    CpuModel model = cpu226();
+    model.size.fill(0x20'0000);  // as far as the 24 bits of an address reach
+    return model;
+  }();
   std::string why;
-  const auto range = parse_range(text, cpu226(), why);
+  const auto range = parse_range(text, boundless, why);
   if (!range) refuse(why);
+  const std::uint32_t size = cpu226().size_of(range->area), step = is_element(*range) ? 1 : bytes_of(range->width);
+  if (range->number + std::uint64_t{range->count} * step > size)
+    refuse(fmt::format("'{}' does not exist on any CPU: {} memory has {} {} at most", stl::shortened(text),
+                       info(range->area).name, size, is_element(*range) ? "elements" : "bytes"));
   if (s7::code_of(range->area) == 0)
     refuse(fmt::format("'{}': a master cannot reach {}", stl::shortened(text), info(range->area).meaning));
   return *range;
@@ -314,6 +335,12 @@ void Parser::read(const Words& operands) {
     append(parameters, variable(range));
     add({.pdu = s7::pdu(s7::kRequest, kOnlyRequest, parameters, {}), .range = range});
   }
+}
+
+void Parser::identification(const Words&) {
+  Bytes parameters{s7::kRead, 1};
+  s7::append_identification(parameters);
+  add({.pdu = s7::pdu(s7::kRequest, kOnlyRequest, parameters, {}), .identification = true});
 }
 
 /// The bytes of `values`, which are to begin at `range`; its count becomes theirs.
@@ -403,6 +430,16 @@ bool is_complete(Data response) { return !response.empty() && ppi::frame_length(
 
 std::vector<MasterAction> actions(const Words& words, const ProtocolUse& use) { return Parser(use).parse(words); }
 
+std::string doubt(const std::vector<MasterAction>& actions, const ProtocolUse& use) {
+  const std::uint8_t own = own_station(use);
+  const auto asks_its_own = [own](const MasterAction& action) {
+    return action.kind == MasterAction::Kind::Request && action.station == own;
+  };
+  if (std::ranges::none_of(actions, asks_its_own)) return {};
+  return fmt::format("station {} is the master's own, too, and on a line each station has another: {} NUMBER", own,
+                     kOwnStation);
+}
+
 }  // namespace
 
 const Protocol& ppi_protocol() {
@@ -416,8 +453,10 @@ const Protocol& ppi_protocol() {
                    fault_of_own_station}},
       .actions_help = "Actions of --protocol ppi, to station 2 unless another is given:\n" +
                       verbs_help(std::span<const PpiVerb>(kVerbs)),
+      .action_words = verb_words(std::span<const PpiVerb>(kVerbs)),
       .actions = actions,
       .is_complete = is_complete,
+      .doubt = doubt,
       .patience = {.timeout = 150 * kMillisecond, .retries = 2},
       .wants_freeport = false};
   return protocol;

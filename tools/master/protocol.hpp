@@ -40,8 +40,11 @@ class ProtocolRequest {
 
   virtual serial::Answer judge(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response) const = 0;
 
-  /// What an exception's code means: `illegal data address`.
-  virtual std::string_view exception_name(std::uint8_t code) const = 0;
+  /// What the code of a refusal means: `illegal data address`.
+  virtual std::string_view error_name(std::uint16_t code) const = 0;
+
+  /// The same with its code.
+  virtual std::string error_text(std::uint16_t code) const { return serial::error_text(code, error_name(code)); }
 
   /// Who is asked for what: `station 1, function 3, holding registers 10…11`. Empty for a raw frame.
   virtual std::string subject() const = 0;
@@ -87,6 +90,7 @@ struct ProtocolUse {
   std::uint8_t station = 1;                                 ///< until an action changes it
   bool over_modbus_tcp = false;                             ///< stations are units
   std::map<std::string, std::string, std::less<>> given{};  ///< its options by name; flags with any value
+  bool options_are_open = true;                             ///< so that a message may name one that helps
 
   bool has(std::string_view option) const { return given.contains(option); }
 };
@@ -95,18 +99,19 @@ struct ProtocolUse {
 struct Patience {
   Time timeout = kSecond;
   int retries = 0;
-  Time pause = 0;                                     ///< before it asks again
-  serial::Frame (*first)() = nullptr;                 ///< is sent before that, whatever is answered
-  bool (*repeats)(std::uint8_t exception) = nullptr;  ///< an exception that it asks again after; null: none
+  Time pause = 0;                                  ///< before it asks again
+  serial::Frame (*first)() = nullptr;              ///< is sent before that, whatever is answered
+  bool (*repeats)(std::uint16_t error) = nullptr;  ///< a refusal that it asks again after; null: none
 };
 
 struct Protocol {
-  std::string_view name, meaning;  ///< on the command line, and in its help
-  std::uint8_t station;            ///< that is asked if none is named
-  SerialFormat format;             ///< of a device, as far as options leave it open
-  bool over_modbus_tcp;            ///< it can be spoken there
+  std::string_view name, meaning;       ///< on the command line, and in its help
+  std::optional<std::uint8_t> station;  ///< that is asked if none is named; nothing: its messages have none
+  SerialFormat format;                  ///< of a device, as far as options leave it open
+  bool over_modbus_tcp;                 ///< it can be spoken there
   std::vector<ProtocolOption> options;
-  std::string actions_help;  ///< a table for people
+  std::string actions_help;               ///< a table for people
+  std::vector<std::string> action_words;  ///< what each of them begins with
 
   /// Throws std::invalid_argument for the first word that cannot be done, so that nothing is sent if any of them is wrong.
   std::vector<MasterAction> (*actions)(const std::vector<std::string>& words, const ProtocolUse& use);
@@ -114,9 +119,14 @@ struct Protocol {
   /// Whether characters are a complete answer: nothing more has to be waited for.
   bool (*is_complete)(std::span<const std::uint8_t> response);
 
+  /// What is probably meant otherwise; nothing if all is well. Null: never.
+  std::string (*doubt)(const std::vector<MasterAction>& actions, const ProtocolUse& use) = nullptr;
+
   Patience patience{};
 
-  bool wants_freeport = true;  ///< of a program: its port is to be in Freeport mode
+  std::string_view refusal = "error";  ///< what a refusal is called
+
+  bool wants_freeport = true;  ///< of a program: its port is to be in Freeport mode; otherwise it is to speak PPI
 
   /// PLCs of another make that speak it, in simulation; null: none.
   const westinghouse::PlcRow* plcs = nullptr;

@@ -16,7 +16,7 @@ std::string fault_text(const MasterResult& result) {
     case Verdict::Silent:
       return "no answer";
     case Verdict::Exception:
-      return fmt::format("exception {}: {}", answer.exception, result.action->request->exception_name(answer.exception));
+      return result.action->request->error_text(answer.exception);
     default:
       return answer.fault;
   }
@@ -108,7 +108,7 @@ nlohmann::ordered_json to_json(const MasterResult& result) {
   }
   if (answer.verdict == Verdict::Wrong) json["fault"] = answer.fault;
   if (answer.verdict == Verdict::Exception)
-    json["exception"] = {{"code", answer.exception}, {"name", asked.exception_name(answer.exception)}};
+    json["exception"] = {{"code", answer.exception}, {"name", asked.error_name(answer.exception)}};
   if (!answer.values.empty()) {
     json["values"] = answer.values;
     json["decoded"] = asked.decoded_json(answer);

@@ -54,9 +54,10 @@ std::optional<ExchangeStatistics::Latency> ExchangeStatistics::latency() const {
   return Latency{least_, sum_ / static_cast<Time>(timed_), *p99, most_};
 }
 
-std::string ExchangeStatistics::text() const {
+std::string ExchangeStatistics::text(std::string_view refusal) const {
   std::string text = fmt::format("{} request{}: ", sent(), sent() == 1 ? "" : "s");
-  for (const Verdict verdict : kVerdicts) text += fmt::format("{} {}, ", count(verdict), verdict_name(verdict));
+  for (const Verdict verdict : kVerdicts)
+    text += fmt::format("{} {}, ", count(verdict), verdict == Verdict::Exception ? refusal : verdict_name(verdict));
   text += fmt::format("{} repeated\n", retries_);
   if (const auto time = latency())
     text += fmt::format("latency: least {}, mean {}, p99 {}, most {}\n", format_duration(time->least),

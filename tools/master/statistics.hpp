@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "interpreter/base/time.hpp"
@@ -30,8 +31,8 @@ class ExchangeStatistics {
   };
   std::optional<Latency> latency() const;
 
-  /// Two lines.
-  std::string text() const;
+  /// Two lines. `refusal`: what the protocol calls one.
+  std::string text(std::string_view refusal) const;
   nlohmann::ordered_json json() const;
 
  private:

@@ -26,7 +26,8 @@ class Parser final : public BlockParser {
 using WestnetVerb = Verb<Parser>;
 
 constexpr std::array kOwnVerbs{
-    WestnetVerb{"address", "DROP[.SUBDROP]", "the PLC that all actions after it are for: address 17", 1, 1,
+    WestnetVerb{"address", "DROP[.SUBDROP]",
+                "the PLC for all actions after it: address 17, or 16#11; --plc and answers have it in hex: 00.11.00", 1, 1,
                 &Parser::address},
     WestnetVerb{"open", "", "a session with it", 0, 0, &Parser::open},
     WestnetVerb{"close", "", "the session", 0, 0, &Parser::close},
@@ -57,12 +58,13 @@ std::vector<MasterAction> actions(const Words& words, const ProtocolUse& use) { 
 const Protocol& westnet_protocol() {
   static const Protocol protocol{.name = "westnet",
                                  .meaning = "Westinghouse PLCs over the data highway Westnet II",
-                                 .station = 1,
+                                 .station = {},
                                  .format = {.parity = Parity::None},
                                  .over_modbus_tcp = false,
                                  .options = {},
                                  .actions_help = "Actions of --protocol westnet; the PLC is addressed first:\n" +
                                                  verbs_help(std::span<const WestnetVerb>(kVerbs)),
+                                 .action_words = verb_words(std::span<const WestnetVerb>(kVerbs)),
                                  .actions = actions,
                                  .is_complete = westinghouse::is_whole_answer,
                                  .plcs = westinghouse::find_plc("westnet")};

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
-#include <ranges>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -14,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/master/protocol.hpp"
 
@@ -77,17 +77,27 @@ std::vector<MasterAction> WordParser::parse_with(Parser& parser, std::span<const
     const Verb<Parser>* verb = find_verb(words[place]);
     if (verb == nullptr)
       refuse(fmt::format("'{}' is not an action; there are {}", stl::shortened(words[place]),
-                         fmt::join(verbs | std::views::transform(&Verb<Parser>::word), ", ")));
+                         stl::joined(verbs, &Verb<Parser>::word)));
     const auto first = words.begin() + static_cast<std::ptrdiff_t>(place) + 1;
     const auto last = std::find_if(first, words.end(), [&](const std::string& word) { return find_verb(word) != nullptr; });
     const Words operands(first, last);
-    if (operands.size() < verb->least || operands.size() > verb->most)
-      refuse(fmt::format("write it as: {}{}{}", verb->word, verb->operands.empty() ? "" : " ", verb->operands));
+    const std::string form = fmt::format("{}{}{}", verb->word, verb->operands.empty() ? "" : " ", verb->operands);
+    if (operands.size() < verb->least) refuse("write it as: " + form);
+    if (operands.size() > verb->most)
+      refuse(fmt::format("'{}' is neither an action nor part of {}; write it as: {}", stl::shortened(operands[verb->most]),
+                         verb->word, form));
     text_ = fmt::format("{}{}{}", verb->word, operands.empty() ? "" : " ", fmt::join(operands, " "));
     (parser.*verb->parse)(operands);
     place += 1 + operands.size();
   }
   return std::move(actions_);
+}
+
+template <class Parser>
+std::vector<std::string> verb_words(std::span<const Verb<Parser>> verbs) {
+  std::vector<std::string> words;
+  for (const Verb<Parser>& verb : verbs) words.emplace_back(verb.word);
+  return words;
 }
 
 /// The verbs in a table for people.

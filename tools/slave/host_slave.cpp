@@ -127,9 +127,10 @@ serial::Exchange RtuSlave::receive(const serial::Listening& listening) {
   return exchange;
 }
 
-/// What comes in until it ends; its first character comes before `until`.
+/// What comes in until it ends; its first character comes before `until`. Where others talk all the time, so that no silence
+/// ends it, it ends when it has taken as long as its characters and one time-out.
 void RtuSlave::collect(serial::Exchange& exchange, Time until, const std::optional<Time>& silence) {
-  const Time character_time = link_->character_time();
+  const Time character_time = link_->character_time(), timeout = until - exchange.request_end;
   std::vector<HostLink::Character> received;
   while (!exchange.too_long && take_in(received, until)) {
     const Time arrival = now();
@@ -146,7 +147,8 @@ void RtuSlave::collect(serial::Exchange& exchange, Time until, const std::option
                                    .start = std::max(end - character_time, earliest),
                                    .end = end});
     }
-    until = arrival + silence.value_or(silence_after(exchange));
+    const Time longest = timeout + static_cast<Time>(received.size()) * character_time;
+    until = std::min(arrival + silence.value_or(silence_after(exchange)), exchange.response.front().end + longest);
   }
   exchange.timed_out = exchange.response.empty();
   if (exchange.timed_out) return;

@@ -10,24 +10,30 @@
 #include "tools/views/port_mode.hpp"
 
 namespace s7200::tools {
-namespace {
-
-/// False when the CPU is in STOP, where no program runs on, or after Ctrl-C.
-bool run_until(serial::Simulation& simulation, Time end) { return simulation.run_until(end) == serial::Halt::Time; }
-
-}  // namespace
-
-SimulatedSlave::SimulatedSlave(serial::Simulation& simulation, const serial::MasterSettings& master, std::string name)
-    : simulation_(simulation), master_(master), name_(std::move(name)) {
+SimulatedSlave::SimulatedSlave(serial::Simulation& simulation, const serial::MasterSettings& master, std::string name,
+                               bool in_stop_too)
+    : simulation_(simulation), master_(master), name_(std::move(name)), in_stop_too_(in_stop_too) {
   simulation_.let_master_follow([line = serial::LineSettings(master)](const SerialFormat& port) { return line.over(port); });
 }
 
+bool SimulatedSlave::answers_in_stop() const {
+  const State& state = simulation_.cpu().state();
+  return in_stop_too_ && state.mode == Mode::Stop && state.fatal_code == 0 && !interrupted();
+}
+
+/// False when the CPU is in STOP, where no program runs on and it does not answer, or after Ctrl-C.
+bool SimulatedSlave::run_until(Time end) {
+  if (simulation_.run_until(end) == serial::Halt::Time) return true;
+  return answers_in_stop() && simulation_.system().run_until(end) == serial::Halt::Time;
+}
+
 bool SimulatedSlave::get_ready(Time limit) {
-  return simulation_.run_until_ready([this] { return pause(); }, limit);
+  if (simulation_.run_until_ready([this] { return pause(); }, limit)) return true;
+  return answers_in_stop() && run_until(simulation_.time() + pause());
 }
 
 bool SimulatedSlave::wait_until_ready(Time after, std::string& why) {
-  const bool ready = after == kNever ? get_ready(kReadyWithin) : run_until(simulation_, after);
+  const bool ready = after == kNever ? get_ready(kReadyWithin) : run_until(after);
   if (!ready && after == kNever && simulation_.cpu().state().mode == Mode::Run && !interrupted())
     why = fmt::format(
         "the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
@@ -66,7 +72,7 @@ serial::Exchange SimulatedSlave::receive(const serial::Listening& listening) {
   return exchange;
 }
 
-void SimulatedSlave::wait(Time duration) { run_until(simulation_, simulation_.time() + duration); }
+void SimulatedSlave::wait(Time duration) { run_until(simulation_.time() + duration); }
 
 Time SimulatedSlave::pause() const { return serial::default_quiet(format()); }
 

@@ -16,14 +16,17 @@ inline constexpr Time kReadyWithin = 60 * kSecond;
 class SimulatedSlave final : public SlaveInSimulation {
  public:
   /// The simulation is not owned and has been powered up. `name` is its program's.
-  SimulatedSlave(serial::Simulation& simulation, const serial::MasterSettings& master, std::string name);
+  /// `in_stop_too`: a CPU in STOP answers as well, as it does in PPI.
+  SimulatedSlave(serial::Simulation& simulation, const serial::MasterSettings& master, std::string name,
+                 bool in_stop_too = false);
 
   /// Runs until the first scan has ended and the line has been quiet for pause(). False if that has not come by `limit`, or
-  /// the CPU stopped.
+  /// the CPU stopped and does not answer there.
   bool get_ready(Time limit);
 
   /// Runs until the first scan has ended and the line has been quiet for as long as a master leaves it, or until `after` if
-  /// that is not kNever. False when the CPU stopped, after Ctrl-C, and, with `why`, when the moment never comes.
+  /// that is not kNever. False when the CPU stopped and does not answer
+  /// there, after Ctrl-C, and, with `why`, when the moment never comes.
   bool wait_until_ready(Time after, std::string& why);
 
   /// A note if the program has not switched its port to Freeport mode by now, or has where PPI is wanted; otherwise empty.
@@ -43,10 +46,14 @@ class SimulatedSlave final : public SlaveInSimulation {
   Time pause() const override;
 
  private:
+  bool run_until(Time end);
+  bool answers_in_stop() const;
+
   serial::Simulation& simulation_;
   serial::MasterSettings master_;
   std::string name_;
   std::string remark_;
+  bool in_stop_too_;
 };
 
 }  // namespace s7200::tools

@@ -13,7 +13,7 @@
 namespace s7200::tools {
 namespace {
 
-constexpr std::string_view kTcp = "tcp://", kModbusTcp = "modbus-tcp://", kPeer = "westinghouse:";
+constexpr std::string_view kTcp = "tcp://", kModbusTcp = "modbus-tcp://";
 constexpr const char* kModbusPort = "502";  // Modbus Messaging on TCP/IP, 2.1
 
 void split(const std::string& text, std::string_view address, SlaveTarget& target) {
@@ -54,7 +54,7 @@ SlaveTarget parse_slave_target(const std::string& text) {
     split(text, std::string_view(text).substr(kModbusTcp.size()), target);
   } else if (is_other_plc(text)) {
     target.kind = SlaveTarget::Kind::Peer;
-    target.path = text.substr(kPeer.size());
+    target.path = text.substr(kOtherPlc.size());
   } else if (text.find("://") != std::string::npos) {
     throw std::invalid_argument(fmt::format("'{}': there is no such way to a slave; write {}HOST:PORT or {}HOST:PORT",
                                             stl::shortened(text), kTcp, kModbusTcp));
@@ -69,16 +69,15 @@ SlaveTarget parse_slave_target(const std::string& text) {
   return target;
 }
 
-bool is_other_plc(std::string_view text) { return text.starts_with(kPeer); }
+bool is_other_plc(std::string_view text) { return text.starts_with(kOtherPlc); }
 
-std::string slave_targets_help(std::initializer_list<SlaveTarget::Kind> without) {
+std::string slave_targets_help(std::initializer_list<SlaveTarget::Kind> without, std::string_view device) {
   using enum SlaveTarget::Kind;
-  constexpr std::pair<SlaveTarget::Kind, std::string_view> kRows[] = {
+  const std::string device_row = fmt::format("  /dev/ttyUSB0, or a pty by its link    {}\n", device);
+  const std::pair<SlaveTarget::Kind, std::string_view> rows[] = {
       {Program, "  PROGRAM                               an STL file or document, in simulation; - is standard input\n"},
       {System, "  SYSTEM.yaml                           PLCs and lines, in simulation; --at says where the master joins\n"},
-      {Device,
-       "  /dev/ttyUSB0, or a pty by its link    a serial line, for Modbus 9600 8E1 unless --baud and the others say "
-       "otherwise\n"},
+      {Device, device_row},
       {Tcp,
        "  tcp://HOST:PORT                       the characters of a serial line over TCP, as serial servers offer it\n"},
       {ModbusTcp, "  modbus-tcp://HOST[:PORT]              Modbus TCP, port 502 unless one is given\n"},
@@ -86,7 +85,7 @@ std::string slave_targets_help(std::initializer_list<SlaveTarget::Kind> without)
        "  westinghouse:MODEL                    a simulated PLC of the Westinghouse family, alone on a line; --plc sets "
        "it\n"}};
   std::string text = "Targets:\n";
-  for (const auto& [kind, row] : kRows)
+  for (const auto& [kind, row] : rows)
     if (std::ranges::find(without, kind) == without.end()) text += row;
   return text;
 }

@@ -11,6 +11,9 @@
 
 namespace s7200::tools {
 
+/// Before the model of a simulated PLC of another make.
+inline constexpr std::string_view kOtherPlc = "westinghouse:";
+
 struct SlaveTarget {
   enum class Kind : std::uint8_t {
     Program,    ///< a PROGRAM to be run in simulation: whatever is none of the others
@@ -32,8 +35,10 @@ SlaveTarget parse_slave_target(const std::string& text);
 /// Whether it is westinghouse:MODEL.
 bool is_other_plc(std::string_view text);
 
-/// All of them but `without`, one a line, for --help.
-std::string slave_targets_help(std::initializer_list<SlaveTarget::Kind> without = {});
+/// All of them but `without`, one a line, for --help; `device` is what one at the end of a serial line is.
+std::string slave_targets_help(
+    std::initializer_list<SlaveTarget::Kind> without = {},
+    std::string_view device = "a serial line, for Modbus 9600 8E1 unless --baud and the others say otherwise");
 
 /// Connects to a target outside simulation; `format` is for devices, `is_complete` for characters. Throws
 /// SlaveUnreachable, and std::invalid_argument for a target in simulation.

@@ -65,6 +65,23 @@ TEST(WestinghouseMaster, ActionsOfTheLanAreSixByteMessages) {
   EXPECT_FALSE(parsed(lan, "unit 5", {.station = 5, .given = {{"--no-sync", ""}}})[0].request->with_sync());
 }
 
+TEST(WestinghouseMaster, OnTheLanAStationThatIsNotTheAddressedUnitIsRefused) {
+  const Protocol& lan = pc1000_lan_protocol();
+  const auto refused = [&](const std::string& words) {
+    try {
+      parsed(lan, words);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused("unit 5 station 6 read 0"), "read 0: station 6 is not addressed, unit 5 is; put 'unit 6' before it");
+  EXPECT_EQ(refused("station 6 erase"), "erase: station 6 is not addressed; put 'unit 6' before it");
+  for (const char* const words : {"unit 5 station 5 read 0", "unit 5 station 6 unit read 0", "station 6 unit 7 read 0",
+                                  "read 0", "station 6 raw 0503"})
+    EXPECT_EQ(refused(words), "") << words;
+}
+
 TEST(WestinghouseMaster, ActionsOfWestnetAreCommandsOfTheHighway) {
   const Protocol& westnet = westnet_protocol();
   EXPECT_EQ(frame(westnet, "address 17"), "09 00 00 11 00 1a");
