@@ -7,7 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "serial_sim/line/frame.hpp"
 #include "serial_sim/modbus/request.hpp"
+#include "serial_sim/system/system.hpp"
+#include "tests/support/ppi_master.hpp"
 
 namespace s7200::test {
 namespace {
@@ -21,6 +24,42 @@ class Tip41Slave : public ::testing::Test {
 
   std::string text;
 };
+
+/// It never reads SM0.7, so it is STOP that makes its port speak PPI, not the position of the switch. A programming device
+/// at the other port of a CPU 216 turns the CPU.
+TEST_F(Tip41Slave, InStopItsPortSpeaksPpiAndInRunModbusAgain) {
+  using namespace serial;
+  System system;
+  SharedLine &office = system.add_line(), &device = system.add_line();
+  SharedLine* const lines[] = {&office, &device};
+  serial::Plc& plc = system.add_plc(lines, program_of(text, cpu216()));
+  RequesterStation &master = system.add_requester(office), &programmer = system.add_requester(device);
+  const auto ask = [&](RequesterStation& station, std::uint8_t port, const Bytes& bytes) {
+    system.run_until(system.time() + 50 * kMillisecond);
+    station.uart().configure(plc.port_format(port), system.time());
+    station.requester().start({.frame = to_frame(bytes), .timeout = 200 * kMillisecond}, system.time());
+    return to_hex(system.finish_exchange(station).response_bytes());
+  };
+  const auto turn = [&](std::uint8_t function, Bytes zeros) {
+    const std::string_view service = "\tP_PROGRAM";
+    zeros.insert(zeros.begin(), function);
+    zeros.insert(zeros.end(), service.begin(), service.end());
+    EXPECT_EQ(ask(programmer, 1, ppi::sd2(2, 0, 0x6C, ppi::request(zeros))), "e5");
+    ask(programmer, 1, ppi::sd1(2, 0, 0x5C));
+    system.run_until(system.time() + 2 * kSecond);
+  };
+  const Bytes status = ppi::sd1(2, 0, 0x49), read = modbus::rtu_frame(1, modbus::read_holding_registers(10, 1));
+  system.power_up();
+  system.run_until(2 * kSecond);
+  EXPECT_EQ(ask(master, 0, read), "01 03 02 00 00 b8 44");
+  turn(0x29, Bytes(5));
+  EXPECT_EQ(plc.cpu().state().mode, Mode::Stop);
+  EXPECT_EQ(ask(master, 0, status), "10 00 02 00 02 16");
+  EXPECT_EQ(ask(master, 0, read), "");
+  turn(0x28, {0, 0, 0, 0, 0, 0, 0xFD, 0, 0});
+  EXPECT_EQ(plc.cpu().state().mode, Mode::Run);
+  EXPECT_EQ(ask(master, 0, read), "01 03 02 00 00 b8 44");
+}
 
 TEST_F(Tip41Slave, AnswersItsEightFunctions) {
   SlaveBench bench(text);

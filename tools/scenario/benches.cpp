@@ -191,11 +191,13 @@ class ProgramBenches {
 using SlaveMaker = decltype(Bench::make_slave);
 
 /// Of a PLC of another make, with what it is told by --plc. Each scenario has one of its own.
-SlaveMaker peer_slaves(const std::string& model, const std::string& name, const std::vector<std::string>& settings) {
-  make_other_modbus_plc(model, settings);  // or it throws
-  return [=](const Scenario& scenario) {
-    auto slave = std::make_unique<PeerSlave>(make_other_modbus_plc(model, settings), scenario.line,
-                                             std::vector<serial::Fault>{}, name);
+SlaveMaker peer_slaves(const std::string& model, const std::string& name, const SuiteSettings& suite) {
+  const auto make = [model, settings = suite.plc, protocol = suite.protocol] {
+    return make_other_plc(protocol, model, settings);
+  };
+  make();  // or it throws
+  return [make, name](const Scenario& scenario) {
+    auto slave = std::make_unique<PeerSlave>(make(), scenario.line, std::vector<serial::Fault>{}, name);
     if (scenario.after != kNever) slave->wait(std::max<Time>(0, scenario.after - slave->now()));
     return slave;
   };
@@ -268,7 +270,7 @@ std::optional<Benches> make_benches(const std::vector<Scenario>& scenarios, cons
       if (!of_target.make_slave) return {};
       break;
     case SlaveTarget::Kind::Peer:
-      of_target.make_slave = peer_slaves(parsed.path, target, settings.plc);
+      of_target.make_slave = peer_slaves(parsed.path, target, settings);
       break;
     case SlaveTarget::Kind::Device:
     case SlaveTarget::Kind::Tcp:

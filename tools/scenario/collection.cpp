@@ -10,6 +10,7 @@
 #include "tools/scenario/conformance_suite.hpp"
 #include "tools/scenario/reader.hpp"
 #include "tools/scenario/steps/random_traffic.hpp"
+#include "tools/yaml/yaml.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -73,8 +74,7 @@ class Collector {
     std::vector<std::string> found;
     for (fs::recursive_directory_iterator it(path, fs::directory_options::skip_permission_denied, error), end;
          it != end && !error; it.increment(error))
-      if (const auto extension = it->path().extension(); extension == ".yaml" || extension == ".yml")
-        found.push_back(it->path().string());
+      if (is_yaml_file(it->path())) found.push_back(it->path().string());
     if (error) return fail(fmt::format("cannot read {}: {}", path, error.message()));
     if (found.empty()) return fail(fmt::format("there is no .yaml file in {}", path));
     std::sort(found.begin(), found.end());

@@ -7,10 +7,12 @@
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/program/load.hpp"
 #include "interpreter/program/slips.hpp"
+#include "serial_sim/modbus/functions.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/rig/rig.hpp"
 #include "tools/rig/system_block_reader.hpp"
 #include "tools/rig/system_reader.hpp"
+#include "tools/scenario/keys.hpp"
 #include "tools/scenario/memory_values.hpp"
 
 namespace s7200::tools {
@@ -62,9 +64,9 @@ class HeadReader {
     if (const auto times = values_.optional_text(map, "times"))
       scenario.times = find_times(*times) ? *times : *optional_path(map, "times");
     read_system_block(map, *find_cpu(scenario.cpu), scenario.system_block, values_);
+    if (const YamlNode* port = map.find("port")) read_port(*port, scenario);
     if (const YamlNode* line = map.find("line")) read_line(*line, scenario.line);
-    if (const auto station = values_.number(map.find("station"), 0, 255))
-      scenario.station = static_cast<std::uint8_t>(*station);
+    if (const auto station = read_station(map)) scenario.station = *station;
     if (const YamlNode* set = map.find("set")) scenario.set = read_assignments(values_, *set, scenario.addresses());
     if (const auto path = optional_path(map, "input")) read_field(*map.find("input"), *path, scenario);
     if (const YamlNode* clock = map.find("clock"))
@@ -73,13 +75,25 @@ class HeadReader {
     if (const auto after = values_.time(map.find("after"))) scenario.after = *after;
     if (const auto pause = values_.span(map.find("pause"))) scenario.pause = *pause;
     if (const auto timeout = values_.time(map.find("timeout"))) scenario.line.timeout = *timeout;
-    if (const YamlNode* robust = map.find("robust"))
+    if (const YamlNode* robust = map.find("robust")) {
+      scenario.robust_at = robust->position;
       scenario.robust = values_.value(robust, "a share of the tables of execution times", "95%", parse_share);
+    }
     if (const auto tolerance = values_.time(map.find("tolerance"))) scenario.tolerance = *tolerance;
     return true;
   }
 
  private:
+  void read_port(const YamlNode& node, Scenario& scenario) {
+    const auto port = values_.number(&node, 0, 1);
+    if (!port) return;
+    if (*port >= find_cpu(scenario.cpu)->ports)
+      values_.wrong(node, fmt::format("CPU {} has no port {}", scenario.cpu, *port),
+                    "'cpu' names the CPU: 226 has two ports");
+    else
+      scenario.port = static_cast<std::uint8_t>(*port);
+  }
+
   static std::string cpu_names() {
     std::string names;
     for (const CpuModel* model : all_cpus()) names.append(names.empty() ? "" : ", ").append(model->name);
@@ -97,10 +111,11 @@ class HeadReader {
 
   void read_plan(const YamlNode& map, const std::string& path, Scenario& scenario) {
     const YamlNode& node = *map.find("system");
-    for (const char* const key :
-         {"program", "with", "repair", "cpu", "times", "ppi_baud", "ppi_station", "robust", "set", "input", "clock"})
-      if (const YamlNode* one = map.find(key))
-        values_.wrong(*one, fmt::format("'{}' is of one program: a system file says that of each PLC", key));
+    for (const ScenarioKey& key : scenario_keys())
+      if (const YamlNode* one = key.of == ScenarioKey::kOfOneProgram ? map.find(key.key) : nullptr)
+        values_.wrong(*one, key.key == "robust"
+                                ? "'robust' is of one program: a system is not run with other tables"
+                                : fmt::format("'{}' is of one program: a system file says that of each PLC", key.key));
     std::string why;
     const auto text = read_text(path, why);
     if (!text) return values_.wrong(node, fmt::format("cannot read {}: {}", path, why));
@@ -148,6 +163,18 @@ class HeadReader {
       auto& symbols = source->parsed.source.symbols;
       scenario.symbols.insert(scenario.symbols.end(), symbols.begin(), symbols.end());
     }
+  }
+
+  std::optional<std::uint8_t> read_station(const YamlNode& map) {
+    constexpr std::uint8_t kServer = 255;  // of Modbus TCP, and not a station behind it
+    return values_.value(
+        map.find("station"),
+        fmt::format("a station from 0 to {}, nor {}, a Modbus TCP server itself", modbus::kLastStation, kServer),
+        fmt::format("1, {}", modbus::kLastStation), [](const std::string& t) -> std::optional<std::uint8_t> {
+          const auto station = parse_integer(stl::trim(t));
+          const bool known = station && *station >= 0 && (*station <= modbus::kLastStation || *station == kServer);
+          return known ? std::optional(static_cast<std::uint8_t>(*station)) : std::nullopt;
+        });
   }
 
   void read_rule(const YamlNode& map, Rule& rule) {

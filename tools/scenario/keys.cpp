@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "serial_sim/peers/quiet_time.hpp"
+#include "tools/rig/system_block_reader.hpp"
 #include "tools/scenario/step_reader.hpp"
 #include "tools/scenario/steps/steps.hpp"
 
@@ -14,6 +15,7 @@ namespace {
 using Where = ScenarioKey::Where;
 
 constexpr std::string_view kExchanges = "send request read write";
+constexpr std::string_view kOfOneProgram = ScenarioKey::kOfOneProgram;
 constexpr std::string_view kReceptions = "send request read write receive";
 
 const std::string kPause =
@@ -25,22 +27,23 @@ const ScenarioKey kBeforeActions[] = {
     {Where::File, "parameters", "", "MAP", "names for `${…}` and their values, unless others are given on the command line; an empty one has to be"},
 
     {Where::Scenario, "name", "", "TEXT", "one line, for reports; the name of the file if left out"},
-    {Where::Scenario, "program", "", "PATH", "STL file or published document, from the folder of this file, or `\"-\"` for standard input; `--target` comes before it"},
+    {Where::Scenario, "program", kOfOneProgram, "PATH", "STL file or published document, from the folder of this file, or `\"-\"` for standard input; `--target` comes before it"},
     {Where::Scenario, "system", "", "PATH", "instead of a program, a system file: PLCs and lines, and what happens to them when. What it says of records, `memory` among them, is left aside"},
     {Where::Scenario, "on", "", "NAME", "of a system: the line or PLC that steps are about unless they say so themselves; the only line if left out"},
-    {Where::Scenario, "with", "", "LIST", "paths of the other files of the program's project: symbol tables, data blocks, blocks"},
-    {Where::Scenario, "repair", "", "TEXT", "slips of a published listing to repair, as `s7200 check` names them: `R1,R2`, `all` or `none`"},
+    {Where::Scenario, "with", kOfOneProgram, "LIST", "paths of the other files of the program's project: symbol tables, data blocks, blocks"},
+    {Where::Scenario, "repair", kOfOneProgram, "TEXT", "slips of a published listing to repair, as `s7200 check` names them: `R1,R2`, `all` or `none`"},
     {Where::Scenario, "skip_without", "", "PATH", "a file without which the scenario is skipped, such as a document that is not ours"},
-    {Where::Scenario, "cpu", "", "TYPE", "`214` if left out"},
-    {Where::Scenario, "times", "", "TABLE", "execution times: the name of a table, or the path of a CSV file as `s7200 times --csv` writes it"},
-    {Where::Scenario, "ppi_baud", "", "NUMBER", "rate of ports in PPI mode, as the system block sets it: 9600, 19200 or, on CPU 22x, 187500; `\"9600,187500\"` is port 0 and port 1; 9600 if left out"},
-    {Where::Scenario, "ppi_station", "", "NUMBER", "PPI station of ports until the program's SPA sets another, as the system block sets it, 1 to 126; `\"3,4\"` is port 0 and port 1; 2 if left out"},
-    {Where::Scenario, "robust", "", "SHARE", "`95%`: it must pass with so many of the tables of execution times, as `--times-band 200` runs them; not on a slave that is not a program"},
+    {Where::Scenario, "cpu", kOfOneProgram, "TYPE", "`214` if left out"},
+    {Where::Scenario, "times", kOfOneProgram, "TABLE", "execution times: the name of a table, or the path of a CSV file as `s7200 times --csv` writes it"},
+    {Where::Scenario, "ppi_baud", kOfOneProgram, "NUMBER", ppi_baud_meaning()},
+    {Where::Scenario, "ppi_station", kOfOneProgram, "NUMBER", ppi_station_meaning()},
+    {Where::Scenario, "port", kOfOneProgram, "NUMBER", "of a CPU with two ports the one that the line is at, `0` or `1`; `0` if left out"},
+    {Where::Scenario, "robust", kOfOneProgram, "SHARE", "`95%`: it must pass with so many of the tables of execution times that `--times-band 200` runs it with, and with the first of them, which is the one in use; not on a slave that is not a program"},
     {Where::Scenario, "line", "", "MAP", "how the master talks, if not as the program has set its port"},
-    {Where::Scenario, "station", "", "NUMBER", "address of the slave; 1 if left out"},
-    {Where::Scenario, "set", "", "MAP", "memory and inputs before the first scan: `{VW20: 16#1234, I0.3: 1}`"},
-    {Where::Scenario, "input", "", "PATH", "inputs over time, I, AIW and the potentiometers SMB28 and SMB29: CSV in the format of `s7200 run --input`"},
-    {Where::Scenario, "clock", "", "TIME", "time of day at the start: `2026-11-21 10:00:00`"},
+    {Where::Scenario, "station", "", "NUMBER", "address of the slave, 0 to 247, or 255 for a Modbus TCP server itself; 1 if left out"},
+    {Where::Scenario, "set", kOfOneProgram, "MAP", "memory and inputs before the first scan: `{VW20: 16#1234, I0.3: 1}`"},
+    {Where::Scenario, "input", kOfOneProgram, "PATH", "inputs over time, I, AIW and the potentiometers SMB28 and SMB29: CSV in the format of `s7200 run --input`"},
+    {Where::Scenario, "clock", kOfOneProgram, "TIME", "time of day at the start: `2026-11-21 10:00:00`"},
     {Where::Scenario, "after", "", "TIME", "when the first step begins; if left out, when the first scan has ended and the line is quiet"},
     {Where::Scenario, "pause", "", "SPAN", kPause},
     {Where::Scenario, "timeout", "", "TIME", "how long to wait for an answer or a transmission to begin, or for memory; `1s` if left out"},
@@ -61,7 +64,7 @@ const ScenarioKey kBeforeActions[] = {
 const ScenarioKey kModifiers[] = {
     {Where::Modifier, "steps", "repeat for", "LIST", "what is repeated"},
     {Where::Modifier, "crc", "send receive", "true, false", "append the CRC to the frame, and look for it at the end of what comes; `false` if left out"},
-    {Where::Modifier, "station", "request read write", "NUMBER", "instead of the scenario's"},
+    {Where::Modifier, "station", "request read write", "NUMBER", "instead of the scenario's, 0 to 255: those above 247 are reserved"},
     {Where::Modifier, "station", "fault", "NAME", "of a system: whose fault it is, as in a system file"},
     {Where::Modifier, "count", "read", "NUMBER", "how many; 1 if left out"},
     {Where::Modifier, "value", "write", "NUMBER", "the one to write"},

@@ -18,9 +18,12 @@ struct ScenarioKey {
     Action,    ///< makes a step; the rows are in steps/steps.cpp
     Modifier,  ///< stands beside an action
   };
+  static constexpr std::string_view kOfOneProgram = "program";
   Where where{};
   std::string_view key;
-  std::string_view of;  ///< of a Modifier: the actions it goes with, with blanks between; empty: all of them
+  /// Of a Modifier: the actions it goes with, with blanks between; empty: all of them. Of a Scenario's: kOfOneProgram if a
+  /// system file says that of each PLC.
+  std::string_view of;
   std::string_view form;
   std::string_view meaning;
 

@@ -17,7 +17,8 @@ std::size_t count(std::string_view text, std::string_view what) {
 
 Limits limits_of(std::string_view text) {
   const Limits usual;
-  if (!text.starts_with(kTranscriptBeginning) || text.size() > kLongestTranscript) return usual;
+  const bool is_recorded = text.starts_with(kTranscriptBeginning) || text.starts_with(kImportBeginning);
+  if (!is_recorded || text.size() > kLongestTranscript) return usual;
   return {kLongestTranscript, std::max(usual.nodes, text.size() / 4), std::max(usual.steps, count(text, kStep))};
 }
 

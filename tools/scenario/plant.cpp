@@ -1,5 +1,7 @@
 #include "tools/scenario/plant.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -57,6 +59,8 @@ Plant::Plant(const Scenario& scenario) : scenario_(scenario) {
     watches_.push_back(std::make_unique<Watch>(scenario.plan->plcs[plc].program));
     rig_->sinks(plc).add(&watches_.back()->sinks);
   }
+  rig_->tell_of_events(
+      [this](std::size_t plc, Time at, const std::string& what) { watches_[plc]->timeline.note(at, what); });
   rig_->power_up();
   for (std::size_t spot = 0; spot < spots_.size(); ++spot)
     slaves_.push_back(std::make_unique<SimulatedSlave>(rig_->simulation(spot), master_of(spots_[spot]), scenario.system));
@@ -70,7 +74,7 @@ serial::MasterSettings Plant::master_of(const Spot& spot) const {
 
 void Plant::power_up(const RetentiveMemory* memory) {
   slaves_.clear();
-  simulation_ = std::make_unique<serial::Simulation>(program_, scenario_.field);
+  simulation_ = std::make_unique<serial::Simulation>(program_, scenario_.field, scenario_.port);
   simulation_->cpu().set_sink(&watches_.front()->sinks);
   simulation_->stop_when(&interruption());
   simulation_->power_up(memory);
@@ -82,7 +86,9 @@ void Plant::power_cycle(bool memory_lost, Time power_off) {
   memory.ram_lost = memory_lost;
   memory.power_off = power_off;
   before_ += simulation().time();
+  const State before = cpu().state();
   power_up(&memory);
+  for (const Assignment& input : inputs_as_before(cpu(), before)) assign(cpu(), input);
 }
 
 bool Plant::get_ready() {
@@ -147,6 +153,10 @@ bool Plant::is_on(std::size_t line, std::size_t plc) const {
   return std::ranges::any_of(rig_->plan().lines[line].stations, [&](const StationPlan& station) {
     return station.kind == StationPlan::Kind::Plc && station.number == plc;
   });
+}
+
+std::string Plant::of_plc(const std::string& what) const {
+  return rig_ ? fmt::format("{} of {}", what, name_of(plc_number())) : what;
 }
 
 bool Plant::is_in_stop(std::size_t plc) const { return is_powered(plc) && cpu_of(plc).state().mode == Mode::Stop; }

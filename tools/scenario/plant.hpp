@@ -96,6 +96,8 @@ class Plant {
   std::size_t plcs() const { return watches_.size(); }
   std::size_t plc_number() const { return spots_[here_].plc; }
   std::string name_of(std::size_t plc) const { return rig_ ? rig_->plan().plcs[plc].name : ""; }
+  /// `VW20`, and of a system `VW20 of slave`, the PLC that is looked at.
+  std::string of_plc(const std::string& what) const;
   bool is_in_stop(std::size_t plc) const;
 
   /// Of the CPU that is looked at.

@@ -120,7 +120,7 @@ const Step* step_of(const Scenario& scenario, const Finding& finding) {
 
 stl::Position position_of(const Scenario& scenario, const Finding& finding) {
   const Step* step = step_of(scenario, finding);
-  return step ? step->position : scenario.position;
+  return step ? step->position : finding.at.value_or(scenario.position);
 }
 
 std::size_t count(const std::vector<Report>& reports, Outcome outcome) {

@@ -58,7 +58,10 @@ nlohmann::ordered_json outcome_json(const Report& report) {
   json["checks"] = report.result.checks;
   json["skipped_steps"] = report.result.skipped_steps;
   if (const auto& band = report.result.band)
-    json["band"] = {{"tables", band->tables}, {"passed", band->passed}, {"latency_us", to_json(band->latency)}};
+    json["band"] = {{"tables", band->tables},
+                    {"passed", band->passed},
+                    {"failed_with", band->failed_with},
+                    {"latency_us", to_json(band->latency)}};
   json["findings"] = nlohmann::ordered_json::array();
   for (const Finding& finding : report.result.findings) json["findings"].push_back(finding_json(scenario, finding));
   return json;

@@ -19,9 +19,10 @@ struct Finding {
   std::vector<BytePattern> expected_bytes{};
   std::vector<BytePattern> found_bytes{};  ///< of memory, or of an answer
   std::optional<serial::Exchange> exchange{};
-  bool of_run = false;           ///< the scenario could not be run as it is written, whatever the answers
-  std::optional<Time> waited{};  ///< for what did not come, where a step waits for something
-  std::string timeline{};        ///< what the CPU did in that exchange; empty if it cannot be seen, or is not shown
+  bool of_run = false;                ///< the scenario could not be run as it is written, whatever the answers
+  std::optional<Time> waited{};       ///< for what did not come, where a step waits for something
+  std::optional<stl::Position> at{};  ///< in the file, of what is about no step
+  std::string timeline{};             ///< what the CPU did in that exchange; empty if it cannot be seen, or is not shown
 };
 
 /// From the end of the request to the start of the answer; of what no one asked for, from when it was waited for, 0 if it
@@ -41,7 +42,8 @@ struct Seen {
 /// How a scenario went with all tables of a band of execution times.
 struct BandResult {
   std::size_t tables = 0, passed = 0;
-  LatencyRange latency{};  ///< of all its answers
+  std::string failed_with{};  ///< the first of the tables with which it failed; empty: none
+  LatencyRange latency{};     ///< of all its answers
 };
 
 struct ScenarioResult {

@@ -56,6 +56,7 @@ struct Scenario {
   std::string cpu = "214";
   std::string times{};  ///< a name or a file; empty: the CPU's own
   SystemBlock system_block{};
+  std::uint8_t port = 0;  ///< of the program's CPU, that the line is at
   std::vector<Assignment> set{};
   std::string input_file{};  ///< of `field`; empty if there is none
   serial::FieldScript field{};
@@ -68,6 +69,7 @@ struct Scenario {
   Time tolerance = 0;  ///< by which a latency given as one figure may be missed
 
   std::optional<double> robust{};  ///< percent of the tables of a band of execution times with which it must pass
+  stl::Position robust_at{};
 
   Rule rule{};
   std::string expected_failure{};  ///< a known gap, and why; empty: it must pass

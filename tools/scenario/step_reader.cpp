@@ -1,7 +1,6 @@
 #include "tools/scenario/step_reader.hpp"
 
 #include <algorithm>
-#include <ranges>
 
 #include "tools/scenario/steps/reception.hpp"
 #include "tools/scenario/steps/steps.hpp"
@@ -71,7 +70,9 @@ const YamlNode* StepReader::find_action(const YamlNode& node) {
     action = &key;
   }
   if (action) return action;
-  auto known = keys | std::views::filter(makes_a_step) | std::views::transform(&ScenarioKey::key);
+  std::vector<std::string_view> known;
+  for (const ScenarioKey& key : keys)
+    if (makes_a_step(key)) known.push_back(key.key);
   values_.wrong(node.keys.empty() ? node : node.keys[0], "a step that does nothing",
                 fmt::format("it has one of: {}", fmt::join(known, ", ")));
   return nullptr;
@@ -97,7 +98,7 @@ void StepReader::read_step(const YamlNode& node, const Scenario& scenario, std::
   if (const auto note = values_.optional_text(node, "note")) step.note = *note;
   if (scenario.plan && kind->of != StepKind::Of::System)
     read_place(node, scenario, kind->of == StepKind::Of::Plc, step);
-  else if (const YamlNode* on = node.find("on"))
+  else if (const YamlNode* on = scenario.plan ? nullptr : node.find("on"))
     values_.wrong(*on, "'on' names a PLC or a line of a system", "name the file of one with 'system:', not 'program:'");
   if (scenario.plan && kind->of == StepKind::Of::Plc && !step.spot && !step.line) return;
   step.action = kind->read({values_, node, is, scenario, step});

@@ -20,7 +20,8 @@ struct SuiteSettings {
   std::string only{};                ///< a pattern of their names, files or rules; "" for all
   std::string target{};              ///< instead of the programs that scenarios name
   std::string at{};                  ///< of a target that is a system file: the place where the master joins it
-  std::vector<std::string> plc{};    ///< settings of a target that is a simulated PLC of another make
+  std::vector<std::string> plc{};    ///< settings of a target that is a simulated PLC of another make, ...
+  std::string protocol = "modbus";   ///< ... and what it speaks
   serial::MasterSettings line{};     ///< over those of the scenarios
 
   unsigned jobs = 1;              ///< scenarios at a time, on programs

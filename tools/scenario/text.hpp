@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "interpreter/base/serial_format.hpp"
+#include "tools/yaml/values.hpp"
 
 namespace s7200::tools {
 
@@ -49,7 +50,7 @@ struct Sides {
 };
 Sides sides(std::string_view text);
 
-inline constexpr Time kLongestSpan = 24 * 3600 * kSecond;
+inline constexpr Time kLongestSpan = kLongestYamlDuration;
 
 /// `5ms`, `3.5 characters`, `3.5 characters + 2ms`. A million characters and kLongestSpan at most.
 std::optional<Span> parse_span(std::string_view text);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ranges>
 #include <set>
 
 #include "interpreter/model/named_times.hpp"
@@ -33,10 +32,10 @@ std::string in_quotes(std::string_view text) {
 std::string assignments_text(const std::vector<Assignment>& assignments) {
   std::string text;
   std::set<std::string> written;
-  for (const Assignment& assignment : assignments | std::views::reverse) {
-    const std::string name = assignment.place.name_of(0);
+  for (auto assignment = assignments.rbegin(); assignment != assignments.rend(); ++assignment) {
+    const std::string name = assignment->place.name_of(0);
     if (!written.insert(name).second) continue;
-    text = fmt::format("{}: {}{}{}", name, hex_text(assignment), text.empty() ? "" : ", ", text);
+    text = fmt::format("{}: {}{}{}", name, hex_text(*assignment), text.empty() ? "" : ", ", text);
   }
   return "{" + text + "}";
 }
@@ -113,6 +112,7 @@ void TranscriptWriter::head(const Scenario& scenario) {
   if (block.ppi_rates != usual.ppi_rates) line(4, fmt::format("ppi_baud: \"{}\"", s7200::to_text(block.ppi_rates)));
   if (block.ppi_stations != usual.ppi_stations)
     line(4, fmt::format("ppi_station: \"{}\"", s7200::to_text(block.ppi_stations)));
+  if (scenario.port != 0) line(4, fmt::format("port: {}", scenario.port));
   line_settings(scenario.line);
   if (transcript_.tolerance > 0) line(4, "tolerance: " + exact(transcript_.tolerance));
   if (transcript_.live) return;

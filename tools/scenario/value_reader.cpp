@@ -1,7 +1,8 @@
 #include "tools/scenario/value_reader.hpp"
 
 #include <algorithm>
-#include <ranges>
+
+#include "interpreter/base/joined.hpp"
 
 namespace s7200::tools {
 
@@ -17,8 +18,9 @@ void ValueReader::check_keys(const YamlNode& map, std::initializer_list<Scenario
     if (key.text == action) continue;
     const auto fits = [&](const ScenarioKey& k) { return k.key == key.text && k.belongs(places, action); };
     if (std::any_of(keys.begin(), keys.end(), fits)) continue;
-    const auto belongs = [&](const ScenarioKey& k) { return k.belongs(places, action); };
-    auto known = keys | std::views::filter(belongs) | std::views::transform(&ScenarioKey::key);
+    std::vector<std::string_view> known;
+    for (const ScenarioKey& k : keys)
+      if (k.belongs(places, action)) known.push_back(k.key);
     const std::string here = action.empty() ? "here" : fmt::format("beside '{}'", action);
     wrong(key, fmt::format("'{}' has no place {}", stl::shortened(key.text), here),
           fmt::format("known: {}", fmt::join(known, ", ")));
@@ -39,7 +41,7 @@ std::optional<std::string> ValueReader::text(const YamlNode& node) {
 
 std::string ValueReader::parameter_names() const {
   if (parameters.values.empty()) return "there are none; 'parameters:' at the top of the file, or --with FILE, has them";
-  return fmt::format("{}", fmt::join(parameters.values | std::views::keys, ", "));
+  return stl::joined(parameters.values, [](const auto& value) { return value.first; });
 }
 
 std::optional<Time> ValueReader::time(const YamlNode* node) {

@@ -46,10 +46,9 @@ std::optional<std::int64_t> YamlValues::number(const YamlNode* node, std::int64_
 }
 
 std::optional<Time> YamlValues::duration(const YamlNode* node) {
-  constexpr Time kLongest = 24 * 3600 * kSecond;
   return value(node, kDuration, "250ms, 2s, 0", [](const std::string& t) -> std::optional<Time> {
     const auto time = t == "0" ? Time{0} : parse_duration(t);
-    return time && *time <= kLongest ? time : std::nullopt;
+    return time && *time <= kLongestYamlDuration ? time : std::nullopt;
   });
 }
 

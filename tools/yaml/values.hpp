@@ -33,6 +33,8 @@ class Complaints {
 /// A path in a file: from the folder of that file.
 std::string beside(const std::string& file, const std::string& path);
 
+inline constexpr Time kLongestYamlDuration = 24 * 3600 * kSecond;
+
 /// Of a node that is null nothing comes and nothing is complained about.
 class YamlValues {
  public:

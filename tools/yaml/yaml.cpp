@@ -165,15 +165,28 @@ class TreeBuilder final : public YAML::EventHandler {
     if (tag == "!" && !is_closed(node.position))
       fail(mark, "a quotation that is never closed", std::string(kCloseQuotation));
     node.position.length = underline(node);
+    node.text_column = text_column(node);
     add(std::move(node));
+  }
+
+  std::string_view rest_of_line(const stl::Position& from) const {
+    std::string_view rest = source_.text[from.line - 1];
+    for (std::uint32_t column = 1; column < from.column; ++column) rest.remove_prefix(stl::first_character(rest).bytes);
+    return rest;
+  }
+
+  std::uint32_t text_column(const YamlNode& node) const {
+    if (node.position.column == 0) return 0;
+    const std::string_view rest = rest_of_line(node.position);
+    const std::uint32_t mark = rest.starts_with('"') || rest.starts_with('\'') ? 1 : 0;
+    return rest.substr(mark).starts_with(node.text) ? node.position.column + mark : 0;
   }
 
   /// The parser takes the end of the file for the end of a quotation.
   bool is_closed(const stl::Position& begin) const {
     if (begin.column == 0) return true;
     std::size_t line = begin.line - 1;
-    std::string_view rest = source_.text[line];
-    for (std::uint32_t column = 1; column < begin.column; ++column) rest.remove_prefix(stl::first_character(rest).bytes);
+    std::string_view rest = rest_of_line(begin);
     const char mark = rest.empty() ? ' ' : rest.front();
     if (mark != '\'' && mark != '"') return true;
     for (rest.remove_prefix(1);; rest = source_.text[line]) {
@@ -251,6 +264,20 @@ const YamlNode* YamlNode::find(std::string_view key) const {
   for (std::size_t i = 0; i < keys.size(); ++i)
     if (keys[i].text == key) return &items[i];
   return nullptr;
+}
+
+YamlNode part_of(const YamlNode& node, std::string_view text, std::size_t begin, std::size_t length) {
+  YamlNode part = node;
+  if (node.text_column == 0 || text != node.text) return part;
+  const auto count = [](std::string_view of) { return static_cast<std::uint32_t>(stl::count_characters(of)); };
+  part.position.column = node.text_column + count(text.substr(0, begin));
+  part.position.length = std::max(1U, count(text.substr(std::min(begin, text.size()), length)));
+  return part;
+}
+
+bool is_yaml_file(const std::filesystem::path& path) {
+  const std::string extension = stl::lower_case(path.extension().string());
+  return extension == ".yaml" || extension == ".yml";
 }
 
 std::string to_text(const YamlNode& node) {

@@ -4,6 +4,7 @@
 // can stand for gigabytes), no tags, one document in a file, every key once. Size, nesting and number of nodes are bounded.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@ struct YamlNode {
   Kind kind = Kind::Scalar;
   stl::Position position{};
   std::string text{};             ///< of a scalar, without quotes; empty if nothing was written
+  std::uint32_t text_column = 0;  ///< where the text begins, if it stands in its line as it is read; else 0
   std::vector<YamlNode> keys{};   ///< of a map: scalars, all different, as many as items
   std::vector<YamlNode> items{};  ///< of a list, or the values of a map
 
@@ -30,6 +32,13 @@ struct YamlNode {
   /// The value of a map's key; null when there is none.
   const YamlNode* find(std::string_view key) const;
 };
+
+/// For a complaint about a part of a scalar that was read as `text`: `length` bytes from byte `begin` on. The whole of it if
+/// another text stands there.
+YamlNode part_of(const YamlNode& node, std::string_view text, std::size_t begin, std::size_t length);
+
+/// By its name: .yaml or .yml, in any case.
+bool is_yaml_file(const std::filesystem::path& path);
 
 /// For messages: "a map", "a list", "'text'".
 std::string to_text(const YamlNode& node);

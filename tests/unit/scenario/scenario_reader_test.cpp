@@ -5,6 +5,7 @@
 #include <map>
 
 #include "interpreter/base/diagnostic.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_path.hpp"
 #include "tools/scenario/memory_values.hpp"
 #include "tools/scenario/reader.hpp"
@@ -390,6 +391,8 @@ TEST(ScenarioReader, EveryMistakeIsToldAtItsPlace) {
       {"steps:\n  - fatal: 99999\n", 2, 12, "'99999' is not an error code"},
       {"steps:\n  - errors: some\n", 2, 13, "run-time errors are a map or 'none', not 'some'"},
       {"steps:\n  - fault: flip:charakter=3\n", 2, 17, "charakter"},
+      {"station: 248\nsteps:\n  - wait: 1ms\n", 1, 10, "'248' is not a station from 0 to 247, nor 255"},
+      {"steps:\n  - fault: \"parity:of=me\"\n", 2, 23, "'me' is none of request, answer, both"},
       {"steps:\n  - repeat: 3\n", 2, 5, "a loop without 'steps'"},
       {"steps:\n  - repeat: 0\n    steps: []\n", 2, 13, "'0' is not a number from 1 to 4096"},
       {"steps:\n  - for: {x: 1..9999}\n    steps: []\n", 2, 14, "'1..9999' are not values for a loop"},
@@ -552,6 +555,10 @@ TEST(ScenarioReader, ATranscriptMayBeAsLongAsWhatWasRecorded) {
   EXPECT_EQ(file.scenarios.at(0).steps.size(), 25'000U);
 }
 
+TEST(ScenarioReader, AnImportedRecordingMayBeAsLongAsWhatWasRecorded) {
+  EXPECT_TRUE(read("# Imported from plant.log by s7200 import-capture." + transcript(25'000)).diagnostics.empty());
+}
+
 TEST(ScenarioReader, WhatIsNotATranscriptMayNotBeSoLong) {
   EXPECT_FALSE(read(transcript(25'000).substr(2)).diagnostics.empty());
 }
@@ -593,7 +600,7 @@ TEST(ScenarioReader, AddressesOfAStepAreThoseOfItsPlc) {
 }
 
 std::string file_of(const std::string& name, const std::string& text) {
-  const std::string path = testing::TempDir() + name;
+  const std::string path = test::scratch_folder() + name;
   std::ofstream(path) << text;
   return path;
 }
@@ -646,13 +653,18 @@ TEST(ScenarioReader, AFaultOfAStationNamesOneOnItsLine) {
   EXPECT_EQ(complaint(kGateway + "steps:\n  - {fault: flip, on: office, station: pump}\n"),
             "'pump' is not on line 'office'");
   EXPECT_EQ(complaint(kGateway + "steps:\n  - {fault: none, on: field, station: pump}\n"),
-            "'station' says whose fault it is in a system");
+            "'fault: none' ends all faults of the line, whosever they are");
+  EXPECT_EQ(complaint(kGateway + "steps:\n  - {fault: \"missing:of=request\", on: field, station: pump}\n"),
+            "'of=' says whose it is, and so does 'station' beside it");
+  const ScenarioFile both = read(kGateway + "steps:\n  - {power_off: pump, on: field}\n");
+  ASSERT_EQ(both.diagnostics.size(), 1U) << "it is about a system, and needs no advice to name one";
+  EXPECT_EQ(both.diagnostics[0].message, "'on' has no place beside 'power_off'");
   EXPECT_EQ(complaint("program: x.stl\nsteps:\n  - {fault: flip, station: pump}\n"),
             "'station' says whose fault it is in a system");
 }
 
 TEST(ScenarioReader, ASystemWithoutAPlcIsRefused) {
-  const std::string path = testing::TempDir() + "no_plc.yaml";
+  const std::string path = test::scratch_folder() + "no_plc.yaml";
   std::ofstream(path) << "peers:\n  panel:\n    polls:\n      - {station: 7, read: 40001, count: 2}\n    every: 150ms\n"
                          "lines:\n  field:\n    stations: [panel]\n";
   const ScenarioFile file = read("system: " + path + "\nsteps:\n  - wait: 1ms\n");

@@ -1,12 +1,12 @@
 // The engine of `s7200 test`: what is collected, what it is run on, and that one scenario does not spoil the others.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_path.hpp"
 #include "tools/scenario/junit.hpp"
 #include "tools/scenario/report_json.hpp"
@@ -95,8 +95,7 @@ class ScenarioSuite : public testing::Test {
     return findings.empty() ? "" : findings[0].found;
   }
 
-  std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / fmt::format("s7200_suite_{}_{}", getpid(), next_folder_++);
+  std::filesystem::path folder_ = std::filesystem::path(test::scratch_folder()) / fmt::format("suite_{}", next_folder_++);
   static inline int next_folder_ = 0;
 };
 

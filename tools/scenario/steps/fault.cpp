@@ -36,12 +36,8 @@ struct FaultStep final : Action {
 std::optional<serial::Fault> parse_fault_of(const StepSource& source, const std::string& written) {
   serial::ParsedFault parsed = serial::parse_fault(written);
   if (parsed.ok()) return std::move(parsed.fault);
-  YamlNode place = source.is;
-  if (written == source.is.text) {
-    place.position.column += static_cast<std::uint32_t>(parsed.error->column - 1);
-    place.position.length = static_cast<std::uint32_t>(parsed.error->length);
-  }
-  source.values.wrong(place, parsed.error->message);
+  const serial::FaultError& error = *parsed.error;
+  source.values.wrong(part_of(source.is, written, error.column - 1, error.length), error.message);
   return {};
 }
 
@@ -66,11 +62,11 @@ std::shared_ptr<const Action> read_fault(const StepSource& source) {
   if (!none) step->fault = parse_fault_of(source, *written);
   if (!none && !step->fault) return step;
   if (const YamlNode* const station = source.beside("station")) {
-    if (none || !source.scenario.plan) {
-      source.values.wrong(*station, "'station' says whose fault it is in a system",
-                          none ? "fault: none ends all faults of the line" : "name the file of one with 'system:'");
-      return step;
-    }
+    if (none)
+      source.values.wrong(*station, "'fault: none' ends all faults of the line, whosever they are", "leave 'station' out");
+    else if (!source.scenario.plan)
+      source.values.wrong(*station, "'station' says whose fault it is in a system", "name the file of one with 'system:'");
+    if (none || !source.scenario.plan) return step;
     step->station = source.values.text(*station).value_or("");
   }
   if (source.scenario.plan) step->event = event_of(source, step->fault);

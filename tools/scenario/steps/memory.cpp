@@ -1,4 +1,6 @@
 // memory: what must be in memory now.
+#include <utility>
+
 #include "tools/scenario/memory_values.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/steps.hpp"
@@ -16,7 +18,10 @@ struct MemoryStep final : Action {
     const Cpu& cpu = run.plant()->cpu();
     for (const MemoryExpected& e : expected) {
       const Bytes found = e.range.bytes_in(cpu.state().image);
-      if (!e.fits(found)) run.add(memory_finding(cpu.program(), e, found));
+      if (e.fits(found)) continue;
+      Finding finding = memory_finding(cpu.program(), e, found);
+      finding.what = run.plant()->of_plc(finding.what);
+      run.add(std::move(finding));
     }
   }
 };

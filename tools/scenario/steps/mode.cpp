@@ -17,7 +17,9 @@ struct ModeStep final : Action {
     run.expect_mode(mode);
     const Mode found = run.plant()->cpu().state().mode;
     if (found != mode)
-      run.add({.what = "mode", .expected = text_of(mode), .found = text_of(found) + run.plant()->why_stopped()});
+      run.add({.what = run.plant()->of_plc("mode"),
+               .expected = text_of(mode),
+               .found = text_of(found) + run.plant()->why_stopped()});
   }
 };
 

@@ -2,8 +2,8 @@
 #include "serial_sim/modbus/request.hpp"
 
 #include <algorithm>
-#include <ranges>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
 #include "serial_sim/modbus/address.hpp"
 #include "tools/scenario/answer_reader.hpp"
@@ -35,7 +35,7 @@ std::optional<modbus::DataAddress> area_and_number(const std::string& written, s
     if (row.word == stl::lower_case(written.substr(0, blank)) && first && *first >= 0 && *first <= 0xFFFF)
       return modbus::DataAddress{row.area, static_cast<std::uint16_t>(*first)};
   why = fmt::format("'{}' is not a place: one of {}, and a number from 0 to 65535", stl::shortened(written),
-                    fmt::join(modbus::areas() | std::views::transform(&modbus::AreaRow::word), ", "));
+                    stl::joined(modbus::areas(), &modbus::AreaRow::word));
   return {};
 }
 

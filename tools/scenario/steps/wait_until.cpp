@@ -32,7 +32,7 @@ void WaitUntilStep::act(Run& run) const {
   for (const MemoryExpected& e : expected) {
     if (fits(e)) continue;
     Finding finding = memory_finding(plant.cpu().program(), e, in_memory(e));
-    finding.what += when_given_up(early, waited);
+    finding.what = plant.of_plc(finding.what) + when_given_up(early, waited);
     if (stopped) add_remark(finding.found, "the CPU is in STOP" + plant.why_stopped());
     finding.of_run = true;
     finding.waited = waited;
